@@ -1,0 +1,34 @@
+//! Why a computation gave no result.
+
+use serde::{Deserialize, Serialize};
+
+/// A demand of a request that cannot be met, at a JSON pointer into that request.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, utoipa::ToSchema, thiserror::Error)]
+#[error("{pointer}: {message}")]
+pub struct Violation {
+    /// RFC 6901 pointer to the offending field, for example `/integration/steps_per_revolution`.
+    pub pointer: String,
+    /// What is wrong and what would be right.
+    pub message: String,
+}
+
+impl Violation {
+    /// A violation at `pointer`.
+    pub fn new(pointer: impl Into<String>, message: impl Into<String>) -> Self {
+        Self { pointer: pointer.into(), message: message.into() }
+    }
+}
+
+/// Why a computation gave no result.
+#[derive(Debug, Clone, thiserror::Error)]
+pub enum AnalysisError {
+    /// The monitor asked to stop.
+    #[error("cancelled")]
+    Cancelled,
+    /// The request asks for something impossible.
+    #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))]
+    Refused(Vec<Violation>),
+    /// The model cannot be reduced or evaluated: the message says at which harmonic and speed, and why.
+    #[error("{0}")]
+    Model(#[from] crate::dynamics::error::ModelError),
+}

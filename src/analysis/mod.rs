@@ -1,0 +1,12 @@
+//! The door between physics and service: plain data in, plain data out, a few verbs.
+//!
+//! - [`run::prepare`] reduces a sector (once per model and `modes_per_speed`);
+//! - [`run::check`], [`run::run_speed`] and [`run::modal_analysis`] compute on the reduced sector;
+//! - [`run::interaction_map`] and [`run::critical_speeds`] read the finished speeds of a sweep.
+
+pub mod error;
+pub mod monitor;
+pub mod request;
+pub mod result;
+pub mod run;
+pub mod scene;

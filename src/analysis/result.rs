@@ -1,0 +1,318 @@
+//! What computations return: numbers with their credentials.
+
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+use super::request::Sensor;
+use crate::dynamics::sector::Units;
+
+/// How one speed of a sweep ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum PointStatus {
+    /// Integrated to the end; its numbers are valid within the credentials.
+    Completed,
+    /// Stopped because the response grew beyond any physical bound; no amplitudes.
+    Diverged,
+    /// Could not be integrated at this speed; `message` says why; no amplitudes.
+    Failed,
+}
+
+/// What the end of a run looks like, revolution by revolution.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// Repeats every revolution.
+    Periodic,
+    /// Repeats every `ratio` revolutions.
+    Subharmonic,
+    /// Steady in level but never repeating.
+    Aperiodic,
+    /// Still changing when the window began or ended.
+    NotSettled,
+}
+
+/// Steady state, judged by comparing revolutions (§9).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Settling {
+    /// The verdict.
+    pub verdict: Verdict,
+    /// Period in revolutions, for `periodic` (1) and `subharmonic`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ratio: Option<u32>,
+    /// Revolutions after which the verdict holds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub after_revolutions: Option<u32>,
+    /// Largest change from one period to the next within the window, relative to the response.
+    pub largest_change: f64,
+}
+
+/// Steady response of one sensor in one number each.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct SensorResponse {
+    /// The sensor.
+    pub sensor: Sensor,
+    /// Mean displacement over the window.
+    pub mean: f64,
+    /// Root mean square of the displacement about its mean over the window.
+    pub rms: f64,
+    /// Half the peak-to-peak displacement over the window.
+    pub half_peak_to_peak: f64,
+    /// Non-zero engine order of the largest spectral amplitude.
+    pub dominant_engine_order: f64,
+    /// Nodal diameter that carries the dominant engine order.
+    pub dominant_nodal_diameter: u32,
+}
+
+/// One speed of a sweep with its credentials.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Point {
+    /// Index of the speed in the request.
+    pub index: u32,
+    /// Ω in rad/s.
+    pub speed_rad_s: f64,
+    /// How the run ended.
+    pub status: PointStatus,
+    /// Why, for `diverged` and `failed`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub message: Option<String>,
+    /// Steady-state verdict; absent without a complete run.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub settling: Option<Settling>,
+    /// Steps per revolution used; 0 if none was taken.
+    pub steps_per_revolution: u32,
+    /// Smallest stable number of steps per revolution at this speed.
+    pub smallest_stable_steps_per_revolution: u32,
+    /// Steps taken.
+    pub steps: u64,
+    /// Share of the steps with a contact force.
+    pub contact_share: f64,
+    /// Sum over contact nodes and steps of λ·h, in force·time of the model's units.
+    pub contact_impulse: f64,
+    /// Largest penetration left after a step's contact solution, in the model's unit of length.
+    pub largest_penetration: f64,
+    /// Smallest multiplier λ accepted, in the model's unit of force (≥ 0 by construction).
+    pub smallest_multiplier: f64,
+    /// Largest violation of the energy identity, relative to the largest energy seen (§8).
+    pub energy_residual: f64,
+    /// Largest mechanical energy seen, in force·length.
+    pub largest_energy: f64,
+    /// Steady response per sensor; empty unless `completed`.
+    pub responses: Vec<SensorResponse>,
+    /// Wall time of this speed, s.
+    pub wall_time_s: f64,
+    /// Version of the code that computed it.
+    pub version: String,
+}
+
+/// Spectra of one sensor at one speed, over the engine orders of [`SpeedSpectra`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct SensorSpectrum {
+    /// The sensor.
+    pub sensor: Sensor,
+    /// Single-sided physical amplitude per engine order, in the model's unit of length.
+    pub amplitude: Vec<f64>,
+    /// `[nodal diameter][engine order]`: amplitude of the wheel's component in that nodal diameter, in the real
+    /// orthonormal Fourier basis over the sectors (cosine and sine joined by root sum of squares).
+    pub nodal_diameters: Vec<Vec<f64>>,
+}
+
+/// Spectra of all sensors at one speed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct SpeedSpectra {
+    /// Engine orders of the bins: multiples of 1/`window_revolutions` from 0 to `max_engine_order`.
+    pub engine_orders: Vec<f64>,
+    /// One per sensor, in the order of the request.
+    pub sensors: Vec<SensorSpectrum>,
+}
+
+/// All that one speed of a sweep produces.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SpeedResult {
+    /// Credentials and summary.
+    pub point: Point,
+    /// Absent unless `point.status` is `completed`.
+    pub spectra: Option<SpeedSpectra>,
+}
+
+/// Spectra side by side over Ω, as downloaded.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct InteractionMap {
+    /// Speeds, rad/s.
+    pub speeds_rad_s: Vec<f64>,
+    /// Engine orders of the columns.
+    pub engine_orders: Vec<f64>,
+    /// `[speed][engine order]`; a row is null where that speed has no result.
+    pub amplitude: Vec<Option<Vec<f64>>>,
+    /// What was recorded.
+    pub sensor: Sensor,
+    /// Restricted to this nodal diameter, if asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub nodal_diameter: Option<u32>,
+    /// Units of the model.
+    pub units: Units,
+    /// Credentials, one per finished speed, in the order of the speeds.
+    pub points: Vec<Point>,
+    /// The whole request as resolved.
+    pub settings: super::request::SweepRequest,
+    /// Version of the code.
+    pub version: String,
+}
+
+/// A natural frequency that equals an engine order: where the linear criterion expects an interaction.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Crossing {
+    /// Nodal diameter i.
+    pub nodal_diameter: u32,
+    /// Modal family j, from 1.
+    pub family: u32,
+    /// Superharmonic number n with f = i·n·Ω/2π.
+    pub superharmonic: u32,
+    /// Ω in rad/s.
+    pub speed_rad_s: f64,
+    /// Frequency in the rotating frame, Hz (per unit of time of the model).
+    pub frequency_hz: f64,
+}
+
+/// A crossing that the casing's lobes can drive: f = kΩ/2π with k a multiple of the lobe count that aliases onto i.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct DrivenCrossing {
+    /// Nodal diameter i = fold(k).
+    pub nodal_diameter: u32,
+    /// Modal family j, from 1.
+    pub family: u32,
+    /// Engine order k, a multiple of the lobe count.
+    pub engine_order: u32,
+    /// Ω in rad/s.
+    pub speed_rad_s: f64,
+    /// Frequency in the rotating frame, Hz.
+    pub frequency_hz: f64,
+}
+
+/// Result of a modal analysis.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Campbell {
+    /// Speeds, rad/s.
+    pub speeds_rad_s: Vec<f64>,
+    /// `[speed][nodal diameter][family]`: natural frequencies in the rotating frame, Hz.
+    pub frequencies_hz: Vec<Vec<Vec<f64>>>,
+    /// `[superharmonic][speed][nodal diameter][family]`: |−f + i·n·Ω/2π| in the absolute frame, Hz (Eq. 11).
+    pub absolute_frequencies_hz: Vec<AbsoluteFrequencies>,
+    /// The linear criterion's critical speeds within the range.
+    pub crossings: Vec<Crossing>,
+    /// Those crossings that the lobes can drive.
+    pub driven_crossings: Vec<DrivenCrossing>,
+    /// What the reduction found about the model.
+    pub reduction: ReductionReport,
+    /// The whole request as resolved.
+    pub settings: super::request::ModalAnalysisRequest,
+    /// Wall time, s.
+    pub wall_time_s: f64,
+    /// Version of the code.
+    pub version: String,
+}
+
+/// Absolute-frame frequencies for one superharmonic number.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct AbsoluteFrequencies {
+    /// n in |−f + i·n·Ω/2π|.
+    pub superharmonic: u32,
+    /// `[speed][nodal diameter][family]`, Hz.
+    pub frequencies_hz: Vec<Vec<Vec<f64>>>,
+}
+
+/// One critical speed of a sweep: a peak of the steady response over Ω.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct CriticalSpeed {
+    /// Ω of the peak, rad/s.
+    pub speed_rad_s: f64,
+    /// Index of the speed in the sweep.
+    pub index: u32,
+    /// Steady response: root mean square about the mean, in the model's unit of length.
+    pub rms: f64,
+    /// Half the peak-to-peak displacement there.
+    pub half_peak_to_peak: f64,
+    /// Height above the higher of the two neighbouring valleys, in the same measure as `rms`.
+    pub prominence: f64,
+    /// Engine order of the largest spectral amplitude.
+    pub dominant_engine_order: f64,
+    /// Nodal diameter that carries it.
+    pub dominant_nodal_diameter: u32,
+    /// Steady-state verdict of that speed.
+    pub settling: Verdict,
+    /// Nearest prediction of the linear criterion.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub nearest_crossing: Option<Crossing>,
+    /// Peak speed minus the nearest prediction's, rad/s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub distance_rad_s: Option<f64>,
+}
+
+/// Critical speeds of a sweep beside the linear prediction.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct CriticalSpeeds {
+    /// The sensor whose response is judged.
+    pub sensor: Sensor,
+    /// Peaks in ascending speed.
+    pub critical_speeds: Vec<CriticalSpeed>,
+    /// All crossings of the first two families and n = 1, 2, 3 within the sweep's range.
+    pub linear_crossings: Vec<Crossing>,
+    /// Crossings that the lobes can drive.
+    pub driven_crossings: Vec<DrivenCrossing>,
+    /// Speeds that gave no amplitude, by index.
+    pub missing: Vec<u32>,
+    /// Units of the model.
+    pub units: Units,
+    /// Version of the code.
+    pub version: String,
+}
+
+/// How trustworthy K(Ω) = K0 + Ω²K1 + Ω⁴K2 is between the given speeds (METHOD §3).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum StiffeningVerdict {
+    /// One stiffness matrix: no stiffening in the model.
+    Absent,
+    /// Linear in Ω² as on the undeformed geometry.
+    Sound,
+    /// Shows signs of stiffness taken on the deformed geometry; usable with the stated error.
+    Suspect,
+    /// Interpolates badly: frequencies between the given speeds are not smooth or K(Ω) is indefinite.
+    Unsound,
+}
+
+/// The check of the stiffness interpolation.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct StiffeningReport {
+    /// The verdict.
+    pub verdict: StiffeningVerdict,
+    /// ‖Ω1²K1‖/‖K0‖.
+    pub linear_ratio: f64,
+    /// ‖Ω1⁴K2‖/‖K0‖.
+    pub quadratic_ratio: f64,
+    /// Estimated largest relative error of a first-family frequency between the given speeds.
+    pub frequency_error: f64,
+    /// The finding in words, with what to do.
+    pub message: String,
+}
+
+/// What the reduction of a model found and what it cost.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct ReductionReport {
+    /// k.
+    pub modes_per_speed: u32,
+    /// Generalised coordinates kept per nodal diameter (contact DOF and modes of the basis).
+    pub unknowns: Vec<u32>,
+    /// Real unknowns of the whole reduced wheel.
+    pub wheel_unknowns: u32,
+    /// Largest relative residual ‖Kx − λMx‖/‖Kx‖ over all fixed-interface modes.
+    pub largest_mode_residual: f64,
+    /// Relative tolerance below which nearly dependent directions of the basis were dropped.
+    pub basis_tolerance: f64,
+    /// Stiffness interpolation check.
+    pub stiffening: StiffeningReport,
+    /// Wall time, s.
+    pub wall_time_s: f64,
+    /// Version of the code.
+    pub version: String,
+}

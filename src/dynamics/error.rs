@@ -1,0 +1,62 @@
+//! What can be wrong with a model or break in a computation on it.
+
+/// A model that cannot be reduced, or a speed at which it cannot be evaluated.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ModelError {
+    /// K_ii or K(Ω) is not positive definite.
+    #[error(
+        "the stiffness of nodal diameter {nodal_diameter} at {speed_rad_s} rad/s is not positive definite: {hint}"
+    )]
+    StiffnessNotPositiveDefinite {
+        /// Nodal diameter i.
+        nodal_diameter: usize,
+        /// Ω in rad/s.
+        speed_rad_s: f64,
+        /// What usually causes this.
+        hint: &'static str,
+    },
+    /// The reduced or full mass is not positive definite.
+    #[error(
+        "the mass of nodal diameter {nodal_diameter} is not positive definite: is the density positive everywhere?"
+    )]
+    MassNotPositiveDefinite {
+        /// Nodal diameter i.
+        nodal_diameter: usize,
+    },
+    /// More modes were asked for than the sector has internal DOF.
+    #[error(
+        "nodal diameter {nodal_diameter} has {internal_dofs} internal DOF, fewer than the {modes} fixed-interface \
+         modes asked for: lower modes_per_speed"
+    )]
+    TooManyModes {
+        /// Nodal diameter i.
+        nodal_diameter: usize,
+        /// n_i.
+        internal_dofs: usize,
+        /// `modes_per_speed`.
+        modes: usize,
+    },
+    /// The eigenvalue iteration did not reach its tolerance.
+    #[error(
+        "the fixed-interface modes of nodal diameter {nodal_diameter} at {speed_rad_s} rad/s did not converge: \
+         residual {residual:.1e} after {iterations} block iterations"
+    )]
+    ModesNotConverged {
+        /// Nodal diameter i.
+        nodal_diameter: usize,
+        /// Ω in rad/s.
+        speed_rad_s: f64,
+        /// Largest relative residual.
+        residual: f64,
+        /// Block iterations done.
+        iterations: usize,
+    },
+    /// A dense decomposition of a small reduced matrix failed.
+    #[error("the eigenvalue decomposition of nodal diameter {nodal_diameter} at {speed_rad_s} rad/s failed")]
+    DecompositionFailed {
+        /// Nodal diameter i.
+        nodal_diameter: usize,
+        /// Ω in rad/s.
+        speed_rad_s: f64,
+    },
+}

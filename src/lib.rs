@@ -1,0 +1,27 @@
+//! rubmap: at which rotational speeds do the blade tips of a centrifugal impeller interact dangerously
+//! with their casing?
+//!
+//! A finite-element impeller sector goes in as a [`package`]; it is reduced once per nodal diameter
+//! ([`dynamics::reduction`]), simulated against an ovalised casing at each speed of a sweep
+//! ([`dynamics::integrate`]) and read as spectra, interaction maps and critical speeds ([`response`]).
+//!
+//! # Architecture
+//!
+//! ```text
+//! numerics ← dynamics ← response ← analysis ← store ← jobs ← http ← app ← main
+//!               ↑         (package and impeller build a SectorModel; http and jobs use them)
+//! ```
+//!
+//! What is absent, and stays absent:
+//!
+//! - Left of [`store`] nothing knows HTTP, SQL, async, the clock's date or the environment.
+//! - [`analysis`] is the one door between physics and service: plain data and the verbs that prepare a reduced
+//!   sector, run one speed and summarise the speeds.
+//! - Only [`store`] contains SQL; only [`http`] contains status codes; `http` never computes.
+//! - The step loop allocates nothing and contains no dense product over the whole wheel.
+
+pub mod analysis;
+pub mod dynamics;
+pub mod numerics;
+pub mod package;
+pub mod response;

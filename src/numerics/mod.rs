@@ -1,0 +1,1 @@
+//! Linear algebra and transforms; nothing here has heard of a rotor.

@@ -1,0 +1,107 @@
+//! A package's content as its files state it, before any check: what readers produce and writers consume.
+
+use serde::{Deserialize, Serialize};
+
+use crate::dynamics::sector::Units;
+
+/// `sector.json`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Manifest {
+    /// Free text.
+    pub name: String,
+    /// Number of identical sectors N ≥ 1.
+    pub sectors: usize,
+    /// Consistent units.
+    pub units: Units,
+    /// Axis of rotation.
+    pub axis: Axis,
+    /// Speeds of the stiffness matrices, ascending from 0: one or three.
+    pub speeds_rad_s: Vec<f64>,
+    /// Frame of DOF components and contact normals.
+    pub frame: Frame,
+    /// File name of the mass matrix.
+    pub mass: String,
+    /// File names of the stiffness matrices, one per speed.
+    pub stiffness: Vec<String>,
+    /// File name of the node table.
+    pub nodes: String,
+    /// File name of the DOF table.
+    pub dofs: String,
+    /// Pairs `[low node, high node]`.
+    pub cyclic: Vec<[u64; 2]>,
+    /// Contact nodes from leading to trailing edge.
+    pub contact: Vec<ManifestContact>,
+}
+
+/// Axis of rotation; rotation is positive about `direction`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Axis {
+    /// A point on the axis.
+    pub origin: [f64; 3],
+    /// Its direction, of any length.
+    pub direction: [f64; 3],
+}
+
+/// Frame of DOF components and contact normals.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Frame {
+    /// Global x, y, z.
+    Cartesian,
+    /// r, θ, z of each node about the axis.
+    Cylindrical,
+}
+
+/// One contact node of `sector.json`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ManifestContact {
+    /// Node id.
+    pub node: u64,
+    /// Outward unit normal in the package's frame.
+    pub normal: [f64; 3],
+}
+
+/// One line of the node table.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RawNode {
+    /// Node id.
+    pub id: u64,
+    /// Cartesian position.
+    pub position: [f64; 3],
+}
+
+/// One line of the DOF table: the unknown of one matrix row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RawDof {
+    /// Node id.
+    pub node: u64,
+    /// Component 1, 2 or 3 in the package's frame.
+    pub component: u8,
+}
+
+/// Entries of a symmetric matrix: the lower triangle, 0-based, each position once.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RawMatrix {
+    /// Rows (= columns).
+    pub size: usize,
+    /// `(row, column, value)` with row ≥ column.
+    pub entries: Vec<(u32, u32, f64)>,
+}
+
+/// Everything a package holds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RawPackage {
+    /// `sector.json`.
+    pub manifest: Manifest,
+    /// Node table.
+    pub nodes: Vec<RawNode>,
+    /// DOF table, in matrix row order.
+    pub dofs: Vec<RawDof>,
+    /// Mass matrix.
+    pub mass: RawMatrix,
+    /// Stiffness matrices, in the order of the speeds.
+    pub stiffness: Vec<RawMatrix>,
+}
