@@ -244,7 +244,8 @@ impl Basis {
     }
 }
 
-/// A fixed start block without structure (xorshift), the same on every run.
+/// A fixed start block without structure (xorshift), the same on every run. It is real, so that the modes of a real
+/// pencil come out real.
 fn pseudo_random(n: usize, columns: usize) -> Mat<c64> {
     let mut state = 0x9E37_79B9_7F4A_7C15u64;
     let mut next = move || {
@@ -253,7 +254,7 @@ fn pseudo_random(n: usize, columns: usize) -> Mat<c64> {
         state ^= state << 17;
         (state >> 11) as f64 / (1u64 << 53) as f64 - 0.5
     };
-    Mat::from_fn(n, columns, |_, _| c64::new(next(), next()))
+    Mat::from_fn(n, columns, |_, _| c64::new(next(), 0.0))
 }
 
 #[cfg(test)]

@@ -262,7 +262,7 @@ mod tests {
                 lambda[i] = solved[a];
             }
             let gap = |i: usize| q[i] + (0..n).map(|j| w.0[i][j] * lambda[j]).sum::<f64>();
-            if lambda.iter().all(|&l| l >= -1e-12) && (0..n).all(|i| gap(i) >= -1e-12) {
+            if lambda.iter().all(|&l| l >= -1e-9) && (0..n).all(|i| gap(i) >= -1e-9) {
                 return lambda;
             }
         }
@@ -293,7 +293,7 @@ mod tests {
                 prop_assert!(solver.gap().iter().all(|&g| g >= -1e-9));
                 let expected = enumerate(&w, q);
                 for (found, expected) in lambda.iter().zip(&expected) {
-                    prop_assert!((found - expected).abs() < 1e-9 / ridge, "{lambda:?} {expected:?}");
+                    prop_assert!((found - expected).abs() < 1e-7 / ridge, "{lambda:?} {expected:?}");
                 }
             }
         }
