@@ -9,7 +9,7 @@ use faer::{Mat, Side, c64};
 use rubmap::package::raw::{RawMatrix, RawPackage};
 
 /// Both triangles as a dense matrix.
-pub fn dense(matrix: &RawMatrix) -> Mat<f64> {
+pub(crate) fn dense(matrix: &RawMatrix) -> Mat<f64> {
     let mut full = Mat::zeros(matrix.size, matrix.size);
     for &(r, c, v) in &matrix.entries {
         full[(r as usize, c as usize)] += v;
@@ -21,7 +21,7 @@ pub fn dense(matrix: &RawMatrix) -> Mat<f64> {
 }
 
 /// All ω² of K x = ω² M x, ascending: Cholesky of M, then the standard problem.
-pub fn dense_eigenvalues(stiffness: &RawMatrix, mass: &RawMatrix) -> Vec<f64> {
+pub(crate) fn dense_eigenvalues(stiffness: &RawMatrix, mass: &RawMatrix) -> Vec<f64> {
     let factor = dense(mass).llt(Side::Lower).expect("mass is positive definite");
     let l = factor.L();
     let mut a = dense(stiffness);
@@ -32,7 +32,7 @@ pub fn dense_eigenvalues(stiffness: &RawMatrix, mass: &RawMatrix) -> Vec<f64> {
 }
 
 /// The Hermitian matrix of nodal diameter `i`: u_high = u_low e^{jiα} (METHOD §2), both triangles.
-pub fn harmonic(package: &RawPackage, matrix: &RawMatrix, i: usize) -> SparseColMat<usize, c64> {
+pub(crate) fn harmonic(package: &RawPackage, matrix: &RawMatrix, i: usize) -> SparseColMat<usize, c64> {
     let alpha = 2.0 * PI / package.manifest.sectors as f64;
     let rows: HashMap<(u64, u8), usize> =
         package.dofs.iter().enumerate().map(|(row, d)| ((d.node, d.component), row)).collect();
@@ -62,7 +62,11 @@ pub fn harmonic(package: &RawPackage, matrix: &RawMatrix, i: usize) -> SparseCol
 
 /// The lowest `count` eigenvalues ω² of a Hermitian pencil with positive definite K, by subspace iteration; none if K has
 /// no Cholesky factor.
-pub fn lowest(k: &SparseColMat<usize, c64>, m: &SparseColMat<usize, c64>, count: usize) -> Option<Vec<f64>> {
+pub(crate) fn lowest(
+    k: &SparseColMat<usize, c64>,
+    m: &SparseColMat<usize, c64>,
+    count: usize,
+) -> Option<Vec<f64>> {
     let factor = k.sp_cholesky(Side::Lower).ok()?;
     let n = k.nrows();
     let width = (count + 8).min(n);
@@ -105,6 +109,6 @@ pub fn lowest(k: &SparseColMat<usize, c64>, m: &SparseColMat<usize, c64>, count:
 }
 
 /// √ω²/2π.
-pub fn hertz(eigenvalues: &[f64]) -> Vec<f64> {
+pub(crate) fn hertz(eigenvalues: &[f64]) -> Vec<f64> {
     eigenvalues.iter().map(|v| v.max(0.0).sqrt() / (2.0 * PI)).collect()
 }

@@ -1,4 +1,5 @@
 //! The finite-element generator against closed forms and invariants.
 
 mod eigen;
+mod element;
 mod wheel;
