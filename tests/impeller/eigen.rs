@@ -108,6 +108,21 @@ pub(crate) fn lowest(
     None
 }
 
+/// [`lowest`] for a real symmetric pencil.
+pub(crate) fn lowest_real(k: &RawMatrix, m: &RawMatrix, count: usize) -> Option<Vec<f64>> {
+    let complex = |matrix: &RawMatrix| {
+        let mut triplets = Vec::new();
+        for &(r, c, v) in &matrix.entries {
+            triplets.push(Triplet::new(r as usize, c as usize, c64::new(v, 0.0)));
+            if r != c {
+                triplets.push(Triplet::new(c as usize, r as usize, c64::new(v, 0.0)));
+            }
+        }
+        SparseColMat::try_new_from_triplets(matrix.size, matrix.size, &triplets).expect("indices in range")
+    };
+    lowest(&complex(k), &complex(m), count)
+}
+
 /// √ω²/2π.
 pub(crate) fn hertz(eigenvalues: &[f64]) -> Vec<f64> {
     eigenvalues.iter().map(|v| v.max(0.0).sqrt() / (2.0 * PI)).collect()

@@ -1,5 +1,7 @@
 //! The finite-element generator against closed forms and invariants.
 
+mod annulus;
+mod beam;
 mod eigen;
 mod element;
 mod wheel;
