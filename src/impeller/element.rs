@@ -1,9 +1,9 @@
 //! The 8-node hexahedron with incompatible modes (Wilson; Taylor, Beresford and Wilson, IJNME 10, 1976).
 //!
-//! Displacement u = Σ N_a u_a + Σ P_b α_b with the trilinear N_a and P = 1−ξ², 1−η², 1−ζ². The bubble gradients are taken
-//! with the Jacobian of the element's centre, ∂P_b/∂x = (det J₀ / det J) J₀⁻ᵀ ∂P_b/∂ξ, so that ∫ ∂P_b/∂x dV = 0 on any
-//! element and constant strain is exact (patch test). α is condensed out element by element:
-//! `K = K_uu − K_uα K_αα⁻¹ K_αu`, α = −K_αα⁻¹ K_αu u.
+//! Displacement `u = Σ N_a u_a + Σ P_b α_b` with the trilinear `N_a` and P = 1−ξ², 1−η², 1−ζ². The bubble
+//! gradients are taken with the Jacobian of the element's centre, `∂P_b/∂x = (det J₀ / det J) J₀⁻ᵀ ∂P_b/∂ξ`, so
+//! that `∫ ∂P_b/∂x dV = 0` on any element and constant strain is exact (patch test). α is condensed out element by
+//! element: `K = K_uu − K_uα K_αα⁻¹ K_αu`, `α = −K_αα⁻¹ K_αu u`.
 //!
 //! Mass and geometric stiffness use the trilinear functions alone, as is usual for this element; both are then free of
 //! Ω and of the elastic constants.
@@ -18,7 +18,7 @@ pub type Corners = [[f64; 3]; 8];
 pub type Matrix24 = SMatrix<f64, 24, 24>;
 /// The 24 displacements of an element.
 pub type Vector24 = SVector<f64, 24>;
-/// σ_xx, σ_yy, σ_zz, σ_xy, σ_yz, σ_zx (engineering shear strains go with them).
+/// `σ_xx, σ_yy, σ_zz, σ_xy, σ_yz, σ_zx` (engineering shear strains go with them).
 pub type Stress = SVector<f64, 6>;
 /// Stresses at the 2 × 2 × 2 Gauss points, in the order of [`gauss_points`].
 pub type GaussStresses = [Stress; 8];
@@ -45,12 +45,12 @@ pub fn gauss_points() -> [[f64; 3]; 8] {
     CORNERS.map(|corner| corner.map(|c| c * g))
 }
 
-/// N_a(ξ) = Π (1 + ξ_a ξ)/2.
+/// `N_a(ξ) = Π (1 + ξ_a ξ)/2`.
 fn shape_functions(xi: [f64; 3]) -> [f64; 8] {
     CORNERS.map(|c| (0..3).map(|d| 0.5 * (1.0 + c[d] * xi[d])).product())
 }
 
-/// ∂N_a/∂ξ.
+/// `∂N_a/∂ξ`.
 fn shape_derivatives(xi: [f64; 3]) -> [Vector3<f64>; 8] {
     CORNERS.map(|c| {
         let f = [0, 1, 2].map(|d| 0.5 * (1.0 + c[d] * xi[d]));
@@ -58,7 +58,7 @@ fn shape_derivatives(xi: [f64; 3]) -> [Vector3<f64>; 8] {
     })
 }
 
-/// J = Σ x_a ⊗ ∂N_a/∂ξ, J_ij = ∂x_i/∂ξ_j.
+/// `J = Σ x_a ⊗ ∂N_a/∂ξ`, `J_ij = ∂x_i/∂ξ_j`.
 fn jacobian(x: &Corners, dn: &[Vector3<f64>; 8]) -> Matrix3<f64> {
     x.iter().zip(dn).map(|(x, dn)| Vector3::from(*x) * dn.transpose()).sum()
 }
@@ -107,7 +107,7 @@ fn strain_operators(x: &Corners, xi: [f64; 3]) -> (Matrix6x24, Matrix6x9, f64) {
     (b, bubbles, det)
 }
 
-/// K_uu and the recovery T with α = T u.
+/// `K_uu` and the recovery T with α = T u.
 fn stiffness_parts(x: &Corners, material: &Material) -> (Matrix24, Matrix9x24) {
     let c = material.elasticity();
     let mut k_uu = Matrix24::zeros();
@@ -131,8 +131,8 @@ pub fn stiffness(x: &Corners, material: &Material) -> Matrix24 {
     0.5 * (k + k.transpose())
 }
 
-/// Nodal part of the consistent mass, m_ab = ∫ ρ N_a N_b dV, by 3 × 3 × 3 Gauss points (exact for any hexahedron); the
-/// mass matrix is m_ab times the unit 3 × 3 block.
+/// Nodal part of the consistent mass, `m_ab = ∫ ρ N_a N_b dV`, by 3 × 3 × 3 Gauss points (exact for any hexahedron);
+/// the mass matrix is `m_ab` times the unit 3 × 3 block.
 pub fn mass(x: &Corners, density: f64) -> SMatrix<f64, 8, 8> {
     let abscissae = [-(0.6_f64.sqrt()), 0.0, 0.6_f64.sqrt()];
     let weights = [5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0];
@@ -150,7 +150,7 @@ pub fn mass(x: &Corners, density: f64) -> SMatrix<f64, 8, 8> {
     m
 }
 
-/// Stresses at the Gauss points under the nodal displacements `u`: σ = C (B u + B_α α).
+/// Stresses at the Gauss points under the nodal displacements `u`: `σ = C (B u + B_α α)`.
 pub fn stresses(x: &Corners, material: &Material, u: &Vector24) -> GaussStresses {
     let c = material.elasticity();
     let (_, recovery) = stiffness_parts(x, material);
@@ -161,7 +161,8 @@ pub fn stresses(x: &Corners, material: &Material, u: &Vector24) -> GaussStresses
     })
 }
 
-/// Nodal part of the geometric stiffness, k_ab = ∫ ∇N_a · σ · ∇N_b dV; the matrix is k_ab times the unit 3 × 3 block.
+/// Nodal part of the geometric stiffness, `k_ab = ∫ ∇N_a · σ · ∇N_b dV`; the matrix is `k_ab` times the unit 3 × 3
+/// block.
 pub fn geometric_stiffness(x: &Corners, stresses: &GaussStresses) -> SMatrix<f64, 8, 8> {
     let mut k = SMatrix::<f64, 8, 8>::zeros();
     for (xi, s) in gauss_points().into_iter().zip(stresses) {
@@ -179,7 +180,7 @@ pub fn geometric_stiffness(x: &Corners, stresses: &GaussStresses) -> SMatrix<f64
     k
 }
 
-/// Expands a nodal 8 × 8 matrix to m_ab times the diagonal block `directions` (x, y, z).
+/// Expands a nodal 8 × 8 matrix to `m_ab` times the diagonal block `directions` (x, y, z).
 pub fn expand_nodal(m: &SMatrix<f64, 8, 8>, directions: [f64; 3]) -> Matrix24 {
     let mut full = Matrix24::zeros();
     for a in 0..8 {

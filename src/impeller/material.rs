@@ -5,11 +5,11 @@ use serde::{Deserialize, Serialize};
 
 use super::error::ImpellerError;
 
-/// Isotropic linear elasticity, in the model's consistent units. Default: titanium Ti-6Al-4V in mm-t-s-N.
+/// Isotropic linear elasticity, in the model's consistent units. Default: titanium (`Ti-6Al-4V`) in mm-t-s-N.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Material {
-    /// Young's modulus E > 0 (MPa).
+    /// Young's modulus E > 0 (N/mm²).
     pub youngs_modulus: f64,
     /// Poisson's ratio, −1 < ν < 0.5.
     pub poissons_ratio: f64,
@@ -41,7 +41,7 @@ impl Material {
         Ok(())
     }
 
-    /// C with σ = C ε, ε = (ε_xx, ε_yy, ε_zz, γ_xy, γ_yz, γ_zx).
+    /// C with σ = C ε, `ε = (ε_xx, ε_yy, ε_zz, γ_xy, γ_yz, γ_zx)`.
     pub fn elasticity(&self) -> SMatrix<f64, 6, 6> {
         let (e, nu) = (self.youngs_modulus, self.poissons_ratio);
         let shear = e / (2.0 * (1.0 + nu));

@@ -1,4 +1,4 @@
-//! M and K(Ω) = K_e + K_σ(Ω) − Ω² M_spin of a sector, on the undeformed geometry.
+//! M and `K(Ω) = K_e + K_σ(Ω) − Ω² M_spin` of a sector, on the undeformed geometry.
 
 use super::assembly::{SectorDofs, assemble};
 use super::element;
@@ -15,9 +15,9 @@ pub struct SectorMatrices {
     pub dofs: SectorDofs,
     /// Consistent mass M.
     pub mass: RawMatrix,
-    /// Elastic stiffness K_e, the stiffness at rest.
+    /// Elastic stiffness `K_e`, the stiffness at rest.
     pub elastic: RawMatrix,
-    /// K_σ(1) − M_spin: geometric stiffness and spin softening per unit Ω², in the pattern of `elastic`.
+    /// `K_σ(1) − M_spin`: geometric stiffness and spin softening per unit Ω², in the pattern of `elastic`.
     pub spin: RawMatrix,
     /// Stresses and displacements the geometric stiffness comes from.
     pub prestress: PreStress,

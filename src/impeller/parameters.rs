@@ -14,7 +14,7 @@ use crate::dynamics::sector::Units;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ImpellerParameters {
-    /// Consistent units of everything below (mm, N, s, t).
+    /// Consistent units of everything below (mm, N, s, t); time in `s`.
     pub units: Units,
     /// Number of sectors (main blades) N ≥ 3.
     pub sectors: usize,
@@ -103,6 +103,14 @@ impl ImpellerParameters {
     /// # Errors
     /// [`ImpellerError::Parameter`] names the first field at fault.
     pub fn validate(&self) -> Result<(), ImpellerError> {
+        if self.units.time != "s" {
+            let requirement = "must be `s`, since speeds are in rad/s";
+            return Err(ImpellerError::Parameter {
+                field: "units.time",
+                value: self.units.time.clone(),
+                requirement,
+            });
+        }
         at_least("sectors", self.sectors, 3, "must be at least 3")?;
         positive("bore_radius", self.bore_radius)?;
         above(

@@ -48,7 +48,7 @@ fn exact_bore_stress() -> f64 {
     (3.0 + nu) / 4.0 * (OUTER.powi(2) + (1.0 - nu) / (3.0 + nu) * INNER.powi(2))
 }
 
-/// E u_r/r at the bore, where σ_r = 0: the hoop stress there.
+/// `E u_r/r` at the bore, where `σ_r` = 0: the hoop stress there.
 fn bore_stress(sector: &SectorMesh) -> f64 {
     let matrices = SectorMatrices::assemble(sector, &MATERIAL).unwrap();
     let u = &matrices.prestress.displacements;
@@ -67,7 +67,7 @@ fn hoop_stress_at_the_bore_converges_to_the_closed_form() {
     assert!((3.5..4.5).contains(&(coarse / fine)), "{coarse:.2e} / {fine:.2e}");
 }
 
-/// Stresses at the Gauss points, turned to (r, θ), follow σ_θ(r) and σ_r(r) of the plane-stress annulus.
+/// Stresses at the Gauss points, turned to (r, θ), follow `σ_θ(r)` and `σ_r(r)` of the plane-stress annulus.
 #[test]
 fn gauss_point_stresses_follow_the_closed_form() {
     let sector = annulus(12, 8, 32);

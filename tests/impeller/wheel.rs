@@ -258,6 +258,9 @@ fn bad_parameters_are_named() {
     assert_eq!(field(ImpellerParameters { root_thickness: 14.0, ..d() }), "root_thickness");
     assert_eq!(field(ImpellerParameters { contact_nodes: 1, ..d() }), "contact_nodes");
     assert_eq!(field(ImpellerParameters { backsweep_deg: 90.0, ..d() }), "backsweep_deg");
+    let mut units = d().units;
+    units.time = "ms".to_owned();
+    assert_eq!(field(ImpellerParameters { units, ..d() }), "units.time");
     let material = Material { poissons_ratio: 0.5, ..Material::default() };
     assert_eq!(field(ImpellerParameters { material, ..d() }), "material.poissons_ratio");
     let mesh = MeshDensities { disk: 0, ..MeshDensities::default() };
