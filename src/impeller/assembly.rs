@@ -1,7 +1,8 @@
 //! Element matrices into sector matrices, in the cylindrical components of each node.
 //!
-//! Rows: the own DOF node by node (low face and contact nodes among them), then the DOF of the high face in the order
-//! of the cyclic pairs. The high face keeps its own diagonal block (an unassembled sector). Clamped DOF are absent.
+//! Rows: the own DOF node by node (low face and contact nodes among them), then the DOF of the high face in the
+//! order of the cyclic pairs. The high face keeps its own diagonal block (an unassembled sector). Clamped DOF are
+//! absent.
 
 use nalgebra::Matrix3;
 
@@ -78,8 +79,8 @@ pub(super) fn element_rows(sector: &SectorMesh, dofs: &SectorDofs, element: usiz
 
 /// Assembles `element_matrix(e)`, symmetric and in Cartesian components, over the sector.
 ///
-/// The pattern holds every pair of DOF that share an element, zeros included, so two matrices of one sector can be
-/// combined entry by entry. Elements are summed in their order: the result is the same bits every time.
+/// The pattern holds every pair of DOF that share an element, zeros included, so two matrices of one sector can
+/// be combined entry by entry. Elements are summed in their order: the result is the same bits every time.
 pub fn assemble(
     sector: &SectorMesh,
     dofs: &SectorDofs,

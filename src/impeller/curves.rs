@@ -78,8 +78,8 @@ pub(super) struct Camber {
 }
 
 impl Camber {
-    /// Wraps by `wrap_deg` and ends at the backsweep angle β: r |dθ/dm| = tan β at the trailing edge, with the mean of
-    /// hub's and shroud's arc lengths for m.
+    /// Wraps by `wrap_deg` and ends at the backsweep angle β: r |dθ/dm| = tan β at the trailing edge, with the
+    /// mean of hub's and shroud's arc lengths for m.
     pub(super) fn new(parameters: &ImpellerParameters, hub: &TurningCurve, shroud: &TurningCurve) -> Self {
         let mean = 0.5 * (hub.length() + shroud.length());
         let backsweep = parameters.backsweep_deg.to_radians().tan();

@@ -2,11 +2,11 @@
 //!
 //! Displacement `u = Σ N_a u_a + Σ P_b α_b` with the trilinear `N_a` and P = 1−ξ², 1−η², 1−ζ². The bubble
 //! gradients are taken with the Jacobian of the element's centre, `∂P_b/∂x = (det J₀ / det J) J₀⁻ᵀ ∂P_b/∂ξ`, so
-//! that `∫ ∂P_b/∂x dV = 0` on any element and constant strain is exact (patch test). α is condensed out element by
-//! element: `K = K_uu − K_uα K_αα⁻¹ K_αu`, `α = −K_αα⁻¹ K_αu u`.
+//! that `∫ ∂P_b/∂x dV = 0` on any element and constant strain is exact (patch test). α is condensed out element
+//! by element: `K = K_uu − K_uα K_αα⁻¹ K_αu`, `α = −K_αα⁻¹ K_αu u`.
 //!
-//! Mass and geometric stiffness use the trilinear functions alone, as is usual for this element; both are then free of
-//! Ω and of the elastic constants.
+//! Mass and geometric stiffness use the trilinear functions alone, as is usual for this element; both are then
+//! free of Ω and of the elastic constants.
 
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
@@ -131,8 +131,8 @@ pub fn stiffness(x: &Corners, material: &Material) -> Matrix24 {
     0.5 * (k + k.transpose())
 }
 
-/// Nodal part of the consistent mass, `m_ab = ∫ ρ N_a N_b dV`, by 3 × 3 × 3 Gauss points (exact for any hexahedron);
-/// the mass matrix is `m_ab` times the unit 3 × 3 block.
+/// Nodal part of the consistent mass, `m_ab = ∫ ρ N_a N_b dV`, by 3 × 3 × 3 Gauss points (exact for any
+/// hexahedron); the mass matrix is `m_ab` times the unit 3 × 3 block.
 pub fn mass(x: &Corners, density: f64) -> SMatrix<f64, 8, 8> {
     let abscissae = [-(0.6_f64.sqrt()), 0.0, 0.6_f64.sqrt()];
     let weights = [5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0];
@@ -161,8 +161,8 @@ pub fn stresses(x: &Corners, material: &Material, u: &Vector24) -> GaussStresses
     })
 }
 
-/// Nodal part of the geometric stiffness, `k_ab = ∫ ∇N_a · σ · ∇N_b dV`; the matrix is `k_ab` times the unit 3 × 3
-/// block.
+/// Nodal part of the geometric stiffness, `k_ab = ∫ ∇N_a · σ · ∇N_b dV`; the matrix is `k_ab` times the unit 3 ×
+/// 3 block.
 pub fn geometric_stiffness(x: &Corners, stresses: &GaussStresses) -> SMatrix<f64, 8, 8> {
     let mut k = SMatrix::<f64, 8, 8>::zeros();
     for (xi, s) in gauss_points().into_iter().zip(stresses) {

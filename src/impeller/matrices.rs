@@ -26,8 +26,8 @@ pub struct SectorMatrices {
 impl SectorMatrices {
     /// Assembles the matrices and solves for the pre-stress.
     ///
-    /// Spin softening is M without its axial rows and columns: the centrifugal load's change with displacement acts in
-    /// the plane of rotation only, and that plane is the same in every node's cylindrical frame.
+    /// Spin softening is M without its axial rows and columns: the centrifugal load's change with displacement
+    /// acts in the plane of rotation only, and that plane is the same in every node's cylindrical frame.
     ///
     /// # Errors
     /// [`ImpellerError`] for a bad element, an unclamped sector or impossible material constants.

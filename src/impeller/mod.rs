@@ -1,11 +1,11 @@
 //! Our own finite-element models as packages: a parametric centrifugal impeller, and small models for tests.
 //!
 //! [`generate`] runs top to bottom: parameters → sector mesh → M, `K_e` → centrifugal pre-stress → `K_σ` and spin
-//! softening → package. Everything after the mesh knows only [`mesh::SectorMesh`], so another geometry is another function that
-//! makes one ([`cantilever()`]), and another element is a change inside [`element`].
+//! softening → package. Everything after the mesh knows only [`mesh::SectorMesh`], so another geometry is another
+//! function that makes one ([`cantilever()`]), and another element is a change inside [`element`].
 //!
-//! The matrices are honest: `K(Ω) = K_e + K_σ(Ω) − Ω² M_spin` on the undeformed geometry (METHOD §3), exactly linear in
-//! Ω². There are no gyroscopic terms, as in the package format.
+//! The matrices are honest: `K(Ω) = K_e + K_σ(Ω) − Ω² M_spin` on the undeformed geometry (METHOD §3), exactly
+//! linear in Ω². There are no gyroscopic terms, as in the package format.
 
 mod assembly;
 mod cantilever;

@@ -8,9 +8,9 @@ use crate::dynamics::sector::Units;
 
 /// A parametric centrifugal impeller: one main blade per sector on a solid hub.
 ///
-/// Lengths, times and forces are in the consistent units named by `units`; the defaults are the demo's impeller in
-/// mm-t-s-N. The axis of rotation is z; the flow enters at z = 0 towards +z and leaves radially at `outlet_radius`.
-/// The wheel turns towards +θ and the blades lean back towards −θ on their way out.
+/// Lengths, times and forces are in the consistent units named by `units`; the defaults are the demo's impeller
+/// in mm-t-s-N. The axis of rotation is z; the flow enters at z = 0 towards +z and leaves radially at
+/// `outlet_radius`. The wheel turns towards +θ and the blades lean back towards −θ on their way out.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ImpellerParameters {
@@ -38,7 +38,8 @@ pub struct ImpellerParameters {
     pub tip_thickness: f64,
     /// Angle between leading and trailing edge about the axis, in degrees; the trailing edge lags behind.
     pub wrap_deg: f64,
-    /// Angle of the blade from the radial direction at the trailing edge (mid-height), in degrees, backwards positive.
+    /// Angle of the blade from the radial direction at the trailing edge (mid-height), in degrees, backwards
+    /// positive.
     pub backsweep_deg: f64,
     /// Material (titanium).
     pub material: Material,
@@ -58,8 +59,8 @@ pub struct MeshDensities {
     pub between_contact_nodes: usize,
     /// Elements over the height of the blade, from hub to tip.
     pub blade_height: usize,
-    /// Elements through the thickness of the blade; with an odd number the contact nodes sit on the suction-side edge
-    /// of the tip's middle element, with an even number on the tip's mid-line.
+    /// Elements through the thickness of the blade; with an odd number the contact nodes sit on the suction-side
+    /// edge of the tip's middle element, with an even number on the tip's mid-line.
     pub blade_thickness: usize,
     /// Elements across the passage on each side of the blade, up to the cyclic face.
     pub half_passage: usize,

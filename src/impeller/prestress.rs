@@ -21,7 +21,8 @@ pub struct PreStress {
     pub stresses: Vec<GaussStresses>,
 }
 
-/// Solves `K_e u = f`, `f_a = ∫ ρ N_a r e_r dV`, with the high face tied to the low one in cylindrical components.
+/// Solves `K_e u = f`, `f_a = ∫ ρ N_a r e_r dV`, with the high face tied to the low one in cylindrical
+/// components.
 ///
 /// # Errors
 /// [`ImpellerError::NotPositiveDefinite`] if the sector can move as a rigid body.
@@ -69,7 +70,8 @@ fn folded(dofs: &SectorDofs, matrix: &RawMatrix) -> Result<SparseColMat<usize, f
         .map_err(|error| ImpellerError::Factorisation { detail: format!("{error:?}") })
 }
 
-/// f = M (x, y, 0) at Ω = 1, which is `∫ ρ N_a r e_r dV` exactly for isoparametric elements, tied to the low face.
+/// f = M (x, y, 0) at Ω = 1, which is `∫ ρ N_a r e_r dV` exactly for isoparametric elements, tied to the low
+/// face.
 fn centrifugal_load(sector: &SectorMesh, dofs: &SectorDofs, material: &Material) -> Mat<f64> {
     let mut load = Mat::zeros(dofs.own, 1);
     for e in 0..sector.mesh.elements.len() {

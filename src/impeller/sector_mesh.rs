@@ -1,9 +1,10 @@
 //! The structured, conforming mesh of one impeller sector.
 //!
-//! Three directions: stations along the flow (equal arc lengths of hub and shroud, so contact nodes are evenly spaced),
-//! columns in θ, and layers outwards. The disk's layers run straight from the inner curve (up the bore, then out along
-//! the back face) to the hub curve; the blade's layers run straight from hub to shroud curve, on the middle columns. All of
-//! it follows the camber angle, so the cyclic faces are wrapped surfaces half a pitch to either side of the blade.
+//! Three directions: stations along the flow (equal arc lengths of hub and shroud, so contact nodes are evenly
+//! spaced), columns in θ, and layers outwards. The disk's layers run straight from the inner curve (up the bore,
+//! then out along the back face) to the hub curve; the blade's layers run straight from hub to shroud curve, on
+//! the middle columns. All of it follows the camber angle, so the cyclic faces are wrapped surfaces half a pitch
+//! to either side of the blade.
 
 use std::f64::consts::PI;
 
@@ -118,7 +119,8 @@ impl<'a> Geometry<'a> {
         })
     }
 
-    /// Angle of a disk column from the camber: evenly spread on the inner curve, gathered under the blade at the hub.
+    /// Angle of a disk column from the camber: evenly spread on the inner curve, gathered under the blade at the
+    /// hub.
     fn disk_angle(&self, station: usize, column: usize, depth: f64) -> f64 {
         let half_pitch = PI / self.parameters.sectors as f64;
         let even = half_pitch * (2.0 * column as f64 / self.columns as f64 - 1.0);

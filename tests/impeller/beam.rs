@@ -56,8 +56,9 @@ fn errors(beam: &Beam) -> Vec<([f64; 2], [f64; 2])> {
         .collect()
 }
 
-/// ν = 0 (no clamping effect of the section), slenderness 200, 80 elements: mode 1 within 2e-5 and mode 2 within 4e-4 of
-/// Euler–Bernoulli. The rest is the mesh (second order, next test) and shear and rotary inertia, −1e-5 at this slenderness.
+/// ν = 0 (no clamping effect of the section), slenderness 200, 80 elements: mode 1 within 2e-5 and mode 2 within
+/// 4e-4 of Euler–Bernoulli. The rest is the mesh (second order, next test) and shear and rotary inertia, −1e-5 at
+/// this slenderness.
 #[test]
 fn flap_frequencies_meet_the_table() {
     for (&(eta, _), (flap, _)) in TABLE.iter().zip(errors(&Beam::new(200.0, 80, 0.0))) {
@@ -65,7 +66,8 @@ fn flap_frequencies_meet_the_table() {
     }
 }
 
-/// Halving the elements divides the error of mode 2 by four, at rest and at every speed (second order; measured 4.2 to 5).
+/// Halving the elements divides the error of mode 2 by four, at rest and at every speed (second order; measured
+/// 4.2 to 5).
 #[test]
 fn flap_frequencies_converge_at_second_order() {
     let coarse = errors(&Beam::new(200.0, 20, 0.0));
@@ -76,8 +78,8 @@ fn flap_frequencies_converge_at_second_order() {
     }
 }
 
-/// lag² = flap² − Ω² is exact for a line; a section of finite height departs by its own rotary inertia, as (side/length)²
-/// (measured at η = 8: 9.7e-5 at slenderness 100, 2.4e-5 at 200).
+/// lag² = flap² − Ω² is exact for a line; a section of finite height departs by its own rotary inertia, as
+/// (side/length)² (measured at η = 8: 9.7e-5 at slenderness 100, 2.4e-5 at 200).
 #[test]
 fn spin_softens_lag_by_the_speed_squared() {
     let slender = errors(&Beam::new(200.0, 40, 0.0));

@@ -60,8 +60,8 @@ pub(crate) fn harmonic(package: &RawPackage, matrix: &RawMatrix, i: usize) -> Sp
     SparseColMat::try_new_from_triplets(own, own, &triplets).expect("own rows come first")
 }
 
-/// The lowest `count` eigenvalues ω² of a Hermitian pencil with positive definite K, by subspace iteration; none if K has
-/// no Cholesky factor.
+/// The lowest `count` eigenvalues ω² of a Hermitian pencil with positive definite K, by subspace iteration; none
+/// if K has no Cholesky factor.
 pub(crate) fn lowest(
     k: &SparseColMat<usize, c64>,
     m: &SparseColMat<usize, c64>,

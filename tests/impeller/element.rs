@@ -60,8 +60,8 @@ fn titanium() -> Material {
     Material::default()
 }
 
-/// Linear displacements on the surface must come out linear inside, with the exact constant stress everywhere: the patch
-/// test. Round-off of a 192-unknown solve allows 1e-10 relative with a wide margin.
+/// Linear displacements on the surface must come out linear inside, with the exact constant stress everywhere:
+/// the patch test. Round-off of a 192-unknown solve allows 1e-10 relative with a wide margin.
 #[test]
 fn patch_test_holds_on_a_distorted_mesh() {
     let (mesh, outside) = distorted_block();
@@ -135,8 +135,8 @@ fn free_element_has_six_rigid_body_modes() {
     assert!(values[6] > 1e-4 * largest, "{values:?}");
 }
 
-/// Bending of a rectangular element about any axis is exact: one element gives the beam's energy E I κ² L / 2, which a plain
-/// trilinear hexahedron overestimates many times when slender (ν = 0, so no anticlastic part).
+/// Bending of a rectangular element about any axis is exact: one element gives the beam's energy E I κ² L / 2,
+/// which a plain trilinear hexahedron overestimates many times when slender (ν = 0, so no anticlastic part).
 #[test]
 fn pure_bending_of_one_element_is_exact() {
     let (l, t) = (10.0, 0.5);
@@ -167,8 +167,8 @@ fn mass_and_geometric_stiffness_of_translations() {
     let x = crooked();
     let density = 2.5;
     let m: Matrix24 = expand_nodal(&mass(&x, density), [1.0; 3]);
-    // Volume by the divergence theorem on the six bilinear faces, each split at its centre: exact for bilinear faces'
-    // flux of x/3 only when planar, so compare with a fine subdivision of the element instead.
+    // Volume by the divergence theorem on the six bilinear faces, each split at its centre: exact for bilinear
+    // faces' flux of x/3 only when planar, so compare with a fine subdivision of the element instead.
     let volume = volume_by_subdivision(&x, 24);
     for d in 0..3 {
         let unit = Vector24::from_fn(|i, _| if i % 3 == d { 1.0 } else { 0.0 });

@@ -4,4 +4,5 @@ mod annulus;
 mod beam;
 mod eigen;
 mod element;
+mod impeller_a;
 mod wheel;

@@ -222,7 +222,8 @@ fn units_do_not_change_the_frequencies() {
     }
 }
 
-/// Refining the mesh lowers the first frequency by less than 3 %, and each refinement by less than the one before.
+/// Refining the mesh lowers the first frequency by less than 3 %, and each refinement by less than the one
+/// before.
 #[test]
 fn first_frequency_converges_with_the_mesh() {
     let first = |factor: usize| {
