@@ -22,6 +22,7 @@
 
 pub mod analysis;
 pub mod dynamics;
+pub mod impeller;
 pub mod numerics;
 pub mod package;
 pub mod response;
