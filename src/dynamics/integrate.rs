@@ -300,7 +300,8 @@ impl Obstacle {
         let (stride, sectors) = (rows.stride, fourier.sectors());
         let angles: Vec<_> = nodes.iter().map(|node| node.position[1]).collect();
         let restriction = casing.restriction.map(|restriction| {
-            RestrictionTable::new(&restriction, &angles, simulation.steps_per_revolution, sectors, stride)
+            let profile = |angle| restriction.height(angle);
+            RestrictionTable::new(profile, &angles, simulation.steps_per_revolution, sectors, stride)
         });
         let mut clearance = casing.clearance.clone();
         clearance.resize(stride, f64::INFINITY);
