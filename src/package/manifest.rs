@@ -21,7 +21,12 @@ pub(super) fn parse(text: &[u8]) -> Result<Manifest, PackageError> {
 
 fn syntax(field: String, error: &serde_json::Error) -> PackageError {
     let text = error.to_string();
-    let message = text.rsplit_once(" at line ").map_or(text.as_str(), |(message, _)| message).to_owned();
+    let message = text.rsplit_once(" at line ").map_or(text.as_str(), |(message, _)| message);
+    // The names of Rust types mean nothing to those who write packages.
+    let message = message
+        .replace("expected usize", "expected an integer from 0")
+        .replace("expected u64", "expected an integer from 0")
+        .replace("expected f64", "expected a number");
     PackageError::manifest(
         field,
         ManifestProblem::Syntax { message, line: error.line(), column: error.column() },

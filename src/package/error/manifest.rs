@@ -3,10 +3,10 @@
 /// What is wrong with a field of `sector.json`.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ManifestProblem {
-    /// No `sector.json` in the archive.
-    #[error("the archive holds no {file} at its top level{}", match .found_in {
+    /// A file that is named, or `sector.json` itself, is not in the archive.
+    #[error("the archive holds no file {file}{}", match .found_in {
         Some(folder) => format!("; there is one in the folder \"{folder}\": zip the files, not their folder"),
-        None => "; it is the file that names all others".to_owned(),
+        None => "; add it under exactly this name".to_owned(),
     })]
     FileMissing {
         /// The file that is missing.
