@@ -5,6 +5,7 @@ use faer::{Mat, MatRef, Side, c64};
 
 use super::hermitian::generalised_eigenpairs;
 use super::sparse_cholesky::SparseCholesky;
+use super::sparse_product::sparse_product;
 
 /// Settings of the iteration.
 #[derive(Debug, Clone, Copy)]
@@ -83,7 +84,7 @@ pub fn lowest_modes(
         }
         let mut image = basis.last_block().to_owned();
         factor.lower_adjoint_solve_in_place(image.as_mut());
-        let mut image = &permuted_mass * &image;
+        let mut image = sparse_product(&permuted_mass, image.as_ref());
         factor.lower_solve_in_place(image.as_mut());
         let remainder = basis.project(image);
         let full = basis.columns() + options.block > n;
@@ -152,8 +153,8 @@ fn largest_residual(
     values: &[f64],
     vectors: MatRef<'_, c64>,
 ) -> f64 {
-    let kx = k * vectors;
-    let mx = m * vectors;
+    let kx = sparse_product(k, vectors);
+    let mx = sparse_product(m, vectors);
     let ratio = |j: usize| {
         let residual: f64 = (0..kx.nrows()).map(|i| (kx[(i, j)] - mx[(i, j)] * values[j]).norm_sqr()).sum();
         let scale: f64 = (0..kx.nrows()).map(|i| kx[(i, j)].norm_sqr()).sum();

@@ -10,4 +10,5 @@ pub mod matrix_serde;
 pub mod orthonormal;
 pub mod sector_fourier;
 pub mod sparse_cholesky;
+pub mod sparse_product;
 pub mod spectrum;

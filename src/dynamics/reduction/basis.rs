@@ -10,6 +10,7 @@ use crate::dynamics::sector::SectorModel;
 use crate::numerics::block_lanczos::{LanczosError, LanczosOptions, lowest_modes};
 use crate::numerics::orthonormal::orthonormal_basis;
 use crate::numerics::sparse_cholesky::{SparseCholesky, SymbolicFactor};
+use crate::numerics::sparse_product::sparse_product;
 
 /// Ψ_s(0) and Ψ* (Eqs 4, 5).
 pub(super) fn reduction_basis(
@@ -64,7 +65,7 @@ pub(super) fn reduction_basis(
         largest_mode_residual = largest_mode_residual.max(found.largest_residual);
         modes.subcols_mut(index * count, count).copy_from(&found.vectors);
     }
-    let gram = modes.adjoint() * (&mass.internal * &modes);
+    let gram = modes.adjoint() * sparse_product(&mass.internal, modes.as_ref());
     let modes = orthonormal_basis(modes.as_ref(), gram.as_ref(), options.basis_tolerance)
         .ok_or(ModelError::MassNotPositiveDefinite { nodal_diameter: harmonic })?;
     Ok(Basis { static_modes, modes, largest_mode_residual })

@@ -22,6 +22,7 @@ use super::error::ModelError;
 use super::sector::{ContactNode, SectorModel};
 use crate::numerics::matrix_serde;
 use crate::numerics::sector_fourier::harmonic_count;
+use crate::numerics::sparse_product::sparse_product;
 
 pub use interpolation::{InterpolationCheck, InterpolationVerdict};
 
@@ -163,8 +164,8 @@ impl Basis {
     /// Υ̂ᴴ Ŷ Υ̂, Hermitian to the last bit (Eq. 6).
     fn project(&self, y: &HarmonicMatrix) -> Mat<c64> {
         let (n_b, r) = (self.static_modes.ncols(), self.modes.ncols());
-        let inner_static = &y.internal * &self.static_modes + y.coupling.to_dense();
-        let inner_modes = &y.internal * &self.modes;
+        let inner_static = sparse_product(&y.internal, self.static_modes.as_ref()) + y.coupling.to_dense();
+        let inner_modes = sparse_product(&y.internal, self.modes.as_ref());
         let contact = y.contact.to_dense()
             + y.coupling.adjoint() * &self.static_modes
             + self.static_modes.adjoint() * &inner_static;
