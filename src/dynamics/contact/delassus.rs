@@ -93,6 +93,7 @@ impl SymmetricOperator for Delassus {
         self.column(distance, from)[to] + if i == j { self.ridge } else { 0.0 }
     }
 
+    #[inline(always)]
     fn add_column(&self, j: usize, scale: f64, out: &mut [f64]) {
         let (from_sector, from) = self.place(j);
         for (to_sector, out) in out.chunks_exact_mut(self.stride).enumerate() {
