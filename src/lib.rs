@@ -22,6 +22,8 @@
 
 pub mod analysis;
 pub mod dynamics;
+pub mod jobs;
 pub mod numerics;
 pub mod package;
 pub mod response;
+pub mod store;

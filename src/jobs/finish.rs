@@ -1,0 +1,33 @@
+//! The end of a sweep: what can only be said of all its speeds together.
+
+use super::engine::{Engine, Live};
+use super::error::Halt;
+use super::progress::PhaseMonitor;
+use crate::analysis::request::SweepRequest;
+use crate::analysis::run;
+use crate::store::results::Document;
+
+/// Computes the critical speeds of a sweep whose speeds are all finished and marks it successful.
+pub(super) async fn sweep(engine: &Engine, job: &Live, request: &SweepRequest) -> Result<(), Halt> {
+    let monitor = PhaseMonitor::uncounted(job.watch.clone());
+    let reduced = engine.reductions.get(&request.model, request.modes_per_speed, monitor).await?;
+    let finished = engine.store.speed_results(job.id).await?;
+    let settings = request.clone();
+    let critical_speeds =
+        engine.pool.run(move || run::critical_speeds(&reduced, &settings, &finished)).await??;
+    complete(engine, job, Document::CriticalSpeeds, serde_json::to_string(&critical_speeds)?).await
+}
+
+/// Marks a job successful with the document that concludes it.
+pub(super) async fn complete(
+    engine: &Engine,
+    job: &Live,
+    document: Document,
+    body: String,
+) -> Result<(), Halt> {
+    if engine.store.complete_job(job.id, &[(document, body)]).await? {
+        tracing::info!(job.id = %job.id, "successful");
+    }
+    engine.forget(job.id);
+    Ok(())
+}
