@@ -21,7 +21,11 @@
 //! - The step loop allocates nothing and contains no dense product over the whole wheel.
 
 pub mod analysis;
+pub mod app;
+pub mod cli;
+pub mod config;
 pub mod dynamics;
+pub mod http;
 pub mod jobs;
 pub mod numerics;
 pub mod package;

@@ -1,1 +1,10 @@
-fn main() {}
+//! The program: logs, then whatever the command line says.
+
+use clap::Parser;
+use tracing_subscriber::EnvFilter;
+
+fn main() -> anyhow::Result<()> {
+    let filter = EnvFilter::try_from_default_env().unwrap_or_else(|_| EnvFilter::new("info"));
+    tracing_subscriber::fmt().with_env_filter(filter).with_writer(std::io::stderr).init();
+    rubmap::cli::Cli::parse().run()
+}
