@@ -10,7 +10,11 @@ pub(crate) const SECTORS: u32 = 4;
 
 /// Nodes of a sector: low face, inner, two contact nodes, high face.
 const NODES: usize = 5;
-const [LOW, INNER, LEADING, TRAILING, HIGH]: [usize; NODES] = [0, 1, 2, 3, 4];
+const LOW: usize = 0;
+const INNER: usize = 1;
+const LEADING: usize = 2;
+const TRAILING: usize = 3;
+const HIGH: usize = 4;
 
 /// The package. Every sector hangs on the ground by its inner node and on its neighbours by the faces; the springs
 /// pull alike in r, θ and z. `scale` multiplies the stiffness: another scale, another model.
