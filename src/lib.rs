@@ -22,10 +22,10 @@
 
 pub mod analysis;
 pub mod app;
-pub mod cli;
 pub mod config;
 pub mod dynamics;
 pub mod http;
+pub mod impeller;
 pub mod jobs;
 pub mod numerics;
 pub mod package;

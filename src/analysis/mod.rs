@@ -7,6 +7,8 @@
 pub mod error;
 pub mod monitor;
 pub mod request;
+mod resolve;
 pub mod result;
 pub mod run;
 pub mod scene;
+mod speed;

@@ -6,6 +6,9 @@ use utoipa::ToSchema;
 use super::request::Sensor;
 use crate::dynamics::sector::Units;
 
+pub use crate::response::campbell::{Crossing, DrivenCrossing};
+pub use crate::response::settling::{Settling, Verdict};
+
 /// How one speed of a sweep ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
@@ -16,35 +19,6 @@ pub enum PointStatus {
     Diverged,
     /// Could not be integrated at this speed; `message` says why; no amplitudes.
     Failed,
-}
-
-/// What the end of a run looks like, revolution by revolution.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Verdict {
-    /// Repeats every revolution.
-    Periodic,
-    /// Repeats every `ratio` revolutions.
-    Subharmonic,
-    /// Steady in level but never repeating.
-    Aperiodic,
-    /// Still changing when the window began or ended.
-    NotSettled,
-}
-
-/// Steady state, judged by comparing revolutions (§9).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
-pub struct Settling {
-    /// The verdict.
-    pub verdict: Verdict,
-    /// Period in revolutions, for `periodic` (1) and `subharmonic`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub ratio: Option<u32>,
-    /// Revolutions after which the verdict holds.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub after_revolutions: Option<u32>,
-    /// Largest change from one period to the next within the window, relative to the response.
-    pub largest_change: f64,
 }
 
 /// Steady response of one sensor in one number each.
@@ -91,8 +65,9 @@ pub struct Point {
     pub contact_impulse: f64,
     /// Largest penetration left after a step's contact solution, in the model's unit of length.
     pub largest_penetration: f64,
-    /// Smallest multiplier λ accepted, in the model's unit of force (≥ 0 by construction).
-    pub smallest_multiplier: f64,
+    /// Smallest multiplier λ of an active node, in the model's unit of force; absent without contact.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub smallest_multiplier: Option<f64>,
     /// Largest violation of the energy identity, relative to the largest energy seen (§8).
     pub energy_residual: f64,
     /// Largest mechanical energy seen, in force·length.
@@ -157,36 +132,6 @@ pub struct InteractionMap {
     pub settings: super::request::SweepRequest,
     /// Version of the code.
     pub version: String,
-}
-
-/// A natural frequency that equals an engine order: where the linear criterion expects an interaction.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
-pub struct Crossing {
-    /// Nodal diameter i.
-    pub nodal_diameter: u32,
-    /// Modal family j, from 1.
-    pub family: u32,
-    /// Superharmonic number n with f = i·n·Ω/2π.
-    pub superharmonic: u32,
-    /// Ω in rad/s.
-    pub speed_rad_s: f64,
-    /// Frequency in the rotating frame, Hz (per unit of time of the model).
-    pub frequency_hz: f64,
-}
-
-/// A crossing that the casing's lobes can drive: f = kΩ/2π with k a multiple of the lobe count that aliases onto i.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
-pub struct DrivenCrossing {
-    /// Nodal diameter i = fold(k).
-    pub nodal_diameter: u32,
-    /// Modal family j, from 1.
-    pub family: u32,
-    /// Engine order k, a multiple of the lobe count.
-    pub engine_order: u32,
-    /// Ω in rad/s.
-    pub speed_rad_s: f64,
-    /// Frequency in the rotating frame, Hz.
-    pub frequency_hz: f64,
 }
 
 /// Result of a modal analysis.

@@ -4,12 +4,12 @@ mod serve;
 
 use clap::{Parser, Subcommand};
 
-use crate::config::Config;
+use rubmap::config::Config;
 
 /// At which speeds do the blade tips of a centrifugal impeller interact dangerously with their casing?
 #[derive(Debug, Parser)]
 #[command(name = "rubmap", version)]
-pub struct Cli {
+pub(crate) struct Cli {
     #[command(subcommand)]
     command: Command,
 }
@@ -22,7 +22,7 @@ enum Command {
 
 impl Cli {
     /// Does what the command line says.
-    pub fn run(self) -> anyhow::Result<()> {
+    pub(crate) fn run(self) -> anyhow::Result<()> {
         match self.command {
             Command::Serve(config) => serve::run(config),
         }

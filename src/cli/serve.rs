@@ -1,10 +1,9 @@
 //! `rubmap serve`: the HTTP service until a signal ends it.
 
+use rubmap::app::App;
+use rubmap::config::Config;
 use tokio::signal::unix::{SignalKind, signal};
 use tokio_util::sync::CancellationToken;
-
-use crate::app::App;
-use crate::config::Config;
 
 /// Runs the service until SIGTERM or SIGINT.
 pub(super) fn run(config: Config) -> anyhow::Result<()> {

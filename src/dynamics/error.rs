@@ -23,19 +23,6 @@ pub enum ModelError {
         /// Nodal diameter i.
         nodal_diameter: usize,
     },
-    /// More modes were asked for than the sector has internal DOF.
-    #[error(
-        "nodal diameter {nodal_diameter} has {internal_dofs} internal DOF, fewer than the {modes} fixed-interface \
-         modes asked for: lower modes_per_speed"
-    )]
-    TooManyModes {
-        /// Nodal diameter i.
-        nodal_diameter: usize,
-        /// n_i.
-        internal_dofs: usize,
-        /// `modes_per_speed`.
-        modes: usize,
-    },
     /// The eigenvalue iteration did not reach its tolerance.
     #[error(
         "the fixed-interface modes of nodal diameter {nodal_diameter} at {speed_rad_s} rad/s did not converge: \

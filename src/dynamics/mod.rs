@@ -1,4 +1,14 @@
 //! The physics: cyclic structure, reduction, contact and time integration, in the words of METHOD.md.
 
+pub mod casing;
+pub mod centrifugal;
+pub mod contact;
+pub mod cyclic;
+pub mod energy;
 pub mod error;
+pub mod integrate;
+pub mod modal_wheel;
+pub mod oscillators;
+pub mod reduction;
 pub mod sector;
+pub mod statistics;

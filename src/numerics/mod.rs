@@ -1,1 +1,13 @@
 //! Linear algebra and transforms; nothing here has heard of a rotor.
+//!
+//! faer is built without its thread pool: every call runs on the calling thread, so results do not depend on how
+//! many threads a machine has.
+
+pub mod block_lanczos;
+pub mod complementarity;
+pub mod hermitian;
+pub mod matrix_serde;
+pub mod orthonormal;
+pub mod sector_fourier;
+pub mod sparse_cholesky;
+pub mod spectrum;

@@ -1,1 +1,6 @@
-//! From histories to engineering results: spectra, nodal diameters, settling, maps and critical speeds (§9).
+//! From histories to engineering results: spectra, nodal diameters, settling and critical speeds (§9).
+
+pub mod campbell;
+pub mod critical_speed;
+pub mod settling;
+pub mod spectra;

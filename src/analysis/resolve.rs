@@ -1,0 +1,284 @@
+//! Checks a request against its model and fills in defaults: all violations at once, each at its JSON pointer.
+
+use super::error::Violation;
+use super::request::{
+    Component, Integration, ModalAnalysisRequest, Sensor, Speeds, StepsPerRevolution, SweepRequest,
+};
+use super::run::ModelFacts;
+use super::scene::{Casing, Clearance, Damping, Scene};
+
+/// Bounds that keep a request's memory and time within reason.
+mod limits {
+    pub(super) const MODES_PER_SPEED: u32 = 500;
+    pub(super) const REVOLUTIONS: u32 = 100_000;
+    pub(super) const STEPS_PER_REVOLUTION: u32 = 10_000_000;
+    pub(super) const ENGINE_ORDER: u32 = 1_000;
+    pub(super) const SENSORS: usize = 64;
+    pub(super) const LOBES: u32 = 100;
+    pub(super) const FAMILIES: u32 = 100;
+    pub(super) const SUPERHARMONIC: u32 = 100;
+}
+
+/// Collects violations.
+#[derive(Default)]
+struct Findings(Vec<Violation>);
+
+impl Findings {
+    fn require(&mut self, holds: bool, pointer: &str, message: impl Into<String>) {
+        if !holds {
+            self.0.push(Violation::new(pointer, message));
+        }
+    }
+
+    fn finish<T>(self, value: T) -> Result<T, Vec<Violation>> {
+        if self.0.is_empty() { Ok(value) } else { Err(self.0) }
+    }
+}
+
+/// Checks a sweep request against its model and fills in the default sensors.
+pub fn resolve_sweep(mut request: SweepRequest, facts: &ModelFacts) -> Result<SweepRequest, Vec<Violation>> {
+    let mut found = Findings::default();
+    check_modes(&mut found, request.modes_per_speed);
+    check_speeds(&mut found, &request.speeds, facts, request.scene.centrifugal_stiffening, false);
+    check_scene(&mut found, &request.scene, facts);
+    check_integration(&mut found, &request.integration, request.max_engine_order);
+    check_ramp(&mut found, &request);
+    if request.sensors.is_empty() {
+        request.sensors = default_sensors(facts);
+    }
+    check_sensors(&mut found, &request.sensors, facts);
+    found.finish(request)
+}
+
+/// Checks a modal-analysis request against its model.
+pub fn resolve_modal_analysis(
+    request: ModalAnalysisRequest,
+    facts: &ModelFacts,
+) -> Result<ModalAnalysisRequest, Vec<Violation>> {
+    let mut found = Findings::default();
+    check_modes(&mut found, request.modes_per_speed);
+    check_speeds(&mut found, &request.speeds, facts, facts.has_stiffening(), true);
+    let families = 1..=limits::FAMILIES;
+    found.require(
+        families.contains(&request.families),
+        "/families",
+        format!("ask for 1 to {} modal families", limits::FAMILIES),
+    );
+    for (index, n) in request.superharmonics.iter().enumerate() {
+        found.require(
+            (1..=limits::SUPERHARMONIC).contains(n),
+            &format!("/superharmonics/{index}"),
+            format!("a superharmonic number lies between 1 and {}", limits::SUPERHARMONIC),
+        );
+    }
+    check_lobe_count(&mut found, request.lobes, "/lobes");
+    found.finish(request)
+}
+
+fn check_modes(found: &mut Findings, modes_per_speed: u32) {
+    found.require(
+        (1..=limits::MODES_PER_SPEED).contains(&modes_per_speed),
+        "/modes_per_speed",
+        format!("between 1 and {} fixed-interface modes are kept per speed", limits::MODES_PER_SPEED),
+    );
+}
+
+fn check_speeds(found: &mut Findings, speeds: &Speeds, facts: &ModelFacts, stiffening: bool, campbell: bool) {
+    let values = match speeds.resolve() {
+        Ok(values) => values,
+        Err(violations) => return found.0.extend(violations),
+    };
+    found.require(
+        campbell || values.iter().all(|&omega| omega > 0.0),
+        "/speeds",
+        "a contact simulation needs a speed above 0: its clock is the revolution",
+    );
+    found.require(
+        !campbell || values.windows(2).all(|pair| pair[0] < pair[1]),
+        "/speeds",
+        "the speeds of a Campbell diagram ascend",
+    );
+    let highest = facts.speeds_rad_s.last().copied().unwrap_or(0.0);
+    if stiffening && facts.has_stiffening() {
+        // A speed given in rpm may differ from the model's rad/s in the last digits.
+        found.require(
+            values.iter().all(|&omega| omega <= highest * (1.0 + 1e-6)),
+            "/speeds",
+            format!(
+                "the model's stiffness is given up to {highest} rad/s; K(Ω) is not extrapolated: stay below, or \
+                 export the stiffness at a higher speed"
+            ),
+        );
+    }
+}
+
+fn check_scene(found: &mut Findings, scene: &Scene, facts: &ModelFacts) {
+    found.require(
+        !scene.centrifugal_stiffening || facts.has_stiffening(),
+        "/scene/centrifugal_stiffening",
+        "the model has a single stiffness matrix, so there is no stiffening to simulate: set this to false, or \
+         upload a package with the stiffness at three speeds",
+    );
+    if let Some(Damping { modal_ratio, family_ratios }) = &scene.damping {
+        let valid = |ratio: f64| (0.0..1.0).contains(&ratio);
+        let message = "a damping ratio lies in [0, 1)";
+        found.require(valid(*modal_ratio), "/scene/damping/modal_ratio", message);
+        for (index, &ratio) in family_ratios.iter().enumerate() {
+            found.require(valid(ratio), &format!("/scene/damping/family_ratios/{index}"), message);
+        }
+    }
+    found.require(
+        scene.contact.is_none() || scene.casing.is_some(),
+        "/scene/contact",
+        "contact needs a casing to touch: add /scene/casing",
+    );
+    if let Some(casing) = &scene.casing {
+        check_casing(found, casing, facts);
+    }
+}
+
+fn check_casing(found: &mut Findings, casing: &Casing, facts: &ModelFacts) {
+    let valid = |length: f64| length.is_finite() && length >= 0.0;
+    let message = "a clearance is a finite length ≥ 0";
+    match &casing.clearance {
+        Clearance { leading: Some(leading), trailing: Some(trailing), values: None } => {
+            found.require(valid(*leading), "/scene/casing/clearance/leading", message);
+            found.require(valid(*trailing), "/scene/casing/clearance/trailing", message);
+        }
+        Clearance { leading: None, trailing: None, values: Some(values) } => {
+            found.require(
+                values.len() == facts.contact_nodes as usize,
+                "/scene/casing/clearance/values",
+                format!("the model has {} contact nodes, not {}", facts.contact_nodes, values.len()),
+            );
+            for (index, &value) in values.iter().enumerate() {
+                found.require(valid(value), &format!("/scene/casing/clearance/values/{index}"), message);
+            }
+        }
+        _ => found.require(
+            false,
+            "/scene/casing/clearance",
+            "give either `leading` and `trailing`, or `values` with one clearance per contact node",
+        ),
+    }
+    if let Some(lobes) = &casing.lobes {
+        check_lobe_count(found, lobes.count, "/scene/casing/lobes/count");
+        found.require(
+            valid(lobes.amplitude),
+            "/scene/casing/lobes/amplitude",
+            "a lobe's height is a length ≥ 0",
+        );
+        found.require(
+            lobes.width_rad.is_finite() && lobes.width_rad > 0.0,
+            "/scene/casing/lobes/width_rad",
+            "a lobe's width is an angle above 0",
+        );
+        found.require(
+            lobes.phase_rad.is_finite(),
+            "/scene/casing/lobes/phase_rad",
+            "the phase is a finite angle",
+        );
+    }
+}
+
+fn check_lobe_count(found: &mut Findings, count: u32, pointer: &str) {
+    found.require(
+        (1..=limits::LOBES).contains(&count),
+        pointer,
+        format!("a casing has 1 to {} lobes", limits::LOBES),
+    );
+}
+
+fn check_integration(found: &mut Findings, integration: &Integration, max_engine_order: u32) {
+    let Integration { steps_per_revolution, revolutions, ramp_revolutions, window_revolutions } =
+        *integration;
+    if let StepsPerRevolution::Fixed(steps) = steps_per_revolution {
+        found.require(
+            (1..=limits::STEPS_PER_REVOLUTION).contains(&steps),
+            "/integration/steps_per_revolution",
+            format!("between 1 and {} steps", limits::STEPS_PER_REVOLUTION),
+        );
+        found.require(
+            steps > 2 * max_engine_order,
+            "/integration/steps_per_revolution",
+            format!(
+                "engine order {max_engine_order} needs more than {} steps per revolution",
+                2 * max_engine_order
+            ),
+        );
+    }
+    found.require(
+        (1..=limits::REVOLUTIONS).contains(&revolutions),
+        "/integration/revolutions",
+        format!("between 1 and {} revolutions", limits::REVOLUTIONS),
+    );
+    found.require(
+        (1..=revolutions).contains(&window_revolutions),
+        "/integration/window_revolutions",
+        format!("the window is part of the run: between 1 and {revolutions} revolutions"),
+    );
+    found.require(
+        ramp_revolutions.is_finite() && ramp_revolutions >= 0.0,
+        "/integration/ramp_revolutions",
+        "a ramp lasts a finite number of revolutions ≥ 0",
+    );
+    found.require(
+        f64::from(revolutions) >= ramp_revolutions + f64::from(window_revolutions),
+        "/integration/window_revolutions",
+        format!(
+            "the window would begin before the restriction is fully grown: {ramp_revolutions} revolutions of ramp \
+             and {window_revolutions} of window need more than {revolutions}"
+        ),
+    );
+    found.require(
+        (1..=limits::ENGINE_ORDER).contains(&max_engine_order),
+        "/max_engine_order",
+        format!("between 1 and {}", limits::ENGINE_ORDER),
+    );
+}
+
+/// Without a ramp a restriction inside the blade would hit it as a step: forces scale as 1/h, nothing converges.
+fn check_ramp(found: &mut Findings, request: &SweepRequest) {
+    let Scene { casing: Some(casing), contact: Some(_), .. } = &request.scene else { return };
+    let Some(lobes) = &casing.lobes else { return };
+    let clearance = &casing.clearance;
+    let given = clearance.values.iter().flatten().chain(&clearance.leading).chain(&clearance.trailing);
+    let smallest = given.copied().fold(f64::INFINITY, f64::min);
+    found.require(
+        request.integration.ramp_revolutions > 0.0 || lobes.amplitude <= smallest,
+        "/integration/ramp_revolutions",
+        format!(
+            "lobes of {} stand inside the blade at rest (smallest clearance {smallest}): let them grow over at \
+             least part of a revolution",
+            lobes.amplitude
+        ),
+    );
+}
+
+fn default_sensors(facts: &ModelFacts) -> Vec<Sensor> {
+    let at = |contact_node| Sensor { contact_node, sector: 0, component: Component::Radial };
+    match facts.contact_nodes {
+        0 | 1 => vec![at(0)],
+        nodes => vec![at(0), at(nodes - 1)],
+    }
+}
+
+fn check_sensors(found: &mut Findings, sensors: &[Sensor], facts: &ModelFacts) {
+    found.require(
+        sensors.len() <= limits::SENSORS,
+        "/sensors",
+        format!("at most {} sensors in one sweep", limits::SENSORS),
+    );
+    for (index, sensor) in sensors.iter().enumerate() {
+        found.require(
+            sensor.contact_node < facts.contact_nodes,
+            &format!("/sensors/{index}/contact_node"),
+            format!("the model has contact nodes 0 to {}", facts.contact_nodes.saturating_sub(1)),
+        );
+        found.require(
+            sensor.sector < facts.sectors,
+            &format!("/sensors/{index}/sector"),
+            format!("the wheel has sectors 0 to {}", facts.sectors.saturating_sub(1)),
+        );
+    }
+}

@@ -1,0 +1,306 @@
+//! One speed of a sweep: from the reduced sector to spectra with credentials.
+
+use std::time::Instant;
+
+use super::error::AnalysisError;
+use super::monitor::Monitor;
+use super::request::{Component, Sensor, StepsPerRevolution, SweepRequest};
+use super::result::{Point, PointStatus, SensorResponse, SensorSpectrum, SpeedResult, SpeedSpectra};
+use super::run::{ReducedSector, VERSION};
+use crate::dynamics::casing::{Casing, Restriction, RestrictionTable, clearance_along_chord};
+use crate::dynamics::integrate::{
+    History, MAX_TABLE_VALUES, Outcome, Run, SensorRow, Simulation, smallest_stable_steps,
+};
+use crate::dynamics::modal_wheel::ModalWheel;
+use crate::dynamics::oscillators::{Direction, ModalDamping};
+use crate::dynamics::reduction::ReducedWheel;
+use crate::numerics::sector_fourier::SectorFourier;
+use crate::numerics::spectrum::amplitudes;
+use crate::response::settling::judge;
+use crate::response::spectra::{engine_orders, nodal_diameter_amplitudes};
+
+/// Simulates speed `index` of a sweep. Deterministic; runs on the calling thread. A speed that diverges or cannot be
+/// evaluated is a result (with its status), not an error; the only errors are cancellation and a request that was
+/// never resolved.
+pub fn run_speed(
+    reduced: &ReducedSector,
+    request: &SweepRequest,
+    index: usize,
+    monitor: &dyn Monitor,
+) -> Result<SpeedResult, AnalysisError> {
+    let start = Instant::now();
+    let speeds = request.speeds.resolve().map_err(AnalysisError::Refused)?;
+    let mut point = empty_point(index, speeds[index]);
+    let mut spectra = None;
+    let stiffening = request.scene.centrifugal_stiffening;
+    match ModalWheel::at(&reduced.wheel, point.speed_rad_s, stiffening) {
+        Err(error) => point.message = Some(error.to_string()),
+        Ok(wheel) => match Discretisation::choose(&wheel, request) {
+            Err(message) => point.message = Some(message),
+            Ok(steps) => {
+                point.smallest_stable_steps_per_revolution = steps.smallest as u32;
+                point.steps_per_revolution = steps.per_revolution as u32;
+                let watch = |fraction: f64| {
+                    monitor.progress(fraction, "contact simulation");
+                    !monitor.is_cancelled()
+                };
+                let run = simulate(&reduced.wheel, &wheel, request, &steps, &watch);
+                spectra = record_run(&mut point, run, request, &steps, reduced.wheel.sectors)?;
+            }
+        },
+    }
+    point.wall_time_s = start.elapsed().as_secs_f64();
+    Ok(SpeedResult { point, spectra })
+}
+
+fn empty_point(index: usize, speed_rad_s: f64) -> Point {
+    Point {
+        index: index as u32,
+        speed_rad_s,
+        status: PointStatus::Failed,
+        message: None,
+        settling: None,
+        steps_per_revolution: 0,
+        smallest_stable_steps_per_revolution: 0,
+        steps: 0,
+        contact_share: 0.0,
+        contact_impulse: 0.0,
+        largest_penetration: 0.0,
+        smallest_multiplier: None,
+        energy_residual: 0.0,
+        largest_energy: 0.0,
+        responses: Vec::new(),
+        wall_time_s: 0.0,
+        version: VERSION.to_owned(),
+    }
+}
+
+/// Steps and samples of a revolution.
+struct Discretisation {
+    /// Smallest stable number of steps.
+    smallest: u64,
+    /// S.
+    per_revolution: usize,
+    /// Recorded samples, a divisor of S.
+    samples: usize,
+}
+
+/// `"auto"` stays this far below the stability limit.
+const SAFETY: f64 = 0.8;
+
+/// `"auto"` never steps over more than a tenth of a degree: contact begins and ends within a step.
+const LEAST_AUTO_STEPS: f64 = 3600.0;
+
+/// Samples per revolution for each engine order asked for, so that what aliases onto a line of the spectrum comes
+/// from orders at least seven times as high.
+const SAMPLES_PER_ORDER: usize = 8;
+
+/// Fewest samples a revolution, for the settling verdict.
+const LEAST_SAMPLES: usize = 128;
+
+impl Discretisation {
+    fn choose(wheel: &ModalWheel, request: &SweepRequest) -> Result<Self, String> {
+        let smallest = smallest_stable_steps(wheel.largest_frequency(), wheel.speed_rad_s);
+        let wanted = LEAST_SAMPLES.max(SAMPLES_PER_ORDER * request.max_engine_order as usize);
+        match request.integration.steps_per_revolution {
+            StepsPerRevolution::Auto => {
+                let least = (smallest as f64 / SAFETY).max(LEAST_AUTO_STEPS).ceil();
+                if least > f64::from(u32::MAX) {
+                    return Err(format!(
+                        "a stable run would need {least:.1e} steps per revolution: the reduced wheel has modes far \
+                         above any engine order at this speed"
+                    ));
+                }
+                let least = least as usize;
+                // S = decimation · samples, both whole; samples a multiple of N share the casing table.
+                let decimation = (least / wanted).max(1);
+                let samples = least.div_ceil(decimation).next_multiple_of(wheel.sectors);
+                Ok(Self { smallest, per_revolution: decimation * samples, samples })
+            }
+            StepsPerRevolution::Fixed(steps) if u64::from(steps) < smallest => Err(format!(
+                "{steps} steps per revolution are unstable at this speed; at least {smallest} are needed"
+            )),
+            StepsPerRevolution::Fixed(steps) => {
+                let steps = steps as usize;
+                let divisor = |samples: &usize| steps.is_multiple_of(*samples);
+                let samples = (wanted..=steps / 2).find(divisor).unwrap_or(steps);
+                Ok(Self { smallest, per_revolution: steps, samples })
+            }
+        }
+    }
+}
+
+fn simulate(
+    reduced: &ReducedWheel,
+    wheel: &ModalWheel,
+    request: &SweepRequest,
+    steps: &Discretisation,
+    watch: &dyn Fn(f64) -> bool,
+) -> Result<Run, String> {
+    let scene = &request.scene;
+    let damping = scene.damping.as_ref().map(|damping| ModalDamping {
+        modal_ratio: damping.modal_ratio,
+        family_ratios: damping.family_ratios.clone(),
+    });
+    let casing = casing(reduced, request);
+    if casing.as_ref().is_some_and(|casing| casing.restriction.is_some()) {
+        let stride = reduced.contact.len().next_multiple_of(8);
+        let size = RestrictionTable::size(steps.per_revolution, wheel.sectors, stride);
+        if size > MAX_TABLE_VALUES {
+            return Err(format!(
+                "{} steps per revolution share no useful factor with {} sectors, so the casing's table would take \
+                 {size} values: choose a multiple of {}",
+                steps.per_revolution, wheel.sectors, wheel.sectors
+            ));
+        }
+    }
+    let sensors: Vec<_> = request.sensors.iter().map(|sensor| sensor_row(reduced, sensor)).collect();
+    Ok(Simulation {
+        wheel,
+        contact_nodes: &reduced.contact,
+        damping: damping.as_ref(),
+        casing: casing.as_ref(),
+        sensors: &sensors,
+        steps_per_revolution: steps.per_revolution,
+        samples_per_revolution: steps.samples,
+        revolutions: request.integration.revolutions as usize,
+        window_revolutions: request.integration.window_revolutions as usize,
+    }
+    .run(watch))
+}
+
+/// The casing of a scene with contact; a casing that nothing touches does not exist for the integration.
+fn casing(reduced: &ReducedWheel, request: &SweepRequest) -> Option<Casing> {
+    let casing = request.scene.casing.as_ref()?;
+    request.scene.contact.as_ref()?;
+    let positions: Vec<_> = reduced.contact.iter().map(|node| node.position).collect();
+    let given = &casing.clearance;
+    let clearance = given.values.clone().unwrap_or_else(|| {
+        clearance_along_chord(given.leading.unwrap_or(0.0), given.trailing.unwrap_or(0.0), &positions)
+    });
+    let restriction = casing.lobes.as_ref().map(|lobes| Restriction {
+        count: lobes.count,
+        amplitude: lobes.amplitude,
+        width_rad: lobes.width_rad,
+        phase_rad: lobes.phase_rad,
+    });
+    Some(Casing { clearance, restriction, ramp_revolutions: request.integration.ramp_revolutions })
+}
+
+fn sensor_row(reduced: &ReducedWheel, sensor: &Sensor) -> SensorRow {
+    let node = sensor.contact_node as usize;
+    let components = match sensor.component {
+        Component::Radial => [1.0, 0.0, 0.0],
+        Component::Tangential => [0.0, 1.0, 0.0],
+        Component::Axial => [0.0, 0.0, 1.0],
+        Component::Normal => reduced.contact[node].normal,
+    };
+    SensorRow { direction: Direction { node, components }, sector: sensor.sector as usize }
+}
+
+/// Writes a run's credentials into `point`; returns its spectra if it is complete.
+fn record_run(
+    point: &mut Point,
+    run: Result<Run, String>,
+    request: &SweepRequest,
+    steps: &Discretisation,
+    sectors: usize,
+) -> Result<Option<SpeedSpectra>, AnalysisError> {
+    let run = match run {
+        Ok(run) => run,
+        Err(message) => {
+            point.message = Some(message);
+            return Ok(None);
+        }
+    };
+    point.steps = run.statistics.steps;
+    point.contact_share = run.statistics.contact_share();
+    point.contact_impulse = run.statistics.contact_impulse;
+    point.largest_penetration = run.statistics.largest_penetration;
+    point.smallest_multiplier = run.statistics.smallest_multiplier;
+    point.energy_residual = run.energy.residual();
+    point.largest_energy = run.energy.largest_energy();
+    match run.outcome {
+        Outcome::Cancelled => Err(AnalysisError::Cancelled),
+        Outcome::Diverged { revolutions } => {
+            // A run that overflowed has no finite sums to report.
+            for value in [
+                &mut point.contact_impulse,
+                &mut point.largest_penetration,
+                &mut point.energy_residual,
+                &mut point.largest_energy,
+            ] {
+                if !value.is_finite() {
+                    *value = f64::MAX;
+                }
+            }
+            point.status = PointStatus::Diverged;
+            point.message = Some(format!(
+                "the response grew beyond a tenth of the wheel's radius after {revolutions:.2} revolutions"
+            ));
+            Ok(None)
+        }
+        Outcome::ContactFailed { revolutions, error } => {
+            point.message = Some(format!("after {revolutions:.4} revolutions {error}"));
+            Ok(None)
+        }
+        Outcome::Completed(history) => {
+            point.status = PointStatus::Completed;
+            let spectra = spectra(&history, request, sectors);
+            let window = request.integration.window_revolutions as usize;
+            point.settling = Some(judge(&history.displacement, steps.samples, window));
+            point.responses = responses(&history, request, &spectra, window * steps.samples);
+            Ok(Some(spectra))
+        }
+    }
+}
+
+fn spectra(history: &History, request: &SweepRequest, sectors: usize) -> SpeedSpectra {
+    let engine_orders = engine_orders(request.integration.window_revolutions, request.max_engine_order);
+    let bins = engine_orders.len();
+    let fourier = SectorFourier::new(sectors);
+    let sensors = request.sensors.iter().enumerate().map(|(index, &sensor)| {
+        let columns = &history.harmonics[index];
+        let whole = &history.displacement[index];
+        let window = &whole[whole.len() - columns[0].len()..];
+        SensorSpectrum {
+            sensor,
+            amplitude: amplitudes(window, bins),
+            nodal_diameters: nodal_diameter_amplitudes(columns, &fourier, bins),
+        }
+    });
+    SpeedSpectra { sensors: sensors.collect(), engine_orders }
+}
+
+fn responses(
+    history: &History,
+    request: &SweepRequest,
+    spectra: &SpeedSpectra,
+    window_samples: usize,
+) -> Vec<SensorResponse> {
+    let of = |(index, &sensor): (usize, &Sensor)| {
+        let whole = &history.displacement[index];
+        let window = &whole[whole.len() - window_samples..];
+        let mean = window.iter().sum::<f64>() / window.len() as f64;
+        let variance = window.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / window.len() as f64;
+        let (low, high) = window
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &x| (low.min(x), high.max(x)));
+        let spectrum = &spectra.sensors[index];
+        let bin = largest_bin(&spectrum.amplitude[1..]) + 1;
+        let carried: Vec<f64> = spectrum.nodal_diameters.iter().map(|line| line[bin]).collect();
+        SensorResponse {
+            sensor,
+            mean,
+            rms: variance.sqrt(),
+            half_peak_to_peak: 0.5 * (high - low),
+            dominant_engine_order: spectra.engine_orders[bin],
+            dominant_nodal_diameter: largest_bin(&carried) as u32,
+        }
+    };
+    request.sensors.iter().enumerate().map(of).collect()
+}
+
+fn largest_bin(values: &[f64]) -> usize {
+    values.iter().enumerate().fold(0, |best, (i, v)| if *v > values[best] { i } else { best })
+}

@@ -1,0 +1,89 @@
+//! `rubmap generate`: a model package from a few parameters.
+
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::{Path, PathBuf};
+
+use anyhow::Context;
+use clap::Args;
+use rubmap::impeller::{ImpellerParameters, generate as generate_package};
+
+/// What to generate and where to put it.
+#[derive(Debug, Args)]
+pub struct GenerateArgs {
+    /// Package to write
+    #[arg(long, default_value = "impeller.zip")]
+    pub out: PathBuf,
+    /// JSON file with any of the generator's parameters; what it leaves out keeps its default
+    #[arg(long)]
+    pub parameters: Option<PathBuf>,
+    /// Number of sectors (main blades); overrides the file
+    #[arg(long)]
+    pub sectors: Option<usize>,
+    /// Outlet radius, in the model's unit of length (mm); overrides the file
+    #[arg(long)]
+    pub outlet_radius: Option<f64>,
+    /// Highest speed of the stiffness matrices in rad/s; overrides the file
+    #[arg(long)]
+    pub speed: Option<f64>,
+    /// Number of contact nodes from leading to trailing edge; overrides the file
+    #[arg(long)]
+    pub contact_nodes: Option<usize>,
+    /// Print the parameters as JSON and stop: a start for a --parameters file
+    #[arg(long)]
+    pub print_parameters: bool,
+}
+
+/// Generates the package and writes it.
+///
+/// # Errors
+/// Unreadable or impossible parameters, or a file that cannot be written.
+pub fn generate(args: GenerateArgs) -> anyhow::Result<()> {
+    let parameters = args.resolve()?;
+    if args.print_parameters {
+        println!("{}", serde_json::to_string_pretty(&parameters)?);
+        return Ok(());
+    }
+    let package = generate_package(&parameters)?;
+    let file = File::create(&args.out).with_context(|| format!("cannot create {}", args.out.display()))?;
+    rubmap::package::write(&package, BufWriter::new(file))
+        .with_context(|| format!("cannot write {}", args.out.display()))?;
+    println!(
+        "{}: {} sectors, {} DOF a sector, {} contact nodes, speeds up to {} rad/s ({:.0} rpm)",
+        args.out.display(),
+        package.manifest.sectors,
+        package.dofs.len(),
+        package.manifest.contact.len(),
+        parameters.top_speed_rad_s,
+        parameters.top_speed_rad_s * 30.0 / std::f64::consts::PI,
+    );
+    Ok(())
+}
+
+impl GenerateArgs {
+    /// Defaults, then the file, then the single options.
+    fn resolve(&self) -> anyhow::Result<ImpellerParameters> {
+        let mut parameters = match &self.parameters {
+            Some(path) => read(path)?,
+            None => ImpellerParameters::default(),
+        };
+        if let Some(sectors) = self.sectors {
+            parameters.sectors = sectors;
+        }
+        if let Some(radius) = self.outlet_radius {
+            parameters.outlet_radius = radius;
+        }
+        if let Some(speed) = self.speed {
+            parameters.top_speed_rad_s = speed;
+        }
+        if let Some(nodes) = self.contact_nodes {
+            parameters.contact_nodes = nodes;
+        }
+        Ok(parameters)
+    }
+}
+
+fn read(path: &Path) -> anyhow::Result<ImpellerParameters> {
+    let text = std::fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))?;
+    serde_json::from_str(&text).with_context(|| format!("{} is not a parameter set", path.display()))
+}

@@ -1,0 +1,122 @@
+//! The reduced wheel at one speed in modal coordinates (§5; Eq. 7).
+//!
+//! The wheel is block diagonal in the nodal diameter. Each small pencil (K_r(Ω), M_r) is solved once, an exact change
+//! of coordinates, after which the free motion is one scalar oscillator per mode:
+//!
+//! ```text
+//! u_s(t) = Σ_i Re( w_i e^{jisα} Σ_m φ⁽ⁱ⁾_m z_{i,m}(t) ),   w_i = 1/√N for single harmonics, √(2/N) for pairs
+//! z̈ + 2ζω ż + ω² z = φᴴ f̂⁽ⁱ⁾,                                f̂⁽ⁱ⁾ = w_i Σ_s f_s e^{−jisα}
+//! ```
+//!
+//! z is complex for pairs (cosine and sine mode) and real for single harmonics; with these weights the modal mass is 1.
+
+use faer::{Mat, c64};
+
+use super::error::ModelError;
+use super::reduction::{ReducedHarmonic, ReducedWheel};
+use crate::numerics::hermitian::{EigenError, Eigenpairs, generalised_eigenpairs, generalised_eigenvalues};
+use crate::numerics::sector_fourier::is_single;
+
+/// Modes of one nodal diameter.
+#[derive(Debug, Clone)]
+pub struct ModalHarmonic {
+    /// Nodal diameter i.
+    pub harmonic: usize,
+    /// Whether its modes are single (real) rather than pairs.
+    pub single: bool,
+    /// ω_m in rad/s, ascending.
+    pub omega: Vec<f64>,
+    /// φ restricted to the contact DOF, `n_b × modes`, mass-normalised.
+    pub contact: Mat<c64>,
+}
+
+/// All modes of the reduced wheel at one speed.
+#[derive(Debug, Clone)]
+pub struct ModalWheel {
+    /// Ω, rad/s.
+    pub speed_rad_s: f64,
+    /// N.
+    pub sectors: usize,
+    /// One per nodal diameter.
+    pub harmonics: Vec<ModalHarmonic>,
+}
+
+impl ModalWheel {
+    /// Solves every nodal diameter of `reduced` at `speed_rad_s`. Refuses a K(Ω) that is not positive definite.
+    pub fn at(reduced: &ReducedWheel, speed_rad_s: f64, stiffening: bool) -> Result<Self, ModelError> {
+        let solve = |h: &ReducedHarmonic| modal_harmonic(h, reduced, speed_rad_s, stiffening);
+        let harmonics = reduced.harmonics.iter().map(solve).collect::<Result<_, _>>()?;
+        Ok(Self { speed_rad_s, sectors: reduced.sectors, harmonics })
+    }
+
+    /// ω_max in rad/s: with central differences it bounds the step, h < 2/ω_max.
+    pub fn largest_frequency(&self) -> f64 {
+        self.harmonics.iter().filter_map(|h| h.omega.last()).copied().fold(0.0, f64::max)
+    }
+
+    /// Real unknowns of the whole wheel.
+    pub fn unknowns(&self) -> usize {
+        self.harmonics.iter().map(|h| if h.single { h.omega.len() } else { 2 * h.omega.len() }).sum()
+    }
+}
+
+/// Natural frequencies ω in rad/s of one nodal diameter at `speed_rad_s`, ascending.
+pub fn natural_frequencies(
+    harmonic: &ReducedHarmonic,
+    speed_rad_s: f64,
+    stiffening: bool,
+) -> Result<Vec<f64>, ModelError> {
+    let stiffness = harmonic.stiffness.at(speed_rad_s, stiffening);
+    let values = generalised_eigenvalues(stiffness.as_ref(), harmonic.mass.as_ref())
+        .map_err(|error| decomposition_error(error, harmonic.harmonic, speed_rad_s))?;
+    frequencies(&values, harmonic.harmonic, speed_rad_s)
+}
+
+fn modal_harmonic(
+    reduced: &ReducedHarmonic,
+    wheel: &ReducedWheel,
+    speed_rad_s: f64,
+    stiffening: bool,
+) -> Result<ModalHarmonic, ModelError> {
+    let harmonic = reduced.harmonic;
+    let single = is_single(harmonic, wheel.sectors);
+    let stiffness = reduced.stiffness.at(speed_rad_s, stiffening);
+    let pairs = if single {
+        let real = |matrix: &Mat<c64>| Mat::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)].re);
+        let (k, m) = (real(&stiffness), real(&reduced.mass));
+        generalised_eigenpairs(k.as_ref(), m.as_ref()).map(|Eigenpairs { values, vectors }| {
+            let complex =
+                Mat::from_fn(vectors.nrows(), vectors.ncols(), |i, j| c64::new(vectors[(i, j)], 0.0));
+            Eigenpairs { values, vectors: complex }
+        })
+    } else {
+        generalised_eigenpairs(stiffness.as_ref(), reduced.mass.as_ref())
+    };
+    let pairs = pairs.map_err(|error| decomposition_error(error, harmonic, speed_rad_s))?;
+    Ok(ModalHarmonic {
+        harmonic,
+        single,
+        omega: frequencies(&pairs.values, harmonic, speed_rad_s)?,
+        contact: pairs.vectors.subrows(0, wheel.contact_dofs()).to_owned(),
+    })
+}
+
+fn frequencies(values: &[f64], nodal_diameter: usize, speed_rad_s: f64) -> Result<Vec<f64>, ModelError> {
+    if values.iter().all(|&lambda| lambda > 0.0) {
+        Ok(values.iter().map(|lambda| lambda.sqrt()).collect())
+    } else {
+        Err(ModelError::StiffnessNotPositiveDefinite {
+            nodal_diameter,
+            speed_rad_s,
+            hint: "K(Ω) interpolated between the given speeds is wrong there (see the model's stiffening check), \
+                   or the wheel is unstable at this speed",
+        })
+    }
+}
+
+fn decomposition_error(error: EigenError, nodal_diameter: usize, speed_rad_s: f64) -> ModelError {
+    match error {
+        EigenError::MassNotPositiveDefinite => ModelError::MassNotPositiveDefinite { nodal_diameter },
+        EigenError::NotConverged => ModelError::DecompositionFailed { nodal_diameter, speed_rad_s },
+    }
+}

@@ -1,0 +1,384 @@
+//! The modal oscillators of the whole wheel: Eq. 8 made element-wise, and its projection on chosen DOF.
+//!
+//! Kernels work on SIMD lanes; modes of every nodal diameter are padded to whole vectors with oscillators that
+//! stay at rest. A pair keeps the real and the imaginary part of z as two consecutive segments that share their
+//! coefficients.
+
+use faer::{Mat, c64};
+use pulp::Simd;
+
+use super::modal_wheel::ModalWheel;
+
+/// Doubles per padded group: the widest vector in use (AVX-512).
+pub(crate) const LANES: usize = 8;
+
+pub(crate) fn padded(count: usize) -> usize {
+    count.next_multiple_of(LANES)
+}
+
+/// Modal damping of the reduced wheel (§6).
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModalDamping {
+    /// ζ of every mode not listed below.
+    pub modal_ratio: f64,
+    /// ζ of the first modal families, the same in every nodal diameter.
+    pub family_ratios: Vec<f64>,
+}
+
+impl ModalDamping {
+    /// ζ of modal family `family`, counted from 0.
+    pub fn ratio(&self, family: usize) -> f64 {
+        self.family_ratios.get(family).copied().unwrap_or(self.modal_ratio)
+    }
+}
+
+/// Where the modes of one nodal diameter live.
+#[derive(Debug, Clone, Copy)]
+struct Segment {
+    single: bool,
+    /// Modes, padded.
+    length: usize,
+    /// Start in the coefficient arrays.
+    modes: usize,
+    /// Start in the state arrays (the imaginary part of a pair follows after `length`).
+    state: usize,
+    /// Fourier column of the real part (the imaginary part is the next).
+    column: usize,
+}
+
+/// Modal coordinates of the wheel under central differences, in increments:
+///
+/// ```text
+/// d⁺ = ((1 − ζωh) d − (ωh)² z)/(1 + ζωh),   z⁺ = z + d⁺          (Eq. 8, d = z − z⁻)
+/// ```
+///
+/// which is Eq. 8 exactly, but does not lose digits to the difference z − z⁻ at small steps. A force f̂ adds
+/// β φᴴ f̂ with β = h²/(1 + ζωh) (Eq. 10).
+#[derive(Debug, Clone)]
+pub(crate) struct Oscillators {
+    segments: Vec<Segment>,
+    step: f64,
+    /// (1 − ζωh)/(1 + ζωh)
+    keep: Vec<f64>,
+    /// (ωh)²/(1 + ζωh)
+    pull: Vec<f64>,
+    /// β
+    receptance: Vec<f64>,
+    /// ζω/(2h): energy lost in a step is Σ loss·(z⁺ − z⁻)².
+    loss: Vec<f64>,
+    /// ω²
+    stiffness: Vec<f64>,
+    z: Vec<f64>,
+    d: Vec<f64>,
+    /// z⁺ − z⁻ of the last free step, for the damping loss; empty without damping.
+    swing: Vec<f64>,
+}
+
+impl Oscillators {
+    /// At rest, steps of `step` seconds.
+    pub(crate) fn new(wheel: &ModalWheel, step: f64, damping: Option<&ModalDamping>) -> Self {
+        let mut this = Self {
+            segments: Vec::with_capacity(wheel.harmonics.len()),
+            step,
+            keep: Vec::new(),
+            pull: Vec::new(),
+            receptance: Vec::new(),
+            loss: Vec::new(),
+            stiffness: Vec::new(),
+            z: Vec::new(),
+            d: Vec::new(),
+            swing: Vec::new(),
+        };
+        let (mut state, mut column) = (0, 0);
+        for harmonic in &wheel.harmonics {
+            let length = padded(harmonic.omega.len());
+            let parts = if harmonic.single { 1 } else { 2 };
+            let modes = this.keep.len();
+            this.segments.push(Segment { single: harmonic.single, length, modes, state, column });
+            for family in 0..length {
+                let omega = harmonic.omega.get(family).copied().unwrap_or(0.0);
+                let zeta = damping.map_or(0.0, |damping| damping.ratio(family));
+                let damped = 1.0 + zeta * omega * step;
+                this.keep.push((1.0 - zeta * omega * step) / damped);
+                this.pull.push((omega * step).powi(2) / damped);
+                this.receptance.push(step * step / damped);
+                this.loss.push(zeta * omega / (2.0 * step));
+                this.stiffness.push(omega * omega);
+            }
+            state += parts * length;
+            column += parts;
+        }
+        this.z = vec![0.0; state];
+        this.d = vec![0.0; state];
+        if damping.is_some() {
+            this.swing = vec![0.0; state];
+        }
+        this
+    }
+
+    /// One free step of every oscillator; returns the energy lost to damping in it (0 unless `DAMPED`).
+    #[inline(always)]
+    pub(crate) fn advance<S: Simd, const DAMPED: bool>(&mut self, simd: S) -> f64 {
+        let mut lost = simd.splat_f64s(0.0);
+        for segment in &self.segments {
+            let coefficients = segment.modes..segment.modes + segment.length;
+            let keep = S::as_simd_f64s(&self.keep[coefficients.clone()]).0;
+            let pull = S::as_simd_f64s(&self.pull[coefficients.clone()]).0;
+            let loss = S::as_simd_f64s(&self.loss[coefficients]).0;
+            for part in 0..if segment.single { 1 } else { 2 } {
+                let range =
+                    segment.state + part * segment.length..segment.state + (part + 1) * segment.length;
+                let z = S::as_mut_simd_f64s(&mut self.z[range.clone()]).0;
+                let d = S::as_mut_simd_f64s(&mut self.d[range.clone()]).0;
+                if DAMPED {
+                    let swing = S::as_mut_simd_f64s(&mut self.swing[range]).0;
+                    for m in 0..z.len().min(d.len()).min(swing.len()) {
+                        let next = simd.sub_f64s(simd.mul_f64s(keep[m], d[m]), simd.mul_f64s(pull[m], z[m]));
+                        swing[m] = simd.add_f64s(next, d[m]);
+                        lost = simd.mul_add_e_f64s(loss[m], simd.mul_f64s(swing[m], swing[m]), lost);
+                        d[m] = next;
+                        z[m] = simd.add_f64s(z[m], next);
+                    }
+                } else {
+                    for ((z, d), &pull) in z.iter_mut().zip(d).zip(pull) {
+                        *d = simd.negate_mul_add_e_f64s(pull, *z, *d);
+                        *z = simd.add_f64s(*z, *d);
+                    }
+                }
+            }
+        }
+        if DAMPED { simd.reduce_sum_f64s(lost) } else { 0.0 }
+    }
+
+    /// Values of `rows` in Fourier coordinates: `out[column][row]`, rows padded to `rows.stride`.
+    #[inline(always)]
+    pub(crate) fn project<S: Simd>(&self, simd: S, rows: &Rows, out: &mut [f64]) {
+        for (segment, block) in self.segments.iter().zip(&rows.blocks) {
+            let re = S::as_simd_f64s(&self.z[segment.state..][..segment.length]).0;
+            let out = &mut out[segment.column * rows.stride..];
+            if segment.single {
+                project_single(simd, re, block, segment.length, rows.count, out);
+            } else {
+                let im = S::as_simd_f64s(&self.z[segment.state + segment.length..][..segment.length]).0;
+                let (out_re, out_im) = out.split_at_mut(rows.stride);
+                project_pair(simd, re, im, block, segment.length, rows.count, out_re, out_im);
+            }
+        }
+    }
+
+    /// Adds the displacement that forces on `rows` cause within this step (Eq. 10): `force[column][row]` in
+    /// Fourier coordinates, only rows listed in `loaded`. Returns the further energy lost to damping.
+    #[inline(always)]
+    pub(crate) fn correct<S: Simd, const DAMPED: bool>(
+        &mut self,
+        simd: S,
+        rows: &Rows,
+        loaded: &[usize],
+        force: &[f64],
+    ) -> f64 {
+        let mut lost = simd.splat_f64s(0.0);
+        let two = simd.splat_f64s(2.0);
+        for (segment, block) in self.segments.iter().zip(&rows.blocks) {
+            let length = segment.length;
+            let vectors = length / S::F64_LANES;
+            let coefficients = segment.modes..segment.modes + length;
+            let receptance = S::as_simd_f64s(&self.receptance[coefficients.clone()]).0;
+            let loss = S::as_simd_f64s(&self.loss[coefficients]).0;
+            let block_re = S::as_simd_f64s(&block.re).0;
+            let block_im = S::as_simd_f64s(&block.im).0;
+            for part in 0..if segment.single { 1 } else { 2 } {
+                let range = segment.state + part * length..segment.state + (part + 1) * length;
+                let z = S::as_mut_simd_f64s(&mut self.z[range.clone()]).0;
+                let swing = S::as_simd_f64s(&self.swing[if DAMPED { range.clone() } else { 0..0 }]).0;
+                let d = S::as_mut_simd_f64s(&mut self.d[range]).0;
+                for m in 0..vectors {
+                    let mut modal = simd.splat_f64s(0.0);
+                    for &row in loaded {
+                        let at = row * vectors + m;
+                        let f_re = simd.splat_f64s(force[segment.column * rows.stride + row]);
+                        if segment.single {
+                            modal = simd.mul_add_e_f64s(block_re[at], f_re, modal);
+                            continue;
+                        }
+                        // φᴴ f̂: (φ_re − jφ_im)(f_re + jf_im)
+                        let f_im = simd.splat_f64s(force[(segment.column + 1) * rows.stride + row]);
+                        if part == 0 {
+                            modal = simd.mul_add_e_f64s(block_re[at], f_re, modal);
+                            modal = simd.mul_add_e_f64s(block_im[at], f_im, modal);
+                        } else {
+                            modal = simd.mul_add_e_f64s(block_re[at], f_im, modal);
+                            modal = simd.negate_mul_add_e_f64s(block_im[at], f_re, modal);
+                        }
+                    }
+                    let moved = simd.mul_f64s(receptance[m], modal);
+                    if DAMPED {
+                        let change = simd.mul_f64s(moved, simd.mul_add_e_f64s(two, swing[m], moved));
+                        lost = simd.mul_add_e_f64s(loss[m], change, lost);
+                    }
+                    z[m] = simd.add_f64s(z[m], moved);
+                    d[m] = simd.add_f64s(d[m], moved);
+                }
+            }
+        }
+        if DAMPED { simd.reduce_sum_f64s(lost) } else { 0.0 }
+    }
+
+    /// E^{q+½} = ½ vᵀMv + ½ u_qᵀ K u_{q+1} of the last step (§8).
+    pub(crate) fn energy(&self) -> f64 {
+        let mut twice = 0.0;
+        for segment in &self.segments {
+            for part in 0..if segment.single { 1 } else { 2 } {
+                let start = segment.state + part * segment.length;
+                for m in 0..segment.length {
+                    let (z, d) = (self.z[start + m], self.d[start + m]);
+                    let velocity = d / self.step;
+                    twice += velocity * velocity + self.stiffness[segment.modes + m] * (z - d) * z;
+                }
+            }
+        }
+        0.5 * twice
+    }
+
+    /// h, s.
+    pub(crate) fn step(&self) -> f64 {
+        self.step
+    }
+
+    /// β of the modes of nodal diameter `harmonic`, padding excluded by the caller's row length.
+    pub(crate) fn receptance(&self, harmonic: usize) -> &[f64] {
+        let segment = &self.segments[harmonic];
+        &self.receptance[segment.modes..][..segment.length]
+    }
+}
+
+#[inline(always)]
+fn project_single<S: Simd>(
+    simd: S,
+    re: &[S::f64s],
+    block: &RowBlock,
+    length: usize,
+    count: usize,
+    out: &mut [f64],
+) {
+    for (row, out) in out[..count].iter_mut().enumerate() {
+        let phi = S::as_simd_f64s(&block.re[row * length..][..length]).0;
+        let mut sum = simd.splat_f64s(0.0);
+        for (&phi, &re) in phi.iter().zip(re) {
+            sum = simd.mul_add_e_f64s(phi, re, sum);
+        }
+        *out = simd.reduce_sum_f64s(sum);
+    }
+}
+
+/// Four rows at a time share the loads of z and keep eight sums in flight.
+#[inline(always)]
+#[expect(clippy::too_many_arguments, reason = "a kernel's operands")]
+fn project_pair<S: Simd>(
+    simd: S,
+    re: &[S::f64s],
+    im: &[S::f64s],
+    block: &RowBlock,
+    length: usize,
+    count: usize,
+    out_re: &mut [f64],
+    out_im: &mut [f64],
+) {
+    let mut row = 0;
+    while row + 4 <= count {
+        project_rows::<S, 4>(simd, re, im, block, length, row, out_re, out_im);
+        row += 4;
+    }
+    while row < count {
+        project_rows::<S, 1>(simd, re, im, block, length, row, out_re, out_im);
+        row += 1;
+    }
+}
+
+#[inline(always)]
+#[expect(clippy::too_many_arguments, reason = "a kernel's operands")]
+fn project_rows<S: Simd, const R: usize>(
+    simd: S,
+    re: &[S::f64s],
+    im: &[S::f64s],
+    block: &RowBlock,
+    length: usize,
+    row: usize,
+    out_re: &mut [f64],
+    out_im: &mut [f64],
+) {
+    let phi_re: [&[S::f64s]; R] =
+        std::array::from_fn(|r| S::as_simd_f64s(&block.re[(row + r) * length..][..length]).0);
+    let phi_im: [&[S::f64s]; R] =
+        std::array::from_fn(|r| S::as_simd_f64s(&block.im[(row + r) * length..][..length]).0);
+    let mut sum_re = [simd.splat_f64s(0.0); R];
+    let mut sum_im = [simd.splat_f64s(0.0); R];
+    for m in 0..re.len().min(im.len()) {
+        let (a, b) = (re[m], im[m]);
+        for r in 0..R {
+            let (p, q) = (phi_re[r][m], phi_im[r][m]);
+            sum_re[r] = simd.mul_add_e_f64s(p, a, sum_re[r]);
+            sum_re[r] = simd.negate_mul_add_e_f64s(q, b, sum_re[r]);
+            sum_im[r] = simd.mul_add_e_f64s(p, b, sum_im[r]);
+            sum_im[r] = simd.mul_add_e_f64s(q, a, sum_im[r]);
+        }
+    }
+    for r in 0..R {
+        out_re[row + r] = simd.reduce_sum_f64s(sum_re[r]);
+        out_im[row + r] = simd.reduce_sum_f64s(sum_im[r]);
+    }
+}
+
+/// Scalar displacements to be read or loaded: one row a contact normal or a sensor, for every nodal diameter.
+#[derive(Debug, Clone)]
+pub(crate) struct Rows {
+    /// Number of rows.
+    pub(crate) count: usize,
+    /// Rows padded to whole vectors.
+    pub(crate) stride: usize,
+    blocks: Vec<RowBlock>,
+}
+
+/// dᵀφ_m of each row direction d: row-major `[row][mode]`, modes padded.
+#[derive(Debug, Clone)]
+struct RowBlock {
+    re: Vec<f64>,
+    im: Vec<f64>,
+}
+
+/// A displacement direction at a contact node in (r, θ, z) components.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Direction {
+    /// Contact node, from the leading edge.
+    pub node: usize,
+    /// Components of the direction.
+    pub components: [f64; 3],
+}
+
+impl Rows {
+    pub(crate) fn new(wheel: &ModalWheel, directions: &[Direction]) -> Self {
+        let blocks = wheel.harmonics.iter().map(|h| row_block(&h.contact, directions)).collect();
+        Self { count: directions.len(), stride: padded(directions.len()), blocks }
+    }
+
+    /// dᵀφ of row `row` over the padded modes of nodal diameter `harmonic`.
+    pub(crate) fn row(&self, harmonic: usize, row: usize) -> (&[f64], &[f64]) {
+        let block = &self.blocks[harmonic];
+        let length = block.re.len() / self.count;
+        (&block.re[row * length..][..length], &block.im[row * length..][..length])
+    }
+}
+
+fn row_block(contact: &Mat<c64>, directions: &[Direction]) -> RowBlock {
+    let length = padded(contact.ncols());
+    let mut block =
+        RowBlock { re: vec![0.0; directions.len() * length], im: vec![0.0; directions.len() * length] };
+    for (row, direction) in directions.iter().enumerate() {
+        for m in 0..contact.ncols() {
+            let value: c64 =
+                (0..3).map(|c| contact[(3 * direction.node + c, m)] * direction.components[c]).sum();
+            block.re[row * length + m] = value.re;
+            block.im[row * length + m] = value.im;
+        }
+    }
+    block
+}

@@ -1,0 +1,124 @@
+//! Can K(Ω) be trusted between the given speeds? (METHOD §3, the deformed-geometry trap)
+//!
+//! On the undeformed geometry K is linear in Ω²: K2 vanishes to round-off, and eigenvalues are smooth in Ω². Tangents
+//! of a geometrically non-linear step sit on the deformed geometry; every stiff entry moves with the deformation, K2
+//! does not vanish, and the interpolant is right at the three speeds and wrong between them.
+
+use faer::sparse::SparseColMat;
+use serde::{Deserialize, Serialize};
+
+use super::ReducedHarmonic;
+use crate::dynamics::error::ModelError;
+use crate::dynamics::sector::SectorModel;
+use crate::numerics::hermitian::{EigenError, generalised_eigenvalues};
+
+/// The verdict on K(Ω).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum InterpolationVerdict {
+    /// One stiffness matrix: nothing to interpolate.
+    Absent,
+    /// Linear in Ω², as on the undeformed geometry.
+    Sound,
+    /// K2 does not vanish: a sign of deformed-geometry stiffness; usable with the stated error.
+    Suspect,
+    /// K(Ω) is indefinite, or the lowest frequencies are not smooth, between the given speeds.
+    Unsound,
+}
+
+/// What was found about K(Ω).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct InterpolationCheck {
+    /// The verdict.
+    pub verdict: InterpolationVerdict,
+    /// ‖Ω1²K1‖/‖K0‖ (largest entries of the sector's own block).
+    pub linear_ratio: f64,
+    /// ‖Ω1⁴K2‖/‖K0‖ (largest entries).
+    pub quadratic_ratio: f64,
+    /// Largest relative deviation, at ¼ and ¾ Ω1, of the lowest frequency of any nodal diameter from the smooth curve
+    /// through its values at the given speeds: an estimate of the interpolation error. Infinite where K(Ω) is
+    /// indefinite there.
+    pub frequency_error: f64,
+}
+
+/// K2 entries above this fraction of K0's cannot be the round-off of matrices written with six digits or more.
+const QUADRATIC_LIMIT: f64 = 1e-5;
+
+/// Deviations of the lowest frequencies beyond this are no smooth curve any more.
+const FREQUENCY_LIMIT: f64 = 0.01;
+
+pub(super) fn check(
+    sector: &SectorModel,
+    harmonics: &[ReducedHarmonic],
+) -> Result<InterpolationCheck, ModelError> {
+    let [_, a, b] = *sector.speeds_rad_s else {
+        return Ok(InterpolationCheck {
+            verdict: InterpolationVerdict::Absent,
+            linear_ratio: 0.0,
+            quadratic_ratio: 0.0,
+            frequency_error: 0.0,
+        });
+    };
+    let (linear_ratio, quadratic_ratio) = entry_ratios(sector, a * a, b * b);
+    let mut frequency_error: f64 = 0.0;
+    for harmonic in harmonics {
+        frequency_error = frequency_error.max(lowest_frequency_deviation(harmonic, a, b)?);
+    }
+    let verdict = if frequency_error > FREQUENCY_LIMIT {
+        InterpolationVerdict::Unsound
+    } else if quadratic_ratio > QUADRATIC_LIMIT {
+        InterpolationVerdict::Suspect
+    } else {
+        InterpolationVerdict::Sound
+    };
+    Ok(InterpolationCheck { verdict, linear_ratio, quadratic_ratio, frequency_error })
+}
+
+/// (‖Ω1²K1‖, ‖Ω1⁴K2‖)/‖K0‖ with xa, xb the squares of the middle and the last speed.
+fn entry_ratios(sector: &SectorModel, xa: f64, xb: f64) -> (f64, f64) {
+    let largest = |matrix: &SparseColMat<usize, f64>| matrix.val().iter().fold(0.0f64, |m, v| m.max(v.abs()));
+    let [k0, ka, kb] = [0, 1, 2].map(|i| &sector.stiffness[i].own);
+    let scaled = |matrix: &SparseColMat<usize, f64>, factor: f64| {
+        let mut matrix = matrix.clone();
+        matrix.val_mut().iter_mut().for_each(|v| *v *= factor);
+        matrix
+    };
+    // Divided differences, as in the fit, scaled to Ω1² K1 and Ω1⁴ K2.
+    let slope_a = scaled(&(ka - k0), xb / xa);
+    let slope_b = kb - k0;
+    let quadratic = scaled(&(&slope_b - &slope_a), xb / (xb - xa));
+    let linear = &slope_a - &scaled(&quadratic, xa / xb);
+    let scale = largest(k0);
+    (largest(&linear) / scale, largest(&quadratic) / scale)
+}
+
+/// |f − f_smooth|/f at ¼ and ¾ of the last speed, where f_smooth² is the parabola in Ω² through the lowest
+/// eigenvalues at the three given speeds.
+fn lowest_frequency_deviation(harmonic: &ReducedHarmonic, a: f64, b: f64) -> Result<f64, ModelError> {
+    let lowest = |speed_rad_s: f64| -> Result<f64, ModelError> {
+        let nodal_diameter = harmonic.harmonic;
+        let stiffness = harmonic.stiffness.at(speed_rad_s, true);
+        match generalised_eigenvalues(stiffness.as_ref(), harmonic.mass.as_ref()) {
+            Ok(values) => Ok(values[0]),
+            Err(EigenError::MassNotPositiveDefinite) => {
+                Err(ModelError::MassNotPositiveDefinite { nodal_diameter })
+            }
+            Err(EigenError::NotConverged) => {
+                Err(ModelError::DecompositionFailed { nodal_diameter, speed_rad_s })
+            }
+        }
+    };
+    let (xa, xb) = (a * a, b * b);
+    let (l0, la, lb) = (lowest(0.0)?, lowest(a)?, lowest(b)?);
+    let slope = (la - l0) / xa;
+    let curvature = ((lb - l0) / xb - slope) / (xb - xa);
+    let mut worst: f64 = 0.0;
+    for speed in [0.25 * b, 0.75 * b] {
+        let x = speed * speed;
+        let found = lowest(speed)?;
+        let smooth = l0 + slope * x + curvature * x * (x - xa);
+        let deviation =
+            if found > 0.0 && smooth > 0.0 { ((found / smooth).sqrt() - 1.0).abs() } else { f64::INFINITY };
+        worst = worst.max(deviation);
+    }
+    Ok(worst)
+}

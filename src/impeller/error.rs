@@ -1,0 +1,40 @@
+//! Why a finite-element model could not be made.
+
+/// Refusals of the generator; each names the field or the element at fault.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ImpellerError {
+    /// A parameter lies outside its range.
+    #[error("parameter `{field}` = {value}: {requirement}")]
+    Parameter {
+        /// Field of the parameter set.
+        field: &'static str,
+        /// Its value, as given.
+        value: String,
+        /// What it must satisfy.
+        requirement: &'static str,
+    },
+    /// An element is turned inside out or collapsed.
+    #[error(
+        "element {element} near r = {radius:.4}, z = {axial:.4} is degenerate or turned inside out (smallest Jacobian \
+         determinant {determinant:.3e}): use a finer mesh there, or less wrap, backsweep or thickness"
+    )]
+    Jacobian {
+        /// Number of the element, from 1.
+        element: usize,
+        /// Radius of its centre.
+        radius: f64,
+        /// Axial position of its centre.
+        axial: f64,
+        /// Smallest Jacobian determinant over its corners.
+        determinant: f64,
+    },
+    /// The stiffness matrix at rest has no Cholesky factor.
+    #[error("the sector's stiffness at rest is not positive definite: is anything clamped?")]
+    NotPositiveDefinite,
+    /// The sparse factorisation could not be built.
+    #[error("the sector's stiffness at rest could not be factorised: {detail}")]
+    Factorisation {
+        /// What the linear algebra library reported.
+        detail: String,
+    },
+}

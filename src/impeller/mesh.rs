@@ -1,0 +1,112 @@
+//! A hexahedral mesh of one sector and what ties it to the rest of the wheel.
+
+use super::element::{CORNERS, jacobian_determinant};
+use super::error::ImpellerError;
+
+/// Nodes and 8-node hexahedra, in Cartesian coordinates; z is the axis of rotation.
+#[derive(Debug, Clone, Default)]
+pub struct HexMesh {
+    /// Cartesian positions.
+    pub nodes: Vec<[f64; 3]>,
+    /// Node indices per element: the face ζ = −1 counter-clockwise seen from inside, then the face ζ = +1.
+    pub elements: Vec<[usize; 8]>,
+}
+
+/// A tip node that may touch the casing.
+#[derive(Debug, Clone, Copy)]
+pub struct TipNode {
+    /// Node index.
+    pub node: usize,
+    /// Outward unit normal in (r, θ, z) components at the node.
+    pub normal: [f64; 3],
+}
+
+/// The mesh of one sector with its supports, its cyclic faces and its contact nodes.
+#[derive(Debug, Clone)]
+pub struct SectorMesh {
+    /// Number N of sectors in the wheel.
+    pub sectors: usize,
+    /// Nodes and elements.
+    pub mesh: HexMesh,
+    /// Per node, which of its (r, θ, z) displacements are clamped.
+    pub clamped: Vec<[bool; 3]>,
+    /// Pairs (low node, high node); the high node is the low node turned by +2π/N.
+    pub cyclic: Vec<(usize, usize)>,
+    /// Contact nodes from leading to trailing edge.
+    pub contact: Vec<TipNode>,
+}
+
+impl HexMesh {
+    /// Corner positions of an element.
+    pub fn corners(&self, element: usize) -> [[f64; 3]; 8] {
+        self.elements[element].map(|node| self.nodes[node])
+    }
+
+    /// Angle θ of a node about the z axis; 0 on the axis.
+    pub fn angle(&self, node: usize) -> f64 {
+        let [x, y, _] = self.nodes[node];
+        y.atan2(x)
+    }
+
+    /// Refuses a mesh with an element whose Jacobian determinant is not positive at all eight corners.
+    ///
+    /// # Errors
+    /// [`ImpellerError::Jacobian`] names the first such element.
+    pub fn check_jacobians(&self) -> Result<(), ImpellerError> {
+        for element in 0..self.elements.len() {
+            let x = self.corners(element);
+            let mut centre = [0.0; 3];
+            for corner in &x {
+                for (sum, value) in centre.iter_mut().zip(corner) {
+                    *sum += value / 8.0;
+                }
+            }
+            let determinant =
+                CORNERS.iter().map(|&corner| jacobian_determinant(&x, corner)).fold(f64::INFINITY, f64::min);
+            if determinant.is_nan() || determinant <= 0.0 {
+                return Err(ImpellerError::Jacobian {
+                    element: element + 1,
+                    radius: centre[0].hypot(centre[1]),
+                    axial: centre[2],
+                    determinant,
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A structured block of nodes numbered on demand: `(i, j, k)` with `i` fastest.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Grid {
+    /// Nodes in each direction.
+    pub(super) size: [usize; 3],
+    /// Number of the first node.
+    pub(super) first: usize,
+}
+
+impl Grid {
+    /// Node number of grid point `(i, j, k)`.
+    pub(super) fn node(&self, i: usize, j: usize, k: usize) -> usize {
+        self.first + i + self.size[0] * (j + self.size[1] * k)
+    }
+
+    /// Number of nodes in the block.
+    pub(super) fn len(&self) -> usize {
+        self.size.iter().product()
+    }
+}
+
+/// The eight nodes of cell `(i, j, k)` of a block whose points `node` numbers: ξ along i, η along j, ζ along k.
+pub(super) fn cell(node: impl Fn(usize, usize, usize) -> usize, i: usize, j: usize, k: usize) -> [usize; 8] {
+    [
+        node(i, j, k),
+        node(i + 1, j, k),
+        node(i + 1, j + 1, k),
+        node(i, j + 1, k),
+        node(i, j, k + 1),
+        node(i + 1, j, k + 1),
+        node(i + 1, j + 1, k + 1),
+        node(i, j + 1, k + 1),
+    ]
+}

@@ -1,0 +1,46 @@
+//! Our own finite-element models as packages: a parametric centrifugal impeller, and small models for tests.
+//!
+//! [`generate`] runs top to bottom: parameters → sector mesh → M, `K_e` → centrifugal pre-stress → `K_σ` and spin
+//! softening → package. Everything after the mesh knows only [`mesh::SectorMesh`], so another geometry is another
+//! function that makes one ([`cantilever()`]), and another element is a change inside [`element`].
+//!
+//! The matrices are honest: `K(Ω) = K_e + K_σ(Ω) − Ω² M_spin` on the undeformed geometry (METHOD §3), exactly
+//! linear in Ω². There are no gyroscopic terms, as in the package format.
+
+mod assembly;
+mod cantilever;
+mod curves;
+pub mod element;
+mod error;
+mod material;
+mod matrices;
+pub mod mesh;
+mod parameters;
+mod prestress;
+mod sector_mesh;
+mod to_package;
+
+pub use assembly::{SectorDofs, assemble, cylindrical_frame};
+pub use cantilever::{CantileverParameters, cantilever, cantilever_mesh};
+pub use error::ImpellerError;
+pub use material::Material;
+pub use matrices::SectorMatrices;
+pub use parameters::{ImpellerParameters, MeshDensities};
+pub use prestress::PreStress;
+pub use sector_mesh::impeller_sector;
+pub use to_package::to_package;
+
+use crate::package::raw::RawPackage;
+
+/// Makes the model package of one impeller sector.
+///
+/// # Errors
+/// [`ImpellerError`] names the parameter or the element at fault.
+pub fn generate(parameters: &ImpellerParameters) -> Result<RawPackage, ImpellerError> {
+    let sector = impeller_sector(parameters)?;
+    let name = format!(
+        "rubmap impeller, {} sectors, outlet radius {} {}",
+        parameters.sectors, parameters.outlet_radius, parameters.units.length
+    );
+    to_package(&name, &sector, &parameters.material, &parameters.units, parameters.top_speed_rad_s)
+}

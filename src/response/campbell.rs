@@ -1,0 +1,293 @@
+//! Campbell data and the linear interaction criterion (§9; Eq. 11).
+
+use std::f64::consts::TAU;
+
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+/// A natural frequency that equals an engine order: where the linear criterion expects an interaction.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Crossing {
+    /// Nodal diameter i.
+    pub nodal_diameter: u32,
+    /// Modal family j, from 1.
+    pub family: u32,
+    /// Superharmonic number n with f = i·n·Ω/2π.
+    pub superharmonic: u32,
+    /// Ω in rad/s.
+    pub speed_rad_s: f64,
+    /// Frequency in the rotating frame, Hz (per unit of time of the model).
+    pub frequency_hz: f64,
+}
+
+/// A crossing that the casing's lobes can drive: f = kΩ/2π with k a multiple of the lobe count that aliases onto i.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct DrivenCrossing {
+    /// Nodal diameter i = fold(k).
+    pub nodal_diameter: u32,
+    /// Modal family j, from 1.
+    pub family: u32,
+    /// Engine order k, a multiple of the lobe count.
+    pub engine_order: u32,
+    /// Ω in rad/s.
+    pub speed_rad_s: f64,
+    /// Frequency in the rotating frame, Hz.
+    pub frequency_hz: f64,
+}
+
+/// Nodal diameter that engine order `order` drives on `sectors` sectors: |k − N·round(k/N)| (aliasing).
+pub fn fold(order: u32, sectors: u32) -> u32 {
+    let rest = order % sectors;
+    rest.min(sectors - rest)
+}
+
+/// f_a = |−f + i·n·Ω/2π| of Eq. 11, f in Hz, Ω in rad/s.
+pub fn absolute_frequency(
+    frequency_hz: f64,
+    nodal_diameter: u32,
+    superharmonic: u32,
+    speed_rad_s: f64,
+) -> f64 {
+    (f64::from(nodal_diameter * superharmonic) * speed_rad_s / TAU - frequency_hz).abs()
+}
+
+/// Natural frequencies over speed: `frequency(Ω, i)` in Hz for all families of nodal diameter i, ascending.
+pub trait Frequencies {
+    /// Why a frequency could not be computed.
+    type Error;
+
+    /// Frequencies in Hz of nodal diameter `nodal_diameter` at `speed_rad_s`, ascending, at least as many as asked
+    /// for where the model has them.
+    fn at(&self, speed_rad_s: f64, nodal_diameter: u32) -> Result<Vec<f64>, Self::Error>;
+}
+
+/// All speeds in the range of `grid` (ascending, rad/s) at which a frequency of the first `families` equals engine
+/// order `order`: sign changes of kΩ/2π − f between neighbouring grid points, refined by bisection and secant steps
+/// on newly computed frequencies.
+fn roots<F: Frequencies>(
+    frequencies: &F,
+    table: &[Vec<Vec<f64>>],
+    grid: &[f64],
+    nodal_diameter: u32,
+    family: usize,
+    order: u32,
+) -> Result<Vec<(f64, f64)>, F::Error> {
+    let slope = f64::from(order) / TAU;
+    let excess = |point: usize| {
+        let found = table[point][nodal_diameter as usize].get(family);
+        found.map(|f| slope * grid[point] - f)
+    };
+    let mut found = Vec::new();
+    for point in 0..grid.len() {
+        let Some(here) = excess(point) else { return Ok(found) };
+        if here == 0.0 {
+            found.push((grid[point], slope * grid[point]));
+        }
+        if point + 1 == grid.len() {
+            break;
+        }
+        let Some(there) = excess(point + 1) else { return Ok(found) };
+        if here * there < 0.0 {
+            let (mut low, mut high) = ((grid[point], here), (grid[point + 1], there));
+            // Regula falsi with halving (Illinois): monotone brackets, a handful of eigenvalue solutions.
+            let mut kept = 0;
+            for _ in 0..60 {
+                let speed = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
+                let value = slope * speed - frequencies.at(speed, nodal_diameter)?[family];
+                if value == 0.0 || (high.0 - low.0) <= 1e-12 * high.0 || value.abs() <= 1e-12 * slope * speed
+                {
+                    low = (speed, value);
+                    break;
+                }
+                if value * low.1 > 0.0 {
+                    low = (speed, value);
+                    if kept == 1 {
+                        high.1 *= 0.5;
+                    }
+                    kept = 1;
+                } else {
+                    high = (speed, value);
+                    if kept == -1 {
+                        low.1 *= 0.5;
+                    }
+                    kept = -1;
+                }
+            }
+            found.push((low.0, slope * low.0));
+        }
+    }
+    Ok(found)
+}
+
+/// The linear criterion: roots of f_a = 0 for every nodal diameter, the first `families` and each superharmonic number,
+/// in ascending speed. `table` is `[grid point][nodal diameter][family]` in Hz.
+pub fn crossings<F: Frequencies>(
+    frequencies: &F,
+    table: &[Vec<Vec<f64>>],
+    grid: &[f64],
+    families: usize,
+    superharmonics: &[u32],
+) -> Result<Vec<Crossing>, F::Error> {
+    let harmonics = table.first().map_or(0, Vec::len) as u32;
+    let mut all = Vec::new();
+    for nodal_diameter in 1..harmonics {
+        for family in 0..families {
+            for &superharmonic in superharmonics {
+                let order = nodal_diameter * superharmonic;
+                for (speed_rad_s, frequency_hz) in
+                    roots(frequencies, table, grid, nodal_diameter, family, order)?
+                {
+                    all.push(Crossing {
+                        nodal_diameter,
+                        family: family as u32 + 1,
+                        superharmonic,
+                        speed_rad_s,
+                        frequency_hz,
+                    });
+                }
+            }
+        }
+    }
+    all.sort_by(|a, b| a.speed_rad_s.total_cmp(&b.speed_rad_s));
+    Ok(all)
+}
+
+/// Crossings that `lobes` equal lobes can drive: f = kΩ/2π with k a multiple of `lobes` and fold(k) = i, for all k
+/// that reach the first `families` within the range; in ascending speed.
+pub fn driven_crossings<F: Frequencies>(
+    frequencies: &F,
+    table: &[Vec<Vec<f64>>],
+    grid: &[f64],
+    families: usize,
+    lobes: u32,
+    sectors: u32,
+) -> Result<Vec<DrivenCrossing>, F::Error> {
+    let mut all = Vec::new();
+    let slowest = grid.iter().copied().find(|&speed| speed > 0.0);
+    let (Some(slowest), true) = (slowest, lobes > 0) else { return Ok(all) };
+    let highest = table.iter().flatten().flat_map(|f| f.iter().take(families)).fold(0.0f64, |m, &f| m.max(f));
+    let last_order = (highest * TAU / slowest).ceil().min(f64::from(HIGHEST_ORDER)) as u32;
+    for order in (lobes..=last_order).step_by(lobes as usize) {
+        let nodal_diameter = fold(order, sectors);
+        for family in 0..families {
+            for (speed_rad_s, frequency_hz) in roots(frequencies, table, grid, nodal_diameter, family, order)?
+            {
+                all.push(DrivenCrossing {
+                    nodal_diameter,
+                    family: family as u32 + 1,
+                    engine_order: order,
+                    speed_rad_s,
+                    frequency_hz,
+                });
+            }
+        }
+    }
+    all.sort_by(|a, b| a.speed_rad_s.total_cmp(&b.speed_rad_s));
+    Ok(all)
+}
+
+/// Engine orders beyond this carry no energy a lobe could give them and are left out of the driven crossings.
+pub const HIGHEST_ORDER: u32 = 200;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// f² = f0² + BΩ² fitted to the paper's Table 2 (BENCHMARKS.md): per nodal diameter (f0, B) of families 1 and 2.
+    struct PaperFit;
+
+    /// (i, j, f0, B). Family (1,1) has one row only: f = 12.0 at Ω = 4.0; B of its neighbours makes f0 9.4.
+    const FIT: [(u32, usize, f64, f64); 8] = [
+        (2, 1, 9.749, 3.43),
+        (3, 1, 10.003, 2.88),
+        (4, 1, 9.994, 2.83),
+        (5, 1, 9.882, 3.34),
+        (2, 2, 19.393, 2.98),
+        (3, 2, 20.291, 5.38),
+        (4, 2, 20.762, 3.33),
+        (5, 2, 21.013, 3.17),
+    ];
+
+    impl Frequencies for PaperFit {
+        type Error = std::convert::Infallible;
+
+        fn at(&self, speed: f64, nodal_diameter: u32) -> Result<Vec<f64>, Self::Error> {
+            // The paper's unit of frequency is its unit of speed: an engine order is f = kΩ, here kΩ/2π.
+            let omega = speed / TAU;
+            let family = |j: usize| {
+                let row = FIT.iter().find(|row| row.0 == nodal_diameter && row.1 == j);
+                row.map_or(1e3, |&(_, _, f0, b)| (f0 * f0 + b * omega * omega).sqrt())
+            };
+            Ok(vec![family(1), family(2)])
+        }
+    }
+
+    #[test]
+    fn finds_table_2_of_the_paper() {
+        let table_2 = [
+            (0.67, 5, 1, 3),
+            (0.83, 4, 1, 3),
+            (1.00, 5, 1, 2),
+            (1.12, 3, 1, 3),
+            (1.29, 4, 1, 2),
+            (1.42, 5, 2, 3),
+            (1.71, 2, 1, 3),
+            (1.75, 3, 1, 2),
+            (1.75, 4, 2, 3),
+            (2.12, 5, 1, 1),
+            (2.12, 5, 2, 2),
+            (2.33, 3, 2, 3),
+            (2.67, 4, 2, 2),
+            (2.75, 4, 1, 1),
+            (2.75, 2, 1, 2),
+            (3.37, 2, 2, 3),
+            (3.67, 3, 2, 2),
+            (4.04, 3, 1, 1),
+            (4.50, 5, 2, 1),
+            (5.37, 2, 2, 2),
+            (5.83, 4, 2, 1),
+        ];
+        let grid: Vec<f64> = (0..=24).map(|i| TAU * 0.25 * f64::from(i)).collect();
+        let table: Vec<Vec<Vec<f64>>> =
+            grid.iter().map(|&s| (0..=5).map(|i| PaperFit.at(s, i).unwrap()).collect()).collect();
+        let found = crossings(&PaperFit, &table, &grid, 2, &[1, 2, 3]).unwrap();
+        assert_eq!(found.len(), table_2.len(), "{found:#?}");
+        for (omega, i, j, n) in table_2 {
+            let row =
+                found.iter().find(|c| (c.nodal_diameter, c.family, c.superharmonic) == (i, j, n)).unwrap();
+            // The paper's speeds sit on a grid of 1/24, then two decimals.
+            let snapped = (row.speed_rad_s / TAU * 24.0).round() / 24.0;
+            assert!((snapped - omega).abs() < 0.0051, "({i},{j},{n}): {snapped} for {omega}");
+            let f = PaperFit.at(row.speed_rad_s, i).unwrap()[j as usize - 1];
+            assert!(absolute_frequency(f, i, n, row.speed_rad_s) < 1e-9);
+        }
+    }
+
+    #[test]
+    fn engine_orders_alias_onto_nodal_diameters() {
+        assert_eq!([0, 2, 5, 6, 8, 10, 14].map(|k| fold(k, 10)), [0, 2, 5, 4, 2, 0, 4]);
+        assert_eq!([3, 4, 7].map(|k| fold(k, 7)), [3, 3, 0]);
+        assert_eq!(fold(5, 1), 0);
+    }
+
+    #[test]
+    fn driven_crossings_are_multiples_of_the_lobe_count_on_their_alias() {
+        let grid: Vec<f64> = (2..=24).map(|i| TAU * 0.25 * f64::from(i)).collect();
+        let table: Vec<Vec<Vec<f64>>> =
+            grid.iter().map(|&s| (0..=5).map(|i| PaperFit.at(s, i).unwrap()).collect()).collect();
+        let found = driven_crossings(&PaperFit, &table, &grid, 2, 2, 10).unwrap();
+        assert!(!found.is_empty());
+        for c in &found {
+            assert_eq!(c.engine_order % 2, 0);
+            assert_eq!(fold(c.engine_order, 10), c.nodal_diameter);
+            assert!(
+                (c.frequency_hz - f64::from(c.engine_order) * c.speed_rad_s / TAU).abs()
+                    < 1e-12 * c.frequency_hz
+            );
+        }
+        assert!(
+            found.iter().any(|c| (c.nodal_diameter, c.engine_order) == (4, 6)),
+            "aliased orders count too"
+        );
+    }
+}
