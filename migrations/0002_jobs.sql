@@ -54,7 +54,9 @@ create index speeds_by_status on speed_results (job, status);
 create table documents (
     job         text    not null references jobs (id) on delete cascade,
     name        text    not null check (name in ('campbell', 'critical_speeds')),
+    -- Index of the sensor for critical_speeds, which has one document for each; otherwise 0.
+    part        integer not null check (part >= 0),
     body        text    not null check (json_valid(body)),
     created_at  text    not null,
-    primary key (job, name)
+    primary key (job, name, part)
 ) strict;

@@ -66,8 +66,6 @@ impl App {
     /// Opens the data folder, binds the address and resumes unfinished jobs.
     pub async fn build(config: Config) -> Result<Self, StartError> {
         let lock = lock(&config.data)?;
-        // Parallelism is over speeds and jobs. Inside, one thread keeps every bit the same for any number of workers.
-        faer::set_global_parallelism(faer::Par::Seq);
         let store = Store::open(&config.data).await?;
         let bind = |source| StartError::Bind { addr: config.addr, source };
         let listener = TcpListener::bind(config.addr).await.map_err(bind)?;

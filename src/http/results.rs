@@ -30,6 +30,16 @@ pub(super) struct MapQuery {
     nodal_diameter: Option<u32>,
 }
 
+/// Which table of critical speeds to download.
+#[derive(Debug, Deserialize, IntoParams)]
+#[serde(deny_unknown_fields)]
+#[into_params(parameter_in = Query)]
+pub(super) struct SensorQuery {
+    /// Index of the sensor in the request; default 0.
+    #[serde(default)]
+    sensor: u32,
+}
+
 /// One speed of a sweep.
 #[derive(Debug, Serialize, ToSchema)]
 pub(super) struct SpectraBody {
@@ -63,10 +73,7 @@ pub(super) async fn get_interaction_map(
 ) -> Result<Json<InteractionMap>, Problem> {
     let job = find(&state, id).await?;
     let request = sweep(&job)?;
-    if query.sensor as usize >= request.sensors.len() {
-        let detail = format!("the job has {} sensors, counted from 0", request.sensors.len());
-        return Err(Problem::parameter("sensor", detail));
-    }
+    check_sensor(request, query.sensor)?;
     let largest = job.facts.sectors / 2;
     if query.nodal_diameter.is_some_and(|nodal_diameter| nodal_diameter > largest) {
         let detail = format!("{} sectors have nodal diameters 0 to {largest}", job.facts.sectors);
@@ -115,18 +122,24 @@ pub(super) async fn get_spectra(
 
 /// Download the critical speeds of a sweep beside the linear prediction.
 #[utoipa::path(get, path = "/v1/jobs/{id}/critical-speeds", operation_id = "get_critical_speeds", tag = "results",
-    params(("id" = String, Path, description = "Id of a sweep.")),
+    params(("id" = String, Path, description = "Id of a sweep."), SensorQuery),
     responses(
         (status = 200, description = "The table.", body = CriticalSpeeds),
+        (status = 400, description = "A parameter is not valid.", body = Problem,
+            content_type = "application/problem+json"),
         (status = 404, description = "There is no such job.", body = Problem,
             content_type = "application/problem+json"),
         (status = 409, description = "The job is not a sweep, not finished, or ended without this result.",
             body = Problem, content_type = "application/problem+json"),
     ))]
-pub(super) async fn get_critical_speeds(state: State<AppState>, JobPath(id): JobPath) -> Result<Response, Problem> {
+pub(super) async fn get_critical_speeds(
+    state: State<AppState>,
+    JobPath(id): JobPath,
+    Parameters(query): Parameters<SensorQuery>,
+) -> Result<Response, Problem> {
     let job = find(&state, id).await?;
-    sweep(&job)?;
-    document(&state, &job, Document::CriticalSpeeds).await
+    check_sensor(sweep(&job)?, query.sensor)?;
+    document(&state, &job, Document::CriticalSpeeds(query.sensor)).await
 }
 
 /// Download natural frequencies over speed with the linear criterion's crossings.
@@ -156,6 +169,14 @@ fn sweep(job: &Job) -> Result<&SweepRequest, Problem> {
         JobRequest::Sweep(request) => Ok(request),
         JobRequest::ModalAnalysis(_) => Err(wrong_kind(job, JobKind::Sweep)),
     }
+}
+
+fn check_sensor(request: &SweepRequest, sensor: u32) -> Result<(), Problem> {
+    let sensors = request.sensors.len();
+    if sensor as usize >= sensors {
+        return Err(Problem::parameter("sensor", format!("the job has {sensors} sensors, counted from 0")));
+    }
+    Ok(())
 }
 
 fn wrong_kind(job: &Job, wanted: JobKind) -> Problem {

@@ -13,19 +13,29 @@ pub(super) async fn sweep(engine: &Engine, job: &Live, request: &SweepRequest) -
     let reduced = engine.reductions.get(&request.model, request.modes_per_speed, monitor).await?;
     let finished = engine.store.speed_results(job.id).await?;
     let settings = request.clone();
-    let critical_speeds =
-        engine.pool.run(move || run::critical_speeds(&reduced, &settings, &finished)).await??;
-    complete(engine, job, Document::CriticalSpeeds, serde_json::to_string(&critical_speeds)?).await
+    let sensors = request.sensors.len();
+    let tables = engine
+        .pool
+        .run(move || {
+            (0..sensors)
+                .map(|sensor| run::critical_speeds(&reduced, &settings, &finished, sensor))
+                .collect::<Result<Vec<_>, _>>()
+        })
+        .await??;
+    let documents = (0..)
+        .zip(&tables)
+        .map(|(sensor, table)| Ok((Document::CriticalSpeeds(sensor), serde_json::to_string(table)?)))
+        .collect::<Result<Vec<_>, serde_json::Error>>()?;
+    complete(engine, job, &documents).await
 }
 
-/// Marks a job successful with the document that concludes it.
+/// Marks a job successful with the documents that conclude it.
 pub(super) async fn complete(
     engine: &Engine,
     job: &Live,
-    document: Document,
-    body: String,
+    documents: &[(Document, String)],
 ) -> Result<(), Halt> {
-    if engine.store.complete_job(job.id, &[(document, body)]).await? {
+    if engine.store.complete_job(job.id, documents).await? {
         tracing::info!(job.id = %job.id, "successful");
     }
     engine.forget(job.id);

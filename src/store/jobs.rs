@@ -319,9 +319,11 @@ impl Store {
         }
         let time = now();
         for (document, body) in documents {
-            sqlx::query("insert into documents (job, name, body, created_at) values (?, ?, ?, ?)")
+            let (name, part) = document.columns();
+            sqlx::query("insert into documents (job, name, part, body, created_at) values (?, ?, ?, ?, ?)")
                 .bind(id.to_string())
-                .bind(document.as_str())
+                .bind(name)
+                .bind(part)
                 .bind(body)
                 .bind(&time)
                 .execute(&mut *transaction)

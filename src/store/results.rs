@@ -14,16 +14,16 @@ use crate::analysis::result::{PointStatus, SpeedResult, SpeedSpectra};
 pub enum Document {
     /// Result of a modal analysis.
     Campbell,
-    /// Critical speeds of a sweep.
-    CriticalSpeeds,
+    /// Critical speeds of a sweep at the sensor of this index.
+    CriticalSpeeds(u32),
 }
 
 impl Document {
-    /// Its name in the database.
-    pub fn as_str(self) -> &'static str {
+    /// Its name and part in the database.
+    pub(super) fn columns(self) -> (&'static str, u32) {
         match self {
-            Self::Campbell => "campbell",
-            Self::CriticalSpeeds => "critical_speeds",
+            Self::Campbell => ("campbell", 0),
+            Self::CriticalSpeeds(sensor) => ("critical_speeds", sensor),
         }
     }
 }
@@ -100,9 +100,11 @@ impl Store {
 
     /// A document of a finished job, as JSON text.
     pub async fn document(&self, job: JobId, document: Document) -> Result<Option<String>, StoreError> {
-        Ok(sqlx::query_scalar("select body from documents where job = ? and name = ?")
+        let (name, part) = document.columns();
+        Ok(sqlx::query_scalar("select body from documents where job = ? and name = ? and part = ?")
             .bind(job.to_string())
-            .bind(document.as_str())
+            .bind(name)
+            .bind(part)
             .fetch_optional(&self.readers)
             .await?)
     }

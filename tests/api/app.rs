@@ -216,7 +216,7 @@ pub(crate) fn sweep_of(model: &str) -> Value {
 pub(crate) fn long_sweep_of(model: &str, speeds: u32) -> Value {
     let mut request = sweep_of(model);
     request["speeds"]["count"] = speeds.into();
-    request["integration"]["revolutions"] = 3000.into();
+    request["integration"]["revolutions"] = 500.into();
     request
 }
 

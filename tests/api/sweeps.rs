@@ -49,6 +49,8 @@ async fn from_package_to_interaction_map() {
     let table = api.get(&format!("/v1/jobs/{id}/critical-speeds")).await;
     assert_eq!(table.status, 200, "{}", table.body);
     assert!(table.body["critical_speeds"].is_array());
+    let other = api.get(&format!("/v1/jobs/{id}/critical-speeds?sensor=1")).await.body;
+    assert_eq!(other["sensor"], map["settings"]["sensors"][1]);
 
     for (query, parameter) in [
         ("sensor=2", "sensor"),
@@ -116,7 +118,7 @@ async fn what_only_the_reduced_model_can_tell_fails_the_job_with_a_pointer() {
     let api = &app.api;
     let model = api.model(model::package(1.0)).await;
     let mut request = sweep_of(&model);
-    request["integration"]["steps_per_revolution"] = 8.into();
+    request["integration"]["steps_per_revolution"] = 20.into();
     let id = api.sweep(&request).await;
     let job = api.finish(&id).await;
     assert_eq!(job["status"], "failed", "{job}");
