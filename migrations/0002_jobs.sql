@@ -19,7 +19,12 @@ create table jobs (
     phase           text    not null default '',
     -- Speeds asked for. Those finished are counted from speed_results.
     speeds          integer not null check (speeds >= 1),
-    -- Why the job failed, as JSON {code, message, violations}.
+    -- Times the service died under this job since anything of it was last finished: a job that takes the service down
+    -- with it (by exhausting the memory, say) must not do so for ever.
+    crashes         integer not null default 0 check (crashes >= 0),
+    -- Whether a service has it in hand; one that ends in order lays it down.
+    in_hand         integer not null default 0 check (in_hand in (0, 1)),
+    -- Why the job failed, as JSON {cause, message, violations}.
     error           text    check (error is null or json_valid(error)),
     created_at      text    not null,
     started_at      text,

@@ -82,7 +82,8 @@ pub(super) fn job_not_found(id: &impl std::fmt::Display) -> Problem {
 
 /// Refuses a body whose declared type is none of `accepted`.
 pub(super) fn expect_media_type(headers: &HeaderMap, accepted: &[&str]) -> Result<(), Problem> {
-    let declared = headers.get(header::CONTENT_TYPE).and_then(|value| value.to_str().ok()).unwrap_or_default();
+    let declared =
+        headers.get(header::CONTENT_TYPE).and_then(|value| value.to_str().ok()).unwrap_or_default();
     let essence = declared.split(';').next().unwrap_or_default().trim();
     if accepted.iter().any(|accepted| essence.eq_ignore_ascii_case(accepted)) {
         return Ok(());
@@ -121,8 +122,7 @@ fn json_problem(error: &serde_json::Error, mut pointer: String) -> Problem {
         let detail = format!("{message} (line {}, column {})", error.line(), error.column());
         return Problem::new(Kind::MalformedJson, detail).with(item);
     }
-    let kind =
-        if message.starts_with("unknown field") { Kind::UnknownField } else { Kind::InvalidRequest };
+    let kind = if message.starts_with("unknown field") { Kind::UnknownField } else { Kind::InvalidRequest };
     // Of a field that is too much or missing, serde knows the parent and names the child in words.
     if (message.starts_with("unknown field") || message.starts_with("missing field"))
         && let Some(name) = between_backquotes(&message)

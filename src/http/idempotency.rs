@@ -64,6 +64,7 @@ pub(super) fn finish(digest: Sha256) -> String {
 /// Sends an answer.
 pub(super) fn respond(answer: &Answer) -> Response {
     let status = StatusCode::from_u16(answer.status).unwrap_or(StatusCode::OK);
-    let headers = [(header::LOCATION, answer.location.clone()), (header::CONTENT_TYPE, "application/json".into())];
+    let headers =
+        [(header::LOCATION, answer.location.clone()), (header::CONTENT_TYPE, "application/json".into())];
     (status, headers, answer.body.clone()).into_response()
 }

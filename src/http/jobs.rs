@@ -107,7 +107,10 @@ pub(super) async fn get_job(state: State<AppState>, JobPath(id): JobPath) -> Res
         (status = 409, description = "The job has ended already.", body = Problem,
             content_type = "application/problem+json"),
     ))]
-pub(super) async fn cancel_job(state: State<AppState>, JobPath(id): JobPath) -> Result<Json<JobBody>, Problem> {
+pub(super) async fn cancel_job(
+    state: State<AppState>,
+    JobPath(id): JobPath,
+) -> Result<Json<JobBody>, Problem> {
     match state.jobs.cancel(id).await? {
         Cancellation::Dismissed => get_job(state, JobPath(id)).await,
         Cancellation::Unknown => Err(job_not_found(&id)),

@@ -118,16 +118,14 @@ async fn receive(
 ) -> Result<(tempfile::TempPath, sha2::Sha256), Problem> {
     use sha2::Digest;
 
-    let (file, path) = tempfile::Builder::new()
-        .prefix("upload-")
-        .tempfile_in(state.store.upload_folder())?
-        .into_parts();
+    let (file, path) =
+        tempfile::Builder::new().prefix("upload-").tempfile_in(state.store.upload_folder())?.into_parts();
     let mut file = tokio::fs::File::from_std(file);
     let mut received = 0;
     let mut pieces = body.into_data_stream();
     while let Some(piece) = pieces.next().await {
-        let piece =
-            piece.map_err(|error| Problem::new(Kind::BadRequest, format!("the upload broke off: {error}")))?;
+        let piece = piece
+            .map_err(|error| Problem::new(Kind::BadRequest, format!("the upload broke off: {error}")))?;
         received += piece.len() as u64;
         if received > state.upload_bytes {
             return Err(too_large(state.upload_bytes));

@@ -181,7 +181,10 @@ fn check_sensor(request: &SweepRequest, sensor: u32) -> Result<(), Problem> {
 
 fn wrong_kind(job: &Job, wanted: JobKind) -> Problem {
     let (is, wanted) = (job.request.kind().as_str(), wanted.as_str());
-    Problem::new(Kind::WrongJobKind, format!("this result belongs to jobs of kind {wanted}; the job is a {is}"))
+    Problem::new(
+        Kind::WrongJobKind,
+        format!("this result belongs to jobs of kind {wanted}; the job is a {is}"),
+    )
 }
 
 /// A document as it was stored.

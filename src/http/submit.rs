@@ -39,8 +39,7 @@ pub(super) async fn accept(
         return Ok(response);
     }
     let (id, kind) = (JobId::new(), request.kind());
-    let receipt =
-        Receipt { id: id.to_string(), kind, status: JobStatus::Accepted, links: links(id, kind) };
+    let receipt = Receipt { id: id.to_string(), kind, status: JobStatus::Accepted, links: links(id, kind) };
     let answer = Answer {
         key: String::new(),
         fingerprint: String::new(),

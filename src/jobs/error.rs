@@ -16,6 +16,17 @@ pub(super) enum Halt {
     Store(StoreError),
 }
 
+impl Halt {
+    /// The service died under the job too often.
+    pub(super) fn crashed(times: u32) -> Self {
+        let message = format!(
+            "the service ended {times} times while it computed this job, without finishing a speed in between; \
+             most likely it ran out of memory: lower modes_per_speed, or give the service more"
+        );
+        Self::Failed(Failure { cause: FailureCause::Defect, message, violations: Vec::new() })
+    }
+}
+
 impl From<StoreError> for Halt {
     fn from(error: StoreError) -> Self {
         Self::Store(error)

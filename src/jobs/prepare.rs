@@ -7,12 +7,11 @@ use super::{finish, modal_analysis};
 use crate::analysis::request::SweepRequest;
 use crate::analysis::run;
 use crate::store::jobs::{JobId, JobRequest};
-use crate::store::status::JobStatus;
 
 /// Prepares job `id`. Harmless to repeat: what is stored is not computed again.
 pub(super) async fn prepare(engine: &Engine, id: JobId) -> Result<(), Halt> {
     let Some(job) = engine.live(id).await? else { return Ok(()) };
-    if engine.store.advance_job(id, JobStatus::Running, None).await? != Some(JobStatus::Running) {
+    if !engine.store.begin_job(id).await? {
         return Ok(());
     }
     match &job.request {

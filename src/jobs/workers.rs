@@ -15,6 +15,7 @@ use tokio::task::JoinHandle;
 use tokio_util::sync::CancellationToken;
 
 use super::engine::Engine;
+use super::error::Halt;
 use super::handle::Jobs;
 use super::pool::CpuPool;
 use super::progress::Report;
@@ -26,6 +27,9 @@ use crate::store::{Store, StoreError};
 /// Preparations under way at once, beyond one per thread: those that wait for another job's reduction take no thread,
 /// and must not keep others from theirs.
 const WAITING_PREPARATIONS: usize = 16;
+
+/// Times the service may die under a job, with nothing of it finished in between, before the job is given up.
+const MOST_CRASHES: u32 = 5;
 
 /// How often a queue is asked for tasks without having been rung.
 const IDLE_POLL: Duration = Duration::from_millis(500);
@@ -57,8 +61,12 @@ impl Runner {
         let pools = (CpuPool::start("compute", settings.workers)?, CpuPool::start("import", 1)?);
         let (sender, reports) = mpsc::unbounded_channel();
         let engine = Engine::new(store.clone(), queue, pools, settings.limits, sender);
-        for job in store.unfinished_jobs().await? {
-            tracing::info!(job.id = %job, "resuming");
+        for (job, crashes) in store.take_up_jobs().await? {
+            if crashes >= MOST_CRASHES {
+                engine.settle(job, Err(Halt::crashed(crashes))).await;
+                continue;
+            }
+            tracing::info!(job.id = %job, crashes, "resuming");
             engine.queue.push_preparation(job).await?;
         }
         let stop = CancellationToken::new();
@@ -92,6 +100,9 @@ impl Runner {
             }
         }
         self.recorder.abort();
+        if let Err(error) = self.engine.store.lay_down_jobs().await {
+            tracing::warn!(%error, "could not lay down the running jobs; the next start takes this for a crash");
+        }
         self.engine.queue.close().await;
     }
 }

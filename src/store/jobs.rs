@@ -269,13 +269,26 @@ impl Store {
             .collect()
     }
 
-    /// Ids of all jobs that still want work, oldest first.
-    pub async fn unfinished_jobs(&self) -> Result<Vec<JobId>, StoreError> {
-        let ids: Vec<String> =
-            sqlx::query_scalar("select id from jobs where status in ('accepted', 'running') order by id")
-                .fetch_all(&self.readers)
-                .await?;
-        ids.iter().map(|id| read_id(id)).collect()
+    /// All jobs that still want work, oldest first, as a service that starts finds them: each with the number of times
+    /// the service died under it since anything of it was last finished. Counts one more for those that were being computed.
+    pub async fn take_up_jobs(&self) -> Result<Vec<(JobId, u32)>, StoreError> {
+        let mut transaction = self.writer.begin().await?;
+        sqlx::query("update jobs set crashes = crashes + 1, in_hand = 0 where in_hand = 1")
+            .execute(&mut *transaction)
+            .await?;
+        let jobs: Vec<(String, u32)> = sqlx::query_as(
+            "select id, crashes from jobs where status in ('accepted', 'running') order by id",
+        )
+        .fetch_all(&mut *transaction)
+        .await?;
+        transaction.commit().await?;
+        jobs.iter().map(|(id, crashes)| Ok((read_id(id)?, *crashes))).collect()
+    }
+
+    /// Lays down all jobs: the service ends because it was told to.
+    pub async fn lay_down_jobs(&self) -> Result<(), StoreError> {
+        sqlx::query("update jobs set in_hand = 0 where in_hand = 1").execute(&self.writer).await?;
+        Ok(())
     }
 
     /// Moves a job on, if the transition table allows it. Returns the status it has now; `None` if there is no
@@ -293,8 +306,7 @@ impl Store {
         }
         let time = now();
         sqlx::query(
-            "update jobs set status = ?2, error = ?3, updated_at = ?4,
-                 started_at = case when ?2 = 'running' then ?4 else started_at end,
+            "update jobs set status = ?2, error = ?3, updated_at = ?4, in_hand = 0,
                  finished_at = case when ?5 then ?4 end
              where id = ?1",
         )
@@ -309,9 +321,27 @@ impl Store {
         Ok(Some(next))
     }
 
+    /// Takes a job in hand: it is running from here on. False if it wants no work any more.
+    pub async fn begin_job(&self, id: JobId) -> Result<bool, StoreError> {
+        let begun = sqlx::query(
+            "update jobs set status = 'running', in_hand = 1, updated_at = ?2,
+                 started_at = coalesce(started_at, ?2)
+             where id = ?1 and status in ('accepted', 'running')",
+        )
+        .bind(id.to_string())
+        .bind(now())
+        .execute(&self.writer)
+        .await?;
+        Ok(begun.rows_affected() == 1)
+    }
+
     /// Ends a running job well: keeps the `documents` computed at its end (as JSON) and marks it successful, in
     /// one transaction. False if the job was not running any more.
-    pub async fn complete_job(&self, id: JobId, documents: &[(Document, String)]) -> Result<bool, StoreError> {
+    pub async fn complete_job(
+        &self,
+        id: JobId,
+        documents: &[(Document, String)],
+    ) -> Result<bool, StoreError> {
         let mut transaction = self.writer.begin().await?;
         let status = status_of(&mut transaction, id).await?;
         if !status.is_some_and(|status| status.may_become(JobStatus::Successful)) {
@@ -330,7 +360,7 @@ impl Store {
                 .await?;
         }
         sqlx::query(
-            "update jobs set status = 'successful', progress = 100, phase = '', finished_at = ?2, updated_at = ?2
+            "update jobs set status = 'successful', progress = 100, phase = '', in_hand = 0, finished_at = ?2, updated_at = ?2
              where id = ?1",
         )
         .bind(id.to_string())

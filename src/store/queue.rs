@@ -12,7 +12,9 @@ use std::time::Duration;
 use apalis::prelude::{TaskBuilder, TaskId};
 use apalis_sqlite::{Config, SqliteStorage, queries};
 use serde::{Deserialize, Serialize};
-use sqlx::sqlite::{SqliteConnectOptions, SqliteJournalMode, SqlitePool, SqlitePoolOptions, SqliteSynchronous};
+use sqlx::sqlite::{
+    SqliteConnectOptions, SqliteJournalMode, SqlitePool, SqlitePoolOptions, SqliteSynchronous,
+};
 
 use super::StoreError;
 use super::jobs::JobId;
@@ -92,7 +94,10 @@ impl QueueFile {
                 // finds the tasks of a job again.
                 let id = ulid::Ulid::from(uuid::Uuid::now_v7().as_u128());
                 let key = format!("{job}/{speed}");
-                Ok(TaskBuilder::new(args).task_id(TaskId::from_string(id.to_string())).idempotency_key(key).build())
+                Ok(TaskBuilder::new(args)
+                    .task_id(TaskId::from_string(id.to_string()))
+                    .idempotency_key(key)
+                    .build())
             })
             .collect::<Result<Vec<_>, serde_json::Error>>()?;
         let mut transaction = self.pool.begin().await?;

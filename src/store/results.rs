@@ -50,6 +50,10 @@ impl Store {
         .bind(now())
         .execute(&mut *transaction)
         .await?;
+        sqlx::query("update jobs set crashes = 0 where id = ? and crashes > 0")
+            .bind(job.to_string())
+            .execute(&mut *transaction)
+            .await?;
         let finished = sqlx::query_scalar("select count(*) from speed_results where job = ?")
             .bind(job.to_string())
             .fetch_one(&mut *transaction)

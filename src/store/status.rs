@@ -83,7 +83,11 @@ mod tests {
     #[test]
     fn final_means_that_nothing_follows() {
         for from in JobStatus::ALL {
-            assert_eq!(from.is_final(), !JobStatus::ALL.into_iter().any(|to| from.may_become(to)), "{from:?}");
+            assert_eq!(
+                from.is_final(),
+                !JobStatus::ALL.into_iter().any(|to| from.may_become(to)),
+                "{from:?}"
+            );
         }
     }
 

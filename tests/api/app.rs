@@ -159,8 +159,12 @@ pub(crate) struct Answer {
 
 impl Answer {
     pub(crate) async fn of(response: Response) -> Self {
-        let header =
-            |name| response.headers().get(name).map(|value: &_| String::from_utf8_lossy(value.as_bytes()).into_owned());
+        let header = |name| {
+            response
+                .headers()
+                .get(name)
+                .map(|value: &_| String::from_utf8_lossy(value.as_bytes()).into_owned())
+        };
         let (status, location) = (response.status(), header("location"));
         let media_type = header("content-type").unwrap_or_default();
         let body = response.bytes().await.unwrap();
@@ -169,7 +173,11 @@ impl Answer {
     }
 
     pub(crate) fn text(&self, pointer: &str) -> String {
-        self.body.pointer(pointer).and_then(Value::as_str).unwrap_or_else(|| panic!("{}", self.body)).to_owned()
+        self.body
+            .pointer(pointer)
+            .and_then(Value::as_str)
+            .unwrap_or_else(|| panic!("{}", self.body))
+            .to_owned()
     }
 
     /// Asserts that this is a problem of `kind` with `status`; returns its items.

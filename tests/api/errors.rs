@@ -27,8 +27,7 @@ async fn routes_methods_and_ids_that_do_not_exist() {
 async fn bodies_that_cannot_be_read() {
     let app = TestApp::start().await;
     let post = |content_type: &'static str, body: String| {
-        let request =
-            app.api.request("POST", "/v1/sweeps").header("content-type", content_type).body(body);
+        let request = app.api.request("POST", "/v1/sweeps").header("content-type", content_type).body(body);
         async { Answer::of(request.send().await.unwrap()).await }
     };
     post("text/plain", "{}".into()).await.problem(415, "unsupported-media-type");
@@ -77,7 +76,8 @@ async fn all_violations_come_at_once() {
     request["integration"]["window_revolutions"] = json!(99);
     request["scene"]["damping"]["modal_ratio"] = json!(-1.0);
     let pointers = app.api.post("/v1/sweeps", &request).await.pointers(422, "invalid-request");
-    for field in ["/sensors/0/contact_node", "/integration/window_revolutions", "/scene/damping/modal_ratio"] {
+    for field in ["/sensors/0/contact_node", "/integration/window_revolutions", "/scene/damping/modal_ratio"]
+    {
         assert!(pointers.iter().any(|pointer| pointer == field), "{field} is not in {pointers:?}");
     }
     app.stop().await;

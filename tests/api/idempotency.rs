@@ -21,7 +21,10 @@ async fn a_repeated_post_gets_its_first_answer_again() {
     // At once, and after the job has ended.
     for _ in 0..2 {
         let again = post(api, "one", &request).await;
-        assert_eq!((again.status, &again.location, &again.body), (first.status, &first.location, &first.body));
+        assert_eq!(
+            (again.status, &again.location, &again.body),
+            (first.status, &first.location, &first.body)
+        );
         api.finish(&first.text("/id")).await;
     }
     let mut other = request.clone();
@@ -39,7 +42,8 @@ async fn many_at_the_same_moment_start_one_job() {
     let model = app.api.model(model::package(1.0)).await;
     let request = sweep_of(&model);
     let posts = (0..8).map(|_| post(&app.api, "burst", &request));
-    let ids: Vec<_> = futures::future::join_all(posts).await.iter().map(|answer| answer.text("/id")).collect();
+    let ids: Vec<_> =
+        futures::future::join_all(posts).await.iter().map(|answer| answer.text("/id")).collect();
     assert!(ids.iter().all(|id| id == &ids[0]), "{ids:?}");
     app.stop().await;
 }

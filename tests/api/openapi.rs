@@ -22,8 +22,13 @@ async fn the_service_serves_its_contract_and_its_health() {
     let contract = app.api.get("/openapi.json").await.body;
     assert_eq!(contract["openapi"], "3.1.0");
     assert_eq!(contract, serde_json::to_value(rubmap::http::document()).unwrap());
-    for operation in contract["paths"].as_object().unwrap().values().flat_map(|path| path.as_object().unwrap()) {
-        assert!(operation.1["operationId"].is_string() && operation.1["summary"].is_string(), "{operation:?}");
+    for operation in
+        contract["paths"].as_object().unwrap().values().flat_map(|path| path.as_object().unwrap())
+    {
+        assert!(
+            operation.1["operationId"].is_string() && operation.1["summary"].is_string(),
+            "{operation:?}"
+        );
     }
     assert_eq!(app.api.get("/healthz").await.body["status"], "ok");
     assert_eq!(app.api.get("/readyz").await.body["status"], "ok");

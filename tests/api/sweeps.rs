@@ -40,7 +40,8 @@ async fn from_package_to_interaction_map() {
 
     let spectra = api.get(&format!("/v1/jobs/{id}/spectra/2")).await.body;
     assert_eq!(spectra["spectra"]["sensors"][0]["amplitude"], map["amplitude"][2]);
-    let nodal_diameter = api.get(&format!("/v1/jobs/{id}/interaction-map?sensor=1&nodal_diameter=2")).await.body;
+    let nodal_diameter =
+        api.get(&format!("/v1/jobs/{id}/interaction-map?sensor=1&nodal_diameter=2")).await.body;
     assert_eq!(
         spectra["spectra"]["sensors"][1]["nodal_diameters"][2], nodal_diameter["amplitude"][2],
         "the map of a nodal diameter is a slice of the spectra"
