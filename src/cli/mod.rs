@@ -1,5 +1,6 @@
 //! The command line: one file per command.
 
+mod generate;
 mod serve;
 
 use clap::{Parser, Subcommand};
@@ -18,6 +19,8 @@ pub(crate) struct Cli {
 enum Command {
     /// Run the HTTP service.
     Serve(Config),
+    /// Make a model package from a few parameters.
+    Generate(generate::GenerateArgs),
 }
 
 impl Cli {
@@ -25,6 +28,7 @@ impl Cli {
     pub(crate) fn run(self) -> anyhow::Result<()> {
         match self.command {
             Command::Serve(config) => serve::run(config),
+            Command::Generate(args) => generate::generate(args),
         }
     }
 }

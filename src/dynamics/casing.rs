@@ -103,9 +103,9 @@ impl RestrictionTable {
         steps.saturating_mul(sectors / gcd(steps, sectors)).saturating_mul(stride)
     }
 
-    /// Tabulates `restriction` for contact nodes at `angles_rad`.
+    /// Tabulates the height `profile(φ)` for contact nodes at `angles_rad`.
     pub fn new(
-        restriction: &Restriction,
+        profile: impl Fn(f64) -> f64,
         angles_rad: &[f64],
         steps: usize,
         sectors: usize,
@@ -118,7 +118,7 @@ impl RestrictionTable {
             let fraction = (class * common) as f64 / sectors as f64;
             for step in 0..steps {
                 let turned = TAU * ((step as f64 + fraction) / steps as f64);
-                values.extend(angles_rad.iter().map(|theta| restriction.height(theta + turned)));
+                values.extend(angles_rad.iter().map(|theta| profile(theta + turned)));
                 values.resize(values.len() + stride - angles_rad.len(), 0.0);
             }
         }
@@ -151,7 +151,7 @@ mod tests {
         let restriction = Restriction { count: 2, amplitude: 0.4, width_rad: 0.35, phase_rad: 0.2 };
         let angles = [0.1, -0.7, 2.9];
         for (steps, sectors) in [(40, 10), (37, 10), (36, 8), (9, 1), (12, 7)] {
-            let table = RestrictionTable::new(&restriction, &angles, steps, sectors, 8);
+            let table = RestrictionTable::new(|phi| restriction.height(phi), &angles, steps, sectors, 8);
             assert_eq!(table.values.len(), RestrictionTable::size(steps, sectors, 8));
             for step in 0..steps {
                 for sector in 0..sectors {

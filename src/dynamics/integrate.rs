@@ -116,6 +116,16 @@ impl Simulation<'_> {
         pulp::Arch::new().dispatch(Loop { simulation: self, stepper: &mut stepper, watch })
     }
 
+    /// Runs against a restriction of any shape instead of the casing's lobes.
+    #[cfg(test)]
+    pub(super) fn run_against(&self, restriction: RestrictionTable, watch: &dyn Fn(f64) -> bool) -> Run {
+        let mut stepper = Stepper::new(self);
+        if let Some(obstacle) = &mut stepper.obstacle {
+            obstacle.restriction = Some(restriction);
+        }
+        pulp::Arch::new().dispatch(Loop { simulation: self, stepper: &mut stepper, watch })
+    }
+
     fn step_s(&self) -> f64 {
         TAU / (self.wheel.speed_rad_s * self.steps_per_revolution as f64)
     }
@@ -300,7 +310,8 @@ impl Obstacle {
         let (stride, sectors) = (rows.stride, fourier.sectors());
         let angles: Vec<_> = nodes.iter().map(|node| node.position[1]).collect();
         let restriction = casing.restriction.map(|restriction| {
-            RestrictionTable::new(&restriction, &angles, simulation.steps_per_revolution, sectors, stride)
+            let profile = |angle| restriction.height(angle);
+            RestrictionTable::new(profile, &angles, simulation.steps_per_revolution, sectors, stride)
         });
         let mut clearance = casing.clearance.clone();
         clearance.resize(stride, f64::INFINITY);

@@ -1,5 +1,7 @@
 //! The physics: cyclic structure, reduction, contact and time integration, in the words of METHOD.md.
 
+#[cfg(test)]
+mod bouncing_bar;
 pub mod casing;
 pub mod centrifugal;
 pub mod contact;

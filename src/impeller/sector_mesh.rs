@@ -26,7 +26,7 @@ pub fn impeller_sector(parameters: &ImpellerParameters) -> Result<SectorMesh, Im
         "times `contact_nodes` - 1 must be at least 2",
     )?;
     let geometry = Geometry::new(parameters);
-    geometry.check_root()?;
+    geometry.check_passage()?;
     let sector = geometry.mesh();
     sector.mesh.check_jacobians()?;
     Ok(sector)
@@ -103,20 +103,20 @@ impl<'a> Geometry<'a> {
         0.5 * thickness / r * 1.0_f64.hypot(tan_beta)
     }
 
-    /// The blade's root must leave room for the passage at every station.
-    fn check_root(&self) -> Result<(), ImpellerError> {
+    /// The blade must leave room for the passage at every station, at its root and at its tip.
+    fn check_passage(&self) -> Result<(), ImpellerError> {
         let p = self.parameters;
         let half_pitch = PI / p.sectors as f64;
-        let widest =
-            (0..=self.stations).map(|i| self.half_blade_angle(self.fraction(i), 0.0)).fold(0.0, f64::max);
-        if widest < 0.9 * half_pitch {
-            return Ok(());
+        let ends = [(0.0, "root_thickness", p.root_thickness), (1.0, "tip_thickness", p.tip_thickness)];
+        for (height, field, thickness) in ends {
+            let half_blade = |station: usize| self.half_blade_angle(self.fraction(station), height);
+            let widest = (0..=self.stations).map(half_blade).fold(0.0, f64::max);
+            if widest > 0.9 * half_pitch {
+                let requirement = "leaves less than a tenth of the pitch as passage";
+                return Err(ImpellerError::Parameter { field, value: thickness.to_string(), requirement });
+            }
         }
-        Err(ImpellerError::Parameter {
-            field: "root_thickness",
-            value: p.root_thickness.to_string(),
-            requirement: "leaves less than a tenth of the pitch as passage at the hub",
-        })
+        Ok(())
     }
 
     /// Angle of a disk column from the camber: evenly spread on the inner curve, gathered under the blade at the

@@ -3,12 +3,13 @@
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::PI;
 
+use faer::linalg::solvers::Solve;
 use rubmap::dynamics::sector::Units;
 use rubmap::impeller::element::{gauss_points, jacobian_determinant, mass, stiffness};
 use rubmap::impeller::mesh::HexMesh;
 use rubmap::impeller::{
-    ImpellerError, ImpellerParameters, Material, MeshDensities, SectorDofs, assemble, element, generate,
-    impeller_sector,
+    ImpellerError, ImpellerParameters, Material, MeshDensities, SectorDofs, SectorMatrices, assemble,
+    element, generate, impeller_sector,
 };
 use rubmap::package::raw::{RawMatrix, RawPackage};
 
@@ -264,6 +265,9 @@ fn bad_parameters_are_named() {
     assert_eq!(field(ImpellerParameters { units, ..d() }), "units.time");
     let material = Material { poissons_ratio: 0.5, ..Material::default() };
     assert_eq!(field(ImpellerParameters { material, ..d() }), "material.poissons_ratio");
+    let mesh = MeshDensities { half_passage: usize::MAX, ..MeshDensities::default() };
+    assert_eq!(field(ImpellerParameters { mesh, ..d() }), "mesh");
+    assert_eq!(field(ImpellerParameters { tip_thickness: 60.0, ..d() }), "tip_thickness");
     let mesh = MeshDensities { disk: 0, ..MeshDensities::default() };
     assert_eq!(field(ImpellerParameters { mesh, ..d() }), "mesh.disk");
     assert!(serde_json::from_str::<ImpellerParameters>(r#"{"sector":10}"#).is_err());
@@ -278,6 +282,53 @@ fn inverted_elements_are_named() {
     assert!(HexMesh::default().check_jacobians().is_ok());
 }
 
+/// Far from the default the generator still makes a sector with positive Jacobians that can be solved.
+#[test]
+fn other_shapes_are_generated_too() {
+    for sectors in [3, 5, 7, 12, 30] {
+        for (wrap_deg, backsweep_deg) in [(0.0, 0.0), (40.0, 35.0), (80.0, 50.0), (120.0, 10.0)] {
+            for (inlet_hub_radius, axial_length) in [(18.0, 45.0), (40.0, 62.0), (60.0, 110.0)] {
+                let p = ImpellerParameters {
+                    sectors,
+                    wrap_deg,
+                    backsweep_deg,
+                    inlet_hub_radius,
+                    axial_length,
+                    ..small()
+                };
+                let package = generate(&p).unwrap_or_else(|error| panic!("{p:?}: {error}"));
+                assert_eq!(package.manifest.contact.len(), p.contact_nodes);
+            }
+        }
+    }
+}
+
+/// Models are known by their content, so the same parameters must give the same bits.
+#[test]
+fn the_same_parameters_give_the_same_package() {
+    let p = ImpellerParameters::default();
+    assert_eq!(generate(&p).unwrap(), generate(&p).unwrap());
+}
+
+/// Static n·u at each contact node under a unit force along its own normal on one blade: the mean over the harmonics.
+fn normal_compliances(package: &RawPackage) -> Vec<f64> {
+    let sectors = package.manifest.sectors;
+    let mut compliances = vec![0.0; package.manifest.contact.len()];
+    for i in 0..sectors {
+        let k = harmonic(package, &package.stiffness[0], i);
+        let factor = k.sp_cholesky(faer::Side::Lower).unwrap();
+        for (tip, compliance) in package.manifest.contact.iter().zip(&mut compliances) {
+            let mut normal = faer::Mat::<faer::c64>::zeros(k.nrows(), 1);
+            for (row, dof) in package.dofs.iter().enumerate().filter(|(_, dof)| dof.node == tip.node) {
+                normal[(row, 0)].re = tip.normal[usize::from(dof.component) - 1];
+            }
+            let u = factor.solve(&normal);
+            *compliance += (normal.adjoint() * &u)[(0, 0)].re / sectors as f64;
+        }
+    }
+    compliances
+}
+
 /// Prints the table of frequencies of the default, or of `IMPELLER_JSON`; run with `--ignored --nocapture`.
 #[test]
 #[ignore = "a table for people, not a check"]
@@ -290,6 +341,23 @@ fn print_frequencies() {
     let package = generate(&p).unwrap();
     let pairs = package.manifest.cyclic.len();
     println!("{} rows, {pairs} cyclic pairs, {:?}", package.dofs.len(), start.elapsed());
+    let matrices = SectorMatrices::assemble(&impeller_sector(&p).unwrap(), &p.material).unwrap();
+    let square = p.top_speed_rad_s.powi(2);
+    let von_mises = |s: &nalgebra::Vector6<f64>| {
+        let shear: f64 = (3..6).map(|i| 3.0 * s[i] * s[i]).sum();
+        let [a, b, c] = [s[0] - s[1], s[1] - s[2], s[2] - s[0]];
+        (0.5 * (a * a + b * b + c * c) + shear).sqrt()
+    };
+    let stress = matrices.prestress.stresses.iter().flatten().map(von_mises).fold(0.0, f64::max);
+    let moved = |u: &[f64; 3]| u.iter().map(|c| c * c).sum::<f64>().sqrt();
+    let displacement = matrices.prestress.displacements.iter().map(moved).fold(0.0, f64::max);
+    println!("at Ω1: von Mises stress {:.1}, displacement {:.4}", square * stress, square * displacement);
+    for (tip, compliance) in package.manifest.contact.iter().zip(normal_compliances(&package)) {
+        println!(
+            "contact node {}, normal {:.3?}: {compliance:.3e} length/force at rest",
+            tip.node, tip.normal
+        );
+    }
     for (s, speed) in package.manifest.speeds_rad_s.iter().enumerate() {
         println!("Ω = {speed} rad/s");
         for i in 0..=p.sectors / 2 {

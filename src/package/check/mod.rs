@@ -1,0 +1,73 @@
+//! Every check of PACKAGE.md on a parsed package, each with its own error.
+//!
+//! The order is that of understanding: what `sector.json` says by itself, the tables, the matrices, then the
+//! cyclic faces and the contact nodes. [`mass`] comes last, on the finished sector.
+
+mod contact;
+mod cyclic;
+pub(super) mod mass;
+mod matrices;
+pub(super) mod statement;
+mod tables;
+
+use super::content::SourceLines;
+use super::error::PackageError;
+use super::frame::AxisFrame;
+use super::raw::RawPackage;
+
+/// No such row or node.
+pub(super) const NONE: u32 = u32::MAX;
+
+/// Which row of a checked package is what. Nodes are indices into the node table, rows into the DOF table.
+#[derive(Debug)]
+pub(super) struct Layout {
+    pub(super) frame: AxisFrame,
+    /// Node of each row.
+    pub(super) node_of_row: Vec<u32>,
+    /// Rows of each node's three components, or [`NONE`].
+    pub(super) rows_of_node: Vec<[u32; 3]>,
+    /// The high node of each low node, or [`NONE`].
+    pub(super) high_of: Vec<u32>,
+    /// The low node of each high node, or [`NONE`].
+    pub(super) low_of: Vec<u32>,
+    /// Rows that stay, in package order: all but those of high nodes.
+    pub(super) own_rows: Vec<u32>,
+    /// Position among the own DOF of each row; of a high row, that of its low counterpart.
+    pub(super) own_of_row: Vec<u32>,
+    /// Nodes of the contact list.
+    pub(super) contact: Vec<u32>,
+    /// Contact normals, of length 1, in the package's frame.
+    pub(super) normals: Vec<[f64; 3]>,
+}
+
+/// Checks `package` and sorts its matrices (by column, then row) if they are not.
+pub(super) fn check(package: &mut RawPackage, lines: &SourceLines) -> Result<Layout, PackageError> {
+    let frame = statement::check(&package.manifest)?;
+    let index = tables::node_index(package, lines)?;
+    let (node_of_row, rows_of_node) = tables::rows(package, lines, &index)?;
+    matrices::check(package)?;
+    let (high_of, low_of) = cyclic::check(package, &frame, &index, &rows_of_node)?;
+    let (contact, normals) = contact::check(package, &index, &rows_of_node, &high_of, &low_of)?;
+    let mut own_rows = Vec::new();
+    let mut own_of_row = vec![NONE; node_of_row.len()];
+    for (row, &node) in node_of_row.iter().enumerate() {
+        if low_of[node as usize] == NONE {
+            own_of_row[row] = own_rows.len() as u32;
+            own_rows.push(row as u32);
+        }
+    }
+    for (high, &low) in low_of.iter().enumerate().filter(|(_, low)| **low != NONE) {
+        for (&high_row, &low_row) in rows_of_node[high].iter().zip(&rows_of_node[low as usize]) {
+            if high_row != NONE {
+                own_of_row[high_row as usize] = own_of_row[low_row as usize];
+            }
+        }
+    }
+    Ok(Layout { frame, node_of_row, rows_of_node, high_of, low_of, own_rows, own_of_row, contact, normals })
+}
+
+/// `1, 3` or `none`: the components of a node that the DOF table has.
+fn components(rows: &[u32; 3]) -> String {
+    let present: Vec<_> = (1..=3).filter(|k| rows[k - 1] != NONE).map(|k| k.to_string()).collect();
+    if present.is_empty() { "none".to_owned() } else { present.join(", ") }
+}

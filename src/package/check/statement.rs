@@ -1,0 +1,52 @@
+//! What `sector.json` says by itself.
+
+use crate::package::error::{ManifestProblem, PackageError};
+use crate::package::frame::AxisFrame;
+use crate::package::raw::Manifest;
+use crate::package::units;
+
+/// Checks counts, units, axis and speeds; returns the axis.
+///
+/// Three speeds need not be equally spaced: the polynomial of METHOD §3 passes through any three.
+pub(in crate::package) fn check(manifest: &Manifest) -> Result<AxisFrame, PackageError> {
+    let wrong = |field: &str, problem| Err(PackageError::manifest(field, problem));
+    if manifest.sectors == 0 {
+        return wrong("/sectors", ManifestProblem::NoSectors);
+    }
+    units::check(&manifest.units).map_err(|(field, problem)| PackageError::manifest(field, problem))?;
+    if manifest.axis.origin.iter().any(|x| !x.is_finite()) {
+        return wrong("/axis/origin", ManifestProblem::NotFinite);
+    }
+    if manifest.axis.direction.iter().any(|x| !x.is_finite()) {
+        return wrong("/axis/direction", ManifestProblem::NotFinite);
+    }
+    let Some(frame) = AxisFrame::new(&manifest.axis) else {
+        return wrong("/axis/direction", ManifestProblem::AxisWithoutDirection);
+    };
+    let speeds = &manifest.speeds_rad_s;
+    for (k, speed) in speeds.iter().enumerate() {
+        let field = format!("/speeds_rad_s/{k}");
+        let previous = k.checked_sub(1).map(|before| speeds[before]);
+        if !speed.is_finite() {
+            return wrong(&field, ManifestProblem::NotFinite);
+        }
+        match previous {
+            None if *speed != 0.0 => {
+                return wrong(&field, ManifestProblem::SpeedsNotFromZero { value: *speed });
+            }
+            Some(previous) if *speed <= previous => {
+                return wrong(&field, ManifestProblem::SpeedsNotAscending { previous, value: *speed });
+            }
+            _ => {}
+        }
+    }
+    if !matches!(speeds.len(), 1 | 3) {
+        return wrong("/speeds_rad_s", ManifestProblem::SpeedCount { count: speeds.len() });
+    }
+    if manifest.stiffness.len() != speeds.len() {
+        let problem =
+            ManifestProblem::StiffnessCount { matrices: manifest.stiffness.len(), speeds: speeds.len() };
+        return wrong("/stiffness", problem);
+    }
+    Ok(frame)
+}

@@ -1,0 +1,231 @@
+//! Problems of `sector.json` and of what it claims about the rest.
+
+/// What is wrong with a field of `sector.json`.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ManifestProblem {
+    /// A file that is named, or `sector.json` itself, is not in the archive.
+    #[error("the archive holds no file {file}{}", match .found_in {
+        Some(folder) => format!("; there is one in the folder \"{folder}\": zip the files, not their folder"),
+        None => "; add it under exactly this name".to_owned(),
+    })]
+    FileMissing {
+        /// The file that is missing.
+        file: String,
+        /// A folder in which a file of this name does exist.
+        found_in: Option<String>,
+    },
+    /// Not JSON, or a value of the wrong type.
+    #[error("{message} (line {line}, column {column})")]
+    Syntax {
+        /// The JSON reader's words.
+        message: String,
+        /// Line, from 1.
+        line: usize,
+        /// Column, from 1.
+        column: usize,
+    },
+    /// Larger than any manifest.
+    #[error("the file is larger than {limit_bytes} bytes")]
+    TooLarge {
+        /// Configured limit.
+        limit_bytes: u64,
+    },
+    /// N = 0.
+    #[error("a wheel has at least one sector")]
+    NoSectors,
+    /// Empty unit name.
+    #[error("the unit has no name")]
+    UnitUnnamed,
+    /// A known unit of another quantity.
+    #[error("\"{unit}\" is not a unit of {quantity}")]
+    UnitOfOtherQuantity {
+        /// The name given.
+        unit: String,
+        /// What it should measure.
+        quantity: &'static str,
+    },
+    /// force ≠ mass·length/time².
+    #[error(
+        "the units are not consistent: force must be mass·length/time², but 1 {mass}·{length}/{time}² is {factor} \
+         {force}; {hint}"
+    )]
+    UnitsInconsistent {
+        /// Mass unit.
+        mass: String,
+        /// Length unit.
+        length: String,
+        /// Time unit.
+        time: String,
+        /// Force unit.
+        force: String,
+        /// Size of the derived force in the force unit given.
+        factor: f64,
+        /// The mass unit that would fit, in words.
+        hint: String,
+    },
+    /// A number that is not finite.
+    #[error("the value is not a finite number")]
+    NotFinite,
+    /// Axis without direction.
+    #[error("the axis direction has length zero; give the direction about which rotation is positive")]
+    AxisWithoutDirection,
+    /// Neither one nor three speeds.
+    #[error("{count} speeds are given; a package has one (0) or three (0, Ω1/2, Ω1)")]
+    SpeedCount {
+        /// Number given.
+        count: usize,
+    },
+    /// First speed not zero.
+    #[error("the first speed is {value} rad/s; the first stiffness matrix must be the one at rest (0)")]
+    SpeedsNotFromZero {
+        /// Value given.
+        value: f64,
+    },
+    /// Speeds out of order.
+    #[error("the speeds are not ascending: {value} rad/s follows {previous} rad/s")]
+    SpeedsNotAscending {
+        /// The speed before.
+        previous: f64,
+        /// The speed that is not larger.
+        value: f64,
+    },
+    /// Not one stiffness per speed.
+    #[error(
+        "{matrices} stiffness matrices are named for {speeds} speeds; name one per speed, in the same order"
+    )]
+    StiffnessCount {
+        /// Matrices named.
+        matrices: usize,
+        /// Speeds given.
+        speeds: usize,
+    },
+    /// A name that leaves the archive.
+    #[error("\"{name}\" is not a file name inside the package")]
+    BadFileName {
+        /// The name.
+        name: String,
+    },
+    /// One file in two roles.
+    #[error("the file \"{file}\" is already named as {role}")]
+    FileInTwoRoles {
+        /// The file.
+        file: String,
+        /// Its first role.
+        role: &'static str,
+    },
+    /// A node of `cyclic` or `contact` that `nodes.csv` does not list.
+    #[error("node {node} is not in the node table")]
+    UnknownNode {
+        /// Its id.
+        node: u64,
+    },
+    /// A node in two pairs, or on both faces.
+    #[error("node {node} is already {role}; every face node belongs to exactly one pair")]
+    FaceNodeRepeated {
+        /// Its id.
+        node: u64,
+        /// What it is already.
+        role: &'static str,
+    },
+    /// Node paired with itself.
+    #[error("node {node} is paired with itself; the high node is another node, the low one turned by +2π/N")]
+    PairedWithItself {
+        /// Its id.
+        node: u64,
+    },
+    /// Geometry of a pair.
+    #[error(
+        "high node {high} is {distance:.3e} away from low node {low} turned by +2π/{sectors} about the axis (tolerance \
+         {tolerance:.3e}; the worst pair); {hint}"
+    )]
+    PairNotTurned {
+        /// Low node id.
+        low: u64,
+        /// High node id.
+        high: u64,
+        /// Distance in the package's length unit.
+        distance: f64,
+        /// What would have been accepted.
+        tolerance: f64,
+        /// N.
+        sectors: usize,
+        /// What usually causes this.
+        hint: &'static str,
+    },
+    /// DOF sets of a pair.
+    #[error(
+        "low node {low} has the components {low_components} and high node {high} has {high_components} in the DOF \
+         table; clamp the same components on both faces"
+    )]
+    PairDofsDiffer {
+        /// Low node id.
+        low: u64,
+        /// High node id.
+        high: u64,
+        /// Such as `1, 2, 3` or `none`.
+        low_components: String,
+        /// The same of the high node.
+        high_components: String,
+    },
+    /// Partly clamped pair whose free directions do not map onto each other.
+    #[error(
+        "nodes {low} and {high} are partly clamped along Cartesian directions that the turn by 2π/{sectors} does not map \
+         onto each other; clamp face nodes fully, along the axis, or export the package in the cylindrical frame"
+    )]
+    PairClampNotCyclic {
+        /// Low node id.
+        low: u64,
+        /// High node id.
+        high: u64,
+        /// N.
+        sectors: usize,
+    },
+    /// A face node with DOF on the axis.
+    #[error(
+        "nodes {low} and {high} are free but lie on the axis, a point that all sectors share and no pair can \
+         describe; clamp them or give the hub a bore"
+    )]
+    PairOnAxis {
+        /// Low node id.
+        low: u64,
+        /// High node id.
+        high: u64,
+    },
+    /// No contact nodes.
+    #[error("no contact node is named; nothing could ever touch the casing")]
+    NoContact,
+    /// The same contact node twice.
+    #[error("contact node {node} is already named at /contact/{first}")]
+    ContactRepeated {
+        /// Its id.
+        node: u64,
+        /// Index of its first mention.
+        first: usize,
+    },
+    /// A contact node without all three DOF.
+    #[error(
+        "contact node {node} is clamped: the DOF table has its components {components}, contact needs 1, 2, 3"
+    )]
+    ContactClamped {
+        /// Its id.
+        node: u64,
+        /// Such as `1, 3` or `none`.
+        components: String,
+    },
+    /// A contact node on a cyclic face.
+    #[error("contact node {node} lies on the {face} cyclic face; contact nodes must be inside the sector")]
+    ContactOnFace {
+        /// Its id.
+        node: u64,
+        /// `low` or `high`.
+        face: &'static str,
+    },
+    /// A normal that is not a unit vector.
+    #[error("the normal has length {length}, not 1 (within {tolerance})")]
+    NormalNotUnit {
+        /// Its length.
+        length: f64,
+        /// What would have been accepted.
+        tolerance: f64,
+    },
+}

@@ -1,0 +1,178 @@
+//! Problems of the matrices. Rows and columns in these messages count from 1, as in the files.
+
+/// What is wrong with a matrix.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum MatrixProblem {
+    /// First line.
+    #[error(
+        "the file does not start with a Matrix Market header such as \
+         \"%%MatrixMarket matrix coordinate real symmetric\""
+    )]
+    NoHeader,
+    /// A header word that is not supported.
+    #[error(
+        "the {what} \"{word}\" is not supported; write \"matrix coordinate real symmetric\" or \"general\""
+    )]
+    UnsupportedHeader {
+        /// Object, format, field or symmetry.
+        what: &'static str,
+        /// The word found.
+        word: String,
+    },
+    /// The line of sizes.
+    #[error("the line after the header must be \"rows columns entries\", three integers")]
+    BadSizeLine,
+    /// Rows ≠ columns.
+    #[error("the matrix is {rows} × {columns}, not square")]
+    NotSquare {
+        /// Rows.
+        rows: u64,
+        /// Columns.
+        columns: u64,
+    },
+    /// Rows ≠ lines of the DOF table.
+    #[error("the matrix has {rows} rows, but the DOF table lists {dofs} DOF")]
+    SizeDisagrees {
+        /// Rows.
+        rows: u64,
+        /// Lines of the DOF table.
+        dofs: usize,
+    },
+    /// More entries than the limit.
+    #[error("the matrix announces {entries} entries, more than the {limit} this server accepts")]
+    TooManyEntries {
+        /// Announced.
+        entries: u64,
+        /// Configured limit.
+        limit: usize,
+    },
+    /// A line that is not an entry.
+    #[error("\"{text}\" is not an entry \"row column value\"")]
+    BadEntry {
+        /// The line, shortened.
+        text: String,
+    },
+    /// Row or column out of range.
+    #[error("entry ({row}, {column}) is outside the {size} × {size} matrix; rows and columns count from 1")]
+    IndexOutOfRange {
+        /// Row.
+        row: u64,
+        /// Column.
+        column: u64,
+        /// Rows of the matrix.
+        size: usize,
+    },
+    /// NaN, infinity or overflow.
+    #[error("entry ({row}, {column}) is not a finite number")]
+    NotFinite {
+        /// Row.
+        row: u64,
+        /// Column.
+        column: u64,
+    },
+    /// More lines than announced.
+    #[error("this is one entry more than the {announced} announced at the top")]
+    MoreEntries {
+        /// Announced.
+        announced: u64,
+    },
+    /// Fewer lines than announced.
+    #[error("the file ends after {found} of the {announced} entries announced at the top")]
+    FewerEntries {
+        /// Found.
+        found: u64,
+        /// Announced.
+        announced: u64,
+    },
+    /// A position given twice.
+    #[error("entry ({row}, {column}) is given twice{}; {}", match .first_line {
+        Some(line) => format!(" (first on line {line})"),
+        None => String::new(),
+    }, if *.mirrored {
+        "a symmetric file holds one triangle only: write one of the two, or declare the matrix general"
+    } else {
+        "assemble the matrix so that every entry appears once"
+    })]
+    Repeated {
+        /// Row.
+        row: u64,
+        /// Column.
+        column: u64,
+        /// Line of the first mention, if known.
+        first_line: Option<u64>,
+        /// Whether the two mentions are mirror images of each other.
+        mirrored: bool,
+    },
+    /// A general matrix that is not symmetric.
+    #[error(
+        "the matrix is not symmetric: entry ({row}, {column}) is {value:e}{}, entry ({column}, {row}) is \
+         {mirrored:e}{} (the worst of {count})",
+        at_line(*.line), at_line(*.mirrored_line)
+    )]
+    NotSymmetric {
+        /// Row.
+        row: u64,
+        /// Column.
+        column: u64,
+        /// Its value.
+        value: f64,
+        /// Value of the mirrored entry; 0 if it is absent.
+        mirrored: f64,
+        /// Line of the entry.
+        line: Option<u64>,
+        /// Line of the mirrored entry.
+        mirrored_line: Option<u64>,
+        /// How many pairs differ by more than the tolerance.
+        count: usize,
+    },
+    /// A mass that cannot be positive definite: diagonal.
+    #[error(
+        "the mass of the assembled wheel is {value:e} on the diagonal of node {node} (row {row}), not positive; give every \
+         DOF mass or condense massless ones out"
+    )]
+    MassDiagonal {
+        /// Node id.
+        node: u64,
+        /// Row of the DOF table.
+        row: usize,
+        /// Assembled diagonal value.
+        value: f64,
+    },
+    /// A mass that cannot be positive definite: 2 × 2 minor.
+    #[error(
+        "the mass of the assembled wheel is not positive definite: the entry {value:e} between node {node} (row {row}) \
+         and node {other_node} (row {other_row}) is larger than their diagonals allow"
+    )]
+    MassMinor {
+        /// Node id.
+        node: u64,
+        /// Row of the DOF table.
+        row: usize,
+        /// The other node's id.
+        other_node: u64,
+        /// Its row.
+        other_row: usize,
+        /// Entry.
+        value: f64,
+    },
+    /// A mass whose factorisation fails.
+    #[error(
+        "the mass of the assembled wheel is not positive definite (nodal diameter {nodal_diameter}); is the density \
+         positive everywhere, and is this the mass matrix?"
+    )]
+    MassIndefinite {
+        /// Nodal diameter.
+        nodal_diameter: usize,
+    },
+    /// No newline for very long.
+    #[error("the line is longer than {limit} bytes; is this a text file?")]
+    LineTooLong {
+        /// The longest line accepted.
+        limit: usize,
+    },
+}
+
+/// ` (line 7)`.
+fn at_line(line: Option<u64>) -> String {
+    line.map_or_else(String::new, |line| format!(" (line {line})"))
+}

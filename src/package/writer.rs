@@ -1,0 +1,80 @@
+//! Writing a package: the zip of PACKAGE.md, numbers in shortest round-trip form.
+
+use std::io::{self, BufWriter, Seek, Write};
+
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, ZipWriter};
+
+use super::error::{ArchiveProblem, MANIFEST_FILE, PackageError};
+use super::raw::{RawMatrix, RawPackage};
+
+/// Writes `package` as a deflated zip; reading it back gives the same bits.
+///
+/// The same package always gives the same bytes: entries carry no time. Files have the names of the manifest, and
+/// one named for several speeds is written once. Nothing is checked: a wrong package is refused on reading.
+///
+/// # Errors
+///
+/// Those of `out`, and names that a zip file cannot hold.
+pub fn write(package: &RawPackage, out: impl Write + Seek) -> Result<(), PackageError> {
+    let mut zip = ZipWriter::new(out);
+    let manifest = serde_json::to_vec_pretty(&package.manifest).map_err(io::Error::from)?;
+    add(&mut zip, MANIFEST_FILE, |file| file.write_all(&manifest))?;
+    let names = &package.manifest;
+    add(&mut zip, &names.nodes, |file| {
+        package.nodes.iter().try_for_each(|node| {
+            let [x, y, z] = node.position;
+            writeln!(file, "{},{x:e},{y:e},{z:e}", node.id)
+        })
+    })?;
+    add(&mut zip, &names.dofs, |file| {
+        package.dofs.iter().try_for_each(|dof| writeln!(file, "{},{}", dof.node, dof.component))
+    })?;
+    add(&mut zip, &names.mass, |file| write_matrix(&package.mass, file))?;
+    let stiffness = || names.stiffness.iter().zip(&package.stiffness);
+    for (k, (name, matrix)) in stiffness().enumerate() {
+        if !stiffness().take(k).any(|(earlier, _)| earlier == name) {
+            add(&mut zip, name, |file| write_matrix(matrix, file))?;
+        }
+    }
+    zip.finish().map_err(|error| failed(None, error))?.flush()?;
+    Ok(())
+}
+
+fn add<W: Write + Seek>(
+    zip: &mut ZipWriter<W>,
+    name: &str,
+    content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), PackageError> {
+    let options =
+        SimpleFileOptions::default().compression_method(CompressionMethod::Deflated).large_file(true);
+    zip.start_file(name, options).map_err(|error| failed(Some(name), error))?;
+    if name.ends_with(".gz") {
+        let mut file = BufWriter::new(flate2::write::GzEncoder::new(zip, flate2::Compression::default()));
+        content(&mut file)?;
+        file.into_inner().map_err(io::IntoInnerError::into_error)?.finish()?;
+    } else {
+        let mut file = BufWriter::new(zip);
+        content(&mut file)?;
+        file.flush()?;
+    }
+    Ok(())
+}
+
+fn write_matrix(matrix: &RawMatrix, file: &mut dyn Write) -> io::Result<()> {
+    writeln!(file, "%%MatrixMarket matrix coordinate real symmetric")?;
+    writeln!(file, "{} {} {}", matrix.size, matrix.size, matrix.entries.len())?;
+    matrix.entries.iter().try_for_each(|(row, column, value)| {
+        writeln!(file, "{} {} {value:e}", u64::from(*row) + 1, u64::from(*column) + 1)
+    })
+}
+
+fn failed(name: Option<&str>, error: zip::result::ZipError) -> PackageError {
+    match error {
+        zip::result::ZipError::Io(source) => source.into(),
+        error => PackageError::archive(
+            name.map(str::to_owned),
+            ArchiveProblem::Damaged { reason: format!("it cannot be written: {error}") },
+        ),
+    }
+}

@@ -1,0 +1,196 @@
+//! The package format itself: a zip of `sector.json`, two tables and the matrices, to a [`Content`].
+
+use std::io::Read;
+use std::path::Path;
+
+use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
+
+use super::archive::{Archive, Hashed, inside};
+use super::content::{Content, SourceLines};
+use super::error::{
+    ArchiveProblem, MANIFEST_FILE, ManifestProblem, MatrixProblem, PackageError, TableProblem,
+};
+use super::lines::Fault;
+use super::raw::{Manifest, RawMatrix, RawPackage};
+use super::tables::Table;
+use super::{Limits, check, digest, manifest, matrix_market, tables};
+
+/// Reads every file of the archive; the matrices in parallel.
+pub(super) fn load(path: &Path, limits: &Limits) -> Result<Content, PackageError> {
+    let archive = Archive::open(path, limits)?;
+    let manifest = read_manifest(&archive, limits)?;
+    // Before anything it names is read, so that nonsense is refused early.
+    check::statement::check(&manifest)?;
+    let files = Files::resolve(&archive, &manifest)?;
+    let nodes = read_table(&archive, &files.nodes, |source| tables::read_nodes(source, limits.table_rows))?;
+    let dofs = read_table(&archive, &files.dofs, |source| tables::read_dofs(source, limits.table_rows))?;
+    let rows = dofs.value.rows.len();
+    let matrix_files: Vec<&String> = std::iter::once(&files.mass).chain(&files.stiffness).collect();
+    // Collected before looking at errors, so that the error reported is the first file's, however threads run.
+    let matrices: Vec<_> =
+        matrix_files.par_iter().map(|file| read_matrix(path, &archive, file, rows, limits)).collect();
+    let mut matrices = matrices.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let mut hashes = vec![(files.nodes.as_str(), nodes.sha256), (files.dofs.as_str(), dofs.sha256)];
+    hashes.extend(
+        matrix_files.iter().map(|file| file.as_str()).zip(matrices.iter().map(|matrix| matrix.sha256)),
+    );
+    let digest = digest::digest(&manifest, hashes.into_iter());
+    let stiffness = matrices.split_off(1);
+    let Some(mass) = matrices.pop() else {
+        unreachable!("one matrix is read per file, and the mass is the first")
+    };
+    Ok(Content {
+        package: RawPackage {
+            manifest,
+            nodes: nodes.value.rows,
+            dofs: dofs.value.rows,
+            mass: mass.value,
+            stiffness: stiffness.into_iter().map(|matrix| matrix.value).collect(),
+        },
+        lines: SourceLines { nodes: nodes.value.lines, dofs: dofs.value.lines },
+        digest,
+    })
+}
+
+/// Names under which the files are stored in the archive.
+struct Files {
+    mass: String,
+    stiffness: Vec<String>,
+    nodes: String,
+    dofs: String,
+}
+
+impl Files {
+    /// Finds every file the manifest names, and no other.
+    fn resolve(archive: &Archive, manifest: &Manifest) -> Result<Self, PackageError> {
+        let mut roles: Vec<(&str, &'static str)> = vec![(MANIFEST_FILE, "the manifest")];
+        let mut resolve = |field: String, name: &str, role: &'static str| {
+            let problem = |problem| Err(PackageError::manifest(field.clone(), problem));
+            let Some(inside) = inside(name).filter(|inside| !inside.is_empty()) else {
+                return problem(ManifestProblem::BadFileName { name: name.to_owned() });
+            };
+            let Some(stored) = archive.stored_name(&inside) else {
+                return problem(missing(archive, &inside));
+            };
+            match roles.iter().find(|(file, other)| *file == stored && *other != role) {
+                Some(&(_, role)) => {
+                    return problem(ManifestProblem::FileInTwoRoles { file: stored.to_owned(), role });
+                }
+                None => roles.push((stored, role)),
+            }
+            Ok(stored.to_owned())
+        };
+        let files = Self {
+            mass: resolve("/mass".to_owned(), &manifest.mass, "the mass matrix")?,
+            // The same stiffness at several speeds is a valid way to say that there is no stiffening.
+            stiffness: (manifest.stiffness.iter().enumerate())
+                .map(|(k, name)| resolve(format!("/stiffness/{k}"), name, "a stiffness matrix"))
+                .collect::<Result<_, _>>()?,
+            nodes: resolve("/nodes".to_owned(), &manifest.nodes, "the node table")?,
+            dofs: resolve("/dofs".to_owned(), &manifest.dofs, "the DOF table")?,
+        };
+        match archive.names().find(|name| roles.iter().all(|(file, _)| file != name)) {
+            Some(surplus) => Err(PackageError::archive(surplus.to_owned(), ArchiveProblem::Surplus)),
+            None => Ok(files),
+        }
+    }
+}
+
+fn missing(archive: &Archive, file: &str) -> ManifestProblem {
+    let found_in =
+        archive.names().find_map(|name| name.strip_suffix(file)?.strip_suffix('/').map(str::to_owned));
+    ManifestProblem::FileMissing { file: file.to_owned(), found_in }
+}
+
+fn read_manifest(archive: &Archive, limits: &Limits) -> Result<Manifest, PackageError> {
+    let Some(file) = archive.stored_name(MANIFEST_FILE) else {
+        return Err(PackageError::manifest("", missing(archive, MANIFEST_FILE)));
+    };
+    let read = archive.read(file, |source| {
+        let mut text = Vec::new();
+        source
+            .take(limits.manifest_bytes + 1)
+            .read_to_end(&mut text)
+            .map_err(|error| archive.fault(file, error))?;
+        if text.len() as u64 > limits.manifest_bytes {
+            let problem = ManifestProblem::TooLarge { limit_bytes: limits.manifest_bytes };
+            return Err(PackageError::manifest("", problem));
+        }
+        manifest::parse(&text)
+    })?;
+    Ok(read.value)
+}
+
+fn read_table<T>(
+    archive: &Archive,
+    file: &str,
+    read: impl FnOnce(&mut dyn Read) -> Result<Table<T>, Fault<TableProblem>>,
+) -> Result<Hashed<Table<T>>, PackageError> {
+    archive.read(file, |source| {
+        read(source).map_err(|fault| match fault {
+            Fault::Io(error) => archive.fault(file, error),
+            Fault::At { line, problem } => PackageError::Table { file: file.to_owned(), line, problem },
+        })
+    })
+}
+
+fn read_matrix(
+    path: &Path,
+    archive: &Archive,
+    file: &str,
+    dofs: usize,
+    limits: &Limits,
+) -> Result<Hashed<RawMatrix>, PackageError> {
+    archive.read(file, |source| {
+        matrix_market::read(source, dofs, limits)
+            .map_err(|fault| match fault {
+                Fault::Io(error) => archive.fault(file, error),
+                Fault::At { line, problem } => {
+                    PackageError::Matrix { file: file.to_owned(), line: Some(line), problem }
+                }
+            })?
+            .map_err(|problem| {
+                let (line, problem) = located(path, file, limits, problem);
+                PackageError::Matrix { file: file.to_owned(), line, problem }
+            })
+    })
+}
+
+/// Reads the file once more to say on which lines the entries stand that do not go together.
+fn located(path: &Path, file: &str, limits: &Limits, problem: MatrixProblem) -> (Option<u64>, MatrixProblem) {
+    let lines = |row, column, or_mirrored| {
+        // A fresh archive, because this pass must not count against the expansion limit again.
+        let archive = Archive::open(path, limits).ok()?;
+        let read = archive.read(file, |source| {
+            matrix_market::lines_of(source, row, column, or_mirrored).map_err(|_| {
+                PackageError::archive(
+                    file.to_owned(),
+                    ArchiveProblem::Damaged { reason: "second pass".to_owned() },
+                )
+            })
+        });
+        read.ok().map(|read| read.value)
+    };
+    match problem {
+        MatrixProblem::Repeated { row, column, mirrored, .. } => {
+            let found = lines(row, column, mirrored).unwrap_or_default();
+            let problem = MatrixProblem::Repeated {
+                row,
+                column,
+                first_line: found.first().copied(),
+                mirrored: mirrored && lines(row, column, false).is_none_or(|same| same.len() < 2) && {
+                    lines(column, row, false).is_none_or(|same| same.len() < 2)
+                },
+            };
+            (found.get(1).copied(), problem)
+        }
+        MatrixProblem::NotSymmetric { row, column, value, mirrored, count, .. } => {
+            let line = |row, column| lines(row, column, false).and_then(|found| found.first().copied());
+            let (line, mirrored_line) = (line(row, column), line(column, row));
+            let problem =
+                MatrixProblem::NotSymmetric { row, column, value, mirrored, line, mirrored_line, count };
+            (line.or(mirrored_line), problem)
+        }
+        problem => (None, problem),
+    }
+}

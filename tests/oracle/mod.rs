@@ -1,0 +1,210 @@
+//! The literal dense scheme of the paper (Eqs 8–10) on the whole reduced wheel: the slow truth of tests and the
+//! baseline of benchmarks. Nothing here is shared with the production step but the reduced matrices it starts from:
+//! physical contact DOF of all sectors, dense products, nalgebra's factorisations, and an iterative
+//! complementarity solver.
+
+use std::f64::consts::TAU;
+
+use faer::{Mat, c64};
+use nalgebra::{DMatrix, DVector, DVectorView};
+use rubmap::dynamics::casing::Casing;
+use rubmap::dynamics::reduction::ReducedWheel;
+
+/// Real matrices of the whole reduced wheel: contact DOF of sector 0, 1, … first, then the modal coordinates of
+/// all nodal diameters.
+pub struct DenseWheel {
+    pub mass: DMatrix<f64>,
+    pub stiffness: DMatrix<f64>,
+    contact_dofs: usize,
+    sectors: usize,
+}
+
+impl DenseWheel {
+    pub fn new(reduced: &ReducedWheel, speed_rad_s: f64, stiffening: bool) -> Self {
+        let harmonics = |of: &dyn Fn(usize) -> Mat<c64>| -> DMatrix<f64> {
+            let blocks: Vec<_> =
+                (0..reduced.harmonics.len()).map(|i| real_form(&of(i), i, reduced.sectors)).collect();
+            recompose(&blocks, reduced)
+        };
+        Self {
+            mass: harmonics(&|i| reduced.harmonics[i].mass.clone()),
+            stiffness: harmonics(&|i| reduced.harmonics[i].stiffness.at(speed_rad_s, stiffening)),
+            contact_dofs: reduced.contact_dofs(),
+            sectors: reduced.sectors,
+        }
+    }
+
+    /// D with the same ratio for every mode: 2ζ M Φ diag(ω) Φᵀ M.
+    pub fn modal_damping(&self, ratio: f64) -> DMatrix<f64> {
+        let lower = self.mass.clone().cholesky().expect("M_r is positive definite").l();
+        let half = lower.solve_lower_triangular(&self.stiffness).unwrap();
+        let standard = lower.solve_lower_triangular(&half.transpose()).unwrap();
+        let eigen = ((&standard + standard.transpose()) * 0.5).symmetric_eigen();
+        let omega = DMatrix::from_diagonal(&eigen.eigenvalues.map(|l| 2.0 * ratio * l.max(0.0).sqrt()));
+        let scaled = &lower * &eigen.eigenvectors;
+        &scaled * omega * scaled.transpose()
+    }
+
+    pub fn size(&self) -> usize {
+        self.mass.nrows()
+    }
+}
+
+/// Hermitian Y on x = a + jb as a real symmetric matrix on (a, b); single harmonics are real already.
+fn real_form(y: &Mat<c64>, harmonic: usize, sectors: usize) -> DMatrix<f64> {
+    let n = y.nrows();
+    if harmonic == 0 || 2 * harmonic == sectors {
+        return DMatrix::from_fn(n, n, |i, j| y[(i, j)].re);
+    }
+    DMatrix::from_fn(2 * n, 2 * n, |i, j| {
+        let value = y[(i % n, j % n)];
+        match (i < n, j < n) {
+            (true, true) | (false, false) => value.re,
+            (true, false) => -value.im,
+            (false, true) => value.im,
+        }
+    })
+}
+
+/// Eq. 7: block diagonal over the harmonics, contact DOF turned from harmonics to sectors.
+fn recompose(blocks: &[DMatrix<f64>], reduced: &ReducedWheel) -> DMatrix<f64> {
+    let sectors = reduced.sectors;
+    let n_b = reduced.contact_dofs();
+    let total: usize = blocks.iter().map(DMatrix::nrows).sum();
+    let mut diagonal = DMatrix::zeros(total, total);
+    // Rows of `turn`: harmonic coordinates; columns: contact DOF by sector, then modal coordinates.
+    let mut turn = DMatrix::zeros(total, total);
+    let (mut row, mut modal) = (0, sectors * n_b);
+    for (i, block) in blocks.iter().enumerate() {
+        let size = block.nrows();
+        diagonal.view_mut((row, row), (size, size)).copy_from(block);
+        let single = i == 0 || 2 * i == sectors;
+        let parts = if single { 1 } else { 2 };
+        let n = size / parts;
+        for part in 0..parts {
+            for local in 0..n {
+                let at = row + part * n + local;
+                if local < n_b {
+                    for s in 0..sectors {
+                        let angle = TAU * (i * s % sectors) as f64 / sectors as f64;
+                        let weight = match (single, part) {
+                            (true, _) => angle.cos() / (sectors as f64).sqrt(),
+                            (false, 0) => (2.0 / sectors as f64).sqrt() * angle.cos(),
+                            (false, _) => -(2.0 / sectors as f64).sqrt() * angle.sin(),
+                        };
+                        turn[(at, s * n_b + local)] = weight;
+                    }
+                } else {
+                    turn[(at, modal)] = 1.0;
+                    modal += 1;
+                }
+            }
+        }
+        row += size;
+    }
+    turn.transpose() * diagonal * turn
+}
+
+/// Eqs 8–10, step by step, with complementarity over all contact nodes.
+pub struct DenseScheme {
+    predict_now: DMatrix<f64>,
+    predict_before: DMatrix<f64>,
+    /// A⁻¹ C_N
+    response: DMatrix<f64>,
+    normals: DMatrix<f64>,
+    delassus: DMatrix<f64>,
+    now: DVector<f64>,
+    before: DVector<f64>,
+    lambda: DVector<f64>,
+    contact_nodes: usize,
+    pub contact_steps: u64,
+}
+
+impl DenseScheme {
+    pub fn new(wheel: &DenseWheel, damping: &DMatrix<f64>, reduced: &ReducedWheel, h: f64) -> Self {
+        let a = &wheel.mass / (h * h) + damping / (2.0 * h);
+        let a = a.cholesky().expect("M/h² + D/2h is positive definite");
+        let nodes = reduced.contact.len();
+        let mut normals = DMatrix::zeros(wheel.size(), wheel.sectors * nodes);
+        for s in 0..wheel.sectors {
+            for (k, node) in reduced.contact.iter().enumerate() {
+                for d in 0..3 {
+                    normals[(s * wheel.contact_dofs + 3 * k + d, s * nodes + k)] = node.normal[d];
+                }
+            }
+        }
+        let response = a.solve(&normals);
+        Self {
+            predict_now: a.solve(&(&wheel.mass * (2.0 / (h * h)) - &wheel.stiffness)),
+            predict_before: a.solve(&(damping / (2.0 * h) - &wheel.mass / (h * h))),
+            delassus: normals.transpose() * &response,
+            response,
+            now: DVector::zeros(wheel.size()),
+            before: DVector::zeros(wheel.size()),
+            lambda: DVector::zeros(wheel.sectors * nodes),
+            normals,
+            contact_nodes: nodes,
+            contact_steps: 0,
+        }
+    }
+
+    /// One step; `free_gap[sector·nodes + node]` is c − p at its end.
+    pub fn step(&mut self, free_gap: &[f64]) {
+        let mut next = &self.predict_before * &self.before;
+        next.gemv(1.0, &self.predict_now, &self.now, 1.0);
+        let gap = DVector::from_column_slice(free_gap) - self.normals.tr_mul(&next);
+        if gap.iter().any(|&g| g < 0.0) {
+            self.solve_complementarity(&gap);
+            next.gemv(-1.0, &self.response, &self.lambda, 1.0);
+            self.contact_steps += 1;
+        }
+        std::mem::swap(&mut self.before, &mut self.now);
+        self.now = next;
+    }
+
+    /// Projected Gauss–Seidel to the last digit: slow, short, and unlike the production solver.
+    fn solve_complementarity(&mut self, gap: &DVector<f64>) {
+        self.lambda.fill(0.0);
+        for _ in 0..100_000 {
+            let mut change: f64 = 0.0;
+            let mut scale: f64 = 0.0;
+            for i in 0..gap.len() {
+                let g = gap[i] + self.delassus.row(i).dot(&self.lambda.transpose());
+                let solved = (self.lambda[i] - g / self.delassus[(i, i)]).max(0.0);
+                change = change.max((solved - self.lambda[i]).abs());
+                scale = scale.max(solved);
+                self.lambda[i] = solved;
+            }
+            if change <= 1e-15 * scale {
+                return;
+            }
+        }
+        panic!("Gauss–Seidel did not converge");
+    }
+
+    /// Contact DOF of one node of one sector.
+    pub fn contact_displacement(&self, sector: usize, node: usize) -> DVectorView<'_, f64> {
+        self.now.rows((sector * self.contact_nodes + node) * 3, 3)
+    }
+}
+
+/// c − p at every node of every sector, literally (§6).
+pub fn free_gaps(casing: &Casing, reduced: &ReducedWheel, revolutions: f64) -> Vec<f64> {
+    let mut gaps = Vec::new();
+    for s in 0..reduced.sectors {
+        for (k, node) in reduced.contact.iter().enumerate() {
+            let angle = node.position[1] + TAU * (s as f64 / reduced.sectors as f64 + revolutions);
+            let mut p = 0.0;
+            if let Some(lobes) = &casing.restriction {
+                for l in 0..lobes.count {
+                    let centre = TAU * f64::from(l) / f64::from(lobes.count) + lobes.phase_rad;
+                    let distance = (angle - centre).sin().atan2((angle - centre).cos());
+                    p += lobes.amplitude * (-(distance / lobes.width_rad).powi(2)).exp();
+                }
+            }
+            let x = (revolutions / casing.ramp_revolutions).min(1.0);
+            gaps.push(casing.clearance[k] - p * x * x * (3.0 - 2.0 * x));
+        }
+    }
+    gaps
+}

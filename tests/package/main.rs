@@ -1,0 +1,8 @@
+//! The importer as its users meet it: good packages, bad ones, damaged ones, and what a good one becomes.
+
+mod bad;
+mod damaged;
+mod equivalent;
+mod sample;
+mod shared_models;
+mod wheel;

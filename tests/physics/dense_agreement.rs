@@ -1,0 +1,98 @@
+//! The production step against the literal dense scheme: the same displacements over the first revolution.
+
+use std::f64::consts::TAU;
+
+use rubmap::dynamics::casing::{Casing, Restriction};
+use rubmap::dynamics::integrate::{Outcome, SensorRow, Simulation, smallest_stable_steps};
+use rubmap::dynamics::modal_wheel::ModalWheel;
+use rubmap::dynamics::oscillators::{Direction, ModalDamping};
+use rubmap::dynamics::reduction::{ReductionOptions, reduce};
+
+use crate::fixtures::{TOP_SPEED, WheelRecipe, wheel};
+use crate::oracle::{DenseScheme, DenseWheel, free_gaps};
+
+fn agree(recipe: WheelRecipe, damping_ratio: f64, lobes: u32, steps_factor: f64) {
+    let sector = wheel(recipe);
+    let reduced = reduce(&sector, &ReductionOptions::new(6), &|_, _| true).unwrap();
+    let speed = 0.6 * TOP_SPEED;
+    let modal = ModalWheel::at(&reduced, speed, recipe.stiffening).unwrap();
+    let casing = Casing {
+        clearance: (0..recipe.contact_nodes).map(|k| 0.30 - 0.02 * k as f64).collect(),
+        restriction: Some(Restriction { count: lobes, amplitude: 0.425, width_rad: 0.35, phase_rad: 0.1 }),
+        ramp_revolutions: 0.5,
+    };
+    let steps =
+        (steps_factor * smallest_stable_steps(modal.largest_frequency(), speed) as f64).ceil() as usize;
+    let damping = ModalDamping { modal_ratio: damping_ratio, family_ratios: Vec::new() };
+    let watched: Vec<(usize, usize, usize)> = (0..recipe.sectors)
+        .flat_map(|s| (0..recipe.contact_nodes).flat_map(move |k| (0..3).map(move |d| (s, k, d))))
+        .collect();
+    let sensors: Vec<_> = watched
+        .iter()
+        .map(|&(sector, node, d)| {
+            let mut components = [0.0; 3];
+            components[d] = 1.0;
+            SensorRow { direction: Direction { node, components }, sector }
+        })
+        .collect();
+    let run = Simulation {
+        wheel: &modal,
+        contact_nodes: &reduced.contact,
+        damping: (damping_ratio > 0.0).then_some(&damping),
+        casing: Some(&casing),
+        sensors: &sensors,
+        steps_per_revolution: steps,
+        samples_per_revolution: steps,
+        revolutions: 1,
+        window_revolutions: 1,
+    }
+    .run(&|_| true);
+    let Outcome::Completed(history) = run.outcome else { panic!("{:?}", run.outcome) };
+
+    let dense = DenseWheel::new(&reduced, speed, recipe.stiffening);
+    let h = TAU / (speed * steps as f64);
+    let mut scheme = DenseScheme::new(&dense, &dense.modal_damping(damping_ratio), &reduced, h);
+    let (mut worst, mut largest) = (0.0f64, 0.0f64);
+    for q in 0..steps {
+        scheme.step(&free_gaps(&casing, &reduced, (q + 1) as f64 / steps as f64));
+        for (sensor, &(s, k, d)) in watched.iter().enumerate() {
+            let truth = scheme.contact_displacement(s, k)[d];
+            worst = worst.max((history.displacement[sensor][q] - truth).abs());
+            largest = largest.max(truth.abs());
+        }
+    }
+    assert!(scheme.contact_steps >= 3, "{recipe:?}: {} contact steps", scheme.contact_steps);
+    assert_eq!(scheme.contact_steps, run.statistics.contact_steps, "{recipe:?}");
+    assert!(worst < 1e-9 * largest, "{recipe:?}: {worst:e} of {largest}");
+    assert!(run.energy.residual() < 1e-9, "{recipe:?}: energy residual {:e}", run.energy.residual());
+}
+
+#[test]
+fn ten_sectors_two_lobes() {
+    agree(WheelRecipe::default(), 0.005, 2, 1.3);
+}
+
+#[test]
+fn without_damping_and_stiffening() {
+    agree(WheelRecipe { stiffening: false, seed: 4, ..Default::default() }, 0.0, 3, 1.3);
+}
+
+#[test]
+fn odd_sector_count_with_lobes_that_do_not_divide_it() {
+    agree(WheelRecipe { sectors: 7, contact_nodes: 4, seed: 2, ..Default::default() }, 0.02, 3, 2.1);
+}
+
+#[test]
+fn one_blade_on_a_rigid_disk() {
+    agree(WheelRecipe { sectors: 1, face_nodes: 0, seed: 3, ..Default::default() }, 0.005, 1, 20.0);
+}
+
+#[test]
+fn a_sector_that_closes_on_itself() {
+    agree(WheelRecipe { sectors: 1, seed: 5, ..Default::default() }, 0.005, 2, 1.1);
+}
+
+#[test]
+fn two_sectors() {
+    agree(WheelRecipe { sectors: 2, contact_nodes: 1, seed: 6, ..Default::default() }, 0.001, 1, 1.5);
+}

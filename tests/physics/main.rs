@@ -1,0 +1,9 @@
+//! The physics against independent truth: explicitly assembled wheels, a literal dense integrator, invariants.
+
+mod cyclic_structure;
+mod dense_agreement;
+mod fixtures;
+mod invariants;
+mod modal_criterion;
+#[path = "../oracle/mod.rs"]
+mod oracle;
