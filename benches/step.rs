@@ -15,6 +15,7 @@ use rubmap::dynamics::oscillators::{Direction, ModalDamping};
 use rubmap::dynamics::reduction::{ReducedWheel, ReductionOptions, reduce};
 
 #[path = "../tests/oracle/mod.rs"]
+#[allow(dead_code, reason = "shared with the tests, which use all of it")]
 mod oracle;
 
 use oracle::{DenseScheme, DenseWheel, free_gaps};

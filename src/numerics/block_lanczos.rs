@@ -89,7 +89,7 @@ pub fn lowest_modes(
         let remainder = basis.project(image);
         let full = basis.columns() + options.block > n;
         // The dense projection costs more than a step once it is large: look at it every other step.
-        if basis.columns() >= 2 * count && (step % 2 == 0 || full) || full {
+        if full || (basis.columns() >= 2 * count && step % 2 == 0) {
             let ritz = basis.ritz(count, &remainder)?;
             if ritz.largest_error <= options.tolerance * 0.1 || full {
                 let modes = assemble(k, m, factor, &basis, ritz, step);

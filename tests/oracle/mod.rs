@@ -13,15 +13,15 @@ use rubmap::dynamics::reduction::ReducedWheel;
 
 /// Real matrices of the whole reduced wheel: contact DOF of sector 0, 1, … first, then the modal coordinates of
 /// all nodal diameters.
-pub struct DenseWheel {
-    pub mass: DMatrix<f64>,
-    pub stiffness: DMatrix<f64>,
+pub(crate) struct DenseWheel {
+    pub(crate) mass: DMatrix<f64>,
+    pub(crate) stiffness: DMatrix<f64>,
     contact_dofs: usize,
     sectors: usize,
 }
 
 impl DenseWheel {
-    pub fn new(reduced: &ReducedWheel, speed_rad_s: f64, stiffening: bool) -> Self {
+    pub(crate) fn new(reduced: &ReducedWheel, speed_rad_s: f64, stiffening: bool) -> Self {
         let harmonics = |of: &dyn Fn(usize) -> Mat<c64>| -> DMatrix<f64> {
             let blocks: Vec<_> =
                 (0..reduced.harmonics.len()).map(|i| real_form(&of(i), i, reduced.sectors)).collect();
@@ -36,7 +36,7 @@ impl DenseWheel {
     }
 
     /// D with the same ratio for every mode: 2ζ M Φ diag(ω) Φᵀ M.
-    pub fn modal_damping(&self, ratio: f64) -> DMatrix<f64> {
+    pub(crate) fn modal_damping(&self, ratio: f64) -> DMatrix<f64> {
         let lower = self.mass.clone().cholesky().expect("M_r is positive definite").l();
         let half = lower.solve_lower_triangular(&self.stiffness).unwrap();
         let standard = lower.solve_lower_triangular(&half.transpose()).unwrap();
@@ -46,7 +46,7 @@ impl DenseWheel {
         &scaled * omega * scaled.transpose()
     }
 
-    pub fn size(&self) -> usize {
+    pub(crate) fn size(&self) -> usize {
         self.mass.nrows()
     }
 }
@@ -107,7 +107,7 @@ fn recompose(blocks: &[DMatrix<f64>], reduced: &ReducedWheel) -> DMatrix<f64> {
 }
 
 /// Eqs 8–10, step by step, with complementarity over all contact nodes.
-pub struct DenseScheme {
+pub(crate) struct DenseScheme {
     predict_now: DMatrix<f64>,
     predict_before: DMatrix<f64>,
     /// A⁻¹ C_N
@@ -121,11 +121,11 @@ pub struct DenseScheme {
     gap: DVector<f64>,
     lambda: DVector<f64>,
     contact_nodes: usize,
-    pub contact_steps: u64,
+    pub(crate) contact_steps: u64,
 }
 
 impl DenseScheme {
-    pub fn new(wheel: &DenseWheel, damping: &DMatrix<f64>, reduced: &ReducedWheel, h: f64) -> Self {
+    pub(crate) fn new(wheel: &DenseWheel, damping: &DMatrix<f64>, reduced: &ReducedWheel, h: f64) -> Self {
         let a = &wheel.mass / (h * h) + damping / (2.0 * h);
         let a = a.cholesky().expect("M/h² + D/2h is positive definite");
         let nodes = reduced.contact.len();
@@ -158,7 +158,7 @@ impl DenseScheme {
     }
 
     /// One step; `free_gap[sector·nodes + node]` is c − p at its end, `solve(W, g_p, λ)` the contact solver.
-    pub fn step(
+    pub(crate) fn step(
         &mut self,
         free_gap: &[f64],
         solve: impl FnOnce(&DMatrix<f64>, &DVector<f64>, &mut DVector<f64>),
@@ -179,13 +179,13 @@ impl DenseScheme {
     }
 
     /// Contact DOF of one node of one sector.
-    pub fn contact_displacement(&self, sector: usize, node: usize) -> DVectorView<'_, f64> {
+    pub(crate) fn contact_displacement(&self, sector: usize, node: usize) -> DVectorView<'_, f64> {
         self.now.rows((sector * self.contact_nodes + node) * 3, 3)
     }
 }
 
 /// Projected Gauss–Seidel to the last digit: slow, short, and unlike the production solver.
-pub fn gauss_seidel(w: &DMatrix<f64>, gap: &DVector<f64>, lambda: &mut DVector<f64>) {
+pub(crate) fn gauss_seidel(w: &DMatrix<f64>, gap: &DVector<f64>, lambda: &mut DVector<f64>) {
     lambda.fill(0.0);
     for _ in 0..100_000 {
         let mut change: f64 = 0.0;
@@ -205,7 +205,7 @@ pub fn gauss_seidel(w: &DMatrix<f64>, gap: &DVector<f64>, lambda: &mut DVector<f
 }
 
 /// c − p at every node of every sector, literally (§6).
-pub fn free_gaps(casing: &Casing, reduced: &ReducedWheel, revolutions: f64) -> Vec<f64> {
+pub(crate) fn free_gaps(casing: &Casing, reduced: &ReducedWheel, revolutions: f64) -> Vec<f64> {
     let mut gaps = Vec::new();
     for s in 0..reduced.sectors {
         for (k, node) in reduced.contact.iter().enumerate() {
