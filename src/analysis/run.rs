@@ -377,6 +377,7 @@ pub fn critical_speeds(
         linear_crossings: linear,
         driven_crossings: driven,
         units: reduced.units.clone(),
+        reduction: reduced.report.clone(),
         version: VERSION.to_owned(),
     })
 }
