@@ -173,6 +173,8 @@ pub struct CriticalSpeed {
     pub speed_rad_s: f64,
     /// Index of the speed in the sweep.
     pub index: u32,
+    /// Whether it lies at an end of the range or beside a speed without a result, so that the true peak may be beyond.
+    pub at_edge: bool,
     /// Steady response: root mean square about the mean, in the model's unit of length.
     pub rms: f64,
     /// Half the peak-to-peak displacement there.

@@ -7,10 +7,10 @@ use serde::{Deserialize, Serialize};
 
 use super::error::{AnalysisError, Violation};
 use super::monitor::Monitor;
-use super::request::{ModalAnalysisRequest, StepsPerRevolution, SweepRequest};
+use super::request::{ModalAnalysisRequest, Sensor, StepsPerRevolution, SweepRequest};
 use super::result::{
     AbsoluteFrequencies, Campbell, CriticalSpeed, CriticalSpeeds, Crossing, DrivenCrossing, InteractionMap,
-    PointStatus, ReductionReport, SpeedResult, StiffeningReport, StiffeningVerdict,
+    Point, PointStatus, ReductionReport, SpeedSpectra, StiffeningReport, StiffeningVerdict,
 };
 use crate::dynamics::error::ModelError;
 use crate::dynamics::integrate::smallest_stable_steps;
@@ -224,7 +224,17 @@ impl WheelFrequencies<'_> {
         Ok(omega.into_iter().map(|w| w / TAU).collect())
     }
 
-    /// `[speed][nodal diameter][family]` in Hz, the first `families`.
+    /// `[nodal diameter][family]` in Hz at one speed, the first `families`.
+    fn row(&self, speed: f64, families: usize) -> Result<Vec<Vec<f64>>, ModelError> {
+        let of = |i: u32| {
+            let mut frequencies = self.hertz(speed, i)?;
+            frequencies.truncate(families);
+            Ok(frequencies)
+        };
+        (0..harmonic_count(self.wheel.sectors) as u32).map(of).collect()
+    }
+
+    /// The same at every speed, `[speed][nodal diameter][family]`.
     fn table(
         &self,
         speeds: &[f64],
@@ -237,12 +247,7 @@ impl WheelFrequencies<'_> {
             if monitor.is_cancelled() {
                 return Err(AnalysisError::Cancelled);
             }
-            let row = (0..harmonic_count(self.wheel.sectors) as u32).map(|i| {
-                let mut frequencies = self.hertz(speed, i)?;
-                frequencies.truncate(families);
-                Ok(frequencies)
-            });
-            table.push(row.collect::<Result<Vec<_>, ModelError>>()?);
+            table.push(self.row(speed, families)?);
         }
         Ok(table)
     }
@@ -289,26 +294,29 @@ pub fn modal_analysis(
     })
 }
 
-/// The interaction map of `sensor` (index into the request's sensors) from the speeds finished so far, in any order.
+/// The row that one speed contributes to the map of `sensor` (index into the request's sensors).
+pub fn map_row(spectra: &SpeedSpectra, sensor: usize, nodal_diameter: Option<u32>) -> Option<&[f64]> {
+    let spectrum = spectra.sensors.get(sensor)?;
+    match nodal_diameter {
+        None => Some(&spectrum.amplitude),
+        Some(i) => spectrum.nodal_diameters.get(i as usize).map(Vec::as_slice),
+    }
+}
+
+/// The interaction map of `sensor` from the speeds finished so far, in any order, each with its [`map_row`].
 pub fn interaction_map(
     request: &SweepRequest,
     units: &Units,
-    finished: &[SpeedResult],
+    finished: Vec<(Point, Option<Vec<f64>>)>,
     sensor: usize,
     nodal_diameter: Option<u32>,
 ) -> InteractionMap {
     let speeds = request.speeds.resolve().unwrap_or_default();
     let mut amplitude = vec![None; speeds.len()];
     let mut points = Vec::with_capacity(finished.len());
-    for result in finished {
-        points.push(result.point.clone());
-        let Some(spectra) = &result.spectra else { continue };
-        let spectrum = &spectra.sensors[sensor];
-        let row = match nodal_diameter {
-            None => Some(&spectrum.amplitude),
-            Some(i) => spectrum.nodal_diameters.get(i as usize),
-        };
-        amplitude[result.point.index as usize] = row.cloned();
+    for (point, row) in finished {
+        amplitude[point.index as usize] = row;
+        points.push(point);
     }
     points.sort_by_key(|point| point.index);
     InteractionMap {
@@ -331,32 +339,50 @@ const PREDICTED_SUPERHARMONICS: [u32; 3] = [1, 2, 3];
 /// Peaks of the response that rise above their surroundings by less than this share of the largest are left out.
 const PROMINENT: f64 = 0.1;
 
-/// Critical speeds of a sweep for `sensor` (index into the request's sensors), beside the linear prediction.
+/// Critical speeds of a sweep, one table per sensor, beside the linear prediction; from the points of all speeds.
 pub fn critical_speeds(
     reduced: &ReducedSector,
     request: &SweepRequest,
-    finished: &[SpeedResult],
-    sensor: usize,
-) -> Result<CriticalSpeeds, AnalysisError> {
+    points: &[Point],
+    monitor: &dyn Monitor,
+) -> Result<Vec<CriticalSpeeds>, AnalysisError> {
     let speeds = request.speeds.resolve().map_err(AnalysisError::Refused)?;
-    let mut order: Vec<usize> = (0..speeds.len()).collect();
-    order.sort_by(|&a, &b| speeds[a].total_cmp(&speeds[b]));
-    let mut results = vec![None; speeds.len()];
-    for result in finished.iter().filter(|result| result.point.status == PointStatus::Completed) {
-        results[result.point.index as usize] = Some(&result.point);
+    let mut ascending: Vec<usize> = (0..speeds.len()).collect();
+    ascending.sort_by(|&a, &b| speeds[a].total_cmp(&speeds[b]));
+    let mut completed = vec![None; speeds.len()];
+    for point in points.iter().filter(|point| point.status == PointStatus::Completed) {
+        completed[point.index as usize] = Some(point);
     }
-    let ascending: Vec<f64> = order.iter().map(|&index| speeds[index]).collect();
-    let (linear, driven) = predict(reduced, request, &ascending)?;
-    let response = |point: &super::result::Point| point.responses[sensor].rms;
-    let curve: Vec<Option<f64>> = order.iter().map(|&index| results[index].map(response)).collect();
+    let prediction = predict(reduced, request, ascending.iter().map(|&index| speeds[index]), monitor)?;
+    let ordered: Vec<Option<&Point>> = ascending.iter().map(|&index| completed[index]).collect();
+    let missing: Vec<u32> =
+        (0..).zip(&completed).filter(|(_, point)| point.is_none()).map(|(i, _)| i).collect();
+    let table = |(sensor, &of): (usize, &Sensor)| CriticalSpeeds {
+        sensor: of,
+        critical_speeds: response_peaks(&ordered, sensor, &prediction.0),
+        linear_crossings: prediction.0.clone(),
+        driven_crossings: prediction.1.clone(),
+        missing: missing.clone(),
+        units: reduced.units.clone(),
+        reduction: reduced.report.clone(),
+        version: VERSION.to_owned(),
+    };
+    Ok(request.sensors.iter().enumerate().map(table).collect())
+}
+
+/// Prominent peaks of one sensor's level over ascending speeds, each with the nearest linear crossing.
+fn response_peaks(ordered: &[Option<&Point>], sensor: usize, linear: &[Crossing]) -> Vec<CriticalSpeed> {
+    let level = |point: &&Point| point.responses[sensor].rms;
+    let curve: Vec<Option<f64>> = ordered.iter().map(|point| point.as_ref().map(level)).collect();
     let critical = peaks(&curve, PROMINENT).into_iter().filter_map(|peak| {
-        let point = results[order[peak.index]]?;
+        let point = ordered[peak.index]?;
         let response = &point.responses[sensor];
         let distance = |crossing: &&Crossing| (crossing.speed_rad_s - point.speed_rad_s).abs();
         let nearest = linear.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).cloned();
         Some(CriticalSpeed {
             speed_rad_s: point.speed_rad_s,
             index: point.index,
+            at_edge: peak.at_edge,
             rms: response.rms,
             half_peak_to_peak: response.half_peak_to_peak,
             prominence: peak.prominence,
@@ -367,35 +393,31 @@ pub fn critical_speeds(
             nearest_crossing: nearest,
         })
     });
-    Ok(CriticalSpeeds {
-        sensor: request.sensors[sensor],
-        critical_speeds: critical.collect(),
-        missing: (0..speeds.len())
-            .filter(|&index| results[index].is_none())
-            .map(|index| index as u32)
-            .collect(),
-        linear_crossings: linear,
-        driven_crossings: driven,
-        units: reduced.units.clone(),
-        reduction: reduced.report.clone(),
-        version: VERSION.to_owned(),
-    })
+    critical.collect()
 }
 
 /// Linear and driven crossings over the range of a sweep.
 fn predict(
     reduced: &ReducedSector,
     request: &SweepRequest,
-    ascending: &[f64],
+    ascending: impl Iterator<Item = f64>,
+    monitor: &dyn Monitor,
 ) -> Result<(Vec<Crossing>, Vec<DrivenCrossing>), AnalysisError> {
     let source = WheelFrequencies { wheel: &reduced.wheel, stiffening: request.scene.centrifugal_stiffening };
-    // Repeated speeds would divide by zero between themselves; speeds at which the model fails predict nothing.
-    let mut grid: Vec<f64> = ascending.to_vec();
-    grid.dedup();
-    grid.retain(|&speed| {
-        (0..harmonic_count(reduced.wheel.sectors) as u32).all(|i| source.at(speed, i).is_some())
-    });
-    let table = source.table(&grid, PREDICTED_FAMILIES, &super::monitor::Unwatched)?;
+    // Repeated speeds would bracket nothing; speeds at which the model fails predict nothing.
+    let mut speeds: Vec<f64> = ascending.collect();
+    speeds.dedup();
+    let (mut grid, mut table) = (Vec::new(), Vec::new());
+    for (done, &speed) in speeds.iter().enumerate() {
+        monitor.progress(done as f64 / speeds.len() as f64, "linear prediction");
+        if monitor.is_cancelled() {
+            return Err(AnalysisError::Cancelled);
+        }
+        if let Ok(row) = source.row(speed, PREDICTED_FAMILIES) {
+            grid.push(speed);
+            table.push(row);
+        }
+    }
     let linear = linear_crossings(&source, &table, &grid, PREDICTED_FAMILIES, &PREDICTED_SUPERHARMONICS);
     let lobes = request.scene.casing.as_ref().and_then(|casing| casing.lobes.as_ref()).map_or(0, |l| l.count);
     let sectors = reduced.wheel.sectors as u32;

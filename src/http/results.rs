@@ -79,9 +79,11 @@ pub(super) async fn get_interaction_map(
         let detail = format!("{} sectors have nodal diameters 0 to {largest}", job.facts.sectors);
         return Err(Problem::parameter("nodal_diameter", detail));
     }
-    let finished = state.store.speed_results(id).await?;
-    let sensor = query.sensor as usize;
-    Ok(Json(run::interaction_map(request, &job.facts.units, &finished, sensor, query.nodal_diameter)))
+    let MapQuery { sensor, nodal_diameter } = query;
+    let sensor = sensor as usize;
+    let row = |spectra: &SpeedSpectra| run::map_row(spectra, sensor, nodal_diameter).map(<[f64]>::to_vec);
+    let finished = state.store.map_rows(id, row).await?;
+    Ok(Json(run::interaction_map(request, &job.facts.units, finished, sensor, nodal_diameter)))
 }
 
 /// Download the spectra of one speed.

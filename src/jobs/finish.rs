@@ -11,17 +11,11 @@ use crate::store::results::Document;
 pub(super) async fn sweep(engine: &Engine, job: &Live, request: &SweepRequest) -> Result<(), Halt> {
     let monitor = PhaseMonitor::uncounted(job.watch.clone());
     let reduced = engine.reductions.get(&request.model, request.modes_per_speed, monitor).await?;
-    let finished = engine.store.speed_results(job.id).await?;
+    let points = engine.store.points(job.id).await?;
     let settings = request.clone();
-    let sensors = request.sensors.len();
-    let tables = engine
-        .pool
-        .run(move || {
-            (0..sensors)
-                .map(|sensor| run::critical_speeds(&reduced, &settings, &finished, sensor))
-                .collect::<Result<Vec<_>, _>>()
-        })
-        .await??;
+    let monitor = PhaseMonitor::uncounted(job.watch.clone());
+    let tables =
+        engine.pool.run(move || run::critical_speeds(&reduced, &settings, &points, &monitor)).await??;
     let documents = (0..)
         .zip(&tables)
         .map(|(sensor, table)| Ok((Document::CriticalSpeeds(sensor), serde_json::to_string(table)?)))

@@ -9,6 +9,8 @@ pub struct Peak {
     pub height: f64,
     /// Height above the higher of the two valleys that separate it from higher ground (or from the ends).
     pub prominence: f64,
+    /// Whether it is the end of a stretch, so that the curve may rise further beyond.
+    pub at_edge: bool,
 }
 
 /// Peaks of `curve` whose prominence is at least `share` of the curve's largest value, in order. A missing value
@@ -43,6 +45,7 @@ fn peaks_of_stretch(values: &[f64]) -> Vec<Peak> {
                 index: (left + right) / 2,
                 height,
                 prominence: prominence(values, left, right),
+                at_edge: left == 0 || right + 1 == values.len(),
             });
         }
         left = right + 1;
@@ -89,6 +92,8 @@ mod tests {
         assert_eq!(indices(&[0.0, 1.0, 0.2, 3.0, 2.9, 2.95, 0.0], 0.01), [1, 3, 5]);
         assert_eq!(indices(&[0.0, 2.0, 2.0, 2.0, 0.0], 0.1), [2]);
         assert_eq!(indices(&[5.0, 1.0, 0.0, 4.0], 0.1), [0, 3]);
+        let edges = peaks(&[5.0, 1.0, 3.0, 0.0].map(Some), 0.1);
+        assert_eq!(edges.iter().map(|p| p.at_edge).collect::<Vec<_>>(), [true, false]);
         assert!(indices(&[1.0, 1.0, 1.0], 0.1).is_empty());
         assert!(indices(&[1.0], 0.1).is_empty());
     }

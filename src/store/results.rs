@@ -2,12 +2,13 @@
 
 use std::collections::BTreeSet;
 
+use futures::TryStreamExt;
 use sqlx::Row;
 use sqlx::sqlite::SqliteRow;
 
 use super::jobs::JobId;
 use super::{Store, StoreError, now};
-use crate::analysis::result::{PointStatus, SpeedResult, SpeedSpectra};
+use crate::analysis::result::{Point, PointStatus, SpeedResult, SpeedSpectra};
 
 /// A document computed at the end of a job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -80,15 +81,32 @@ impl Store {
             .await?)
     }
 
-    /// All finished speeds of a job, in the order of the request.
-    pub async fn speed_results(&self, job: JobId) -> Result<Vec<SpeedResult>, StoreError> {
-        sqlx::query("select point, spectra from speed_results where job = ? order by speed")
+    /// Credentials of all finished speeds of a job, in the order of the request.
+    pub async fn points(&self, job: JobId) -> Result<Vec<Point>, StoreError> {
+        let points: Vec<String> =
+            sqlx::query_scalar("select point from speed_results where job = ? order by speed")
+                .bind(job.to_string())
+                .fetch_all(&self.readers)
+                .await?;
+        Ok(points.iter().map(|point| serde_json::from_str(point)).collect::<Result<_, _>>()?)
+    }
+
+    /// The same, each with what `row` takes of its spectra. Speeds are read one at a time: the spectra of all together
+    /// may be larger than memory.
+    pub async fn map_rows(
+        &self,
+        job: JobId,
+        row: impl Fn(&SpeedSpectra) -> Option<Vec<f64>>,
+    ) -> Result<Vec<(Point, Option<Vec<f64>>)>, StoreError> {
+        let mut speeds = sqlx::query("select point, spectra from speed_results where job = ? order by speed")
             .bind(job.to_string())
-            .fetch_all(&self.readers)
-            .await?
-            .iter()
-            .map(read)
-            .collect()
+            .fetch(&self.readers);
+        let mut rows = Vec::new();
+        while let Some(speed) = speeds.try_next().await? {
+            let SpeedResult { point, spectra } = read(&speed)?;
+            rows.push((point, spectra.as_ref().and_then(&row)));
+        }
+        Ok(rows)
     }
 
     /// Speed `index` of a job, if it is finished.

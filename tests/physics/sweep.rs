@@ -5,7 +5,8 @@ use rubmap::analysis::monitor::{Monitor, Unwatched};
 use rubmap::analysis::request::{StepsPerRevolution, SweepRequest};
 use rubmap::analysis::result::{PointStatus, Verdict};
 use rubmap::analysis::run::{
-    ModelFacts, ReducedSector, check, critical_speeds, interaction_map, prepare, resolve_sweep, run_speed,
+    ModelFacts, ReducedSector, check, critical_speeds, interaction_map, map_row, prepare, resolve_sweep,
+    run_speed,
 };
 use rubmap::dynamics::sector::SectorModel;
 
@@ -86,11 +87,17 @@ fn a_speed_at_which_the_stiffness_is_indefinite_fails_alone() {
     assert_eq!(status, [PointStatus::Completed, PointStatus::Failed, PointStatus::Completed]);
     let message = results[1].point.message.as_deref().unwrap();
     assert!(message.contains("not positive definite") && message.contains("2100 rad/s"), "{message}");
-    let map = interaction_map(&request, &reduced.units, &results, 0, None);
+    let rows = results.iter().map(|result| {
+        let row = result.spectra.as_ref().and_then(|spectra| map_row(spectra, 0, None));
+        (result.point.clone(), row.map(<[f64]>::to_vec))
+    });
+    let map = interaction_map(&request, &reduced.units, rows.collect(), 0, None);
     assert!(map.amplitude[0].is_some() && map.amplitude[1].is_none() && map.amplitude[2].is_some());
     assert_eq!(map.points.len(), 3);
-    let critical = critical_speeds(&reduced, &request, &results, 0).unwrap();
-    assert_eq!(critical.missing, [1]);
+    let points: Vec<_> = results.into_iter().map(|result| result.point).collect();
+    let critical = critical_speeds(&reduced, &request, &points, &Unwatched).unwrap();
+    assert_eq!(critical.len(), request.sensors.len());
+    assert_eq!(critical[0].missing, [1]);
 }
 
 /// A damped wheel settles: the verdict, the spectra and the summary agree with each other.
