@@ -21,8 +21,13 @@
 //! - The step loop allocates nothing and contains no dense product over the whole wheel.
 
 pub mod analysis;
+pub mod app;
+pub mod config;
 pub mod dynamics;
+pub mod http;
 pub mod impeller;
+pub mod jobs;
 pub mod numerics;
 pub mod package;
 pub mod response;
+pub mod store;

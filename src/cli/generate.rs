@@ -11,35 +11,35 @@ use crate::impeller::{ImpellerParameters, generate as generate_package};
 
 /// What to generate and where to put it.
 #[derive(Debug, Args)]
-pub struct GenerateArgs {
+pub(crate) struct GenerateArgs {
     /// Package to write
     #[arg(long, default_value = "impeller.zip")]
-    pub out: PathBuf,
+    pub(crate) out: PathBuf,
     /// JSON file with any of the generator's parameters; what it leaves out keeps its default
     #[arg(long)]
-    pub parameters: Option<PathBuf>,
+    pub(crate) parameters: Option<PathBuf>,
     /// Number of sectors (main blades); overrides the file
     #[arg(long)]
-    pub sectors: Option<usize>,
+    pub(crate) sectors: Option<usize>,
     /// Outlet radius, in the model's unit of length (mm); overrides the file
     #[arg(long)]
-    pub outlet_radius: Option<f64>,
+    pub(crate) outlet_radius: Option<f64>,
     /// Highest speed of the stiffness matrices in rad/s; overrides the file
     #[arg(long)]
-    pub speed: Option<f64>,
+    pub(crate) speed: Option<f64>,
     /// Number of contact nodes from leading to trailing edge; overrides the file
     #[arg(long)]
-    pub contact_nodes: Option<usize>,
+    pub(crate) contact_nodes: Option<usize>,
     /// Print the parameters as JSON and stop: a start for a --parameters file
     #[arg(long)]
-    pub print_parameters: bool,
+    pub(crate) print_parameters: bool,
 }
 
 /// Generates the package and writes it.
 ///
 /// # Errors
 /// Unreadable or impossible parameters, or a file that cannot be written.
-pub fn generate(args: GenerateArgs) -> anyhow::Result<()> {
+pub(crate) fn generate(args: GenerateArgs) -> anyhow::Result<()> {
     let parameters = args.resolve()?;
     if args.print_parameters {
         println!("{}", serde_json::to_string_pretty(&parameters)?);

@@ -1,0 +1,25 @@
+# The service in a small image. Build: docker build -t rubmap . Run: docker run -p 8080:8080 -v rubmap:/data rubmap
+
+FROM rust:1.95-slim-trixie AS build
+WORKDIR /src
+# Dependencies first: they change less often than we do.
+COPY Cargo.toml Cargo.lock build.rs ./
+RUN mkdir -p src benches && echo 'fn main() {}' > src/main.rs && touch src/lib.rs \
+    && sed -i '/^\[\[bench\]\]/,$d' Cargo.toml \
+    && cargo build --release --locked && rm -r src benches
+COPY . .
+# Files copied keep their times; the program must look newer than its stand-in.
+RUN touch build.rs src/main.rs src/lib.rs && cargo build --release --locked
+
+FROM debian:trixie-slim
+COPY --from=build /src/target/release/rubmap /usr/local/bin/rubmap
+RUN useradd --system --uid 10001 --home-dir /data rubmap && install -d -o rubmap -g rubmap /data
+USER rubmap
+VOLUME /data
+EXPOSE 8080
+ENV RUBMAP_ADDR=0.0.0.0:8080 RUBMAP_DATA=/data
+# The slim image has no curl, but its bash speaks TCP.
+HEALTHCHECK --interval=30s --timeout=5s --start-period=10s CMD ["bash", "-c", \
+    "exec 3<>/dev/tcp/127.0.0.1/8080 && printf 'GET /readyz HTTP/1.0\\r\\n\\r\\n' >&3 && grep -q '200 OK' <&3"]
+ENTRYPOINT ["rubmap"]
+CMD ["serve"]

@@ -1,0 +1,49 @@
+//! Settings of the service, from the command line or the environment.
+
+use std::net::SocketAddr;
+use std::path::PathBuf;
+
+use clap::Args;
+
+/// Settings of the service.
+#[derive(Debug, Clone, Args)]
+pub struct Config {
+    /// Address to listen on; port 0 takes any free port.
+    #[arg(long, env = "RUBMAP_ADDR", default_value = "127.0.0.1:8080")]
+    pub addr: SocketAddr,
+
+    /// Folder for models, jobs and results; made if missing.
+    #[arg(long, env = "RUBMAP_DATA", default_value = "./data")]
+    pub data: PathBuf,
+
+    /// Threads that compute [default: one per core].
+    #[arg(long, env = "RUBMAP_WORKERS", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub workers: Option<u16>,
+
+    /// Largest model package accepted, in bytes as sent.
+    #[arg(long, env = "RUBMAP_UPLOAD_BYTES", default_value_t = 2 << 30)]
+    pub upload_bytes: u64,
+
+    /// Largest model package accepted, in bytes once expanded [default: what the importer considers safe].
+    #[arg(long, env = "RUBMAP_EXPANDED_BYTES")]
+    pub expanded_bytes: Option<u64>,
+}
+
+impl Config {
+    /// Threads that compute.
+    pub fn worker_threads(&self) -> usize {
+        match self.workers {
+            Some(workers) => usize::from(workers),
+            None => std::thread::available_parallelism().map_or(1, usize::from),
+        }
+    }
+
+    /// Limits of the importer.
+    pub fn package_limits(&self) -> crate::package::Limits {
+        let mut limits = crate::package::Limits::default();
+        if let Some(expanded_bytes) = self.expanded_bytes {
+            limits.expanded_bytes = expanded_bytes;
+        }
+        limits
+    }
+}

@@ -1,0 +1,93 @@
+//! A job as it is shown.
+
+use serde::Serialize;
+use utoipa::ToSchema;
+
+use super::problem::Problem;
+use crate::store::jobs::{Job, JobId, JobKind, SpeedCounts};
+use crate::store::status::JobStatus;
+
+/// A job.
+#[derive(Debug, Serialize, ToSchema)]
+pub(super) struct JobBody {
+    /// Its id.
+    #[schema(example = "0198c5a2-7c1e-7d54-9f3b-2f6d7a6f4b10")]
+    id: String,
+    /// Its kind.
+    kind: JobKind,
+    /// How far it is.
+    status: JobStatus,
+    /// Percent of the work done; never falls, 100 only when successful.
+    #[schema(minimum = 0, maximum = 100)]
+    progress: u8,
+    /// What runs now, in words.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    phase: String,
+    /// Id of its model.
+    model: String,
+    /// Its speeds, counted.
+    speeds: SpeedCounts,
+    /// When it was accepted (RFC 3339).
+    created_at: String,
+    /// When computing began.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    started_at: Option<String>,
+    /// When it ended.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    finished_at: Option<String>,
+    /// When it last changed its status or progress.
+    updated_at: String,
+    /// Why it failed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error: Option<Problem>,
+    /// The job itself and its results.
+    links: Vec<Link>,
+}
+
+/// A link to something related.
+#[derive(Debug, Serialize, ToSchema)]
+pub(super) struct Link {
+    /// Path on this service.
+    #[schema(example = "/v1/jobs/0198c5a2-7c1e-7d54-9f3b-2f6d7a6f4b10/interaction-map")]
+    href: String,
+    /// What it is: `self`, `interaction-map`, `critical-speeds`, `spectra` (with a `{index}` to fill in) or `campbell`.
+    rel: &'static str,
+}
+
+impl From<Job> for JobBody {
+    fn from(job: Job) -> Self {
+        let kind = job.request.kind();
+        Self {
+            id: job.id.to_string(),
+            kind,
+            status: job.status,
+            progress: job.progress,
+            phase: if job.status == JobStatus::Running { job.phase } else { String::new() },
+            model: job.request.model().to_owned(),
+            speeds: job.speeds,
+            created_at: job.created_at,
+            started_at: job.started_at,
+            finished_at: job.finished_at,
+            updated_at: job.updated_at,
+            error: job.failure.as_ref().map(Problem::from),
+            links: links(job.id, kind),
+        }
+    }
+}
+
+/// Links of a job.
+pub(super) fn links(id: JobId, kind: JobKind) -> Vec<Link> {
+    let results: &[(&str, &str)] = match kind {
+        JobKind::Sweep => &[
+            ("interaction-map", "/interaction-map"),
+            ("critical-speeds", "/critical-speeds"),
+            ("spectra", "/spectra/{index}"),
+        ],
+        JobKind::ModalAnalysis => &[("campbell", "/campbell")],
+    };
+    [("self", "")]
+        .iter()
+        .chain(results)
+        .map(|(rel, path)| Link { href: format!("/v1/jobs/{id}{path}"), rel })
+        .collect()
+}

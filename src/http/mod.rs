@@ -1,0 +1,39 @@
+//! The service as the world sees it. The only place that knows status codes; it computes nothing.
+
+mod extract;
+mod health;
+mod idempotency;
+mod job_body;
+mod jobs;
+mod modal_analyses;
+mod models;
+mod openapi;
+pub mod problem;
+mod results;
+mod router;
+mod submit;
+mod sweeps;
+
+use std::sync::Arc;
+
+use crate::jobs::Jobs;
+use crate::package;
+use crate::store::Store;
+
+pub use openapi::document;
+pub use router::router;
+
+/// What handlers work with.
+#[derive(Debug, Clone)]
+pub struct AppState {
+    /// What is remembered.
+    pub store: Store,
+    /// What is computed.
+    pub jobs: Jobs,
+    /// Largest upload, in bytes as sent.
+    pub upload_bytes: u64,
+    /// Limits while reading an uploaded package.
+    pub package_limits: package::Limits,
+    /// The contract, as JSON.
+    pub openapi: Arc<str>,
+}

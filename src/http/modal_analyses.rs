@@ -1,0 +1,45 @@
+//! Modal analyses.
+
+use axum::extract::State;
+use axum::response::Response;
+
+use super::AppState;
+use super::extract::JsonBody;
+use super::idempotency::IdempotencyKey;
+use super::problem::Problem;
+use super::submit::{self, Receipt};
+use crate::analysis::request::ModalAnalysisRequest;
+use crate::store::jobs::JobRequest;
+
+/// Compute natural frequencies over speed and the linear interaction criterion.
+#[utoipa::path(post, path = "/v1/modal-analyses", operation_id = "create_modal_analysis", tag = "jobs",
+    params(("Idempotency-Key" = Option<String>, Header,
+        description = "Repeating the request with this key repeats its answer and starts nothing.")),
+    request_body(content = ModalAnalysisRequest, example = json!({
+        "model": "9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08",
+        "modes_per_speed": 20,
+        "families": 2,
+        "superharmonics": [1, 2, 3],
+        "lobes": 2,
+        "speeds": {"from": 0.0, "to": 36000.0, "count": 37, "unit": "rpm"}
+    })),
+    responses(
+        (status = 202, description = "The job is accepted.", body = Receipt,
+            headers(("Location" = String, description = "Path of the job."))),
+        (status = 400, description = "The body is not JSON; `errors` has line and column.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 413, description = "The body is too large.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 415, description = "The body is not declared as application/json.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 422, description = "A field is unknown, missing or impossible, the model is unknown (`errors` \
+            points at each), or the idempotency key belongs to another request.", body = Problem,
+            content_type = "application/problem+json"),
+    ))]
+pub(super) async fn create_modal_analysis(
+    state: State<AppState>,
+    key: IdempotencyKey,
+    body: JsonBody<ModalAnalysisRequest>,
+) -> Result<Response, Problem> {
+    submit::accept(&state, key, &body.fingerprint, JobRequest::ModalAnalysis(body.value)).await
+}

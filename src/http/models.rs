@@ -1,0 +1,193 @@
+//! Models: upload, list, read, delete.
+
+use axum::Json;
+use axum::body::Body;
+use axum::extract::{Path, Request, State};
+use axum::http::{StatusCode, header};
+use axum::response::Response;
+use futures::StreamExt;
+use serde::Serialize;
+use tokio::io::AsyncWriteExt;
+use utoipa::ToSchema;
+
+use super::AppState;
+use super::extract::expect_media_type;
+use super::idempotency::{self, IdempotencyKey};
+use super::problem::{Kind, Problem};
+use crate::analysis::run::ModelFacts;
+use crate::store::idempotency::Answer;
+use crate::store::models::{Deletion, StoredModel};
+
+/// An uploaded model.
+#[derive(Debug, Serialize, ToSchema)]
+pub(super) struct ModelBody {
+    /// Digest of the package's content: the same model is one model, however it was zipped.
+    #[schema(example = "9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08")]
+    id: String,
+    #[serde(flatten)]
+    facts: ModelFacts,
+    /// Size of the zip as uploaded.
+    size_bytes: u64,
+    /// When it was uploaded first (RFC 3339).
+    created_at: String,
+}
+
+/// All models.
+#[derive(Debug, Serialize, ToSchema)]
+pub(super) struct ModelList {
+    /// Newest first.
+    models: Vec<ModelBody>,
+}
+
+/// A zip file as PACKAGE.md describes it.
+#[derive(ToSchema)]
+#[schema(value_type = String, format = Binary)]
+#[expect(dead_code, reason = "describes the body in the OpenAPI document only")]
+pub(super) struct PackageZip(Vec<u8>);
+
+impl From<StoredModel> for ModelBody {
+    fn from(model: StoredModel) -> Self {
+        let StoredModel { id, facts, size_bytes, created_at } = model;
+        Self { id, facts, size_bytes, created_at }
+    }
+}
+
+/// Upload a model package.
+///
+/// The package is checked completely before it is kept. A package whose content is known already, whatever its name
+/// and compression, is not kept twice.
+#[utoipa::path(post, path = "/v1/models", operation_id = "create_model", tag = "models",
+    params(("Idempotency-Key" = Option<String>, Header,
+        description = "Repeating the request with this key repeats its answer.")),
+    request_body(content = PackageZip, content_type = "application/zip",
+        description = "The model package: one impeller sector."),
+    responses(
+        (status = 201, description = "The model is new.", body = ModelBody,
+            headers(("Location" = String, description = "Path of the model."))),
+        (status = 200, description = "The model is known.", body = ModelBody,
+            headers(("Location" = String, description = "Path of the model."))),
+        (status = 413, description = "The upload is larger than the service allows.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 415, description = "The body is not declared as application/zip.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 422, description = "The package is not valid; `errors` names file and line or field. Or the \
+            idempotency key belongs to another request.", body = Problem,
+            content_type = "application/problem+json"),
+    ))]
+pub(super) async fn create_model(
+    state: State<AppState>,
+    key: IdempotencyKey,
+    request: Request,
+) -> Result<Response, Problem> {
+    expect_media_type(request.headers(), &["application/zip", "application/x-zip-compressed"])?;
+    let declared = request
+        .headers()
+        .get(header::CONTENT_LENGTH)
+        .and_then(|length| length.to_str().ok())
+        .and_then(|length| length.parse::<u64>().ok());
+    if declared.is_some_and(|length| length > state.upload_bytes) {
+        return Err(too_large(state.upload_bytes));
+    }
+    let digest = idempotency::start(request.uri().path());
+    let (upload, digest) = receive(&state, request.into_body(), digest).await?;
+    let fingerprint = idempotency::finish(digest);
+    if let Some(response) = key.replay(&state.store, &fingerprint).await? {
+        return Ok(response);
+    }
+    let (facts, id) = state.jobs.read_package(upload.to_path_buf(), state.package_limits.clone()).await??;
+    let (model, new) = state.store.insert_model(&id, &facts, upload).await?;
+    tracing::info!(model.id = id, name = facts.name, new, "received a model");
+    let answer = Answer {
+        key: String::new(),
+        fingerprint: String::new(),
+        status: if new { StatusCode::CREATED } else { StatusCode::OK }.as_u16(),
+        location: format!("/v1/models/{id}"),
+        body: serde_json::to_string(&ModelBody::from(model))?,
+    };
+    if let Some(kept) = key.answer(&fingerprint, &answer) {
+        state.store.insert_answer(&kept).await?;
+    }
+    Ok(idempotency::respond(&answer))
+}
+
+/// Writes a body to a temporary file beside the models, piece by piece.
+async fn receive(
+    state: &AppState,
+    body: Body,
+    mut digest: sha2::Sha256,
+) -> Result<(tempfile::TempPath, sha2::Sha256), Problem> {
+    use sha2::Digest;
+
+    let (file, path) =
+        tempfile::Builder::new().prefix("upload-").tempfile_in(state.store.upload_folder())?.into_parts();
+    let mut file = tokio::fs::File::from_std(file);
+    let mut received = 0;
+    let mut pieces = body.into_data_stream();
+    while let Some(piece) = pieces.next().await {
+        let piece = piece
+            .map_err(|error| Problem::new(Kind::BadRequest, format!("the upload broke off: {error}")))?;
+        received += piece.len() as u64;
+        if received > state.upload_bytes {
+            return Err(too_large(state.upload_bytes));
+        }
+        digest.update(&piece);
+        file.write_all(&piece).await?;
+    }
+    file.flush().await?;
+    Ok((path, digest))
+}
+
+fn too_large(limit: u64) -> Problem {
+    Problem::new(Kind::PayloadTooLarge, format!("a model package may have {limit} bytes on this service"))
+}
+
+/// List all models.
+#[utoipa::path(get, path = "/v1/models", operation_id = "list_models", tag = "models",
+    responses((status = 200, description = "All models, newest first.", body = ModelList)))]
+pub(super) async fn list_models(state: State<AppState>) -> Result<Json<ModelList>, Problem> {
+    let models = state.store.models().await?.into_iter().map(ModelBody::from).collect();
+    Ok(Json(ModelList { models }))
+}
+
+/// Read a model's facts.
+#[utoipa::path(get, path = "/v1/models/{id}", operation_id = "get_model", tag = "models",
+    params(("id" = String, Path, description = "Id of the model.")),
+    responses(
+        (status = 200, description = "The model.", body = ModelBody),
+        (status = 404, description = "There is no such model.", body = Problem,
+            content_type = "application/problem+json"),
+    ))]
+pub(super) async fn get_model(state: State<AppState>, id: Path<String>) -> Result<Json<ModelBody>, Problem> {
+    let model = state.store.model(&id).await?.ok_or_else(|| model_not_found(&id))?;
+    Ok(Json(model.into()))
+}
+
+/// Delete a model with its package and reductions.
+///
+/// Jobs that are finished keep their results. Jobs that are not keep the model: cancel them first.
+#[utoipa::path(delete, path = "/v1/models/{id}", operation_id = "delete_model", tag = "models",
+    params(("id" = String, Path, description = "Id of the model.")),
+    responses(
+        (status = 204, description = "The model is gone."),
+        (status = 404, description = "There is no such model.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 409, description = "Unfinished jobs need the model.", body = Problem,
+            content_type = "application/problem+json"),
+    ))]
+pub(super) async fn delete_model(state: State<AppState>, id: Path<String>) -> Result<StatusCode, Problem> {
+    match state.store.delete_model(&id).await? {
+        Deletion::Deleted => {
+            tracing::info!(model.id = id.as_str(), "deleted a model");
+            Ok(StatusCode::NO_CONTENT)
+        }
+        Deletion::Unknown => Err(model_not_found(&id)),
+        Deletion::InUse(jobs) => {
+            let detail = format!("{jobs} unfinished jobs need this model; cancel them or let them finish");
+            Err(Problem::new(Kind::ModelInUse, detail))
+        }
+    }
+}
+
+fn model_not_found(id: &str) -> Problem {
+    Problem::new(Kind::ModelNotFound, format!("there is no model {id:?}"))
+}

@@ -1,0 +1,43 @@
+//! The contract, generated from the routes themselves.
+
+use axum::extract::State;
+use axum::http::header;
+use axum::response::{IntoResponse, Response};
+use utoipa::OpenApi;
+
+use super::AppState;
+use super::router::routes;
+
+/// All that the document says beside its paths.
+#[derive(OpenApi)]
+#[openapi(
+    info(
+        title = "rubmap",
+        description = "At which rotational speeds do the blade tips of a centrifugal impeller interact dangerously \
+            with their casing? Upload one finite-element sector, post a modal analysis or a sweep of contact \
+            simulations, follow the job, download its results.\n\n\
+            Every error is a problem (RFC 9457) whose `errors` point at the offending fields. Timestamps are RFC 3339 \
+            in UTC. Lengths, forces, times and masses are in the units of the model's package.\n\n\
+            A POST may carry an `Idempotency-Key`: for seven days, repeating it with the same body repeats the first \
+            answer, and using the key for another request is refused with 422.",
+    ),
+    tags(
+        (name = "models", description = "Impeller sectors."),
+        (name = "jobs", description = "Computations on them."),
+        (name = "results", description = "What jobs found."),
+        (name = "service", description = "The service itself."),
+    )
+)]
+pub(super) struct Contract;
+
+/// The OpenAPI document of the service.
+pub fn document() -> utoipa::openapi::OpenApi {
+    routes().into_openapi()
+}
+
+/// Read this document.
+#[utoipa::path(get, path = "/openapi.json", operation_id = "get_openapi", tag = "service",
+    responses((status = 200, description = "The OpenAPI 3.1 document.", body = Object)))]
+pub(super) async fn get_openapi(state: State<AppState>) -> Response {
+    ([(header::CONTENT_TYPE, "application/json")], state.openapi.to_string()).into_response()
+}

@@ -1,0 +1,203 @@
+//! Results of jobs.
+
+use axum::Json;
+use axum::extract::{Path, State};
+use axum::http::header;
+use axum::response::{IntoResponse, Response};
+use serde::{Deserialize, Serialize};
+use utoipa::{IntoParams, ToSchema};
+
+use super::AppState;
+use super::extract::{JobPath, Parameters, job_not_found};
+use super::problem::{Kind, Problem};
+use crate::analysis::request::SweepRequest;
+use crate::analysis::result::{Campbell, CriticalSpeeds, InteractionMap, Point, SpeedSpectra};
+use crate::analysis::run;
+use crate::dynamics::sector::Units;
+use crate::store::jobs::{Job, JobId, JobKind, JobRequest};
+use crate::store::results::Document;
+use crate::store::status::JobStatus;
+
+/// Which part of an interaction map to download.
+#[derive(Debug, Deserialize, IntoParams)]
+#[serde(deny_unknown_fields)]
+#[into_params(parameter_in = Query)]
+pub(super) struct MapQuery {
+    /// Index of the sensor in the request; default 0.
+    #[serde(default)]
+    sensor: u32,
+    /// Only the wheel's component in this nodal diameter.
+    nodal_diameter: Option<u32>,
+}
+
+/// Which table of critical speeds to download.
+#[derive(Debug, Deserialize, IntoParams)]
+#[serde(deny_unknown_fields)]
+#[into_params(parameter_in = Query)]
+pub(super) struct SensorQuery {
+    /// Index of the sensor in the request; default 0.
+    #[serde(default)]
+    sensor: u32,
+}
+
+/// One speed of a sweep.
+#[derive(Debug, Serialize, ToSchema)]
+pub(super) struct SpectraBody {
+    /// Credentials and summary.
+    point: Point,
+    /// Units of the model.
+    units: Units,
+    /// Amplitudes over engine order, per sensor and nodal diameter; null unless `point.status` is `completed`.
+    spectra: Option<SpeedSpectra>,
+}
+
+/// Download the interaction map: amplitude over speed and engine order.
+///
+/// While the job runs, the map has the speeds finished so far; rows of the others are null. A speed that diverged or
+/// failed is in `points` with its message and has no amplitude.
+#[utoipa::path(get, path = "/v1/jobs/{id}/interaction-map", operation_id = "get_interaction_map", tag = "results",
+    params(("id" = String, Path, description = "Id of a sweep."), MapQuery),
+    responses(
+        (status = 200, description = "The map.", body = InteractionMap),
+        (status = 400, description = "A parameter is not valid.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 404, description = "There is no such job.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 409, description = "The job is not a sweep.", body = Problem,
+            content_type = "application/problem+json"),
+    ))]
+pub(super) async fn get_interaction_map(
+    state: State<AppState>,
+    JobPath(id): JobPath,
+    Parameters(query): Parameters<MapQuery>,
+) -> Result<Json<InteractionMap>, Problem> {
+    let job = find(&state, id).await?;
+    let request = sweep(&job)?;
+    check_sensor(request, query.sensor)?;
+    let largest = job.facts.sectors / 2;
+    if query.nodal_diameter.is_some_and(|nodal_diameter| nodal_diameter > largest) {
+        let detail = format!("{} sectors have nodal diameters 0 to {largest}", job.facts.sectors);
+        return Err(Problem::parameter("nodal_diameter", detail));
+    }
+    let finished = state.store.speed_results(id).await?;
+    let sensor = query.sensor as usize;
+    Ok(Json(run::interaction_map(request, &job.facts.units, &finished, sensor, query.nodal_diameter)))
+}
+
+/// Download the spectra of one speed.
+#[utoipa::path(get, path = "/v1/jobs/{id}/spectra/{index}", operation_id = "get_spectra", tag = "results",
+    params(
+        ("id" = String, Path, description = "Id of a sweep."),
+        ("index" = u32, Path, description = "Index of the speed in the request, from 0."),
+    ),
+    responses(
+        (status = 200, description = "The speed.", body = SpectraBody),
+        (status = 404, description = "There is no such job or speed, or the job ended before it.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 409, description = "The job is not a sweep, or the speed is not finished yet.", body = Problem,
+            content_type = "application/problem+json"),
+    ))]
+pub(super) async fn get_spectra(
+    state: State<AppState>,
+    path: Path<(String, String)>,
+) -> Result<Json<SpectraBody>, Problem> {
+    let id = JobId::parse(&path.0.0).ok_or_else(|| job_not_found(&path.0.0))?;
+    let job = find(&state, id).await?;
+    sweep(&job)?;
+    let total = job.speeds.total;
+    let index = path.0.1.parse().ok().filter(|index| *index < total).ok_or_else(|| {
+        Problem::new(Kind::SpeedNotFound, format!("the job has {total} speeds, counted from 0"))
+    })?;
+    match state.store.speed_result(id, index).await? {
+        Some(result) => {
+            Ok(Json(SpectraBody { point: result.point, units: job.facts.units, spectra: result.spectra }))
+        }
+        None if job.status.is_final() => Err(Problem::new(
+            Kind::SpeedNotFound,
+            format!("the job was {} before speed {index} was computed", job.status.as_str()),
+        )),
+        None => Err(Problem::new(Kind::ResultNotReady, format!("speed {index} is not finished yet"))),
+    }
+}
+
+/// Download the critical speeds of a sweep beside the linear prediction.
+#[utoipa::path(get, path = "/v1/jobs/{id}/critical-speeds", operation_id = "get_critical_speeds", tag = "results",
+    params(("id" = String, Path, description = "Id of a sweep."), SensorQuery),
+    responses(
+        (status = 200, description = "The table.", body = CriticalSpeeds),
+        (status = 400, description = "A parameter is not valid.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 404, description = "There is no such job.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 409, description = "The job is not a sweep, not finished, or ended without this result.",
+            body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(super) async fn get_critical_speeds(
+    state: State<AppState>,
+    JobPath(id): JobPath,
+    Parameters(query): Parameters<SensorQuery>,
+) -> Result<Response, Problem> {
+    let job = find(&state, id).await?;
+    check_sensor(sweep(&job)?, query.sensor)?;
+    document(&state, &job, Document::CriticalSpeeds(query.sensor)).await
+}
+
+/// Download natural frequencies over speed with the linear criterion's crossings.
+#[utoipa::path(get, path = "/v1/jobs/{id}/campbell", operation_id = "get_campbell", tag = "results",
+    params(("id" = String, Path, description = "Id of a modal analysis.")),
+    responses(
+        (status = 200, description = "The Campbell data.", body = Campbell),
+        (status = 404, description = "There is no such job.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 409, description = "The job is not a modal analysis, not finished, or ended without this result.",
+            body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(super) async fn get_campbell(state: State<AppState>, JobPath(id): JobPath) -> Result<Response, Problem> {
+    let job = find(&state, id).await?;
+    if !matches!(job.request, JobRequest::ModalAnalysis(_)) {
+        return Err(wrong_kind(&job, JobKind::ModalAnalysis));
+    }
+    document(&state, &job, Document::Campbell).await
+}
+
+async fn find(state: &AppState, id: JobId) -> Result<Job, Problem> {
+    state.store.job(id).await?.ok_or_else(|| job_not_found(&id))
+}
+
+fn sweep(job: &Job) -> Result<&SweepRequest, Problem> {
+    match &job.request {
+        JobRequest::Sweep(request) => Ok(request),
+        JobRequest::ModalAnalysis(_) => Err(wrong_kind(job, JobKind::Sweep)),
+    }
+}
+
+fn check_sensor(request: &SweepRequest, sensor: u32) -> Result<(), Problem> {
+    let sensors = request.sensors.len();
+    if sensor as usize >= sensors {
+        return Err(Problem::parameter("sensor", format!("the job has {sensors} sensors, counted from 0")));
+    }
+    Ok(())
+}
+
+fn wrong_kind(job: &Job, wanted: JobKind) -> Problem {
+    let (is, wanted) = (job.request.kind().as_str(), wanted.as_str());
+    Problem::new(
+        Kind::WrongJobKind,
+        format!("this result belongs to jobs of kind {wanted}; the job is a {is}"),
+    )
+}
+
+/// A document as it was stored.
+async fn document(state: &AppState, job: &Job, document: Document) -> Result<Response, Problem> {
+    if let Some(body) = state.store.document(job.id, document).await? {
+        return Ok(([(header::CONTENT_TYPE, "application/json")], body).into_response());
+    }
+    Err(match job.status {
+        JobStatus::Accepted | JobStatus::Running | JobStatus::Successful => {
+            Problem::new(Kind::ResultNotReady, format!("the job is at {} %", job.progress))
+        }
+        JobStatus::Failed | JobStatus::Dismissed => {
+            Problem::new(Kind::ResultUnavailable, format!("the job is {}", job.status.as_str()))
+        }
+    })
+}

@@ -1,0 +1,57 @@
+//! Accepting a job, whatever its kind.
+
+use axum::http::StatusCode;
+use axum::response::Response;
+use serde::Serialize;
+use utoipa::ToSchema;
+
+use super::AppState;
+use super::idempotency::{self, IdempotencyKey};
+use super::job_body::{Link, links};
+use super::problem::Problem;
+use crate::jobs::SubmitError;
+use crate::store::idempotency::Answer;
+use crate::store::jobs::{JobId, JobKind, JobRequest};
+use crate::store::status::JobStatus;
+
+/// A job just accepted.
+#[derive(Debug, Serialize, ToSchema)]
+pub(super) struct Receipt {
+    /// Id of the job.
+    #[schema(example = "0198c5a2-7c1e-7d54-9f3b-2f6d7a6f4b10")]
+    id: String,
+    /// Its kind.
+    kind: JobKind,
+    /// Always `accepted`.
+    status: JobStatus,
+    /// Where to follow it.
+    links: Vec<Link>,
+}
+
+/// Accepts a job, or repeats the answer given before under its key.
+pub(super) async fn accept(
+    state: &AppState,
+    key: IdempotencyKey,
+    fingerprint: &str,
+    request: JobRequest,
+) -> Result<Response, Problem> {
+    if let Some(response) = key.replay(&state.store, fingerprint).await? {
+        return Ok(response);
+    }
+    let (id, kind) = (JobId::new(), request.kind());
+    let receipt = Receipt { id: id.to_string(), kind, status: JobStatus::Accepted, links: links(id, kind) };
+    let answer = Answer {
+        key: String::new(),
+        fingerprint: String::new(),
+        status: StatusCode::ACCEPTED.as_u16(),
+        location: format!("/v1/jobs/{id}"),
+        body: serde_json::to_string(&receipt)?,
+    };
+    match state.jobs.submit(id, request, key.answer(fingerprint, &answer).as_ref()).await {
+        Ok(()) => Ok(idempotency::respond(&answer)),
+        Err(error @ SubmitError::KeyTaken) => {
+            key.replay(&state.store, fingerprint).await?.ok_or_else(|| error.into())
+        }
+        Err(error) => Err(error.into()),
+    }
+}

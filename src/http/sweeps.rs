@@ -1,0 +1,63 @@
+//! Sweeps of contact simulations.
+
+use axum::extract::State;
+use axum::response::Response;
+
+use super::AppState;
+use super::extract::JsonBody;
+use super::idempotency::IdempotencyKey;
+use super::problem::Problem;
+use super::submit::{self, Receipt};
+use crate::analysis::request::SweepRequest;
+use crate::store::jobs::JobRequest;
+
+/// Simulate contact over rotational speeds.
+///
+/// The request is checked against its model at once; all violations come in one answer. What only the reduced model
+/// can tell (a fixed number of steps against the stability limit) fails the job before its first speed, with the same
+/// pointers.
+#[utoipa::path(post, path = "/v1/sweeps", operation_id = "create_sweep", tag = "jobs",
+    params(("Idempotency-Key" = Option<String>, Header,
+        description = "Repeating the request with this key repeats its answer and starts nothing.")),
+    request_body(content = SweepRequest, example = json!({
+        "model": "9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08",
+        "modes_per_speed": 20,
+        "speeds": {"from": 12000.0, "to": 36000.0, "count": 60, "unit": "rpm"},
+        "scene": {
+            "centrifugal_stiffening": true,
+            "damping": {"modal_ratio": 0.005},
+            "casing": {
+                "clearance": {"leading": 0.30, "trailing": 0.22},
+                "lobes": {"count": 2, "amplitude": 0.425, "width_rad": 0.35}
+            },
+            "contact": {}
+        },
+        "integration": {
+            "steps_per_revolution": "auto", "revolutions": 50, "ramp_revolutions": 1.0, "window_revolutions": 20
+        },
+        "sensors": [
+            {"contact_node": 0, "sector": 0, "component": "radial"},
+            {"contact_node": 9, "sector": 0, "component": "radial"}
+        ],
+        "max_engine_order": 24
+    })),
+    responses(
+        (status = 202, description = "The job is accepted.", body = Receipt,
+            headers(("Location" = String, description = "Path of the job."))),
+        (status = 400, description = "The body is not JSON; `errors` has line and column.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 413, description = "The body is too large.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 415, description = "The body is not declared as application/json.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 422, description = "A field is unknown, missing or impossible, the model is unknown (`errors` \
+            points at each), or the idempotency key belongs to another request.", body = Problem,
+            content_type = "application/problem+json"),
+    ))]
+pub(super) async fn create_sweep(
+    state: State<AppState>,
+    key: IdempotencyKey,
+    body: JsonBody<SweepRequest>,
+) -> Result<Response, Problem> {
+    submit::accept(&state, key, &body.fingerprint, JobRequest::Sweep(body.value)).await
+}

@@ -1,0 +1,133 @@
+//! What all tasks share.
+
+use std::collections::HashMap;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use tokio::sync::{Notify, mpsc};
+
+use super::error::Halt;
+use super::pool::CpuPool;
+use super::progress::{Report, Watch};
+use super::reductions::Reductions;
+use crate::store::Store;
+use crate::store::jobs::{Failure, FailureCause, Job, JobId, JobRequest};
+use crate::store::queue::QueueFile;
+use crate::store::status::JobStatus;
+
+/// What all tasks share.
+#[derive(Debug)]
+pub(super) struct Engine {
+    pub(super) store: Store,
+    pub(super) queue: QueueFile,
+    pub(super) pool: CpuPool,
+    /// Reads uploads, so that they do not wait behind speeds.
+    pub(super) importer: CpuPool,
+    pub(super) reductions: Reductions,
+    /// Rung when there is something new to prepare.
+    pub(super) new_preparation: Arc<Notify>,
+    /// Rung when there are new speeds to run.
+    pub(super) new_speeds: Arc<Notify>,
+    /// Set when the service stops: computations end, their jobs stay as they are.
+    pub(super) stopping: Arc<AtomicBool>,
+    live: Mutex<HashMap<JobId, Arc<Live>>>,
+    reports: mpsc::UnboundedSender<Report>,
+}
+
+/// An unfinished job in memory.
+#[derive(Debug)]
+pub(super) struct Live {
+    pub(super) id: JobId,
+    pub(super) request: JobRequest,
+    pub(super) speeds: u32,
+    pub(super) watch: Arc<Watch>,
+}
+
+impl Engine {
+    pub(super) fn new(
+        store: Store,
+        queue: QueueFile,
+        (pool, importer): (CpuPool, CpuPool),
+        limits: crate::package::Limits,
+        reports: mpsc::UnboundedSender<Report>,
+    ) -> Arc<Self> {
+        Arc::new(Self {
+            reductions: Reductions::new(store.clone(), pool.clone(), limits),
+            store,
+            queue,
+            pool,
+            importer,
+            new_preparation: Arc::default(),
+            new_speeds: Arc::default(),
+            stopping: Arc::default(),
+            live: Mutex::default(),
+            reports,
+        })
+    }
+
+    /// The job, if it still wants work.
+    pub(super) async fn live(&self, id: JobId) -> Result<Option<Arc<Live>>, Halt> {
+        if self.stopping.load(Ordering::Relaxed) {
+            return Err(Halt::NotWanted);
+        }
+        if let Some(live) = self.lock_live().get(&id) {
+            return Ok(Some(Arc::clone(live)));
+        }
+        let Some(Job { request, status, speeds, .. }) = self.store.job(id).await? else { return Ok(None) };
+        if status.is_final() {
+            return Ok(None);
+        }
+        let watch = Watch::new(id, speeds.total, Arc::clone(&self.stopping), self.reports.clone());
+        let live = Live { id, request, speeds: speeds.total, watch };
+        let live = Arc::clone(self.lock_live().entry(id).or_insert_with(|| Arc::new(live)));
+        // A dismissal between the two lines above found nobody to tell.
+        if self.store.job(id).await?.is_none_or(|job| job.status.is_final()) {
+            self.forget(id);
+            return Ok(None);
+        }
+        Ok(Some(live))
+    }
+
+    /// Stops all computations of a job that has become final and takes its waiting tasks out of the queue.
+    pub(super) async fn retire(&self, id: JobId) {
+        self.forget(id);
+        if let Err(error) = self.queue.withdraw_speeds(id).await {
+            // The tasks will find that their job is final.
+            tracing::warn!(job.id = %id, %error, "could not withdraw the speeds of a job");
+        }
+    }
+
+    /// Drops the job from memory and tells whoever still computes for it to stop.
+    pub(super) fn forget(&self, id: JobId) {
+        if let Some(live) = self.lock_live().remove(&id) {
+            live.watch.dismiss();
+        }
+    }
+
+    /// Records how a task of job `id` ended, if that matters.
+    pub(super) async fn settle(&self, id: JobId, outcome: Result<(), Halt>) {
+        let failure = match outcome {
+            Ok(()) | Err(Halt::NotWanted) => return,
+            Err(Halt::Failed(failure)) => failure,
+            Err(Halt::Store(error)) => Failure {
+                cause: FailureCause::Storage,
+                message: format!("the data folder failed: {error}"),
+                violations: Vec::new(),
+            },
+        };
+        if failure.cause == FailureCause::Refused {
+            tracing::info!(job.id = %id, "refused: {}", failure.message);
+        } else {
+            tracing::error!(job.id = %id, cause = ?failure.cause, "job failed: {}", failure.message);
+        }
+        if let Err(error) = self.store.advance_job(id, JobStatus::Failed, Some(&failure)).await {
+            // It stays unfinished and is tried again at the next start.
+            tracing::error!(job.id = %id, %error, "could not record the failure of a job");
+        }
+        self.retire(id).await;
+    }
+
+    fn lock_live(&self) -> std::sync::MutexGuard<'_, HashMap<JobId, Arc<Live>>> {
+        self.live.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}

@@ -1,0 +1,62 @@
+//! Why a task of a job ended early.
+
+use super::pool::Panicked;
+use crate::analysis::error::AnalysisError;
+use crate::store::StoreError;
+use crate::store::jobs::{Failure, FailureCause};
+
+/// Why a task of a job ended early.
+#[derive(Debug)]
+pub(super) enum Halt {
+    /// The job was dismissed, or the service is stopping: nothing to record.
+    NotWanted,
+    /// The job cannot be computed.
+    Failed(Failure),
+    /// What is needed could not be read or kept.
+    Store(StoreError),
+}
+
+impl Halt {
+    /// The service died under the job too often.
+    pub(super) fn crashed(times: u32) -> Self {
+        let message = format!(
+            "the service ended {times} times while it computed this job, without finishing a speed in between; \
+             most likely it ran out of memory: lower modes_per_speed, or give the service more"
+        );
+        Self::Failed(Failure { cause: FailureCause::Defect, message, violations: Vec::new() })
+    }
+}
+
+impl From<StoreError> for Halt {
+    fn from(error: StoreError) -> Self {
+        Self::Store(error)
+    }
+}
+
+impl From<serde_json::Error> for Halt {
+    fn from(error: serde_json::Error) -> Self {
+        Self::Store(error.into())
+    }
+}
+
+impl From<Panicked> for Halt {
+    fn from(panicked: Panicked) -> Self {
+        let message = format!("{panicked}. This is a defect of the program; please report it with the model");
+        Self::Failed(Failure { cause: FailureCause::Defect, message, violations: Vec::new() })
+    }
+}
+
+impl From<AnalysisError> for Halt {
+    fn from(error: AnalysisError) -> Self {
+        let message = error.to_string();
+        match error {
+            AnalysisError::Cancelled => Self::NotWanted,
+            AnalysisError::Refused(violations) => {
+                Self::Failed(Failure { cause: FailureCause::Refused, message, violations })
+            }
+            AnalysisError::Model(_) => {
+                Self::Failed(Failure { cause: FailureCause::Model, message, violations: Vec::new() })
+            }
+        }
+    }
+}

@@ -1,0 +1,43 @@
+//! The end of a sweep: what can only be said of all its speeds together.
+
+use super::engine::{Engine, Live};
+use super::error::Halt;
+use super::progress::PhaseMonitor;
+use crate::analysis::request::SweepRequest;
+use crate::analysis::run;
+use crate::store::results::Document;
+
+/// Computes the critical speeds of a sweep whose speeds are all finished and marks it successful.
+pub(super) async fn sweep(engine: &Engine, job: &Live, request: &SweepRequest) -> Result<(), Halt> {
+    let monitor = PhaseMonitor::uncounted(job.watch.clone());
+    let reduced = engine.reductions.get(&request.model, request.modes_per_speed, monitor).await?;
+    let finished = engine.store.speed_results(job.id).await?;
+    let settings = request.clone();
+    let sensors = request.sensors.len();
+    let tables = engine
+        .pool
+        .run(move || {
+            (0..sensors)
+                .map(|sensor| run::critical_speeds(&reduced, &settings, &finished, sensor))
+                .collect::<Result<Vec<_>, _>>()
+        })
+        .await??;
+    let documents = (0..)
+        .zip(&tables)
+        .map(|(sensor, table)| Ok((Document::CriticalSpeeds(sensor), serde_json::to_string(table)?)))
+        .collect::<Result<Vec<_>, serde_json::Error>>()?;
+    complete(engine, job, &documents).await
+}
+
+/// Marks a job successful with the documents that conclude it.
+pub(super) async fn complete(
+    engine: &Engine,
+    job: &Live,
+    documents: &[(Document, String)],
+) -> Result<(), Halt> {
+    if engine.store.complete_job(job.id, documents).await? {
+        tracing::info!(job.id = %job.id, "successful");
+    }
+    engine.forget(job.id);
+    Ok(())
+}

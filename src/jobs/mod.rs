@@ -1,0 +1,31 @@
+//! What a job means: how it is prepared, computed speed by speed, finished, cancelled and resumed.
+//!
+//! ```text
+//! POST ─ Jobs::submit ─→ jobs table ─→ queue `prepare` ─→ prepare: reduction, check
+//!                                                             │ one task per speed
+//!                                      queue `speeds`  ←──────┘
+//!                                             └─→ speed: run, commit its row ─→ the last one: finish
+//! ```
+//!
+//! The unit of work is one speed of one job. Tasks are carried by `apalis`; the tables of [`crate::store`] are what is
+//! true. A handler looks there first, so a task that runs twice, or somewhere else, does no harm.
+//!
+//! Handlers are async and wait; what computes runs on the threads of a [`pool::CpuPool`]. The two queues hand their
+//! work to the same threads in order of arrival, and the queue of speeds has no more tasks out than there are threads:
+//! a small job is never more than a few speeds away from its turn.
+
+mod engine;
+mod error;
+mod finish;
+mod handle;
+mod modal_analysis;
+mod pool;
+mod prepare;
+mod progress;
+mod reductions;
+mod speed;
+mod workers;
+
+pub use handle::{Cancellation, Jobs, SubmitError};
+pub use pool::Panicked;
+pub use workers::{Runner, Settings};

@@ -1,0 +1,18 @@
+//! A modal analysis: one task from beginning to end.
+
+use super::engine::{Engine, Live};
+use super::error::Halt;
+use super::finish;
+use super::progress::PhaseMonitor;
+use crate::analysis::request::ModalAnalysisRequest;
+use crate::analysis::run;
+use crate::store::results::Document;
+
+/// Computes and stores the Campbell diagram.
+pub(super) async fn run(engine: &Engine, job: &Live, request: &ModalAnalysisRequest) -> Result<(), Halt> {
+    let monitor = PhaseMonitor::reduction_of_modal_analysis(job.watch.clone());
+    let reduced = engine.reductions.get(&request.model, request.modes_per_speed, monitor).await?;
+    let (settings, monitor) = (request.clone(), PhaseMonitor::modal_analysis(job.watch.clone()));
+    let campbell = engine.pool.run(move || run::modal_analysis(&reduced, &settings, &monitor)).await??;
+    finish::complete(engine, job, &[(Document::Campbell, serde_json::to_string(&campbell)?)]).await
+}

@@ -1,0 +1,78 @@
+//! Threads that compute: a fixed number, apart from those that serve requests.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::{Arc, Mutex, PoisonError, mpsc};
+
+use tokio::sync::oneshot;
+
+type Work = Box<dyn FnOnce() + Send>;
+
+/// A fixed number of threads that take work in order of arrival.
+#[derive(Debug, Clone)]
+pub(crate) struct CpuPool {
+    sender: mpsc::Sender<Work>,
+}
+
+/// A computation panicked: a defect of the program.
+#[derive(Debug, Clone, thiserror::Error)]
+#[error("the computation panicked: {message}")]
+pub struct Panicked {
+    /// What the panic said.
+    pub message: String,
+}
+
+impl CpuPool {
+    /// Starts `threads` threads called `name`. They end when the last handle on the pool is gone.
+    pub(crate) fn start(name: &str, threads: usize) -> std::io::Result<Self> {
+        let (sender, receiver) = mpsc::channel::<Work>();
+        let receiver = Arc::new(Mutex::new(receiver));
+        for index in 0..threads {
+            let receiver = Arc::clone(&receiver);
+            std::thread::Builder::new().name(format!("{name}-{index}")).spawn(move || {
+                loop {
+                    // The lock is held while waiting for work, never while doing it.
+                    let work = receiver.lock().unwrap_or_else(PoisonError::into_inner).recv();
+                    let Ok(work) = work else { break };
+                    work();
+                }
+            })?;
+        }
+        Ok(Self { sender })
+    }
+
+    /// Runs `compute` on one of the threads and waits for its result.
+    pub(crate) async fn run<T, F>(&self, compute: F) -> Result<T, Panicked>
+    where
+        T: Send + 'static,
+        F: FnOnce() -> T + Send + 'static,
+    {
+        let (sender, receiver) = oneshot::channel();
+        let work: Work = Box::new(move || {
+            let result = catch_unwind(AssertUnwindSafe(compute)).map_err(|payload| Panicked {
+                message: payload
+                    .downcast_ref::<&str>()
+                    .map(ToString::to_string)
+                    .or_else(|| payload.downcast_ref::<String>().cloned())
+                    .unwrap_or_else(|| "no message".to_owned()),
+            });
+            // Nobody waits any more: the result is not wanted.
+            let _ = sender.send(result);
+        });
+        let gone = || Panicked { message: "its thread is gone".to_owned() };
+        self.sender.send(work).map_err(|_| gone())?;
+        receiver.await.map_err(|_| gone())?
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::CpuPool;
+
+    #[tokio::test]
+    async fn a_panic_is_a_result_and_the_thread_lives_on() {
+        let pool = CpuPool::start("test", 1).unwrap();
+        let panicked = pool.run(|| panic!("division by cucumber")).await.unwrap_err();
+        assert_eq!(panicked.message, "division by cucumber");
+        assert_eq!(pool.run(|| 6 * 7).await.unwrap(), 42);
+    }
+}

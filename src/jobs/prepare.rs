@@ -1,0 +1,40 @@
+//! The first task of a job: reduction, checks, and one task per missing speed.
+
+use super::engine::{Engine, Live};
+use super::error::Halt;
+use super::progress::PhaseMonitor;
+use super::{finish, modal_analysis};
+use crate::analysis::request::SweepRequest;
+use crate::analysis::run;
+use crate::store::jobs::{JobId, JobRequest};
+
+/// Prepares job `id`. Harmless to repeat: what is stored is not computed again.
+pub(super) async fn prepare(engine: &Engine, id: JobId) -> Result<(), Halt> {
+    let Some(job) = engine.live(id).await? else { return Ok(()) };
+    if !engine.store.begin_job(id).await? {
+        return Ok(());
+    }
+    match &job.request {
+        JobRequest::Sweep(request) => prepare_sweep(engine, &job, request).await,
+        JobRequest::ModalAnalysis(request) => modal_analysis::run(engine, &job, request).await,
+    }
+}
+
+async fn prepare_sweep(engine: &Engine, job: &Live, request: &SweepRequest) -> Result<(), Halt> {
+    let monitor = PhaseMonitor::reduction_of_sweep(job.watch.clone());
+    let reduced = engine.reductions.get(&request.model, request.modes_per_speed, monitor).await?;
+
+    let (checked, monitor) = (request.clone(), PhaseMonitor::uncounted(job.watch.clone()));
+    engine.pool.run(move || run::check(&reduced, &checked, &monitor)).await??;
+
+    let finished = engine.store.finished_speeds(job.id).await?;
+    let missing: Vec<u32> = (0..job.speeds).filter(|speed| !finished.contains(speed)).collect();
+    job.watch.speeds_finished(job.speeds - missing.len() as u32, None);
+    tracing::info!(job.id = %job.id, speeds = job.speeds, finished = finished.len(), "prepared");
+    if missing.is_empty() {
+        return finish::sweep(engine, job, request).await;
+    }
+    engine.queue.push_speeds(job.id, &missing).await?;
+    engine.new_speeds.notify_one();
+    Ok(())
+}

@@ -1,0 +1,114 @@
+//! Reduced sectors on demand: from memory, from the store, or computed, once, for whoever needs them.
+
+use std::collections::{HashMap, VecDeque};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use super::error::Halt;
+use super::pool::CpuPool;
+use super::progress::PhaseMonitor;
+use crate::analysis::monitor::Monitor;
+use crate::analysis::run::{self, ReducedSector};
+use crate::package;
+use crate::store::Store;
+use crate::store::jobs::{Failure, FailureCause};
+
+/// Reduced sectors kept in memory: tens of megabytes each at most, and jobs come in runs on the same model.
+const KEPT: usize = 4;
+
+/// A model and its accuracy dial.
+type Key = (String, u32);
+
+/// Reduced sectors on demand.
+#[derive(Debug)]
+pub(super) struct Reductions {
+    store: Store,
+    pool: CpuPool,
+    limits: package::Limits,
+    /// Most recently used last.
+    recent: Mutex<VecDeque<(Key, Arc<ReducedSector>)>>,
+    /// One lock per reduction that is being obtained: the second job to need it waits for the first.
+    flights: Mutex<HashMap<Key, Arc<tokio::sync::Mutex<()>>>>,
+}
+
+impl Reductions {
+    pub(super) fn new(store: Store, pool: CpuPool, limits: package::Limits) -> Self {
+        Self { store, pool, limits, recent: Mutex::default(), flights: Mutex::default() }
+    }
+
+    /// The reduction of `model`; computes and stores it if there is none.
+    pub(super) async fn get(
+        &self,
+        model: &str,
+        modes_per_speed: u32,
+        monitor: PhaseMonitor,
+    ) -> Result<Arc<ReducedSector>, Halt> {
+        let key = (model.to_owned(), modes_per_speed);
+        if let Some(reduced) = self.recall(&key) {
+            return Ok(reduced);
+        }
+        let flight = {
+            let mut flights = self.flights.lock().unwrap_or_else(PoisonError::into_inner);
+            Arc::clone(flights.entry(key.clone()).or_default())
+        };
+        let guard = flight.lock().await;
+        let result = self.obtain(&key, monitor).await;
+        drop(guard);
+        let mut flights = self.flights.lock().unwrap_or_else(PoisonError::into_inner);
+        // Two handles are the map's and ours; more mean that somebody waits.
+        if Arc::strong_count(&flight) <= 2 {
+            flights.remove(&key);
+        }
+        result
+    }
+
+    /// With the flight's lock held.
+    async fn obtain(&self, key: &Key, monitor: PhaseMonitor) -> Result<Arc<ReducedSector>, Halt> {
+        if let Some(reduced) = self.recall(key) {
+            return Ok(reduced);
+        }
+        if monitor.is_cancelled() {
+            return Err(Halt::NotWanted);
+        }
+        let (model, modes_per_speed) = (key.0.as_str(), key.1);
+        if let Some(reduced) = self.store.reduction(model, modes_per_speed).await? {
+            tracing::info!(model.id = model, modes_per_speed, "read the stored reduction");
+            return Ok(self.remember(key, reduced));
+        }
+        tracing::info!(model.id = model, modes_per_speed, "reducing");
+        let path = self.store.package_path(model);
+        let limits = self.limits.clone();
+        let reduced = self
+            .pool
+            .run(move || -> Result<ReducedSector, Halt> {
+                let package = package::read(&path, &limits).map_err(|error| {
+                    let message = format!("the stored package cannot be read any more: {error}");
+                    Halt::Failed(Failure { cause: FailureCause::Package, message, violations: Vec::new() })
+                })?;
+                Ok(run::prepare(&package.sector, modes_per_speed, &monitor)?)
+            })
+            .await??;
+        self.store.insert_reduction(model, modes_per_speed, &reduced).await?;
+        let wall_time_s = reduced.report.wall_time_s;
+        tracing::info!(model.id = model, modes_per_speed, wall_time_s, "reduced");
+        Ok(self.remember(key, reduced))
+    }
+
+    fn recall(&self, key: &Key) -> Option<Arc<ReducedSector>> {
+        let mut recent = self.recent.lock().unwrap_or_else(PoisonError::into_inner);
+        let position = recent.iter().position(|(known, _)| known == key)?;
+        let entry = recent.remove(position)?;
+        let reduced = Arc::clone(&entry.1);
+        recent.push_back(entry);
+        Some(reduced)
+    }
+
+    fn remember(&self, key: &Key, reduced: ReducedSector) -> Arc<ReducedSector> {
+        let reduced = Arc::new(reduced);
+        let mut recent = self.recent.lock().unwrap_or_else(PoisonError::into_inner);
+        recent.push_back((key.clone(), Arc::clone(&reduced)));
+        if recent.len() > KEPT {
+            recent.pop_front();
+        }
+        reduced
+    }
+}

@@ -1,0 +1,78 @@
+//! Answers to repeat when a POST with an `Idempotency-Key` is repeated.
+
+use sqlx::Row;
+use sqlx::SqliteConnection;
+
+use super::{Store, StoreError, now, timestamp};
+
+/// Days after which a key may be used for something else.
+pub const KEPT_DAYS: i64 = 7;
+
+/// An answer with the request it belongs to.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Answer {
+    /// The client's key.
+    pub key: String,
+    /// Digest of route and body of the request.
+    pub fingerprint: String,
+    /// HTTP status.
+    pub status: u16,
+    /// `Location` header.
+    pub location: String,
+    /// JSON body.
+    pub body: String,
+}
+
+impl Store {
+    /// The answer given under `key`.
+    pub async fn answer(&self, key: &str) -> Result<Option<Answer>, StoreError> {
+        let row = sqlx::query("select * from idempotency_keys where key = ? and created_at > ?")
+            .bind(key)
+            .bind(expiry())
+            .fetch_optional(&self.readers)
+            .await?;
+        row.map(|row| {
+            Ok(Answer {
+                key: row.try_get("key")?,
+                fingerprint: row.try_get("fingerprint")?,
+                status: row.try_get::<u16, _>("status")?,
+                location: row.try_get("location")?,
+                body: row.try_get("body")?,
+            })
+        })
+        .transpose()
+    }
+
+    /// Keeps `answer` for repetition. False if its key was taken meanwhile.
+    pub async fn insert_answer(&self, answer: &Answer) -> Result<bool, StoreError> {
+        let mut transaction = self.writer.begin().await?;
+        let inserted = insert(&mut transaction, answer).await?;
+        transaction.commit().await?;
+        Ok(inserted)
+    }
+}
+
+/// Keeps `answer` within a transaction. False if its key was taken meanwhile.
+pub(super) async fn insert(connection: &mut SqliteConnection, answer: &Answer) -> Result<bool, StoreError> {
+    sqlx::query("delete from idempotency_keys where created_at <= ?")
+        .bind(expiry())
+        .execute(&mut *connection)
+        .await?;
+    let inserted = sqlx::query(
+        "insert into idempotency_keys (key, fingerprint, status, location, body, created_at)
+         values (?, ?, ?, ?, ?, ?) on conflict (key) do nothing",
+    )
+    .bind(&answer.key)
+    .bind(&answer.fingerprint)
+    .bind(answer.status)
+    .bind(&answer.location)
+    .bind(&answer.body)
+    .bind(now())
+    .execute(connection)
+    .await?;
+    Ok(inserted.rows_affected() == 1)
+}
+
+fn expiry() -> String {
+    timestamp(chrono::Utc::now() - chrono::TimeDelta::days(KEPT_DAYS))
+}

@@ -1,0 +1,439 @@
+//! Jobs: what was asked for and how far it is.
+
+use serde::{Deserialize, Serialize};
+use sqlx::Row;
+use sqlx::sqlite::SqliteRow;
+use utoipa::ToSchema;
+use uuid::Uuid;
+
+use super::idempotency::{self, Answer};
+use super::results::Document;
+use super::status::JobStatus;
+use super::{Store, StoreError, now};
+use crate::analysis::error::Violation;
+use crate::analysis::request::{ModalAnalysisRequest, SweepRequest};
+use crate::analysis::run::ModelFacts;
+
+/// Id of a job: a version 7 UUID, so that order of ids is order of age.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct JobId(Uuid);
+
+impl JobId {
+    /// A new id, greater than all before it.
+    pub fn new() -> Self {
+        Self(Uuid::now_v7())
+    }
+
+    /// Reads an id; `None` if `text` is not one.
+    pub fn parse(text: &str) -> Option<Self> {
+        Uuid::try_parse(text).ok().map(Self)
+    }
+}
+
+impl Default for JobId {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl std::fmt::Display for JobId {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        self.0.hyphenated().fmt(f)
+    }
+}
+
+/// Kind of a job.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum JobKind {
+    /// Contact simulations over speeds.
+    Sweep,
+    /// Natural frequencies over speeds.
+    ModalAnalysis,
+}
+
+impl JobKind {
+    /// The word on the wire and in the database.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Sweep => "sweep",
+            Self::ModalAnalysis => "modal_analysis",
+        }
+    }
+}
+
+/// What a job computes.
+#[derive(Debug, Clone, PartialEq)]
+pub enum JobRequest {
+    /// Contact simulations over speeds.
+    Sweep(SweepRequest),
+    /// Natural frequencies over speeds.
+    ModalAnalysis(ModalAnalysisRequest),
+}
+
+impl JobRequest {
+    /// Its kind.
+    pub fn kind(&self) -> JobKind {
+        match self {
+            Self::Sweep(_) => JobKind::Sweep,
+            Self::ModalAnalysis(_) => JobKind::ModalAnalysis,
+        }
+    }
+
+    /// The model it needs.
+    pub fn model(&self) -> &str {
+        match self {
+            Self::Sweep(request) => &request.model,
+            Self::ModalAnalysis(request) => &request.model,
+        }
+    }
+
+    /// The accuracy dial of the reduction it needs.
+    pub fn modes_per_speed(&self) -> u32 {
+        match self {
+            Self::Sweep(request) => request.modes_per_speed,
+            Self::ModalAnalysis(request) => request.modes_per_speed,
+        }
+    }
+
+    fn to_json(&self) -> Result<String, serde_json::Error> {
+        match self {
+            Self::Sweep(request) => serde_json::to_string(request),
+            Self::ModalAnalysis(request) => serde_json::to_string(request),
+        }
+    }
+}
+
+/// Why a job failed.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Failure {
+    /// Which kind of failure.
+    pub cause: FailureCause,
+    /// What happened, in words an engineer can act on.
+    pub message: String,
+    /// Offending fields of the request, if it was the request.
+    #[serde(default)]
+    pub violations: Vec<Violation>,
+}
+
+/// Kinds of failure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FailureCause {
+    /// The request asks for something that only the reduced model shows to be impossible.
+    Refused,
+    /// The model cannot be reduced or evaluated.
+    Model,
+    /// The stored package could not be read again.
+    Package,
+    /// A defect of this program: a computation panicked.
+    Defect,
+    /// The database or the disk failed.
+    Storage,
+}
+
+/// A stored job.
+#[derive(Debug, Clone)]
+pub struct Job {
+    /// Its id.
+    pub id: JobId,
+    /// How far it is.
+    pub status: JobStatus,
+    /// Facts of its model when it was accepted.
+    pub facts: ModelFacts,
+    /// The whole request as resolved.
+    pub request: JobRequest,
+    /// Percent of the work done.
+    pub progress: u8,
+    /// What runs now, in words.
+    pub phase: String,
+    /// Its speeds.
+    pub speeds: SpeedCounts,
+    /// Why it failed.
+    pub failure: Option<Failure>,
+    /// RFC 3339, as all below.
+    pub created_at: String,
+    /// When computing began.
+    pub started_at: Option<String>,
+    /// When it became final.
+    pub finished_at: Option<String>,
+    /// When anything of the above last changed.
+    pub updated_at: String,
+}
+
+/// Speeds of a job, counted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+pub struct SpeedCounts {
+    /// Asked for.
+    pub total: u32,
+    /// With a result, whichever.
+    pub finished: u32,
+    /// Of the finished ones: stopped because the response grew beyond any physical bound.
+    pub diverged: u32,
+    /// Of the finished ones: could not be integrated.
+    pub failed: u32,
+}
+
+/// What became of a job that was to be kept.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Insertion {
+    /// It is accepted.
+    Accepted,
+    /// Its model is not there (any more).
+    UnknownModel,
+    /// The idempotency key was used meanwhile; nothing was kept.
+    KeyTaken,
+}
+
+/// Which jobs to list.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct JobFilter {
+    /// Only with this status.
+    pub status: Option<JobStatus>,
+    /// Only of this kind.
+    pub kind: Option<JobKind>,
+    /// Only older than this one: the last of the previous page.
+    pub before: Option<JobId>,
+}
+
+const COLUMNS: &str = "select jobs.*,
+    (select count(*) from speed_results where job = jobs.id) as finished,
+    (select count(*) from speed_results where job = jobs.id and status = 'diverged') as diverged,
+    (select count(*) from speed_results where job = jobs.id and status = 'failed') as failed
+    from jobs";
+
+impl Store {
+    /// Keeps a new job, with the answer its idempotency key will repeat.
+    pub async fn insert_job(
+        &self,
+        id: JobId,
+        request: &JobRequest,
+        facts: &ModelFacts,
+        speeds: u32,
+        answer: Option<&Answer>,
+    ) -> Result<Insertion, StoreError> {
+        let mut transaction = self.writer.begin().await?;
+        if let Some(answer) = answer
+            && !idempotency::insert(&mut transaction, answer).await?
+        {
+            return Ok(Insertion::KeyTaken);
+        }
+        let time = now();
+        let inserted = sqlx::query(
+            "insert into jobs (id, kind, model, modes_per_speed, facts, request, speeds, created_at, updated_at)
+             select ?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?8 where exists (select 1 from models where id = ?3)",
+        )
+        .bind(id.to_string())
+        .bind(request.kind().as_str())
+        .bind(request.model())
+        .bind(request.modes_per_speed())
+        .bind(serde_json::to_string(facts)?)
+        .bind(request.to_json()?)
+        .bind(speeds)
+        .bind(time)
+        .execute(&mut *transaction)
+        .await?;
+        if inserted.rows_affected() == 0 {
+            return Ok(Insertion::UnknownModel);
+        }
+        transaction.commit().await?;
+        Ok(Insertion::Accepted)
+    }
+
+    /// The job `id`.
+    pub async fn job(&self, id: JobId) -> Result<Option<Job>, StoreError> {
+        sqlx::query(sqlx::AssertSqlSafe(format!("{COLUMNS} where id = ?")))
+            .bind(id.to_string())
+            .fetch_optional(&self.readers)
+            .await?
+            .map(|row| read(&row))
+            .transpose()
+    }
+
+    /// Up to `limit` jobs that pass `filter`, newest first.
+    pub async fn jobs(&self, filter: JobFilter, limit: u32) -> Result<Vec<Job>, StoreError> {
+        let sql = format!(
+            "{COLUMNS} where (?1 is null or status = ?1) and (?2 is null or kind = ?2) and (?3 is null or id < ?3)
+             order by id desc limit ?4"
+        );
+        sqlx::query(sqlx::AssertSqlSafe(sql))
+            .bind(filter.status.map(JobStatus::as_str))
+            .bind(filter.kind.map(JobKind::as_str))
+            .bind(filter.before.map(|id| id.to_string()))
+            .bind(limit)
+            .fetch_all(&self.readers)
+            .await?
+            .iter()
+            .map(read)
+            .collect()
+    }
+
+    /// All jobs that still want work, oldest first, as a service that starts finds them: each with the number of times
+    /// the service died under it since anything of it was last finished. Counts one more for those that were being computed.
+    pub async fn take_up_jobs(&self) -> Result<Vec<(JobId, u32)>, StoreError> {
+        let mut transaction = self.writer.begin().await?;
+        sqlx::query("update jobs set crashes = crashes + 1, in_hand = 0 where in_hand = 1")
+            .execute(&mut *transaction)
+            .await?;
+        let jobs: Vec<(String, u32)> = sqlx::query_as(
+            "select id, crashes from jobs where status in ('accepted', 'running') order by id",
+        )
+        .fetch_all(&mut *transaction)
+        .await?;
+        transaction.commit().await?;
+        jobs.iter().map(|(id, crashes)| Ok((read_id(id)?, *crashes))).collect()
+    }
+
+    /// Lays down all jobs: the service ends because it was told to.
+    pub async fn lay_down_jobs(&self) -> Result<(), StoreError> {
+        sqlx::query("update jobs set in_hand = 0 where in_hand = 1").execute(&self.writer).await?;
+        Ok(())
+    }
+
+    /// Moves a job on, if the transition table allows it. Returns the status it has now; `None` if there is no
+    /// such job. `failure` goes with [`JobStatus::Failed`] and with nothing else.
+    pub async fn advance_job(
+        &self,
+        id: JobId,
+        next: JobStatus,
+        failure: Option<&Failure>,
+    ) -> Result<Option<JobStatus>, StoreError> {
+        let mut transaction = self.writer.begin().await?;
+        let Some(status) = status_of(&mut transaction, id).await? else { return Ok(None) };
+        if !status.may_become(next) {
+            return Ok(Some(status));
+        }
+        let time = now();
+        sqlx::query(
+            "update jobs set status = ?2, error = ?3, updated_at = ?4, in_hand = 0,
+                 finished_at = case when ?5 then ?4 end
+             where id = ?1",
+        )
+        .bind(id.to_string())
+        .bind(next.as_str())
+        .bind(failure.map(serde_json::to_string).transpose()?)
+        .bind(time)
+        .bind(next.is_final())
+        .execute(&mut *transaction)
+        .await?;
+        transaction.commit().await?;
+        Ok(Some(next))
+    }
+
+    /// Takes a job in hand: it is running from here on. False if it wants no work any more.
+    pub async fn begin_job(&self, id: JobId) -> Result<bool, StoreError> {
+        let begun = sqlx::query(
+            "update jobs set status = 'running', in_hand = 1, updated_at = ?2,
+                 started_at = coalesce(started_at, ?2)
+             where id = ?1 and status in ('accepted', 'running')",
+        )
+        .bind(id.to_string())
+        .bind(now())
+        .execute(&self.writer)
+        .await?;
+        Ok(begun.rows_affected() == 1)
+    }
+
+    /// Ends a running job well: keeps the `documents` computed at its end (as JSON) and marks it successful, in
+    /// one transaction. False if the job was not running any more.
+    pub async fn complete_job(
+        &self,
+        id: JobId,
+        documents: &[(Document, String)],
+    ) -> Result<bool, StoreError> {
+        let mut transaction = self.writer.begin().await?;
+        let status = status_of(&mut transaction, id).await?;
+        if !status.is_some_and(|status| status.may_become(JobStatus::Successful)) {
+            return Ok(false);
+        }
+        let time = now();
+        for (document, body) in documents {
+            let (name, part) = document.columns();
+            sqlx::query("insert into documents (job, name, part, body, created_at) values (?, ?, ?, ?, ?)")
+                .bind(id.to_string())
+                .bind(name)
+                .bind(part)
+                .bind(body)
+                .bind(&time)
+                .execute(&mut *transaction)
+                .await?;
+        }
+        sqlx::query(
+            "update jobs set status = 'successful', progress = 100, phase = '', in_hand = 0, finished_at = ?2, updated_at = ?2
+             where id = ?1",
+        )
+        .bind(id.to_string())
+        .bind(time)
+        .execute(&mut *transaction)
+        .await?;
+        transaction.commit().await?;
+        Ok(true)
+    }
+
+    /// Records progress of a running job. It never falls, and only [`Store::complete_job`] reaches 100.
+    pub async fn record_progress(&self, id: JobId, percent: u8, phase: &str) -> Result<(), StoreError> {
+        sqlx::query(
+            "update jobs set progress = max(progress, min(?2, 99)), phase = ?3, updated_at = ?4
+             where id = ?1 and status = 'running'",
+        )
+        .bind(id.to_string())
+        .bind(percent)
+        .bind(phase)
+        .bind(now())
+        .execute(&self.writer)
+        .await?;
+        Ok(())
+    }
+}
+
+async fn status_of(
+    connection: &mut sqlx::SqliteConnection,
+    id: JobId,
+) -> Result<Option<JobStatus>, StoreError> {
+    let status: Option<String> = sqlx::query_scalar("select status from jobs where id = ?")
+        .bind(id.to_string())
+        .fetch_optional(connection)
+        .await?;
+    status.map(|status| JobStatus::from_column(&status)).transpose()
+}
+
+fn read_id(text: &str) -> Result<JobId, StoreError> {
+    JobId::parse(text).ok_or_else(|| StoreError::Unknown { column: "jobs.id", value: text.to_owned() })
+}
+
+fn read(row: &SqliteRow) -> Result<Job, StoreError> {
+    let kind: &str = row.try_get("kind")?;
+    let request: &str = row.try_get("request")?;
+    let request = match kind {
+        "sweep" => JobRequest::Sweep(serde_json::from_str(request)?),
+        "modal_analysis" => JobRequest::ModalAnalysis(serde_json::from_str(request)?),
+        _ => return Err(StoreError::Unknown { column: "jobs.kind", value: kind.to_owned() }),
+    };
+    let status = JobStatus::from_column(row.try_get("status")?)?;
+    let total = row.try_get("speeds")?;
+    let finished = match (&request, status) {
+        // A modal analysis computes its speeds together.
+        (JobRequest::ModalAnalysis(_), JobStatus::Successful) => total,
+        _ => row.try_get("finished")?,
+    };
+    Ok(Job {
+        id: read_id(row.try_get("id")?)?,
+        status,
+        facts: serde_json::from_str(row.try_get("facts")?)?,
+        request,
+        progress: row.try_get("progress")?,
+        phase: row.try_get("phase")?,
+        speeds: SpeedCounts {
+            total,
+            finished,
+            diverged: row.try_get("diverged")?,
+            failed: row.try_get("failed")?,
+        },
+        failure: row.try_get::<Option<&str>, _>("error")?.map(serde_json::from_str).transpose()?,
+        created_at: row.try_get("created_at")?,
+        started_at: row.try_get("started_at")?,
+        finished_at: row.try_get("finished_at")?,
+        updated_at: row.try_get("updated_at")?,
+    })
+}

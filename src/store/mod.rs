@@ -1,0 +1,76 @@
+//! What is remembered: models, reductions, jobs and results in one SQLite file. The only SQL in the program.
+//!
+//! One function per question; rows become domain types here. All writes go through one connection, so transactions
+//! never meet a busy database, and readers never wait for writers (WAL).
+
+mod error;
+pub mod idempotency;
+pub mod jobs;
+pub mod models;
+pub mod queue;
+pub mod reductions;
+pub mod results;
+pub mod status;
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Duration;
+
+use sqlx::sqlite::{
+    SqliteConnectOptions, SqliteJournalMode, SqlitePool, SqlitePoolOptions, SqliteSynchronous,
+};
+
+pub use error::StoreError;
+
+/// Connections for readers; more than the requests a database on one disk serves well at once.
+const READERS: u32 = 8;
+
+/// The database of one data folder and the packages beside it.
+#[derive(Debug, Clone)]
+pub struct Store {
+    folder: PathBuf,
+    readers: SqlitePool,
+    writer: SqlitePool,
+    /// Held while a package file and its row come or go together.
+    packages: Arc<tokio::sync::Mutex<()>>,
+}
+
+impl Store {
+    /// Opens the store in `folder`, which must exist, and brings its tables up to date.
+    pub async fn open(folder: &Path) -> Result<Self, StoreError> {
+        std::fs::create_dir_all(folder.join("models"))?;
+        let options = SqliteConnectOptions::new()
+            .filename(folder.join("rubmap.sqlite"))
+            .create_if_missing(true)
+            .journal_mode(SqliteJournalMode::Wal)
+            // A 202 is a promise and a speed may have cost minutes: both survive a power cut, at one flush each.
+            .synchronous(SqliteSynchronous::Full)
+            .foreign_keys(true)
+            .busy_timeout(Duration::from_secs(10));
+        let writer = SqlitePoolOptions::new().max_connections(1).connect_with(options.clone()).await?;
+        sqlx::migrate!().run(&writer).await?;
+        let readers = SqlitePoolOptions::new().max_connections(READERS).connect_with(options).await?;
+        Ok(Self { folder: folder.to_owned(), readers, writer, packages: Arc::default() })
+    }
+
+    /// Whether the database answers.
+    pub async fn ping(&self) -> Result<(), StoreError> {
+        sqlx::query("select 1").execute(&self.readers).await?;
+        Ok(())
+    }
+
+    /// Closes all connections, which folds the write-ahead log into the database.
+    pub async fn close(&self) {
+        self.readers.close().await;
+        self.writer.close().await;
+    }
+}
+
+/// Now, as every timestamp in the database: RFC 3339 in UTC with milliseconds, which sorts as text.
+fn now() -> String {
+    timestamp(chrono::Utc::now())
+}
+
+fn timestamp(time: chrono::DateTime<chrono::Utc>) -> String {
+    time.to_rfc3339_opts(chrono::SecondsFormat::Millis, true)
+}

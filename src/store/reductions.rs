@@ -1,0 +1,58 @@
+//! Reduced sectors, one per (model, `modes_per_speed`).
+
+use super::{Store, StoreError, now};
+use crate::analysis::run::ReducedSector;
+
+/// Layout of a stored reduction: raise it when [`ReducedSector`] changes, so that old ones are computed again
+/// instead of misread.
+const LAYOUT: i64 = 1;
+
+impl Store {
+    /// The stored reduction of `model`, if this version of the program can read it.
+    pub async fn reduction(
+        &self,
+        model: &str,
+        modes_per_speed: u32,
+    ) -> Result<Option<ReducedSector>, StoreError> {
+        let blob: Option<Vec<u8>> = sqlx::query_scalar(
+            "select reduced from reductions where model = ? and modes_per_speed = ? and layout = ?",
+        )
+        .bind(model)
+        .bind(modes_per_speed)
+        .bind(LAYOUT)
+        .fetch_optional(&self.readers)
+        .await?;
+        Ok(blob.and_then(|blob| match postcard::from_bytes(&blob) {
+            Ok(reduced) => Some(reduced),
+            Err(error) => {
+                tracing::warn!(model.id = model, modes_per_speed, %error, "stored reduction is unreadable");
+                None
+            }
+        }))
+    }
+
+    /// Keeps the reduction of `model`. A model deleted meanwhile keeps nothing.
+    pub async fn insert_reduction(
+        &self,
+        model: &str,
+        modes_per_speed: u32,
+        reduced: &ReducedSector,
+    ) -> Result<(), StoreError> {
+        sqlx::query(
+            "insert into reductions (model, modes_per_speed, layout, reduced, report, created_at)
+             select ?1, ?2, ?3, ?4, ?5, ?6 where exists (select 1 from models where id = ?1)
+             on conflict (model, modes_per_speed) do update
+             set layout = excluded.layout, reduced = excluded.reduced, report = excluded.report,
+                 created_at = excluded.created_at",
+        )
+        .bind(model)
+        .bind(modes_per_speed)
+        .bind(LAYOUT)
+        .bind(postcard::to_stdvec(reduced)?)
+        .bind(serde_json::to_string(&reduced.report)?)
+        .bind(now())
+        .execute(&self.writer)
+        .await?;
+        Ok(())
+    }
+}

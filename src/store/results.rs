@@ -1,0 +1,121 @@
+//! Finished speeds of sweeps, and the documents computed at the end of a job.
+
+use std::collections::BTreeSet;
+
+use sqlx::Row;
+use sqlx::sqlite::SqliteRow;
+
+use super::jobs::JobId;
+use super::{Store, StoreError, now};
+use crate::analysis::result::{PointStatus, SpeedResult, SpeedSpectra};
+
+/// A document computed at the end of a job.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Document {
+    /// Result of a modal analysis.
+    Campbell,
+    /// Critical speeds of a sweep at the sensor of this index.
+    CriticalSpeeds(u32),
+}
+
+impl Document {
+    /// Its name and part in the database.
+    pub(super) fn columns(self) -> (&'static str, u32) {
+        match self {
+            Self::Campbell => ("campbell", 0),
+            Self::CriticalSpeeds(sensor) => ("critical_speeds", sensor),
+        }
+    }
+}
+
+impl Store {
+    /// Keeps a finished speed in a transaction of its own. A speed that is there already stays as it is.
+    /// Returns how many speeds of the job are finished now.
+    pub async fn insert_speed(&self, job: JobId, result: &SpeedResult) -> Result<u32, StoreError> {
+        let spectra = result.spectra.as_ref().map(postcard::to_stdvec).transpose()?;
+        let mut transaction = self.writer.begin().await?;
+        sqlx::query(
+            "insert into speed_results (job, speed, status, point, spectra, created_at) values (?, ?, ?, ?, ?, ?)
+             on conflict (job, speed) do nothing",
+        )
+        .bind(job.to_string())
+        .bind(result.point.index)
+        .bind(match result.point.status {
+            PointStatus::Completed => "completed",
+            PointStatus::Diverged => "diverged",
+            PointStatus::Failed => "failed",
+        })
+        .bind(serde_json::to_string(&result.point)?)
+        .bind(spectra)
+        .bind(now())
+        .execute(&mut *transaction)
+        .await?;
+        sqlx::query("update jobs set crashes = 0 where id = ? and crashes > 0")
+            .bind(job.to_string())
+            .execute(&mut *transaction)
+            .await?;
+        let finished = sqlx::query_scalar("select count(*) from speed_results where job = ?")
+            .bind(job.to_string())
+            .fetch_one(&mut *transaction)
+            .await?;
+        transaction.commit().await?;
+        Ok(finished)
+    }
+
+    /// Indices of the finished speeds of a job.
+    pub async fn finished_speeds(&self, job: JobId) -> Result<BTreeSet<u32>, StoreError> {
+        let speeds: Vec<u32> = sqlx::query_scalar("select speed from speed_results where job = ?")
+            .bind(job.to_string())
+            .fetch_all(&self.readers)
+            .await?;
+        Ok(speeds.into_iter().collect())
+    }
+
+    /// Whether speed `index` of a job is finished.
+    pub async fn is_speed_finished(&self, job: JobId, index: u32) -> Result<bool, StoreError> {
+        Ok(sqlx::query_scalar("select exists (select 1 from speed_results where job = ? and speed = ?)")
+            .bind(job.to_string())
+            .bind(index)
+            .fetch_one(&self.readers)
+            .await?)
+    }
+
+    /// All finished speeds of a job, in the order of the request.
+    pub async fn speed_results(&self, job: JobId) -> Result<Vec<SpeedResult>, StoreError> {
+        sqlx::query("select point, spectra from speed_results where job = ? order by speed")
+            .bind(job.to_string())
+            .fetch_all(&self.readers)
+            .await?
+            .iter()
+            .map(read)
+            .collect()
+    }
+
+    /// Speed `index` of a job, if it is finished.
+    pub async fn speed_result(&self, job: JobId, index: u32) -> Result<Option<SpeedResult>, StoreError> {
+        sqlx::query("select point, spectra from speed_results where job = ? and speed = ?")
+            .bind(job.to_string())
+            .bind(index)
+            .fetch_optional(&self.readers)
+            .await?
+            .map(|row| read(&row))
+            .transpose()
+    }
+
+    /// A document of a finished job, as JSON text.
+    pub async fn document(&self, job: JobId, document: Document) -> Result<Option<String>, StoreError> {
+        let (name, part) = document.columns();
+        Ok(sqlx::query_scalar("select body from documents where job = ? and name = ? and part = ?")
+            .bind(job.to_string())
+            .bind(name)
+            .bind(part)
+            .fetch_optional(&self.readers)
+            .await?)
+    }
+}
+
+fn read(row: &SqliteRow) -> Result<SpeedResult, StoreError> {
+    let spectra: Option<&[u8]> = row.try_get("spectra")?;
+    let spectra: Option<SpeedSpectra> = spectra.map(postcard::from_bytes).transpose()?;
+    Ok(SpeedResult { point: serde_json::from_str(row.try_get("point")?)?, spectra })
+}

@@ -1,0 +1,100 @@
+//! The life of a job: which status may follow which.
+
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+use super::StoreError;
+
+/// Status of a job (OGC API – Processes).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum JobStatus {
+    /// Waits for its turn.
+    Accepted,
+    /// Being computed.
+    Running,
+    /// Finished; each speed says how it ended.
+    Successful,
+    /// Could not be computed; `error` says why.
+    Failed,
+    /// Cancelled by the user; speeds finished before stay readable.
+    Dismissed,
+}
+
+impl JobStatus {
+    /// All statuses.
+    pub const ALL: [Self; 5] =
+        [Self::Accepted, Self::Running, Self::Successful, Self::Failed, Self::Dismissed];
+
+    /// Whether nothing follows any more.
+    pub fn is_final(self) -> bool {
+        matches!(self, Self::Successful | Self::Failed | Self::Dismissed)
+    }
+
+    /// The transition table. A running job that a restart finds stays `running`; it is only queued again.
+    pub fn may_become(self, next: Self) -> bool {
+        match self {
+            Self::Accepted => matches!(next, Self::Running | Self::Failed | Self::Dismissed),
+            Self::Running => matches!(next, Self::Successful | Self::Failed | Self::Dismissed),
+            Self::Successful | Self::Failed | Self::Dismissed => false,
+        }
+    }
+
+    /// The word on the wire and in the database.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Accepted => "accepted",
+            Self::Running => "running",
+            Self::Successful => "successful",
+            Self::Failed => "failed",
+            Self::Dismissed => "dismissed",
+        }
+    }
+
+    pub(super) fn from_column(value: &str) -> Result<Self, StoreError> {
+        Self::ALL
+            .into_iter()
+            .find(|status| status.as_str() == value)
+            .ok_or_else(|| StoreError::Unknown { column: "jobs.status", value: value.to_owned() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::JobStatus::{self, Accepted, Dismissed, Failed, Running, Successful};
+
+    #[test]
+    fn the_whole_table() {
+        let allowed = [
+            (Accepted, Running),
+            (Accepted, Failed),
+            (Accepted, Dismissed),
+            (Running, Successful),
+            (Running, Failed),
+            (Running, Dismissed),
+        ];
+        for from in JobStatus::ALL {
+            for to in JobStatus::ALL {
+                assert_eq!(from.may_become(to), allowed.contains(&(from, to)), "{from:?} → {to:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn final_means_that_nothing_follows() {
+        for from in JobStatus::ALL {
+            assert_eq!(
+                from.is_final(),
+                !JobStatus::ALL.into_iter().any(|to| from.may_become(to)),
+                "{from:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn words_read_back() {
+        for status in JobStatus::ALL {
+            assert_eq!(JobStatus::from_column(status.as_str()).unwrap(), status);
+        }
+    }
+}

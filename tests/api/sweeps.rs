@@ -1,0 +1,157 @@
+//! The main job: upload, sweep, poll, results.
+
+use serde_json::Value;
+
+use super::app::{Api, TestApp, modal_analysis_of, sweep_of};
+use super::model;
+
+#[tokio::test]
+async fn from_package_to_interaction_map() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(model::package(1.0)).await;
+    let answer = api.post("/v1/sweeps", &sweep_of(&model)).await;
+    assert_eq!(answer.status, 202, "{}", answer.body);
+    let id = answer.text("/id");
+    assert_eq!(answer.location, Some(format!("/v1/jobs/{id}")));
+    assert_eq!(answer.body["status"], "accepted");
+
+    let job = api.finish(&id).await;
+    assert_eq!(job["status"], "successful", "{job}");
+    assert_eq!(job["progress"], 100);
+    assert_eq!(job["speeds"], serde_json::json!({"total": 6, "finished": 6, "diverged": 0, "failed": 0}));
+    assert!(job["created_at"].as_str() <= job["started_at"].as_str());
+    assert!(job["started_at"].as_str() <= job["finished_at"].as_str());
+
+    let map = api.get(&format!("/v1/jobs/{id}/interaction-map")).await.body;
+    assert_eq!(map["speeds_rad_s"].as_array().unwrap().len(), 6);
+    let columns = map["engine_orders"].as_array().unwrap().len();
+    assert_eq!(columns, 4 * 8 + 1, "four bins per engine order, up to 8");
+    for row in map["amplitude"].as_array().unwrap() {
+        assert_eq!(row.as_array().unwrap().len(), columns);
+    }
+    assert_eq!(map["points"].as_array().unwrap().len(), 6);
+    assert!(
+        map["points"].as_array().unwrap().iter().any(|point| point["contact_share"].as_f64().unwrap() > 0.0),
+        "lobes higher than the clearance must touch"
+    );
+    assert_eq!(map["settings"]["sensors"].as_array().unwrap().len(), 2, "the default sensors are shown");
+    assert_eq!(map["units"]["length"], "mm");
+
+    let spectra = api.get(&format!("/v1/jobs/{id}/spectra/2")).await.body;
+    assert_eq!(spectra["spectra"]["sensors"][0]["amplitude"], map["amplitude"][2]);
+    let nodal_diameter =
+        api.get(&format!("/v1/jobs/{id}/interaction-map?sensor=1&nodal_diameter=2")).await.body;
+    assert_eq!(
+        spectra["spectra"]["sensors"][1]["nodal_diameters"][2], nodal_diameter["amplitude"][2],
+        "the map of a nodal diameter is a slice of the spectra"
+    );
+
+    let table = api.get(&format!("/v1/jobs/{id}/critical-speeds")).await;
+    assert_eq!(table.status, 200, "{}", table.body);
+    assert!(table.body["critical_speeds"].is_array());
+    let other = api.get(&format!("/v1/jobs/{id}/critical-speeds?sensor=1")).await.body;
+    assert_eq!(other["sensor"], map["settings"]["sensors"][1]);
+
+    for (query, parameter) in [
+        ("sensor=2", "sensor"),
+        ("sensor=-1", "sensor"),
+        ("nodal_diameter=3", "nodal_diameter"),
+        ("sensors=0", "sensors"),
+    ] {
+        let answer = api.get(&format!("/v1/jobs/{id}/interaction-map?{query}")).await;
+        assert_eq!(answer.problem(400, "invalid-parameter")[0]["parameter"], parameter);
+    }
+    api.get(&format!("/v1/jobs/{id}/spectra/6")).await.problem(404, "speed-not-found");
+    api.get(&format!("/v1/jobs/{id}/campbell")).await.problem(409, "wrong-job-kind");
+    api.delete(&format!("/v1/jobs/{id}")).await.problem(409, "job-finished");
+    app.stop().await;
+}
+
+#[tokio::test]
+async fn from_package_to_campbell_diagram() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(model::package(1.0)).await;
+    let answer = api.post("/v1/modal-analyses", &modal_analysis_of(&model)).await;
+    assert_eq!(answer.status, 202, "{}", answer.body);
+    let id = answer.text("/id");
+    let job = api.finish(&id).await;
+    assert_eq!(job["status"], "successful", "{job}");
+    assert_eq!(job["kind"], "modal_analysis");
+    let campbell = api.get(&format!("/v1/jobs/{id}/campbell")).await.body;
+    let frequencies = campbell["frequencies_hz"].as_array().unwrap();
+    assert_eq!(frequencies.len(), 7);
+    assert_eq!(frequencies[0].as_array().unwrap().len(), 3, "nodal diameters 0, 1 and 2 of 4 sectors");
+    assert_eq!(frequencies[0][0].as_array().unwrap().len(), 2);
+    api.get(&format!("/v1/jobs/{id}/interaction-map")).await.problem(409, "wrong-job-kind");
+    app.stop().await;
+}
+
+#[tokio::test]
+async fn the_number_of_workers_changes_no_bit() {
+    let mut all = Vec::new();
+    for workers in [1, 2] {
+        let app = TestApp::start_with(|config| config.workers = Some(workers)).await;
+        let model = app.api.model(model::package(1.0)).await;
+        let id = app.api.sweep(&sweep_of(&model)).await;
+        assert_eq!(app.api.finish(&id).await["status"], "successful");
+        all.push(spectra(&app.api, &id, 6).await);
+        app.stop().await;
+    }
+    assert_eq!(all[0], all[1]);
+}
+
+/// Spectra of all speeds. JSON carries every number exactly.
+async fn spectra(api: &Api, id: &str, speeds: u32) -> Vec<Value> {
+    let mut all = Vec::new();
+    for speed in 0..speeds {
+        let spectra = api.get(&format!("/v1/jobs/{id}/spectra/{speed}")).await.body["spectra"].clone();
+        assert!(spectra.is_object());
+        all.push(spectra);
+    }
+    all
+}
+
+#[tokio::test]
+async fn what_only_the_reduced_model_can_tell_fails_the_job_with_a_pointer() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(model::package(1.0)).await;
+    let mut request = sweep_of(&model);
+    request["integration"]["steps_per_revolution"] = 20.into();
+    let id = api.sweep(&request).await;
+    let job = api.finish(&id).await;
+    assert_eq!(job["status"], "failed", "{job}");
+    assert_eq!(job["error"]["type"], "urn:rubmap:problem:invalid-request");
+    assert_eq!(job["error"]["errors"][0]["pointer"], "/integration/steps_per_revolution");
+    assert_eq!(job["speeds"]["finished"], 0, "nothing runs before the check");
+    api.get(&format!("/v1/jobs/{id}/critical-speeds")).await.problem(409, "result-unavailable");
+    api.get(&format!("/v1/jobs/{id}/spectra/0")).await.problem(404, "speed-not-found");
+    app.stop().await;
+}
+
+#[tokio::test]
+async fn the_reduction_is_computed_once() {
+    let data = tempfile::tempdir().unwrap();
+    let app = TestApp::start_on(data.path()).await;
+    let model = app.api.model(model::package(1.0)).await;
+    // Two jobs at once share it, and so does a third after a restart.
+    let first = app.api.post("/v1/modal-analyses", &modal_analysis_of(&model)).await.text("/id");
+    let second = app.api.post("/v1/modal-analyses", &modal_analysis_of(&model)).await.text("/id");
+    let mut reductions = Vec::new();
+    for id in [&first, &second] {
+        assert_eq!(app.api.finish(id).await["status"], "successful");
+        reductions.push(app.api.get(&format!("/v1/jobs/{id}/campbell")).await.body["reduction"].clone());
+    }
+    app.stop().await;
+    let app = TestApp::start_on(data.path()).await;
+    let third = app.api.post("/v1/modal-analyses", &modal_analysis_of(&model)).await.text("/id");
+    assert_eq!(app.api.finish(&third).await["status"], "successful");
+    reductions.push(app.api.get(&format!("/v1/jobs/{third}/campbell")).await.body["reduction"].clone());
+    app.stop().await;
+    // The report carries its wall time: no two computations have the same.
+    assert!(reductions[0]["wall_time_s"].as_f64().unwrap() > 0.0);
+    assert_eq!(reductions[0], reductions[1]);
+    assert_eq!(reductions[0], reductions[2]);
+}
