@@ -23,6 +23,7 @@
 
 pub mod analysis;
 pub mod app;
+pub mod cli;
 pub mod config;
 pub mod dynamics;
 pub mod http;

@@ -1,7 +1,5 @@
 //! The program: logs, then whatever the command line says.
 
-mod cli;
-
 use std::io::IsTerminal;
 
 use clap::Parser;
@@ -12,5 +10,5 @@ fn main() -> anyhow::Result<()> {
         EnvFilter::try_from_default_env().unwrap_or_else(|_| EnvFilter::new("info,apalis_core=warn"));
     let colours = std::io::stderr().is_terminal();
     tracing_subscriber::fmt().with_env_filter(filter).with_writer(std::io::stderr).with_ansi(colours).init();
-    cli::Cli::parse().run()
+    rubmap::cli::Cli::parse().run()
 }

@@ -11,35 +11,35 @@ use rubmap::impeller::{ImpellerParameters, generate as generate_package};
 
 /// What to generate and where to put it.
 #[derive(Debug, Args)]
-pub(crate) struct GenerateArgs {
+pub struct GenerateArgs {
     /// Package to write
     #[arg(long, default_value = "impeller.zip")]
-    pub(crate) out: PathBuf,
+    pub out: PathBuf,
     /// JSON file with any of the generator's parameters; what it leaves out keeps its default
     #[arg(long)]
-    pub(crate) parameters: Option<PathBuf>,
+    pub parameters: Option<PathBuf>,
     /// Number of sectors (main blades); overrides the file
     #[arg(long)]
-    pub(crate) sectors: Option<usize>,
+    pub sectors: Option<usize>,
     /// Outlet radius, in the model's unit of length (mm); overrides the file
     #[arg(long)]
-    pub(crate) outlet_radius: Option<f64>,
+    pub outlet_radius: Option<f64>,
     /// Highest speed of the stiffness matrices in rad/s; overrides the file
     #[arg(long)]
-    pub(crate) speed: Option<f64>,
+    pub speed: Option<f64>,
     /// Number of contact nodes from leading to trailing edge; overrides the file
     #[arg(long)]
-    pub(crate) contact_nodes: Option<usize>,
+    pub contact_nodes: Option<usize>,
     /// Print the parameters as JSON and stop: a start for a --parameters file
     #[arg(long)]
-    pub(crate) print_parameters: bool,
+    pub print_parameters: bool,
 }
 
 /// Generates the package and writes it.
 ///
 /// # Errors
 /// Unreadable or impossible parameters, or a file that cannot be written.
-pub(crate) fn generate(args: GenerateArgs) -> anyhow::Result<()> {
+pub fn generate(args: GenerateArgs) -> anyhow::Result<()> {
     let parameters = args.resolve()?;
     if args.print_parameters {
         println!("{}", serde_json::to_string_pretty(&parameters)?);

@@ -1,16 +1,16 @@
 //! The command line: one file per command.
 
-mod generate;
+pub mod generate;
 mod serve;
 
 use clap::{Parser, Subcommand};
 
-use rubmap::config::Config;
+use crate::config::Config;
 
 /// At which speeds do the blade tips of a centrifugal impeller interact dangerously with their casing?
 #[derive(Debug, Parser)]
 #[command(name = "rubmap", version)]
-pub(crate) struct Cli {
+pub struct Cli {
     #[command(subcommand)]
     command: Command,
 }
@@ -25,7 +25,7 @@ enum Command {
 
 impl Cli {
     /// Does what the command line says.
-    pub(crate) fn run(self) -> anyhow::Result<()> {
+    pub fn run(self) -> anyhow::Result<()> {
         match self.command {
             Command::Serve(config) => serve::run(config),
             Command::Generate(args) => generate::generate(args),

@@ -1,7 +1,7 @@
 //! `rubmap serve`: the HTTP service until a signal ends it.
 
-use rubmap::app::App;
-use rubmap::config::Config;
+use crate::app::App;
+use crate::config::Config;
 use tokio::signal::unix::{SignalKind, signal};
 use tokio_util::sync::CancellationToken;
 

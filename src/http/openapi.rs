@@ -30,7 +30,7 @@ use super::router::routes;
 )]
 pub(super) struct Contract;
 
-/// The OpenAPI document of the service.
+/// The `OpenAPI` document of the service.
 pub fn document() -> utoipa::openapi::OpenApi {
     routes().into_openapi()
 }

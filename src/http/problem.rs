@@ -5,7 +5,7 @@ use axum::extract::Request;
 use axum::http::{HeaderValue, StatusCode, header};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use utoipa::ToSchema;
 
 use crate::analysis::error::Violation;
@@ -18,42 +18,42 @@ use crate::store::jobs::{Failure, FailureCause};
 pub const MEDIA_TYPE: &str = "application/problem+json";
 
 /// What went wrong, for programs and people (RFC 9457).
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]
 pub struct Problem {
     /// Kind of problem: a URI that never changes, `urn:rubmap:problem:…`.
     #[schema(example = "urn:rubmap:problem:unknown-field")]
-    pub r#type: String,
+    pub r#type: &'static str,
     /// The kind in words.
-    pub title: String,
+    pub title: &'static str,
     /// HTTP status.
     pub status: u16,
     /// What happened this time, and what to do about it.
     pub detail: String,
     /// Path of the request.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub instance: Option<String>,
     /// Everything that is wrong, one by one.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub errors: Vec<ProblemItem>,
 }
 
 /// One of the things that are wrong.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, ToSchema)]
 pub struct ProblemItem {
     /// RFC 6901 pointer into the request body, or into `file` if that is given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub pointer: Option<String>,
     /// Name of the offending query parameter or header.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub parameter: Option<String>,
     /// File within an uploaded package.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
     /// Line within `file` or within the request body, from 1.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub line: Option<u64>,
     /// Column within the line, from 1.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub column: Option<u64>,
     /// What is wrong and what would be right.
     pub detail: String,
@@ -67,7 +67,7 @@ macro_rules! kinds {
 
         impl Kind {
             fn entry(self) -> (StatusCode, &'static str, &'static str) {
-                match self { $(Self::$kind => (StatusCode::$status, $slug, $title)),* }
+                match self { $(Self::$kind => (StatusCode::$status, concat!("urn:rubmap:problem:", $slug), $title)),* }
             }
         }
     };
@@ -123,10 +123,10 @@ kinds! {
 impl Problem {
     /// A problem of `kind`.
     pub fn new(kind: Kind, detail: impl Into<String>) -> Self {
-        let (status, slug, title) = kind.entry();
+        let (status, r#type, title) = kind.entry();
         Self {
-            r#type: format!("urn:rubmap:problem:{slug}"),
-            title: title.to_owned(),
+            r#type,
+            title,
             status: status.as_u16(),
             detail: detail.into(),
             instance: None,
@@ -209,8 +209,8 @@ impl From<Panicked> for Problem {
     }
 }
 
-impl From<PackageError> for Problem {
-    fn from(error: PackageError) -> Self {
+impl From<Box<PackageError>> for Problem {
+    fn from(error: Box<PackageError>) -> Self {
         let item = ProblemItem {
             file: error.file().map(ToOwned::to_owned),
             line: error.line(),

@@ -109,6 +109,11 @@ impl Engine {
         let failure = match outcome {
             Ok(()) | Err(Halt::NotWanted) => return,
             Err(Halt::Failed(failure)) => failure,
+            Err(Halt::Store(error)) if self.stopping.load(Ordering::Relaxed) => {
+                // Connections end in any order now; the next start takes the job up again.
+                tracing::warn!(job.id = %id, %error, "store failed while stopping");
+                return;
+            }
             Err(Halt::Store(error)) => Failure {
                 cause: FailureCause::Storage,
                 message: format!("the data folder failed: {error}"),

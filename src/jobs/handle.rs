@@ -105,10 +105,11 @@ impl Jobs {
         &self,
         path: PathBuf,
         limits: package::Limits,
-    ) -> Result<Result<(run::ModelFacts, String), package::PackageError>, Panicked> {
+    ) -> Result<Result<(run::ModelFacts, String), Box<package::PackageError>>, Panicked> {
         let read = move || {
             package::read(&path, &limits)
                 .map(|imported| (run::ModelFacts::of(&imported.sector), imported.digest))
+                .map_err(Box::new)
         };
         self.engine.importer.run(read).await
     }

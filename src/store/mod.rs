@@ -1,4 +1,4 @@
-//! What is remembered: models, reductions, jobs and results in one SQLite file. The only SQL in the program.
+//! What is remembered: models, reductions, jobs and results in one `SQLite` file. The only SQL in the program.
 //!
 //! One function per question; rows become domain types here. All writes go through one connection, so transactions
 //! never meet a busy database, and readers never wait for writers (WAL).

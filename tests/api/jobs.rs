@@ -1,5 +1,8 @@
 //! Jobs: listing, cancelling, sharing the workers, surviving a restart.
 
+use rubmap::store::Store;
+use rubmap::store::jobs::JobId;
+
 use super::app::{TestApp, long_sweep_of, modal_analysis_of, sweep_of};
 use super::model;
 
@@ -97,5 +100,29 @@ async fn the_list_is_filtered_and_comes_in_pages() {
     assert_eq!(all["jobs"].as_array().unwrap().len(), 6);
     assert_eq!(all["jobs"][0]["id"], analysis);
     assert_eq!(api.get("/v1/jobs?status=failed").await.body["jobs"].as_array().unwrap().len(), 0);
+    app.stop().await;
+}
+
+#[tokio::test]
+async fn a_job_that_takes_the_service_down_is_given_up() {
+    let data = tempfile::tempdir().unwrap();
+    let app = TestApp::start_on(data.path()).await;
+    let model = app.api.model(model::package(1.0)).await;
+    let id = app.api.sweep(&long_sweep_of(&model, 500)).await;
+    app.api.follow(&id, |job| job["speeds"]["finished"].as_u64() >= Some(1)).await;
+    // Being told to stop is no crash, however often.
+    app.stop().await;
+    let job = JobId::parse(&id).unwrap();
+    for crashes in 0..5 {
+        let store = Store::open(data.path()).await.unwrap();
+        assert_eq!(store.take_up_jobs().await.unwrap(), [(job, crashes)]);
+        assert!(store.begin_job(job).await.unwrap());
+        // Here the process dies: nobody lays the job down.
+        store.close().await;
+    }
+    let app = TestApp::start_on(data.path()).await;
+    let job = app.api.job(&id).await.body;
+    assert_eq!(job["status"], "failed", "{job}");
+    assert!(job["error"]["detail"].as_str().unwrap().contains("ended 5 times"), "{job}");
     app.stop().await;
 }

@@ -91,12 +91,10 @@ fn files(scale: f64) -> Vec<(&'static str, String)> {
 /// One 3×3 multiple of the identity per pair of nodes, lower triangle.
 fn matrix_market(by_node: &[[f64; NODES]; NODES]) -> String {
     let mut entries = Vec::new();
-    for row in 0..NODES {
-        for column in 0..=row {
-            for component in 0..3 {
-                if by_node[row][column] != 0.0 {
-                    entries.push((3 * row + component + 1, 3 * column + component + 1, by_node[row][column]));
-                }
+    for (row, values) in by_node.iter().enumerate() {
+        for (column, value) in values.iter().enumerate().take(row + 1).filter(|(_, value)| **value != 0.0) {
+            for component in 1..=3 {
+                entries.push((3 * row + component, 3 * column + component, value));
             }
         }
     }
