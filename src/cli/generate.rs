@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Context;
 use clap::Args;
 
-use rubmap::impeller::{ImpellerParameters, generate as generate_package};
+use crate::impeller::{ImpellerParameters, generate as generate_package};
 
 /// What to generate and where to put it.
 #[derive(Debug, Args)]
@@ -47,7 +47,7 @@ pub fn generate(args: GenerateArgs) -> anyhow::Result<()> {
     }
     let package = generate_package(&parameters)?;
     let file = File::create(&args.out).with_context(|| format!("cannot create {}", args.out.display()))?;
-    rubmap::package::write(&package, BufWriter::new(file))
+    crate::package::write(&package, BufWriter::new(file))
         .with_context(|| format!("cannot write {}", args.out.display()))?;
     println!(
         "{}: {} sectors, {} DOF a sector, {} contact nodes, speeds up to {} rad/s ({:.0} rpm)",

@@ -1,7 +1,9 @@
 //! The command line: one file per command.
 
+mod demo;
 pub mod generate;
 mod serve;
+mod signals;
 
 use clap::{Parser, Subcommand};
 
@@ -17,6 +19,8 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    /// Show it all on a generated impeller: upload, sweep, map, critical speeds.
+    Demo(demo::DemoArgs),
     /// Run the HTTP service.
     Serve(Config),
     /// Make a model package from a few parameters.
@@ -24,9 +28,18 @@ enum Command {
 }
 
 impl Cli {
+    /// What is logged unless `RUST_LOG` says otherwise: beside a progress bar only what went wrong.
+    pub fn default_log(&self) -> &'static str {
+        match self.command {
+            Command::Demo(_) => "warn",
+            Command::Serve(_) | Command::Generate(_) => "info,apalis_core=warn",
+        }
+    }
+
     /// Does what the command line says.
     pub fn run(self) -> anyhow::Result<()> {
         match self.command {
+            Command::Demo(args) => demo::run(&args),
             Command::Serve(config) => serve::run(config),
             Command::Generate(args) => generate::generate(args),
         }

@@ -74,6 +74,11 @@ pub(super) fn image(
 
 /// The loudest of the bins whose engine order lies in a band or is the nearest to its middle; the mean is no vibration.
 fn loudest_within(orders: &[f64], row: &[f64], (low, high): (f64, f64)) -> Option<f64> {
+    let highest = *orders.last()?;
+    if low > highest {
+        // Half an engine order above the last one is left dark, so that its line stands out.
+        return (low <= highest + 0.5).then_some(0.0);
+    }
     let (first, end) = (orders.partition_point(|o| *o < low), orders.partition_point(|o| *o <= high));
     let range = if first < end {
         first..end
@@ -84,10 +89,6 @@ fn loudest_within(orders: &[f64], row: &[f64], (low, high): (f64, f64)) -> Optio
         let nearest = if nearer { first - 1 } else { first };
         nearest..(nearest + 1).min(orders.len())
     };
-    // Half an engine order above the last one the map still says that nothing is there.
-    if low > *orders.last()? + 0.5 {
-        return None;
-    }
     let bins = range.filter(|bin| orders[*bin] > 0.0).filter_map(|bin| row.get(bin));
     Some(bins.fold(0.0, |m: f64, a| m.max(*a)))
 }
