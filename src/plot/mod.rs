@@ -15,6 +15,8 @@ mod level;
 mod marks;
 mod settling_strip;
 mod svg;
+#[cfg(test)]
+mod tests;
 
 pub use campbell::campbell;
 pub use interaction_map::{VerticalAxis, interaction_map};
