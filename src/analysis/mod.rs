@@ -4,6 +4,7 @@
 //! - [`run::check`], [`run::run_speed`] and [`run::modal_analysis`] compute on the reduced sector;
 //! - [`run::interaction_map`] and [`run::critical_speeds`] read the finished speeds of a sweep.
 
+mod discretisation;
 pub mod error;
 pub mod monitor;
 pub mod request;

@@ -1,5 +1,6 @@
 //! Checks a request against its model and fills in defaults: all violations at once, each at its JSON pointer.
 
+use super::discretisation::most_samples;
 use super::error::Violation;
 use super::request::{
     Component, Integration, ModalAnalysisRequest, Sensor, Speeds, StepsPerRevolution, SweepRequest,
@@ -14,6 +15,8 @@ mod limits {
     pub(super) const STEPS_PER_REVOLUTION: u32 = 10_000_000;
     pub(super) const ENGINE_ORDER: u32 = 1_000;
     pub(super) const SENSORS: usize = 64;
+    /// Recorded numbers of one speed, 8 bytes each.
+    pub(super) const RECORDED: usize = 1 << 27;
     pub(super) const LOBES: u32 = 100;
     pub(super) const FAMILIES: u32 = 100;
     pub(super) const SUPERHARMONIC: u32 = 100;
@@ -47,6 +50,9 @@ pub fn resolve_sweep(mut request: SweepRequest, facts: &ModelFacts) -> Result<Sw
         request.sensors = default_sensors(facts);
     }
     check_sensors(&mut found, &request.sensors, facts);
+    if found.0.is_empty() {
+        check_memory(&mut found, &request, facts);
+    }
     found.finish(request)
 }
 
@@ -234,6 +240,26 @@ fn check_integration(found: &mut Findings, integration: &Integration, max_engine
         (1..=limits::ENGINE_ORDER).contains(&max_engine_order),
         "/max_engine_order",
         format!("between 1 and {}", limits::ENGINE_ORDER),
+    );
+}
+
+/// The displacement over the whole run and the Fourier coordinates of all sectors over the window are held in memory.
+fn check_memory(found: &mut Findings, request: &SweepRequest, facts: &ModelFacts) {
+    let sectors = facts.sectors as usize;
+    let Integration { revolutions, window_revolutions, .. } = request.integration;
+    let per_sensor = revolutions as usize + window_revolutions as usize * sectors;
+    let recorded =
+        most_samples(request, sectors).saturating_mul(per_sensor).saturating_mul(request.sensors.len());
+    found.require(
+        recorded <= limits::RECORDED,
+        "/integration/revolutions",
+        format!(
+            "{} sensors over {revolutions} revolutions with a window of {window_revolutions} would record {recorded} \
+             numbers at every speed, more than {}: shorten the run or the window, ask for fewer sensors or lower \
+             engine orders, or choose steps_per_revolution with small divisors",
+            request.sensors.len(),
+            limits::RECORDED
+        ),
     );
 }
 

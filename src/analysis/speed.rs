@@ -2,15 +2,14 @@
 
 use std::time::Instant;
 
+use super::discretisation::Discretisation;
 use super::error::AnalysisError;
 use super::monitor::Monitor;
-use super::request::{Component, Sensor, StepsPerRevolution, SweepRequest};
+use super::request::{Component, Sensor, SweepRequest};
 use super::result::{Point, PointStatus, SensorResponse, SensorSpectrum, SpeedResult, SpeedSpectra};
 use super::run::{ReducedSector, VERSION};
 use crate::dynamics::casing::{Casing, Restriction, RestrictionTable, clearance_along_chord};
-use crate::dynamics::integrate::{
-    History, MAX_TABLE_VALUES, Outcome, Run, SensorRow, Simulation, smallest_stable_steps,
-};
+use crate::dynamics::integrate::{History, MAX_TABLE_VALUES, Outcome, Run, SensorRow, Simulation};
 use crate::dynamics::modal_wheel::ModalWheel;
 use crate::dynamics::oscillators::{Direction, ModalDamping};
 use crate::dynamics::reduction::ReducedWheel;
@@ -72,61 +71,6 @@ fn empty_point(index: usize, speed_rad_s: f64) -> Point {
         responses: Vec::new(),
         wall_time_s: 0.0,
         version: VERSION.to_owned(),
-    }
-}
-
-/// Steps and samples of a revolution.
-struct Discretisation {
-    /// Smallest stable number of steps.
-    smallest: u64,
-    /// S.
-    per_revolution: usize,
-    /// Recorded samples, a divisor of S.
-    samples: usize,
-}
-
-/// `"auto"` stays this far below the stability limit.
-const SAFETY: f64 = 0.8;
-
-/// `"auto"` never steps over more than a tenth of a degree: contact begins and ends within a step.
-const LEAST_AUTO_STEPS: f64 = 3600.0;
-
-/// Samples per revolution for each engine order asked for, so that what aliases onto a line of the spectrum comes
-/// from orders at least seven times as high.
-const SAMPLES_PER_ORDER: usize = 8;
-
-/// Fewest samples a revolution, for the settling verdict.
-const LEAST_SAMPLES: usize = 128;
-
-impl Discretisation {
-    fn choose(wheel: &ModalWheel, request: &SweepRequest) -> Result<Self, String> {
-        let smallest = smallest_stable_steps(wheel.largest_frequency(), wheel.speed_rad_s);
-        let wanted = LEAST_SAMPLES.max(SAMPLES_PER_ORDER * request.max_engine_order as usize);
-        match request.integration.steps_per_revolution {
-            StepsPerRevolution::Auto => {
-                let least = (smallest as f64 / SAFETY).max(LEAST_AUTO_STEPS).ceil();
-                if least > f64::from(u32::MAX) {
-                    return Err(format!(
-                        "a stable run would need {least:.1e} steps per revolution: the reduced wheel has modes far \
-                         above any engine order at this speed"
-                    ));
-                }
-                let least = least as usize;
-                // S = decimation · samples, both whole; samples a multiple of N share the casing table.
-                let decimation = (least / wanted).max(1);
-                let samples = least.div_ceil(decimation).next_multiple_of(wheel.sectors);
-                Ok(Self { smallest, per_revolution: decimation * samples, samples })
-            }
-            StepsPerRevolution::Fixed(steps) if u64::from(steps) < smallest => Err(format!(
-                "{steps} steps per revolution are unstable at this speed; at least {smallest} are needed"
-            )),
-            StepsPerRevolution::Fixed(steps) => {
-                let steps = steps as usize;
-                let divisor = |samples: &usize| steps.is_multiple_of(*samples);
-                let samples = (wanted..=steps / 2).find(divisor).unwrap_or(steps);
-                Ok(Self { smallest, per_revolution: steps, samples })
-            }
-        }
     }
 }
 

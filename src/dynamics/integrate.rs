@@ -271,7 +271,7 @@ impl Stepper {
         obstacle.normal.rotate_right(1);
         self.oscillators.project(simd, &obstacle.rows, &mut obstacle.harmonic);
         obstacle.predict_gaps(simd, &self.fourier, step, revolutions);
-        if obstacle.predicted_gap.iter().all(|&g| g >= 0.0) {
+        if !obstacle.predicted_gap.iter().fold(false, |closed, &g| closed | (g < 0.0)) {
             return Ok(());
         }
         obstacle
@@ -370,6 +370,7 @@ impl Obstacle {
 
     /// Takes the solved λ: forces in Fourier coordinates, corrected normal displacements, statistics. Returns the
     /// work of the forces fᵀ(u_{q+1} − u_{q−1})/2.
+    #[inline(always)]
     fn apply_forces(&mut self, fourier: &SectorFourier, step_s: f64, statistics: &mut RunStatistics) -> f64 {
         let stride = self.rows.stride;
         let gap = self.solver.gap();

@@ -68,10 +68,44 @@ pub(crate) struct Oscillators {
     loss: Vec<f64>,
     /// ω²
     stiffness: Vec<f64>,
+    state: State,
+}
+
+/// What a step changes.
+#[derive(Debug, Clone, Default)]
+struct State {
+    /// z
     z: Vec<f64>,
+    /// d = z − z⁻
     d: Vec<f64>,
     /// z⁺ − z⁻ of the last free step, for the damping loss; empty without damping.
     swing: Vec<f64>,
+}
+
+impl State {
+    /// Moves vector `m` of the segment part at `start` by `moved`; returns `lost` with what damping takes of it.
+    #[inline(always)]
+    fn shift<S: Simd, const DAMPED: bool>(
+        &mut self,
+        simd: S,
+        start: usize,
+        m: usize,
+        moved: S::f64s,
+        loss: S::f64s,
+        mut lost: S::f64s,
+    ) -> S::f64s {
+        let at = start / S::F64_LANES + m;
+        if DAMPED {
+            let swing = S::as_simd_f64s(&self.swing).0[at];
+            let change = simd.mul_f64s(moved, simd.mul_add_e_f64s(simd.splat_f64s(2.0), swing, moved));
+            lost = simd.mul_add_e_f64s(loss, change, lost);
+        }
+        let z = &mut S::as_mut_simd_f64s(&mut self.z).0[at];
+        *z = simd.add_f64s(*z, moved);
+        let d = &mut S::as_mut_simd_f64s(&mut self.d).0[at];
+        *d = simd.add_f64s(*d, moved);
+        lost
+    }
 }
 
 impl Oscillators {
@@ -85,9 +119,7 @@ impl Oscillators {
             receptance: Vec::new(),
             loss: Vec::new(),
             stiffness: Vec::new(),
-            z: Vec::new(),
-            d: Vec::new(),
-            swing: Vec::new(),
+            state: State::default(),
         };
         let (mut state, mut column) = (0, 0);
         for harmonic in &wheel.harmonics {
@@ -108,10 +140,10 @@ impl Oscillators {
             state += parts * length;
             column += parts;
         }
-        this.z = vec![0.0; state];
-        this.d = vec![0.0; state];
+        this.state.z = vec![0.0; state];
+        this.state.d = vec![0.0; state];
         if damping.is_some() {
-            this.swing = vec![0.0; state];
+            this.state.swing = vec![0.0; state];
         }
         this
     }
@@ -128,10 +160,10 @@ impl Oscillators {
             for part in 0..if segment.single { 1 } else { 2 } {
                 let range =
                     segment.state + part * segment.length..segment.state + (part + 1) * segment.length;
-                let z = S::as_mut_simd_f64s(&mut self.z[range.clone()]).0;
-                let d = S::as_mut_simd_f64s(&mut self.d[range.clone()]).0;
+                let z = S::as_mut_simd_f64s(&mut self.state.z[range.clone()]).0;
+                let d = S::as_mut_simd_f64s(&mut self.state.d[range.clone()]).0;
                 if DAMPED {
-                    let swing = S::as_mut_simd_f64s(&mut self.swing[range]).0;
+                    let swing = S::as_mut_simd_f64s(&mut self.state.swing[range]).0;
                     for m in 0..z.len().min(d.len()).min(swing.len()) {
                         let next = simd.sub_f64s(simd.mul_f64s(keep[m], d[m]), simd.mul_f64s(pull[m], z[m]));
                         swing[m] = simd.add_f64s(next, d[m]);
@@ -154,12 +186,12 @@ impl Oscillators {
     #[inline(always)]
     pub(crate) fn project<S: Simd>(&self, simd: S, rows: &Rows, out: &mut [f64]) {
         for (segment, block) in self.segments.iter().zip(&rows.blocks) {
-            let re = S::as_simd_f64s(&self.z[segment.state..][..segment.length]).0;
+            let re = S::as_simd_f64s(&self.state.z[segment.state..][..segment.length]).0;
             let out = &mut out[segment.column * rows.stride..];
             if segment.single {
                 project_single(simd, re, block, segment.length, rows.count, out);
             } else {
-                let im = S::as_simd_f64s(&self.z[segment.state + segment.length..][..segment.length]).0;
+                let im = S::as_simd_f64s(&self.state.z[segment.state + segment.length..][..segment.length]).0;
                 let (out_re, out_im) = out.split_at_mut(rows.stride);
                 project_pair(simd, re, im, block, segment.length, rows.count, out_re, out_im);
             }
@@ -177,47 +209,43 @@ impl Oscillators {
         force: &[f64],
     ) -> f64 {
         let mut lost = simd.splat_f64s(0.0);
-        let two = simd.splat_f64s(2.0);
         for (segment, block) in self.segments.iter().zip(&rows.blocks) {
             let length = segment.length;
-            let vectors = length / S::F64_LANES;
             let coefficients = segment.modes..segment.modes + length;
             let receptance = S::as_simd_f64s(&self.receptance[coefficients.clone()]).0;
             let loss = S::as_simd_f64s(&self.loss[coefficients]).0;
-            let block_re = S::as_simd_f64s(&block.re).0;
-            let block_im = S::as_simd_f64s(&block.im).0;
-            for part in 0..if segment.single { 1 } else { 2 } {
-                let range = segment.state + part * length..segment.state + (part + 1) * length;
-                let z = S::as_mut_simd_f64s(&mut self.z[range.clone()]).0;
-                let swing = S::as_simd_f64s(&self.swing[if DAMPED { range.clone() } else { 0..0 }]).0;
-                let d = S::as_mut_simd_f64s(&mut self.d[range]).0;
-                for m in 0..vectors {
+            let force_re = &force[segment.column * rows.stride..];
+            if segment.single {
+                for m in 0..receptance.len() {
                     let mut modal = simd.splat_f64s(0.0);
                     for &row in loaded {
-                        let at = row * vectors + m;
-                        let f_re = simd.splat_f64s(force[segment.column * rows.stride + row]);
-                        if segment.single {
-                            modal = simd.mul_add_e_f64s(block_re[at], f_re, modal);
-                            continue;
-                        }
-                        // φᴴ f̂: (φ_re − jφ_im)(f_re + jf_im)
-                        let f_im = simd.splat_f64s(force[(segment.column + 1) * rows.stride + row]);
-                        if part == 0 {
-                            modal = simd.mul_add_e_f64s(block_re[at], f_re, modal);
-                            modal = simd.mul_add_e_f64s(block_im[at], f_im, modal);
-                        } else {
-                            modal = simd.mul_add_e_f64s(block_re[at], f_im, modal);
-                            modal = simd.negate_mul_add_e_f64s(block_im[at], f_re, modal);
-                        }
+                        let phi = S::as_simd_f64s(&block.re[row * length..][..length]).0[m];
+                        modal = simd.mul_add_e_f64s(phi, simd.splat_f64s(force_re[row]), modal);
                     }
                     let moved = simd.mul_f64s(receptance[m], modal);
-                    if DAMPED {
-                        let change = simd.mul_f64s(moved, simd.mul_add_e_f64s(two, swing[m], moved));
-                        lost = simd.mul_add_e_f64s(loss[m], change, lost);
-                    }
-                    z[m] = simd.add_f64s(z[m], moved);
-                    d[m] = simd.add_f64s(d[m], moved);
+                    lost = self.state.shift::<S, DAMPED>(simd, segment.state, m, moved, loss[m], lost);
                 }
+                continue;
+            }
+            let force_im = &force[(segment.column + 1) * rows.stride..];
+            for m in 0..receptance.len() {
+                // φᴴ f̂: (φ_re − jφ_im)(f_re + jf_im)
+                let mut modal_re = simd.splat_f64s(0.0);
+                let mut modal_im = simd.splat_f64s(0.0);
+                for &row in loaded {
+                    let phi_re = S::as_simd_f64s(&block.re[row * length..][..length]).0[m];
+                    let phi_im = S::as_simd_f64s(&block.im[row * length..][..length]).0[m];
+                    let (f_re, f_im) = (simd.splat_f64s(force_re[row]), simd.splat_f64s(force_im[row]));
+                    modal_re = simd.mul_add_e_f64s(phi_re, f_re, modal_re);
+                    modal_im = simd.mul_add_e_f64s(phi_re, f_im, modal_im);
+                    modal_re = simd.mul_add_e_f64s(phi_im, f_im, modal_re);
+                    modal_im = simd.negate_mul_add_e_f64s(phi_im, f_re, modal_im);
+                }
+                let (moved_re, moved_im) =
+                    (simd.mul_f64s(receptance[m], modal_re), simd.mul_f64s(receptance[m], modal_im));
+                lost = self.state.shift::<S, DAMPED>(simd, segment.state, m, moved_re, loss[m], lost);
+                lost =
+                    self.state.shift::<S, DAMPED>(simd, segment.state + length, m, moved_im, loss[m], lost);
             }
         }
         if DAMPED { simd.reduce_sum_f64s(lost) } else { 0.0 }
@@ -230,7 +258,7 @@ impl Oscillators {
             for part in 0..if segment.single { 1 } else { 2 } {
                 let start = segment.state + part * segment.length;
                 for m in 0..segment.length {
-                    let (z, d) = (self.z[start + m], self.d[start + m]);
+                    let (z, d) = (self.state.z[start + m], self.state.d[start + m]);
                     let velocity = d / self.step;
                     twice += velocity * velocity + self.stiffness[segment.modes + m] * (z - d) * z;
                 }
@@ -270,7 +298,7 @@ fn project_single<S: Simd>(
     }
 }
 
-/// Four rows at a time share the loads of z and keep eight sums in flight.
+/// Five rows at a time share the loads of z and keep ten sums in flight: what sixteen registers hold.
 #[inline(always)]
 #[expect(clippy::too_many_arguments, reason = "a kernel's operands")]
 fn project_pair<S: Simd>(
@@ -284,13 +312,15 @@ fn project_pair<S: Simd>(
     out_im: &mut [f64],
 ) {
     let mut row = 0;
-    while row + 4 <= count {
-        project_rows::<S, 4>(simd, re, im, block, length, row, out_re, out_im);
-        row += 4;
-    }
     while row < count {
-        project_rows::<S, 1>(simd, re, im, block, length, row, out_re, out_im);
-        row += 1;
+        match count - row {
+            1 => project_rows::<S, 1>(simd, re, im, block, length, row, out_re, out_im),
+            2 => project_rows::<S, 2>(simd, re, im, block, length, row, out_re, out_im),
+            3 => project_rows::<S, 3>(simd, re, im, block, length, row, out_re, out_im),
+            4 => project_rows::<S, 4>(simd, re, im, block, length, row, out_re, out_im),
+            _ => project_rows::<S, 5>(simd, re, im, block, length, row, out_re, out_im),
+        }
+        row += 5;
     }
 }
 

@@ -10,7 +10,7 @@
 //! The unit of work is one speed of one job. Tasks are carried by `apalis`; the tables of [`crate::store`] are what is
 //! true. A handler looks there first, so a task that runs twice, or somewhere else, does no harm.
 //!
-//! Handlers are async and wait; what computes runs on the threads of a [`pool::CpuPool`]. The two queues hand their
+//! Handlers are async and wait; what computes runs on the threads of a `pool::CpuPool`. The two queues hand their
 //! work to the same threads in order of arrival, and the queue of speeds has no more tasks out than there are threads:
 //! a small job is never more than a few speeds away from its turn.
 

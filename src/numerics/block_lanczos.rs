@@ -1,9 +1,9 @@
 //! Lowest modes of a sparse Hermitian pencil by block shift-invert Lanczos, residuals checked.
 
 use faer::sparse::SparseColMat;
-use faer::{Mat, MatRef, Side, c64};
+use faer::{Mat, MatRef, c64};
 
-use super::hermitian::generalised_eigenpairs;
+use super::hermitian::{eigenpairs, generalised_eigenpairs};
 use super::sparse_cholesky::SparseCholesky;
 use super::sparse_product::sparse_product;
 
@@ -89,7 +89,7 @@ pub fn lowest_modes(
         let remainder = basis.project(image);
         let full = basis.columns() + options.block > n;
         // The dense projection costs more than a step once it is large: look at it every other step.
-        if basis.columns() >= 2 * count && (step % 2 == 0 || full) || full {
+        if full || (basis.columns() >= 2 * count && step % 2 == 0) {
             let ritz = basis.ritz(count, &remainder)?;
             if ritz.largest_error <= options.tolerance * 0.1 || full {
                 let modes = assemble(k, m, factor, &basis, ritz, step);
@@ -216,11 +216,11 @@ impl Basis {
     }
 
     fn ritz(&self, count: usize, remainder: &Mat<c64>) -> Result<Ritz, LanczosError> {
-        let eigen = self.projected.self_adjoint_eigen(Side::Lower).map_err(|_| LanczosError::DenseFailed)?;
+        let eigen = eigenpairs(self.projected.as_ref()).map_err(|_| LanczosError::DenseFailed)?;
         let n = self.columns;
         let picked: Vec<usize> = (0..count).map(|m| n - 1 - m).collect();
-        let theta: Vec<f64> = picked.iter().map(|&c| eigen.S()[c].re).collect();
-        let coefficients = Mat::from_fn(n, count, |i, m| eigen.U()[(i, picked[m])]);
+        let theta: Vec<f64> = picked.iter().map(|&c| eigen.values[c]).collect();
+        let coefficients = Mat::from_fn(n, count, |i, m| eigen.vectors[(i, picked[m])]);
         // A y − θ y = remainder · (last block of coefficients).
         let tail = remainder * coefficients.subrows(n - self.block, self.block);
         let error = |m: usize| tail.col(m).norm_l2() / theta[m];

@@ -1,6 +1,8 @@
 //! Rank-revealing orthonormal basis of nearly dependent vectors in a mass inner product.
 
-use faer::{Mat, MatRef, Side, c64};
+use faer::{Mat, MatRef, c64};
+
+use super::hermitian::eigenpairs;
 
 /// An M-orthonormal basis of the span of the columns of `vectors`, given `gram` = Vᴴ M V.
 ///
@@ -12,12 +14,13 @@ pub fn orthonormal_basis(
     gram: MatRef<'_, c64>,
     tolerance: f64,
 ) -> Option<Mat<c64>> {
-    let eigen = gram.self_adjoint_eigen(Side::Lower).ok()?;
+    let eigen = eigenpairs(gram).ok()?;
     let n = gram.nrows();
-    let largest = if n == 0 { 0.0 } else { eigen.S()[n - 1].re };
+    let largest = if n == 0 { 0.0 } else { eigen.values[n - 1] };
     let kept: Vec<usize> =
-        (0..n).rev().filter(|&c| eigen.S()[c].re > tolerance * tolerance * largest).collect();
-    let scaled = Mat::from_fn(n, kept.len(), |i, j| eigen.U()[(i, kept[j])] / eigen.S()[kept[j]].re.sqrt());
+        (0..n).rev().filter(|&c| eigen.values[c] > tolerance * tolerance * largest).collect();
+    let scaled =
+        Mat::from_fn(n, kept.len(), |i, j| eigen.vectors[(i, kept[j])] / eigen.values[kept[j]].sqrt());
     Some(vectors * scaled)
 }
 

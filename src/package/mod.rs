@@ -22,7 +22,7 @@ mod partition;
 pub mod raw;
 mod symmetric;
 mod tables;
-pub mod units;
+mod units;
 mod writer;
 mod zip_package;
 
@@ -107,7 +107,8 @@ fn convert(mut package: RawPackage, lines: &SourceLines) -> Result<SectorModel, 
     let layout = check::check(&mut package, lines)?;
     let names = package.manifest.clone();
     let row_names: Vec<u64> = layout.own_rows.iter().map(|&row| package.dofs[row as usize].node).collect();
-    let sector = partition::build(package, &layout);
+    let mut sector = partition::build(package, &layout);
     check::mass::check(&sector, &names.mass, &layout.own_rows, &row_names)?;
+    units::count_time_in_seconds(&mut sector);
     Ok(sector)
 }

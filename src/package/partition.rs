@@ -218,10 +218,8 @@ fn transpose(block: Block) -> Block {
 
 /// A diagonal block is symmetric but for the rounding of its rotation.
 fn symmetrise(block: &mut Block) {
-    for i in 0..3 {
-        for j in 0..i {
-            block[j][i] = block[i][j];
-        }
+    for (i, j) in [(1, 0), (2, 0), (2, 1)] {
+        block[j][i] = block[i][j];
     }
 }
 

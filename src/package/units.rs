@@ -1,6 +1,6 @@
 //! Names of units, their sizes, and whether four of them are consistent.
 
-use crate::dynamics::sector::Units;
+use crate::dynamics::sector::{SectorModel, Units};
 
 use super::error::ManifestProblem;
 
@@ -13,7 +13,7 @@ const POUND: f64 = 0.453_592_37;
 const POUND_FORCE: f64 = 4.448_221_615_260_5;
 
 /// Known names by quantity, with their sizes in SI units.
-const LENGTH: &[(&[&str], f64)] = &[
+const LENGTH: Names = &[
     (&["m", "meter", "metre"], 1.0),
     (&["dm"], 1e-1),
     (&["cm"], 1e-2),
@@ -22,7 +22,7 @@ const LENGTH: &[(&[&str], f64)] = &[
     (&["in", "inch"], INCH),
     (&["ft", "foot"], FOOT),
 ];
-const FORCE: &[(&[&str], f64)] = &[
+const FORCE: Names = &[
     (&["N", "newton"], 1.0),
     (&["mN"], 1e-3),
     (&["uN", "µN", "μN"], 1e-6),
@@ -34,14 +34,14 @@ const FORCE: &[(&[&str], f64)] = &[
     (&["lbf"], POUND_FORCE),
     (&["kip"], 1e3 * POUND_FORCE),
 ];
-const TIME: &[(&[&str], f64)] = &[
+const TIME: Names = &[
     (&["s", "sec", "second"], 1.0),
     (&["ms"], 1e-3),
     (&["us", "µs", "μs"], 1e-6),
     (&["min"], 60.0),
     (&["h"], 3600.0),
 ];
-const MASS: &[(&[&str], f64)] = &[
+const MASS: Names = &[
     (&["kg", "kilogram"], 1.0),
     (&["g", "gram"], 1e-3),
     (&["mg"], 1e-6),
@@ -65,12 +65,24 @@ const MASS: &[(&[&str], f64)] = &[
     ),
 ];
 
-const QUANTITIES: [(&str, &[(&[&str], f64)]); 4] =
-    [("length", LENGTH), ("force", FORCE), ("time", TIME), ("mass", MASS)];
+/// Names of one quantity's units with their sizes.
+type Names = &'static [(&'static [&'static str], f64)];
 
-/// Seconds in the unit of time of a package, if its name is known: what rad/s and Hz mean in its matrices.
-pub fn seconds(units: &Units) -> Option<f64> {
-    size(TIME, &units.time)
+const QUANTITIES: [(&str, Names); 4] = [("length", LENGTH), ("force", FORCE), ("time", TIME), ("mass", MASS)];
+
+/// Brings a sector whose matrices count time in another unit than seconds to seconds, in which speeds are given:
+/// mass becomes force·s²/length, stiffness stays.
+pub(super) fn count_time_in_seconds(sector: &mut SectorModel) {
+    let seconds = size(TIME, &sector.units.time).unwrap_or(1.0);
+    if seconds == 1.0 {
+        return;
+    }
+    for values in [sector.mass.own.val_mut(), sector.mass.next.val_mut()] {
+        values.iter_mut().for_each(|value| *value *= seconds * seconds);
+    }
+    let Units { length, force, .. } = &sector.units;
+    sector.units.mass = format!("{force}·s²/{length}");
+    sector.units.time = "s".to_owned();
 }
 
 /// Checks that force = mass·length/time² among the names this module knows.
@@ -93,6 +105,9 @@ pub(super) fn check(units: &Units) -> Result<(), (&'static str, ManifestProblem)
                 ManifestProblem::UnitOfOtherQuantity { unit: given[k].clone(), quantity },
             ));
         }
+    }
+    if sizes[2].is_none() {
+        return Err(("/units/time", ManifestProblem::TimeUnknown { unit: units.time.clone() }));
     }
     let [Some(length), Some(force), Some(time), Some(mass)] = sizes else { return Ok(()) };
     let factor = mass * length / (time * time) / force;

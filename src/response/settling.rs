@@ -28,8 +28,10 @@ pub struct Settling {
     /// Revolutions after which the verdict holds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub after_revolutions: Option<u32>,
-    /// Largest change from one period to the next within the window, relative to the response.
-    pub largest_change: f64,
+    /// Largest change from one period (a revolution, if none repeats) to the next within the window, relative to the
+    /// response; absent where the window has a single revolution.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub largest_change: Option<f64>,
 }
 
 /// Revolutions differ by less than this share of the response in a steady state. Spectral leakage of a slower
@@ -70,17 +72,17 @@ pub fn judge(histories: &[Vec<f64>], samples_per_revolution: usize, window: usiz
             verdict: Verdict::Periodic,
             ratio: Some(1),
             after_revolutions: Some(0),
-            largest_change: 0.0,
+            largest_change: Some(0.0),
         };
     }
-    let mut change_of_one = f64::INFINITY;
+    let mut change_of_one = None;
     for period in 1..=LONGEST_PERIOD.min(window / 2) {
         let changes: Vec<f64> = (period..revolutions).map(|r| distance(r, period) / scale).collect();
         // changes[r − period] compares revolutions r and r − period; both must lie in the window.
         let within = &changes[window_start.min(changes.len())..];
         let largest = within.iter().fold(0.0f64, |m, &c| m.max(c));
         if period == 1 {
-            change_of_one = largest;
+            change_of_one = Some(largest);
         }
         if !within.is_empty() && largest <= TOLERANCE {
             let unsettled = changes.iter().rposition(|&c| c > TOLERANCE);
@@ -88,7 +90,7 @@ pub fn judge(histories: &[Vec<f64>], samples_per_revolution: usize, window: usiz
                 verdict: if period == 1 { Verdict::Periodic } else { Verdict::Subharmonic },
                 ratio: Some(period as u32),
                 after_revolutions: Some(unsettled.map_or(0, |r| r + 1) as u32),
-                largest_change: largest,
+                largest_change: Some(largest),
             };
         }
     }

@@ -4,6 +4,7 @@
 //! complementarity solver.
 
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 use faer::{Mat, c64};
 use nalgebra::{DMatrix, DVector, DVectorView};
@@ -12,15 +13,15 @@ use rubmap::dynamics::reduction::ReducedWheel;
 
 /// Real matrices of the whole reduced wheel: contact DOF of sector 0, 1, … first, then the modal coordinates of
 /// all nodal diameters.
-pub struct DenseWheel {
-    pub mass: DMatrix<f64>,
-    pub stiffness: DMatrix<f64>,
+pub(crate) struct DenseWheel {
+    pub(crate) mass: DMatrix<f64>,
+    pub(crate) stiffness: DMatrix<f64>,
     contact_dofs: usize,
     sectors: usize,
 }
 
 impl DenseWheel {
-    pub fn new(reduced: &ReducedWheel, speed_rad_s: f64, stiffening: bool) -> Self {
+    pub(crate) fn new(reduced: &ReducedWheel, speed_rad_s: f64, stiffening: bool) -> Self {
         let harmonics = |of: &dyn Fn(usize) -> Mat<c64>| -> DMatrix<f64> {
             let blocks: Vec<_> =
                 (0..reduced.harmonics.len()).map(|i| real_form(&of(i), i, reduced.sectors)).collect();
@@ -35,7 +36,7 @@ impl DenseWheel {
     }
 
     /// D with the same ratio for every mode: 2ζ M Φ diag(ω) Φᵀ M.
-    pub fn modal_damping(&self, ratio: f64) -> DMatrix<f64> {
+    pub(crate) fn modal_damping(&self, ratio: f64) -> DMatrix<f64> {
         let lower = self.mass.clone().cholesky().expect("M_r is positive definite").l();
         let half = lower.solve_lower_triangular(&self.stiffness).unwrap();
         let standard = lower.solve_lower_triangular(&half.transpose()).unwrap();
@@ -45,7 +46,7 @@ impl DenseWheel {
         &scaled * omega * scaled.transpose()
     }
 
-    pub fn size(&self) -> usize {
+    pub(crate) fn size(&self) -> usize {
         self.mass.nrows()
     }
 }
@@ -106,41 +107,49 @@ fn recompose(blocks: &[DMatrix<f64>], reduced: &ReducedWheel) -> DMatrix<f64> {
 }
 
 /// Eqs 8–10, step by step, with complementarity over all contact nodes.
-pub struct DenseScheme {
+pub(crate) struct DenseScheme {
     predict_now: DMatrix<f64>,
     predict_before: DMatrix<f64>,
     /// A⁻¹ C_N
     response: DMatrix<f64>,
-    normals: DMatrix<f64>,
+    /// DOF and components of every node's outward normal, sector by sector.
+    normals: Vec<(Range<usize>, [f64; 3])>,
     delassus: DMatrix<f64>,
     now: DVector<f64>,
     before: DVector<f64>,
+    next: DVector<f64>,
+    gap: DVector<f64>,
     lambda: DVector<f64>,
     contact_nodes: usize,
-    pub contact_steps: u64,
+    pub(crate) contact_steps: u64,
 }
 
 impl DenseScheme {
-    pub fn new(wheel: &DenseWheel, damping: &DMatrix<f64>, reduced: &ReducedWheel, h: f64) -> Self {
+    pub(crate) fn new(wheel: &DenseWheel, damping: &DMatrix<f64>, reduced: &ReducedWheel, h: f64) -> Self {
         let a = &wheel.mass / (h * h) + damping / (2.0 * h);
         let a = a.cholesky().expect("M/h² + D/2h is positive definite");
         let nodes = reduced.contact.len();
-        let mut normals = DMatrix::zeros(wheel.size(), wheel.sectors * nodes);
+        let mut constraints = DMatrix::zeros(wheel.size(), wheel.sectors * nodes);
+        let mut normals = Vec::new();
         for s in 0..wheel.sectors {
             for (k, node) in reduced.contact.iter().enumerate() {
+                let first = s * wheel.contact_dofs + 3 * k;
                 for d in 0..3 {
-                    normals[(s * wheel.contact_dofs + 3 * k + d, s * nodes + k)] = node.normal[d];
+                    constraints[(first + d, s * nodes + k)] = node.normal[d];
                 }
+                normals.push((first..first + 3, node.normal));
             }
         }
-        let response = a.solve(&normals);
+        let response = a.solve(&constraints);
         Self {
             predict_now: a.solve(&(&wheel.mass * (2.0 / (h * h)) - &wheel.stiffness)),
             predict_before: a.solve(&(damping / (2.0 * h) - &wheel.mass / (h * h))),
-            delassus: normals.transpose() * &response,
+            delassus: constraints.transpose() * &response,
             response,
             now: DVector::zeros(wheel.size()),
             before: DVector::zeros(wheel.size()),
+            next: DVector::zeros(wheel.size()),
+            gap: DVector::zeros(wheel.sectors * nodes),
             lambda: DVector::zeros(wheel.sectors * nodes),
             normals,
             contact_nodes: nodes,
@@ -148,48 +157,55 @@ impl DenseScheme {
         }
     }
 
-    /// One step; `free_gap[sector·nodes + node]` is c − p at its end.
-    pub fn step(&mut self, free_gap: &[f64]) {
-        let mut next = &self.predict_before * &self.before;
+    /// One step; `free_gap[sector·nodes + node]` is c − p at its end, `solve(W, g_p, λ)` the contact solver.
+    pub(crate) fn step(
+        &mut self,
+        free_gap: &[f64],
+        solve: impl FnOnce(&DMatrix<f64>, &DVector<f64>, &mut DVector<f64>),
+    ) {
+        let mut next = std::mem::take(&mut self.next);
+        next.gemv(1.0, &self.predict_before, &self.before, 0.0);
         next.gemv(1.0, &self.predict_now, &self.now, 1.0);
-        let gap = DVector::from_column_slice(free_gap) - self.normals.tr_mul(&next);
-        if gap.iter().any(|&g| g < 0.0) {
-            self.solve_complementarity(&gap);
+        for (pair, (dofs, normal)) in self.normals.iter().enumerate() {
+            let outward: f64 = dofs.clone().zip(normal).map(|(dof, n)| n * next[dof]).sum();
+            self.gap[pair] = free_gap[pair] - outward;
+        }
+        if self.gap.iter().any(|&g| g < 0.0) {
+            solve(&self.delassus, &self.gap, &mut self.lambda);
             next.gemv(-1.0, &self.response, &self.lambda, 1.0);
             self.contact_steps += 1;
         }
-        std::mem::swap(&mut self.before, &mut self.now);
-        self.now = next;
-    }
-
-    /// Projected Gauss–Seidel to the last digit: slow, short, and unlike the production solver.
-    fn solve_complementarity(&mut self, gap: &DVector<f64>) {
-        self.lambda.fill(0.0);
-        for _ in 0..100_000 {
-            let mut change: f64 = 0.0;
-            let mut scale: f64 = 0.0;
-            for i in 0..gap.len() {
-                let g = gap[i] + self.delassus.row(i).dot(&self.lambda.transpose());
-                let solved = (self.lambda[i] - g / self.delassus[(i, i)]).max(0.0);
-                change = change.max((solved - self.lambda[i]).abs());
-                scale = scale.max(solved);
-                self.lambda[i] = solved;
-            }
-            if change <= 1e-15 * scale {
-                return;
-            }
-        }
-        panic!("Gauss–Seidel did not converge");
+        self.next = std::mem::replace(&mut self.before, std::mem::replace(&mut self.now, next));
     }
 
     /// Contact DOF of one node of one sector.
-    pub fn contact_displacement(&self, sector: usize, node: usize) -> DVectorView<'_, f64> {
+    pub(crate) fn contact_displacement(&self, sector: usize, node: usize) -> DVectorView<'_, f64> {
         self.now.rows((sector * self.contact_nodes + node) * 3, 3)
     }
 }
 
+/// Projected Gauss–Seidel to the last digit: slow, short, and unlike the production solver.
+pub(crate) fn gauss_seidel(w: &DMatrix<f64>, gap: &DVector<f64>, lambda: &mut DVector<f64>) {
+    lambda.fill(0.0);
+    for _ in 0..100_000 {
+        let mut change: f64 = 0.0;
+        let mut scale: f64 = 0.0;
+        for i in 0..gap.len() {
+            let g = gap[i] + w.column(i).dot(lambda);
+            let solved = (lambda[i] - g / w[(i, i)]).max(0.0);
+            change = change.max((solved - lambda[i]).abs());
+            scale = scale.max(solved);
+            lambda[i] = solved;
+        }
+        if change <= 1e-15 * scale {
+            return;
+        }
+    }
+    panic!("Gauss–Seidel did not converge");
+}
+
 /// c − p at every node of every sector, literally (§6).
-pub fn free_gaps(casing: &Casing, reduced: &ReducedWheel, revolutions: f64) -> Vec<f64> {
+pub(crate) fn free_gaps(casing: &Casing, reduced: &ReducedWheel, revolutions: f64) -> Vec<f64> {
     let mut gaps = Vec::new();
     for s in 0..reduced.sectors {
         for (k, node) in reduced.contact.iter().enumerate() {

@@ -144,6 +144,11 @@ fn manifest() {
             (JSON, None, Some("/units/time")),
         ),
         case(
+            |f| f.json(|j| j["units"]["time"] = json!("tick")),
+            "sector.json, /units/time: the unit of time \"tick\" is not known, so speeds in rad/s cannot be compared with the matrices: use s, ms or us",
+            (JSON, None, Some("/units/time")),
+        ),
+        case(
             |f| f.json(|j| j["units"]["force"] = json!(" ")),
             "sector.json, /units/force: the unit has no name",
             (JSON, None, Some("/units/force")),

@@ -1,7 +1,7 @@
 //! Different files that say the same thing.
 
 use rubmap::package::{self, Limits};
-use zip::CompressionMethod::{Deflated, Stored};
+use zip::CompressionMethod::Stored;
 
 use crate::sample::{Files, Shape, import, package as sample};
 
@@ -117,7 +117,8 @@ fn either_triangle_both_triangles_and_any_layout_are_the_same_matrix() {
 fn one_speed_and_shared_stiffness_files_are_valid() {
     let mut rigid = Files::good();
     rigid.json(|json| json["stiffness"] = serde_json::json!(["k0.mtx", "k0.mtx", "k0.mtx"]));
-    (rigid.0.remove("k1.mtx"), rigid.0.remove("k2.mtx"));
+    rigid.0.remove("k1.mtx");
+    rigid.0.remove("k2.mtx");
     assert_eq!(rigid.import().expect("no stiffening at three speeds").sector.stiffness.len(), 3);
     rigid.json(|json| {
         json["stiffness"] = serde_json::json!(["k0.mtx"]);
@@ -133,4 +134,21 @@ fn folders_and_dots_inside_the_archive_are_fine() {
     files.put("matrices/m.mtx", matrix);
     files.json(|json| json["mass"] = "./matrices/m.mtx".into());
     files.import().expect("a file in a folder");
+}
+
+/// mm, kN, ms, kg is a consistent system whose frequencies come out per millisecond; speeds stay rad/s, so its mass
+/// is brought to force·s²/length: mm, N, s, t with the same numbers for stiffness in kN has mass 1e6 times larger.
+#[test]
+fn milliseconds_become_seconds() {
+    let seconds = Files::good().import().expect("good").sector;
+    let mut files = Files::good();
+    files.json(|json| {
+        json["units"] = serde_json::json!({"length": "mm", "force": "kN", "time": "ms", "mass": "kg"});
+    });
+    let sector = files.import().expect("consistent").sector;
+    assert_eq!((sector.units.time.as_str(), sector.units.mass.as_str()), ("s", "kN·s²/mm"));
+    assert_eq!(sector.stiffness[0].own.val(), seconds.stiffness[0].own.val());
+    for (a, b) in sector.mass.own.val().iter().zip(seconds.mass.own.val()) {
+        assert!((a - 1e-6 * b).abs() <= 1e-15 * a.abs());
+    }
 }

@@ -9,7 +9,7 @@ use rubmap::dynamics::oscillators::{Direction, ModalDamping};
 use rubmap::dynamics::reduction::{ReductionOptions, reduce};
 
 use crate::fixtures::{TOP_SPEED, WheelRecipe, wheel};
-use crate::oracle::{DenseScheme, DenseWheel, free_gaps};
+use crate::oracle::{DenseScheme, DenseWheel, free_gaps, gauss_seidel};
 
 fn agree(recipe: WheelRecipe, damping_ratio: f64, lobes: u32, steps_factor: f64) {
     let sector = wheel(recipe);
@@ -54,7 +54,7 @@ fn agree(recipe: WheelRecipe, damping_ratio: f64, lobes: u32, steps_factor: f64)
     let mut scheme = DenseScheme::new(&dense, &dense.modal_damping(damping_ratio), &reduced, h);
     let (mut worst, mut largest) = (0.0f64, 0.0f64);
     for q in 0..steps {
-        scheme.step(&free_gaps(&casing, &reduced, (q + 1) as f64 / steps as f64));
+        scheme.step(&free_gaps(&casing, &reduced, (q + 1) as f64 / steps as f64), gauss_seidel);
         for (sensor, &(s, k, d)) in watched.iter().enumerate() {
             let truth = scheme.contact_displacement(s, k)[d];
             worst = worst.max((history.displacement[sensor][q] - truth).abs());

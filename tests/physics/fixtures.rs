@@ -5,14 +5,14 @@ use nalgebra::DMatrix;
 use rubmap::dynamics::sector::{ContactNode, CyclicMatrix, SectorModel, Units};
 
 /// Deterministic numbers in [0, 1).
-pub struct Numbers(u64);
+pub(crate) struct Numbers(u64);
 
 impl Numbers {
-    pub fn new(seed: u64) -> Self {
+    pub(crate) fn new(seed: u64) -> Self {
         Self(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
     }
 
-    pub fn next(&mut self) -> f64 {
+    pub(crate) fn next(&mut self) -> f64 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
         self.0 ^= self.0 << 17;
@@ -22,16 +22,16 @@ impl Numbers {
 
 /// How a test wheel is made.
 #[derive(Debug, Clone, Copy)]
-pub struct WheelRecipe {
-    pub sectors: usize,
+pub(crate) struct WheelRecipe {
+    pub(crate) sectors: usize,
     /// Nodes of a sector (three DOF each), the contact nodes last.
-    pub nodes: usize,
-    pub contact_nodes: usize,
+    pub(crate) nodes: usize,
+    pub(crate) contact_nodes: usize,
     /// Low-face nodes (the first ones), coupled to the previous sector.
-    pub face_nodes: usize,
+    pub(crate) face_nodes: usize,
     /// Whether K depends on Ω.
-    pub stiffening: bool,
-    pub seed: u64,
+    pub(crate) stiffening: bool,
+    pub(crate) seed: u64,
 }
 
 impl Default for WheelRecipe {
@@ -41,12 +41,12 @@ impl Default for WheelRecipe {
 }
 
 /// Ω1 of the test wheels, rad/s.
-pub const TOP_SPEED: f64 = 3000.0;
+pub(crate) const TOP_SPEED: f64 = 3000.0;
 
 /// A sector of point masses joined by anisotropic springs (a positive semidefinite 3 × 3 block each), all tied to
 /// the ground by weak springs, faces tied to the next sector's. Frequencies are a few times TOP_SPEED/2π·(1…10), so
 /// that engine orders 1 to 10 meet modes; lengths are millimetres by size.
-pub fn wheel(recipe: WheelRecipe) -> SectorModel {
+pub(crate) fn wheel(recipe: WheelRecipe) -> SectorModel {
     let WheelRecipe { sectors, nodes, contact_nodes, face_nodes, stiffening, seed } = recipe;
     let mut numbers = Numbers::new(seed);
     let size = 3 * nodes;
@@ -140,7 +140,7 @@ fn sparse(matrix: &DMatrix<f64>) -> SparseColMat<usize, f64> {
 }
 
 /// The whole wheel, sector by sector: [own on the diagonal, next above it, its transpose below], closed to a ring.
-pub fn assembled_wheel(matrix: &CyclicMatrix, sectors: usize) -> DMatrix<f64> {
+pub(crate) fn assembled_wheel(matrix: &CyclicMatrix, sectors: usize) -> DMatrix<f64> {
     let size = matrix.own.nrows();
     let mut wheel = DMatrix::zeros(sectors * size, sectors * size);
     for s in 0..sectors {
@@ -157,7 +157,7 @@ pub fn assembled_wheel(matrix: &CyclicMatrix, sectors: usize) -> DMatrix<f64> {
 }
 
 /// ω² of K x = ω² M x in ascending order, by nalgebra.
-pub fn eigenvalues(k: &DMatrix<f64>, m: &DMatrix<f64>) -> Vec<f64> {
+pub(crate) fn eigenvalues(k: &DMatrix<f64>, m: &DMatrix<f64>) -> Vec<f64> {
     let lower = m.clone().cholesky().expect("a mass is positive definite").l();
     let half = lower.solve_lower_triangular(k).unwrap();
     let standard = lower.solve_lower_triangular(&half.transpose()).unwrap();

@@ -3,6 +3,7 @@
 mod cyclic_structure;
 mod dense_agreement;
 mod fixtures;
+mod impeller_a;
 mod invariants;
 mod modal_criterion;
 #[path = "../oracle/mod.rs"]

@@ -1,10 +1,11 @@
 //! The Delassus operator W of a tuned wheel: one block-circulant table per speed and step (§7).
 
-use faer::{Mat, Side, c64};
+use faer::{Mat, c64};
 
 use super::super::modal_wheel::ModalWheel;
 use super::super::oscillators::{Oscillators, Rows};
 use crate::numerics::complementarity::SymmetricOperator;
+use crate::numerics::hermitian::eigenvalues;
 use crate::numerics::sector_fourier::SectorFourier;
 
 /// W over all contact nodes of all sectors, index = sector·stride + node (nodes padded to `stride`).
@@ -37,7 +38,7 @@ impl Delassus {
         let (mut smallest, mut largest) = (f64::INFINITY, 0.0f64);
         for (index, harmonic) in wheel.harmonics.iter().enumerate() {
             let block = harmonic_block(index, rows, oscillators, harmonic.omega.len());
-            if let Ok(eigen) = block.self_adjoint_eigenvalues(Side::Lower) {
+            if let Ok(eigen) = eigenvalues(block.as_ref()) {
                 smallest = smallest.min(eigen[0]);
                 largest = largest.max(eigen[nodes - 1]);
             }
@@ -93,6 +94,7 @@ impl SymmetricOperator for Delassus {
         self.column(distance, from)[to] + if i == j { self.ridge } else { 0.0 }
     }
 
+    #[inline(always)]
     fn add_column(&self, j: usize, scale: f64, out: &mut [f64]) {
         let (from_sector, from) = self.place(j);
         for (to_sector, out) in out.chunks_exact_mut(self.stride).enumerate() {

@@ -36,6 +36,14 @@ pub enum ManifestProblem {
     /// Empty unit name.
     #[error("the unit has no name")]
     UnitUnnamed,
+    /// A unit of time without a known length in seconds.
+    #[error(
+        "the unit of time \"{unit}\" is not known, so speeds in rad/s cannot be compared with the matrices: use s, ms or us"
+    )]
+    TimeUnknown {
+        /// The name given.
+        unit: String,
+    },
     /// A known unit of another quantity.
     #[error("\"{unit}\" is not a unit of {quantity}")]
     UnitOfOtherQuantity {

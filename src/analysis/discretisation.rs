@@ -1,0 +1,89 @@
+//! Time steps and recorded samples of a revolution.
+
+use super::request::{StepsPerRevolution, SweepRequest};
+use crate::dynamics::integrate::smallest_stable_steps;
+use crate::dynamics::modal_wheel::ModalWheel;
+
+/// Steps and samples of a revolution.
+pub(super) struct Discretisation {
+    /// Smallest stable number of steps.
+    pub(super) smallest: u64,
+    /// S.
+    pub(super) per_revolution: usize,
+    /// Recorded samples, a divisor of S.
+    pub(super) samples: usize,
+}
+
+/// `"auto"` stays this far below the stability limit.
+const SAFETY: f64 = 0.8;
+
+/// `"auto"` never steps over more than a tenth of a degree: contact begins and ends within a step.
+const LEAST_AUTO_STEPS: f64 = 3600.0;
+
+/// Samples per revolution for each engine order asked for, so that what aliases onto a line of the spectrum comes
+/// from orders at least seven times as high.
+const SAMPLES_PER_ORDER: usize = 8;
+
+/// Fewest samples a revolution, for the settling verdict.
+const LEAST_SAMPLES: usize = 128;
+
+impl Discretisation {
+    /// Resolves `steps_per_revolution` for `wheel`; the error says what to change.
+    pub(super) fn choose(wheel: &ModalWheel, request: &SweepRequest) -> Result<Self, String> {
+        let smallest = smallest_stable_steps(wheel.largest_frequency(), wheel.speed_rad_s);
+        let wanted = wanted_samples(request);
+        match request.integration.steps_per_revolution {
+            StepsPerRevolution::Auto => {
+                let least = (smallest as f64 / SAFETY).max(LEAST_AUTO_STEPS).ceil();
+                if least > f64::from(u32::MAX) {
+                    return Err(format!(
+                        "a stable run would need {least:.1e} steps per revolution: the reduced wheel has modes far \
+                         above any engine order at this speed"
+                    ));
+                }
+                let least = least as usize;
+                // S = decimation · samples, both whole; samples a multiple of N share the casing table.
+                let decimation = (least / wanted).max(1);
+                let samples = least.div_ceil(decimation).next_multiple_of(wheel.sectors);
+                Ok(Self { smallest, per_revolution: decimation * samples, samples })
+            }
+            StepsPerRevolution::Fixed(steps) if u64::from(steps) < smallest => Err(format!(
+                "{steps} steps per revolution are unstable at this speed; at least {smallest} are needed"
+            )),
+            StepsPerRevolution::Fixed(steps) => {
+                let steps = steps as usize;
+                Ok(Self { smallest, per_revolution: steps, samples: samples_of(steps, wanted) })
+            }
+        }
+    }
+}
+
+fn wanted_samples(request: &SweepRequest) -> usize {
+    LEAST_SAMPLES.max(SAMPLES_PER_ORDER * request.max_engine_order as usize)
+}
+
+/// The smallest divisor of `steps` that is at least `wanted`; `steps` itself if there is none.
+fn samples_of(steps: usize, wanted: usize) -> usize {
+    (wanted..=steps / 2).find(|samples| steps.is_multiple_of(*samples)).unwrap_or(steps)
+}
+
+/// Upper bound of the samples a revolution of this request records at any speed, on `sectors` sectors.
+pub(super) fn most_samples(request: &SweepRequest, sectors: usize) -> usize {
+    let wanted = wanted_samples(request);
+    match request.integration.steps_per_revolution {
+        StepsPerRevolution::Auto => 2 * wanted + sectors,
+        StepsPerRevolution::Fixed(steps) => samples_of(steps as usize, wanted),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn samples_divide_the_steps() {
+        assert_eq!(samples_of(6000, 192), 200);
+        assert_eq!(samples_of(10007, 192), 10007);
+        assert_eq!(samples_of(100, 192), 100);
+    }
+}
