@@ -5,6 +5,8 @@ pub mod generate;
 mod serve;
 mod signals;
 
+use std::process::ExitCode;
+
 use clap::{Parser, Subcommand};
 
 use crate::config::Config;
@@ -37,11 +39,12 @@ impl Cli {
     }
 
     /// Does what the command line says.
-    pub fn run(self) -> anyhow::Result<()> {
+    pub fn run(self) -> anyhow::Result<ExitCode> {
         match self.command {
-            Command::Demo(args) => demo::run(&args),
-            Command::Serve(config) => serve::run(config),
-            Command::Generate(args) => generate::generate(args),
+            Command::Demo(args) => return demo::run(&args),
+            Command::Serve(config) => serve::run(config)?,
+            Command::Generate(args) => generate::generate(args)?,
         }
+        Ok(ExitCode::SUCCESS)
     }
 }

@@ -11,7 +11,7 @@ use crate::analysis::result::Campbell;
 const WIDTH: f64 = 1180.0;
 const HEIGHT: f64 = 780.0;
 const CORNER: (f64, f64) = (84.0, 72.0);
-const SIZE: (f64, f64) = (870.0, 620.0);
+const SIZE: (f64, f64) = (850.0, 620.0);
 
 /// Engine orders beyond this crowd the corner of slow speeds; their rays and what they drive are left out.
 const HIGHEST_ORDER: u32 = 30;

@@ -8,6 +8,7 @@ mod requests;
 use std::fs::File;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 use std::time::Instant;
 
 use crate::analysis::result::{Campbell, CriticalSpeeds, InteractionMap};
@@ -40,11 +41,11 @@ pub(crate) struct DemoArgs {
     revolutions: u32,
 }
 
-/// Runs the demo.
+/// Runs the demo; 130, as shells say it, if a signal stopped it.
 ///
 /// # Errors
-/// A folder that cannot be used, a step that the service refuses, or a signal to stop.
-pub(super) fn run(args: &DemoArgs) -> anyhow::Result<()> {
+/// A folder that cannot be used, or a step that the service refuses.
+pub(super) fn run(args: &DemoArgs) -> anyhow::Result<ExitCode> {
     let begin = Instant::now();
     std::fs::create_dir_all(&args.out).with_context(|| format!("cannot make {}", args.out.display()))?;
     let package = make_package(&args.out)?;
@@ -56,9 +57,22 @@ pub(super) fn run(args: &DemoArgs) -> anyhow::Result<()> {
         expanded_bytes: None,
     };
     let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build()?;
-    runtime.block_on(with_service(args, config, &package))?;
-    println!("\nDone in {:.0} s.", begin.elapsed().as_secs_f64());
-    Ok(())
+    match runtime.block_on(with_service(args, config, &package))? {
+        Ending::Played => println!("\nDone in {:.0} s.", begin.elapsed().as_secs_f64()),
+        Ending::Stopped => {
+            eprintln!("\nStopped; the demo's jobs are cancelled. What it left is in {}.", args.out.display());
+            return Ok(ExitCode::from(130));
+        }
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// How a demo without errors ends.
+enum Ending {
+    /// It has shown everything.
+    Played,
+    /// A signal stopped it.
+    Stopped,
 }
 
 /// Makes the demo's impeller and keeps it in the out folder.
@@ -79,7 +93,7 @@ fn make_package(out: &Path) -> anyhow::Result<PathBuf> {
 }
 
 /// Starts the service, plays the user, and stops the service whatever came of it.
-async fn with_service(args: &DemoArgs, config: Config, package: &Path) -> anyhow::Result<()> {
+async fn with_service(args: &DemoArgs, config: Config, package: &Path) -> anyhow::Result<Ending> {
     let stop_signal = stop_signal()?;
     let (data, workers) = (config.data.clone(), config.worker_threads());
     let app = App::build(config).await?;
@@ -88,15 +102,14 @@ async fn with_service(args: &DemoArgs, config: Config, package: &Path) -> anyhow
     let stop = CancellationToken::new();
     let mut service = tokio::spawn(app.run_until_stopped(stop.clone()));
     let outcome = tokio::select! {
-        outcome = play(args, &client, package) => outcome,
+        outcome = play(args, &client, package) => outcome.map(|()| Ending::Played),
         ended = &mut service => {
             ended??;
             bail!("the service ended before the demo did");
         }
         () = stop_signal => {
             // Otherwise the jobs would go on at the next start, which is right for a service and wrong for a demo.
-            client.cancel_unfinished_jobs().await?;
-            Err(anyhow::anyhow!("stopped by a signal; the demo's jobs are cancelled"))
+            client.cancel_unfinished_jobs().await.map(|()| Ending::Stopped)
         }
     };
     stop.cancel();
