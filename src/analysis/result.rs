@@ -206,6 +206,8 @@ pub struct CriticalSpeeds {
     pub driven_crossings: Vec<DrivenCrossing>,
     /// Speeds that gave no amplitude, by index.
     pub missing: Vec<u32>,
+    /// What the reduction found about the model.
+    pub reduction: ReductionReport,
     /// Units of the model.
     pub units: Units,
     /// Version of the code.

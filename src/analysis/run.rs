@@ -212,16 +212,18 @@ struct WheelFrequencies<'a> {
 }
 
 impl Frequencies for WheelFrequencies<'_> {
-    type Error = ModelError;
-
-    fn at(&self, speed_rad_s: f64, nodal_diameter: u32) -> Result<Vec<f64>, ModelError> {
-        let harmonic = &self.wheel.harmonics[nodal_diameter as usize];
-        let omega = natural_frequencies(harmonic, speed_rad_s, self.stiffening)?;
-        Ok(omega.into_iter().map(|w| w / TAU).collect())
+    fn at(&self, speed_rad_s: f64, nodal_diameter: u32) -> Option<Vec<f64>> {
+        self.hertz(speed_rad_s, nodal_diameter).ok()
     }
 }
 
 impl WheelFrequencies<'_> {
+    fn hertz(&self, speed_rad_s: f64, nodal_diameter: u32) -> Result<Vec<f64>, ModelError> {
+        let harmonic = &self.wheel.harmonics[nodal_diameter as usize];
+        let omega = natural_frequencies(harmonic, speed_rad_s, self.stiffening)?;
+        Ok(omega.into_iter().map(|w| w / TAU).collect())
+    }
+
     /// `[speed][nodal diameter][family]` in Hz, the first `families`.
     fn table(
         &self,
@@ -236,7 +238,7 @@ impl WheelFrequencies<'_> {
                 return Err(AnalysisError::Cancelled);
             }
             let row = (0..harmonic_count(self.wheel.sectors) as u32).map(|i| {
-                let mut frequencies = self.at(speed, i)?;
+                let mut frequencies = self.hertz(speed, i)?;
                 frequencies.truncate(families);
                 Ok(frequencies)
             });
@@ -269,7 +271,7 @@ pub fn modal_analysis(
     };
     Ok(Campbell {
         absolute_frequencies_hz: request.superharmonics.iter().map(|&n| absolute(n)).collect(),
-        crossings: linear_crossings(&source, &table, &speeds, families, &request.superharmonics)?,
+        crossings: linear_crossings(&source, &table, &speeds, families, &request.superharmonics),
         driven_crossings: driven_crossings(
             &source,
             &table,
@@ -277,7 +279,7 @@ pub fn modal_analysis(
             families,
             request.lobes,
             reduced.wheel.sectors as u32,
-        )?,
+        ),
         frequencies_hz: table,
         speeds_rad_s: speeds,
         reduction: reduced.report.clone(),
@@ -375,6 +377,7 @@ pub fn critical_speeds(
         linear_crossings: linear,
         driven_crossings: driven,
         units: reduced.units.clone(),
+        reduction: reduced.report.clone(),
         version: VERSION.to_owned(),
     })
 }
@@ -390,12 +393,12 @@ fn predict(
     let mut grid: Vec<f64> = ascending.to_vec();
     grid.dedup();
     grid.retain(|&speed| {
-        (0..harmonic_count(reduced.wheel.sectors) as u32).all(|i| source.at(speed, i).is_ok())
+        (0..harmonic_count(reduced.wheel.sectors) as u32).all(|i| source.at(speed, i).is_some())
     });
     let table = source.table(&grid, PREDICTED_FAMILIES, &super::monitor::Unwatched)?;
-    let linear = linear_crossings(&source, &table, &grid, PREDICTED_FAMILIES, &PREDICTED_SUPERHARMONICS)?;
+    let linear = linear_crossings(&source, &table, &grid, PREDICTED_FAMILIES, &PREDICTED_SUPERHARMONICS);
     let lobes = request.scene.casing.as_ref().and_then(|casing| casing.lobes.as_ref()).map_or(0, |l| l.count);
     let sectors = reduced.wheel.sectors as u32;
-    let driven = driven_crossings(&source, &table, &grid, PREDICTED_FAMILIES, lobes, sectors)?;
+    let driven = driven_crossings(&source, &table, &grid, PREDICTED_FAMILIES, lobes, sectors);
     Ok((linear, driven))
 }

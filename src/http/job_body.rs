@@ -4,6 +4,7 @@ use serde::Serialize;
 use utoipa::ToSchema;
 
 use super::problem::Problem;
+use crate::analysis::result::ReductionReport;
 use crate::store::jobs::{Job, JobId, JobKind, SpeedCounts};
 use crate::store::status::JobStatus;
 
@@ -42,6 +43,18 @@ pub(super) struct JobBody {
     error: Option<Problem>,
     /// The job itself and its results.
     links: Vec<Link>,
+}
+
+/// A job and what was found about its model.
+#[derive(Debug, Serialize, ToSchema)]
+pub(super) struct JobDetail {
+    /// The job.
+    #[serde(flatten)]
+    pub(super) job: JobBody,
+    /// The reduction that its results rest on, once there is one: residuals, sizes, and how far K(Ω) can be trusted
+    /// between the given speeds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) reduction: Option<ReductionReport>,
 }
 
 /// A link to something related.

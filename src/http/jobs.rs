@@ -7,7 +7,7 @@ use utoipa::{IntoParams, ToSchema};
 
 use super::AppState;
 use super::extract::{JobPath, Parameters, job_not_found};
-use super::job_body::JobBody;
+use super::job_body::{JobBody, JobDetail};
 use super::problem::{Kind, Problem};
 use crate::jobs::Cancellation;
 use crate::store::jobs::{JobFilter, JobId, JobKind};
@@ -86,13 +86,18 @@ pub(super) async fn list_jobs(
 #[utoipa::path(get, path = "/v1/jobs/{id}", operation_id = "get_job", tag = "jobs",
     params(("id" = String, Path, description = "Id of the job.")),
     responses(
-        (status = 200, description = "The job.", body = JobBody),
+        (status = 200, description = "The job.", body = JobDetail),
         (status = 404, description = "There is no such job.", body = Problem,
             content_type = "application/problem+json"),
     ))]
-pub(super) async fn get_job(state: State<AppState>, JobPath(id): JobPath) -> Result<Json<JobBody>, Problem> {
+pub(super) async fn get_job(
+    state: State<AppState>,
+    JobPath(id): JobPath,
+) -> Result<Json<JobDetail>, Problem> {
     let job = state.store.job(id).await?.ok_or_else(|| job_not_found(&id))?;
-    Ok(Json(job.into()))
+    let mut reports = state.store.reduction_reports(job.request.model()).await?.into_iter();
+    let reduction = reports.find(|report| report.modes_per_speed == job.request.modes_per_speed());
+    Ok(Json(JobDetail { job: job.into(), reduction }))
 }
 
 /// Cancel a job.
@@ -101,7 +106,7 @@ pub(super) async fn get_job(state: State<AppState>, JobPath(id): JobPath) -> Res
 #[utoipa::path(delete, path = "/v1/jobs/{id}", operation_id = "cancel_job", tag = "jobs",
     params(("id" = String, Path, description = "Id of the job.")),
     responses(
-        (status = 200, description = "The job is dismissed.", body = JobBody),
+        (status = 200, description = "The job is dismissed.", body = JobDetail),
         (status = 404, description = "There is no such job.", body = Problem,
             content_type = "application/problem+json"),
         (status = 409, description = "The job has ended already.", body = Problem,
@@ -110,7 +115,7 @@ pub(super) async fn get_job(state: State<AppState>, JobPath(id): JobPath) -> Res
 pub(super) async fn cancel_job(
     state: State<AppState>,
     JobPath(id): JobPath,
-) -> Result<Json<JobBody>, Problem> {
+) -> Result<Json<JobDetail>, Problem> {
     match state.jobs.cancel(id).await? {
         Cancellation::Dismissed => get_job(state, JobPath(id)).await,
         Cancellation::Unknown => Err(job_not_found(&id)),

@@ -14,6 +14,7 @@ use super::AppState;
 use super::extract::expect_media_type;
 use super::idempotency::{self, IdempotencyKey};
 use super::problem::{Kind, Problem};
+use crate::analysis::result::ReductionReport;
 use crate::analysis::run::ModelFacts;
 use crate::store::idempotency::Answer;
 use crate::store::models::{Deletion, StoredModel};
@@ -30,6 +31,16 @@ pub(super) struct ModelBody {
     size_bytes: u64,
     /// When it was uploaded first (RFC 3339).
     created_at: String,
+}
+
+/// A model and what was found about it.
+#[derive(Debug, Serialize, ToSchema)]
+pub(super) struct ModelDetail {
+    #[serde(flatten)]
+    model: ModelBody,
+    /// One report per reduction made so far: residuals, sizes, and how far K(Ω) can be trusted between the given
+    /// speeds.
+    reductions: Vec<ReductionReport>,
 }
 
 /// All models.
@@ -149,17 +160,21 @@ pub(super) async fn list_models(state: State<AppState>) -> Result<Json<ModelList
     Ok(Json(ModelList { models }))
 }
 
-/// Read a model's facts.
+/// Read a model's facts and what its reductions found.
 #[utoipa::path(get, path = "/v1/models/{id}", operation_id = "get_model", tag = "models",
     params(("id" = String, Path, description = "Id of the model.")),
     responses(
-        (status = 200, description = "The model.", body = ModelBody),
+        (status = 200, description = "The model.", body = ModelDetail),
         (status = 404, description = "There is no such model.", body = Problem,
             content_type = "application/problem+json"),
     ))]
-pub(super) async fn get_model(state: State<AppState>, id: Path<String>) -> Result<Json<ModelBody>, Problem> {
+pub(super) async fn get_model(
+    state: State<AppState>,
+    id: Path<String>,
+) -> Result<Json<ModelDetail>, Problem> {
     let model = state.store.model(&id).await?.ok_or_else(|| model_not_found(&id))?;
-    Ok(Json(model.into()))
+    let reductions = state.store.reduction_reports(&id).await?;
+    Ok(Json(ModelDetail { model: model.into(), reductions }))
 }
 
 /// Delete a model with its package and reductions.

@@ -51,19 +51,16 @@ pub fn absolute_frequency(
     (f64::from(nodal_diameter * superharmonic) * speed_rad_s / TAU - frequency_hz).abs()
 }
 
-/// Natural frequencies over speed: `frequency(Ω, i)` in Hz for all families of nodal diameter i, ascending.
+/// Natural frequencies over speed.
 pub trait Frequencies {
-    /// Why a frequency could not be computed.
-    type Error;
-
-    /// Frequencies in Hz of nodal diameter `nodal_diameter` at `speed_rad_s`, ascending, at least as many as asked
-    /// for where the model has them.
-    fn at(&self, speed_rad_s: f64, nodal_diameter: u32) -> Result<Vec<f64>, Self::Error>;
+    /// Frequencies in Hz of nodal diameter `nodal_diameter` at `speed_rad_s`, ascending; none at a speed at which the
+    /// model has no modes (K(Ω) not positive definite).
+    fn at(&self, speed_rad_s: f64, nodal_diameter: u32) -> Option<Vec<f64>>;
 }
 
 /// All speeds in the range of `grid` (ascending, rad/s) at which a frequency of the first `families` equals engine
-/// order `order`: sign changes of kΩ/2π − f between neighbouring grid points, refined by bisection and secant steps
-/// on newly computed frequencies.
+/// order `order`: sign changes of kΩ/2π − f between neighbouring grid points, refined on newly
+/// computed frequencies. No crossing is reported where the model fails on the way.
 fn roots<F: Frequencies>(
     frequencies: &F,
     table: &[Vec<Vec<f64>>],
@@ -71,7 +68,7 @@ fn roots<F: Frequencies>(
     nodal_diameter: u32,
     family: usize,
     order: u32,
-) -> Result<Vec<(f64, f64)>, F::Error> {
+) -> Vec<(f64, f64)> {
     let slope = f64::from(order) / TAU;
     let excess = |point: usize| {
         let found = table[point][nodal_diameter as usize].get(family);
@@ -79,44 +76,57 @@ fn roots<F: Frequencies>(
     };
     let mut found = Vec::new();
     for point in 0..grid.len() {
-        let Some(here) = excess(point) else { return Ok(found) };
+        let Some(here) = excess(point) else { return found };
         if here == 0.0 {
             found.push((grid[point], slope * grid[point]));
         }
         if point + 1 == grid.len() {
             break;
         }
-        let Some(there) = excess(point + 1) else { return Ok(found) };
+        let Some(there) = excess(point + 1) else { return found };
         if here * there < 0.0 {
-            let (mut low, mut high) = ((grid[point], here), (grid[point + 1], there));
-            // Regula falsi with halving (Illinois): monotone brackets, a handful of eigenvalue solutions.
-            let mut kept = 0;
-            for _ in 0..60 {
-                let speed = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
-                let value = slope * speed - frequencies.at(speed, nodal_diameter)?[family];
-                if value == 0.0 || (high.0 - low.0) <= 1e-12 * high.0 || value.abs() <= 1e-12 * slope * speed
-                {
-                    low = (speed, value);
-                    break;
-                }
-                if value * low.1 > 0.0 {
-                    low = (speed, value);
-                    if kept == 1 {
-                        high.1 *= 0.5;
-                    }
-                    kept = 1;
-                } else {
-                    high = (speed, value);
-                    if kept == -1 {
-                        low.1 *= 0.5;
-                    }
-                    kept = -1;
-                }
+            let excess_at = |speed: f64| {
+                let refined = frequencies.at(speed, nodal_diameter)?;
+                refined.get(family).map(|f| slope * speed - f)
+            };
+            if let Some(root) = refine((grid[point], here), (grid[point + 1], there), slope, excess_at) {
+                found.push((root, slope * root));
             }
-            found.push((low.0, slope * low.0));
         }
     }
-    Ok(found)
+    found
+}
+
+/// Root of `excess` between `low` and `high` (argument and value, of opposite signs) by regula falsi with halving
+/// (Illinois): a handful of eigenvalue solutions to twelve digits. None where `excess` has no value.
+fn refine(
+    mut low: (f64, f64),
+    mut high: (f64, f64),
+    slope: f64,
+    excess: impl Fn(f64) -> Option<f64>,
+) -> Option<f64> {
+    let mut kept = 0;
+    for _ in 0..60 {
+        let speed = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
+        let value = excess(speed)?;
+        if value.abs() <= 1e-12 * slope * speed || (high.0 - low.0) <= 1e-12 * high.0 {
+            return Some(speed);
+        }
+        if value * low.1 > 0.0 {
+            low = (speed, value);
+            if kept == 1 {
+                high.1 *= 0.5;
+            }
+            kept = 1;
+        } else {
+            high = (speed, value);
+            if kept == -1 {
+                low.1 *= 0.5;
+            }
+            kept = -1;
+        }
+    }
+    Some(low.0)
 }
 
 /// The linear criterion: roots of f_a = 0 for every nodal diameter, the first `families` and each superharmonic number,
@@ -127,7 +137,7 @@ pub fn crossings<F: Frequencies>(
     grid: &[f64],
     families: usize,
     superharmonics: &[u32],
-) -> Result<Vec<Crossing>, F::Error> {
+) -> Vec<Crossing> {
     let harmonics = table.first().map_or(0, Vec::len) as u32;
     let mut all = Vec::new();
     for nodal_diameter in 1..harmonics {
@@ -135,7 +145,7 @@ pub fn crossings<F: Frequencies>(
             for &superharmonic in superharmonics {
                 let order = nodal_diameter * superharmonic;
                 for (speed_rad_s, frequency_hz) in
-                    roots(frequencies, table, grid, nodal_diameter, family, order)?
+                    roots(frequencies, table, grid, nodal_diameter, family, order)
                 {
                     all.push(Crossing {
                         nodal_diameter,
@@ -149,7 +159,7 @@ pub fn crossings<F: Frequencies>(
         }
     }
     all.sort_by(|a, b| a.speed_rad_s.total_cmp(&b.speed_rad_s));
-    Ok(all)
+    all
 }
 
 /// Crossings that `lobes` equal lobes can drive: f = kΩ/2π with k a multiple of `lobes` and fold(k) = i, for all k
@@ -161,16 +171,16 @@ pub fn driven_crossings<F: Frequencies>(
     families: usize,
     lobes: u32,
     sectors: u32,
-) -> Result<Vec<DrivenCrossing>, F::Error> {
+) -> Vec<DrivenCrossing> {
     let mut all = Vec::new();
     let slowest = grid.iter().copied().find(|&speed| speed > 0.0);
-    let (Some(slowest), true) = (slowest, lobes > 0) else { return Ok(all) };
+    let (Some(slowest), true) = (slowest, lobes > 0) else { return all };
     let highest = table.iter().flatten().flat_map(|f| f.iter().take(families)).fold(0.0f64, |m, &f| m.max(f));
     let last_order = (highest * TAU / slowest).ceil().min(f64::from(HIGHEST_ORDER)) as u32;
     for order in (lobes..=last_order).step_by(lobes as usize) {
         let nodal_diameter = fold(order, sectors);
         for family in 0..families {
-            for (speed_rad_s, frequency_hz) in roots(frequencies, table, grid, nodal_diameter, family, order)?
+            for (speed_rad_s, frequency_hz) in roots(frequencies, table, grid, nodal_diameter, family, order)
             {
                 all.push(DrivenCrossing {
                     nodal_diameter,
@@ -183,7 +193,7 @@ pub fn driven_crossings<F: Frequencies>(
         }
     }
     all.sort_by(|a, b| a.speed_rad_s.total_cmp(&b.speed_rad_s));
-    Ok(all)
+    all
 }
 
 /// Engine orders beyond this carry no energy a lobe could give them and are left out of the driven crossings.
@@ -209,16 +219,14 @@ mod tests {
     ];
 
     impl Frequencies for PaperFit {
-        type Error = std::convert::Infallible;
-
-        fn at(&self, speed: f64, nodal_diameter: u32) -> Result<Vec<f64>, Self::Error> {
+        fn at(&self, speed: f64, nodal_diameter: u32) -> Option<Vec<f64>> {
             // The paper's unit of frequency is its unit of speed: an engine order is f = kΩ, here kΩ/2π.
             let omega = speed / TAU;
             let family = |j: usize| {
                 let row = FIT.iter().find(|row| row.0 == nodal_diameter && row.1 == j);
                 row.map_or(1e3, |&(_, _, f0, b)| (f0 * f0 + b * omega * omega).sqrt())
             };
-            Ok(vec![family(1), family(2)])
+            Some(vec![family(1), family(2)])
         }
     }
 
@@ -250,7 +258,7 @@ mod tests {
         let grid: Vec<f64> = (0..=24).map(|i| TAU * 0.25 * f64::from(i)).collect();
         let table: Vec<Vec<Vec<f64>>> =
             grid.iter().map(|&s| (0..=5).map(|i| PaperFit.at(s, i).unwrap()).collect()).collect();
-        let found = crossings(&PaperFit, &table, &grid, 2, &[1, 2, 3]).unwrap();
+        let found = crossings(&PaperFit, &table, &grid, 2, &[1, 2, 3]);
         assert_eq!(found.len(), table_2.len(), "{found:#?}");
         for (omega, i, j, n) in table_2 {
             let row =
@@ -275,7 +283,7 @@ mod tests {
         let grid: Vec<f64> = (2..=24).map(|i| TAU * 0.25 * f64::from(i)).collect();
         let table: Vec<Vec<Vec<f64>>> =
             grid.iter().map(|&s| (0..=5).map(|i| PaperFit.at(s, i).unwrap()).collect()).collect();
-        let found = driven_crossings(&PaperFit, &table, &grid, 2, 2, 10).unwrap();
+        let found = driven_crossings(&PaperFit, &table, &grid, 2, 2, 10);
         assert!(!found.is_empty());
         for c in &found {
             assert_eq!(c.engine_order % 2, 0);

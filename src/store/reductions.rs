@@ -1,6 +1,7 @@
 //! Reduced sectors, one per (model, `modes_per_speed`).
 
 use super::{Store, StoreError, now};
+use crate::analysis::result::ReductionReport;
 use crate::analysis::run::ReducedSector;
 
 /// Layout of a stored reduction: raise it when [`ReducedSector`] changes, so that old ones are computed again
@@ -29,6 +30,16 @@ impl Store {
                 None
             }
         }))
+    }
+
+    /// What the reductions of `model` found and cost, by ascending `modes_per_speed`.
+    pub async fn reduction_reports(&self, model: &str) -> Result<Vec<ReductionReport>, StoreError> {
+        let reports: Vec<String> =
+            sqlx::query_scalar("select report from reductions where model = ? order by modes_per_speed")
+                .bind(model)
+                .fetch_all(&self.readers)
+                .await?;
+        Ok(reports.iter().map(|report| serde_json::from_str(report)).collect::<Result<_, _>>()?)
     }
 
     /// Keeps the reduction of `model`. A model deleted meanwhile keeps nothing.

@@ -149,9 +149,15 @@ async fn the_reduction_is_computed_once() {
     let third = app.api.post("/v1/modal-analyses", &modal_analysis_of(&model)).await.text("/id");
     assert_eq!(app.api.finish(&third).await["status"], "successful");
     reductions.push(app.api.get(&format!("/v1/jobs/{third}/campbell")).await.body["reduction"].clone());
-    app.stop().await;
     // The report carries its wall time: no two computations have the same.
     assert!(reductions[0]["wall_time_s"].as_f64().unwrap() > 0.0);
     assert_eq!(reductions[0], reductions[1]);
     assert_eq!(reductions[0], reductions[2]);
+    // The model and the job say what was found about the stiffness, in words.
+    let job = app.api.job(&third).await;
+    assert_eq!(job.body["reduction"], reductions[0]);
+    let detail = app.api.get(&format!("/v1/models/{model}")).await;
+    assert_eq!(detail.body["reductions"], serde_json::json!([reductions[0]]));
+    assert!(detail.text("/reductions/0/stiffening/message").contains("linear in Ω²"), "{:?}", detail.body);
+    app.stop().await;
 }

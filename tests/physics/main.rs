@@ -8,3 +8,4 @@ mod invariants;
 mod modal_criterion;
 #[path = "../oracle/mod.rs"]
 mod oracle;
+mod sweep;
