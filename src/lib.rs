@@ -10,6 +10,7 @@
 //! ```text
 //! numerics ← dynamics ← response ← analysis ← store ← jobs ← http ← app ← main
 //!               ↑         (package and impeller build a SectorModel; http and jobs use them)
+//!                                    (plot draws results of analysis; the demo uses it)
 //! ```
 //!
 //! What is absent, and stays absent:
@@ -30,5 +31,6 @@ pub mod impeller;
 pub mod jobs;
 pub mod numerics;
 pub mod package;
+pub mod plot;
 pub mod response;
 pub mod store;

@@ -1,7 +1,11 @@
 //! The command line: one file per command.
 
+mod demo;
 pub mod generate;
 mod serve;
+mod signals;
+
+use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
@@ -17,6 +21,8 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    /// Show it all on a generated impeller: upload, sweep, map, critical speeds.
+    Demo(demo::DemoArgs),
     /// Run the HTTP service.
     Serve(Config),
     /// Make a model package from a few parameters.
@@ -24,11 +30,21 @@ enum Command {
 }
 
 impl Cli {
-    /// Does what the command line says.
-    pub fn run(self) -> anyhow::Result<()> {
+    /// What is logged unless `RUST_LOG` says otherwise: beside a progress bar only what went wrong.
+    pub fn default_log(&self) -> &'static str {
         match self.command {
-            Command::Serve(config) => serve::run(config),
-            Command::Generate(args) => generate::generate(args),
+            Command::Demo(_) => "warn",
+            Command::Serve(_) | Command::Generate(_) => "info,apalis_core=warn",
         }
+    }
+
+    /// Does what the command line says.
+    pub fn run(self) -> anyhow::Result<ExitCode> {
+        match self.command {
+            Command::Demo(args) => return demo::run(&args),
+            Command::Serve(config) => serve::run(config)?,
+            Command::Generate(args) => generate::generate(args)?,
+        }
+        Ok(ExitCode::SUCCESS)
     }
 }

@@ -1,0 +1,175 @@
+//! The demo's side of the HTTP contract: nothing that curl could not do.
+
+use std::path::Path;
+
+use crate::store::status::JobStatus;
+use anyhow::{Context, bail};
+use reqwest::{Method, RequestBuilder, Response, StatusCode};
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+
+/// A client of one service.
+#[derive(Debug)]
+pub(super) struct Client {
+    base: String,
+    http: reqwest::Client,
+}
+
+/// An uploaded model.
+#[derive(Debug)]
+pub(super) struct Model {
+    pub(super) id: String,
+    /// Whether the service saw it for the first time.
+    pub(super) new: bool,
+}
+
+/// A job as the service shows it.
+#[derive(Debug, Deserialize)]
+pub(super) struct Job {
+    pub(super) id: String,
+    pub(super) status: JobStatus,
+    #[serde(default)]
+    pub(super) progress: u64,
+    #[serde(default)]
+    pub(super) phase: String,
+    #[serde(default)]
+    pub(super) speeds: SpeedCounts,
+    error: Option<Problem>,
+    links: Vec<Link>,
+}
+
+/// Speeds of a job.
+#[derive(Debug, Default, Deserialize)]
+pub(super) struct SpeedCounts {
+    pub(super) total: u32,
+    pub(super) finished: u32,
+}
+
+/// What went wrong (RFC 9457), as far as the demo shows it.
+#[derive(Debug, Deserialize)]
+struct Problem {
+    detail: String,
+    #[serde(default)]
+    errors: Vec<ProblemItem>,
+}
+
+#[derive(Debug, Deserialize)]
+struct ProblemItem {
+    pointer: Option<String>,
+    parameter: Option<String>,
+    file: Option<String>,
+    detail: String,
+}
+
+#[derive(Debug, Deserialize)]
+struct Link {
+    rel: String,
+    href: String,
+}
+
+impl Job {
+    /// Path of a result.
+    pub(super) fn link(&self, rel: &str) -> anyhow::Result<&str> {
+        let link = self.links.iter().find(|link| link.rel == rel);
+        link.map(|link| link.href.as_str()).with_context(|| format!("job {} links to no {rel}", self.id))
+    }
+
+    /// The job, if it ended well.
+    pub(super) fn successful(self) -> anyhow::Result<Self> {
+        match (self.status, &self.error) {
+            (JobStatus::Successful, _) => Ok(self),
+            (_, Some(problem)) => bail!("job {}: {}", self.id, words(problem)),
+            (status, None) => bail!("job {} is {}", self.id, status.as_str()),
+        }
+    }
+}
+
+impl Client {
+    pub(super) fn new(base: String) -> Self {
+        Self { base, http: reqwest::Client::new() }
+    }
+
+    /// `POST /v1/models`.
+    pub(super) async fn upload(&self, package: &Path) -> anyhow::Result<Model> {
+        #[derive(Deserialize)]
+        struct Body {
+            id: String,
+        }
+        let content =
+            tokio::fs::read(package).await.with_context(|| format!("cannot read {}", package.display()))?;
+        let request = self.request(Method::POST, "/v1/models").header("content-type", "application/zip");
+        let response = send(request.body(content)).await?;
+        let new = response.status() == StatusCode::CREATED;
+        let Body { id } = response.json().await?;
+        Ok(Model { id, new })
+    }
+
+    /// Posts a job.
+    pub(super) async fn post_job(&self, path: &str, request: &Value) -> anyhow::Result<Job> {
+        Ok(send(self.request(Method::POST, path).json(request)).await?.json().await?)
+    }
+
+    /// `GET /v1/jobs/{id}`.
+    pub(super) async fn job(&self, id: &str) -> anyhow::Result<Job> {
+        Ok(send(self.request(Method::GET, &format!("/v1/jobs/{id}"))).await?.json().await?)
+    }
+
+    /// Downloads a result to a file, byte by byte as the service gave it, and reads it.
+    pub(super) async fn download<T: DeserializeOwned>(&self, path: &str, file: &Path) -> anyhow::Result<T> {
+        let body = send(self.request(Method::GET, path)).await?.bytes().await?;
+        tokio::fs::write(file, &body).await.with_context(|| format!("cannot write {}", file.display()))?;
+        serde_json::from_slice(&body).with_context(|| format!("cannot understand {path}"))
+    }
+
+    /// Cancels every job that has not ended.
+    pub(super) async fn cancel_unfinished_jobs(&self) -> anyhow::Result<()> {
+        #[derive(Deserialize)]
+        struct Page {
+            jobs: Vec<Job>,
+        }
+        for status in [JobStatus::Accepted, JobStatus::Running] {
+            let path = format!("/v1/jobs?limit=500&status={}", status.as_str());
+            let page: Page = send(self.request(Method::GET, &path)).await?.json().await?;
+            for job in page.jobs {
+                let response = self.request(Method::DELETE, &format!("/v1/jobs/{}", job.id)).send().await?;
+                // Between list and cancellation it may have ended by itself.
+                if response.status() != StatusCode::CONFLICT {
+                    accept(response).await?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn request(&self, method: Method, path: &str) -> RequestBuilder {
+        self.http.request(method, format!("{}{path}", self.base))
+    }
+}
+
+async fn send(request: RequestBuilder) -> anyhow::Result<Response> {
+    accept(request.send().await?).await
+}
+
+/// The response, or the problem it reports.
+async fn accept(response: Response) -> anyhow::Result<Response> {
+    let status = response.status();
+    if status.is_success() {
+        return Ok(response);
+    }
+    let path = response.url().path().to_owned();
+    let body = response.text().await?;
+    match serde_json::from_str(&body) {
+        Ok(problem) => bail!("{path}: {status}: {}", words(&problem)),
+        Err(_) => bail!("{path}: {status}: {body}"),
+    }
+}
+
+/// A problem and all its items in one text.
+fn words(problem: &Problem) -> String {
+    let items = problem.errors.iter().map(|item| {
+        let place = item.pointer.as_deref().or(item.parameter.as_deref()).or(item.file.as_deref());
+        format!("\n  {}: {}", place.unwrap_or("-"), item.detail)
+    });
+    format!("{}{}", problem.detail, items.collect::<String>())
+}

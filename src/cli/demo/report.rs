@@ -1,0 +1,165 @@
+//! What the demo says about its results.
+
+use std::f64::consts::TAU;
+use std::fmt::Write;
+use std::path::Path;
+
+use crate::analysis::result::{
+    CriticalSpeed, CriticalSpeeds, DrivenCrossing, InteractionMap, PointStatus, Verdict,
+};
+
+fn rpm(speed_rad_s: f64) -> f64 {
+    speed_rad_s * 60.0 / TAU
+}
+
+fn verdict(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Periodic => "periodic",
+        Verdict::Subharmonic => "subharmonic",
+        Verdict::Aperiodic => "aperiodic",
+        Verdict::NotSettled => "not settled",
+    }
+}
+
+/// How far the numbers can be trusted, in a few lines.
+pub(super) fn credentials(map: &InteractionMap) -> String {
+    let completed = map.points.iter().filter(|point| point.status == PointStatus::Completed);
+    let count = |wanted: Verdict| {
+        let verdicts = completed.clone().filter_map(|point| point.settling.as_ref());
+        verdicts.filter(|settling| settling.verdict == wanted).count()
+    };
+    let verdicts = [Verdict::Periodic, Verdict::Subharmonic, Verdict::Aperiodic, Verdict::NotSettled];
+    let verdicts = verdicts.map(|wanted| (count(wanted), verdict(wanted)));
+    let verdicts: Vec<_> = verdicts
+        .iter()
+        .filter(|(count, _)| *count > 0)
+        .map(|(count, words)| format!("{count} {words}"))
+        .collect();
+    let touching = completed.clone().filter(|point| point.contact_share > 0.0).count();
+    let contact = completed.clone().fold((f64::INFINITY, 0f64), |(low, high), point| {
+        (low.min(point.contact_share), high.max(point.contact_share))
+    });
+    let largest =
+        |value: fn(&crate::analysis::result::Point) -> f64| completed.clone().map(value).fold(0.0, f64::max);
+    let mut out = String::new();
+    // Writing to a string cannot fail, here and below.
+    let _ = writeln!(
+        out,
+        "{} of {} speeds computed: {}",
+        completed.clone().count(),
+        map.speeds_rad_s.len(),
+        verdicts.join(", ")
+    );
+    if touching > 0 {
+        let _ = writeln!(
+            out,
+            "contact at {touching} of them, in {:.1} to {:.1} % of the steps; penetration left at most {:.0e} {}",
+            100.0 * contact.0,
+            100.0 * contact.1,
+            largest(|point| point.largest_penetration),
+            map.units.length
+        );
+    }
+    let steps: u64 = map.points.iter().map(|point| point.steps).sum();
+    let _ = writeln!(
+        out,
+        "energy identity kept to {:.0e} over {:.1} million steps",
+        largest(|point| point.energy_residual),
+        steps as f64 / 1e6
+    );
+    out
+}
+
+/// The table of critical speeds beside the linear prediction.
+pub(super) fn critical_speeds(table: &CriticalSpeeds) -> String {
+    let unit = &table.units.length;
+    let mut out = String::new();
+    let _ = writeln!(
+        out,
+        "Critical speeds: peaks of the response at contact node {}, sector {}\n",
+        table.sensor.contact_node, table.sensor.sector
+    );
+    let _ = writeln!(
+        out,
+        "    Ω       level  prominence   engine  nodal                nearest linear crossing     driven at that order"
+    );
+    let _ = writeln!(
+        out,
+        "   rpm   {:>8}  {:>9}    order  diam.  steady state  (i, j, n)    rpm     off         rpm     off",
+        format!("{unit} rms"),
+        format!("{unit} rms")
+    );
+    for speed in &table.critical_speeds {
+        let _ = writeln!(
+            out,
+            "{:>6.0}   {:>8.4}   {:>8.4}   {:>6}  {:>5}  {:<12}  {}    {}",
+            rpm(speed.speed_rad_s),
+            speed.rms,
+            speed.prominence,
+            speed.dominant_engine_order,
+            speed.dominant_nodal_diameter,
+            verdict(speed.settling),
+            nearest_linear(speed),
+            nearest_driven(speed, &table.driven_crossings),
+        );
+    }
+    if table.critical_speeds.is_empty() {
+        out.push_str("  none\n");
+    }
+    out.push_str("\noff: how far the peak lies above (+) or below (-) the prediction\n");
+    out.push_str("\nWhat the lobes can drive in this range (linear, without contact)\n\n");
+    out.push_str("  engine order   nodal diameter   family      rpm        Hz\n");
+    for crossing in &table.driven_crossings {
+        let _ = writeln!(
+            out,
+            "  {:>12}   {:>14}   {:>6}   {:>6.0}   {:>7.1}",
+            crossing.engine_order,
+            crossing.nodal_diameter,
+            crossing.family,
+            rpm(crossing.speed_rad_s),
+            crossing.frequency_hz
+        );
+    }
+    out
+}
+
+fn nearest_linear(speed: &CriticalSpeed) -> String {
+    let Some(crossing) = &speed.nearest_crossing else { return format!("{:<26}", "none in range") };
+    format!(
+        "({}, {}, {})  {:>6.0}  {:>+5.1} %",
+        crossing.nodal_diameter,
+        crossing.family,
+        crossing.superharmonic,
+        rpm(crossing.speed_rad_s),
+        100.0 * (speed.speed_rad_s / crossing.speed_rad_s - 1.0)
+    )
+}
+
+/// The nearest of the driven crossings with the peak's own engine order.
+fn nearest_driven(speed: &CriticalSpeed, driven: &[DrivenCrossing]) -> String {
+    let same =
+        driven.iter().filter(|crossing| f64::from(crossing.engine_order) == speed.dominant_engine_order);
+    let distance = |crossing: &&DrivenCrossing| (crossing.speed_rad_s - speed.speed_rad_s).abs();
+    match same.min_by(|a, b| distance(a).total_cmp(&distance(b))) {
+        Some(crossing) => format!(
+            "{:>6.0}  {:>+5.1} %",
+            rpm(crossing.speed_rad_s),
+            100.0 * (speed.speed_rad_s / crossing.speed_rad_s - 1.0)
+        ),
+        None => "  none in range".to_owned(),
+    }
+}
+
+/// Where everything is.
+pub(super) fn places(out: &Path, map: &str) -> String {
+    let folder = out.display();
+    format!(
+        "Look at   {folder}/interaction-map.svg            amplitude over speed and engine order
+          {folder}/interaction-map-frequency.svg  the same over speed and frequency
+          {folder}/campbell.svg                   natural frequencies over speed
+Read      {folder}/interaction-map.json, critical-speeds.json, campbell.json
+Ask       rubmap serve --data {folder}/data
+          curl 'http://127.0.0.1:8080{map}?sensor=1'   the trailing edge
+Upload    {folder}/impeller.zip or a package of your own\n"
+    )
+}

@@ -1,0 +1,44 @@
+//! What the demo asks for, as a user would write it.
+
+use serde_json::{Value, json};
+
+/// Natural frequencies from standstill to beyond the sweep.
+pub(super) fn modal_analysis(model: &str) -> Value {
+    json!({
+        "model": model,
+        "modes_per_speed": 20,
+        "families": 2,
+        "superharmonics": [1, 2, 3],
+        "lobes": 2,
+        "speeds": {"from": 0, "to": 38000, "count": 39, "unit": "rpm"},
+    })
+}
+
+/// A casing ovalised by more than the clearance, so that two lobes push every tip twice a revolution.
+pub(super) fn sweep(model: &str, speeds: u32, revolutions: u32) -> Value {
+    json!({
+        "model": model,
+        "modes_per_speed": 20,
+        "speeds": {"from": 12000, "to": 36000, "count": speeds, "unit": "rpm"},
+        "scene": {
+            "centrifugal_stiffening": true,
+            "damping": {"modal_ratio": 0.005},
+            "casing": {
+                "clearance": {"leading": 0.30, "trailing": 0.22},
+                "lobes": {"count": 2, "amplitude": 0.425, "width_rad": 0.35},
+            },
+            "contact": {},
+        },
+        "integration": {
+            "steps_per_revolution": "auto",
+            "revolutions": revolutions,
+            "ramp_revolutions": 1,
+            "window_revolutions": (2 * revolutions / 5).max(1),
+        },
+        "sensors": [
+            {"contact_node": 0, "sector": 0, "component": "radial"},
+            {"contact_node": 9, "sector": 0, "component": "radial"},
+        ],
+        "max_engine_order": 24,
+    })
+}

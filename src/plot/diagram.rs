@@ -1,0 +1,112 @@
+//! The rectangle of a diagram: frame, ticks and axis titles.
+
+use super::axis::Scale;
+use super::svg::{Element, INK, group, line, rectangle, text, upright};
+
+/// A rectangle with a horizontal and a vertical axis.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Diagram {
+    pub(super) left: f64,
+    pub(super) top: f64,
+    pub(super) width: f64,
+    pub(super) height: f64,
+    pub(super) x: Scale,
+    pub(super) y: Scale,
+}
+
+impl Diagram {
+    /// With linear axes.
+    pub(super) fn new(
+        (left, top): (f64, f64),
+        (width, height): (f64, f64),
+        x: (f64, f64),
+        y: (f64, f64),
+    ) -> Self {
+        let (x, y) = (Scale::linear(x, (left, left + width)), Scale::linear(y, (top + height, top)));
+        Self { left, top, width, height, x, y }
+    }
+
+    pub(super) fn right(&self) -> f64 {
+        self.left + self.width
+    }
+
+    pub(super) fn bottom(&self) -> f64 {
+        self.top + self.height
+    }
+
+    pub(super) fn point(&self, x: f64, y: f64) -> (f64, f64) {
+        (self.x.place(x), self.y.place(y))
+    }
+
+    /// The point, if it lies inside.
+    pub(super) fn inside(&self, x: f64, y: f64) -> Option<(f64, f64)> {
+        (self.x.contains(x) && self.y.contains(y)).then(|| self.point(x, y))
+    }
+
+    /// The straight line between two points, cut off at the frame; nothing if it lies outside.
+    pub(super) fn clipped(&self, from: (f64, f64), to: (f64, f64)) -> Option<[(f64, f64); 2]> {
+        let mut span = (0.0, 1.0);
+        let delta = (to.0 - from.0, to.1 - from.1);
+        let bounds = [(from.0, delta.0, self.x.values), (from.1, delta.1, self.y.values)];
+        for (start, slope, (low, high)) in bounds {
+            if slope == 0.0 {
+                if start < low || start > high {
+                    return None;
+                }
+                continue;
+            }
+            let (a, b) = ((low - start) / slope, (high - start) / slope);
+            span = (f64::max(span.0, a.min(b)), f64::min(span.1, a.max(b)));
+        }
+        let at = |s: f64| (from.0 + s * delta.0, from.1 + s * delta.1);
+        (span.0 < span.1).then(|| [at(span.0), at(span.1)])
+    }
+
+    /// Background, to be drawn first.
+    pub(super) fn background(&self, fill: &str) -> Element {
+        rectangle(self.left, self.top, self.width, self.height).set("fill", fill)
+    }
+
+    /// The frame, to be drawn over the content.
+    pub(super) fn frame(&self) -> Element {
+        rectangle(self.left, self.top, self.width, self.height).set("fill", "none").set("stroke", INK)
+    }
+
+    /// Ticks and labels below, and the axis title if there is one.
+    pub(super) fn x_axis(&self, ticks: &[(f64, String)], title: &str) -> Element {
+        let bottom = self.bottom();
+        let marks = ticks.iter().filter(|(value, _)| self.x.contains(*value)).flat_map(|(value, label)| {
+            let x = self.x.place(*value);
+            let tick = line((x, bottom), (x, bottom + 5.0)).set("stroke", INK);
+            [tick, text(x, bottom + 19.0, "middle", label)]
+        });
+        let title = text(self.left + 0.5 * self.width, bottom + 42.0, "middle", title).set("font-size", "14");
+        group().children(marks).child(title)
+    }
+
+    /// Ticks and labels on the left, and the axis title `away` from the frame.
+    pub(super) fn y_axis(&self, ticks: &[(f64, String)], title: &str, away: f64) -> Element {
+        let marks = ticks.iter().filter(|(value, _)| self.y.contains(*value)).flat_map(|(value, label)| {
+            let y = self.y.place(*value);
+            let tick = line((self.left - 5.0, y), (self.left, y)).set("stroke", INK);
+            [tick, text(self.left - 9.0, y + 4.5, "end", label)]
+        });
+        let title = upright(self.left - away, self.top + 0.5 * self.height, "middle", title);
+        group().children(marks).child(title.set("font-size", "14"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_end_at_the_frame() {
+        let diagram = Diagram::new((0.0, 0.0), (100.0, 100.0), (0.0, 10.0), (0.0, 20.0));
+        assert_eq!(diagram.clipped((0.0, 0.0), (10.0, 40.0)), Some([(0.0, 0.0), (5.0, 20.0)]));
+        assert_eq!(diagram.clipped((0.0, 30.0), (10.0, 40.0)), None);
+        assert_eq!(diagram.clipped((-5.0, 10.0), (5.0, 10.0)), Some([(0.0, 10.0), (5.0, 10.0)]));
+        assert_eq!(diagram.inside(5.0, 10.0), Some((50.0, 50.0)));
+        assert_eq!(diagram.inside(5.0, 21.0), None);
+    }
+}

@@ -1,0 +1,167 @@
+//! The little SVG that the drawings need: elements with escaped attributes and texts.
+
+use std::fmt::Write;
+
+/// Families that are on most machines, and whatever has no serifs elsewhere.
+const FONTS: &str = "Helvetica, Arial, 'DejaVu Sans', sans-serif";
+
+/// An element with its attributes and children.
+#[derive(Debug, Clone)]
+pub(super) struct Element {
+    name: &'static str,
+    attributes: String,
+    children: String,
+}
+
+impl Element {
+    pub(super) fn new(name: &'static str) -> Self {
+        Self { name, attributes: String::new(), children: String::new() }
+    }
+
+    /// With an attribute in words.
+    pub(super) fn set(mut self, name: &str, value: impl AsRef<str>) -> Self {
+        self.attributes += &format!(" {name}=\"{}\"", escape(value.as_ref()));
+        self
+    }
+
+    /// With a number in user units, to a hundredth.
+    pub(super) fn number(self, name: &str, value: f64) -> Self {
+        self.set(name, number(value))
+    }
+
+    /// With a text inside.
+    pub(super) fn text(mut self, text: &str) -> Self {
+        self.children += &escape(text);
+        self
+    }
+
+    /// With what a browser shows under the pointer.
+    pub(super) fn title(self, text: &str) -> Self {
+        self.child(Self::new("title").text(text))
+    }
+
+    /// With an element inside.
+    pub(super) fn child(mut self, child: Self) -> Self {
+        child.write_to(&mut self.children);
+        self
+    }
+
+    /// With elements inside.
+    pub(super) fn children(self, children: impl IntoIterator<Item = Self>) -> Self {
+        children.into_iter().fold(self, Self::child)
+    }
+
+    fn write_to(&self, out: &mut String) {
+        let Self { name, attributes, children } = self;
+        if children.is_empty() {
+            out.push_str(&format!("<{name}{attributes}/>\n"));
+        } else {
+            out.push_str(&format!("<{name}{attributes}>{children}</{name}>\n"));
+        }
+    }
+}
+
+/// A whole drawing of `width` × `height` on white.
+pub(super) fn document(title: &str, width: f64, height: f64, content: Vec<Element>) -> String {
+    let root = Element::new("svg")
+        .set("xmlns", "http://www.w3.org/2000/svg")
+        .number("width", width)
+        .number("height", height)
+        .set("viewBox", format!("0 0 {} {}", number(width), number(height)))
+        .set("font-family", FONTS)
+        .set("font-size", "13")
+        .set("fill", INK)
+        .title(title)
+        .child(rectangle(0.0, 0.0, width, height).set("fill", "white"))
+        .children(content);
+    let mut out = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
+    root.write_to(&mut out);
+    out
+}
+
+/// Colour of texts and axes.
+pub(super) const INK: &str = "#222222";
+
+/// A group.
+pub(super) fn group() -> Element {
+    Element::new("g")
+}
+
+/// A rectangle.
+pub(super) fn rectangle(x: f64, y: f64, width: f64, height: f64) -> Element {
+    Element::new("rect").number("x", x).number("y", y).number("width", width).number("height", height)
+}
+
+/// A straight line.
+pub(super) fn line(from: (f64, f64), to: (f64, f64)) -> Element {
+    Element::new("line").number("x1", from.0).number("y1", from.1).number("x2", to.0).number("y2", to.1)
+}
+
+/// Lines through points; a point that is missing interrupts them.
+pub(super) fn polyline(points: impl IntoIterator<Item = Option<(f64, f64)>>) -> Element {
+    let mut path = String::new();
+    let mut pen_down = false;
+    for point in points {
+        if let Some((x, y)) = point {
+            let command = if pen_down { 'L' } else { 'M' };
+            // Writing to a string cannot fail.
+            let _ = write!(path, "{command}{} {}", number(x), number(y));
+        }
+        pen_down = point.is_some();
+    }
+    Element::new("path").set("d", path).set("fill", "none")
+}
+
+/// A text that begins, is centred (`middle`) or ends at a point.
+pub(super) fn text(x: f64, y: f64, anchor: &str, content: &str) -> Element {
+    Element::new("text").number("x", x).number("y", y).set("text-anchor", anchor).text(content)
+}
+
+/// A text that reads upwards from (or centred at) a point.
+pub(super) fn upright(x: f64, y: f64, anchor: &str, content: &str) -> Element {
+    text(x, y, anchor, content).set("transform", format!("rotate(-90 {} {})", number(x), number(y)))
+}
+
+/// A number to a hundredth, without trailing zeros.
+fn number(value: f64) -> String {
+    let rounded = (value * 100.0).round() / 100.0;
+    // -0 is 0.
+    format!("{}", rounded + 0.0)
+}
+
+fn escape(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for character in text.chars() {
+        match character {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            // XML 1.0 has no other control characters, not even escaped.
+            c if c.is_control() && !matches!(c, '\n' | '\t') => out.push('\u{fffd}'),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hostile_texts_stay_texts() {
+        let drawing = document("a < b & \"c\"\u{1}", 10.0, 10.0, vec![text(1.0, -0.001, "start", "</text>")]);
+        let read = roxmltree::Document::parse(&drawing).unwrap();
+        let texts: Vec<_> = read.descendants().filter(|n| n.has_tag_name("text")).collect();
+        assert_eq!(texts[0].text(), Some("</text>"));
+        assert_eq!(texts[0].attribute("y"), Some("0"));
+        assert_eq!(read.root_element().first_element_child().unwrap().text(), Some("a < b & \"c\"\u{fffd}"));
+    }
+
+    #[test]
+    fn missing_points_interrupt_lines() {
+        let drawing = polyline([Some((0.0, 1.0)), Some((1.0, 1.0)), None, Some((3.0, 0.5))]);
+        assert!(drawing.attributes.contains("M0 1L1 1M3 0.5"), "{}", drawing.attributes);
+    }
+}

@@ -1,0 +1,211 @@
+//! Drawings read back: what must be seen is there, where it belongs.
+
+use std::f64::consts::TAU;
+
+use roxmltree::{Document, Node};
+use serde_json::{Value, json};
+
+use super::{VerticalAxis, campbell, interaction_map};
+use crate::analysis::result::{Campbell, CriticalSpeeds, InteractionMap};
+
+fn rad_s(rpm: f64) -> f64 {
+    rpm * TAU / 60.0
+}
+
+const SPEEDS_RPM: [f64; 5] = [10_000.0, 11_000.0, 12_000.0, 13_000.0, 14_000.0];
+
+fn sensor() -> Value {
+    json!({"contact_node": 0, "sector": 0, "component": "radial"})
+}
+
+fn units() -> Value {
+    json!({"length": "mm", "force": "N", "time": "s", "mass": "t"})
+}
+
+fn point(index: usize, status: &str) -> Value {
+    let mut point = json!({
+        "index": index, "speed_rad_s": rad_s(SPEEDS_RPM[index]), "status": status, "steps_per_revolution": 1000,
+        "smallest_stable_steps_per_revolution": 900, "steps": 10000, "contact_share": 0.5, "contact_impulse": 1.0,
+        "largest_penetration": 0.0, "energy_residual": 1e-12, "largest_energy": 1.0, "responses": [],
+        "wall_time_s": 1.0, "version": "0",
+    });
+    if status == "completed" {
+        let verdict = if index == 3 { "not_settled" } else { "periodic" };
+        point["settling"] = json!({"verdict": verdict, "largest_change": 0.0});
+        point["responses"] = json!([{
+            "sensor": sensor(), "mean": 0.0, "rms": 0.1 * (1 + index) as f64, "half_peak_to_peak": 0.2,
+            "dominant_engine_order": 2.0, "dominant_nodal_diameter": 2,
+        }]);
+    } else {
+        point["message"] = json!("grew beyond <bounds>");
+    }
+    point
+}
+
+/// Five speeds; the third diverged, the fourth is not settled.
+fn map() -> InteractionMap {
+    let row = json!([9.0, 0.0, 0.01, 0.0, 0.5, 0.0, 0.002]);
+    serde_json::from_value(json!({
+        "speeds_rad_s": SPEEDS_RPM.map(rad_s),
+        "engine_orders": [0.0, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0],
+        "amplitude": [row, row, null, row, row],
+        "sensor": sensor(), "units": units(),
+        "points": (0..5).map(|i| point(i, if i == 2 { "diverged" } else { "completed" })).collect::<Vec<_>>(),
+        "settings": {
+            "model": "0123456789abcdef", "speeds": {"values": SPEEDS_RPM, "unit": "rpm"},
+            "scene": {"casing": {"clearance": {"leading": 0.3, "trailing": 0.2},
+                "lobes": {"count": 2, "amplitude": 0.4, "width_rad": 0.3}}, "contact": {}},
+        },
+        "version": "0",
+    }))
+    .unwrap()
+}
+
+fn critical() -> CriticalSpeeds {
+    let speed = |index: usize, settling: &str| {
+        json!({"speed_rad_s": rad_s(SPEEDS_RPM[index]), "index": index, "rms": 0.2, "half_peak_to_peak": 0.3,
+            "prominence": 0.1, "dominant_engine_order": 2.0, "dominant_nodal_diameter": 2, "settling": settling})
+    };
+    serde_json::from_value(json!({
+        "sensor": sensor(), "critical_speeds": [speed(1, "periodic"), speed(3, "not_settled")],
+        "linear_crossings": [{"nodal_diameter": 1, "family": 1, "superharmonic": 2, "speed_rad_s": rad_s(11_500.0),
+            "frequency_hz": 11_500.0 / 30.0}],
+        "driven_crossings": [{"nodal_diameter": 2, "family": 1, "engine_order": 2, "speed_rad_s": rad_s(12_500.0),
+            "frequency_hz": 12_500.0 / 30.0}],
+        "missing": [2], "units": units(), "version": "0",
+    }))
+    .unwrap()
+}
+
+fn modes() -> Campbell {
+    let frequencies: Vec<Vec<Vec<f64>>> = (0..5)
+        .map(|s| (0..3).map(|i| vec![f64::from(400 + 5 * s + i), f64::from(900 + s)]).collect())
+        .collect();
+    let CriticalSpeeds { linear_crossings, driven_crossings, .. } = critical();
+    serde_json::from_value(json!({
+        "speeds_rad_s": SPEEDS_RPM.map(rad_s), "frequencies_hz": frequencies, "absolute_frequencies_hz": [],
+        "crossings": linear_crossings, "driven_crossings": driven_crossings,
+        "reduction": {"modes_per_speed": 1, "unknowns": [1], "wheel_unknowns": 1, "largest_mode_residual": 0.0,
+            "basis_tolerance": 1e-5, "stiffening": {"verdict": "sound", "linear_ratio": 0.0, "quadratic_ratio": 0.0,
+                "frequency_error": 0.0, "message": ""}, "wall_time_s": 0.0, "version": "0"},
+        "settings": {"model": "0123456789abcdef", "speeds": {"values": SPEEDS_RPM, "unit": "rpm"}},
+        "wall_time_s": 0.0, "version": "0",
+    }))
+    .unwrap()
+}
+
+fn of_class<'a>(drawing: &'a Document, class: &'a str) -> impl Iterator<Item = Node<'a, 'a>> {
+    drawing.descendants().filter(move |node| node.attribute("class") == Some(class))
+}
+
+fn number(node: Node, name: &str) -> f64 {
+    node.attribute(name).unwrap().parse().unwrap()
+}
+
+/// Where a tick label stands: the axis as the reader sees it.
+fn tick(drawing: &Document, label: &str) -> f64 {
+    number(drawing.descendants().find(|node| node.text() == Some(label)).unwrap(), "x")
+}
+
+#[test]
+fn critical_speeds_stand_at_their_speeds() {
+    for axis in [VerticalAxis::EngineOrder, VerticalAxis::Frequency] {
+        let drawing = interaction_map(&map(), Some(&critical()), Some(&modes()), axis);
+        let drawing = Document::parse(&drawing).unwrap();
+        let lines: Vec<f64> = of_class(&drawing, "critical-speed").map(|line| number(line, "x1")).collect();
+        let expected = [tick(&drawing, "11,000"), tick(&drawing, "13,000")];
+        assert_eq!(lines.len(), 2);
+        assert!(
+            lines.iter().zip(expected).all(|(x, tick)| (x - tick).abs() < 0.02),
+            "{lines:?} {expected:?}"
+        );
+        let texts: Vec<_> = drawing.descendants().filter_map(|node| node.text()).collect();
+        assert!(texts.contains(&"11,000 rpm · EO 2"));
+        assert!(texts.contains(&"13,000 rpm · EO 2 *"), "not settled is marked");
+    }
+}
+
+#[test]
+fn a_speed_without_result_is_hatched_and_transparent() {
+    let drawing = interaction_map(&map(), None, None, VerticalAxis::EngineOrder);
+    let drawing = Document::parse(&drawing).unwrap();
+    let missing: Vec<_> = of_class(&drawing, "missing").collect();
+    assert_eq!(missing.len(), 1);
+    assert_eq!(missing[0].first_element_child().unwrap().text(), Some("12000 rpm: grew beyond <bounds>"));
+    let image = drawing.descendants().find(|node| node.has_tag_name("image")).unwrap();
+    let (width, pixels) = decode(image.attribute("href").unwrap());
+    let at = |label: &str| {
+        let (left, scale) = (number(image, "x"), width as f64 / number(image, "width"));
+        ((tick(&drawing, label) - left) * scale) as usize
+    };
+    let opaque = |column: usize| pixels.chunks(width).all(|row| row[column] != 255);
+    let transparent = |column: usize| pixels.chunks(width).all(|row| row[column] == 255);
+    assert!(transparent(at("12,000")) && opaque(at("11,000")) && opaque(at("13,000")));
+    let loudest = pixels.chunks(width).map(|row| row[at("11,000")]).max();
+    assert_eq!(loudest, Some(254), "the mean does not set the scale");
+}
+
+fn decode(uri: &str) -> (usize, Vec<u8>) {
+    use base64::Engine;
+    let bytes = uri.strip_prefix("data:image/png;base64,").unwrap();
+    let bytes = base64::engine::general_purpose::STANDARD.decode(bytes).unwrap();
+    let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();
+    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+    let frame = reader.next_frame(&mut pixels).unwrap();
+    (frame.width as usize, pixels)
+}
+
+#[test]
+fn unsettled_speeds_are_in_the_strip() {
+    let drawing = interaction_map(&map(), None, None, VerticalAxis::EngineOrder);
+    let drawing = Document::parse(&drawing).unwrap();
+    let titles: Vec<_> = drawing
+        .descendants()
+        .filter(|node| node.has_tag_name("title"))
+        .filter_map(|node| node.text())
+        .collect();
+    let strip: Vec<_> = titles
+        .iter()
+        .copied()
+        .filter(|title| ["periodic", "not settled", "no result"].contains(title))
+        .collect();
+    assert_eq!(strip, ["periodic", "no result", "not settled", "periodic"]);
+}
+
+#[test]
+fn an_empty_map_is_still_a_drawing() {
+    let mut map = map();
+    map.amplitude = vec![None; 5];
+    map.points.clear();
+    assert!(Document::parse(&interaction_map(&map, None, None, VerticalAxis::EngineOrder)).is_ok());
+    map.speeds_rad_s.clear();
+    map.amplitude.clear();
+    map.engine_orders.clear();
+    assert!(Document::parse(&interaction_map(&map, None, None, VerticalAxis::Frequency)).is_ok());
+}
+
+#[test]
+fn a_long_sweep_stays_small() {
+    let mut map = map();
+    let row: Vec<f64> = (0..=480).map(|bin| 0.5 / f64::from(1 + bin * 7919 % 997)).collect();
+    map.engine_orders = (0..=480).map(|bin| f64::from(bin) / 20.0).collect();
+    map.speeds_rad_s = (0..3000).map(|i| rad_s(10_000.0 + f64::from(i))).collect();
+    map.amplitude = vec![Some(row); 3000];
+    assert!(interaction_map(&map, None, None, VerticalAxis::Frequency).len() < 2_000_000);
+}
+
+#[test]
+fn crossings_of_the_campbell_diagram_lie_on_their_engine_order() {
+    let drawing = campbell(&modes());
+    let drawing = Document::parse(&drawing).unwrap();
+    let title = |node: &Node, start: &str| {
+        node.first_element_child().and_then(|child| child.text()).is_some_and(|text| text.starts_with(start))
+    };
+    let ring =
+        drawing.descendants().find(|node| node.has_tag_name("circle") && title(node, "linear")).unwrap();
+    let half = 0.5 * (tick(&drawing, "11,000") + tick(&drawing, "12,000"));
+    assert!((number(ring, "cx") - half).abs() < 0.02, "11,500 rpm is halfway");
+    assert!(
+        drawing.descendants().any(|node| node.has_tag_name("path") && title(&node, "driven: engine order 2"))
+    );
+}
