@@ -118,8 +118,7 @@ fn active_set(w: &DMatrix<f64>, gap: &DVector<f64>, lambda: &mut DVector<f64>) {
     for _ in 0..100 {
         let block = w.select_columns(&active).select_rows(&active);
         let rhs = DVector::from_iterator(active.len(), active.iter().map(|&i| -gap[i]));
-        let solved =
-            block.cholesky().map_or_else(|| DVector::zeros(active.len()), |factor| factor.solve(&rhs));
+        let solved = block.cholesky().expect("W is positive definite").solve(&rhs);
         lambda.fill(0.0);
         for (&i, &l) in active.iter().zip(&solved) {
             lambda[i] = l;

@@ -1,5 +1,7 @@
 //! Time steps and recorded samples of a revolution.
 
+use std::f64::consts::TAU;
+
 use super::request::{StepsPerRevolution, SweepRequest};
 use crate::dynamics::integrate::smallest_stable_steps;
 use crate::dynamics::modal_wheel::ModalWheel;
@@ -20,6 +22,25 @@ const SAFETY: f64 = 0.8;
 /// `"auto"` never steps over more than a tenth of a degree: contact begins and ends within a step.
 const LEAST_AUTO_STEPS: f64 = 3600.0;
 
+/// Most steps per revolution, given or chosen.
+pub(super) const MOST_STEPS: u32 = 10_000_000;
+
+/// `"auto"` takes this many steps over the half-width of a lobe.
+const AUTO_STEPS_PER_WIDTH: f64 = 10.0;
+
+/// Fewer steps over the half-width of a lobe would pass it by.
+const LEAST_STEPS_PER_WIDTH: f64 = 2.0;
+
+/// Half-width of the lobes of a scene, rad.
+fn lobe_width(request: &SweepRequest) -> Option<f64> {
+    Some(request.scene.casing.as_ref()?.lobes.as_ref()?.width_rad)
+}
+
+/// The smallest number of steps per revolution that sees the lobes of a scene.
+pub(super) fn least_steps_for_lobes(request: &SweepRequest) -> f64 {
+    lobe_width(request).map_or(0.0, |width| (LEAST_STEPS_PER_WIDTH * TAU / width).ceil())
+}
+
 /// Samples per revolution for each engine order asked for, so that what aliases onto a line of the spectrum comes
 /// from orders at least seven times as high.
 const SAMPLES_PER_ORDER: usize = 8;
@@ -34,11 +55,12 @@ impl Discretisation {
         let wanted = wanted_samples(request);
         match request.integration.steps_per_revolution {
             StepsPerRevolution::Auto => {
-                let least = (smallest as f64 / SAFETY).max(LEAST_AUTO_STEPS).ceil();
-                if least > f64::from(u32::MAX) {
+                let lobes = lobe_width(request).map_or(0.0, |width| AUTO_STEPS_PER_WIDTH * TAU / width);
+                let least = (smallest as f64 / SAFETY).max(LEAST_AUTO_STEPS).max(lobes).ceil();
+                if least > f64::from(MOST_STEPS) {
                     return Err(format!(
-                        "a stable run would need {least:.1e} steps per revolution: the reduced wheel has modes far \
-                         above any engine order at this speed"
+                        "this speed would need {least:.1e} steps per revolution, more than {MOST_STEPS}: it is too slow \
+                         for the highest frequency of the reduced wheel, or the lobes are too narrow"
                     ));
                 }
                 let least = least as usize;

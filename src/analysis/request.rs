@@ -48,6 +48,9 @@ pub struct ModalAnalysisRequest {
     /// Lobe count of the casing that can drive the wheel.
     #[serde(default = "default_lobes")]
     pub lobes: u32,
+    /// Highest engine order of the driven crossings.
+    #[serde(default = "default_max_engine_order")]
+    pub max_engine_order: u32,
     /// Speeds of the Campbell diagram, in ascending order.
     pub speeds: Speeds,
 }
@@ -115,6 +118,9 @@ impl SpeedUnit {
     }
 }
 
+/// Speeds beyond this, in rad/s, are typing errors.
+pub const HIGHEST_SPEED: f64 = 1e7;
+
 /// Largest number of speeds in one job.
 pub const MAX_SPEEDS: usize = 10_000;
 
@@ -146,10 +152,16 @@ impl Speeds {
         if speeds.len() > MAX_SPEEDS {
             return Err(at("/values", &format!("at most {MAX_SPEEDS} speeds in one job")));
         }
-        if let Some(bad) = speeds.iter().find(|v| !v.is_finite() || **v < 0.0) {
-            return Err(at("", &format!("a speed is a finite number ≥ 0, not {bad}")));
+        let in_rad_s: Vec<f64> = speeds.iter().map(|v| v * self.unit.rad_s()).collect();
+        match in_rad_s.iter().position(|speed| !(0.0..=HIGHEST_SPEED).contains(speed)) {
+            Some(bad) => {
+                let field = if self.values.is_some() { format!("/values/{bad}") } else { String::new() };
+                let message =
+                    format!("a speed lies between 0 and {HIGHEST_SPEED:e} rad/s, unlike {}", speeds[bad]);
+                Err(at(&field, &message))
+            }
+            None => Ok(in_rad_s),
         }
-        Ok(speeds.iter().map(|v| v * self.unit.rad_s()).collect())
     }
 }
 

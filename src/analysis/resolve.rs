@@ -1,18 +1,18 @@
 //! Checks a request against its model and fills in defaults: all violations at once, each at its JSON pointer.
 
-use super::discretisation::most_samples;
+use super::discretisation::{MOST_STEPS, most_samples};
 use super::error::Violation;
 use super::request::{
     Component, Integration, ModalAnalysisRequest, Sensor, Speeds, StepsPerRevolution, SweepRequest,
 };
 use super::run::ModelFacts;
 use super::scene::{Casing, Clearance, Damping, Scene};
+use crate::dynamics::casing::Restriction;
 
 /// Bounds that keep a request's memory and time within reason.
 mod limits {
     pub(super) const MODES_PER_SPEED: u32 = 500;
     pub(super) const REVOLUTIONS: u32 = 100_000;
-    pub(super) const STEPS_PER_REVOLUTION: u32 = 10_000_000;
     pub(super) const ENGINE_ORDER: u32 = 1_000;
     pub(super) const SENSORS: usize = 64;
     /// Recorded numbers of one speed, 8 bytes each.
@@ -20,6 +20,13 @@ mod limits {
     pub(super) const LOBES: u32 = 100;
     pub(super) const FAMILIES: u32 = 100;
     pub(super) const SUPERHARMONIC: u32 = 100;
+    pub(super) const SUPERHARMONICS: usize = 16;
+    /// Values of W, the contact operator: sectors times the square of contact nodes.
+    pub(super) const DELASSUS: usize = 1 << 26;
+    /// Shortest ramp of lobes that stand inside the blade.
+    pub(super) const RAMP_REVOLUTIONS: f64 = 0.05;
+    pub(super) const LOBE_WIDTH_RAD: std::ops::RangeInclusive<f64> = 1e-4..=100.0;
+    pub(super) const PHASE_RAD: f64 = 1000.0;
 }
 
 /// Collects violations.
@@ -70,11 +77,26 @@ pub fn resolve_modal_analysis(
         "/families",
         format!("ask for 1 to {} modal families", limits::FAMILIES),
     );
-    for (index, n) in request.superharmonics.iter().enumerate() {
+    found.require(
+        request.superharmonics.len() <= limits::SUPERHARMONICS,
+        "/superharmonics",
+        format!("at most {} superharmonic numbers", limits::SUPERHARMONICS),
+    );
+    found.require(
+        (1..=limits::ENGINE_ORDER).contains(&request.max_engine_order),
+        "/max_engine_order",
+        format!("between 1 and {}", limits::ENGINE_ORDER),
+    );
+    for (index, n) in request.superharmonics.iter().enumerate().take(limits::SUPERHARMONICS) {
         found.require(
             (1..=limits::SUPERHARMONIC).contains(n),
             &format!("/superharmonics/{index}"),
             format!("a superharmonic number lies between 1 and {}", limits::SUPERHARMONIC),
+        );
+        found.require(
+            !request.superharmonics[..index].contains(n),
+            &format!("/superharmonics/{index}"),
+            format!("{n} is in the list already"),
         );
     }
     check_lobe_count(&mut found, request.lobes, "/lobes");
@@ -129,7 +151,12 @@ fn check_scene(found: &mut Findings, scene: &Scene, facts: &ModelFacts) {
         let valid = |ratio: f64| (0.0..1.0).contains(&ratio);
         let message = "a damping ratio lies in [0, 1)";
         found.require(valid(*modal_ratio), "/scene/damping/modal_ratio", message);
-        for (index, &ratio) in family_ratios.iter().enumerate() {
+        found.require(
+            family_ratios.len() <= limits::FAMILIES as usize,
+            "/scene/damping/family_ratios",
+            format!("at most {} modal families", limits::FAMILIES),
+        );
+        for (index, &ratio) in family_ratios.iter().enumerate().take(limits::FAMILIES as usize) {
             found.require(valid(ratio), &format!("/scene/damping/family_ratios/{index}"), message);
         }
     }
@@ -175,14 +202,14 @@ fn check_casing(found: &mut Findings, casing: &Casing, facts: &ModelFacts) {
             "a lobe's height is a length ≥ 0",
         );
         found.require(
-            lobes.width_rad.is_finite() && lobes.width_rad > 0.0,
+            limits::LOBE_WIDTH_RAD.contains(&lobes.width_rad),
             "/scene/casing/lobes/width_rad",
-            "a lobe's width is an angle above 0",
+            format!("a lobe's half-width lies in {:?} rad", limits::LOBE_WIDTH_RAD),
         );
         found.require(
-            lobes.phase_rad.is_finite(),
+            lobes.phase_rad.abs() <= limits::PHASE_RAD,
             "/scene/casing/lobes/phase_rad",
-            "the phase is a finite angle",
+            format!("the phase is an angle of at most {} rad", limits::PHASE_RAD),
         );
     }
 }
@@ -200,17 +227,14 @@ fn check_integration(found: &mut Findings, integration: &Integration, max_engine
         *integration;
     if let StepsPerRevolution::Fixed(steps) = steps_per_revolution {
         found.require(
-            (1..=limits::STEPS_PER_REVOLUTION).contains(&steps),
+            (1..=MOST_STEPS).contains(&steps),
             "/integration/steps_per_revolution",
-            format!("between 1 and {} steps", limits::STEPS_PER_REVOLUTION),
+            format!("between 1 and {MOST_STEPS} steps"),
         );
         found.require(
-            steps > 2 * max_engine_order,
+            u64::from(steps) > 2 * u64::from(max_engine_order),
             "/integration/steps_per_revolution",
-            format!(
-                "engine order {max_engine_order} needs more than {} steps per revolution",
-                2 * max_engine_order
-            ),
+            format!("engine order {max_engine_order} needs more than twice as many steps per revolution"),
         );
     }
     found.require(
@@ -248,6 +272,16 @@ fn check_memory(found: &mut Findings, request: &SweepRequest, facts: &ModelFacts
     let sectors = facts.sectors as usize;
     let Integration { revolutions, window_revolutions, .. } = request.integration;
     let per_sensor = revolutions as usize + window_revolutions as usize * sectors;
+    let nodes = facts.contact_nodes as usize;
+    found.require(
+        sectors * nodes * nodes <= limits::DELASSUS,
+        "/model",
+        format!(
+            "{sectors} sectors with {nodes} contact nodes each are more than contact can be solved for: keep sectors × \
+             nodes² below {}",
+            limits::DELASSUS
+        ),
+    );
     let recorded =
         most_samples(request, sectors).saturating_mul(per_sensor).saturating_mul(request.sensors.len());
     found.require(
@@ -267,16 +301,26 @@ fn check_memory(found: &mut Findings, request: &SweepRequest, facts: &ModelFacts
 fn check_ramp(found: &mut Findings, request: &SweepRequest) {
     let Scene { casing: Some(casing), contact: Some(_), .. } = &request.scene else { return };
     let Some(lobes) = &casing.lobes else { return };
+    if lobes.count > limits::LOBES {
+        return;
+    }
+    let restriction = Restriction {
+        count: lobes.count,
+        amplitude: lobes.amplitude,
+        width_rad: lobes.width_rad,
+        phase_rad: lobes.phase_rad,
+    };
     let clearance = &casing.clearance;
     let given = clearance.values.iter().flatten().chain(&clearance.leading).chain(&clearance.trailing);
     let smallest = given.copied().fold(f64::INFINITY, f64::min);
+    let highest = restriction.highest();
     found.require(
-        request.integration.ramp_revolutions > 0.0 || lobes.amplitude <= smallest,
+        request.integration.ramp_revolutions >= limits::RAMP_REVOLUTIONS || highest <= smallest,
         "/integration/ramp_revolutions",
         format!(
-            "lobes of {} stand inside the blade at rest (smallest clearance {smallest}): let them grow over at \
-             least part of a revolution",
-            lobes.amplitude
+            "lobes of up to {highest} stand inside the blade at rest (smallest clearance {smallest}): let them grow \
+             over at least {} revolutions",
+            limits::RAMP_REVOLUTIONS
         ),
     );
 }

@@ -61,17 +61,22 @@ pub struct Point {
     pub steps: u64,
     /// Share of the steps with a contact force.
     pub contact_share: f64,
-    /// Sum over contact nodes and steps of λ·h, in force·time of the model's units.
-    pub contact_impulse: f64,
+    /// Sum over contact nodes and steps of λ·h, in force·time of the model's units. This and the next numbers are absent
+    /// where nothing was integrated or the run overflowed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contact_impulse: Option<f64>,
     /// Largest penetration left after a step's contact solution, in the model's unit of length.
-    pub largest_penetration: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub largest_penetration: Option<f64>,
     /// Smallest multiplier λ of an active node, in the model's unit of force; absent without contact.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub smallest_multiplier: Option<f64>,
     /// Largest violation of the energy identity, relative to the largest energy seen (§8).
-    pub energy_residual: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub energy_residual: Option<f64>,
     /// Largest mechanical energy seen, in force·length.
-    pub largest_energy: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub largest_energy: Option<f64>,
     /// Steady response per sensor; empty unless `completed`.
     pub responses: Vec<SensorResponse>,
     /// Wall time of this speed, s.

@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 
+use super::discretisation::least_steps_for_lobes;
 use super::error::{AnalysisError, Violation};
 use super::monitor::Monitor;
 use super::request::{ModalAnalysisRequest, Sensor, StepsPerRevolution, SweepRequest};
@@ -85,6 +86,7 @@ pub fn prepare(
     modes_per_speed: u32,
     monitor: &dyn Monitor,
 ) -> Result<ReducedSector, AnalysisError> {
+    let start = Instant::now();
     let options = ReductionOptions::new(modes_per_speed as usize);
     let watch = |fraction: f64, phase: &str| {
         monitor.progress(fraction, phase);
@@ -94,11 +96,16 @@ pub fn prepare(
         ReductionError::Cancelled => AnalysisError::Cancelled,
         ReductionError::Model(error) => error.into(),
     })?;
-    let report = report(&wheel, &options, sector);
+    let report = report(&wheel, &options, sector, start.elapsed().as_secs_f64());
     Ok(ReducedSector { units: sector.units.clone(), wheel, report })
 }
 
-fn report(wheel: &ReducedWheel, options: &ReductionOptions, sector: &SectorModel) -> ReductionReport {
+fn report(
+    wheel: &ReducedWheel,
+    options: &ReductionOptions,
+    sector: &SectorModel,
+    wall_time_s: f64,
+) -> ReductionReport {
     let size = |i: usize| wheel.harmonics[i].mass.nrows() as u32;
     let copies = |i: usize| if is_single(i, wheel.sectors) { 1 } else { 2 };
     let residual = wheel.harmonics.iter().fold(0.0f64, |m, h| m.max(h.largest_mode_residual));
@@ -109,7 +116,7 @@ fn report(wheel: &ReducedWheel, options: &ReductionOptions, sector: &SectorModel
         largest_mode_residual: residual,
         basis_tolerance: options.basis_tolerance,
         stiffening: stiffening_report(&wheel.interpolation, sector),
-        wall_time_s: wheel.wall_time_s,
+        wall_time_s,
         version: VERSION.to_owned(),
     }
 }
@@ -164,7 +171,7 @@ fn stiffening_report(check: &InterpolationCheck, sector: &SectorModel) -> Stiffe
 }
 
 /// Checks what only the reduced sector can tell, before any speed runs: a fixed step against the stability limit at
-/// every speed of the sweep. Speeds at which the model itself fails are left to their own run.
+/// every speed of the sweep, and against the width of the lobes. Speeds at which the model itself fails are left to their own run.
 pub fn check(
     reduced: &ReducedSector,
     request: &SweepRequest,
@@ -191,17 +198,23 @@ pub fn check(
             worst = (smallest_steps, speed);
         }
     }
-    let (smallest_steps, speed) = worst;
-    if u64::from(steps) >= smallest_steps {
+    let (stable, speed) = worst;
+    let seen = least_steps_for_lobes(request) as u64;
+    let smallest = stable.max(seen);
+    if u64::from(steps) >= smallest {
         return Ok(());
     }
+    let reason = if stable >= seen {
+        format!(
+            "are unstable: central differences need h < 2/ω_max of the reduced wheel, which at {speed:.6} rad/s is met \
+             from {stable} steps per revolution on"
+        )
+    } else {
+        format!("pass the lobes by, which are seen from {seen} steps per revolution on")
+    };
     Err(AnalysisError::Refused(vec![Violation::new(
         "/integration/steps_per_revolution",
-        format!(
-            "{steps} steps per revolution are unstable: central differences need h < 2/ω_max of the reduced wheel, \
-             which at {speed:.6} rad/s is met from {smallest_steps} steps per revolution on; give at least \
-             {smallest_steps}, or \"auto\""
-        ),
+        format!("{steps} steps per revolution {reason}; give at least {smallest}, or \"auto\""),
     )]))
 }
 
@@ -283,6 +296,7 @@ pub fn modal_analysis(
             &speeds,
             families,
             request.lobes,
+            request.max_engine_order,
             reduced.wheel.sectors as u32,
         ),
         frequencies_hz: table,
@@ -421,6 +435,14 @@ fn predict(
     let linear = linear_crossings(&source, &table, &grid, PREDICTED_FAMILIES, &PREDICTED_SUPERHARMONICS);
     let lobes = request.scene.casing.as_ref().and_then(|casing| casing.lobes.as_ref()).map_or(0, |l| l.count);
     let sectors = reduced.wheel.sectors as u32;
-    let driven = driven_crossings(&source, &table, &grid, PREDICTED_FAMILIES, lobes, sectors);
+    let driven = driven_crossings(
+        &source,
+        &table,
+        &grid,
+        PREDICTED_FAMILIES,
+        lobes,
+        request.max_engine_order,
+        sectors,
+    );
     Ok((linear, driven))
 }

@@ -63,11 +63,11 @@ fn empty_point(index: usize, speed_rad_s: f64) -> Point {
         smallest_stable_steps_per_revolution: 0,
         steps: 0,
         contact_share: 0.0,
-        contact_impulse: 0.0,
-        largest_penetration: 0.0,
+        contact_impulse: None,
+        largest_penetration: None,
         smallest_multiplier: None,
-        energy_residual: 0.0,
-        largest_energy: 0.0,
+        energy_residual: None,
+        largest_energy: None,
         responses: Vec::new(),
         wall_time_s: 0.0,
         version: VERSION.to_owned(),
@@ -92,9 +92,9 @@ fn simulate(
         let size = RestrictionTable::size(steps.per_revolution, wheel.sectors, stride);
         if size > MAX_TABLE_VALUES {
             return Err(format!(
-                "{} steps per revolution share no useful factor with {} sectors, so the casing's table would take \
-                 {size} values: choose a multiple of {}",
-                steps.per_revolution, wheel.sectors, wheel.sectors
+                "the casing's table would take {size} values at {} steps per revolution: choose fewer steps, and a \
+                 multiple of the {} sectors",
+                steps.per_revolution, wheel.sectors
             ));
         }
     }
@@ -159,25 +159,16 @@ fn record_run(
     };
     point.steps = run.statistics.steps;
     point.contact_share = run.statistics.contact_share();
-    point.contact_impulse = run.statistics.contact_impulse;
-    point.largest_penetration = run.statistics.largest_penetration;
-    point.smallest_multiplier = run.statistics.smallest_multiplier;
-    point.energy_residual = run.energy.residual();
-    point.largest_energy = run.energy.largest_energy();
+    // A run that overflowed has sums that are no numbers; JSON has no word for them.
+    let finite = |value: f64| value.is_finite().then_some(value);
+    point.contact_impulse = finite(run.statistics.contact_impulse);
+    point.largest_penetration = finite(run.statistics.largest_penetration);
+    point.smallest_multiplier = run.statistics.smallest_multiplier.and_then(finite);
+    point.energy_residual = finite(run.energy.residual());
+    point.largest_energy = finite(run.energy.largest_energy());
     match run.outcome {
         Outcome::Cancelled => Err(AnalysisError::Cancelled),
         Outcome::Diverged { revolutions } => {
-            // A run that overflowed has no finite sums to report.
-            for value in [
-                &mut point.contact_impulse,
-                &mut point.largest_penetration,
-                &mut point.energy_residual,
-                &mut point.largest_energy,
-            ] {
-                if !value.is_finite() {
-                    *value = f64::MAX;
-                }
-            }
             point.status = PointStatus::Diverged;
             point.message = Some(format!(
                 "the response grew beyond a tenth of the wheel's radius after {revolutions:.2} revolutions"

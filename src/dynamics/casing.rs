@@ -25,12 +25,10 @@ impl Restriction {
         self.amplitude * (0..self.count).map(lobe).sum::<f64>()
     }
 
-    /// Largest p: equal lobes add up to a function that is even about every lobe and about the middle between two,
-    /// and largest at one of them.
+    /// Largest p over the circumference, to a thousandth of a lobe spacing.
     pub fn highest(&self) -> f64 {
-        let at_lobe = self.height(self.phase_rad);
-        let between = self.height(self.phase_rad + PI / f64::from(self.count));
-        at_lobe.max(between)
+        let spacing = TAU / f64::from(self.count.max(1));
+        (0..=1000).map(|i| self.height(self.phase_rad + spacing * f64::from(i) / 1000.0)).fold(0.0, f64::max)
     }
 }
 

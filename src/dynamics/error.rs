@@ -15,6 +15,19 @@ pub enum ModelError {
         /// What usually causes this.
         hint: &'static str,
     },
+    /// The wheel can move without deforming.
+    #[error(
+        "nodal diameter {nodal_diameter} has {modes} rigid-body modes at {speed_rad_s} rad/s: is the hub constrained, \
+         and does every part of the sector hang on it?"
+    )]
+    RigidBodyModes {
+        /// Nodal diameter i.
+        nodal_diameter: usize,
+        /// Ω in rad/s.
+        speed_rad_s: f64,
+        /// How many.
+        modes: usize,
+    },
     /// The reduced or full mass is not positive definite.
     #[error(
         "the mass of nodal diameter {nodal_diameter} is not positive definite: is the density positive everywhere?"

@@ -94,7 +94,7 @@ pub struct Run {
 /// Smallest number of steps per revolution that is stable: h = 2π/(ΩS) < 2/ω_max. At the limit itself the energy
 /// grows without bound while displacements still look right, so S must exceed π ω_max/Ω.
 pub fn smallest_stable_steps(largest_frequency: f64, speed_rad_s: f64) -> u64 {
-    (PI * largest_frequency / speed_rad_s).floor() as u64 + 1
+    ((PI * largest_frequency / speed_rad_s).floor() as u64).saturating_add(1)
 }
 
 /// A restriction table larger than this many values (2 GiB) is refused.
@@ -103,6 +103,9 @@ pub const MAX_TABLE_VALUES: usize = 1 << 28;
 /// Displacements beyond this share of the largest contact radius end a run as diverged: linear structural theory is
 /// void long before.
 const DIVERGED_SHARE_OF_RADIUS: f64 = 0.1;
+
+/// Steps between two looks at progress and cancellation: some tens of milliseconds.
+const WATCHED_STEPS: u64 = 1 << 14;
 
 impl Simulation<'_> {
     /// Runs the simulation. `watch` is called now and then with the share of work done; `false` stops the run.
@@ -150,6 +153,8 @@ struct Obstacle {
     solver: ActiveSetSolver,
     casing: Casing,
     restriction: Option<RestrictionTable>,
+    /// p = 0 of a circular casing.
+    unrestricted: Vec<f64>,
     /// c_k, padded with +∞.
     clearance: Vec<f64>,
     tolerance: f64,
@@ -243,6 +248,11 @@ impl Stepper {
                     self.resolve_contact::<S, DAMPED>(simd, step % steps, revolutions)?;
                 }
                 self.statistics.steps += 1;
+                if self.statistics.steps.is_multiple_of(WATCHED_STEPS)
+                    && !watch(revolutions / simulation.revolutions as f64)
+                {
+                    return Err(Outcome::Cancelled);
+                }
                 if step % sampling == 0 {
                     let energy = self.oscillators.energy();
                     self.energy.check(energy);
@@ -251,9 +261,6 @@ impl Stepper {
                         return Err(Outcome::Diverged { revolutions });
                     }
                 }
-            }
-            if !watch((revolution + 1) as f64 / simulation.revolutions as f64) {
-                return Err(Outcome::Cancelled);
             }
         }
         Ok(())
@@ -321,6 +328,7 @@ impl Obstacle {
             delassus,
             solver: ActiveSetSolver::new(size),
             restriction,
+            unrestricted: vec![0.0; stride],
             clearance,
             // Gaps are differences of lengths of this scale.
             tolerance: 1e-14 * casing.length_scale(),
@@ -348,19 +356,18 @@ impl Obstacle {
             let normal = S::as_mut_simd_f64s(&mut self.normal[0][range.clone()]).0;
             let free_gap = S::as_mut_simd_f64s(&mut self.free_gap[range.clone()]).0;
             let gap = S::as_mut_simd_f64s(&mut self.predicted_gap[range]).0;
+            let restricted = match &self.restriction {
+                Some(table) => table.at(step, sector),
+                None => &self.unrestricted,
+            };
+            let restricted = S::as_simd_f64s(restricted).0;
             for v in 0..vectors {
                 let mut u = simd.splat_f64s(0.0);
                 for (column, &f) in fourier.row(sector).iter().enumerate() {
                     let harmonic = S::as_simd_f64s(&self.harmonic[column * stride..][..stride]).0;
                     u = simd.mul_add_e_f64s(simd.splat_f64s(f), harmonic[v], u);
                 }
-                let free = match &self.restriction {
-                    Some(table) => {
-                        let p = S::as_simd_f64s(table.at(step, sector)).0[v];
-                        simd.negate_mul_add_e_f64s(growth, p, clearance[v])
-                    }
-                    None => clearance[v],
-                };
+                let free = simd.negate_mul_add_e_f64s(growth, restricted[v], clearance[v]);
                 normal[v] = u;
                 free_gap[v] = free;
                 gap[v] = simd.sub_f64s(free, u);

@@ -101,7 +101,15 @@ fn modal_harmonic(
     })
 }
 
+/// Eigenvalues below this fraction of the largest are round-off: zero, as far as double precision can tell.
+const ZERO: f64 = 1e-13;
+
 fn frequencies(values: &[f64], nodal_diameter: usize, speed_rad_s: f64) -> Result<Vec<f64>, ModelError> {
+    let zero = ZERO * values.iter().fold(0.0f64, |m, lambda| m.max(lambda.abs()));
+    let modes = values.iter().filter(|lambda| lambda.abs() <= zero).count();
+    if modes > 0 {
+        return Err(ModelError::RigidBodyModes { nodal_diameter, speed_rad_s, modes });
+    }
     if values.iter().all(|&lambda| lambda > 0.0) {
         Ok(values.iter().map(|lambda| lambda.sqrt()).collect())
     } else {

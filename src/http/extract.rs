@@ -5,11 +5,14 @@ use axum::extract::rejection::{BytesRejection, QueryRejection};
 use axum::extract::{FromRequest, FromRequestParts, Path, Query, Request};
 use axum::http::request::Parts;
 use axum::http::{HeaderMap, StatusCode, header};
+use serde::Serialize;
 use serde::de::DeserializeOwned;
+use serde_json::Value;
 use serde_path_to_error::Segment;
 
 use super::idempotency;
 use super::problem::{Kind, Problem, ProblemItem};
+use crate::analysis::error::Violation;
 use crate::store::jobs::JobId;
 
 /// A JSON body.
@@ -19,7 +22,7 @@ pub(super) struct JsonBody<T> {
     pub(super) fingerprint: String,
 }
 
-impl<T: DeserializeOwned, S: Send + Sync> FromRequest<S> for JsonBody<T> {
+impl<T: DeserializeOwned + Serialize, S: Send + Sync> FromRequest<S> for JsonBody<T> {
     type Rejection = Problem;
 
     async fn from_request(request: Request, state: &S) -> Result<Self, Problem> {
@@ -98,14 +101,38 @@ pub(super) fn expect_media_type(headers: &HeaderMap, accepted: &[&str]) -> Resul
 }
 
 /// Reads one JSON document; says where it goes wrong: by line and column if it is not JSON, by pointer if it is.
-fn read_json<T: DeserializeOwned>(body: &[u8]) -> Result<T, Problem> {
+fn read_json<T: DeserializeOwned + Serialize>(body: &[u8]) -> Result<T, Problem> {
     let mut deserializer = serde_json::Deserializer::from_slice(body);
     let value = serde_path_to_error::deserialize(&mut deserializer).map_err(|error| {
         let pointer = pointer_to(error.path());
         json_problem(error.inner(), pointer)
     })?;
     deserializer.end().map_err(|error| json_problem(&error, String::new()))?;
-    Ok(value)
+    match array_for_object(&serde_json::from_slice(body)?, &serde_json::to_value(&value)?) {
+        None => Ok(value),
+        Some(pointer) => {
+            let violation = Violation::new(pointer, "expected an object with named fields, not an array");
+            Err(Problem::violations(Kind::InvalidRequest, vec![violation]))
+        }
+    }
+}
+
+/// Pointer to the first array in `given` that was read as an object: serde takes fields by position too, the contract
+/// does not.
+fn array_for_object(given: &Value, read: &Value) -> Option<String> {
+    match (given, read) {
+        (Value::Array(_), Value::Object(_)) => Some(String::new()),
+        (Value::Object(given), Value::Object(read)) => given.iter().find_map(|(key, given)| {
+            let below = array_for_object(given, read.get(key)?)?;
+            Some(format!("/{}{below}", escape(key)))
+        }),
+        (Value::Array(given), Value::Array(read)) => {
+            given.iter().zip(read).enumerate().find_map(|(index, (given, read))| {
+                Some(format!("/{index}{}", array_for_object(given, read)?))
+            })
+        }
+        _ => None,
+    }
 }
 
 fn json_problem(error: &serde_json::Error, mut pointer: String) -> Problem {
@@ -181,6 +208,14 @@ mod tests {
                 "scene": {"casing": {"clearance": {"leeding": 0.3}}}}"#,
         );
         assert_eq!(pointer(&problem), "/scene/casing/clearance/leeding");
+    }
+
+    #[test]
+    fn fields_by_position_are_refused() {
+        let problem = refused(r#"{"model": "a", "speeds": {"values": [1], "unit": "hz"}, "scene": []}"#);
+        assert_eq!(pointer(&problem), "/scene");
+        let problem = refused(r#"{"model": "a", "speeds": [null, null, null, [1], "hz"], "scene": {}}"#);
+        assert_eq!(pointer(&problem), "/speeds");
     }
 
     #[test]

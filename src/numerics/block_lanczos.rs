@@ -14,7 +14,7 @@ pub struct LanczosOptions {
     pub tolerance: f64,
     /// Vectors advanced together; also the multiplicity of an eigenvalue found without luck.
     pub block: usize,
-    /// At most this many block steps before giving up.
+    /// At most this many block steps before giving up, or enough for four times the modes asked for.
     pub max_block_steps: usize,
 }
 
@@ -48,6 +48,9 @@ pub enum LanczosError {
         /// Block steps done.
         block_steps: usize,
     },
+    /// A mode without mass: M is singular on more of the space than the modes asked for leave out.
+    #[error("a mode without mass")]
+    Massless,
     /// A dense decomposition inside the iteration failed.
     #[error("a dense eigenvalue decomposition failed")]
     DenseFailed,
@@ -74,11 +77,13 @@ pub fn lowest_modes(
     let n = k.nrows();
     assert!(count <= n, "{count} modes of {n} unknowns");
     if n <= DENSE_SIZE.max(2 * count) {
-        return dense(k, m, count);
+        return dense(k, m, count, options.tolerance);
     }
     let permuted_mass = factor.symbolic().permute(m);
     let mut basis = Basis::new(n, options.block);
-    for step in 1..=options.max_block_steps {
+    let limit = options.max_block_steps.max(4 * count / options.block);
+    let mut last = f64::INFINITY;
+    for step in 1..=limit {
         if !keep_going() {
             return Err(LanczosError::Stopped);
         }
@@ -92,36 +97,38 @@ pub fn lowest_modes(
         if full || (basis.columns() >= 2 * count && step % 2 == 0) {
             let ritz = basis.ritz(count, &remainder)?;
             if ritz.largest_error <= options.tolerance * 0.1 || full {
-                let modes = assemble(k, m, factor, &basis, ritz, step);
-                if modes.largest_residual <= options.tolerance {
-                    return Ok(modes);
+                match assemble(k, m, factor, &basis, ritz, step, options.tolerance) {
+                    Err(LanczosError::NotConverged { residual, .. }) if !full && step < limit => {
+                        last = residual
+                    }
+                    ended => return ended,
                 }
-                if full || step == options.max_block_steps {
-                    return Err(LanczosError::NotConverged {
-                        residual: modes.largest_residual,
-                        block_steps: step,
-                    });
-                }
+            } else {
+                last = ritz.largest_error;
             }
         }
         basis.extend(remainder);
     }
-    Err(LanczosError::NotConverged { residual: f64::NAN, block_steps: options.max_block_steps })
+    Err(LanczosError::NotConverged { residual: last, block_steps: limit })
 }
 
+/// The dense solution, on M x = θ K x like the iteration: the lowest modes are then accurate to round-off even where
+/// M is nearly singular.
 fn dense(
     k: &SparseColMat<usize, c64>,
     m: &SparseColMat<usize, c64>,
     count: usize,
+    tolerance: f64,
 ) -> Result<LowestModes, LanczosError> {
-    let pairs = generalised_eigenpairs(k.to_dense().as_ref(), m.to_dense().as_ref())
+    let pairs = generalised_eigenpairs(m.to_dense().as_ref(), k.to_dense().as_ref())
         .map_err(|_| LanczosError::DenseFailed)?;
-    let vectors = pairs.vectors.subcols(0, count).to_owned();
-    let values = pairs.values[..count].to_vec();
-    let largest_residual = largest_residual(k, m, &values, vectors.as_ref());
-    Ok(LowestModes { values, vectors, largest_residual, block_steps: 0 })
+    let n = k.nrows();
+    let theta: Vec<f64> = (0..count).map(|j| pairs.values[n - 1 - j]).collect();
+    let vectors = Mat::from_fn(n, count, |i, j| pairs.vectors[(i, n - 1 - j)]);
+    accept(k, m, theta, vectors, 0, tolerance)
 }
 
+/// The modes of the Ritz pairs, if their residuals are small enough.
 fn assemble(
     k: &SparseColMat<usize, c64>,
     m: &SparseColMat<usize, c64>,
@@ -129,38 +136,66 @@ fn assemble(
     basis: &Basis,
     ritz: Ritz,
     block_steps: usize,
-) -> LowestModes {
+    tolerance: f64,
+) -> Result<LowestModes, LanczosError> {
     let mut permuted = basis.vectors.subcols(0, basis.columns()) * &ritz.coefficients;
     factor.lower_adjoint_solve_in_place(permuted.as_mut());
     let mut vectors = Mat::zeros(permuted.nrows(), permuted.ncols());
     factor.scatter(permuted.as_ref(), vectors.as_mut());
-    // xᴴ M x = θ for a unit y.
-    for (j, theta) in ritz.theta.iter().enumerate() {
+    accept(k, m, ritz.theta, vectors, block_steps, tolerance)
+}
+
+/// Normalises the solutions of M x = θ K x (xᴴKx = 1) to unit mass and checks their residuals.
+fn accept(
+    k: &SparseColMat<usize, c64>,
+    m: &SparseColMat<usize, c64>,
+    theta: Vec<f64>,
+    mut vectors: Mat<c64>,
+    block_steps: usize,
+    tolerance: f64,
+) -> Result<LowestModes, LanczosError> {
+    if theta.iter().any(|&theta| theta.is_nan() || theta <= 0.0) {
+        return Err(LanczosError::Massless);
+    }
+    for (j, theta) in theta.iter().enumerate() {
         let scale = 1.0 / theta.sqrt();
         for i in 0..vectors.nrows() {
             vectors[(i, j)] *= scale;
         }
     }
-    let values: Vec<f64> = ritz.theta.iter().map(|theta| 1.0 / theta).collect();
-    let largest_residual = largest_residual(k, m, &values, vectors.as_ref());
-    LowestModes { values, vectors, largest_residual, block_steps }
+    let values: Vec<f64> = theta.iter().map(|theta| 1.0 / theta).collect();
+    let residual = largest_residual(k, m, &values, vectors.as_ref(), tolerance);
+    if residual <= tolerance {
+        Ok(LowestModes { values, vectors, largest_residual: residual, block_steps })
+    } else {
+        Err(LanczosError::NotConverged { residual, block_steps })
+    }
 }
 
-/// Largest ‖Kx − λMx‖/‖Kx‖ over the columns.
+/// Largest ‖Kx − λMx‖/‖Kx‖ over the columns, NaN if any is. What the round-off of Kx alone may leave, 64 ε ‖|K||x|‖,
+/// counts as the tolerance and no more: no eigensolver can do better on a stiffness of high contrast.
 fn largest_residual(
     k: &SparseColMat<usize, c64>,
     m: &SparseColMat<usize, c64>,
     values: &[f64],
     vectors: MatRef<'_, c64>,
+    tolerance: f64,
 ) -> f64 {
     let kx = sparse_product(k, vectors);
     let mx = sparse_product(m, vectors);
+    let magnitude = |value: &c64| c64::new(value.norm(), 0.0);
+    let mut magnitudes = k.clone();
+    magnitudes.val_mut().iter_mut().for_each(|value| *value = magnitude(value));
+    let terms = Mat::from_fn(vectors.nrows(), vectors.ncols(), |i, j| magnitude(&vectors[(i, j)]));
+    let terms = sparse_product(&magnitudes, terms.as_ref());
+    let norm =
+        |column: &dyn Fn(usize) -> c64| (0..kx.nrows()).map(|i| column(i).norm_sqr()).sum::<f64>().sqrt();
     let ratio = |j: usize| {
-        let residual: f64 = (0..kx.nrows()).map(|i| (kx[(i, j)] - mx[(i, j)] * values[j]).norm_sqr()).sum();
-        let scale: f64 = (0..kx.nrows()).map(|i| kx[(i, j)].norm_sqr()).sum();
-        (residual / scale).sqrt()
+        let residual = norm(&|i| kx[(i, j)] - mx[(i, j)] * values[j]);
+        let round_off = 64.0 * f64::EPSILON * norm(&|i| terms[(i, j)]);
+        residual / norm(&|i| kx[(i, j)]).max(round_off / tolerance)
     };
-    (0..values.len()).map(ratio).fold(0.0, f64::max)
+    (0..values.len()).map(ratio).fold(0.0, |worst, r| if r <= worst { worst } else { r })
 }
 
 /// Ritz pairs of the current basis.

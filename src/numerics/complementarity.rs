@@ -71,7 +71,7 @@ impl ActiveSetSolver {
             gap: vec![0.0; size],
             violated: Vec::with_capacity(size),
             factored: Vec::with_capacity(size),
-            factor: Vec::with_capacity(size * (size + 1) / 2),
+            factor: Vec::new(),
             statistics: PivotStatistics::default(),
         }
     }
@@ -100,6 +100,7 @@ impl ActiveSetSolver {
         for _ in 0..limit {
             self.statistics.candidates += 1;
             self.solve_active(w, q)?;
+            let tolerance = tolerance + self.round_off(w);
             if !any_below(&self.lambda, 0.0) && !any_below(&self.gap, -tolerance) {
                 return Ok(());
             }
@@ -147,6 +148,13 @@ impl ActiveSetSolver {
         }
         self.active.clear();
         self.lambda.clear();
+    }
+
+    /// Round-off of g = q + Wλ, whose terms may be much larger than their sum where W is nearly singular.
+    #[inline(always)]
+    fn round_off<W: SymmetricOperator>(&self, w: &W) -> f64 {
+        let terms = self.active.iter().zip(&self.lambda).map(|(&i, lambda)| w.entry(i, i) * lambda.abs());
+        4.0 * f64::EPSILON * terms.sum::<f64>()
     }
 
     /// λ with g = 0 on the active set, and g everywhere.
@@ -304,6 +312,8 @@ mod tests {
                 for (&i, &l) in solver.active().iter().zip(solver.lambda()) {
                     prop_assert!(l >= 0.0);
                     lambda[i] = l;
+                    // λg = 0, to the round-off of W λ.
+                    prop_assert!((l * solver.gap()[i]).abs() < 1e-10 * (1.0 + l * l));
                 }
                 prop_assert!(solver.gap().iter().all(|&g| g >= -1e-9));
                 let expected = enumerate(&w, q);

@@ -61,10 +61,16 @@ fn map() -> InteractionMap {
     .unwrap()
 }
 
+fn reduction() -> serde_json::Value {
+    json!({"modes_per_speed": 1, "unknowns": [1], "wheel_unknowns": 1, "largest_mode_residual": 0.0,
+        "basis_tolerance": 1e-5, "stiffening": {"verdict": "sound", "linear_ratio": 0.0, "quadratic_ratio": 0.0,
+            "frequency_error": 0.0, "message": ""}, "wall_time_s": 0.0, "version": "0"})
+}
+
 fn critical() -> CriticalSpeeds {
     let speed = |index: usize, settling: &str| {
         json!({"speed_rad_s": rad_s(SPEEDS_RPM[index]), "index": index, "rms": 0.2, "half_peak_to_peak": 0.3,
-            "prominence": 0.1, "dominant_engine_order": 2.0, "dominant_nodal_diameter": 2, "settling": settling})
+            "at_edge": false, "prominence": 0.1, "dominant_engine_order": 2.0, "dominant_nodal_diameter": 2, "settling": settling})
     };
     serde_json::from_value(json!({
         "sensor": sensor(), "critical_speeds": [speed(1, "periodic"), speed(3, "not_settled")],
@@ -72,7 +78,7 @@ fn critical() -> CriticalSpeeds {
             "frequency_hz": 11_500.0 / 30.0}],
         "driven_crossings": [{"nodal_diameter": 2, "family": 1, "engine_order": 2, "speed_rad_s": rad_s(12_500.0),
             "frequency_hz": 12_500.0 / 30.0}],
-        "missing": [2], "units": units(), "version": "0",
+        "missing": [2], "units": units(), "reduction": reduction(), "version": "0",
     }))
     .unwrap()
 }
@@ -85,9 +91,7 @@ fn modes() -> Campbell {
     serde_json::from_value(json!({
         "speeds_rad_s": SPEEDS_RPM.map(rad_s), "frequencies_hz": frequencies, "absolute_frequencies_hz": [],
         "crossings": linear_crossings, "driven_crossings": driven_crossings,
-        "reduction": {"modes_per_speed": 1, "unknowns": [1], "wheel_unknowns": 1, "largest_mode_residual": 0.0,
-            "basis_tolerance": 1e-5, "stiffening": {"verdict": "sound", "linear_ratio": 0.0, "quadratic_ratio": 0.0,
-                "frequency_error": 0.0, "message": ""}, "wall_time_s": 0.0, "version": "0"},
+        "reduction": reduction(),
         "settings": {"model": "0123456789abcdef", "speeds": {"values": SPEEDS_RPM, "unit": "rpm"}},
         "wall_time_s": 0.0, "version": "0",
     }))

@@ -58,7 +58,7 @@ pub trait Frequencies {
     fn at(&self, speed_rad_s: f64, nodal_diameter: u32) -> Option<Vec<f64>>;
 }
 
-/// All speeds in the range of `grid` (ascending, rad/s) at which a frequency of the first `families` equals engine
+/// Speeds in the range of `grid` (ascending, rad/s) at which a frequency of the first `families` equals engine
 /// order `order`: sign changes of kΩ/2π − f between neighbouring grid points, refined on newly
 /// computed frequencies. No crossing is reported where the model fails on the way.
 fn roots<F: Frequencies>(
@@ -162,22 +162,22 @@ pub fn crossings<F: Frequencies>(
     all
 }
 
-/// Crossings that `lobes` equal lobes can drive: f = kΩ/2π with k a multiple of `lobes` and fold(k) = i, for all k
-/// that reach the first `families` within the range; in ascending speed.
+/// Crossings that `lobes` equal lobes can drive: f = kΩ/2π with k ≤ `max_engine_order` a multiple of `lobes` and
+/// fold(k) = i, for the first `families`; in ascending speed.
 pub fn driven_crossings<F: Frequencies>(
     frequencies: &F,
     table: &[Vec<Vec<f64>>],
     grid: &[f64],
     families: usize,
     lobes: u32,
+    max_engine_order: u32,
     sectors: u32,
 ) -> Vec<DrivenCrossing> {
     let mut all = Vec::new();
-    let slowest = grid.iter().copied().find(|&speed| speed > 0.0);
-    let (Some(slowest), true) = (slowest, lobes > 0) else { return all };
-    let highest = table.iter().flatten().flat_map(|f| f.iter().take(families)).fold(0.0f64, |m, &f| m.max(f));
-    let last_order = (highest * TAU / slowest).ceil().min(f64::from(HIGHEST_ORDER)) as u32;
-    for order in (lobes..=last_order).step_by(lobes as usize) {
+    if lobes == 0 {
+        return all;
+    }
+    for order in (lobes..=max_engine_order).step_by(lobes as usize) {
         let nodal_diameter = fold(order, sectors);
         for family in 0..families {
             for (speed_rad_s, frequency_hz) in roots(frequencies, table, grid, nodal_diameter, family, order)
@@ -196,9 +196,6 @@ pub fn driven_crossings<F: Frequencies>(
     all
 }
 
-/// Engine orders beyond this carry no energy a lobe could give them and are left out of the driven crossings.
-pub const HIGHEST_ORDER: u32 = 200;
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -206,8 +203,9 @@ mod tests {
     /// f² = f0² + BΩ² fitted to the paper's Table 2 (BENCHMARKS.md): per nodal diameter (f0, B) of families 1 and 2.
     struct PaperFit;
 
-    /// (i, j, f0, B). Family (1,1) has one row only: f = 12.0 at Ω = 4.0; B of its neighbours makes f0 9.4.
-    const FIT: [(u32, usize, f64, f64); 8] = [
+    /// (i, j, f0, B). Family (1,1) has one row only, f = 12.0 at Ω = 4.0: with B = 3 like its neighbours f0 is 9.798.
+    const FIT: [(u32, usize, f64, f64); 9] = [
+        (1, 1, 9.798, 3.0),
         (2, 1, 9.749, 3.43),
         (3, 1, 10.003, 2.88),
         (4, 1, 9.994, 2.83),
@@ -250,6 +248,7 @@ mod tests {
             (2.75, 2, 1, 2),
             (3.37, 2, 2, 3),
             (3.67, 3, 2, 2),
+            (4.00, 1, 1, 3),
             (4.04, 3, 1, 1),
             (4.50, 5, 2, 1),
             (5.37, 2, 2, 2),
@@ -283,7 +282,7 @@ mod tests {
         let grid: Vec<f64> = (2..=24).map(|i| TAU * 0.25 * f64::from(i)).collect();
         let table: Vec<Vec<Vec<f64>>> =
             grid.iter().map(|&s| (0..=5).map(|i| PaperFit.at(s, i).unwrap()).collect()).collect();
-        let found = driven_crossings(&PaperFit, &table, &grid, 2, 2, 10);
+        let found = driven_crossings(&PaperFit, &table, &grid, 2, 2, 24, 10);
         assert!(!found.is_empty());
         for c in &found {
             assert_eq!(c.engine_order % 2, 0);

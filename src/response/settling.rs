@@ -44,30 +44,22 @@ const LONGEST_PERIOD: usize = 8;
 /// Level changes between the halves of the window that a steady, non-repeating response may show.
 const LEVEL_TOLERANCE: f64 = 0.1;
 
+/// Sensors whose response is below this share of the largest count as silent.
+const NEGLIGIBLE: f64 = 1e-6;
+
 /// Judges histories (`[sensor][sample]`, whole run) by their last `window` revolutions.
 ///
-/// With x_r the samples of revolution r of all sensors, a response repeats every m revolutions from r0 on if
-/// ‖x_r − x_{r−m}‖ ≤ 1e-2 max‖x‖ for all later r. It is periodic (m = 1) or subharmonic (2 ≤ m ≤ 8) if that holds
-/// through the whole window, aperiodic if it never repeats but its level is the same in both halves of the window,
-/// and not settled otherwise.
+/// With x_r the samples of revolution r of one sensor about its mean over the window, a response repeats every m
+/// revolutions from r0 on if ‖x_r − x_{r−m}‖ ≤ 1e-2 max‖x‖ for every sensor and all later r. It is periodic (m = 1) or
+/// subharmonic (2 ≤ m ≤ 8) if that holds through the whole window, aperiodic if it never repeats but its level is the
+/// same in both halves of the window, and not settled otherwise.
 pub fn judge(histories: &[Vec<f64>], samples_per_revolution: usize, window: usize) -> Settling {
     let revolutions = histories.first().map_or(0, |line| line.len() / samples_per_revolution);
     let window_start = revolutions - window.min(revolutions);
-    let part = |line: &'_ [f64], r: usize| -> Vec<f64> {
-        line[r * samples_per_revolution..(r + 1) * samples_per_revolution].to_vec()
-    };
-    let distance = |r: usize, m: usize| -> f64 {
-        let squares = histories.iter().map(|line| {
-            let (now, then) = (part(line, r), part(line, r - m));
-            now.iter().zip(&then).map(|(a, b)| (a - b).powi(2)).sum::<f64>()
-        });
-        squares.sum::<f64>().sqrt()
-    };
-    let level = |r: usize| -> f64 {
-        histories.iter().map(|line| part(line, r).iter().map(|x| x * x).sum::<f64>()).sum::<f64>().sqrt()
-    };
-    let scale = (window_start..revolutions).map(level).fold(0.0, f64::max);
-    if scale == 0.0 {
+    let lines: Vec<Line> =
+        histories.iter().map(|line| Line::new(line, samples_per_revolution, window_start)).collect();
+    let largest = lines.iter().fold(0.0f64, |m, line| m.max(line.scale));
+    if largest == 0.0 {
         return Settling {
             verdict: Verdict::Periodic,
             ratio: Some(1),
@@ -75,9 +67,13 @@ pub fn judge(histories: &[Vec<f64>], samples_per_revolution: usize, window: usiz
             largest_change: Some(0.0),
         };
     }
+    // A sensor that the response hardly reaches shows round-off, not a response.
+    let scale = |line: &Line| line.scale.max(NEGLIGIBLE * largest);
+    let change =
+        |r: usize, m: usize| lines.iter().fold(0.0f64, |c, line| c.max(line.change(r, m) / scale(line)));
     let mut change_of_one = None;
     for period in 1..=LONGEST_PERIOD.min(window / 2) {
-        let changes: Vec<f64> = (period..revolutions).map(|r| distance(r, period) / scale).collect();
+        let changes: Vec<f64> = (period..revolutions).map(|r| change(r, period)).collect();
         // changes[r − period] compares revolutions r and r − period; both must lie in the window.
         let within = &changes[window_start.min(changes.len())..];
         let largest = within.iter().fold(0.0f64, |m, &c| m.max(c));
@@ -95,17 +91,53 @@ pub fn judge(histories: &[Vec<f64>], samples_per_revolution: usize, window: usiz
         }
     }
     let middle = window_start + (revolutions - window_start) / 2;
-    let mean = |range: std::ops::Range<usize>| -> f64 {
-        let count = range.len().max(1) as f64;
-        (range.map(|r| level(r).powi(2)).sum::<f64>() / count).sqrt()
-    };
-    let (first, second) = (mean(window_start..middle), mean(middle..revolutions));
-    let steady = window >= 4 && (first - second).abs() <= LEVEL_TOLERANCE * first.max(second);
+    let steady = window >= 4
+        && lines.iter().all(|line| {
+            let (first, second) = (line.level(window_start..middle), line.level(middle..revolutions));
+            (first - second).abs() <= LEVEL_TOLERANCE * first.max(second).max(NEGLIGIBLE * largest)
+        });
     Settling {
         verdict: if steady { Verdict::Aperiodic } else { Verdict::NotSettled },
         ratio: None,
         after_revolutions: None,
         largest_change: change_of_one,
+    }
+}
+
+/// One sensor's history about its mean over the window, revolution by revolution.
+struct Line<'a> {
+    samples: &'a [f64],
+    per_revolution: usize,
+    mean: f64,
+    /// Largest ‖x_r‖ in the window.
+    scale: f64,
+}
+
+impl<'a> Line<'a> {
+    fn new(samples: &'a [f64], per_revolution: usize, window_start: usize) -> Self {
+        let window = &samples[window_start * per_revolution..];
+        let mean = window.iter().sum::<f64>() / window.len().max(1) as f64;
+        let mut line = Self { samples, per_revolution, mean, scale: 0.0 };
+        let revolutions = window_start..samples.len() / per_revolution;
+        line.scale = revolutions.map(|r| line.level(r..r + 1)).fold(0.0, f64::max);
+        line
+    }
+
+    fn revolution(&self, r: usize) -> &[f64] {
+        &self.samples[r * self.per_revolution..(r + 1) * self.per_revolution]
+    }
+
+    /// ‖x_r − x_{r−m}‖
+    fn change(&self, r: usize, m: usize) -> f64 {
+        let pairs = self.revolution(r).iter().zip(self.revolution(r - m));
+        pairs.map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
+    }
+
+    /// Root mean square of ‖x_r‖ over the revolutions of `range`.
+    fn level(&self, range: std::ops::Range<usize>) -> f64 {
+        let count = range.len().max(1) as f64;
+        let square = |r: usize| self.revolution(r).iter().map(|x| (x - self.mean).powi(2)).sum::<f64>();
+        (range.map(square).sum::<f64>() / count).sqrt()
     }
 }
 
@@ -134,5 +166,14 @@ mod tests {
         let growing = judge(&history(40, |t| (t / 10.0).exp() * (TAU * 2.37 * t).sin()), 64, 20);
         assert_eq!(growing.verdict, Verdict::NotSettled);
         assert_eq!(judge(&history(4, |_| 0.0), 64, 2).verdict, Verdict::Periodic);
+        // A drifting ripple is not hidden by a large static deflection, nor by a large steady neighbour.
+        let drift = |t: f64| 0.01 * (t / 10.0).exp() * (TAU * 2.37 * t).sin();
+        assert_eq!(judge(&history(40, |t| 5.0 + drift(t)), 64, 20).verdict, Verdict::NotSettled);
+        let mut two = history(40, |t| (TAU * 2.0 * t).sin());
+        two.extend(history(40, drift));
+        assert_eq!(judge(&two, 64, 20).verdict, Verdict::NotSettled);
+        // One revolution has nothing to be compared with.
+        let short = judge(&history(3, |t| t), 64, 1);
+        assert_eq!((short.verdict, short.largest_change), (Verdict::NotSettled, None));
     }
 }

@@ -1,7 +1,9 @@
 //! Nodal diameters and reduction against the explicitly assembled wheel.
 
+use rubmap::dynamics::error::ModelError;
 use rubmap::dynamics::modal_wheel::{ModalWheel, natural_frequencies};
-use rubmap::dynamics::reduction::{ReductionOptions, reduce};
+use rubmap::dynamics::reduction::{ReductionError, ReductionOptions, reduce};
+use rubmap::dynamics::sector::SectorModel;
 
 use crate::fixtures::{TOP_SPEED, WheelRecipe, assembled_wheel, eigenvalues, wheel};
 
@@ -90,13 +92,42 @@ fn equal_stiffness_matrices_leave_a_basis_of_rank_k() {
     }
 }
 
-/// A free rotor has no K_ii⁻¹; the refusal names the nodal diameter and asks about the hub.
+/// Without ground springs the wheel of translated springs floats: its three translations are three modes of nodal
+/// diameter 0. The refusal names them and asks about the hub.
 #[test]
-fn a_sector_that_hangs_on_nothing_is_refused() {
-    let mut sector = wheel(WheelRecipe::default());
-    for value in sector.stiffness[0].own.val_mut() {
-        *value = -*value;
+fn a_wheel_that_hangs_on_nothing_is_refused() {
+    let sector = wheel(WheelRecipe { ground: 0.0, stiffening: false, ..Default::default() });
+    let error = reduce(&sector, &ReductionOptions::new(5), &|_, _| true).unwrap_err();
+    let expected = ModelError::RigidBodyModes { nodal_diameter: 0, speed_rad_s: 0.0, modes: 3 };
+    assert_eq!(error, ReductionError::Model(expected));
+    assert!(error.to_string().contains("is the hub constrained"));
+}
+
+/// A node almost without mass puts a mode at the far end of the spectrum; the lowest modes must not notice.
+#[test]
+fn a_nearly_massless_node_leaves_the_lowest_modes_alone() {
+    let recipe = WheelRecipe { nodes: 20, ..Default::default() };
+    let lowest = |factor: f64| {
+        let mut sector = wheel(recipe);
+        for dof in 9..12 {
+            for (entry, value) in mass_diagonal(&mut sector) {
+                if entry == dof {
+                    *value *= factor;
+                }
+            }
+        }
+        let reduced = reduce(&sector, &ReductionOptions::new(12), &|_, _| true).unwrap();
+        let found = natural_frequencies(&reduced.harmonics[2], 0.0, true).unwrap();
+        found[..3].to_vec()
+    };
+    let (light, massless) = (lowest(1e-6), lowest(1e-12));
+    for (a, b) in light.iter().zip(&massless) {
+        assert!((a / b - 1.0).abs() < 1e-5, "{light:?} {massless:?}");
     }
-    let error = reduce(&sector, &ReductionOptions::new(5), &|_, _| true).unwrap_err().to_string();
-    assert!(error.contains("nodal diameter 0") && error.contains("hub"), "{error}");
+}
+
+/// (row, value) of the mass diagonal.
+fn mass_diagonal(sector: &mut SectorModel) -> impl Iterator<Item = (usize, &mut f64)> {
+    // The fixture's mass is diagonal, one entry a column.
+    sector.mass.own.val_mut().iter_mut().enumerate()
 }

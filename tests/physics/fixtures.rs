@@ -32,11 +32,21 @@ pub(crate) struct WheelRecipe {
     /// Whether K depends on Ω.
     pub(crate) stiffening: bool,
     pub(crate) seed: u64,
+    /// Stiffness of the ground springs, relative to the others.
+    pub(crate) ground: f64,
 }
 
 impl Default for WheelRecipe {
     fn default() -> Self {
-        Self { sectors: 10, nodes: 7, contact_nodes: 3, face_nodes: 2, stiffening: true, seed: 1 }
+        Self {
+            sectors: 10,
+            nodes: 7,
+            contact_nodes: 3,
+            face_nodes: 2,
+            stiffening: true,
+            seed: 1,
+            ground: 1.0,
+        }
     }
 }
 
@@ -47,7 +57,7 @@ pub(crate) const TOP_SPEED: f64 = 3000.0;
 /// the ground by weak springs, faces tied to the next sector's. Frequencies are a few times TOP_SPEED/2π·(1…10), so
 /// that engine orders 1 to 10 meet modes; lengths are millimetres by size.
 pub(crate) fn wheel(recipe: WheelRecipe) -> SectorModel {
-    let WheelRecipe { sectors, nodes, contact_nodes, face_nodes, stiffening, seed } = recipe;
+    let WheelRecipe { sectors, nodes, contact_nodes, face_nodes, stiffening, seed, ground } = recipe;
     let mut numbers = Numbers::new(seed);
     let size = 3 * nodes;
     let mass_scale = 1e-5;
@@ -55,8 +65,8 @@ pub(crate) fn wheel(recipe: WheelRecipe) -> SectorModel {
     let mut own = DMatrix::zeros(size, size);
     let mut next = DMatrix::zeros(size, size);
     for a in 0..nodes {
-        let ground = spring(&mut numbers, 2.0 * unit);
-        add(&mut own, a, a, &ground);
+        let tie = spring(&mut numbers, 2.0 * unit * ground);
+        add(&mut own, a, a, &tie);
         for b in 0..a {
             let link = spring(&mut numbers, 8.0 * unit / (a - b) as f64);
             add(&mut own, a, a, &link);

@@ -39,8 +39,9 @@ pub(super) fn credentials(map: &InteractionMap) -> String {
     let contact = completed.clone().fold((f64::INFINITY, 0f64), |(low, high), point| {
         (low.min(point.contact_share), high.max(point.contact_share))
     });
-    let largest =
-        |value: fn(&crate::analysis::result::Point) -> f64| completed.clone().map(value).fold(0.0, f64::max);
+    let largest = |value: fn(&crate::analysis::result::Point) -> Option<f64>| {
+        completed.clone().filter_map(value).fold(0.0, f64::max)
+    };
     let mut out = String::new();
     // Writing to a string cannot fail, here and below.
     let _ = writeln!(

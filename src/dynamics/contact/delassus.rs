@@ -38,10 +38,10 @@ impl Delassus {
         let (mut smallest, mut largest) = (f64::INFINITY, 0.0f64);
         for (index, harmonic) in wheel.harmonics.iter().enumerate() {
             let block = harmonic_block(index, rows, oscillators, harmonic.omega.len());
-            if let Ok(eigen) = eigenvalues(block.as_ref()) {
-                smallest = smallest.min(eigen[0]);
-                largest = largest.max(eigen[nodes - 1]);
-            }
+            // A block that cannot be decomposed counts as singular.
+            let eigen = eigenvalues(block.as_ref()).unwrap_or_else(|_| vec![0.0; nodes]);
+            smallest = smallest.min(eigen[0]);
+            largest = largest.max(eigen[nodes - 1]);
             let column = fourier.columns().iter().position(|&(i, _)| i == harmonic.harmonic);
             let column = column.expect("the Fourier basis has every nodal diameter");
             let first = fourier.row(0)[column];

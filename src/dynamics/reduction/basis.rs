@@ -33,6 +33,10 @@ pub(super) fn reduction_basis(
     let count = options.modes_per_speed.min(n_i);
     let nodes: Vec<usize> = compress(partition.internal.iter().map(|&dof| sector.node_of_dof[dof]));
     let mut symbolic = SymbolicFactor::new(stiffness[0].internal.symbolic(), &nodes);
+    // Modes see only the low end of the spectrum; an indefinite mass may hide at the other.
+    let mass_factor = SymbolicFactor::new(mass.internal.symbolic(), &nodes);
+    SparseCholesky::new(&mass_factor, &mass.internal)
+        .map_err(|_| ModelError::MassNotPositiveDefinite { nodal_diameter: harmonic })?;
     let mut static_modes = Mat::zeros(n_i, n_b);
     let mut modes = Mat::zeros(n_i, count * stiffness.len());
     let mut largest_mode_residual: f64 = 0.0;
@@ -78,6 +82,7 @@ fn mode_error(error: LanczosError, nodal_diameter: usize, speed_rad_s: f64) -> R
             ModelError::ModesNotConverged { nodal_diameter, speed_rad_s, residual, iterations: block_steps }
                 .into()
         }
+        LanczosError::Massless => ModelError::MassNotPositiveDefinite { nodal_diameter }.into(),
         LanczosError::DenseFailed => ModelError::DecompositionFailed { nodal_diameter, speed_rad_s }.into(),
     }
 }

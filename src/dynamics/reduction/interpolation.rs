@@ -63,12 +63,15 @@ pub(super) fn check(
     for harmonic in harmonics {
         frequency_error = frequency_error.max(lowest_frequency_deviation(harmonic, a, b)?);
     }
-    let verdict = if frequency_error > FREQUENCY_LIMIT {
-        InterpolationVerdict::Unsound
-    } else if quadratic_ratio > QUADRATIC_LIMIT {
+    let verdict = if quadratic_ratio <= QUADRATIC_LIMIT && frequency_error.is_finite() {
+        // Linear in Ω²: the interpolant is right everywhere, and a lowest frequency that is no smooth curve has
+        // modes that cross.
+        frequency_error = frequency_error.min(quadratic_ratio);
+        InterpolationVerdict::Sound
+    } else if frequency_error <= FREQUENCY_LIMIT {
         InterpolationVerdict::Suspect
     } else {
-        InterpolationVerdict::Sound
+        InterpolationVerdict::Unsound
     };
     Ok(InterpolationCheck { verdict, linear_ratio, quadratic_ratio, frequency_error })
 }

@@ -11,14 +11,13 @@
 mod basis;
 mod interpolation;
 
-use std::time::Instant;
-
 use faer::{Mat, c64};
 use serde::{Deserialize, Serialize};
 
 use super::centrifugal::StiffnessPolynomial;
 use super::cyclic::{HarmonicMatrix, Partition, harmonic_matrix};
 use super::error::ModelError;
+use super::modal_wheel::natural_frequencies;
 use super::sector::{ContactNode, SectorModel};
 use crate::numerics::matrix_serde;
 use crate::numerics::sector_fourier::harmonic_count;
@@ -72,16 +71,9 @@ pub struct ReducedWheel {
     pub harmonics: Vec<ReducedHarmonic>,
     /// How far K(Ω) can be trusted between the given speeds.
     pub interpolation: InterpolationCheck,
-    /// Wall time of the reduction, s.
-    pub wall_time_s: f64,
 }
 
 impl ReducedWheel {
-    /// Upper end Ω1 of the speeds the stiffness was given for; 0 without stiffening.
-    pub fn highest_speed(&self) -> f64 {
-        self.speeds_rad_s.last().copied().unwrap_or(0.0)
-    }
-
     /// Number of contact DOF n_b of a sector.
     pub fn contact_dofs(&self) -> usize {
         3 * self.contact.len()
@@ -108,7 +100,6 @@ pub fn reduce(
     options: &ReductionOptions,
     watch: Watch<'_>,
 ) -> Result<ReducedWheel, ReductionError> {
-    let start = Instant::now();
     let contact_dofs = sector.contact.iter().flat_map(|node| node.dofs).collect();
     let partition = Partition::new(sector.own_dofs(), contact_dofs);
     let count = harmonic_count(sector.sectors);
@@ -127,7 +118,6 @@ pub fn reduce(
         speeds_rad_s: sector.speeds_rad_s.clone(),
         harmonics,
         interpolation,
-        wall_time_s: start.elapsed().as_secs_f64(),
     })
 }
 
@@ -142,13 +132,16 @@ fn reduce_harmonic(
     let mass = build(&sector.mass);
     let stiffness: Vec<_> = sector.stiffness.iter().map(build).collect();
     let basis = basis::reduction_basis(sector, harmonic, partition, &mass, &stiffness, options, watch)?;
-    let reduced = stiffness.iter().map(|k| basis.project(k)).collect();
-    Ok(ReducedHarmonic {
+    let projected = stiffness.iter().map(|k| basis.project(k)).collect();
+    let reduced = ReducedHarmonic {
         harmonic,
         mass: basis.project(&mass),
-        stiffness: StiffnessPolynomial::fit(reduced, &sector.speeds_rad_s),
+        stiffness: StiffnessPolynomial::fit(projected, &sector.speeds_rad_s),
         largest_mode_residual: basis.largest_mode_residual,
-    })
+    };
+    // A wheel that is not held at rest is no model at any speed.
+    natural_frequencies(&reduced, 0.0, true)?;
+    Ok(reduced)
 }
 
 /// Υ̂ without its identity block.

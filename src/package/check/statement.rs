@@ -5,6 +5,12 @@ use crate::package::frame::AxisFrame;
 use crate::package::raw::Manifest;
 use crate::package::units;
 
+/// Wheels with more sectors are typing errors; the sector Fourier basis grows with the square.
+const MOST_SECTORS: usize = 1000;
+
+/// More contact nodes along one chord than any blade needs; the reduced matrices grow with the square.
+const MOST_CONTACT_NODES: usize = 200;
+
 /// Checks counts, units, axis and speeds; returns the axis.
 ///
 /// Three speeds need not be equally spaced: the polynomial of METHOD §3 passes through any three.
@@ -12,6 +18,15 @@ pub(in crate::package) fn check(manifest: &Manifest) -> Result<AxisFrame, Packag
     let wrong = |field: &str, problem| Err(PackageError::manifest(field, problem));
     if manifest.sectors == 0 {
         return wrong("/sectors", ManifestProblem::NoSectors);
+    }
+    if manifest.sectors > MOST_SECTORS {
+        return wrong("/sectors", ManifestProblem::TooMany { what: "sectors", limit: MOST_SECTORS });
+    }
+    if manifest.contact.len() > MOST_CONTACT_NODES {
+        return wrong(
+            "/contact",
+            ManifestProblem::TooMany { what: "contact nodes", limit: MOST_CONTACT_NODES },
+        );
     }
     units::check(&manifest.units).map_err(|(field, problem)| PackageError::manifest(field, problem))?;
     if manifest.axis.origin.iter().any(|x| !x.is_finite()) {

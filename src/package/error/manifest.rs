@@ -33,6 +33,14 @@ pub enum ManifestProblem {
     /// N = 0.
     #[error("a wheel has at least one sector")]
     NoSectors,
+    /// More than the service can take.
+    #[error("at most {limit} {what} are supported")]
+    TooMany {
+        /// Of what.
+        what: &'static str,
+        /// How many are allowed.
+        limit: usize,
+    },
     /// Empty unit name.
     #[error("the unit has no name")]
     UnitUnnamed,
