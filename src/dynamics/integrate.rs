@@ -11,7 +11,7 @@ use super::casing::{Casing, RestrictionTable};
 use super::contact::delassus::Delassus;
 use super::energy::EnergyAudit;
 use super::modal_wheel::ModalWheel;
-use super::oscillators::{Direction, ModalDamping, Oscillators, Rows};
+use super::oscillators::{Direction, LANES, ModalDamping, Oscillators, Rows};
 use super::sector::ContactNode;
 use super::statistics::RunStatistics;
 use crate::numerics::complementarity::{ActiveSetSolver, ComplementarityError};
@@ -277,8 +277,7 @@ impl Stepper {
         let Some(obstacle) = &mut self.obstacle else { return Ok(()) };
         obstacle.normal.rotate_right(1);
         self.oscillators.project(simd, &obstacle.rows, &mut obstacle.harmonic);
-        obstacle.predict_gaps(simd, &self.fourier, step, revolutions);
-        if !obstacle.predicted_gap.iter().fold(false, |closed, &g| closed | (g < 0.0)) {
+        if obstacle.predict_gaps(simd, &self.fourier, step, revolutions) >= 0.0 {
             return Ok(());
         }
         obstacle
@@ -344,35 +343,45 @@ impl Obstacle {
         }
     }
 
-    /// Normal displacements of all sectors from their Fourier coordinates, and g_p = c − p − nᵀu.
+    /// Normal displacements of all sectors from their Fourier coordinates, and g_p = c − p − nᵀu, whose smallest value
+    /// is returned.
     #[inline(always)]
-    fn predict_gaps<S: Simd>(&mut self, simd: S, fourier: &SectorFourier, step: usize, revolutions: f64) {
+    fn predict_gaps<S: Simd>(
+        &mut self,
+        simd: S,
+        fourier: &SectorFourier,
+        step: usize,
+        revolutions: f64,
+    ) -> f64 {
+        let mut smallest = simd.splat_f64s(f64::INFINITY);
         let stride = self.rows.stride;
         let vectors = stride / S::F64_LANES;
         let growth = simd.splat_f64s(self.casing.growth(revolutions));
-        let clearance = S::as_simd_f64s(&self.clearance).0;
+        let clearance = &S::as_simd_f64s(&self.clearance).0[..vectors];
+        let harmonic = S::as_simd_f64s(&self.harmonic).0;
         for sector in 0..fourier.sectors() {
             let range = sector * stride..(sector + 1) * stride;
-            let normal = S::as_mut_simd_f64s(&mut self.normal[0][range.clone()]).0;
-            let free_gap = S::as_mut_simd_f64s(&mut self.free_gap[range.clone()]).0;
-            let gap = S::as_mut_simd_f64s(&mut self.predicted_gap[range]).0;
+            let normal = &mut S::as_mut_simd_f64s(&mut self.normal[0][range.clone()]).0[..vectors];
+            let free_gap = &mut S::as_mut_simd_f64s(&mut self.free_gap[range.clone()]).0[..vectors];
+            let gap = &mut S::as_mut_simd_f64s(&mut self.predicted_gap[range]).0[..vectors];
             let restricted = match &self.restriction {
                 Some(table) => table.at(step, sector),
                 None => &self.unrestricted,
             };
-            let restricted = S::as_simd_f64s(restricted).0;
+            let restricted = &S::as_simd_f64s(restricted).0[..vectors];
             for v in 0..vectors {
                 let mut u = simd.splat_f64s(0.0);
-                for (column, &f) in fourier.row(sector).iter().enumerate() {
-                    let harmonic = S::as_simd_f64s(&self.harmonic[column * stride..][..stride]).0;
-                    u = simd.mul_add_e_f64s(simd.splat_f64s(f), harmonic[v], u);
+                for (&f, column) in fourier.row(sector).iter().zip(harmonic.chunks_exact(vectors)) {
+                    u = simd.mul_add_e_f64s(simd.splat_f64s(f), column[v], u);
                 }
                 let free = simd.negate_mul_add_e_f64s(growth, restricted[v], clearance[v]);
                 normal[v] = u;
                 free_gap[v] = free;
                 gap[v] = simd.sub_f64s(free, u);
+                smallest = simd.min_f64s(smallest, gap[v]);
             }
         }
+        simd.reduce_min_f64s(smallest)
     }
 
     /// Takes the solved λ: forces in Fourier coordinates, corrected normal displacements, statistics. Returns the
@@ -387,7 +396,7 @@ impl Obstacle {
                 *u = free - g;
             }
         }
-        let deepest = gap.iter().fold(0.0f64, |deepest, &g| deepest.max(-g));
+        let deepest = -lowest(gap);
         statistics.largest_penetration = statistics.largest_penetration.max(deepest);
         statistics.pivots = self.solver.statistics();
         for &row in &self.loaded {
@@ -418,6 +427,18 @@ impl Obstacle {
         }
         work
     }
+}
+
+/// The smallest of 0 and `values`, whose number is a multiple of the lanes; lane by lane, so that it vectorises.
+#[inline(always)]
+fn lowest(values: &[f64]) -> f64 {
+    let mut lanes = [0.0f64; LANES];
+    for chunk in values.chunks_exact(LANES) {
+        for (low, &value) in lanes.iter_mut().zip(chunk) {
+            *low = if value < *low { value } else { *low };
+        }
+    }
+    lanes.iter().fold(0.0, |low, &value| low.min(value))
 }
 
 impl Recorder {

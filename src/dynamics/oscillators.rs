@@ -82,28 +82,58 @@ struct State {
     swing: Vec<f64>,
 }
 
+/// One part (real or imaginary) of one nodal diameter's coordinates, as vectors.
+struct Part<'a, S: Simd, const DAMPED: bool> {
+    z: &'a mut [S::f64s],
+    d: &'a mut [S::f64s],
+    /// Empty unless `DAMPED`.
+    swing: &'a mut [S::f64s],
+}
+
 impl State {
-    /// Moves vector `m` of the segment part at `start` by `moved`; returns `lost` with what damping takes of it.
+    /// The part of `length` numbers (`vectors` vectors) at `start`.
     #[inline(always)]
-    fn shift<S: Simd, const DAMPED: bool>(
+    fn part<S: Simd, const DAMPED: bool>(
         &mut self,
-        simd: S,
         start: usize,
-        m: usize,
-        moved: S::f64s,
-        loss: S::f64s,
-        mut lost: S::f64s,
-    ) -> S::f64s {
-        let at = start / S::F64_LANES + m;
-        if DAMPED {
-            let swing = S::as_simd_f64s(&self.swing).0[at];
-            let change = simd.mul_f64s(moved, simd.mul_add_e_f64s(simd.splat_f64s(2.0), swing, moved));
-            lost = simd.mul_add_e_f64s(loss, change, lost);
+        length: usize,
+        vectors: usize,
+    ) -> Part<'_, S, DAMPED> {
+        let swing = if DAMPED { &mut self.swing[start..start + length] } else { &mut [][..] };
+        Part {
+            z: &mut S::as_mut_simd_f64s(&mut self.z[start..start + length]).0[..vectors],
+            d: &mut S::as_mut_simd_f64s(&mut self.d[start..start + length]).0[..vectors],
+            swing: &mut S::as_mut_simd_f64s(swing).0[..if DAMPED { vectors } else { 0 }],
         }
-        let z = &mut S::as_mut_simd_f64s(&mut self.z).0[at];
-        *z = simd.add_f64s(*z, moved);
-        let d = &mut S::as_mut_simd_f64s(&mut self.d).0[at];
-        *d = simd.add_f64s(*d, moved);
+    }
+
+    /// Both parts of a pair at `start`.
+    #[inline(always)]
+    fn pair<S: Simd, const DAMPED: bool>(
+        &mut self,
+        start: usize,
+        length: usize,
+        vectors: usize,
+    ) -> (Part<'_, S, DAMPED>, Part<'_, S, DAMPED>) {
+        let Part { z, d, swing } = self.part::<S, DAMPED>(start, 2 * length, 2 * vectors);
+        let (z_re, z_im) = z.split_at_mut(vectors);
+        let (d_re, d_im) = d.split_at_mut(vectors);
+        let (swing_re, swing_im) = swing.split_at_mut(if DAMPED { vectors } else { 0 });
+        (Part { z: z_re, d: d_re, swing: swing_re }, Part { z: z_im, d: d_im, swing: swing_im })
+    }
+}
+
+impl<S: Simd, const DAMPED: bool> Part<'_, S, DAMPED> {
+    /// Moves vector `m` by `moved`; returns `lost` with what damping takes of it.
+    #[inline(always)]
+    fn shift(&mut self, simd: S, m: usize, moved: S::f64s, loss: S::f64s, mut lost: S::f64s) -> S::f64s {
+        if DAMPED {
+            let both = simd.add_f64s(simd.add_f64s(self.swing[m], self.swing[m]), moved);
+            lost = simd.mul_add_e_f64s(loss, simd.mul_f64s(moved, both), lost);
+            self.swing[m] = simd.add_f64s(self.swing[m], moved);
+        }
+        self.z[m] = simd.add_f64s(self.z[m], moved);
+        self.d[m] = simd.add_f64s(self.d[m], moved);
         lost
     }
 }
@@ -157,25 +187,22 @@ impl Oscillators {
             let keep = S::as_simd_f64s(&self.keep[coefficients.clone()]).0;
             let pull = S::as_simd_f64s(&self.pull[coefficients.clone()]).0;
             let loss = S::as_simd_f64s(&self.loss[coefficients]).0;
+            let vectors = keep.len();
+            let (pull, loss) = (&pull[..vectors], &loss[..vectors]);
             for part in 0..if segment.single { 1 } else { 2 } {
-                let range =
-                    segment.state + part * segment.length..segment.state + (part + 1) * segment.length;
-                let z = S::as_mut_simd_f64s(&mut self.state.z[range.clone()]).0;
-                let d = S::as_mut_simd_f64s(&mut self.state.d[range.clone()]).0;
-                if DAMPED {
-                    let swing = S::as_mut_simd_f64s(&mut self.state.swing[range]).0;
-                    for m in 0..z.len().min(d.len()).min(swing.len()) {
+                let start = segment.state + part * segment.length;
+                let Part { z, d, swing } = self.state.part::<S, DAMPED>(start, segment.length, vectors);
+                for m in 0..vectors {
+                    if DAMPED {
                         let next = simd.sub_f64s(simd.mul_f64s(keep[m], d[m]), simd.mul_f64s(pull[m], z[m]));
-                        swing[m] = simd.add_f64s(next, d[m]);
-                        lost = simd.mul_add_e_f64s(loss[m], simd.mul_f64s(swing[m], swing[m]), lost);
+                        let both = simd.add_f64s(next, d[m]);
+                        lost = simd.mul_add_e_f64s(loss[m], simd.mul_f64s(both, both), lost);
+                        swing[m] = both;
                         d[m] = next;
-                        z[m] = simd.add_f64s(z[m], next);
+                    } else {
+                        d[m] = simd.negate_mul_add_e_f64s(pull[m], z[m], d[m]);
                     }
-                } else {
-                    for ((z, d), &pull) in z.iter_mut().zip(d).zip(pull) {
-                        *d = simd.negate_mul_add_e_f64s(pull, *z, *d);
-                        *z = simd.add_f64s(*z, *d);
-                    }
+                    z[m] = simd.add_f64s(z[m], d[m]);
                 }
             }
         }
@@ -208,44 +235,65 @@ impl Oscillators {
         loaded: &[usize],
         force: &[f64],
     ) -> f64 {
+        let mut lost = 0.0;
+        for group in loaded.chunks(6) {
+            lost += match *group {
+                [a] => self.push::<S, DAMPED, 1>(simd, rows, [a], force),
+                [a, b] => self.push::<S, DAMPED, 2>(simd, rows, [a, b], force),
+                [a, b, c] => self.push::<S, DAMPED, 3>(simd, rows, [a, b, c], force),
+                [a, b, c, d] => self.push::<S, DAMPED, 4>(simd, rows, [a, b, c, d], force),
+                [a, b, c, d, e] => self.push::<S, DAMPED, 5>(simd, rows, [a, b, c, d, e], force),
+                [a, b, c, d, e, f, ..] => self.push::<S, DAMPED, 6>(simd, rows, [a, b, c, d, e, f], force),
+                [] => 0.0,
+            };
+        }
+        lost
+    }
+
+    /// [`Self::correct`] for R rows at once. Groups may follow each other: each updates the swing that the next one's
+    /// loss is counted from.
+    #[inline(always)]
+    fn push<S: Simd, const DAMPED: bool, const R: usize>(
+        &mut self,
+        simd: S,
+        rows: &Rows,
+        group: [usize; R],
+        force: &[f64],
+    ) -> f64 {
         let mut lost = simd.splat_f64s(0.0);
         for (segment, block) in self.segments.iter().zip(&rows.blocks) {
-            let length = segment.length;
-            let coefficients = segment.modes..segment.modes + length;
-            let receptance = S::as_simd_f64s(&self.receptance[coefficients.clone()]).0;
-            let loss = S::as_simd_f64s(&self.loss[coefficients]).0;
-            let force_re = &force[segment.column * rows.stride..];
-            if segment.single {
+            let Segment { single, length, modes, state, column } = *segment;
+            let receptance = S::as_simd_f64s(&self.receptance[modes..modes + length]).0;
+            let loss = &S::as_simd_f64s(&self.loss[modes..modes + length]).0[..receptance.len()];
+            let force_re = gather(simd, &force[column * rows.stride..], group);
+            let phi_re = RowBlock::rows::<S, R>(&block.re, group, length, receptance.len());
+            if single {
+                let mut part = self.state.part::<S, DAMPED>(state, length, receptance.len());
                 for m in 0..receptance.len() {
                     let mut modal = simd.splat_f64s(0.0);
-                    for &row in loaded {
-                        let phi = S::as_simd_f64s(&block.re[row * length..][..length]).0[m];
-                        modal = simd.mul_add_e_f64s(phi, simd.splat_f64s(force_re[row]), modal);
+                    for r in 0..R {
+                        modal = simd.mul_add_e_f64s(phi_re[r][m], force_re[r], modal);
                     }
-                    let moved = simd.mul_f64s(receptance[m], modal);
-                    lost = self.state.shift::<S, DAMPED>(simd, segment.state, m, moved, loss[m], lost);
+                    lost = part.shift(simd, m, simd.mul_f64s(receptance[m], modal), loss[m], lost);
                 }
                 continue;
             }
-            let force_im = &force[(segment.column + 1) * rows.stride..];
+            let force_im = gather(simd, &force[(column + 1) * rows.stride..], group);
+            let phi_im = RowBlock::rows::<S, R>(&block.im, group, length, receptance.len());
+            let (mut re, mut im) = self.state.pair::<S, DAMPED>(state, length, receptance.len());
             for m in 0..receptance.len() {
                 // φᴴ f̂: (φ_re − jφ_im)(f_re + jf_im)
                 let mut modal_re = simd.splat_f64s(0.0);
                 let mut modal_im = simd.splat_f64s(0.0);
-                for &row in loaded {
-                    let phi_re = S::as_simd_f64s(&block.re[row * length..][..length]).0[m];
-                    let phi_im = S::as_simd_f64s(&block.im[row * length..][..length]).0[m];
-                    let (f_re, f_im) = (simd.splat_f64s(force_re[row]), simd.splat_f64s(force_im[row]));
-                    modal_re = simd.mul_add_e_f64s(phi_re, f_re, modal_re);
-                    modal_im = simd.mul_add_e_f64s(phi_re, f_im, modal_im);
-                    modal_re = simd.mul_add_e_f64s(phi_im, f_im, modal_re);
-                    modal_im = simd.negate_mul_add_e_f64s(phi_im, f_re, modal_im);
+                for r in 0..R {
+                    let (p, q) = (phi_re[r][m], phi_im[r][m]);
+                    modal_re = simd.mul_add_e_f64s(p, force_re[r], modal_re);
+                    modal_im = simd.mul_add_e_f64s(p, force_im[r], modal_im);
+                    modal_re = simd.mul_add_e_f64s(q, force_im[r], modal_re);
+                    modal_im = simd.negate_mul_add_e_f64s(q, force_re[r], modal_im);
                 }
-                let (moved_re, moved_im) =
-                    (simd.mul_f64s(receptance[m], modal_re), simd.mul_f64s(receptance[m], modal_im));
-                lost = self.state.shift::<S, DAMPED>(simd, segment.state, m, moved_re, loss[m], lost);
-                lost =
-                    self.state.shift::<S, DAMPED>(simd, segment.state + length, m, moved_im, loss[m], lost);
+                lost = re.shift(simd, m, simd.mul_f64s(receptance[m], modal_re), loss[m], lost);
+                lost = im.shift(simd, m, simd.mul_f64s(receptance[m], modal_im), loss[m], lost);
             }
         }
         if DAMPED { simd.reduce_sum_f64s(lost) } else { 0.0 }
@@ -277,6 +325,16 @@ impl Oscillators {
         let segment = &self.segments[harmonic];
         &self.receptance[segment.modes..][..segment.length]
     }
+}
+
+/// Each of `group`'s values in every lane. A loop and no closure: a closure would be compiled without the wide vectors.
+#[inline(always)]
+fn gather<S: Simd, const R: usize>(simd: S, values: &[f64], group: [usize; R]) -> [S::f64s; R] {
+    let mut lanes = [simd.splat_f64s(0.0); R];
+    for (lane, row) in lanes.iter_mut().zip(group) {
+        *lane = simd.splat_f64s(values[row]);
+    }
+    lanes
 }
 
 #[inline(always)]
@@ -336,13 +394,17 @@ fn project_rows<S: Simd, const R: usize>(
     out_re: &mut [f64],
     out_im: &mut [f64],
 ) {
-    let phi_re: [&[S::f64s]; R] =
-        std::array::from_fn(|r| S::as_simd_f64s(&block.re[(row + r) * length..][..length]).0);
-    let phi_im: [&[S::f64s]; R] =
-        std::array::from_fn(|r| S::as_simd_f64s(&block.im[(row + r) * length..][..length]).0);
+    let vectors = re.len();
+    let im = &im[..vectors];
+    let mut group = [row; R];
+    for (r, member) in group.iter_mut().enumerate() {
+        *member += r;
+    }
+    let phi_re = RowBlock::rows::<S, R>(&block.re, group, length, vectors);
+    let phi_im = RowBlock::rows::<S, R>(&block.im, group, length, vectors);
     let mut sum_re = [simd.splat_f64s(0.0); R];
     let mut sum_im = [simd.splat_f64s(0.0); R];
-    for m in 0..re.len().min(im.len()) {
+    for m in 0..vectors {
         let (a, b) = (re[m], im[m]);
         for r in 0..R {
             let (p, q) = (phi_re[r][m], phi_im[r][m]);
@@ -382,6 +444,23 @@ pub struct Direction {
     pub node: usize,
     /// Components of the direction.
     pub components: [f64; 3],
+}
+
+impl RowBlock {
+    /// The rows of `group` in `part` (`re` or `im`), each cut to `vectors` vectors so that no index needs a check.
+    #[inline(always)]
+    fn rows<'a, S: Simd, const R: usize>(
+        part: &'a [f64],
+        group: [usize; R],
+        length: usize,
+        vectors: usize,
+    ) -> [&'a [S::f64s]; R] {
+        let mut rows: [&[S::f64s]; R] = [&[]; R];
+        for (slice, row) in rows.iter_mut().zip(group) {
+            *slice = &S::as_simd_f64s(&part[row * length..][..length]).0[..vectors];
+        }
+        rows
+    }
 }
 
 impl Rows {

@@ -100,11 +100,10 @@ impl ActiveSetSolver {
         for _ in 0..limit {
             self.statistics.candidates += 1;
             self.solve_active(w, q)?;
-            let tolerance = tolerance + self.round_off(w);
             if !any_below(&self.lambda, 0.0) && !any_below(&self.gap, -tolerance) {
                 return Ok(());
             }
-            self.find_violated(tolerance);
+            self.find_violated(tolerance + self.round_off(w));
             if self.violated.is_empty() {
                 return Ok(());
             }
@@ -151,7 +150,6 @@ impl ActiveSetSolver {
     }
 
     /// Round-off of g = q + Wλ, whose terms may be much larger than their sum where W is nearly singular.
-    #[inline(always)]
     fn round_off<W: SymmetricOperator>(&self, w: &W) -> f64 {
         let terms = self.active.iter().zip(&self.lambda).map(|(&i, lambda)| w.entry(i, i) * lambda.abs());
         4.0 * f64::EPSILON * terms.sum::<f64>()
@@ -241,10 +239,21 @@ impl ActiveSetSolver {
     }
 }
 
-/// Whether any value is below `limit`, without an early exit: vectorises.
+/// Whether any value is below `limit`: lane by lane and without an early exit, so that it vectorises.
 #[inline(always)]
 fn any_below(values: &[f64], limit: f64) -> bool {
-    values.iter().fold(false, |found, &value| found | (value < limit))
+    let mut lanes = [limit; 8];
+    let mut chunks = values.chunks_exact(8);
+    for chunk in &mut chunks {
+        for (low, &value) in lanes.iter_mut().zip(chunk) {
+            *low = if value < *low { value } else { *low };
+        }
+    }
+    let mut below = chunks.remainder().iter().any(|&value| value < limit);
+    for low in lanes {
+        below |= low < limit;
+    }
+    below
 }
 
 #[cfg(test)]

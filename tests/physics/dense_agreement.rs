@@ -64,6 +64,9 @@ fn agree(recipe: WheelRecipe, damping_ratio: f64, lobes: u32, steps_factor: f64)
     assert!(scheme.contact_steps >= 3, "{recipe:?}: {} contact steps", scheme.contact_steps);
     assert_eq!(scheme.contact_steps, run.statistics.contact_steps, "{recipe:?}");
     assert!(worst < 1e-9 * largest, "{recipe:?}: {worst:e} of {largest}");
+    // Warm starts: hardly any contact problem needs more than a second candidate set.
+    let pivots = run.statistics.pivots;
+    assert!(pivots.problems > 0 && 2 * pivots.candidates < 5 * pivots.problems, "{recipe:?}: {pivots:?}");
     assert!(run.energy.residual() < 1e-9, "{recipe:?}: energy residual {:e}", run.energy.residual());
 }
 

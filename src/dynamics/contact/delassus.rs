@@ -97,9 +97,13 @@ impl SymmetricOperator for Delassus {
     #[inline(always)]
     fn add_column(&self, j: usize, scale: f64, out: &mut [f64]) {
         let (from_sector, from) = self.place(j);
-        for (to_sector, out) in out.chunks_exact_mut(self.stride).enumerate() {
-            let distance = (to_sector + self.sectors - from_sector) % self.sectors;
-            for (out, w) in out.iter_mut().zip(self.column(distance, from)) {
+        // Sectors from `from_sector` on are 0, 1, 2 … away, those before it follow around the wheel.
+        let (before, onwards) = out.split_at_mut(from_sector * self.stride);
+        let targets = onwards.chunks_exact_mut(self.stride).chain(before.chunks_exact_mut(self.stride));
+        let block = self.nodes * self.stride;
+        let columns = self.table.chunks_exact(block).map(|block| &block[from * self.stride..][..self.stride]);
+        for (out, column) in targets.zip(columns) {
+            for (out, w) in out.iter_mut().zip(column) {
                 *out += w * scale;
             }
         }
