@@ -2,9 +2,13 @@
 
 use std::f64::consts::TAU;
 
+use super::error::{AnalysisError, Violation};
+use super::model::ReducedSector;
+use super::monitor::Monitor;
 use super::request::{StepsPerRevolution, SweepRequest};
+use crate::dynamics::error::ModelError;
 use crate::dynamics::integrate::smallest_stable_steps;
-use crate::dynamics::modal_wheel::ModalWheel;
+use crate::dynamics::modal_wheel::{ModalWheel, natural_frequencies};
 
 /// Steps and samples of a revolution.
 pub(super) struct Discretisation {
@@ -37,7 +41,7 @@ fn lobe_width(request: &SweepRequest) -> Option<f64> {
 }
 
 /// The smallest number of steps per revolution that sees the lobes of a scene.
-pub(super) fn least_steps_for_lobes(request: &SweepRequest) -> f64 {
+fn least_steps_for_lobes(request: &SweepRequest) -> f64 {
     lobe_width(request).map_or(0.0, |width| (LEAST_STEPS_PER_WIDTH * TAU / width).ceil())
 }
 
@@ -96,6 +100,54 @@ pub(super) fn most_samples(request: &SweepRequest, sectors: usize) -> usize {
         StepsPerRevolution::Auto => 2 * wanted + sectors,
         StepsPerRevolution::Fixed(steps) => samples_of(steps as usize, wanted),
     }
+}
+
+/// Checks what only the reduced sector can tell, before any speed runs: a fixed step against the stability limit at
+/// every speed of the sweep, and against the width of the lobes. Speeds at which the model itself fails are left to their own run.
+pub fn check(
+    reduced: &ReducedSector,
+    request: &SweepRequest,
+    monitor: &dyn Monitor,
+) -> Result<(), AnalysisError> {
+    let StepsPerRevolution::Fixed(steps) = request.integration.steps_per_revolution else { return Ok(()) };
+    let speeds = request.speeds.resolve().map_err(AnalysisError::Refused)?;
+    let mut worst = (0, 0.0);
+    for (index, &speed) in speeds.iter().enumerate() {
+        monitor.progress(index as f64 / speeds.len() as f64, "stability limit of the time step");
+        if monitor.is_cancelled() {
+            return Err(AnalysisError::Cancelled);
+        }
+        let frequencies = reduced
+            .wheel
+            .harmonics
+            .iter()
+            .map(|h| natural_frequencies(h, speed, request.scene.centrifugal_stiffening))
+            .collect::<Result<Vec<_>, ModelError>>();
+        let Ok(frequencies) = frequencies else { continue };
+        let largest = frequencies.iter().filter_map(|f| f.last()).fold(0.0f64, |m, &f| m.max(f));
+        let smallest_steps = smallest_stable_steps(largest, speed);
+        if smallest_steps > worst.0 {
+            worst = (smallest_steps, speed);
+        }
+    }
+    let (stable, speed) = worst;
+    let seen = least_steps_for_lobes(request) as u64;
+    let smallest = stable.max(seen);
+    if u64::from(steps) >= smallest {
+        return Ok(());
+    }
+    let reason = if stable >= seen {
+        format!(
+            "are unstable: central differences need h < 2/ω_max of the reduced wheel, which at {speed:.6} rad/s is met \
+             from {stable} steps per revolution on"
+        )
+    } else {
+        format!("pass the lobes by, which are seen from {seen} steps per revolution on")
+    };
+    Err(AnalysisError::Refused(vec![Violation::new(
+        "/integration/steps_per_revolution",
+        format!("{steps} steps per revolution {reason}; give at least {smallest}, or \"auto\""),
+    )]))
 }
 
 #[cfg(test)]

@@ -2,10 +2,12 @@
 //!
 //! - [`run::prepare`] reduces a sector (once per model and `modes_per_speed`);
 //! - [`run::check`], [`run::run_speed`] and [`run::modal_analysis`] compute on the reduced sector;
-//! - [`run::interaction_map`] and [`run::critical_speeds`] read the finished speeds of a sweep.
+//! - [`run::interaction_map`] and [`run::critical_speeds`] assemble the finished speeds of a sweep.
 
 mod discretisation;
 pub mod error;
+mod modal;
+mod model;
 pub mod monitor;
 pub mod request;
 mod resolve;
@@ -13,3 +15,4 @@ pub mod result;
 pub mod run;
 pub mod scene;
 mod speed;
+mod summary;

@@ -2,10 +2,10 @@
 
 use super::discretisation::{MOST_STEPS, most_samples};
 use super::error::Violation;
+use super::model::ModelFacts;
 use super::request::{
     Component, Integration, ModalAnalysisRequest, Sensor, Speeds, StepsPerRevolution, SweepRequest,
 };
-use super::run::ModelFacts;
 use super::scene::{Casing, Clearance, Damping, Scene};
 use crate::dynamics::casing::Restriction;
 

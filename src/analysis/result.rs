@@ -215,6 +215,8 @@ pub struct CriticalSpeeds {
     pub missing: Vec<u32>,
     /// What the reduction found about the model.
     pub reduction: ReductionReport,
+    /// The whole request as resolved.
+    pub settings: super::request::SweepRequest,
     /// Units of the model.
     pub units: Units,
     /// Version of the code.

@@ -4,10 +4,11 @@ use std::time::Instant;
 
 use super::discretisation::Discretisation;
 use super::error::AnalysisError;
+use super::model::ReducedSector;
 use super::monitor::Monitor;
 use super::request::{Component, Sensor, SweepRequest};
 use super::result::{Point, PointStatus, SensorResponse, SensorSpectrum, SpeedResult, SpeedSpectra};
-use super::run::{ReducedSector, VERSION};
+use super::run::VERSION;
 use crate::dynamics::casing::{Casing, Restriction, RestrictionTable, clearance_along_chord};
 use crate::dynamics::integrate::{History, MAX_TABLE_VALUES, Outcome, Run, SensorRow, Simulation};
 use crate::dynamics::modal_wheel::ModalWheel;

@@ -78,7 +78,7 @@ fn critical() -> CriticalSpeeds {
             "frequency_hz": 11_500.0 / 30.0}],
         "driven_crossings": [{"nodal_diameter": 2, "family": 1, "engine_order": 2, "speed_rad_s": rad_s(12_500.0),
             "frequency_hz": 12_500.0 / 30.0}],
-        "missing": [2], "units": units(), "reduction": reduction(), "version": "0",
+        "missing": [2], "units": units(), "settings": map().settings, "reduction": reduction(), "version": "0",
     }))
     .unwrap()
 }

@@ -1,0 +1,155 @@
+//! What the speeds of a sweep say together: the interaction map and the critical speeds.
+
+use super::error::AnalysisError;
+use super::modal::WheelFrequencies;
+use super::model::ReducedSector;
+use super::monitor::Monitor;
+use super::request::{Sensor, SweepRequest};
+use super::result::{
+    CriticalSpeed, CriticalSpeeds, Crossing, DrivenCrossing, InteractionMap, Point, PointStatus, SpeedSpectra,
+};
+use super::run::VERSION;
+use crate::dynamics::sector::Units;
+use crate::response::campbell::{crossings, driven_crossings};
+use crate::response::critical_speed::peaks;
+use crate::response::spectra::engine_orders;
+
+/// The row that one speed contributes to the map of `sensor` (index into the request's sensors).
+pub fn map_row(spectra: &SpeedSpectra, sensor: usize, nodal_diameter: Option<u32>) -> Option<&[f64]> {
+    let spectrum = spectra.sensors.get(sensor)?;
+    match nodal_diameter {
+        None => Some(&spectrum.amplitude),
+        Some(i) => spectrum.nodal_diameters.get(i as usize).map(Vec::as_slice),
+    }
+}
+
+/// The interaction map of `sensor` from the speeds finished so far, in any order, each with its [`map_row`].
+pub fn interaction_map(
+    request: &SweepRequest,
+    units: &Units,
+    finished: Vec<(Point, Option<Vec<f64>>)>,
+    sensor: usize,
+    nodal_diameter: Option<u32>,
+) -> InteractionMap {
+    let speeds = request.speeds.resolve().unwrap_or_default();
+    let mut amplitude = vec![None; speeds.len()];
+    let mut points = Vec::with_capacity(finished.len());
+    for (point, row) in finished {
+        amplitude[point.index as usize] = row;
+        points.push(point);
+    }
+    points.sort_by_key(|point| point.index);
+    InteractionMap {
+        speeds_rad_s: speeds,
+        engine_orders: engine_orders(request.integration.window_revolutions, request.max_engine_order),
+        amplitude,
+        sensor: request.sensors[sensor],
+        nodal_diameter,
+        units: units.clone(),
+        points,
+        settings: request.clone(),
+        version: VERSION.to_owned(),
+    }
+}
+
+/// Families and superharmonic numbers of the linear prediction beside a sweep: those the paper looks at.
+const PREDICTED_FAMILIES: usize = 2;
+const PREDICTED_SUPERHARMONICS: [u32; 3] = [1, 2, 3];
+
+/// Peaks of the response that rise above their surroundings by less than this share of the largest are left out.
+const PROMINENT: f64 = 0.1;
+
+/// Critical speeds of a sweep, one table per sensor, beside the linear prediction; from the points of all speeds.
+pub fn critical_speeds(
+    reduced: &ReducedSector,
+    request: &SweepRequest,
+    points: &[Point],
+    monitor: &dyn Monitor,
+) -> Result<Vec<CriticalSpeeds>, AnalysisError> {
+    let speeds = request.speeds.resolve().map_err(AnalysisError::Refused)?;
+    let mut ascending: Vec<usize> = (0..speeds.len()).collect();
+    ascending.sort_by(|&a, &b| speeds[a].total_cmp(&speeds[b]));
+    let mut completed = vec![None; speeds.len()];
+    for point in points.iter().filter(|point| point.status == PointStatus::Completed) {
+        completed[point.index as usize] = Some(point);
+    }
+    let prediction = predict(reduced, request, ascending.iter().map(|&index| speeds[index]), monitor)?;
+    let ordered: Vec<Option<&Point>> = ascending.iter().map(|&index| completed[index]).collect();
+    let missing: Vec<u32> =
+        (0..).zip(&completed).filter(|(_, point)| point.is_none()).map(|(i, _)| i).collect();
+    let table = |(sensor, &of): (usize, &Sensor)| CriticalSpeeds {
+        sensor: of,
+        critical_speeds: response_peaks(&ordered, sensor, &prediction.0),
+        linear_crossings: prediction.0.clone(),
+        driven_crossings: prediction.1.clone(),
+        missing: missing.clone(),
+        units: reduced.units.clone(),
+        settings: request.clone(),
+        reduction: reduced.report.clone(),
+        version: VERSION.to_owned(),
+    };
+    Ok(request.sensors.iter().enumerate().map(table).collect())
+}
+
+/// Prominent peaks of one sensor's level over ascending speeds, each with the nearest linear crossing.
+fn response_peaks(ordered: &[Option<&Point>], sensor: usize, linear: &[Crossing]) -> Vec<CriticalSpeed> {
+    let level = |point: &&Point| point.responses[sensor].rms;
+    let curve: Vec<Option<f64>> = ordered.iter().map(|point| point.as_ref().map(level)).collect();
+    let critical = peaks(&curve, PROMINENT).into_iter().filter_map(|peak| {
+        let point = ordered[peak.index]?;
+        let response = &point.responses[sensor];
+        let distance = |crossing: &&Crossing| (crossing.speed_rad_s - point.speed_rad_s).abs();
+        let nearest = linear.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).cloned();
+        Some(CriticalSpeed {
+            speed_rad_s: point.speed_rad_s,
+            index: point.index,
+            at_edge: peak.at_edge,
+            rms: response.rms,
+            half_peak_to_peak: response.half_peak_to_peak,
+            prominence: peak.prominence,
+            dominant_engine_order: response.dominant_engine_order,
+            dominant_nodal_diameter: response.dominant_nodal_diameter,
+            settling: point.settling.as_ref()?.verdict,
+            distance_rad_s: nearest.as_ref().map(|crossing| point.speed_rad_s - crossing.speed_rad_s),
+            nearest_crossing: nearest,
+        })
+    });
+    critical.collect()
+}
+
+/// Linear and driven crossings over the range of a sweep.
+fn predict(
+    reduced: &ReducedSector,
+    request: &SweepRequest,
+    ascending: impl Iterator<Item = f64>,
+    monitor: &dyn Monitor,
+) -> Result<(Vec<Crossing>, Vec<DrivenCrossing>), AnalysisError> {
+    let source = WheelFrequencies { wheel: &reduced.wheel, stiffening: request.scene.centrifugal_stiffening };
+    // Repeated speeds would bracket nothing; speeds at which the model fails predict nothing.
+    let mut speeds: Vec<f64> = ascending.collect();
+    speeds.dedup();
+    let (mut grid, mut table) = (Vec::new(), Vec::new());
+    for (done, &speed) in speeds.iter().enumerate() {
+        monitor.progress(done as f64 / speeds.len() as f64, "linear prediction");
+        if monitor.is_cancelled() {
+            return Err(AnalysisError::Cancelled);
+        }
+        if let Ok(row) = source.row(speed, PREDICTED_FAMILIES) {
+            grid.push(speed);
+            table.push(row);
+        }
+    }
+    let linear = crossings(&source, &table, &grid, PREDICTED_FAMILIES, &PREDICTED_SUPERHARMONICS);
+    let lobes = request.scene.casing.as_ref().and_then(|casing| casing.lobes.as_ref()).map_or(0, |l| l.count);
+    let sectors = reduced.wheel.sectors as u32;
+    let driven = driven_crossings(
+        &source,
+        &table,
+        &grid,
+        PREDICTED_FAMILIES,
+        lobes,
+        request.max_engine_order,
+        sectors,
+    );
+    Ok((linear, driven))
+}
