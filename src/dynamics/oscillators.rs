@@ -449,12 +449,12 @@ pub struct Direction {
 impl RowBlock {
     /// The rows of `group` in `part` (`re` or `im`), each cut to `vectors` vectors so that no index needs a check.
     #[inline(always)]
-    fn rows<'a, S: Simd, const R: usize>(
-        part: &'a [f64],
+    fn rows<S: Simd, const R: usize>(
+        part: &[f64],
         group: [usize; R],
         length: usize,
         vectors: usize,
-    ) -> [&'a [S::f64s]; R] {
+    ) -> [&[S::f64s]; R] {
         let mut rows: [&[S::f64s]; R] = [&[]; R];
         for (slice, row) in rows.iter_mut().zip(group) {
             *slice = &S::as_simd_f64s(&part[row * length..][..length]).0[..vectors];

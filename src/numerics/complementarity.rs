@@ -58,6 +58,9 @@ pub struct ActiveSetSolver {
     statistics: PivotStatistics,
 }
 
+/// Active indices whose factor is reserved beforehand; more of them at once make it grow, once.
+const RESERVED: usize = 256;
+
 /// Block exchanges without progress before single exchanges begin.
 const GRACE: usize = 3;
 
@@ -71,7 +74,7 @@ impl ActiveSetSolver {
             gap: vec![0.0; size],
             violated: Vec::with_capacity(size),
             factored: Vec::with_capacity(size),
-            factor: Vec::new(),
+            factor: Vec::with_capacity(RESERVED * (RESERVED + 1) / 2),
             statistics: PivotStatistics::default(),
         }
     }
