@@ -3,13 +3,12 @@
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::PI;
 
-use faer::linalg::solvers::Solve;
 use rubmap::dynamics::sector::Units;
 use rubmap::impeller::element::{gauss_points, jacobian_determinant, mass, stiffness};
 use rubmap::impeller::mesh::HexMesh;
 use rubmap::impeller::{
-    ImpellerError, ImpellerParameters, Material, MeshDensities, SectorDofs, SectorMatrices, assemble,
-    element, generate, impeller_sector,
+    ImpellerError, ImpellerParameters, Material, MeshDensities, SectorDofs, assemble, element, generate,
+    impeller_sector,
 };
 use rubmap::package::raw::{RawMatrix, RawPackage};
 
@@ -308,63 +307,4 @@ fn other_shapes_are_generated_too() {
 fn the_same_parameters_give_the_same_package() {
     let p = ImpellerParameters::default();
     assert_eq!(generate(&p).unwrap(), generate(&p).unwrap());
-}
-
-/// Static n·u at each contact node under a unit force along its own normal on one blade: the mean over the harmonics.
-fn normal_compliances(package: &RawPackage) -> Vec<f64> {
-    let sectors = package.manifest.sectors;
-    let mut compliances = vec![0.0; package.manifest.contact.len()];
-    for i in 0..sectors {
-        let k = harmonic(package, &package.stiffness[0], i);
-        let factor = k.sp_cholesky(faer::Side::Lower).unwrap();
-        for (tip, compliance) in package.manifest.contact.iter().zip(&mut compliances) {
-            let mut normal = faer::Mat::<faer::c64>::zeros(k.nrows(), 1);
-            for (row, dof) in package.dofs.iter().enumerate().filter(|(_, dof)| dof.node == tip.node) {
-                normal[(row, 0)].re = tip.normal[usize::from(dof.component) - 1];
-            }
-            let u = factor.solve(&normal);
-            *compliance += (normal.adjoint() * &u)[(0, 0)].re / sectors as f64;
-        }
-    }
-    compliances
-}
-
-/// Prints the table of frequencies of the default, or of `IMPELLER_JSON`; run with `--ignored --nocapture`.
-#[test]
-#[ignore = "a table for people, not a check"]
-fn print_frequencies() {
-    let p: ImpellerParameters = match std::env::var("IMPELLER_JSON") {
-        Ok(text) => serde_json::from_str(&text).unwrap(),
-        Err(_) => ImpellerParameters::default(),
-    };
-    let start = std::time::Instant::now();
-    let package = generate(&p).unwrap();
-    let pairs = package.manifest.cyclic.len();
-    println!("{} rows, {pairs} cyclic pairs, {:?}", package.dofs.len(), start.elapsed());
-    let matrices = SectorMatrices::assemble(&impeller_sector(&p).unwrap(), &p.material).unwrap();
-    let square = p.top_speed_rad_s.powi(2);
-    let von_mises = |s: &nalgebra::Vector6<f64>| {
-        let shear: f64 = (3..6).map(|i| 3.0 * s[i] * s[i]).sum();
-        let [a, b, c] = [s[0] - s[1], s[1] - s[2], s[2] - s[0]];
-        (0.5 * (a * a + b * b + c * c) + shear).sqrt()
-    };
-    let stress = matrices.prestress.stresses.iter().flatten().map(von_mises).fold(0.0, f64::max);
-    let moved = |u: &[f64; 3]| u.iter().map(|c| c * c).sum::<f64>().sqrt();
-    let displacement = matrices.prestress.displacements.iter().map(moved).fold(0.0, f64::max);
-    println!("at Ω1: von Mises stress {:.1}, displacement {:.4}", square * stress, square * displacement);
-    for (tip, compliance) in package.manifest.contact.iter().zip(normal_compliances(&package)) {
-        println!(
-            "contact node {}, normal {:.3?}: {compliance:.3e} length/force at rest",
-            tip.node, tip.normal
-        );
-    }
-    for (s, speed) in package.manifest.speeds_rad_s.iter().enumerate() {
-        println!("Ω = {speed} rad/s");
-        for i in 0..=p.sectors / 2 {
-            match frequencies(&package, s, i, 6) {
-                Some(f) => println!("  {i}: {f:.1?}"),
-                None => println!("  {i}: not positive definite, or not converged"),
-            }
-        }
-    }
 }

@@ -2,7 +2,7 @@
 //!
 //! Three looks, from cheap to conclusive: the diagonal and the 2 × 2 minors of Y0 (a principal submatrix of the
 //! wheel's mass) name the node to blame; then sparse Cholesky factorisations of all harmonic matrices M̂(i), which
-//! together are the wheel. The last is done up to [`LARGEST_FACTORISED`] DOF; beyond, the reduction finds out.
+//! together are the wheel. The last is done up to [`LARGEST_FACTORISED`] DOF; beyond, the reduction factors the mass itself.
 
 use std::f64::consts::TAU;
 
