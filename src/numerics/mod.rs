@@ -7,6 +7,8 @@ pub mod block_lanczos;
 pub mod complementarity;
 pub mod hermitian;
 pub mod matrix_serde;
+pub mod multifrontal;
+pub mod nested_dissection;
 pub mod orthonormal;
 pub mod sector_fourier;
 pub mod sparse_cholesky;

@@ -1,8 +1,6 @@
 //! Sparse Cholesky factorisation A = Pᵀ L Lᴴ P of positive definite matrices, real or Hermitian, nested-dissection
 //! ordered.
 
-use std::collections::BTreeSet;
-
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::perm::PermRef;
 use faer::sparse::linalg::SupernodalThreshold;
@@ -17,7 +15,8 @@ use faer::traits::{
     math_utils::{is_finite, zero},
 };
 use faer::{Conj, MatMut, Par, Side};
-use feral_scotch::{CscPattern, scotch_order};
+
+use super::nested_dissection::nested_dissection;
 
 /// The matrix is not positive definite.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -79,36 +78,6 @@ impl SymbolicFactor {
             SymbolicCholeskyRaw::Simplicial(_) => unreachable!("the supernodal form was demanded"),
         }
     }
-}
-
-/// Nested-dissection order of the graph of nodes, expanded to rows: `order[new] = old`.
-fn nested_dissection(pattern: SymbolicSparseColMatRef<'_, usize>, group: &[usize]) -> Vec<usize> {
-    let groups = group.iter().max().map_or(0, |last| last + 1);
-    let mut neighbours = vec![BTreeSet::new(); groups];
-    for column in 0..pattern.ncols() {
-        for row in pattern.row_idx_of_col(column) {
-            if group[row] != group[column] {
-                neighbours[group[column]].insert(group[row] as i32);
-                neighbours[group[row]].insert(group[column] as i32);
-            }
-        }
-    }
-    let mut starts = Vec::with_capacity(groups + 1);
-    starts.push(0i32);
-    let mut rows = Vec::new();
-    for set in &neighbours {
-        rows.extend(set.iter().copied());
-        starts.push(rows.len() as i32);
-    }
-    // A graph without an order of its own (one node, or the library refusing it) is factored as numbered.
-    let order: Vec<usize> = CscPattern::new(groups, &starts, &rows)
-        .and_then(|graph| scotch_order(&graph).ok())
-        .map_or_else(|| (0..groups).collect(), |order| order.iter().map(|&g| g as usize).collect());
-    let mut members = vec![Vec::new(); groups];
-    for (row, &g) in group.iter().enumerate() {
-        members[g].push(row);
-    }
-    order.into_iter().flat_map(|g| std::mem::take(&mut members[g])).collect()
 }
 
 /// The numeric factor L of one matrix.

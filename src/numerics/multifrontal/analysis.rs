@@ -1,0 +1,222 @@
+//! Structure of the factor: which rows each front eliminates, and what it passes to which.
+
+use std::ops::Range;
+
+use faer::Side;
+use faer::perm::PermRef;
+use faer::sparse::SymbolicSparseColMatRef;
+use faer::sparse::linalg::SupernodalThreshold;
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, SymbolicCholeskyRaw, SymmetricOrdering, factorize_symbolic_cholesky,
+};
+
+/// The elimination tree of fronts for one sparsity pattern and order.
+#[derive(Debug)]
+pub struct Analysis {
+    /// Rows of the matrix.
+    pub(super) size: usize,
+    /// Rows that are eliminated; the boundary follows.
+    pub(super) eliminated: usize,
+    /// In elimination order: children before parents.
+    pub(super) fronts: Vec<Front>,
+    /// Fronts whose updates reach the boundary.
+    pub(super) roots: Vec<usize>,
+    /// Disjoint subtrees, each a run of consecutive fronts ending with its root.
+    pub(super) subtrees: Vec<Vec<usize>>,
+    /// Fronts above the subtrees.
+    pub(super) top: Vec<usize>,
+}
+
+/// Consecutive rows eliminated together.
+#[derive(Debug)]
+pub(super) struct Front {
+    /// First row eliminated.
+    pub(super) start: usize,
+    /// Rows eliminated.
+    pub(super) pivots: usize,
+    /// Rows below them that they reach, ascending.
+    pub(super) rows: Vec<usize>,
+    /// Fronts whose updates are added here.
+    pub(super) children: Vec<usize>,
+}
+
+impl Front {
+    /// Row of the matrix at position `i` of the front.
+    pub(super) fn row(&self, i: usize) -> usize {
+        if i < self.pivots { self.start + i } else { self.rows[i - self.pivots] }
+    }
+
+    /// Multiplications of its elimination.
+    fn work(&self) -> f64 {
+        let (p, r) = (self.pivots as f64, self.rows.len() as f64);
+        p * p * p / 3.0 + p * p * r + p * r * r
+    }
+}
+
+/// Subtrees with less than this share of the whole work are not split further: enough pieces for a few threads, and
+/// never so many that their updates fill the memory.
+const SUBTREE_SHARE: f64 = 1.0 / 24.0;
+
+impl Analysis {
+    /// Analyses `pattern` (square, both triangles, rows in elimination order): the first `eliminated` rows are to go,
+    /// the rest is the boundary. The order should be postordered ([`postorder`]), or fronts stay small.
+    pub fn new(pattern: SymbolicSparseColMatRef<'_, usize>, eliminated: usize) -> Self {
+        let size = pattern.ncols();
+        let mut fronts = Vec::new();
+        let identity: Vec<usize> = (0..size).collect();
+        let params = CholeskySymbolicParams {
+            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+            ..Default::default()
+        };
+        // SymbolicOrdering::Identity takes the wrong triangle in faer 0.24.
+        let order = SymmetricOrdering::Custom(PermRef::new_checked(&identity, &identity, size));
+        let symbolic = factorize_symbolic_cholesky(pattern, Side::Lower, order, params)
+            .unwrap_or_else(|_| panic!("out of memory in the symbolic factorisation of {size} rows"));
+        let SymbolicCholeskyRaw::Supernodal(supernodes) = symbolic.raw() else {
+            unreachable!("the supernodal form was demanded")
+        };
+        let mut front_of = vec![usize::MAX; eliminated];
+        for s in 0..supernodes.n_supernodes() {
+            let (start, end) = (supernodes.supernode_begin()[s], supernodes.supernode_end()[s]);
+            if start >= eliminated {
+                break;
+            }
+            // A supernode across the border is cut there.
+            let pivots = end.min(eliminated) - start;
+            let rows =
+                (start + pivots..end).chain(supernodes.supernode(s).pattern().iter().copied()).collect();
+            front_of[start..start + pivots].fill(fronts.len());
+            fronts.push(Front { start, pivots, rows, children: Vec::new() });
+        }
+        let mut roots = Vec::new();
+        for child in 0..fronts.len() {
+            match fronts[child].rows.first() {
+                Some(&row) if row < eliminated => fronts[front_of[row]].children.push(child),
+                Some(_) => roots.push(child),
+                None => {}
+            }
+        }
+        let (subtrees, top) = split(&fronts);
+        Self { size, eliminated, fronts, roots, subtrees, top }
+    }
+
+    /// Rows of the matrix.
+    pub fn size(&self) -> usize {
+        self.size
+    }
+
+    /// Rows that are eliminated.
+    pub fn eliminated(&self) -> usize {
+        self.eliminated
+    }
+
+    /// Numbers in L and L_F.
+    pub fn factor_entries(&self) -> usize {
+        self.fronts.iter().map(|front| front.pivots * (front.pivots + front.rows.len())).sum()
+    }
+
+    /// Multiplications of a factorisation.
+    pub fn work(&self) -> f64 {
+        self.fronts.iter().map(Front::work).sum()
+    }
+
+    /// Numbers held at once beside the factor while it is made, at most: updates on their way up, and the boundary.
+    pub fn working_entries(&self) -> usize {
+        let square = |n: usize| n * n;
+        // Postordered, a front's children are the last updates made.
+        let (mut held, mut most) = (0, 0);
+        for front in &self.fronts {
+            held += square(front.rows.len());
+            most = most.max(held);
+            held -= front.children.iter().map(|&child| square(self.fronts[child].rows.len())).sum::<usize>();
+        }
+        most + square(self.size - self.eliminated)
+    }
+}
+
+/// Disjoint subtrees of small work, as runs of consecutive fronts, and the fronts above them.
+fn split(fronts: &[Front]) -> (Vec<Vec<usize>>, Vec<usize>) {
+    let mut work: Vec<f64> = fronts.iter().map(Front::work).collect();
+    // The first front of the subtree below each.
+    let mut first: Vec<usize> = (0..fronts.len()).collect();
+    let mut consecutive = vec![true; fronts.len()];
+    for (index, front) in fronts.iter().enumerate() {
+        let mut next = index;
+        for &child in front.children.iter().rev() {
+            work[index] += work[child];
+            consecutive[index] &= consecutive[child] && child + 1 == next;
+            next = first[child];
+        }
+        first[index] = next;
+    }
+    let whole: f64 = fronts.iter().map(Front::work).sum();
+    let small = |index: usize| consecutive[index] && work[index] <= SUBTREE_SHARE * whole;
+    let mut below = vec![false; fronts.len()];
+    let mut subtrees = Vec::new();
+    let mut top = Vec::new();
+    for index in (0..fronts.len()).rev() {
+        if below[index] {
+            continue;
+        }
+        if small(index) {
+            below[first[index]..=index].fill(true);
+            subtrees.push((first[index]..=index).collect());
+        } else {
+            top.push(index);
+        }
+    }
+    subtrees.reverse();
+    top.reverse();
+    (subtrees, top)
+}
+
+/// Postorder of the elimination tree of the rows in `range` of `pattern` (both triangles, in elimination order):
+/// `order[new] = old`, the same fill, with every subtree in consecutive rows. Rows outside `range` keep their place.
+pub fn postorder(pattern: SymbolicSparseColMatRef<'_, usize>, range: Range<usize>) -> Vec<usize> {
+    const NONE: usize = usize::MAX;
+    // Liu's algorithm with path compression.
+    let mut parent = vec![NONE; range.end];
+    let mut ancestor = vec![NONE; range.end];
+    for column in range.clone() {
+        for row in pattern.row_idx_of_col(column).filter(|&row| row < column && range.contains(&row)) {
+            let mut node = row;
+            while node != column {
+                let next = std::mem::replace(&mut ancestor[node], column);
+                if next == NONE {
+                    parent[node] = column;
+                    break;
+                }
+                node = next;
+            }
+        }
+    }
+    let mut first_child = vec![NONE; range.end];
+    let mut sibling = vec![NONE; range.end];
+    let mut roots = Vec::new();
+    for node in range.clone().rev() {
+        if parent[node] == NONE {
+            roots.push(node);
+        } else {
+            sibling[node] = std::mem::replace(&mut first_child[parent[node]], node);
+        }
+    }
+    let mut order: Vec<usize> = (0..range.start).collect();
+    let mut stack = roots;
+    let mut entered = vec![false; range.end];
+    while let Some(&node) = stack.last() {
+        if std::mem::replace(&mut entered[node], true) || first_child[node] == NONE {
+            order.push(node);
+            stack.pop();
+            continue;
+        }
+        let from = stack.len();
+        let mut child = first_child[node];
+        while child != NONE {
+            stack.push(child);
+            child = sibling[child];
+        }
+        stack[from..].reverse();
+    }
+    order.extend(range.end..pattern.ncols());
+    order
+}
