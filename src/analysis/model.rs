@@ -9,7 +9,8 @@ use super::monitor::Monitor;
 use super::result::{ReductionReport, StiffeningReport, StiffeningVerdict};
 use super::run::VERSION;
 use crate::dynamics::reduction::{
-    InterpolationCheck, InterpolationVerdict, ReducedWheel, ReductionError, ReductionOptions, reduce,
+    Checkpoints, InterpolationCheck, InterpolationVerdict, ReducedWheel, ReductionError, ReductionOptions,
+    reduce,
 };
 use crate::dynamics::sector::{SectorModel, Units};
 use crate::numerics::sector_fourier::is_single;
@@ -65,16 +66,21 @@ impl ModelFacts {
 pub fn prepare(
     sector: &SectorModel,
     modes_per_speed: u32,
+    memory_bytes: Option<u64>,
+    checkpoints: &dyn Checkpoints,
     monitor: &dyn Monitor,
 ) -> Result<ReducedSector, AnalysisError> {
     let start = Instant::now();
-    let options = ReductionOptions::new(modes_per_speed as usize);
+    let options = ReductionOptions { memory_bytes, ..ReductionOptions::new(modes_per_speed as usize) };
     let watch = |fraction: f64, phase: &str| {
         monitor.progress(fraction, phase);
         !monitor.is_cancelled()
     };
-    let wheel = reduce(sector, &options, &watch).map_err(|error| match error {
+    let wheel = reduce(sector, &options, checkpoints, &watch).map_err(|error| match error {
         ReductionError::Cancelled => AnalysisError::Cancelled,
+        ReductionError::Memory { needed_bytes, allowed_bytes } => {
+            AnalysisError::Memory { needed_bytes, allowed_bytes }
+        }
         ReductionError::Model(error) => error.into(),
     })?;
     let report = report(&wheel, &options, sector, start.elapsed().as_secs_f64());
@@ -89,7 +95,7 @@ fn report(
 ) -> ReductionReport {
     let size = |i: usize| wheel.harmonics[i].mass.nrows() as u32;
     let copies = |i: usize| if is_single(i, wheel.sectors) { 1 } else { 2 };
-    let residual = wheel.harmonics.iter().fold(0.0f64, |m, h| m.max(h.largest_mode_residual));
+    let residual = wheel.harmonics.iter().fold(0.0f64, |m, h| m.max(h.largest_mode_residual()));
     ReductionReport {
         modes_per_speed: options.modes_per_speed as u32,
         unknowns: (0..wheel.harmonics.len()).map(size).collect(),

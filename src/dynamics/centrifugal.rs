@@ -3,6 +3,7 @@
 use faer::{Mat, c64};
 use serde::{Deserialize, Serialize};
 
+use super::sector::{CyclicMatrix, SectorModel};
 use crate::numerics::matrix_serde;
 
 /// The polynomial of one Hermitian matrix through three speeds 0 < Ω_a < Ω_b, by divided differences in x = Ω².
@@ -40,6 +41,15 @@ impl StiffnessPolynomial {
             (coefficients, _) => coefficients[0].clone(),
         }
     }
+}
+
+/// K(Ω) of the full sector as a sum over its given matrices: weights of the polynomial in Ω² through them.
+pub(super) fn stiffness_terms(sector: &SectorModel, speed_rad_s: f64) -> Vec<(f64, &CyclicMatrix)> {
+    let x: Vec<f64> = sector.speeds_rad_s.iter().map(|speed| speed * speed).collect();
+    let at = speed_rad_s * speed_rad_s;
+    let weight =
+        |i: usize| (0..x.len()).filter(|&j| j != i).map(|j| (at - x[j]) / (x[i] - x[j])).product::<f64>();
+    sector.stiffness.iter().enumerate().map(|(i, matrix)| (weight(i), matrix)).collect()
 }
 
 #[cfg(test)]

@@ -93,7 +93,7 @@ pub fn harmonic_matrix(
 }
 
 /// e^{jiα}, exactly real where the harmonic is.
-fn phase(harmonic: usize, sectors: usize) -> c64 {
+pub(super) fn phase(harmonic: usize, sectors: usize) -> c64 {
     if harmonic == 0 {
         c64::new(1.0, 0.0)
     } else if 2 * harmonic == sectors {

@@ -51,6 +51,17 @@ pub enum ModelError {
         /// Block iterations done.
         iterations: usize,
     },
+    /// The count of eigenvalues below a shift exceeds the modes found.
+    #[error(
+        "fixed-interface modes of nodal diameter {nodal_diameter} at {speed_rad_s} rad/s were missed and not found in \
+         further searches; fewer `modes_per_speed` may avoid a cluster of them"
+    )]
+    ModesMissed {
+        /// Nodal diameter i.
+        nodal_diameter: usize,
+        /// Ω in rad/s.
+        speed_rad_s: f64,
+    },
     /// A dense decomposition of a small reduced matrix failed.
     #[error("the eigenvalue decomposition of nodal diameter {nodal_diameter} at {speed_rad_s} rad/s failed")]
     DecompositionFailed {

@@ -54,7 +54,7 @@ impl From<AnalysisError> for Halt {
             AnalysisError::Refused(violations) => {
                 Self::Failed(Failure { cause: FailureCause::Refused, message, violations })
             }
-            AnalysisError::Model(_) => {
+            AnalysisError::Model(_) | AnalysisError::Memory { .. } => {
                 Self::Failed(Failure { cause: FailureCause::Model, message, violations: Vec::new() })
             }
         }

@@ -84,7 +84,13 @@ impl Reductions {
                     let message = format!("the stored package cannot be read any more: {error}");
                     Halt::Failed(Failure { cause: FailureCause::Package, message, violations: Vec::new() })
                 })?;
-                Ok(run::prepare(&package.sector, modes_per_speed, &monitor)?)
+                Ok(run::prepare(
+                    &package.sector,
+                    modes_per_speed,
+                    None,
+                    &crate::dynamics::reduction::NoCheckpoints,
+                    &monitor,
+                )?)
             })
             .await??;
         self.store.insert_reduction(model, modes_per_speed, &reduced).await?;

@@ -12,16 +12,26 @@ use feral_scotch::{CscPattern, scotch_order};
 /// smaller graph of nodes.
 pub fn nested_dissection(pattern: SymbolicSparseColMatRef<'_, usize>, group: &[usize]) -> Vec<usize> {
     let groups = group.iter().max().map_or(0, |last| last + 1);
-    let mut neighbours = vec![BTreeSet::new(); groups];
-    for column in 0..pattern.ncols() {
-        for row in pattern.row_idx_of_col(column) {
-            if group[row] != group[column] {
-                neighbours[group[column]].insert(group[row] as i32);
-                neighbours[group[row]].insert(group[column] as i32);
-            }
+    let edges = (0..pattern.ncols())
+        .flat_map(|column| pattern.row_idx_of_col(column).map(move |row| (group[row], group[column])));
+    let order = dissection(groups, edges);
+    let mut members = vec![Vec::new(); groups];
+    for (row, &g) in group.iter().enumerate() {
+        members[g].push(row);
+    }
+    order.into_iter().flat_map(|g| std::mem::take(&mut members[g])).collect()
+}
+
+/// Nested-dissection order of a graph of `nodes` nodes, given by edges in any number and direction:
+/// `order[new] = old`.
+pub fn dissection(nodes: usize, edges: impl Iterator<Item = (usize, usize)>) -> Vec<usize> {
+    let mut neighbours = vec![BTreeSet::new(); nodes];
+    for (a, b) in edges {
+        if a != b && neighbours[a].insert(b as i32) {
+            neighbours[b].insert(a as i32);
         }
     }
-    let mut starts = Vec::with_capacity(groups + 1);
+    let mut starts = Vec::with_capacity(nodes + 1);
     starts.push(0i32);
     let mut rows = Vec::new();
     for set in &neighbours {
@@ -29,12 +39,7 @@ pub fn nested_dissection(pattern: SymbolicSparseColMatRef<'_, usize>, group: &[u
         starts.push(rows.len() as i32);
     }
     // A graph without an order of its own (one node, or the library refusing it) is factored as numbered.
-    let order: Vec<usize> = CscPattern::new(groups, &starts, &rows)
+    CscPattern::new(nodes, &starts, &rows)
         .and_then(|graph| scotch_order(&graph).ok())
-        .map_or_else(|| (0..groups).collect(), |order| order.iter().map(|&g| g as usize).collect());
-    let mut members = vec![Vec::new(); groups];
-    for (row, &g) in group.iter().enumerate() {
-        members[g].push(row);
-    }
-    order.into_iter().flat_map(|g| std::mem::take(&mut members[g])).collect()
+        .map_or_else(|| (0..nodes).collect(), |order| order.iter().map(|&node| node as usize).collect())
 }

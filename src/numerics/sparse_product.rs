@@ -1,39 +1,82 @@
-//! Product of a sparse matrix with a few dense columns.
+//! Product of a sparse symmetric matrix with many dense vectors.
 
 use faer::sparse::SparseColMat;
-use faer::{Mat, MatRef, c64};
+use faer::{Mat, MatRef};
+use pulp::{Simd, WithSimd};
 
-/// A X for a sparse A (`m × n`) and a dense X (`n × k`).
+/// X A for a symmetric sparse A (`n × n`, both triangles stored) and vectors in the rows of X (`width × n`).
 ///
-/// Works on rows of X held together, eight columns at a time, so that every entry of A is read once per eight columns
-/// and meets contiguous memory (measured: five times faster than the library's column-by-column product on the
-/// matrices of a sector).
-pub fn sparse_product(a: &SparseColMat<usize, c64>, x: MatRef<'_, c64>) -> Mat<c64> {
-    const GROUP: usize = 8;
-    let zero = c64::new(0.0, 0.0);
-    let mut product = Mat::zeros(a.nrows(), x.ncols());
-    let mut rows = vec![[zero; GROUP]; a.nrows()];
-    for first in (0..x.ncols()).step_by(GROUP) {
-        let width = GROUP.min(x.ncols() - first);
-        rows.fill([zero; GROUP]);
-        for j in 0..a.ncols() {
-            let mut from = [zero; GROUP];
-            for (c, value) in from[..width].iter_mut().enumerate() {
-                *value = x[(j, first + c)];
+/// All values of one unknown lie together, so every entry of A is read once per group of vectors and meets contiguous
+/// memory (some ten times faster than a product column by column on the matrices of a sector).
+pub fn symmetric_product(a: &SparseColMat<usize, f64>, x: MatRef<'_, f64>) -> Mat<f64> {
+    assert!(a.nrows() == a.ncols() && a.ncols() == x.ncols(), "one column of X per unknown");
+    pulp::Arch::new().dispatch(Product { a, x })
+}
+
+struct Product<'a> {
+    a: &'a SparseColMat<usize, f64>,
+    x: MatRef<'a, f64>,
+}
+
+impl WithSimd for Product<'_> {
+    type Output = Mat<f64>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Mat<f64> {
+        let Self { a, x } = self;
+        let (width, n) = (x.nrows(), x.ncols());
+        let lanes = S::F64_LANES;
+        // Contiguous and padded to whole vectors, whatever the layout of X is.
+        let stride = width.next_multiple_of(lanes);
+        let vectors = stride / lanes;
+        let mut packed = vec![0.0; n * stride];
+        for j in 0..n {
+            for (to, from) in packed[j * stride..].iter_mut().zip(x.col(j).iter()) {
+                *to = *from;
             }
-            for (i, value) in a.row_idx_of_col(j).zip(a.val_of_col(j)) {
-                for (to, from) in rows[i].iter_mut().zip(&from) {
-                    *to += value * from;
+        }
+        let packed = S::as_simd_f64s(&packed).0;
+        let mut product = Mat::zeros(width, n);
+        let mut sums = vec![0.0; stride];
+        for j in 0..n {
+            let (rows, values) = (a.row_idx_of_col_raw(j), a.val_of_col(j));
+            let whole = S::as_mut_simd_f64s(&mut sums).0;
+            for (group, sums) in whole.chunks_mut(4).enumerate() {
+                let from = &packed[4 * group..];
+                match sums.len() {
+                    4 => column::<S, 4>(simd, rows, values, from, vectors, sums),
+                    3 => column::<S, 3>(simd, rows, values, from, vectors, sums),
+                    2 => column::<S, 2>(simd, rows, values, from, vectors, sums),
+                    _ => column::<S, 1>(simd, rows, values, from, vectors, sums),
                 }
             }
-        }
-        for (i, row) in rows.iter().enumerate() {
-            for (c, value) in row[..width].iter().enumerate() {
-                product[(i, first + c)] = *value;
+            for (to, from) in product.col_mut(j).iter_mut().zip(&sums) {
+                *to = *from;
             }
         }
+        product
     }
-    product
+}
+
+/// Σ_i a_i x_i over one column of A for `G` SIMD vectors, kept in registers.
+#[inline(always)]
+fn column<S: Simd, const G: usize>(
+    simd: S,
+    rows: &[usize],
+    values: &[f64],
+    x: &[S::f64s],
+    stride: usize,
+    sums: &mut [S::f64s],
+) {
+    let mut kept = [simd.splat_f64s(0.0); G];
+    for (&row, &value) in rows.iter().zip(values) {
+        let from = &x[row * stride..][..G];
+        let factor = simd.splat_f64s(value);
+        for g in 0..G {
+            kept[g] = simd.mul_add_e_f64s(factor, from[g], kept[g]);
+        }
+    }
+    sums.copy_from_slice(&kept);
 }
 
 #[cfg(test)]
@@ -43,12 +86,17 @@ mod tests {
 
     #[test]
     fn equals_the_dense_product() {
-        let entry = |i: usize, j: usize| c64::new((i * 7 + j) as f64 % 5.0 - 2.0, (i + 3 * j) as f64 % 4.0);
-        let triplets: Vec<_> = (0..40).map(|e| Triplet::new(e * 3 % 11, e * 5 % 7, entry(e, e))).collect();
-        let a = SparseColMat::try_new_from_triplets(11, 7, &triplets).unwrap();
-        for columns in [0, 1, 8, 13] {
-            let x = Mat::from_fn(7, columns, entry);
-            assert!((sparse_product(&a, x.as_ref()) - a.to_dense() * &x).norm_max() < 1e-12);
+        let entry = |i: usize, j: usize| (i * 7 + j) as f64 % 5.0 - 2.0;
+        let mut triplets = Vec::new();
+        for e in 0..60 {
+            let (i, j) = (e * 3 % 23, e * 5 % 19);
+            triplets.push(Triplet::new(i, j, entry(i, e)));
+            triplets.push(Triplet::new(j, i, entry(i, e)));
+        }
+        let a = SparseColMat::try_new_from_triplets(23, 23, &triplets).unwrap();
+        for width in [0, 1, 8, 13, 40, 57] {
+            let x = Mat::from_fn(width, 23, entry);
+            assert!((symmetric_product(&a, x.as_ref()) - &x * a.to_dense()).norm_max() < 1e-12);
         }
     }
 }

@@ -9,20 +9,34 @@
 //! ```
 
 mod basis;
+mod checkpoints;
+mod comparison;
+mod condensed;
+mod count;
 mod interpolation;
+mod memory;
+mod modes;
+mod speed;
+mod untied;
 
+use faer::sparse::SparseColMat;
 use faer::{Mat, c64};
 use serde::{Deserialize, Serialize};
 
 use super::centrifugal::StiffnessPolynomial;
-use super::cyclic::{HarmonicMatrix, Partition, harmonic_matrix};
 use super::error::ModelError;
 use super::modal_wheel::natural_frequencies;
 use super::sector::{ContactNode, SectorModel};
 use crate::numerics::matrix_serde;
 use crate::numerics::sector_fourier::harmonic_count;
-use crate::numerics::sparse_product::sparse_product;
+use basis::Basis;
+use condensed::SectorFactor;
+use speed::{SpeedPart, Work};
+use untied::UntiedSector;
 
+pub use checkpoints::{Checkpoints, NoCheckpoints};
+pub use comparison::FrequencyComparison;
+pub use count::ModeCount;
 pub use interpolation::{InterpolationCheck, InterpolationVerdict};
 
 /// Settings of the reduction.
@@ -35,12 +49,14 @@ pub struct ReductionOptions {
     /// smaller values keep nearly dependent directions, which only become the stiffest modes of the wheel and
     /// shrink the stable step (1560 unknowns: 1.9 times at 1e-8).
     pub basis_tolerance: f64,
+    /// Bytes the reduction may use; it refuses to start where it needs more.
+    pub memory_bytes: Option<u64>,
 }
 
 impl ReductionOptions {
-    /// `modes_per_speed` modes with the default tolerance.
+    /// `modes_per_speed` modes with the default tolerance and no limit on memory.
     pub fn new(modes_per_speed: usize) -> Self {
-        Self { modes_per_speed, basis_tolerance: 1e-5 }
+        Self { modes_per_speed, basis_tolerance: 1e-5, memory_bytes: None }
     }
 }
 
@@ -54,8 +70,28 @@ pub struct ReducedHarmonic {
     pub mass: Mat<c64>,
     /// K_r(Ω).
     pub stiffness: StiffnessPolynomial,
+    /// Its fixed-interface modes at each given speed, with the proof that they are the lowest ones.
+    pub certificates: Vec<ModeCertificate>,
+}
+
+/// Fixed-interface modes of one nodal diameter at one given speed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ModeCertificate {
+    /// Speed of the stiffness, rad/s.
+    pub speed_rad_s: f64,
+    /// Eigenvalues λ = ω², ascending, (rad/s)².
+    pub eigenvalues: Vec<f64>,
+    /// ‖Kx − λMx‖/‖Kx‖ of each.
+    pub residuals: Vec<f64>,
+    /// The count of eigenvalues below a shift above them; none where they are all there are.
+    pub count: Option<ModeCount>,
+}
+
+impl ReducedHarmonic {
     /// Largest ‖Kx − λMx‖/‖Kx‖ of its fixed-interface modes.
-    pub largest_mode_residual: f64,
+    pub fn largest_mode_residual(&self) -> f64 {
+        self.certificates.iter().flat_map(|certificate| &certificate.residuals).fold(0.0, |m, &r| m.max(r))
+    }
 }
 
 /// The reduced wheel at every speed: all that simulations need of a sector.
@@ -71,6 +107,8 @@ pub struct ReducedWheel {
     pub harmonics: Vec<ReducedHarmonic>,
     /// How far K(Ω) can be trusted between the given speeds.
     pub interpolation: InterpolationCheck,
+    /// The lowest frequencies beside the full sector's, at the given speeds and between them.
+    pub comparison: Vec<FrequencyComparison>,
 }
 
 impl ReducedWheel {
@@ -86,6 +124,14 @@ pub enum ReductionError {
     /// The model cannot be reduced.
     #[error(transparent)]
     Model(#[from] ModelError),
+    /// It would not fit into the memory allowed.
+    #[error("the reduction needs some {needed_bytes} bytes of memory, and {allowed_bytes} are allowed")]
+    Memory {
+        /// Estimate.
+        needed_bytes: u64,
+        /// From the options.
+        allowed_bytes: u64,
+    },
     /// The caller asked to stop.
     #[error("cancelled")]
     Cancelled,
@@ -94,82 +140,130 @@ pub enum ReductionError {
 /// Watches a reduction: called with the share of work done and what comes next; `false` stops it.
 pub type Watch<'a> = &'a (dyn Fn(f64, &str) -> bool + 'a);
 
-/// Reduces `sector`. Deterministic; everything runs on the calling thread.
+/// Reduces `sector`.
+///
+/// One real factor of the untied sector per speed serves every nodal diameter (condensed.rs). Deterministic: what runs
+/// in parallel, on the current rayon pool, is independent or summed in a fixed order. Parts that `checkpoints` has
+/// are not computed again.
 pub fn reduce(
     sector: &SectorModel,
     options: &ReductionOptions,
+    checkpoints: &dyn Checkpoints,
     watch: Watch<'_>,
 ) -> Result<ReducedWheel, ReductionError> {
-    let contact_dofs = sector.contact.iter().flat_map(|node| node.dofs).collect();
-    let partition = Partition::new(sector.own_dofs(), contact_dofs);
-    let count = harmonic_count(sector.sectors);
-    let mut harmonics = Vec::with_capacity(count);
-    for harmonic in 0..count {
-        let scoped = |fraction: f64, phase: &str| {
-            let text = format!("reduction, nodal diameter {harmonic}: {phase}");
-            watch((harmonic as f64 + fraction) / count as f64, &text)
-        };
-        harmonics.push(reduce_harmonic(sector, harmonic, &partition, options, &scoped)?);
+    let scoped = |from: f64, to: f64| {
+        move |share: f64, phase: &str| watch(from + (to - from) * share, &format!("reduction: {phase}"))
+    };
+    let harmonics = harmonic_count(sector.sectors);
+    if !watch(0.0, "reduction: ordering") {
+        return Err(ReductionError::Cancelled);
     }
+    check_mass(sector, harmonics)?;
+    let matrices: Vec<_> = std::iter::once(&sector.mass).chain(&sector.stiffness).collect();
+    let untied = UntiedSector::new(sector, &matrices);
+    let needed_bytes = memory::needed_bytes(sector, &untied, options.modes_per_speed, harmonics);
+    if let Some(allowed_bytes) = options.memory_bytes.filter(|&allowed| needed_bytes > allowed) {
+        return Err(ReductionError::Memory { needed_bytes, allowed_bytes });
+    }
+    let mass = untied.assemble(&[(1.0, &sector.mass)]);
+    let modes_per_speed = options.modes_per_speed.min(untied.internal());
+    let work = Work { sector, untied: &untied, mass: &mass, modes_per_speed, harmonics, checkpoints };
+
+    let given = sector.speeds_rad_s.len() as f64;
+    let mut parts = Vec::with_capacity(sector.speeds_rad_s.len());
+    for index in 0..sector.speeds_rad_s.len() {
+        let (from, to) = (0.02 + 0.73 * index as f64 / given, 0.02 + 0.73 * (index as f64 + 1.0) / given);
+        parts.push(work.at_given_speed(index, &scoped(from, to))?);
+    }
+    let mut full: Vec<_> =
+        sector.speeds_rad_s.iter().copied().zip(parts.iter().map(|p| p.full.clone())).collect();
+    if let [_, _, top] = *sector.speeds_rad_s {
+        for (name, speed, from) in [("between-1", 0.25 * top, 0.75), ("between-2", 0.75 * top, 0.84)] {
+            full.push((speed, work.at_speed_between(name, speed, &scoped(from, from + 0.09))?));
+        }
+    }
+    let harmonics = project(&work, options, &parts, &scoped(0.93, 1.0))?;
+    drop(parts);
     let interpolation = interpolation::check(sector, &harmonics)?;
+    let comparison =
+        full.iter().flat_map(|(speed, full)| comparison::compare(&harmonics, *speed, full)).collect();
     Ok(ReducedWheel {
         sectors: sector.sectors,
         contact: sector.contact.clone(),
         speeds_rad_s: sector.speeds_rad_s.clone(),
         harmonics,
         interpolation,
+        comparison,
     })
 }
 
-fn reduce_harmonic(
-    sector: &SectorModel,
-    harmonic: usize,
-    partition: &Partition,
+/// Refuses a mass that is not positive definite. Modes see only the low end of the spectrum; an indefinite mass may
+/// hide at the other.
+fn check_mass(sector: &SectorModel, harmonics: usize) -> Result<(), ModelError> {
+    let untied = UntiedSector::new(sector, &[&sector.mass]);
+    let mass = untied.assemble(&[(1.0, &sector.mass)]);
+    let indefinite = |nodal_diameter| ModelError::MassNotPositiveDefinite { nodal_diameter };
+    let factor = SectorFactor::new(&untied, &mass).map_err(|_| indefinite(0))?;
+    (0..harmonics).try_for_each(|h| factor.tie(&mass, h).map(|_| ()).map_err(|_| indefinite(h)))
+}
+
+/// The reduced matrices of every nodal diameter (Eq. 6).
+fn project(
+    work: &Work<'_>,
     options: &ReductionOptions,
+    parts: &[SpeedPart],
     watch: Watch<'_>,
-) -> Result<ReducedHarmonic, ReductionError> {
-    let build = |matrix| harmonic_matrix(matrix, harmonic, sector.sectors, partition);
-    let mass = build(&sector.mass);
-    let stiffness: Vec<_> = sector.stiffness.iter().map(build).collect();
-    let basis = basis::reduction_basis(sector, harmonic, partition, &mass, &stiffness, options, watch)?;
-    let projected = stiffness.iter().map(|k| basis.project(k)).collect();
-    let reduced = ReducedHarmonic {
-        harmonic,
-        mass: basis.project(&mass),
-        stiffness: StiffnessPolynomial::fit(projected, &sector.speeds_rad_s),
-        largest_mode_residual: basis.largest_mode_residual,
+) -> Result<Vec<ReducedHarmonic>, ReductionError> {
+    let speeds = &work.sector.speeds_rad_s;
+    let mut projected: Vec<Vec<Mat<c64>>> = vec![Vec::new(); work.harmonics];
+    let bases: Vec<Basis<'_>> = (0..work.harmonics)
+        .map(|h| {
+            let modes: Vec<&Mat<c64>> = parts.iter().map(|part| &part.harmonics[h].modes.vectors).collect();
+            let static_modes = &parts[0].harmonics[h].static_modes[0];
+            Basis::new(
+                work.untied,
+                work.mass,
+                work.untied.tie(h),
+                static_modes,
+                &modes,
+                options.basis_tolerance,
+            )
+        })
+        .collect::<Result<_, _>>()?;
+    let mut project_all = |matrix: &SparseColMat<usize, f64>, share: f64, name: &str| {
+        for (h, (basis, projected)) in bases.iter().zip(&mut projected).enumerate() {
+            if !watch(
+                share + 0.25 * h as f64 / bases.len() as f64,
+                &format!("projecting {name}, nodal diameter {h}"),
+            ) {
+                return Err(ReductionError::Cancelled);
+            }
+            projected.push(basis.project(matrix));
+        }
+        Ok(())
     };
-    // A wheel that is not held at rest is no model at any speed.
-    natural_frequencies(&reduced, 0.0, true)?;
-    Ok(reduced)
-}
-
-/// Υ̂ without its identity block.
-struct Basis {
-    /// Ψ_s(0), `n_i × n_b`.
-    static_modes: Mat<c64>,
-    /// Ψ*, `n_i × r`, mass-orthonormal.
-    modes: Mat<c64>,
-    largest_mode_residual: f64,
-}
-
-impl Basis {
-    /// Υ̂ᴴ Ŷ Υ̂, Hermitian to the last bit (Eq. 6).
-    fn project(&self, y: &HarmonicMatrix) -> Mat<c64> {
-        let (n_b, r) = (self.static_modes.ncols(), self.modes.ncols());
-        let inner_static = sparse_product(&y.internal, self.static_modes.as_ref()) + y.coupling.to_dense();
-        let inner_modes = sparse_product(&y.internal, self.modes.as_ref());
-        let contact = y.contact.to_dense()
-            + y.coupling.adjoint() * &self.static_modes
-            + self.static_modes.adjoint() * &inner_static;
-        let mixed = inner_static.adjoint() * &self.modes;
-        let modal = self.modes.adjoint() * &inner_modes;
-        let full = Mat::from_fn(n_b + r, n_b + r, |i, j| match (i < n_b, j < n_b) {
-            (true, true) => contact[(i, j)],
-            (true, false) => mixed[(i, j - n_b)],
-            (false, true) => mixed[(j, i - n_b)].conj(),
-            (false, false) => modal[(i - n_b, j - n_b)],
-        });
-        Mat::from_fn(n_b + r, n_b + r, |i, j| (full[(i, j)] + full[(j, i)].conj()) * 0.5)
+    project_all(work.mass, 0.0, "the mass")?;
+    for (index, speed) in speeds.iter().enumerate() {
+        let stiffness = work.untied.assemble(&[(1.0, &work.sector.stiffness[index])]);
+        project_all(&stiffness, 0.25 * (index as f64 + 1.0), &format!("the stiffness at {speed} rad/s"))?;
     }
+    let finish = |(h, mut matrices): (usize, Vec<Mat<c64>>)| {
+        let stiffness = matrices.split_off(1);
+        let certificate = |(part, &speed_rad_s): (&SpeedPart, &f64)| ModeCertificate {
+            speed_rad_s,
+            eigenvalues: part.harmonics[h].modes.values.clone(),
+            residuals: part.harmonics[h].modes.residuals.clone(),
+            count: part.counts[h],
+        };
+        let reduced = ReducedHarmonic {
+            harmonic: h,
+            mass: matrices.remove(0),
+            stiffness: StiffnessPolynomial::fit(stiffness, speeds),
+            certificates: parts.iter().zip(speeds).map(certificate).collect(),
+        };
+        // A wheel that is not held at rest is no model at any speed.
+        natural_frequencies(&reduced, 0.0, true)?;
+        Ok(reduced)
+    };
+    projected.into_iter().enumerate().map(finish).collect()
 }

@@ -11,7 +11,7 @@ use faer::sparse::linalg::cholesky::{
 };
 
 /// The elimination tree of fronts for one sparsity pattern and order.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Analysis {
     /// Rows of the matrix.
     pub(super) size: usize,

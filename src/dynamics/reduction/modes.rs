@@ -1,0 +1,260 @@
+//! Lowest modes of many nodal diameters at once: block Lanczos on L̂⁻¹ M̂ L̂⁻ᴴ, residuals checked.
+//!
+//! Every nodal diameter has its own Krylov basis; all of them go through the one sparse factor together, so that
+//! solves run at level-3 speed even with small blocks.
+
+use faer::sparse::SparseColMat;
+use faer::{Mat, MatRef, c64};
+use rayon::iter::{IntoParallelRefMutIterator, ParallelIterator};
+use serde::{Deserialize, Serialize};
+
+use super::condensed::{Load, SectorFactor, TiedFactor};
+use super::untied::{Tie, UntiedSector};
+use crate::numerics::block_lanczos::{BlockLanczos, Ritz};
+use crate::numerics::hermitian::generalised_eigenpairs;
+use crate::numerics::matrix_serde;
+
+/// Lowest modes of one nodal diameter at one stiffness.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(super) struct Modes {
+    /// λ = ω² ascending, (rad/s)².
+    pub(super) values: Vec<f64>,
+    /// ‖Kx − λMx‖/‖Kx‖ of each.
+    pub(super) residuals: Vec<f64>,
+    /// Tied vectors, mass-orthonormal.
+    #[serde(with = "matrix_serde")]
+    pub(super) vectors: Mat<c64>,
+    /// Eigenvalues beyond `values` that are located well enough to be counted.
+    pub(super) beyond: Vec<f64>,
+}
+
+/// What is asked of a search.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Wanted {
+    /// Modes of each nodal diameter; all of them where there are fewer.
+    pub(super) count: usize,
+    /// Vectors advanced together; also the multiplicity of an eigenvalue found without luck.
+    pub(super) block: usize,
+    /// Whether contact DOF are free.
+    pub(super) free: bool,
+}
+
+/// Why no modes were returned.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum ModeError {
+    /// The tolerance was not reached.
+    NotConverged { harmonic: usize, residual: f64, block_steps: usize },
+    /// A mode without mass: M is singular on more of the space than the modes asked for leave out.
+    Massless { harmonic: usize },
+    /// A dense decomposition inside the iteration failed.
+    DenseFailed { harmonic: usize },
+    /// The caller's `keep_going` said no.
+    Stopped,
+}
+
+/// Accepted ‖Kx − λMx‖/‖Kx‖ of every returned pair. 1e-8 in x is 1e-16 in λ; 1e-9 leaves a margin.
+const TOLERANCE: f64 = 1e-9;
+/// An eigenvalue is located, for counting, once its Ritz pair has this error.
+const LOCATED: f64 = 1e-4;
+/// Block steps before giving up, or enough for eight times the modes asked for.
+const MAX_BLOCK_STEPS: usize = 200;
+/// Spaces up to this size are solved densely: the Krylov space would be most of the whole.
+const DENSE_SIZE: usize = 200;
+
+/// K and M of the untied sector, with the factor of K.
+pub(super) struct Pencil<'a> {
+    pub(super) untied: &'a UntiedSector,
+    pub(super) stiffness: &'a SparseColMat<usize, f64>,
+    pub(super) mass: &'a SparseColMat<usize, f64>,
+    pub(super) factor: &'a SectorFactor<'a>,
+}
+
+/// One nodal diameter's search.
+struct Search<'a> {
+    position: usize,
+    tied: &'a TiedFactor,
+    lanczos: BlockLanczos,
+    ritz: Option<Ritz>,
+    last_error: f64,
+}
+
+impl Pencil<'_> {
+    /// The lowest modes of every nodal diameter in `ties`. Deterministic; `keep_going(share)` is asked before every
+    /// block step with a guess at the share of the work done.
+    pub(super) fn lowest_modes(
+        &self,
+        ties: &[&TiedFactor],
+        wanted: Wanted,
+        keep_going: &dyn Fn(f64) -> bool,
+    ) -> Result<Vec<Modes>, ModeError> {
+        let rows = self.untied.internal() + if wanted.free { self.untied.contact() } else { 0 };
+        let count = wanted.count.min(rows);
+        if rows <= DENSE_SIZE.max(3 * count) {
+            return ties.iter().map(|tied| self.dense(&tied.tie, rows, count)).collect();
+        }
+        let search = |(position, tied)| Search {
+            position,
+            tied,
+            lanczos: BlockLanczos::new(rows, wanted.block),
+            ritz: None,
+            last_error: f64::INFINITY,
+        };
+        let mut active: Vec<Search<'_>> = ties.iter().copied().enumerate().map(search).collect();
+        let mut found: Vec<Option<Modes>> = vec![None; ties.len()];
+        let limit = MAX_BLOCK_STEPS.max(8 * count / wanted.block);
+        for step in 1..=limit {
+            // Some five vectors a mode, seen over many sectors.
+            if !keep_going((step as f64 * wanted.block as f64 / (5.0 * count as f64)).min(0.95)) {
+                return Err(ModeError::Stopped);
+            }
+            let mut loads: Vec<Load<'_>> = active
+                .iter()
+                .map(|search| Load { tied: search.tied, vectors: search.lanczos.last_block().to_owned() })
+                .collect();
+            self.factor.apply(self.mass, &mut loads);
+            let images: Vec<Mat<c64>> = loads.into_iter().map(|load| load.vectors).collect();
+            let mut pairs: Vec<_> = active.iter_mut().zip(images).collect();
+            pairs.par_iter_mut().for_each(|(search, image)| {
+                search.advance(std::mem::replace(image, Mat::new()), count, step)
+            });
+            let mut waiting = Vec::new();
+            for mut search in active {
+                let harmonic = search.tied.tie.harmonic;
+                let Some(ritz) = search.ritz.take() else {
+                    waiting.push(search);
+                    continue;
+                };
+                let modes = self.modes(&search, ritz, count)?;
+                let worst =
+                    modes.residuals.iter().fold(0.0f64, |worst, &r| if r <= worst { worst } else { r });
+                if worst <= TOLERANCE {
+                    found[search.position] = Some(modes);
+                } else if search.lanczos.is_full() {
+                    return Err(ModeError::NotConverged { harmonic, residual: worst, block_steps: step });
+                } else {
+                    search.last_error = worst;
+                    waiting.push(search);
+                }
+            }
+            active = waiting;
+            if active.is_empty() {
+                return Ok(found.into_iter().flatten().collect());
+            }
+            active.par_iter_mut().for_each(|search| search.lanczos.extend());
+        }
+        let search = &active[0];
+        Err(ModeError::NotConverged {
+            harmonic: search.tied.tie.harmonic,
+            residual: search.last_error,
+            block_steps: limit,
+        })
+    }
+
+    /// Modes from Ritz pairs: x = L̂⁻ᴴ y/√θ.
+    fn modes(&self, search: &Search<'_>, ritz: Ritz, count: usize) -> Result<Modes, ModeError> {
+        let harmonic = search.tied.tie.harmonic;
+        if ritz.values[..count].iter().any(|&theta| theta.is_nan() || theta <= 0.0) {
+            return Err(ModeError::Massless { harmonic });
+        }
+        // A few columns each, so that they spread over the threads.
+        const COLUMNS: usize = 6;
+        let whole = search.lanczos.assemble(ritz.coefficients.subcols(0, count));
+        let columns = |first: usize| whole.subcols(first, COLUMNS.min(count - first)).to_owned();
+        let mut loads: Vec<Load<'_>> = (0..count)
+            .step_by(COLUMNS)
+            .map(|first| Load { tied: search.tied, vectors: columns(first) })
+            .collect();
+        self.factor.half_adjoint(&mut loads);
+        let mut vectors = Mat::zeros(whole.nrows(), count);
+        for (part, load) in loads.iter().enumerate() {
+            for (j, column) in load.vectors.col_iter().enumerate() {
+                let m = part * COLUMNS + j;
+                let scale = 1.0 / ritz.values[m].sqrt();
+                for (to, from) in vectors.col_mut(m).iter_mut().zip(column.iter()) {
+                    *to = from * scale;
+                }
+            }
+        }
+        let values: Vec<f64> = ritz.values[..count].iter().map(|theta| 1.0 / theta).collect();
+        let residuals = self.residuals(&search.tied.tie, &values, vectors.as_ref());
+        let beyond = (count..ritz.values.len())
+            .take_while(|&m| ritz.values[m] > 0.0 && ritz.errors[m] <= LOCATED)
+            .map(|m| 1.0 / ritz.values[m])
+            .collect();
+        Ok(Modes { values, residuals, vectors, beyond })
+    }
+
+    /// The dense solution, on M x = θ K x like the iteration: the lowest modes are then accurate to round-off even
+    /// where M is nearly singular.
+    fn dense(&self, tie: &Tie, rows: usize, count: usize) -> Result<Modes, ModeError> {
+        let harmonic = tie.harmonic;
+        let [m, k] = [self.mass, self.stiffness].map(|matrix| self.untied.tied_dense(matrix, tie, rows));
+        let pairs = generalised_eigenpairs(m.as_ref(), k.as_ref())
+            .map_err(|_| ModeError::DenseFailed { harmonic })?;
+        let theta = |m: usize| pairs.values[rows - 1 - m];
+        if (0..count).any(|m| theta(m).is_nan() || theta(m) <= 0.0) {
+            return Err(ModeError::Massless { harmonic });
+        }
+        let values: Vec<f64> = (0..count).map(|m| 1.0 / theta(m)).collect();
+        let vectors =
+            Mat::from_fn(rows, count, |i, m| pairs.vectors[(i, rows - 1 - m)] * (1.0 / theta(m).sqrt()));
+        let residuals = self.residuals(tie, &values, vectors.as_ref());
+        let residual = residuals.iter().fold(0.0f64, |worst, &r| if r <= worst { worst } else { r });
+        if residual > TOLERANCE {
+            return Err(ModeError::NotConverged { harmonic, residual, block_steps: 0 });
+        }
+        let beyond =
+            (count..rows).map(theta).take_while(|&theta| theta > 0.0).map(|theta| 1.0 / theta).collect();
+        Ok(Modes { values, residuals, vectors, beyond })
+    }
+
+    /// ‖Kx − λMx‖/‖Kx‖ of every column. What the round-off of Kx alone may leave, 64 ε ‖|K||x|‖, counts as the
+    /// tolerance and no more: no eigensolver can do better on a stiffness of high contrast.
+    fn residuals(&self, tie: &Tie, values: &[f64], vectors: MatRef<'_, c64>) -> Vec<f64> {
+        let kx = self.untied.product(self.stiffness, tie, vectors);
+        let mx = self.untied.product(self.mass, tie, vectors);
+        let ratios: Vec<(f64, f64)> = (0..values.len())
+            .map(|j| {
+                let terms = kx.col(j).iter().zip(mx.col(j).iter());
+                let residual = terms.map(|(k, m)| (k - m * values[j]).norm_sqr()).sum::<f64>().sqrt();
+                (residual, kx.col(j).norm_l2())
+            })
+            .collect();
+        if ratios.iter().all(|(residual, norm)| residual <= &(TOLERANCE * norm)) {
+            return ratios
+                .iter()
+                .map(|(residual, norm)| if *norm > 0.0 { residual / norm } else { 0.0 })
+                .collect();
+        }
+        let mut magnitudes = self.stiffness.clone();
+        magnitudes.val_mut().iter_mut().for_each(|value| *value = value.abs());
+        let terms =
+            Mat::from_fn(vectors.nrows(), vectors.ncols(), |i, j| c64::new(vectors[(i, j)].norm(), 0.0));
+        // Tied without its phases, which have magnitude one.
+        let terms = self.untied.product(&magnitudes, &self.untied.tie(0), terms.as_ref());
+        let floor = |j: usize| 64.0 * f64::EPSILON * terms.col(j).norm_l2() / TOLERANCE;
+        ratios.iter().enumerate().map(|(j, (residual, norm))| residual / norm.max(floor(j))).collect()
+    }
+}
+
+impl Search<'_> {
+    /// Takes the image of the last block; leaves Ritz pairs where the wanted ones seem to have converged.
+    fn advance(&mut self, image: Mat<c64>, count: usize, step: usize) {
+        self.lanczos.absorb(image);
+        let full = self.lanczos.is_full();
+        // The dense projection costs more than a step once it is large: look at it every other step.
+        if !full && (self.lanczos.columns() < 2 * count || step % 2 == 1) {
+            return;
+        }
+        let columns = self.lanczos.columns();
+        // A decomposition that fails once may succeed with the next block.
+        let Ok(ritz) = self.lanczos.ritz(columns) else { return };
+        let worst = ritz.errors[..count].iter().fold(0.0f64, |worst, &e| if e <= worst { worst } else { e });
+        self.last_error = worst;
+        // Two more located eigenvalues leave room for a shift above the wanted ones.
+        let located = ritz.errors.iter().skip(count).take_while(|&&error| error <= LOCATED).count();
+        if full || (worst <= 0.1 * TOLERANCE && located >= 2) {
+            self.ritz = Some(ritz);
+        }
+    }
+}

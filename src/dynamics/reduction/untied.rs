@@ -1,0 +1,335 @@
+//! The sector with its faces untied: one set of real matrices for every nodal diameter (§2).
+//!
+//! Rows are the interior in elimination order, the low face, the high face, the contact DOF (and the high copies of
+//! those of them that lie on the low face). A nodal diameter ties the high face to the low one, u_H = e^{jiα} u_L; its
+//! vectors hold interior, low face and contact DOF:
+//!
+//! ```text
+//! untied  [ I | L | H | b ]        tied  [ I | L | b ],  u_H = e^{jiα} u_L        Ŷ(i) = Tᴴ Y T
+//! ```
+
+use faer::sparse::{SparseColMat, SymbolicSparseColMat};
+use faer::{Mat, MatMut, MatRef, c64};
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
+
+use crate::dynamics::cyclic::phase;
+use crate::dynamics::sector::{CyclicMatrix, SectorModel};
+use crate::numerics::multifrontal::{Analysis, postorder};
+use crate::numerics::nested_dissection::dissection;
+use crate::numerics::sector_fourier::is_single;
+use crate::numerics::sparse_product::symmetric_product;
+
+/// How one nodal diameter ties the faces.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Tie {
+    /// Nodal diameter i.
+    pub(super) harmonic: usize,
+    /// e^{jiα}
+    phase: c64,
+    /// Whether everything about it is real.
+    single: bool,
+}
+
+/// Numbering of the untied rows, and what a factorisation of them looks like.
+#[derive(Debug)]
+pub(super) struct UntiedSector {
+    sectors: usize,
+    /// Rows of the interior.
+    interior: usize,
+    /// Rows of one face.
+    face: usize,
+    /// Contact DOF.
+    contact: usize,
+    /// Contact DOF that lie on the low face: their high copies come last.
+    shared: Vec<usize>,
+    /// Untied row of each own DOF.
+    place: Vec<usize>,
+    /// Row on the high face of each low-face DOF; its own row elsewhere.
+    high: Vec<usize>,
+    /// Elimination of the interior, for every matrix of the sector.
+    pub(super) analysis: Analysis,
+}
+
+impl UntiedSector {
+    /// Numbers and analyses the sector for `matrices` and their combinations.
+    pub(super) fn new(sector: &SectorModel, matrices: &[&CyclicMatrix]) -> Self {
+        let own = sector.own_dofs();
+        let contact: Vec<usize> = sector.contact.iter().flat_map(|node| node.dofs).collect();
+        let mut on_low = vec![false; own];
+        for matrix in matrices {
+            for (column, on_low) in on_low.iter_mut().enumerate() {
+                *on_low |= !matrix.next.row_idx_of_col_raw(column).is_empty();
+            }
+        }
+        let mut inside: Vec<bool> = on_low.iter().map(|low| !low).collect();
+        contact.iter().for_each(|&dof| inside[dof] = false);
+        let interior: Vec<usize> = interior_order(sector, matrices, &inside);
+        let shared: Vec<usize> = (0..contact.len()).filter(|&k| on_low[contact[k]]).collect();
+        contact.iter().for_each(|&dof| on_low[dof] = false);
+        let low: Vec<usize> = (0..own).filter(|&dof| on_low[dof]).collect();
+        let mut untied = Self {
+            sectors: sector.sectors,
+            interior: interior.len(),
+            face: low.len(),
+            contact: contact.len(),
+            shared,
+            place: vec![usize::MAX; own],
+            high: Vec::new(),
+            analysis: Analysis::default(),
+        };
+        let rows = interior.iter().chain(&low);
+        rows.enumerate().for_each(|(row, &dof)| untied.place[dof] = row);
+        let first_contact = interior.len() + 2 * low.len();
+        contact.iter().enumerate().for_each(|(k, &dof)| untied.place[dof] = first_contact + k);
+        untied.high = untied.place.clone();
+        low.iter().for_each(|&dof| untied.high[dof] += low.len());
+        let after = first_contact + contact.len();
+        untied.shared.iter().enumerate().for_each(|(row, &k)| untied.high[contact[k]] = after + row);
+
+        let pattern = untied.pattern(matrices);
+        let order = postorder(pattern.as_ref(), 0..untied.interior);
+        let mut new_row = vec![0; order.len()];
+        order.iter().enumerate().for_each(|(new, &old)| new_row[old] = new);
+        untied.place.iter_mut().chain(&mut untied.high).for_each(|row| *row = new_row[*row]);
+        untied.analysis = Analysis::new(untied.pattern(matrices).as_ref(), untied.interior);
+        untied
+    }
+
+    /// Rows of untied matrices.
+    pub(super) fn size(&self) -> usize {
+        self.interior + 2 * self.face + self.contact + self.shared.len()
+    }
+
+    /// Rows of the interior.
+    pub(super) fn interior(&self) -> usize {
+        self.interior
+    }
+
+    /// Rows of one face.
+    pub(super) fn face(&self) -> usize {
+        self.face
+    }
+
+    /// Contact DOF n_b.
+    pub(super) fn contact(&self) -> usize {
+        self.contact
+    }
+
+    /// Internal rows of tied vectors n_i: interior and low face.
+    pub(super) fn internal(&self) -> usize {
+        self.interior + self.face
+    }
+
+    /// The tie of nodal diameter `harmonic`.
+    pub(super) fn tie(&self, harmonic: usize) -> Tie {
+        let phase = phase(harmonic, self.sectors);
+        Tie { harmonic, phase, single: is_single(harmonic, self.sectors) }
+    }
+
+    /// Σ factor · matrix over `terms`, untied, both triangles.
+    pub(super) fn assemble(&self, terms: &[(f64, &CyclicMatrix)]) -> SparseColMat<usize, f64> {
+        let matrices: Vec<&CyclicMatrix> = terms.iter().map(|&(_, matrix)| matrix).collect();
+        let (starts, rows, values) =
+            self.gather(&matrices, |term, value| terms[term].0 * value, |sum, value| *sum += value);
+        let symbolic = SymbolicSparseColMat::new_checked(self.size(), self.size(), starts, None, rows);
+        SparseColMat::new(symbolic, values)
+    }
+
+    /// Positions of the entries of any of `matrices`.
+    fn pattern(&self, matrices: &[&CyclicMatrix]) -> SymbolicSparseColMat<usize> {
+        // Most exporters write the same entries at every speed.
+        let mut distinct: Vec<&CyclicMatrix> = Vec::new();
+        for &matrix in matrices {
+            if !distinct.iter().any(|known| same_pattern(known, matrix)) {
+                distinct.push(matrix);
+            }
+        }
+        let (starts, rows, _) = self.gather(&distinct, |_, _| (), |(), ()| ());
+        SymbolicSparseColMat::new_checked(self.size(), self.size(), starts, None, rows)
+    }
+
+    /// Entries of all `matrices` by column, then row: column starts, rows, values; `value` of an entry of a matrix,
+    /// and `add` for entries that fall together.
+    fn gather<T: Copy + Send + Sync>(
+        &self,
+        matrices: &[&CyclicMatrix],
+        value: impl Fn(usize, f64) -> T,
+        add: impl Fn(&mut T, T) + Sync,
+    ) -> (Vec<usize>, Vec<usize>, Vec<T>) {
+        let mut ends = vec![0usize; self.size() + 1];
+        self.visit(matrices, |_, column, _, _| ends[column + 1] += 1);
+        for column in 0..self.size() {
+            ends[column + 1] += ends[column];
+        }
+        let starts = ends.clone();
+        let mut entries: Vec<Option<(u32, T)>> = vec![None; starts[self.size()]];
+        self.visit(matrices, |row, column, matrix, number| {
+            entries[ends[column]] = Some((row as u32, value(matrix, number)));
+            ends[column] += 1;
+        });
+        let column = |column: usize| {
+            let mut found: Vec<(u32, T)> =
+                entries[starts[column]..starts[column + 1]].iter().copied().flatten().collect();
+            found.sort_by_key(|&(row, _)| row);
+            found.dedup_by(|next, kept| {
+                let same = next.0 == kept.0;
+                if same {
+                    add(&mut kept.1, next.1);
+                }
+                same
+            });
+            found
+        };
+        let columns: Vec<Vec<(u32, T)>> = (0..self.size()).into_par_iter().map(column).collect();
+        let mut starts = vec![0];
+        let mut rows = Vec::new();
+        let mut values = Vec::new();
+        for column in columns {
+            rows.extend(column.iter().map(|&(row, _)| row as usize));
+            values.extend(column.iter().map(|&(_, value)| value));
+            starts.push(rows.len());
+        }
+        (starts, rows, values)
+    }
+
+    /// Calls `entry(row, column, matrix, value)` for every untied entry of each matrix.
+    fn visit(&self, matrices: &[&CyclicMatrix], mut entry: impl FnMut(usize, usize, usize, f64)) {
+        for (index, matrix) in matrices.iter().enumerate() {
+            for from in matrix.own.triplet_iter() {
+                entry(self.place[from.row], self.place[from.col], index, *from.val);
+            }
+            for from in matrix.next.triplet_iter() {
+                entry(self.place[from.row], self.high[from.col], index, *from.val);
+                entry(self.high[from.col], self.place[from.row], index, *from.val);
+            }
+        }
+    }
+
+    /// Tied row and factor of every boundary row (low face, high face, contact), u_F = T u: rows count from the
+    /// first face row.
+    pub(super) fn boundary(&self, tie: &Tie) -> Vec<(usize, c64)> {
+        let one = c64::new(1.0, 0.0);
+        let low = (0..self.face).map(|row| (row, one));
+        let high = (0..self.face).map(|row| (row, tie.phase));
+        let contact = (0..self.contact).map(|row| (self.face + row, one));
+        let shared = self.shared.iter().map(|&row| (self.face + row, tie.phase));
+        low.chain(high).chain(contact).chain(shared).collect()
+    }
+
+    /// Real vectors that stand for `columns` tied ones.
+    pub(super) fn width(tie: &Tie, columns: usize) -> usize {
+        if tie.single { columns } else { 2 * columns }
+    }
+
+    /// Writes T x for tied vectors `x` into the rows of `into` (`width × size`): real parts, then imaginary parts.
+    /// Contact rows missing in `x` are zero.
+    pub(super) fn expand(&self, tie: &Tie, x: MatRef<'_, c64>, mut into: MatMut<'_, f64>) {
+        let count = x.ncols();
+        let boundary = self.boundary(tie);
+        for q in 0..count {
+            let column = x.col(q);
+            let mut put = |row: usize, value: c64| {
+                into[(q, row)] = value.re;
+                if !tie.single {
+                    into[(count + q, row)] = value.im;
+                }
+            };
+            (0..self.interior).for_each(|row| put(row, column[row]));
+            for (row, &(tied, factor)) in boundary.iter().enumerate() {
+                let tied = self.interior + tied;
+                let value = if tied < x.nrows() { column[tied] * factor } else { c64::new(0.0, 0.0) };
+                put(self.interior + row, value);
+            }
+        }
+    }
+
+    /// Tᴴ y of untied vectors in the rows of `y`, the first `rows` of the tied ones.
+    pub(super) fn fold(&self, tie: &Tie, y: MatRef<'_, f64>, rows: usize) -> Mat<c64> {
+        let count = if tie.single { y.nrows() } else { y.nrows() / 2 };
+        let get =
+            |row: usize, q: usize| c64::new(y[(q, row)], if tie.single { 0.0 } else { y[(count + q, row)] });
+        let mut folded =
+            Mat::from_fn(
+                rows,
+                count,
+                |row, q| {
+                    if row < self.interior { get(row, q) } else { c64::new(0.0, 0.0) }
+                },
+            );
+        for (row, (tied, factor)) in self.boundary(tie).into_iter().enumerate() {
+            let tied = self.interior + tied;
+            if tied < rows {
+                (0..count).for_each(|q| folded[(tied, q)] += get(self.interior + row, q) * factor.conj());
+            }
+        }
+        folded
+    }
+
+    /// Ŷ(i) x for tied vectors `x`, with `matrix` the untied Y; as many rows as `x` has. Columns in parallel.
+    pub(super) fn product(
+        &self,
+        matrix: &SparseColMat<usize, f64>,
+        tie: &Tie,
+        x: MatRef<'_, c64>,
+    ) -> Mat<c64> {
+        const COLUMNS: usize = 8;
+        let parts: Vec<Mat<c64>> = (0..x.ncols().div_ceil(COLUMNS))
+            .into_par_iter()
+            .map(|part| {
+                let first = part * COLUMNS;
+                let columns = x.subcols(first, COLUMNS.min(x.ncols() - first));
+                let mut panel = Mat::zeros(Self::width(tie, columns.ncols()), self.size());
+                self.expand(tie, columns, panel.as_mut());
+                self.fold(tie, symmetric_product(matrix, panel.as_ref()).as_ref(), x.nrows())
+            })
+            .collect();
+        let mut product = Mat::zeros(x.nrows(), x.ncols());
+        for (part, columns) in parts.iter().enumerate() {
+            product.subcols_mut(part * COLUMNS, columns.ncols()).copy_from(columns);
+        }
+        product
+    }
+
+    /// The first `rows` rows and columns of Ŷ(i), with `matrix` the untied Y.
+    pub(super) fn tied_dense(&self, matrix: &SparseColMat<usize, f64>, tie: &Tie, rows: usize) -> Mat<c64> {
+        let boundary = self.boundary(tie);
+        let place = |row: usize| match row.checked_sub(self.interior) {
+            None => (row, c64::new(1.0, 0.0)),
+            Some(row) => (self.interior + boundary[row].0, boundary[row].1),
+        };
+        let mut dense = Mat::zeros(rows, rows);
+        for entry in matrix.triplet_iter() {
+            let ((row, left), (column, right)) = (place(entry.row), place(entry.col));
+            if row < rows && column < rows {
+                dense[(row, column)] += left.conj() * right * *entry.val;
+            }
+        }
+        dense
+    }
+}
+
+fn same_pattern(a: &CyclicMatrix, b: &CyclicMatrix) -> bool {
+    let same = |a: &SparseColMat<usize, f64>, b: &SparseColMat<usize, f64>| {
+        a.symbolic().col_ptr() == b.symbolic().col_ptr() && a.symbolic().row_idx() == b.symbolic().row_idx()
+    };
+    same(&a.own, &b.own) && same(&a.next, &b.next)
+}
+
+/// Own DOF inside the sector in nested-dissection order.
+fn interior_order(sector: &SectorModel, matrices: &[&CyclicMatrix], inside: &[bool]) -> Vec<usize> {
+    let node = &sector.node_of_dof;
+    let nodes = node.iter().max().map_or(0, |last| last + 1);
+    let mut members = vec![Vec::new(); nodes];
+    (0..inside.len()).filter(|&dof| inside[dof]).for_each(|dof| members[node[dof]].push(dof));
+    let mut number = vec![usize::MAX; nodes];
+    let kept: Vec<usize> = (0..nodes).filter(|&n| !members[n].is_empty()).collect();
+    kept.iter().enumerate().for_each(|(index, &n)| number[n] = index);
+    let edges = matrices.iter().flat_map(|matrix| matrix.own.triplet_iter()).filter_map(|entry| {
+        let between = inside[entry.row] && inside[entry.col];
+        between.then(|| (number[node[entry.row]], number[node[entry.col]]))
+    });
+    dissection(kept.len(), edges)
+        .into_iter()
+        .flat_map(|index| std::mem::take(&mut members[kept[index]]))
+        .collect()
+}
