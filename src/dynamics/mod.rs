@@ -5,7 +5,6 @@ mod bouncing_bar;
 pub mod casing;
 pub mod centrifugal;
 pub mod contact;
-pub mod cyclic;
 pub mod energy;
 pub mod error;
 pub mod integrate;

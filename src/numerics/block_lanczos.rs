@@ -24,6 +24,8 @@ pub struct BlockLanczos {
     block: usize,
     vectors: Mat<c64>,
     columns: usize,
+    /// Vectors there is memory for.
+    room: usize,
     projected: Mat<c64>,
     /// A times the last block, orthogonalised against the basis.
     remainder: Mat<c64>,
@@ -34,7 +36,7 @@ impl BlockLanczos {
     pub fn new(n: usize, block: usize) -> Self {
         let start = pseudo_random(n, block);
         let vectors = start.qr().compute_thin_Q();
-        Self { block, vectors, columns: block, projected: Mat::new(), remainder: Mat::new() }
+        Self { block, vectors, columns: block, room: block, projected: Mat::new(), remainder: Mat::new() }
     }
 
     /// Vectors of the basis.
@@ -58,13 +60,19 @@ impl BlockLanczos {
     }
 
     /// Records the image of the last block.
+    ///
+    /// In exact arithmetic it reaches back two blocks only; these are taken out first, so that one pass over the whole
+    /// basis leaves it orthogonal to round-off.
     pub fn absorb(&mut self, mut image: Mat<c64>) {
+        let near = self.columns.min(2 * self.block);
+        let recent = self.vectors.subcols(self.columns - near, near);
+        let first = recent.adjoint() * &image;
+        image -= recent * &first;
         let known = self.vectors.subcols(0, self.columns);
         let mut coefficients = known.adjoint() * &image;
         image -= known * &coefficients;
-        let correction = known.adjoint() * &image;
-        image -= known * &correction;
-        coefficients += correction;
+        let mut recent = coefficients.subrows_mut(self.columns - near, near);
+        recent += &first;
         let old = self.projected.nrows();
         self.projected.resize_with(self.columns, self.columns, |_, _| c64::new(0.0, 0.0));
         for j in 0..self.block {
@@ -91,18 +99,27 @@ impl BlockLanczos {
     }
 
     /// Takes what was new in the last image as the next block. Where it has lost rank (an invariant subspace is
-    /// complete), the decomposition supplies other directions, which a second pass makes orthogonal to the basis.
+    /// complete), the decomposition supplies other directions, which further passes make orthogonal to the basis.
     pub fn extend(&mut self) {
         let remainder = std::mem::replace(&mut self.remainder, Mat::new());
         let known = self.vectors.subcols(0, self.columns);
-        let mut next = remainder.qr().compute_thin_Q();
-        for _ in 0..2 {
-            let overlap = known.adjoint() * &next;
-            next -= known * &overlap;
-            next = next.qr().compute_thin_Q();
+        let factor = remainder.qr();
+        let size = |j: usize| factor.thin_R()[(j, j)].norm();
+        let largest = (0..self.block).map(size).fold(0.0, f64::max);
+        let mut next = factor.compute_thin_Q();
+        if (0..self.block).any(|j| size(j) <= 1e-6 * largest) || largest <= 1e-12 * self.projected.norm_max()
+        {
+            for _ in 0..2 {
+                let overlap = known.adjoint() * &next;
+                next -= known * &overlap;
+                next = next.qr().compute_thin_Q();
+            }
         }
-        let n = self.vectors.nrows();
-        let old = self.columns;
+        let (n, old) = (self.vectors.nrows(), self.columns);
+        if old + self.block > self.room {
+            self.room = old + old / 2 + self.block;
+            self.vectors.reserve(n, self.room);
+        }
         self.vectors.resize_with(n, old + self.block, |i, j| next[(i, j - old)]);
         self.columns += self.block;
     }

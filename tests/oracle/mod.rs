@@ -3,6 +3,9 @@
 //! physical contact DOF of all sectors, dense products, nalgebra's factorisations, and an iterative
 //! complementarity solver.
 
+pub(crate) mod cyclic;
+pub(crate) mod plain;
+
 use std::f64::consts::TAU;
 use std::ops::Range;
 

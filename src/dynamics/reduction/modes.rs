@@ -37,6 +37,8 @@ pub(super) struct Wanted {
     pub(super) block: usize,
     /// Whether contact DOF are free.
     pub(super) free: bool,
+    /// Accepted ‖Kx − λMx‖/‖Kx‖ of every returned pair; its square is the relative error of λ.
+    pub(super) tolerance: f64,
 }
 
 /// Why no modes were returned.
@@ -52,8 +54,6 @@ pub(super) enum ModeError {
     Stopped,
 }
 
-/// Accepted ‖Kx − λMx‖/‖Kx‖ of every returned pair. 1e-8 in x is 1e-16 in λ; 1e-9 leaves a margin.
-const TOLERANCE: f64 = 1e-9;
 /// An eigenvalue is located, for counting, once its Ritz pair has this error.
 const LOCATED: f64 = 1e-4;
 /// Block steps before giving up, or enough for eight times the modes asked for.
@@ -90,7 +90,7 @@ impl Pencil<'_> {
         let rows = self.untied.internal() + if wanted.free { self.untied.contact() } else { 0 };
         let count = wanted.count.min(rows);
         if rows <= DENSE_SIZE.max(3 * count) {
-            return ties.iter().map(|tied| self.dense(&tied.tie, rows, count)).collect();
+            return ties.iter().map(|tied| self.dense(&tied.tie, rows, count, wanted.tolerance)).collect();
         }
         let search = |(position, tied)| Search {
             position,
@@ -115,7 +115,7 @@ impl Pencil<'_> {
             let images: Vec<Mat<c64>> = loads.into_iter().map(|load| load.vectors).collect();
             let mut pairs: Vec<_> = active.iter_mut().zip(images).collect();
             pairs.par_iter_mut().for_each(|(search, image)| {
-                search.advance(std::mem::replace(image, Mat::new()), count, step)
+                search.advance(std::mem::replace(image, Mat::new()), count, wanted.tolerance, step)
             });
             let mut waiting = Vec::new();
             for mut search in active {
@@ -124,10 +124,10 @@ impl Pencil<'_> {
                     waiting.push(search);
                     continue;
                 };
-                let modes = self.modes(&search, ritz, count)?;
+                let modes = self.modes(&search, ritz, count, wanted.tolerance)?;
                 let worst =
                     modes.residuals.iter().fold(0.0f64, |worst, &r| if r <= worst { worst } else { r });
-                if worst <= TOLERANCE {
+                if worst <= wanted.tolerance {
                     found[search.position] = Some(modes);
                 } else if search.lanczos.is_full() {
                     return Err(ModeError::NotConverged { harmonic, residual: worst, block_steps: step });
@@ -151,7 +151,13 @@ impl Pencil<'_> {
     }
 
     /// Modes from Ritz pairs: x = L̂⁻ᴴ y/√θ.
-    fn modes(&self, search: &Search<'_>, ritz: Ritz, count: usize) -> Result<Modes, ModeError> {
+    fn modes(
+        &self,
+        search: &Search<'_>,
+        ritz: Ritz,
+        count: usize,
+        tolerance: f64,
+    ) -> Result<Modes, ModeError> {
         let harmonic = search.tied.tie.harmonic;
         if ritz.values[..count].iter().any(|&theta| theta.is_nan() || theta <= 0.0) {
             return Err(ModeError::Massless { harmonic });
@@ -176,7 +182,7 @@ impl Pencil<'_> {
             }
         }
         let values: Vec<f64> = ritz.values[..count].iter().map(|theta| 1.0 / theta).collect();
-        let residuals = self.residuals(&search.tied.tie, &values, vectors.as_ref());
+        let residuals = self.residuals(&search.tied.tie, &values, vectors.as_ref(), tolerance);
         let beyond = (count..ritz.values.len())
             .take_while(|&m| ritz.values[m] > 0.0 && ritz.errors[m] <= LOCATED)
             .map(|m| 1.0 / ritz.values[m])
@@ -186,7 +192,7 @@ impl Pencil<'_> {
 
     /// The dense solution, on M x = θ K x like the iteration: the lowest modes are then accurate to round-off even
     /// where M is nearly singular.
-    fn dense(&self, tie: &Tie, rows: usize, count: usize) -> Result<Modes, ModeError> {
+    fn dense(&self, tie: &Tie, rows: usize, count: usize, tolerance: f64) -> Result<Modes, ModeError> {
         let harmonic = tie.harmonic;
         let [m, k] = [self.mass, self.stiffness].map(|matrix| self.untied.tied_dense(matrix, tie, rows));
         let pairs = generalised_eigenpairs(m.as_ref(), k.as_ref())
@@ -198,9 +204,9 @@ impl Pencil<'_> {
         let values: Vec<f64> = (0..count).map(|m| 1.0 / theta(m)).collect();
         let vectors =
             Mat::from_fn(rows, count, |i, m| pairs.vectors[(i, rows - 1 - m)] * (1.0 / theta(m).sqrt()));
-        let residuals = self.residuals(tie, &values, vectors.as_ref());
+        let residuals = self.residuals(tie, &values, vectors.as_ref(), tolerance);
         let residual = residuals.iter().fold(0.0f64, |worst, &r| if r <= worst { worst } else { r });
-        if residual > TOLERANCE {
+        if residual > tolerance {
             return Err(ModeError::NotConverged { harmonic, residual, block_steps: 0 });
         }
         let beyond =
@@ -210,7 +216,7 @@ impl Pencil<'_> {
 
     /// ‖Kx − λMx‖/‖Kx‖ of every column. What the round-off of Kx alone may leave, 64 ε ‖|K||x|‖, counts as the
     /// tolerance and no more: no eigensolver can do better on a stiffness of high contrast.
-    fn residuals(&self, tie: &Tie, values: &[f64], vectors: MatRef<'_, c64>) -> Vec<f64> {
+    fn residuals(&self, tie: &Tie, values: &[f64], vectors: MatRef<'_, c64>, tolerance: f64) -> Vec<f64> {
         let kx = self.untied.product(self.stiffness, tie, vectors);
         let mx = self.untied.product(self.mass, tie, vectors);
         let ratios: Vec<(f64, f64)> = (0..values.len())
@@ -220,7 +226,7 @@ impl Pencil<'_> {
                 (residual, kx.col(j).norm_l2())
             })
             .collect();
-        if ratios.iter().all(|(residual, norm)| residual <= &(TOLERANCE * norm)) {
+        if ratios.iter().all(|(residual, norm)| residual <= &(tolerance * norm)) {
             return ratios
                 .iter()
                 .map(|(residual, norm)| if *norm > 0.0 { residual / norm } else { 0.0 })
@@ -232,14 +238,14 @@ impl Pencil<'_> {
             Mat::from_fn(vectors.nrows(), vectors.ncols(), |i, j| c64::new(vectors[(i, j)].norm(), 0.0));
         // Tied without its phases, which have magnitude one.
         let terms = self.untied.product(&magnitudes, &self.untied.tie(0), terms.as_ref());
-        let floor = |j: usize| 64.0 * f64::EPSILON * terms.col(j).norm_l2() / TOLERANCE;
+        let floor = |j: usize| 64.0 * f64::EPSILON * terms.col(j).norm_l2() / tolerance;
         ratios.iter().enumerate().map(|(j, (residual, norm))| residual / norm.max(floor(j))).collect()
     }
 }
 
 impl Search<'_> {
     /// Takes the image of the last block; leaves Ritz pairs where the wanted ones seem to have converged.
-    fn advance(&mut self, image: Mat<c64>, count: usize, step: usize) {
+    fn advance(&mut self, image: Mat<c64>, count: usize, tolerance: f64, step: usize) {
         self.lanczos.absorb(image);
         let full = self.lanczos.is_full();
         // The dense projection costs more than a step once it is large: look at it every other step.
@@ -253,7 +259,7 @@ impl Search<'_> {
         self.last_error = worst;
         // Two more located eigenvalues leave room for a shift above the wanted ones.
         let located = ritz.errors.iter().skip(count).take_while(|&&error| error <= LOCATED).count();
-        if full || (worst <= 0.1 * TOLERANCE && located >= 2) {
+        if full || (worst <= 0.1 * tolerance && located >= 2) {
             self.ritz = Some(ritz);
         }
     }

@@ -8,11 +8,12 @@
 //! untied  [ I | L | H | b ]        tied  [ I | L | b ],  u_H = e^{jiα} u_L        Ŷ(i) = Tᴴ Y T
 //! ```
 
+use std::f64::consts::TAU;
+
 use faer::sparse::{SparseColMat, SymbolicSparseColMat};
 use faer::{Mat, MatMut, MatRef, c64};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
-use crate::dynamics::cyclic::phase;
 use crate::dynamics::sector::{CyclicMatrix, SectorModel};
 use crate::numerics::multifrontal::{Analysis, postorder};
 use crate::numerics::nested_dissection::dissection;
@@ -122,8 +123,15 @@ impl UntiedSector {
 
     /// The tie of nodal diameter `harmonic`.
     pub(super) fn tie(&self, harmonic: usize) -> Tie {
-        let phase = phase(harmonic, self.sectors);
-        Tie { harmonic, phase, single: is_single(harmonic, self.sectors) }
+        let angle = TAU * harmonic as f64 / self.sectors as f64;
+        let single = is_single(harmonic, self.sectors);
+        // Exactly real where the nodal diameter is.
+        let phase = match harmonic {
+            0 => c64::new(1.0, 0.0),
+            _ if single => c64::new(-1.0, 0.0),
+            _ => c64::new(angle.cos(), angle.sin()),
+        };
+        Tie { harmonic, phase, single }
     }
 
     /// Σ factor · matrix over `terms`, untied, both triangles.

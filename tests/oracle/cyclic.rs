@@ -8,15 +8,15 @@ use std::f64::consts::TAU;
 use faer::c64;
 use faer::sparse::{SparseColMat, Triplet};
 
-use super::sector::CyclicMatrix;
+use rubmap::dynamics::sector::CyclicMatrix;
 
 /// Rows of Ŷ split into internal (with the low face) and contact DOF (Eq. 1).
 #[derive(Debug, Clone)]
-pub struct Partition {
+pub(crate) struct Partition {
     /// Own DOF index of each internal row.
-    pub internal: Vec<usize>,
+    pub(crate) internal: Vec<usize>,
     /// Own DOF index of each contact row: r, θ, z of every contact node.
-    pub contact: Vec<usize>,
+    pub(crate) contact: Vec<usize>,
     place: Vec<Place>,
 }
 
@@ -28,7 +28,7 @@ enum Place {
 
 impl Partition {
     /// Splits `size` own DOF; all but `contact` are internal.
-    pub fn new(size: usize, contact: Vec<usize>) -> Self {
+    pub(crate) fn new(size: usize, contact: Vec<usize>) -> Self {
         let mut place = vec![Place::Internal(0); size];
         for (position, &dof) in contact.iter().enumerate() {
             place[dof] = Place::Contact(position);
@@ -46,17 +46,17 @@ impl Partition {
 
 /// Ŷ(i) in blocks: internal first, contact second; Ŷ_bi = Ŷ_ibᴴ.
 #[derive(Debug, Clone)]
-pub struct HarmonicMatrix {
+pub(crate) struct HarmonicMatrix {
     /// Ŷ_ii, `n_i × n_i`, both triangles.
-    pub internal: SparseColMat<usize, c64>,
+    pub(crate) internal: SparseColMat<usize, c64>,
     /// Ŷ_ib, `n_i × n_b`.
-    pub coupling: SparseColMat<usize, c64>,
+    pub(crate) coupling: SparseColMat<usize, c64>,
     /// Ŷ_bb, `n_b × n_b`.
-    pub contact: SparseColMat<usize, c64>,
+    pub(crate) contact: SparseColMat<usize, c64>,
 }
 
 /// Ŷ(i) of nodal diameter `harmonic` for a wheel of `sectors`.
-pub fn harmonic_matrix(
+pub(crate) fn harmonic_matrix(
     matrix: &CyclicMatrix,
     harmonic: usize,
     sectors: usize,
@@ -93,7 +93,7 @@ pub fn harmonic_matrix(
 }
 
 /// e^{jiα}, exactly real where the harmonic is.
-pub(super) fn phase(harmonic: usize, sectors: usize) -> c64 {
+fn phase(harmonic: usize, sectors: usize) -> c64 {
     if harmonic == 0 {
         c64::new(1.0, 0.0)
     } else if 2 * harmonic == sectors {
