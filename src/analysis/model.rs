@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::error::AnalysisError;
 use super::monitor::Monitor;
-use super::result::{ReductionReport, StiffeningReport, StiffeningVerdict};
+use super::result::{FrequencyDifference, ReductionReport, StiffeningReport, StiffeningVerdict};
 use super::run::VERSION;
 use crate::dynamics::reduction::{
     Checkpoints, InterpolationCheck, InterpolationVerdict, ReducedWheel, ReductionError, ReductionOptions,
@@ -101,11 +101,40 @@ fn report(
         unknowns: (0..wheel.harmonics.len()).map(size).collect(),
         wheel_unknowns: (0..wheel.harmonics.len()).map(|i| copies(i) * size(i)).sum(),
         largest_mode_residual: residual,
+        counted_modes: wheel
+            .harmonics
+            .iter()
+            .flat_map(|h| &h.certificates)
+            .map(|certificate| certificate.eigenvalues.len() as u32)
+            .sum(),
+        full_model: frequency_differences(wheel),
         basis_tolerance: options.basis_tolerance,
         stiffening: stiffening_report(&wheel.interpolation, sector),
         wall_time_s,
         version: VERSION.to_owned(),
     }
+}
+
+/// One line per speed, ascending.
+fn frequency_differences(wheel: &ReducedWheel) -> Vec<FrequencyDifference> {
+    let mut speeds: Vec<f64> = wheel.comparison.iter().map(|c| c.speed_rad_s).collect();
+    speeds.sort_by(f64::total_cmp);
+    speeds.dedup();
+    let at = |speed_rad_s: f64| {
+        let here = || wheel.comparison.iter().filter(move |c| c.speed_rad_s == speed_rad_s);
+        let worst = here()
+            .filter_map(|c| c.largest_difference().map(|(difference, mode)| (difference, mode, c)))
+            .max_by(|a, b| a.0.total_cmp(&b.0));
+        worst.map(|(largest_difference, mode, comparison)| FrequencyDifference {
+            speed_rad_s,
+            largest_difference,
+            nodal_diameter: comparison.harmonic as u32,
+            mode: mode as u32 + 1,
+            full_hz: comparison.full[mode] / std::f64::consts::TAU,
+            indefinite: here().filter(|c| c.full.is_empty()).map(|c| c.harmonic as u32).collect(),
+        })
+    };
+    speeds.into_iter().filter_map(at).collect()
 }
 
 fn stiffening_report(check: &InterpolationCheck, sector: &SectorModel) -> StiffeningReport {

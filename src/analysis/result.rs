@@ -252,6 +252,23 @@ pub struct StiffeningReport {
     pub message: String,
 }
 
+/// The largest difference between the lowest frequencies of the reduced and of the full sector at one speed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct FrequencyDifference {
+    /// Ω, rad/s.
+    pub speed_rad_s: f64,
+    /// |reduced/full − 1| where it is largest.
+    pub largest_difference: f64,
+    /// Nodal diameter it occurs in.
+    pub nodal_diameter: u32,
+    /// Mode it occurs in, counted from 1.
+    pub mode: u32,
+    /// Frequency of that mode in the full sector, Hz.
+    pub full_hz: f64,
+    /// Nodal diameters left out because the full sector's stiffness is not positive definite at this speed.
+    pub indefinite: Vec<u32>,
+}
+
 /// What the reduction of a model found and what it cost.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct ReductionReport {
@@ -263,6 +280,12 @@ pub struct ReductionReport {
     pub wheel_unknowns: u32,
     /// Largest relative residual ‖Kx − λMx‖/‖Kx‖ over all fixed-interface modes.
     pub largest_mode_residual: f64,
+    /// Fixed-interface modes over all nodal diameters and speeds, every one proven to be among the lowest by a count
+    /// of eigenvalues (Sylvester's law of inertia).
+    pub counted_modes: u32,
+    /// The reduced model's ten lowest frequencies per nodal diameter beside the full sector's, at the given speeds
+    /// and between them.
+    pub full_model: Vec<FrequencyDifference>,
     /// Relative tolerance below which nearly dependent directions of the basis were dropped.
     pub basis_tolerance: f64,
     /// Stiffness interpolation check.

@@ -6,7 +6,7 @@ use crate::analysis::run::ReducedSector;
 
 /// Layout of a stored reduction: raise it when [`ReducedSector`] changes, so that old ones are computed again
 /// instead of misread.
-const LAYOUT: i64 = 1;
+const LAYOUT: i64 = 2;
 
 impl Store {
     /// The stored reduction of `model`, if this version of the program can read it.

@@ -8,4 +8,5 @@ mod invariants;
 mod modal_criterion;
 #[path = "../oracle/mod.rs"]
 mod oracle;
+mod plain_agreement;
 mod sweep;
