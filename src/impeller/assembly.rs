@@ -65,7 +65,7 @@ pub fn cylindrical_frame(theta: f64) -> Matrix3<f64> {
 /// Block-diagonal turn of an element's displacements into the cylindrical components of its nodes.
 pub(super) fn element_frame(sector: &SectorMesh, element: usize) -> Matrix24 {
     let mut frame = Matrix24::zeros();
-    for (a, &node) in sector.mesh.elements[element].iter().enumerate() {
+    for (a, &node) in sector.mesh.elements.nodes_of(element).iter().enumerate() {
         frame.fixed_view_mut::<3, 3>(3 * a, 3 * a).copy_from(&cylindrical_frame(sector.mesh.angle(node)));
     }
     frame
@@ -73,7 +73,7 @@ pub(super) fn element_frame(sector: &SectorMesh, element: usize) -> Matrix24 {
 
 /// Rows of an element's 24 displacements.
 pub(super) fn element_rows(sector: &SectorMesh, dofs: &SectorDofs, element: usize) -> [Option<usize>; 24] {
-    let nodes = &sector.mesh.elements[element];
+    let nodes = sector.mesh.elements.nodes_of(element);
     std::array::from_fn(|d| dofs.rows[nodes[d / 3]][d % 3])
 }
 
@@ -121,7 +121,7 @@ pub(super) fn element_displacements(
     element: usize,
     displacements: &[[f64; 3]],
 ) -> Vector24 {
-    let nodes = &sector.mesh.elements[element];
+    let nodes = sector.mesh.elements.nodes_of(element);
     let u = Vector24::from_fn(|d, _| displacements[nodes[d / 3]][d % 3]);
     element_frame(sector, element).transpose() * u
 }

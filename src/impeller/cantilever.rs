@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::error::ImpellerError;
 use super::material::Material;
-use super::mesh::{Grid, HexMesh, SectorMesh, TipNode, cell};
+use super::mesh::{Elements, Grid, HexMesh, SectorMesh, TipNode, cell};
 use super::parameters::{at_least, positive};
 use super::to_package::to_package;
 use crate::dynamics::sector::Units;
@@ -83,13 +83,15 @@ pub fn cantilever_mesh(p: &CantileverParameters) -> Result<SectorMesh, ImpellerE
             }
         }
     }
+    let mut elements = Vec::with_capacity(nx * ny * nz);
     for k in 0..nz {
         for j in 0..ny {
             for i in 0..nx {
-                mesh.elements.push(cell(|i, j, k| grid.node(i, j, k), i, j, k));
+                elements.push(cell(|i, j, k| grid.node(i, j, k), i, j, k));
             }
         }
     }
+    mesh.elements = Elements::Linear(elements);
     let contact =
         (0..=nz).map(|k| TipNode { node: grid.node(nx, ny / 2, k), normal: [1.0, 0.0, 0.0] }).collect();
     Ok(SectorMesh { sectors: 1, mesh, clamped, cyclic: Vec::new(), contact })

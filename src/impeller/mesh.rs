@@ -3,13 +3,57 @@
 use super::element::{CORNERS, jacobian_determinant};
 use super::error::ImpellerError;
 
-/// Nodes and 8-node hexahedra, in Cartesian coordinates; z is the axis of rotation.
+/// Nodes and hexahedra, in Cartesian coordinates; z is the axis of rotation.
 #[derive(Debug, Clone, Default)]
 pub struct HexMesh {
     /// Cartesian positions.
     pub nodes: Vec<[f64; 3]>,
-    /// Node indices per element: the face ζ = −1 counter-clockwise seen from inside, then the face ζ = +1.
-    pub elements: Vec<[usize; 8]>,
+    /// Hexahedra of one order.
+    pub elements: Elements,
+}
+
+/// Node indices per element. Corners first: the face ζ = −1 counter-clockwise seen from inside, then the face ζ =
+/// +1, as in CalculiX's C3D8 and C3D20.
+#[derive(Debug, Clone)]
+pub enum Elements {
+    /// 8-node hexahedra.
+    Linear(Vec<[usize; 8]>),
+    /// 20-node serendipity hexahedra: the mid-edge nodes follow the corners in the order of [`EDGES`].
+    Quadratic(Vec<[usize; 20]>),
+}
+
+/// The corners at both ends of each edge, in the order of the mid-edge nodes (C3D20): around the face ζ = −1,
+/// around the face ζ = +1, then along ζ.
+pub const EDGES: [[usize; 2]; 12] =
+    [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4], [0, 4], [1, 5], [2, 6], [3, 7]];
+
+impl Default for Elements {
+    fn default() -> Self {
+        Self::Linear(Vec::new())
+    }
+}
+
+impl Elements {
+    /// Number of elements.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Linear(elements) => elements.len(),
+            Self::Quadratic(elements) => elements.len(),
+        }
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// All nodes of an element, corners first: 8 or 20.
+    pub fn nodes_of(&self, element: usize) -> &[usize] {
+        match self {
+            Self::Linear(elements) => &elements[element],
+            Self::Quadratic(elements) => &elements[element],
+        }
+    }
 }
 
 /// A tip node that may touch the casing.
@@ -39,7 +83,8 @@ pub struct SectorMesh {
 impl HexMesh {
     /// Corner positions of an element.
     pub fn corners(&self, element: usize) -> [[f64; 3]; 8] {
-        self.elements[element].map(|node| self.nodes[node])
+        let nodes = self.elements.nodes_of(element);
+        std::array::from_fn(|corner| self.nodes[nodes[corner]])
     }
 
     /// Angle θ of a node about the z axis; 0 on the axis.

@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 
 use super::curves::{Camber, TurningCurve};
 use super::error::ImpellerError;
-use super::mesh::{Grid, HexMesh, SectorMesh, TipNode, cell};
+use super::mesh::{Elements, Grid, HexMesh, SectorMesh, TipNode, cell};
 use super::parameters::{ImpellerParameters, at_least};
 
 /// Meshes one sector of the impeller.
@@ -180,17 +180,20 @@ impl<'a> Geometry<'a> {
         }
 
         // (θ, along the flow, outwards) is right-handed.
+        let mut elements = Vec::new();
         let mut add_block = |size: [usize; 3], node: &dyn Fn(usize, usize, usize) -> usize| {
             for k in 0..size[2] {
                 for i in 0..size[1] {
                     for j in 0..size[0] {
-                        mesh.elements.push(cell(node, j, i, k));
+                        elements.push(cell(node, j, i, k));
                     }
                 }
             }
         };
         add_block([columns, stations, layers], &|j, i, k| disk.node(j, i, k));
         add_block([m.blade_thickness, stations, m.blade_height], &blade_node);
+
+        mesh.elements = Elements::Linear(elements);
 
         let mut clamped = vec![[false; 3]; mesh.nodes.len()];
         for i in 0..=self.corner {
