@@ -25,16 +25,10 @@ pub enum ImpellerError {
         radius: f64,
         /// Axial position of its centre.
         axial: f64,
-        /// Smallest Jacobian determinant over its corners.
+        /// Smallest Jacobian determinant over its corners and points of integration.
         determinant: f64,
     },
     /// The stiffness matrix at rest has no Cholesky factor.
     #[error("the sector's stiffness at rest is not positive definite: is anything clamped?")]
     NotPositiveDefinite,
-    /// The sparse factorisation could not be built.
-    #[error("the sector's stiffness at rest could not be factorised: {detail}")]
-    Factorisation {
-        /// What the linear algebra library reported.
-        detail: String,
-    },
 }

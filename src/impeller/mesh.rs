@@ -1,6 +1,6 @@
 //! A hexahedral mesh of one sector and what ties it to the rest of the wheel.
 
-use super::element::{CORNERS, jacobian_determinant};
+use super::element::{Hex8, Hex20, Hexahedron};
 use super::error::ImpellerError;
 
 /// Nodes and hexahedra, in Cartesian coordinates; z is the axis of rotation.
@@ -93,26 +93,32 @@ impl HexMesh {
         y.atan2(x)
     }
 
-    /// Refuses a mesh with an element whose Jacobian determinant is not positive at all eight corners.
+    /// Positions of an element's nodes.
+    pub fn positions<const N: usize>(&self, nodes: &[usize; N]) -> [[f64; 3]; N] {
+        nodes.map(|node| self.nodes[node])
+    }
+
+    /// Refuses a mesh with an element whose Jacobian determinant is not positive at its corners and at every point
+    /// of integration.
     ///
     /// # Errors
     /// [`ImpellerError::Jacobian`] names the first such element.
     pub fn check_jacobians(&self) -> Result<(), ImpellerError> {
-        for element in 0..self.elements.len() {
-            let x = self.corners(element);
-            let mut centre = [0.0; 3];
-            for corner in &x {
-                for (sum, value) in centre.iter_mut().zip(corner) {
-                    *sum += value / 8.0;
-                }
-            }
-            let determinant =
-                CORNERS.iter().map(|&corner| jacobian_determinant(&x, corner)).fold(f64::INFINITY, f64::min);
+        match &self.elements {
+            Elements::Linear(elements) => self.check::<Hex8, 8>(elements),
+            Elements::Quadratic(elements) => self.check::<Hex20, 20>(elements),
+        }
+    }
+
+    fn check<E: Hexahedron<N>, const N: usize>(&self, elements: &[[usize; N]]) -> Result<(), ImpellerError> {
+        for (element, nodes) in elements.iter().enumerate() {
+            let determinant = E::from(self.positions(nodes)).smallest_jacobian();
             if determinant.is_nan() || determinant <= 0.0 {
+                let mean = |d: usize| self.corners(element).iter().map(|x| x[d] / 8.0).sum::<f64>();
                 return Err(ImpellerError::Jacobian {
                     element: element + 1,
-                    radius: centre[0].hypot(centre[1]),
-                    axial: centre[2],
+                    radius: mean(0).hypot(mean(1)),
+                    axial: mean(2),
                     determinant,
                 });
             }

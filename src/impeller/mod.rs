@@ -2,7 +2,7 @@
 //!
 //! [`generate`] runs top to bottom: parameters → sector mesh → M, `K_e` → centrifugal pre-stress → `K_σ` and spin
 //! softening → package. Everything after the mesh knows only [`mesh::SectorMesh`], so another geometry is another
-//! function that makes one ([`cantilever()`]), and another element is a change inside [`element`].
+//! function that makes one ([`cantilever()`]), and another element is another [`element::Hexahedron`].
 //!
 //! The matrices are honest: `K(Ω) = K_e + K_σ(Ω) − Ω² M_spin` on the undeformed geometry (METHOD §3), exactly
 //! linear in Ω². There are no gyroscopic terms, as in the package format.
@@ -10,21 +10,24 @@
 mod assembly;
 mod cantilever;
 mod curves;
+mod dofs;
 pub mod element;
 mod error;
 mod material;
 mod matrices;
 pub mod mesh;
 mod parameters;
+mod pattern;
 mod prestress;
 mod sector_mesh;
 mod to_package;
 
-pub use assembly::{SectorDofs, assemble, cylindrical_frame};
+pub use assembly::cylindrical_frame;
 pub use cantilever::{CantileverParameters, cantilever, cantilever_mesh};
+pub use dofs::SectorDofs;
 pub use error::ImpellerError;
 pub use material::Material;
-pub use matrices::SectorMatrices;
+pub use matrices::{RestMatrices, SectorMatrices};
 pub use parameters::{ImpellerParameters, MeshDensities};
 pub use prestress::PreStress;
 pub use sector_mesh::impeller_sector;

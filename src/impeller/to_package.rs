@@ -43,13 +43,13 @@ pub fn to_package(
         contact: contact.collect(),
     };
     let nodes = &sector.mesh.nodes;
-    let dofs = &matrices.dofs.list;
+    let dofs = &matrices.rest.dofs.list;
     Ok(RawPackage {
         manifest,
         nodes: nodes.iter().enumerate().map(|(n, &position)| RawNode { id: id(n), position }).collect(),
         dofs: dofs.iter().map(|&(n, c)| RawDof { node: id(n), component: c as u8 + 1 }).collect(),
         stiffness: speeds_rad_s.iter().map(|&speed| matrices.stiffness(speed)).collect(),
-        mass: without_zeros(matrices.mass),
+        mass: without_zeros(matrices.rest.mass()),
     })
 }
 
