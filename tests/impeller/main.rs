@@ -2,7 +2,11 @@
 
 mod annulus;
 mod beam;
+mod calculix;
+mod disk;
 mod eigen;
 mod element;
 mod impeller_a;
+mod plate;
+mod sector;
 mod wheel;

@@ -8,8 +8,8 @@ use crate::impeller::mesh::EDGES;
 /// A 20-node hexahedron, nodes in the order of [`EDGES`].
 ///
 /// Corners `N = (1 + ξ_a ξ)(1 + η_a η)(1 + ζ_a ζ)(ξ_a ξ + η_a η + ζ_a ζ − 2)/8`, mid-edge nodes
-/// `N = (1 − ξ²)(1 + η_a η)(1 + ζ_a ζ)/4` along ξ and alike along η and ζ. Complete to second degree, so an
-/// element with straight edges and centred mid-edge nodes represents any quadratic displacement exactly.
+/// `N = (1 − ξ²)(1 + η_a η)(1 + ζ_a ζ)/4` along ξ and alike along η and ζ. Complete to second degree in ξ, η, ζ: a
+/// parallelepiped with centred mid-edge nodes represents any quadratic displacement exactly.
 #[derive(Debug, Clone)]
 pub struct Hex20([[f64; 3]; 20]);
 
