@@ -6,6 +6,8 @@ use rubmap::impeller::{AnnulusParameters, Material, SectorMatrices, annulus_mesh
 
 const INNER: f64 = 0.3;
 const OUTER: f64 = 1.0;
+/// Thin enough for plane stress to hold to 1e-7.
+const THICKNESS: f64 = 1e-3;
 const MATERIAL: Material = Material { youngs_modulus: 1.0, poissons_ratio: 0.3, density: 1.0 };
 
 /// One layer on a frictionless plane; nothing turns (θ clamped at the inner edge only).
@@ -14,7 +16,7 @@ fn annulus(order: ElementOrder, sectors: usize, around: usize, radial: usize) ->
         sectors,
         inner_radius: INNER,
         outer_radius: OUTER,
-        thickness: 0.01,
+        thickness: THICKNESS,
         clamped_bore: false,
         elements: [radial, around, 1],
         element_order: order,
@@ -22,7 +24,7 @@ fn annulus(order: ElementOrder, sectors: usize, around: usize, radial: usize) ->
     };
     let mut sector = annulus_mesh(&p).unwrap();
     for (clamped, [x, y, z]) in sector.clamped.iter_mut().zip(&sector.mesh.nodes) {
-        *clamped = [false, x.hypot(*y) < INNER * 1.0001, *z < -0.00499];
+        *clamped = [false, x.hypot(*y) < INNER * 1.0001, *z < -0.499 * THICKNESS];
     }
     sector
 }
@@ -45,14 +47,16 @@ fn bore_stress(sector: &SectorMesh) -> f64 {
 /// Second order in the mesh with 8 nodes, fourth with 20.
 #[test]
 fn hoop_stress_at_the_bore_converges_to_the_closed_form() {
-    for (order, expected, within) in [(ElementOrder::Linear, 2.0, 2e-3), (ElementOrder::Quadratic, 4.0, 1e-5)] {
+    for (order, expected, within) in [(ElementOrder::Linear, 2.0, 2e-3), (ElementOrder::Quadratic, 4.0, 4e-6)]
+    {
         let error = |around: usize, radial: usize| {
             bore_stress(&annulus(order, 12, around, radial)) / exact_bore_stress() - 1.0
         };
-        let (coarse, fine) = (error(4, 16), error(8, 32));
-        println!("{order:?}: {:.2e} {:.2e} {coarse:.2e} {fine:.2e}", error(2, 4), error(2, 8));
+        let (coarse, fine) = (error(4, 8), error(8, 16));
+        let measured = (coarse / fine).log2();
+        println!("{order:?}: {coarse:.2e} {fine:.2e}, order {measured:.2}");
         assert!(fine.abs() < within, "{order:?}: {fine:.2e}");
-        assert!(((coarse / fine).log2() - expected).abs() < 0.2, "{order:?}: {coarse:.2e} / {fine:.2e}");
+        assert!((measured - expected).abs() < 0.3, "{order:?}: order {measured:.2}");
     }
 }
 
@@ -80,16 +84,23 @@ fn stress_error<E: Hexahedron<N>, const N: usize>(sector: &SectorMesh, elements:
     worst / exact_bore_stress()
 }
 
+/// The worst Gauss point converges at first order with 8 nodes and at second with 20.
 #[test]
 fn gauss_point_stresses_follow_the_closed_form() {
-    for (around, radial) in [(2, 4), (2, 8), (4, 16), (8, 32)] {
-        let linear = annulus(ElementOrder::Linear, 12, around, radial);
-        let quadratic = annulus(ElementOrder::Quadratic, 12, around, radial);
-        let Elements::Linear(elements) = &linear.mesh.elements else { unreachable!() };
-        let a = stress_error::<Hex8, 8>(&linear, elements);
-        let Elements::Quadratic(elements) = &quadratic.mesh.elements else { unreachable!() };
-        let b = stress_error::<Hex20, 20>(&quadratic, elements);
-        println!("stress error {around} {radial}: {a:.2e} {b:.2e}");
+    let error = |order, around, radial| {
+        let sector = annulus(order, 12, around, radial);
+        match &sector.mesh.elements {
+            Elements::Linear(elements) => stress_error::<Hex8, 8>(&sector, elements),
+            Elements::Quadratic(elements) => stress_error::<Hex20, 20>(&sector, elements),
+        }
+    };
+    for (order, expected, within) in [(ElementOrder::Linear, 1.0, 2e-2), (ElementOrder::Quadratic, 2.0, 1e-3)]
+    {
+        let (coarse, fine) = (error(order, 8, 16), error(order, 16, 32));
+        let measured = (coarse / fine).log2();
+        println!("{order:?}: stress {coarse:.2e} {fine:.2e}, order {measured:.2}");
+        assert!(fine < within, "{order:?}: {fine:.2e}");
+        assert!((measured - expected).abs() < 0.3, "{order:?}: order {measured:.2}");
     }
 }
 

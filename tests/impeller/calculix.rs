@@ -1,15 +1,19 @@
 //! Our impeller against CalculiX (`ccx`, Debian's `calculix-ccx`) on the same mesh: frequencies per nodal diameter at
 //! rest, displacements and stresses of the centrifugal load.
 //!
-//! C3D20 is our 20-node element; C3D8I is another incompatible-mode formulation than ours, equal on parallelepipeds
-//! only. CalculiX prints seven digits of a frequency or displacement and seven of a stress.
+//! C3D20 is our 20-node element. C3D8I is not quite our 8-node one: it takes the bubbles' gradients as `J₀⁻ᵀ ∂P/∂ξ`
+//! without the factor det J₀ / det J (its stiffness of a single crooked element equals ours without that factor to
+//! 1e-14), which fails the patch test on crooked elements, and it gives the bubbles mass and load.
+//! CalculiX prints seven digits.
 
 use std::fmt::Write as _;
 use std::process::Command;
 
+use nalgebra::Vector3;
 use rubmap::impeller::mesh::{ElementOrder, Elements, SectorMesh};
 use rubmap::impeller::{
-    ImpellerParameters, MeshDensities, SectorMatrices, Splitter, impeller_sector, to_package,
+    ImpellerParameters, Material, MeshDensities, SectorMatrices, Splitter, cylindrical_frame,
+    impeller_sector, to_package,
 };
 
 use crate::eigen::{harmonic, hertz, lowest};
@@ -26,14 +30,16 @@ struct Answer {
     stresses: Vec<Vec<[f64; 6]>>,
 }
 
-fn ids(deck: &mut String, ids: impl Iterator<Item = usize>) {
-    for id in ids {
-        writeln!(deck, "{}", id + 1).unwrap();
+fn set(deck: &mut String, name: &str, nodes: impl Iterator<Item = usize>) {
+    writeln!(deck, "*NSET, NSET={name}").unwrap();
+    for node in nodes {
+        writeln!(deck, "{}", node + 1).unwrap();
     }
 }
 
-/// A static step with the centrifugal load at `speed`, then a cyclic frequency analysis without pre-stress.
-fn deck(sector: &SectorMesh, p: &ImpellerParameters, speed: f64) -> String {
+/// A cyclic frequency analysis without pre-stress (if there are cyclic faces), then a static step with the centrifugal
+/// load at `speed`.
+fn deck(sector: &SectorMesh, material: &Material, speed: f64) -> String {
     let mut deck = String::from("*NODE, NSET=NALL\n");
     for (n, [x, y, z]) in sector.mesh.nodes.iter().enumerate() {
         writeln!(deck, "{}, {x:.14e}, {y:.14e}, {z:.14e}", n + 1).unwrap();
@@ -52,25 +58,29 @@ fn deck(sector: &SectorMesh, p: &ImpellerParameters, speed: f64) -> String {
         let lines: Vec<String> = numbers.chunks(11).map(|line| line.join(", ")).collect();
         writeln!(deck, "{}", lines.join(",\n")).unwrap();
     }
-    let free = |node: usize| sector.clamped[node] == [false; 3];
-    deck.push_str("*NSET, NSET=BORE\n");
-    ids(&mut deck, (0..sector.mesh.nodes.len()).filter(|&node| !free(node)));
-    deck.push_str("*NSET, NSET=LOW\n");
-    ids(&mut deck, sector.cyclic.iter().map(|&(low, _)| low).filter(|&low| free(low)));
-    deck.push_str("*NSET, NSET=HIGH\n");
-    ids(&mut deck, sector.cyclic.iter().map(|&(_, high)| high).filter(|&high| free(high)));
-    let m = &p.material;
+    let free = |node: &usize| sector.clamped[*node] == [false; 3];
+    set(&mut deck, "BORE", (0..sector.mesh.nodes.len()).filter(|node| !free(node)));
+    let Material { youngs_modulus, poissons_ratio, density } = material;
     write!(
         deck,
         "*MATERIAL, NAME=M
 *ELASTIC
-{:e}, {:e}
+{youngs_modulus:e}, {poissons_ratio:e}
 *DENSITY
-{:e}
+{density:e}
 *SOLID SECTION, ELSET=EALL, MATERIAL=M
 *BOUNDARY
 BORE, 1, 3
-*SURFACE, NAME=SHIGH, TYPE=NODE
+"
+    )
+    .unwrap();
+    if !sector.cyclic.is_empty() {
+        set(&mut deck, "LOW", sector.cyclic.iter().map(|&(low, _)| low).filter(free));
+        set(&mut deck, "HIGH", sector.cyclic.iter().map(|&(_, high)| high).filter(free));
+        // Modes come in pairs, also of nodal diameter 0, and the last ones are not converged.
+        write!(
+            deck,
+            "*SURFACE, NAME=SHIGH, TYPE=NODE
 HIGH
 *SURFACE, NAME=SLOW, TYPE=NODE
 LOW
@@ -79,6 +89,20 @@ SHIGH, SLOW
 *CYCLIC SYMMETRY MODEL, N={sectors}, TIE=CYC, NGRAPH=1
 0., 0., 0., 0., 0., 1.
 *STEP
+*FREQUENCY
+{count}
+*SELECT CYCLIC SYMMETRY MODES, NMIN=0, NMAX={last}
+*END STEP
+",
+            sectors = sector.sectors,
+            count = 2 * MODES + 6,
+            last = sector.sectors / 2,
+        )
+        .unwrap();
+    }
+    write!(
+        deck,
+        "*STEP
 *STATIC
 *DLOAD
 EALL, CENTRIF, {square:e}, 0., 0., 0., 0., 0., 1.
@@ -87,27 +111,17 @@ U
 *EL PRINT, ELSET=EALL
 S
 *END STEP
-*STEP
-*FREQUENCY
-{MODES}
-*SELECT CYCLIC SYMMETRY MODES, NMIN=0, NMAX={last}
-*END STEP
 ",
-        m.youngs_modulus,
-        m.poissons_ratio,
-        m.density,
-        sectors = p.sectors,
         square = speed * speed,
-        last = p.sectors / 2,
     )
     .unwrap();
     deck
 }
 
-/// Runs the deck; none, with a printed reason, without CalculiX.
-fn calculix(deck: &str, sector: &SectorMesh) -> Option<Answer> {
+/// Runs CalculiX; none, with a printed reason, without it.
+fn calculix(sector: &SectorMesh, material: &Material, speed: f64) -> Option<Answer> {
     let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("sector.inp"), deck).unwrap();
+    std::fs::write(folder.path().join("sector.inp"), deck(sector, material, speed)).unwrap();
     let run = Command::new("ccx").args(["-i", "sector"]).current_dir(folder.path()).output();
     let output = match run {
         Ok(output) => output,
@@ -117,11 +131,7 @@ fn calculix(deck: &str, sector: &SectorMesh) -> Option<Answer> {
         }
     };
     let text = std::fs::read_to_string(folder.path().join("sector.dat")).unwrap_or_default();
-    assert!(
-        output.status.success() && !text.is_empty(),
-        "{}",
-        String::from_utf8_lossy(&output.stdout)
-    );
+    assert!(output.status.success() && !text.is_empty(), "{}", String::from_utf8_lossy(&output.stdout));
     Some(parse(&text, sector))
 }
 
@@ -159,19 +169,54 @@ fn parse(text: &str, sector: &SectorMesh) -> Answer {
     answer
 }
 
-/// Largest differences from CalculiX: relative for frequencies, in parts of the largest for the others.
-#[derive(Debug)]
-struct Differences {
-    frequency: f64,
-    displacement: f64,
-    stress: f64,
+/// Largest difference of the frequencies, relative, over all nodal diameters.
+fn frequency_difference(sector: &SectorMesh, p: &ImpellerParameters, theirs: &Answer) -> f64 {
+    let package = to_package("impeller", sector, &p.material, &p.units, p.top_speed_rad_s).unwrap();
+    assert_eq!(theirs.frequencies.len(), p.sectors / 2 + 1);
+    let mut worst = 0.0_f64;
+    for (i, theirs) in theirs.frequencies.iter().enumerate() {
+        let k = harmonic(&package, &package.stiffness[0], i);
+        let ours = hertz(&lowest(&k, &harmonic(&package, &package.mass, i), MODES).unwrap());
+        println!("nodal diameter {i}: {ours:.3?}, CalculiX {theirs:.3?}");
+        for (j, ours) in ours.iter().enumerate() {
+            worst = worst.max((ours / theirs[2 * j] - 1.0).abs());
+        }
+    }
+    worst
 }
 
-fn differences(element_order: ElementOrder) -> Option<Differences> {
+/// Largest differences of displacement and of stress under the centrifugal load, in parts of the largest of each.
+fn static_differences(sector: &SectorMesh, material: &Material, speed: f64, theirs: &Answer) -> [f64; 2] {
+    let prestress = SectorMatrices::assemble(sector, material).unwrap().prestress;
+    let square = speed * speed;
+    let largest = theirs.displacements.iter().map(|u| Vector3::from(*u).norm()).fold(0.0, f64::max);
+    let mut displacement = 0.0_f64;
+    for (node, theirs) in theirs.displacements.iter().enumerate() {
+        let ours = Vector3::from(prestress.displacements[node]) * square;
+        let ours = cylindrical_frame(sector.mesh.angle(node)).transpose() * ours;
+        displacement = displacement.max((ours - Vector3::from(*theirs)).norm() / largest);
+    }
+    let largest = theirs.stresses.iter().flatten().flatten().fold(0.0_f64, |m, s| m.max(s.abs()));
+    let mut stress = 0.0_f64;
+    for (ours, theirs) in prestress.stresses.iter().zip(&theirs.stresses) {
+        assert_eq!(ours.len(), theirs.len());
+        for (ours, theirs) in ours.iter().zip(theirs) {
+            for (component, theirs) in [0, 1, 2, 3, 5, 4].into_iter().zip(theirs) {
+                stress = stress.max((ours[component] * square - theirs).abs() / largest);
+            }
+        }
+    }
+    [displacement, stress]
+}
+
+/// The same element, so only the printed digits differ. Measured: frequencies 1.5e-7, displacements 3.9e-7, stresses
+/// 9e-8.
+#[test]
+fn twenty_node_impeller_agrees_with_calculix() {
     let p = ImpellerParameters {
         sectors: 7,
         contact_nodes: 5,
-        element_order,
+        element_order: ElementOrder::Quadratic,
         splitter: Some(Splitter::default()),
         mesh: MeshDensities {
             between_contact_nodes: 1,
@@ -183,61 +228,23 @@ fn differences(element_order: ElementOrder) -> Option<Differences> {
         ..ImpellerParameters::default()
     };
     let sector = impeller_sector(&p).unwrap();
-    let speed = p.top_speed_rad_s;
-    let theirs = calculix(&deck(&sector, &p, speed), &sector)?;
-
-    let package = to_package("impeller", &sector, &p.material, &p.units, speed).unwrap();
-    let mut frequency = 0.0_f64;
-    assert_eq!(theirs.frequencies.len(), p.sectors / 2 + 1);
-    for (i, theirs) in theirs.frequencies.iter().enumerate() {
-        let k = harmonic(&package, &package.stiffness[0], i);
-        let ours = hertz(&lowest(&k, &harmonic(&package, &package.mass, i), MODES).unwrap());
-        println!("{element_order:?}, nodal diameter {i}: {ours:.3?}, CalculiX {theirs:.3?}");
-        // CalculiX counts the cosine and the sine mode of a pair.
-        let pair = if i == 0 { 1 } else { 2 };
-        for (j, theirs) in theirs.iter().enumerate() {
-            frequency = frequency.max((ours[j / pair] / theirs - 1.0).abs());
-        }
-    }
-
-    let prestress = SectorMatrices::assemble(&sector, &p.material).unwrap().prestress;
-    let square = speed * speed;
-    let length = |u: &[f64; 3]| u.iter().map(|u| u * u).sum::<f64>().sqrt();
-    let largest = theirs.displacements.iter().map(length).fold(0.0, f64::max);
-    let mut displacement = 0.0_f64;
-    for (node, theirs) in theirs.displacements.iter().enumerate() {
-        let (s, c) = sector.mesh.angle(node).sin_cos();
-        let [r, t, z] = prestress.displacements[node].map(|u| u * square);
-        let ours = [c * r - s * t, s * r + c * t, z];
-        let off: [f64; 3] = std::array::from_fn(|d| ours[d] - theirs[d]);
-        displacement = displacement.max(length(&off) / largest);
-    }
-    let components = || theirs.stresses.iter().flatten().flatten();
-    let largest = components().fold(0.0_f64, |m, s| m.max(s.abs()));
-    let mut stress = 0.0_f64;
-    for (ours, theirs) in prestress.stresses.iter().zip(&theirs.stresses) {
-        assert_eq!(ours.len(), theirs.len());
-        for (ours, theirs) in ours.iter().zip(theirs) {
-            for (component, theirs) in [0, 1, 2, 3, 5, 4].into_iter().zip(theirs) {
-                stress = stress.max((ours[component] * square - theirs).abs() / largest);
-            }
-        }
-    }
-    Some(Differences { frequency, displacement, stress })
+    let Some(theirs) = calculix(&sector, &p.material, p.top_speed_rad_s) else { return };
+    let frequency = frequency_difference(&sector, &p, &theirs);
+    let [displacement, stress] = static_differences(&sector, &p.material, p.top_speed_rad_s, &theirs);
+    println!("frequency {frequency:.1e}, displacement {displacement:.1e}, stress {stress:.1e}");
+    assert!(frequency < 1e-6 && displacement < 1e-6 && stress < 1e-6);
 }
 
-/// The same element, so only the printed digits differ.
-#[test]
-fn twenty_node_impeller_agrees_with_calculix() {
-    let Some(d) = differences(ElementOrder::Quadratic) else { return };
-    println!("{d:?}");
-    assert!(d.frequency < 1e-6 && d.displacement < 1e-6 && d.stress < 1e-6, "{d:?}");
-}
-
-/// Two formulations of the same idea on a coarse, distorted mesh.
+/// The same idea in two formulations (above) on the default mesh, eight elements over a blade's length and four over
+/// its height at most: frequencies within 2 %, displacements within 2 % of the largest. At single Gauss points in the most
+/// crooked elements a stress is 15 % of the largest one apart.
 #[test]
 fn eight_node_impeller_is_close_to_calculix() {
-    let Some(d) = differences(ElementOrder::Linear) else { return };
-    println!("{d:?}");
-    assert!(d.frequency < 0.01 && d.displacement < 0.01 && d.stress < 0.1, "{d:?}");
+    let p = ImpellerParameters::default();
+    let sector = impeller_sector(&p).unwrap();
+    let Some(theirs) = calculix(&sector, &p.material, p.top_speed_rad_s) else { return };
+    let frequency = frequency_difference(&sector, &p, &theirs);
+    let [displacement, stress] = static_differences(&sector, &p.material, p.top_speed_rad_s, &theirs);
+    println!("frequency {frequency:.1e}, displacement {displacement:.1e}, stress {stress:.1e}");
+    assert!(frequency < 0.02 && displacement < 0.02 && stress < 0.2);
 }

@@ -30,7 +30,8 @@ fn corners(shift: f64) -> Patch<8> {
                 patch.nodes.push(Vector3::new(i as f64, j as f64, k as f64) + moved);
                 patch.outside.push(outside);
                 if i < n - 1 && j < n - 1 && k < n - 1 {
-                    let face = |k| [node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k), node(i, j + 1, k)];
+                    let face =
+                        |k| [node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k), node(i, j + 1, k)];
                     let (a, b) = (face(k), face(k + 1));
                     patch.elements.push([a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3]]);
                 }
@@ -110,7 +111,13 @@ impl<const N: usize> Patch<N> {
 fn hooke(material: &Material, h: &Matrix3<f64>) -> Stress {
     let (e, nu) = (material.youngs_modulus, material.poissons_ratio);
     let compliance = nalgebra::Matrix6::from_fn(|i, j| match (i < 3, j < 3) {
-        (true, true) => if i == j { 1.0 / e } else { -nu / e },
+        (true, true) => {
+            if i == j {
+                1.0 / e
+            } else {
+                -nu / e
+            }
+        }
         (false, false) if i == j => 2.0 * (1.0 + nu) / e,
         _ => 0.0,
     });

@@ -15,7 +15,7 @@ const TABLE: [(f64, [[f64; 2]; 5]); 2] = [
 /// those of its own nodal diameter and not of N − i.
 fn lambda(order: ElementOrder, ratio: f64, thickness: f64, radial: usize, i: usize) -> [f64; 2] {
     let p = AnnulusParameters {
-        sectors: 24,
+        sectors: 48,
         inner_radius: ratio,
         outer_radius: 1.0,
         thickness,
@@ -33,20 +33,43 @@ fn lambda(order: ElementOrder, ratio: f64, thickness: f64, radial: usize, i: usi
     std::array::from_fn(|s| values[s].sqrt() / unit)
 }
 
+/// Both elements, thickness 0.01, all ten modes of both tables within 1 % (measured: 0.9 % with 8 nodes, 0.53 % with 20;
+/// shear and rotary inertia take up to 0.2 % of it, the rest is the mesh).
 #[test]
-fn explore() {
+fn annular_plate_meets_the_table() {
     for order in [ElementOrder::Linear, ElementOrder::Quadratic] {
         for (ratio, rows) in TABLE {
-            for thickness in [0.02, 0.01, 0.005] {
-                for (i, exact) in rows.iter().enumerate() {
-                    print!("{order:?} {ratio} h {thickness} i {i}:");
-                    for radial in [4, 8, 16] {
-                        let l = lambda(order, ratio, thickness, radial, i);
-                        print!("  {:.3e} {:.3e}", l[0] / exact[0] - 1.0, l[1] / exact[1] - 1.0);
-                    }
-                    println!();
+            for (i, exact) in rows.iter().enumerate() {
+                let ours = lambda(order, ratio, 0.01, 32, i);
+                for (ours, exact) in ours.into_iter().zip(exact) {
+                    let error = ours / exact - 1.0;
+                    assert!(error.abs() < 0.01, "{order:?}, b/a {ratio}, nodal diameter {i}: {error:.2e}");
                 }
             }
         }
+    }
+}
+
+/// Thin plates leave the table with the square of their thickness: shear and rotary inertia.
+#[test]
+fn thickness_lowers_the_frequencies_quadratically() {
+    let exact = TABLE[1].1[4][1];
+    let [thick, thin] = [0.04, 0.02].map(|h| lambda(ElementOrder::Quadratic, 0.3, h, 32, 4)[1] / exact - 1.0);
+    println!("thickness: {thick:.2e} {thin:.2e}");
+    assert!(
+        thick < thin && thin < 0.0 && ((thick / thin).log2() - 2.0).abs() < 0.25,
+        "{thick:.2e} {thin:.2e}"
+    );
+}
+
+/// Elements ten times longer than thick and more: second order for both, since 20 nodes at full integration bend a thin
+/// plate through parasitic shear (measured 2.03 and 1.93). Fourth order, with elements as long as thick: `beam`, `annulus`.
+#[test]
+fn thin_plate_converges_at_second_order() {
+    for order in [ElementOrder::Linear, ElementOrder::Quadratic] {
+        let [a, b, c] = [8, 16, 32].map(|radial| lambda(order, 0.3, 0.01, radial, 0)[1]);
+        let measured = ((a - b) / (b - c)).log2();
+        println!("{order:?}: order {measured:.2}");
+        assert!((measured - 2.0).abs() < 0.2, "{order:?}: {measured:.2}");
     }
 }

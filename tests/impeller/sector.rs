@@ -19,7 +19,8 @@ fn impeller(element_order: ElementOrder) -> SectorMesh {
         half_passage: 1,
         disk: 1,
     };
-    impeller_sector(&ImpellerParameters { contact_nodes: 5, element_order, mesh, ..Default::default() }).unwrap()
+    impeller_sector(&ImpellerParameters { contact_nodes: 5, element_order, mesh, ..Default::default() })
+        .unwrap()
 }
 
 /// The mass of a sector of a disk is ρ π (b² − a²) t / N: fourth order in the angle of an element with 20 nodes, whose
