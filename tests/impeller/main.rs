@@ -8,4 +8,5 @@ mod eigen;
 mod element;
 mod impeller_a;
 mod impeller_mesh;
+mod presets;
 mod wheel;
