@@ -13,6 +13,14 @@ pub enum ImpellerError {
         /// What it must satisfy.
         requirement: &'static str,
     },
+    /// A field of a parameter set is unknown or of the wrong type.
+    #[error("parameter `{field}`: {detail}")]
+    Field {
+        /// Path of the field, as `mesh.disk`.
+        field: String,
+        /// What is wrong with it.
+        detail: String,
+    },
     /// An element is turned inside out or collapsed.
     #[error(
         "element {element} near r = {radius:.4}, z = {axial:.4} is degenerate or turned inside out (smallest Jacobian \

@@ -7,7 +7,7 @@ use super::element::Stress;
 use super::error::ImpellerError;
 
 /// Isotropic linear elasticity, in the model's consistent units. Default: titanium (`Ti-6Al-4V`) in mm-t-s-N.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, utoipa::ToSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Material {
     /// Young's modulus E > 0 (N/mm²).
@@ -30,8 +30,8 @@ impl Material {
     /// # Errors
     /// [`ImpellerError::Parameter`] names the field.
     pub fn validate(&self) -> Result<(), ImpellerError> {
-        super::parameters::positive("material.youngs_modulus", self.youngs_modulus)?;
-        super::parameters::positive("material.density", self.density)?;
+        super::validate::positive("material.youngs_modulus", self.youngs_modulus)?;
+        super::validate::positive("material.density", self.density)?;
         if !(self.poissons_ratio > -1.0 && self.poissons_ratio < 0.5) {
             return Err(ImpellerError::Parameter {
                 field: "material.poissons_ratio",

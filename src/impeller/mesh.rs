@@ -1,5 +1,7 @@
 //! A hexahedral mesh of one sector and what ties it to the rest of the wheel.
 
+use serde::{Deserialize, Serialize};
+
 use super::element::{Hex8, Hex20, Hexahedron};
 use super::error::ImpellerError;
 
@@ -52,6 +54,36 @@ impl Elements {
         match self {
             Self::Linear(elements) => &elements[element],
             Self::Quadratic(elements) => &elements[element],
+        }
+    }
+}
+
+/// The displacement functions of a mesh's hexahedra.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, utoipa::ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ElementOrder {
+    /// 8-node hexahedra with incompatible modes: for coarse meshes.
+    #[default]
+    Linear,
+    /// 20-node serendipity hexahedra.
+    Quadratic,
+}
+
+impl ElementOrder {
+    /// The half-index in the middle of so many elements; if that is no node, the corner before it.
+    pub(super) fn middle(self, elements: usize) -> usize {
+        match self {
+            Self::Linear => elements / 2 * 2,
+            Self::Quadratic => elements,
+        }
+    }
+
+    /// Whether a point of the grid of half-indices is a node: corners, and middles of edges if quadratic.
+    pub(super) fn has_node(self, half: [usize; 3]) -> bool {
+        let odd = half.iter().filter(|h| *h % 2 == 1).count();
+        match self {
+            Self::Linear => odd == 0,
+            Self::Quadratic => odd <= 1,
         }
     }
 }
@@ -113,7 +145,7 @@ impl HexMesh {
     fn check<E: Hexahedron<N>, const N: usize>(&self, elements: &[[usize; N]]) -> Result<(), ImpellerError> {
         for (element, nodes) in elements.iter().enumerate() {
             let determinant = E::from(self.positions(nodes)).smallest_jacobian();
-            if determinant.is_nan() || determinant <= 0.0 {
+            if !(determinant > 0.0 && determinant.is_finite()) {
                 let mean = |d: usize| self.corners(element).iter().map(|x| x[d] / 8.0).sum::<f64>();
                 return Err(ImpellerError::Jacobian {
                     element: element + 1,
@@ -125,39 +157,4 @@ impl HexMesh {
         }
         Ok(())
     }
-}
-
-/// A structured block of nodes numbered on demand: `(i, j, k)` with `i` fastest.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Grid {
-    /// Nodes in each direction.
-    pub(super) size: [usize; 3],
-    /// Number of the first node.
-    pub(super) first: usize,
-}
-
-impl Grid {
-    /// Node number of grid point `(i, j, k)`.
-    pub(super) fn node(&self, i: usize, j: usize, k: usize) -> usize {
-        self.first + i + self.size[0] * (j + self.size[1] * k)
-    }
-
-    /// Number of nodes in the block.
-    pub(super) fn len(&self) -> usize {
-        self.size.iter().product()
-    }
-}
-
-/// The eight nodes of cell `(i, j, k)` of a block whose points `node` numbers: ξ along i, η along j, ζ along k.
-pub(super) fn cell(node: impl Fn(usize, usize, usize) -> usize, i: usize, j: usize, k: usize) -> [usize; 8] {
-    [
-        node(i, j, k),
-        node(i + 1, j, k),
-        node(i + 1, j + 1, k),
-        node(i, j + 1, k),
-        node(i, j, k + 1),
-        node(i + 1, j, k + 1),
-        node(i + 1, j + 1, k + 1),
-        node(i, j + 1, k + 1),
-    ]
 }

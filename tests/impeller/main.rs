@@ -1,12 +1,16 @@
-//! The finite-element generator against closed forms and invariants.
+//! The finite-element generator against closed forms, another code and invariants.
 
 mod annulus;
 mod beam;
 mod calculix;
+mod conformity;
 mod disk;
+mod disk_mesh;
 mod eigen;
 mod element;
 mod impeller_a;
+mod impeller_mesh;
 mod plate;
+mod presets;
 mod sector;
 mod wheel;
