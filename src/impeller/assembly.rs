@@ -55,8 +55,7 @@ impl<'a, const N: usize> Assembly<'a, N> {
 
     /// Sums `load(e)`, nodal forces in x, y, z, over the elements: a value for each of `size` rows.
     pub(super) fn load(&self, size: usize, load: impl Fn(usize) -> [Vector3<f64>; N] + Sync) -> Vec<f64> {
-        let loads: Vec<[Vector3<f64>; N]> =
-            (0..self.elements.len()).into_par_iter().map(|e| load(e)).collect();
+        let loads: Vec<[Vector3<f64>; N]> = (0..self.elements.len()).into_par_iter().map(&load).collect();
         let mut sum = vec![0.0; size];
         for (nodes, load) in self.elements.iter().zip(&loads) {
             for (&node, force) in nodes.iter().zip(load) {

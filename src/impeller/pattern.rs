@@ -26,9 +26,10 @@ impl Pattern {
         // A node is known by its first row.
         let first_row = |&node: &usize| numbering[node].iter().flatten().next().copied();
         let mut members = vec![0; size];
-        for node in 0..numbering.len() {
-            if let Some(first) = first_row(&node) {
-                members[first] = numbering[node].iter().flatten().count();
+        for rows in numbering {
+            let mut free = rows.iter().flatten();
+            if let Some(&first) = free.next() {
+                members[first] = 1 + free.count();
             }
         }
         let mut below = vec![Vec::new(); size];
