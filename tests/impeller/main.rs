@@ -12,5 +12,6 @@ mod impeller_a;
 mod impeller_mesh;
 mod plate;
 mod presets;
+mod random_wheels;
 mod sector;
 mod wheel;
