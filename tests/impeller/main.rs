@@ -1,8 +1,17 @@
-//! The finite-element generator against closed forms and invariants.
+//! The finite-element generator against closed forms, another code and invariants.
 
 mod annulus;
 mod beam;
+mod calculix;
+mod conformity;
+mod disk;
+mod disk_mesh;
 mod eigen;
 mod element;
 mod impeller_a;
+mod impeller_mesh;
+mod plate;
+mod presets;
+mod random_wheels;
+mod sector;
 mod wheel;

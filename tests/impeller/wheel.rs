@@ -4,13 +4,11 @@ use std::collections::{HashMap, HashSet};
 use std::f64::consts::PI;
 
 use rubmap::dynamics::sector::Units;
-use rubmap::impeller::element::{gauss_points, jacobian_determinant, mass, stiffness};
-use rubmap::impeller::mesh::HexMesh;
+use rubmap::impeller::mesh::{Elements, HexMesh};
 use rubmap::impeller::{
-    ImpellerError, ImpellerParameters, Material, MeshDensities, SectorDofs, assemble, element, generate,
-    impeller_sector,
+    ImpellerError, ImpellerParameters, Material, MeshDensities, generate, impeller_sector,
 };
-use rubmap::package::raw::{RawMatrix, RawPackage};
+use rubmap::package::raw::RawPackage;
 
 use crate::eigen::{harmonic, hertz, lowest};
 
@@ -33,18 +31,6 @@ fn frequencies(package: &RawPackage, speed: usize, diameter: usize, count: usize
     let k = harmonic(package, &package.stiffness[speed], diameter);
     let m = harmonic(package, &package.mass, diameter);
     lowest(&k, &m, count).map(|values| hertz(&values))
-}
-
-fn product(matrix: &RawMatrix, x: &[f64]) -> Vec<f64> {
-    let mut y = vec![0.0; matrix.size];
-    for &(r, c, v) in &matrix.entries {
-        let (r, c) = (r as usize, c as usize);
-        y[r] += v * x[c];
-        if r != c {
-            y[c] += v * x[r];
-        }
-    }
-    y
 }
 
 #[test]
@@ -105,53 +91,6 @@ fn contact_normals_turn_with_the_shroud() {
     // Equal arcs: their chords differ by curvature only.
     let (least, most) = spacings.iter().fold((f64::MAX, 0.0_f64), |(a, b), &s| (a.min(s), b.max(s)));
     assert!(most / least < 1.01, "{least} {most}");
-}
-
-/// On the sector without clamps: translations carry the whole mass, and neither they nor turns cost energy.
-#[test]
-fn free_sector_has_its_mass_and_rigid_body_modes() {
-    let parameters = small();
-    let material = parameters.material;
-    let mut sector = impeller_sector(&parameters).unwrap();
-    sector.clamped.fill([false; 3]);
-    let dofs = SectorDofs::new(&sector);
-    let mesh = &sector.mesh;
-    let m = assemble(&sector, &dofs, |e| {
-        element::expand_nodal(&mass(&mesh.corners(e), material.density), [1.0; 3])
-    });
-    let k = assemble(&sector, &dofs, |e| stiffness(&mesh.corners(e), &material));
-    let volume: f64 = (0..mesh.elements.len())
-        .flat_map(|e| gauss_points().map(|xi| jacobian_determinant(&mesh.corners(e), xi)))
-        .sum();
-
-    // Cartesian fields in the cylindrical components of each node.
-    let field = |u: &dyn Fn([f64; 3]) -> [f64; 3]| -> Vec<f64> {
-        dofs.list
-            .iter()
-            .map(|&(node, component)| {
-                let [ux, uy, uz] = u(mesh.nodes[node]);
-                let (s, c) = mesh.angle(node).sin_cos();
-                [c * ux + s * uy, c * uy - s * ux, uz][component]
-            })
-            .collect()
-    };
-    let largest = k.entries.iter().map(|e| e.2.abs()).fold(0.0, f64::max);
-    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    for d in 0..3 {
-        let translation = field(&|_| std::array::from_fn(|i| f64::from(u8::from(i == d))));
-        let total = dot(&translation, &product(&m, &translation));
-        assert!((total / (material.density * volume) - 1.0).abs() < 1e-12, "{total}");
-        let turn = field(&|x| {
-            let mut u = [0.0; 3];
-            u[(d + 1) % 3] = -x[(d + 2) % 3] / parameters.outlet_radius;
-            u[(d + 2) % 3] = x[(d + 1) % 3] / parameters.outlet_radius;
-            u
-        });
-        for mode in [translation, turn] {
-            let force = product(&k, &mode).iter().fold(0.0_f64, |m, f| m.max(f.abs()));
-            assert!(force < 1e-12 * largest, "direction {d}: {force:e} of {largest:e}");
-        }
-    }
 }
 
 #[test]
@@ -276,7 +215,8 @@ fn bad_parameters_are_named() {
 #[test]
 fn inverted_elements_are_named() {
     let mut mesh = impeller_sector(&small()).unwrap().mesh;
-    mesh.elements[3].swap(0, 1);
+    let Elements::Linear(elements) = &mut mesh.elements else { panic!("linear by default") };
+    elements[3].swap(0, 1);
     assert!(matches!(mesh.check_jacobians(), Err(ImpellerError::Jacobian { element: 4, .. })));
     assert!(HexMesh::default().check_jacobians().is_ok());
 }
