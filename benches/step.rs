@@ -12,7 +12,7 @@ use rubmap::dynamics::casing::{Casing, Restriction};
 use rubmap::dynamics::integrate::{SensorRow, Simulation, smallest_stable_steps};
 use rubmap::dynamics::modal_wheel::ModalWheel;
 use rubmap::dynamics::oscillators::{Direction, ModalDamping};
-use rubmap::dynamics::reduction::{ReducedWheel, ReductionOptions, reduce};
+use rubmap::dynamics::reduction::{NoCheckpoints, ReducedWheel, ReductionOptions, reduce};
 
 #[path = "../tests/oracle/mod.rs"]
 #[allow(dead_code, reason = "shared with the tests, which use all of it")]
@@ -140,7 +140,8 @@ fn reduced_wheel(modes: usize) -> ReducedWheel {
     // One stiffness and 3k modes give the paper's sizes exactly; a step costs the same.
     sector.stiffness.truncate(1);
     sector.speeds_rad_s.truncate(1);
-    reduce(&sector, &ReductionOptions::new(modes), &|_, _| true).expect("the default impeller is sound")
+    reduce(&sector, &ReductionOptions::new(modes), &NoCheckpoints, &|_, _| true)
+        .expect("the default impeller is sound")
 }
 
 fn main() {

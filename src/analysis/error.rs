@@ -31,4 +31,22 @@ pub enum AnalysisError {
     /// The model cannot be reduced or evaluated: the message says at which harmonic and speed, and why.
     #[error("{0}")]
     Model(#[from] crate::dynamics::error::ModelError),
+    /// The reduction needs more memory than it may take.
+    #[error("the reduction needs about {} of memory and may take {}", Bytes(*.needed_bytes), Bytes(*.allowed_bytes))]
+    Memory {
+        /// Estimated peak.
+        needed_bytes: u64,
+        /// What it was allowed.
+        allowed_bytes: u64,
+    },
+}
+
+/// Bytes in words.
+struct Bytes(u64);
+
+impl std::fmt::Display for Bytes {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let mib = self.0 as f64 / f64::from(1 << 20);
+        if mib < 1024.0 { write!(f, "{mib:.1} MiB") } else { write!(f, "{:.1} GiB", mib / 1024.0) }
+    }
 }

@@ -9,7 +9,8 @@ use super::monitor::Monitor;
 use super::result::{ReductionReport, StiffeningReport, StiffeningVerdict};
 use super::run::VERSION;
 use crate::dynamics::reduction::{
-    InterpolationCheck, InterpolationVerdict, ReducedWheel, ReductionError, ReductionOptions, reduce,
+    Checkpoints, InterpolationCheck, InterpolationVerdict, ReducedWheel, ReductionError, ReductionOptions,
+    reduce,
 };
 use crate::dynamics::sector::{SectorModel, Units};
 use crate::numerics::sector_fourier::is_single;
@@ -61,21 +62,26 @@ impl ModelFacts {
     }
 }
 
-/// Reduces a sector (METHOD §2–§4). Deterministic; runs on the calling thread.
+/// Reduces a sector (METHOD §2–§4). Deterministic. Takes at most `memory_bytes`, if given; goes on from `checkpoints`.
 pub fn prepare(
     sector: &SectorModel,
     modes_per_speed: u32,
+    memory_bytes: Option<u64>,
+    checkpoints: &dyn Checkpoints,
     monitor: &dyn Monitor,
 ) -> Result<ReducedSector, AnalysisError> {
     let start = Instant::now();
-    let options = ReductionOptions::new(modes_per_speed as usize);
+    let options = ReductionOptions { memory_bytes, ..ReductionOptions::new(modes_per_speed as usize) };
     let watch = |fraction: f64, phase: &str| {
         monitor.progress(fraction, phase);
         !monitor.is_cancelled()
     };
-    let wheel = reduce(sector, &options, &watch).map_err(|error| match error {
+    let wheel = reduce(sector, &options, checkpoints, &watch).map_err(|error| match error {
         ReductionError::Cancelled => AnalysisError::Cancelled,
         ReductionError::Model(error) => error.into(),
+        ReductionError::Memory { needed_bytes, allowed_bytes } => {
+            AnalysisError::Memory { needed_bytes, allowed_bytes }
+        }
     })?;
     let report = report(&wheel, &options, sector, start.elapsed().as_secs_f64());
     Ok(ReducedSector { units: sector.units.clone(), wheel, report })

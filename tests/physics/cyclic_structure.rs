@@ -2,7 +2,7 @@
 
 use rubmap::dynamics::error::ModelError;
 use rubmap::dynamics::modal_wheel::{ModalWheel, natural_frequencies};
-use rubmap::dynamics::reduction::{ReductionError, ReductionOptions, reduce};
+use rubmap::dynamics::reduction::{NoCheckpoints, ReductionError, ReductionOptions, reduce};
 use rubmap::dynamics::sector::SectorModel;
 
 use crate::fixtures::{TOP_SPEED, WheelRecipe, assembled_wheel, eigenvalues, wheel};
@@ -29,7 +29,7 @@ fn complete_basis_reproduces_the_assembled_wheel() {
         [(1, true), (2, false), (3, true), (4, true), (7, true), (10, true), (10, false)]
     {
         let sector = wheel(WheelRecipe { sectors, stiffening, ..Default::default() });
-        let reduced = reduce(&sector, &ReductionOptions::new(1000), &|_, _| true).unwrap();
+        let reduced = reduce(&sector, &ReductionOptions::new(1000), &NoCheckpoints, &|_, _| true).unwrap();
         let mass = assembled_wheel(&sector.mass, sectors);
         for share in [0.0, 0.3, 0.5, 0.8, 1.0] {
             let speed = share * TOP_SPEED;
@@ -56,10 +56,10 @@ fn complete_basis_reproduces_the_assembled_wheel() {
 #[test]
 fn truncated_basis_converges_from_above() {
     let sector = wheel(WheelRecipe { nodes: 40, ..Default::default() });
-    let exact = reduce(&sector, &ReductionOptions::new(1000), &|_, _| true).unwrap();
+    let exact = reduce(&sector, &ReductionOptions::new(1000), &NoCheckpoints, &|_, _| true).unwrap();
     let mut last = f64::INFINITY;
     for modes in [1, 4, 16] {
-        let reduced = reduce(&sector, &ReductionOptions::new(modes), &|_, _| true).unwrap();
+        let reduced = reduce(&sector, &ReductionOptions::new(modes), &NoCheckpoints, &|_, _| true).unwrap();
         let mut worst: f64 = 0.0;
         for (a, b) in reduced.harmonics.iter().zip(&exact.harmonics) {
             for speed in [0.0, 0.37 * TOP_SPEED, TOP_SPEED] {
@@ -86,7 +86,7 @@ fn equal_stiffness_matrices_leave_a_basis_of_rank_k() {
     let mut sector = wheel(WheelRecipe { nodes: 40, ..Default::default() });
     let rest = sector.stiffness[0].clone();
     sector.stiffness = vec![rest.clone(), rest.clone(), rest];
-    let reduced = reduce(&sector, &ReductionOptions::new(8), &|_, _| true).unwrap();
+    let reduced = reduce(&sector, &ReductionOptions::new(8), &NoCheckpoints, &|_, _| true).unwrap();
     for harmonic in &reduced.harmonics {
         assert_eq!(harmonic.mass.nrows(), 9 + 8);
     }
@@ -97,7 +97,7 @@ fn equal_stiffness_matrices_leave_a_basis_of_rank_k() {
 #[test]
 fn a_wheel_that_hangs_on_nothing_is_refused() {
     let sector = wheel(WheelRecipe { ground: 0.0, stiffening: false, ..Default::default() });
-    let error = reduce(&sector, &ReductionOptions::new(5), &|_, _| true).unwrap_err();
+    let error = reduce(&sector, &ReductionOptions::new(5), &NoCheckpoints, &|_, _| true).unwrap_err();
     let expected = ModelError::RigidBodyModes { nodal_diameter: 0, speed_rad_s: 0.0, modes: 3 };
     assert_eq!(error, ReductionError::Model(expected));
     assert!(error.to_string().contains("is the hub constrained"));
@@ -116,7 +116,7 @@ fn a_nearly_massless_node_leaves_the_lowest_modes_alone() {
                 }
             }
         }
-        let reduced = reduce(&sector, &ReductionOptions::new(12), &|_, _| true).unwrap();
+        let reduced = reduce(&sector, &ReductionOptions::new(12), &NoCheckpoints, &|_, _| true).unwrap();
         let found = natural_frequencies(&reduced.harmonics[2], 0.0, true).unwrap();
         found[..3].to_vec()
     };

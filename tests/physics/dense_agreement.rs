@@ -6,14 +6,14 @@ use rubmap::dynamics::casing::{Casing, Restriction};
 use rubmap::dynamics::integrate::{Outcome, SensorRow, Simulation, smallest_stable_steps};
 use rubmap::dynamics::modal_wheel::ModalWheel;
 use rubmap::dynamics::oscillators::{Direction, ModalDamping};
-use rubmap::dynamics::reduction::{ReductionOptions, reduce};
+use rubmap::dynamics::reduction::{NoCheckpoints, ReductionOptions, reduce};
 
 use crate::fixtures::{TOP_SPEED, WheelRecipe, wheel};
 use crate::oracle::{DenseScheme, DenseWheel, free_gaps, gauss_seidel};
 
 fn agree(recipe: WheelRecipe, damping_ratio: f64, lobes: u32, steps_factor: f64) {
     let sector = wheel(recipe);
-    let reduced = reduce(&sector, &ReductionOptions::new(6), &|_, _| true).unwrap();
+    let reduced = reduce(&sector, &ReductionOptions::new(6), &NoCheckpoints, &|_, _| true).unwrap();
     let speed = 0.6 * TOP_SPEED;
     let modal = ModalWheel::at(&reduced, speed, recipe.stiffening).unwrap();
     let casing = Casing {

@@ -8,6 +8,7 @@ use rubmap::analysis::monitor::Unwatched;
 use rubmap::analysis::result::{PointStatus, SpeedResult, StiffeningVerdict};
 use rubmap::analysis::run::{ModelFacts, ReducedSector, prepare, resolve_sweep, run_speed};
 use rubmap::dynamics::modal_wheel::natural_frequencies;
+use rubmap::dynamics::reduction::NoCheckpoints;
 use rubmap::package;
 
 /// First six frequencies in Hz per nodal diameter at rest, CalculiX 2.20 (shared/models/README.md).
@@ -43,7 +44,10 @@ fn model(name: &str) -> Option<PathBuf> {
 
 fn reduced(path: &std::path::Path, modes_per_speed: u32) -> (ReducedSector, ModelFacts) {
     let imported = package::read(path, &package::Limits::default()).unwrap();
-    (prepare(&imported.sector, modes_per_speed, &Unwatched).unwrap(), ModelFacts::of(&imported.sector))
+    (
+        prepare(&imported.sector, modes_per_speed, None, &NoCheckpoints, &Unwatched).unwrap(),
+        ModelFacts::of(&imported.sector),
+    )
 }
 
 fn compare(reduced: &ReducedSector, speed: f64, table: &[[f64; 6]; 6], tolerance: f64) {

@@ -5,7 +5,7 @@ use rubmap::dynamics::casing::{Casing, Restriction};
 use rubmap::dynamics::integrate::{History, Outcome, Run, SensorRow, Simulation, smallest_stable_steps};
 use rubmap::dynamics::modal_wheel::ModalWheel;
 use rubmap::dynamics::oscillators::{Direction, ModalDamping};
-use rubmap::dynamics::reduction::{ReducedWheel, ReductionOptions, reduce};
+use rubmap::dynamics::reduction::{NoCheckpoints, ReducedWheel, ReductionOptions, reduce};
 use rubmap::numerics::sector_fourier::SectorFourier;
 use rubmap::response::spectra::nodal_diameter_amplitudes;
 
@@ -25,7 +25,7 @@ impl Scene {
     fn new(recipe: WheelRecipe) -> Self {
         let sector = wheel(recipe);
         Self {
-            reduced: reduce(&sector, &ReductionOptions::new(6), &|_, _| true).unwrap(),
+            reduced: reduce(&sector, &ReductionOptions::new(6), &NoCheckpoints, &|_, _| true).unwrap(),
             speed: 0.55 * TOP_SPEED,
             damping_ratio: 0.05,
             casing: Casing {
@@ -162,7 +162,7 @@ fn units_do_not_matter() {
         node.position[2] *= 1e-3;
     }
     let mut metres = Scene::new(recipe);
-    metres.reduced = reduce(&sector, &ReductionOptions::new(6), &|_, _| true).unwrap();
+    metres.reduced = reduce(&sector, &ReductionOptions::new(6), &NoCheckpoints, &|_, _| true).unwrap();
     metres.casing.clearance.iter_mut().for_each(|c| *c *= 1e-3);
     if let Some(lobes) = &mut metres.casing.restriction {
         lobes.amplitude *= 1e-3;

@@ -2,7 +2,7 @@
 
 use faer::sparse::{SparseColMat, Triplet};
 use rubmap::dynamics::modal_wheel::ModalWheel;
-use rubmap::dynamics::reduction::{ReductionOptions, reduce};
+use rubmap::dynamics::reduction::{NoCheckpoints, ReductionOptions, reduce};
 use rubmap::dynamics::sector::{ContactNode, CyclicMatrix, SectorModel, Units};
 
 /// BENCHMARKS.md, cyclic chain: N masses m, ground springs k, neighbour springs k_c give
@@ -33,7 +33,7 @@ fn cyclic_chain() {
             }],
             node_of_dof: vec![0; 3],
         };
-        let reduced = reduce(&sector, &ReductionOptions::new(4), &|_, _| true).unwrap();
+        let reduced = reduce(&sector, &ReductionOptions::new(4), &NoCheckpoints, &|_, _| true).unwrap();
         let modal = ModalWheel::at(&reduced, 100.0, false).unwrap();
         assert_eq!(modal.harmonics.len(), sectors / 2 + 1);
         assert_eq!(modal.unknowns(), 3 * sectors);

@@ -8,6 +8,7 @@ use rubmap::analysis::run::{
     ModelFacts, ReducedSector, check, critical_speeds, interaction_map, map_row, prepare, resolve_sweep,
     run_speed,
 };
+use rubmap::dynamics::reduction::NoCheckpoints;
 use rubmap::dynamics::sector::SectorModel;
 
 use crate::fixtures::{TOP_SPEED, WheelRecipe, wheel};
@@ -30,7 +31,7 @@ fn request(sector: &SectorModel, speeds: &[f64]) -> SweepRequest {
 }
 
 fn reduced(sector: &SectorModel) -> ReducedSector {
-    prepare(sector, 6, &Unwatched).unwrap()
+    prepare(sector, 6, None, &NoCheckpoints, &Unwatched).unwrap()
 }
 
 /// One step fewer than the smallest stable number is refused before anything runs, with that number in the message;
@@ -139,7 +140,7 @@ impl Monitor for Impatient {
 #[test]
 fn cancellation_is_seen_inside_every_verb() {
     let sector = wheel(WheelRecipe { nodes: 90, ..Default::default() });
-    assert!(matches!(prepare(&sector, 6, &Impatient), Err(AnalysisError::Cancelled)));
+    assert!(matches!(prepare(&sector, 6, None, &NoCheckpoints, &Impatient), Err(AnalysisError::Cancelled)));
     let reduced = reduced(&sector);
     let mut request = request(&sector, &[1000.0]);
     assert!(matches!(run_speed(&reduced, &request, 0, &Impatient), Err(AnalysisError::Cancelled)));

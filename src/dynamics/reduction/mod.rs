@@ -9,6 +9,7 @@
 //! ```
 
 mod basis;
+mod checkpoints;
 mod interpolation;
 
 use faer::{Mat, c64};
@@ -23,6 +24,7 @@ use crate::numerics::matrix_serde;
 use crate::numerics::sector_fourier::harmonic_count;
 use crate::numerics::sparse_product::sparse_product;
 
+pub use checkpoints::{Checkpoints, NoCheckpoints};
 pub use interpolation::{InterpolationCheck, InterpolationVerdict};
 
 /// Settings of the reduction.
@@ -35,12 +37,14 @@ pub struct ReductionOptions {
     /// smaller values keep nearly dependent directions, which only become the stiffest modes of the wheel and
     /// shrink the stable step (1560 unknowns: 1.9 times at 1e-8).
     pub basis_tolerance: f64,
+    /// Bytes the reduction may take at its peak; `None` for no limit.
+    pub memory_bytes: Option<u64>,
 }
 
 impl ReductionOptions {
     /// `modes_per_speed` modes with the default tolerance.
     pub fn new(modes_per_speed: usize) -> Self {
-        Self { modes_per_speed, basis_tolerance: 1e-5 }
+        Self { modes_per_speed, basis_tolerance: 1e-5, memory_bytes: None }
     }
 }
 
@@ -89,6 +93,14 @@ pub enum ReductionError {
     /// The caller asked to stop.
     #[error("cancelled")]
     Cancelled,
+    /// It needs more memory than allowed; found out before anything is computed.
+    #[error("the reduction needs {needed_bytes} bytes of memory; {allowed_bytes} are allowed")]
+    Memory {
+        /// Estimated peak.
+        needed_bytes: u64,
+        /// What it was allowed.
+        allowed_bytes: u64,
+    },
 }
 
 /// Watches a reduction: called with the share of work done and what comes next; `false` stops it.
@@ -98,8 +110,10 @@ pub type Watch<'a> = &'a (dyn Fn(f64, &str) -> bool + 'a);
 pub fn reduce(
     sector: &SectorModel,
     options: &ReductionOptions,
+    checkpoints: &dyn Checkpoints,
     watch: Watch<'_>,
 ) -> Result<ReducedWheel, ReductionError> {
+    check_memory(sector, options)?;
     let contact_dofs = sector.contact.iter().flat_map(|node| node.dofs).collect();
     let partition = Partition::new(sector.own_dofs(), contact_dofs);
     let count = harmonic_count(sector.sectors);
@@ -109,7 +123,19 @@ pub fn reduce(
             let text = format!("reduction, nodal diameter {harmonic}: {phase}");
             watch((harmonic as f64 + fraction) / count as f64, &text)
         };
-        harmonics.push(reduce_harmonic(sector, harmonic, &partition, options, &scoped)?);
+        let part = format!("harmonic-{harmonic}");
+        let kept = checkpoints.load(&part).and_then(|bytes| postcard::from_bytes(&bytes).ok());
+        let reduced = match kept {
+            Some(reduced) => reduced,
+            None => {
+                let reduced = reduce_harmonic(sector, harmonic, &partition, options, &scoped)?;
+                if let Ok(bytes) = postcard::to_stdvec(&reduced) {
+                    checkpoints.save(&part, bytes);
+                }
+                reduced
+            }
+        };
+        harmonics.push(reduced);
     }
     let interpolation = interpolation::check(sector, &harmonics)?;
     Ok(ReducedWheel {
@@ -119,6 +145,19 @@ pub fn reduce(
         harmonics,
         interpolation,
     })
+}
+
+/// Refuses a reduction that would take more memory than allowed: some 100 bytes for each entry of the matrices, factors
+/// included.
+fn check_memory(sector: &SectorModel, options: &ReductionOptions) -> Result<(), ReductionError> {
+    let entries: usize = sector.stiffness.iter().map(|k| k.own.compute_nnz()).sum();
+    let needed_bytes = 100 * entries as u64;
+    match options.memory_bytes {
+        Some(allowed_bytes) if needed_bytes > allowed_bytes => {
+            Err(ReductionError::Memory { needed_bytes, allowed_bytes })
+        }
+        _ => Ok(()),
+    }
 }
 
 fn reduce_harmonic(
