@@ -1,5 +1,7 @@
 //! Settings of the service, from the command line or the environment.
 
+mod memory;
+
 use std::net::SocketAddr;
 use std::path::PathBuf;
 
@@ -27,6 +29,10 @@ pub struct Config {
     /// Largest model package accepted, in bytes once expanded [default: what the importer considers safe].
     #[arg(long, env = "RUBMAP_EXPANDED_BYTES")]
     pub expanded_bytes: Option<u64>,
+
+    /// Memory that reductions may take, in bytes [default: three quarters of what the machine or container leaves].
+    #[arg(long, env = "RUBMAP_MEMORY_BYTES", value_parser = clap::value_parser!(u64).range(1 << 20..))]
+    pub memory_bytes: Option<u64>,
 }
 
 impl Config {
@@ -36,6 +42,12 @@ impl Config {
             Some(workers) => usize::from(workers),
             None => std::thread::available_parallelism().map_or(1, usize::from),
         }
+    }
+
+    /// Memory that reductions may take; `None` where nothing is known about it.
+    pub fn memory_limit(&self) -> Option<u64> {
+        // A quarter is left to packages being read, speeds being run and the system.
+        self.memory_bytes.or_else(|| memory::available_bytes().map(|available| available / 4 * 3))
     }
 
     /// Limits of the importer.

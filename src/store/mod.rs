@@ -1,8 +1,10 @@
-//! What is remembered: models, reductions, jobs and results in one `SQLite` file. The only SQL in the program.
+//! What is remembered: models, reductions, jobs and results in one `SQLite` file, packages and checkpoints as files
+//! beside it. The only SQL in the program.
 //!
 //! One function per question; rows become domain types here. All writes go through one connection, so transactions
 //! never meet a busy database, and readers never wait for writers (WAL).
 
+pub mod checkpoints;
 mod error;
 pub mod idempotency;
 pub mod jobs;
@@ -57,6 +59,17 @@ impl Store {
     pub async fn ping(&self) -> Result<(), StoreError> {
         sqlx::query("select 1").execute(&self.readers).await?;
         Ok(())
+    }
+
+    /// Removes files that an earlier service left behind and nobody will use. For a service that starts: what is being
+    /// written now looks the same. What cannot be removed does no harm.
+    pub async fn remove_leftovers(&self) {
+        if let Err(error) = self.remove_stale_packages().await {
+            tracing::warn!(%error, "could not remove the packages of broken uploads");
+        }
+        if let Err(error) = self.remove_stale_checkpoints().await {
+            tracing::warn!(%error, "could not remove stale checkpoints");
+        }
     }
 
     /// Closes all connections, which folds the write-ahead log into the database.

@@ -8,6 +8,9 @@ use sqlx::sqlite::SqliteRow;
 use super::{Store, StoreError, now};
 use crate::analysis::run::ModelFacts;
 
+/// What names of packages on their way in begin with.
+const UPLOAD_PREFIX: &str = "upload-";
+
 /// A stored model.
 #[derive(Debug, Clone)]
 pub struct StoredModel {
@@ -33,9 +36,10 @@ pub enum Deletion {
 }
 
 impl Store {
-    /// A folder on the same file system as the models, for uploads in progress.
-    pub fn upload_folder(&self) -> PathBuf {
-        self.folder.join("models")
+    /// An empty file on the same file system as the models, for a package on its way in. Removed when dropped, or by the
+    /// next start.
+    pub fn new_upload(&self) -> std::io::Result<tempfile::NamedTempFile> {
+        tempfile::Builder::new().prefix(UPLOAD_PREFIX).tempfile_in(self.folder.join("models"))
     }
 
     /// Where the package of `model` lies.
@@ -95,6 +99,22 @@ impl Store {
             .collect()
     }
 
+    /// Removes package files without a row: of uploads and deletions that broke off.
+    pub(super) async fn remove_stale_packages(&self) -> Result<(), StoreError> {
+        let mut files = tokio::fs::read_dir(self.folder.join("models")).await?;
+        while let Some(file) = files.next_entry().await? {
+            let Ok(name) = file.file_name().into_string() else { continue };
+            let stale = match name.strip_suffix(".zip") {
+                Some(id) => self.model(id).await?.is_none(),
+                None => name.starts_with(UPLOAD_PREFIX),
+            };
+            if stale {
+                tokio::fs::remove_file(file.path()).await?;
+            }
+        }
+        Ok(())
+    }
+
     /// Deletes model `id` with its reductions, unless an unfinished job needs it.
     pub async fn delete_model(&self, id: &str) -> Result<Deletion, StoreError> {
         let _packages = self.packages.lock().await;
@@ -114,6 +134,7 @@ impl Store {
         if deleted.rows_affected() == 0 {
             return Ok(Deletion::Unknown);
         }
+        self.remove_checkpoints(id, None).await;
         match tokio::fs::remove_file(self.package_path(id)).await {
             Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(error.into()),
             _ => Ok(Deletion::Deleted),
