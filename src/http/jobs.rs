@@ -95,8 +95,13 @@ pub(super) async fn get_job(
     JobPath(id): JobPath,
 ) -> Result<Json<JobDetail>, Problem> {
     let job = state.store.job(id).await?.ok_or_else(|| job_not_found(&id))?;
-    let mut reports = state.store.reduction_reports(job.request.model()).await?.into_iter();
-    let reduction = reports.find(|report| report.modes_per_speed == job.request.modes_per_speed());
+    let reduction = match job.request.reduction() {
+        Some((model, modes_per_speed)) => {
+            let mut reports = state.store.reduction_reports(model).await?.into_iter();
+            reports.find(|report| report.modes_per_speed == modes_per_speed)
+        }
+        None => None,
+    };
     Ok(Json(JobDetail { job: job.into(), reduction }))
 }
 

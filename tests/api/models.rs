@@ -1,11 +1,9 @@
 //! Models: upload, limits, deletion.
 
-use std::path::Path;
-
 use serde_json::json;
 
 use super::app::{TestApp, long_sweep_of};
-use super::model;
+use super::model::{self, files_in};
 
 #[tokio::test]
 async fn the_same_content_is_one_model() {
@@ -102,11 +100,4 @@ async fn packages_that_expand_beyond_the_limit_are_refused() {
     let app = TestApp::start_with(|config| config.expanded_bytes = Some(200)).await;
     app.api.upload(model::package(1.0)).await.problem(422, "invalid-package");
     app.stop().await;
-}
-
-fn files_in(folder: &Path) -> Vec<String> {
-    std::fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .collect()
 }
