@@ -8,6 +8,7 @@ mod jobs;
 mod modal_analyses;
 mod models;
 mod openapi;
+mod page;
 pub mod problem;
 mod results;
 mod router;

@@ -8,14 +8,15 @@ use axum::extract::{FromRequest, Path, Request, State};
 use axum::http::{StatusCode, header};
 use axum::response::Response;
 use futures::StreamExt;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use tokio::io::{AsyncWriteExt, BufWriter};
 use tokio::time::timeout;
-use utoipa::ToSchema;
+use utoipa::{IntoParams, ToSchema};
 
 use super::AppState;
-use super::extract::{JsonBody, expect_media_type, is_media_type};
+use super::extract::{JsonBody, Parameters, expect_media_type, is_media_type};
 use super::idempotency::{self, IdempotencyKey};
+use super::page;
 use super::problem::{Kind, Problem};
 use super::submit::{self, Receipt};
 use crate::analysis::result::ReductionReport;
@@ -57,11 +58,26 @@ pub(super) struct ModelDetail {
     reductions: Vec<ReductionReport>,
 }
 
-/// All models.
+/// Which models to list.
+#[derive(Debug, Deserialize, IntoParams)]
+#[serde(deny_unknown_fields)]
+#[into_params(parameter_in = Query)]
+pub(super) struct ModelQuery {
+    /// Models per page, 1 to 500; default 50.
+    #[param(minimum = 1, maximum = 500)]
+    limit: Option<u32>,
+    /// Where the page begins: from `next` of the page before.
+    cursor: Option<String>,
+}
+
+/// A page of models.
 #[derive(Debug, Serialize, ToSchema)]
 pub(super) struct ModelList {
     /// Newest first.
     models: Vec<ModelBody>,
+    /// Path of the next page; absent on the last.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    next: Option<String>,
 }
 
 /// A zip file as PACKAGE.md describes it.
@@ -78,7 +94,7 @@ pub(super) struct GeneratorParameters(ImpellerParameters);
 
 impl From<StoredModel> for ModelBody {
     fn from(model: StoredModel) -> Self {
-        let StoredModel { id, facts, size_bytes, created_at } = model;
+        let StoredModel { id, facts, size_bytes, created_at, .. } = model;
         Self { id, facts, size_bytes, created_at }
     }
 }
@@ -193,12 +209,24 @@ fn too_large(limit: u64) -> Problem {
     Problem::new(Kind::PayloadTooLarge, format!("a model package may have {limit} bytes on this service"))
 }
 
-/// List all models.
-#[utoipa::path(get, path = "/v1/models", operation_id = "list_models", tag = "models",
-    responses((status = 200, description = "All models, newest first.", body = ModelList)))]
-pub(super) async fn list_models(state: State<AppState>) -> Result<Json<ModelList>, Problem> {
-    let models = state.store.models().await?.into_iter().map(ModelBody::from).collect();
-    Ok(Json(ModelList { models }))
+/// List models.
+#[utoipa::path(get, path = "/v1/models", operation_id = "list_models", tag = "models", params(ModelQuery),
+    responses(
+        (status = 200, description = "A page of models, newest first.", body = ModelList),
+        (status = 400, description = "A parameter is not valid.", body = Problem,
+            content_type = "application/problem+json"),
+    ))]
+pub(super) async fn list_models(
+    state: State<AppState>,
+    Parameters(query): Parameters<ModelQuery>,
+) -> Result<Json<ModelList>, Problem> {
+    let limit = page::limit(query.limit)?;
+    let before = page::cursor(query.cursor.as_deref(), |cursor| cursor.parse().ok())?;
+    // One more than asked for tells whether there is another page.
+    let mut models = state.store.models(before, limit + 1).await?;
+    let next =
+        page::cut(&mut models, limit).map(|last| format!("/v1/models?limit={limit}&cursor={}", last.number));
+    Ok(Json(ModelList { models: models.into_iter().map(ModelBody::from).collect(), next }))
 }
 
 /// Read a model's facts and what its reductions found.

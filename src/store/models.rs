@@ -14,6 +14,8 @@ const UPLOAD_PREFIX: &str = "upload-";
 /// A stored model.
 #[derive(Debug, Clone)]
 pub struct StoredModel {
+    /// Models get growing numbers as they come.
+    pub number: i64,
     /// Digest of the package's content.
     pub id: String,
     /// What requests are checked against.
@@ -81,7 +83,7 @@ impl Store {
 
     /// The model `id`.
     pub async fn model(&self, id: &str) -> Result<Option<StoredModel>, StoreError> {
-        sqlx::query("select * from models where id = ?")
+        sqlx::query("select rowid as number, * from models where id = ?")
             .bind(id)
             .fetch_optional(&self.readers)
             .await?
@@ -89,9 +91,13 @@ impl Store {
             .transpose()
     }
 
-    /// All models, newest first.
-    pub async fn models(&self) -> Result<Vec<StoredModel>, StoreError> {
-        sqlx::query("select * from models order by created_at desc, id")
+    /// Up to `limit` models, newest first; only older ones than that with number `before`.
+    pub async fn models(&self, before: Option<i64>, limit: u32) -> Result<Vec<StoredModel>, StoreError> {
+        sqlx::query(
+            "select rowid as number, * from models where ?1 is null or rowid < ?1 order by rowid desc limit ?2",
+        )
+            .bind(before)
+            .bind(limit)
             .fetch_all(&self.readers)
             .await?
             .iter()
@@ -144,6 +150,7 @@ impl Store {
 
 fn read(row: &SqliteRow) -> Result<StoredModel, StoreError> {
     Ok(StoredModel {
+        number: row.try_get("number")?,
         id: row.try_get("id")?,
         facts: serde_json::from_str(row.try_get("facts")?)?,
         size_bytes: row.try_get::<i64, _>("size_bytes")?.unsigned_abs(),

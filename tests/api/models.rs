@@ -32,6 +32,38 @@ async fn the_same_content_is_one_model() {
 }
 
 #[tokio::test]
+async fn the_list_comes_in_pages() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let mut models = Vec::new();
+    for scale in 1..=5 {
+        models.push(api.model(model::package(scale.into())).await);
+    }
+    let mut path = "/v1/models?limit=2".to_owned();
+    let mut listed = Vec::new();
+    loop {
+        let page = api.get(&path).await.body;
+        let ids: Vec<_> =
+            page["models"].as_array().unwrap().iter().map(|model| model["id"].clone()).collect();
+        // A page may go on after a model that is gone.
+        api.delete(&format!("/v1/models/{}", ids.last().unwrap().as_str().unwrap())).await;
+        listed.push(ids);
+        match page["next"].as_str() {
+            Some(next) => path = next.to_owned(),
+            None => break,
+        }
+    }
+    assert_eq!(listed.iter().map(Vec::len).collect::<Vec<_>>(), [2, 2, 1]);
+    models.reverse();
+    assert_eq!(listed.concat(), models);
+    for (query, parameter) in [("limit=501", "limit"), ("cursor=here", "cursor"), ("page=2", "page")] {
+        let items = api.get(&format!("/v1/models?{query}")).await.problem(400, "invalid-parameter");
+        assert_eq!(items[0]["parameter"], parameter, "{query}");
+    }
+    app.stop().await;
+}
+
+#[tokio::test]
 async fn a_model_is_there_after_a_restart() {
     let data = tempfile::tempdir().unwrap();
     let app = TestApp::start_on(data.path()).await;
