@@ -11,7 +11,6 @@ use super::memory::Memory;
 use super::pool::CpuPool;
 use super::progress::{News, Watch};
 use super::reductions::Reductions;
-use crate::package;
 use crate::store::Store;
 use crate::store::jobs::{Failure, FailureCause, Job, JobId, JobRequest};
 use crate::store::queue::QueueFile;
@@ -28,8 +27,6 @@ pub(super) struct Engine {
     pub(super) reductions: Reductions,
     /// What reductions and generations may take together.
     pub(super) memory: Arc<Memory>,
-    /// Limits for packages read on the way.
-    pub(super) limits: package::Limits,
     /// Rung when there is something new to prepare.
     pub(super) new_preparation: Arc<Notify>,
     /// Rung when there are new speeds to run.
@@ -55,14 +52,12 @@ impl Engine {
         store: Store,
         queue: QueueFile,
         (pool, importer): (CpuPool, CpuPool),
-        limits: package::Limits,
         memory: Memory,
     ) -> Arc<Self> {
         let memory = Arc::new(memory);
         Arc::new(Self {
-            reductions: Reductions::new(store.clone(), pool.clone(), limits.clone(), Arc::clone(&memory)),
+            reductions: Reductions::new(store.clone(), pool.clone(), Arc::clone(&memory)),
             memory,
-            limits,
             store,
             queue,
             pool,

@@ -57,7 +57,7 @@ impl Memory {
         // Refused only once the semaphore is closed, which nobody does.
         let permit = self.shares.acquire_many(shares).await.ok();
         let bytes = self.bytes.map(|bytes| bytes / u64::from(SHARES) * u64::from(shares));
-        Allowance { bytes, _shares: permit, turn: turn }
+        Allowance { bytes, _shares: permit, turn }
     }
 }
 

@@ -10,7 +10,7 @@ use super::progress::PhaseMonitor;
 use crate::analysis::error::AnalysisError;
 use crate::analysis::monitor::Monitor;
 use crate::analysis::run::{self, ReducedSector};
-use crate::package;
+use crate::package::{self, Limits};
 use crate::store::Store;
 use crate::store::jobs::{Failure, FailureCause};
 
@@ -25,7 +25,6 @@ type Key = (String, u32);
 pub(super) struct Reductions {
     store: Store,
     pool: CpuPool,
-    limits: package::Limits,
     memory: Arc<Memory>,
     /// Most recently used last.
     recent: Mutex<VecDeque<(Key, Arc<ReducedSector>)>>,
@@ -34,8 +33,8 @@ pub(super) struct Reductions {
 }
 
 impl Reductions {
-    pub(super) fn new(store: Store, pool: CpuPool, limits: package::Limits, memory: Arc<Memory>) -> Self {
-        Self { store, pool, limits, memory, recent: Mutex::default(), flights: Mutex::default() }
+    pub(super) fn new(store: Store, pool: CpuPool, memory: Arc<Memory>) -> Self {
+        Self { store, pool, memory, recent: Mutex::default(), flights: Mutex::default() }
     }
 
     /// The reduction of `model`; computes and stores it if there is none.
@@ -115,13 +114,14 @@ impl Reductions {
         let (model, modes_per_speed) = (key.0.as_str(), key.1);
         tracing::info!(model.id = model, modes_per_speed, memory_bytes, "reducing");
         monitor.progress(0.0, "reading the package");
-        let (path, limits) = (self.store.package_path(model), self.limits.clone());
+        let path = self.store.package_path(model);
         let (checkpoints, monitor) = (self.store.checkpoints(model, modes_per_speed), monitor.clone());
         let compute = move || {
-            let package = package::read(&path, &limits).map_err(|error| {
+            let package = package::read(&path, &Limits::default()).map_err(|error| {
                 let message = format!("the stored package cannot be read any more: {error}");
                 Halt::Failed(Failure { cause: FailureCause::Package, message, violations: Vec::new() })
             })?;
+            monitor.progress(0.0, "reducing");
             Ok(run::prepare(&package.sector, modes_per_speed, memory_bytes, &checkpoints, &monitor))
         };
         self.pool.run_parallel(compute).await?

@@ -21,7 +21,6 @@ use super::memory::Memory;
 use super::pool::CpuPool;
 use super::progress::{News, Report};
 use super::{prepare, speed};
-use crate::package;
 use crate::store::queue::{PrepareJob, QueueFile, RunSpeed};
 use crate::store::{Store, StoreError};
 
@@ -45,8 +44,6 @@ pub struct Settings {
     pub data: PathBuf,
     /// Threads that compute.
     pub workers: usize,
-    /// Limits for packages read again from the store.
-    pub limits: package::Limits,
     /// Memory that reductions and generations may take together; `None` for no limit.
     pub memory_bytes: Option<u64>,
 }
@@ -67,7 +64,7 @@ impl Runner {
         let pool = |name, threads| CpuPool::start(name, threads, settings.workers);
         let pools = (pool("compute", settings.workers)?, pool("import", 1)?);
         let memory = Memory::new(settings.memory_bytes);
-        let engine = Engine::new(store.clone(), queue, pools, settings.limits, memory);
+        let engine = Engine::new(store.clone(), queue, pools, memory);
         for (job, crashes) in store.take_up_jobs().await? {
             if crashes >= MOST_CRASHES {
                 engine.settle(job, Err(Halt::crashed(crashes))).await;
@@ -101,15 +98,16 @@ impl Runner {
     pub async fn stop(self) {
         self.engine.stopping.store(true, Ordering::Relaxed);
         self.stop.cancel();
+        // At once: who stops the service may not have the patience for the last computations to notice.
+        if let Err(error) = self.engine.store.lay_down_jobs().await {
+            tracing::warn!(%error, "could not lay down the running jobs; the next start takes this for a crash");
+        }
         for worker in self.workers {
             if let Err(error) = worker.await {
                 tracing::error!(%error, "a worker ended badly");
             }
         }
         self.recorder.abort();
-        if let Err(error) = self.engine.store.lay_down_jobs().await {
-            tracing::warn!(%error, "could not lay down the running jobs; the next start takes this for a crash");
-        }
         self.engine.queue.close().await;
     }
 }
