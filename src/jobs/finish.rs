@@ -3,6 +3,7 @@
 use super::engine::{Engine, Live};
 use super::error::Halt;
 use super::progress::PhaseMonitor;
+use super::room::once_there_is_room;
 use crate::analysis::request::SweepRequest;
 use crate::analysis::run;
 use crate::store::results::Document;
@@ -30,7 +31,8 @@ pub(super) async fn complete(
     documents: &[(Document, String)],
     made: Option<&str>,
 ) -> Result<(), Halt> {
-    if engine.store.complete_job(job.id, documents, made).await? {
+    let write = || engine.store.complete_job(job.id, documents, made);
+    if once_there_is_room(&job.watch, write).await? {
         tracing::info!(job.id = %job.id, "successful");
     }
     engine.forget(job.id);

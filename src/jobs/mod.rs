@@ -25,6 +25,7 @@ mod pool;
 mod prepare;
 mod progress;
 mod reductions;
+mod room;
 mod speed;
 mod workers;
 

@@ -138,6 +138,11 @@ impl PhaseMonitor {
         Self { watch, from: 0.0, to: 100.0 }
     }
 
+    /// The job it belongs to.
+    pub(super) fn watch(&self) -> &Watch {
+        &self.watch
+    }
+
     /// A phase that counts for nothing but can be cancelled.
     pub(super) fn uncounted(watch: Arc<Watch>) -> Self {
         Self { watch, from: 0.0, to: 0.0 }

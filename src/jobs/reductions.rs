@@ -7,6 +7,7 @@ use super::error::Halt;
 use super::memory::Memory;
 use super::pool::CpuPool;
 use super::progress::PhaseMonitor;
+use super::room::once_there_is_room;
 use crate::analysis::error::AnalysisError;
 use crate::analysis::monitor::Monitor;
 use crate::analysis::run::{self, ReducedSector};
@@ -94,7 +95,8 @@ impl Reductions {
         }
         drop(allowance);
         let reduced = outcome?;
-        self.store.insert_reduction(model, modes_per_speed, &reduced).await?;
+        let write = || self.store.insert_reduction(model, modes_per_speed, &reduced);
+        once_there_is_room(monitor.watch(), write).await?;
         let wall_time_s = reduced.report.wall_time_s;
         tracing::info!(model.id = model, modes_per_speed, wall_time_s, "reduced");
         Ok(self.remember(key, reduced))

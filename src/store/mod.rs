@@ -124,6 +124,21 @@ mod tests {
     }
 
     #[tokio::test]
+    async fn a_full_disk_is_told_from_other_failures() {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::open(folder.path()).await.unwrap();
+        // SQLite refuses to grow beyond so many pages as it does on a full disk.
+        sqlx::query("pragma max_page_count = 1").execute(&store.writer).await.unwrap();
+        let large = "insert into idempotency_keys values ('k', 'f', 200, 'l', json_quote(hex(zeroblob(100000))), 'a')";
+        let full = StoreError::from(sqlx::query(large).execute(&store.writer).await.unwrap_err());
+        assert!(full.is_disk_full(), "{full}");
+        let wrong = StoreError::from(
+            sqlx::query("insert into jobs (id) values (1)").execute(&store.writer).await.unwrap_err(),
+        );
+        assert!(!wrong.is_disk_full(), "{wrong}");
+    }
+
+    #[tokio::test]
     async fn results_of_older_versions_stay_when_the_table_of_jobs_is_made_anew() {
         let job = JobId::new();
         let folder = older_folder(job).await;
