@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use clap::Args;
+use serde_json::Value;
 
-use crate::impeller::{ImpellerParameters, generate as generate_package};
+use crate::impeller::{ImpellerRequest, PaperCasing, Preset, generate as generate_package};
 
 /// What to generate and where to put it.
 #[derive(Debug, Args)]
@@ -15,9 +16,12 @@ pub struct GenerateArgs {
     /// Package to write
     #[arg(long, default_value = "impeller.zip")]
     pub out: PathBuf,
-    /// JSON file with any of the generator's parameters; what it leaves out keeps its default
+    /// JSON file with any of the generator's parameters, and a preset's name; what it leaves out comes from the preset
     #[arg(long)]
     pub parameters: Option<PathBuf>,
+    /// Impeller to start from; overrides the file [default: small]
+    #[arg(long)]
+    pub preset: Option<Preset>,
     /// Number of sectors (main blades); overrides the file
     #[arg(long)]
     pub sectors: Option<usize>,
@@ -40,7 +44,7 @@ pub struct GenerateArgs {
 /// # Errors
 /// Unreadable or impossible parameters, or a file that cannot be written.
 pub fn generate(args: GenerateArgs) -> anyhow::Result<()> {
-    let parameters = args.resolve()?;
+    let parameters = args.request()?.resolve()?;
     if args.print_parameters {
         println!("{}", serde_json::to_string_pretty(&parameters)?);
         return Ok(());
@@ -58,33 +62,40 @@ pub fn generate(args: GenerateArgs) -> anyhow::Result<()> {
         parameters.top_speed_rad_s,
         parameters.top_speed_rad_s * 30.0 / std::f64::consts::PI,
     );
+    let casing = PaperCasing::of(&parameters);
+    println!(
+        "The paper's casing for it: clearance {} (leading) to {} (trailing), restriction {} {}",
+        casing.leading_clearance, casing.trailing_clearance, casing.restriction, parameters.units.length,
+    );
     Ok(())
 }
 
 impl GenerateArgs {
-    /// Defaults, then the file, then the single options.
-    fn resolve(&self) -> anyhow::Result<ImpellerParameters> {
-        let mut parameters = match &self.parameters {
+    /// The file, then the single options.
+    fn request(&self) -> anyhow::Result<ImpellerRequest> {
+        let mut request = match &self.parameters {
             Some(path) => read(path)?,
-            None => ImpellerParameters::default(),
+            None => ImpellerRequest::default(),
         };
-        if let Some(sectors) = self.sectors {
-            parameters.sectors = sectors;
+        if let Some(preset) = self.preset {
+            request.preset = preset;
         }
-        if let Some(radius) = self.outlet_radius {
-            parameters.outlet_radius = radius;
+        let options = [
+            ("sectors", self.sectors.map(Value::from)),
+            ("outlet_radius", self.outlet_radius.map(Value::from)),
+            ("top_speed_rad_s", self.speed.map(Value::from)),
+            ("contact_nodes", self.contact_nodes.map(Value::from)),
+        ];
+        for (field, value) in options {
+            if let Some(value) = value {
+                request.overrides.insert(field.to_owned(), value);
+            }
         }
-        if let Some(speed) = self.speed {
-            parameters.top_speed_rad_s = speed;
-        }
-        if let Some(nodes) = self.contact_nodes {
-            parameters.contact_nodes = nodes;
-        }
-        Ok(parameters)
+        Ok(request)
     }
 }
 
-fn read(path: &Path) -> anyhow::Result<ImpellerParameters> {
+fn read(path: &Path) -> anyhow::Result<ImpellerRequest> {
     let text = std::fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))?;
     serde_json::from_str(&text).with_context(|| format!("{} is not a parameter set", path.display()))
 }

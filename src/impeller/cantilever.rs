@@ -2,11 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::blocks::BlockMesher;
 use super::error::ImpellerError;
 use super::material::Material;
-use super::mesh::{Grid, HexMesh, SectorMesh, TipNode, cell};
-use super::parameters::{at_least, positive};
+use super::mesh::{ElementOrder, SectorMesh, TipNode};
 use super::to_package::to_package;
+use super::validate::{at_least, positive};
 use crate::dynamics::sector::Units;
 use crate::package::raw::RawPackage;
 
@@ -28,6 +29,8 @@ pub struct CantileverParameters {
     pub depth: f64,
     /// Elements along x, y and z.
     pub elements: [usize; 3],
+    /// 8-node or 20-node hexahedra.
+    pub element_order: ElementOrder,
     /// Material.
     pub material: Material,
     /// Ω1 (rad/s).
@@ -43,13 +46,14 @@ impl Default for CantileverParameters {
             width: 2.0,
             depth: 20.0,
             elements: [20, 1, 4],
+            element_order: ElementOrder::default(),
             material: Material::default(),
             top_speed_rad_s: 1000.0,
         }
     }
 }
 
-/// Meshes the beam. Contact nodes: the tip's edge along z (from −z to +z), normals radially outwards.
+/// Meshes the beam. Contact nodes: corners along the middle of the tip (from −z to +z), normals radially outwards.
 ///
 /// # Errors
 /// [`ImpellerError::Parameter`] names the field at fault.
@@ -68,30 +72,23 @@ pub fn cantilever_mesh(p: &CantileverParameters) -> Result<SectorMesh, ImpellerE
         at_least(field, p.elements[d], 1, "must be at least 1")?;
     }
     let [nx, ny, nz] = p.elements;
-    let grid = Grid { size: [nx + 1, ny + 1, nz + 1], first: 0 };
-    let mut mesh = HexMesh::default();
-    let mut clamped = Vec::with_capacity(grid.len());
-    for k in 0..=nz {
-        for j in 0..=ny {
-            for i in 0..=nx {
-                mesh.nodes.push([
-                    p.root_radius + p.length * i as f64 / nx as f64,
-                    p.width * (j as f64 / ny as f64 - 0.5),
-                    p.depth * (k as f64 / nz as f64 - 0.5),
-                ]);
-                clamped.push([i == 0; 3]);
-            }
-        }
-    }
-    for k in 0..nz {
-        for j in 0..ny {
-            for i in 0..nx {
-                mesh.elements.push(cell(|i, j, k| grid.node(i, j, k), i, j, k));
-            }
-        }
-    }
-    let contact =
-        (0..=nz).map(|k| TipNode { node: grid.node(nx, ny / 2, k), normal: [1.0, 0.0, 0.0] }).collect();
+    let mut mesher = BlockMesher::new(p.element_order);
+    let part = |half: usize, count: usize| half as f64 / (2 * count) as f64;
+    let block = mesher.add(
+        p.elements,
+        |_| None,
+        |[i, j, k]| {
+            [
+                p.root_radius + p.length * part(i, nx),
+                p.width * (part(j, ny) - 0.5),
+                p.depth * (part(k, nz) - 0.5),
+            ]
+        },
+    );
+    let clamped = block.iter().map(|([i, ..], _)| [i == 0; 3]).collect();
+    let edge = (0..=nz).filter_map(|k| block.node([2 * nx, p.element_order.middle(ny), 2 * k]));
+    let contact = edge.map(|node| TipNode { node, normal: [1.0, 0.0, 0.0] }).collect();
+    let mesh = mesher.finish();
     Ok(SectorMesh { sectors: 1, mesh, clamped, cyclic: Vec::new(), contact })
 }
 

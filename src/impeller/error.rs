@@ -13,6 +13,14 @@ pub enum ImpellerError {
         /// What it must satisfy.
         requirement: &'static str,
     },
+    /// A field of a parameter set is unknown or of the wrong type.
+    #[error("parameter `{field}`: {detail}")]
+    Field {
+        /// Path of the field, as `mesh.disk`.
+        field: String,
+        /// What is wrong with it.
+        detail: String,
+    },
     /// An element is turned inside out or collapsed.
     #[error(
         "element {element} near r = {radius:.4}, z = {axial:.4} is degenerate or turned inside out (smallest Jacobian \
@@ -25,16 +33,10 @@ pub enum ImpellerError {
         radius: f64,
         /// Axial position of its centre.
         axial: f64,
-        /// Smallest Jacobian determinant over its corners.
+        /// Smallest Jacobian determinant over its corners and points of integration.
         determinant: f64,
     },
     /// The stiffness matrix at rest has no Cholesky factor.
     #[error("the sector's stiffness at rest is not positive definite: is anything clamped?")]
     NotPositiveDefinite,
-    /// The sparse factorisation could not be built.
-    #[error("the sector's stiffness at rest could not be factorised: {detail}")]
-    Factorisation {
-        /// What the linear algebra library reported.
-        detail: String,
-    },
 }

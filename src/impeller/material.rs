@@ -1,12 +1,13 @@
 //! An isotropic, linear elastic material.
 
-use nalgebra::SMatrix;
+use nalgebra::Matrix3;
 use serde::{Deserialize, Serialize};
 
+use super::element::Stress;
 use super::error::ImpellerError;
 
 /// Isotropic linear elasticity, in the model's consistent units. Default: titanium (`Ti-6Al-4V`) in mm-t-s-N.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, utoipa::ToSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Material {
     /// Young's modulus E > 0 (N/mm²).
@@ -29,8 +30,8 @@ impl Material {
     /// # Errors
     /// [`ImpellerError::Parameter`] names the field.
     pub fn validate(&self) -> Result<(), ImpellerError> {
-        super::parameters::positive("material.youngs_modulus", self.youngs_modulus)?;
-        super::parameters::positive("material.density", self.density)?;
+        super::validate::positive("material.youngs_modulus", self.youngs_modulus)?;
+        super::validate::positive("material.density", self.density)?;
         if !(self.poissons_ratio > -1.0 && self.poissons_ratio < 0.5) {
             return Err(ImpellerError::Parameter {
                 field: "material.poissons_ratio",
@@ -41,19 +42,17 @@ impl Material {
         Ok(())
     }
 
-    /// C with σ = C ε, `ε = (ε_xx, ε_yy, ε_zz, γ_xy, γ_yz, γ_zx)`.
-    pub fn elasticity(&self) -> SMatrix<f64, 6, 6> {
+    /// λ and μ of Lamé, `σ = λ tr(ε) 1 + 2μ ε`.
+    pub fn lame_constants(&self) -> (f64, f64) {
         let (e, nu) = (self.youngs_modulus, self.poissons_ratio);
-        let shear = e / (2.0 * (1.0 + nu));
-        let lambda = e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
-        let mut c = SMatrix::<f64, 6, 6>::zeros();
-        for i in 0..3 {
-            for j in 0..3 {
-                c[(i, j)] = lambda;
-            }
-            c[(i, i)] += 2.0 * shear;
-            c[(i + 3, i + 3)] = shear;
-        }
-        c
+        (e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)), e / (2.0 * (1.0 + nu)))
+    }
+
+    /// Stress under the displacement gradient `h_ij = ∂u_i/∂x_j`.
+    pub fn stress(&self, h: &Matrix3<f64>) -> Stress {
+        let (lambda, mu) = self.lame_constants();
+        let normal = |i: usize| lambda * h.trace() + 2.0 * mu * h[(i, i)];
+        let shear = |i: usize, j: usize| mu * (h[(i, j)] + h[(j, i)]);
+        Stress::new(normal(0), normal(1), normal(2), shear(0, 1), shear(1, 2), shear(2, 0))
     }
 }

@@ -2,31 +2,43 @@
 //!
 //! [`generate`] runs top to bottom: parameters → sector mesh → M, `K_e` → centrifugal pre-stress → `K_σ` and spin
 //! softening → package. Everything after the mesh knows only [`mesh::SectorMesh`], so another geometry is another
-//! function that makes one ([`cantilever()`]), and another element is a change inside [`element`].
+//! function that makes one ([`cantilever()`], [`annulus()`]), and another element is another [`element::Hexahedron`].
 //!
 //! The matrices are honest: `K(Ω) = K_e + K_σ(Ω) − Ω² M_spin` on the undeformed geometry (METHOD §3), exactly
 //! linear in Ω². There are no gyroscopic terms, as in the package format.
 
+mod annulus;
 mod assembly;
+mod blocks;
 mod cantilever;
 mod curves;
+mod dofs;
 pub mod element;
 mod error;
+mod geometry;
 mod material;
 mod matrices;
 pub mod mesh;
 mod parameters;
+mod pattern;
+mod preset;
 mod prestress;
+mod request;
 mod sector_mesh;
 mod to_package;
+mod validate;
 
-pub use assembly::{SectorDofs, assemble, cylindrical_frame};
+pub use annulus::{AnnulusParameters, annulus, annulus_mesh};
+pub use assembly::cylindrical_frame;
 pub use cantilever::{CantileverParameters, cantilever, cantilever_mesh};
+pub use dofs::SectorDofs;
 pub use error::ImpellerError;
 pub use material::Material;
-pub use matrices::SectorMatrices;
-pub use parameters::{ImpellerParameters, MeshDensities};
+pub use matrices::{RestMatrices, SectorMatrices};
+pub use parameters::{ImpellerParameters, MeshDensities, Splitter};
+pub use preset::{PaperCasing, Preset};
 pub use prestress::PreStress;
+pub use request::ImpellerRequest;
 pub use sector_mesh::impeller_sector;
 pub use to_package::to_package;
 

@@ -1,79 +1,117 @@
 //! What the generator can be asked for.
 
 use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
 
-use super::error::ImpellerError;
 use super::material::Material;
+use super::mesh::ElementOrder;
 use crate::dynamics::sector::Units;
 
-/// Most elements the generator makes: some 650,000 DOF, beyond what this module's pre-stress solve is meant for.
-const MOST_ELEMENTS: f64 = 200_000.0;
-
-/// A parametric centrifugal impeller: one main blade per sector on a solid hub.
+/// A parametric centrifugal impeller: per sector one main blade, and a splitter if asked for, on a solid hub.
 ///
-/// Lengths, times and forces are in the consistent units named by `units`; the defaults are the demo's impeller
-/// in mm-t-s-N. The axis of rotation is z; the flow enters at z = 0 towards +z and leaves radially at
-/// `outlet_radius`. The wheel turns towards +θ and the blades lean back towards −θ on their way out.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+/// Lengths, times and forces are in the consistent units named by `units`; the defaults are in mm-t-s-N. The axis of
+/// rotation is z; the flow enters at z = 0 towards +z and leaves radially at `outlet_radius`. Hub and shroud are quarter
+/// ellipses that turn from axial to radial. The wheel turns towards +θ and the blades lean back towards −θ on their way
+/// out.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ImpellerParameters {
     /// Consistent units of everything below (mm, N, s, t); time in `s`.
     pub units: Units,
-    /// Number of sectors (main blades) N ≥ 3.
+    /// Number of sectors (main blades), at least 3.
+    #[schema(minimum = 3)]
     pub sectors: usize,
-    /// Radius of the bore, which is clamped to the shaft (mm).
+    /// Radius of the bore, which is clamped to the shaft, positive (mm).
+    #[schema(exclusive_minimum = 0)]
     pub bore_radius: f64,
     /// Hub radius at the leading edge, above the bore's (mm).
+    #[schema(exclusive_minimum = 0)]
     pub inlet_hub_radius: f64,
     /// Blade-tip radius at the leading edge, above the hub's (mm).
+    #[schema(exclusive_minimum = 0)]
     pub inlet_tip_radius: f64,
     /// Radius of the trailing edge and of the disk's rim, above the inlet tip's (mm).
+    #[schema(exclusive_minimum = 0)]
     pub outlet_radius: f64,
     /// Axial length from the leading edge to the hub's surface at the trailing edge (mm).
+    #[schema(exclusive_minimum = 0)]
     pub axial_length: f64,
     /// Height of the blade at the trailing edge, below `axial_length` (mm).
+    #[schema(exclusive_minimum = 0)]
     pub outlet_blade_height: f64,
     /// Thickness of the disk at its rim; the back face is plane (mm).
+    #[schema(exclusive_minimum = 0)]
     pub rim_thickness: f64,
-    /// Thickness of the blade at the hub, normal to its camber surface (mm).
+    /// Thickness of the blades at the hub, normal to their camber surface (mm).
+    #[schema(exclusive_minimum = 0)]
     pub root_thickness: f64,
-    /// Thickness of the blade at its tip, normal to its camber surface (mm).
+    /// Thickness of the blades at their tip, normal to their camber surface, at most `root_thickness` (mm).
+    #[schema(exclusive_minimum = 0)]
     pub tip_thickness: f64,
-    /// Angle between leading and trailing edge about the axis, in degrees; the trailing edge lags behind.
+    /// Angle between leading and trailing edge about the axis, 0 to 120 degrees; the trailing edge lags behind.
+    #[schema(minimum = 0, maximum = 120)]
     pub wrap_deg: f64,
-    /// Angle of the blade from the radial direction at the trailing edge (mid-height), in degrees, backwards
+    /// Angle of the blade from the radial direction at the trailing edge (mid-height), 0 to 75 degrees, backwards
     /// positive.
+    #[schema(minimum = 0, maximum = 75)]
     pub backsweep_deg: f64,
+    /// A shorter blade between two main blades; `null`: none.
+    pub splitter: Option<Splitter>,
     /// Material (titanium).
     pub material: Material,
-    /// Ω1: the highest of the three speeds of the stiffness matrices (rad/s).
+    /// Ω1: the highest of the three speeds of the stiffness matrices, positive (rad/s).
+    #[schema(exclusive_minimum = 0)]
     pub top_speed_rad_s: f64,
-    /// Number of contact nodes along the blade tip, evenly spaced from leading to trailing edge, at least 2.
+    /// Number of contact nodes along the main blade's tip, evenly spaced from leading to trailing edge, at least 2.
+    #[schema(minimum = 2)]
     pub contact_nodes: usize,
+    /// 8-node or 20-node hexahedra.
+    pub element_order: ElementOrder,
     /// Mesh densities.
     pub mesh: MeshDensities,
 }
 
+/// A splitter blade: in the middle of the passage, of the main blade's shape from its leading edge on.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Splitter {
+    /// Where it begins, as a fraction of the meridional length between 0 and 1, both excluded; the mesh rounds it to
+    /// the nearest of its elements along the blade.
+    #[schema(exclusive_minimum = 0, exclusive_maximum = 1)]
+    pub leading_edge: f64,
+}
+
 /// Numbers of elements in each part of the sector, all at least 1.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct MeshDensities {
     /// Elements along the blade between two contact nodes.
+    #[schema(minimum = 1)]
     pub between_contact_nodes: usize,
-    /// Elements over the height of the blade, from hub to tip.
+    /// Elements over the height of a blade, from hub to tip.
+    #[schema(minimum = 1)]
     pub blade_height: usize,
-    /// Elements through the thickness of the blade; with an odd number the contact nodes sit on the suction-side
-    /// edge of the tip's middle element, with an even number on the tip's mid-line.
+    /// Elements through the thickness of a blade. Contact nodes sit on the tip's mid-line, but on the suction-side edge
+    /// of its middle element where an odd number of 8-node elements has no node there.
+    #[schema(minimum = 1)]
     pub blade_thickness: usize,
-    /// Elements across the passage on each side of the blade, up to the cyclic face.
+    /// Elements across half a passage: from a blade to the middle between it and the next.
+    #[schema(minimum = 1)]
     pub half_passage: usize,
     /// Elements through the disk, from bore or back face to the hub's surface.
+    #[schema(minimum = 1)]
     pub disk: usize,
 }
 
 impl Default for MeshDensities {
     fn default() -> Self {
         Self { between_contact_nodes: 2, blade_height: 8, blade_thickness: 2, half_passage: 3, disk: 3 }
+    }
+}
+
+impl Default for Splitter {
+    fn default() -> Self {
+        Self { leading_edge: 1.0 / 3.0 }
     }
 }
 
@@ -93,143 +131,36 @@ impl Default for ImpellerParameters {
             tip_thickness: 0.6,
             wrap_deg: 25.0,
             backsweep_deg: 25.0,
+            splitter: None,
             material: Material::default(),
             top_speed_rad_s: 4000.0,
             contact_nodes: 10,
+            element_order: ElementOrder::default(),
             mesh: MeshDensities::default(),
         }
     }
 }
 
 impl ImpellerParameters {
-    /// Refuses parameters from which no impeller can be built.
-    ///
-    /// # Errors
-    /// [`ImpellerError::Parameter`] names the first field at fault.
-    pub fn validate(&self) -> Result<(), ImpellerError> {
-        if self.units.time != "s" {
-            let requirement = "must be `s`, since speeds are in rad/s";
-            return Err(ImpellerError::Parameter {
-                field: "units.time",
-                value: self.units.time.clone(),
-                requirement,
-            });
-        }
-        at_least("sectors", self.sectors, 3, "must be at least 3")?;
-        positive("bore_radius", self.bore_radius)?;
-        above(
-            "inlet_hub_radius",
-            self.inlet_hub_radius,
-            self.bore_radius,
-            "must be greater than `bore_radius`",
-        )?;
-        above(
-            "inlet_tip_radius",
-            self.inlet_tip_radius,
-            self.inlet_hub_radius,
-            "must be greater than `inlet_hub_radius`",
-        )?;
-        above(
-            "outlet_radius",
-            self.outlet_radius,
-            self.inlet_tip_radius,
-            "must be greater than `inlet_tip_radius`",
-        )?;
-        positive("outlet_blade_height", self.outlet_blade_height)?;
-        above(
-            "axial_length",
-            self.axial_length,
-            self.outlet_blade_height,
-            "must be greater than `outlet_blade_height`",
-        )?;
-        positive("rim_thickness", self.rim_thickness)?;
-        positive("root_thickness", self.root_thickness)?;
-        positive("tip_thickness", self.tip_thickness)?;
-        inside("wrap_deg", self.wrap_deg, 0.0..=120.0, "must lie between 0 and 120 degrees")?;
-        inside("backsweep_deg", self.backsweep_deg, 0.0..=75.0, "must lie between 0 and 75 degrees")?;
-        self.material.validate()?;
-        positive("top_speed_rad_s", self.top_speed_rad_s)?;
-        at_least("contact_nodes", self.contact_nodes, 2, "must be at least 2")?;
-        let mesh = &self.mesh;
-        for (field, value) in [
-            ("mesh.between_contact_nodes", mesh.between_contact_nodes),
-            ("mesh.blade_height", mesh.blade_height),
-            ("mesh.blade_thickness", mesh.blade_thickness),
-            ("mesh.half_passage", mesh.half_passage),
-            ("mesh.disk", mesh.disk),
-        ] {
-            at_least(field, value, 1, "must be at least 1")?;
-        }
-        let elements = self.element_count();
-        if elements > MOST_ELEMENTS {
-            return Err(ImpellerError::Parameter {
-                field: "mesh",
-                value: format!("{elements:.3e} elements"),
-                requirement: "must not ask for more than 200,000 elements",
-            });
-        }
-        Ok(())
-    }
-
-    /// Elements of the sector, as a float: hostile densities must not overflow.
-    fn element_count(&self) -> f64 {
-        let [along, height, thickness, passage, disk] = [
-            self.mesh.between_contact_nodes,
-            self.mesh.blade_height,
-            self.mesh.blade_thickness,
-            self.mesh.half_passage,
-            self.mesh.disk,
-        ]
-        .map(|count| count as f64);
-        along * (self.contact_nodes as f64 - 1.0) * ((thickness + 2.0 * passage) * disk + thickness * height)
-    }
-
     /// Elements along the blade from leading to trailing edge.
     pub fn elements_along_blade(&self) -> usize {
         self.mesh.between_contact_nodes * (self.contact_nodes - 1)
     }
-}
 
-/// Refuses values that are not finite and positive.
-pub(super) fn positive(field: &'static str, value: f64) -> Result<(), ImpellerError> {
-    above(field, value, 0.0, "must be a positive number")
-}
-
-/// Refuses values that are not finite and above `bound`.
-pub(super) fn above(
-    field: &'static str,
-    value: f64,
-    bound: f64,
-    requirement: &'static str,
-) -> Result<(), ImpellerError> {
-    if value.is_finite() && value > bound {
-        return Ok(());
+    /// Elements across one blade and half a passage on either side of it.
+    pub(super) fn lane_columns(&self) -> usize {
+        self.mesh.blade_thickness + 2 * self.mesh.half_passage
     }
-    Err(ImpellerError::Parameter { field, value: value.to_string(), requirement })
-}
 
-/// Refuses values outside a closed range.
-pub(super) fn inside(
-    field: &'static str,
-    value: f64,
-    range: std::ops::RangeInclusive<f64>,
-    requirement: &'static str,
-) -> Result<(), ImpellerError> {
-    if range.contains(&value) {
-        return Ok(());
+    /// Elements across the sector.
+    pub(super) fn columns(&self) -> usize {
+        let blades = if self.splitter.is_some() { 2 } else { 1 };
+        blades * self.lane_columns()
     }
-    Err(ImpellerError::Parameter { field, value: value.to_string(), requirement })
-}
 
-/// Refuses counts below `least`.
-pub(super) fn at_least(
-    field: &'static str,
-    value: usize,
-    least: usize,
-    requirement: &'static str,
-) -> Result<(), ImpellerError> {
-    if value >= least {
-        return Ok(());
+    /// Elements along the main blade before the splitter begins.
+    pub(super) fn splitter_start(&self) -> Option<usize> {
+        let along = self.elements_along_blade() as f64;
+        self.splitter.map(|splitter| (splitter.leading_edge * along).round() as usize)
     }
-    Err(ImpellerError::Parameter { field, value: value.to_string(), requirement })
 }

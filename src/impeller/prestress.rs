@@ -1,24 +1,25 @@
 //! Centrifugal pre-stress of the wheel: a linear solve on the cyclic sector for nodal diameter 0.
 
-use faer::linalg::solvers::Solve;
-use faer::sparse::linalg::LltError;
-use faer::sparse::{SparseColMat, Triplet};
-use faer::{Mat, Side};
+use faer::MatMut;
+use nalgebra::Vector3;
+use rayon::prelude::*;
 
-use super::assembly::{SectorDofs, element_displacements, element_frame, element_rows, merged};
-use super::element::{self, GaussStresses, Vector24};
+use super::assembly::Assembly;
+use super::dofs::SectorDofs;
+use super::element::{Hexahedron, Stress};
 use super::error::ImpellerError;
 use super::material::Material;
 use super::mesh::SectorMesh;
-use crate::package::raw::RawMatrix;
+use super::pattern::Pattern;
+use crate::numerics::sparse_cholesky::{NotPositiveDefinite, SparseCholesky, SymbolicFactor};
 
 /// Linear answer of the wheel to its own centrifugal load at Ω = 1; everything scales with Ω².
 #[derive(Debug, Clone)]
 pub struct PreStress {
     /// Nodal displacements in (r, θ, z) components, per unit Ω².
     pub displacements: Vec<[f64; 3]>,
-    /// Stresses per element at its Gauss points, per unit Ω².
-    pub stresses: Vec<GaussStresses>,
+    /// Stresses per element at its Gauss points, in x, y, z, per unit Ω².
+    pub stresses: Vec<Vec<Stress>>,
 }
 
 /// Solves `K_e u = f`, `f_a = ∫ ρ N_a r e_r dV`, with the high face tied to the low one in cylindrical
@@ -26,64 +27,41 @@ pub struct PreStress {
 ///
 /// # Errors
 /// [`ImpellerError::NotPositiveDefinite`] if the sector can move as a rigid body.
-pub(super) fn solve(
+pub(super) fn solve<E: Hexahedron<N>, const N: usize>(
     sector: &SectorMesh,
+    elements: &[[usize; N]],
     dofs: &SectorDofs,
     material: &Material,
-    elastic: &RawMatrix,
 ) -> Result<PreStress, ImpellerError> {
-    let stiffness = folded(dofs, elastic)?;
-    let load = centrifugal_load(sector, dofs, material);
-    let solution = match stiffness.sp_cholesky(Side::Lower) {
-        Ok(factor) => factor.solve(&load),
-        Err(LltError::Numeric(_)) => return Err(ImpellerError::NotPositiveDefinite),
-        Err(LltError::Generic(error)) => {
-            return Err(ImpellerError::Factorisation { detail: format!("{error:?}") });
-        }
-    };
-    let displacements: Vec<[f64; 3]> = dofs
-        .rows
-        .iter()
-        .map(|rows| rows.map(|row| row.map_or(0.0, |row| solution[(dofs.folded[row], 0)])))
-        .collect();
-    let stresses = (0..sector.mesh.elements.len())
-        .map(|e| {
-            let u = element_displacements(sector, e, &displacements);
-            element::stresses(&sector.mesh.corners(e), material, &u)
-        })
+    let numbering = dofs.tied_rows(sector);
+    let assembly = Assembly::new(&sector.mesh, elements, &numbering);
+    let element = |e: usize| E::from(sector.mesh.positions(&elements[e]));
+    let mut solution = assembly.load(dofs.own, |e| centrifugal_load(&element(e), material.density));
+
+    let pattern = Pattern::new(elements, &numbering, dofs.own);
+    let values = assembly.matrix(&pattern, |e| element(e).stiffness(material));
+    let stiffness = pattern.into_lower_triangle(values);
+    let nodes: Vec<usize> = dofs.list[..dofs.own].iter().map(|&(node, _)| node).collect();
+    let symbolic = SymbolicFactor::new(stiffness.symbolic(), &nodes);
+    let factor = SparseCholesky::new(&symbolic, &stiffness)
+        .map_err(|NotPositiveDefinite| ImpellerError::NotPositiveDefinite)?;
+    factor.solve_in_place(MatMut::from_column_major_slice_mut(&mut solution, dofs.own, 1));
+
+    let displacements: Vec<[f64; 3]> =
+        numbering.iter().map(|rows| rows.map(|row| row.map_or(0.0, |row| solution[row]))).collect();
+    let stresses = (0..elements.len())
+        .into_par_iter()
+        .map(|e| element(e).stresses(material, &assembly.displacements(e, &displacements)))
         .collect();
     Ok(PreStress { displacements, stresses })
 }
 
-/// The stiffness of nodal diameter 0: rows and columns of the high face added onto the low face (lower triangle).
-fn folded(dofs: &SectorDofs, matrix: &RawMatrix) -> Result<SparseColMat<usize, f64>, ImpellerError> {
-    let mut entries = Vec::with_capacity(matrix.entries.len());
-    for &(row, column, value) in &matrix.entries {
-        let (a, b) = (dofs.folded[row as usize], dofs.folded[column as usize]);
-        // An entry off the diagonal stands for its mirror too; both may fall on one diagonal entry.
-        let value = if a == b && row != column { 2.0 * value } else { value };
-        entries.push((a.max(b) as u32, a.min(b) as u32, value));
-    }
-    let triplets: Vec<_> =
-        merged(entries).into_iter().map(|(r, c, v)| Triplet::new(r as usize, c as usize, v)).collect();
-    SparseColMat::try_new_from_triplets(dofs.own, dofs.own, &triplets)
-        .map_err(|error| ImpellerError::Factorisation { detail: format!("{error:?}") })
-}
-
-/// f = M (x, y, 0) at Ω = 1, which is `∫ ρ N_a r e_r dV` exactly for isoparametric elements, tied to the low
-/// face.
-fn centrifugal_load(sector: &SectorMesh, dofs: &SectorDofs, material: &Material) -> Mat<f64> {
-    let mut load = Mat::zeros(dofs.own, 1);
-    for e in 0..sector.mesh.elements.len() {
-        let x = sector.mesh.corners(e);
-        let mass = element::expand_nodal(&element::mass(&x, material.density), [1.0; 3]);
-        let arm = Vector24::from_fn(|d, _| if d % 3 < 2 { x[d / 3][d % 3] } else { 0.0 });
-        let f = element_frame(sector, e) * (mass * arm);
-        for (d, row) in element_rows(sector, dofs, e).into_iter().enumerate() {
-            if let Some(row) = row {
-                load[(dofs.folded[row], 0)] += f[d];
-            }
-        }
-    }
-    load
+/// `f_a = Σ m_ab (x_b, y_b, 0)`, which is `∫ ρ N_a r e_r dV` at Ω = 1 exactly, since position is interpolated like
+/// displacement.
+fn centrifugal_load<E: Hexahedron<N>, const N: usize>(element: &E, density: f64) -> [Vector3<f64>; N] {
+    let mass = element.mass(density);
+    let x = element.positions();
+    std::array::from_fn(|a| {
+        x.iter().enumerate().map(|(b, x)| Vector3::new(x[0], x[1], 0.0) * mass[(a, b)]).sum()
+    })
 }

@@ -4,7 +4,7 @@ use super::error::ImpellerError;
 use super::material::Material;
 use super::matrices::SectorMatrices;
 use super::mesh::SectorMesh;
-use super::parameters::positive;
+use super::validate::positive;
 use crate::dynamics::sector::Units;
 use crate::package::raw::{Axis, Frame, Manifest, ManifestContact, RawDof, RawMatrix, RawNode, RawPackage};
 
@@ -43,13 +43,13 @@ pub fn to_package(
         contact: contact.collect(),
     };
     let nodes = &sector.mesh.nodes;
-    let dofs = &matrices.dofs.list;
+    let dofs = &matrices.rest.dofs.list;
     Ok(RawPackage {
         manifest,
         nodes: nodes.iter().enumerate().map(|(n, &position)| RawNode { id: id(n), position }).collect(),
         dofs: dofs.iter().map(|&(n, c)| RawDof { node: id(n), component: c as u8 + 1 }).collect(),
         stiffness: speeds_rad_s.iter().map(|&speed| matrices.stiffness(speed)).collect(),
-        mass: without_zeros(matrices.mass),
+        mass: without_zeros(matrices.rest.mass()),
     })
 }
 

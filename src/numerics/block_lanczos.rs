@@ -69,7 +69,7 @@ const DENSE_SIZE: usize = 200;
 pub fn lowest_modes(
     k: &SparseColMat<usize, c64>,
     m: &SparseColMat<usize, c64>,
-    factor: &SparseCholesky<'_>,
+    factor: &SparseCholesky<'_, c64>,
     count: usize,
     options: &LanczosOptions,
     keep_going: &dyn Fn() -> bool,
@@ -132,7 +132,7 @@ fn dense(
 fn assemble(
     k: &SparseColMat<usize, c64>,
     m: &SparseColMat<usize, c64>,
-    factor: &SparseCholesky<'_>,
+    factor: &SparseCholesky<'_, c64>,
     basis: &Basis,
     ritz: Ritz,
     block_steps: usize,

@@ -1,4 +1,5 @@
-//! Sparse Cholesky factorisation A = Pᵀ L Lᴴ P of Hermitian positive definite matrices, nested-dissection ordered.
+//! Sparse Cholesky factorisation A = Pᵀ L Lᴴ P of positive definite matrices, real or Hermitian, nested-dissection
+//! ordered.
 
 use std::collections::BTreeSet;
 
@@ -11,7 +12,11 @@ use faer::sparse::linalg::cholesky::{
     factorize_symbolic_cholesky,
 };
 use faer::sparse::{SparseColMat, SymbolicSparseColMatRef, Triplet};
-use faer::{Conj, MatMut, Par, Side, c64};
+use faer::traits::{
+    ComplexField,
+    math_utils::{is_finite, zero},
+};
+use faer::{Conj, MatMut, Par, Side};
 use feral_scotch::{CscPattern, scotch_order};
 
 /// The matrix is not positive definite.
@@ -59,11 +64,11 @@ impl SymbolicFactor {
     }
 
     /// P A Pᵀ: `a` (same size, any pattern) with rows and columns in elimination order.
-    pub fn permute(&self, a: &SparseColMat<usize, c64>) -> SparseColMat<usize, c64> {
+    pub fn permute<T: ComplexField>(&self, a: &SparseColMat<usize, T>) -> SparseColMat<usize, T> {
         let n = self.size();
         let triplets: Vec<_> = a
             .triplet_iter()
-            .map(|t| Triplet::new(self.inverse[t.row], self.inverse[t.col], *t.val))
+            .map(|t| Triplet::new(self.inverse[t.row], self.inverse[t.col], t.val.clone()))
             .collect();
         SparseColMat::try_new_from_triplets(n, n, &triplets).expect("a permutation keeps indices in range")
     }
@@ -108,20 +113,20 @@ fn nested_dissection(pattern: SymbolicSparseColMatRef<'_, usize>, group: &[usize
 
 /// The numeric factor L of one matrix.
 #[derive(Debug)]
-pub struct SparseCholesky<'s> {
+pub struct SparseCholesky<'s, T> {
     symbolic: &'s SymbolicFactor,
-    values: Vec<c64>,
+    values: Vec<T>,
 }
 
-impl<'s> SparseCholesky<'s> {
-    /// Factorises the Hermitian matrix `a` (lower triangle read) whose pattern `symbolic` was made from.
+impl<'s, T: ComplexField> SparseCholesky<'s, T> {
+    /// Factorises the symmetric or Hermitian matrix `a` (lower triangle read) whose pattern `symbolic` was made from.
     pub fn new(
         symbolic: &'s SymbolicFactor,
-        a: &SparseColMat<usize, c64>,
+        a: &SparseColMat<usize, T>,
     ) -> Result<Self, NotPositiveDefinite> {
-        let mut values = vec![c64::new(0.0, 0.0); symbolic.symbolic.len_val()];
+        let mut values = vec![zero::<T>(); symbolic.symbolic.len_val()];
         let scratch =
-            symbolic.symbolic.factorize_numeric_llt_scratch::<c64>(Par::Seq, faer::prelude::default());
+            symbolic.symbolic.factorize_numeric_llt_scratch::<T>(Par::Seq, faer::prelude::default());
         symbolic
             .symbolic
             .factorize_numeric_llt(
@@ -134,11 +139,7 @@ impl<'s> SparseCholesky<'s> {
                 faer::prelude::default(),
             )
             .map_err(|_| NotPositiveDefinite)?;
-        if values.iter().all(|v| v.re.is_finite() && v.im.is_finite()) {
-            Ok(Self { symbolic, values })
-        } else {
-            Err(NotPositiveDefinite)
-        }
+        if values.iter().all(is_finite) { Ok(Self { symbolic, values }) } else { Err(NotPositiveDefinite) }
     }
 
     /// Pattern and order of this factor.
@@ -147,7 +148,7 @@ impl<'s> SparseCholesky<'s> {
     }
 
     /// x ← A⁻¹ x for every column of `x`, in the matrix's own row order.
-    pub fn solve_in_place(&self, x: MatMut<'_, c64>) {
+    pub fn solve_in_place(&self, x: MatMut<'_, T>) {
         let mut permuted = self.gather(x.as_ref());
         self.lower_solve_in_place(permuted.as_mut());
         self.lower_adjoint_solve_in_place(permuted.as_mut());
@@ -155,44 +156,44 @@ impl<'s> SparseCholesky<'s> {
     }
 
     /// y ← L⁻¹ y, rows in elimination order.
-    pub fn lower_solve_in_place(&self, y: MatMut<'_, c64>) {
+    pub fn lower_solve_in_place(&self, y: MatMut<'_, T>) {
         let mut scratch = self.scratch(y.ncols());
         self.factor().l_solve_with_conj(Conj::No, y, Par::Seq, MemStack::new(&mut scratch));
     }
 
     /// y ← L⁻ᴴ y, rows in elimination order.
-    pub fn lower_adjoint_solve_in_place(&self, y: MatMut<'_, c64>) {
+    pub fn lower_adjoint_solve_in_place(&self, y: MatMut<'_, T>) {
         let mut scratch = self.scratch(y.ncols());
         self.factor().l_transpose_solve_with_conj(Conj::Yes, y, Par::Seq, MemStack::new(&mut scratch));
     }
 
     /// Rows of `x` into elimination order.
-    fn gather(&self, x: faer::MatRef<'_, c64>) -> faer::Mat<c64> {
-        faer::Mat::from_fn(x.nrows(), x.ncols(), |new, j| x[(self.symbolic.forward[new], j)])
+    fn gather(&self, x: faer::MatRef<'_, T>) -> faer::Mat<T> {
+        faer::Mat::from_fn(x.nrows(), x.ncols(), |new, j| x[(self.symbolic.forward[new], j)].clone())
     }
 
     /// Rows of `y` from elimination order back into the matrix's own.
-    pub fn scatter(&self, y: faer::MatRef<'_, c64>, mut x: MatMut<'_, c64>) {
+    pub fn scatter(&self, y: faer::MatRef<'_, T>, mut x: MatMut<'_, T>) {
         for j in 0..y.ncols() {
             for (new, &old) in self.symbolic.forward.iter().enumerate() {
-                x[(old, j)] = y[(new, j)];
+                x[(old, j)] = y[(new, j)].clone();
             }
         }
     }
 
-    fn factor(&self) -> SupernodalLltRef<'_, usize, c64> {
+    fn factor(&self) -> SupernodalLltRef<'_, usize, T> {
         SupernodalLltRef::new(self.symbolic.supernodal(), &self.values)
     }
 
     fn scratch(&self, columns: usize) -> MemBuffer {
-        MemBuffer::new(self.symbolic.supernodal().solve_in_place_scratch::<c64>(columns, Par::Seq))
+        MemBuffer::new(self.symbolic.supernodal().solve_in_place_scratch::<T>(columns, Par::Seq))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use faer::Mat;
+    use faer::{Mat, c64};
 
     /// Hermitian chain with complex couplings: diagonally dominant, so positive definite.
     fn chain(n: usize) -> SparseColMat<usize, c64> {

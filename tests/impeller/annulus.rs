@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use rubmap::impeller::mesh::{HexMesh, SectorMesh};
+use rubmap::impeller::mesh::{Elements, HexMesh, SectorMesh};
 use rubmap::impeller::{Material, SectorMatrices};
 
 const INNER: f64 = 0.3;
@@ -31,14 +31,16 @@ fn annulus(sectors: usize, around: usize, radial: usize) -> SectorMesh {
             cyclic.push((node(i, 0, k), node(i, around, k)));
         }
     }
+    let mut elements = Vec::new();
     for j in 0..around {
         for i in 0..radial {
             let face =
                 |k: usize| [node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k), node(i, j + 1, k)];
             let (a, b) = (face(0), face(1));
-            mesh.elements.push([a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3]]);
+            elements.push([a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3]]);
         }
     }
+    mesh.elements = Elements::Linear(elements);
     SectorMesh { sectors, mesh, clamped, cyclic, contact: Vec::new() }
 }
 

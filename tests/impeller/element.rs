@@ -5,7 +5,7 @@ use rubmap::impeller::Material;
 use rubmap::impeller::element::{
     Corners, Matrix24, Vector24, expand_nodal, geometric_stiffness, mass, stiffness, stresses,
 };
-use rubmap::impeller::mesh::HexMesh;
+use rubmap::impeller::mesh::{Elements, HexMesh};
 
 /// A block of 3 × 3 × 3 elements whose inner nodes are moved at random by up to a quarter of an element.
 fn distorted_block() -> (HexMesh, Vec<bool>) {
@@ -29,16 +29,18 @@ fn distorted_block() -> (HexMesh, Vec<bool>) {
         }
     }
     let node = |i: usize, j: usize, k: usize| i + n * (j + n * k);
+    let mut elements = Vec::new();
     for k in 0..n - 1 {
         for j in 0..n - 1 {
             for i in 0..n - 1 {
                 let face =
                     |k: usize| [node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k), node(i, j + 1, k)];
                 let (a, b) = (face(k), face(k + 1));
-                mesh.elements.push([a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3]]);
+                elements.push([a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3]]);
             }
         }
     }
+    mesh.elements = Elements::Linear(elements);
     (mesh, outside)
 }
 
@@ -78,9 +80,9 @@ fn patch_test_holds_on_a_distorted_mesh() {
     let mut load = nalgebra::DVector::<f64>::zeros(size);
     for e in 0..mesh.elements.len() {
         let k = stiffness(&mesh.corners(e), &material);
-        for (a, &na) in mesh.elements[e].iter().enumerate() {
+        for (a, &na) in mesh.elements.nodes_of(e).iter().enumerate() {
             let Some(pa) = place(na) else { continue };
-            for (b, &nb) in mesh.elements[e].iter().enumerate() {
+            for (b, &nb) in mesh.elements.nodes_of(e).iter().enumerate() {
                 let block = k.fixed_view::<3, 3>(3 * a, 3 * b);
                 match place(nb) {
                     Some(pb) => {
@@ -114,7 +116,7 @@ fn patch_test_holds_on_a_distorted_mesh() {
     let expected = material.elasticity() * strain;
     for e in 0..mesh.elements.len() {
         let u = Vector24::from_fn(|d, _| {
-            let n = mesh.elements[e][d / 3];
+            let n = mesh.elements.nodes_of(e)[d / 3];
             place(n).map_or_else(|| exact(n)[d % 3], |p| solution[3 * p + d % 3])
         });
         for s in stresses(&mesh.corners(e), &material, &u) {

@@ -5,7 +5,7 @@ use std::io::Read;
 use std::path::PathBuf;
 
 use rubmap::dynamics::sector::Units;
-use rubmap::impeller::mesh::{HexMesh, SectorMesh};
+use rubmap::impeller::mesh::{Elements, HexMesh, SectorMesh};
 use rubmap::impeller::{Material, to_package};
 
 use crate::eigen::{harmonic, hertz, lowest};
@@ -96,6 +96,7 @@ fn sector(deck: &str, m: usize) -> SectorMesh {
     let (positions, elements) = parse(deck);
     let near = |a: &[f64; 3], b: &[f64; 3]| (0..3).all(|d| (a[d] - b[d]).abs() < 1e-5);
     let mut mesh = HexMesh::default();
+    let mut cut = Vec::new();
     for element in &elements {
         let mut local = Vec::new();
         for k in 0..=m {
@@ -120,11 +121,12 @@ fn sector(deck: &str, m: usize) -> SectorMesh {
                     let face =
                         |k: usize| [at(i, j, k), at(i + 1, j, k), at(i + 1, j + 1, k), at(i, j + 1, k)];
                     let (a, b) = (face(k), face(k + 1));
-                    mesh.elements.push([a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3]]);
+                    cut.push([a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3]]);
                 }
             }
         }
     }
+    mesh.elements = Elements::Linear(cut);
     let (s, c) = (2.0 * std::f64::consts::PI / SECTORS as f64).sin_cos();
     let mut cyclic = Vec::new();
     for (low, &[x, y, z]) in mesh.nodes.iter().enumerate() {

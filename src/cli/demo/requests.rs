@@ -2,6 +2,8 @@
 
 use serde_json::{Value, json};
 
+use crate::impeller::{ImpellerParameters, PaperCasing};
+
 /// Natural frequencies from standstill to beyond the sweep.
 pub(super) fn modal_analysis(model: &str) -> Value {
     json!({
@@ -16,6 +18,7 @@ pub(super) fn modal_analysis(model: &str) -> Value {
 
 /// A casing ovalised by more than the clearance, so that two lobes push every tip twice a revolution.
 pub(super) fn sweep(model: &str, speeds: u32, revolutions: u32) -> Value {
+    let casing = PaperCasing::of(&ImpellerParameters::default());
     json!({
         "model": model,
         "modes_per_speed": 20,
@@ -24,8 +27,8 @@ pub(super) fn sweep(model: &str, speeds: u32, revolutions: u32) -> Value {
             "centrifugal_stiffening": true,
             "damping": {"modal_ratio": 0.005},
             "casing": {
-                "clearance": {"leading": 0.30, "trailing": 0.22},
-                "lobes": {"count": 2, "amplitude": 0.425, "width_rad": 0.35},
+                "clearance": {"leading": casing.leading_clearance, "trailing": casing.trailing_clearance},
+                "lobes": {"count": 2, "amplitude": casing.restriction, "width_rad": 0.35},
             },
             "contact": {},
         },

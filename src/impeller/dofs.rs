@@ -1,0 +1,46 @@
+//! The numbering of a sector's free displacements.
+
+use super::mesh::SectorMesh;
+
+/// Rows: the own DOF node by node (low face and contact nodes among them), then the DOF of the high face in the
+/// order of the cyclic pairs. Clamped DOF are absent.
+#[derive(Debug, Clone)]
+pub struct SectorDofs {
+    /// Per node, the row of its r, θ and z displacement; none where clamped.
+    pub rows: Vec<[Option<usize>; 3]>,
+    /// Per row, node index and component 0, 1, 2.
+    pub list: Vec<(usize, usize)>,
+    /// Number of own DOF: the rows before the high face.
+    pub own: usize,
+}
+
+impl SectorDofs {
+    /// Numbers the free DOF of a sector.
+    pub fn new(sector: &SectorMesh) -> Self {
+        let nodes = sector.mesh.nodes.len();
+        let mut is_high = vec![false; nodes];
+        for &(_, high) in &sector.cyclic {
+            is_high[high] = true;
+        }
+        let own_nodes = (0..nodes).filter(|&node| !is_high[node]);
+        let high_nodes = sector.cyclic.iter().map(|&(_, high)| high);
+        let mut dofs = Self { rows: vec![[None; 3]; nodes], list: Vec::new(), own: 0 };
+        for node in own_nodes.chain(high_nodes) {
+            for component in (0..3).filter(|&component| !sector.clamped[node][component]) {
+                dofs.rows[node][component] = Some(dofs.list.len());
+                dofs.list.push((node, component));
+                dofs.own += usize::from(!is_high[node]);
+            }
+        }
+        dofs
+    }
+
+    /// [`Self::rows`] with the high face tied to the low one (nodal diameter 0): only own rows remain.
+    pub fn tied_rows(&self, sector: &SectorMesh) -> Vec<[Option<usize>; 3]> {
+        let mut rows = self.rows.clone();
+        for &(low, high) in &sector.cyclic {
+            rows[high] = rows[low];
+        }
+        rows
+    }
+}

@@ -1,0 +1,91 @@
+//! Which degrees of freedom are coupled: the sparsity shared by all matrices of one mesh.
+
+use faer::sparse::{SparseColMat, SymbolicSparseColMat};
+use rayon::prelude::*;
+
+use crate::package::raw::RawMatrix;
+
+/// Lower triangle by columns, rows ascending, with every pair of DOF that share an element.
+#[derive(Debug, Clone)]
+pub(super) struct Pattern {
+    /// Where each column begins in `rows`, and the end of the last.
+    starts: Vec<usize>,
+    /// Row indices, column after column.
+    rows: Vec<u32>,
+}
+
+impl Pattern {
+    /// The pattern of `elements` whose nodes have the displacements `numbering`, of `size` rows in all.
+    ///
+    /// The rows of one node are consecutive; nodes that are tied together share theirs.
+    pub(super) fn new<const N: usize>(
+        elements: &[[usize; N]],
+        numbering: &[[Option<usize>; 3]],
+        size: usize,
+    ) -> Self {
+        // A node is known by its first row.
+        let first_row = |&node: &usize| numbering[node].iter().flatten().next().copied();
+        let mut members = vec![0; size];
+        for node in 0..numbering.len() {
+            if let Some(first) = first_row(&node) {
+                members[first] = numbering[node].iter().flatten().count();
+            }
+        }
+        let mut below = vec![Vec::new(); size];
+        for nodes in elements {
+            for column in nodes.iter().filter_map(first_row) {
+                below[column].extend(nodes.iter().filter_map(first_row).filter(|&row| row > column));
+            }
+        }
+        below.par_iter_mut().for_each(|rows| {
+            rows.sort_unstable();
+            rows.dedup();
+        });
+        let mut starts = vec![0];
+        let mut rows = Vec::new();
+        for first in (0..size).filter(|&first| members[first] > 0) {
+            for column in first..first + members[first] {
+                rows.extend((column..first + members[first]).map(|row| row as u32));
+                for &other in &below[first] {
+                    rows.extend((other..other + members[other]).map(|row| row as u32));
+                }
+                starts.push(rows.len());
+            }
+        }
+        Self { starts, rows }
+    }
+
+    /// Number of rows and columns.
+    pub(super) fn size(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// Number of positions.
+    pub(super) fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// A column's row indices, and where they begin.
+    pub(super) fn column(&self, column: usize) -> (&[u32], usize) {
+        let start = self.starts[column];
+        (&self.rows[start..self.starts[column + 1]], start)
+    }
+
+    /// The matrix with `value(p)` at position p, as a package states it.
+    pub(super) fn raw_matrix(&self, value: impl Fn(usize) -> f64) -> RawMatrix {
+        let mut entries = Vec::with_capacity(self.len());
+        for column in 0..self.size() {
+            for position in self.starts[column]..self.starts[column + 1] {
+                entries.push((self.rows[position], column as u32, value(position)));
+            }
+        }
+        RawMatrix { size: self.size(), entries }
+    }
+
+    /// The lower triangle with `values` at its positions, for a solver.
+    pub(super) fn into_lower_triangle(self, values: Vec<f64>) -> SparseColMat<usize, f64> {
+        let size = self.size();
+        let rows = self.rows.into_iter().map(|row| row as usize).collect();
+        SparseColMat::new(SymbolicSparseColMat::new_checked(size, size, self.starts, None, rows), values)
+    }
+}

@@ -1,0 +1,116 @@
+//! Presets and requests: sizes, the paper's numbers, and what a user may write.
+
+use rubmap::impeller::mesh::ElementOrder;
+use rubmap::impeller::{
+    ImpellerError, ImpellerParameters, ImpellerRequest, PaperCasing, Preset, SectorDofs, impeller_sector,
+};
+use serde_json::{Value, json};
+use utoipa::PartialSchema;
+
+fn request(value: Value) -> ImpellerRequest {
+    serde_json::from_value(value).unwrap()
+}
+
+#[test]
+fn presets_have_the_sizes_they_promise() {
+    for (preset, own) in
+        [(Preset::Small, 2_000..4_000), (Preset::Medium, 18_000..22_000), (Preset::Paper, 115_000..125_000)]
+    {
+        let parameters = preset.parameters();
+        let sector = impeller_sector(&parameters).unwrap();
+        let dofs = SectorDofs::new(&sector);
+        println!(
+            "{preset:?}: {} own DOF, {} rows, {} elements",
+            dofs.own,
+            dofs.list.len(),
+            sector.mesh.elements.len()
+        );
+        assert!(own.contains(&dofs.own), "{preset:?}: {}", dofs.own);
+        assert_eq!((sector.sectors, sector.contact.len()), (10, 10));
+        let full = preset != Preset::Small;
+        assert_eq!(parameters.splitter.is_some(), full);
+        assert_eq!(parameters.element_order == ElementOrder::Quadratic, full);
+    }
+    assert_eq!(Preset::Small.parameters(), ImpellerParameters::default());
+}
+
+/// 3 %, 2.2 % and 4.25 % of the height at the trailing edge, so that 1.25 % and 2.1 % (2.05) are pushed in.
+#[test]
+fn casing_of_the_paper() {
+    let parameters = ImpellerParameters { outlet_blade_height: 8.0, ..Preset::Paper.parameters() };
+    let casing = PaperCasing::of(&parameters);
+    assert_eq!(casing.leading_clearance, 0.24);
+    assert!((casing.trailing_clearance - 0.176).abs() < 1e-15);
+    assert_eq!(casing.restriction, 0.34);
+}
+
+#[test]
+fn requests_take_a_preset_and_change_what_they_name() {
+    assert_eq!(request(json!({})).resolve().unwrap(), ImpellerParameters::default());
+    assert_eq!(request(json!({"preset": "paper"})).resolve().unwrap(), Preset::Paper.parameters());
+    let given = request(json!({
+        "preset": "paper",
+        "sectors": 13,
+        "wrap_deg": 30,
+        "mesh": {"disk": 4},
+        "material": {"density": 4.5e-9},
+        "splitter": {"leading_edge": 0.5},
+    }));
+    let mut expected = Preset::Paper.parameters();
+    expected.sectors = 13;
+    expected.wrap_deg = 30.0;
+    expected.mesh.disk = 4;
+    expected.material.density = 4.5e-9;
+    expected.splitter.as_mut().unwrap().leading_edge = 0.5;
+    assert_eq!(given.resolve().unwrap(), expected);
+    // A splitter can be taken away and be put where the preset has none.
+    assert_eq!(request(json!({"preset": "medium", "splitter": null})).resolve().unwrap().splitter, None);
+    assert!(request(json!({"splitter": {}})).resolve().unwrap().splitter.is_some());
+    // What a user wrote is what is kept.
+    assert_eq!(serde_json::to_value(&given).unwrap()["mesh"], json!({"disk": 4}));
+    assert_eq!(request(serde_json::to_value(&given).unwrap()), given);
+    // Printed parameters are a request for themselves.
+    let printed = serde_json::to_value(Preset::Medium.parameters()).unwrap();
+    assert_eq!(request(printed).resolve().unwrap(), Preset::Medium.parameters());
+}
+
+#[test]
+fn wrong_requests_name_the_field() {
+    for (body, named) in [
+        (json!({"sector": 10}), "sector"),
+        (json!({"mesh": {"discs": 3}}), "mesh.discs"),
+        (json!({"mesh": {"disk": "three"}}), "mesh.disk"),
+        (json!({"mesh": {"disk": -1}}), "mesh.disk"),
+        (json!({"mesh": [2, 8, 2, 3, 3]}), "mesh"),
+        (json!({"preset": "medium", "splitter": [0.3]}), "splitter"),
+        (json!({"splitter": [0.3]}), "splitter"),
+        (json!({"sectors": null}), "sectors"),
+        (json!({"element_order": "cubic"}), "element_order"),
+        (json!({"sectors": 2}), "sectors"),
+        (json!({"material": {"density": 0}}), "material.density"),
+    ] {
+        let field = match request(body.clone()).resolve() {
+            Err(ImpellerError::Field { field, .. }) => field,
+            Err(ImpellerError::Parameter { field, .. }) => field.to_owned(),
+            other => panic!("{body}: {other:?}"),
+        };
+        assert_eq!(field, named, "{body}");
+    }
+    let unknown = serde_json::from_value::<ImpellerRequest>(json!({"preset": "large"}));
+    assert!(unknown.unwrap_err().to_string().contains("`small`, `medium`, `paper`"));
+}
+
+/// The contract knows every field a request may have, and no other.
+#[test]
+fn schema_has_every_field() {
+    let schema = serde_json::to_value(ImpellerRequest::schema()).unwrap();
+    let mut fields: Vec<String> = schema["properties"].as_object().unwrap().keys().cloned().collect();
+    let parameters = serde_json::to_value(ImpellerParameters::default()).unwrap();
+    let mut expected: Vec<String> = parameters.as_object().unwrap().keys().cloned().collect();
+    expected.push("preset".to_owned());
+    fields.sort();
+    expected.sort();
+    assert_eq!(fields, expected);
+    assert_eq!(schema["additionalProperties"], json!(false));
+    assert_eq!(schema.get("required"), None);
+}
