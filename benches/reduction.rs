@@ -9,6 +9,8 @@ use std::time::Instant;
 
 use rubmap::dynamics::reduction::{NoCheckpoints, ReductionOptions, reduce};
 use rubmap::dynamics::sector::SectorModel;
+use rubmap::impeller::{Preset, generate};
+use rubmap::package::to_sector;
 
 #[path = "../tests/oracle/mod.rs"]
 #[allow(dead_code, reason = "shared with the tests, which use all of it")]
@@ -16,27 +18,9 @@ mod oracle;
 
 const MODES: usize = 20;
 
-fn sector(name: &str) -> SectorModel {
-    use rubmap::impeller::{ImpellerParameters, MeshDensities, generate};
-    let mesh = match name {
-        "small" => MeshDensities::default(),
-        "medium" => MeshDensities {
-            between_contact_nodes: 4,
-            blade_height: 16,
-            blade_thickness: 3,
-            half_passage: 8,
-            disk: 6,
-        },
-        _ => MeshDensities {
-            between_contact_nodes: 8,
-            blade_height: 32,
-            blade_thickness: 4,
-            half_passage: 12,
-            disk: 10,
-        },
-    };
-    let package = generate(&ImpellerParameters { mesh, ..ImpellerParameters::default() }).unwrap();
-    rubmap::package::to_sector(package).unwrap()
+fn sector(preset: Preset) -> SectorModel {
+    let package = generate(&preset.parameters()).expect("a preset is sound");
+    to_sector(package).expect("a generated package is valid")
 }
 
 /// Wall and CPU seconds since the start of the process.
@@ -58,10 +42,11 @@ fn memory(name: &str) -> f64 {
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
     let asked = |name: &str| arguments.iter().any(|argument| argument == name);
-    let none = !["small", "medium", "paper"].into_iter().any(asked);
+    let presets = [("small", Preset::Small), ("medium", Preset::Medium), ("paper", Preset::Paper)];
+    let none = !presets.iter().any(|(name, _)| asked(name));
     let start = Instant::now();
-    for name in ["small", "medium", "paper"].into_iter().filter(|&n| asked(n) || (none && n != "paper")) {
-        let sector = sector(name);
+    for (name, preset) in presets.into_iter().filter(|&(n, _)| asked(n) || (none && n != "paper")) {
+        let sector = sector(preset);
         println!(
             "{name}: {} own DOF, N = {}, resident before {:.0} MB",
             sector.own_dofs(),

@@ -67,21 +67,24 @@ impl App {
     pub async fn build(config: Config) -> Result<Self, StartError> {
         let lock = lock(&config.data)?;
         let store = Store::open(&config.data).await?;
+        store.remove_leftovers().await;
         let bind = |source| StartError::Bind { addr: config.addr, source };
         let listener = TcpListener::bind(config.addr).await.map_err(bind)?;
         let addr = listener.local_addr().map_err(bind)?;
-        let settings = Settings {
-            data: config.data.clone(),
-            workers: config.worker_threads(),
-            limits: config.package_limits(),
-        };
-        tracing::info!(%addr, data = %config.data.display(), workers = settings.workers, "starting");
+        let memory_bytes = config.memory_limit();
+        let package_limits = config.upload_limits(memory_bytes);
+        let settings = Settings { data: config.data.clone(), workers: config.worker_threads(), memory_bytes };
+        tracing::info!(
+            %addr, data = %config.data.display(), workers = settings.workers, memory_bytes,
+            expanded_bytes = package_limits.expanded_bytes, "starting"
+        );
         let runner = Runner::start(store.clone(), settings).await?;
         let state = AppState {
             store: store.clone(),
             jobs: runner.jobs(),
             upload_bytes: config.upload_bytes,
-            package_limits: config.package_limits(),
+            package_limits,
+            memory_bytes,
             openapi: Arc::from(http::document().to_json()?),
         };
         Ok(Self { listener, addr, state, store, runner, _lock: lock })

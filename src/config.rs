@@ -1,9 +1,13 @@
 //! Settings of the service, from the command line or the environment.
 
+mod memory;
+
 use std::net::SocketAddr;
 use std::path::PathBuf;
 
 use clap::Args;
+
+use crate::package::Limits;
 
 /// Settings of the service.
 #[derive(Debug, Clone, Args)]
@@ -24,9 +28,13 @@ pub struct Config {
     #[arg(long, env = "RUBMAP_UPLOAD_BYTES", default_value_t = 2 << 30)]
     pub upload_bytes: u64,
 
-    /// Largest model package accepted, in bytes once expanded [default: what the importer considers safe].
+    /// Largest model package accepted, in bytes once expanded [default: what fits into memory beside a reduction].
     #[arg(long, env = "RUBMAP_EXPANDED_BYTES")]
     pub expanded_bytes: Option<u64>,
+
+    /// Memory that reductions may take, in bytes [default: three quarters of what the machine or container leaves].
+    #[arg(long, env = "RUBMAP_MEMORY_BYTES", value_parser = clap::value_parser!(u64).range(1 << 20..))]
+    pub memory_bytes: Option<u64>,
 }
 
 impl Config {
@@ -38,12 +46,19 @@ impl Config {
         }
     }
 
-    /// Limits of the importer.
-    pub fn package_limits(&self) -> crate::package::Limits {
-        let mut limits = crate::package::Limits::default();
-        if let Some(expanded_bytes) = self.expanded_bytes {
-            limits.expanded_bytes = expanded_bytes;
-        }
+    /// Memory that reductions may take; `None` where nothing is known about it.
+    pub fn memory_limit(&self) -> Option<u64> {
+        // A quarter is left to packages being read, speeds being run and the system.
+        self.memory_bytes.or_else(|| memory::available_bytes().map(|available| available / 4 * 3))
+    }
+
+    /// Limits for uploads, with `memory_limit` bytes for reductions.
+    pub fn upload_limits(&self, memory_limit: Option<u64>) -> Limits {
+        let mut limits = Limits::default();
+        // A byte of a package takes some 1.4 of memory while it is read (measured at 127,000 DOF), and reductions leave
+        // a third of what they have.
+        let fits = memory_limit.map_or(u64::MAX, |memory| memory / 5);
+        limits.expanded_bytes = self.expanded_bytes.unwrap_or(limits.expanded_bytes.min(fits));
         limits
     }
 }

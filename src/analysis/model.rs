@@ -62,7 +62,7 @@ impl ModelFacts {
     }
 }
 
-/// Reduces a sector (METHOD §2–§4). Deterministic; runs on the calling thread.
+/// Reduces a sector (METHOD §2–§4). Deterministic. Takes at most `memory_bytes`, if given; goes on from `checkpoints`.
 pub fn prepare(
     sector: &SectorModel,
     modes_per_speed: u32,

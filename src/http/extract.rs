@@ -85,12 +85,10 @@ pub(super) fn job_not_found(id: &impl std::fmt::Display) -> Problem {
 
 /// Refuses a body whose declared type is none of `accepted`.
 pub(super) fn expect_media_type(headers: &HeaderMap, accepted: &[&str]) -> Result<(), Problem> {
-    let declared =
-        headers.get(header::CONTENT_TYPE).and_then(|value| value.to_str().ok()).unwrap_or_default();
-    let essence = declared.split(';').next().unwrap_or_default().trim();
-    if accepted.iter().any(|accepted| essence.eq_ignore_ascii_case(accepted)) {
+    if accepted.iter().any(|accepted| is_media_type(headers, accepted)) {
         return Ok(());
     }
+    let essence = media_type(headers);
     let found = if essence.is_empty() { "no Content-Type".to_owned() } else { format!("{essence:?}") };
     let detail = format!("this path takes {}, the request has {found}", accepted.join(" or "));
     Err(Problem::new(Kind::UnsupportedMediaType, detail).with(ProblemItem {
@@ -98,6 +96,18 @@ pub(super) fn expect_media_type(headers: &HeaderMap, accepted: &[&str]) -> Resul
         detail: format!("use {}", accepted.join(" or ")),
         ..ProblemItem::default()
     }))
+}
+
+/// Whether the body is declared to be of type `wanted`.
+pub(super) fn is_media_type(headers: &HeaderMap, wanted: &str) -> bool {
+    media_type(headers).eq_ignore_ascii_case(wanted)
+}
+
+/// The declared type of the body without its parameters.
+fn media_type(headers: &HeaderMap) -> &str {
+    let declared =
+        headers.get(header::CONTENT_TYPE).and_then(|value| value.to_str().ok()).unwrap_or_default();
+    declared.split(';').next().unwrap_or_default().trim()
 }
 
 /// Reads one JSON document; says where it goes wrong: by line and column if it is not JSON, by pointer if it is.

@@ -16,17 +16,22 @@ pub(super) struct Health {
     status: &'static str,
     /// Version of the program.
     version: &'static str,
+    /// Memory that reductions may take together, in bytes; absent where nothing is known about it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    memory_bytes: Option<u64>,
 }
 
 impl Health {
-    const OK: Self = Self { status: "ok", version: env!("CARGO_PKG_VERSION") };
+    fn of(state: &AppState) -> Self {
+        Self { status: "ok", version: env!("CARGO_PKG_VERSION"), memory_bytes: state.memory_bytes }
+    }
 }
 
 /// Tell that the process lives.
 #[utoipa::path(get, path = "/healthz", operation_id = "get_health", tag = "service",
     responses((status = 200, description = "The process lives.", body = Health)))]
-pub(super) async fn get_health() -> Json<Health> {
-    Json(Health::OK)
+pub(super) async fn get_health(state: State<AppState>) -> Json<Health> {
+    Json(Health::of(&state))
 }
 
 /// Tell whether the service can work.
@@ -41,5 +46,5 @@ pub(super) async fn get_readiness(state: State<AppState>) -> Result<Json<Health>
         tracing::error!(%error, "not ready");
         Problem::new(Kind::Unavailable, "the database does not answer")
     })?;
-    Ok(Json(Health::OK))
+    Ok(Json(Health::of(&state)))
 }

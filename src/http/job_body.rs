@@ -24,10 +24,12 @@ pub(super) struct JobBody {
     /// What runs now, in words.
     #[serde(skip_serializing_if = "String::is_empty")]
     phase: String,
-    /// Id of its model.
-    model: String,
-    /// Its speeds, counted.
-    speeds: SpeedCounts,
+    /// Id of the model it computes from; of a `model_generation`, the model it made, once it is successful.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    model: Option<String>,
+    /// Its speeds, counted; a `model_generation` has none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    speeds: Option<SpeedCounts>,
     /// When it was accepted (RFC 3339).
     created_at: String,
     /// When computing began.
@@ -63,7 +65,8 @@ pub(super) struct Link {
     /// Path on this service.
     #[schema(example = "/v1/jobs/0198c5a2-7c1e-7d54-9f3b-2f6d7a6f4b10/interaction-map")]
     href: String,
-    /// What it is: `self`, `interaction-map`, `critical-speeds`, `spectra` (with a `{index}` to fill in) or `campbell`.
+    /// What it is: `self`, `interaction-map`, `critical-speeds`, `spectra` (with a `{index}` to fill in), `campbell`
+    /// or `model`.
     rel: &'static str,
 }
 
@@ -76,20 +79,20 @@ impl From<Job> for JobBody {
             status: job.status,
             progress: job.progress,
             phase: if job.status == JobStatus::Running { job.phase } else { String::new() },
-            model: job.request.model().to_owned(),
-            speeds: job.speeds,
+            links: links(job.id, kind, job.model.as_deref()),
+            model: job.model,
+            speeds: (job.speeds.total > 0).then_some(job.speeds),
             created_at: job.created_at,
             started_at: job.started_at,
             finished_at: job.finished_at,
             updated_at: job.updated_at,
             error: job.failure.as_ref().map(Problem::from),
-            links: links(job.id, kind),
         }
     }
 }
 
 /// Links of a job.
-pub(super) fn links(id: JobId, kind: JobKind) -> Vec<Link> {
+pub(super) fn links(id: JobId, kind: JobKind, model: Option<&str>) -> Vec<Link> {
     let results: &[(&str, &str)] = match kind {
         JobKind::Sweep => &[
             ("interaction-map", "/interaction-map"),
@@ -97,10 +100,13 @@ pub(super) fn links(id: JobId, kind: JobKind) -> Vec<Link> {
             ("spectra", "/spectra/{index}"),
         ],
         JobKind::ModalAnalysis => &[("campbell", "/campbell")],
+        JobKind::ModelGeneration => &[],
     };
+    let model = model.map(|model| Link { href: format!("/v1/models/{model}"), rel: "model" });
     [("self", "")]
         .iter()
         .chain(results)
         .map(|(rel, path)| Link { href: format!("/v1/jobs/{id}{path}"), rel })
+        .chain(model)
         .collect()
 }

@@ -8,13 +8,11 @@ use utoipa::{IntoParams, ToSchema};
 use super::AppState;
 use super::extract::{JobPath, Parameters, job_not_found};
 use super::job_body::{JobBody, JobDetail};
+use super::page;
 use super::problem::{Kind, Problem};
 use crate::jobs::Cancellation;
 use crate::store::jobs::{JobFilter, JobId, JobKind};
 use crate::store::status::JobStatus;
-
-const DEFAULT_LIMIT: u32 = 50;
-const LARGEST_LIMIT: u32 = 500;
 
 /// Which jobs to list.
 #[derive(Debug, Deserialize, IntoParams)]
@@ -53,23 +51,12 @@ pub(super) async fn list_jobs(
     state: State<AppState>,
     Parameters(query): Parameters<JobQuery>,
 ) -> Result<Json<JobList>, Problem> {
-    let limit = query.limit.unwrap_or(DEFAULT_LIMIT);
-    if !(1..=LARGEST_LIMIT).contains(&limit) {
-        return Err(Problem::parameter("limit", format!("a page has 1 to {LARGEST_LIMIT} jobs")));
-    }
-    let before = match &query.cursor {
-        Some(cursor) => Some(
-            JobId::parse(cursor)
-                .ok_or_else(|| Problem::parameter("cursor", "not a cursor that this service gave"))?,
-        ),
-        None => None,
-    };
+    let limit = page::limit(query.limit)?;
+    let before = page::cursor(query.cursor.as_deref(), JobId::parse)?;
     let filter = JobFilter { status: query.status, kind: query.kind, before };
     // One more than asked for tells whether there is another page.
     let mut jobs = state.store.jobs(filter, limit + 1).await?;
-    let more = jobs.len() > limit as usize;
-    jobs.truncate(limit as usize);
-    let next = jobs.last().filter(|_| more).map(|last| {
+    let next = page::cut(&mut jobs, limit).map(|last| {
         let mut next = format!("/v1/jobs?limit={limit}&cursor={}", last.id);
         if let Some(status) = query.status {
             next += &format!("&status={}", status.as_str());
@@ -95,8 +82,13 @@ pub(super) async fn get_job(
     JobPath(id): JobPath,
 ) -> Result<Json<JobDetail>, Problem> {
     let job = state.store.job(id).await?.ok_or_else(|| job_not_found(&id))?;
-    let mut reports = state.store.reduction_reports(job.request.model()).await?.into_iter();
-    let reduction = reports.find(|report| report.modes_per_speed == job.request.modes_per_speed());
+    let reduction = match job.request.reduction() {
+        Some((model, modes_per_speed)) => {
+            let mut reports = state.store.reduction_reports(model).await?.into_iter();
+            reports.find(|report| report.modes_per_speed == modes_per_speed)
+        }
+        None => None,
+    };
     Ok(Json(JobDetail { job: job.into(), reduction }))
 }
 

@@ -8,6 +8,7 @@ mod jobs;
 mod modal_analyses;
 mod models;
 mod openapi;
+mod page;
 pub mod problem;
 mod results;
 mod router;
@@ -34,6 +35,8 @@ pub struct AppState {
     pub upload_bytes: u64,
     /// Limits while reading an uploaded package.
     pub package_limits: package::Limits,
+    /// Memory that reductions may take together; `None` where nothing is known about it.
+    pub memory_bytes: Option<u64>,
     /// The contract, as JSON.
     pub openapi: Arc<str>,
 }

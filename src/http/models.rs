@@ -1,25 +1,40 @@
 //! Models: upload, list, read, delete.
 
+use std::time::Duration;
+
 use axum::Json;
 use axum::body::Body;
-use axum::extract::{Path, Request, State};
+use axum::extract::{FromRequest, Path, Request, State};
 use axum::http::{StatusCode, header};
 use axum::response::Response;
 use futures::StreamExt;
-use serde::Serialize;
-use tokio::io::AsyncWriteExt;
-use utoipa::ToSchema;
+use serde::{Deserialize, Serialize};
+use tokio::io::{AsyncWriteExt, BufWriter};
+use tokio::time::timeout;
+use utoipa::{IntoParams, ToSchema};
 
 use super::AppState;
-use super::extract::expect_media_type;
+use super::extract::{JsonBody, Parameters, expect_media_type, is_media_type};
 use super::idempotency::{self, IdempotencyKey};
+use super::page;
 use super::problem::{Kind, Problem};
+use super::submit::{self, Receipt};
 use crate::analysis::result::ReductionReport;
 use crate::analysis::run::ModelFacts;
+use crate::impeller::ImpellerParameters;
 use crate::store::idempotency::Answer;
+use crate::store::jobs::JobRequest;
 use crate::store::models::{Deletion, StoredModel};
 
-/// An uploaded model.
+const JSON: &str = "application/json";
+
+/// Bytes of an upload that are written at once.
+const PIECE: usize = 1 << 20;
+
+/// Longest pause within an upload, after which its file is given up.
+const STALLED: Duration = Duration::from_secs(120);
+
+/// A model.
 #[derive(Debug, Serialize, ToSchema)]
 pub(super) struct ModelBody {
     /// Digest of the package's content: the same model is one model, however it was zipped.
@@ -43,11 +58,26 @@ pub(super) struct ModelDetail {
     reductions: Vec<ReductionReport>,
 }
 
-/// All models.
+/// Which models to list.
+#[derive(Debug, Deserialize, IntoParams)]
+#[serde(deny_unknown_fields)]
+#[into_params(parameter_in = Query)]
+pub(super) struct ModelQuery {
+    /// Models per page, 1 to 500; default 50.
+    #[param(minimum = 1, maximum = 500)]
+    limit: Option<u32>,
+    /// Where the page begins: from `next` of the page before.
+    cursor: Option<String>,
+}
+
+/// A page of models.
 #[derive(Debug, Serialize, ToSchema)]
 pub(super) struct ModelList {
     /// Newest first.
     models: Vec<ModelBody>,
+    /// Path of the next page; absent on the last.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    next: Option<String>,
 }
 
 /// A zip file as PACKAGE.md describes it.
@@ -56,33 +86,52 @@ pub(super) struct ModelList {
 #[expect(dead_code, reason = "describes the body in the OpenAPI document only")]
 pub(super) struct PackageZip(Vec<u8>);
 
+/// Parameters of the generator, as `rubmap generate --print-parameters` shows them.
+#[derive(ToSchema)]
+#[schema(value_type = Object)]
+#[expect(dead_code, reason = "describes the body in the OpenAPI document only")]
+pub(super) struct GeneratorParameters(ImpellerParameters);
+
 impl From<StoredModel> for ModelBody {
     fn from(model: StoredModel) -> Self {
-        let StoredModel { id, facts, size_bytes, created_at } = model;
+        let StoredModel { id, facts, size_bytes, created_at, .. } = model;
         Self { id, facts, size_bytes, created_at }
     }
 }
 
-/// Upload a model package.
+/// Upload a model package, or have an impeller generated from parameters.
 ///
-/// The package is checked completely before it is kept. A package whose content is known already, whatever its name
-/// and compression, is not kept twice.
+/// A package (`application/zip`) is checked completely before it is kept. A package whose content is known already,
+/// whatever its name and compression, is not kept twice.
+///
+/// Parameters of the generator (`application/json`; what they leave out keeps its default) become a job of kind
+/// `model_generation`. When it is successful its `model` is the id of the model, the same as of an uploaded package with
+/// that content.
 #[utoipa::path(post, path = "/v1/models", operation_id = "create_model", tag = "models",
     params(("Idempotency-Key" = Option<String>, Header,
         description = "Repeating the request with this key repeats its answer.")),
-    request_body(content = PackageZip, content_type = "application/zip",
-        description = "The model package: one impeller sector."),
+    request_body(description = "The model package, one impeller sector; or parameters of the generator.", content(
+        (PackageZip = "application/zip"),
+        (GeneratorParameters = "application/json"),
+    )),
     responses(
         (status = 201, description = "The model is new.", body = ModelBody,
             headers(("Location" = String, description = "Path of the model."))),
         (status = 200, description = "The model is known.", body = ModelBody,
             headers(("Location" = String, description = "Path of the model."))),
+        (status = 202, description = "The generation is accepted.", body = Receipt,
+            headers(("Location" = String, description = "Path of the job."))),
+        (status = 400, description = "The body is not JSON, or the upload broke off.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 408, description = "The upload stopped coming.", body = Problem,
+            content_type = "application/problem+json"),
         (status = 413, description = "The upload is larger than the service allows.", body = Problem,
             content_type = "application/problem+json"),
-        (status = 415, description = "The body is not declared as application/zip.", body = Problem,
+        (status = 415, description = "The body is declared as neither application/zip nor \
+            application/json.", body = Problem,
             content_type = "application/problem+json"),
-        (status = 422, description = "The package is not valid; `errors` names file and line or field. Or the \
-            idempotency key belongs to another request.", body = Problem,
+        (status = 422, description = "The package is not valid, `errors` names file and line or field; or a parameter \
+            is not, `errors` points at it. Or the idempotency key belongs to another request.", body = Problem,
             content_type = "application/problem+json"),
     ))]
 pub(super) async fn create_model(
@@ -90,7 +139,12 @@ pub(super) async fn create_model(
     key: IdempotencyKey,
     request: Request,
 ) -> Result<Response, Problem> {
-    expect_media_type(request.headers(), &["application/zip", "application/x-zip-compressed"])?;
+    expect_media_type(request.headers(), &["application/zip", "application/x-zip-compressed", JSON])?;
+    if is_media_type(request.headers(), JSON) {
+        let body = JsonBody::<ImpellerParameters>::from_request(request, &state).await?;
+        let asked = JobRequest::ModelGeneration(Box::new(body.value));
+        return submit::accept(&state, key, &body.fingerprint, asked).await;
+    }
     let declared = request
         .headers()
         .get(header::CONTENT_LENGTH)
@@ -129,12 +183,15 @@ async fn receive(
 ) -> Result<(tempfile::TempPath, sha2::Sha256), Problem> {
     use sha2::Digest;
 
-    let (file, path) =
-        tempfile::Builder::new().prefix("upload-").tempfile_in(state.store.upload_folder())?.into_parts();
-    let mut file = tokio::fs::File::from_std(file);
+    let (file, path) = state.store.new_upload()?.into_parts();
+    let mut file = BufWriter::with_capacity(PIECE, tokio::fs::File::from_std(file));
     let mut received = 0;
     let mut pieces = body.into_data_stream();
-    while let Some(piece) = pieces.next().await {
+    let stalled = |_| {
+        let detail = format!("nothing of the upload came for {} s; send it again", STALLED.as_secs());
+        Problem::new(Kind::UploadStalled, detail)
+    };
+    while let Some(piece) = timeout(STALLED, pieces.next()).await.map_err(stalled)? {
         let piece = piece
             .map_err(|error| Problem::new(Kind::BadRequest, format!("the upload broke off: {error}")))?;
         received += piece.len() as u64;
@@ -152,12 +209,24 @@ fn too_large(limit: u64) -> Problem {
     Problem::new(Kind::PayloadTooLarge, format!("a model package may have {limit} bytes on this service"))
 }
 
-/// List all models.
-#[utoipa::path(get, path = "/v1/models", operation_id = "list_models", tag = "models",
-    responses((status = 200, description = "All models, newest first.", body = ModelList)))]
-pub(super) async fn list_models(state: State<AppState>) -> Result<Json<ModelList>, Problem> {
-    let models = state.store.models().await?.into_iter().map(ModelBody::from).collect();
-    Ok(Json(ModelList { models }))
+/// List models.
+#[utoipa::path(get, path = "/v1/models", operation_id = "list_models", tag = "models", params(ModelQuery),
+    responses(
+        (status = 200, description = "A page of models, newest first.", body = ModelList),
+        (status = 400, description = "A parameter is not valid.", body = Problem,
+            content_type = "application/problem+json"),
+    ))]
+pub(super) async fn list_models(
+    state: State<AppState>,
+    Parameters(query): Parameters<ModelQuery>,
+) -> Result<Json<ModelList>, Problem> {
+    let limit = page::limit(query.limit)?;
+    let before = page::cursor(query.cursor.as_deref(), |cursor| cursor.parse().ok())?;
+    // One more than asked for tells whether there is another page.
+    let mut models = state.store.models(before, limit + 1).await?;
+    let next =
+        page::cut(&mut models, limit).map(|last| format!("/v1/models?limit={limit}&cursor={}", last.number));
+    Ok(Json(ModelList { models: models.into_iter().map(ModelBody::from).collect(), next }))
 }
 
 /// Read a model's facts and what its reductions found.

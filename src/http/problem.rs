@@ -100,6 +100,8 @@ kinds! {
     ResultNotReady = CONFLICT, "result-not-ready", "The result is not ready yet";
     /// The result will never come.
     ResultUnavailable = CONFLICT, "result-unavailable", "The job ended without this result";
+    /// The client stopped sending.
+    UploadStalled = REQUEST_TIMEOUT, "upload-stalled", "The upload stopped coming";
     /// The body is larger than allowed.
     PayloadTooLarge = PAYLOAD_TOO_LARGE, "payload-too-large", "The body is too large";
     /// The body is of the wrong type.
@@ -112,6 +114,8 @@ kinds! {
     InvalidPackage = UNPROCESSABLE_ENTITY, "invalid-package", "The model package is not valid";
     /// The model cannot be computed.
     InvalidModel = UNPROCESSABLE_ENTITY, "invalid-model", "The model cannot be computed";
+    /// The job needs more memory than the service may take.
+    OutOfMemory = INSUFFICIENT_STORAGE, "out-of-memory", "The job needs more memory than allowed";
     /// The idempotency key belongs to another request.
     KeyReused = UNPROCESSABLE_ENTITY, "idempotency-key-reused", "The idempotency key belongs to another request";
     /// A defect of the program.
@@ -241,6 +245,7 @@ impl From<&Failure> for Problem {
         let kind = match failure.cause {
             FailureCause::Refused => Kind::InvalidRequest,
             FailureCause::Model => Kind::InvalidModel,
+            FailureCause::Memory => Kind::OutOfMemory,
             FailureCause::Package | FailureCause::Defect | FailureCause::Storage => Kind::Internal,
         };
         let mut problem = Self::new(kind, failure.message.clone());

@@ -12,7 +12,7 @@ use super::extract::{JobPath, Parameters, job_not_found};
 use super::problem::{Kind, Problem};
 use crate::analysis::request::SweepRequest;
 use crate::analysis::result::{Campbell, CriticalSpeeds, InteractionMap, Point, SpeedSpectra};
-use crate::analysis::run;
+use crate::analysis::run::{self, ModelFacts};
 use crate::dynamics::sector::Units;
 use crate::store::jobs::{Job, JobId, JobKind, JobRequest};
 use crate::store::results::Document;
@@ -72,18 +72,18 @@ pub(super) async fn get_interaction_map(
     Parameters(query): Parameters<MapQuery>,
 ) -> Result<Json<InteractionMap>, Problem> {
     let job = find(&state, id).await?;
-    let request = sweep(&job)?;
+    let (request, facts) = sweep(&job)?;
     check_sensor(request, query.sensor)?;
-    let largest = job.facts.sectors / 2;
+    let largest = facts.sectors / 2;
     if query.nodal_diameter.is_some_and(|nodal_diameter| nodal_diameter > largest) {
-        let detail = format!("{} sectors have nodal diameters 0 to {largest}", job.facts.sectors);
+        let detail = format!("{} sectors have nodal diameters 0 to {largest}", facts.sectors);
         return Err(Problem::parameter("nodal_diameter", detail));
     }
     let MapQuery { sensor, nodal_diameter } = query;
     let sensor = sensor as usize;
     let row = |spectra: &SpeedSpectra| run::map_row(spectra, sensor, nodal_diameter).map(<[f64]>::to_vec);
     let finished = state.store.map_rows(id, row).await?;
-    Ok(Json(run::interaction_map(request, &job.facts.units, finished, sensor, nodal_diameter)))
+    Ok(Json(run::interaction_map(request, &facts.units, finished, sensor, nodal_diameter)))
 }
 
 /// Download the spectra of one speed.
@@ -105,14 +105,14 @@ pub(super) async fn get_spectra(
 ) -> Result<Json<SpectraBody>, Problem> {
     let id = JobId::parse(&path.0.0).ok_or_else(|| job_not_found(&path.0.0))?;
     let job = find(&state, id).await?;
-    sweep(&job)?;
+    let (_, facts) = sweep(&job)?;
     let total = job.speeds.total;
     let index = path.0.1.parse().ok().filter(|index| *index < total).ok_or_else(|| {
         Problem::new(Kind::SpeedNotFound, format!("the job has {total} speeds, counted from 0"))
     })?;
     match state.store.speed_result(id, index).await? {
         Some(result) => {
-            Ok(Json(SpectraBody { point: result.point, units: job.facts.units, spectra: result.spectra }))
+            Ok(Json(SpectraBody { point: result.point, units: facts.units.clone(), spectra: result.spectra }))
         }
         None if job.status.is_final() => Err(Problem::new(
             Kind::SpeedNotFound,
@@ -140,7 +140,7 @@ pub(super) async fn get_critical_speeds(
     Parameters(query): Parameters<SensorQuery>,
 ) -> Result<Response, Problem> {
     let job = find(&state, id).await?;
-    check_sensor(sweep(&job)?, query.sensor)?;
+    check_sensor(sweep(&job)?.0, query.sensor)?;
     document(&state, &job, Document::CriticalSpeeds(query.sensor)).await
 }
 
@@ -166,10 +166,11 @@ async fn find(state: &AppState, id: JobId) -> Result<Job, Problem> {
     state.store.job(id).await?.ok_or_else(|| job_not_found(&id))
 }
 
-fn sweep(job: &Job) -> Result<&SweepRequest, Problem> {
-    match &job.request {
-        JobRequest::Sweep(request) => Ok(request),
-        JobRequest::ModalAnalysis(_) => Err(wrong_kind(job, JobKind::Sweep)),
+/// The request of a sweep and the facts of its model.
+fn sweep(job: &Job) -> Result<(&SweepRequest, &ModelFacts), Problem> {
+    match (&job.request, &job.facts) {
+        (JobRequest::Sweep(request), Some(facts)) => Ok((request, facts)),
+        _ => Err(wrong_kind(job, JobKind::Sweep)),
     }
 }
 

@@ -39,7 +39,8 @@ pub(super) async fn accept(
         return Ok(response);
     }
     let (id, kind) = (JobId::new(), request.kind());
-    let receipt = Receipt { id: id.to_string(), kind, status: JobStatus::Accepted, links: links(id, kind) };
+    let links = links(id, kind, request.reduction().map(|(model, _)| model));
+    let receipt = Receipt { id: id.to_string(), kind, status: JobStatus::Accepted, links };
     let answer = Answer {
         key: String::new(),
         fingerprint: String::new(),

@@ -4,11 +4,12 @@ use std::collections::HashMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use tokio::sync::{Notify, mpsc};
+use tokio::sync::Notify;
 
 use super::error::Halt;
+use super::memory::Memory;
 use super::pool::CpuPool;
-use super::progress::{Report, Watch};
+use super::progress::{News, Watch};
 use super::reductions::Reductions;
 use crate::store::Store;
 use crate::store::jobs::{Failure, FailureCause, Job, JobId, JobRequest};
@@ -24,6 +25,8 @@ pub(super) struct Engine {
     /// Reads uploads, so that they do not wait behind speeds.
     pub(super) importer: CpuPool,
     pub(super) reductions: Reductions,
+    /// What reductions and generations may take together.
+    pub(super) memory: Arc<Memory>,
     /// Rung when there is something new to prepare.
     pub(super) new_preparation: Arc<Notify>,
     /// Rung when there are new speeds to run.
@@ -31,7 +34,8 @@ pub(super) struct Engine {
     /// Set when the service stops: computations end, their jobs stay as they are.
     pub(super) stopping: Arc<AtomicBool>,
     live: Mutex<HashMap<JobId, Arc<Live>>>,
-    reports: mpsc::UnboundedSender<Report>,
+    /// Progress of all jobs, to be written down.
+    pub(super) news: Arc<News>,
 }
 
 /// An unfinished job in memory.
@@ -48,11 +52,12 @@ impl Engine {
         store: Store,
         queue: QueueFile,
         (pool, importer): (CpuPool, CpuPool),
-        limits: crate::package::Limits,
-        reports: mpsc::UnboundedSender<Report>,
+        memory: Memory,
     ) -> Arc<Self> {
+        let memory = Arc::new(memory);
         Arc::new(Self {
-            reductions: Reductions::new(store.clone(), pool.clone(), limits),
+            reductions: Reductions::new(store.clone(), pool.clone(), Arc::clone(&memory)),
+            memory,
             store,
             queue,
             pool,
@@ -61,7 +66,7 @@ impl Engine {
             new_speeds: Arc::default(),
             stopping: Arc::default(),
             live: Mutex::default(),
-            reports,
+            news: Arc::default(),
         })
     }
 
@@ -77,7 +82,7 @@ impl Engine {
         if status.is_final() {
             return Ok(None);
         }
-        let watch = Watch::new(id, speeds.total, Arc::clone(&self.stopping), self.reports.clone());
+        let watch = Watch::new(id, speeds.total, Arc::clone(&self.stopping), Arc::clone(&self.news));
         let live = Live { id, request, speeds: speeds.total, watch };
         let live = Arc::clone(self.lock_live().entry(id).or_insert_with(|| Arc::new(live)));
         // A dismissal between the two lines above found nobody to tell.

@@ -2,6 +2,8 @@
 
 use super::pool::Panicked;
 use crate::analysis::error::AnalysisError;
+use crate::impeller::ImpellerError;
+use crate::package::PackageError;
 use crate::store::StoreError;
 use crate::store::jobs::{Failure, FailureCause};
 
@@ -17,11 +19,17 @@ pub(super) enum Halt {
 }
 
 impl Halt {
+    /// The generator made a package that the importer refuses.
+    pub(super) fn generated_package(error: PackageError) -> Self {
+        let message = format!("these parameters give no valid model: {error}");
+        Self::Failed(Failure { cause: FailureCause::Refused, message, violations: Vec::new() })
+    }
+
     /// The service died under the job too often.
     pub(super) fn crashed(times: u32) -> Self {
         let message = format!(
             "the service ended {times} times while it computed this job, without finishing a speed in between; \
-             most likely it ran out of memory: lower modes_per_speed, or give the service more"
+             most likely it ran out of memory: ask for less (modes_per_speed, mesh), or give the service more"
         );
         Self::Failed(Failure { cause: FailureCause::Defect, message, violations: Vec::new() })
     }
@@ -54,9 +62,30 @@ impl From<AnalysisError> for Halt {
             AnalysisError::Refused(violations) => {
                 Self::Failed(Failure { cause: FailureCause::Refused, message, violations })
             }
-            AnalysisError::Model(_) | AnalysisError::Memory { .. } => {
+            AnalysisError::Model(_) => {
                 Self::Failed(Failure { cause: FailureCause::Model, message, violations: Vec::new() })
             }
+            AnalysisError::Memory { .. } => {
+                let message = format!(
+                    "{message}: ask for fewer modes_per_speed, let the service take more (--memory-bytes or \
+                     RUBMAP_MEMORY_BYTES, of which seven eighths go to one large model), or run it on a machine \
+                     with more memory"
+                );
+                Self::Failed(Failure { cause: FailureCause::Memory, message, violations: Vec::new() })
+            }
         }
+    }
+}
+
+impl From<ImpellerError> for Halt {
+    fn from(error: ImpellerError) -> Self {
+        let message = error.to_string();
+        let cause = match error {
+            ImpellerError::Parameter { .. }
+            | ImpellerError::Field { .. }
+            | ImpellerError::Jacobian { .. } => FailureCause::Refused,
+            ImpellerError::NotPositiveDefinite => FailureCause::Model,
+        };
+        Self::Failed(Failure { cause, message, violations: Vec::new() })
     }
 }

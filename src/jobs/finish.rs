@@ -3,6 +3,7 @@
 use super::engine::{Engine, Live};
 use super::error::Halt;
 use super::progress::PhaseMonitor;
+use super::room::once_there_is_room;
 use crate::analysis::request::SweepRequest;
 use crate::analysis::run;
 use crate::store::results::Document;
@@ -20,16 +21,18 @@ pub(super) async fn sweep(engine: &Engine, job: &Live, request: &SweepRequest) -
         .zip(&tables)
         .map(|(sensor, table)| Ok((Document::CriticalSpeeds(sensor), serde_json::to_string(table)?)))
         .collect::<Result<Vec<_>, serde_json::Error>>()?;
-    complete(engine, job, &documents).await
+    complete(engine, job, &documents, None).await
 }
 
-/// Marks a job successful with the documents that conclude it.
+/// Marks a job successful with the documents that conclude it, or the model it made.
 pub(super) async fn complete(
     engine: &Engine,
     job: &Live,
     documents: &[(Document, String)],
+    made: Option<&str>,
 ) -> Result<(), Halt> {
-    if engine.store.complete_job(job.id, documents).await? {
+    let write = || engine.store.complete_job(job.id, documents, made);
+    if once_there_is_room(&job.watch, write).await? {
         tracing::info!(job.id = %job.id, "successful");
     }
     engine.forget(job.id);

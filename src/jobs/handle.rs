@@ -7,6 +7,7 @@ use super::engine::Engine;
 use super::pool::Panicked;
 use crate::analysis::error::Violation;
 use crate::analysis::run;
+use crate::impeller::ImpellerError;
 use crate::package;
 use crate::store::StoreError;
 use crate::store::idempotency::Answer;
@@ -61,30 +62,48 @@ impl Jobs {
         answer: Option<&Answer>,
     ) -> Result<(), SubmitError> {
         let engine = &self.engine;
-        let unknown = || SubmitError::UnknownModel(request.model().to_owned());
-        let facts = engine.store.model(request.model()).await?.ok_or_else(unknown)?.facts;
-        let (request, speeds) = match request.clone() {
+        let refused = SubmitError::Refused;
+        let (request, facts, speeds) = match request {
             JobRequest::Sweep(request) => {
-                let request = run::resolve_sweep(request, &facts).map_err(SubmitError::Refused)?;
-                let speeds = request.speeds.resolve().map_err(SubmitError::Refused)?.len();
-                (JobRequest::Sweep(request), speeds)
+                let facts = self.facts(&request.model).await?;
+                let request = run::resolve_sweep(request, &facts).map_err(refused)?;
+                let speeds = request.speeds.resolve().map_err(refused)?.len();
+                (JobRequest::Sweep(request), Some(facts), speeds)
             }
             JobRequest::ModalAnalysis(request) => {
-                let request = run::resolve_modal_analysis(request, &facts).map_err(SubmitError::Refused)?;
-                let speeds = request.speeds.resolve().map_err(SubmitError::Refused)?.len();
-                (JobRequest::ModalAnalysis(request), speeds)
+                let facts = self.facts(&request.model).await?;
+                let request = run::resolve_modal_analysis(request, &facts).map_err(refused)?;
+                let speeds = request.speeds.resolve().map_err(refused)?.len();
+                (JobRequest::ModalAnalysis(request), Some(facts), speeds)
+            }
+            JobRequest::ModelGeneration(parameters) => {
+                parameters.validate().map_err(|error| refused(vec![violation(&error)]))?;
+                (JobRequest::ModelGeneration(parameters), None, 0)
             }
         };
-        match engine.store.insert_job(id, &request, &facts, speeds as u32, answer).await? {
+        let model = request.reduction().map(|(model, _)| model);
+        match engine.store.insert_job(id, &request, facts.as_ref(), speeds as u32, answer).await? {
             Insertion::Accepted => {}
-            Insertion::UnknownModel => return Err(SubmitError::UnknownModel(request.model().to_owned())),
+            Insertion::UnknownModel => {
+                return Err(SubmitError::UnknownModel(model.unwrap_or_default().to_owned()));
+            }
             Insertion::KeyTaken => return Err(SubmitError::KeyTaken),
         }
-        tracing::info!(job.id = %id, kind = request.kind().as_str(), model.id = request.model(), speeds, "accepted");
+        tracing::info!(job.id = %id, kind = request.kind().as_str(), model.id = model, speeds, "accepted");
         // From here on the job is kept: should this fail, the next start queues it.
         engine.queue.push_preparation(id).await?;
         engine.new_preparation.notify_one();
         Ok(())
+    }
+
+    async fn facts(&self, model: &str) -> Result<run::ModelFacts, SubmitError> {
+        let model = self
+            .engine
+            .store
+            .model(model)
+            .await?
+            .ok_or_else(|| SubmitError::UnknownModel(model.to_owned()))?;
+        Ok(model.facts)
     }
 
     /// Cancels a job. Its finished speeds stay.
@@ -111,6 +130,16 @@ impl Jobs {
                 .map(|imported| (run::ModelFacts::of(&imported.sector), imported.digest))
                 .map_err(Box::new)
         };
-        self.engine.importer.run(read).await
+        self.engine.importer.run_parallel(read).await
+    }
+}
+
+/// Why parameters of the generator are refused, at the field.
+fn violation(error: &ImpellerError) -> Violation {
+    match error {
+        ImpellerError::Parameter { field, value, requirement } => {
+            Violation::new(format!("/{}", field.replace('.', "/")), format!("{value}: {requirement}"))
+        }
+        other => Violation::new("", other.to_string()),
     }
 }

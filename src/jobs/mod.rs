@@ -7,7 +7,7 @@
 //!                                             └─→ speed: run, commit its row ─→ the last one: finish
 //! ```
 //!
-//! The unit of work is one speed of one job. Tasks are carried by `apalis`; the tables of [`crate::store`] are what is
+//! The unit of work is one speed of one job; a modal analysis and the generation of a model are one unit each. Tasks are carried by `apalis`; the tables of [`crate::store`] are what is
 //! true. A handler looks there first, so a task that runs twice, or somewhere else, does no harm.
 //!
 //! Handlers are async and wait; what computes runs on the threads of a `pool::CpuPool`. The two queues hand their
@@ -17,12 +17,15 @@
 mod engine;
 mod error;
 mod finish;
+mod generation;
 mod handle;
+mod memory;
 mod modal_analysis;
 mod pool;
 mod prepare;
 mod progress;
 mod reductions;
+mod room;
 mod speed;
 mod workers;
 

@@ -14,5 +14,5 @@ pub(super) async fn run(engine: &Engine, job: &Live, request: &ModalAnalysisRequ
     let reduced = engine.reductions.get(&request.model, request.modes_per_speed, monitor).await?;
     let (settings, monitor) = (request.clone(), PhaseMonitor::modal_analysis(job.watch.clone()));
     let campbell = engine.pool.run(move || run::modal_analysis(&reduced, &settings, &monitor)).await??;
-    finish::complete(engine, job, &[(Document::Campbell, serde_json::to_string(&campbell)?)]).await
+    finish::complete(engine, job, &[(Document::Campbell, serde_json::to_string(&campbell)?)], None).await
 }

@@ -11,6 +11,8 @@ type Work = Box<dyn FnOnce() + Send>;
 #[derive(Debug, Clone)]
 pub(crate) struct CpuPool {
     sender: mpsc::Sender<Work>,
+    /// Threads for work that is parallel in itself.
+    inner_threads: usize,
 }
 
 /// A computation panicked: a defect of the program.
@@ -22,8 +24,9 @@ pub struct Panicked {
 }
 
 impl CpuPool {
-    /// Starts `threads` threads called `name`. They end when the last handle on the pool is gone.
-    pub(crate) fn start(name: &str, threads: usize) -> std::io::Result<Self> {
+    /// Starts `threads` threads called `name`; [`CpuPool::run_parallel`] gives each piece of work `inner_threads` more.
+    /// They end when the last handle on the pool is gone.
+    pub(crate) fn start(name: &str, threads: usize, inner_threads: usize) -> std::io::Result<Self> {
         let (sender, receiver) = mpsc::channel::<Work>();
         let receiver = Arc::new(Mutex::new(receiver));
         for index in 0..threads {
@@ -37,7 +40,7 @@ impl CpuPool {
                 }
             })?;
         }
-        Ok(Self { sender })
+        Ok(Self { sender, inner_threads })
     }
 
     /// Runs `compute` on one of the threads and waits for its result.
@@ -62,6 +65,24 @@ impl CpuPool {
         self.sender.send(work).map_err(|_| gone())?;
         receiver.await.map_err(|_| gone())?
     }
+
+    /// Like [`CpuPool::run`], for work that is parallel in itself (`rayon`).
+    ///
+    /// It gets threads of its own: in a pool that all share, a small upload would wait behind every piece of a
+    /// reduction of minutes.
+    pub(crate) async fn run_parallel<T, F>(&self, compute: F) -> Result<T, Panicked>
+    where
+        T: Send + 'static,
+        F: FnOnce() -> T + Send + 'static,
+    {
+        let inner_threads = self.inner_threads;
+        self.run(move || match rayon::ThreadPoolBuilder::new().num_threads(inner_threads).build() {
+            Ok(threads) => threads.install(compute),
+            // The system gives no more threads: then with those that are there.
+            Err(_) => compute(),
+        })
+        .await
+    }
 }
 
 #[cfg(test)]
@@ -70,9 +91,12 @@ mod tests {
 
     #[tokio::test]
     async fn a_panic_is_a_result_and_the_thread_lives_on() {
-        let pool = CpuPool::start("test", 1).unwrap();
+        let pool = CpuPool::start("test", 1, 3).unwrap();
         let panicked = pool.run(|| panic!("division by cucumber")).await.unwrap_err();
         assert_eq!(panicked.message, "division by cucumber");
+        let panicked = pool.run_parallel(|| panic!("division by marrow")).await.unwrap_err();
+        assert_eq!(panicked.message, "division by marrow");
         assert_eq!(pool.run(|| 6 * 7).await.unwrap(), 42);
+        assert_eq!(pool.run_parallel(rayon::current_num_threads).await.unwrap(), 3);
     }
 }

@@ -3,7 +3,7 @@
 use super::engine::{Engine, Live};
 use super::error::Halt;
 use super::progress::PhaseMonitor;
-use super::{finish, modal_analysis};
+use super::{finish, generation, modal_analysis};
 use crate::analysis::request::SweepRequest;
 use crate::analysis::run;
 use crate::store::jobs::{JobId, JobRequest};
@@ -17,6 +17,7 @@ pub(super) async fn prepare(engine: &Engine, id: JobId) -> Result<(), Halt> {
     match &job.request {
         JobRequest::Sweep(request) => prepare_sweep(engine, &job, request).await,
         JobRequest::ModalAnalysis(request) => modal_analysis::run(engine, &job, request).await,
+        JobRequest::ModelGeneration(parameters) => generation::run(engine, &job, parameters).await,
     }
 }
 

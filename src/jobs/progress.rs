@@ -1,10 +1,8 @@
-//! Progress of a job as one number, and cancellation, as the computations see them.
+//! Progress of a job as one number and a few words, and cancellation, as the computations see them.
 
 use std::collections::HashMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
-
-use tokio::sync::mpsc;
 
 use crate::analysis::monitor::Monitor;
 use crate::store::jobs::JobId;
@@ -14,12 +12,28 @@ const REDUCTION_OF_SWEEP: f64 = 10.0;
 /// Percent of a modal analysis that its reduction counts for: nearly all the work.
 const REDUCTION_OF_MODAL_ANALYSIS: f64 = 90.0;
 
-/// News about a job's progress, on its way to the store.
-#[derive(Debug)]
+/// How far a job is.
+#[derive(Debug, PartialEq, Eq)]
 pub(super) struct Report {
-    pub(super) job: JobId,
     pub(super) percent: u8,
     pub(super) phase: String,
+}
+
+/// The latest about each job, until somebody takes it to the store.
+#[derive(Debug, Default)]
+pub(super) struct News {
+    latest: Mutex<HashMap<JobId, Report>>,
+}
+
+impl News {
+    /// Takes what is new.
+    pub(super) fn take(&self) -> HashMap<JobId, Report> {
+        std::mem::take(&mut *self.latest.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    fn put(&self, job: JobId, report: Report) {
+        self.latest.lock().unwrap_or_else(PoisonError::into_inner).insert(job, report);
+    }
 }
 
 /// Watches all computations of one job.
@@ -29,7 +43,7 @@ pub(super) struct Watch {
     dismissed: AtomicBool,
     stopping: Arc<AtomicBool>,
     done: Mutex<Done>,
-    reports: mpsc::UnboundedSender<Report>,
+    news: Arc<News>,
 }
 
 /// How much of a job is done.
@@ -37,6 +51,8 @@ pub(super) struct Watch {
 struct Done {
     /// Last percentage reported.
     percent: u8,
+    /// Last phase reported.
+    phase: String,
     speeds: u32,
     finished: u32,
     /// Fractions of the speeds that are being computed.
@@ -44,14 +60,9 @@ struct Done {
 }
 
 impl Watch {
-    pub(super) fn new(
-        job: JobId,
-        speeds: u32,
-        stopping: Arc<AtomicBool>,
-        reports: mpsc::UnboundedSender<Report>,
-    ) -> Arc<Self> {
+    pub(super) fn new(job: JobId, speeds: u32, stopping: Arc<AtomicBool>, news: Arc<News>) -> Arc<Self> {
         let done = Mutex::new(Done { speeds, ..Done::default() });
-        Arc::new(Self { job, dismissed: AtomicBool::new(false), stopping, done, reports })
+        Arc::new(Self { job, dismissed: AtomicBool::new(false), stopping, done, news })
     }
 
     /// Tells all computations of the job to stop.
@@ -70,17 +81,21 @@ impl Watch {
         if let Some(speed) = last {
             done.running.remove(&speed);
         }
-        let phase = format!("{} of {} speeds finished", done.finished, done.speeds);
-        self.report(&mut done, &phase, None);
+        self.report_speeds(&mut done);
     }
 
-    /// Reports if the percentage has grown: at most a hundred times in the life of a job.
-    fn report(&self, done: &mut Done, phase: &str, percent: Option<f64>) {
-        let percent = percent.unwrap_or_else(|| done.percent_of_sweep()).clamp(0.0, 99.0) as u8;
-        if percent > done.percent {
+    fn report_speeds(&self, done: &mut Done) {
+        let phase = format!("{} of {} speeds finished", done.finished, done.speeds);
+        self.report(done, &phase, done.percent_of_sweep());
+    }
+
+    /// Reports what has changed. The percentage never falls; 100 is for the store to give.
+    fn report(&self, done: &mut Done, phase: &str, percent: f64) {
+        let percent = done.percent.max(percent.clamp(0.0, 99.0) as u8);
+        if percent > done.percent || phase != done.phase {
             done.percent = percent;
-            // The receiver outlives all jobs, except while the service stops.
-            let _ = self.reports.send(Report { job: self.job, percent, phase: phase.to_owned() });
+            phase.clone_into(&mut done.phase);
+            self.news.put(self.job, Report { percent, phase: phase.to_owned() });
         }
     }
 }
@@ -118,6 +133,16 @@ impl PhaseMonitor {
         Self { watch, from: REDUCTION_OF_MODAL_ANALYSIS, to: 100.0 }
     }
 
+    /// A job that is one phase.
+    pub(super) fn whole(watch: Arc<Watch>) -> Self {
+        Self { watch, from: 0.0, to: 100.0 }
+    }
+
+    /// The job it belongs to.
+    pub(super) fn watch(&self) -> &Watch {
+        &self.watch
+    }
+
     /// A phase that counts for nothing but can be cancelled.
     pub(super) fn uncounted(watch: Arc<Watch>) -> Self {
         Self { watch, from: 0.0, to: 0.0 }
@@ -128,7 +153,7 @@ impl Monitor for PhaseMonitor {
     fn progress(&self, fraction: f64, phase: &str) {
         let mut done = self.watch.done.lock().unwrap_or_else(PoisonError::into_inner);
         let percent = self.from + (self.to - self.from) * fraction.clamp(0.0, 1.0);
-        self.watch.report(&mut done, phase, Some(percent));
+        self.watch.report(&mut done, phase, percent);
     }
 
     fn is_cancelled(&self) -> bool {
@@ -150,10 +175,11 @@ impl SpeedMonitor {
 }
 
 impl Monitor for SpeedMonitor {
-    fn progress(&self, fraction: f64, phase: &str) {
+    /// Speeds run side by side: how many are finished says more than the phase of any.
+    fn progress(&self, fraction: f64, _phase: &str) {
         let mut done = self.watch.done.lock().unwrap_or_else(PoisonError::into_inner);
         done.running.insert(self.speed, fraction.clamp(0.0, 1.0));
-        self.watch.report(&mut done, phase, None);
+        self.watch.report_speeds(&mut done);
     }
 
     fn is_cancelled(&self) -> bool {
@@ -165,38 +191,65 @@ impl Monitor for SpeedMonitor {
 mod tests {
     use super::*;
 
-    fn watch(speeds: u32) -> (Arc<Watch>, mpsc::UnboundedReceiver<Report>) {
-        let (sender, receiver) = mpsc::unbounded_channel();
-        (Watch::new(JobId::new(), speeds, Arc::default(), sender), receiver)
+    fn watch(speeds: u32) -> Arc<Watch> {
+        Watch::new(JobId::new(), speeds, Arc::default(), Arc::default())
     }
 
-    fn percents(mut reports: mpsc::UnboundedReceiver<Report>) -> Vec<u8> {
-        std::iter::from_fn(|| reports.try_recv().ok().map(|report| report.percent)).collect()
+    /// What there is to tell; `None` if nothing is new.
+    fn told(watch: &Watch) -> Option<(u8, String)> {
+        watch.news.take().remove(&watch.job).map(|report| (report.percent, report.phase))
     }
 
     #[test]
     fn progress_counts_work_and_never_falls() {
-        let (watch, reports) = watch(4);
+        let watch = watch(4);
+        let mut percents = Vec::new();
+        let mut note = || percents.extend(told(&watch).map(|(percent, _)| percent));
         PhaseMonitor::reduction_of_sweep(watch.clone()).progress(0.5, "modes");
+        note();
         PhaseMonitor::reduction_of_sweep(watch.clone()).progress(1.0, "modes");
+        note();
         let speed = SpeedMonitor::new(watch.clone(), 0);
         speed.progress(0.5, "integrating");
+        note();
         speed.progress(0.1, "an earlier attempt, told late");
+        note();
         watch.speeds_finished(1, Some(0));
+        note();
+        PhaseMonitor::uncounted(watch.clone()).progress(0.7, "waiting");
+        note();
         watch.speeds_finished(2, Some(1));
+        note();
         watch.speeds_finished(4, Some(3));
+        note();
         // 10 % for the reduction, the rest by speeds; 100 is for the store to give.
-        assert_eq!(percents(reports), [5, 10, 21, 32, 55, 99]);
+        assert_eq!(percents, [5, 10, 21, 32, 32, 55, 99]);
+    }
+
+    #[test]
+    fn a_new_phase_is_news_and_only_the_latest_counts() {
+        let watch = watch(1);
+        let monitor = PhaseMonitor::reduction_of_modal_analysis(watch.clone());
+        monitor.progress(0.5, "harmonic 1");
+        assert_eq!(told(&watch), Some((45, "harmonic 1".to_owned())));
+        monitor.progress(0.5, "harmonic 1");
+        assert_eq!(told(&watch), None);
+        monitor.progress(0.501, "harmonic 2");
+        monitor.progress(0.502, "harmonic 3");
+        assert_eq!(told(&watch), Some((45, "harmonic 3".to_owned())));
+        // A restart goes through finished phases again.
+        monitor.progress(0.1, "harmonic 0");
+        assert_eq!(told(&watch), Some((45, "harmonic 0".to_owned())));
     }
 
     #[test]
     fn dismissal_and_shutdown_are_both_seen() {
-        let (first, _reports) = watch(1);
+        let first = watch(1);
         assert!(!first.is_cancelled());
         first.dismiss();
         assert!(SpeedMonitor::new(first, 0).is_cancelled());
 
-        let (second, _reports) = watch(1);
+        let second = watch(1);
         second.stopping.store(true, Ordering::Relaxed);
         assert!(PhaseMonitor::uncounted(second).is_cancelled());
     }

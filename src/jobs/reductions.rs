@@ -4,11 +4,14 @@ use std::collections::{HashMap, VecDeque};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::error::Halt;
+use super::memory::Memory;
 use super::pool::CpuPool;
 use super::progress::PhaseMonitor;
+use super::room::once_there_is_room;
+use crate::analysis::error::AnalysisError;
 use crate::analysis::monitor::Monitor;
 use crate::analysis::run::{self, ReducedSector};
-use crate::package;
+use crate::package::{self, Limits};
 use crate::store::Store;
 use crate::store::jobs::{Failure, FailureCause};
 
@@ -23,7 +26,7 @@ type Key = (String, u32);
 pub(super) struct Reductions {
     store: Store,
     pool: CpuPool,
-    limits: package::Limits,
+    memory: Arc<Memory>,
     /// Most recently used last.
     recent: Mutex<VecDeque<(Key, Arc<ReducedSector>)>>,
     /// One lock per reduction that is being obtained: the second job to need it waits for the first.
@@ -31,8 +34,8 @@ pub(super) struct Reductions {
 }
 
 impl Reductions {
-    pub(super) fn new(store: Store, pool: CpuPool, limits: package::Limits) -> Self {
-        Self { store, pool, limits, recent: Mutex::default(), flights: Mutex::default() }
+    pub(super) fn new(store: Store, pool: CpuPool, memory: Arc<Memory>) -> Self {
+        Self { store, pool, memory, recent: Mutex::default(), flights: Mutex::default() }
     }
 
     /// The reduction of `model`; computes and stores it if there is none.
@@ -50,7 +53,13 @@ impl Reductions {
             let mut flights = self.flights.lock().unwrap_or_else(PoisonError::into_inner);
             Arc::clone(flights.entry(key.clone()).or_default())
         };
-        let guard = flight.lock().await;
+        let guard = match flight.try_lock() {
+            Ok(guard) => guard,
+            Err(_) => {
+                monitor.progress(0.0, "waiting for the same reduction in another job");
+                flight.lock().await
+            }
+        };
         let result = self.obtain(&key, monitor).await;
         drop(guard);
         let mut flights = self.flights.lock().unwrap_or_else(PoisonError::into_inner);
@@ -74,29 +83,50 @@ impl Reductions {
             tracing::info!(model.id = model, modes_per_speed, "read the stored reduction");
             return Ok(self.remember(key, reduced));
         }
-        tracing::info!(model.id = model, modes_per_speed, "reducing");
-        let path = self.store.package_path(model);
-        let limits = self.limits.clone();
-        let reduced = self
-            .pool
-            .run(move || -> Result<ReducedSector, Halt> {
-                let package = package::read(&path, &limits).map_err(|error| {
-                    let message = format!("the stored package cannot be read any more: {error}");
-                    Halt::Failed(Failure { cause: FailureCause::Package, message, violations: Vec::new() })
-                })?;
-                Ok(run::prepare(
-                    &package.sector,
-                    modes_per_speed,
-                    None,
-                    &crate::dynamics::reduction::NoCheckpoints,
-                    &monitor,
-                )?)
-            })
-            .await??;
-        self.store.insert_reduction(model, modes_per_speed, &reduced).await?;
+        let dofs = self.store.model(model).await?.map_or(0, |model| model.facts.own_dofs.into());
+        monitor.progress(0.0, "waiting for memory that other jobs hold");
+        let mut allowance = self.memory.claim(dofs).await;
+        let mut outcome = self.reduce(key, &monitor, allowance.bytes).await?;
+        if matches!(outcome, Err(AnalysisError::Memory { .. })) && !allowance.is_most() {
+            // More than its size lets expect.
+            drop(allowance);
+            allowance = self.memory.claim_most().await;
+            outcome = self.reduce(key, &monitor, allowance.bytes).await?;
+        }
+        drop(allowance);
+        let reduced = outcome?;
+        let write = || self.store.insert_reduction(model, modes_per_speed, &reduced);
+        once_there_is_room(monitor.watch(), write).await?;
         let wall_time_s = reduced.report.wall_time_s;
         tracing::info!(model.id = model, modes_per_speed, wall_time_s, "reduced");
         Ok(self.remember(key, reduced))
+    }
+
+    /// Computes a reduction within `memory_bytes`. The package is read anew each time: nobody who waits for memory may hold
+    /// a whole sector.
+    async fn reduce(
+        &self,
+        key: &Key,
+        monitor: &PhaseMonitor,
+        memory_bytes: Option<u64>,
+    ) -> Result<Result<ReducedSector, AnalysisError>, Halt> {
+        if monitor.is_cancelled() {
+            return Err(Halt::NotWanted);
+        }
+        let (model, modes_per_speed) = (key.0.as_str(), key.1);
+        tracing::info!(model.id = model, modes_per_speed, memory_bytes, "reducing");
+        monitor.progress(0.0, "reading the package");
+        let path = self.store.package_path(model);
+        let (checkpoints, monitor) = (self.store.checkpoints(model, modes_per_speed), monitor.clone());
+        let compute = move || {
+            let package = package::read(&path, &Limits::default()).map_err(|error| {
+                let message = format!("the stored package cannot be read any more: {error}");
+                Halt::Failed(Failure { cause: FailureCause::Package, message, violations: Vec::new() })
+            })?;
+            monitor.progress(0.0, "reducing");
+            Ok(run::prepare(&package.sector, modes_per_speed, memory_bytes, &checkpoints, &monitor))
+        };
+        self.pool.run_parallel(compute).await?
     }
 
     fn recall(&self, key: &Key) -> Option<Arc<ReducedSector>> {

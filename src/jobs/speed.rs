@@ -4,6 +4,7 @@ use super::engine::Engine;
 use super::error::Halt;
 use super::finish;
 use super::progress::{PhaseMonitor, SpeedMonitor};
+use super::room::once_there_is_room;
 use crate::analysis::run;
 use crate::store::jobs::JobRequest;
 use crate::store::queue::RunSpeed;
@@ -22,7 +23,7 @@ pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) 
     let result =
         engine.pool.run(move || run::run_speed(&reduced, &settings, speed as usize, &monitor)).await??;
 
-    let finished = engine.store.insert_speed(id, &result).await?;
+    let finished = once_there_is_room(&job.watch, || engine.store.insert_speed(id, &result)).await?;
     job.watch.speeds_finished(finished, Some(speed));
     let point = &result.point;
     tracing::info!(

@@ -10,17 +10,17 @@ use apalis::prelude::{
     BackendExt, BoxDynError, Data, PollSnapshot, PollStrategy, WorkerBuilder, WorkerBuilderExt, WorkerError,
 };
 use futures::{FutureExt, future::BoxFuture};
-use tokio::sync::{Notify, mpsc};
+use tokio::sync::Notify;
 use tokio::task::JoinHandle;
 use tokio_util::sync::CancellationToken;
 
 use super::engine::Engine;
 use super::error::Halt;
 use super::handle::Jobs;
+use super::memory::Memory;
 use super::pool::CpuPool;
-use super::progress::Report;
+use super::progress::{News, Report};
 use super::{prepare, speed};
-use crate::package;
 use crate::store::queue::{PrepareJob, QueueFile, RunSpeed};
 use crate::store::{Store, StoreError};
 
@@ -34,6 +34,9 @@ const MOST_CRASHES: u32 = 5;
 /// How often a queue is asked for tasks without having been rung.
 const IDLE_POLL: Duration = Duration::from_millis(500);
 
+/// Time between two writes of a job's progress. Each is a flush of the disk, and nobody looks more often.
+const BETWEEN_PROGRESS: Duration = Duration::from_secs(1);
+
 /// How the runner is set up.
 #[derive(Debug, Clone)]
 pub struct Settings {
@@ -41,8 +44,8 @@ pub struct Settings {
     pub data: PathBuf,
     /// Threads that compute.
     pub workers: usize,
-    /// Limits for packages read again from the store.
-    pub limits: package::Limits,
+    /// Memory that reductions and generations may take together; `None` for no limit.
+    pub memory_bytes: Option<u64>,
 }
 
 /// The running workers.
@@ -58,9 +61,10 @@ impl Runner {
     /// Starts the workers and queues all unfinished jobs of the store. Only one runner may run on a data folder.
     pub async fn start(store: Store, settings: Settings) -> Result<Self, StoreError> {
         let queue = QueueFile::create(&settings.data).await?;
-        let pools = (CpuPool::start("compute", settings.workers)?, CpuPool::start("import", 1)?);
-        let (sender, reports) = mpsc::unbounded_channel();
-        let engine = Engine::new(store.clone(), queue, pools, settings.limits, sender);
+        let pool = |name, threads| CpuPool::start(name, threads, settings.workers);
+        let pools = (pool("compute", settings.workers)?, pool("import", 1)?);
+        let memory = Memory::new(settings.memory_bytes);
+        let engine = Engine::new(store.clone(), queue, pools, memory);
         for (job, crashes) in store.take_up_jobs().await? {
             if crashes >= MOST_CRASHES {
                 engine.settle(job, Err(Halt::crashed(crashes))).await;
@@ -81,7 +85,7 @@ impl Runner {
                 move |name| speeds(name, Arc::clone(&engine), settings.workers, stop.clone())
             })),
         ];
-        let recorder = tokio::spawn(record_progress(store, reports));
+        let recorder = tokio::spawn(record_progress(store, Arc::clone(&engine.news)));
         Ok(Self { engine, stop, workers, recorder })
     }
 
@@ -94,15 +98,16 @@ impl Runner {
     pub async fn stop(self) {
         self.engine.stopping.store(true, Ordering::Relaxed);
         self.stop.cancel();
+        // At once: who stops the service may not have the patience for the last computations to notice.
+        if let Err(error) = self.engine.store.lay_down_jobs().await {
+            tracing::warn!(%error, "could not lay down the running jobs; the next start takes this for a crash");
+        }
         for worker in self.workers {
             if let Err(error) = worker.await {
                 tracing::error!(%error, "a worker ended badly");
             }
         }
         self.recorder.abort();
-        if let Err(error) = self.engine.store.lay_down_jobs().await {
-            tracing::warn!(%error, "could not lay down the running jobs; the next start takes this for a crash");
-        }
         self.engine.queue.close().await;
     }
 }
@@ -173,11 +178,15 @@ where
     }
 }
 
-/// Writes progress to the store as it comes.
-async fn record_progress(store: Store, mut reports: mpsc::UnboundedReceiver<Report>) {
-    while let Some(Report { job, percent, phase }) = reports.recv().await {
-        if let Err(error) = store.record_progress(job, percent, &phase).await {
-            tracing::warn!(job.id = %job, %error, "could not record progress");
+/// Writes the latest progress to the store, now and then.
+async fn record_progress(store: Store, news: Arc<News>) {
+    let mut interval = tokio::time::interval(BETWEEN_PROGRESS);
+    loop {
+        interval.tick().await;
+        for (job, Report { percent, phase }) in news.take() {
+            if let Err(error) = store.record_progress(job, percent, &phase).await {
+                tracing::warn!(job.id = %job, %error, "could not record progress");
+            }
         }
     }
 }

@@ -30,3 +30,19 @@ pub enum StoreError {
         value: String,
     },
 }
+
+/// Primary result code of `SQLite` for a write that found no room.
+const SQLITE_FULL: &str = "13";
+
+impl StoreError {
+    /// Whether it was refused for want of room on the disk, and may succeed later.
+    pub fn is_disk_full(&self) -> bool {
+        match self {
+            Self::Database(sqlx::Error::Database(error)) => {
+                error.code().is_some_and(|code| code == SQLITE_FULL)
+            }
+            Self::File(error) => error.kind() == std::io::ErrorKind::StorageFull,
+            _ => false,
+        }
+    }
+}

@@ -1,8 +1,10 @@
-//! What is remembered: models, reductions, jobs and results in one `SQLite` file. The only SQL in the program.
+//! What is remembered: models, reductions, jobs and results in one `SQLite` file, packages and checkpoints as files
+//! beside it. The only SQL in the program.
 //!
 //! One function per question; rows become domain types here. All writes go through one connection, so transactions
 //! never meet a busy database, and readers never wait for writers (WAL).
 
+pub mod checkpoints;
 mod error;
 pub mod idempotency;
 pub mod jobs;
@@ -59,6 +61,17 @@ impl Store {
         Ok(())
     }
 
+    /// Removes files that an earlier service left behind and nobody will use. For a service that starts: what is being
+    /// written now looks the same. What cannot be removed does no harm.
+    pub async fn remove_leftovers(&self) {
+        if let Err(error) = self.remove_stale_packages().await {
+            tracing::warn!(%error, "could not remove the packages of broken uploads");
+        }
+        if let Err(error) = self.remove_stale_checkpoints().await {
+            tracing::warn!(%error, "could not remove stale checkpoints");
+        }
+    }
+
     /// Closes all connections, which folds the write-ahead log into the database.
     pub async fn close(&self) {
         self.readers.close().await;
@@ -73,4 +86,76 @@ fn now() -> String {
 
 fn timestamp(time: chrono::DateTime<chrono::Utc>) -> String {
     time.to_rfc3339_opts(chrono::SecondsFormat::Millis, true)
+}
+
+#[cfg(test)]
+mod tests {
+    use sqlx::migrate::Migrator;
+
+    use super::jobs::JobId;
+    use super::results::Document;
+    use super::*;
+
+    /// A data folder as the program made it when there were no generations of models, with one finished sweep.
+    async fn older_folder(job: JobId) -> tempfile::TempDir {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("rubmap.sqlite");
+        let options = SqliteConnectOptions::new().filename(file).create_if_missing(true).foreign_keys(true);
+        let pool = SqlitePool::connect_with(options).await.unwrap();
+        let older = sqlx::migrate!().iter().filter(|migration| migration.version < 4).cloned().collect();
+        Migrator::with_migrations(older).run(&pool).await.unwrap();
+        sqlx::query(
+            "insert into jobs (id, kind, status, model, modes_per_speed, facts, request, speeds, created_at,
+                 finished_at, updated_at)
+             values (?, 'sweep', 'successful', 'm', 20, '{}', '{}', 1, 'a', 'b', 'c')",
+        )
+        .bind(job.to_string())
+        .execute(&pool)
+        .await
+        .unwrap();
+        for result in [
+            "insert into speed_results (job, speed, status, point, created_at) values (?, 7, 'failed', '{}', 'a')",
+            "insert into documents (job, name, part, body, created_at) values (?, 'campbell', 0, '[1]', 'a')",
+        ] {
+            sqlx::query(result).bind(job.to_string()).execute(&pool).await.unwrap();
+        }
+        pool.close().await;
+        folder
+    }
+
+    #[tokio::test]
+    async fn a_full_disk_is_told_from_other_failures() {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::open(folder.path()).await.unwrap();
+        // SQLite refuses to grow beyond so many pages as it does on a full disk.
+        sqlx::query("pragma max_page_count = 1").execute(&store.writer).await.unwrap();
+        let large = "insert into idempotency_keys values ('k', 'f', 200, 'l', json_quote(hex(zeroblob(100000))), 'a')";
+        let full = StoreError::from(sqlx::query(large).execute(&store.writer).await.unwrap_err());
+        assert!(full.is_disk_full(), "{full}");
+        let wrong = StoreError::from(
+            sqlx::query("insert into jobs (id) values (1)").execute(&store.writer).await.unwrap_err(),
+        );
+        assert!(!wrong.is_disk_full(), "{wrong}");
+    }
+
+    #[tokio::test]
+    async fn results_of_older_versions_stay_when_the_table_of_jobs_is_made_anew() {
+        let job = JobId::new();
+        let folder = older_folder(job).await;
+        let store = Store::open(folder.path()).await.unwrap();
+        assert_eq!(store.finished_speeds(job).await.unwrap().into_iter().collect::<Vec<_>>(), [7]);
+        assert_eq!(store.document(job, Document::Campbell).await.unwrap().as_deref(), Some("[1]"));
+        let kept: (String, i64) = sqlx::query_as("select updated_at, modes_per_speed from jobs")
+            .fetch_one(&store.readers)
+            .await
+            .unwrap();
+        assert_eq!(kept, ("c".to_owned(), 20));
+
+        // References are checked as before, towards the new table.
+        let lost =
+            "insert into documents (job, name, part, body, created_at) values ('x', 'campbell', 0, '1', 'a')";
+        assert!(sqlx::query(lost).execute(&store.writer).await.is_err());
+        sqlx::query("delete from jobs").execute(&store.writer).await.unwrap();
+        assert!(store.finished_speeds(job).await.unwrap().is_empty());
+    }
 }

@@ -8,9 +8,14 @@ use sqlx::sqlite::SqliteRow;
 use super::{Store, StoreError, now};
 use crate::analysis::run::ModelFacts;
 
+/// What names of packages on their way in begin with.
+const UPLOAD_PREFIX: &str = "upload-";
+
 /// A stored model.
 #[derive(Debug, Clone)]
 pub struct StoredModel {
+    /// Models get growing numbers as they come.
+    pub number: i64,
     /// Digest of the package's content.
     pub id: String,
     /// What requests are checked against.
@@ -33,9 +38,10 @@ pub enum Deletion {
 }
 
 impl Store {
-    /// A folder on the same file system as the models, for uploads in progress.
-    pub fn upload_folder(&self) -> PathBuf {
-        self.folder.join("models")
+    /// An empty file on the same file system as the models, for a package on its way in. Removed when dropped, or by the
+    /// next start.
+    pub fn new_upload(&self) -> std::io::Result<tempfile::NamedTempFile> {
+        tempfile::Builder::new().prefix(UPLOAD_PREFIX).tempfile_in(self.folder.join("models"))
     }
 
     /// Where the package of `model` lies.
@@ -77,7 +83,7 @@ impl Store {
 
     /// The model `id`.
     pub async fn model(&self, id: &str) -> Result<Option<StoredModel>, StoreError> {
-        sqlx::query("select * from models where id = ?")
+        sqlx::query("select rowid as number, * from models where id = ?")
             .bind(id)
             .fetch_optional(&self.readers)
             .await?
@@ -85,14 +91,34 @@ impl Store {
             .transpose()
     }
 
-    /// All models, newest first.
-    pub async fn models(&self) -> Result<Vec<StoredModel>, StoreError> {
-        sqlx::query("select * from models order by created_at desc, id")
+    /// Up to `limit` models, newest first; only older ones than that with number `before`.
+    pub async fn models(&self, before: Option<i64>, limit: u32) -> Result<Vec<StoredModel>, StoreError> {
+        sqlx::query(
+            "select rowid as number, * from models where ?1 is null or rowid < ?1 order by rowid desc limit ?2",
+        )
+            .bind(before)
+            .bind(limit)
             .fetch_all(&self.readers)
             .await?
             .iter()
             .map(read)
             .collect()
+    }
+
+    /// Removes package files without a row: of uploads and deletions that broke off.
+    pub(super) async fn remove_stale_packages(&self) -> Result<(), StoreError> {
+        let mut files = tokio::fs::read_dir(self.folder.join("models")).await?;
+        while let Some(file) = files.next_entry().await? {
+            let Ok(name) = file.file_name().into_string() else { continue };
+            let stale = match name.strip_suffix(".zip") {
+                Some(id) => self.model(id).await?.is_none(),
+                None => name.starts_with(UPLOAD_PREFIX),
+            };
+            if stale {
+                tokio::fs::remove_file(file.path()).await?;
+            }
+        }
+        Ok(())
     }
 
     /// Deletes model `id` with its reductions, unless an unfinished job needs it.
@@ -114,6 +140,7 @@ impl Store {
         if deleted.rows_affected() == 0 {
             return Ok(Deletion::Unknown);
         }
+        self.remove_checkpoints(id, None).await;
         match tokio::fs::remove_file(self.package_path(id)).await {
             Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(error.into()),
             _ => Ok(Deletion::Deleted),
@@ -123,6 +150,7 @@ impl Store {
 
 fn read(row: &SqliteRow) -> Result<StoredModel, StoreError> {
     Ok(StoredModel {
+        number: row.try_get("number")?,
         id: row.try_get("id")?,
         facts: serde_json::from_str(row.try_get("facts")?)?,
         size_bytes: row.try_get::<i64, _>("size_bytes")?.unsigned_abs(),

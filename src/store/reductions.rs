@@ -4,9 +4,9 @@ use super::{Store, StoreError, now};
 use crate::analysis::result::ReductionReport;
 use crate::analysis::run::ReducedSector;
 
-/// Layout of a stored reduction: raise it when [`ReducedSector`] changes, so that old ones are computed again
-/// instead of misread.
-const LAYOUT: i64 = 2;
+/// Layout of a stored reduction and of its checkpoints: raise it when [`ReducedSector`] or the parts of a reduction
+/// change, so that old ones are computed again instead of misread.
+pub(super) const LAYOUT: i64 = 2;
 
 impl Store {
     /// The stored reduction of `model`, if this version of the program can read it.
@@ -42,7 +42,15 @@ impl Store {
         Ok(reports.iter().map(|report| serde_json::from_str(report)).collect::<Result<_, _>>()?)
     }
 
-    /// Keeps the reduction of `model`. A model deleted meanwhile keeps nothing.
+    /// Model and `modes_per_speed` of all stored reductions that this version of the program can read.
+    pub(super) async fn stored_reductions(&self) -> Result<Vec<(String, u32)>, StoreError> {
+        Ok(sqlx::query_as("select model, modes_per_speed from reductions where layout = ?")
+            .bind(LAYOUT)
+            .fetch_all(&self.readers)
+            .await?)
+    }
+
+    /// Keeps the reduction of `model` and drops its checkpoints. A model deleted meanwhile keeps nothing.
     pub async fn insert_reduction(
         &self,
         model: &str,
@@ -64,6 +72,7 @@ impl Store {
         .bind(now())
         .execute(&self.writer)
         .await?;
+        self.remove_checkpoints(model, Some(modes_per_speed)).await;
         Ok(())
     }
 }

@@ -68,6 +68,7 @@ pub(crate) fn config(data: &Path) -> Config {
         workers: Some(2),
         upload_bytes: 1 << 20,
         expanded_bytes: None,
+        memory_bytes: None,
     }
 }
 

@@ -1,20 +1,28 @@
-//! The real program, killed in the middle of a sweep.
+//! The real program, killed in the middle of its work.
 
 use std::collections::BTreeMap;
+use std::io::Cursor;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
+use std::sync::{Arc, Mutex};
+use std::time::Duration;
 
 use rubmap::app::{App, StartError};
-use serde_json::Value;
+use rubmap::impeller::{ImpellerParameters, generate};
+use rubmap::package;
+use rubmap::store::Store;
+use serde_json::{Value, json};
 
-use super::app::{Api, config, long_sweep_of};
-use super::model;
+use super::app::{Api, config, long_sweep_of, modal_analysis_of};
+use super::model::{self, files_in};
 
 /// `rubmap serve` as a child process.
 struct Program {
     child: Child,
     api: Api,
+    /// What it has logged since it listens.
+    log: Arc<Mutex<Vec<String>>>,
 }
 
 impl Program {
@@ -23,6 +31,7 @@ impl Program {
             .args(["serve", "--addr", "127.0.0.1:0", "--workers", "2", "--data"])
             .arg(data)
             .env("RUST_LOG", "info")
+            .env("NO_COLOR", "1")
             .stderr(Stdio::piped())
             .spawn()
             .unwrap();
@@ -35,9 +44,20 @@ impl Program {
                 break line[at..].trim().to_owned();
             }
         };
-        // Somebody must go on reading, or the program blocks on its log.
-        std::thread::spawn(move || std::io::copy(&mut log, &mut std::io::sink()));
-        Self { child, api: Api::new(&base) }
+        let lines = Arc::<Mutex<Vec<String>>>::default();
+        let kept = Arc::clone(&lines);
+        std::thread::spawn(move || {
+            for line in log.lines().map_while(Result::ok) {
+                kept.lock().unwrap().push(line);
+            }
+        });
+        Self { child, api: Api::new(&base), log: lines }
+    }
+
+    /// Whether it logged `message` about `part` of a reduction.
+    fn said(&self, message: &str, part: &str) -> bool {
+        let part = format!("part=\"{part}\"");
+        self.log.lock().unwrap().iter().any(|line| line.contains(message) && line.contains(&part))
     }
 
     /// SIGKILL: no handler runs, nothing is flushed.
@@ -85,6 +105,85 @@ async fn a_killed_service_resumes_without_computing_anything_again() {
         assert_eq!(&after[index], point, "speed {index} was computed again");
     }
     assert_eq!(program.api.get(&format!("/v1/jobs/{id}/critical-speeds")).await.status, 200);
+}
+
+/// Accuracy of the reductions below: high enough that one can be caught in the middle.
+const MODES: u32 = 40;
+
+/// A modal analysis that needs a reduction of some seconds.
+fn analysis_of(model: &str) -> Value {
+    let mut request = modal_analysis_of(model);
+    request["modes_per_speed"] = MODES.into();
+    request
+}
+
+/// The stored reduction, to the bit, without the time it took.
+async fn reduction(data: &Path, model: &str) -> Vec<u8> {
+    let store = Store::open(data).await.unwrap();
+    let reduced = store.reduction(model, MODES).await.unwrap().unwrap();
+    store.close().await;
+    postcard::to_stdvec(&reduced.wheel).unwrap()
+}
+
+#[tokio::test]
+async fn a_killed_reduction_continues_from_its_checkpoints() {
+    let mut zip = Cursor::new(Vec::new());
+    package::write(&generate(&ImpellerParameters::default()).unwrap(), &mut zip).unwrap();
+    let zip = zip.into_inner();
+
+    let undisturbed = tempfile::tempdir().unwrap();
+    let program = Program::serve(undisturbed.path());
+    let model = program.api.model(zip.clone()).await;
+    let id = program.api.post("/v1/modal-analyses", &analysis_of(&model)).await.text("/id");
+    assert_eq!(program.api.finish(&id).await["status"], "successful");
+    program.kill();
+
+    let data = tempfile::tempdir().unwrap();
+    let program = Program::serve(data.path());
+    assert_eq!(program.api.model(zip).await, model);
+    let id = program.api.post("/v1/modal-analyses", &analysis_of(&model)).await.text("/id");
+    let folder = data.path().join("checkpoints").join(format!("{model}-{MODES}"));
+    let finished_parts = || {
+        let names = if folder.exists() { files_in(&folder) } else { Vec::new() };
+        names.into_iter().filter(|name| !name.starts_with("unfinished-")).collect::<Vec<_>>()
+    };
+    while finished_parts().is_empty() {
+        let status = program.api.job(&id).await.text("/status");
+        assert!(["accepted", "running"].contains(&status.as_str()), "{status} before its first checkpoint");
+        tokio::time::sleep(Duration::from_millis(2)).await;
+    }
+    program.kill();
+    let before = finished_parts();
+    assert!(!before.is_empty(), "the reduction was finished before it could be killed");
+
+    let program = Program::serve(data.path());
+    let job = program.api.finish(&id).await;
+    assert_eq!(job["status"], "successful", "{job}");
+    for file in &before {
+        // <version>-<layout>-<part>
+        let part = file.splitn(3, '-').nth(2).unwrap();
+        assert!(program.said("continuing from a checkpoint", part), "{part} was not used");
+        assert!(!program.said("kept a checkpoint", part), "{part} was computed again");
+    }
+    assert!(!folder.exists(), "checkpoints are of no use any more");
+    program.kill();
+    assert_eq!(reduction(data.path(), &model).await, reduction(undisturbed.path(), &model).await);
+}
+
+#[tokio::test]
+async fn a_killed_generation_is_done_again() {
+    let data = tempfile::tempdir().unwrap();
+    let program = Program::serve(data.path());
+    let id = program.api.post("/v1/models", &json!({})).await.text("/id");
+    program.api.follow(&id, |job| job["status"] == "running").await;
+    program.kill();
+
+    let program = Program::serve(data.path());
+    let job = program.api.finish(&id).await;
+    assert_eq!(job["status"], "successful", "{job}");
+    let model = job["model"].as_str().unwrap();
+    assert_eq!(program.api.get(&format!("/v1/models/{model}")).await.status, 200);
+    assert_eq!(files_in(&data.path().join("models")), [format!("{model}.zip")]);
 }
 
 #[tokio::test]

@@ -1,7 +1,9 @@
 //! The service from outside: real sockets, real files, real computations on a small model.
 
 mod app;
+mod checkpoints;
 mod errors;
+mod generation;
 mod idempotency;
 mod jobs;
 mod kill;

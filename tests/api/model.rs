@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 use std::io::Write as _;
+use std::path::Path;
 
 use serde_json::{Value, json};
 
@@ -34,6 +35,16 @@ pub(crate) fn spoilt_package(spoil: impl FnOnce(&mut Value)) -> Vec<u8> {
     spoil(&mut manifest);
     files[0].1 = manifest.to_string();
     zip(&files, 6)
+}
+
+/// Names in a folder, sorted.
+pub(crate) fn files_in(folder: &Path) -> Vec<String> {
+    let mut names: Vec<_> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    names
 }
 
 fn files(scale: f64) -> Vec<(&'static str, String)> {

@@ -1,11 +1,9 @@
 //! Models: upload, limits, deletion.
 
-use std::path::Path;
-
 use serde_json::json;
 
 use super::app::{TestApp, long_sweep_of};
-use super::model;
+use super::model::{self, files_in};
 
 #[tokio::test]
 async fn the_same_content_is_one_model() {
@@ -30,6 +28,38 @@ async fn the_same_content_is_one_model() {
     assert_eq!(api.delete(&format!("/v1/models/{id}")).await.status, 204);
     api.get(&format!("/v1/models/{id}")).await.problem(404, "model-not-found");
     assert_eq!(files_in(&app.data().join("models")), [format!("{}.zip", other.text("/id"))]);
+    app.stop().await;
+}
+
+#[tokio::test]
+async fn the_list_comes_in_pages() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let mut models = Vec::new();
+    for scale in 1..=5 {
+        models.push(api.model(model::package(scale.into())).await);
+    }
+    let mut path = "/v1/models?limit=2".to_owned();
+    let mut listed = Vec::new();
+    loop {
+        let page = api.get(&path).await.body;
+        let ids: Vec<_> =
+            page["models"].as_array().unwrap().iter().map(|model| model["id"].clone()).collect();
+        // A page may go on after a model that is gone.
+        api.delete(&format!("/v1/models/{}", ids.last().unwrap().as_str().unwrap())).await;
+        listed.push(ids);
+        match page["next"].as_str() {
+            Some(next) => path = next.to_owned(),
+            None => break,
+        }
+    }
+    assert_eq!(listed.iter().map(Vec::len).collect::<Vec<_>>(), [2, 2, 1]);
+    models.reverse();
+    assert_eq!(listed.concat(), models);
+    for (query, parameter) in [("limit=501", "limit"), ("cursor=here", "cursor"), ("page=2", "page")] {
+        let items = api.get(&format!("/v1/models?{query}")).await.problem(400, "invalid-parameter");
+        assert_eq!(items[0]["parameter"], parameter, "{query}");
+    }
     app.stop().await;
 }
 
@@ -102,11 +132,4 @@ async fn packages_that_expand_beyond_the_limit_are_refused() {
     let app = TestApp::start_with(|config| config.expanded_bytes = Some(200)).await;
     app.api.upload(model::package(1.0)).await.problem(422, "invalid-package");
     app.stop().await;
-}
-
-fn files_in(folder: &Path) -> Vec<String> {
-    std::fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .collect()
 }

@@ -55,6 +55,7 @@ pub(super) fn run(args: &DemoArgs) -> anyhow::Result<ExitCode> {
         workers: args.workers,
         upload_bytes: 1 << 30,
         expanded_bytes: None,
+        memory_bytes: None,
     };
     let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build()?;
     match runtime.block_on(with_service(args, config, &package))? {

@@ -1,179 +1,17 @@
 //! Jobs: what was asked for and how far it is.
 
-use serde::{Deserialize, Serialize};
+mod job;
+
 use sqlx::Row;
 use sqlx::sqlite::SqliteRow;
-use utoipa::ToSchema;
-use uuid::Uuid;
 
 use super::idempotency::{self, Answer};
 use super::results::Document;
 use super::status::JobStatus;
 use super::{Store, StoreError, now};
-use crate::analysis::error::Violation;
-use crate::analysis::request::{ModalAnalysisRequest, SweepRequest};
 use crate::analysis::run::ModelFacts;
 
-/// Id of a job: a version 7 UUID, so that order of ids is order of age.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(transparent)]
-pub struct JobId(Uuid);
-
-impl JobId {
-    /// A new id, greater than all before it.
-    pub fn new() -> Self {
-        Self(Uuid::now_v7())
-    }
-
-    /// Reads an id; `None` if `text` is not one.
-    pub fn parse(text: &str) -> Option<Self> {
-        Uuid::try_parse(text).ok().map(Self)
-    }
-}
-
-impl Default for JobId {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
-impl std::fmt::Display for JobId {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        self.0.hyphenated().fmt(f)
-    }
-}
-
-/// Kind of a job.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum JobKind {
-    /// Contact simulations over speeds.
-    Sweep,
-    /// Natural frequencies over speeds.
-    ModalAnalysis,
-}
-
-impl JobKind {
-    /// The word on the wire and in the database.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Sweep => "sweep",
-            Self::ModalAnalysis => "modal_analysis",
-        }
-    }
-}
-
-/// What a job computes.
-#[derive(Debug, Clone, PartialEq)]
-pub enum JobRequest {
-    /// Contact simulations over speeds.
-    Sweep(SweepRequest),
-    /// Natural frequencies over speeds.
-    ModalAnalysis(ModalAnalysisRequest),
-}
-
-impl JobRequest {
-    /// Its kind.
-    pub fn kind(&self) -> JobKind {
-        match self {
-            Self::Sweep(_) => JobKind::Sweep,
-            Self::ModalAnalysis(_) => JobKind::ModalAnalysis,
-        }
-    }
-
-    /// The model it needs.
-    pub fn model(&self) -> &str {
-        match self {
-            Self::Sweep(request) => &request.model,
-            Self::ModalAnalysis(request) => &request.model,
-        }
-    }
-
-    /// The accuracy dial of the reduction it needs.
-    pub fn modes_per_speed(&self) -> u32 {
-        match self {
-            Self::Sweep(request) => request.modes_per_speed,
-            Self::ModalAnalysis(request) => request.modes_per_speed,
-        }
-    }
-
-    fn to_json(&self) -> Result<String, serde_json::Error> {
-        match self {
-            Self::Sweep(request) => serde_json::to_string(request),
-            Self::ModalAnalysis(request) => serde_json::to_string(request),
-        }
-    }
-}
-
-/// Why a job failed.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Failure {
-    /// Which kind of failure.
-    pub cause: FailureCause,
-    /// What happened, in words an engineer can act on.
-    pub message: String,
-    /// Offending fields of the request, if it was the request.
-    #[serde(default)]
-    pub violations: Vec<Violation>,
-}
-
-/// Kinds of failure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum FailureCause {
-    /// The request asks for something that only the reduced model shows to be impossible.
-    Refused,
-    /// The model cannot be reduced or evaluated.
-    Model,
-    /// The stored package could not be read again.
-    Package,
-    /// A defect of this program: a computation panicked.
-    Defect,
-    /// The database or the disk failed.
-    Storage,
-}
-
-/// A stored job.
-#[derive(Debug, Clone)]
-pub struct Job {
-    /// Its id.
-    pub id: JobId,
-    /// How far it is.
-    pub status: JobStatus,
-    /// Facts of its model when it was accepted.
-    pub facts: ModelFacts,
-    /// The whole request as resolved.
-    pub request: JobRequest,
-    /// Percent of the work done.
-    pub progress: u8,
-    /// What runs now, in words.
-    pub phase: String,
-    /// Its speeds.
-    pub speeds: SpeedCounts,
-    /// Why it failed.
-    pub failure: Option<Failure>,
-    /// RFC 3339, as all below.
-    pub created_at: String,
-    /// When computing began.
-    pub started_at: Option<String>,
-    /// When it became final.
-    pub finished_at: Option<String>,
-    /// When anything of the above last changed.
-    pub updated_at: String,
-}
-
-/// Speeds of a job, counted.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
-pub struct SpeedCounts {
-    /// Asked for.
-    pub total: u32,
-    /// With a result, whichever.
-    pub finished: u32,
-    /// Of the finished ones: stopped because the response grew beyond any physical bound.
-    pub diverged: u32,
-    /// Of the finished ones: could not be integrated.
-    pub failed: u32,
-}
+pub use job::{Failure, FailureCause, Job, JobId, JobKind, JobRequest, SpeedCounts};
 
 /// What became of a job that was to be kept.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -204,12 +42,13 @@ const COLUMNS: &str = "select jobs.*,
     from jobs";
 
 impl Store {
-    /// Keeps a new job, with the answer its idempotency key will repeat.
+    /// Keeps a new job, with the answer its idempotency key will repeat. `facts` are those of the model it computes
+    /// from, if it does.
     pub async fn insert_job(
         &self,
         id: JobId,
         request: &JobRequest,
-        facts: &ModelFacts,
+        facts: Option<&ModelFacts>,
         speeds: u32,
         answer: Option<&Answer>,
     ) -> Result<Insertion, StoreError> {
@@ -222,13 +61,14 @@ impl Store {
         let time = now();
         let inserted = sqlx::query(
             "insert into jobs (id, kind, model, modes_per_speed, facts, request, speeds, created_at, updated_at)
-             select ?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?8 where exists (select 1 from models where id = ?3)",
+             select ?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?8
+             where ?3 is null or exists (select 1 from models where id = ?3)",
         )
         .bind(id.to_string())
         .bind(request.kind().as_str())
-        .bind(request.model())
-        .bind(request.modes_per_speed())
-        .bind(serde_json::to_string(facts)?)
+        .bind(request.reduction().map(|(model, _)| model))
+        .bind(request.reduction().map(|(_, modes_per_speed)| modes_per_speed))
+        .bind(facts.map(serde_json::to_string).transpose()?)
         .bind(request.to_json()?)
         .bind(speeds)
         .bind(time)
@@ -335,12 +175,13 @@ impl Store {
         Ok(begun.rows_affected() == 1)
     }
 
-    /// Ends a running job well: keeps the `documents` computed at its end (as JSON) and marks it successful, in
-    /// one transaction. False if the job was not running any more.
+    /// Ends a running job well: keeps the `documents` computed at its end (as JSON) or the id of the model it `made`,
+    /// and marks it successful, in one transaction. False if the job was not running any more.
     pub async fn complete_job(
         &self,
         id: JobId,
         documents: &[(Document, String)],
+        made: Option<&str>,
     ) -> Result<bool, StoreError> {
         let mut transaction = self.writer.begin().await?;
         let status = status_of(&mut transaction, id).await?;
@@ -360,11 +201,13 @@ impl Store {
                 .await?;
         }
         sqlx::query(
-            "update jobs set status = 'successful', progress = 100, phase = '', in_hand = 0, finished_at = ?2, updated_at = ?2
+            "update jobs set status = 'successful', progress = 100, phase = '', in_hand = 0,
+                 finished_at = ?2, updated_at = ?2, model = coalesce(?3, model)
              where id = ?1",
         )
         .bind(id.to_string())
         .bind(time)
+        .bind(made)
         .execute(&mut *transaction)
         .await?;
         transaction.commit().await?;
@@ -408,6 +251,7 @@ fn read(row: &SqliteRow) -> Result<Job, StoreError> {
     let request = match kind {
         "sweep" => JobRequest::Sweep(serde_json::from_str(request)?),
         "modal_analysis" => JobRequest::ModalAnalysis(serde_json::from_str(request)?),
+        "model_generation" => JobRequest::ModelGeneration(serde_json::from_str(request)?),
         _ => return Err(StoreError::Unknown { column: "jobs.kind", value: kind.to_owned() }),
     };
     let status = JobStatus::from_column(row.try_get("status")?)?;
@@ -420,7 +264,8 @@ fn read(row: &SqliteRow) -> Result<Job, StoreError> {
     Ok(Job {
         id: read_id(row.try_get("id")?)?,
         status,
-        facts: serde_json::from_str(row.try_get("facts")?)?,
+        model: row.try_get("model")?,
+        facts: row.try_get::<Option<&str>, _>("facts")?.map(serde_json::from_str).transpose()?,
         request,
         progress: row.try_get("progress")?,
         phase: row.try_get("phase")?,

@@ -1,0 +1,224 @@
+//! Parts of unfinished reductions, as files: `checkpoints/<model>-<modes_per_speed>/<layout>-<part>`.
+//!
+//! Files, not rows: they are large, they may go at any time, and a full disk must not stop the reduction they belong to.
+
+use std::collections::BTreeSet;
+use std::io::{ErrorKind, Read, Write};
+use std::path::{Path, PathBuf};
+
+use sha2::{Digest, Sha256};
+
+use super::{Store, StoreError, reductions};
+use crate::analysis::run::VERSION;
+use crate::dynamics::reduction::Checkpoints;
+
+/// Before the bytes of a part stand their number (little-endian) and their SHA-256.
+const HEADER: usize = 8 + 32;
+
+/// Checkpoints of one reduction.
+#[derive(Debug, Clone)]
+pub struct CheckpointFolder {
+    folder: PathBuf,
+}
+
+impl Store {
+    /// Checkpoints of the reduction of `model`.
+    pub fn checkpoints(&self, model: &str, modes_per_speed: u32) -> CheckpointFolder {
+        CheckpointFolder { folder: self.checkpoint_root().join(folder_name(model, modes_per_speed)) }
+    }
+
+    fn checkpoint_root(&self) -> PathBuf {
+        self.folder.join("checkpoints")
+    }
+
+    /// Removes the checkpoints of one reduction, or of all reductions of a model.
+    ///
+    /// They are of no use any more but do no harm: what cannot be removed is left to the next start.
+    pub(super) async fn remove_checkpoints(&self, model: &str, modes_per_speed: Option<u32>) {
+        let unused = |name: &str| match modes_per_speed {
+            Some(modes_per_speed) => name == folder_name(model, modes_per_speed),
+            None => name.strip_prefix(model).is_some_and(|rest| rest.starts_with('-')),
+        };
+        if let Err(error) = remove_folders(&self.checkpoint_root(), unused).await {
+            tracing::warn!(model.id = model, %error, "could not remove checkpoints");
+        }
+    }
+
+    /// Removes checkpoints that nobody will use: of models that are gone, of reductions that are stored, of other
+    /// versions of the program, and files that were never finished.
+    pub(super) async fn remove_stale_checkpoints(&self) -> Result<(), StoreError> {
+        let models = sqlx::query_scalar("select id from models").fetch_all(&self.readers).await?;
+        let models: BTreeSet<String> = models.into_iter().collect();
+        let mut reduced = BTreeSet::new();
+        for (model, modes_per_speed) in self.stored_reductions().await? {
+            reduced.insert(folder_name(&model, modes_per_speed));
+        }
+        let root = self.checkpoint_root();
+        let stale = |name: &str| {
+            let model = name.rsplit_once('-').map_or(name, |(model, _)| model);
+            !models.contains(model) || reduced.contains(name)
+        };
+        remove_folders(&root, stale).await?;
+        for folder in entries(&root).await? {
+            for file in entries(&folder).await? {
+                if !file_name(&file).starts_with(&prefix()) {
+                    tokio::fs::remove_file(file).await?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+impl CheckpointFolder {
+    fn path(&self, part: &str) -> PathBuf {
+        self.folder.join(format!("{}{part}", prefix()))
+    }
+
+    fn write(&self, part: &str, bytes: &[u8]) -> std::io::Result<()> {
+        std::fs::create_dir_all(&self.folder)?;
+        // Written whole and flushed before it gets its name: a name promises a part, whenever the power fails.
+        let mut file = tempfile::Builder::new().prefix("unfinished-").tempfile_in(&self.folder)?;
+        file.write_all(&(bytes.len() as u64).to_le_bytes())?;
+        file.write_all(&Sha256::digest(bytes))?;
+        file.write_all(bytes)?;
+        file.as_file().sync_all()?;
+        file.persist(self.path(part)).map_err(|error| error.error)?;
+        std::fs::File::open(&self.folder)?.sync_all()
+    }
+}
+
+impl Checkpoints for CheckpointFolder {
+    fn load(&self, part: &str) -> Option<Vec<u8>> {
+        let path = self.path(part);
+        match read(&path) {
+            Ok(bytes) => {
+                tracing::info!(part, folder = file_name(&self.folder), "continuing from a checkpoint");
+                Some(bytes)
+            }
+            Err(error) if error.kind() == ErrorKind::NotFound => None,
+            Err(error) => {
+                tracing::warn!(path = %path.display(), %error, "a checkpoint is unreadable; computing its part again");
+                None
+            }
+        }
+    }
+
+    fn save(&self, part: &str, bytes: Vec<u8>) {
+        match self.write(part, &bytes) {
+            Ok(()) => tracing::info!(part, folder = file_name(&self.folder), "kept a checkpoint"),
+            Err(error) => {
+                tracing::warn!(part, folder = %self.folder.display(), %error, "could not keep a checkpoint; going on without");
+            }
+        }
+    }
+}
+
+fn folder_name(model: &str, modes_per_speed: u32) -> String {
+    format!("{model}-{modes_per_speed}")
+}
+
+/// What names of parts begin with that this program can read.
+fn prefix() -> String {
+    format!("{VERSION}-{}-", reductions::LAYOUT)
+}
+
+/// The bytes of a part, if they are those that were written.
+fn read(path: &Path) -> std::io::Result<Vec<u8>> {
+    let mut file = std::fs::File::open(path)?;
+    let mut header = [0; HEADER];
+    file.read_exact(&mut header)?;
+    let (length, checksum) = header.split_at(8);
+    let mut bytes = Vec::new();
+    file.read_to_end(&mut bytes)?;
+    if (bytes.len() as u64).to_le_bytes() != length {
+        return Err(std::io::Error::new(ErrorKind::InvalidData, "its length is not the one it had"));
+    }
+    if *Sha256::digest(&bytes) != *checksum {
+        return Err(std::io::Error::new(ErrorKind::InvalidData, "its bytes are not those that were written"));
+    }
+    Ok(bytes)
+}
+
+async fn remove_folders(root: &Path, which: impl Fn(&str) -> bool) -> std::io::Result<()> {
+    for folder in entries(root).await? {
+        if which(file_name(&folder)) {
+            tokio::fs::remove_dir_all(folder).await?;
+        }
+    }
+    Ok(())
+}
+
+/// What a folder contains; nothing if there is no such folder.
+async fn entries(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
+    let mut found = Vec::new();
+    match tokio::fs::read_dir(folder).await {
+        Err(error) if error.kind() == ErrorKind::NotFound => {}
+        Err(error) => return Err(error),
+        Ok(mut entries) => {
+            while let Some(entry) = entries.next_entry().await? {
+                found.push(entry.path());
+            }
+        }
+    }
+    Ok(found)
+}
+
+fn file_name(path: &Path) -> &str {
+    path.file_name().and_then(|name| name.to_str()).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn folder() -> (tempfile::TempDir, CheckpointFolder) {
+        let root = tempfile::tempdir().unwrap();
+        let folder = root.path().join("checkpoints/model-20");
+        (root, CheckpointFolder { folder })
+    }
+
+    #[test]
+    fn a_part_reads_back_and_a_later_one_replaces_it() {
+        let (_root, checkpoints) = folder();
+        assert_eq!(checkpoints.load("speed-0"), None);
+        checkpoints.save("speed-0", vec![1, 2, 3]);
+        checkpoints.save("speed-1", Vec::new());
+        assert_eq!(checkpoints.load("speed-0"), Some(vec![1, 2, 3]));
+        assert_eq!(checkpoints.load("speed-1"), Some(Vec::new()));
+        checkpoints.save("speed-0", vec![4]);
+        assert_eq!(checkpoints.load("speed-0"), Some(vec![4]));
+        assert_eq!(std::fs::read_dir(&checkpoints.folder).unwrap().count(), 2, "nothing but the parts");
+    }
+
+    #[test]
+    fn a_damaged_part_is_none() {
+        let (_root, checkpoints) = folder();
+        checkpoints.save("part", (0..100).collect());
+        let path = checkpoints.path("part");
+        let whole = std::fs::read(&path).unwrap();
+        for length in 0..whole.len() {
+            std::fs::write(&path, &whole[..length]).unwrap();
+            assert_eq!(checkpoints.load("part"), None, "{length} of {} bytes", whole.len());
+        }
+        for at in 0..whole.len() {
+            let mut spoilt = whole.clone();
+            spoilt[at] ^= 4;
+            std::fs::write(&path, spoilt).unwrap();
+            assert_eq!(checkpoints.load("part"), None, "byte {at} is wrong");
+        }
+        std::fs::write(&path, [&whole[..], &[0]].concat()).unwrap();
+        assert_eq!(checkpoints.load("part"), None, "one byte too many");
+        std::fs::write(&path, whole).unwrap();
+        assert_eq!(checkpoints.load("part"), Some((0..100).collect()));
+    }
+
+    #[test]
+    fn what_cannot_be_written_is_only_not_kept() {
+        let (root, checkpoints) = folder();
+        // A file where the folder should be: no write succeeds.
+        std::fs::write(root.path().join("checkpoints"), "").unwrap();
+        checkpoints.save("part", vec![1]);
+        assert_eq!(checkpoints.load("part"), None);
+    }
+}

@@ -1,0 +1,133 @@
+//! Models from parameters of the generator.
+
+use std::io::Cursor;
+
+use rubmap::impeller::{ImpellerParameters, generate};
+use rubmap::package;
+use serde_json::{Value, json};
+
+use super::app::{Answer, Api, TestApp, modal_analysis_of};
+use super::model::files_in;
+
+/// A mesh as coarse as it gets.
+pub(crate) fn coarse() -> Value {
+    json!({
+        "contact_nodes": 3,
+        "mesh": {"between_contact_nodes": 1, "blade_height": 2, "blade_thickness": 1, "half_passage": 1, "disk": 1},
+    })
+}
+
+async fn generation_of(api: &Api, parameters: &Value) -> String {
+    let answer = api.post("/v1/models", parameters).await;
+    assert_eq!(answer.status, 202, "{}", answer.body);
+    assert_eq!(answer.text("/kind"), "model_generation");
+    let id = answer.text("/id");
+    assert_eq!(answer.location, Some(format!("/v1/jobs/{id}")));
+    id
+}
+
+#[tokio::test]
+async fn a_generated_model_is_the_one_that_would_be_uploaded() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let id = generation_of(api, &coarse()).await;
+    let job = api.finish(&id).await;
+    assert_eq!((&job["status"], &job["progress"]), (&"successful".into(), &100.into()), "{job}");
+    let model = job["model"].as_str().unwrap();
+    let link = json!({"href": format!("/v1/models/{model}"), "rel": "model"});
+    assert!(job["links"].as_array().unwrap().contains(&link), "{job}");
+    assert!(job.get("speeds").is_none(), "{job}");
+    let detail = api.get(&format!("/v1/models/{model}")).await.body;
+    assert_eq!((&detail["sectors"], &detail["contact_nodes"]), (&10.into(), &3.into()));
+
+    let parameters: ImpellerParameters = serde_json::from_value(coarse()).unwrap();
+    let mut zip = Cursor::new(Vec::new());
+    package::write(&generate(&parameters).unwrap(), &mut zip).unwrap();
+    let uploaded = api.upload(zip.into_inner()).await;
+    assert_eq!((uploaded.status.as_u16(), uploaded.text("/id").as_str()), (200, model));
+    assert_eq!(uploaded.body["size_bytes"], detail["size_bytes"]);
+
+    // Another generation of the same finds it there, and it serves like any other.
+    let again = api.finish(&generation_of(api, &coarse()).await).await;
+    assert_eq!(again["model"], model);
+    assert_eq!(files_in(&app.data().join("models")), [format!("{model}.zip")]);
+    let analysis = api.post("/v1/modal-analyses", &modal_analysis_of(model)).await.text("/id");
+    assert_eq!(api.finish(&analysis).await["status"], "successful");
+
+    api.get(&format!("/v1/jobs/{id}/campbell")).await.problem(409, "wrong-job-kind");
+    api.get(&format!("/v1/jobs/{id}/interaction-map")).await.problem(409, "wrong-job-kind");
+    let listed = api.get("/v1/jobs?kind=model_generation").await.body;
+    assert_eq!(listed["jobs"].as_array().unwrap().len(), 2);
+    // The job outlives its model.
+    assert_eq!(api.delete(&format!("/v1/models/{model}")).await.status, 204);
+    assert_eq!(api.job(&id).await.text("/model"), model);
+    app.stop().await;
+}
+
+#[tokio::test]
+async fn bad_parameters_are_refused_at_once() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    for (parameters, kind, pointer) in [
+        (json!({"sectors": 1}), "invalid-request", "/sectors"),
+        (json!({"sectors": -1}), "invalid-request", "/sectors"),
+        (json!({"outlet_radius": "wide"}), "invalid-request", "/outlet_radius"),
+        (json!({"mesh": {"disk": 0}}), "invalid-request", "/mesh/disk"),
+        (json!({"mesh": {"disc": 3}}), "unknown-field", "/mesh/disc"),
+        (json!({"wings": 2}), "unknown-field", "/wings"),
+    ] {
+        let answer = api.post("/v1/models", &parameters).await;
+        assert_eq!(answer.pointers(422, kind), [pointer], "{}", answer.body);
+    }
+    let broken = api.request("POST", "/v1/models").header("content-type", "application/json").body("{");
+    Answer::of(broken.send().await.unwrap()).await.problem(400, "malformed-json");
+    assert_eq!(api.get("/v1/jobs").await.body["jobs"], json!([]), "no job was made");
+    app.stop().await;
+}
+
+#[tokio::test]
+async fn a_repeated_generation_gets_its_first_answer_again() {
+    let app = TestApp::start().await;
+    let post = |parameters: Value| {
+        let request =
+            app.api.request("POST", "/v1/models").header("Idempotency-Key", "wheel").json(&parameters);
+        async { Answer::of(request.send().await.unwrap()).await }
+    };
+    let first = post(coarse()).await;
+    assert_eq!(first.status, 202, "{}", first.body);
+    assert_eq!(post(coarse()).await.body, first.body);
+    post(json!({})).await.problem(422, "idempotency-key-reused");
+    assert_eq!(app.api.get("/v1/jobs").await.body["jobs"].as_array().unwrap().len(), 1);
+    app.stop().await;
+}
+
+#[tokio::test]
+async fn a_cancelled_generation_leaves_nothing() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    // The default mesh: long enough to be caught in the middle.
+    let id = generation_of(api, &json!({})).await;
+    api.follow(&id, |job| job["status"] == "running").await;
+    assert_eq!(api.delete(&format!("/v1/jobs/{id}")).await.text("/status"), "dismissed");
+    // Whatever comes after it on one worker comes when it has stopped.
+    let other = api.finish(&generation_of(api, &coarse()).await).await;
+    assert_eq!(other["status"], "successful", "{other}");
+    let job = api.job(&id).await.body;
+    assert!(job["status"] == "dismissed" && job.get("model").is_none(), "{job}");
+    app.stop().await;
+}
+
+#[tokio::test]
+async fn parameters_that_only_the_mesh_shows_to_be_impossible_fail_the_job() {
+    let app = TestApp::start().await;
+    let mut parameters = coarse();
+    // Blades thicker than the passage between them.
+    parameters["root_thickness"] = json!(200.0);
+    parameters["tip_thickness"] = json!(200.0);
+    let answer = app.api.post("/v1/models", &parameters).await;
+    let job = app.api.finish(&answer.text("/id")).await;
+    assert_eq!(job["status"], "failed", "{job}");
+    assert_eq!(job["error"]["type"], "urn:rubmap:problem:invalid-request", "{job}");
+    assert!(job["error"]["detail"].as_str().unwrap().contains("thickness"), "{job}");
+    app.stop().await;
+}
