@@ -104,8 +104,8 @@ pub(crate) fn check_cyclic(sector: &SectorMesh, size: f64) {
     for &(low, high) in &sector.cyclic {
         let [x, y, z] = sector.mesh.nodes[low];
         let turned = [c * x - s * y, s * x + c * y, z];
-        for d in 0..3 {
-            assert!((turned[d] - sector.mesh.nodes[high][d]).abs() < 4e-15 * size);
+        for (turned, x) in turned.iter().zip(&sector.mesh.nodes[high]) {
+            assert!((turned - x).abs() < 4e-15 * size);
         }
         assert_eq!(sector.clamped[low], sector.clamped[high]);
     }

@@ -139,6 +139,19 @@ fn medium_wheel_stands_its_top_speed() {
     assert!(SparseCholesky::new(&SymbolicFactor::new(k.symbolic(), &nodes), &k).is_ok());
 }
 
+/// Elements are computed by as many threads as there are and summed in their order.
+#[test]
+fn any_number_of_threads_gives_the_same_bits() {
+    let p = ImpellerParameters { element_order: ElementOrder::Quadratic, ..ImpellerParameters::default() };
+    let sector = impeller_sector(&p).unwrap();
+    let [one, three] = [1, 3].map(|threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let matrices = pool.install(|| SectorMatrices::assemble(&sector, &p.material)).unwrap();
+        (matrices.rest.mass(), matrices.stiffness(p.top_speed_rad_s), matrices.prestress.stresses)
+    });
+    assert!(one == three);
+}
+
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
