@@ -81,8 +81,10 @@ impl From<ImpellerError> for Halt {
     fn from(error: ImpellerError) -> Self {
         let message = error.to_string();
         let cause = match error {
-            ImpellerError::Parameter { .. } | ImpellerError::Jacobian { .. } => FailureCause::Refused,
-            ImpellerError::NotPositiveDefinite | ImpellerError::Factorisation { .. } => FailureCause::Model,
+            ImpellerError::Parameter { .. }
+            | ImpellerError::Field { .. }
+            | ImpellerError::Jacobian { .. } => FailureCause::Refused,
+            ImpellerError::NotPositiveDefinite => FailureCause::Model,
         };
         Self::Failed(Failure { cause, message, violations: Vec::new() })
     }
