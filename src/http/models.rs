@@ -21,9 +21,9 @@ use super::problem::{Kind, Problem};
 use super::submit::{self, Receipt};
 use crate::analysis::result::ReductionReport;
 use crate::analysis::run::ModelFacts;
-use crate::impeller::ImpellerParameters;
+use crate::impeller::ImpellerRequest;
+use crate::jobs::generation_of;
 use crate::store::idempotency::Answer;
-use crate::store::jobs::JobRequest;
 use crate::store::models::{Deletion, StoredModel};
 
 const JSON: &str = "application/json";
@@ -86,12 +86,6 @@ pub(super) struct ModelList {
 #[expect(dead_code, reason = "describes the body in the OpenAPI document only")]
 pub(super) struct PackageZip(Vec<u8>);
 
-/// Parameters of the generator, as `rubmap generate --print-parameters` shows them.
-#[derive(ToSchema)]
-#[schema(value_type = Object)]
-#[expect(dead_code, reason = "describes the body in the OpenAPI document only")]
-pub(super) struct GeneratorParameters(ImpellerParameters);
-
 impl From<StoredModel> for ModelBody {
     fn from(model: StoredModel) -> Self {
         let StoredModel { id, facts, size_bytes, created_at, .. } = model;
@@ -104,7 +98,7 @@ impl From<StoredModel> for ModelBody {
 /// A package (`application/zip`) is checked completely before it is kept. A package whose content is known already,
 /// whatever its name and compression, is not kept twice.
 ///
-/// Parameters of the generator (`application/json`; what they leave out keeps its default) become a job of kind
+/// Parameters of the generator (`application/json`; what they leave out comes from the preset) become a job of kind
 /// `model_generation`. When it is successful its `model` is the id of the model, the same as of an uploaded package with
 /// that content.
 #[utoipa::path(post, path = "/v1/models", operation_id = "create_model", tag = "models",
@@ -112,7 +106,7 @@ impl From<StoredModel> for ModelBody {
         description = "Repeating the request with this key repeats its answer.")),
     request_body(description = "The model package, one impeller sector; or parameters of the generator.", content(
         (PackageZip = "application/zip"),
-        (GeneratorParameters = "application/json"),
+        (ImpellerRequest = "application/json"),
     )),
     responses(
         (status = 201, description = "The model is new.", body = ModelBody,
@@ -141,9 +135,8 @@ pub(super) async fn create_model(
 ) -> Result<Response, Problem> {
     expect_media_type(request.headers(), &["application/zip", "application/x-zip-compressed", JSON])?;
     if is_media_type(request.headers(), JSON) {
-        let body = JsonBody::<ImpellerParameters>::from_request(request, &state).await?;
-        let asked = JobRequest::ModelGeneration(Box::new(body.value));
-        return submit::accept(&state, key, &body.fingerprint, asked).await;
+        let body = JsonBody::<ImpellerRequest>::from_request(request, &state).await?;
+        return submit::accept(&state, key, &body.fingerprint, generation_of(&body.value)?).await;
     }
     let declared = request
         .headers()

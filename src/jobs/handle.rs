@@ -7,7 +7,7 @@ use super::engine::Engine;
 use super::pool::Panicked;
 use crate::analysis::error::Violation;
 use crate::analysis::run;
-use crate::impeller::ImpellerError;
+use crate::impeller::{ImpellerError, ImpellerRequest};
 use crate::package;
 use crate::store::StoreError;
 use crate::store::idempotency::Answer;
@@ -76,10 +76,8 @@ impl Jobs {
                 let speeds = request.speeds.resolve().map_err(refused)?.len();
                 (JobRequest::ModalAnalysis(request), Some(facts), speeds)
             }
-            JobRequest::ModelGeneration(parameters) => {
-                parameters.validate().map_err(|error| refused(vec![violation(&error)]))?;
-                (JobRequest::ModelGeneration(parameters), None, 0)
-            }
+            // Resolved by `generation_of`.
+            generation @ JobRequest::ModelGeneration(_) => (generation, None, 0),
         };
         let model = request.reduction().map(|(model, _)| model);
         match engine.store.insert_job(id, &request, facts.as_ref(), speeds as u32, answer).await? {
@@ -134,12 +132,25 @@ impl Jobs {
     }
 }
 
+/// The job that generates what `request` describes.
+///
+/// # Errors
+/// [`SubmitError::Refused`] points at a field that is unknown or out of range.
+pub fn generation_of(request: &ImpellerRequest) -> Result<JobRequest, SubmitError> {
+    match request.resolve() {
+        Ok(parameters) => Ok(JobRequest::ModelGeneration(Box::new(parameters))),
+        Err(error) => Err(SubmitError::Refused(vec![violation(&error)])),
+    }
+}
+
 /// Why parameters of the generator are refused, at the field.
 fn violation(error: &ImpellerError) -> Violation {
+    let at = |field: &str, message: String| Violation::new(format!("/{}", field.replace('.', "/")), message);
     match error {
         ImpellerError::Parameter { field, value, requirement } => {
-            Violation::new(format!("/{}", field.replace('.', "/")), format!("{value}: {requirement}"))
+            at(field, format!("{value}: {requirement}"))
         }
+        ImpellerError::Field { field, detail } => at(field, detail.clone()),
         other => Violation::new("", other.to_string()),
     }
 }

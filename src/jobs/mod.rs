@@ -12,7 +12,8 @@
 //!
 //! Handlers are async and wait; what computes runs on the threads of a `pool::CpuPool`. The two queues hand their
 //! work to the same threads in order of arrival, and the queue of speeds has no more tasks out than there are threads:
-//! a small job is never more than a few speeds away from its turn.
+//! a small job is never more than a few speeds away from its turn. A reduction may take minutes of one thread: of the
+//! large ones only one runs at a time (`memory`), so that with two threads or more the other jobs go on.
 
 mod engine;
 mod error;
@@ -29,6 +30,6 @@ mod room;
 mod speed;
 mod workers;
 
-pub use handle::{Cancellation, Jobs, SubmitError};
+pub use handle::{Cancellation, Jobs, SubmitError, generation_of};
 pub use pool::Panicked;
 pub use workers::{Runner, Settings};

@@ -2,7 +2,7 @@
 
 use std::io::Cursor;
 
-use rubmap::impeller::{ImpellerParameters, generate};
+use rubmap::impeller::{ImpellerRequest, generate};
 use rubmap::package;
 use serde_json::{Value, json};
 
@@ -12,6 +12,7 @@ use super::model::files_in;
 /// A mesh as coarse as it gets.
 pub(crate) fn coarse() -> Value {
     json!({
+        "preset": "small",
         "contact_nodes": 3,
         "mesh": {"between_contact_nodes": 1, "blade_height": 2, "blade_thickness": 1, "half_passage": 1, "disk": 1},
     })
@@ -40,9 +41,9 @@ async fn a_generated_model_is_the_one_that_would_be_uploaded() {
     let detail = api.get(&format!("/v1/models/{model}")).await.body;
     assert_eq!((&detail["sectors"], &detail["contact_nodes"]), (&10.into(), &3.into()));
 
-    let parameters: ImpellerParameters = serde_json::from_value(coarse()).unwrap();
+    let request: ImpellerRequest = serde_json::from_value(coarse()).unwrap();
     let mut zip = Cursor::new(Vec::new());
-    package::write(&generate(&parameters).unwrap(), &mut zip).unwrap();
+    package::write(&generate(&request.resolve().unwrap()).unwrap(), &mut zip).unwrap();
     let uploaded = api.upload(zip.into_inner()).await;
     assert_eq!((uploaded.status.as_u16(), uploaded.text("/id").as_str()), (200, model));
     assert_eq!(uploaded.body["size_bytes"], detail["size_bytes"]);
@@ -73,8 +74,10 @@ async fn bad_parameters_are_refused_at_once() {
         (json!({"sectors": -1}), "invalid-request", "/sectors"),
         (json!({"outlet_radius": "wide"}), "invalid-request", "/outlet_radius"),
         (json!({"mesh": {"disk": 0}}), "invalid-request", "/mesh/disk"),
-        (json!({"mesh": {"disc": 3}}), "unknown-field", "/mesh/disc"),
-        (json!({"wings": 2}), "unknown-field", "/wings"),
+        (json!({"mesh": {"disc": 3}}), "invalid-request", "/mesh/disc"),
+        (json!({"wings": 2}), "invalid-request", "/wings"),
+        (json!({"mesh": [1, 1, 1, 1, 1]}), "invalid-request", "/mesh"),
+        (json!({"preset": "enormous"}), "invalid-request", "/preset"),
     ] {
         let answer = api.post("/v1/models", &parameters).await;
         assert_eq!(answer.pointers(422, kind), [pointer], "{}", answer.body);
