@@ -8,6 +8,7 @@ use anyhow::Context;
 use clap::Args;
 
 use crate::impeller::{ImpellerParameters, generate as generate_package};
+use crate::package::raw::MatrixFormat;
 
 /// What to generate and where to put it.
 #[derive(Debug, Args)]
@@ -30,6 +31,9 @@ pub struct GenerateArgs {
     /// Number of contact nodes from leading to trailing edge; overrides the file
     #[arg(long)]
     pub contact_nodes: Option<usize>,
+    /// How the package stores its matrices
+    #[arg(long, value_enum, default_value_t = MatrixFormat::Npz)]
+    pub matrices: MatrixFormat,
     /// Print the parameters as JSON and stop: a start for a --parameters file
     #[arg(long)]
     pub print_parameters: bool,
@@ -45,7 +49,8 @@ pub fn generate(args: GenerateArgs) -> anyhow::Result<()> {
         println!("{}", serde_json::to_string_pretty(&parameters)?);
         return Ok(());
     }
-    let package = generate_package(&parameters)?;
+    let mut package = generate_package(&parameters)?;
+    package.manifest.store_matrices_as(args.matrices);
     let file = File::create(&args.out).with_context(|| format!("cannot create {}", args.out.display()))?;
     crate::package::write(&package, BufWriter::new(file))
         .with_context(|| format!("cannot write {}", args.out.display()))?;

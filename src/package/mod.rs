@@ -18,6 +18,8 @@ mod frame;
 mod lines;
 mod manifest;
 mod matrix_market;
+mod npy;
+mod npz;
 mod partition;
 pub mod raw;
 mod symmetric;
@@ -70,7 +72,8 @@ pub struct Imported {
     /// Content address: 64 lowercase hexadecimal digits.
     ///
     /// SHA-256 over what `sector.json` states and the decompressed bytes of the other files; the same files zipped
-    /// again, in other order or compression, with matrices gzipped or not, have the same address.
+    /// again, in other order or compression, with matrices gzipped or not, have the same address. The same matrices
+    /// as Matrix Market and as `.npz` are different bytes, and have different ones.
     pub digest: String,
 }
 

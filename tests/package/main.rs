@@ -3,6 +3,7 @@
 mod bad;
 mod damaged;
 mod equivalent;
+mod npz;
 mod sample;
 mod shared_models;
 mod wheel;
