@@ -6,10 +6,11 @@
 //!                       lines, digest)
 //! ```
 //!
-//! An importer is a function from a file to a `Content`: parsed, numbers finite, no physics. Everything after it
-//! is shared, so a new format ([`read`] is the place to tell formats apart) adds one function and inherits all checks.
+//! The files of other programs become packages at the door: an importer is a function from them to a `RawPackage`
+//! ([`calculix`]), and [`write()`] makes a file of it. Everything after it is shared.
 
 mod archive;
+pub mod calculix;
 mod check;
 mod content;
 mod digest;
