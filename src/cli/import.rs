@@ -16,7 +16,7 @@ use crate::package::raw::{Axis, MatrixFormat, RawPackage};
 #[derive(Debug, Subcommand)]
 pub(super) enum ImportCommand {
     /// CalculiX: mesh from a deck (.inp), matrices from *FREQUENCY, SOLVER=MATRIXSTORAGE (.dof, .sti, .mas)
-    Calculix(CalculixArgs),
+    Calculix(Box<CalculixArgs>),
 }
 
 /// Which files, and what the deck does not say.
@@ -88,6 +88,7 @@ enum ContactOrder {
 /// Makes the package, checks it as an upload would be, writes it and says what it is.
 pub(super) fn import(command: ImportCommand) -> anyhow::Result<()> {
     let ImportCommand::Calculix(args) = command;
+    let args = *args;
     let deck_name = args.deck.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let model = CalculixModel {
         deck: args.deck,
