@@ -1,6 +1,6 @@
 //! Matrices as scipy writes them: the same model as their Matrix Market twin, and every way to get them wrong.
 
-use std::io::{Cursor, Read, Write};
+use std::io::{Cursor, Write};
 
 use rubmap::package::raw::{MatrixFormat, RawMatrix};
 use rubmap::package::{self, Limits};
@@ -321,7 +321,7 @@ fn an_array_that_inflates_without_end_meets_the_limit_of_the_archive() {
     assert!(small.len() < 1 << 20);
     let limits = Limits { expanded_bytes: 16 << 20, ..Limits::default() };
     let mut many = Arrays::coo(18, &[]);
-    let zeros: Vec<u8> = std::io::repeat(0).take(64 << 20).bytes().flatten().collect();
+    let zeros = vec![0; 64 << 20];
     for array in ["row", "col"] {
         many.put(array, npy("<i8", &format!("({},)", zeros.len() / 8), &zeros));
     }
