@@ -9,6 +9,7 @@ use clap::Args;
 use serde_json::Value;
 
 use crate::impeller::{ImpellerRequest, PaperCasing, Preset, generate as generate_package};
+use crate::package::raw::MatrixFormat;
 
 /// What to generate and where to put it.
 #[derive(Debug, Args)]
@@ -34,6 +35,9 @@ pub struct GenerateArgs {
     /// Number of contact nodes from leading to trailing edge; overrides the file
     #[arg(long)]
     pub contact_nodes: Option<usize>,
+    /// How the package stores its matrices
+    #[arg(long, value_enum, default_value_t = MatrixFormat::Npz)]
+    pub matrices: MatrixFormat,
     /// Print the parameters as JSON and stop: a start for a --parameters file
     #[arg(long)]
     pub print_parameters: bool,
@@ -49,7 +53,8 @@ pub fn generate(args: GenerateArgs) -> anyhow::Result<()> {
         println!("{}", serde_json::to_string_pretty(&parameters)?);
         return Ok(());
     }
-    let package = generate_package(&parameters)?;
+    let mut package = generate_package(&parameters)?;
+    package.manifest.store_matrices_as(args.matrices);
     let file = File::create(&args.out).with_context(|| format!("cannot create {}", args.out.display()))?;
     crate::package::write(&package, BufWriter::new(file))
         .with_context(|| format!("cannot write {}", args.out.display()))?;

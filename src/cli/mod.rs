@@ -2,6 +2,7 @@
 
 mod demo;
 pub mod generate;
+mod import;
 mod serve;
 mod signals;
 
@@ -27,6 +28,9 @@ enum Command {
     Serve(Config),
     /// Make a model package from a few parameters.
     Generate(generate::GenerateArgs),
+    /// Make a model package from the files of a finite-element program.
+    #[command(subcommand)]
+    Import(import::ImportCommand),
 }
 
 impl Cli {
@@ -34,7 +38,7 @@ impl Cli {
     pub fn default_log(&self) -> &'static str {
         match self.command {
             Command::Demo(_) => "warn",
-            Command::Serve(_) | Command::Generate(_) => "info,apalis_core=warn",
+            Command::Serve(_) | Command::Generate(_) | Command::Import(_) => "info,apalis_core=warn",
         }
     }
 
@@ -44,6 +48,7 @@ impl Cli {
             Command::Demo(args) => return demo::run(&args),
             Command::Serve(config) => serve::run(config)?,
             Command::Generate(args) => generate::generate(args)?,
+            Command::Import(command) => import::import(command)?,
         }
         Ok(ExitCode::SUCCESS)
     }

@@ -71,13 +71,30 @@ impl Archive {
     }
 
     /// Reads one stored file, gunzipped if its name ends in `.gz`, and hashes it to its end.
-    ///
-    /// Every call opens the archive anew, so that threads can read different files at the same time.
     pub(super) fn read<T>(
         &self,
         name: &str,
         read: impl FnOnce(&mut dyn Read) -> Result<T, PackageError>,
     ) -> Result<Hashed<T>, PackageError> {
+        self.inflate(name, |source| self.hash(name, source, read))
+    }
+
+    /// Copies one stored file, gunzipped if its name ends in `.gz`, to a temporary file: a zip inside the zip, whose
+    /// entries are read in any order.
+    pub(super) fn spool(&self, name: &str) -> Result<File, PackageError> {
+        self.inflate(name, |source| {
+            let mut file = tempfile::tempfile()?;
+            io::copy(source, &mut file).map_err(|error| self.fault(name, error))?;
+            Ok(file)
+        })
+    }
+
+    /// Every call opens the archive anew, so that threads can read different files at the same time.
+    fn inflate<T>(
+        &self,
+        name: &str,
+        read: impl FnOnce(&mut dyn Read) -> Result<T, PackageError>,
+    ) -> Result<T, PackageError> {
         let mut zip = directory(&self.path)?;
         let Some(&index) = self.files.get(name) else {
             return Err(PackageError::archive(
@@ -91,17 +108,19 @@ impl Archive {
         let entry = zip.by_index(index).map_err(|error| storage(name, error))?;
         let inflated = self.counted(entry);
         if name.ends_with(".gz") {
-            self.hash(name, self.counted(MultiGzDecoder::new(BufReader::new(inflated))), read)
+            read(&mut self.counted(MultiGzDecoder::new(BufReader::new(inflated))))
         } else {
-            self.hash(name, inflated, read)
+            read(&mut { inflated })
         }
     }
 
-    fn counted<R: Read>(&self, source: R) -> Counted<'_, R> {
+    /// `source`, counted against the expansion limit of the whole archive.
+    pub(super) fn counted<R: Read>(&self, source: R) -> Counted<'_, R> {
         Counted { source, expanded: &self.expanded, limit_bytes: self.limit_bytes }
     }
 
-    fn hash<T>(
+    /// What `read` makes of `source`, and the SHA-256 of `source` to its end.
+    pub(super) fn hash<T>(
         &self,
         name: &str,
         source: impl Read,
@@ -140,7 +159,7 @@ fn not_a_zip(error: &ZipError) -> PackageError {
 }
 
 /// A problem that shows when an entry is opened.
-fn storage(name: &str, error: ZipError) -> PackageError {
+pub(super) fn storage(name: &str, error: ZipError) -> PackageError {
     let problem = match error {
         ZipError::Io(error) if error.raw_os_error().is_some() => return error.into(),
         ZipError::CompressionMethodNotSupported(method) => {
@@ -197,7 +216,7 @@ fn repeated_name(path: &Path, central_directory_start: u64) -> Option<String> {
 struct OverLimit;
 
 /// Counts what is read against the limit of the whole archive.
-struct Counted<'a, R> {
+pub(super) struct Counted<'a, R> {
     source: R,
     expanded: &'a AtomicU64,
     limit_bytes: u64,

@@ -3,7 +3,8 @@
 //! What counts: the *values* `sector.json` states, and the decompressed bytes of every other file under its name.
 //! What does not: how the archive is made (order, compression, times, folders' entries), whether a file is stored as
 //! `m.mtx` or `m.mtx.gz` (`.gz` is dropped from names, inside `sector.json` too), and the layout of `sector.json`
-//! (white space, order of fields). Two texts of the same numbers (`1.0` and `1e0` in a matrix) are two contents.
+//! (white space, order of fields). Of a `.npz` matrix its arrays count, not how they are zipped (numpy writes the time of
+//! day there, and compresses or not). Two texts of the same numbers (`1.0` and `1e0` in a matrix) are two contents.
 
 use std::fmt::Write;
 

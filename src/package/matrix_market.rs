@@ -160,7 +160,7 @@ fn parse_banner(line: &[u8]) -> Result<Symmetry, MatrixProblem> {
 }
 
 /// `row column value`; `None` if the line is anything else.
-fn parse_entry(line: &[u8]) -> Option<(u64, u64, f64)> {
+pub(super) fn parse_entry(line: &[u8]) -> Option<(u64, u64, f64)> {
     let mut words = words(line);
     let row = parse_integer(words.next()?)?;
     let column = parse_integer(words.next()?)?;

@@ -6,10 +6,11 @@
 //!                       lines, digest)
 //! ```
 //!
-//! An importer is a function from a file to a `Content`: parsed, numbers finite, no physics. Everything after it
-//! is shared, so a new format ([`read`] is the place to tell formats apart) adds one function and inherits all checks.
+//! The files of other programs become packages at the door: an importer is a function from them to a `RawPackage`
+//! ([`calculix`]), and [`write()`] makes a file of it. Everything after it is shared.
 
 mod archive;
+pub mod calculix;
 mod check;
 mod content;
 mod digest;
@@ -18,6 +19,8 @@ mod frame;
 mod lines;
 mod manifest;
 mod matrix_market;
+mod npy;
+mod npz;
 mod partition;
 pub mod raw;
 mod symmetric;
@@ -70,7 +73,8 @@ pub struct Imported {
     /// Content address: 64 lowercase hexadecimal digits.
     ///
     /// SHA-256 over what `sector.json` states and the decompressed bytes of the other files; the same files zipped
-    /// again, in other order or compression, with matrices gzipped or not, have the same address.
+    /// again, in other order or compression, with matrices gzipped or not, have the same address. The same matrices
+    /// as Matrix Market and as `.npz` are different bytes, and have different ones.
     pub digest: String,
 }
 

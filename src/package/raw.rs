@@ -34,6 +34,41 @@ pub struct Manifest {
     pub contact: Vec<ManifestContact>,
 }
 
+impl Manifest {
+    /// Renames the matrix files, so that [`write`](super::write()) stores them in `format`.
+    pub fn store_matrices_as(&mut self, format: MatrixFormat) {
+        for name in std::iter::once(&mut self.mass).chain(&mut self.stiffness) {
+            let plain = name.strip_suffix(".gz").unwrap_or(name);
+            let stem = plain.strip_suffix(MatrixFormat::of(plain).extension()).unwrap_or(plain);
+            *name = format!("{stem}{}", format.extension());
+        }
+    }
+}
+
+/// How a matrix is stored; the extension of its file says which.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum MatrixFormat {
+    /// Matrix Market text: readable everywhere, large.
+    Mtx,
+    /// Arrays as `scipy.sparse.save_npz` writes them: compact, exact, fast.
+    Npz,
+}
+
+impl MatrixFormat {
+    /// The format of a file of this name: `.npz` or `.npz.gz`, otherwise Matrix Market.
+    pub(super) fn of(name: &str) -> Self {
+        let plain = name.strip_suffix(".gz").unwrap_or(name);
+        if plain.ends_with(Self::Npz.extension()) { Self::Npz } else { Self::Mtx }
+    }
+
+    fn extension(self) -> &'static str {
+        match self {
+            Self::Mtx => ".mtx",
+            Self::Npz => ".npz",
+        }
+    }
+}
+
 /// Axis of rotation; rotation is positive about `direction`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

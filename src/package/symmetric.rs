@@ -83,6 +83,45 @@ pub(super) fn from_both_triangles(
     Ok(RawMatrix { size, entries })
 }
 
+/// A matrix from stored entries of unstated symmetry, positions repeated or not: repeated ones are summed.
+///
+/// `lower` has the lower triangle with the diagonal, `upper` the mirror image of the strict upper one. If only one of
+/// the two has an entry that is not zero, the matrix is that triangle and its mirror image; if both have, they must
+/// agree; if neither has, the matrix is diagonal and both readings are the same.
+pub(super) fn from_any(
+    size: usize,
+    lower: Vec<Entry>,
+    mut upper: Vec<Entry>,
+) -> Result<RawMatrix, MatrixProblem> {
+    let mut lower = summed(lower);
+    let off_diagonal = |entry: &Entry| entry.0 != entry.1;
+    let below = lower.iter().any(|entry| off_diagonal(entry) && entry.2 != 0.0);
+    let above = upper.iter().any(|entry| entry.2 != 0.0);
+    if below && above {
+        return from_both_triangles(size, lower, summed(upper));
+    }
+    if above {
+        // Zeros stored in the empty triangle mean nothing.
+        lower.retain(|entry| !off_diagonal(entry));
+        lower.append(&mut upper);
+        lower = summed(lower);
+    }
+    from_triangle(size, lower)
+}
+
+/// Entries sorted, those of equal positions summed in the order given.
+fn summed(mut entries: Vec<Entry>) -> Vec<Entry> {
+    sort(&mut entries);
+    entries.dedup_by(|next, first| {
+        let same = (first.0, first.1) == (next.0, next.1);
+        if same {
+            first.2 += next.2;
+        }
+        same
+    });
+    entries
+}
+
 /// By column, then row: the order of compressed columns, and of most files.
 fn sort(entries: &mut [Entry]) {
     if !entries.is_sorted_by_key(|&(row, column, _)| key(row, column)) {

@@ -1,4 +1,4 @@
-//! Writing a package: the zip of PACKAGE.md, numbers in shortest round-trip form.
+//! Writing a package: the zip of PACKAGE.md, numbers in shortest round-trip form or, in `.npz` matrices, as they are.
 
 use std::io::{self, BufWriter, Seek, Write};
 
@@ -6,12 +6,13 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
 use super::error::{ArchiveProblem, MANIFEST_FILE, PackageError};
-use super::raw::{RawMatrix, RawPackage};
+use super::npz;
+use super::raw::{MatrixFormat, RawMatrix, RawPackage};
 
 /// Writes `package` as a deflated zip; reading it back gives the same bits.
 ///
 /// The same package always gives the same bytes: entries carry no time. Files have the names of the manifest, and
-/// one named for several speeds is written once. Nothing is checked: a wrong package is refused on reading.
+/// one named for several speeds is written once; a matrix whose name ends in `.npz` is stored in that format. Nothing is checked: a wrong package is refused on reading.
 ///
 /// # Errors
 ///
@@ -30,11 +31,11 @@ pub fn write(package: &RawPackage, out: impl Write + Seek) -> Result<(), Package
     add(&mut zip, &names.dofs, |file| {
         package.dofs.iter().try_for_each(|dof| writeln!(file, "{},{}", dof.node, dof.component))
     })?;
-    add(&mut zip, &names.mass, |file| write_matrix(&package.mass, file))?;
+    add_matrix(&mut zip, &names.mass, &package.mass)?;
     let stiffness = || names.stiffness.iter().zip(&package.stiffness);
     for (k, (name, matrix)) in stiffness().enumerate() {
         if !stiffness().take(k).any(|(earlier, _)| earlier == name) {
-            add(&mut zip, name, |file| write_matrix(matrix, file))?;
+            add_matrix(&mut zip, name, matrix)?;
         }
     }
     zip.finish().map_err(|error| failed(None, error))?.flush()?;
@@ -46,8 +47,33 @@ fn add<W: Write + Seek>(
     name: &str,
     content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), PackageError> {
-    let options =
-        SimpleFileOptions::default().compression_method(CompressionMethod::Deflated).large_file(true);
+    add_by(zip, name, CompressionMethod::Deflated, content)
+}
+
+fn add_matrix<W: Write + Seek>(
+    zip: &mut ZipWriter<W>,
+    name: &str,
+    matrix: &RawMatrix,
+) -> Result<(), PackageError> {
+    match MatrixFormat::of(name) {
+        MatrixFormat::Mtx => add(zip, name, |file| write_matrix(matrix, file)),
+        // A zip of its own already, made aside because its writer goes back to note lengths.
+        MatrixFormat::Npz => add_by(zip, name, CompressionMethod::Stored, |file| {
+            let mut made = tempfile::tempfile()?;
+            npz::write(matrix, &mut made)?;
+            made.rewind()?;
+            io::copy(&mut made, file).map(drop)
+        }),
+    }
+}
+
+fn add_by<W: Write + Seek>(
+    zip: &mut ZipWriter<W>,
+    name: &str,
+    method: CompressionMethod,
+    content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), PackageError> {
+    let options = SimpleFileOptions::default().compression_method(method).large_file(true);
     zip.start_file(name, options).map_err(|error| failed(Some(name), error))?;
     if name.ends_with(".gz") {
         let mut file = BufWriter::new(flate2::write::GzEncoder::new(zip, flate2::Compression::default()));

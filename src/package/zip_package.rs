@@ -11,9 +11,9 @@ use super::error::{
     ArchiveProblem, MANIFEST_FILE, ManifestProblem, MatrixProblem, PackageError, TableProblem,
 };
 use super::lines::Fault;
-use super::raw::{Manifest, RawMatrix, RawPackage};
+use super::raw::{Manifest, MatrixFormat, RawMatrix, RawPackage};
 use super::tables::Table;
-use super::{Limits, check, digest, manifest, matrix_market, tables};
+use super::{Limits, check, digest, manifest, matrix_market, npz, tables};
 
 /// Reads every file of the archive; the matrices in parallel.
 pub(super) fn load(path: &Path, limits: &Limits) -> Result<Content, PackageError> {
@@ -141,6 +141,9 @@ fn read_matrix(
     dofs: usize,
     limits: &Limits,
 ) -> Result<Hashed<RawMatrix>, PackageError> {
+    if MatrixFormat::of(file) == MatrixFormat::Npz {
+        return npz::read(archive, file, dofs, limits);
+    }
     archive.read(file, |source| {
         matrix_market::read(source, dofs, limits)
             .map_err(|fault| match fault {

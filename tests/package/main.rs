@@ -1,8 +1,11 @@
 //! The importer as its users meet it: good packages, bad ones, damaged ones, and what a good one becomes.
 
 mod bad;
+mod calculix;
+mod calculix_deck;
 mod damaged;
 mod equivalent;
+mod npz;
 mod sample;
 mod shared_models;
 mod wheel;

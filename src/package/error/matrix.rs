@@ -1,5 +1,7 @@
 //! Problems of the matrices. Rows and columns in these messages count from 1, as in the files.
 
+use super::NpzProblem;
+
 /// What is wrong with a matrix.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MatrixProblem {
@@ -164,6 +166,9 @@ pub enum MatrixProblem {
         /// Nodal diameter.
         nodal_diameter: usize,
     },
+    /// Arrays of a `.npz` file.
+    #[error(transparent)]
+    Npz(#[from] NpzProblem),
     /// No newline for very long.
     #[error("the line is longer than {limit} bytes; is this a text file?")]
     LineTooLong {

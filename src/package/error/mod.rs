@@ -3,11 +3,13 @@
 mod archive;
 mod manifest;
 mod matrix;
+mod npz;
 mod table;
 
 pub use archive::ArchiveProblem;
 pub use manifest::ManifestProblem;
 pub use matrix::MatrixProblem;
+pub use npz::NpzProblem;
 pub use table::TableProblem;
 
 /// Name of the file every package holds.

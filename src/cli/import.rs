@@ -1,0 +1,214 @@
+//! `rubmap import`: a model package from the files of a finite-element program.
+
+use std::fmt::{self, Write};
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::PathBuf;
+
+use anyhow::{Context, bail};
+use clap::{Args, Subcommand};
+
+use crate::dynamics::sector::Units;
+use crate::package::calculix::{self, CalculixModel, ImportSummary, Normals, SpinFinding};
+use crate::package::raw::{Axis, MatrixFormat, RawPackage};
+
+/// The program the files come from.
+#[derive(Debug, Subcommand)]
+pub(super) enum ImportCommand {
+    /// CalculiX: mesh from a deck (.inp), matrices from *FREQUENCY, SOLVER=MATRIXSTORAGE (.dof, .sti, .mas)
+    Calculix(Box<CalculixArgs>),
+}
+
+/// Which files, and what the deck does not say.
+#[derive(Debug, Args)]
+pub(super) struct CalculixArgs {
+    /// Deck with the mesh and its node sets (*INCLUDE is followed)
+    deck: PathBuf,
+    /// Job of the matrices at rest: the path of its .dof, .sti and .mas without extension
+    #[arg(long)]
+    rest: PathBuf,
+    /// Speed and job of a stiffness at speed, such as 2500=half or 24000rpm=half; give none, or two (Ω1/2 and Ω1)
+    #[arg(long = "at", value_name = "SPEED=JOB", value_parser = speed_and_job)]
+    at_speed: Vec<(f64, PathBuf)>,
+    /// The matrices are those of the whole wheel
+    #[arg(long)]
+    wheel: bool,
+    /// Number of sectors [default: that of *CYCLIC SYMMETRY MODEL]
+    #[arg(long)]
+    sectors: Option<usize>,
+    /// Axis: a point and the direction about which rotation is positive, x,y,z,dx,dy,dz [default: that of *CYCLIC SYMMETRY
+    /// MODEL, or 0,0,0,0,0,1]
+    #[arg(long, value_parser = axis, allow_hyphen_values = true)]
+    axis: Option<Axis>,
+    /// Node set of the low cyclic face [default: from the cyclic *TIE]
+    #[arg(long)]
+    low_set: Option<String>,
+    /// Node set of the high cyclic face, the low one turned by +2π/N [default: from the cyclic *TIE]
+    #[arg(long)]
+    high_set: Option<String>,
+    /// Node set of one line of nodes along the blade tip
+    #[arg(long)]
+    contact_set: String,
+    /// Use this many nodes of the contact set, evenly spaced [default: all]
+    #[arg(long)]
+    contact_count: Option<usize>,
+    /// Order of the contact nodes
+    #[arg(long, value_enum, default_value_t = ContactOrder::Chord)]
+    contact_order: ContactOrder,
+    /// CSV of the casing's meridional curve, lines r,z, to take the normals from [default: the curve through the
+    /// contact nodes]
+    #[arg(long, conflicts_with = "normals")]
+    meridian: Option<PathBuf>,
+    /// CSV of normals, lines node,nx,ny,nz
+    #[arg(long)]
+    normals: Option<PathBuf>,
+    /// Units of length, force, time and mass in the deck
+    #[arg(long, default_value = "mm,N,s,t", value_parser = units)]
+    units: Units,
+    /// Name of the model [default: that of the deck]
+    #[arg(long)]
+    name: Option<String>,
+    /// Package to write
+    #[arg(long)]
+    out: PathBuf,
+    /// How the package stores its matrices
+    #[arg(long, value_enum, default_value_t = MatrixFormat::Npz)]
+    matrices: MatrixFormat,
+}
+
+/// How contact nodes are put in order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum ContactOrder {
+    /// Along their line, from its end at the smaller radius (the leading edge of a compressor)
+    Chord,
+    /// As the deck lists the set, which must be from leading to trailing edge
+    Set,
+}
+
+/// Makes the package, checks it as an upload would be, writes it and says what it is.
+pub(super) fn import(command: ImportCommand) -> anyhow::Result<()> {
+    let ImportCommand::Calculix(args) = command;
+    let args = *args;
+    let deck_name = args.deck.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let model = CalculixModel {
+        deck: args.deck,
+        rest: args.rest,
+        at_speed: args.at_speed,
+        whole_wheel: args.wheel,
+        sectors: args.sectors,
+        axis: args.axis,
+        low_set: args.low_set,
+        high_set: args.high_set,
+        contact_set: args.contact_set,
+        contact_count: args.contact_count,
+        contact_as_listed: args.contact_order == ContactOrder::Set,
+        normals: match (args.meridian, args.normals) {
+            (Some(path), _) => Normals::Meridian(path),
+            (None, Some(path)) => Normals::Table(path),
+            (None, None) => Normals::ContactNodes,
+        },
+        units: args.units,
+        name: args.name.unwrap_or(deck_name),
+    };
+    if !matches!(model.at_speed.len(), 0 | 2) {
+        bail!("give --at twice (half the highest speed and the highest), or not at all");
+    }
+    let (mut package, summary) = calculix::import(&model)?;
+    package.manifest.store_matrices_as(args.matrices);
+    crate::package::to_sector(package.clone())
+        .context("the imported model does not pass the checks of a package")?;
+    let file = File::create(&args.out).with_context(|| format!("cannot create {}", args.out.display()))?;
+    crate::package::write(&package, BufWriter::new(file))
+        .with_context(|| format!("cannot write {}", args.out.display()))?;
+    print!("{}", describe(&package, &summary)?);
+    println!("Written: {}", args.out.display());
+    Ok(())
+}
+
+/// What was imported, in words that can be compared with what one knows.
+fn describe(package: &RawPackage, summary: &ImportSummary) -> Result<String, fmt::Error> {
+    let manifest = &package.manifest;
+    let mut text = String::new();
+    let [x, y, z] = manifest.axis.direction;
+    let u = &manifest.units;
+    writeln!(
+        text,
+        "{}: {} sectors, {} nodes and {} DOF a sector, {} pairs of face nodes; units {}, {}, {}, {}",
+        manifest.name,
+        manifest.sectors,
+        package.nodes.len(),
+        package.dofs.len(),
+        manifest.cyclic.len(),
+        u.length,
+        u.force,
+        u.time,
+        u.mass,
+    )?;
+    writeln!(
+        text,
+        "Rotation is positive about ({x}, {y}, {z}); a wheel that turns the other way needs --axis reversed"
+    )?;
+    if summary.faces_swapped {
+        writeln!(text, "Low and high face were exchanged: the high face must be the low one turned forward")?;
+    }
+    if let Some(difference) = summary.sectors_differ {
+        writeln!(text, "Sectors of the wheel differ by {difference:.1e} of the largest force")?;
+    }
+    for (speed, finding) in &summary.spin {
+        writeln!(text, "Stiffness at {speed} rad/s: {}", spin(*finding))?;
+    }
+    writeln!(text, "Contact nodes from leading to trailing edge (check order and normals):")?;
+    writeln!(text, "      node          r      theta          z      n_r  n_theta      n_z")?;
+    for point in &summary.contact {
+        let ([r, theta, z], [nr, nt, nz]) = (point.position, point.normal);
+        writeln!(text, "{:>10} {r:10.4} {theta:10.5} {z:10.4} {nr:8.4} {nt:8.4} {nz:8.4}", point.node)?;
+    }
+    Ok(text)
+}
+
+fn spin(finding: SpinFinding) -> String {
+    match finding {
+        SpinFinding::Undeformed { residual } => {
+            format!(
+                "geometric stiffness and spin softening on the undeformed geometry (residual {residual:.1e})"
+            )
+        }
+        SpinFinding::WithoutSoftening { .. } => {
+            "WITHOUT spin softening: repeat *DLOAD, CENTRIF in the exporting step (see \
+             docs/calculix.md)"
+                .to_owned()
+        }
+        SpinFinding::Other { residual } => format!(
+            "NOT that of the undeformed geometry under this speed (residual {residual:.1e}); between the speeds it will be \
+             wrong (see docs/calculix.md)"
+        ),
+        SpinFinding::NotChecked => "not checked, no node is free of clamps and faces".to_owned(),
+    }
+}
+
+fn speed_and_job(text: &str) -> Result<(f64, PathBuf), String> {
+    let (speed, job) = text.split_once('=').ok_or("expected SPEED=JOB, such as 2500=half")?;
+    let speed = speed.trim();
+    let (number, factor) = match speed.strip_suffix("rpm") {
+        Some(number) => (number, std::f64::consts::PI / 30.0),
+        None => (speed.strip_suffix("rad/s").unwrap_or(speed), 1.0),
+    };
+    let number: f64 =
+        number.trim().parse().map_err(|_| format!("\"{speed}\" is no speed in rad/s or rpm"))?;
+    Ok((number * factor, PathBuf::from(job)))
+}
+
+fn axis(text: &str) -> Result<Axis, String> {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|number| number.trim().parse()).collect();
+    match numbers.as_deref() {
+        Ok(&[a, b, c, d, e, f]) => Ok(Axis { origin: [a, b, c], direction: [d, e, f] }),
+        _ => Err("expected six numbers x,y,z,dx,dy,dz".to_owned()),
+    }
+}
+
+fn units(text: &str) -> Result<Units, String> {
+    let names: Vec<String> = text.split(',').map(|name| name.trim().to_owned()).collect();
+    let [length, force, time, mass]: [String; 4] =
+        names.try_into().map_err(|_| "expected length,force,time,mass, such as mm,N,s,t")?;
+    Ok(Units { length, force, time, mass })
+}

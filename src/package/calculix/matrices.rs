@@ -1,0 +1,106 @@
+//! `.dof`, `.sti` and `.mas` as `*FREQUENCY, SOLVER=MATRIXSTORAGE` writes them.
+//!
+//! `.dof` has one line `node.direction` for each matrix row; the matrices have one line `row column value` for each
+//! stored entry of one triangle, zeros included.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+use super::error::{CalculixError, LineProblem, ModelProblem};
+use super::text::TextLines;
+use crate::package::error::MatrixProblem;
+use crate::package::matrix_market::parse_entry;
+use crate::package::raw::{RawDof, RawMatrix};
+use crate::package::symmetric;
+
+/// The DOF of each matrix row, and the file that said so.
+#[derive(Debug)]
+pub(super) struct DofList {
+    pub(super) path: PathBuf,
+    pub(super) dofs: Vec<RawDof>,
+}
+
+impl DofList {
+    pub(super) fn read(path: &Path) -> Result<Self, CalculixError> {
+        let mut lines = TextLines::open(path)?;
+        let mut dofs = Vec::new();
+        let mut seen = HashMap::new();
+        while let Some(line) = lines.next()? {
+            let word = line.trim();
+            if word.is_empty() {
+                continue;
+            }
+            let dof = word.split_once('.').and_then(|(node, component)| {
+                let component = component.parse().ok().filter(|k| (1..=3).contains(k))?;
+                Some(RawDof { node: node.parse().ok()?, component })
+            });
+            let Some(dof) = dof else {
+                let text = word.chars().take(40).collect();
+                return Err(lines.fault(LineProblem::NotA {
+                    text,
+                    expected: "a DOF (node.direction, direction 1 to 3)",
+                }));
+            };
+            let RawDof { node, component } = dof;
+            if seen.insert((node, component), dofs.len()).is_some() {
+                return Err(lines.fault(LineProblem::DofRepeated { node, component }));
+            }
+            dofs.push(dof);
+        }
+        Ok(Self { path: path.to_owned(), dofs })
+    }
+
+    /// The place in `rest` of each DOF of this list.
+    pub(super) fn places_in(&self, rest: &Self) -> Result<Vec<u32>, ModelProblem> {
+        let places: HashMap<_, _> =
+            (rest.dofs.iter().zip(0..)).map(|(d, k)| ((d.node, d.component), k)).collect();
+        let other = |dof: &RawDof| ModelProblem::OtherDofs {
+            file: self.path.clone(),
+            rest: rest.path.clone(),
+            node: dof.node,
+            component: dof.component,
+        };
+        let place = |dof: &RawDof| places.get(&(dof.node, dof.component)).copied().ok_or_else(|| other(dof));
+        let found = self.dofs.iter().map(place).collect::<Result<Vec<u32>, _>>()?;
+        if found.len() < rest.dofs.len() {
+            let mut present = vec![false; rest.dofs.len()];
+            found.iter().for_each(|&k| present[k as usize] = true);
+            let lacking = present.iter().position(|there| !there).unwrap_or(0);
+            return Err(other(&rest.dofs[lacking]));
+        }
+        Ok(found)
+    }
+}
+
+/// Reads a matrix over the rows of `dofs`, each moved to its place in `places` if given.
+pub(super) fn read(path: &Path, dofs: &DofList, places: Option<&[u32]>) -> Result<RawMatrix, CalculixError> {
+    let size = dofs.dofs.len();
+    let mut lines = TextLines::open(path)?;
+    let mut entries = Vec::new();
+    while let Some(line) = lines.next_bytes()? {
+        let Some((row, column, value)) = parse_entry(line) else {
+            if line.trim_ascii().is_empty() {
+                continue;
+            }
+            let text = String::from_utf8_lossy(line).chars().take(60).collect();
+            return Err(lines.fault(LineProblem::NotA { text, expected: "a matrix entry: row column value" }));
+        };
+        if row.wrapping_sub(1) >= size as u64 || column.wrapping_sub(1) >= size as u64 {
+            let dof_file = dofs.path.clone();
+            return Err(lines.fault(LineProblem::OutOfRange { row, column, size, dof_file }));
+        }
+        if !value.is_finite() {
+            return Err(lines.fault(LineProblem::NotFinite { row, column }));
+        }
+        let place = |k: u64| places.map_or((k - 1) as u32, |places| places[k as usize - 1]);
+        let (row, column) = (place(row), place(column));
+        // CalculiX stores the zeros of its pattern; they would only cost room.
+        if value != 0.0 {
+            entries.push((row.max(column), row.min(column), value));
+        }
+    }
+    symmetric::from_triangle(size, entries).map_err(|problem| match problem {
+        MatrixProblem::Repeated { row, column, .. } => lines.fault(LineProblem::Repeated { row, column }),
+        problem => crate::package::PackageError::matrix(&path.display().to_string(), problem).into(),
+    })
+}

@@ -1,0 +1,69 @@
+//! Finding the node at a place.
+
+use std::collections::HashMap;
+
+use crate::package::frame::distance;
+
+/// A copy of a node may be this far from where the turn puts it, relative to the diagonal of the mesh's bounding box:
+/// the tolerance of the package's own check.
+const TOLERANCE: f64 = 1e-5;
+
+/// Nodes by the cell of a grid they lie in; cells are as wide as the tolerance.
+pub(super) struct Places {
+    cells: HashMap<[i64; 3], Vec<usize>>,
+    nodes: Vec<(u64, [f64; 3])>,
+    pub(super) tolerance: f64,
+}
+
+/// What is nearest to a place without a node.
+pub(super) struct Nearest {
+    pub(super) node: u64,
+    pub(super) distance: f64,
+}
+
+impl Places {
+    pub(super) fn new(nodes: Vec<(u64, [f64; 3])>, tolerance: f64) -> Self {
+        let mut cells: HashMap<_, Vec<usize>> = HashMap::new();
+        for (k, (_, position)) in nodes.iter().enumerate() {
+            cells.entry(cell(*position, tolerance)).or_default().push(k);
+        }
+        Self { cells, nodes, tolerance }
+    }
+
+    /// The node nearest to `position` within the tolerance.
+    pub(super) fn at(&self, position: [f64; 3]) -> Result<u64, Nearest> {
+        let [i, j, k] = cell(position, self.tolerance);
+        let around =
+            (-1..=1).flat_map(|a| (-1..=1).flat_map(move |b| (-1..=1).map(move |c| [i + a, j + b, k + c])));
+        let close = around.filter_map(|cell| self.cells.get(&cell)).flatten().copied();
+        if let Some(found) = self.nearest(close, position).filter(|near| near.distance <= self.tolerance) {
+            return Ok(found.node);
+        }
+        Err(self
+            .nearest(0..self.nodes.len(), position)
+            .unwrap_or(Nearest { node: 0, distance: f64::INFINITY }))
+    }
+
+    fn nearest(&self, among: impl Iterator<Item = usize>, position: [f64; 3]) -> Option<Nearest> {
+        among
+            .map(|k| Nearest { node: self.nodes[k].0, distance: distance(self.nodes[k].1, position) })
+            .min_by(|a, b| a.distance.total_cmp(&b.distance).then(a.node.cmp(&b.node)))
+    }
+}
+
+/// The tolerance for a mesh of these positions.
+pub(super) fn tolerance(positions: impl Iterator<Item = [f64; 3]>) -> f64 {
+    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    for position in positions {
+        for k in 0..3 {
+            low[k] = low[k].min(position[k]);
+            high[k] = high[k].max(position[k]);
+        }
+    }
+    // A mesh of one point must still have cells.
+    (TOLERANCE * distance(low, high)).max(f64::MIN_POSITIVE)
+}
+
+fn cell(position: [f64; 3], width: f64) -> [i64; 3] {
+    position.map(|x| (x / width).floor() as i64)
+}

@@ -1,0 +1,79 @@
+//! Lines and numbers of CalculiX's text files.
+
+use std::fs::File;
+use std::path::{Path, PathBuf};
+
+use super::deck::open;
+use super::error::{CalculixError, LineProblem};
+use crate::package::lines::{Fault, Lines};
+
+/// A text file line by line, its name and line number at hand for errors.
+pub(super) struct TextLines {
+    path: PathBuf,
+    lines: Lines<File>,
+}
+
+impl TextLines {
+    pub(super) fn open(path: &Path) -> Result<Self, CalculixError> {
+        Ok(Self { path: path.to_owned(), lines: Lines::new(open(path)?) })
+    }
+
+    /// The next line as bytes without its end.
+    pub(super) fn next_bytes(&mut self) -> Result<Option<&[u8]>, CalculixError> {
+        let path = &self.path;
+        let too_long = |_| LineProblem::Words { expected: "lines of text; is this a text file?" };
+        self.lines.next(too_long).map_err(|fault| match fault {
+            Fault::Io(source) => CalculixError::Io { path: path.clone(), source },
+            Fault::At { line, problem } => CalculixError::Line { path: path.clone(), line, problem },
+        })
+    }
+
+    /// The next line as text; bytes that are none (in comments) are replaced.
+    pub(super) fn next(&mut self) -> Result<Option<String>, CalculixError> {
+        Ok(self.next_bytes()?.map(|line| String::from_utf8_lossy(line).into_owned()))
+    }
+
+    /// The error for a problem on the line read last.
+    pub(super) fn fault(&self, problem: LineProblem) -> CalculixError {
+        CalculixError::Line { path: self.path.clone(), line: self.lines.number(), problem }
+    }
+}
+
+/// A node number.
+pub(super) fn node(word: &str) -> Result<u64, LineProblem> {
+    word.parse().map_err(|_| LineProblem::NotA { text: short(word), expected: "a node number" })
+}
+
+/// A finite real number, in Fortran's spellings too: `1.5D+3`, `1.5+3`.
+pub(super) fn real(word: &str, expected: &'static str) -> Result<f64, LineProblem> {
+    let fortran = || {
+        let word = word.replace(['d', 'D'], "e");
+        if word.contains(['e', 'E']) {
+            return word.parse().ok();
+        }
+        let sign = word.get(1..)?.find(['+', '-'])? + 1;
+        format!("{}e{}", &word[..sign], &word[sign..]).parse().ok()
+    };
+    let number: Option<f64> = word.parse().ok().or_else(fortran);
+    number.filter(|x| x.is_finite()).ok_or(LineProblem::NotA { text: short(word), expected })
+}
+
+fn short(word: &str) -> String {
+    word.chars().take(40).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::real;
+
+    #[test]
+    fn numbers_in_every_spelling() {
+        for text in ["1500", "1.5e3", "1.5E+03", "1.5D3", "1.5d+03", "1.5+3", "15000-1"] {
+            assert_eq!(real(text, "a number").ok(), Some(1500.0), "{text}");
+        }
+        assert_eq!(real("-1.5-3", "a number").ok(), Some(-1.5e-3));
+        for text in ["", "-", "x", "1.5+", "1e999", "nan", "é+1"] {
+            assert!(real(text, "a number").is_err(), "{text}");
+        }
+    }
+}
