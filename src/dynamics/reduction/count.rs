@@ -4,7 +4,9 @@
 //! the face (Haynsworth). One real factor of K − σM serves every nodal diameter whose modes leave a gap at σ.
 
 use faer::sparse::SparseColMat;
-use faer::{MatRef, Side, c64};
+use faer::traits::ComplexField;
+use faer::traits::ext::ComplexFieldExt;
+use faer::{Mat, MatRef, Side};
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use serde::{Deserialize, Serialize};
 
@@ -64,7 +66,13 @@ pub(super) fn count_modes(
             .map(|&(i, expected)| {
                 let schur = tied_schur(untied, &factor, &terms, &found[i].0);
                 let face = schur.submatrix(0, 0, untied.face(), untied.face());
-                let below = factor.negative_pivots() + negative_eigenvalues(face);
+                let negative = if UntiedSector::width(&found[i].0, 1) == 1 {
+                    let real = Mat::from_fn(face.nrows(), face.ncols(), |i, j| face[(i, j)].re);
+                    negative_eigenvalues(real.as_ref())
+                } else {
+                    negative_eigenvalues(face)
+                };
+                let below = factor.negative_pivots() + negative;
                 (i, ModeCount { shift, below, found: expected })
             })
             .collect();
@@ -121,18 +129,18 @@ fn best_shift(ladders: &[Ladder], waiting: &[usize]) -> Option<f64> {
 }
 
 /// Negative eigenvalues of a Hermitian matrix, from the blocks of its Bunch–Kaufman factor.
-fn negative_eigenvalues(matrix: MatRef<'_, c64>) -> usize {
+fn negative_eigenvalues<T: ComplexField<Real = f64>>(matrix: MatRef<'_, T>) -> usize {
     let factor = matrix.lblt(Side::Lower);
     let (diagonal, below) = (factor.B_diag().column_vector(), factor.B_subdiag().column_vector());
     let mut negative = 0;
     let mut i = 0;
     while i < matrix.nrows() {
-        let (a, coupling) = (diagonal[i].re, below[i].norm());
+        let (a, coupling) = (diagonal[i].real(), below[i].abs());
         if coupling == 0.0 {
             negative += usize::from(a < 0.0);
             i += 1;
         } else {
-            let b = diagonal[i + 1].re;
+            let b = diagonal[i + 1].real();
             negative += if a * b < coupling * coupling {
                 1
             } else if a < 0.0 {
@@ -149,7 +157,7 @@ fn negative_eigenvalues(matrix: MatRef<'_, c64>) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use faer::Mat;
+    use faer::c64;
 
     #[test]
     fn inertia_of_an_indefinite_matrix() {

@@ -204,7 +204,13 @@ fn check_mass(sector: &SectorModel, harmonics: usize) -> Result<(), ModelError> 
     let mass = untied.assemble(&[(1.0, &sector.mass)]);
     let indefinite = |nodal_diameter| ModelError::MassNotPositiveDefinite { nodal_diameter };
     let factor = SectorFactor::new(&untied, &mass).map_err(|_| indefinite(0))?;
-    (0..harmonics).try_for_each(|h| factor.tie(&mass, h).map(|_| ()).map_err(|_| indefinite(h)))
+    if factor.surely_definite(&mass) {
+        return Ok(());
+    }
+    (0..harmonics).try_for_each(|h| match factor.tie(&mass, h) {
+        Ok(tied) if tied.free => Ok(()),
+        _ => Err(indefinite(h)),
+    })
 }
 
 /// The reduced matrices of every nodal diameter (Eq. 6).

@@ -39,6 +39,8 @@ pub(super) struct Wanted {
     pub(super) free: bool,
     /// Accepted ‖Kx − λMx‖/‖Kx‖ of every returned pair; its square is the relative error of λ.
     pub(super) tolerance: f64,
+    /// Eigenvalues to locate beyond those: room for a shift between them.
+    pub(super) beyond: usize,
 }
 
 /// Why no modes were returned.
@@ -115,7 +117,7 @@ impl Pencil<'_> {
             let images: Vec<Mat<c64>> = loads.into_iter().map(|load| load.vectors).collect();
             let mut pairs: Vec<_> = active.iter_mut().zip(images).collect();
             pairs.par_iter_mut().for_each(|(search, image)| {
-                search.advance(std::mem::replace(image, Mat::new()), count, wanted.tolerance, step)
+                search.advance(std::mem::replace(image, Mat::new()), count, wanted, step)
             });
             let mut waiting = Vec::new();
             for mut search in active {
@@ -245,7 +247,8 @@ impl Pencil<'_> {
 
 impl Search<'_> {
     /// Takes the image of the last block; leaves Ritz pairs where the wanted ones seem to have converged.
-    fn advance(&mut self, image: Mat<c64>, count: usize, tolerance: f64, step: usize) {
+    fn advance(&mut self, image: Mat<c64>, count: usize, wanted: Wanted, step: usize) {
+        let Wanted { tolerance, beyond, .. } = wanted;
         self.lanczos.absorb(image);
         let full = self.lanczos.is_full();
         // The dense projection costs more than a step once it is large: look at it every other step.
@@ -257,9 +260,8 @@ impl Search<'_> {
         let Ok(ritz) = self.lanczos.ritz(columns) else { return };
         let worst = ritz.errors[..count].iter().fold(0.0f64, |worst, &e| if e <= worst { worst } else { e });
         self.last_error = worst;
-        // Two more located eigenvalues leave room for a shift above the wanted ones.
         let located = ritz.errors.iter().skip(count).take_while(|&&error| error <= LOCATED).count();
-        if full || (worst <= 0.1 * tolerance && located >= 2) {
+        if full || (worst <= 0.1 * tolerance && located >= beyond) {
             self.ritz = Some(ritz);
         }
     }

@@ -23,8 +23,8 @@ const BLOCK: usize = 4;
 const LARGEST_BLOCK: usize = 32;
 /// Residual of the modes of the basis: 1e-8 in x is 1e-16 in λ; 1e-9 leaves a margin.
 const MODE_TOLERANCE: f64 = 1e-9;
-/// Residual behind the full sector's frequencies: right to some eleven digits.
-const FREQUENCY_TOLERANCE: f64 = 3e-6;
+/// Residual behind the full sector's frequencies: right to some nine digits.
+const FREQUENCY_TOLERANCE: f64 = 3e-5;
 /// Nodal diameters searched together: enough to share solves, few enough for their Krylov bases to fit.
 pub(super) const TOGETHER: usize = 6;
 /// Frequencies of the full sector that the reduced ones are compared with.
@@ -194,7 +194,7 @@ impl Work<'_> {
         let ties: Vec<&TiedFactor> = members.iter().map(|&harmonic| &tied[harmonic]).collect();
         pencil.lowest_modes(
             &ties,
-            Wanted { count: self.modes_per_speed, block, free: false, tolerance: MODE_TOLERANCE },
+            Wanted { count: self.modes_per_speed, block, free: false, tolerance: MODE_TOLERANCE, beyond: 2 },
             keep_going,
         )
     }
@@ -209,7 +209,13 @@ impl Work<'_> {
         let free: Vec<usize> = (0..self.harmonics).filter(|&harmonic| tied[harmonic].free).collect();
         for (group, members) in free.chunks(TOGETHER).enumerate() {
             let ties: Vec<&TiedFactor> = members.iter().map(|&harmonic| &tied[harmonic]).collect();
-            let wanted = Wanted { count: COMPARED, block: BLOCK, free: true, tolerance: FREQUENCY_TOLERANCE };
+            let wanted = Wanted {
+                count: COMPARED,
+                block: BLOCK,
+                free: true,
+                tolerance: FREQUENCY_TOLERANCE,
+                beyond: 0,
+            };
             let share = |done: f64| (group as f64 + done) / free.len().div_ceil(TOGETHER) as f64;
             let found = pencil.lowest_modes(&ties, wanted, &|done| keep_going(share(done)))?;
             for (&harmonic, modes) in members.iter().zip(found) {

@@ -224,6 +224,11 @@ impl UntiedSector {
         low.chain(high).chain(contact).chain(shared).collect()
     }
 
+    /// Whether boundary row `row` (see [`boundary`](Self::boundary)) is a copy on the high face.
+    pub(super) fn is_high(&self, row: usize) -> bool {
+        (self.face..2 * self.face).contains(&row) || row >= 2 * self.face + self.contact
+    }
+
     /// Real vectors that stand for `columns` tied ones.
     pub(super) fn width(tie: &Tie, columns: usize) -> usize {
         if tie.single { columns } else { 2 * columns }
