@@ -1,15 +1,15 @@
 //! The whole reduction at k = 20 beside the plain way (a complex sparse factorisation of each nodal diameter and
 //! speed, single-vector Lanczos), in one run: wall time, CPU time, phases and peak memory.
 //!
-//! `cargo bench --bench reduction -- [small] [medium] [paper] [plain]`: the sizes asked for (small and medium if
-//! none is), `plain` with the baseline.
+//! `cargo bench --bench reduction -- [small] [medium] [half] [paper] [plain]`: the sizes asked for (small and medium
+//! if none is), `plain` with the baseline.
 
 use std::cell::RefCell;
 use std::time::Instant;
 
-use rubmap::dynamics::reduction::{NoCheckpoints, ReductionOptions, reduce};
+use rubmap::dynamics::reduction::{NoCheckpoints, ReductionError, ReductionOptions, reduce};
 use rubmap::dynamics::sector::SectorModel;
-use rubmap::impeller::{Preset, generate};
+use rubmap::impeller::{ImpellerParameters, MeshDensities, Preset, generate};
 use rubmap::package::to_sector;
 
 #[path = "../tests/oracle/mod.rs"]
@@ -17,9 +17,14 @@ use rubmap::package::to_sector;
 mod oracle;
 
 const MODES: usize = 20;
+/// Phases by what their progress texts contain.
+const PHASES: [&str; 6] =
+    ["ordering", "factorisation", "fixed-interface modes", "full sector", "counting", "projecting"];
+/// Those that only prove the result.
+const CHECKS: [&str; 2] = ["full sector", "counting"];
 
-fn sector(preset: Preset) -> SectorModel {
-    let package = generate(&preset.parameters()).expect("a preset is sound");
+fn sector(parameters: &ImpellerParameters) -> SectorModel {
+    let package = generate(parameters).expect("the sizes are sound");
     to_sector(package).expect("a generated package is valid")
 }
 
@@ -42,44 +47,80 @@ fn memory(name: &str) -> f64 {
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
     let asked = |name: &str| arguments.iter().any(|argument| argument == name);
-    let presets = [("small", Preset::Small), ("medium", Preset::Medium), ("paper", Preset::Paper)];
-    let none = !presets.iter().any(|(name, _)| asked(name));
+    let half = MeshDensities {
+        between_contact_nodes: 3,
+        blade_height: 11,
+        disk: 6,
+        ..Preset::Paper.parameters().mesh
+    };
+    let sizes = [
+        ("small", Preset::Small.parameters()),
+        ("medium", Preset::Medium.parameters()),
+        ("half", ImpellerParameters { mesh: half, ..Preset::Paper.parameters() }),
+        ("paper", Preset::Paper.parameters()),
+    ];
+    let none = !sizes.iter().any(|(name, _)| asked(name));
     let start = Instant::now();
-    for (name, preset) in presets.into_iter().filter(|&(n, _)| asked(n) || (none && n != "paper")) {
-        let sector = sector(preset);
+    for (name, parameters) in
+        sizes.iter().filter(|(n, _)| asked(n) || (none && ["small", "medium"].contains(n)))
+    {
+        let sector = sector(parameters);
         println!(
             "{name}: {} own DOF, N = {}, resident before {:.0} MB",
             sector.own_dofs(),
             sector.sectors,
             memory("VmRSS")
         );
-        let last = RefCell::new((String::new(), now(start)));
+        let limited = ReductionOptions { memory_bytes: Some(0), ..ReductionOptions::new(MODES) };
+        let refused = reduce(&sector, &limited, &NoCheckpoints, &|_, _| true);
+        if let Err(ReductionError::Memory { needed_bytes, .. }) = refused {
+            println!("  estimated need {:.0} MB", needed_bytes as f64 / 1e6);
+        }
         let begin = now(start);
-        let watch = |share: f64, phase: &str| {
-            let mut last = last.borrow_mut();
-            if last.0 != phase {
-                let (wall, cpu) = now(start);
-                if !last.0.is_empty() {
-                    println!("  {:7.2} s wall {:7.2} s CPU  {}", wall - last.1.0, cpu - last.1.1, last.0);
+        // Phase and times at its start; (phase, wall, CPU) of those done.
+        let current = RefCell::new(("ordering", begin));
+        let done: RefCell<Vec<(&str, f64, f64)>> = RefCell::default();
+        let enter = |phase: &'static str| {
+            let mut current = current.borrow_mut();
+            let (wall, cpu) = now(start);
+            let mut done = done.borrow_mut();
+            let entry = match done.iter().position(|(known, _, _)| *known == current.0) {
+                Some(index) => &mut done[index],
+                None => {
+                    done.push((current.0, 0.0, 0.0));
+                    done.last_mut().expect("just pushed")
                 }
-                *last = (phase.to_owned(), (wall, cpu));
-            }
-            share <= 1.0
+            };
+            entry.1 += wall - current.1.0;
+            entry.2 += cpu - current.1.1;
+            *current = (phase, (wall, cpu));
         };
-        let wheel = reduce(&sector, &ReductionOptions::new(MODES), &NoCheckpoints, &watch).unwrap();
+        let watch = |_: f64, text: &str| {
+            if let Some(phase) = PHASES.iter().find(|phase| text.contains(**phase)) {
+                enter(phase);
+            }
+            true
+        };
+        let wheel =
+            reduce(&sector, &ReductionOptions::new(MODES), &NoCheckpoints, &watch).expect("a sound sector");
+        enter("");
         let end = now(start);
         let (wall, cpu) = (end.0 - begin.0, end.1 - begin.1);
-        println!(
-            "  {:7.2} s wall {:7.2} s CPU  {}",
-            end.0 - last.borrow().1.0,
-            end.1 - last.borrow().1.1,
-            last.borrow().0
-        );
-        println!("{name}: {wall:.1} s wall, {cpu:.1} s CPU, peak {:.0} MB", memory("VmHWM"));
+        let mut proper = cpu;
+        for (phase, wall, cpu) in done.borrow().iter() {
+            println!("  {wall:7.2} s wall {cpu:7.2} s CPU  {phase}");
+            if CHECKS.contains(phase) {
+                proper -= cpu;
+            }
+        }
         let residual = wheel.harmonics.iter().fold(0.0f64, |m, h| m.max(h.largest_mode_residual()));
         let difference =
             wheel.comparison.iter().filter_map(|c| c.largest_difference()).fold(0.0f64, |m, d| m.max(d.0));
-        println!("  largest residual {residual:.1e}, largest difference of ten frequencies {difference:.2e}");
+        println!(
+            "{name}: {wall:.1} s wall, {cpu:.1} s CPU, of it {proper:.1} s without the checks, peak {:.0} MB",
+            memory("VmHWM")
+        );
+        println!("  largest residual {residual:.1e}, largest difference of ten frequencies {difference:.1e}");
         if asked("plain") {
             let begin = now(start);
             for harmonic in 0..wheel.harmonics.len() {
@@ -92,7 +133,11 @@ fn main() {
                 );
             }
             let plain = now(start).1 - begin.1;
-            println!("{name}: plain {plain:.1} s CPU, {:.1} times as much", plain / cpu);
+            println!(
+                "{name}: plain {plain:.1} s CPU, {:.1} times as much; {:.1} times without the checks it does not make",
+                plain / cpu,
+                plain / proper
+            );
         }
     }
 }

@@ -132,6 +132,19 @@ fn impellers_assembled_or_not() {
     }
 }
 
+/// Every bit of a reduction is the same on any number of threads.
+#[test]
+fn threads_change_nothing() {
+    let sector = to_sector(impeller(5)).unwrap();
+    let bytes = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let reduced = pool
+            .install(|| reduce(&sector, &ReductionOptions::new(8), &NoCheckpoints, &|_, _| true).unwrap());
+        serde_json::to_string(&reduced).unwrap()
+    };
+    assert!(bytes(1) == bytes(3));
+}
+
 /// The baseline of the benchmark computes what it is compared with.
 #[test]
 fn the_benchmark_baseline_agrees() {

@@ -158,13 +158,13 @@ pub fn reduce(
     if !watch(0.0, "reduction: ordering") {
         return Err(ReductionError::Cancelled);
     }
-    check_mass(sector, harmonics)?;
     let matrices: Vec<_> = std::iter::once(&sector.mass).chain(&sector.stiffness).collect();
     let untied = UntiedSector::new(sector, &matrices);
     let needed_bytes = memory::needed_bytes(sector, &untied, options.modes_per_speed, harmonics);
     if let Some(allowed_bytes) = options.memory_bytes.filter(|&allowed| needed_bytes > allowed) {
         return Err(ReductionError::Memory { needed_bytes, allowed_bytes });
     }
+    check_mass(sector, harmonics)?;
     let mass = untied.assemble(&[(1.0, &sector.mass)]);
     let modes_per_speed = options.modes_per_speed.min(untied.internal());
     let work = Work { sector, untied: &untied, mass: &mass, modes_per_speed, harmonics, checkpoints };
