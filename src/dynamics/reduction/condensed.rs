@@ -10,22 +10,15 @@
 //! Only the sum of both faces' own blocks enters S, so it does not matter which of them carries it, nor that neither
 //! is definite on its own.
 
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::cholesky::llt::factor::{cholesky_in_place, cholesky_in_place_scratch};
-use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
 use faer::prelude::ReborrowMut;
 use faer::sparse::SparseColMat;
-use faer::traits::ComplexField;
-use faer::{Mat, MatMut, MatRef, Par, c64};
+use faer::{Mat, MatMut, MatRef, c64};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
+use super::tied::{NotPositiveDefinite, TiedFactor, cholesky, tied_schur};
 use super::untied::{Tie, UntiedSector};
 use crate::numerics::multifrontal::PartialFactor;
 use crate::numerics::sparse_product::symmetric_product;
-
-/// Why a stiffness has no factor.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct NotPositiveDefinite;
 
 /// The factor of the untied sector's interior at one stiffness.
 pub(super) struct SectorFactor<'a> {
@@ -33,15 +26,6 @@ pub(super) struct SectorFactor<'a> {
     factor: PartialFactor<'a>,
     /// D^−½
     scale: Vec<f64>,
-}
-
-/// L_S of one nodal diameter: low face first, contact DOF last.
-pub(super) struct TiedFactor {
-    pub(super) tie: Tie,
-    /// Lower triangle, (face + contact)².
-    lower: Mat<c64>,
-    /// Whether the contact DOF may be free: the stiffness is positive definite with them too.
-    pub(super) free: bool,
 }
 
 /// Vectors of one nodal diameter on their way through the sparse factor.
@@ -69,27 +53,13 @@ impl<'a> SectorFactor<'a> {
         Ok(Self { untied, factor, scale })
     }
 
-    /// Factors S(i). Fails where the stiffness with fixed contact DOF is not positive definite.
+    /// What nodal diameter `harmonic` adds. Fails where the stiffness with fixed contact DOF is not positive definite.
     pub(super) fn tie(
         &self,
         stiffness: &SparseColMat<usize, f64>,
         harmonic: usize,
     ) -> Result<TiedFactor, NotPositiveDefinite> {
-        let tie = self.untied.tie(harmonic);
-        let mut lower = tied_schur(self.untied, &self.factor, &[(1.0, stiffness)], &tie);
-        let f = self.untied.face();
-        let (mut face, _, mut coupling, mut contact) = lower.as_mut().split_at_mut(f, f);
-        cholesky(face.rb_mut(), &tie)?;
-        // L_bf = S_bf L_ff⁻ᴴ
-        solve_lower_triangular_in_place(
-            face.as_ref().conjugate(),
-            coupling.rb_mut().transpose_mut(),
-            Par::Seq,
-        );
-        let update = &coupling * coupling.as_ref().adjoint();
-        contact -= &update;
-        let free = cholesky(contact.rb_mut(), &tie).is_ok();
-        Ok(TiedFactor { tie, lower, free })
+        TiedFactor::new(self.untied, &self.factor, stiffness, self.untied.tie(harmonic))
     }
 
     /// x ← L̂⁻ᴴ y for every load.
@@ -153,14 +123,8 @@ impl<'a> SectorFactor<'a> {
 
     /// Ψ_s = −K̂_ii⁻¹ K̂_ib of one nodal diameter, `n_i × n_b`.
     pub(super) fn static_modes(&self, tied: &TiedFactor) -> Mat<c64> {
-        let (f, b) = (self.untied.face(), self.untied.contact());
-        let interior = self.untied.interior();
-        // Contact DOF at unit displacement, the face in equilibrium: S_ff x_f = −S_fb = −L_ff L_bfᴴ.
-        let mut vectors = Mat::zeros(interior + f + b, b);
-        vectors.subrows_mut(interior + f, b).diagonal_mut().fill(c64::new(1.0, 0.0));
-        let mut face = vectors.subrows_mut(interior, f);
-        face.copy_from(tied.lower.submatrix(f, 0, b, f).adjoint() * faer::Scale(c64::new(-1.0, 0.0)));
-        solve_upper_triangular_in_place(tied.lower.submatrix(0, 0, f, f).adjoint(), face, Par::Seq);
+        let (interior, f, b) = (self.untied.interior(), self.untied.face(), self.untied.contact());
+        let vectors = tied.at_unit_contact(interior);
         let columns: Vec<Mat<c64>> = (0..b)
             .step_by(GROUP / 2)
             .map(|first| vectors.subcols(first, (GROUP / 2).min(b - first)).to_owned())
@@ -247,57 +211,6 @@ impl<'a> SectorFactor<'a> {
     }
 }
 
-impl TiedFactor {
-    /// x_F ← L_S⁻¹ x_F, with as many boundary rows as `x` has below row `interior`.
-    fn solve(&self, x: MatMut<'_, c64>, interior: usize) {
-        let rows = x.nrows() - interior;
-        let lower = self.lower.submatrix(0, 0, rows, rows);
-        solve_lower_triangular_in_place(lower, x.subrows_mut(interior, rows), Par::Seq);
-    }
-
-    /// x_F ← L_S⁻ᴴ x_F.
-    fn solve_adjoint(&self, x: MatMut<'_, c64>, interior: usize) {
-        let rows = x.nrows() - interior;
-        let lower = self.lower.submatrix(0, 0, rows, rows);
-        solve_upper_triangular_in_place(lower.adjoint(), x.subrows_mut(interior, rows), Par::Seq);
-    }
-}
-
-/// S(i) = Tᴴ (A_FF − A_FI A_II⁻¹ A_IF) T over (face, contact), both triangles, for A = Σ factor · matrix, the sum `factor`
-/// was made from.
-pub(super) fn tied_schur(
-    untied: &UntiedSector,
-    factor: &PartialFactor<'_>,
-    terms: &[(f64, &SparseColMat<usize, f64>)],
-    tie: &Tie,
-) -> Mat<c64> {
-    let rows = untied.boundary(tie);
-    let size = untied.face() + untied.contact();
-    let interior = untied.interior();
-    let mut schur = Mat::zeros(size, size);
-    let mut add = |p: usize, q: usize, value: f64| {
-        let ((row, left), (column, right)) = (rows[p], rows[q]);
-        schur[(row, column)] += left.conj() * right * value;
-    };
-    for q in 0..rows.len() {
-        let column = interior + q;
-        for (scale, matrix) in terms {
-            for (row, &value) in matrix.row_idx_of_col(column).zip(matrix.val_of_col(column)) {
-                if row >= interior {
-                    add(row - interior, q, scale * value);
-                }
-            }
-        }
-        let eliminated = factor.schur().col(q);
-        add(q, q, eliminated[q]);
-        for p in q + 1..rows.len() {
-            add(p, q, eliminated[p]);
-            add(q, p, eliminated[p]);
-        }
-    }
-    schur
-}
-
 /// The interior rows of a panel as tied vectors.
 fn interior_of(tie: &Tie, panel: MatRef<'_, f64>, interior: usize) -> Mat<c64> {
     let single = UntiedSector::width(tie, 1) == 1;
@@ -305,33 +218,4 @@ fn interior_of(tie: &Tie, panel: MatRef<'_, f64>, interior: usize) -> Mat<c64> {
     Mat::from_fn(interior, count, |row, q| {
         c64::new(panel[(q, row)], if single { 0.0 } else { panel[(count + q, row)] })
     })
-}
-
-/// Lower Cholesky factor in place; in real arithmetic, four times cheaper, where the nodal diameter is real.
-fn cholesky(mut matrix: MatMut<'_, c64>, tie: &Tie) -> Result<(), NotPositiveDefinite> {
-    if UntiedSector::width(tie, 1) == 2 {
-        return cholesky_of(matrix);
-    }
-    let mut real = Mat::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)].re);
-    cholesky_of(real.as_mut())?;
-    for j in 0..matrix.ncols() {
-        for i in j..matrix.nrows() {
-            matrix[(i, j)] = c64::new(real[(i, j)], 0.0);
-        }
-    }
-    Ok(())
-}
-
-fn cholesky_of<T: ComplexField>(matrix: MatMut<'_, T>) -> Result<(), NotPositiveDefinite> {
-    let scratch = cholesky_in_place_scratch::<T>(matrix.nrows(), Par::Seq, faer::prelude::default());
-    let stack = &mut MemBuffer::new(scratch);
-    cholesky_in_place(
-        matrix,
-        faer::prelude::default(),
-        Par::Seq,
-        MemStack::new(stack),
-        faer::prelude::default(),
-    )
-    .map(|_| ())
-    .map_err(|_| NotPositiveDefinite)
 }

@@ -10,8 +10,8 @@ use faer::{Mat, MatRef, Side};
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use serde::{Deserialize, Serialize};
 
-use super::condensed::tied_schur;
 use super::modes::Modes;
+use super::tied::tied_schur;
 use super::untied::{Tie, UntiedSector};
 use crate::numerics::multifrontal::PartialFactor;
 

@@ -8,6 +8,7 @@
 //!        [ Ψ_s(0)  Ψ* ]
 //! ```
 
+mod assembly;
 mod basis;
 mod checkpoints;
 mod comparison;
@@ -17,6 +18,7 @@ mod interpolation;
 mod memory;
 mod modes;
 mod speed;
+mod tied;
 mod untied;
 
 use faer::sparse::SparseColMat;

@@ -8,7 +8,8 @@ use faer::{Mat, MatRef, c64};
 use rayon::iter::{IntoParallelRefMutIterator, ParallelIterator};
 use serde::{Deserialize, Serialize};
 
-use super::condensed::{Load, SectorFactor, TiedFactor};
+use super::condensed::{Load, SectorFactor};
+use super::tied::TiedFactor;
 use super::untied::{Tie, UntiedSector};
 use crate::numerics::block_lanczos::{BlockLanczos, Ritz};
 use crate::numerics::hermitian::generalised_eigenpairs;

@@ -7,9 +7,10 @@ use faer::sparse::SparseColMat;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
-use super::condensed::{SectorFactor, TiedFactor};
+use super::condensed::SectorFactor;
 use super::count::{ModeCount, count_modes};
 use super::modes::{ModeError, Modes, Pencil, Wanted};
+use super::tied::TiedFactor;
 use super::untied::UntiedSector;
 use super::{Checkpoints, ReductionError, Watch};
 use crate::dynamics::centrifugal::stiffness_terms;
