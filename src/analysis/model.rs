@@ -6,11 +6,13 @@ use serde::{Deserialize, Serialize};
 
 use super::error::AnalysisError;
 use super::monitor::Monitor;
-use super::result::{FrequencyDifference, ReductionReport, StiffeningReport, StiffeningVerdict};
+use super::result::{
+    FrequencyDifference, LargestDifference, ReductionReport, StiffeningReport, StiffeningVerdict,
+};
 use super::run::VERSION;
 use crate::dynamics::reduction::{
-    Checkpoints, InterpolationCheck, InterpolationVerdict, ReducedWheel, ReductionError, ReductionOptions,
-    reduce,
+    Checkpoints, Completeness, InterpolationCheck, InterpolationVerdict, ReducedWheel, ReductionError,
+    ReductionOptions, reduce,
 };
 use crate::dynamics::sector::{SectorModel, Units};
 use crate::numerics::sector_fourier::is_single;
@@ -105,6 +107,13 @@ fn report(
             .harmonics
             .iter()
             .flat_map(|h| &h.certificates)
+            .filter(|certificate| certificate.completeness != Completeness::Unproven)
+            .map(|certificate| certificate.eigenvalues.len() as u32)
+            .sum(),
+        modes: wheel
+            .harmonics
+            .iter()
+            .flat_map(|h| &h.certificates)
             .map(|certificate| certificate.eigenvalues.len() as u32)
             .sum(),
         full_model: frequency_differences(wheel),
@@ -125,16 +134,18 @@ fn frequency_differences(wheel: &ReducedWheel) -> Vec<FrequencyDifference> {
         let worst = here()
             .filter_map(|c| c.largest_difference().map(|(difference, mode)| (difference, mode, c)))
             .max_by(|a, b| a.0.total_cmp(&b.0));
-        worst.map(|(largest_difference, mode, comparison)| FrequencyDifference {
+        FrequencyDifference {
             speed_rad_s,
-            largest_difference,
-            nodal_diameter: comparison.harmonic as u32,
-            mode: mode as u32 + 1,
-            full_hz: comparison.full[mode] / std::f64::consts::TAU,
+            largest: worst.map(|(relative, mode, comparison)| LargestDifference {
+                relative,
+                nodal_diameter: comparison.harmonic as u32,
+                mode: mode as u32 + 1,
+                full_hz: comparison.full[mode] / std::f64::consts::TAU,
+            }),
             indefinite: here().filter(|c| c.full.is_empty()).map(|c| c.harmonic as u32).collect(),
-        })
+        }
     };
-    speeds.into_iter().filter_map(at).collect()
+    speeds.into_iter().map(at).collect()
 }
 
 fn stiffening_report(check: &InterpolationCheck, sector: &SectorModel) -> StiffeningReport {

@@ -252,19 +252,26 @@ pub struct StiffeningReport {
     pub message: String,
 }
 
-/// The largest difference between the lowest frequencies of the reduced and of the full sector at one speed.
+/// The largest difference between a frequency of the reduced and of the full sector.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
-pub struct FrequencyDifference {
-    /// Ω, rad/s.
-    pub speed_rad_s: f64,
-    /// |reduced/full − 1| where it is largest.
-    pub largest_difference: f64,
+pub struct LargestDifference {
+    /// |reduced/full − 1|.
+    pub relative: f64,
     /// Nodal diameter it occurs in.
     pub nodal_diameter: u32,
     /// Mode it occurs in, counted from 1.
     pub mode: u32,
     /// Frequency of that mode in the full sector, Hz.
     pub full_hz: f64,
+}
+
+/// The lowest frequencies of the reduced sector beside the full sector's at one speed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct FrequencyDifference {
+    /// Ω, rad/s.
+    pub speed_rad_s: f64,
+    /// Where they differ most; null where every nodal diameter is left out.
+    pub largest: Option<LargestDifference>,
     /// Nodal diameters left out because the full sector's stiffness is not positive definite at this speed.
     pub indefinite: Vec<u32>,
 }
@@ -280,8 +287,10 @@ pub struct ReductionReport {
     pub wheel_unknowns: u32,
     /// Largest relative residual ‖Kx − λMx‖/‖Kx‖ over all fixed-interface modes.
     pub largest_mode_residual: f64,
-    /// Fixed-interface modes over all nodal diameters and speeds, every one proven to be among the lowest by a count
-    /// of eigenvalues (Sylvester's law of inertia).
+    /// Fixed-interface modes over all nodal diameters and speeds.
+    pub modes: u32,
+    /// How many of them are proven to be the lowest, none missed, by a count of eigenvalues (Sylvester's law of
+    /// inertia) or because they are all there are. Fewer than `modes` only where round-off leaves no shift to count at.
     pub counted_modes: u32,
     /// The reduced model's ten lowest frequencies per nodal diameter beside the full sector's, at the given speeds
     /// and between them.

@@ -62,7 +62,7 @@ fn map() -> InteractionMap {
 }
 
 fn reduction() -> serde_json::Value {
-    json!({"modes_per_speed": 1, "unknowns": [1], "wheel_unknowns": 1, "largest_mode_residual": 0.0, "counted_modes": 1, "full_model": [],
+    json!({"modes_per_speed": 1, "unknowns": [1], "wheel_unknowns": 1, "largest_mode_residual": 0.0, "modes": 1, "counted_modes": 1, "full_model": [],
         "basis_tolerance": 1e-5, "stiffening": {"verdict": "sound", "linear_ratio": 0.0, "quadratic_ratio": 0.0,
             "frequency_error": 0.0, "message": ""}, "wall_time_s": 0.0, "version": "0"})
 }

@@ -32,7 +32,7 @@ impl UntiedSector {
 
     /// Entries of all `matrices` by column, then row: column starts, rows, values; `value` of an entry of a matrix,
     /// and `add` for entries that fall together.
-    fn gather<T: Copy + Send + Sync>(
+    fn gather<T: Copy + Default + Send + Sync>(
         &self,
         matrices: &[&CyclicMatrix],
         value: impl Fn(usize, f64) -> T,
@@ -44,14 +44,13 @@ impl UntiedSector {
             ends[column + 1] += ends[column];
         }
         let starts = ends.clone();
-        let mut entries: Vec<Option<(u32, T)>> = vec![None; starts[self.size()]];
+        let mut entries = vec![(0u32, T::default()); starts[self.size()]];
         self.visit(matrices, |row, column, matrix, number| {
-            entries[ends[column]] = Some((row as u32, value(matrix, number)));
+            entries[ends[column]] = (row as u32, value(matrix, number));
             ends[column] += 1;
         });
         let column = |column: usize| {
-            let mut found: Vec<(u32, T)> =
-                entries[starts[column]..starts[column + 1]].iter().copied().flatten().collect();
+            let mut found = entries[starts[column]..starts[column + 1]].to_vec();
             found.sort_by_key(|&(row, _)| row);
             found.dedup_by(|next, kept| {
                 let same = next.0 == kept.0;

@@ -10,7 +10,7 @@ use faer::{Mat, MatRef, Side};
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use serde::{Deserialize, Serialize};
 
-use super::modes::Modes;
+use super::modes::{LOCATED, Modes};
 use super::tied::tied_schur;
 use super::untied::{Tie, UntiedSector};
 use crate::numerics::multifrontal::PartialFactor;
@@ -20,23 +20,35 @@ use crate::numerics::multifrontal::PartialFactor;
 pub struct ModeCount {
     /// σ, (rad/s)².
     pub shift: f64,
-    /// How many lie below it, by inertia.
+    /// How many lie below it, by inertia; as many were found.
     pub below: usize,
-    /// How many were found below it.
-    pub found: usize,
 }
 
-/// Why modes could not be counted.
+/// Whether the modes kept are known to be the lowest, none missed.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub enum Completeness {
+    /// They are all the modes there are.
+    Whole,
+    /// As many eigenvalues lie below a shift as were found.
+    Counted(ModeCount),
+    /// No shift could be found at which inertia tells.
+    Unproven,
+}
+
+/// What a count says about one nodal diameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Uncountable {
-    pub(super) harmonic: usize,
+pub(super) enum Verdict {
+    Complete(ModeCount),
+    /// The count differs from what was found.
+    Missed,
+    Uncountable,
 }
 
-/// Smallest relative distance of a shift from an eigenvalue: closer, and round-off could decide on which side it is.
+/// Smallest relative distance of a shift from a wanted eigenvalue; from one that is only located, twice what its
+/// place is known to.
 const MARGIN: f64 = 1e-6;
-/// Largest growth of a factorisation without pivoting, relative to the largest entry: it leaves six digits, and the
-/// margin asks for no more.
-const GROWTH: f64 = 1e10;
+/// Factorisations that may break down or grow before the rest stays uncounted.
+const MOST_FAILURES: usize = 3;
 
 /// Counts the eigenvalues of every nodal diameter in `found` below a shift that lies above its modes, with fixed
 /// contact DOF.
@@ -45,40 +57,57 @@ pub(super) fn count_modes(
     stiffness: &SparseColMat<usize, f64>,
     mass: &SparseColMat<usize, f64>,
     found: &[(Tie, &Modes)],
-) -> Result<Vec<ModeCount>, Uncountable> {
+) -> Vec<Verdict> {
     let ladders: Vec<Ladder> = found.iter().map(|(_, modes)| Ladder::new(modes)).collect();
-    let mut counts: Vec<Option<ModeCount>> = vec![None; found.len()];
-    while let Some(first) = counts.iter().position(Option::is_none) {
-        let harmonic = found[first].0.harmonic;
-        let waiting: Vec<usize> = (0..found.len()).filter(|&i| counts[i].is_none()).collect();
-        let shift = best_shift(&ladders, &waiting).ok_or(Uncountable { harmonic })?;
+    let mut verdicts: Vec<Option<Verdict>> = vec![None; found.len()];
+    let mut failed: Vec<f64> = Vec::new();
+    while failed.len() < MOST_FAILURES {
+        let waiting: Vec<usize> = (0..found.len()).filter(|&i| verdicts[i].is_none()).collect();
+        let Some(shift) = best_shift(&ladders, &waiting, &failed) else { break };
         let terms = [(1.0, stiffness), (-shift, mass)];
-        let factor = PartialFactor::new(&untied.analysis, &terms).map_err(|_| Uncountable { harmonic })?;
-        let scale =
-            |matrix: &SparseColMat<usize, f64>| matrix.val().iter().fold(0.0f64, |m, v| m.max(v.abs()));
-        if factor.growth() > GROWTH * (scale(stiffness) + shift * scale(mass)) {
-            return Err(Uncountable { harmonic });
-        }
         let served: Vec<(usize, usize)> =
-            waiting.iter().filter_map(|&i| ladders[i].below(shift).map(|found| (i, found))).collect();
-        let counted: Vec<(usize, ModeCount)> = served
+            waiting.iter().filter_map(|&i| ladders[i].below(shift).map(|below| (i, below))).collect();
+        let Some(factor) = PartialFactor::new(&untied.analysis, &terms).ok().filter(|factor| {
+            // Round-off moves an eigenvalue by xᴴEx, ‖E‖ a few times ε times the growth.
+            let error = 16.0 * f64::EPSILON * factor.growth();
+            served.iter().all(|&(i, _)| error * largest_square(found[i].1) < ladders[i].distance(shift))
+        }) else {
+            failed.push(shift);
+            continue;
+        };
+        let counted: Vec<(usize, Verdict)> = served
             .par_iter()
             .map(|&(i, expected)| {
-                let schur = tied_schur(untied, &factor, &terms, &found[i].0);
-                let face = schur.submatrix(0, 0, untied.face(), untied.face());
-                let negative = if UntiedSector::width(&found[i].0, 1) == 1 {
-                    let real = Mat::from_fn(face.nrows(), face.ncols(), |i, j| face[(i, j)].re);
-                    negative_eigenvalues(real.as_ref())
-                } else {
-                    negative_eigenvalues(face)
-                };
-                let below = factor.negative_pivots() + negative;
-                (i, ModeCount { shift, below, found: expected })
+                let below = factor.negative_pivots() + negative_on_face(untied, &factor, &terms, &found[i].0);
+                let complete = below == expected;
+                (i, if complete { Verdict::Complete(ModeCount { shift, below }) } else { Verdict::Missed })
             })
             .collect();
-        counted.into_iter().for_each(|(i, count)| counts[i] = Some(count));
+        counted.into_iter().for_each(|(i, verdict)| verdicts[i] = Some(verdict));
     }
-    Ok(counts.into_iter().flatten().collect())
+    verdicts.into_iter().map(|verdict| verdict.unwrap_or(Verdict::Uncountable)).collect()
+}
+
+/// Negative eigenvalues of the face's Schur complement.
+fn negative_on_face(
+    untied: &UntiedSector,
+    factor: &PartialFactor<'_>,
+    terms: &[(f64, &SparseColMat<usize, f64>)],
+    tie: &Tie,
+) -> usize {
+    let schur = tied_schur(untied, factor, terms, tie);
+    let face = schur.submatrix(0, 0, untied.face(), untied.face());
+    if UntiedSector::width(tie, 1) == 1 {
+        let real = Mat::from_fn(face.nrows(), face.ncols(), |i, j| face[(i, j)].re);
+        negative_eigenvalues(real.as_ref())
+    } else {
+        negative_eigenvalues(face)
+    }
+}
+
+/// Largest ‖x‖² of the mass-normalised modes.
+fn largest_square(modes: &Modes) -> f64 {
+    modes.vectors.col_iter().map(|x| x.squared_norm_l2()).fold(0.0, f64::max)
 }
 
 /// The eigenvalues known of one nodal diameter.
@@ -98,9 +127,16 @@ impl Ladder {
     /// Known eigenvalues below `shift`, if it lies clear of them, above the wanted ones and below the last.
     fn below(&self, shift: f64) -> Option<usize> {
         let below = self.values.partition_point(|&value| value < shift);
-        let clear =
-            |index: usize| self.values.get(index).is_some_and(|value| (value - shift).abs() > MARGIN * shift);
+        let clear = |index: usize| {
+            let margin = if index < self.wanted { MARGIN } else { 2.0 * LOCATED };
+            self.values.get(index).is_some_and(|value| (value - shift).abs() > margin * shift)
+        };
         (below >= self.wanted && below > 0 && clear(below - 1) && clear(below)).then_some(below)
+    }
+
+    /// From `shift` to the nearest known eigenvalue.
+    fn distance(&self, shift: f64) -> f64 {
+        self.values.iter().map(|value| (value - shift).abs()).fold(f64::INFINITY, f64::min)
     }
 
     /// Middles of the gaps a shift may lie in.
@@ -109,18 +145,16 @@ impl Ladder {
     }
 }
 
-/// The shift that serves most of the ladders that wait; of those, the one farthest from all their eigenvalues.
-fn best_shift(ladders: &[Ladder], waiting: &[usize]) -> Option<f64> {
-    let candidates = waiting.iter().flat_map(|&i| ladders[i].shifts());
+/// The shift that serves most of the ladders that wait, none of `failed`; of those, the one farthest from all their
+/// eigenvalues.
+fn best_shift(ladders: &[Ladder], waiting: &[usize], failed: &[f64]) -> Option<f64> {
+    let candidates =
+        waiting.iter().flat_map(|&i| ladders[i].shifts()).filter(|shift| !failed.contains(shift));
     let rated = candidates.map(|shift| {
         let served: Vec<&Ladder> =
             waiting.iter().map(|&i| &ladders[i]).filter(|ladder| ladder.below(shift).is_some()).collect();
-        let nearest = served
-            .iter()
-            .flat_map(|ladder| &ladder.values)
-            .map(|value| (value / shift - 1.0).abs())
-            .fold(f64::INFINITY, f64::min);
-        (served.len(), nearest, shift)
+        let nearest = served.iter().map(|ladder| ladder.distance(shift)).fold(f64::INFINITY, f64::min);
+        (served.len(), nearest / shift, shift)
     });
     rated
         .filter(|&(served, _, _)| served > 0)
@@ -182,14 +216,15 @@ mod tests {
         let ladder = |values: &[f64], wanted| Ladder { values: values.to_vec(), wanted };
         let ladders =
             [ladder(&[1.0, 2.0, 4.0, 7.0], 2), ladder(&[1.5, 3.9, 8.0], 1), ladder(&[10.0, 20.0, 30.0], 2)];
-        let shift = best_shift(&ladders, &[0, 1, 2]).unwrap();
+        let shift = best_shift(&ladders, &[0, 1, 2], &[]).unwrap();
         assert!(
             shift > 2.0
                 && shift < 8.0
                 && ladders[0].below(shift).is_some()
                 && ladders[1].below(shift).is_some()
         );
-        assert_eq!(best_shift(&ladders, &[2]), Some(25.0));
-        assert_eq!(best_shift(&[ladder(&[1.0, 2.0], 2)], &[0]), None);
+        assert_eq!(best_shift(&ladders, &[2], &[]), Some(25.0));
+        assert_eq!(best_shift(&ladders, &[2], &[25.0]), None);
+        assert_eq!(best_shift(&[ladder(&[1.0, 2.0], 2)], &[0], &[]), None);
     }
 }

@@ -2,13 +2,13 @@
 
 use super::speed::{COMPARED, TOGETHER};
 use super::untied::UntiedSector;
-use crate::dynamics::sector::SectorModel;
+use crate::dynamics::sector::{CyclicMatrix, SectorModel};
 
 /// Krylov vectors per mode asked for, seen over many sectors, with a margin.
 const KRYLOV_VECTORS_PER_MODE: usize = 8;
 
-/// Bytes held at once by the sector's own matrices and its reduction, at most. An estimate from the symbolic
-/// factorisation: within some ten per cent of what is used.
+/// Bytes held at once by the sector's own matrices and its reduction, from the symbolic factorisation. An estimate:
+/// searches that converge slowly need more.
 pub(super) fn needed_bytes(
     sector: &SectorModel,
     untied: &UntiedSector,
@@ -19,20 +19,20 @@ pub(super) fn needed_bytes(
     const COMPLEX: usize = 2 * REAL;
     // A value and a row.
     const ENTRY: usize = 2 * REAL;
-    let entries = |matrix: &crate::dynamics::sector::CyclicMatrix| {
-        matrix.own.compute_nnz() + 2 * matrix.next.compute_nnz()
-    };
-    let mass = entries(&sector.mass);
-    let stiffness = sector.stiffness.iter().map(entries).max().unwrap_or(0);
-    let given = ENTRY * (mass + sector.stiffness.iter().map(entries).sum::<usize>());
-    // Untied M and K, and another K while it is put together.
-    let matrices = ENTRY * (mass + 2 * stiffness);
+    let entries = |matrix: &CyclicMatrix| matrix.own.compute_nnz() + 2 * matrix.next.compute_nnz();
+    let (mass, stiffness) = (entries(&sector.mass), entries(&sector.stiffness[0]));
+    let speeds = sector.stiffness.len();
+    let given = ENTRY * (mass + speeds * stiffness);
+    // Between the given speeds all of K(Ω)'s matrices meet: their entries, sorted columns, the sum.
+    let assembly = ENTRY * (2 * speeds + 1) * stiffness;
     let factor = REAL * (untied.analysis.factor_entries() + untied.analysis.working_entries());
     let boundary = untied.face() + untied.contact();
     let tied = COMPLEX * boundary * boundary * harmonics;
-    let together = harmonics.min(TOGETHER);
     let rows = untied.internal() + untied.contact();
-    let krylov = COMPLEX * rows * together * KRYLOV_VECTORS_PER_MODE * modes_per_speed.max(COMPARED);
-    let kept = COMPLEX * rows * harmonics * (sector.stiffness.len() * modes_per_speed + untied.contact());
-    (given + matrices + factor + tied + krylov + kept) as u64
+    let krylov_vectors = KRYLOV_VECTORS_PER_MODE * modes_per_speed.max(COMPARED);
+    let krylov = COMPLEX * rows * harmonics.min(TOGETHER) * krylov_vectors;
+    // Modes at every speed and static modes; while they are projected, the bases made of them too.
+    let kept = COMPLEX * rows * harmonics * (speeds * modes_per_speed + untied.contact());
+    let search = ENTRY * stiffness + factor + tied + krylov;
+    (given + ENTRY * mass + kept + assembly.max(search).max(kept + ENTRY * stiffness)) as u64
 }

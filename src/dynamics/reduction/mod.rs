@@ -38,7 +38,7 @@ use untied::UntiedSector;
 
 pub use checkpoints::{Checkpoints, NoCheckpoints};
 pub use comparison::FrequencyComparison;
-pub use count::ModeCount;
+pub use count::{Completeness, ModeCount};
 pub use interpolation::{InterpolationCheck, InterpolationVerdict};
 
 /// Settings of the reduction.
@@ -85,8 +85,8 @@ pub struct ModeCertificate {
     pub eigenvalues: Vec<f64>,
     /// ‖Kx − λMx‖/‖Kx‖ of each.
     pub residuals: Vec<f64>,
-    /// The count of eigenvalues below a shift above them; none where they are all there are.
-    pub count: Option<ModeCount>,
+    /// Whether they are known to be the lowest.
+    pub completeness: Completeness,
 }
 
 impl ReducedHarmonic {
@@ -162,13 +162,13 @@ pub fn reduce(
     }
     let matrices: Vec<_> = std::iter::once(&sector.mass).chain(&sector.stiffness).collect();
     let untied = UntiedSector::new(sector, &matrices);
-    let needed_bytes = memory::needed_bytes(sector, &untied, options.modes_per_speed, harmonics);
+    let modes_per_speed = options.modes_per_speed.min(untied.internal());
+    let needed_bytes = memory::needed_bytes(sector, &untied, modes_per_speed, harmonics);
     if let Some(allowed_bytes) = options.memory_bytes.filter(|&allowed| needed_bytes > allowed) {
         return Err(ReductionError::Memory { needed_bytes, allowed_bytes });
     }
     check_mass(sector, harmonics)?;
     let mass = untied.assemble(&[(1.0, &sector.mass)]);
-    let modes_per_speed = options.modes_per_speed.min(untied.internal());
     let work = Work { sector, untied: &untied, mass: &mass, modes_per_speed, harmonics, checkpoints };
 
     let given = sector.speeds_rad_s.len() as f64;
@@ -227,7 +227,7 @@ fn project(
     let bases: Vec<Basis<'_>> = (0..work.harmonics)
         .map(|h| {
             let modes: Vec<&Mat<c64>> = parts.iter().map(|part| &part.harmonics[h].modes.vectors).collect();
-            let static_modes = &parts[0].harmonics[h].static_modes[0];
+            let static_modes = parts[0].harmonics[h].static_modes();
             Basis::new(
                 work.untied,
                 work.mass,
@@ -261,7 +261,7 @@ fn project(
             speed_rad_s,
             eigenvalues: part.harmonics[h].modes.values.clone(),
             residuals: part.harmonics[h].modes.residuals.clone(),
-            count: part.counts[h],
+            completeness: part.completeness[h],
         };
         let reduced = ReducedHarmonic {
             harmonic: h,

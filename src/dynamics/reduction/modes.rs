@@ -58,7 +58,7 @@ pub(super) enum ModeError {
 }
 
 /// An eigenvalue is located, for counting, once its Ritz pair has this error.
-const LOCATED: f64 = 1e-4;
+pub(super) const LOCATED: f64 = 1e-4;
 /// Block steps before giving up, or enough for eight times the modes asked for.
 const MAX_BLOCK_STEPS: usize = 200;
 /// Spaces up to this size are solved densely: the Krylov space would be most of the whole.
@@ -79,6 +79,8 @@ struct Search<'a> {
     lanczos: BlockLanczos,
     ritz: Option<Ritz>,
     last_error: f64,
+    /// Size of the basis at which its Ritz pairs are looked at next.
+    next_look: usize,
 }
 
 impl Pencil<'_> {
@@ -101,6 +103,7 @@ impl Pencil<'_> {
             lanczos: BlockLanczos::new(rows, wanted.block),
             ritz: None,
             last_error: f64::INFINITY,
+            next_look: 2 * count,
         };
         let mut active: Vec<Search<'_>> = ties.iter().copied().enumerate().map(search).collect();
         let mut found: Vec<Option<Modes>> = vec![None; ties.len()];
@@ -118,7 +121,7 @@ impl Pencil<'_> {
             let images: Vec<Mat<c64>> = loads.into_iter().map(|load| load.vectors).collect();
             let mut pairs: Vec<_> = active.iter_mut().zip(images).collect();
             pairs.par_iter_mut().for_each(|(search, image)| {
-                search.advance(std::mem::replace(image, Mat::new()), count, wanted, step)
+                search.advance(std::mem::replace(image, Mat::new()), count, wanted)
             });
             let mut waiting = Vec::new();
             for mut search in active {
@@ -127,9 +130,7 @@ impl Pencil<'_> {
                     waiting.push(search);
                     continue;
                 };
-                let modes = self.modes(&search, ritz, count, wanted.tolerance)?;
-                let worst =
-                    modes.residuals.iter().fold(0.0f64, |worst, &r| if r <= worst { worst } else { r });
+                let (modes, worst) = self.modes(&search, ritz, count, wanted.tolerance)?;
                 if worst <= wanted.tolerance {
                     found[search.position] = Some(modes);
                 } else if search.lanczos.is_full() {
@@ -153,14 +154,14 @@ impl Pencil<'_> {
         })
     }
 
-    /// Modes from Ritz pairs: x = L̂⁻ᴴ y/√θ.
+    /// Modes from Ritz pairs, x = L̂⁻ᴴ y/√θ, and how far the worst is from being accepted.
     fn modes(
         &self,
         search: &Search<'_>,
         ritz: Ritz,
         count: usize,
         tolerance: f64,
-    ) -> Result<Modes, ModeError> {
+    ) -> Result<(Modes, f64), ModeError> {
         let harmonic = search.tied.tie.harmonic;
         if ritz.values[..count].iter().any(|&theta| theta.is_nan() || theta <= 0.0) {
             return Err(ModeError::Massless { harmonic });
@@ -185,12 +186,12 @@ impl Pencil<'_> {
             }
         }
         let values: Vec<f64> = ritz.values[..count].iter().map(|theta| 1.0 / theta).collect();
-        let residuals = self.residuals(&search.tied.tie, &values, vectors.as_ref(), tolerance);
+        let (residuals, worst) = self.residuals(&search.tied.tie, &values, vectors.as_ref(), tolerance);
         let beyond = (count..ritz.values.len())
             .take_while(|&m| ritz.values[m] > 0.0 && ritz.errors[m] <= LOCATED)
             .map(|m| 1.0 / ritz.values[m])
             .collect();
-        Ok(Modes { values, residuals, vectors, beyond })
+        Ok((Modes { values, residuals, vectors, beyond }, worst))
     }
 
     /// The dense solution, on M x = θ K x like the iteration: the lowest modes are then accurate to round-off even
@@ -207,8 +208,7 @@ impl Pencil<'_> {
         let values: Vec<f64> = (0..count).map(|m| 1.0 / theta(m)).collect();
         let vectors =
             Mat::from_fn(rows, count, |i, m| pairs.vectors[(i, rows - 1 - m)] * (1.0 / theta(m).sqrt()));
-        let residuals = self.residuals(tie, &values, vectors.as_ref(), tolerance);
-        let residual = residuals.iter().fold(0.0f64, |worst, &r| if r <= worst { worst } else { r });
+        let (residuals, residual) = self.residuals(tie, &values, vectors.as_ref(), tolerance);
         if residual > tolerance {
             return Err(ModeError::NotConverged { harmonic, residual, block_steps: 0 });
         }
@@ -217,23 +217,31 @@ impl Pencil<'_> {
         Ok(Modes { values, residuals, vectors, beyond })
     }
 
-    /// ‖Kx − λMx‖/‖Kx‖ of every column. What the round-off of Kx alone may leave, 64 ε ‖|K||x|‖, counts as the
-    /// tolerance and no more: no eigensolver can do better on a stiffness of high contrast.
-    fn residuals(&self, tie: &Tie, values: &[f64], vectors: MatRef<'_, c64>, tolerance: f64) -> Vec<f64> {
+    /// ‖Kx − λMx‖/‖Kx‖ of every column, and the largest measure of acceptance, NaN if any is: the same ratio, but what
+    /// the round-off of Kx alone may leave, 64 ε ‖|K||x|‖, counts as the tolerance and no more, for no eigensolver can
+    /// do better on a stiffness of high contrast.
+    fn residuals(
+        &self,
+        tie: &Tie,
+        values: &[f64],
+        vectors: MatRef<'_, c64>,
+        tolerance: f64,
+    ) -> (Vec<f64>, f64) {
         let kx = self.untied.product(self.stiffness, tie, vectors);
         let mx = self.untied.product(self.mass, tie, vectors);
-        let ratios: Vec<(f64, f64)> = (0..values.len())
+        let norms: Vec<(f64, f64)> = (0..values.len())
             .map(|j| {
                 let terms = kx.col(j).iter().zip(mx.col(j).iter());
                 let residual = terms.map(|(k, m)| (k - m * values[j]).norm_sqr()).sum::<f64>().sqrt();
                 (residual, kx.col(j).norm_l2())
             })
             .collect();
-        if ratios.iter().all(|(residual, norm)| residual <= &(tolerance * norm)) {
-            return ratios
-                .iter()
-                .map(|(residual, norm)| if *norm > 0.0 { residual / norm } else { 0.0 })
-                .collect();
+        let worst =
+            |ratios: &[f64]| ratios.iter().fold(0.0f64, |worst, &r| if r <= worst { worst } else { r });
+        let plain: Vec<f64> = norms.iter().map(|(residual, norm)| residual / norm).collect();
+        let accepted = worst(&plain);
+        if accepted <= tolerance {
+            return (plain, accepted);
         }
         let mut magnitudes = self.stiffness.clone();
         magnitudes.val_mut().iter_mut().for_each(|value| *value = value.abs());
@@ -242,21 +250,24 @@ impl Pencil<'_> {
         // Tied without its phases, which have magnitude one.
         let terms = self.untied.product(&magnitudes, &self.untied.tie(0), terms.as_ref());
         let floor = |j: usize| 64.0 * f64::EPSILON * terms.col(j).norm_l2() / tolerance;
-        ratios.iter().enumerate().map(|(j, (residual, norm))| residual / norm.max(floor(j))).collect()
+        let eased: Vec<f64> =
+            norms.iter().enumerate().map(|(j, (residual, norm))| residual / norm.max(floor(j))).collect();
+        (plain, worst(&eased))
     }
 }
 
 impl Search<'_> {
     /// Takes the image of the last block; leaves Ritz pairs where the wanted ones seem to have converged.
-    fn advance(&mut self, image: Mat<c64>, count: usize, wanted: Wanted, step: usize) {
+    fn advance(&mut self, image: Mat<c64>, count: usize, wanted: Wanted) {
         let Wanted { tolerance, beyond, .. } = wanted;
         self.lanczos.absorb(image);
         let full = self.lanczos.is_full();
-        // The dense projection costs more than a step once it is large: look at it every other step.
-        if !full && (self.lanczos.columns() < 2 * count || step % 2 == 1) {
+        let columns = self.lanczos.columns();
+        if !full && columns < self.next_look {
             return;
         }
-        let columns = self.lanczos.columns();
+        // The dense projection costs more than a step once it is large.
+        self.next_look = columns + (2 * wanted.block).max(columns / 12);
         // A decomposition that fails once may succeed with the next block.
         let Ok(ritz) = self.lanczos.ritz(columns) else { return };
         let worst = ritz.errors[..count].iter().fold(0.0f64, |worst, &e| if e <= worst { worst } else { e });

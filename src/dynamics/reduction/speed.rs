@@ -4,11 +4,12 @@
 use faer::Mat;
 use faer::c64;
 use faer::sparse::SparseColMat;
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use super::condensed::SectorFactor;
-use super::count::{ModeCount, count_modes};
+use super::count::{Completeness, Verdict, count_modes};
 use super::modes::{ModeError, Modes, Pencil, Wanted};
 use super::tied::TiedFactor;
 use super::untied::UntiedSector;
@@ -35,9 +36,16 @@ pub(super) const COMPARED: usize = 10;
 #[derive(Serialize, Deserialize)]
 pub(super) struct HarmonicPart {
     pub(super) modes: Modes,
-    /// Ψ_s(0), at rest only.
+    /// Ψ_s(0), from the search at rest only.
     #[serde(with = "matrix_serde::list")]
-    pub(super) static_modes: Vec<Mat<c64>>,
+    static_modes: Vec<Mat<c64>>,
+}
+
+impl HarmonicPart {
+    /// Ψ_s(0), of a part found at rest.
+    pub(super) fn static_modes(&self) -> &Mat<c64> {
+        &self.static_modes[0]
+    }
 }
 
 /// Circular frequencies of the full sector per nodal diameter, ascending; none where its stiffness is indefinite.
@@ -46,8 +54,7 @@ pub(super) type FullFrequencies = Vec<Option<Vec<f64>>>;
 /// What is known at one given speed.
 pub(super) struct SpeedPart {
     pub(super) harmonics: Vec<HarmonicPart>,
-    /// None where the whole space was found.
-    pub(super) counts: Vec<Option<ModeCount>>,
+    pub(super) completeness: Vec<Completeness>,
     pub(super) full: FullFrequencies,
 }
 
@@ -69,12 +76,12 @@ impl Work<'_> {
         let mut harmonics: Vec<Option<HarmonicPart>> =
             (0..self.harmonics).map(|harmonic| self.load(&harmonic_name(harmonic))).collect();
         let summary_name = format!("speed-{index}");
-        let summary: Option<(Vec<Option<ModeCount>>, FullFrequencies)> = self.load(&summary_name);
-        if let Some((counts, full)) = &summary
+        let summary: Option<(Vec<Completeness>, FullFrequencies)> = self.load(&summary_name);
+        if let Some((completeness, full)) = summary
             && harmonics.iter().all(Option::is_some)
         {
             let harmonics = harmonics.into_iter().flatten().collect();
-            return Ok(SpeedPart { harmonics, counts: counts.clone(), full: full.clone() });
+            return Ok(SpeedPart { harmonics, completeness, full });
         }
 
         let speed_rad_s = self.sector.speeds_rad_s[index];
@@ -91,15 +98,19 @@ impl Work<'_> {
             },
         };
         let factor = SectorFactor::new(self.untied, &stiffness).map_err(|_| indefinite(0))?;
-        let tied = self.tie(&factor, &stiffness).map_err(indefinite)?;
+        let tied =
+            self.tie(&factor, &stiffness).into_iter().collect::<Result<Vec<_>, _>>().map_err(indefinite)?;
         let pencil = Pencil { untied: self.untied, stiffness: &stiffness, mass: self.mass, factor: &factor };
 
-        let missing: Vec<usize> = (0..self.harmonics).filter(|&h| harmonics[h].is_none()).collect();
-        for (group, members) in missing.chunks(TOGETHER).enumerate() {
-            let share =
-                |done: f64| 0.1 + 0.5 * (group as f64 + done) / missing.len().div_ceil(TOGETHER) as f64;
-            let names = list(members);
-            let what = format!("fixed-interface modes, nodal diameter{names}");
+        let all: Vec<usize> = (0..self.harmonics).collect();
+        let groups = all.len().div_ceil(TOGETHER) as f64;
+        for (group, members) in all.chunks(TOGETHER).enumerate() {
+            // All or none of a group: who is solved together decides on the last bits.
+            if members.iter().all(|&h| harmonics[h].is_some()) {
+                continue;
+            }
+            let what = format!("fixed-interface modes, nodal diameter{}", list(members));
+            let share = |done: f64| 0.1 + 0.5 * (group as f64 + done) / groups;
             let modes =
                 self.search(&pencil, &tied, members, BLOCK, &|done| phase(share(done), &what).is_ok());
             for (&harmonic, modes) in members.iter().zip(modes.map_err(|e| mode_error(e, speed_rad_s))?) {
@@ -113,34 +124,59 @@ impl Work<'_> {
         let mut harmonics: Vec<HarmonicPart> = harmonics.into_iter().flatten().collect();
 
         phase(0.6, "full sector")?;
+        let full = tied.iter().map(Some).collect::<Vec<_>>();
         let full =
-            self.full_frequencies(&pencil, &tied, &|done| phase(0.6 + 0.2 * done, "full sector").is_ok());
+            self.full_frequencies(&pencil, &full, &|done| phase(0.6 + 0.2 * done, "full sector").is_ok());
         let full = full.map_err(|error| mode_error(error, speed_rad_s))?;
 
         phase(0.8, "counting modes")?;
+        let mut completeness = vec![None; self.harmonics];
         let mut block = BLOCK;
-        let counts = loop {
-            let counts = self.count(&stiffness, &harmonics);
-            let missed: Vec<usize> = (0..self.harmonics)
-                .filter(|&h| counts[h].is_some_and(|count| count.is_none_or(|c| c.found < c.below)))
-                .collect();
-            if missed.is_empty() {
-                break counts.into_iter().map(Option::flatten).collect::<Vec<_>>();
+        loop {
+            let open: Vec<usize> = all.iter().copied().filter(|&h| completeness[h].is_none()).collect();
+            let doubtful = self.prove(&stiffness, &harmonics, &open, block, &mut completeness);
+            let doubtful =
+                doubtful.map_err(|h| ModelError::ModesMissed { nodal_diameter: h, speed_rad_s })?;
+            if doubtful.is_empty() {
+                break;
             }
             block *= 2;
-            let what = format!("modes missed, searching again, nodal diameter{}", list(&missed));
-            if block > LARGEST_BLOCK {
-                let nodal_diameter = missed[0];
-                return Err(ModelError::ModesMissed { nodal_diameter, speed_rad_s }.into());
-            }
-            let again = self.search(&pencil, &tied, &missed, block, &|_| phase(0.8, &what).is_ok());
-            for (&harmonic, modes) in missed.iter().zip(again.map_err(|e| mode_error(e, speed_rad_s))?) {
+            let what = format!("searching again for modes, nodal diameter{}", list(&doubtful));
+            let again = self.search(&pencil, &tied, &doubtful, block, &|_| phase(0.8, &what).is_ok());
+            for (&harmonic, modes) in doubtful.iter().zip(again.map_err(|e| mode_error(e, speed_rad_s))?) {
                 harmonics[harmonic].modes = modes;
                 self.save(&harmonic_name(harmonic), &harmonics[harmonic]);
             }
-        };
-        self.save(&summary_name, &(&counts, &full));
-        Ok(SpeedPart { harmonics, counts, full })
+        }
+        let completeness: Vec<Completeness> = completeness.into_iter().flatten().collect();
+        self.save(&summary_name, &(&completeness, &full));
+        Ok(SpeedPart { harmonics, completeness, full })
+    }
+
+    /// Counts the modes of the nodal diameters `open`, found with blocks of `block`; returns those to search again, or
+    /// one whose modes are missing for good.
+    fn prove(
+        &self,
+        stiffness: &SparseColMat<usize, f64>,
+        harmonics: &[HarmonicPart],
+        open: &[usize],
+        block: usize,
+        completeness: &mut [Option<Completeness>],
+    ) -> Result<Vec<usize>, usize> {
+        let whole = |h: usize| harmonics[h].modes.values.len() == self.untied.internal();
+        open.iter().filter(|&&h| whole(h)).for_each(|&h| completeness[h] = Some(Completeness::Whole));
+        let counted: Vec<usize> = open.iter().copied().filter(|&h| !whole(h)).collect();
+        let found: Vec<_> = counted.iter().map(|&h| (self.untied.tie(h), &harmonics[h].modes)).collect();
+        let mut again = Vec::new();
+        for (&h, verdict) in counted.iter().zip(count_modes(self.untied, stiffness, self.mass, &found)) {
+            match verdict {
+                Verdict::Complete(count) => completeness[h] = Some(Completeness::Counted(count)),
+                _ if block < LARGEST_BLOCK => again.push(h),
+                Verdict::Missed => return Err(h),
+                Verdict::Uncountable => completeness[h] = Some(Completeness::Unproven),
+            }
+        }
+        Ok(again)
     }
 
     /// The full sector's frequencies at a speed between the given ones, with K(Ω) through them.
@@ -159,9 +195,8 @@ impl Work<'_> {
         let Ok(factor) = SectorFactor::new(self.untied, &stiffness) else {
             return Ok(vec![None; self.harmonics]);
         };
-        let Ok(tied) = self.tie(&factor, &stiffness) else {
-            return Ok(vec![None; self.harmonics]);
-        };
+        let tied = self.tie(&factor, &stiffness);
+        let tied: Vec<Option<&TiedFactor>> = tied.iter().map(|tied| tied.as_ref().ok()).collect();
         let pencil = Pencil { untied: self.untied, stiffness: &stiffness, mass: self.mass, factor: &factor };
         let full = self
             .full_frequencies(&pencil, &tied, &|done| phase(done).is_ok())
@@ -170,18 +205,16 @@ impl Work<'_> {
         Ok(full)
     }
 
-    /// The dense factor of every nodal diameter, or the first that has none.
+    /// The dense factor of every nodal diameter; the number of the nodal diameter where it has none.
     fn tie(
         &self,
         factor: &SectorFactor<'_>,
         stiffness: &SparseColMat<usize, f64>,
-    ) -> Result<Vec<TiedFactor>, usize> {
-        use rayon::iter::{IntoParallelIterator, ParallelIterator};
-        let tied: Vec<_> = (0..self.harmonics)
+    ) -> Vec<Result<TiedFactor, usize>> {
+        (0..self.harmonics)
             .into_par_iter()
             .map(|harmonic| factor.tie(stiffness, harmonic).map_err(|_| harmonic))
-            .collect();
-        tied.into_iter().collect()
+            .collect()
     }
 
     fn search(
@@ -195,7 +228,13 @@ impl Work<'_> {
         let ties: Vec<&TiedFactor> = members.iter().map(|&harmonic| &tied[harmonic]).collect();
         pencil.lowest_modes(
             &ties,
-            Wanted { count: self.modes_per_speed, block, free: false, tolerance: MODE_TOLERANCE, beyond: 2 },
+            Wanted {
+                count: self.modes_per_speed,
+                block,
+                free: false,
+                tolerance: MODE_TOLERANCE,
+                beyond: block / 2,
+            },
             keep_going,
         )
     }
@@ -203,13 +242,18 @@ impl Work<'_> {
     fn full_frequencies(
         &self,
         pencil: &Pencil<'_>,
-        tied: &[TiedFactor],
+        tied: &[Option<&TiedFactor>],
         keep_going: &dyn Fn(f64) -> bool,
     ) -> Result<FullFrequencies, ModeError> {
         let mut full = vec![None; self.harmonics];
-        let free: Vec<usize> = (0..self.harmonics).filter(|&harmonic| tied[harmonic].free).collect();
+        let free: Vec<(usize, &TiedFactor)> = tied
+            .iter()
+            .enumerate()
+            .filter_map(|(harmonic, tied)| Some((harmonic, (*tied)?)))
+            .filter(|(_, tied)| tied.free)
+            .collect();
         for (group, members) in free.chunks(TOGETHER).enumerate() {
-            let ties: Vec<&TiedFactor> = members.iter().map(|&harmonic| &tied[harmonic]).collect();
+            let ties: Vec<&TiedFactor> = members.iter().map(|&(_, tied)| tied).collect();
             let wanted = Wanted {
                 count: COMPARED,
                 block: BLOCK,
@@ -219,29 +263,11 @@ impl Work<'_> {
             };
             let share = |done: f64| (group as f64 + done) / free.len().div_ceil(TOGETHER) as f64;
             let found = pencil.lowest_modes(&ties, wanted, &|done| keep_going(share(done)))?;
-            for (&harmonic, modes) in members.iter().zip(found) {
+            for (&(harmonic, _), modes) in members.iter().zip(found) {
                 full[harmonic] = Some(modes.values.iter().map(|lambda| lambda.sqrt()).collect());
             }
         }
         Ok(full)
-    }
-
-    /// Per nodal diameter: nothing to count, or the count, or that it could not be counted.
-    fn count(
-        &self,
-        stiffness: &SparseColMat<usize, f64>,
-        harmonics: &[HarmonicPart],
-    ) -> Vec<Option<Option<ModeCount>>> {
-        let open: Vec<usize> = (0..self.harmonics)
-            .filter(|&h| harmonics[h].modes.values.len() < self.untied.internal())
-            .collect();
-        let found: Vec<_> = open.iter().map(|&h| (self.untied.tie(h), &harmonics[h].modes)).collect();
-        let mut counts = vec![None; self.harmonics];
-        match count_modes(self.untied, stiffness, self.mass, &found) {
-            Ok(all) => open.iter().zip(all).for_each(|(&h, count)| counts[h] = Some(Some(count))),
-            Err(uncountable) => counts[uncountable.harmonic] = Some(None),
-        }
-        counts
     }
 
     fn load<T: DeserializeOwned>(&self, part: &str) -> Option<T> {

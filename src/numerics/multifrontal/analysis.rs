@@ -100,37 +100,24 @@ impl Analysis {
         Self { size, eliminated, fronts, roots, subtrees, top }
     }
 
-    /// Rows of the matrix.
-    pub fn size(&self) -> usize {
-        self.size
-    }
-
-    /// Rows that are eliminated.
-    pub fn eliminated(&self) -> usize {
-        self.eliminated
-    }
-
     /// Numbers in L and L_F.
     pub fn factor_entries(&self) -> usize {
         self.fronts.iter().map(|front| front.pivots * (front.pivots + front.rows.len())).sum()
     }
 
-    /// Multiplications of a factorisation.
-    pub fn work(&self) -> f64 {
-        self.fronts.iter().map(Front::work).sum()
-    }
-
     /// Numbers held at once beside the factor while it is made, at most: updates on their way up, and the boundary.
     pub fn working_entries(&self) -> usize {
-        let square = |n: usize| n * n;
-        // Postordered, a front's children are the last updates made.
-        let (mut held, mut most) = (0, 0);
-        for front in &self.fronts {
-            held += square(front.rows.len());
+        let square = |front: usize| self.fronts[front].rows.len().pow(2);
+        // Subtrees are done before anything above them; then children are the last updates made.
+        let mut held: usize =
+            self.subtrees.iter().filter_map(|subtree| subtree.last()).map(|&root| square(root)).sum();
+        let mut most = held;
+        for &front in &self.top {
+            held += square(front);
             most = most.max(held);
-            held -= front.children.iter().map(|&child| square(self.fronts[child].rows.len())).sum::<usize>();
+            held -= self.fronts[front].children.iter().map(|&child| square(child)).sum::<usize>();
         }
-        most + square(self.size - self.eliminated)
+        most + (self.size - self.eliminated).pow(2)
     }
 }
 

@@ -69,21 +69,20 @@ impl<'a> PartialFactor<'a> {
             lower[done.front] = done.lower;
         };
 
-        let run = |subtree: &Vec<usize>| {
+        let run = |place: &mut eliminate::Place, subtree: &Vec<usize>| {
             let mut waiting: Vec<Option<Mat<f64>>> = vec![None; subtree.len()];
             let mut done = Vec::with_capacity(subtree.len());
-            let mut place = eliminate::Place::new(analysis.size);
             for (position, &front) in subtree.iter().enumerate() {
                 // A subtree is a run of consecutive fronts that ends with its root.
                 let child = |child: usize| waiting[child - subtree[0]].take();
-                let (eliminated, update) = eliminate::eliminate(analysis, front, terms, child, &mut place)?;
+                let (eliminated, update) = eliminate::eliminate(analysis, front, terms, child, place)?;
                 waiting[position] = Some(update);
                 done.push(eliminated);
             }
             Ok((done, waiting.pop().flatten()))
         };
         let answers: Vec<Result<(Vec<Eliminated>, Option<Mat<f64>>), Breakdown>> =
-            analysis.subtrees.par_iter().map(run).collect();
+            analysis.subtrees.par_iter().map_init(|| eliminate::Place::new(analysis.size), run).collect();
         for (subtree, answer) in analysis.subtrees.iter().zip(answers) {
             let (done, update) = answer?;
             done.into_iter().for_each(&mut keep);
