@@ -1,6 +1,6 @@
 //! The reduction the plain way: every nodal diameter and speed a complex sparse factorisation of its own, modes by
 //! faer's single-vector Lanczos (or densely), products by faer. The slow truth of tests and the baseline of the
-//! benchmark; it shares the fill-reducing order with the production code, and no more.
+//! benchmark. Of the production code it uses the complex sparse Cholesky factor, and no more.
 
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::matrix_free::LinOp;

@@ -45,6 +45,12 @@ fn by_hand(folder: &Path) -> RawPackage {
     package
 }
 
+fn cut_last_line(folder: &Path, name: &str) {
+    let text = std::fs::read_to_string(folder.join(name)).expect("it was written");
+    let lines: Vec<&str> = text.lines().collect();
+    put(folder, name, lines[..lines.len() - 1].join("\n"));
+}
+
 fn hand_model(folder: &Path) -> CalculixModel {
     put(folder, "normals.csv", "node,nx,ny,nz\n4, 2, 0, 0\n3, 0, 0, -1\n");
     CalculixModel {
@@ -129,6 +135,8 @@ fn bad_files_are_refused_with_their_place_and_what_to_do() {
             |f, _| replace(f, "rest.sti", "1 1 ", "1 19 "),
             "rest.sti, line 1: entry (1, 19) is outside the 18 rows that ",
         ),
+        (|f, _| cut_last_line(f, "half.sti"), "the shorter file is cut off"),
+        (|f, _| put(f, "rest.sti", ""), "rest.sti holds 0 entries and "),
         (|f, _| replace(f, "rest.mas", "1 2 ", "1 x "), "is not a matrix entry: row column value"),
         (|f, _| put(f, "rest.mas", "1 1 nan\n"), "rest.mas, line 1: entry (1, 1) is not a finite number"),
         (

@@ -176,6 +176,12 @@ fn no_copy_of_a_multiple_eigenvalue_is_missed() {
             }
             assert!(matches!(certificate.completeness, Completeness::Counted(_)), "{modes} modes");
         }
+        for comparison in &reduced.comparison {
+            for (m, omega) in comparison.full.iter().enumerate() {
+                let expected = if m < 8 { low } else { 1.5 * low };
+                assert!((omega * omega / expected - 1.0).abs() < 1e-8, "{modes} modes: {comparison:?}");
+            }
+        }
     }
 }
 

@@ -35,6 +35,9 @@ pub(super) struct Load<'a> {
     pub(super) vectors: Mat<c64>,
 }
 
+/// A pivot below this fraction of its diagonal entry is round-off: the matrix is singular, as far as double precision
+/// can tell.
+const SINGULAR: f64 = 1e-13;
 /// Real vectors solved together: enough for level-3 speed, few enough to share among threads.
 const GROUP: usize = 24;
 
@@ -46,7 +49,11 @@ impl<'a> SectorFactor<'a> {
     ) -> Result<Self, NotPositiveDefinite> {
         let factor =
             PartialFactor::new(&untied.analysis, &[(1.0, stiffness)]).map_err(|_| NotPositiveDefinite)?;
-        if factor.negative_pivots() > 0 {
+        let diagonal = |row: usize| {
+            let column = stiffness.row_idx_of_col(row).zip(stiffness.val_of_col(row));
+            column.filter(|&(i, _)| i == row).map(|(_, value)| value).sum::<f64>()
+        };
+        if factor.pivots().iter().enumerate().any(|(row, &d)| d <= SINGULAR * diagonal(row)) {
             return Err(NotPositiveDefinite);
         }
         let scale = factor.pivots().iter().map(|d| 1.0 / d.sqrt()).collect();

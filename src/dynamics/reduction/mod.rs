@@ -180,8 +180,9 @@ pub fn reduce(
     let mut full: Vec<_> =
         sector.speeds_rad_s.iter().copied().zip(parts.iter().map(|p| p.full.clone())).collect();
     if let [_, _, top] = *sector.speeds_rad_s {
+        let block = parts.iter().map(|part| part.full_block).max().unwrap_or(1);
         for (name, speed, from) in [("between-1", 0.25 * top, 0.75), ("between-2", 0.75 * top, 0.84)] {
-            full.push((speed, work.at_speed_between(name, speed, &scoped(from, from + 0.09))?));
+            full.push((speed, work.at_speed_between(name, speed, block, &scoped(from, from + 0.09))?));
         }
     }
     let harmonics = project(&work, options, &parts, &scoped(0.93, 1.0))?;

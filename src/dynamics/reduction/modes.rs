@@ -125,7 +125,6 @@ impl Pencil<'_> {
             });
             let mut waiting = Vec::new();
             for mut search in active {
-                let harmonic = search.tied.tie.harmonic;
                 let Some(ritz) = search.ritz.take() else {
                     waiting.push(search);
                     continue;
@@ -134,7 +133,9 @@ impl Pencil<'_> {
                 if worst <= wanted.tolerance {
                     found[search.position] = Some(modes);
                 } else if search.lanczos.is_full() {
-                    return Err(ModeError::NotConverged { harmonic, residual: worst, block_steps: step });
+                    // The whole space, and round-off in the way: small enough to be solved at once.
+                    let modes = self.dense(&search.tied.tie, rows, count, wanted.tolerance)?;
+                    found[search.position] = Some(modes);
                 } else {
                     search.last_error = worst;
                     waiting.push(search);

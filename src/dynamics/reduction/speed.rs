@@ -22,7 +22,7 @@ use crate::numerics::matrix_serde;
 /// Vectors advanced together in a search; doubled when modes turn out to be missing.
 const BLOCK: usize = 4;
 /// No sector has eigenvalues of a multiplicity beyond this.
-const LARGEST_BLOCK: usize = 32;
+const LARGEST_BLOCK: usize = 64;
 /// Residual of the modes of the basis: 1e-8 in x is 1e-16 in λ; 1e-9 leaves a margin.
 const MODE_TOLERANCE: f64 = 1e-9;
 /// Residual behind the full sector's frequencies: right to some nine digits.
@@ -56,6 +56,8 @@ pub(super) struct SpeedPart {
     pub(super) harmonics: Vec<HarmonicPart>,
     pub(super) completeness: Vec<Completeness>,
     pub(super) full: FullFrequencies,
+    /// Block that found them.
+    pub(super) full_block: usize,
 }
 
 /// The sector on its way through a reduction.
@@ -76,12 +78,12 @@ impl Work<'_> {
         let mut harmonics: Vec<Option<HarmonicPart>> =
             (0..self.harmonics).map(|harmonic| self.load(&harmonic_name(harmonic))).collect();
         let summary_name = format!("speed-{index}");
-        let summary: Option<(Vec<Completeness>, FullFrequencies)> = self.load(&summary_name);
-        if let Some((completeness, full)) = summary
+        let summary: Option<(Vec<Completeness>, FullFrequencies, usize)> = self.load(&summary_name);
+        if let Some((completeness, full, full_block)) = summary
             && harmonics.iter().all(Option::is_some)
         {
             let harmonics = harmonics.into_iter().flatten().collect();
-            return Ok(SpeedPart { harmonics, completeness, full });
+            return Ok(SpeedPart { harmonics, completeness, full, full_block });
         }
 
         let speed_rad_s = self.sector.speeds_rad_s[index];
@@ -123,13 +125,7 @@ impl Work<'_> {
         }
         let mut harmonics: Vec<HarmonicPart> = harmonics.into_iter().flatten().collect();
 
-        phase(0.6, "full sector")?;
-        let full = tied.iter().map(Some).collect::<Vec<_>>();
-        let full =
-            self.full_frequencies(&pencil, &full, &|done| phase(0.6 + 0.2 * done, "full sector").is_ok());
-        let full = full.map_err(|error| mode_error(error, speed_rad_s))?;
-
-        phase(0.8, "counting modes")?;
+        phase(0.6, "counting modes")?;
         let mut completeness = vec![None; self.harmonics];
         let mut block = BLOCK;
         loop {
@@ -142,15 +138,24 @@ impl Work<'_> {
             }
             block *= 2;
             let what = format!("searching again for modes, nodal diameter{}", list(&doubtful));
-            let again = self.search(&pencil, &tied, &doubtful, block, &|_| phase(0.8, &what).is_ok());
+            let again = self.search(&pencil, &tied, &doubtful, block, &|_| phase(0.6, &what).is_ok());
             for (&harmonic, modes) in doubtful.iter().zip(again.map_err(|e| mode_error(e, speed_rad_s))?) {
                 harmonics[harmonic].modes = modes;
                 self.save(&harmonic_name(harmonic), &harmonics[harmonic]);
             }
         }
         let completeness: Vec<Completeness> = completeness.into_iter().flatten().collect();
-        self.save(&summary_name, &(&completeness, &full));
-        Ok(SpeedPart { harmonics, completeness, full })
+
+        phase(0.8, "full sector")?;
+        // Fixing the contact DOF raises every frequency: a ceiling for those of the full sector.
+        let ceilings: Vec<&[f64]> = harmonics.iter().map(|part| part.modes.values.as_slice()).collect();
+        let free: Vec<_> = tied.iter().enumerate().filter(|(_, tied)| tied.free).collect();
+        let going = |done: f64| phase(0.8 + 0.2 * done, "full sector").is_ok();
+        let (full, full_block) = self
+            .full_frequencies(&pencil, &free, Some(&ceilings), BLOCK, &going)
+            .map_err(|error| mode_error(error, speed_rad_s))?;
+        self.save(&summary_name, &(&completeness, &full, full_block));
+        Ok(SpeedPart { harmonics, completeness, full, full_block })
     }
 
     /// Counts the modes of the nodal diameters `open`, found with blocks of `block`; returns those to search again, or
@@ -179,11 +184,12 @@ impl Work<'_> {
         Ok(again)
     }
 
-    /// The full sector's frequencies at a speed between the given ones, with K(Ω) through them.
+    /// The full sector's frequencies at a speed between the given ones, with K(Ω) through them, by blocks of `block`.
     pub(super) fn at_speed_between(
         &self,
         name: &str,
         speed_rad_s: f64,
+        block: usize,
         watch: Watch<'_>,
     ) -> Result<FullFrequencies, ReductionError> {
         if let Some(full) = self.load(name) {
@@ -196,10 +202,16 @@ impl Work<'_> {
             return Ok(vec![None; self.harmonics]);
         };
         let tied = self.tie(&factor, &stiffness);
-        let tied: Vec<Option<&TiedFactor>> = tied.iter().map(|tied| tied.as_ref().ok()).collect();
+        let free = |tied: &Result<TiedFactor, usize>| tied.as_ref().is_ok_and(|tied| tied.free);
+        let free: Vec<(usize, &TiedFactor)> = tied
+            .iter()
+            .enumerate()
+            .filter(|(_, tied)| free(tied))
+            .filter_map(|(h, tied)| Some((h, tied.as_ref().ok()?)))
+            .collect();
         let pencil = Pencil { untied: self.untied, stiffness: &stiffness, mass: self.mass, factor: &factor };
-        let full = self
-            .full_frequencies(&pencil, &tied, &|done| phase(done).is_ok())
+        let (full, _) = self
+            .full_frequencies(&pencil, &free, None, block, &|done| phase(done).is_ok())
             .map_err(|error| mode_error(error, speed_rad_s))?;
         self.save(name, &full);
         Ok(full)
@@ -239,35 +251,44 @@ impl Work<'_> {
         )
     }
 
+    /// The lowest frequencies of the nodal diameters in `free`, searched again with larger blocks where one lies above
+    /// its ceiling, which tells that others were missed. Returns the largest block used.
     fn full_frequencies(
         &self,
         pencil: &Pencil<'_>,
-        tied: &[Option<&TiedFactor>],
+        free: &[(usize, &TiedFactor)],
+        ceilings: Option<&[&[f64]]>,
+        block: usize,
         keep_going: &dyn Fn(f64) -> bool,
-    ) -> Result<FullFrequencies, ModeError> {
+    ) -> Result<(FullFrequencies, usize), ModeError> {
         let mut full = vec![None; self.harmonics];
-        let free: Vec<(usize, &TiedFactor)> = tied
-            .iter()
-            .enumerate()
-            .filter_map(|(harmonic, tied)| Some((harmonic, (*tied)?)))
-            .filter(|(_, tied)| tied.free)
-            .collect();
-        for (group, members) in free.chunks(TOGETHER).enumerate() {
-            let ties: Vec<&TiedFactor> = members.iter().map(|&(_, tied)| tied).collect();
-            let wanted = Wanted {
-                count: COMPARED,
-                block: BLOCK,
-                free: true,
-                tolerance: FREQUENCY_TOLERANCE,
-                beyond: 0,
-            };
-            let share = |done: f64| (group as f64 + done) / free.len().div_ceil(TOGETHER) as f64;
-            let found = pencil.lowest_modes(&ties, wanted, &|done| keep_going(share(done)))?;
-            for (&(harmonic, _), modes) in members.iter().zip(found) {
-                full[harmonic] = Some(modes.values.iter().map(|lambda| lambda.sqrt()).collect());
+        let mut waiting = free.to_vec();
+        let mut block = block;
+        loop {
+            let mut again = Vec::new();
+            for (group, members) in waiting.chunks(TOGETHER).enumerate() {
+                let ties: Vec<&TiedFactor> = members.iter().map(|&(_, tied)| tied).collect();
+                let tolerance = FREQUENCY_TOLERANCE;
+                let wanted = Wanted { count: COMPARED, block, free: true, tolerance, beyond: 0 };
+                let share = |done: f64| (group as f64 + done) / waiting.len().div_ceil(TOGETHER) as f64;
+                let found = pencil.lowest_modes(&ties, wanted, &|done| keep_going(share(done)))?;
+                for (&(harmonic, tied), modes) in members.iter().zip(found) {
+                    let ceiling = ceilings.map_or(&[][..], |ceilings| ceilings[harmonic]);
+                    let mut pairs = modes.values.iter().zip(ceiling);
+                    if block < LARGEST_BLOCK && pairs.any(|(found, ceiling)| *found > ceiling * (1.0 + 1e-6))
+                    {
+                        again.push((harmonic, tied));
+                    } else {
+                        full[harmonic] = Some(modes.values.iter().map(|lambda| lambda.sqrt()).collect());
+                    }
+                }
             }
+            if again.is_empty() {
+                return Ok((full, block));
+            }
+            waiting = again;
+            block *= 2;
         }
-        Ok(full)
     }
 
     fn load<T: DeserializeOwned>(&self, part: &str) -> Option<T> {

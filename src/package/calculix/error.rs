@@ -200,6 +200,22 @@ pub enum ModelProblem {
         /// The `.dof` file.
         dof_file: PathBuf,
     },
+    /// Matrix files with different numbers of entries.
+    #[error(
+        "{} holds {entries} entries and {} {more}, but CalculiX writes the same ones to every matrix of a mesh: the \
+         shorter file is cut off, or the two come from different decks; export again",
+        .file.display(), .other.display()
+    )]
+    CutShort {
+        /// The file with the fewest.
+        file: PathBuf,
+        /// Its entries.
+        entries: u64,
+        /// The file with the most.
+        other: PathBuf,
+        /// Its entries.
+        more: u64,
+    },
     /// Matrices at speed over other DOF than those at rest.
     #[error(
         "{} lists other DOF than {} (for example {node}.{component}); export both with the same boundary conditions",

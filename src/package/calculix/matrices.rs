@@ -72,11 +72,17 @@ impl DofList {
     }
 }
 
-/// Reads a matrix over the rows of `dofs`, each moved to its place in `places` if given.
-pub(super) fn read(path: &Path, dofs: &DofList, places: Option<&[u32]>) -> Result<RawMatrix, CalculixError> {
+/// Reads a matrix over the rows of `dofs`, each moved to its place in `places` if given; and the number of entries its
+/// file holds, zeros included.
+pub(super) fn read(
+    path: &Path,
+    dofs: &DofList,
+    places: Option<&[u32]>,
+) -> Result<(RawMatrix, u64), CalculixError> {
     let size = dofs.dofs.len();
     let mut lines = TextLines::open(path)?;
     let mut entries = Vec::new();
+    let mut held = 0;
     while let Some(line) = lines.next_bytes()? {
         let Some((row, column, value)) = parse_entry(line) else {
             if line.trim_ascii().is_empty() {
@@ -94,13 +100,15 @@ pub(super) fn read(path: &Path, dofs: &DofList, places: Option<&[u32]>) -> Resul
         }
         let place = |k: u64| places.map_or((k - 1) as u32, |places| places[k as usize - 1]);
         let (row, column) = (place(row), place(column));
+        held += 1;
         // CalculiX stores the zeros of its pattern; they would only cost room.
         if value != 0.0 {
             entries.push((row.max(column), row.min(column), value));
         }
     }
-    symmetric::from_triangle(size, entries).map_err(|problem| match problem {
+    let matrix = symmetric::from_triangle(size, entries).map_err(|problem| match problem {
         MatrixProblem::Repeated { row, column, .. } => lines.fault(LineProblem::Repeated { row, column }),
         problem => crate::package::PackageError::matrix(&path.display().to_string(), problem).into(),
-    })
+    });
+    Ok((matrix?, held))
 }

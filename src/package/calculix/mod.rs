@@ -26,7 +26,7 @@ pub use error::{CalculixError, LineProblem, ModelProblem};
 pub use spin::SpinFinding;
 
 use super::frame::{AxisFrame, apply};
-use super::raw::{Axis, Frame, Manifest, ManifestContact, RawNode, RawPackage};
+use super::raw::{Axis, Frame, Manifest, ManifestContact, RawMatrix, RawNode, RawPackage};
 use crate::dynamics::sector::Units;
 use deck::Deck;
 use faces::{check_ties, faces, pair};
@@ -110,12 +110,14 @@ pub fn import(model: &CalculixModel) -> Result<(RawPackage, ImportSummary), Calc
     let tolerance = places::tolerance(rest.dofs.iter().map(|dof| positions[&dof.node]));
     let mut files = vec![extended(&model.rest, ".mas"), extended(&model.rest, ".sti")];
     files.extend(model.at_speed.iter().map(|(_, job)| extended(job, ".sti")));
-    let mut matrices = vec![matrices::read(&files[0], &rest, None)?, matrices::read(&files[1], &rest, None)?];
+    let mut read = vec![matrices::read(&files[0], &rest, None)?, matrices::read(&files[1], &rest, None)?];
     for ((_, job), file) in model.at_speed.iter().zip(&files[2..]) {
         let dofs = DofList::read(&extended(job, ".dof"))?;
         let places = dofs.places_in(&rest)?;
-        matrices.push(matrices::read(file, &dofs, Some(&places))?);
+        read.push(matrices::read(file, &dofs, Some(&places))?);
     }
+    require_whole(&files, &read)?;
+    let mut matrices: Vec<RawMatrix> = read.into_iter().map(|(matrix, _)| matrix).collect();
     let mut summary =
         ImportSummary { faces_swapped: false, contact: Vec::new(), sectors_differ: None, spin: Vec::new() };
     let (pairs, dofs, contact_nodes) = if model.whole_wheel {
@@ -212,6 +214,20 @@ fn set<'a>(deck: &'a Deck, name: &str) -> Result<&'a [u64], ModelProblem> {
         Some(nodes) if nodes.is_empty() => Err(ModelProblem::EmptySet { set: name.to_owned() }),
         Some(nodes) => Ok(nodes),
     }
+}
+
+/// CalculiX writes every matrix of a mesh with the same entries: a file with fewer is cut short.
+fn require_whole(files: &[PathBuf], read: &[(RawMatrix, u64)]) -> Result<(), ModelProblem> {
+    let held = || files.iter().zip(read.iter().map(|&(_, held)| held));
+    let (Some((short, fewest)), Some((long, most))) =
+        (held().min_by_key(|&(_, held)| held), held().max_by_key(|&(_, held)| held))
+    else {
+        return Ok(());
+    };
+    if fewest == most {
+        return Ok(());
+    }
+    Err(ModelProblem::CutShort { file: short.clone(), entries: fewest, other: long.clone(), more: most })
 }
 
 fn require_coordinates(
