@@ -38,6 +38,8 @@ pub(super) struct Wanted {
     pub(super) block: usize,
     /// Whether contact DOF are free.
     pub(super) free: bool,
+    /// Whether the vectors are wanted: without them the iteration's own estimate stands for the residual.
+    pub(super) vectors: bool,
     /// Accepted ‖Kx − λMx‖/‖Kx‖ of every returned pair; its square is the relative error of λ.
     pub(super) tolerance: f64,
     /// Eigenvalues to locate beyond those: room for a shift between them.
@@ -129,6 +131,10 @@ impl Pencil<'_> {
                     waiting.push(search);
                     continue;
                 };
+                if !wanted.vectors {
+                    found[search.position] = Some(values_only(ritz, count, search.tied.tie.harmonic)?);
+                    continue;
+                }
                 let (modes, worst) = self.modes(&search, ritz, count, wanted.tolerance)?;
                 if worst <= wanted.tolerance {
                     found[search.position] = Some(modes);
@@ -255,6 +261,18 @@ impl Pencil<'_> {
             norms.iter().enumerate().map(|(j, (residual, norm))| residual / norm.max(floor(j))).collect();
         (plain, worst(&eased))
     }
+}
+
+fn values_only(ritz: Ritz, count: usize, harmonic: usize) -> Result<Modes, ModeError> {
+    if ritz.values[..count].iter().any(|&theta| theta.is_nan() || theta <= 0.0) {
+        return Err(ModeError::Massless { harmonic });
+    }
+    Ok(Modes {
+        values: ritz.values[..count].iter().map(|theta| 1.0 / theta).collect(),
+        residuals: ritz.errors[..count].to_vec(),
+        vectors: Mat::new(),
+        beyond: Vec::new(),
+    })
 }
 
 impl Search<'_> {

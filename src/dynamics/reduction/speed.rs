@@ -244,6 +244,7 @@ impl Work<'_> {
                 count: self.modes_per_speed,
                 block,
                 free: false,
+                vectors: true,
                 tolerance: MODE_TOLERANCE,
                 beyond: block / 2,
             },
@@ -269,7 +270,8 @@ impl Work<'_> {
             for (group, members) in waiting.chunks(TOGETHER).enumerate() {
                 let ties: Vec<&TiedFactor> = members.iter().map(|&(_, tied)| tied).collect();
                 let tolerance = FREQUENCY_TOLERANCE;
-                let wanted = Wanted { count: COMPARED, block, free: true, tolerance, beyond: 0 };
+                let wanted =
+                    Wanted { count: COMPARED, block, free: true, vectors: false, tolerance, beyond: 0 };
                 let share = |done: f64| (group as f64 + done) / waiting.len().div_ceil(TOGETHER) as f64;
                 let found = pencil.lowest_modes(&ties, wanted, &|done| keep_going(share(done)))?;
                 for (&(harmonic, tied), modes) in members.iter().zip(found) {
