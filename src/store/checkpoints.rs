@@ -1,4 +1,5 @@
-//! Parts of unfinished reductions, as files: `checkpoints/<model>-<modes_per_speed>/<layout>-<part>`.
+//! Parts of unfinished reductions, as files:
+//! `checkpoints/<model>-<modes_per_speed>/<version>-<layout>-<part>`.
 //!
 //! Files, not rows: they are large, they may go at any time, and a full disk must not stop the reduction they belong to.
 
