@@ -1,9 +1,7 @@
 //! Models from parameters of the generator.
 
-use std::io::Cursor;
+use std::process::Command;
 
-use rubmap::impeller::{ImpellerRequest, generate};
-use rubmap::package;
 use serde_json::{Value, json};
 
 use super::app::{Answer, Api, TestApp, modal_analysis_of};
@@ -27,6 +25,17 @@ async fn generation_of(api: &Api, parameters: &Value) -> String {
     id
 }
 
+/// The package that `rubmap generate` makes.
+fn generated_by_command(parameters: &Value) -> Vec<u8> {
+    let folder = tempfile::tempdir().unwrap();
+    let [file, zip] = ["parameters.json", "impeller.zip"].map(|name| folder.path().join(name));
+    std::fs::write(&file, parameters.to_string()).unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_rubmap"));
+    let ended = command.arg("generate").arg("--parameters").arg(&file).arg("--out").arg(&zip).output().unwrap();
+    assert!(ended.status.success(), "{}", String::from_utf8_lossy(&ended.stderr));
+    std::fs::read(zip).unwrap()
+}
+
 #[tokio::test]
 async fn a_generated_model_is_the_one_that_would_be_uploaded() {
     let app = TestApp::start().await;
@@ -41,10 +50,7 @@ async fn a_generated_model_is_the_one_that_would_be_uploaded() {
     let detail = api.get(&format!("/v1/models/{model}")).await.body;
     assert_eq!((&detail["sectors"], &detail["contact_nodes"]), (&10.into(), &3.into()));
 
-    let request: ImpellerRequest = serde_json::from_value(coarse()).unwrap();
-    let mut zip = Cursor::new(Vec::new());
-    package::write(&generate(&request.resolve().unwrap()).unwrap(), &mut zip).unwrap();
-    let uploaded = api.upload(zip.into_inner()).await;
+    let uploaded = api.upload(generated_by_command(&coarse())).await;
     assert_eq!((uploaded.status.as_u16(), uploaded.text("/id").as_str()), (200, model));
     assert_eq!(uploaded.body["size_bytes"], detail["size_bytes"]);
 
