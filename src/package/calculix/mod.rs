@@ -124,7 +124,7 @@ pub fn import(model: &CalculixModel) -> Result<(RawPackage, ImportSummary), Calc
         let cut = wheel::cut(&rest, &matrices[1], &positions, &low, sectors, &frame, tolerance)?;
         let mut worst: f64 = 0.0;
         for (matrix, file) in matrices.iter_mut().zip(&files) {
-            let (sector, difference) = cut.sector(file, matrix, &rest, &frame, sectors)?;
+            let (sector, difference) = cut.sector(file, matrix)?;
             (*matrix, worst) = (sector, worst.max(difference));
         }
         summary.sectors_differ = Some(worst);
