@@ -22,7 +22,7 @@ use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
 pub use contact::ContactPoint;
-pub use error::{CalculixError, LineProblem, ModelProblem};
+pub use error::{CalculixError, LineProblem, ModelProblem, NoCopy};
 pub use spin::SpinFinding;
 
 use super::frame::{AxisFrame, apply};

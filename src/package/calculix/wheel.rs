@@ -13,7 +13,7 @@ use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use super::error::ModelProblem;
+use super::error::{ModelProblem, NoCopy};
 use super::matrices::DofList;
 use super::places::Places;
 use crate::package::frame::AxisFrame;
@@ -62,7 +62,8 @@ pub(super) fn cut<'a>(
     let mut next = HashMap::new();
     for &node in &nodes {
         let copy = places.at(frame.turn_point(positions[&node], alpha)).map_err(|near| {
-            ModelProblem::WheelMesh { node, sectors, tolerance, nearest: near.node, distance: near.distance }
+            let (nearest, distance) = (near.node, near.distance);
+            ModelProblem::WheelMesh(NoCopy { node, sectors, tolerance, nearest, distance })
         })?;
         next.insert(node, copy);
     }
