@@ -28,7 +28,7 @@ impl Halt {
     /// The service died under the job too often.
     pub(super) fn crashed(times: u32) -> Self {
         let message = format!(
-            "the service ended {times} times while it computed this job, without finishing a speed in between; \
+            "the service ended {times} times while it computed this job, without finishing anything of it in between; \
              most likely it ran out of memory: ask for less (modes_per_speed, mesh), or give the service more"
         );
         Self::Failed(Failure { cause: FailureCause::Defect, message, violations: Vec::new() })

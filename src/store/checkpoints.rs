@@ -72,6 +72,12 @@ impl Store {
 }
 
 impl CheckpointFolder {
+    /// Number of parts that this program can read.
+    pub(super) async fn parts(&self) -> std::io::Result<u32> {
+        let files = entries(&self.folder).await?;
+        Ok(files.iter().filter(|file| file_name(file).starts_with(&prefix())).count() as u32)
+    }
+
     fn path(&self, part: &str) -> PathBuf {
         self.folder.join(format!("{}{part}", prefix()))
     }
