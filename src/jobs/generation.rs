@@ -14,7 +14,7 @@ use super::progress::PhaseMonitor;
 use super::room::once_there_is_room;
 use crate::analysis::monitor::Monitor;
 use crate::analysis::run::ModelFacts;
-use crate::impeller::{ImpellerParameters, generate, impeller_sector};
+use crate::impeller::{ImpellerParameters, generate, generation_bytes, impeller_sector};
 use crate::package::raw::RawPackage;
 use crate::package::{self, Limits, PackageError};
 use crate::store::StoreError;
@@ -29,12 +29,23 @@ pub(super) async fn run(engine: &Engine, job: &Live, parameters: &ImpellerParame
 
     wanted(0.0, "meshing")?;
     let asked = parameters.clone();
-    let nodes =
-        engine.pool.run(move || impeller_sector(&asked).map(|sector| sector.mesh.nodes.len())).await??;
+    let (nodes, needed_bytes) = engine
+        .pool
+        .run(move || {
+            impeller_sector(&asked).map(|sector| (sector.mesh.nodes.len(), generation_bytes(&sector)))
+        })
+        .await??;
 
     wanted(0.05, "waiting for memory")?;
     // Until the package is read back: each step may hold all the matrices.
-    let _memory = engine.memory.claim(3 * nodes as u64).await;
+    let mut allowance = engine.memory.claim(3 * nodes as u64).await;
+    if !allowance.allows(needed_bytes) && !allowance.is_most() {
+        drop(allowance);
+        allowance = engine.memory.claim_most().await;
+    }
+    if let Some(allowed) = allowance.bytes.filter(|_| !allowance.allows(needed_bytes)) {
+        return Err(Halt::generation_memory(needed_bytes, allowed));
+    }
     wanted(0.05, "assembling matrices, solving the centrifugal pre-stress")?;
     let asked = parameters.clone();
     let package = engine.pool.run_parallel(move || generate(&asked)).await??;
