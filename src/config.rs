@@ -32,7 +32,7 @@ pub struct Config {
     #[arg(long, env = "RUBMAP_EXPANDED_BYTES")]
     pub expanded_bytes: Option<u64>,
 
-    /// Memory that reductions may take, in bytes [default: three quarters of what the machine or container leaves].
+    /// Memory that reductions and generations may take, in bytes [default: three quarters of what the machine or container leaves].
     #[arg(long, env = "RUBMAP_MEMORY_BYTES", value_parser = clap::value_parser!(u64).range(1 << 20..))]
     pub memory_bytes: Option<u64>,
 }
@@ -46,7 +46,7 @@ impl Config {
         }
     }
 
-    /// Memory that reductions may take; `None` where nothing is known about it.
+    /// Memory that reductions and generations may take; `None` where nothing is known about it.
     pub fn memory_limit(&self) -> Option<u64> {
         // A quarter is left to packages being read, speeds being run and the system.
         self.memory_bytes.or_else(|| memory::available_bytes().map(|available| available / 4 * 3))

@@ -28,10 +28,25 @@ fn physics_knows_no_service() {
 #[test]
 fn arrows_point_one_way() {
     for (module, later) in [
-        ("numerics", &["crate::dynamics", "crate::response", "crate::analysis", "crate::package"][..]),
-        ("dynamics", &["crate::response", "crate::analysis", "crate::package"]),
-        ("response", &["crate::analysis", "crate::package"]),
-        ("analysis", &["crate::store", "crate::jobs", "crate::http", "crate::package"]),
+        (
+            "numerics",
+            &["crate::dynamics", "crate::response", "crate::analysis", "crate::package", "crate::impeller"][..],
+        ),
+        ("dynamics", &["crate::response", "crate::analysis", "crate::package", "crate::impeller"]),
+        ("response", &["crate::analysis", "crate::package", "crate::impeller"]),
+        (
+            "package",
+            &[
+                "crate::response",
+                "crate::analysis",
+                "crate::impeller",
+                "crate::store",
+                "crate::jobs",
+                "crate::http",
+            ],
+        ),
+        ("impeller", &["crate::response", "crate::analysis", "crate::store", "crate::jobs", "crate::http"]),
+        ("analysis", &["crate::store", "crate::jobs", "crate::http", "crate::package", "crate::impeller"]),
         ("store", &["crate::jobs", "crate::http"]),
         ("jobs", &["crate::http"]),
         ("http", &["crate::app"]),

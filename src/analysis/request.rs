@@ -14,6 +14,7 @@ pub struct SweepRequest {
     pub model: String,
     /// Fixed-interface modes kept per stiffness speed and nodal diameter: the accuracy dial k.
     #[serde(default = "default_modes_per_speed")]
+    #[schema(minimum = 1, maximum = 500)]
     pub modes_per_speed: u32,
     /// Speeds to simulate.
     pub speeds: Speeds,
@@ -38,6 +39,7 @@ pub struct ModalAnalysisRequest {
     pub model: String,
     /// Fixed-interface modes kept per stiffness speed and nodal diameter.
     #[serde(default = "default_modes_per_speed")]
+    #[schema(minimum = 1, maximum = 500)]
     pub modes_per_speed: u32,
     /// Modal families (frequencies per nodal diameter) to report.
     #[serde(default = "default_families")]

@@ -153,7 +153,7 @@ pub(super) async fn create_model(
         return Ok(response);
     }
     let (facts, id) = state.jobs.read_package(upload.to_path_buf(), state.package_limits.clone()).await??;
-    let (model, new) = state.store.insert_model(&id, &facts, upload).await?;
+    let (model, new) = state.store.insert_model(&id, &facts, &upload).await?;
     tracing::info!(model.id = id, name = facts.name, new, "received a model");
     let answer = Answer {
         key: String::new(),

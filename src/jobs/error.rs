@@ -7,6 +7,10 @@ use crate::package::PackageError;
 use crate::store::StoreError;
 use crate::store::jobs::{Failure, FailureCause};
 
+/// How to get more memory.
+const MORE_MEMORY: &str = "let the service take more (--memory-bytes or RUBMAP_MEMORY_BYTES, of which seven eighths go to \
+                           one large model), or run it on a machine with more memory";
+
 /// Why a task of a job ended early.
 #[derive(Debug)]
 pub(super) enum Halt {
@@ -25,10 +29,22 @@ impl Halt {
         Self::Failed(Failure { cause: FailureCause::Refused, message, violations: Vec::new() })
     }
 
+    /// The generator needs more memory than it may take.
+    pub(super) fn generation_memory(needed_bytes: u64, allowed_bytes: u64) -> Self {
+        let mib = |bytes: u64| bytes as f64 / f64::from(1 << 20);
+        let message = format!(
+            "generating this model needs about {:.1} MiB of memory and may take {:.1} MiB: ask for a coarser mesh or for \
+             8-node elements, {MORE_MEMORY}",
+            mib(needed_bytes),
+            mib(allowed_bytes)
+        );
+        Self::Failed(Failure { cause: FailureCause::Memory, message, violations: Vec::new() })
+    }
+
     /// The service died under the job too often.
     pub(super) fn crashed(times: u32) -> Self {
         let message = format!(
-            "the service ended {times} times while it computed this job, without finishing a speed in between; \
+            "the service ended {times} times while it computed this job, without finishing anything of it in between; \
              most likely it ran out of memory: ask for less (modes_per_speed, mesh), or give the service more"
         );
         Self::Failed(Failure { cause: FailureCause::Defect, message, violations: Vec::new() })
@@ -66,11 +82,7 @@ impl From<AnalysisError> for Halt {
                 Self::Failed(Failure { cause: FailureCause::Model, message, violations: Vec::new() })
             }
             AnalysisError::Memory { .. } => {
-                let message = format!(
-                    "{message}: ask for fewer modes_per_speed, let the service take more (--memory-bytes or \
-                     RUBMAP_MEMORY_BYTES, of which seven eighths go to one large model), or run it on a machine \
-                     with more memory"
-                );
+                let message = format!("{message}: ask for fewer modes_per_speed, {MORE_MEMORY}");
                 Self::Failed(Failure { cause: FailureCause::Memory, message, violations: Vec::new() })
             }
         }

@@ -1,14 +1,21 @@
 //! A model from the parameters of the generator: one task from beginning to end.
 
-use std::io::BufWriter;
+use std::fs::File;
+use std::io::{self, BufWriter};
+use std::sync::Arc;
+
+use tempfile::TempPath;
 
 use super::engine::{Engine, Live};
 use super::error::Halt;
 use super::finish;
+use super::pool::Panicked;
 use super::progress::PhaseMonitor;
+use super::room::once_there_is_room;
 use crate::analysis::monitor::Monitor;
 use crate::analysis::run::ModelFacts;
-use crate::impeller::{ImpellerParameters, generate, impeller_sector};
+use crate::impeller::{ImpellerParameters, generate, generation_bytes, impeller_sector};
+use crate::package::raw::RawPackage;
 use crate::package::{self, Limits, PackageError};
 use crate::store::StoreError;
 
@@ -22,21 +29,32 @@ pub(super) async fn run(engine: &Engine, job: &Live, parameters: &ImpellerParame
 
     wanted(0.0, "meshing")?;
     let asked = parameters.clone();
-    let nodes =
-        engine.pool.run(move || impeller_sector(&asked).map(|sector| sector.mesh.nodes.len())).await??;
+    let (nodes, needed_bytes) = engine
+        .pool
+        .run(move || {
+            impeller_sector(&asked).map(|sector| (sector.mesh.nodes.len(), generation_bytes(&sector)))
+        })
+        .await??;
 
     wanted(0.05, "waiting for memory")?;
     // Until the package is read back: each step may hold all the matrices.
-    let _memory = engine.memory.claim(3 * nodes as u64).await;
+    let mut allowance = engine.memory.claim(3 * nodes as u64).await;
+    if !allowance.allows(needed_bytes) && !allowance.is_most() {
+        drop(allowance);
+        allowance = engine.memory.claim_most().await;
+    }
+    if let Some(allowed) = allowance.bytes.filter(|_| !allowance.allows(needed_bytes)) {
+        return Err(Halt::generation_memory(needed_bytes, allowed));
+    }
     wanted(0.05, "assembling matrices, solving the centrifugal pre-stress")?;
     let asked = parameters.clone();
     let package = engine.pool.run_parallel(move || generate(&asked)).await??;
 
     wanted(0.5, "writing the package")?;
-    let (file, upload) = engine.store.new_upload().map_err(StoreError::File)?.into_parts();
-    // Nothing is wrong with the package yet: what fails is the disk.
-    let unwritten = |error: PackageError| StoreError::File(std::io::Error::other(error));
-    engine.pool.run(move || package::write(&package, BufWriter::new(file))).await?.map_err(unwritten)?;
+    let package = Arc::new(package);
+    let write = || write(engine, Arc::clone(&package));
+    let upload = once_there_is_room(&job.watch, write).await??;
+    drop(package);
 
     wanted(0.8, "checking the package")?;
     let path = upload.to_path_buf();
@@ -46,7 +64,39 @@ pub(super) async fn run(engine: &Engine, job: &Live, parameters: &ImpellerParame
     let (facts, id) = engine.pool.run_parallel(read).await?.map_err(Halt::generated_package)?;
 
     wanted(0.95, "keeping the model")?;
-    let (_, new) = engine.store.insert_model(&id, &facts, upload).await?;
+    let keep = || engine.store.insert_model(&id, &facts, &upload);
+    let (_, new) = once_there_is_room(&job.watch, keep).await?;
     tracing::info!(job.id = %job.id, model.id = id, name = facts.name, new, "generated a model");
     finish::complete(engine, job, &[], Some(&id)).await
+}
+
+/// Writes `package` to a file beside the models; a broken attempt leaves none.
+async fn write(engine: &Engine, package: Arc<RawPackage>) -> Result<Result<TempPath, Panicked>, StoreError> {
+    let (file, upload) = engine.store.new_upload()?.into_parts();
+    match engine.pool.run(move || write_to(file, &package)).await {
+        Ok(written) => written.map(|()| Ok(upload)).map_err(StoreError::File),
+        Err(panicked) => Ok(Err(panicked)),
+    }
+}
+
+/// Nothing is wrong with the package yet: what fails is the disk.
+fn write_to(file: File, package: &RawPackage) -> io::Result<()> {
+    package::write(package, BufWriter::new(file)).map_err(|error| match error {
+        PackageError::Io { source } => source,
+        error => io::Error::other(error),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::impeller::Preset;
+
+    #[test]
+    fn a_package_that_finds_no_room_is_known_by_it() {
+        let package = generate(&Preset::Small.parameters()).unwrap();
+        let full = File::options().write(true).open("/dev/full").unwrap();
+        let error = StoreError::from(write_to(full, &package).unwrap_err());
+        assert!(error.is_disk_full(), "{error}");
+    }
 }

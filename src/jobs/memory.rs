@@ -30,6 +30,11 @@ pub(super) struct Allowance<'a> {
 }
 
 impl Allowance<'_> {
+    /// Whether so many bytes may be taken.
+    pub(super) fn allows(&self, bytes: u64) -> bool {
+        self.bytes.is_none_or(|allowed| bytes <= allowed)
+    }
+
     /// Whether no computation can get more.
     pub(super) fn is_most(&self) -> bool {
         self.turn.is_some()

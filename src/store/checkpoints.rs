@@ -1,4 +1,5 @@
-//! Parts of unfinished reductions, as files: `checkpoints/<model>-<modes_per_speed>/<layout>-<part>`.
+//! Parts of unfinished reductions, as files:
+//! `checkpoints/<model>-<modes_per_speed>/<version>-<layout>-<part>`.
 //!
 //! Files, not rows: they are large, they may go at any time, and a full disk must not stop the reduction they belong to.
 
@@ -71,6 +72,12 @@ impl Store {
 }
 
 impl CheckpointFolder {
+    /// Number of parts that this program can read.
+    pub(super) async fn parts(&self) -> std::io::Result<u32> {
+        let files = entries(&self.folder).await?;
+        Ok(files.iter().filter(|file| file_name(file).starts_with(&prefix())).count() as u32)
+    }
+
     fn path(&self, part: &str) -> PathBuf {
         self.folder.join(format!("{}{part}", prefix()))
     }

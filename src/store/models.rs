@@ -49,21 +49,23 @@ impl Store {
         self.folder.join("models").join(format!("{model}.zip"))
     }
 
-    /// Keeps the package at `upload` as model `id`. Returns the model and whether it is new.
+    /// Keeps the package at `upload`, a file from [`Self::new_upload`], as model `id`. Returns the model and whether it is
+    /// new.
     ///
-    /// The file comes first: a row promises that its package is there and complete.
+    /// The file comes first: a row promises that its package is there and complete. If the row then finds no room, the
+    /// same call may be made again.
     pub async fn insert_model(
         &self,
         id: &str,
         facts: &ModelFacts,
-        upload: tempfile::TempPath,
+        upload: &Path,
     ) -> Result<(StoredModel, bool), StoreError> {
         let _packages = self.packages.lock().await;
         if let Some(known) = self.model(id).await? {
             return Ok((known, false));
         }
-        let target = self.package_path(id);
-        let size_bytes = tokio::task::spawn_blocking(move || keep_file(upload, &target))
+        let (upload, target) = (upload.to_owned(), self.package_path(id));
+        let size_bytes = tokio::task::spawn_blocking(move || keep_file(&upload, &target))
             .await
             .map_err(std::io::Error::other)??;
         let created = sqlx::query(
@@ -158,14 +160,48 @@ fn read(row: &SqliteRow) -> Result<StoredModel, StoreError> {
     })
 }
 
-/// Flushes the upload to the disk and gives it its final name, in this order. Returns its size.
-fn keep_file(upload: tempfile::TempPath, target: &Path) -> Result<u64, std::io::Error> {
-    let file = std::fs::File::open(&upload)?;
-    file.sync_all()?;
-    let size = file.metadata()?.len();
-    upload.persist(target).map_err(|error| error.error)?;
-    if let Some(folder) = target.parent() {
-        std::fs::File::open(folder)?.sync_all()?;
+/// Flushes the upload to the disk and gives it its final name, in this order, unless an earlier attempt did. Returns its
+/// size.
+fn keep_file(upload: &Path, target: &Path) -> Result<u64, std::io::Error> {
+    if upload.exists() {
+        std::fs::File::open(upload)?.sync_all()?;
+        std::fs::rename(upload, target)?;
+        if let Some(folder) = target.parent() {
+            std::fs::File::open(folder)?.sync_all()?;
+        }
     }
-    Ok(size)
+    Ok(target.metadata()?.len())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dynamics::sector::Units;
+
+    #[tokio::test]
+    async fn a_model_whose_row_found_no_room_is_kept_later() {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::open(folder.path()).await.unwrap();
+        let unit = String::new;
+        let facts = ModelFacts {
+            name: "long ".repeat(100_000),
+            sectors: 10,
+            contact_nodes: 3,
+            own_dofs: 100,
+            speeds_rad_s: vec![0.0],
+            units: Units { length: unit(), force: unit(), time: unit(), mass: unit() },
+        };
+        let upload = store.new_upload().unwrap().into_temp_path();
+        std::fs::write(&upload, "package").unwrap();
+        let id = "m".repeat(64);
+        // SQLite refuses to grow beyond so many pages as it does on a full disk.
+        sqlx::query("pragma max_page_count = 1").execute(&store.writer).await.unwrap();
+        assert!(store.insert_model(&id, &facts, &upload).await.unwrap_err().is_disk_full());
+        assert!(store.model(&id).await.unwrap().is_none());
+        sqlx::query("pragma max_page_count = 100000").execute(&store.writer).await.unwrap();
+        let (model, new) = store.insert_model(&id, &facts, &upload).await.unwrap();
+        drop(upload);
+        assert_eq!((model.size_bytes, new), (7, true));
+        assert_eq!(std::fs::read_to_string(store.package_path(&id)).unwrap(), "package");
+    }
 }

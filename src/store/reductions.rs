@@ -32,13 +32,16 @@ impl Store {
         }))
     }
 
-    /// What the reductions of `model` found and cost, by ascending `modes_per_speed`.
+    /// What the reductions of `model` that this version of the program can read found and cost, by ascending
+    /// `modes_per_speed`.
     pub async fn reduction_reports(&self, model: &str) -> Result<Vec<ReductionReport>, StoreError> {
-        let reports: Vec<String> =
-            sqlx::query_scalar("select report from reductions where model = ? order by modes_per_speed")
-                .bind(model)
-                .fetch_all(&self.readers)
-                .await?;
+        let reports: Vec<String> = sqlx::query_scalar(
+            "select report from reductions where model = ? and layout = ? order by modes_per_speed",
+        )
+        .bind(model)
+        .bind(LAYOUT)
+        .fetch_all(&self.readers)
+        .await?;
         Ok(reports.iter().map(|report| serde_json::from_str(report)).collect::<Result<_, _>>()?)
     }
 
@@ -74,5 +77,39 @@ impl Store {
         .await?;
         self.remove_checkpoints(model, Some(modes_per_speed)).await;
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[tokio::test]
+    async fn a_reduction_of_an_older_layout_is_not_there() {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::open(folder.path()).await.unwrap();
+        sqlx::query(
+            "insert into models (id, name, facts, size_bytes, created_at) values (?, 'm', '{}', 1, 'a')",
+        )
+        .bind("m".repeat(64))
+        .execute(&store.writer)
+        .await
+        .unwrap();
+        let report = r#"{"modes_per_speed": 20, "unknowns": [7], "wheel_unknowns": 40, "largest_mode_residual": 1e-9,
+            "modes": 60, "counted_modes": 60, "full_model": [], "basis_tolerance": 1e-5, "stiffening": {"verdict": "absent",
+            "linear_ratio": 0, "quadratic_ratio": 0, "frequency_error": 0, "message": "none"}, "wall_time_s": 1.5, "version": "0.1.0"}"#;
+        let rows = [(10, LAYOUT - 1, r#"{"modes_per_speed": 10, "checked_modes": 5}"#), (20, LAYOUT, report)];
+        for (modes_per_speed, layout, report) in rows {
+            sqlx::query("insert into reductions values (?, ?, ?, x'00', ?, 'a')")
+                .bind("m".repeat(64))
+                .bind(modes_per_speed)
+                .bind(layout)
+                .bind(report)
+                .execute(&store.writer)
+                .await
+                .unwrap();
+        }
+        let reports = store.reduction_reports(&"m".repeat(64)).await.unwrap();
+        assert_eq!(reports.iter().map(|report| report.modes_per_speed).collect::<Vec<_>>(), [20]);
     }
 }

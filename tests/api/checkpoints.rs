@@ -56,11 +56,19 @@ async fn checkpoints_that_cannot_be_written_do_not_fail_the_job() {
 
 #[tokio::test]
 async fn a_reduction_beyond_the_memory_is_refused_with_what_to_do() {
-    let app = TestApp::start_with(|config| config.memory_bytes = Some(1 << 20)).await;
+    let data = tempfile::tempdir().unwrap();
+    let app = TestApp::start_on(data.path()).await;
+    let generated = app.api.post("/v1/models", &json!({})).await.text("/id");
+    let model = app.api.finish(&generated).await["model"].as_str().unwrap().to_owned();
+    app.stop().await;
+
+    let app = TestApp::start_with(|config| {
+        config.data = data.path().to_owned();
+        config.memory_bytes = Some(1 << 20);
+    })
+    .await;
     let api = &app.api;
     assert_eq!(api.get("/healthz").await.body["memory_bytes"], 1 << 20);
-    let generated = api.post("/v1/models", &json!({})).await.text("/id");
-    let model = api.finish(&generated).await["model"].as_str().unwrap().to_owned();
     let id = api.post("/v1/modal-analyses", &modal_analysis_of(&model)).await.text("/id");
     let job = api.finish(&id).await;
     assert_eq!(job["status"], "failed", "{job}");

@@ -1,9 +1,7 @@
 //! Models from parameters of the generator.
 
-use std::io::Cursor;
+use std::process::Command;
 
-use rubmap::impeller::{ImpellerRequest, generate};
-use rubmap::package;
 use serde_json::{Value, json};
 
 use super::app::{Answer, Api, TestApp, modal_analysis_of};
@@ -27,6 +25,18 @@ async fn generation_of(api: &Api, parameters: &Value) -> String {
     id
 }
 
+/// The package that `rubmap generate` makes.
+fn generated_by_command(parameters: &Value) -> Vec<u8> {
+    let folder = tempfile::tempdir().unwrap();
+    let [file, zip] = ["parameters.json", "impeller.zip"].map(|name| folder.path().join(name));
+    std::fs::write(&file, parameters.to_string()).unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_rubmap"));
+    let ended =
+        command.arg("generate").arg("--parameters").arg(&file).arg("--out").arg(&zip).output().unwrap();
+    assert!(ended.status.success(), "{}", String::from_utf8_lossy(&ended.stderr));
+    std::fs::read(zip).unwrap()
+}
+
 #[tokio::test]
 async fn a_generated_model_is_the_one_that_would_be_uploaded() {
     let app = TestApp::start().await;
@@ -41,10 +51,7 @@ async fn a_generated_model_is_the_one_that_would_be_uploaded() {
     let detail = api.get(&format!("/v1/models/{model}")).await.body;
     assert_eq!((&detail["sectors"], &detail["contact_nodes"]), (&10.into(), &3.into()));
 
-    let request: ImpellerRequest = serde_json::from_value(coarse()).unwrap();
-    let mut zip = Cursor::new(Vec::new());
-    package::write(&generate(&request.resolve().unwrap()).unwrap(), &mut zip).unwrap();
-    let uploaded = api.upload(zip.into_inner()).await;
+    let uploaded = api.upload(generated_by_command(&coarse())).await;
     assert_eq!((uploaded.status.as_u16(), uploaded.text("/id").as_str()), (200, model));
     assert_eq!(uploaded.body["size_bytes"], detail["size_bytes"]);
 
@@ -132,5 +139,28 @@ async fn parameters_that_only_the_mesh_shows_to_be_impossible_fail_the_job() {
     assert_eq!(job["status"], "failed", "{job}");
     assert_eq!(job["error"]["type"], "urn:rubmap:problem:invalid-request", "{job}");
     assert!(job["error"]["detail"].as_str().unwrap().contains("thickness"), "{job}");
+    app.stop().await;
+}
+
+#[tokio::test]
+async fn a_generation_beyond_the_memory_is_refused_with_what_to_do() {
+    let app = TestApp::start_with(|config| config.memory_bytes = Some(1 << 20)).await;
+    let job = app.api.finish(&generation_of(&app.api, &coarse()).await).await;
+    assert_eq!(job["status"], "failed", "{job}");
+    assert_eq!(job["error"]["type"], "urn:rubmap:problem:out-of-memory", "{job}");
+    let detail = job["error"]["detail"].as_str().unwrap();
+    for words in ["needs about", "may take 0.9 MiB", "coarser mesh", "--memory-bytes"] {
+        assert!(detail.contains(words), "{words:?} is not in {detail:?}");
+    }
+    assert_eq!(files_in(&app.data().join("models")), [""; 0], "nothing was begun");
+    app.stop().await;
+}
+
+#[tokio::test]
+async fn a_generation_that_needs_more_than_a_share_gets_more() {
+    // An eighth of it is too little for the default mesh.
+    let app = TestApp::start_with(|config| config.memory_bytes = Some(256 << 20)).await;
+    let job = app.api.finish(&generation_of(&app.api, &json!({})).await).await;
+    assert_eq!(job["status"], "successful", "{job}");
     app.stop().await;
 }

@@ -93,10 +93,6 @@ async fn a_killed_service_resumes_without_computing_anything_again() {
     assert!((3..16).contains(&before.len()), "{} speeds were finished", before.len());
 
     let program = Program::serve(data.path());
-    // Queued again at once: apalis alone would take a minute to notice the dead worker.
-    let begin = std::time::Instant::now();
-    program.api.follow(&id, |job| job["speeds"]["finished"].as_u64() > Some(before.len() as u64)).await;
-    assert!(begin.elapsed().as_secs() < 30, "resumed after {:?}", begin.elapsed());
     let job = program.api.finish(&id).await;
     assert_eq!(job["status"], "successful", "{job}");
     let after = points(&program.api, &id).await;

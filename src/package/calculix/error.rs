@@ -168,22 +168,8 @@ pub enum ModelProblem {
         high: usize,
     },
     /// A low node without partner.
-    #[error(
-        "low node {node} turned by 2π/{sectors} has no node within {tolerance:.2e}: the nearest is {nearest}, {distance:.2e} away; \
-         mesh the two faces alike (periodic), and check --sectors and --axis"
-    )]
-    NoPartner {
-        /// The low node.
-        node: u64,
-        /// N.
-        sectors: usize,
-        /// What would have been accepted.
-        tolerance: f64,
-        /// The nearest candidate.
-        nearest: u64,
-        /// Its distance.
-        distance: f64,
-    },
+    #[error("low {0}; mesh the two faces alike (periodic), and check --sectors and --axis")]
+    NoPartner(NoCopy),
     /// Face nodes that were eliminated by a tie.
     #[error(
         "node {node} of the {face} face has no DOF in {}, its partner {partner} has: the cyclic tie was active when the \
@@ -266,21 +252,9 @@ pub enum ModelProblem {
     },
     /// A node of the wheel that has no copy one sector further.
     #[error(
-        "the wheel is not cyclic: node {node} turned by 2π/{sectors} has no node within {tolerance:.2e} (the nearest is {nearest}, \
-         {distance:.2e} away); make the wheel by copying one meshed sector, and check --sectors and --axis"
+        "the wheel is not cyclic: {0}; make the wheel by copying one meshed sector, and check --sectors and --axis"
     )]
-    WheelMesh {
-        /// The node.
-        node: u64,
-        /// N.
-        sectors: usize,
-        /// What would have been accepted.
-        tolerance: f64,
-        /// The nearest candidate.
-        nearest: u64,
-        /// Its distance.
-        distance: f64,
-    },
+    WheelMesh(NoCopy),
     /// The low face does not separate sectors.
     #[error(
         "the low face does not cut the wheel into sectors: without its copies {parts} parts remain instead of {sectors}; the low set must hold all nodes between two sectors"
@@ -318,4 +292,22 @@ pub enum ModelProblem {
         /// Name of the contact set.
         set: String,
     },
+}
+
+/// A node that has no node where the turn by one sector takes it.
+#[derive(Debug, thiserror::Error)]
+#[error(
+    "node {node} turned by 2π/{sectors} has no node within {tolerance:.2e} (the nearest is {nearest}, {distance:.2e} away)"
+)]
+pub struct NoCopy {
+    /// The node.
+    pub node: u64,
+    /// N.
+    pub sectors: usize,
+    /// What would have been accepted.
+    pub tolerance: f64,
+    /// The nearest candidate.
+    pub nearest: u64,
+    /// Its distance.
+    pub distance: f64,
 }

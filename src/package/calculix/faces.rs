@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
 
 use super::deck::Deck;
-use super::error::ModelProblem;
+use super::error::{ModelProblem, NoCopy};
 use super::matrices::DofList;
 use super::places::Places;
 use super::{CalculixModel, set};
@@ -42,7 +42,7 @@ pub(super) fn pair(
             Ok(high) => Ok([node, high]),
             Err(near) => {
                 let (nearest, distance) = (near.node, near.distance);
-                Err(ModelProblem::NoPartner { node, sectors, tolerance, nearest, distance })
+                Err(ModelProblem::NoPartner(NoCopy { node, sectors, tolerance, nearest, distance }))
             }
         };
         low.iter().map(partner).collect()

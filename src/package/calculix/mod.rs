@@ -22,7 +22,7 @@ use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
 pub use contact::ContactPoint;
-pub use error::{CalculixError, LineProblem, ModelProblem};
+pub use error::{CalculixError, LineProblem, ModelProblem, NoCopy};
 pub use spin::SpinFinding;
 
 use super::frame::{AxisFrame, apply};
@@ -124,7 +124,7 @@ pub fn import(model: &CalculixModel) -> Result<(RawPackage, ImportSummary), Calc
         let cut = wheel::cut(&rest, &matrices[1], &positions, &low, sectors, &frame, tolerance)?;
         let mut worst: f64 = 0.0;
         for (matrix, file) in matrices.iter_mut().zip(&files) {
-            let (sector, difference) = cut.sector(file, matrix, &rest, &frame, sectors)?;
+            let (sector, difference) = cut.sector(file, matrix)?;
             (*matrix, worst) = (sector, worst.max(difference));
         }
         summary.sectors_differ = Some(worst);

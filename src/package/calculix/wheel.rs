@@ -13,7 +13,7 @@ use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use super::error::ModelProblem;
+use super::error::{ModelProblem, NoCopy};
 use super::matrices::DofList;
 use super::places::Places;
 use crate::package::frame::AxisFrame;
@@ -23,7 +23,10 @@ use crate::package::raw::{RawDof, RawMatrix};
 const CYCLIC_TOLERANCE: f64 = 1e-3;
 
 /// Which nodes of a wheel are the sector.
-pub(super) struct Cut {
+pub(super) struct Cut<'a> {
+    wheel: &'a DofList,
+    sectors: usize,
+    frame: &'a AxisFrame,
     /// Pairs of low node and high node.
     pub(super) pairs: Vec<[u64; 2]>,
     /// Nodes of the sector, the high face not among them.
@@ -39,15 +42,15 @@ pub(super) struct Cut {
 }
 
 /// Finds the sector that follows the low face in the sense of the rotation.
-pub(super) fn cut(
-    dofs: &DofList,
+pub(super) fn cut<'a>(
+    dofs: &'a DofList,
     stiffness: &RawMatrix,
     positions: &HashMap<u64, [f64; 3]>,
     low: &[u64],
     sectors: usize,
-    frame: &AxisFrame,
+    frame: &'a AxisFrame,
     tolerance: f64,
-) -> Result<Cut, ModelProblem> {
+) -> Result<Cut<'a>, ModelProblem> {
     if sectors < 3 {
         return Err(ModelProblem::WheelTooSmall { sectors });
     }
@@ -59,7 +62,8 @@ pub(super) fn cut(
     let mut next = HashMap::new();
     for &node in &nodes {
         let copy = places.at(frame.turn_point(positions[&node], alpha)).map_err(|near| {
-            ModelProblem::WheelMesh { node, sectors, tolerance, nearest: near.node, distance: near.distance }
+            let (nearest, distance) = (near.node, near.distance);
+            ModelProblem::WheelMesh(NoCopy { node, sectors, tolerance, nearest, distance })
         })?;
         next.insert(node, copy);
     }
@@ -113,22 +117,15 @@ pub(super) fn cut(
         }
     }
     let pairs = low.iter().zip(&high).map(|(low, high)| [*low, *high]).collect();
-    Ok(Cut { pairs, own, dofs: of_sector, row_of, high_from, next })
+    Ok(Cut { wheel: dofs, sectors, frame, pairs, own, dofs: of_sector, row_of, high_from, next })
 }
 
-impl Cut {
+impl Cut<'_> {
     /// The sector's part of a matrix of the wheel, and how much the sectors differ.
-    pub(super) fn sector(
-        &self,
-        file: &Path,
-        wheel: &RawMatrix,
-        dofs: &DofList,
-        frame: &AxisFrame,
-        sectors: usize,
-    ) -> Result<(RawMatrix, f64), ModelProblem> {
-        let difference = self.check_cyclic(file, wheel, dofs, frame, sectors)?;
+    pub(super) fn sector(&self, file: &Path, matrix: &RawMatrix) -> Result<(RawMatrix, f64), ModelProblem> {
+        let difference = self.check_cyclic(file, matrix)?;
         let mut entries = Vec::new();
-        for &(row, column, value) in &wheel.entries {
+        for &(row, column, value) in &matrix.entries {
             if let (Some(row), Some(column)) = (self.row_of[row as usize], self.row_of[column as usize])
                 && row.min(column) < self.high_from
             {
@@ -140,14 +137,8 @@ impl Cut {
     }
 
     /// Y T x against T Y x, with T the turn of the wheel by one sector and x any displacement without symmetry.
-    fn check_cyclic(
-        &self,
-        file: &Path,
-        wheel: &RawMatrix,
-        dofs: &DofList,
-        frame: &AxisFrame,
-        sectors: usize,
-    ) -> Result<f64, ModelProblem> {
+    fn check_cyclic(&self, file: &Path, matrix: &RawMatrix) -> Result<f64, ModelProblem> {
+        let dofs = self.wheel;
         let mut state = 1_u64;
         let mut number = || {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -155,7 +146,7 @@ impl Cut {
         };
         let x: Vec<f64> = dofs.dofs.iter().map(|_| number()).collect();
         let turned = |x: &[f64]| -> HashMap<u64, [f64; 3]> {
-            let basis = frame.turned_global(TAU / sectors as f64);
+            let basis = self.frame.turned_global(TAU / self.sectors as f64);
             // Rows of the basis are the turned unit vectors: their combination is the turned vector.
             let turn = |v: [f64; 3]| std::array::from_fn(|k| (0..3).map(|i| v[i] * basis[i][k]).sum());
             by_node(dofs, x).into_iter().map(|(node, v)| (self.next[&node], turn(v))).collect()
@@ -163,8 +154,8 @@ impl Cut {
         let of_turned = turned(&x);
         let tx: Vec<f64> =
             dofs.dofs.iter().map(|dof| of_turned[&dof.node][usize::from(dof.component) - 1]).collect();
-        let y_tx = by_node(dofs, &times(wheel, &tx));
-        let t_yx = turned(&times(wheel, &x));
+        let y_tx = by_node(dofs, &times(matrix, &tx));
+        let t_yx = turned(&times(matrix, &x));
         let size = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
         let largest = y_tx.values().map(|v| size(*v)).fold(f64::MIN_POSITIVE, f64::max);
         let mut worst = (0.0, 0, 0);

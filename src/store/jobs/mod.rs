@@ -1,6 +1,7 @@
 //! Jobs: what was asked for and how far it is.
 
 mod job;
+mod take_up;
 
 use sqlx::Row;
 use sqlx::sqlite::SqliteRow;
@@ -107,28 +108,6 @@ impl Store {
             .iter()
             .map(read)
             .collect()
-    }
-
-    /// All jobs that still want work, oldest first, as a service that starts finds them: each with the number of times
-    /// the service died under it since anything of it was last finished. Counts one more for those that were being computed.
-    pub async fn take_up_jobs(&self) -> Result<Vec<(JobId, u32)>, StoreError> {
-        let mut transaction = self.writer.begin().await?;
-        sqlx::query("update jobs set crashes = crashes + 1, in_hand = 0 where in_hand = 1")
-            .execute(&mut *transaction)
-            .await?;
-        let jobs: Vec<(String, u32)> = sqlx::query_as(
-            "select id, crashes from jobs where status in ('accepted', 'running') order by id",
-        )
-        .fetch_all(&mut *transaction)
-        .await?;
-        transaction.commit().await?;
-        jobs.iter().map(|(id, crashes)| Ok((read_id(id)?, *crashes))).collect()
-    }
-
-    /// Lays down all jobs: the service ends because it was told to.
-    pub async fn lay_down_jobs(&self) -> Result<(), StoreError> {
-        sqlx::query("update jobs set in_hand = 0 where in_hand = 1").execute(&self.writer).await?;
-        Ok(())
     }
 
     /// Moves a job on, if the transition table allows it. Returns the status it has now; `None` if there is no
