@@ -220,9 +220,9 @@ fn compared_frequencies_are_the_full_sectors() {
         )
         .unwrap();
         assert!(comparison.full.len() == 10 && comparison.reduced.len() == 10);
-        for m in 0..10 {
-            assert!((comparison.full[m] / exact[m] - 1.0).abs() < 1e-9, "{comparison:?}");
-            assert!(comparison.reduced[m] / comparison.full[m] > 1.0 - 1e-9);
+        for ((full, reduced), exact) in comparison.full.iter().zip(&comparison.reduced).zip(&exact) {
+            assert!((full / exact - 1.0).abs() < 1e-9, "{comparison:?}");
+            assert!(reduced / full > 1.0 - 1e-9);
         }
         assert!(comparison.largest_difference().unwrap().0 < 0.01);
     }

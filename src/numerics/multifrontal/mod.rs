@@ -81,7 +81,7 @@ impl<'a> PartialFactor<'a> {
             }
             Ok((done, waiting.pop().flatten()))
         };
-        let answers: Vec<Result<(Vec<Eliminated>, Option<Mat<f64>>), Breakdown>> =
+        let answers: Vec<Result<_, Breakdown>> =
             analysis.subtrees.par_iter().map_init(|| eliminate::Place::new(analysis.size), run).collect();
         for (subtree, answer) in analysis.subtrees.iter().zip(answers) {
             let (done, update) = answer?;
