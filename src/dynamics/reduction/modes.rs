@@ -29,6 +29,14 @@ pub(super) struct Modes {
     pub(super) beyond: Vec<f64>,
 }
 
+impl Modes {
+    /// Values just above the known eigenvalues, by as much as they are known to.
+    pub(super) fn ceilings(&self) -> Vec<f64> {
+        let found = self.values.iter().map(|value| value * (1.0 + 1e-6));
+        found.chain(self.beyond.iter().map(|value| value * (1.0 + 2.0 * LOCATED))).collect()
+    }
+}
+
 /// What is asked of a search.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Wanted {

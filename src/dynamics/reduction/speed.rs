@@ -148,7 +148,7 @@ impl Work<'_> {
 
         phase(0.8, "full sector")?;
         // Fixing the contact DOF raises every frequency: a ceiling for those of the full sector.
-        let ceilings: Vec<&[f64]> = harmonics.iter().map(|part| part.modes.values.as_slice()).collect();
+        let ceilings: Vec<Vec<f64>> = harmonics.iter().map(|part| part.modes.ceilings()).collect();
         let free: Vec<_> = tied.iter().enumerate().filter(|(_, tied)| tied.free).collect();
         let going = |done: f64| phase(0.8 + 0.2 * done, "full sector").is_ok();
         let (full, full_block) = self
@@ -258,7 +258,7 @@ impl Work<'_> {
         &self,
         pencil: &Pencil<'_>,
         free: &[(usize, &TiedFactor)],
-        ceilings: Option<&[&[f64]]>,
+        ceilings: Option<&[Vec<f64>]>,
         block: usize,
         keep_going: &dyn Fn(f64) -> bool,
     ) -> Result<(FullFrequencies, usize), ModeError> {
@@ -275,10 +275,9 @@ impl Work<'_> {
                 let share = |done: f64| (group as f64 + done) / waiting.len().div_ceil(TOGETHER) as f64;
                 let found = pencil.lowest_modes(&ties, wanted, &|done| keep_going(share(done)))?;
                 for (&(harmonic, tied), modes) in members.iter().zip(found) {
-                    let ceiling = ceilings.map_or(&[][..], |ceilings| ceilings[harmonic]);
+                    let ceiling = ceilings.map_or(&[][..], |ceilings| &ceilings[harmonic]);
                     let mut pairs = modes.values.iter().zip(ceiling);
-                    if block < LARGEST_BLOCK && pairs.any(|(found, ceiling)| *found > ceiling * (1.0 + 1e-6))
-                    {
+                    if block < LARGEST_BLOCK && pairs.any(|(found, ceiling)| found > ceiling) {
                         again.push((harmonic, tied));
                     } else {
                         full[harmonic] = Some(modes.values.iter().map(|lambda| lambda.sqrt()).collect());
