@@ -1,9 +1,10 @@
 //! Bending vibration of a spinning disk without bending stiffness (Lamb and Southwell), BENCHMARKS.md.
 
+use rubmap::impeller::annulus;
 use rubmap::impeller::mesh::ElementOrder;
-use rubmap::impeller::{AnnulusParameters, Material, annulus};
 
 use crate::eigen::{harmonic, lowest};
+use crate::plate::unit_annulus;
 
 /// ω²/Ω² of nodal diameters 1 … 5 without nodal circle, ν = 0.3.
 const MEMBRANE: [f64; 5] = [1.0, 2.35, 4.05, 6.10, 8.50];
@@ -13,18 +14,7 @@ const SPEED: f64 = 0.02;
 
 /// ω² of nodal diameter i at rest and at Ω; outer radius 1, clamped hub of radius 0.02, E = ρ = 1.
 fn squares(order: ElementOrder, thickness: f64, radial: usize, speed: f64, i: usize) -> [f64; 2] {
-    let p = AnnulusParameters {
-        sectors: 48,
-        inner_radius: 0.02,
-        outer_radius: 1.0,
-        thickness,
-        clamped_bore: true,
-        elements: [radial, 2, 1],
-        element_order: order,
-        material: Material { youngs_modulus: 1.0, poissons_ratio: 0.3, density: 1.0 },
-        top_speed_rad_s: speed,
-        ..AnnulusParameters::default()
-    };
+    let p = unit_annulus(order, 0.02, thickness, radial, speed);
     let package = annulus(&p).unwrap();
     let m = harmonic(&package, &package.mass, i);
     [0, 2].map(|s| lowest(&harmonic(&package, &package.stiffness[s], i), &m, 1).unwrap()[0])

@@ -11,21 +11,32 @@ const TABLE: [(f64, [[f64; 2]; 5]); 2] = [
     (0.3, [[6.6604, 42.6142], [6.5523, 44.6311], [7.9565, 50.9473], [13.2757, 62.0528], [22.0738, 78.1195]]),
 ];
 
-/// λ² of nodal diameter i of a plate of outer radius 1. The sectors are many, so that a harmonic's two lowest modes are
-/// those of its own nodal diameter and not of N − i.
-fn lambda(order: ElementOrder, ratio: f64, thickness: f64, radial: usize, i: usize) -> [f64; 2] {
-    let p = AnnulusParameters {
+/// An annulus of outer radius one and unit stiffness and density, clamped inside, `radial` elements across.
+pub(crate) fn unit_annulus(
+    element_order: ElementOrder,
+    inner_radius: f64,
+    thickness: f64,
+    radial: usize,
+    top_speed_rad_s: f64,
+) -> AnnulusParameters {
+    AnnulusParameters {
         sectors: 48,
-        inner_radius: ratio,
+        inner_radius,
         outer_radius: 1.0,
         thickness,
         clamped_bore: true,
         elements: [radial, 2, 1],
-        element_order: order,
+        element_order,
         material: Material { youngs_modulus: 1.0, poissons_ratio: 0.3, density: 1.0 },
-        top_speed_rad_s: 1e-6,
+        top_speed_rad_s,
         ..AnnulusParameters::default()
-    };
+    }
+}
+
+/// λ² of nodal diameter i of a plate of outer radius 1. The sectors are many, so that a harmonic's two lowest modes are
+/// those of its own nodal diameter and not of N − i.
+fn lambda(order: ElementOrder, ratio: f64, thickness: f64, radial: usize, i: usize) -> [f64; 2] {
+    let p = unit_annulus(order, ratio, thickness, radial, 1e-6);
     let package = annulus(&p).unwrap();
     let k = harmonic(&package, &package.stiffness[0], i);
     let values = lowest(&k, &harmonic(&package, &package.mass, i), 2).unwrap();

@@ -11,7 +11,7 @@ use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use serde::{Deserialize, Serialize};
 
 use super::modes::{LOCATED, Modes};
-use super::tied::tied_schur;
+use super::tied_factor::tied_schur;
 use super::untied::{Tie, UntiedSector};
 use crate::numerics::multifrontal::PartialFactor;
 

@@ -12,13 +12,13 @@ mod assembly;
 mod basis;
 mod checkpoints;
 mod comparison;
-mod condensed;
 mod count;
 mod interpolation;
 mod memory;
 mod modes;
+mod sector_factor;
 mod speed;
-mod tied;
+mod tied_factor;
 mod untied;
 
 use faer::sparse::SparseColMat;
@@ -32,7 +32,7 @@ use super::sector::{ContactNode, SectorModel};
 use crate::numerics::matrix_serde;
 use crate::numerics::sector_fourier::harmonic_count;
 use basis::Basis;
-use condensed::SectorFactor;
+use sector_factor::SectorFactor;
 use speed::{SpeedPart, Work};
 use untied::UntiedSector;
 
@@ -144,7 +144,7 @@ pub type Watch<'a> = &'a (dyn Fn(f64, &str) -> bool + 'a);
 
 /// Reduces `sector`.
 ///
-/// One real factor of the untied sector per speed serves every nodal diameter (condensed.rs). Deterministic: what runs
+/// One real factor of the untied sector per speed serves every nodal diameter (sector_factor.rs). Deterministic: what runs
 /// in parallel, on the current rayon pool, is independent or summed in a fixed order. Parts that `checkpoints` has
 /// are not computed again.
 pub fn reduce(

@@ -8,8 +8,8 @@ use faer::{Mat, MatRef, c64};
 use rayon::iter::{IntoParallelRefMutIterator, ParallelIterator};
 use serde::{Deserialize, Serialize};
 
-use super::condensed::{Load, SectorFactor};
-use super::tied::TiedFactor;
+use super::sector_factor::{Load, SectorFactor, join, split};
+use super::tied_factor::TiedFactor;
 use super::untied::{Tie, UntiedSector};
 use crate::numerics::block_lanczos::{BlockLanczos, Ritz};
 use crate::numerics::hermitian::generalised_eigenpairs;
@@ -140,7 +140,12 @@ impl Pencil<'_> {
                     continue;
                 };
                 if !wanted.vectors {
-                    found[search.position] = Some(values_only(ritz, count, search.tied.tie.harmonic)?);
+                    found[search.position] = Some(Modes {
+                        values: values_of(&ritz, count, search.tied.tie.harmonic)?,
+                        residuals: ritz.errors[..count].to_vec(),
+                        vectors: Mat::new(),
+                        beyond: Vec::new(),
+                    });
                     continue;
                 }
                 let (modes, worst) = self.modes(&search, ritz, count, wanted.tolerance)?;
@@ -177,30 +182,14 @@ impl Pencil<'_> {
         count: usize,
         tolerance: f64,
     ) -> Result<(Modes, f64), ModeError> {
-        let harmonic = search.tied.tie.harmonic;
-        if ritz.values[..count].iter().any(|&theta| theta.is_nan() || theta <= 0.0) {
-            return Err(ModeError::Massless { harmonic });
-        }
-        // A few columns each, so that they spread over the threads.
-        const COLUMNS: usize = 6;
+        let values = values_of(&ritz, count, search.tied.tie.harmonic)?;
         let whole = search.lanczos.assemble(ritz.coefficients.subcols(0, count));
-        let columns = |first: usize| whole.subcols(first, COLUMNS.min(count - first)).to_owned();
-        let mut loads: Vec<Load<'_>> = (0..count)
-            .step_by(COLUMNS)
-            .map(|first| Load { tied: search.tied, vectors: columns(first) })
-            .collect();
+        let mut loads = split(search.tied, whole.as_ref());
         self.factor.half_adjoint(&mut loads);
-        let mut vectors = Mat::zeros(whole.nrows(), count);
-        for (part, load) in loads.iter().enumerate() {
-            for (j, column) in load.vectors.col_iter().enumerate() {
-                let m = part * COLUMNS + j;
-                let scale = 1.0 / ritz.values[m].sqrt();
-                for (to, from) in vectors.col_mut(m).iter_mut().zip(column.iter()) {
-                    *to = from * scale;
-                }
-            }
+        let mut vectors = join(&loads);
+        for (mut x, lambda) in vectors.col_iter_mut().zip(&values) {
+            x *= faer::Scale(c64::new(lambda.sqrt(), 0.0));
         }
-        let values: Vec<f64> = ritz.values[..count].iter().map(|theta| 1.0 / theta).collect();
         let (residuals, worst) = self.residuals(&search.tied.tie, &values, vectors.as_ref(), tolerance);
         let beyond = (count..ritz.values.len())
             .take_while(|&m| ritz.values[m] > 0.0 && ritz.errors[m] <= LOCATED)
@@ -271,16 +260,13 @@ impl Pencil<'_> {
     }
 }
 
-fn values_only(ritz: Ritz, count: usize, harmonic: usize) -> Result<Modes, ModeError> {
-    if ritz.values[..count].iter().any(|&theta| theta.is_nan() || theta <= 0.0) {
+/// λ = 1/θ of the first `count` pairs.
+fn values_of(ritz: &Ritz, count: usize, harmonic: usize) -> Result<Vec<f64>, ModeError> {
+    let theta = &ritz.values[..count];
+    if theta.iter().any(|&theta| theta.is_nan() || theta <= 0.0) {
         return Err(ModeError::Massless { harmonic });
     }
-    Ok(Modes {
-        values: ritz.values[..count].iter().map(|theta| 1.0 / theta).collect(),
-        residuals: ritz.errors[..count].to_vec(),
-        vectors: Mat::new(),
-        beyond: Vec::new(),
-    })
+    Ok(theta.iter().map(|theta| 1.0 / theta).collect())
 }
 
 impl Search<'_> {

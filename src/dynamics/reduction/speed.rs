@@ -8,10 +8,10 @@ use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
-use super::condensed::SectorFactor;
 use super::count::{Completeness, Verdict, count_modes};
 use super::modes::{ModeError, Modes, Pencil, Wanted};
-use super::tied::TiedFactor;
+use super::sector_factor::SectorFactor;
+use super::tied_factor::TiedFactor;
 use super::untied::UntiedSector;
 use super::{Checkpoints, ReductionError, Watch};
 use crate::dynamics::centrifugal::stiffness_terms;
@@ -21,7 +21,7 @@ use crate::numerics::matrix_serde;
 
 /// Vectors advanced together in a search; doubled when modes turn out to be missing.
 const BLOCK: usize = 4;
-/// No sector has eigenvalues of a multiplicity beyond this.
+/// Where a search ends: eigenvalues of a higher multiplicity are refused or left unproven.
 const LARGEST_BLOCK: usize = 64;
 /// Residual of the modes of the basis: 1e-8 in x is 1e-16 in λ; 1e-9 leaves a margin.
 const MODE_TOLERANCE: f64 = 1e-9;
@@ -149,7 +149,7 @@ impl Work<'_> {
         phase(0.8, "full sector")?;
         // Fixing the contact DOF raises every frequency: a ceiling for those of the full sector.
         let ceilings: Vec<Vec<f64>> = harmonics.iter().map(|part| part.modes.ceilings()).collect();
-        let free: Vec<_> = tied.iter().enumerate().filter(|(_, tied)| tied.free).collect();
+        let free: Vec<&TiedFactor> = tied.iter().filter(|tied| tied.free).collect();
         let going = |done: f64| phase(0.8 + 0.2 * done, "full sector").is_ok();
         let (full, full_block) = self
             .full_frequencies(&pencil, &free, Some(&ceilings), BLOCK, &going)
@@ -202,13 +202,7 @@ impl Work<'_> {
             return Ok(vec![None; self.harmonics]);
         };
         let tied = self.tie(&factor, &stiffness);
-        let free = |tied: &Result<TiedFactor, usize>| tied.as_ref().is_ok_and(|tied| tied.free);
-        let free: Vec<(usize, &TiedFactor)> = tied
-            .iter()
-            .enumerate()
-            .filter(|(_, tied)| free(tied))
-            .filter_map(|(h, tied)| Some((h, tied.as_ref().ok()?)))
-            .collect();
+        let free: Vec<&TiedFactor> = tied.iter().flatten().filter(|tied| tied.free).collect();
         let pencil = Pencil { untied: self.untied, stiffness: &stiffness, mass: self.mass, factor: &factor };
         let (full, _) = self
             .full_frequencies(&pencil, &free, None, block, &|done| phase(done).is_ok())
@@ -257,7 +251,7 @@ impl Work<'_> {
     fn full_frequencies(
         &self,
         pencil: &Pencil<'_>,
-        free: &[(usize, &TiedFactor)],
+        free: &[&TiedFactor],
         ceilings: Option<&[Vec<f64>]>,
         block: usize,
         keep_going: &dyn Fn(f64) -> bool,
@@ -268,17 +262,17 @@ impl Work<'_> {
         loop {
             let mut again = Vec::new();
             for (group, members) in waiting.chunks(TOGETHER).enumerate() {
-                let ties: Vec<&TiedFactor> = members.iter().map(|&(_, tied)| tied).collect();
                 let tolerance = FREQUENCY_TOLERANCE;
                 let wanted =
                     Wanted { count: COMPARED, block, free: true, vectors: false, tolerance, beyond: 0 };
                 let share = |done: f64| (group as f64 + done) / waiting.len().div_ceil(TOGETHER) as f64;
-                let found = pencil.lowest_modes(&ties, wanted, &|done| keep_going(share(done)))?;
-                for (&(harmonic, tied), modes) in members.iter().zip(found) {
+                let found = pencil.lowest_modes(members, wanted, &|done| keep_going(share(done)))?;
+                for (&tied, modes) in members.iter().zip(found) {
+                    let harmonic = tied.tie.harmonic;
                     let ceiling = ceilings.map_or(&[][..], |ceilings| &ceilings[harmonic]);
                     let mut pairs = modes.values.iter().zip(ceiling);
                     if block < LARGEST_BLOCK && pairs.any(|(found, ceiling)| found > ceiling) {
-                        again.push((harmonic, tied));
+                        again.push(tied);
                     } else {
                         full[harmonic] = Some(modes.values.iter().map(|lambda| lambda.sqrt()).collect());
                     }

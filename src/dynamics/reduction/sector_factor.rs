@@ -15,8 +15,8 @@ use faer::sparse::SparseColMat;
 use faer::{Mat, MatMut, MatRef, c64};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
-use super::tied::{NotPositiveDefinite, TiedFactor, cholesky, tied_schur};
-use super::untied::{Tie, UntiedSector};
+use super::tied_factor::{NotPositiveDefinite, TiedFactor, cholesky, tied_schur};
+use super::untied::UntiedSector;
 use crate::numerics::multifrontal::PartialFactor;
 use crate::numerics::sparse_product::symmetric_product;
 
@@ -33,6 +33,33 @@ pub(super) struct Load<'a> {
     pub(super) tied: &'a TiedFactor,
     /// Tied vectors, over (interior, face) or (interior, face, contact).
     pub(super) vectors: Mat<c64>,
+}
+
+impl Load<'_> {
+    /// Real vectors that stand for it.
+    fn width(&self) -> usize {
+        UntiedSector::width(&self.tied.tie, self.vectors.ncols())
+    }
+}
+
+/// Loads of a few columns each, so that they spread over the threads.
+pub(super) fn split<'t>(tied: &'t TiedFactor, vectors: MatRef<'_, c64>) -> Vec<Load<'t>> {
+    const COLUMNS: usize = 6;
+    let count = vectors.ncols();
+    let columns = |first: usize| vectors.subcols(first, COLUMNS.min(count - first)).to_owned();
+    (0..count).step_by(COLUMNS).map(|first| Load { tied, vectors: columns(first) }).collect()
+}
+
+/// The vectors of all loads side by side.
+pub(super) fn join(loads: &[Load<'_>]) -> Mat<c64> {
+    let rows = loads.first().map_or(0, |load| load.vectors.nrows());
+    let mut vectors = Mat::zeros(rows, loads.iter().map(|load| load.vectors.ncols()).sum());
+    let mut first = 0;
+    for load in loads {
+        vectors.subcols_mut(first, load.vectors.ncols()).copy_from(&load.vectors);
+        first += load.vectors.ncols();
+    }
+    vectors
 }
 
 /// A pivot below this fraction of its diagonal entry is round-off: the matrix is singular, as far as double precision
@@ -71,16 +98,18 @@ impl<'a> SectorFactor<'a> {
 
     /// x ← L̂⁻ᴴ y for every load.
     pub(super) fn half_adjoint(&self, loads: &mut [Load<'_>]) {
-        let groups = self.through(loads, |mut panel| {
+        self.solve_tied_adjoint(loads);
+        self.solve_interior(loads, |mut panel| {
             self.scale_interior(panel.rb_mut());
             self.factor.backward(panel);
         });
-        self.collect_interior(loads, groups);
     }
 
     /// y ← L̂⁻¹ M̂ L̂⁻ᴴ y for every load, with `mass` untied.
     pub(super) fn apply(&self, mass: &SparseColMat<usize, f64>, loads: &mut [Load<'_>]) {
-        let groups = self.through(loads, |mut panel| {
+        self.solve_tied_adjoint(loads);
+        let rows = loads.first().map_or(0, |load| load.vectors.nrows());
+        let images = self.through(loads, rows, |mut panel| {
             self.scale_interior(panel.rb_mut());
             self.factor.backward(panel.rb_mut());
             let product = symmetric_product(mass, panel.as_ref());
@@ -88,15 +117,9 @@ impl<'a> SectorFactor<'a> {
             self.factor.forward(panel.rb_mut());
             self.scale_interior(panel);
         });
-        for (range, panel) in groups {
-            let mut first = 0;
-            for load in &mut loads[range] {
-                let width = UntiedSector::width(&load.tied.tie, load.vectors.ncols());
-                let rows = load.vectors.nrows();
-                load.vectors = self.untied.fold(&load.tied.tie, panel.subrows(first, width), rows);
-                load.tied.solve(load.vectors.as_mut(), self.untied.interior());
-                first += width;
-            }
+        for (load, image) in loads.iter_mut().zip(images) {
+            load.vectors = image;
+            load.tied.solve(load.vectors.as_mut(), self.untied.interior());
         }
     }
 
@@ -130,85 +153,65 @@ impl<'a> SectorFactor<'a> {
 
     /// Ψ_s = −K̂_ii⁻¹ K̂_ib of one nodal diameter, `n_i × n_b`.
     pub(super) fn static_modes(&self, tied: &TiedFactor) -> Mat<c64> {
-        let (interior, f, b) = (self.untied.interior(), self.untied.face(), self.untied.contact());
-        let vectors = tied.at_unit_contact(interior);
-        let columns: Vec<Mat<c64>> = (0..b)
-            .step_by(GROUP / 2)
-            .map(|first| vectors.subcols(first, (GROUP / 2).min(b - first)).to_owned())
-            .collect();
-        let solved: Vec<Mat<c64>> = columns
-            .into_par_iter()
-            .map(|columns| {
-                let mut panel =
-                    Mat::zeros(UntiedSector::width(&tied.tie, columns.ncols()), self.untied.size());
-                self.untied.expand(&tied.tie, columns.as_ref(), panel.as_mut());
-                self.factor.backward(panel.as_mut());
-                let mut modes = columns.subrows(0, interior + f).to_owned();
-                let solved = interior_of(&tied.tie, panel.as_ref(), interior);
-                modes.subrows_mut(0, interior).copy_from(&solved);
-                modes
-            })
-            .collect();
-        let mut modes = Mat::zeros(interior + f, b);
-        let mut first = 0;
-        for part in solved {
-            modes.subcols_mut(first, part.ncols()).copy_from(&part);
-            first += part.ncols();
-        }
-        modes
+        let mut loads = split(tied, tied.at_unit_contact(self.untied.interior()).as_ref());
+        self.solve_interior(&mut loads, |panel| self.factor.backward(panel));
+        join(&loads).subrows(0, self.untied.internal()).to_owned()
     }
 
-    /// Solves with the tied factors, then sends the loads in groups through `work`; groups in parallel.
+    fn solve_tied_adjoint(&self, loads: &mut [Load<'_>]) {
+        for load in loads {
+            load.tied.solve_adjoint(load.vectors.as_mut(), self.untied.interior());
+        }
+    }
+
+    /// Sends the loads through `work`, which leaves their boundary rows alone.
+    fn solve_interior(&self, loads: &mut [Load<'_>], work: impl Fn(MatMut<'_, f64>) + Sync) {
+        let interior = self.untied.interior();
+        let solved = self.through(loads, interior, work);
+        for (load, solved) in loads.iter_mut().zip(solved) {
+            load.vectors.subrows_mut(0, interior).copy_from(&solved);
+        }
+    }
+
+    /// Sends the loads, untied, in groups through `work`, and ties what comes out: its first `rows` rows, per load.
+    /// Groups in parallel.
     fn through(
         &self,
-        loads: &mut [Load<'_>],
+        loads: &[Load<'_>],
+        rows: usize,
         work: impl Fn(MatMut<'_, f64>) + Sync,
-    ) -> Vec<(std::ops::Range<usize>, Mat<f64>)> {
-        let interior = self.untied.interior();
-        let width = |load: &Load<'_>| UntiedSector::width(&load.tied.tie, load.vectors.ncols());
-        for load in loads.iter_mut() {
-            load.tied.solve_adjoint(load.vectors.as_mut(), interior);
+    ) -> Vec<Mat<c64>> {
+        let mut groups: Vec<&[Load<'_>]> = Vec::new();
+        let mut rest = loads;
+        while !rest.is_empty() {
+            let mut held = 0;
+            let fits = |load: &&Load<'_>| {
+                held += load.width();
+                held <= GROUP
+            };
+            let (group, after) = rest.split_at(rest.iter().take_while(fits).count().max(1));
+            groups.push(group);
+            rest = after;
         }
-        let mut ranges = Vec::new();
-        let mut start = 0;
-        let mut held = 0;
-        for (index, load) in loads.iter().enumerate() {
-            if held > 0 && held + width(load) > GROUP {
-                ranges.push(start..index);
-                (start, held) = (index, 0);
-            }
-            held += width(load);
-        }
-        ranges.push(start..loads.len());
-        let loads = &*loads;
-        ranges
+        groups
             .into_par_iter()
-            .map(|range| {
-                let members = &loads[range.clone()];
-                let mut panel = Mat::zeros(members.iter().map(width).sum(), self.untied.size());
+            .flat_map_iter(|group| {
+                let mut panel = Mat::zeros(group.iter().map(Load::width).sum(), self.untied.size());
                 let mut first = 0;
-                for load in members {
-                    let rows = panel.subrows_mut(first, width(load));
+                for load in group {
+                    let rows = panel.subrows_mut(first, load.width());
                     self.untied.expand(&load.tied.tie, load.vectors.as_ref(), rows);
-                    first += width(load);
+                    first += load.width();
                 }
                 work(panel.as_mut());
-                (range, panel)
+                let mut first = 0;
+                group.iter().map(move |load| {
+                    let rows_of_load = panel.subrows(first, load.width());
+                    first += load.width();
+                    self.untied.fold(&load.tied.tie, rows_of_load, rows)
+                })
             })
             .collect()
-    }
-
-    fn collect_interior(&self, loads: &mut [Load<'_>], groups: Vec<(std::ops::Range<usize>, Mat<f64>)>) {
-        let interior = self.untied.interior();
-        for (range, panel) in groups {
-            let mut first = 0;
-            for load in &mut loads[range] {
-                let width = UntiedSector::width(&load.tied.tie, load.vectors.ncols());
-                let solved = interior_of(&load.tied.tie, panel.subrows(first, width), interior);
-                load.vectors.subrows_mut(0, interior).copy_from(&solved);
-                first += width;
-            }
-        }
     }
 
     fn scale_interior(&self, mut panel: MatMut<'_, f64>) {
@@ -216,13 +219,4 @@ impl<'a> SectorFactor<'a> {
             panel.rb_mut().col_mut(row).iter_mut().for_each(|value| *value *= scale);
         }
     }
-}
-
-/// The interior rows of a panel as tied vectors.
-fn interior_of(tie: &Tie, panel: MatRef<'_, f64>, interior: usize) -> Mat<c64> {
-    let single = UntiedSector::width(tie, 1) == 1;
-    let count = if single { panel.nrows() } else { panel.nrows() / 2 };
-    Mat::from_fn(interior, count, |row, q| {
-        c64::new(panel[(q, row)], if single { 0.0 } else { panel[(count + q, row)] })
-    })
 }
