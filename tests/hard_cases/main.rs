@@ -1,0 +1,11 @@
+//! Cases that break lesser codes. Each file says what it threatens and what is guaranteed here; docs/stability.md is
+//! the table of them.
+
+mod double_eigenvalues;
+#[path = "../physics/fixtures.rs"]
+#[allow(dead_code, reason = "shared with the physics tests, which use all of it")]
+mod fixtures;
+mod identical_stiffness;
+mod nearly_dependent_bases;
+mod stiffness_contrast;
+mod support;
