@@ -6,6 +6,8 @@ mod double_eigenvalues;
 #[allow(dead_code, reason = "shared with the physics tests, which use all of it")]
 mod fixtures;
 mod identical_stiffness;
+mod indefinite_stiffness;
 mod nearly_dependent_bases;
 mod stiffness_contrast;
 mod support;
+mod units;
