@@ -8,6 +8,10 @@ mod fixtures;
 mod identical_stiffness;
 mod indefinite_stiffness;
 mod nearly_dependent_bases;
+#[path = "../oracle/mod.rs"]
+#[allow(dead_code, reason = "shared with the physics tests, which use all of it")]
+mod oracle;
+mod rotation_reversed;
 mod stiffness_contrast;
 mod support;
 mod units;

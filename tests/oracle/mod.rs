@@ -207,7 +207,7 @@ pub(crate) fn gauss_seidel(w: &DMatrix<f64>, gap: &DVector<f64>, lambda: &mut DV
     panic!("Gauss–Seidel did not converge");
 }
 
-/// c − p at every node of every sector, literally (§6).
+/// c − p at every node of every sector, literally (§6), after `revolutions`; negative ones turn the other way.
 pub(crate) fn free_gaps(casing: &Casing, reduced: &ReducedWheel, revolutions: f64) -> Vec<f64> {
     let mut gaps = Vec::new();
     for s in 0..reduced.sectors {
@@ -221,7 +221,7 @@ pub(crate) fn free_gaps(casing: &Casing, reduced: &ReducedWheel, revolutions: f6
                     p += lobes.amplitude * (-(distance / lobes.width_rad).powi(2)).exp();
                 }
             }
-            let x = (revolutions / casing.ramp_revolutions).min(1.0);
+            let x = (revolutions.abs() / casing.ramp_revolutions).min(1.0);
             gaps.push(casing.clearance[k] - p * x * x * (3.0 - 2.0 * x));
         }
     }
