@@ -7,11 +7,15 @@ mod double_eigenvalues;
 mod fixtures;
 mod identical_stiffness;
 mod indefinite_stiffness;
+mod linear_resonance;
+mod lobe_counts;
+mod near_equal_speeds;
 mod nearly_dependent_bases;
 #[path = "../oracle/mod.rs"]
 #[allow(dead_code, reason = "shared with the physics tests, which use all of it")]
 mod oracle;
 mod rotation_reversed;
+mod sector_counts;
 mod stiffness_contrast;
 mod support;
 mod units;
