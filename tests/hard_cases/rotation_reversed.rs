@@ -10,14 +10,18 @@ use std::f64::consts::TAU;
 
 use faer::sparse::{SparseColMat, Triplet};
 use rubmap::dynamics::casing::{Casing, Restriction};
-use rubmap::dynamics::integrate::{Outcome, SensorRow, Simulation, smallest_stable_steps};
+use rubmap::dynamics::integrate::{Outcome, SensorRow, Simulation};
 use rubmap::dynamics::modal_wheel::ModalWheel;
 use rubmap::dynamics::oscillators::{Direction, ModalDamping};
 use rubmap::dynamics::reduction::{NoCheckpoints, ReducedWheel, ReductionOptions, reduce};
+use rubmap::dynamics::schemes::Scheme;
+use rubmap::dynamics::schemes::central_differences::smallest_stable_steps;
 use rubmap::dynamics::sector::{CyclicMatrix, SectorModel};
 
 use crate::fixtures::{TOP_SPEED, WheelRecipe, wheel};
-use crate::oracle::{DenseScheme, DenseWheel, free_gaps, gauss_seidel};
+use crate::oracle::schemes::Literal;
+use crate::oracle::{free_gaps, gauss_seidel};
+use crate::support::LIBRARY_SCHEMES;
 
 const SPEED: f64 = 0.6 * TOP_SPEED;
 const DAMPING: f64 = 0.02;
@@ -65,16 +69,20 @@ fn casing(contact_nodes: usize, phase_rad: f64) -> Casing {
 }
 
 /// `[sector][node][component][step]` of the literal dense scheme, the wheel turning by `direction` = ±1.
-fn dense(reduced: &ReducedWheel, casing: &Casing, steps: usize, direction: f64) -> Vec<Vec<f64>> {
-    let wheel = DenseWheel::new(reduced, SPEED, true);
-    let h = TAU / (SPEED * steps as f64);
-    let mut scheme = DenseScheme::new(&wheel, &wheel.modal_damping(DAMPING), reduced, h);
+fn dense(
+    scheme: Scheme,
+    reduced: &ReducedWheel,
+    casing: &Casing,
+    steps: usize,
+    direction: f64,
+) -> Vec<Vec<f64>> {
+    let mut literal = Literal::new(scheme, reduced, SPEED, DAMPING, TAU / (SPEED * steps as f64));
     let mut history = vec![Vec::with_capacity(steps); 3 * reduced.sectors * reduced.contact.len()];
     for q in 0..steps {
         let revolutions = direction * (q + 1) as f64 / steps as f64;
-        scheme.step(&free_gaps(casing, reduced, revolutions), gauss_seidel);
+        literal.step(&free_gaps(casing, reduced, revolutions), gauss_seidel);
         for (line, (s, k, d)) in history.iter_mut().zip(places(reduced)) {
-            line.push(scheme.contact_displacement(s, k)[d]);
+            line.push(literal.displacement(s, k, d));
         }
     }
     history
@@ -88,7 +96,15 @@ fn places(reduced: &ReducedWheel) -> impl Iterator<Item = (usize, usize, usize)>
 
 #[test]
 fn a_wheel_that_turns_backwards() {
-    for sectors in [1, 2, 5, 10] {
+    for scheme in LIBRARY_SCHEMES {
+        for sectors in [1, 2, 5, 10] {
+            turns_backwards(scheme, sectors);
+        }
+    }
+}
+
+fn turns_backwards(scheme: Scheme, sectors: usize) {
+    {
         let contact_nodes = 3;
         let sector = wheel(WheelRecipe { sectors, contact_nodes, ..Default::default() });
         let reduce = |sector: &SectorModel| {
@@ -98,8 +114,8 @@ fn a_wheel_that_turns_backwards() {
         let modal = ModalWheel::at(&turned, SPEED, true).unwrap();
         let steps = 2 * smallest_stable_steps(modal.largest_frequency(), SPEED) as usize;
 
-        let backwards = dense(&original, &casing(contact_nodes, 0.1), steps, -1.0);
-        let forwards = dense(&original, &casing(contact_nodes, 0.1), steps, 1.0);
+        let backwards = dense(scheme, &original, &casing(contact_nodes, 0.1), steps, -1.0);
+        let forwards = dense(scheme, &original, &casing(contact_nodes, 0.1), steps, 1.0);
         let largest = backwards.iter().flatten().fold(0.0f64, |m, u| m.max(u.abs()));
         let both = backwards.iter().flatten().zip(forwards.iter().flatten());
         let handed = both.fold(0.0f64, |m, (a, b)| m.max((a - b).abs()));
@@ -119,6 +135,8 @@ fn a_wheel_that_turns_backwards() {
             contact_nodes: &turned.contact,
             damping: Some(&damping),
             casing: Some(&casing(contact_nodes, -0.1)),
+            initial: &[],
+            scheme,
             sensors: &sensors,
             steps_per_revolution: steps,
             samples_per_revolution: steps,
@@ -132,6 +150,6 @@ fn a_wheel_that_turns_backwards() {
         let both = history.displacement.iter().flatten().zip(backwards.iter().flatten());
         let worst = both.fold(0.0f64, |m, (a, b)| m.max((a - b).abs()));
         // Round-off of two reductions, grown over a revolution of contact.
-        assert!(worst < 1e-8 * largest, "{sectors} sectors: {worst:e} of {largest}");
+        assert!(worst < 1e-8 * largest, "{scheme:?}, {sectors} sectors: {worst:e} of {largest}");
     }
 }

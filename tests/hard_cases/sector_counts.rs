@@ -11,8 +11,8 @@ use rubmap::analysis::request::SweepRequest;
 use rubmap::analysis::result::SpeedResult;
 use rubmap::analysis::run::ReducedSector;
 use rubmap::dynamics::casing::{Casing, Restriction};
-use rubmap::dynamics::integrate::smallest_stable_steps;
 use rubmap::dynamics::modal_wheel::ModalWheel;
+use rubmap::dynamics::schemes::central_differences::smallest_stable_steps;
 use serde_json::{Value, json};
 
 use crate::fixtures::{TOP_SPEED, WheelRecipe, wheel};

@@ -5,6 +5,7 @@ use rubmap::analysis::request::SweepRequest;
 use rubmap::analysis::result::{PointStatus, SpeedResult};
 use rubmap::analysis::run::{ModelFacts, ReducedSector, check, prepare, resolve_sweep, run_speed};
 use rubmap::dynamics::reduction::NoCheckpoints;
+use rubmap::dynamics::schemes::Scheme;
 use rubmap::dynamics::sector::{CyclicMatrix, SectorModel};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -12,6 +13,10 @@ use serde_json::{Value, json};
 
 /// `integration.scheme` of the sweeps; none: as the program chooses.
 pub(crate) const SCHEMES: [Option<&str>; 1] = [None];
+
+/// The same where a simulation is run without the door.
+pub(crate) const LIBRARY_SCHEMES: [Scheme; 3] =
+    [Scheme::CentralDifferences, Scheme::ExactModal, Scheme::MasslessBoundary { kept_modes: 7 }];
 
 /// The largest violation of the energy identity, relative to the largest energy, that any scheme may show.
 pub(crate) const ENERGY_TOLERANCE: f64 = 1e-9;
