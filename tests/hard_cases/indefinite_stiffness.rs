@@ -7,21 +7,27 @@
 use rubmap::analysis::monitor::Unwatched;
 use rubmap::analysis::result::PointStatus;
 use rubmap::analysis::run::{critical_speeds, interaction_map, map_row, run_speed};
+use rubmap::dynamics::sector::SectorModel;
 use serde_json::json;
 
 use crate::fixtures::{TOP_SPEED, WheelRecipe, wheel};
-use crate::support::{SCHEMES, assert_sound, assert_survives_json, reduced, scale, sweep};
+use crate::support::{ENERGY_TOLERANCE, SCHEMES, assert_sound, assert_survives_json, reduced, scale, sweep};
 
-#[test]
-fn a_speed_at_which_the_stiffness_is_indefinite_fails_alone() {
+/// K(Ω) = f(Ω²) K(0) through the factors 1, `half` and 1 at rest, Ω1/2 and Ω1.
+fn dips(half: f64) -> SectorModel {
     let mut sector = wheel(WheelRecipe::default());
-    // A parabola in Ω² that dips at Ω1/2: K_half is a hundredth of K0, so the interpolant is negative beyond it.
-    let factors = [1.0, 0.01, 1.0];
     let rest = sector.stiffness[0].clone();
-    for (matrix, factor) in sector.stiffness.iter_mut().zip(factors) {
+    for (matrix, factor) in sector.stiffness.iter_mut().zip([1.0, half, 1.0]) {
         *matrix = rest.clone();
         scale(matrix, factor);
     }
+    sector
+}
+
+#[test]
+fn a_speed_at_which_the_stiffness_is_indefinite_fails_alone() {
+    // A parabola in Ω² that dips at Ω1/2: K_half is a hundredth of K0, so the interpolant is negative beyond it.
+    let sector = dips(0.01);
     let reduced = reduced(&sector, 6);
     assert_eq!(
         serde_json::to_value(reduced.report.stiffening.verdict).unwrap(),
@@ -52,5 +58,44 @@ fn a_speed_at_which_the_stiffness_is_indefinite_fails_alone() {
         assert_eq!(critical.len(), request.sensors.len());
         assert_eq!(critical[0].missing, [1]);
         assert_survives_json(&critical);
+    }
+}
+
+/// Speeds ever closer to that at which K(Ω) vanishes, from both sides: the wheel is ever softer, then none. Soft wheels
+/// run, or fly off and are stopped; beyond, every speed fails by name.
+#[test]
+fn at_the_edge_of_definiteness_every_speed_has_a_verdict() {
+    let half = 0.01;
+    let sector = dips(half);
+    let reduced = reduced(&sector, 6);
+    // f(x) = 1 − c x + c x² with x = (Ω/Ω1)² and f(1/4) = half.
+    let c = (1.0 - half) * 16.0 / 3.0;
+    let speed_of = |f: f64| TOP_SPEED * (0.5 - (0.25 - (1.0 - f) / c).sqrt()).sqrt();
+    let factors = [1e-1, 1e-2, 1e-4, 1e-6, 1e-9, 1e-12, 1e-15, 0.0, -1e-15, -1e-12, -1e-9, -1e-6, -1e-2];
+    let speeds = factors.map(speed_of);
+    for scheme in SCHEMES {
+        let request = sweep(&sector, scheme, &speeds, json!({}));
+        for (index, factor) in factors.iter().enumerate() {
+            let result = run_speed(&reduced, &request, index, &Unwatched).unwrap();
+            assert_survives_json(&result);
+            let message = result.point.message.as_deref().unwrap_or_default();
+            match result.point.status {
+                PointStatus::Completed => {
+                    assert!(*factor >= 1e-2, "{factor:e}: {:?}", result.point);
+                    assert_sound(&result, 1.0);
+                }
+                PointStatus::Diverged => {
+                    assert!((0.0..1e-2).contains(factor), "{factor:e}: {:?}", result.point);
+                    assert!(message.contains("after") && result.spectra.is_none(), "{message}");
+                    assert!(result.point.energy_residual.unwrap() < ENERGY_TOLERANCE, "{:?}", result.point);
+                }
+                PointStatus::Failed => {
+                    // Round-off of f is some 1e-15.
+                    assert!(*factor < 1e-14, "{factor:e}: {:?}", result.point);
+                    let speed = format!("at {} rad/s", result.point.speed_rad_s);
+                    assert!(message.contains(&speed), "{message}");
+                }
+            }
+        }
     }
 }

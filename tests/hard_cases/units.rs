@@ -2,10 +2,10 @@
 //!
 //! A tolerance, a guard or a shift that is a number and not a share of the model's own scale ("1e-6 is small") passes
 //! in one set of units and fails in the other. Guaranteed: the same steps, contacts and verdicts; lengths scale by 1e-3,
-//! energies from millijoules to joules, impulses not at all.
+//! energies from millijoules to joules, impulses not at all. Between units that differ by powers of two, not a bit changes.
 
 use rubmap::analysis::monitor::Unwatched;
-use rubmap::analysis::result::Point;
+use rubmap::analysis::result::{Point, SpeedResult};
 use rubmap::analysis::run::critical_speeds;
 use rubmap::dynamics::sector::{SectorModel, Units};
 use serde_json::json;
@@ -59,7 +59,7 @@ fn millimetres_and_metres_give_the_same_sweep() {
                 }
             }
         }
-        let points = |results: Vec<rubmap::analysis::result::SpeedResult>| -> Vec<Point> {
+        let points = |results: Vec<SpeedResult>| -> Vec<Point> {
             results.into_iter().map(|result| result.point).collect()
         };
         let tables = [
@@ -96,5 +96,57 @@ fn same_point(mm: &Point, si: &Point) {
         close(a.half_peak_to_peak, 1e3 * b.half_peak_to_peak, "half peak to peak");
         assert_eq!(a.dominant_engine_order, b.dominant_engine_order);
         assert_eq!(a.dominant_nodal_diameter, b.dominant_nodal_diameter);
+    }
+}
+
+/// Units that differ by powers of two, up to 1e30 (of four for masses, whose roots are taken): not one bit of a mantissa
+/// changes, so nothing is compared with a number that is not the model's own.
+#[test]
+fn powers_of_two_change_no_bit() {
+    let sector = wheel(WheelRecipe::default());
+    let plain = reduced(&sector, 6);
+    for (force_bits, length_bits) in [(8, 0), (0, -10), (-40, 30), (100, -60), (-100, 50)] {
+        let [force, length] = [force_bits, length_bits].map(|bits| f64::from(bits).exp2());
+        // Mass and stiffness by the same factor: time stays.
+        let stiffness = force / length;
+        let mut other = sector.clone();
+        scale(&mut other.mass, stiffness);
+        other.stiffness.iter_mut().for_each(|k| scale(k, stiffness));
+        for node in &mut other.contact {
+            node.position[0] *= length;
+            node.position[2] *= length;
+        }
+        let changed = reduced(&other, 6);
+        for scheme in SCHEMES {
+            let changes = |length: f64| {
+                json!({
+                    "scene": {"casing": {"clearance": {"leading": 0.3 * length, "trailing": 0.22 * length},
+                                         "lobes": {"amplitude": 0.425 * length}}},
+                    "integration": {"revolutions": 6, "window_revolutions": 2}
+                })
+            };
+            let speeds = [0.55 * TOP_SPEED];
+            let a = &run(&plain, &sweep(&sector, scheme, &speeds, changes(1.0)))[0];
+            let b = &run(&changed, &sweep(&other, scheme, &speeds, changes(length)))[0];
+            assert_sound(a, 1.0);
+            assert_sound(b, length);
+            let (p, q) = (&a.point, &b.point);
+            assert_eq!((p.steps, p.contact_share), (q.steps, q.contact_share));
+            assert_eq!((&p.settling, p.energy_residual), (&q.settling, q.energy_residual));
+            let scaled = |value: Option<f64>, by: f64| value.map(|value| value * by);
+            assert_eq!(scaled(p.contact_impulse, force), q.contact_impulse);
+            assert_eq!(scaled(p.smallest_multiplier, force), q.smallest_multiplier);
+            assert_eq!(scaled(p.largest_penetration, length), q.largest_penetration);
+            assert_eq!(scaled(p.largest_energy, force * length), q.largest_energy);
+            let lines = |result: &SpeedResult| -> Vec<f64> {
+                let sensors = result.spectra.iter().flat_map(|spectra| &spectra.sensors);
+                sensors
+                    .flat_map(|s| s.amplitude.iter().chain(s.nodal_diameters.iter().flatten()))
+                    .copied()
+                    .collect()
+            };
+            let expected: Vec<f64> = lines(a).iter().map(|amplitude| amplitude * length).collect();
+            assert_eq!(expected, lines(b), "2^{force_bits}, 2^{length_bits}");
+        }
     }
 }
