@@ -5,6 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use rubmap::dynamics::reduction::ReducedWheel;
 
 use rubmap::dynamics::schemes::Scheme;
+use rubmap::dynamics::schemes::exact_modal::FOLLOWS;
 
 use super::{DenseScheme, DenseWheel, constraints, real_form, recompose};
 
@@ -57,9 +58,6 @@ impl Literal {
         }
     }
 }
-
-/// ωh beyond which the exact propagator lets a mode of a wheel in contact follow statically.
-const FOLLOWS: f64 = std::f64::consts::FRAC_PI_2;
 
 /// x⁺ = now·x + before·x⁻ + kick·f in the displacements x of the modes with mass, u = x + flexibility·f.
 pub(crate) struct DenseModal {
