@@ -172,19 +172,23 @@ fn push<S: Simd>(simd: S, block: &mut Block, rows: usize) {
                 *part = row::<S>(phi_im_part, first + r, vectors);
             }
             for m in 0..vectors {
+                let (mut a, mut b) = (re[m], im[m]);
                 for r in 0..GROUP {
                     let (p, q) = (phi_re[r][m], phi_im[r][m]);
-                    re[m] = simd.mul_add_e_f64s(p, force_re[r], re[m]);
-                    im[m] = simd.mul_add_e_f64s(p, force_im[r], im[m]);
-                    re[m] = simd.mul_add_e_f64s(q, force_im[r], re[m]);
-                    im[m] = simd.negate_mul_add_e_f64s(q, force_re[r], im[m]);
+                    a = simd.mul_add_e_f64s(p, force_re[r], a);
+                    b = simd.mul_add_e_f64s(p, force_im[r], b);
+                    a = simd.mul_add_e_f64s(q, force_im[r], a);
+                    b = simd.negate_mul_add_e_f64s(q, force_re[r], b);
                 }
+                (re[m], im[m]) = (a, b);
             }
         } else {
             for m in 0..vectors {
+                let mut a = re[m];
                 for r in 0..GROUP {
-                    re[m] = simd.mul_add_e_f64s(phi_re[r][m], force_re[r], re[m]);
+                    a = simd.mul_add_e_f64s(phi_re[r][m], force_re[r], a);
                 }
+                re[m] = a;
             }
         }
     }
