@@ -12,6 +12,8 @@ use crate::steps::{moving, production};
 use crate::timing::{Contender, medians, timed};
 
 const ROUNDS: usize = 7;
+/// So many that the set-up of a run does not count.
+const REVOLUTIONS: usize = 50;
 
 /// Flops and bytes of a step of [`rubmap`] in free flight with damping: the oscillators (8 flops; z and d read and
 /// written, swing written, three coefficients read, which the parts of a pair share), the products (`of_products`), and
@@ -54,7 +56,7 @@ pub(crate) fn measure() {
             timed(|| Arch::new().dispatch(products)).1 / REPEATS as f64
         }));
     }
-    contenders.push(Box::new(|| production(&scene, stepping, &casing, &moving).time));
+    contenders.push(Box::new(|| production(&scene, stepping, &casing, &moving, REVOLUTIONS).time));
     contenders.push(Box::new(|| {
         let (flops, time) = timed(|| Arch::new().dispatch(Registers));
         time / flops
@@ -71,7 +73,8 @@ pub(crate) fn measure() {
     println!("|---|---|---|---|");
     println!("| multiply-adds on registers | | {:.1} | |", 1e-9 / times[cases.len() + 1]);
     let line = |what: &str, time: f64, (flops, bytes): (f64, f64)| {
-        println!("| {what} | {:.3} | {:.1} | {:.1} |", 1e6 * time, 1e-9 * flops / time, 1e-9 * bytes / time);
+        let rate = if flops > 0.0 { format!("{:.1}", 1e-9 * flops / time) } else { String::new() };
+        println!("| {what} | {:.3} | {rate} | {:.1} |", 1e6 * time, 1e-9 * bytes / time);
     };
     for (((what, _, _), count), time) in cases.into_iter().zip(counts).zip(&times) {
         line(what, *time, count);

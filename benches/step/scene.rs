@@ -17,11 +17,10 @@ use rubmap::dynamics::schemes::Scheme;
 
 pub(crate) const SPEED: f64 = 2500.0;
 pub(crate) const DAMPING: f64 = 0.005;
-/// Contact in about nine steps of ten.
+/// Clearance at which some blade touches in every step once the restriction has grown.
 pub(crate) const TOUCHING: f64 = 0.30;
-/// Nothing ever touches.
+/// Clearance at which none ever does.
 pub(crate) const FREE: f64 = 2.0;
-pub(crate) const REVOLUTIONS: usize = 8;
 
 /// A wheel, its damping and its scene.
 pub(crate) struct Scene {
@@ -133,7 +132,7 @@ impl Scene {
             .map(|scheme| self.automatic(scheme, AutoOr::Auto))
     }
 
-    /// From rest, with as many samples as the service takes.
+    /// One revolution from rest, with as many samples as the service takes.
     pub(crate) fn simulation<'a>(
         &'a self,
         stepping: Stepping,
@@ -151,7 +150,7 @@ impl Scene {
             sensors,
             steps_per_revolution: steps,
             samples_per_revolution: (192..steps).find(|s| steps.is_multiple_of(*s)).unwrap_or(steps),
-            revolutions: REVOLUTIONS,
+            revolutions: 1,
             window_revolutions: 1,
         }
     }
