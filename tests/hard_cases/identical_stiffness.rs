@@ -62,7 +62,7 @@ fn the_sweep_is_that_of_a_single_stiffness() {
             assert!(a.point.contact_share > 0.01);
             assert_eq!(a.point.steps_per_revolution, b.point.steps_per_revolution);
             let difference = spectral_difference(a, b);
-            assert!(difference < 1e-7, "{scheme:?}: {difference:e}");
+            assert!(difference < 1e-7, "{scheme}: {difference:e}");
         }
     }
 }

@@ -47,7 +47,7 @@ fn a_sweep_over_a_hair() {
             assert!(result.point.contact_share > 0.01);
             // A settled response moves with the speed; 1e-12 and round-off, amplified by a lightly damped wheel.
             let difference = spectral_difference(result, &results[2]);
-            assert!(difference < 1e-8, "{scheme:?}: {difference:e}");
+            assert!(difference < 1e-8, "{scheme}: {difference:e}");
         }
         assert_eq!(results[2].spectra, results[3].spectra, "equal speeds, equal bits");
 
@@ -71,7 +71,7 @@ fn a_sweep_over_a_hair() {
         assert!(tables[0].missing.is_empty());
         let nearest =
             tables[0].linear_crossings.iter().find(|c| (c.speed_rad_s / middle - 1.0).abs() < 3e-12);
-        assert!(nearest.is_some(), "{scheme:?}: {:?}", tables[0].linear_crossings);
+        assert!(nearest.is_some(), "{scheme}: {:?}", tables[0].linear_crossings);
         // Differences of the curve are round-off, far below a prominence worth a line.
         assert!(tables.iter().all(|table| table.critical_speeds.is_empty()), "{tables:?}");
     }

@@ -115,6 +115,6 @@ fn every_sweep_runs_at_nearly_the_same_step() {
             smallest.push(results[0].point.smallest_stable_steps_per_revolution);
         }
         let (least, most) = (smallest.iter().min().unwrap(), smallest.iter().max().unwrap());
-        assert!(3 * most <= 4 * least, "{scheme:?}: {smallest:?}");
+        assert!(3 * most <= 4 * least, "{scheme}: {smallest:?}");
     }
 }

@@ -12,40 +12,46 @@ use rubmap::analysis::result::SpeedResult;
 use rubmap::analysis::run::ReducedSector;
 use rubmap::dynamics::casing::{Casing, Restriction};
 use rubmap::dynamics::modal_wheel::ModalWheel;
-use rubmap::dynamics::schemes::central_differences::smallest_stable_steps;
+use rubmap::dynamics::schemes::Scheme;
+use rubmap::dynamics::sector::SectorModel;
 use serde_json::{Value, json};
 
 use crate::fixtures::{TOP_SPEED, WheelRecipe, wheel};
-use crate::oracle::{DenseScheme, DenseWheel, free_gaps, gauss_seidel};
-use crate::support::{SCHEMES, assert_sound, reduced, run, spectral_difference, sweep};
+use crate::oracle::schemes::Literal;
+use crate::oracle::{free_gaps, gauss_seidel};
+use crate::support::{
+    KEPT_MODES, LIBRARY_SCHEMES, SCHEMES, assert_sound, reduced, run, spectral_difference, sweep,
+};
 
 /// Three revolutions, the last of them recorded, at 1.3 times the smallest stable number of steps; a multiple of 128
 /// steps has 128 samples.
-fn request(
-    sector: &rubmap::dynamics::sector::SectorModel,
-    reduced: &ReducedSector,
-    scheme: Option<&str>,
-) -> SweepRequest {
+fn request(sector: &SectorModel, reduced: &ReducedSector, name: &str, scheme: Scheme) -> SweepRequest {
     let speeds = [0.4, 0.7, 1.0].map(|share| share * TOP_SPEED);
     let smallest = speeds.iter().map(|&speed| {
         let modal = ModalWheel::at(&reduced.wheel, speed, true).unwrap();
-        smallest_stable_steps(modal.largest_frequency(), speed)
+        scheme.smallest_stable_steps(&modal, &reduced.wheel.contact)
     });
     let steps = (1.3 * smallest.max().unwrap() as f64) as u64;
     let last = sector.sectors - 1;
     let changes = json!({
-        "integration": {"revolutions": 3, "window_revolutions": 1, "steps_per_revolution": steps.next_multiple_of(128)},
+        "integration": {"revolutions": 3, "window_revolutions": 1, "kept_modes": KEPT_MODES,
+                        "steps_per_revolution": steps.next_multiple_of(128)},
         "sensors": [
             {"contact_node": 0, "component": "radial"},
             {"contact_node": 1, "sector": last, "component": "axial"},
             {"contact_node": 1, "sector": last / 2, "component": "tangential"}
         ]
     });
-    sweep(sector, scheme, &speeds, changes)
+    sweep(sector, name, &speeds, changes)
 }
 
 /// Samples of the last revolution at the sensors of [`request`], by the literal dense scheme; steps with contact.
-fn dense(reduced: &ReducedSector, request: &SweepRequest, result: &SpeedResult) -> (Vec<Vec<f64>>, u64) {
+fn dense(
+    scheme: Scheme,
+    reduced: &ReducedSector,
+    request: &SweepRequest,
+    result: &SpeedResult,
+) -> (Vec<Vec<f64>>, u64) {
     let speed = result.point.speed_rad_s;
     let steps = result.point.steps_per_revolution as usize;
     let lobes = request.scene.casing.as_ref().unwrap().lobes.as_ref().unwrap();
@@ -60,21 +66,18 @@ fn dense(reduced: &ReducedSector, request: &SweepRequest, result: &SpeedResult) 
         }),
         ramp_revolutions: 1.0,
     };
-    let wheel = DenseWheel::new(&reduced.wheel, speed, true);
     let h = TAU / (speed * steps as f64);
-    let mut scheme = DenseScheme::new(&wheel, &wheel.modal_damping(0.05), &reduced.wheel, h);
+    let mut literal = Literal::new(scheme, &reduced.wheel, speed, 0.05, h);
     let mut samples = vec![Vec::new(); request.sensors.len()];
     for q in 1..=3 * steps {
-        scheme.step(&free_gaps(&casing, &reduced.wheel, q as f64 / steps as f64), gauss_seidel);
+        literal.step(&free_gaps(&casing, &reduced.wheel, q as f64 / steps as f64), gauss_seidel);
         if q > 2 * steps && q % (steps / 128) == 0 {
             for (line, (sensor, d)) in samples.iter_mut().zip(request.sensors.iter().zip([0, 2, 1])) {
-                line.push(
-                    scheme.contact_displacement(sensor.sector as usize, sensor.contact_node as usize)[d],
-                );
+                line.push(literal.displacement(sensor.sector as usize, sensor.contact_node as usize, d));
             }
         }
     }
-    (samples, scheme.contact_steps)
+    (samples, literal.contact_steps())
 }
 
 /// Single-sided amplitude of engine order `order` in one revolution of samples, by its definition.
@@ -89,33 +92,39 @@ fn amplitude(samples: &[f64], order: usize) -> f64 {
 
 #[test]
 fn one_two_and_three_sectors_against_the_dense_scheme() {
-    for sectors in [1, 2, 3] {
-        let sector = wheel(WheelRecipe { sectors, nodes: 5, contact_nodes: 2, ..Default::default() });
-        let reduced = reduced(&sector, 4);
-        let request = request(&sector, &reduced, None);
-        for result in run(&reduced, &request) {
-            assert_sound(&result, 1.0);
-            let (samples, contact_steps) = dense(&reduced, &request, &result);
-            assert!(contact_steps > 10);
-            assert_eq!(result.point.contact_share, contact_steps as f64 / result.point.steps as f64);
-            let spectra = &result.spectra.as_ref().unwrap().sensors;
-            for ((samples, spectrum), response) in samples.iter().zip(spectra).zip(&result.point.responses) {
-                let largest = samples.iter().fold(0.0f64, |m, x| m.max(x.abs()));
-                let close = |a: f64, b: f64, what: &str| {
-                    assert!((a - b).abs() < 1e-9 * largest, "{sectors} sectors, {what}: {a} {b}");
-                };
-                for (order, &found) in spectrum.amplitude.iter().enumerate() {
-                    close(found, amplitude(samples, order), "amplitude");
-                }
-                let (low, high) =
-                    samples.iter().fold((f64::MAX, f64::MIN), |(l, h), &x| (l.min(x), h.max(x)));
-                close(response.half_peak_to_peak, 0.5 * (high - low), "half peak to peak");
-                let mean = samples.iter().sum::<f64>() / 128.0;
-                close(response.mean, mean, "mean");
-                let variance = samples.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / 128.0;
-                close(response.rms, variance.sqrt(), "rms");
+    for (name, scheme) in SCHEMES.into_iter().zip(LIBRARY_SCHEMES) {
+        for sectors in [1, 2, 3] {
+            let sector = wheel(WheelRecipe { sectors, nodes: 5, contact_nodes: 2, ..Default::default() });
+            let reduced = reduced(&sector, 4);
+            let request = request(&sector, &reduced, name, scheme);
+            for result in run(&reduced, &request) {
+                assert_sound(&result, 1.0);
+                let (samples, contact_steps) = dense(scheme, &reduced, &request, &result);
+                assert!(contact_steps > 10);
+                assert_eq!(result.point.contact_share, contact_steps as f64 / result.point.steps as f64);
+                same_numbers(&result, &samples, &format!("{name}, {sectors} sectors"));
             }
         }
+    }
+}
+
+/// Spectra and responses of `result` are those of `samples`, sensor by sensor.
+fn same_numbers(result: &SpeedResult, samples: &[Vec<f64>], of: &str) {
+    let spectra = &result.spectra.as_ref().unwrap().sensors;
+    for ((samples, spectrum), response) in samples.iter().zip(spectra).zip(&result.point.responses) {
+        let largest = samples.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+        let close = |a: f64, b: f64, what: &str| {
+            assert!((a - b).abs() < 1e-9 * largest, "{of}, {what}: {a} {b}");
+        };
+        for (order, &found) in spectrum.amplitude.iter().enumerate() {
+            close(found, amplitude(samples, order), "amplitude");
+        }
+        let (low, high) = samples.iter().fold((f64::MAX, f64::MIN), |(l, h), &x| (l.min(x), h.max(x)));
+        close(response.half_peak_to_peak, 0.5 * (high - low), "half peak to peak");
+        let mean = samples.iter().sum::<f64>() / 128.0;
+        close(response.mean, mean, "mean");
+        let variance = samples.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / 128.0;
+        close(response.rms, variance.sqrt(), "rms");
     }
 }
 
@@ -161,7 +170,7 @@ fn the_same_in_every_sector_whatever_their_number() {
             let reduced = reduced(&sector, 4);
             let changes = json!({
                 "scene": {"damping": {"modal_ratio": 0.2}, "casing": {"lobes": {"count": 64, "width_rad": 0.03}}},
-                "integration": {"revolutions": 4, "window_revolutions": 2, "steps_per_revolution": 6144},
+                "integration": {"revolutions": 4, "window_revolutions": 2, "steps_per_revolution": 6144, "kept_modes": KEPT_MODES},
                 "max_engine_order": 128
             });
             let mut results = run(&reduced, &sweep(&sector, scheme, &[0.7 * TOP_SPEED], changes));
@@ -172,7 +181,7 @@ fn the_same_in_every_sector_whatever_their_number() {
         assert!(one.point.contact_share > 0.0);
         for other in others {
             let difference = spectral_difference(one, other);
-            assert!(difference < 1e-9, "{scheme:?}: {difference:e}");
+            assert!(difference < 1e-9, "{scheme}: {difference:e}");
             assert_eq!(one.point.contact_share, other.point.contact_share);
         }
     }

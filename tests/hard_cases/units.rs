@@ -55,7 +55,7 @@ fn millimetres_and_metres_give_the_same_sweep() {
                 let scale = a.amplitude.iter().fold(0.0f64, |m, &x| m.max(x));
                 assert!(scale > 1e-3);
                 for (a, b) in lines.flat_map(|(a, b)| a.iter().zip(b)) {
-                    assert!((a - 1e3 * b).abs() < 1e-7 * scale, "{scheme:?}: {a} mm, {b} m");
+                    assert!((a - 1e3 * b).abs() < 1e-7 * scale, "{scheme}: {a} mm, {b} m");
                 }
             }
         }
