@@ -1,10 +1,12 @@
 //! Contact between the blades and the casing, within a step.
 
+use faer::c64;
 use pulp::Simd;
 
 use super::super::casing::{Casing, RestrictionTable};
 use super::super::contact::delassus::Delassus;
 use super::super::contact::flexibility::{flexibility, outward_normals};
+use super::super::modal_wheel::ModalHarmonic;
 use super::super::oscillators::rows::Rows;
 use super::super::oscillators::{LANES, Oscillators};
 use super::super::schemes::Scheme;
@@ -70,6 +72,7 @@ impl Obstacle {
             }
         };
         let size = sectors * stride;
+        let [now, last] = starting_displacements(simulation, fourier, stride);
         Self {
             delassus: Delassus::new(&blocks, stride, fourier),
             solver: ActiveSetSolver::new(size),
@@ -81,7 +84,7 @@ impl Obstacle {
             casing: casing.clone(),
             step_s: simulation.step_s(),
             harmonic: vec![0.0; size],
-            normal: std::array::from_fn(|_| vec![0.0; size]),
+            normal: [now, last, vec![0.0; size]],
             predicted_gap: vec![0.0; size],
             free_gap: vec![0.0; size],
             loaded: Vec::with_capacity(stride),
@@ -212,6 +215,36 @@ impl Obstacle {
         }
         (largest.0, largest.1.abs())
     }
+}
+
+/// Normal displacements at the start and a step before it, `[sector][node]`: the first forces work on them too.
+fn starting_displacements(
+    simulation: &Simulation<'_>,
+    fourier: &SectorFourier,
+    stride: usize,
+) -> [Vec<f64>; 2] {
+    let mut displacements = [(); 2].map(|()| vec![0.0; fourier.sectors() * stride]);
+    for mode in simulation.initial {
+        let harmonic = &simulation.wheel.harmonics[mode.harmonic];
+        let singles = |h: &ModalHarmonic| if h.single { 1 } else { 2 };
+        let column: usize = simulation.wheel.harmonics[..mode.harmonic].iter().map(singles).sum();
+        let (omega, z, v) = (harmonic.omega[mode.family], mode.displacement, mode.velocity);
+        let zeta = simulation.damping.map_or(0.0, |damping| damping.ratio(mode.family));
+        let increment = |z, v| simulation.scheme.first_increment(omega, zeta, simulation.step_s(), z, v);
+        let last = z - c64::new(increment(z.re, v.re), increment(z.im, v.im));
+        for (out, z) in displacements.iter_mut().zip([z, last]) {
+            let z = if harmonic.single { c64::new(z.re, 0.0) } else { z };
+            for (node, normal) in outward_normals(simulation.contact_nodes).iter().enumerate() {
+                let moved = normal.of(harmonic.contact.as_ref(), mode.family) * z;
+                for sector in 0..fourier.sectors() {
+                    let row = &fourier.row(sector)[column..];
+                    let sine = if harmonic.single { 0.0 } else { row[1] * moved.im };
+                    out[sector * stride + node] += row[0] * moved.re + sine;
+                }
+            }
+        }
+    }
+    displacements
 }
 
 /// The smallest of 0 and `values`, whose number is a multiple of the lanes; lane by lane, so that it vectorises.
