@@ -3,18 +3,13 @@
 //!
 //! A Cholesky factor breaks down, or divides by round-off: forces of 1e16 that cancel, energy out of nothing. An
 //! iterative solver never ends. Guaranteed: the sum of the forces is that of one node, motion and impulse are those of the
-//! wheel without the double, the gap closes to 1e-9 of its size (the ridge that keeps forces finite leaves 1e-10); a
-//! boundary without flexibility is refused by name.
+//! wheel without the double, the gap closes to 1e-9 of its size (the ridge that keeps forces finite leaves 1e-10).
 
-use rubmap::analysis::auto_or::AutoOr;
-use rubmap::analysis::error::AnalysisError;
-use rubmap::analysis::monitor::Unwatched;
-use rubmap::analysis::run::check;
 use rubmap::dynamics::schemes::Scheme;
 
-use crate::fixtures::{TOP_SPEED, WheelRecipe, wheel};
+use crate::fixtures::WheelRecipe;
 use crate::scenes::{PENETRATION, Scene, assert_sound, difference, history, largest};
-use crate::support::{self, LIBRARY_SCHEMES, reduced};
+use crate::support::LIBRARY_SCHEMES;
 
 /// What the ridge leaves of a gap of about one.
 const RIDGE: f64 = 1e-9;
@@ -70,36 +65,6 @@ fn a_basis_that_cannot_tell_nodes_apart() {
             assert!(run.statistics.contact_steps > 0, "{context}");
             // A few times what the lobes reach into the blade.
             assert!(largest(&history(&run).displacement[0]) < 3.0, "{context}");
-        }
-    }
-}
-
-/// Keeping all but two of the modes, or all but one, leaves a residual flexibility of lower rank than there are nodes, and a
-/// step of no use; keeping all leaves none. Both are refused at the field.
-#[test]
-fn a_boundary_without_flexibility_is_refused() {
-    let sector = wheel(WheelRecipe::default());
-    let reduced = reduced(&sector, 6);
-    let modes = reduced.wheel.harmonics[0].mass.nrows() as u32;
-    for kept in 1..=modes {
-        let mut request =
-            support::sweep(&sector, "massless_boundary", &[0.5 * TOP_SPEED], serde_json::json!({}));
-        request.integration.steps_per_revolution = AutoOr::Fixed(100_000);
-        request.integration.kept_modes = AutoOr::Fixed(kept);
-        let refused = match check(&reduced, &request, &Unwatched) {
-            Ok(()) => None,
-            Err(AnalysisError::Refused(violations)) => Some(violations[0].clone()),
-            Err(other) => panic!("{other:?}"),
-        };
-        let pointer = refused.as_ref().map(|violation| violation.pointer.as_str());
-        let expected = match modes - kept {
-            0 => Some("/integration/kept_modes"),
-            1 | 2 => Some("/integration/steps_per_revolution"),
-            _ => None,
-        };
-        assert_eq!(pointer, expected, "{kept} of {modes}: {refused:?}");
-        if kept == modes {
-            assert!(refused.is_some_and(|violation| violation.message.contains("no flexibility")));
         }
     }
 }
