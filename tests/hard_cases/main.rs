@@ -21,6 +21,7 @@ mod nearly_dependent_bases;
 #[allow(dead_code, reason = "shared with the physics tests, which use all of it")]
 mod oracle;
 mod restriction_inside;
+mod rigid_boundary;
 mod rotation_reversed;
 mod scenes;
 mod sector_counts;
