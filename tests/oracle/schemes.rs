@@ -76,26 +76,12 @@ pub(crate) struct DenseModal {
     contact_steps: u64,
 }
 
-/// 2a cosθ, a² and b of the exact propagator.
-fn propagator(omega: f64, ratio: f64, h: f64) -> [f64; 3] {
-    let a = (-ratio * omega * h).exp();
-    let theta = omega * h * (1.0 - ratio * ratio).sqrt();
-    let now = 2.0 * a * theta.cos();
-    [now, a * a, (1.0 - now + a * a) / (omega * omega)]
-}
-
 impl DenseModal {
-    /// Every mode by its exact propagator.
+    /// Every mode by its exact propagator, those beyond [`FOLLOWS`] statically.
     fn exact(reduced: &ReducedWheel, wheel: &DenseWheel, ratio: f64, speed: f64, h: f64) -> Self {
-        let follows = |omega: f64| omega * h > FOLLOWS;
-        let term = |which: usize| {
-            modal_function(reduced, speed, &|_, omega| match (follows(omega), which) {
-                (false, _) => propagator(omega, ratio, h)[which],
-                (true, 2) => omega.powi(-2),
-                (true, _) => 0.0,
-            })
-        };
-        Self::new(reduced, wheel, [term(0), term(1), term(2)], None)
+        let carried = modal_projector(reduced, speed, &|_, omega| omega * h <= FOLLOWS);
+        let propagator = Propagator::new(&(carried * &wheel.mass), wheel, ratio, h);
+        Self::new(reduced, wheel, propagator, false)
     }
 
     /// The `kept` lowest modes of every nodal diameter by their exact propagator, the rest statically.
@@ -107,28 +93,23 @@ impl DenseModal {
         h: f64,
         kept: usize,
     ) -> Self {
-        let term = |which: usize| {
-            let of = |mode, omega| if mode < kept { propagator(omega, ratio, h)[which] } else { 0.0 };
-            modal_function(reduced, speed, &of)
-        };
-        let residual =
-            modal_function(reduced, speed, &|mode, omega| if mode < kept { 0.0 } else { omega.powi(-2) });
-        Self::new(reduced, wheel, [term(0), term(1), term(2)], Some(residual))
+        let carried = modal_projector(reduced, speed, &|mode, _| mode < kept);
+        let propagator = Propagator::new(&(carried * &wheel.mass), wheel, ratio, h);
+        Self::new(reduced, wheel, propagator, true)
     }
 
-    fn new(
-        reduced: &ReducedWheel,
-        wheel: &DenseWheel,
-        [now, before, kick]: [DMatrix<f64>; 3],
-        residual: Option<DMatrix<f64>>,
-    ) -> Self {
+    fn new(reduced: &ReducedWheel, wheel: &DenseWheel, propagator: Propagator, massless: bool) -> Self {
         let constraints = constraints(wheel, reduced);
+        let Propagator { now, before, mut kick, rest } = propagator;
+        if !massless {
+            kick += &rest;
+        }
         let kick = kick * &constraints;
-        let flexibility = residual.map(|residual| residual * &constraints);
+        let flexibility = massless.then(|| rest * &constraints);
         let size = wheel.size();
         Self {
-            now: now * &wheel.mass,
-            before: -(before * &wheel.mass),
+            now,
+            before,
             delassus: constraints.transpose() * flexibility.as_ref().unwrap_or(&kick),
             lambda: DVector::zeros(constraints.ncols()),
             x: DVector::zeros(size),
@@ -174,8 +155,52 @@ impl DenseModal {
     }
 }
 
-/// Φ diag(of(mode within its nodal diameter, ω)) Φᵀ over the whole wheel, ΦᵀMΦ = 1.
-fn modal_function(reduced: &ReducedWheel, speed: f64, of: &dyn Fn(usize, f64) -> f64) -> DMatrix<f64> {
+/// x⁺ = now·x + before·x⁻ + kick·f of M ẍ + D ẋ + K x = f within the carried modes, f constant over the step, and the
+/// static answer of all others.
+struct Propagator {
+    now: DMatrix<f64>,
+    before: DMatrix<f64>,
+    kick: DMatrix<f64>,
+    /// K⁻¹ less its share in the carried modes.
+    rest: DMatrix<f64>,
+}
+
+impl Propagator {
+    /// By the exponential of the first-order system in (x, hẋ), forwards and backwards: no mode and no frequency is
+    /// looked at. `carried` projects on the carried modes.
+    fn new(carried: &DMatrix<f64>, wheel: &DenseWheel, ratio: f64, h: f64) -> Self {
+        let size = wheel.size();
+        let one = DMatrix::identity(size, size);
+        let mass = wheel.mass.clone().cholesky().expect("M_r is positive definite");
+        let mut generator = DMatrix::zeros(2 * size, 2 * size);
+        let mut place = |row, column, block: DMatrix<f64>| {
+            generator.view_mut((row * size, column * size), (size, size)).copy_from(&block);
+        };
+        place(0, 1, one.clone());
+        place(1, 0, carried * mass.solve(&wheel.stiffness) * (-h * h));
+        place(1, 1, carried * mass.solve(&wheel.modal_damping(ratio)) * -h);
+        let flow = |sign: f64| {
+            let flow = (&generator * sign).exp();
+            let block = |column| flow.view((0, column * size), (size, size)).into_owned();
+            (block(0), block(1))
+        };
+        let ((ahead, ahead_by_speed), (back, back_by_speed)) = (flow(1.0), flow(-1.0));
+        // x⁻ = back·x + back_by_speed·hẋ gives the velocity that x⁺ = ahead·x + ahead_by_speed·hẋ needs.
+        let before =
+            ahead_by_speed * back_by_speed.try_inverse().expect("carried modes turn by less than π a step");
+        let now = (ahead - &before * back) * carried;
+        let before = before * carried;
+        let stiffness = wheel.stiffness.clone().cholesky().expect("K_r is positive definite");
+        let flexibility = stiffness.inverse();
+        let carried_flexibility = carried * &flexibility;
+        // A steady force holds its static displacement.
+        let kick = (&one - &now - &before) * &carried_flexibility;
+        Self { now, before, kick, rest: flexibility - carried_flexibility }
+    }
+}
+
+/// ΦΦᵀ of the modes of the whole wheel that are `chosen` by their place within the nodal diameter and by ω.
+fn modal_projector(reduced: &ReducedWheel, speed: f64, chosen: &dyn Fn(usize, f64) -> bool) -> DMatrix<f64> {
     let block = |harmonic: &rubmap::dynamics::reduction::ReducedHarmonic| {
         let i = harmonic.harmonic;
         let mass = real_form(&harmonic.mass, i, reduced.sectors);
@@ -188,12 +213,13 @@ fn modal_function(reduced: &ReducedWheel, speed: f64, of: &dyn Fn(usize, f64) ->
         let eigen = ((&standard + standard.transpose()) * 0.5).symmetric_eigen();
         let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
         order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
-        let mut values = eigen.eigenvalues.clone();
+        let mut chosen_or_not = eigen.eigenvalues.clone();
         for (place, &column) in order.iter().enumerate() {
-            values[column] = of(place / copies, eigen.eigenvalues[column].sqrt());
+            let picked = chosen(place / copies, eigen.eigenvalues[column].sqrt());
+            chosen_or_not[column] = if picked { 1.0 } else { 0.0 };
         }
         let modes = lower.transpose().solve_upper_triangular(&eigen.eigenvectors).unwrap();
-        &modes * DMatrix::from_diagonal(&values) * modes.transpose()
+        &modes * DMatrix::from_diagonal(&chosen_or_not) * modes.transpose()
     };
     let blocks: Vec<_> = reduced.harmonics.iter().map(block).collect();
     recompose(&blocks, reduced)

@@ -118,3 +118,20 @@ fn a_sector_that_closes_on_itself() {
 fn two_sectors() {
     agree(WheelRecipe { sectors: 2, contact_nodes: 1, seed: 6, ..Default::default() }, 0.001, 1, 3.0);
 }
+
+/// Steps so long that the upper half of the modes follows statically.
+#[test]
+fn modes_that_follow_statically() {
+    for damping_ratio in [0.0, 0.01] {
+        agree_by(Scheme::ExactModal, WheelRecipe { seed: 7, ..Default::default() }, damping_ratio, 2, 0.55);
+    }
+}
+
+/// From one mode with mass to nearly all of them.
+#[test]
+fn any_number_of_kept_modes() {
+    for (kept_modes, steps_factor) in [(1, 1.0), (4, 1.5), (12, 2.5)] {
+        let recipe = WheelRecipe { sectors: 5, contact_nodes: 2, seed: 8, ..Default::default() };
+        agree_by(Scheme::MasslessBoundary { kept_modes }, recipe, 0.005, 2, steps_factor);
+    }
+}

@@ -9,4 +9,5 @@ mod modal_criterion;
 #[path = "../oracle/mod.rs"]
 mod oracle;
 mod plain_agreement;
+mod schemes;
 mod sweep;

@@ -16,9 +16,13 @@ use std::f64::consts::PI;
 
 use super::ModeStep;
 
+/// ω_max and ω_max h are known to this: a step closer to the limit counts as the limit.
+const ROUND_OFF: f64 = 1e-12;
+
 /// Smallest number of steps per revolution with h = 2π/(ΩS) < 2/ω_max.
 pub fn smallest_stable_steps(largest_frequency: f64, speed_rad_s: f64) -> u64 {
-    ((PI * largest_frequency / speed_rad_s).floor() as u64).saturating_add(1)
+    let limit = PI * largest_frequency / speed_rad_s;
+    ((limit * (1.0 + ROUND_OFF)).floor() as u64).saturating_add(1)
 }
 
 pub(super) fn mode_step(omega: f64, zeta: f64, h: f64) -> ModeStep {
