@@ -129,6 +129,12 @@ impl Simulation<'_> {
         pulp::Arch::new().dispatch(Loop { simulation: self, stepper: &mut stepper, watch })
     }
 
+    /// Normal displacement of a tip beyond which a run ends as diverged; without bound where all tips lie on the axis.
+    fn reach(&self) -> f64 {
+        let radius = self.contact_nodes.iter().fold(0.0f64, |r, node| r.max(node.position[0]));
+        if radius > 0.0 { DIVERGED_SHARE_OF_RADIUS * radius } else { f64::INFINITY }
+    }
+
     fn step_s(&self) -> f64 {
         TAU / (self.wheel.speed_rad_s * self.steps_per_revolution as f64)
     }
@@ -234,8 +240,7 @@ impl Stepper {
     ) -> Result<(), Outcome> {
         let steps = simulation.steps_per_revolution;
         let sampling = steps / simulation.samples_per_revolution;
-        let radius = simulation.contact_nodes.iter().fold(0.0f64, |r, node| r.max(node.position[0]));
-        let bound = DIVERGED_SHARE_OF_RADIUS * radius;
+        let reach = simulation.reach();
         let window_start = simulation.revolutions - simulation.window_revolutions;
         for revolution in 0..simulation.revolutions {
             for step in 1..=steps {
@@ -257,7 +262,7 @@ impl Stepper {
                     let energy = self.oscillators.energy();
                     self.energy.check(energy);
                     self.recorder.record(simd, &self.oscillators, &self.fourier, revolution >= window_start);
-                    if !energy.is_finite() || (bound > 0.0 && self.largest_normal_displacement() > bound) {
+                    if !energy.is_finite() || self.largest_normal_displacement() > reach {
                         return Err(Outcome::Diverged { revolutions });
                     }
                 }
@@ -329,8 +334,8 @@ impl Obstacle {
             restriction,
             unrestricted: vec![0.0; stride],
             clearance,
-            // Gaps are differences of lengths of this scale.
-            tolerance: 1e-14 * casing.length_scale(),
+            // Gaps are differences of lengths of this scale. A casing far out of reach of some node must not loosen it.
+            tolerance: 1e-14 * casing.length_scale(simulation.reach()),
             casing: casing.clone(),
             harmonic: vec![0.0; size],
             normal: std::array::from_fn(|_| vec![0.0; size]),
