@@ -9,10 +9,12 @@ use std::time::{Duration, Instant};
 use criterion::{BenchmarkId, Criterion, Throughput};
 use nalgebra::{DMatrix, DVector};
 use rubmap::dynamics::casing::{Casing, Restriction};
-use rubmap::dynamics::integrate::{SensorRow, Simulation, smallest_stable_steps};
+use rubmap::dynamics::integrate::{SensorRow, Simulation};
 use rubmap::dynamics::modal_wheel::ModalWheel;
 use rubmap::dynamics::oscillators::{Direction, ModalDamping};
 use rubmap::dynamics::reduction::{NoCheckpoints, ReducedWheel, ReductionOptions, reduce};
+use rubmap::dynamics::schemes::Scheme;
+use rubmap::dynamics::schemes::central_differences::smallest_stable_steps;
 
 #[path = "../tests/oracle/mod.rs"]
 #[allow(dead_code, reason = "shared with the tests, which use all of it")]
@@ -61,6 +63,8 @@ impl Case {
             contact_nodes: &self.reduced.contact,
             damping: Some(&damping),
             casing: Some(&self.casing),
+            initial: &[],
+            scheme: Scheme::CentralDifferences,
             sensors: &[sensor],
             steps_per_revolution: self.steps,
             samples_per_revolution: self.steps / 10,

@@ -7,8 +7,8 @@ use super::model::ReducedSector;
 use super::monitor::Monitor;
 use super::request::{StepsPerRevolution, SweepRequest};
 use crate::dynamics::error::ModelError;
-use crate::dynamics::integrate::smallest_stable_steps;
 use crate::dynamics::modal_wheel::{ModalWheel, natural_frequencies};
+use crate::dynamics::schemes::central_differences::smallest_stable_steps;
 
 /// Steps and samples of a revolution.
 pub(super) struct Discretisation {

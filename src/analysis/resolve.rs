@@ -25,8 +25,8 @@ mod limits {
     pub(super) const DELASSUS: usize = 1 << 26;
     /// Shortest ramp of lobes that stand inside the blade.
     pub(super) const RAMP_REVOLUTIONS: f64 = 0.05;
-    /// Lengths other than 0: those whose squares neither overflow nor vanish, in any unit.
-    pub(super) const LENGTH: std::ops::RangeInclusive<f64> = 1e-100..=1e100;
+    /// Lengths other than 0, in any unit: far from where squares overflow or motion counts as decayed to nothing.
+    pub(super) const LENGTH: std::ops::RangeInclusive<f64> = 1e-30..=1e30;
     pub(super) const LOBE_WIDTH_RAD: std::ops::RangeInclusive<f64> = 1e-4..=100.0;
     pub(super) const PHASE_RAD: f64 = 1000.0;
 }

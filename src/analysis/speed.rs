@@ -10,10 +10,13 @@ use super::request::{Component, Sensor, SweepRequest};
 use super::result::{Point, PointStatus, SensorResponse, SensorSpectrum, SpeedResult, SpeedSpectra};
 use super::run::VERSION;
 use crate::dynamics::casing::{Casing, Restriction, RestrictionTable, clearance_along_chord};
-use crate::dynamics::integrate::{History, MAX_TABLE_VALUES, Outcome, Run, SensorRow, Simulation};
+use crate::dynamics::integrate::{
+    Divergence, History, MAX_TABLE_VALUES, Outcome, Run, SensorRow, Simulation,
+};
 use crate::dynamics::modal_wheel::ModalWheel;
 use crate::dynamics::oscillators::{Direction, ModalDamping};
 use crate::dynamics::reduction::ReducedWheel;
+use crate::dynamics::schemes::Scheme;
 use crate::numerics::sector_fourier::SectorFourier;
 use crate::numerics::spectrum::amplitudes;
 use crate::response::settling::judge;
@@ -105,6 +108,8 @@ fn simulate(
         contact_nodes: &reduced.contact,
         damping: damping.as_ref(),
         casing: casing.as_ref(),
+        initial: &[],
+        scheme: Scheme::CentralDifferences,
         sensors: &sensors,
         steps_per_revolution: steps.per_revolution,
         samples_per_revolution: steps.samples,
@@ -169,11 +174,9 @@ fn record_run(
     point.largest_energy = finite(run.energy.largest_energy());
     match run.outcome {
         Outcome::Cancelled => Err(AnalysisError::Cancelled),
-        Outcome::Diverged { revolutions } => {
+        Outcome::Diverged(divergence) => {
             point.status = PointStatus::Diverged;
-            point.message = Some(format!(
-                "the response grew beyond a tenth of the wheel's radius after {revolutions:.2} revolutions"
-            ));
+            point.message = Some(describe(&divergence));
             Ok(None)
         }
         Outcome::ContactFailed { revolutions, error } => {
@@ -188,6 +191,26 @@ fn record_run(
             point.responses = responses(&history, request, &spectra, window * steps.samples);
             Ok(Some(spectra))
         }
+    }
+}
+
+fn describe(divergence: &Divergence) -> String {
+    let Divergence { revolutions, displacement, contact_node, sector, energy_growth } = *divergence;
+    let growth = match energy_growth.filter(|growth| growth.is_finite()) {
+        Some(growth) => {
+            format!("; the energy was {growth:.3e} times that at the end of the last whole revolution")
+        }
+        None => String::new(),
+    };
+    if displacement.is_finite() {
+        format!(
+            "the response grew without bound: after {revolutions:.3} revolutions contact node {contact_node} of sector \
+             {sector} had moved by {displacement:.3e}, more than a tenth of the wheel's radius{growth}"
+        )
+    } else {
+        format!(
+            "the response grew without bound: numbers overflowed after {revolutions:.3} revolutions{growth}"
+        )
     }
 }
 

@@ -11,6 +11,7 @@ use super::casing::{Casing, RestrictionTable};
 use super::integrate::{Outcome, Run, SensorRow, Simulation};
 use super::modal_wheel::{ModalHarmonic, ModalWheel};
 use super::oscillators::Direction;
+use super::schemes::Scheme;
 use super::sector::ContactNode;
 use crate::numerics::hermitian::generalised_eigenpairs;
 
@@ -92,6 +93,8 @@ impl Bar {
             contact_nodes: &[tip],
             damping: None,
             casing: Some(&casing),
+            initial: &[],
+            scheme: Scheme::CentralDifferences,
             sensors: &sensors,
             steps_per_revolution: steps,
             samples_per_revolution: steps,

@@ -1,11 +1,13 @@
-//! The energy audit of central differences (§8).
+//! The energy audit (§8).
 
-/// Both sides of E^{q+½} − E^{q−½} = fᵀ(u_{q+1} − u_{q−1})/2 − damping loss, summed over a run from rest.
+/// Both sides of E^{q+½} − E^{q−½} = fᵀ(u_{q+1} − u_{q−1})/2 − loss, summed over a run; E is the
+/// scheme's own energy ([`super::schemes`]).
 ///
 /// The identity holds to round-off in exact arithmetic of the scheme, so its residual is the cheapest proof that a
 /// run was integrated, not merely finished.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct EnergyAudit {
+    initial: f64,
     work: f64,
     loss: f64,
     largest_energy: f64,
@@ -13,13 +15,18 @@ pub struct EnergyAudit {
 }
 
 impl EnergyAudit {
+    /// Of a run that starts with the mechanical energy `initial`.
+    pub(crate) fn starting_at(initial: f64) -> Self {
+        Self { initial, largest_energy: initial.abs(), ..Self::default() }
+    }
+
     /// Adds the work of contact forces in one step.
     #[inline(always)]
     pub(crate) fn add_work(&mut self, work: f64) {
         self.work += work;
     }
 
-    /// Adds the energy lost to damping in one step.
+    /// Adds the energy lost in one step.
     #[inline(always)]
     pub(crate) fn add_loss(&mut self, loss: f64) {
         self.loss += loss;
@@ -28,7 +35,8 @@ impl EnergyAudit {
     /// Compares the mechanical energy with the sums so far.
     pub(crate) fn check(&mut self, energy: f64) {
         self.largest_energy = larger(self.largest_energy, energy.abs());
-        self.largest_residual = larger(self.largest_residual, (energy - (self.work - self.loss)).abs());
+        self.largest_residual =
+            larger(self.largest_residual, (energy - (self.initial + self.work - self.loss)).abs());
     }
 
     /// Largest mechanical energy seen, force·length.
@@ -36,7 +44,7 @@ impl EnergyAudit {
         self.largest_energy
     }
 
-    /// Energy lost to damping so far.
+    /// Energy lost so far to damping, and to modes that follow statically.
     pub fn loss(&self) -> f64 {
         self.loss
     }

@@ -15,9 +15,9 @@ use rubmap::analysis::run::{
     run_speed,
 };
 use rubmap::dynamics::casing::Restriction;
-use rubmap::dynamics::integrate::smallest_stable_steps;
 use rubmap::dynamics::modal_wheel::ModalWheel;
 use rubmap::dynamics::reduction::NoCheckpoints;
+use rubmap::dynamics::schemes::central_differences::smallest_stable_steps;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;

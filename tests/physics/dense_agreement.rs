@@ -3,10 +3,12 @@
 use std::f64::consts::TAU;
 
 use rubmap::dynamics::casing::{Casing, Restriction};
-use rubmap::dynamics::integrate::{Outcome, SensorRow, Simulation, smallest_stable_steps};
+use rubmap::dynamics::integrate::{Outcome, SensorRow, Simulation};
 use rubmap::dynamics::modal_wheel::ModalWheel;
 use rubmap::dynamics::oscillators::{Direction, ModalDamping};
 use rubmap::dynamics::reduction::{NoCheckpoints, ReductionOptions, reduce};
+use rubmap::dynamics::schemes::Scheme;
+use rubmap::dynamics::schemes::central_differences::smallest_stable_steps;
 
 use crate::fixtures::{TOP_SPEED, WheelRecipe, wheel};
 use crate::oracle::{DenseScheme, DenseWheel, free_gaps, gauss_seidel};
@@ -40,6 +42,9 @@ fn agree(recipe: WheelRecipe, damping_ratio: f64, lobes: u32, steps_factor: f64)
         contact_nodes: &reduced.contact,
         damping: (damping_ratio > 0.0).then_some(&damping),
         casing: Some(&casing),
+
+        initial: &[],
+        scheme: Scheme::CentralDifferences,
         sensors: &sensors,
         steps_per_revolution: steps,
         samples_per_revolution: steps,

@@ -2,10 +2,12 @@
 
 use proptest::prelude::*;
 use rubmap::dynamics::casing::{Casing, Restriction};
-use rubmap::dynamics::integrate::{History, Outcome, Run, SensorRow, Simulation, smallest_stable_steps};
+use rubmap::dynamics::integrate::{History, Outcome, Run, SensorRow, Simulation};
 use rubmap::dynamics::modal_wheel::ModalWheel;
 use rubmap::dynamics::oscillators::{Direction, ModalDamping};
 use rubmap::dynamics::reduction::{NoCheckpoints, ReducedWheel, ReductionOptions, reduce};
+use rubmap::dynamics::schemes::Scheme;
+use rubmap::dynamics::schemes::central_differences::smallest_stable_steps;
 use rubmap::numerics::sector_fourier::SectorFourier;
 use rubmap::response::spectra::nodal_diameter_amplitudes;
 
@@ -50,6 +52,8 @@ impl Scene {
             contact_nodes: &self.reduced.contact,
             damping: (self.damping_ratio > 0.0).then_some(&damping),
             casing: Some(&self.casing),
+            initial: &[],
+            scheme: Scheme::CentralDifferences,
             sensors: &[self.sensor],
             steps_per_revolution: steps,
             samples_per_revolution: samples,

@@ -10,3 +10,4 @@
 //! penetrating node, and no other, ends up active.
 
 pub(crate) mod delassus;
+pub(crate) mod flexibility;

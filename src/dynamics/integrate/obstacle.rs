@@ -1,0 +1,227 @@
+//! Contact between the blades and the casing, within a step.
+
+use pulp::Simd;
+
+use super::super::casing::{Casing, RestrictionTable};
+use super::super::contact::delassus::Delassus;
+use super::super::contact::flexibility::{flexibility, outward_normals};
+use super::super::oscillators::rows::Rows;
+use super::super::oscillators::{LANES, Oscillators};
+use super::super::schemes::Scheme;
+use super::super::schemes::massless_boundary::residual_flexibility;
+use super::super::statistics::RunStatistics;
+use super::Simulation;
+use crate::numerics::complementarity::{ActiveSetSolver, ComplementarityError};
+use crate::numerics::sector_fourier::SectorFourier;
+
+#[derive(Debug)]
+pub(super) struct Obstacle {
+    pub(super) rows: Rows,
+    delassus: Delassus,
+    solver: ActiveSetSolver,
+    casing: Casing,
+    pub(super) restriction: Option<RestrictionTable>,
+    /// p = 0 of a circular casing.
+    unrestricted: Vec<f64>,
+    /// c_k, padded with +∞.
+    clearance: Vec<f64>,
+    tolerance: f64,
+    step_s: f64,
+    /// Normal displacements of the integrated modes, `[Fourier column][node]`.
+    pub(super) harmonic: Vec<f64>,
+    /// nᵀu of the integrated modes at q+1, q and q−1: `[sector][node]`.
+    pub(super) normal: [Vec<f64>; 3],
+    predicted_gap: Vec<f64>,
+    /// c − p of this step.
+    free_gap: Vec<f64>,
+    /// Contact nodes with a force on any sector.
+    pub(super) loaded: Vec<usize>,
+    is_loaded: Vec<bool>,
+    /// Along the outward normals, `[Fourier column][node]`.
+    pub(super) force: Vec<f64>,
+}
+
+impl Obstacle {
+    pub(super) fn new(
+        simulation: &Simulation<'_>,
+        casing: &Casing,
+        oscillators: &Oscillators,
+        fourier: &SectorFourier,
+    ) -> Self {
+        let (wheel, scheme, nodes) = (simulation.wheel, simulation.scheme, simulation.contact_nodes);
+        let normals = outward_normals(nodes);
+        let rows = Rows::new(wheel, &normals, |modes| scheme.integrated_modes(modes));
+        let (stride, sectors) = (rows.stride, fourier.sectors());
+        let angles: Vec<_> = nodes.iter().map(|node| node.position[1]).collect();
+        let restriction = casing.restriction.map(|restriction| {
+            let profile = |angle| restriction.height(angle);
+            RestrictionTable::new(profile, &angles, simulation.steps_per_revolution, sectors, stride)
+        });
+        let mut clearance = casing.clearance.clone();
+        clearance.resize(stride, f64::INFINITY);
+        let blocks = match scheme {
+            Scheme::CentralDifferences | Scheme::ExactModal => {
+                flexibility(wheel, &normals, &normals, |harmonic, mode| {
+                    oscillators.receptance(harmonic, mode)
+                })
+            }
+            Scheme::MasslessBoundary { kept_modes } => {
+                residual_flexibility(wheel, kept_modes, &normals, &normals)
+            }
+        };
+        let size = sectors * stride;
+        Self {
+            delassus: Delassus::new(&blocks, stride, fourier),
+            solver: ActiveSetSolver::new(size),
+            restriction,
+            unrestricted: vec![0.0; stride],
+            clearance,
+            // Gaps are differences of lengths of this scale. A casing far out of reach of some node must not loosen it.
+            tolerance: 1e-14 * casing.length_scale(simulation.reach()),
+            casing: casing.clone(),
+            step_s: simulation.step_s(),
+            harmonic: vec![0.0; size],
+            normal: std::array::from_fn(|_| vec![0.0; size]),
+            predicted_gap: vec![0.0; size],
+            free_gap: vec![0.0; size],
+            loaded: Vec::with_capacity(stride),
+            is_loaded: vec![false; stride],
+            force: vec![0.0; size],
+            rows,
+        }
+    }
+
+    /// Normal displacements of all sectors from their Fourier coordinates, and g_p = c − p − nᵀu, whose smallest value
+    /// is returned.
+    #[inline(always)]
+    pub(super) fn predict_gaps<S: Simd>(
+        &mut self,
+        simd: S,
+        fourier: &SectorFourier,
+        step: usize,
+        revolutions: f64,
+    ) -> f64 {
+        let mut smallest = simd.splat_f64s(f64::INFINITY);
+        let stride = self.rows.stride;
+        let vectors = stride / S::F64_LANES;
+        let growth = simd.splat_f64s(self.casing.growth(revolutions));
+        let clearance = &S::as_simd_f64s(&self.clearance).0[..vectors];
+        let harmonic = S::as_simd_f64s(&self.harmonic).0;
+        for sector in 0..fourier.sectors() {
+            let range = sector * stride..(sector + 1) * stride;
+            let normal = &mut S::as_mut_simd_f64s(&mut self.normal[0][range.clone()]).0[..vectors];
+            let free_gap = &mut S::as_mut_simd_f64s(&mut self.free_gap[range.clone()]).0[..vectors];
+            let gap = &mut S::as_mut_simd_f64s(&mut self.predicted_gap[range]).0[..vectors];
+            let restricted = match &self.restriction {
+                Some(table) => table.at(step, sector),
+                None => &self.unrestricted,
+            };
+            let restricted = &S::as_simd_f64s(restricted).0[..vectors];
+            for v in 0..vectors {
+                let mut u = simd.splat_f64s(0.0);
+                for (&f, column) in fourier.row(sector).iter().zip(harmonic.chunks_exact(vectors)) {
+                    u = simd.mul_add_e_f64s(simd.splat_f64s(f), column[v], u);
+                }
+                let free = simd.negate_mul_add_e_f64s(growth, restricted[v], clearance[v]);
+                normal[v] = u;
+                free_gap[v] = free;
+                gap[v] = simd.sub_f64s(free, u);
+                smallest = simd.min_f64s(smallest, gap[v]);
+            }
+        }
+        simd.reduce_min_f64s(smallest)
+    }
+
+    /// Contact forces of the predicted gaps (Eqs 9, 10) and what they add to the statistics.
+    #[inline(always)]
+    pub(super) fn solve(
+        &mut self,
+        fourier: &SectorFourier,
+        statistics: &mut RunStatistics,
+    ) -> Result<(), ComplementarityError> {
+        self.solver.solve(&self.delassus, &self.predicted_gap, self.tolerance)?;
+        let deepest = -lowest(self.solver.gap());
+        statistics.largest_penetration = statistics.largest_penetration.max(deepest);
+        statistics.pivots = self.solver.statistics();
+        let stride = self.rows.stride;
+        let mut impulse = 0.0;
+        for (&index, &lambda) in self.solver.active().iter().zip(self.solver.lambda()) {
+            let (sector, row) = (index / stride, index % stride);
+            if !self.is_loaded[row] {
+                self.is_loaded[row] = true;
+                self.loaded.push(row);
+            }
+            for (column, &f) in fourier.row(sector).iter().enumerate() {
+                self.force[column * stride + row] -= f * lambda;
+            }
+            impulse += lambda * self.step_s;
+            let smallest = statistics.smallest_multiplier.map_or(lambda, |least| least.min(lambda));
+            statistics.smallest_multiplier = Some(smallest);
+        }
+        if impulse > 0.0 {
+            statistics.contact_steps += 1;
+            statistics.contact_impulse += impulse;
+        }
+        Ok(())
+    }
+
+    /// Normal displacements that the forces leave, where they complete the step.
+    #[inline(always)]
+    pub(super) fn close_gaps(&mut self) {
+        for ((u, &free), &g) in self.normal[0].iter_mut().zip(&self.free_gap).zip(self.solver.gap()) {
+            // Padding has an infinite gap.
+            if g < f64::INFINITY {
+                *u = free - g;
+            }
+        }
+    }
+
+    /// Work fᵀ(u⁺ − u⁻)/2 of the forces there are.
+    #[inline(always)]
+    pub(super) fn work(&self) -> f64 {
+        if self.loaded.is_empty() {
+            return 0.0;
+        }
+        let [next, _, last] = &self.normal;
+        let forces = self.solver.active().iter().zip(self.solver.lambda());
+        forces.map(|(&index, lambda)| -0.5 * lambda * (next[index] - last[index])).sum()
+    }
+
+    /// No forces, until the next solution.
+    #[inline(always)]
+    pub(super) fn clear_forces(&mut self, fourier: &SectorFourier) {
+        for &row in &self.loaded {
+            self.is_loaded[row] = false;
+            for column in 0..fourier.sectors() {
+                self.force[column * self.rows.stride + row] = 0.0;
+            }
+        }
+        self.loaded.clear();
+    }
+
+    /// Largest normal displacement and its place; the first that is no number, if any.
+    pub(super) fn largest_displacement(&self) -> (usize, f64) {
+        let mut largest = (0, 0.0f64);
+        for (place, &u) in self.normal[0].iter().enumerate() {
+            if !u.is_finite() {
+                return (place, u);
+            }
+            if u.abs() > largest.1.abs() {
+                largest = (place, u);
+            }
+        }
+        (largest.0, largest.1.abs())
+    }
+}
+
+/// The smallest of 0 and `values`, whose number is a multiple of the lanes; lane by lane, so that it vectorises.
+#[inline(always)]
+fn lowest(values: &[f64]) -> f64 {
+    let mut lanes = [0.0f64; LANES];
+    for chunk in values.chunks_exact(LANES) {
+        for (low, &value) in lanes.iter_mut().zip(chunk) {
+            *low = if value < *low { value } else { *low };
+        }
+    }
+    lanes.iter().fold(0.0, |low, &value| low.min(value))
+}

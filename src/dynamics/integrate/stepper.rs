@@ -1,0 +1,213 @@
+//! The step loop, top to bottom.
+//!
+//! With mass at the contact, a step predicts every modal oscillator (Eq. 8), reads the normal displacement of every
+//! contact node and solves the complementarity problem of the gaps (Eqs 9, 10) for the forces that complete it; they are
+//! applied together with the next step's prediction, in one pass over the mode shapes. Without mass at the contact, the
+//! forces of the last instant carry the modes to the next one, where the boundary then finds its own equilibrium.
+
+use pulp::Simd;
+
+#[cfg(test)]
+use super::super::casing::RestrictionTable;
+use super::super::energy::EnergyAudit;
+use super::super::oscillators::{Loads, Oscillators};
+use super::super::schemes::Scheme;
+use super::super::statistics::RunStatistics;
+use super::obstacle::Obstacle;
+use super::recorder::Recorder;
+use super::{Divergence, Outcome, Run, Simulation};
+use crate::numerics::sector_fourier::SectorFourier;
+
+/// Steps between two looks at progress and cancellation: some tens of milliseconds.
+const WATCHED_STEPS: u64 = 1 << 14;
+
+/// Steps between two looks for motion that has decayed to nothing.
+const QUENCHED_STEPS: u64 = 16;
+
+/// Contact of a scene and of its scheme, decided before the loop.
+mod contact {
+    pub(super) const NONE: u8 = 0;
+    /// The force that closes the gap completes the step.
+    pub(super) const COMPLETES: u8 = 1;
+    /// The force acts from the instant at which it closes the gap.
+    pub(super) const MASSLESS: u8 = 2;
+}
+
+/// Everything a step changes or reads; built before the loop, nothing is allocated in it.
+#[derive(Debug)]
+pub(super) struct Stepper {
+    fourier: SectorFourier,
+    oscillators: Oscillators,
+    obstacle: Option<Obstacle>,
+    recorder: Recorder,
+    statistics: RunStatistics,
+    energy: EnergyAudit,
+    /// Energy at the end of the last whole revolution.
+    last_energy: Option<f64>,
+}
+
+impl Stepper {
+    pub(super) fn new(simulation: &Simulation<'_>) -> Self {
+        let (wheel, scheme) = (simulation.wheel, simulation.scheme);
+        let fourier = SectorFourier::new(wheel.sectors);
+        let touching = simulation.casing.is_some();
+        let oscillators = Oscillators::new(
+            wheel,
+            scheme,
+            simulation.step_s(),
+            simulation.damping,
+            touching,
+            simulation.initial,
+        );
+        let obstacle =
+            simulation.casing.map(|casing| Obstacle::new(simulation, casing, &oscillators, &fourier));
+        let recorder = Recorder::new(simulation, &fourier);
+        let energy = EnergyAudit::starting_at(oscillators.energy());
+        let statistics = RunStatistics::default();
+        Self { fourier, oscillators, obstacle, recorder, statistics, energy, last_energy: None }
+    }
+
+    #[cfg(test)]
+    pub(super) fn replace_restriction(&mut self, restriction: RestrictionTable) {
+        if let Some(obstacle) = &mut self.obstacle {
+            obstacle.restriction = Some(restriction);
+        }
+    }
+
+    /// Chooses the loop of the scene and its scheme.
+    #[inline(always)]
+    pub(super) fn run<S: Simd>(
+        &mut self,
+        simd: S,
+        simulation: &Simulation<'_>,
+        watch: &dyn Fn(f64) -> bool,
+    ) -> Run {
+        use contact::{COMPLETES, MASSLESS, NONE};
+        let massless = matches!(simulation.scheme, Scheme::MasslessBoundary { .. });
+        let outcome = match (self.oscillators.dissipates(), self.obstacle.is_some(), massless) {
+            (true, false, _) => self.integrate::<S, true, NONE>(simd, simulation, watch),
+            (false, false, _) => self.integrate::<S, false, NONE>(simd, simulation, watch),
+            (true, true, false) => self.integrate::<S, true, COMPLETES>(simd, simulation, watch),
+            (false, true, false) => self.integrate::<S, false, COMPLETES>(simd, simulation, watch),
+            (true, true, true) => self.integrate::<S, true, MASSLESS>(simd, simulation, watch),
+            (false, true, true) => self.integrate::<S, false, MASSLESS>(simd, simulation, watch),
+        };
+        let outcome = match outcome {
+            Ok(()) => Outcome::Completed(self.recorder.take()),
+            Err(ended) => ended,
+        };
+        Run { outcome, statistics: self.statistics, energy: self.energy }
+    }
+
+    #[inline(always)]
+    fn integrate<S: Simd, const DISSIPATES: bool, const CONTACT: u8>(
+        &mut self,
+        simd: S,
+        simulation: &Simulation<'_>,
+        watch: &dyn Fn(f64) -> bool,
+    ) -> Result<(), Outcome> {
+        let steps = simulation.steps_per_revolution;
+        let sampling = steps / simulation.samples_per_revolution;
+        let reach = simulation.reach();
+        let window_start = simulation.revolutions - simulation.window_revolutions;
+        for revolution in 0..simulation.revolutions {
+            for step in 1..=steps {
+                let revolutions = revolution as f64 + step as f64 / steps as f64;
+                if CONTACT == contact::NONE {
+                    let loss = self.oscillators.advance::<S, DISSIPATES>(simd);
+                    self.energy.add_loss(loss);
+                } else {
+                    self.step_touching::<S, DISSIPATES, CONTACT>(simd, step % steps, revolutions)?;
+                }
+                self.statistics.steps += 1;
+                if DISSIPATES && self.statistics.steps.is_multiple_of(QUENCHED_STEPS) {
+                    self.oscillators.quench();
+                }
+                if self.statistics.steps.is_multiple_of(WATCHED_STEPS)
+                    && !watch(revolutions / simulation.revolutions as f64)
+                {
+                    return Err(Outcome::Cancelled);
+                }
+                if step % sampling == 0 {
+                    if CONTACT == contact::COMPLETES {
+                        self.complete::<S, DISSIPATES>(simd);
+                    }
+                    let energy = self.oscillators.energy();
+                    self.energy.check(energy);
+                    self.record(simd, revolution >= window_start);
+                    self.check_bounds(energy, reach, revolutions)?;
+                }
+            }
+            self.last_energy = Some(self.oscillators.energy());
+        }
+        Ok(())
+    }
+
+    /// One step of a wheel that may touch the casing; `step` is its position in the revolution.
+    #[inline(always)]
+    fn step_touching<S: Simd, const DISSIPATES: bool, const CONTACT: u8>(
+        &mut self,
+        simd: S,
+        step: usize,
+        revolutions: f64,
+    ) -> Result<(), Outcome> {
+        let Some(obstacle) = &mut self.obstacle else { return Ok(()) };
+        obstacle.normal.rotate_right(1);
+        let loads = Loads { rows: &obstacle.loaded, force: &obstacle.force };
+        let (rows, out) = (&obstacle.rows, &mut obstacle.harmonic);
+        let loss = if CONTACT == contact::MASSLESS {
+            self.oscillators.advance_loaded::<S, DISSIPATES, true>(simd, rows, loads, out)
+        } else {
+            self.oscillators.advance_loaded::<S, DISSIPATES, false>(simd, rows, loads, out)
+        };
+        self.energy.add_loss(loss);
+        let closest = obstacle.predict_gaps(simd, &self.fourier, step, revolutions);
+        if CONTACT == contact::MASSLESS {
+            self.energy.add_work(obstacle.work());
+        }
+        obstacle.clear_forces(&self.fourier);
+        if closest >= 0.0 {
+            return Ok(());
+        }
+        obstacle
+            .solve(&self.fourier, &mut self.statistics)
+            .map_err(|error| Outcome::ContactFailed { revolutions, error })?;
+        if CONTACT == contact::COMPLETES {
+            obstacle.close_gaps();
+            self.energy.add_work(obstacle.work());
+        }
+        Ok(())
+    }
+
+    /// Applies the forces that complete the last step now instead of with the next one.
+    #[inline(always)]
+    fn complete<S: Simd, const DISSIPATES: bool>(&mut self, simd: S) {
+        let Some(obstacle) = &mut self.obstacle else { return };
+        let loads = Loads { rows: &obstacle.loaded, force: &obstacle.force };
+        let loss = self.oscillators.complete::<S, DISSIPATES>(simd, &obstacle.rows, loads);
+        self.energy.add_loss(loss);
+        obstacle.clear_forces(&self.fourier);
+    }
+
+    #[inline(always)]
+    fn record<S: Simd>(&mut self, simd: S, windowed: bool) {
+        let force = self.obstacle.as_ref().map(|obstacle| obstacle.force.as_slice());
+        self.recorder.record(simd, &self.oscillators, &self.fourier, force, windowed);
+    }
+
+    #[inline(never)]
+    fn check_bounds(&self, energy: f64, reach: f64, revolutions: f64) -> Result<(), Outcome> {
+        let (place, displacement) = self.obstacle.as_ref().map_or((0, 0.0), Obstacle::largest_displacement);
+        if energy.is_finite() && displacement <= reach {
+            return Ok(());
+        }
+        let stride = self.obstacle.as_ref().map_or(1, |obstacle| obstacle.rows.stride);
+        Err(Outcome::Diverged(Divergence {
+            revolutions,
+            displacement,
+            contact_node: place % stride,
+            sector: place / stride,
+            energy_growth: self.last_energy.map(|last| energy / last),
+        }))
+    }
+}

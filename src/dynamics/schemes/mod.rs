@@ -1,0 +1,117 @@
+//! Time integration schemes: how a modal oscillator z̈ + 2ζωż + ω²z = f advances by a step h, and where contact acts.
+//!
+//! Every scheme is the same two-step recursion with its own numbers for each mode, so one kernel serves them all:
+//!
+//! ```text
+//! d⁺ = keep·d − ω²·receptance·z + receptance·f,   z⁺ = z + d⁺        (d = z − z⁻)
+//! ```
+//!
+//! Written symmetrically, with c = (1 − keep)/(1 + keep) and B = (1 + c)·receptance, it has the discrete energy identity
+//! (§8)
+//!
+//! ```text
+//! E⁺ − E = f (z⁺ − z⁻)/2 − c (d⁺ + d)²/(2B),   E = d²/(2B) + ½ ω² z z⁻
+//! ```
+//!
+//! whose energy is positive, and the free motion stable, as long as ω²B < 4 and |keep| ≤ 1.
+//!
+//! | scheme | mass at the contact | gap is closed by | steps are bounded by |
+//! |---|---|---|---|
+//! | [`central_differences`] | yes | a force in the step before | ω_max of the reduced wheel |
+//! | [`exact_modal`] | yes | a force in the step before | accuracy only |
+//! | [`massless_boundary`] | no | a force at the same time | the wheel with its contact closed |
+
+pub mod central_differences;
+pub mod exact_modal;
+pub mod massless_boundary;
+
+use super::modal_wheel::ModalWheel;
+use super::sector::ContactNode;
+
+/// How a run is integrated; chosen once per run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scheme {
+    /// The paper's (Eqs 8–10).
+    CentralDifferences,
+    /// The exact propagator of every mode (§11).
+    ExactModal,
+    /// The lowest modes carry the mass, the boundary follows statically (§12).
+    MasslessBoundary {
+        /// Modes integrated per nodal diameter.
+        kept_modes: usize,
+    },
+}
+
+/// The numbers of one mode's recursion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct ModeStep {
+    /// Share of the increment that survives a step.
+    pub(crate) keep: f64,
+    /// Displacement per unit force within a step.
+    pub(crate) receptance: f64,
+}
+
+impl ModeStep {
+    /// c of the energy identity.
+    pub(crate) fn dissipation(self) -> f64 {
+        (1.0 - self.keep) / (1.0 + self.keep)
+    }
+
+    /// 1/B of the energy identity; 0 for a mode that no force moves.
+    pub(crate) fn inertia(self) -> f64 {
+        let b = (1.0 + self.dissipation()) * self.receptance;
+        if b > 0.0 { 1.0 / b } else { 0.0 }
+    }
+}
+
+impl Scheme {
+    /// Modes that are integrated of a nodal diameter with `modes` of them.
+    pub fn integrated_modes(self, modes: usize) -> usize {
+        match self {
+            Self::CentralDifferences | Self::ExactModal => modes,
+            Self::MasslessBoundary { kept_modes } => kept_modes.min(modes),
+        }
+    }
+
+    /// Fewest steps per revolution that are stable for `wheel`, whose blades may touch a casing at `contact_nodes`
+    /// (empty: they do not).
+    pub fn smallest_stable_steps(self, wheel: &ModalWheel, contact_nodes: &[ContactNode]) -> u64 {
+        match self {
+            Self::CentralDifferences => {
+                central_differences::smallest_stable_steps(wheel.largest_frequency(), wheel.speed_rad_s)
+            }
+            Self::ExactModal => 1,
+            Self::MasslessBoundary { kept_modes } => {
+                massless_boundary::smallest_stable_steps(wheel, kept_modes, contact_nodes)
+            }
+        }
+    }
+
+    /// The recursion of a mode (ω, ζ) at step h, of a wheel that may touch the casing or not.
+    pub(crate) fn mode_step(self, omega: f64, zeta: f64, h: f64, touching: bool) -> ModeStep {
+        match self {
+            Self::CentralDifferences => central_differences::mode_step(omega, zeta, h),
+            Self::ExactModal if touching => exact_modal::touched_mode_step(omega, zeta, h),
+            Self::ExactModal | Self::MasslessBoundary { .. } => exact_modal::mode_step(omega, zeta, h),
+        }
+    }
+
+    /// d = z(0) − z(−h) of the free motion with z(0) = `displacement` and ż(0) = `velocity`.
+    pub(crate) fn first_increment(
+        self,
+        omega: f64,
+        zeta: f64,
+        h: f64,
+        displacement: f64,
+        velocity: f64,
+    ) -> f64 {
+        match self {
+            Self::CentralDifferences => {
+                central_differences::first_increment(omega, zeta, h, displacement, velocity)
+            }
+            Self::ExactModal | Self::MasslessBoundary { .. } => {
+                exact_modal::first_increment(omega, zeta, h, displacement, velocity)
+            }
+        }
+    }
+}
