@@ -4,6 +4,7 @@
 //! - [`run::check`], [`run::run_speed`] and [`run::modal_analysis`] compute on the reduced sector;
 //! - [`run::interaction_map`] and [`run::critical_speeds`] assemble the finished speeds of a sweep.
 
+pub mod auto_or;
 mod discretisation;
 pub mod error;
 mod modal;
@@ -15,4 +16,5 @@ pub mod result;
 pub mod run;
 pub mod scene;
 mod speed;
+mod stepping;
 mod summary;

@@ -1,8 +1,9 @@
 //! What a user asks for: a sweep of contact simulations or a modal analysis, and what makes a request sound.
 
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
+use super::auto_or::AutoOr;
 use super::error::Violation;
 use super::scene::Scene;
 
@@ -167,12 +168,16 @@ impl Speeds {
     }
 }
 
-/// Settings of the time integration (central differences, Eqs 8–10).
+/// Settings of the time integration.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Integration {
+    /// How time is stepped.
+    pub scheme: SchemeChoice,
+    /// Modes per nodal diameter that `massless_boundary` integrates, or `"auto"` for as many as the step carries.
+    pub kept_modes: AutoOr,
     /// Time steps per revolution, or `"auto"` for a safe number at each speed.
-    pub steps_per_revolution: StepsPerRevolution,
+    pub steps_per_revolution: AutoOr,
     /// Revolutions to simulate.
     pub revolutions: u32,
     /// Revolutions over which the restriction grows from zero to its full height.
@@ -184,7 +189,9 @@ pub struct Integration {
 impl Default for Integration {
     fn default() -> Self {
         Self {
-            steps_per_revolution: StepsPerRevolution::Auto,
+            scheme: SchemeChoice::Auto,
+            kept_modes: AutoOr::Auto,
+            steps_per_revolution: AutoOr::Auto,
             revolutions: 50,
             ramp_revolutions: 1.0,
             window_revolutions: 20,
@@ -192,64 +199,19 @@ impl Default for Integration {
     }
 }
 
-/// Time steps per revolution.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum StepsPerRevolution {
-    /// A safe number, chosen at each speed.
+/// How time is stepped.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SchemeChoice {
+    /// Chosen at each speed, with the step; the result says what and why.
     Auto,
-    /// This number at every speed.
-    Fixed(u32),
+    /// The paper's central differences (Eqs 8–10); the stiffest mode bounds the step.
+    CentralDifferences,
+    /// The exact propagator of every mode; the contact sets the step.
+    ExactModal,
+    /// The lowest modes carry the mass, the boundary follows statically; nothing is lost at a closing.
+    MasslessBoundary,
 }
-
-impl Serialize for StepsPerRevolution {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Self::Auto => serializer.serialize_str("auto"),
-            Self::Fixed(steps) => serializer.serialize_u32(*steps),
-        }
-    }
-}
-
-impl<'de> Deserialize<'de> for StepsPerRevolution {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Visitor;
-        impl serde::de::Visitor<'_> for Visitor {
-            type Value = StepsPerRevolution;
-
-            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-                f.write_str("\"auto\" or a whole number of steps")
-            }
-
-            fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<Self::Value, E> {
-                if text == "auto" {
-                    Ok(StepsPerRevolution::Auto)
-                } else {
-                    Err(E::invalid_value(serde::de::Unexpected::Str(text), &self))
-                }
-            }
-
-            fn visit_u64<E: serde::de::Error>(self, steps: u64) -> Result<Self::Value, E> {
-                u32::try_from(steps)
-                    .map(StepsPerRevolution::Fixed)
-                    .map_err(|_| E::invalid_value(serde::de::Unexpected::Unsigned(steps), &self))
-            }
-        }
-        deserializer.deserialize_any(Visitor)
-    }
-}
-
-impl utoipa::PartialSchema for StepsPerRevolution {
-    fn schema() -> utoipa::openapi::RefOr<utoipa::openapi::schema::Schema> {
-        use utoipa::openapi::schema::{ObjectBuilder, OneOfBuilder, Type};
-        OneOfBuilder::new()
-            .description(Some("Time steps per revolution, or `auto` for a safe number at each speed."))
-            .item(ObjectBuilder::new().schema_type(Type::String).enum_values(Some(["auto"])))
-            .item(ObjectBuilder::new().schema_type(Type::Integer).minimum(Some(1)))
-            .into()
-    }
-}
-
-impl ToSchema for StepsPerRevolution {}
 
 /// A displacement recorded during a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]

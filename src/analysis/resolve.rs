@@ -1,12 +1,14 @@
 //! Checks a request against its model and fills in defaults: all violations at once, each at its JSON pointer.
 
-use super::discretisation::{MOST_STEPS, most_samples};
+use super::auto_or::AutoOr;
+use super::discretisation::most_samples;
 use super::error::Violation;
 use super::model::ModelFacts;
 use super::request::{
-    Component, Integration, ModalAnalysisRequest, Sensor, Speeds, StepsPerRevolution, SweepRequest,
+    Component, Integration, ModalAnalysisRequest, SchemeChoice, Sensor, Speeds, SweepRequest,
 };
 use super::scene::{Casing, Clearance, Damping, Scene};
+use super::stepping::MOST_STEPS;
 use crate::dynamics::casing::Restriction;
 
 /// Bounds that keep a request's memory and time within reason.
@@ -225,9 +227,27 @@ fn check_lobe_count(found: &mut Findings, count: u32, pointer: &str) {
 }
 
 fn check_integration(found: &mut Findings, integration: &Integration, max_engine_order: u32) {
-    let Integration { steps_per_revolution, revolutions, ramp_revolutions, window_revolutions } =
-        *integration;
-    if let StepsPerRevolution::Fixed(steps) = steps_per_revolution {
+    let Integration {
+        scheme,
+        kept_modes,
+        steps_per_revolution,
+        revolutions,
+        ramp_revolutions,
+        window_revolutions,
+    } = *integration;
+    if let AutoOr::Fixed(kept) = kept_modes {
+        found.require(
+            scheme == SchemeChoice::MasslessBoundary,
+            "/integration/kept_modes",
+            "only the scheme massless_boundary leaves modes out: name it, or leave kept_modes away",
+        );
+        found.require(
+            kept >= 1,
+            "/integration/kept_modes",
+            "at least one mode per nodal diameter is integrated",
+        );
+    }
+    if let AutoOr::Fixed(steps) = steps_per_revolution {
         found.require(
             (1..=MOST_STEPS).contains(&steps),
             "/integration/steps_per_revolution",

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-use super::request::Sensor;
+use super::request::{SchemeChoice, Sensor};
 use crate::dynamics::sector::Units;
 
 pub use crate::response::campbell::{Crossing, DrivenCrossing};
@@ -38,6 +38,22 @@ pub struct SensorResponse {
     pub dominant_nodal_diameter: u32,
 }
 
+/// The scheme of a run, and why it was taken.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct SchemeReport {
+    /// The scheme; never `auto`.
+    pub name: SchemeChoice,
+    /// Why this scheme and this step.
+    pub reason: String,
+    /// Modes integrated per nodal diameter (fewer where a nodal diameter has fewer); absent if all are.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kept_modes: Option<u32>,
+    /// Modes over all nodal diameters (a pair counts twice) that follow statically because a step does not resolve them.
+    pub following_modes: u32,
+    /// Frequency up to which modes of every nodal diameter are integrated, Hz.
+    pub reach_hz: f64,
+}
+
 /// One speed of a sweep with its credentials.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Point {
@@ -53,9 +69,12 @@ pub struct Point {
     /// Steady-state verdict; absent without a complete run.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub settling: Option<Settling>,
+    /// How time was stepped; absent where nothing was integrated.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scheme: Option<SchemeReport>,
     /// Steps per revolution used; 0 if none was taken.
     pub steps_per_revolution: u32,
-    /// Smallest stable number of steps per revolution at this speed.
+    /// Smallest stable number of steps per revolution at this speed; 1 for a scheme without a limit.
     pub smallest_stable_steps_per_revolution: u32,
     /// Steps taken.
     pub steps: u64,

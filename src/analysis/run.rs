@@ -1,10 +1,10 @@
 //! The verbs, gathered under one name: what the service may ask of the physics.
 
-pub use super::discretisation::check;
 pub use super::modal::modal_analysis;
 pub use super::model::{ModelFacts, ReducedSector, prepare};
 pub use super::resolve::{resolve_modal_analysis, resolve_sweep};
 pub use super::speed::run_speed;
+pub use super::stepping::check;
 pub use super::summary::{critical_speeds, interaction_map, map_row};
 
 /// Version of the code, stamped on every result.

@@ -9,6 +9,7 @@ use super::monitor::Monitor;
 use super::request::{Component, Sensor, SweepRequest};
 use super::result::{Point, PointStatus, SensorResponse, SensorSpectrum, SpeedResult, SpeedSpectra};
 use super::run::VERSION;
+use super::stepping::Stepping;
 use crate::dynamics::casing::{Casing, Restriction, RestrictionTable, clearance_along_chord};
 use crate::dynamics::integrate::{
     Divergence, History, MAX_TABLE_VALUES, Outcome, Run, SensorRow, Simulation,
@@ -38,17 +39,19 @@ pub fn run_speed(
     let stiffening = request.scene.centrifugal_stiffening;
     match ModalWheel::at(&reduced.wheel, point.speed_rad_s, stiffening) {
         Err(error) => point.message = Some(error.to_string()),
-        Ok(wheel) => match Discretisation::choose(&wheel, request) {
+        Ok(wheel) => match Stepping::choose(&wheel, &reduced.wheel.contact, request) {
             Err(message) => point.message = Some(message),
-            Ok(steps) => {
-                point.smallest_stable_steps_per_revolution = steps.smallest as u32;
+            Ok(stepping) => {
+                let steps = &stepping.discretisation;
+                point.smallest_stable_steps_per_revolution = stepping.smallest as u32;
                 point.steps_per_revolution = steps.per_revolution as u32;
+                point.scheme = Some(stepping.report);
                 let watch = |fraction: f64| {
                     monitor.progress(fraction, "contact simulation");
                     !monitor.is_cancelled()
                 };
-                let run = simulate(&reduced.wheel, &wheel, request, &steps, &watch);
-                spectra = record_run(&mut point, run, request, &steps, reduced.wheel.sectors)?;
+                let run = simulate(&reduced.wheel, &wheel, request, stepping.scheme, steps, &watch);
+                spectra = record_run(&mut point, run, request, steps, reduced.wheel.sectors)?;
             }
         },
     }
@@ -63,6 +66,7 @@ fn empty_point(index: usize, speed_rad_s: f64) -> Point {
         status: PointStatus::Failed,
         message: None,
         settling: None,
+        scheme: None,
         steps_per_revolution: 0,
         smallest_stable_steps_per_revolution: 0,
         steps: 0,
@@ -82,6 +86,7 @@ fn simulate(
     reduced: &ReducedWheel,
     wheel: &ModalWheel,
     request: &SweepRequest,
+    scheme: Scheme,
     steps: &Discretisation,
     watch: &dyn Fn(f64) -> bool,
 ) -> Result<Run, String> {
@@ -109,7 +114,7 @@ fn simulate(
         damping: damping.as_ref(),
         casing: casing.as_ref(),
         initial: &[],
-        scheme: Scheme::CentralDifferences,
+        scheme,
         sensors: &sensors,
         steps_per_revolution: steps.per_revolution,
         samples_per_revolution: steps.samples,

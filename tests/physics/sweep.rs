@@ -1,8 +1,9 @@
 //! A sweep through the door: the stability limit, speeds that fail by name, results with their credentials.
 
+use rubmap::analysis::auto_or::AutoOr;
 use rubmap::analysis::error::AnalysisError;
 use rubmap::analysis::monitor::{Monitor, Unwatched};
-use rubmap::analysis::request::{StepsPerRevolution, SweepRequest};
+use rubmap::analysis::request::SweepRequest;
 use rubmap::analysis::result::{PointStatus, Verdict};
 use rubmap::analysis::run::{
     ModelFacts, ReducedSector, check, critical_speeds, interaction_map, map_row, prepare, resolve_sweep,
@@ -24,7 +25,7 @@ fn request(sector: &SectorModel, speeds: &[f64]) -> SweepRequest {
                        "lobes": {"count": 2, "amplitude": 0.425, "width_rad": 0.35}},
             "contact": {}
         },
-        "integration": {"revolutions": 10, "window_revolutions": 4},
+        "integration": {"scheme": "central_differences", "revolutions": 10, "window_revolutions": 4},
         "max_engine_order": 12
     });
     resolve_sweep(serde_json::from_value(request).unwrap(), &ModelFacts::of(sector)).unwrap()
@@ -44,13 +45,13 @@ fn fixed_steps_are_held_against_the_stability_limit_of_the_slowest_speed() {
     let auto = run_speed(&reduced, &request, 1, &Unwatched).unwrap().point;
     let smallest = auto.smallest_stable_steps_per_revolution;
     assert!(auto.steps_per_revolution > smallest);
-    request.integration.steps_per_revolution = StepsPerRevolution::Fixed(smallest - 1);
+    request.integration.steps_per_revolution = AutoOr::Fixed(smallest - 1);
     let Err(AnalysisError::Refused(violations)) = check(&reduced, &request, &Unwatched) else {
         panic!("{} steps must be refused", smallest - 1);
     };
     assert_eq!(violations[0].pointer, "/integration/steps_per_revolution");
     assert!(violations[0].message.contains(&format!("at least {smallest}")), "{violations:?}");
-    request.integration.steps_per_revolution = StepsPerRevolution::Fixed(smallest);
+    request.integration.steps_per_revolution = AutoOr::Fixed(smallest);
     check(&reduced, &request, &Unwatched).unwrap();
     for index in 0..2 {
         let point = run_speed(&reduced, &request, index, &Unwatched).unwrap().point;
@@ -144,7 +145,7 @@ fn cancellation_is_seen_inside_every_verb() {
     let reduced = reduced(&sector);
     let mut request = request(&sector, &[1000.0]);
     assert!(matches!(run_speed(&reduced, &request, 0, &Impatient), Err(AnalysisError::Cancelled)));
-    request.integration.steps_per_revolution = StepsPerRevolution::Fixed(100_000);
+    request.integration.steps_per_revolution = AutoOr::Fixed(100_000);
     assert!(matches!(check(&reduced, &request, &Impatient), Err(AnalysisError::Cancelled)));
 }
 
@@ -157,12 +158,12 @@ fn narrow_lobes_are_not_stepped_over() {
     let mut request = request(&sector, &[0.5 * TOP_SPEED]);
     let lobes = request.scene.casing.as_mut().unwrap().lobes.as_mut().unwrap();
     lobes.width_rad = 2e-3;
-    request.integration.steps_per_revolution = StepsPerRevolution::Fixed(1000);
+    request.integration.steps_per_revolution = AutoOr::Fixed(1000);
     let Err(AnalysisError::Refused(violations)) = check(&reduced, &request, &Unwatched) else {
         panic!("1000 steps pass lobes of 0.002 rad by");
     };
     assert!(violations[0].message.contains("at least 6284"), "{violations:?}");
-    request.integration.steps_per_revolution = StepsPerRevolution::Auto;
+    request.integration.steps_per_revolution = AutoOr::Auto;
     request.integration.revolutions = 6;
     let point = run_speed(&reduced, &request, 0, &Unwatched).unwrap().point;
     assert!(point.steps_per_revolution >= 31416 && point.contact_share > 0.0, "{point:?}");

@@ -14,8 +14,8 @@
 
 use super::ModeStep;
 
-/// ωh beyond which a mode of a wheel in contact follows statically: fewer than four steps a period resolve nothing.
-pub const FOLLOWS: f64 = std::f64::consts::FRAC_PI_2;
+/// ωh beyond which a mode of a wheel in contact follows statically: a sixth below the rhythm of the steps, π.
+pub const FOLLOWS: f64 = 5.0 / 6.0 * std::f64::consts::PI;
 
 pub(super) fn mode_step(omega: f64, zeta: f64, h: f64) -> ModeStep {
     let a = (-zeta * omega * h).exp();

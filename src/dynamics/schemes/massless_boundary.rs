@@ -79,3 +79,19 @@ pub(crate) fn residual_flexibility(
         },
     )
 }
+
+/// The largest number of kept modes per nodal diameter that is stable with `steps` per revolution; none if not even one is.
+pub fn most_kept_modes(wheel: &ModalWheel, contact_nodes: &[ContactNode], steps: u64) -> Option<usize> {
+    let modes = wheel.harmonics.iter().map(|harmonic| harmonic.omega.len()).max()?;
+    // ω_c grows with every mode that is kept.
+    let (mut stable, mut unstable) = (0, modes + 1);
+    while unstable - stable > 1 {
+        let middle = stable.midpoint(unstable);
+        if smallest_stable_steps(wheel, middle, contact_nodes) <= steps {
+            stable = middle;
+        } else {
+            unstable = middle;
+        }
+    }
+    (stable > 0).then_some(stable)
+}
