@@ -154,12 +154,20 @@ fn casing() -> impl Strategy<Value = Value> {
 
 fn integration() -> impl Strategy<Value = Value> {
     let steps = prop_oneof![3 => (61..2000u32).prop_map(Value::from), 1 => Just(json!("auto"))];
-    (1..4u32, 0..2u32, select(vec![0.0, 0.05, 0.5, 1.0]), steps).prop_map(|(window, before, ramp, steps)| {
-        json!({
-            "window_revolutions": window, "revolutions": window + before.max(ramp as u32 + 1),
-            "ramp_revolutions": ramp, "steps_per_revolution": steps
-        })
-    })
+    let scheme = select(vec!["auto", "central_differences", "exact_modal", "massless_boundary"]);
+    let kept = prop_oneof![2 => (1..30u32).prop_map(Value::from), 1 => Just(json!("auto"))];
+    (1..4u32, 0..2u32, select(vec![0.0, 0.05, 0.5, 1.0]), steps, scheme, kept).prop_map(
+        |(window, before, ramp, steps, scheme, kept)| {
+            let mut integration = json!({
+                "window_revolutions": window, "revolutions": window + before.max(ramp as u32 + 1),
+                "ramp_revolutions": ramp, "steps_per_revolution": steps, "scheme": scheme
+            });
+            if scheme == "massless_boundary" {
+                integration["kept_modes"] = kept;
+            }
+            integration
+        },
+    )
 }
 
 fn sensor() -> impl Strategy<Value = Value> {

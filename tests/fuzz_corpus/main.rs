@@ -46,7 +46,7 @@ fn the_corpus_ends_as_its_names_say() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(4000))]
+    #![proptest_config(ProptestConfig::with_cases(3000))]
 
     /// Requests of valid, extreme and wrong parts.
     #[test]

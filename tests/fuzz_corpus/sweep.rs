@@ -6,9 +6,10 @@
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use rubmap::analysis::auto_or::AutoOr;
 use rubmap::analysis::error::{AnalysisError, Violation};
 use rubmap::analysis::monitor::{Monitor, Unwatched};
-use rubmap::analysis::request::{Component, StepsPerRevolution, SweepRequest};
+use rubmap::analysis::request::{Component, SchemeChoice, SweepRequest};
 use rubmap::analysis::result::{Point, PointStatus, SpeedResult};
 use rubmap::analysis::run::{
     ModelFacts, ReducedSector, check, critical_speeds, interaction_map, map_row, prepare, resolve_sweep,
@@ -17,7 +18,7 @@ use rubmap::analysis::run::{
 use rubmap::dynamics::casing::Restriction;
 use rubmap::dynamics::modal_wheel::ModalWheel;
 use rubmap::dynamics::reduction::NoCheckpoints;
-use rubmap::dynamics::schemes::central_differences::smallest_stable_steps;
+use rubmap::dynamics::schemes::Scheme;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -117,25 +118,30 @@ fn work(reduced: &ReducedSector, request: &SweepRequest, speeds: &[f64]) -> f64 
             break;
         }
         let steps = match integration.steps_per_revolution {
-            StepsPerRevolution::Fixed(steps) => f64::from(steps),
-            StepsPerRevolution::Auto => auto_steps(reduced, request, speed),
+            AutoOr::Fixed(steps) => f64::from(steps),
+            AutoOr::Auto => auto_steps(reduced, request, speed),
         };
         work += steps * per_step;
     }
     work
 }
 
-/// About the steps per revolution that `"auto"` takes.
+/// Upper bound of the steps per revolution that `"auto"` takes.
 fn auto_steps(reduced: &ReducedSector, request: &SweepRequest, speed: f64) -> f64 {
     // A speed that cannot be evaluated, or needs more steps than there may be, fails without a step.
     let Ok(wheel) = ModalWheel::at(&reduced.wheel, speed, request.scene.centrifugal_stiffening) else {
         return 0.0;
     };
-    let stable = smallest_stable_steps(wheel.largest_frequency(), speed) as f64 / 0.8;
+    // No scheme takes more than central differences, but for a boundary left with little flexibility.
+    let scheme = match request.integration.kept_modes {
+        AutoOr::Fixed(kept) => Scheme::MasslessBoundary { kept_modes: kept as usize },
+        AutoOr::Auto => Scheme::CentralDifferences,
+    };
+    let stable = scheme.smallest_stable_steps(&wheel, &reduced.wheel.contact) as f64 / 0.4;
     let lobes = request.scene.casing.as_ref().and_then(|casing| casing.lobes.as_ref());
     let seen = lobes.map_or(0.0, |lobes| 63.0 / lobes.width_rad);
     let steps = stable.max(seen).max(3600.0);
-    if steps > 1e7 { 0.0 } else { steps }
+    if steps > 3e7 { 0.0 } else { steps }
 }
 
 /// Ends what takes longer than [`work`] foresaw.
@@ -164,6 +170,11 @@ fn sound(result: &SpeedResult, request: &SweepRequest) {
         return;
     }
     assert!(point.message.is_none() && point.settling.is_some(), "{point:?}");
+    let scheme = point.scheme.as_ref().unwrap();
+    assert!(
+        scheme.name != SchemeChoice::Auto && !scheme.reason.is_empty() && scheme.reach_hz >= 0.0,
+        "{point:?}"
+    );
     let revolutions = u64::from(request.integration.revolutions);
     assert_eq!(point.steps, revolutions * u64::from(point.steps_per_revolution), "{point:?}");
     assert!(point.steps_per_revolution >= point.smallest_stable_steps_per_revolution, "{point:?}");

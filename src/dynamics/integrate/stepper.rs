@@ -84,6 +84,9 @@ impl Stepper {
     ) -> Run {
         use contact::{COMPLETES, MASSLESS, NONE};
         let massless = matches!(simulation.scheme, Scheme::MasslessBoundary { .. });
+        if !simulation.initial.is_empty() {
+            self.remember_start(simd);
+        }
         let outcome = match (self.oscillators.dissipates(), self.obstacle.is_some(), massless) {
             (true, false, _) => self.integrate::<S, true, NONE>(simd, simulation, watch),
             (false, false, _) => self.integrate::<S, false, NONE>(simd, simulation, watch),
@@ -97,6 +100,17 @@ impl Stepper {
             Err(ended) => ended,
         };
         Run { outcome, statistics: self.statistics, energy: self.energy }
+    }
+
+    /// Normal displacements at −h and 0, which the work of the first forces is counted from.
+    #[inline(always)]
+    fn remember_start<S: Simd>(&mut self, simd: S) {
+        let Some(obstacle) = &mut self.obstacle else { return };
+        for oscillators in [&self.oscillators.a_step_earlier(), &self.oscillators] {
+            obstacle.normal.rotate_right(1);
+            oscillators.project(simd, &obstacle.rows, &mut obstacle.harmonic);
+            obstacle.predict_gaps(simd, &self.fourier, 0, 0.0);
+        }
     }
 
     #[inline(always)]

@@ -211,6 +211,13 @@ impl Oscillators {
         this
     }
 
+    /// The same a step earlier, as the increments say.
+    pub(crate) fn a_step_earlier(&self) -> Self {
+        let mut earlier = self.clone();
+        earlier.state.z.iter_mut().zip(&self.state.d).for_each(|(z, d)| *z -= d);
+        earlier
+    }
+
     /// Whether any mode loses energy in free motion.
     pub(crate) fn dissipates(&self) -> bool {
         self.loss.iter().any(|&loss| loss > 0.0)
