@@ -5,6 +5,7 @@
 
 pub(crate) mod cyclic;
 pub(crate) mod plain;
+pub(crate) mod schemes;
 
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -109,6 +110,21 @@ fn recompose(blocks: &[DMatrix<f64>], reduced: &ReducedWheel) -> DMatrix<f64> {
     turn.transpose() * diagonal * turn
 }
 
+/// C_N: a column per contact node of the wheel, its outward normal.
+fn constraints(wheel: &DenseWheel, reduced: &ReducedWheel) -> DMatrix<f64> {
+    let nodes = reduced.contact.len();
+    let mut constraints = DMatrix::zeros(wheel.size(), wheel.sectors * nodes);
+    for s in 0..wheel.sectors {
+        for (k, node) in reduced.contact.iter().enumerate() {
+            let first = s * wheel.contact_dofs + 3 * k;
+            for d in 0..3 {
+                constraints[(first + d, s * nodes + k)] = node.normal[d];
+            }
+        }
+    }
+    constraints
+}
+
 /// Eqs 8–10, step by step, with complementarity over all contact nodes.
 pub(crate) struct DenseScheme {
     predict_now: DMatrix<f64>,
@@ -132,14 +148,11 @@ impl DenseScheme {
         let a = &wheel.mass / (h * h) + damping / (2.0 * h);
         let a = a.cholesky().expect("M/h² + D/2h is positive definite");
         let nodes = reduced.contact.len();
-        let mut constraints = DMatrix::zeros(wheel.size(), wheel.sectors * nodes);
+        let constraints = constraints(wheel, reduced);
         let mut normals = Vec::new();
         for s in 0..wheel.sectors {
             for (k, node) in reduced.contact.iter().enumerate() {
                 let first = s * wheel.contact_dofs + 3 * k;
-                for d in 0..3 {
-                    constraints[(first + d, s * nodes + k)] = node.normal[d];
-                }
                 normals.push((first..first + 3, node.normal));
             }
         }
@@ -207,7 +220,7 @@ pub(crate) fn gauss_seidel(w: &DMatrix<f64>, gap: &DVector<f64>, lambda: &mut DV
     panic!("Gauss–Seidel did not converge");
 }
 
-/// c − p at every node of every sector, literally (§6).
+/// c − p at every node of every sector, literally (§6), after `revolutions`; negative ones turn the other way.
 pub(crate) fn free_gaps(casing: &Casing, reduced: &ReducedWheel, revolutions: f64) -> Vec<f64> {
     let mut gaps = Vec::new();
     for s in 0..reduced.sectors {
@@ -221,7 +234,7 @@ pub(crate) fn free_gaps(casing: &Casing, reduced: &ReducedWheel, revolutions: f6
                     p += lobes.amplitude * (-(distance / lobes.width_rad).powi(2)).exp();
                 }
             }
-            let x = (revolutions / casing.ramp_revolutions).min(1.0);
+            let x = (revolutions.abs() / casing.ramp_revolutions).min(1.0);
             gaps.push(casing.clearance[k] - p * x * x * (3.0 - 2.0 * x));
         }
     }

@@ -80,18 +80,6 @@ fn truncated_basis_converges_from_above() {
     assert!(last < 0.01, "{last}");
 }
 
-/// Equal stiffness at the three speeds: the joint basis has rank k, and nothing breaks.
-#[test]
-fn equal_stiffness_matrices_leave_a_basis_of_rank_k() {
-    let mut sector = wheel(WheelRecipe { nodes: 40, ..Default::default() });
-    let rest = sector.stiffness[0].clone();
-    sector.stiffness = vec![rest.clone(), rest.clone(), rest];
-    let reduced = reduce(&sector, &ReductionOptions::new(8), &NoCheckpoints, &|_, _| true).unwrap();
-    for harmonic in &reduced.harmonics {
-        assert_eq!(harmonic.mass.nrows(), 9 + 8);
-    }
-}
-
 /// Without ground springs the wheel of translated springs floats: its three translations are three modes of nodal
 /// diameter 0. The refusal names them and asks about the hub.
 #[test]

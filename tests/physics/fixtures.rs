@@ -1,8 +1,11 @@
-//! Small wheels shared by the tests: masses and springs in three dimensions, every matrix sound by construction.
+//! Small wheels shared by the tests: masses and springs in three dimensions, every matrix sound by construction, and a
+//! finite-element impeller.
 
 use faer::sparse::{SparseColMat, Triplet};
 use nalgebra::DMatrix;
 use rubmap::dynamics::sector::{ContactNode, CyclicMatrix, SectorModel, Units};
+use rubmap::impeller::{ImpellerParameters, MeshDensities, generate};
+use rubmap::package::raw::RawPackage;
 
 /// Deterministic numbers in [0, 1).
 pub(crate) struct Numbers(u64);
@@ -120,6 +123,19 @@ pub(crate) fn wheel(recipe: WheelRecipe) -> SectorModel {
         contact,
         node_of_dof: (0..size).map(|dof| dof / 3).collect(),
     }
+}
+
+/// A finite-element impeller of a few hundred DOF a sector, four contact nodes.
+pub(crate) fn small_impeller(sectors: usize) -> RawPackage {
+    let mesh = MeshDensities {
+        between_contact_nodes: 2,
+        blade_height: 3,
+        blade_thickness: 1,
+        half_passage: 2,
+        disk: 2,
+    };
+    let parameters = ImpellerParameters { sectors, contact_nodes: 4, mesh, ..Default::default() };
+    generate(&parameters).unwrap()
 }
 
 /// A random positive definite 3 × 3 spring block of about `scale`.

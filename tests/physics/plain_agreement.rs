@@ -8,11 +8,10 @@ use faer::sparse::{SparseColMat, Triplet};
 use faer::{Mat, c64};
 use rubmap::dynamics::reduction::{Completeness, NoCheckpoints, ReducedWheel, ReductionOptions, reduce};
 use rubmap::dynamics::sector::{CyclicMatrix, SectorModel};
-use rubmap::impeller::{ImpellerParameters, MeshDensities, generate};
 use rubmap::numerics::hermitian::generalised_eigenvalues;
 use rubmap::package::{raw::RawPackage, to_sector};
 
-use crate::fixtures::{TOP_SPEED, WheelRecipe, wheel};
+use crate::fixtures::{TOP_SPEED, WheelRecipe, small_impeller, wheel};
 use crate::oracle::plain::{self, Solver};
 
 fn close(found: &Mat<c64>, expected: &Mat<c64>, tolerance: f64, what: &str) {
@@ -87,18 +86,6 @@ fn point_mass_wheels() {
     }
 }
 
-fn impeller(sectors: usize) -> RawPackage {
-    let mesh = MeshDensities {
-        between_contact_nodes: 2,
-        blade_height: 3,
-        blade_thickness: 1,
-        half_passage: 2,
-        disk: 2,
-    };
-    let parameters = ImpellerParameters { sectors, contact_nodes: 4, mesh, ..Default::default() };
-    generate(&parameters).unwrap()
-}
-
 /// The high face's own block added onto the low face, as other exporters have it.
 fn assembled(mut package: RawPackage) -> RawPackage {
     let high_of: std::collections::HashMap<u64, u64> =
@@ -128,7 +115,7 @@ fn assembled(mut package: RawPackage) -> RawPackage {
 #[test]
 fn impellers_assembled_or_not() {
     for sectors in [5, 6] {
-        let package = impeller(sectors);
+        let package = small_impeller(sectors);
         let not = agree(&to_sector(package.clone()).unwrap(), 8, Solver::Dense, "unassembled");
         let done = agree(&to_sector(assembled(package)).unwrap(), 8, Solver::Dense, "assembled");
         for (a, b) in not.harmonics.iter().zip(&done.harmonics) {
@@ -188,7 +175,7 @@ fn no_copy_of_a_multiple_eigenvalue_is_missed() {
 /// Every bit of a reduction is the same on any number of threads.
 #[test]
 fn threads_change_nothing() {
-    let sector = to_sector(impeller(5)).unwrap();
+    let sector = to_sector(small_impeller(5)).unwrap();
     let bytes = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let reduced = pool
@@ -201,7 +188,7 @@ fn threads_change_nothing() {
 /// The baseline of the benchmark computes what it is compared with.
 #[test]
 fn the_benchmark_baseline_agrees() {
-    agree(&to_sector(impeller(4)).unwrap(), 8, Solver::Lanczos, "single-vector Lanczos");
+    agree(&to_sector(small_impeller(4)).unwrap(), 8, Solver::Lanczos, "single-vector Lanczos");
 }
 
 /// Ten frequencies of the reduced wheel are those of the full sector within what truncation explains, from above, at

@@ -1,14 +1,11 @@
-//! A sweep through the door: the stability limit, speeds that fail by name, results with their credentials.
+//! A sweep through the door: the stability limit, results with their credentials.
 
 use rubmap::analysis::auto_or::AutoOr;
 use rubmap::analysis::error::AnalysisError;
 use rubmap::analysis::monitor::{Monitor, Unwatched};
 use rubmap::analysis::request::SweepRequest;
 use rubmap::analysis::result::{PointStatus, Verdict};
-use rubmap::analysis::run::{
-    ModelFacts, ReducedSector, check, critical_speeds, interaction_map, map_row, prepare, resolve_sweep,
-    run_speed,
-};
+use rubmap::analysis::run::{ModelFacts, ReducedSector, check, prepare, resolve_sweep, run_speed};
 use rubmap::dynamics::reduction::NoCheckpoints;
 use rubmap::dynamics::sector::SectorModel;
 
@@ -59,47 +56,6 @@ fn fixed_steps_are_held_against_the_stability_limit_of_the_slowest_speed() {
         assert_eq!(point.steps_per_revolution, smallest);
         assert!(point.energy_residual.unwrap() < 1e-9, "{point:?}");
     }
-}
-
-/// K(Ω) through three matrices that are definite, indefinite in between: those speeds fail by name, the others run,
-/// and the model carries the verdict.
-#[test]
-fn a_speed_at_which_the_stiffness_is_indefinite_fails_alone() {
-    let mut sector = wheel(WheelRecipe::default());
-    // A parabola in Ω² that dips at Ω1/2: K_half is a hundredth of K0, so the interpolant is negative beyond it.
-    let factors = [1.0, 0.01, 1.0];
-    let rest = sector.stiffness[0].clone();
-    for (matrix, factor) in sector.stiffness.iter_mut().zip(factors) {
-        *matrix = rest.clone();
-        for values in [matrix.own.val_mut(), matrix.next.val_mut()] {
-            values.iter_mut().for_each(|v| *v *= factor);
-        }
-    }
-    let reduced = reduced(&sector);
-    assert_eq!(
-        serde_json::to_value(reduced.report.stiffening.verdict).unwrap(),
-        serde_json::json!("unsound"),
-        "{}",
-        reduced.report.stiffening.message
-    );
-    let request = request(&sector, &[0.1 * TOP_SPEED, 0.7 * TOP_SPEED, TOP_SPEED]);
-    let results: Vec<_> =
-        (0..3).map(|index| run_speed(&reduced, &request, index, &Unwatched).unwrap()).collect();
-    let status: Vec<_> = results.iter().map(|r| r.point.status).collect();
-    assert_eq!(status, [PointStatus::Completed, PointStatus::Failed, PointStatus::Completed]);
-    let message = results[1].point.message.as_deref().unwrap();
-    assert!(message.contains("not positive definite") && message.contains("2100 rad/s"), "{message}");
-    let rows = results.iter().map(|result| {
-        let row = result.spectra.as_ref().and_then(|spectra| map_row(spectra, 0, None));
-        (result.point.clone(), row.map(<[f64]>::to_vec))
-    });
-    let map = interaction_map(&request, &reduced.units, rows.collect(), 0, None);
-    assert!(map.amplitude[0].is_some() && map.amplitude[1].is_none() && map.amplitude[2].is_some());
-    assert_eq!(map.points.len(), 3);
-    let points: Vec<_> = results.into_iter().map(|result| result.point).collect();
-    let critical = critical_speeds(&reduced, &request, &points, &Unwatched).unwrap();
-    assert_eq!(critical.len(), request.sensors.len());
-    assert_eq!(critical[0].missing, [1]);
 }
 
 /// A damped wheel settles: the verdict, the spectra and the summary agree with each other.

@@ -28,10 +28,14 @@ use super::super::sector::ContactNode;
 use super::central_differences;
 use crate::numerics::hermitian::eigenvalues;
 
-/// Fewest steps per revolution with h < 2/ω_c; the largest number there is if the modes left out leave no flexibility.
+/// Fewest steps per revolution with h < 2/ω_c; the largest number there is if the modes left out leave no flexibility:
+/// fewer of them than contact nodes cannot close every gap, and what holds a node would be the ridge of a singular F.
 pub(super) fn smallest_stable_steps(wheel: &ModalWheel, kept: usize, contact_nodes: &[ContactNode]) -> u64 {
     if contact_nodes.is_empty() {
         return 1;
+    }
+    if wheel.harmonics.iter().any(|harmonic| harmonic.omega.len() < kept + contact_nodes.len()) {
+        return u64::MAX;
     }
     match closed_frequency(wheel, kept, contact_nodes) {
         Some(omega) => central_differences::smallest_stable_steps(omega, wheel.speed_rad_s),
