@@ -14,6 +14,7 @@ mod nearly_dependent_bases;
 #[path = "../oracle/mod.rs"]
 #[allow(dead_code, reason = "shared with the physics tests, which use all of it")]
 mod oracle;
+mod random_wheels;
 mod rigid_boundary;
 mod rotation_reversed;
 mod sector_counts;
