@@ -1,5 +1,5 @@
 //! A speed chosen so that an engine order of the lobes meets a natural frequency of the nodal diameter it drives, to
-//! the last digit.
+//! the last digits.
 //!
 //! A frequency-domain answer divides by zero here, and a time-domain one grows until contact or damping stops it; step
 //! and period of the vibration are commensurate, so that errors of the step add up instead of averaging out.
@@ -20,7 +20,7 @@ fn casing(amplitude: f64) -> serde_json::Value {
     json!({"clearance": {"leading": 0.3, "trailing": 0.3}, "lobes": {"amplitude": amplitude}})
 }
 
-/// The engine order, first harmonic of two lobes, and the nodal diameter it drives on ten sectors.
+/// The engine order, second harmonic of two lobes, and the nodal diameter it drives on ten sectors.
 const ORDER: f64 = 4.0;
 const NODAL_DIAMETER: usize = 4;
 

@@ -42,7 +42,7 @@ fn nodal_diameters_are_multiples_of_the_common_divisor() {
     for scheme in SCHEMES {
         for (sectors, lobes, divisor) in WHEELS {
             let sector = wheel(WheelRecipe { sectors, seed: 3, ..Default::default() });
-            // Nearly from rest: transients obey the symmetry too.
+            // From early on: transients obey the symmetry too.
             let changes = json!({
                 "scene": {"damping": {"modal_ratio": 0.02}, "casing": {"lobes": {"count": lobes, "width_rad": 0.2}}},
                 "integration": {"revolutions": 4, "window_revolutions": 3}

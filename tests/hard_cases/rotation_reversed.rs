@@ -104,52 +104,50 @@ fn a_wheel_that_turns_backwards() {
 }
 
 fn turns_backwards(scheme: Scheme, sectors: usize) {
-    {
-        let contact_nodes = 3;
-        let sector = wheel(WheelRecipe { sectors, contact_nodes, ..Default::default() });
-        let reduce = |sector: &SectorModel| {
-            reduce(sector, &ReductionOptions::new(6), &NoCheckpoints, &|_, _| true).unwrap()
-        };
-        let (original, turned) = (reduce(&sector), reduce(&seen_from_behind(&sector)));
-        let modal = ModalWheel::at(&turned, SPEED, true).unwrap();
-        let steps = 2 * smallest_stable_steps(modal.largest_frequency(), SPEED) as usize;
+    let contact_nodes = 3;
+    let sector = wheel(WheelRecipe { sectors, contact_nodes, ..Default::default() });
+    let reduce = |sector: &SectorModel| {
+        reduce(sector, &ReductionOptions::new(6), &NoCheckpoints, &|_, _| true).unwrap()
+    };
+    let (original, turned) = (reduce(&sector), reduce(&seen_from_behind(&sector)));
+    let modal = ModalWheel::at(&turned, SPEED, true).unwrap();
+    let steps = 2 * smallest_stable_steps(modal.largest_frequency(), SPEED) as usize;
 
-        let backwards = dense(scheme, &original, &casing(contact_nodes, 0.1), steps, -1.0);
-        let forwards = dense(scheme, &original, &casing(contact_nodes, 0.1), steps, 1.0);
-        let largest = backwards.iter().flatten().fold(0.0f64, |m, u| m.max(u.abs()));
-        let both = backwards.iter().flatten().zip(forwards.iter().flatten());
-        let handed = both.fold(0.0f64, |m, (a, b)| m.max((a - b).abs()));
-        assert!(handed > 1e-2 * largest, "a wheel to which the direction does not matter tests nothing");
+    let backwards = dense(scheme, &original, &casing(contact_nodes, 0.1), steps, -1.0);
+    let forwards = dense(scheme, &original, &casing(contact_nodes, 0.1), steps, 1.0);
+    let largest = backwards.iter().flatten().fold(0.0f64, |m, u| m.max(u.abs()));
+    let both = backwards.iter().flatten().zip(forwards.iter().flatten());
+    let handed = both.fold(0.0f64, |m, (a, b)| m.max((a - b).abs()));
+    assert!(handed > 1e-2 * largest, "a wheel to which the direction does not matter tests nothing");
 
-        // Sector s of the original is sector −s here.
-        let sensors: Vec<_> = places(&original)
-            .map(|(s, node, d)| {
-                let mut components = [0.0; 3];
-                components[d] = SIGNS[d];
-                SensorRow { direction: Direction { node, components }, sector: (sectors - s) % sectors }
-            })
-            .collect();
-        let damping = ModalDamping { modal_ratio: DAMPING, family_ratios: Vec::new() };
-        let run = Simulation {
-            wheel: &modal,
-            contact_nodes: &turned.contact,
-            damping: Some(&damping),
-            casing: Some(&casing(contact_nodes, -0.1)),
-            initial: &[],
-            scheme,
-            sensors: &sensors,
-            steps_per_revolution: steps,
-            samples_per_revolution: steps,
-            revolutions: 1,
-            window_revolutions: 1,
-        }
-        .run(&|_| true);
-        let Outcome::Completed(history) = run.outcome else { panic!("{:?}", run.outcome) };
-        assert!(run.statistics.contact_share() > 0.02);
-        assert!(run.energy.residual() < 1e-9);
-        let both = history.displacement.iter().flatten().zip(backwards.iter().flatten());
-        let worst = both.fold(0.0f64, |m, (a, b)| m.max((a - b).abs()));
-        // Round-off of two reductions, grown over a revolution of contact.
-        assert!(worst < 1e-8 * largest, "{scheme:?}, {sectors} sectors: {worst:e} of {largest}");
+    // Sector s of the original is sector −s here.
+    let sensors: Vec<_> = places(&original)
+        .map(|(s, node, d)| {
+            let mut components = [0.0; 3];
+            components[d] = SIGNS[d];
+            SensorRow { direction: Direction { node, components }, sector: (sectors - s) % sectors }
+        })
+        .collect();
+    let damping = ModalDamping { modal_ratio: DAMPING, family_ratios: Vec::new() };
+    let run = Simulation {
+        wheel: &modal,
+        contact_nodes: &turned.contact,
+        damping: Some(&damping),
+        casing: Some(&casing(contact_nodes, -0.1)),
+        initial: &[],
+        scheme,
+        sensors: &sensors,
+        steps_per_revolution: steps,
+        samples_per_revolution: steps,
+        revolutions: 1,
+        window_revolutions: 1,
     }
+    .run(&|_| true);
+    let Outcome::Completed(history) = run.outcome else { panic!("{:?}", run.outcome) };
+    assert!(run.statistics.contact_share() > 0.02);
+    assert!(run.energy.residual() < 1e-9);
+    let both = history.displacement.iter().flatten().zip(backwards.iter().flatten());
+    let worst = both.fold(0.0f64, |m, (a, b)| m.max((a - b).abs()));
+    // Round-off of two reductions, grown over a revolution of contact.
+    assert!(worst < 1e-8 * largest, "{scheme:?}, {sectors} sectors: {worst:e} of {largest}");
 }

@@ -2,6 +2,7 @@
 
 mod obstacle;
 mod recorder;
+mod residual;
 mod stepper;
 
 use std::f64::consts::TAU;

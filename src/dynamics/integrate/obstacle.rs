@@ -11,6 +11,7 @@ use super::super::schemes::Scheme;
 use super::super::schemes::massless_boundary::residual_flexibility;
 use super::super::statistics::RunStatistics;
 use super::Simulation;
+use super::residual::ResidualDisplacement;
 use crate::numerics::complementarity::{ActiveSetSolver, ComplementarityError};
 use crate::numerics::sector_fourier::SectorFourier;
 
@@ -23,6 +24,7 @@ pub(super) struct Obstacle {
     pub(super) rows: Rows,
     delassus: Delassus,
     solver: ActiveSetSolver,
+    residual: ResidualDisplacement,
     casing: Casing,
     pub(super) restriction: Option<RestrictionTable>,
     /// p = 0 of a circular casing.
@@ -35,8 +37,8 @@ pub(super) struct Obstacle {
     step_s: f64,
     /// Normal displacements of the integrated modes, `[Fourier column][node]`.
     pub(super) harmonic: Vec<f64>,
-    /// nᵀu of the integrated modes at q+1, q and q−1: `[sector][node]`.
-    pub(super) normal: [Vec<f64>; 3],
+    /// nᵀu that the gaps were read from: `[sector][node]`.
+    normal: Vec<f64>,
     predicted_gap: Vec<f64>,
     /// c − p of this step.
     free_gap: Vec<f64>,
@@ -80,6 +82,7 @@ impl Obstacle {
         Self {
             delassus: Delassus::new(&blocks, stride, fourier),
             solver: ActiveSetSolver::new(size),
+            residual: ResidualDisplacement::new(simulation, &normals),
             restriction,
             unrestricted: vec![0.0; stride],
             clearance,
@@ -89,7 +92,7 @@ impl Obstacle {
             casing: casing.clone(),
             step_s: simulation.step_s(),
             harmonic: vec![0.0; size],
-            normal: std::array::from_fn(|_| vec![0.0; size]),
+            normal: vec![0.0; size],
             predicted_gap: vec![0.0; size],
             free_gap: vec![0.0; size],
             loaded: Vec::with_capacity(stride),
@@ -117,7 +120,7 @@ impl Obstacle {
         let harmonic = S::as_simd_f64s(&self.harmonic).0;
         for sector in 0..fourier.sectors() {
             let range = sector * stride..(sector + 1) * stride;
-            let normal = &mut S::as_mut_simd_f64s(&mut self.normal[0][range.clone()]).0[..vectors];
+            let normal = &mut S::as_mut_simd_f64s(&mut self.normal[range.clone()]).0[..vectors];
             let free_gap = &mut S::as_mut_simd_f64s(&mut self.free_gap[range.clone()]).0[..vectors];
             let gap = &mut S::as_mut_simd_f64s(&mut self.predicted_gap[range]).0[..vectors];
             let restricted = match &self.restriction {
@@ -157,7 +160,7 @@ impl Obstacle {
         let stride = self.rows.stride;
         let mut impulse = 0.0;
         for (&index, &lambda) in self.solver.active().iter().zip(self.solver.lambda()) {
-            let (sector, row) = (index / stride, index % stride);
+            let (sector, row) = self.delassus.place(index);
             if !self.is_loaded[row] {
                 self.is_loaded[row] = true;
                 self.loaded.push(row);
@@ -176,26 +179,19 @@ impl Obstacle {
         Ok(())
     }
 
-    /// Normal displacements that the forces leave, where they complete the step.
+    /// Largest penetration of the state as it is, at the instant of the last gaps.
     #[inline(always)]
-    pub(super) fn close_gaps(&mut self) {
-        for ((u, &free), &g) in self.normal[0].iter_mut().zip(&self.free_gap).zip(self.solver.gap()) {
-            // Padding has an infinite gap.
-            if g < f64::INFINITY {
-                *u = free - g;
-            }
-        }
-    }
-
-    /// Work fᵀ(u⁺ − u⁻)/2 of the forces there are.
-    #[inline(always)]
-    pub(super) fn work(&self) -> f64 {
-        if self.loaded.is_empty() {
-            return 0.0;
-        }
-        let [next, _, last] = &self.normal;
-        let forces = self.solver.active().iter().zip(self.solver.lambda());
-        forces.map(|(&index, lambda)| -0.5 * lambda * (next[index] - last[index])).sum()
+    pub(super) fn penetration<S: Simd>(
+        &mut self,
+        simd: S,
+        oscillators: &Oscillators,
+        fourier: &SectorFourier,
+        step: usize,
+        revolutions: f64,
+    ) -> f64 {
+        oscillators.project(simd, &self.rows, &mut self.harmonic);
+        self.residual.add(&self.force, self.rows.stride, &mut self.harmonic, self.rows.stride);
+        (-self.predict_gaps(simd, fourier, step, revolutions)).max(0.0)
     }
 
     /// No forces, until the next solution.
@@ -213,7 +209,7 @@ impl Obstacle {
     /// Largest normal displacement and its place; the first that is no number, if any.
     pub(super) fn largest_displacement(&self) -> (usize, f64) {
         let mut largest = (0, 0.0f64);
-        for (place, &u) in self.normal[0].iter().enumerate() {
+        for (place, &u) in self.normal.iter().enumerate() {
             if !u.is_finite() {
                 return (place, u);
             }

@@ -84,9 +84,6 @@ impl Stepper {
     ) -> Run {
         use contact::{COMPLETES, MASSLESS, NONE};
         let massless = matches!(simulation.scheme, Scheme::MasslessBoundary { .. });
-        if !simulation.initial.is_empty() {
-            self.remember_start(simd);
-        }
         let outcome = match (self.oscillators.dissipates(), self.obstacle.is_some(), massless) {
             (true, false, _) => self.integrate::<S, true, NONE>(simd, simulation, watch),
             (false, false, _) => self.integrate::<S, false, NONE>(simd, simulation, watch),
@@ -100,17 +97,6 @@ impl Stepper {
             Err(ended) => ended,
         };
         Run { outcome, statistics: self.statistics, energy: self.energy }
-    }
-
-    /// Normal displacements at −h and 0, which the work of the first forces is counted from.
-    #[inline(always)]
-    fn remember_start<S: Simd>(&mut self, simd: S) {
-        let Some(obstacle) = &mut self.obstacle else { return };
-        for oscillators in [&self.oscillators.a_step_earlier(), &self.oscillators] {
-            obstacle.normal.rotate_right(1);
-            oscillators.project(simd, &obstacle.rows, &mut obstacle.harmonic);
-            obstacle.predict_gaps(simd, &self.fourier, 0, 0.0);
-        }
     }
 
     #[inline(always)]
@@ -128,8 +114,7 @@ impl Stepper {
             for step in 1..=steps {
                 let revolutions = revolution as f64 + step as f64 / steps as f64;
                 if CONTACT == contact::NONE {
-                    let loss = self.oscillators.advance::<S, DISSIPATES>(simd);
-                    self.energy.add_loss(loss);
+                    self.energy.add(self.oscillators.advance::<S, DISSIPATES>(simd));
                 } else {
                     self.step_touching::<S, DISSIPATES, CONTACT>(simd, step % steps, revolutions)?;
                 }
@@ -145,6 +130,9 @@ impl Stepper {
                 if step % sampling == 0 {
                     if CONTACT == contact::COMPLETES {
                         self.complete::<S, DISSIPATES>(simd);
+                    }
+                    if CONTACT != contact::NONE {
+                        self.check_penetration(simd, step % steps, revolutions);
                     }
                     let energy = self.oscillators.energy();
                     self.energy.check(energy);
@@ -165,42 +153,43 @@ impl Stepper {
         step: usize,
         revolutions: f64,
     ) -> Result<(), Outcome> {
-        let Some(obstacle) = &mut self.obstacle else { return Ok(()) };
-        obstacle.normal.rotate_right(1);
+        let Some(obstacle) = &mut self.obstacle else {
+            return Ok(());
+        };
         let loads = Loads { rows: &obstacle.loaded, force: &obstacle.force };
         let (rows, out) = (&obstacle.rows, &mut obstacle.harmonic);
-        let loss = if CONTACT == contact::MASSLESS {
-            self.oscillators.advance_loaded::<S, DISSIPATES, true>(simd, rows, loads, out)
+        let exchange = if CONTACT == contact::MASSLESS {
+            self.oscillators.advance_loaded::<S, DISSIPATES>(simd, rows, loads, out)
         } else {
-            self.oscillators.advance_loaded::<S, DISSIPATES, false>(simd, rows, loads, out)
+            self.oscillators.complete_and_predict::<S, DISSIPATES>(simd, rows, loads, out)
         };
-        self.energy.add_loss(loss);
-        let closest = obstacle.predict_gaps(simd, &self.fourier, step, revolutions);
-        if CONTACT == contact::MASSLESS {
-            self.energy.add_work(obstacle.work());
-        }
+        self.energy.add(exchange);
         obstacle.clear_forces(&self.fourier);
-        if closest >= 0.0 {
+        if obstacle.predict_gaps(simd, &self.fourier, step, revolutions) >= 0.0 {
             return Ok(());
         }
         obstacle
             .solve(&self.fourier, &mut self.statistics)
-            .map_err(|error| Outcome::ContactFailed { revolutions, error })?;
-        if CONTACT == contact::COMPLETES {
-            obstacle.close_gaps();
-            self.energy.add_work(obstacle.work());
-        }
-        Ok(())
+            .map_err(|error| Outcome::ContactFailed { revolutions, error })
     }
 
-    /// Applies the forces that complete the last step now instead of with the next one.
+    /// Completes the last step now instead of with the next one.
     #[inline(always)]
     fn complete<S: Simd, const DISSIPATES: bool>(&mut self, simd: S) {
-        let Some(obstacle) = &mut self.obstacle else { return };
+        let Some(obstacle) = &mut self.obstacle else {
+            return;
+        };
         let loads = Loads { rows: &obstacle.loaded, force: &obstacle.force };
-        let loss = self.oscillators.complete::<S, DISSIPATES>(simd, &obstacle.rows, loads);
-        self.energy.add_loss(loss);
+        self.energy.add(self.oscillators.complete::<S, DISSIPATES>(simd, &obstacle.rows, loads));
         obstacle.clear_forces(&self.fourier);
+    }
+
+    /// Holds what the contact solution promised against the state.
+    #[inline(always)]
+    fn check_penetration<S: Simd>(&mut self, simd: S, step: usize, revolutions: f64) {
+        let Some(obstacle) = &mut self.obstacle else { return };
+        let left = obstacle.penetration(simd, &self.oscillators, &self.fourier, step, revolutions);
+        self.statistics.largest_penetration = self.statistics.largest_penetration.max(left);
     }
 
     #[inline(always)]
