@@ -19,7 +19,7 @@ pub trait SymmetricOperator {
 }
 
 /// No solution was found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum ComplementarityError {
     /// W restricted to an active set is not positive definite.
     #[error("the contact operator is not positive definite on {active} active nodes")]
@@ -32,6 +32,12 @@ pub enum ComplementarityError {
     NotSolved {
         /// Pivoting steps taken.
         pivots: usize,
+    },
+    /// No forces keep all gaps open: nodes are pressed against each other, which a singular W cannot resolve.
+    #[error("no contact forces keep all gaps open: {penetration:.1e} of penetration is left")]
+    Infeasible {
+        /// Largest violation of a gap, length.
+        penetration: f64,
     },
 }
 

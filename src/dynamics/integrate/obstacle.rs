@@ -15,6 +15,10 @@ use super::residual::ResidualDisplacement;
 use crate::numerics::complementarity::{ActiveSetSolver, ComplementarityError};
 use crate::numerics::sector_fourier::SectorFourier;
 
+/// Penetration that the ridge of a singular W may leave, relative to clearance and restriction. Nodes that W cannot tell
+/// apart but that agree keep to a thousandth of it; where they contradict each other no forces help.
+const LEFT: f64 = 1e-6;
+
 #[derive(Debug)]
 pub(super) struct Obstacle {
     pub(super) rows: Rows,
@@ -28,6 +32,8 @@ pub(super) struct Obstacle {
     /// c_k, padded with +∞.
     clearance: Vec<f64>,
     tolerance: f64,
+    /// Most penetration that may be left where W is singular.
+    most_left: f64,
     step_s: f64,
     /// Normal displacements of the integrated modes, `[Fourier column][node]`.
     pub(super) harmonic: Vec<f64>,
@@ -72,6 +78,7 @@ impl Obstacle {
             }
         };
         let size = sectors * stride;
+        let length = casing.length_scale(simulation.reach());
         Self {
             delassus: Delassus::new(&blocks, stride, fourier),
             solver: ActiveSetSolver::new(size),
@@ -79,8 +86,9 @@ impl Obstacle {
             restriction,
             unrestricted: vec![0.0; stride],
             clearance,
-            // Gaps are differences of lengths of this scale.
-            tolerance: 1e-14 * casing.length_scale(),
+            // Gaps are differences of lengths of this scale. A casing far out of reach of some node must not loosen it.
+            tolerance: 1e-14 * length,
+            most_left: LEFT * if length > 0.0 { length } else { simulation.reach() },
             casing: casing.clone(),
             step_s: simulation.step_s(),
             harmonic: vec![0.0; size],
@@ -145,6 +153,9 @@ impl Obstacle {
         self.solver.solve(&self.delassus, &self.predicted_gap, self.tolerance)?;
         let deepest = -lowest(self.solver.gap());
         statistics.largest_penetration = statistics.largest_penetration.max(deepest);
+        if deepest > self.most_left {
+            return Err(ComplementarityError::Infeasible { penetration: deepest });
+        }
         statistics.pivots = self.solver.statistics();
         let stride = self.rows.stride;
         let mut impulse = 0.0;

@@ -18,10 +18,6 @@ use super::recorder::Recorder;
 use super::{Divergence, Outcome, Run, Simulation};
 use crate::numerics::sector_fourier::SectorFourier;
 
-/// Displacements beyond this share of the largest contact radius end a run as diverged: linear structural theory is
-/// void long before.
-const DIVERGED_SHARE_OF_RADIUS: f64 = 0.1;
-
 /// Steps between two looks at progress and cancellation: some tens of milliseconds.
 const WATCHED_STEPS: u64 = 1 << 14;
 
@@ -112,8 +108,7 @@ impl Stepper {
     ) -> Result<(), Outcome> {
         let steps = simulation.steps_per_revolution;
         let sampling = steps / simulation.samples_per_revolution;
-        let radius = simulation.contact_nodes.iter().fold(0.0f64, |r, node| r.max(node.position[0]));
-        let bound = DIVERGED_SHARE_OF_RADIUS * radius;
+        let reach = simulation.reach();
         let window_start = simulation.revolutions - simulation.window_revolutions;
         for revolution in 0..simulation.revolutions {
             for step in 1..=steps {
@@ -142,7 +137,7 @@ impl Stepper {
                     let energy = self.oscillators.energy();
                     self.energy.check(energy);
                     self.record(simd, revolution >= window_start);
-                    self.check_bounds(energy, bound, revolutions)?;
+                    self.check_bounds(energy, reach, revolutions)?;
                 }
             }
             self.last_energy = Some(self.oscillators.energy());
@@ -204,9 +199,9 @@ impl Stepper {
     }
 
     #[inline(never)]
-    fn check_bounds(&self, energy: f64, bound: f64, revolutions: f64) -> Result<(), Outcome> {
+    fn check_bounds(&self, energy: f64, reach: f64, revolutions: f64) -> Result<(), Outcome> {
         let (place, displacement) = self.obstacle.as_ref().map_or((0, 0.0), Obstacle::largest_displacement);
-        if energy.is_finite() && !(bound > 0.0 && displacement > bound) {
+        if energy.is_finite() && displacement <= reach {
             return Ok(());
         }
         let stride = self.obstacle.as_ref().map_or(1, |obstacle| obstacle.rows.stride);
