@@ -24,10 +24,11 @@ impl Discretisation {
         Self { per_revolution: steps, samples: samples_of(steps, wanted_samples(request)) }
     }
 
-    /// At least `steps` per revolution, a convenient number for `sectors`.
+    /// At least `steps` per revolution and as many as are sampled, a convenient number for `sectors`.
     pub(super) fn at_least(steps: usize, request: &SweepRequest, sectors: usize) -> Self {
+        let steps = steps.max(wanted_samples(request));
         // S = decimation · samples, both whole; samples a multiple of N share the casing table.
-        let decimation = (steps / wanted_samples(request)).max(1);
+        let decimation = steps / wanted_samples(request);
         let samples = steps.div_ceil(decimation).next_multiple_of(sectors);
         Self { per_revolution: decimation * samples, samples }
     }

@@ -43,14 +43,16 @@ pub fn run_speed(
             Err(message) => point.message = Some(message),
             Ok(stepping) => {
                 let steps = &stepping.discretisation;
-                point.smallest_stable_steps_per_revolution = stepping.smallest as u32;
-                point.steps_per_revolution = steps.per_revolution as u32;
-                point.scheme = Some(stepping.report);
                 let watch = |fraction: f64| {
                     monitor.progress(fraction, "contact simulation");
                     !monitor.is_cancelled()
                 };
                 let run = simulate(&reduced.wheel, &wheel, request, stepping.scheme, steps, &watch);
+                if run.is_ok() {
+                    point.smallest_stable_steps_per_revolution = stepping.smallest as u32;
+                    point.steps_per_revolution = steps.per_revolution as u32;
+                    point.scheme = Some(stepping.report);
+                }
                 spectra = record_run(&mut point, run, request, steps, reduced.wheel.sectors)?;
             }
         },
@@ -101,8 +103,8 @@ fn simulate(
         let size = RestrictionTable::size(steps.per_revolution, wheel.sectors, stride);
         if size > MAX_TABLE_VALUES {
             return Err(format!(
-                "the casing's table would take {size} values at {} steps per revolution: choose fewer steps, and a \
-                 multiple of the {} sectors",
+                "the casing's table would take {size} values at {} steps per revolution: take fewer steps, a multiple of the \
+                 {} sectors, or wider lobes",
                 steps.per_revolution, wheel.sectors
             ));
         }

@@ -23,9 +23,6 @@ pub(super) struct Stepping {
     pub(super) report: SchemeReport,
 }
 
-/// `"auto"` stays this far below a stability limit.
-const SAFETY: f64 = 0.8;
-
 /// `"auto"` never steps over more than a tenth of a degree of contact: it begins and ends within a step.
 const LEAST_AUTO_STEPS: f64 = 3600.0;
 
@@ -38,11 +35,26 @@ const LEAST_STEPS_PER_WIDTH: f64 = 2.0;
 /// The scheme `auto` resolves every mode as long as that takes no more than this many times the steps that contact needs.
 const PRICE_OF_STIFFNESS: f64 = 10.0;
 
+/// A boundary without mass integrates the modes up to this many times the highest frequency asked for, if it can.
+const REACH: f64 = 2.0;
+
 /// Most steps per revolution, given or chosen.
 pub(super) const MOST_STEPS: u32 = 10_000_000;
 
-/// Half-width of the lobes of a scene, rad.
+/// `"auto"` stays this far below the stability limit of `scheme`. Contact that rattles next to the limit of
+/// `massless_boundary` pumps energy into light damping.
+fn safety(scheme: Scheme) -> f64 {
+    match scheme {
+        Scheme::CentralDifferences | Scheme::ExactModal => 0.8,
+        Scheme::MasslessBoundary { .. } => MASSLESS_SAFETY,
+    }
+}
+
+const MASSLESS_SAFETY: f64 = 0.5;
+
+/// Half-width of the lobes that a scene's blades may touch, rad.
 fn lobe_width(request: &SweepRequest) -> Option<f64> {
+    request.scene.contact.as_ref()?;
     Some(request.scene.casing.as_ref()?.lobes.as_ref()?.width_rad)
 }
 
@@ -55,15 +67,15 @@ fn least_steps_for_lobes(request: &SweepRequest) -> f64 {
 fn steps_for_contact(request: &SweepRequest) -> (f64, &'static str) {
     let lobes = lobe_width(request).map_or(0.0, |width| (AUTO_STEPS_PER_WIDTH * TAU / width).ceil());
     if lobes > LEAST_AUTO_STEPS {
-        (lobes, "ten steps over the half-width of a lobe")
+        (lobes, "ten steps fall on the half-width of a lobe")
     } else {
-        (LEAST_AUTO_STEPS, "a tenth of a degree, for contact to begin and end in")
+        (LEAST_AUTO_STEPS, "contact begins and ends within a tenth of a degree")
     }
 }
 
-/// Steps per revolution from which on no mode follows statically under `exact_modal`.
-fn resolving_steps(wheel: &ModalWheel) -> f64 {
-    (TAU * wheel.largest_frequency() / (wheel.speed_rad_s * exact_modal::FOLLOWS)).ceil()
+/// Steps per revolution at `speed_rad_s` from which on no mode follows statically under `exact_modal`.
+fn resolving_steps(wheel: &ModalWheel, speed_rad_s: f64) -> f64 {
+    (TAU * wheel.largest_frequency() / (speed_rad_s * exact_modal::FOLLOWS)).ceil()
 }
 
 /// Contact nodes that may touch in this scene.
@@ -71,11 +83,22 @@ fn touching<'a>(contact_nodes: &'a [ContactNode], request: &SweepRequest) -> &'a
     if request.scene.contact.is_some() { contact_nodes } else { &[] }
 }
 
-/// A scheme with the steps it wants, and why.
+/// A scheme with the steps it wants.
 struct Wish {
     scheme: Scheme,
     least_steps: f64,
-    reason: String,
+    why_scheme: String,
+    why_steps: String,
+}
+
+/// A speed with what its scheme depends on.
+struct Scope<'a> {
+    wheel: &'a ModalWheel,
+    /// Empty if nothing may touch.
+    contact_nodes: &'a [ContactNode],
+    request: &'a SweepRequest,
+    /// Steps per revolution given by the request.
+    given: Option<u32>,
 }
 
 impl Stepping {
@@ -85,35 +108,143 @@ impl Stepping {
         contact_nodes: &[ContactNode],
         request: &SweepRequest,
     ) -> Result<Self, String> {
-        let contact_nodes = touching(contact_nodes, request);
         let Integration { scheme, kept_modes, steps_per_revolution, .. } = request.integration;
         let given = match steps_per_revolution {
             AutoOr::Auto => None,
-            AutoOr::Fixed(steps) => Some(f64::from(steps)),
+            AutoOr::Fixed(steps) => Some(steps),
         };
+        let scope = Scope { wheel, contact_nodes: touching(contact_nodes, request), request, given };
         let wish = match (scheme, kept_modes) {
-            (SchemeChoice::Auto, _) => automatic(wheel, contact_nodes, request, given)?,
-            (SchemeChoice::CentralDifferences, _) => {
-                bounded(Scheme::CentralDifferences, wheel, contact_nodes, request)
-            }
-            (SchemeChoice::ExactModal, _) => resolved(wheel, request),
+            (SchemeChoice::Auto, _) => scope.automatic(),
+            (SchemeChoice::CentralDifferences, _) => scope.bounded(Scheme::CentralDifferences),
+            (SchemeChoice::ExactModal, _) => scope.exact(),
             (SchemeChoice::MasslessBoundary, AutoOr::Fixed(kept)) => {
-                let scheme = Scheme::MasslessBoundary { kept_modes: kept as usize };
-                bounded(scheme, wheel, contact_nodes, request)
+                scope.bounded(Scheme::MasslessBoundary { kept_modes: kept as usize })
             }
-            (SchemeChoice::MasslessBoundary, AutoOr::Auto) => carried(wheel, contact_nodes, request, given)?,
+            (SchemeChoice::MasslessBoundary, AutoOr::Auto) => scope.massless()?,
         };
-        let smallest = wish.scheme.smallest_stable_steps(wheel, contact_nodes);
-        if smallest == u64::MAX {
-            return Err(no_flexibility(wish.scheme));
+        scope.grant(wish)
+    }
+}
+
+impl Scope<'_> {
+    /// Resolves every mode if that price is bearable at the slowest speed, so that a sweep keeps to one scheme; otherwise
+    /// lets the boundary go without mass.
+    fn automatic(&self) -> Wish {
+        let speeds = self.request.speeds.resolve().unwrap_or_default();
+        let slowest = speeds.into_iter().fold(self.wheel.speed_rad_s, f64::min);
+        let stiffest = resolving_steps(self.wheel, slowest);
+        let affordable = self.given.map_or(PRICE_OF_STIFFNESS * steps_for_contact(self.request).0, f64::from);
+        let mut wish = self.exact();
+        if self.contact_nodes.is_empty() || stiffest <= affordable {
+            let resolving = resolving_steps(self.wheel, self.wheel.speed_rad_s);
+            if !self.contact_nodes.is_empty() && resolving > wish.least_steps {
+                wish.least_steps = resolving;
+                wish.why_steps = "the step resolves the stiffest mode".to_owned();
+            }
+            return wish;
         }
-        let discretisation = match given {
-            Some(steps) if (steps as u64) < smallest => {
+        let price = format!(
+            "resolving the stiffest mode at the slowest speed would take {stiffest:.0} steps per revolution"
+        );
+        match self.massless() {
+            Ok(massless) => Wish { why_scheme: format!("{price}; {}", massless.why_scheme), ..massless },
+            Err(_) => Wish { why_scheme: format!("{price}; {}", wish.why_scheme), ..wish },
+        }
+    }
+
+    /// A scheme with a stability limit.
+    fn bounded(&self, scheme: Scheme) -> Wish {
+        let (contact, why) = steps_for_contact(self.request);
+        let smallest = scheme.smallest_stable_steps(self.wheel, self.contact_nodes);
+        let limit = (smallest as f64 / safety(scheme)).ceil();
+        let why_scheme = "as requested".to_owned();
+        if limit > contact {
+            let why_steps = format!("the step is {} of the stability limit", safety(scheme));
+            Wish { scheme, least_steps: limit, why_scheme, why_steps }
+        } else {
+            Wish { scheme, least_steps: contact, why_scheme, why_steps: set_so_that(why) }
+        }
+    }
+
+    /// Every mode by its exact propagator.
+    fn exact(&self) -> Wish {
+        let why_scheme = "every mode is advanced exactly".to_owned();
+        let scheme = Scheme::ExactModal;
+        if self.contact_nodes.is_empty() {
+            let why_steps = "nothing touches, so that any step is exact".to_owned();
+            return Wish { scheme, least_steps: 1.0, why_scheme, why_steps };
+        }
+        let (contact, why) = steps_for_contact(self.request);
+        Wish { scheme, least_steps: contact, why_scheme, why_steps: set_so_that(why) }
+    }
+
+    /// A boundary without mass, with as many modes as the step for contact carries, but enough for the engine orders
+    /// asked for.
+    fn massless(&self) -> Result<Wish, String> {
+        let carried = |steps: f64| {
+            massless_boundary::most_kept_modes(
+                self.wheel,
+                self.contact_nodes,
+                (MASSLESS_SAFETY * steps) as u64,
+            )
+        };
+        let none = |steps: f64| {
+            format!(
+                "{steps} steps per revolution carry no mode of a boundary without mass: take more, or another scheme"
+            )
+        };
+        let (contact, why) = steps_for_contact(self.request);
+        let steps = self.given.map_or(contact, f64::from);
+        let kept = carried(steps);
+        let wanted = self.modes_reaching(REACH * self.highest_frequency());
+        if let (Some(kept_modes), true) = (kept, self.given.is_some() || kept >= Some(wanted)) {
+            return Ok(Wish {
+                scheme: Scheme::MasslessBoundary { kept_modes },
+                least_steps: steps,
+                why_scheme: "as many modes are kept as the step carries".to_owned(),
+                why_steps: set_so_that(why),
+            });
+        }
+        if self.given.is_some() {
+            return Err(none(steps));
+        }
+        let most = carried(f64::from(MOST_STEPS)).ok_or_else(|| none(f64::from(MOST_STEPS)))?;
+        let scheme = Scheme::MasslessBoundary { kept_modes: wanted.min(most) };
+        let why_scheme = format!("modes are kept up to {REACH} times the highest engine order");
+        Ok(Wish { why_scheme, ..self.bounded(scheme) })
+    }
+
+    /// Of the highest engine order asked for, rad/s.
+    fn highest_frequency(&self) -> f64 {
+        f64::from(self.request.max_engine_order) * self.wheel.speed_rad_s
+    }
+
+    /// Modes per nodal diameter up to `omega` in every one of them.
+    fn modes_reaching(&self, omega: f64) -> usize {
+        let below = self.wheel.harmonics.iter().map(|h| h.omega.partition_point(|&mode| mode < omega) + 1);
+        below.max().unwrap_or(1)
+    }
+
+    /// Steps and report of a wish, if it can be had.
+    fn grant(&self, wish: Wish) -> Result<Stepping, String> {
+        let smallest = wish.scheme.smallest_stable_steps(self.wheel, self.contact_nodes);
+        if smallest == u64::MAX {
+            return Err(no_stable_step(wish.scheme));
+        }
+        let (discretisation, why_steps) = match self.given {
+            Some(steps) if u64::from(steps) < smallest => {
                 return Err(format!(
                     "{steps} steps per revolution are unstable at this speed; at least {smallest} are needed"
                 ));
             }
-            Some(steps) => Discretisation::exactly(steps as usize, request),
+            Some(steps) => {
+                let close = f64::from(steps) * safety(wish.scheme) < smallest as f64;
+                let limit = format!(", closer to the limit of {smallest} than \"auto\" would go");
+                let why =
+                    format!("{steps} steps per revolution as requested{}", if close { &limit } else { "" });
+                (Discretisation::exactly(steps as usize, self.request), why)
+            }
             None if wish.least_steps > f64::from(MOST_STEPS) => {
                 return Err(format!(
                     "this speed would need {:.1e} steps per revolution, more than {MOST_STEPS}: it is too slow for the \
@@ -121,130 +252,59 @@ impl Stepping {
                     wish.least_steps
                 ));
             }
-            None => Discretisation::at_least(wish.least_steps as usize, request, wheel.sectors),
+            None => {
+                let steps = wish.least_steps as usize;
+                (Discretisation::at_least(steps, self.request, self.wheel.sectors), wish.why_steps)
+            }
         };
-        let report = report(&wish, wheel, &discretisation, !contact_nodes.is_empty(), given.is_some());
-        Ok(Self { scheme: wish.scheme, smallest, discretisation, report })
+        let reason = format!("{}; {why_steps}", wish.why_scheme);
+        let report = self.report(wish.scheme, &discretisation, reason);
+        Ok(Stepping { scheme: wish.scheme, smallest, discretisation, report })
+    }
+
+    fn report(&self, scheme: Scheme, discretisation: &Discretisation, mut reason: String) -> SchemeReport {
+        let (name, kept_modes) = match scheme {
+            Scheme::CentralDifferences => (SchemeChoice::CentralDifferences, None),
+            Scheme::ExactModal => (SchemeChoice::ExactModal, None),
+            Scheme::MasslessBoundary { kept_modes } => {
+                (SchemeChoice::MasslessBoundary, Some(kept_modes as u32))
+            }
+        };
+        let step_s = TAU / (self.wheel.speed_rad_s * discretisation.per_revolution as f64);
+        let follows = match scheme {
+            Scheme::ExactModal if !self.contact_nodes.is_empty() => exact_modal::FOLLOWS / step_s,
+            _ => f64::INFINITY,
+        };
+        let (mut following, mut reach) = (0, f64::INFINITY);
+        for harmonic in &self.wheel.harmonics {
+            let integrated = &harmonic.omega[..scheme.integrated_modes(harmonic.omega.len())];
+            let resolved = integrated.partition_point(|&omega| omega <= follows);
+            let pair = if harmonic.single { 1 } else { 2 };
+            following += pair * (integrated.len() - resolved);
+            reach = reach.min(resolved.checked_sub(1).map_or(0.0, |last| integrated[last]));
+        }
+        if reach < self.highest_frequency() {
+            let order = reach / self.wheel.speed_rad_s;
+            reason.push_str(&format!("; beyond engine order {order:.1} the response is static"));
+        }
+        SchemeReport { name, reason, kept_modes, following_modes: following as u32, reach_hz: reach / TAU }
     }
 }
 
-/// The scheme that resolves every mode if its price is bearable, otherwise the one whose step contact alone sets.
-fn automatic(
-    wheel: &ModalWheel,
-    contact_nodes: &[ContactNode],
-    request: &SweepRequest,
-    given: Option<f64>,
-) -> Result<Wish, String> {
-    let exact = resolved(wheel, request);
-    let affordable = given.unwrap_or(PRICE_OF_STIFFNESS * steps_for_contact(request).0);
-    let stiffest = resolving_steps(wheel);
-    if contact_nodes.is_empty() || stiffest <= affordable {
-        return Ok(exact);
-    }
-    let massless = carried(wheel, contact_nodes, request, given)?;
-    let reason = format!(
-        "resolving the stiffest mode would take {stiffest:.0} steps per revolution; {}",
-        massless.reason
-    );
-    Ok(Wish { reason, ..massless })
+fn set_so_that(why: &str) -> String {
+    format!("the step is set so that {why}")
 }
 
-/// Bounded by a stability limit.
-fn bounded(
-    scheme: Scheme,
-    wheel: &ModalWheel,
-    contact_nodes: &[ContactNode],
-    request: &SweepRequest,
-) -> Wish {
-    let (contact, why) = steps_for_contact(request);
-    let limit = (scheme.smallest_stable_steps(wheel, contact_nodes) as f64 / SAFETY).ceil();
-    if limit > contact {
-        let reason = format!("the step is {SAFETY} of the stability limit");
-        Wish { scheme, least_steps: limit, reason }
-    } else {
-        Wish { scheme, least_steps: contact, reason: format!("the step is {why}") }
-    }
-}
-
-/// `exact_modal` with every mode resolved.
-fn resolved(wheel: &ModalWheel, request: &SweepRequest) -> Wish {
-    let (contact, why) = steps_for_contact(request);
-    let modes = resolving_steps(wheel);
-    let (least_steps, reason) = if modes > contact {
-        (modes, "every mode is advanced exactly and resolved by the step".to_owned())
-    } else {
-        (contact, format!("every mode is advanced exactly and resolved; the step is {why}"))
-    };
-    Wish { scheme: Scheme::ExactModal, least_steps, reason }
-}
-
-/// `massless_boundary` with as many modes as the step carries.
-fn carried(
-    wheel: &ModalWheel,
-    contact_nodes: &[ContactNode],
-    request: &SweepRequest,
-    given: Option<f64>,
-) -> Result<Wish, String> {
-    let (contact, why) = steps_for_contact(request);
-    let steps = given.unwrap_or(contact);
-    let kept = massless_boundary::most_kept_modes(wheel, contact_nodes, (SAFETY * steps) as u64);
-    let kept_modes = kept.ok_or_else(|| {
-        format!("{steps} steps per revolution carry no mode of a boundary without mass: take more steps, or another scheme")
-    })?;
-    let step = if given.is_some() {
-        "that the given step carries".to_owned()
-    } else {
-        format!("that a step of {why} carries")
-    };
-    Ok(Wish {
-        scheme: Scheme::MasslessBoundary { kept_modes },
-        least_steps: steps,
-        reason: format!("as many modes are kept as leave the boundary the flexibility {step}"),
-    })
-}
-
-fn no_flexibility(scheme: Scheme) -> String {
+fn no_stable_step(scheme: Scheme) -> String {
     match scheme {
         Scheme::MasslessBoundary { kept_modes } => format!(
             "with {kept_modes} modes per nodal diameter kept, those left out give the boundary no flexibility: keep fewer, \
              leave kept_modes away, or reduce with more modes_per_speed"
         ),
-        Scheme::CentralDifferences | Scheme::ExactModal => "the scheme has no stable step".to_owned(),
+        Scheme::CentralDifferences | Scheme::ExactModal => {
+            "no number of steps per revolution is stable: the speed is too slow".to_owned()
+        }
     }
-}
-
-fn report(
-    wish: &Wish,
-    wheel: &ModalWheel,
-    discretisation: &Discretisation,
-    touching: bool,
-    given: bool,
-) -> SchemeReport {
-    let (name, kept_modes) = match wish.scheme {
-        Scheme::CentralDifferences => (SchemeChoice::CentralDifferences, None),
-        Scheme::ExactModal => (SchemeChoice::ExactModal, None),
-        Scheme::MasslessBoundary { kept_modes } => (SchemeChoice::MasslessBoundary, Some(kept_modes as u32)),
-    };
-    let step_s = TAU / (wheel.speed_rad_s * discretisation.per_revolution as f64);
-    let follows = if name == SchemeChoice::ExactModal && touching {
-        exact_modal::FOLLOWS / step_s
-    } else {
-        f64::INFINITY
-    };
-    let (mut following, mut reach) = (0, f64::INFINITY);
-    for harmonic in &wheel.harmonics {
-        let integrated = &harmonic.omega[..wish.scheme.integrated_modes(harmonic.omega.len())];
-        let resolved = integrated.partition_point(|&omega| omega <= follows);
-        let pair = if harmonic.single { 1 } else { 2 };
-        following += pair * (integrated.len() - resolved);
-        reach = reach.min(resolved.checked_sub(1).map_or(0.0, |last| integrated[last]));
-    }
-    let reason = if given {
-        format!("{} steps per revolution as requested", discretisation.per_revolution)
-    } else {
-        wish.reason.clone()
-    };
-    SchemeReport { name, reason, kept_modes, following_modes: following as u32, reach_hz: reach / TAU }
 }
 
 /// Checks what only the reduced sector can tell, before any speed runs: a fixed step or number of kept modes against the
@@ -290,10 +350,17 @@ fn smallest_stable_steps(
             }
             Ok(central_differences::smallest_stable_steps(largest, speed_rad_s))
         }
-        (SchemeChoice::MasslessBoundary, AutoOr::Fixed(kept)) => {
+        (SchemeChoice::MasslessBoundary, kept_modes) => {
             let wheel = ModalWheel::at(&reduced.wheel, speed_rad_s, stiffening)?;
-            let scheme = Scheme::MasslessBoundary { kept_modes: kept as usize };
-            Ok(scheme.smallest_stable_steps(&wheel, touching(&reduced.wheel.contact, request)))
+            let limit = |kept_modes| {
+                let scheme = Scheme::MasslessBoundary { kept_modes };
+                scheme.smallest_stable_steps(&wheel, touching(&reduced.wheel.contact, request))
+            };
+            Ok(match kept_modes {
+                AutoOr::Fixed(kept) => limit(kept as usize),
+                // As `"auto"` keeps at least one mode, at its own distance from the limit.
+                AutoOr::Auto => (limit(1) as f64 / MASSLESS_SAFETY).ceil() as u64,
+            })
         }
         _ => Ok(1),
     }
@@ -303,7 +370,7 @@ fn refuse(request: &SweepRequest, stable: u64, speed: f64) -> Result<(), Analysi
     let refused =
         |pointer: &str, message: String| Err(AnalysisError::Refused(vec![Violation::new(pointer, message)]));
     if let (u64::MAX, AutoOr::Fixed(kept)) = (stable, request.integration.kept_modes) {
-        let message = no_flexibility(Scheme::MasslessBoundary { kept_modes: kept as usize });
+        let message = no_stable_step(Scheme::MasslessBoundary { kept_modes: kept as usize });
         return refused("/integration/kept_modes", message);
     }
     let AutoOr::Fixed(steps) = request.integration.steps_per_revolution else { return Ok(()) };

@@ -3,6 +3,7 @@
 //! faer is built without its thread pool: every call runs on the calling thread, so results do not depend on how
 //! many threads a machine has.
 
+pub(crate) mod aligned;
 pub mod block_lanczos;
 pub mod complementarity;
 pub mod hermitian;

@@ -4,6 +4,7 @@ use faer::{Mat, c64};
 
 use super::super::oscillators::LANES;
 use super::flexibility::ridge;
+use crate::numerics::aligned::Aligned;
 use crate::numerics::complementarity::{SymmetricOperator, any_below};
 use crate::numerics::sector_fourier::{SectorFourier, is_single};
 
@@ -14,7 +15,7 @@ pub(crate) struct Delassus {
     nodes: usize,
     stride: usize,
     /// `[sector distance][column node][row node]`.
-    table: Vec<f64>,
+    table: Aligned,
     ridge: f64,
     /// Largest magnitude of any entry, which is on the diagonal.
     largest: f64,
@@ -27,7 +28,7 @@ impl Delassus {
     /// [`ridge`] if they are singular.
     pub(crate) fn new(blocks: &[Mat<c64>], stride: usize, fourier: &SectorFourier) -> Self {
         let (sectors, nodes) = (fourier.sectors(), blocks[0].nrows());
-        let mut table = vec![0.0; sectors * nodes * stride];
+        let mut table = Aligned::zeros(sectors * nodes * stride);
         let mut column = 0;
         for (harmonic, block) in blocks.iter().enumerate() {
             let single = is_single(harmonic, sectors);
@@ -60,6 +61,7 @@ impl Delassus {
         &self.table[(distance * self.nodes + node) * self.stride..][..self.stride]
     }
 }
+
 impl SymmetricOperator for Delassus {
     fn size(&self) -> usize {
         self.sectors * self.stride

@@ -3,7 +3,7 @@
 
 use faer::{Mat, c64};
 
-use super::super::modal_wheel::ModalWheel;
+use super::super::modal_wheel::{ModalHarmonic, ModalWheel};
 use super::super::oscillators::Direction;
 use super::super::sector::ContactNode;
 use crate::numerics::hermitian::eigenvalues;
@@ -22,7 +22,7 @@ pub(crate) fn flexibility(
     from: &[Direction],
     weight: impl Fn(usize, usize) -> f64,
 ) -> Vec<Mat<c64>> {
-    let block = |(index, harmonic): (usize, &super::super::modal_wheel::ModalHarmonic)| {
+    let block = |(index, harmonic): (usize, &ModalHarmonic)| {
         let contact = harmonic.contact.as_ref();
         let mut block = Mat::zeros(to.len(), from.len());
         for m in 0..harmonic.omega.len() {
@@ -30,10 +30,11 @@ pub(crate) fn flexibility(
             if weight == 0.0 {
                 continue;
             }
-            for (j, from) in from.iter().enumerate() {
-                let source = from.of(contact, m).conj() * weight;
-                for (i, to) in to.iter().enumerate() {
-                    block[(i, j)] += to.of(contact, m) * source;
+            let sources: Vec<c64> = from.iter().map(|d| d.of(contact, m).conj() * weight).collect();
+            let targets: Vec<c64> = to.iter().map(|d| d.of(contact, m)).collect();
+            for (j, source) in sources.iter().enumerate() {
+                for (i, target) in targets.iter().enumerate() {
+                    block[(i, j)] += target * source;
                 }
             }
         }

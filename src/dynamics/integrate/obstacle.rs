@@ -40,8 +40,6 @@ pub(super) struct Obstacle {
     /// nᵀu that the gaps were read from: `[sector][node]`.
     normal: Vec<f64>,
     predicted_gap: Vec<f64>,
-    /// c − p of this step.
-    free_gap: Vec<f64>,
     /// Contact nodes with a force on any sector.
     pub(super) loaded: Vec<usize>,
     is_loaded: Vec<bool>,
@@ -94,7 +92,6 @@ impl Obstacle {
             harmonic: vec![0.0; size],
             normal: vec![0.0; size],
             predicted_gap: vec![0.0; size],
-            free_gap: vec![0.0; size],
             loaded: Vec::with_capacity(stride),
             is_loaded: vec![false; stride],
             force: vec![0.0; size],
@@ -121,7 +118,6 @@ impl Obstacle {
         for sector in 0..fourier.sectors() {
             let range = sector * stride..(sector + 1) * stride;
             let normal = &mut S::as_mut_simd_f64s(&mut self.normal[range.clone()]).0[..vectors];
-            let free_gap = &mut S::as_mut_simd_f64s(&mut self.free_gap[range.clone()]).0[..vectors];
             let gap = &mut S::as_mut_simd_f64s(&mut self.predicted_gap[range]).0[..vectors];
             let restricted = match &self.restriction {
                 Some(table) => table.at(step, sector),
@@ -135,7 +131,6 @@ impl Obstacle {
                 }
                 let free = simd.negate_mul_add_e_f64s(growth, restricted[v], clearance[v]);
                 normal[v] = u;
-                free_gap[v] = free;
                 gap[v] = simd.sub_f64s(free, u);
                 smallest = simd.min_f64s(smallest, gap[v]);
             }
@@ -153,7 +148,8 @@ impl Obstacle {
         self.solver.solve(&self.delassus, &self.predicted_gap, self.tolerance)?;
         let deepest = -lowest(self.solver.gap());
         statistics.largest_penetration = statistics.largest_penetration.max(deepest);
-        if deepest > self.most_left {
+        // A run that explodes leaves round-off of its own size; that is for the bounds to find.
+        if deepest > self.most_left && deepest > LEFT * -lowest(&self.predicted_gap) {
             return Err(ComplementarityError::Infeasible { penetration: deepest });
         }
         statistics.pivots = self.solver.statistics();

@@ -15,7 +15,8 @@ pub use self::rows::Direction;
 use self::rows::Rows;
 use super::initial::InitialMode;
 use super::modal_wheel::ModalWheel;
-use super::schemes::Scheme;
+use super::schemes::{ModeStep, Scheme};
+use crate::numerics::aligned::Aligned;
 
 /// Doubles per padded group: the widest vector in use (AVX-512).
 pub(crate) const LANES: usize = 8;
@@ -44,6 +45,8 @@ impl ModalDamping {
 #[derive(Debug, Clone, Copy)]
 struct Segment {
     single: bool,
+    /// Modes.
+    integrated: usize,
     /// Modes, padded.
     length: usize,
     /// Start in the coefficient arrays.
@@ -71,33 +74,33 @@ pub(crate) struct Oscillators {
 }
 
 /// One number a mode, the same for both parts of a pair.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 struct Coefficients {
     /// Share of the increment that survives a step.
-    keep: Vec<f64>,
+    keep: Aligned,
     /// ω²·receptance
-    pull: Vec<f64>,
+    pull: Aligned,
     /// Displacement per unit force within a step.
-    receptance: Vec<f64>,
+    receptance: Aligned,
     /// c/(2B): energy lost in a step is Σ loss·(z⁺ − z⁻)².
-    loss: Vec<f64>,
+    loss: Aligned,
     /// 1/B
-    inertia: Vec<f64>,
+    inertia: Aligned,
     /// ω²
-    stiffness: Vec<f64>,
+    stiffness: Aligned,
 }
 
 /// What a step changes.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 struct State {
     /// z
-    z: Vec<f64>,
+    z: Aligned,
     /// d = z − z⁻
-    d: Vec<f64>,
+    d: Aligned,
     /// z⁺ − z⁻ of a step whose exchange is not counted yet, otherwise 0; empty without contact.
-    swing: Vec<f64>,
+    swing: Aligned,
     /// φᴴf of the loads on one nodal diameter; empty without contact.
-    force: Vec<f64>,
+    force: Aligned,
 }
 
 /// Forces on rows, in Fourier coordinates.
@@ -163,34 +166,31 @@ impl Oscillators {
         initial: &[InitialMode],
     ) -> Self {
         let mut segments = Vec::with_capacity(wheel.harmonics.len());
-        let mut of = Coefficients::default();
-        let (mut state, mut column) = (0, 0);
+        let (mut modes, mut state, mut column) = (0, 0, 0);
         for harmonic in &wheel.harmonics {
             let integrated = scheme.integrated_modes(harmonic.omega.len());
             let length = padded(integrated);
             let parts = if harmonic.single { 1 } else { 2 };
-            segments.push(Segment { single: harmonic.single, length, modes: of.keep.len(), state, column });
-            for family in 0..length {
-                let omega = if family < integrated { harmonic.omega[family] } else { 0.0 };
-                let zeta = damping.map_or(0.0, |damping| damping.ratio(family));
-                let mode = scheme.mode_step(omega, zeta, step, touching);
-                of.keep.push(mode.keep);
-                of.pull.push(omega * omega * mode.receptance);
-                of.receptance.push(mode.receptance);
-                of.loss.push(0.5 * mode.dissipation() * mode.inertia());
-                of.inertia.push(mode.inertia());
-                of.stiffness.push(omega * omega);
-            }
+            segments.push(Segment { single: harmonic.single, integrated, length, modes, state, column });
+            modes += length;
             state += parts * length;
             column += parts;
         }
+        let mut of = Coefficients::zeros(modes);
+        for (harmonic, segment) in wheel.harmonics.iter().zip(&segments) {
+            for family in 0..segment.length {
+                let omega = if family < segment.integrated { harmonic.omega[family] } else { 0.0 };
+                let zeta = damping.map_or(0.0, |damping| damping.ratio(family));
+                of.set(segment.modes + family, omega, scheme.mode_step(omega, zeta, step, touching));
+            }
+        }
         let contact = if touching { state } else { 0 };
-        let longest = segments.iter().map(|segment: &Segment| segment.length).max().unwrap_or(0);
+        let longest = segments.iter().map(|segment| segment.length).max().unwrap_or(0);
         let state = State {
-            z: vec![0.0; state],
-            d: vec![0.0; state],
-            swing: vec![0.0; contact],
-            force: vec![0.0; if touching { 2 * longest } else { 0 }],
+            z: Aligned::zeros(state),
+            d: Aligned::zeros(state),
+            swing: Aligned::zeros(contact),
+            force: Aligned::zeros(if touching { 2 * longest } else { 0 }),
         };
         let mut this = Self { segments, coefficients: of, state };
         for mode in initial {
@@ -205,7 +205,7 @@ impl Oscillators {
 
     fn start(&mut self, mode: &InitialMode, first_increment: impl Fn(f64, f64) -> f64) {
         let segment = self.segments[mode.harmonic];
-        assert!(mode.family < segment.length, "an initial mode is one that is integrated");
+        assert!(mode.family < segment.integrated, "an initial mode is one that is integrated");
         let values = [(mode.displacement.re, mode.velocity.re), (mode.displacement.im, mode.velocity.im)];
         for (start, (z, v)) in segment.parts().zip(values) {
             self.state.z[start + mode.family] = z;
@@ -415,7 +415,7 @@ impl Oscillators {
     #[inline(always)]
     pub(crate) fn quench(&mut self) {
         for values in [&mut self.state.z, &mut self.state.d, &mut self.state.swing] {
-            for value in values {
+            for value in values.iter_mut() {
                 *value = if value.abs() < VANISHED { 0.0 } else { *value };
             }
         }
@@ -423,7 +423,8 @@ impl Oscillators {
 }
 
 /// Modal displacements below this are nothing in any unit, and their squares are still normal numbers. Between two calls
-/// of [`Oscillators::quench`] no scheme shrinks them by as much again.
+/// of [`Oscillators::quench`] no mode that moves shrinks by as much again; one that follows statically is at its zero, or
+/// round-off of it, within a step.
 const VANISHED: f64 = 1e-100;
 
 /// [`Coefficients`] of one nodal diameter, as vectors.
@@ -435,6 +436,27 @@ struct Slices<'a, S: Simd> {
 }
 
 impl Coefficients {
+    fn zeros(modes: usize) -> Self {
+        let zeros = || Aligned::zeros(modes);
+        Self {
+            keep: zeros(),
+            pull: zeros(),
+            receptance: zeros(),
+            loss: zeros(),
+            inertia: zeros(),
+            stiffness: zeros(),
+        }
+    }
+
+    fn set(&mut self, mode: usize, omega: f64, step: ModeStep) {
+        self.keep[mode] = step.keep;
+        self.pull[mode] = omega * omega * step.receptance;
+        self.receptance[mode] = step.receptance;
+        self.loss[mode] = 0.5 * step.dissipation() * step.inertia();
+        self.inertia[mode] = step.inertia();
+        self.stiffness[mode] = omega * omega;
+    }
+
     #[inline(always)]
     fn of<S: Simd>(&self, segment: Segment) -> Slices<'_, S> {
         let range = segment.modes..segment.modes + segment.length;

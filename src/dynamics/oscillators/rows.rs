@@ -5,6 +5,7 @@ use pulp::Simd;
 
 use super::super::modal_wheel::ModalWheel;
 use super::padded;
+use crate::numerics::aligned::Aligned;
 
 /// A displacement direction at a contact node in (r, θ, z) components.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,12 +44,12 @@ pub(super) struct RowBlock {
 #[derive(Debug, Clone)]
 pub(super) struct Matrix {
     length: usize,
-    values: Vec<f64>,
+    values: Aligned,
 }
 
 impl Matrix {
     fn zeros(rows: usize, length: usize) -> Self {
-        Self { length, values: vec![0.0; rows * length] }
+        Self { length, values: Aligned::zeros(rows * length) }
     }
 
     /// The rows of `group`, each cut to `vectors` vectors so that no index needs a check.

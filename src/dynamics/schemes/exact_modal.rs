@@ -7,7 +7,7 @@
 //! In the terms of [`super`]: keep = a², receptance = b. Exact for a steady force too; the contact force acts and closes
 //! the gap as with central differences, and contact makes the order of a history between one and two.
 //!
-//! Step rule: none from free motion, ω²B < 4 whatever h. A mode with ωh near π and little damping, however, changes sign
+//! Step rule: none from free motion, ω²B ≤ 4 whatever h, with equality only undamped at odd multiples of ωh = π. A mode with ωh near π and little damping, however, changes sign
 //! at every step and costs hardly any energy, so contact that opens and closes from step to step drives it without
 //! bound. Where the wheel may touch, modes beyond [`FOLLOWS`] therefore follow statically, z⁺ = f/ω²: the limit of
 //! heavy damping (a = 0), in the same recursion. What they take from the energy is in the identity's loss.
@@ -45,5 +45,7 @@ pub(super) fn first_increment(omega: f64, zeta: f64, h: f64, displacement: f64, 
     let theta = damped * h;
     let swing = velocity + zeta * omega * displacement;
     let sine = if theta > 0.0 { theta.sin() / damped } else { h };
-    displacement - (zeta * omega * h).exp() * (displacement * theta.cos() - swing * sine)
+    // 1 − e^{ζωh} cosθ, without cancellation.
+    let lag = 2.0 * (0.5 * theta).sin().powi(2) - (zeta * omega * h).exp_m1() * theta.cos();
+    displacement * lag + (zeta * omega * h).exp() * swing * sine
 }
