@@ -27,6 +27,8 @@ mod limits {
     pub(super) const DELASSUS: usize = 1 << 26;
     /// Shortest ramp of lobes that stand inside the blade.
     pub(super) const RAMP_REVOLUTIONS: f64 = 0.05;
+    /// Lengths other than 0, in any unit: far from where squares overflow or motion counts as decayed to nothing.
+    pub(super) const LENGTH: std::ops::RangeInclusive<f64> = 1e-30..=1e30;
     pub(super) const LOBE_WIDTH_RAD: std::ops::RangeInclusive<f64> = 1e-4..=100.0;
     pub(super) const PHASE_RAD: f64 = 1000.0;
 }
@@ -173,12 +175,12 @@ fn check_scene(found: &mut Findings, scene: &Scene, facts: &ModelFacts) {
 }
 
 fn check_casing(found: &mut Findings, casing: &Casing, facts: &ModelFacts) {
-    let valid = |length: f64| length.is_finite() && length >= 0.0;
-    let message = "a clearance is a finite length ≥ 0";
+    let valid = |length: f64| length == 0.0 || limits::LENGTH.contains(&length);
+    let message = format!("a clearance is 0 or a length in {:?}", limits::LENGTH);
     match &casing.clearance {
         Clearance { leading: Some(leading), trailing: Some(trailing), values: None } => {
-            found.require(valid(*leading), "/scene/casing/clearance/leading", message);
-            found.require(valid(*trailing), "/scene/casing/clearance/trailing", message);
+            found.require(valid(*leading), "/scene/casing/clearance/leading", &message);
+            found.require(valid(*trailing), "/scene/casing/clearance/trailing", &message);
         }
         Clearance { leading: None, trailing: None, values: Some(values) } => {
             found.require(
@@ -187,7 +189,7 @@ fn check_casing(found: &mut Findings, casing: &Casing, facts: &ModelFacts) {
                 format!("the model has {} contact nodes, not {}", facts.contact_nodes, values.len()),
             );
             for (index, &value) in values.iter().enumerate() {
-                found.require(valid(value), &format!("/scene/casing/clearance/values/{index}"), message);
+                found.require(valid(value), &format!("/scene/casing/clearance/values/{index}"), &message);
             }
         }
         _ => found.require(
@@ -201,7 +203,7 @@ fn check_casing(found: &mut Findings, casing: &Casing, facts: &ModelFacts) {
         found.require(
             valid(lobes.amplitude),
             "/scene/casing/lobes/amplitude",
-            "a lobe's height is a length ≥ 0",
+            format!("a lobe's height is 0 or a length in {:?}", limits::LENGTH),
         );
         found.require(
             limits::LOBE_WIDTH_RAD.contains(&lobes.width_rad),

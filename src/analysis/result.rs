@@ -84,7 +84,8 @@ pub struct Point {
     /// where nothing was integrated or the run overflowed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact_impulse: Option<f64>,
-    /// Largest penetration left after a step's contact solution, in the model's unit of length.
+    /// Largest penetration left after a step's contact solution, and of the state itself at every sample, in the model's
+    /// unit of length.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub largest_penetration: Option<f64>,
     /// Smallest multiplier λ of an active node, in the model's unit of force; absent without contact.

@@ -59,10 +59,11 @@ impl Casing {
         x * x * (3.0 - 2.0 * x)
     }
 
-    /// The length against which gaps are round-off: largest clearance and restriction.
-    pub fn length_scale(&self) -> f64 {
+    /// The length against which gaps are round-off: largest clearance and restriction, of each no more than `reach`,
+    /// the farthest that a tip can move.
+    pub fn length_scale(&self, reach: f64) -> f64 {
         let clearance = self.clearance.iter().fold(0.0f64, |m, c| m.max(c.abs()));
-        clearance + self.restriction.map_or(0.0, |r| r.highest())
+        clearance.min(reach) + self.restriction.map_or(0.0, |r| r.highest().min(reach))
     }
 }
 

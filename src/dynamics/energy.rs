@@ -1,5 +1,7 @@
 //! The energy audit (§8).
 
+use super::oscillators::Exchange;
+
 /// Both sides of E^{q+½} − E^{q−½} = fᵀ(u_{q+1} − u_{q−1})/2 − loss, summed over a run; E is the
 /// scheme's own energy ([`super::schemes`]).
 ///
@@ -20,16 +22,11 @@ impl EnergyAudit {
         Self { initial, largest_energy: initial.abs(), ..Self::default() }
     }
 
-    /// Adds the work of contact forces in one step.
+    /// Adds what the energy gained and lost.
     #[inline(always)]
-    pub(crate) fn add_work(&mut self, work: f64) {
-        self.work += work;
-    }
-
-    /// Adds the energy lost in one step.
-    #[inline(always)]
-    pub(crate) fn add_loss(&mut self, loss: f64) {
-        self.loss += loss;
+    pub(crate) fn add(&mut self, exchange: Exchange) {
+        self.work += exchange.work;
+        self.loss += exchange.loss;
     }
 
     /// Compares the mechanical energy with the sums so far.

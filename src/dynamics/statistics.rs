@@ -11,7 +11,7 @@ pub struct RunStatistics {
     pub contact_steps: u64,
     /// Sum of λh over nodes and steps, force·time.
     pub contact_impulse: f64,
-    /// Largest penetration left after a step's contact solution, length.
+    /// Largest penetration left after a step's contact solution, and of the state itself at every sample, length.
     pub largest_penetration: f64,
     /// Smallest multiplier of an active node; none without contact.
     pub smallest_multiplier: Option<f64>,

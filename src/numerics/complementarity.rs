@@ -13,12 +13,13 @@ pub trait SymmetricOperator {
     /// W(i, j).
     fn entry(&self, i: usize, j: usize) -> f64;
 
-    /// `out` += W(:, j)·`scale`.
-    fn add_column(&self, j: usize, scale: f64, out: &mut [f64]);
+    /// `gap` = q + Wλ, λ given at the `active` indices and zero elsewhere. Entries that are positive whatever the signs of
+    /// W's entries may keep the value of q instead: the solver needs to know no more of them.
+    fn gaps(&self, active: &[usize], lambda: &[f64], q: &[f64], gap: &mut [f64]);
 }
 
 /// No solution was found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum ComplementarityError {
     /// W restricted to an active set is not positive definite.
     #[error("the contact operator is not positive definite on {active} active nodes")]
@@ -31,6 +32,12 @@ pub enum ComplementarityError {
     NotSolved {
         /// Pivoting steps taken.
         pivots: usize,
+    },
+    /// No forces keep all gaps open: nodes are pressed against each other, which a singular W cannot resolve.
+    #[error("no contact forces keep all gaps open: {penetration:.1e} of penetration is left")]
+    Infeasible {
+        /// Largest violation of a gap, length.
+        penetration: f64,
     },
 }
 
@@ -134,7 +141,7 @@ impl ActiveSetSolver {
         &self.lambda
     }
 
-    /// g = q + Wλ of every index.
+    /// g = q + Wλ of every index that the forces could have brought near zero, q of the others.
     pub fn gap(&self) -> &[f64] {
         &self.gap
     }
@@ -180,10 +187,7 @@ impl ActiveSetSolver {
                 *above -= l * x;
             }
         }
-        self.gap.copy_from_slice(q);
-        for (&i, &lambda) in self.active.iter().zip(&self.lambda) {
-            w.add_column(i, lambda, &mut self.gap);
-        }
+        w.gaps(&self.active, &self.lambda, q, &mut self.gap);
         Ok(())
     }
 
@@ -244,7 +248,7 @@ impl ActiveSetSolver {
 
 /// Whether any value is below `limit`: lane by lane and without an early exit, so that it vectorises.
 #[inline(always)]
-fn any_below(values: &[f64], limit: f64) -> bool {
+pub(crate) fn any_below(values: &[f64], limit: f64) -> bool {
     let mut lanes = [limit; 8];
     let mut chunks = values.chunks_exact(8);
     for chunk in &mut chunks {
@@ -275,9 +279,9 @@ mod tests {
             self.0[i][j]
         }
 
-        fn add_column(&self, j: usize, scale: f64, out: &mut [f64]) {
-            for (row, out) in self.0.iter().zip(out) {
-                *out += row[j] * scale;
+        fn gaps(&self, active: &[usize], lambda: &[f64], q: &[f64], gap: &mut [f64]) {
+            for ((row, q), gap) in self.0.iter().zip(q).zip(gap) {
+                *gap = q + active.iter().zip(lambda).map(|(&j, l)| row[j] * l).sum::<f64>();
             }
         }
     }

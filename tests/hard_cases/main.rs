@@ -20,6 +20,7 @@ mod nearly_dependent_bases;
 #[path = "../oracle/mod.rs"]
 #[allow(dead_code, reason = "shared with the physics tests, which use all of it")]
 mod oracle;
+mod random_wheels;
 mod restriction_inside;
 mod rigid_boundary;
 mod rotation_reversed;

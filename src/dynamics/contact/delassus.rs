@@ -2,8 +2,9 @@
 
 use faer::{Mat, c64};
 
+use super::super::oscillators::LANES;
 use super::flexibility::ridge;
-use crate::numerics::complementarity::SymmetricOperator;
+use crate::numerics::complementarity::{SymmetricOperator, any_below};
 use crate::numerics::sector_fourier::{SectorFourier, is_single};
 
 /// W over all contact nodes of all sectors, index = sector·stride + node (nodes padded to `stride`).
@@ -15,6 +16,10 @@ pub(crate) struct Delassus {
     /// `[sector distance][column node][row node]`.
     table: Vec<f64>,
     ridge: f64,
+    /// Largest magnitude of any entry, which is on the diagonal.
+    largest: f64,
+    /// (sector, node) of every index.
+    places: Vec<(usize, usize)>,
 }
 
 impl Delassus {
@@ -40,11 +45,15 @@ impl Delassus {
             }
             column += if single { 1 } else { 2 };
         }
-        Self { sectors, nodes, stride, table, ridge: ridge(blocks, sectors) }
+        let places = (0..sectors * stride).map(|index| (index / stride, index % stride)).collect();
+        let largest = table.iter().fold(0.0f64, |m, w| m.max(w.abs()));
+        Self { sectors, nodes, stride, table, ridge: ridge(blocks, sectors), largest, places }
     }
 
-    fn place(&self, index: usize) -> (usize, usize) {
-        (index / self.stride, index % self.stride)
+    /// Sector and contact node of an index.
+    #[inline(always)]
+    pub(crate) fn place(&self, index: usize) -> (usize, usize) {
+        self.places[index]
     }
 
     fn column(&self, distance: usize, node: usize) -> &[f64] {
@@ -63,16 +72,27 @@ impl SymmetricOperator for Delassus {
     }
 
     #[inline(always)]
-    fn add_column(&self, j: usize, scale: f64, out: &mut [f64]) {
-        let (from_sector, from) = self.place(j);
-        // Sectors from `from_sector` on are 0, 1, 2 … away, those before it follow around the wheel.
-        let (before, onwards) = out.split_at_mut(from_sector * self.stride);
-        let targets = onwards.chunks_exact_mut(self.stride).chain(before.chunks_exact_mut(self.stride));
-        let block = self.nodes * self.stride;
-        let columns = self.table.chunks_exact(block).map(|block| &block[from * self.stride..][..self.stride]);
-        for (out, column) in targets.zip(columns) {
-            for (out, w) in out.iter_mut().zip(column) {
-                *out += w * scale;
+    fn gaps(&self, active: &[usize], lambda: &[f64], q: &[f64], gap: &mut [f64]) {
+        let reach = self.largest * lambda.iter().map(|l| l.abs()).sum::<f64>();
+        let blocks = q.chunks_exact(self.stride).zip(gap.chunks_exact_mut(self.stride));
+        for (sector, (q, gap)) in blocks.enumerate() {
+            if !any_below(q, reach) {
+                gap.copy_from_slice(q);
+                continue;
+            }
+            let chunks = q.as_chunks::<LANES>().0.iter().zip(gap.as_chunks_mut::<LANES>().0);
+            for (chunk, (q, gap)) in chunks.enumerate() {
+                let mut sums = *q;
+                for (&j, &lambda) in active.iter().zip(lambda) {
+                    let (from_sector, from) = self.place(j);
+                    let turns = if sector < from_sector { self.sectors } else { 0 };
+                    let column = self.column(sector + turns - from_sector, from);
+                    let column = &column.as_chunks::<LANES>().0[chunk];
+                    for (sum, w) in sums.iter_mut().zip(column) {
+                        *sum += w * lambda;
+                    }
+                }
+                *gap = sums;
             }
         }
     }

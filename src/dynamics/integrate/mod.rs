@@ -2,6 +2,7 @@
 
 mod obstacle;
 mod recorder;
+mod residual;
 mod stepper;
 
 use std::f64::consts::TAU;
@@ -111,6 +112,10 @@ pub struct Run {
     pub energy: EnergyAudit,
 }
 
+/// Displacements beyond this share of the largest contact radius end a run as diverged: linear structural theory is
+/// void long before.
+const DIVERGED_SHARE_OF_RADIUS: f64 = 0.1;
+
 /// A restriction table larger than this many values (2 GiB) is refused.
 pub const MAX_TABLE_VALUES: usize = 1 << 28;
 
@@ -135,6 +140,12 @@ impl Simulation<'_> {
         assert!(self.steps_per_revolution.is_multiple_of(self.samples_per_revolution));
         assert!(self.window_revolutions <= self.revolutions);
         pulp::Arch::new().dispatch(Loop { simulation: self, stepper: &mut stepper, watch })
+    }
+
+    /// Normal displacement of a tip beyond which a run ends as diverged; without bound where all tips lie on the axis.
+    fn reach(&self) -> f64 {
+        let radius = self.contact_nodes.iter().fold(0.0f64, |r, node| r.max(node.position[0]));
+        if radius > 0.0 { DIVERGED_SHARE_OF_RADIUS * radius } else { f64::INFINITY }
     }
 
     fn step_s(&self) -> f64 {

@@ -1,26 +1,30 @@
 //! Contact between the blades and the casing, within a step.
 
-use faer::c64;
 use pulp::Simd;
 
 use super::super::casing::{Casing, RestrictionTable};
 use super::super::contact::delassus::Delassus;
 use super::super::contact::flexibility::{flexibility, outward_normals};
-use super::super::modal_wheel::ModalHarmonic;
 use super::super::oscillators::rows::Rows;
 use super::super::oscillators::{LANES, Oscillators};
 use super::super::schemes::Scheme;
 use super::super::schemes::massless_boundary::residual_flexibility;
 use super::super::statistics::RunStatistics;
 use super::Simulation;
+use super::residual::ResidualDisplacement;
 use crate::numerics::complementarity::{ActiveSetSolver, ComplementarityError};
 use crate::numerics::sector_fourier::SectorFourier;
+
+/// Penetration that the ridge of a singular W may leave, relative to clearance and restriction. Nodes that W cannot tell
+/// apart but that agree keep to a thousandth of it; where they contradict each other no forces help.
+const LEFT: f64 = 1e-6;
 
 #[derive(Debug)]
 pub(super) struct Obstacle {
     pub(super) rows: Rows,
     delassus: Delassus,
     solver: ActiveSetSolver,
+    residual: ResidualDisplacement,
     casing: Casing,
     pub(super) restriction: Option<RestrictionTable>,
     /// p = 0 of a circular casing.
@@ -28,11 +32,13 @@ pub(super) struct Obstacle {
     /// c_k, padded with +∞.
     clearance: Vec<f64>,
     tolerance: f64,
+    /// Most penetration that may be left where W is singular.
+    most_left: f64,
     step_s: f64,
     /// Normal displacements of the integrated modes, `[Fourier column][node]`.
     pub(super) harmonic: Vec<f64>,
-    /// nᵀu of the integrated modes at q+1, q and q−1: `[sector][node]`.
-    pub(super) normal: [Vec<f64>; 3],
+    /// nᵀu that the gaps were read from: `[sector][node]`.
+    normal: Vec<f64>,
     predicted_gap: Vec<f64>,
     /// c − p of this step.
     free_gap: Vec<f64>,
@@ -72,19 +78,21 @@ impl Obstacle {
             }
         };
         let size = sectors * stride;
-        let [now, last] = starting_displacements(simulation, fourier, stride);
+        let length = casing.length_scale(simulation.reach());
         Self {
             delassus: Delassus::new(&blocks, stride, fourier),
             solver: ActiveSetSolver::new(size),
+            residual: ResidualDisplacement::new(simulation, &normals),
             restriction,
             unrestricted: vec![0.0; stride],
             clearance,
-            // Gaps are differences of lengths of this scale.
-            tolerance: 1e-14 * casing.length_scale(),
+            // Gaps are differences of lengths of this scale. A casing far out of reach of some node must not loosen it.
+            tolerance: 1e-14 * length,
+            most_left: LEFT * if length > 0.0 { length } else { simulation.reach() },
             casing: casing.clone(),
             step_s: simulation.step_s(),
             harmonic: vec![0.0; size],
-            normal: [now, last, vec![0.0; size]],
+            normal: vec![0.0; size],
             predicted_gap: vec![0.0; size],
             free_gap: vec![0.0; size],
             loaded: Vec::with_capacity(stride),
@@ -112,7 +120,7 @@ impl Obstacle {
         let harmonic = S::as_simd_f64s(&self.harmonic).0;
         for sector in 0..fourier.sectors() {
             let range = sector * stride..(sector + 1) * stride;
-            let normal = &mut S::as_mut_simd_f64s(&mut self.normal[0][range.clone()]).0[..vectors];
+            let normal = &mut S::as_mut_simd_f64s(&mut self.normal[range.clone()]).0[..vectors];
             let free_gap = &mut S::as_mut_simd_f64s(&mut self.free_gap[range.clone()]).0[..vectors];
             let gap = &mut S::as_mut_simd_f64s(&mut self.predicted_gap[range]).0[..vectors];
             let restricted = match &self.restriction {
@@ -145,11 +153,14 @@ impl Obstacle {
         self.solver.solve(&self.delassus, &self.predicted_gap, self.tolerance)?;
         let deepest = -lowest(self.solver.gap());
         statistics.largest_penetration = statistics.largest_penetration.max(deepest);
+        if deepest > self.most_left {
+            return Err(ComplementarityError::Infeasible { penetration: deepest });
+        }
         statistics.pivots = self.solver.statistics();
         let stride = self.rows.stride;
         let mut impulse = 0.0;
         for (&index, &lambda) in self.solver.active().iter().zip(self.solver.lambda()) {
-            let (sector, row) = (index / stride, index % stride);
+            let (sector, row) = self.delassus.place(index);
             if !self.is_loaded[row] {
                 self.is_loaded[row] = true;
                 self.loaded.push(row);
@@ -168,26 +179,19 @@ impl Obstacle {
         Ok(())
     }
 
-    /// Normal displacements that the forces leave, where they complete the step.
+    /// Largest penetration of the state as it is, at the instant of the last gaps.
     #[inline(always)]
-    pub(super) fn close_gaps(&mut self) {
-        for ((u, &free), &g) in self.normal[0].iter_mut().zip(&self.free_gap).zip(self.solver.gap()) {
-            // Padding has an infinite gap.
-            if g < f64::INFINITY {
-                *u = free - g;
-            }
-        }
-    }
-
-    /// Work fᵀ(u⁺ − u⁻)/2 of the forces there are.
-    #[inline(always)]
-    pub(super) fn work(&self) -> f64 {
-        if self.loaded.is_empty() {
-            return 0.0;
-        }
-        let [next, _, last] = &self.normal;
-        let forces = self.solver.active().iter().zip(self.solver.lambda());
-        forces.map(|(&index, lambda)| -0.5 * lambda * (next[index] - last[index])).sum()
+    pub(super) fn penetration<S: Simd>(
+        &mut self,
+        simd: S,
+        oscillators: &Oscillators,
+        fourier: &SectorFourier,
+        step: usize,
+        revolutions: f64,
+    ) -> f64 {
+        oscillators.project(simd, &self.rows, &mut self.harmonic);
+        self.residual.add(&self.force, self.rows.stride, &mut self.harmonic, self.rows.stride);
+        (-self.predict_gaps(simd, fourier, step, revolutions)).max(0.0)
     }
 
     /// No forces, until the next solution.
@@ -205,7 +209,7 @@ impl Obstacle {
     /// Largest normal displacement and its place; the first that is no number, if any.
     pub(super) fn largest_displacement(&self) -> (usize, f64) {
         let mut largest = (0, 0.0f64);
-        for (place, &u) in self.normal[0].iter().enumerate() {
+        for (place, &u) in self.normal.iter().enumerate() {
             if !u.is_finite() {
                 return (place, u);
             }
@@ -215,36 +219,6 @@ impl Obstacle {
         }
         (largest.0, largest.1.abs())
     }
-}
-
-/// Normal displacements at the start and a step before it, `[sector][node]`: the first forces work on them too.
-fn starting_displacements(
-    simulation: &Simulation<'_>,
-    fourier: &SectorFourier,
-    stride: usize,
-) -> [Vec<f64>; 2] {
-    let mut displacements = [(); 2].map(|()| vec![0.0; fourier.sectors() * stride]);
-    for mode in simulation.initial {
-        let harmonic = &simulation.wheel.harmonics[mode.harmonic];
-        let singles = |h: &ModalHarmonic| if h.single { 1 } else { 2 };
-        let column: usize = simulation.wheel.harmonics[..mode.harmonic].iter().map(singles).sum();
-        let (omega, z, v) = (harmonic.omega[mode.family], mode.displacement, mode.velocity);
-        let zeta = simulation.damping.map_or(0.0, |damping| damping.ratio(mode.family));
-        let increment = |z, v| simulation.scheme.first_increment(omega, zeta, simulation.step_s(), z, v);
-        let last = z - c64::new(increment(z.re, v.re), increment(z.im, v.im));
-        for (out, z) in displacements.iter_mut().zip([z, last]) {
-            let z = if harmonic.single { c64::new(z.re, 0.0) } else { z };
-            for (node, normal) in outward_normals(simulation.contact_nodes).iter().enumerate() {
-                let moved = normal.of(harmonic.contact.as_ref(), mode.family) * z;
-                for sector in 0..fourier.sectors() {
-                    let row = &fourier.row(sector)[column..];
-                    let sine = if harmonic.single { 0.0 } else { row[1] * moved.im };
-                    out[sector * stride + node] += row[0] * moved.re + sine;
-                }
-            }
-        }
-    }
-    displacements
 }
 
 /// The smallest of 0 and `values`, whose number is a multiple of the lanes; lane by lane, so that it vectorises.

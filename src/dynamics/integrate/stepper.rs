@@ -18,10 +18,6 @@ use super::recorder::Recorder;
 use super::{Divergence, Outcome, Run, Simulation};
 use crate::numerics::sector_fourier::SectorFourier;
 
-/// Displacements beyond this share of the largest contact radius end a run as diverged: linear structural theory is
-/// void long before.
-const DIVERGED_SHARE_OF_RADIUS: f64 = 0.1;
-
 /// Steps between two looks at progress and cancellation: some tens of milliseconds.
 const WATCHED_STEPS: u64 = 1 << 14;
 
@@ -112,15 +108,13 @@ impl Stepper {
     ) -> Result<(), Outcome> {
         let steps = simulation.steps_per_revolution;
         let sampling = steps / simulation.samples_per_revolution;
-        let radius = simulation.contact_nodes.iter().fold(0.0f64, |r, node| r.max(node.position[0]));
-        let bound = DIVERGED_SHARE_OF_RADIUS * radius;
+        let reach = simulation.reach();
         let window_start = simulation.revolutions - simulation.window_revolutions;
         for revolution in 0..simulation.revolutions {
             for step in 1..=steps {
                 let revolutions = revolution as f64 + step as f64 / steps as f64;
                 if CONTACT == contact::NONE {
-                    let loss = self.oscillators.advance::<S, DISSIPATES>(simd);
-                    self.energy.add_loss(loss);
+                    self.energy.add(self.oscillators.advance::<S, DISSIPATES>(simd));
                 } else {
                     self.step_touching::<S, DISSIPATES, CONTACT>(simd, step % steps, revolutions)?;
                 }
@@ -137,10 +131,13 @@ impl Stepper {
                     if CONTACT == contact::COMPLETES {
                         self.complete::<S, DISSIPATES>(simd);
                     }
+                    if CONTACT != contact::NONE {
+                        self.check_penetration(simd, step % steps, revolutions);
+                    }
                     let energy = self.oscillators.energy();
                     self.energy.check(energy);
                     self.record(simd, revolution >= window_start);
-                    self.check_bounds(energy, bound, revolutions)?;
+                    self.check_bounds(energy, reach, revolutions)?;
                 }
             }
             self.last_energy = Some(self.oscillators.energy());
@@ -156,42 +153,43 @@ impl Stepper {
         step: usize,
         revolutions: f64,
     ) -> Result<(), Outcome> {
-        let Some(obstacle) = &mut self.obstacle else { return Ok(()) };
-        obstacle.normal.rotate_right(1);
+        let Some(obstacle) = &mut self.obstacle else {
+            return Ok(());
+        };
         let loads = Loads { rows: &obstacle.loaded, force: &obstacle.force };
         let (rows, out) = (&obstacle.rows, &mut obstacle.harmonic);
-        let loss = if CONTACT == contact::MASSLESS {
-            self.oscillators.advance_loaded::<S, DISSIPATES, true>(simd, rows, loads, out)
+        let exchange = if CONTACT == contact::MASSLESS {
+            self.oscillators.advance_loaded::<S, DISSIPATES>(simd, rows, loads, out)
         } else {
-            self.oscillators.advance_loaded::<S, DISSIPATES, false>(simd, rows, loads, out)
+            self.oscillators.complete_and_predict::<S, DISSIPATES>(simd, rows, loads, out)
         };
-        self.energy.add_loss(loss);
-        let closest = obstacle.predict_gaps(simd, &self.fourier, step, revolutions);
-        if CONTACT == contact::MASSLESS {
-            self.energy.add_work(obstacle.work());
-        }
+        self.energy.add(exchange);
         obstacle.clear_forces(&self.fourier);
-        if closest >= 0.0 {
+        if obstacle.predict_gaps(simd, &self.fourier, step, revolutions) >= 0.0 {
             return Ok(());
         }
         obstacle
             .solve(&self.fourier, &mut self.statistics)
-            .map_err(|error| Outcome::ContactFailed { revolutions, error })?;
-        if CONTACT == contact::COMPLETES {
-            obstacle.close_gaps();
-            self.energy.add_work(obstacle.work());
-        }
-        Ok(())
+            .map_err(|error| Outcome::ContactFailed { revolutions, error })
     }
 
-    /// Applies the forces that complete the last step now instead of with the next one.
+    /// Completes the last step now instead of with the next one.
     #[inline(always)]
     fn complete<S: Simd, const DISSIPATES: bool>(&mut self, simd: S) {
-        let Some(obstacle) = &mut self.obstacle else { return };
+        let Some(obstacle) = &mut self.obstacle else {
+            return;
+        };
         let loads = Loads { rows: &obstacle.loaded, force: &obstacle.force };
-        let loss = self.oscillators.complete::<S, DISSIPATES>(simd, &obstacle.rows, loads);
-        self.energy.add_loss(loss);
+        self.energy.add(self.oscillators.complete::<S, DISSIPATES>(simd, &obstacle.rows, loads));
         obstacle.clear_forces(&self.fourier);
+    }
+
+    /// Holds what the contact solution promised against the state.
+    #[inline(always)]
+    fn check_penetration<S: Simd>(&mut self, simd: S, step: usize, revolutions: f64) {
+        let Some(obstacle) = &mut self.obstacle else { return };
+        let left = obstacle.penetration(simd, &self.oscillators, &self.fourier, step, revolutions);
+        self.statistics.largest_penetration = self.statistics.largest_penetration.max(left);
     }
 
     #[inline(always)]
@@ -201,9 +199,9 @@ impl Stepper {
     }
 
     #[inline(never)]
-    fn check_bounds(&self, energy: f64, bound: f64, revolutions: f64) -> Result<(), Outcome> {
+    fn check_bounds(&self, energy: f64, reach: f64, revolutions: f64) -> Result<(), Outcome> {
         let (place, displacement) = self.obstacle.as_ref().map_or((0, 0.0), Obstacle::largest_displacement);
-        if energy.is_finite() && !(bound > 0.0 && displacement > bound) {
+        if energy.is_finite() && displacement <= reach {
             return Ok(());
         }
         let stride = self.obstacle.as_ref().map_or(1, |obstacle| obstacle.rows.stride);

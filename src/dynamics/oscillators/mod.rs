@@ -5,14 +5,14 @@
 //! coefficients. The modes of one nodal diameter are forced, advanced and projected one after the other, while its mode
 //! shapes are in the first-level cache.
 
-mod project;
+mod product;
 pub(crate) mod rows;
 
 use pulp::Simd;
 
-use self::project::{project_pair, project_single};
+use self::product::{LoadPair, LoadSingle, ProjectPair, ProjectSingle};
 pub use self::rows::Direction;
-use self::rows::{RowBlock, Rows};
+use self::rows::Rows;
 use super::initial::InitialMode;
 use super::modal_wheel::ModalWheel;
 use super::schemes::Scheme;
@@ -54,11 +54,25 @@ struct Segment {
     column: usize,
 }
 
+impl Segment {
+    /// Starts of its real and, for a pair, imaginary part in the state arrays.
+    fn parts(self) -> impl Iterator<Item = usize> {
+        (0..if self.single { 1 } else { 2 }).map(move |part| self.state + part * self.length)
+    }
+}
+
 /// Modal coordinates of the wheel under one of the [schemes](super::schemes), in increments d = z − z⁻, which lose no
 /// digits to differences at small steps.
 #[derive(Debug, Clone)]
 pub(crate) struct Oscillators {
     segments: Vec<Segment>,
+    coefficients: Coefficients,
+    state: State,
+}
+
+/// One number a mode, the same for both parts of a pair.
+#[derive(Debug, Clone, Default)]
+struct Coefficients {
     /// Share of the increment that survives a step.
     keep: Vec<f64>,
     /// ω²·receptance
@@ -71,7 +85,6 @@ pub(crate) struct Oscillators {
     inertia: Vec<f64>,
     /// ω²
     stiffness: Vec<f64>,
-    state: State,
 }
 
 /// What a step changes.
@@ -81,8 +94,10 @@ struct State {
     z: Vec<f64>,
     /// d = z − z⁻
     d: Vec<f64>,
-    /// z⁺ − z⁻ of the last free step, for the loss; empty unless something dissipates.
+    /// z⁺ − z⁻ of a step whose exchange is not counted yet, otherwise 0; empty without contact.
     swing: Vec<f64>,
+    /// φᴴf of the loads on one nodal diameter; empty without contact.
+    force: Vec<f64>,
 }
 
 /// Forces on rows, in Fourier coordinates.
@@ -94,59 +109,45 @@ pub(crate) struct Loads<'a> {
     pub(crate) force: &'a [f64],
 }
 
-/// One part (real or imaginary) of one nodal diameter's coordinates, as vectors.
-struct Part<'a, S: Simd, const DISSIPATES: bool> {
-    z: &'a mut [S::f64s],
-    d: &'a mut [S::f64s],
-    /// Empty unless `DISSIPATES`.
-    swing: &'a mut [S::f64s],
+/// What the energy gains and loses (see [`super::schemes`]).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Exchange {
+    /// Work of the loads, Σ f (z⁺ − z⁻)/2.
+    pub(crate) work: f64,
+    /// Σ c (z⁺ − z⁻)²/(2B).
+    pub(crate) loss: f64,
 }
 
-impl State {
-    /// The part of `length` numbers (`vectors` vectors) at `start`.
-    #[inline(always)]
-    fn part<S: Simd, const DISSIPATES: bool>(
-        &mut self,
-        start: usize,
-        length: usize,
-        vectors: usize,
-    ) -> Part<'_, S, DISSIPATES> {
-        let swing = if DISSIPATES { &mut self.swing[start..start + length] } else { &mut [][..] };
-        Part {
-            z: &mut S::as_mut_simd_f64s(&mut self.z[start..start + length]).0[..vectors],
-            d: &mut S::as_mut_simd_f64s(&mut self.d[start..start + length]).0[..vectors],
-            swing: &mut S::as_mut_simd_f64s(swing).0[..if DISSIPATES { vectors } else { 0 }],
-        }
-    }
-
-    /// Both parts of a pair at `start`.
-    #[inline(always)]
-    fn pair<S: Simd, const DISSIPATES: bool>(
-        &mut self,
-        start: usize,
-        length: usize,
-        vectors: usize,
-    ) -> (Part<'_, S, DISSIPATES>, Part<'_, S, DISSIPATES>) {
-        let Part { z, d, swing } = self.part::<S, DISSIPATES>(start, 2 * length, 2 * vectors);
-        let (z_re, z_im) = z.split_at_mut(vectors);
-        let (d_re, d_im) = d.split_at_mut(vectors);
-        let (swing_re, swing_im) = swing.split_at_mut(if DISSIPATES { vectors } else { 0 });
-        (Part { z: z_re, d: d_re, swing: swing_re }, Part { z: z_im, d: d_im, swing: swing_im })
-    }
+/// [`Exchange`] in lanes, twice the work.
+struct Sums<S: Simd> {
+    twice_work: S::f64s,
+    loss: S::f64s,
 }
 
-impl<S: Simd, const DISSIPATES: bool> Part<'_, S, DISSIPATES> {
-    /// Moves vector `m` by `moved`; returns `lost` with what damping takes of it.
+impl<S: Simd> Sums<S> {
     #[inline(always)]
-    fn shift(&mut self, simd: S, m: usize, moved: S::f64s, loss: S::f64s, mut lost: S::f64s) -> S::f64s {
+    fn new(simd: S) -> Self {
+        Self { twice_work: simd.splat_f64s(0.0), loss: simd.splat_f64s(0.0) }
+    }
+
+    /// Adds a step's exchange: its force, z⁺ − z⁻ and loss coefficient.
+    #[inline(always)]
+    fn add<const DISSIPATES: bool>(&mut self, simd: S, force: S::f64s, swing: S::f64s, loss: S::f64s) {
+        self.twice_work = simd.mul_add_e_f64s(force, swing, self.twice_work);
+        self.add_loss::<DISSIPATES>(simd, swing, loss);
+    }
+
+    /// [`Self::add`] without a force.
+    #[inline(always)]
+    fn add_loss<const DISSIPATES: bool>(&mut self, simd: S, swing: S::f64s, loss: S::f64s) {
         if DISSIPATES {
-            let both = simd.add_f64s(simd.add_f64s(self.swing[m], self.swing[m]), moved);
-            lost = simd.mul_add_e_f64s(loss, simd.mul_f64s(moved, both), lost);
-            self.swing[m] = simd.add_f64s(self.swing[m], moved);
+            self.loss = simd.mul_add_e_f64s(loss, simd.mul_f64s(swing, swing), self.loss);
         }
-        self.z[m] = simd.add_f64s(self.z[m], moved);
-        self.d[m] = simd.add_f64s(self.d[m], moved);
-        lost
+    }
+
+    #[inline(always)]
+    fn total(self, simd: S) -> Exchange {
+        Exchange { work: 0.5 * simd.reduce_sum_f64s(self.twice_work), loss: simd.reduce_sum_f64s(self.loss) }
     }
 }
 
@@ -161,109 +162,192 @@ impl Oscillators {
         touching: bool,
         initial: &[InitialMode],
     ) -> Self {
-        let mut this = Self {
-            segments: Vec::with_capacity(wheel.harmonics.len()),
-            keep: Vec::new(),
-            pull: Vec::new(),
-            receptance: Vec::new(),
-            loss: Vec::new(),
-            inertia: Vec::new(),
-            stiffness: Vec::new(),
-            state: State::default(),
-        };
+        let mut segments = Vec::with_capacity(wheel.harmonics.len());
+        let mut of = Coefficients::default();
         let (mut state, mut column) = (0, 0);
         for harmonic in &wheel.harmonics {
             let integrated = scheme.integrated_modes(harmonic.omega.len());
             let length = padded(integrated);
             let parts = if harmonic.single { 1 } else { 2 };
-            let modes = this.keep.len();
-            this.segments.push(Segment { single: harmonic.single, length, modes, state, column });
+            segments.push(Segment { single: harmonic.single, length, modes: of.keep.len(), state, column });
             for family in 0..length {
                 let omega = if family < integrated { harmonic.omega[family] } else { 0.0 };
                 let zeta = damping.map_or(0.0, |damping| damping.ratio(family));
                 let mode = scheme.mode_step(omega, zeta, step, touching);
-                this.keep.push(mode.keep);
-                this.pull.push(omega * omega * mode.receptance);
-                this.receptance.push(mode.receptance);
-                this.loss.push(0.5 * mode.dissipation() * mode.inertia());
-                this.inertia.push(mode.inertia());
-                this.stiffness.push(omega * omega);
+                of.keep.push(mode.keep);
+                of.pull.push(omega * omega * mode.receptance);
+                of.receptance.push(mode.receptance);
+                of.loss.push(0.5 * mode.dissipation() * mode.inertia());
+                of.inertia.push(mode.inertia());
+                of.stiffness.push(omega * omega);
             }
             state += parts * length;
             column += parts;
         }
-        this.state.z = vec![0.0; state];
-        this.state.d = vec![0.0; state];
-        if this.dissipates() {
-            this.state.swing = vec![0.0; state];
-        }
+        let contact = if touching { state } else { 0 };
+        let longest = segments.iter().map(|segment: &Segment| segment.length).max().unwrap_or(0);
+        let state = State {
+            z: vec![0.0; state],
+            d: vec![0.0; state],
+            swing: vec![0.0; contact],
+            force: vec![0.0; if touching { 2 * longest } else { 0 }],
+        };
+        let mut this = Self { segments, coefficients: of, state };
         for mode in initial {
-            let segment = this.segments[mode.harmonic];
-            let omega = wheel.harmonics[mode.harmonic].omega[mode.family];
             let zeta = damping.map_or(0.0, |damping| damping.ratio(mode.family));
-            let parts = [(mode.displacement.re, mode.velocity.re), (mode.displacement.im, mode.velocity.im)];
-            for (part, (z, v)) in parts.into_iter().take(if segment.single { 1 } else { 2 }).enumerate() {
-                let place = segment.state + part * segment.length + mode.family;
-                this.state.z[place] = z;
-                this.state.d[place] = scheme.first_increment(omega, zeta, step, z, v);
-            }
+            this.start(mode, |z, v| {
+                let omega = wheel.harmonics[mode.harmonic].omega[mode.family];
+                scheme.first_increment(omega, zeta, step, z, v)
+            });
         }
         this
     }
 
-    /// Whether any mode loses energy in free motion.
-    pub(crate) fn dissipates(&self) -> bool {
-        self.loss.iter().any(|&loss| loss > 0.0)
-    }
-
-    /// One free step of every mode; returns the energy lost in it (0 unless `DISSIPATES`).
-    #[inline(always)]
-    pub(crate) fn advance<S: Simd, const DISSIPATES: bool>(&mut self, simd: S) -> f64 {
-        let mut lost = simd.splat_f64s(0.0);
-        for index in 0..self.segments.len() {
-            lost = self.advance_segment::<S, DISSIPATES>(simd, index, lost);
+    fn start(&mut self, mode: &InitialMode, first_increment: impl Fn(f64, f64) -> f64) {
+        let segment = self.segments[mode.harmonic];
+        assert!(mode.family < segment.length, "an initial mode is one that is integrated");
+        let values = [(mode.displacement.re, mode.velocity.re), (mode.displacement.im, mode.velocity.im)];
+        for (start, (z, v)) in segment.parts().zip(values) {
+            self.state.z[start + mode.family] = z;
+            self.state.d[start + mode.family] = first_increment(z, v);
         }
-        simd.reduce_sum_f64s(lost)
     }
 
-    /// One step of every mode under `loads`, and the values of `rows` after it in Fourier coordinates,
-    /// `out[column][row]`. The loads complete the step before (Eq. 10), or with `NOW` act in this one. Returns the energy
-    /// lost.
+    /// Whether any mode loses energy.
+    pub(crate) fn dissipates(&self) -> bool {
+        self.coefficients.loss.iter().any(|&loss| loss > 0.0)
+    }
+
+    /// One free step of every mode.
     #[inline(always)]
-    pub(crate) fn advance_loaded<S: Simd, const DISSIPATES: bool, const NOW: bool>(
+    pub(crate) fn advance<S: Simd, const DISSIPATES: bool>(&mut self, simd: S) -> Exchange {
+        let mut sums = Sums::new(simd);
+        for &segment in &self.segments {
+            let of = self.coefficients.of::<S>(segment);
+            for start in segment.parts() {
+                let Part { z, d, .. } = self.state.part::<S>(segment, start, false);
+                for m in 0..of.keep.len() {
+                    let next = simd.negate_mul_add_e_f64s(of.pull[m], z[m], simd.mul_f64s(of.keep[m], d[m]));
+                    sums.add_loss::<DISSIPATES>(simd, simd.add_f64s(next, d[m]), of.loss[m]);
+                    d[m] = next;
+                    z[m] = simd.add_f64s(z[m], next);
+                }
+            }
+        }
+        sums.total(simd)
+    }
+
+    /// Completes the last step by `loads` on `rows` (Eq. 10), takes the next one free of them (Eq. 8), and reads `rows` in
+    /// Fourier coordinates, `out[column][row]`. Returns the exchange of the completed step.
+    #[inline(always)]
+    pub(crate) fn complete_and_predict<S: Simd, const DISSIPATES: bool>(
         &mut self,
         simd: S,
         rows: &Rows,
         loads: Loads<'_>,
         out: &mut [f64],
-    ) -> f64 {
-        let mut lost = simd.splat_f64s(0.0);
+    ) -> Exchange {
+        if loads.rows.is_empty() {
+            self.complete_and_predict_loaded::<S, DISSIPATES, false>(simd, rows, loads, out)
+        } else {
+            self.complete_and_predict_loaded::<S, DISSIPATES, true>(simd, rows, loads, out)
+        }
+    }
+
+    #[inline(always)]
+    fn complete_and_predict_loaded<S: Simd, const DISSIPATES: bool, const LOADED: bool>(
+        &mut self,
+        simd: S,
+        rows: &Rows,
+        loads: Loads<'_>,
+        out: &mut [f64],
+    ) -> Exchange {
+        let mut sums = Sums::new(simd);
         for index in 0..self.segments.len() {
-            if !NOW {
-                lost = self.load_segment::<S, DISSIPATES>(simd, index, rows, loads, lost);
+            if LOADED {
+                self.load_segment(simd, index, rows, loads);
             }
-            lost = self.advance_segment::<S, DISSIPATES>(simd, index, lost);
-            if NOW {
-                lost = self.load_segment::<S, DISSIPATES>(simd, index, rows, loads, lost);
+            let segment = self.segments[index];
+            let of = self.coefficients.of::<S>(segment);
+            for start in segment.parts() {
+                let Part { z, d, swing, force } = self.state.part::<S>(segment, start, true);
+                for m in 0..of.keep.len() {
+                    let (mut z_now, mut d_now) = (z[m], d[m]);
+                    if LOADED {
+                        let moved = simd.mul_f64s(of.receptance[m], force[m]);
+                        sums.add::<DISSIPATES>(simd, force[m], simd.add_f64s(swing[m], moved), of.loss[m]);
+                        z_now = simd.add_f64s(z_now, moved);
+                        d_now = simd.add_f64s(d_now, moved);
+                    } else {
+                        sums.add_loss::<DISSIPATES>(simd, swing[m], of.loss[m]);
+                    }
+                    let next =
+                        simd.negate_mul_add_e_f64s(of.pull[m], z_now, simd.mul_f64s(of.keep[m], d_now));
+                    swing[m] = simd.add_f64s(next, d_now);
+                    d[m] = next;
+                    z[m] = simd.add_f64s(z_now, next);
+                }
             }
             self.project_segment(simd, index, rows, out);
         }
-        simd.reduce_sum_f64s(lost)
+        sums.total(simd)
     }
 
-    /// Adds what `loads` on `rows` move within the last step; returns the further energy lost.
+    /// Completes the last step by `loads` on `rows` and returns its exchange.
     #[inline(always)]
     pub(crate) fn complete<S: Simd, const DISSIPATES: bool>(
         &mut self,
         simd: S,
         rows: &Rows,
         loads: Loads<'_>,
-    ) -> f64 {
-        let mut lost = simd.splat_f64s(0.0);
+    ) -> Exchange {
+        let mut sums = Sums::new(simd);
         for index in 0..self.segments.len() {
-            lost = self.load_segment::<S, DISSIPATES>(simd, index, rows, loads, lost);
+            self.load_segment(simd, index, rows, loads);
+            let segment = self.segments[index];
+            let of = self.coefficients.of::<S>(segment);
+            for start in segment.parts() {
+                let Part { z, d, swing, force } = self.state.part::<S>(segment, start, true);
+                for m in 0..of.keep.len() {
+                    let moved = simd.mul_f64s(of.receptance[m], force[m]);
+                    sums.add::<DISSIPATES>(simd, force[m], simd.add_f64s(swing[m], moved), of.loss[m]);
+                    z[m] = simd.add_f64s(z[m], moved);
+                    d[m] = simd.add_f64s(d[m], moved);
+                    swing[m] = simd.splat_f64s(0.0);
+                }
+            }
         }
-        simd.reduce_sum_f64s(lost)
+        sums.total(simd)
+    }
+
+    /// One step of every mode under `loads` on `rows`, which act from its start, and the values of `rows` at its end in
+    /// Fourier coordinates, `out[column][row]`.
+    #[inline(always)]
+    pub(crate) fn advance_loaded<S: Simd, const DISSIPATES: bool>(
+        &mut self,
+        simd: S,
+        rows: &Rows,
+        loads: Loads<'_>,
+        out: &mut [f64],
+    ) -> Exchange {
+        let mut sums = Sums::new(simd);
+        for index in 0..self.segments.len() {
+            self.load_segment(simd, index, rows, loads);
+            let segment = self.segments[index];
+            let of = self.coefficients.of::<S>(segment);
+            for start in segment.parts() {
+                let Part { z, d, force, .. } = self.state.part::<S>(segment, start, true);
+                for m in 0..of.keep.len() {
+                    let free = simd.negate_mul_add_e_f64s(of.pull[m], z[m], simd.mul_f64s(of.keep[m], d[m]));
+                    let next = simd.mul_add_e_f64s(of.receptance[m], force[m], free);
+                    sums.add::<DISSIPATES>(simd, force[m], simd.add_f64s(next, d[m]), of.loss[m]);
+                    d[m] = next;
+                    z[m] = simd.add_f64s(z[m], next);
+                }
+            }
+            self.project_segment(simd, index, rows, out);
+        }
+        sums.total(simd)
     }
 
     /// Values of `rows` in Fourier coordinates: `out[column][row]`, rows padded to `rows.stride`.
@@ -275,139 +359,47 @@ impl Oscillators {
     }
 
     #[inline(always)]
-    fn advance_segment<S: Simd, const DISSIPATES: bool>(
-        &mut self,
-        simd: S,
-        index: usize,
-        mut lost: S::f64s,
-    ) -> S::f64s {
-        let segment = self.segments[index];
-        let coefficients = segment.modes..segment.modes + segment.length;
-        let keep = S::as_simd_f64s(&self.keep[coefficients.clone()]).0;
-        let pull = S::as_simd_f64s(&self.pull[coefficients.clone()]).0;
-        let loss = S::as_simd_f64s(&self.loss[coefficients]).0;
-        let vectors = keep.len();
-        let (pull, loss) = (&pull[..vectors], &loss[..vectors]);
-        for part in 0..if segment.single { 1 } else { 2 } {
-            let start = segment.state + part * segment.length;
-            let Part { z, d, swing } = self.state.part::<S, DISSIPATES>(start, segment.length, vectors);
-            for m in 0..vectors {
-                if DISSIPATES {
-                    let next = simd.sub_f64s(simd.mul_f64s(keep[m], d[m]), simd.mul_f64s(pull[m], z[m]));
-                    let both = simd.add_f64s(next, d[m]);
-                    lost = simd.mul_add_e_f64s(loss[m], simd.mul_f64s(both, both), lost);
-                    swing[m] = both;
-                    d[m] = next;
-                } else {
-                    d[m] = simd.negate_mul_add_e_f64s(pull[m], z[m], d[m]);
-                }
-                z[m] = simd.add_f64s(z[m], d[m]);
-            }
-        }
-        lost
-    }
-
-    #[inline(always)]
     fn project_segment<S: Simd>(&self, simd: S, index: usize, rows: &Rows, out: &mut [f64]) {
-        let (segment, block) = (self.segments[index], &rows.blocks[index]);
-        let re = S::as_simd_f64s(&self.state.z[segment.state..][..segment.length]).0;
-        let out = &mut out[segment.column * rows.stride..];
-        if segment.single {
-            project_single(simd, re, block, segment.length, rows.count, out);
-        } else {
-            let im = S::as_simd_f64s(&self.state.z[segment.state + segment.length..][..segment.length]).0;
-            let (out_re, out_im) = out.split_at_mut(rows.stride);
-            project_pair(simd, re, im, block, segment.length, rows.count, out_re, out_im);
-        }
-    }
-
-    #[inline(always)]
-    fn load_segment<S: Simd, const DISSIPATES: bool>(
-        &mut self,
-        simd: S,
-        index: usize,
-        rows: &Rows,
-        loads: Loads<'_>,
-        mut lost: S::f64s,
-    ) -> S::f64s {
-        let force = loads.force;
-        for group in loads.rows.chunks(6) {
-            lost = match *group {
-                [a] => self.push::<S, DISSIPATES, 1>(simd, index, rows, [a], force, lost),
-                [a, b] => self.push::<S, DISSIPATES, 2>(simd, index, rows, [a, b], force, lost),
-                [a, b, c] => self.push::<S, DISSIPATES, 3>(simd, index, rows, [a, b, c], force, lost),
-                [a, b, c, d] => self.push::<S, DISSIPATES, 4>(simd, index, rows, [a, b, c, d], force, lost),
-                [a, b, c, d, e] => {
-                    self.push::<S, DISSIPATES, 5>(simd, index, rows, [a, b, c, d, e], force, lost)
-                }
-                [a, b, c, d, e, f, ..] => {
-                    self.push::<S, DISSIPATES, 6>(simd, index, rows, [a, b, c, d, e, f], force, lost)
-                }
-                [] => lost,
-            };
-        }
-        lost
-    }
-
-    /// [`Self::load_segment`] for R rows at once. Groups may follow each other: each updates the swing that the next
-    /// one's loss is counted from.
-    #[inline(always)]
-    fn push<S: Simd, const DISSIPATES: bool, const R: usize>(
-        &mut self,
-        simd: S,
-        index: usize,
-        rows: &Rows,
-        group: [usize; R],
-        force: &[f64],
-        mut lost: S::f64s,
-    ) -> S::f64s {
-        let Segment { single, length, modes, state, column } = self.segments[index];
+        let Segment { single, length, state, column, .. } = self.segments[index];
         let block = &rows.blocks[index];
-        let receptance = S::as_simd_f64s(&self.receptance[modes..modes + length]).0;
-        let loss = &S::as_simd_f64s(&self.loss[modes..modes + length]).0[..receptance.len()];
-        let force_re = gather(simd, &force[column * rows.stride..], group);
-        let phi_re = RowBlock::rows::<S, R>(&block.re, group, length, receptance.len());
+        let out = &mut out[column * rows.stride..];
+        let re = &self.state.z[state..][..length];
         if single {
-            let mut part = self.state.part::<S, DISSIPATES>(state, length, receptance.len());
-            for m in 0..receptance.len() {
-                let mut modal = simd.splat_f64s(0.0);
-                for r in 0..R {
-                    modal = simd.mul_add_e_f64s(phi_re[r][m], force_re[r], modal);
-                }
-                lost = part.shift(simd, m, simd.mul_f64s(receptance[m], modal), loss[m], lost);
-            }
-            return lost;
+            simd.vectorize(ProjectSingle { block, z: re, out: &mut out[..rows.count] });
+        } else {
+            let im = &self.state.z[state + length..][..length];
+            let (out_re, out_im) = out.split_at_mut(rows.stride);
+            let (out_re, out_im) = (&mut out_re[..rows.count], &mut out_im[..rows.count]);
+            simd.vectorize(ProjectPair { block, re, im, out_re, out_im });
         }
-        let force_im = gather(simd, &force[(column + 1) * rows.stride..], group);
-        let phi_im = RowBlock::rows::<S, R>(&block.im, group, length, receptance.len());
-        let (mut re, mut im) = self.state.pair::<S, DISSIPATES>(state, length, receptance.len());
-        for m in 0..receptance.len() {
-            // φᴴ f̂: (φ_re − jφ_im)(f_re + jf_im)
-            let mut modal_re = simd.splat_f64s(0.0);
-            let mut modal_im = simd.splat_f64s(0.0);
-            for r in 0..R {
-                let (p, q) = (phi_re[r][m], phi_im[r][m]);
-                modal_re = simd.mul_add_e_f64s(p, force_re[r], modal_re);
-                modal_im = simd.mul_add_e_f64s(p, force_im[r], modal_im);
-                modal_re = simd.mul_add_e_f64s(q, force_im[r], modal_re);
-                modal_im = simd.negate_mul_add_e_f64s(q, force_re[r], modal_im);
-            }
-            lost = re.shift(simd, m, simd.mul_f64s(receptance[m], modal_re), loss[m], lost);
-            lost = im.shift(simd, m, simd.mul_f64s(receptance[m], modal_im), loss[m], lost);
+    }
+
+    /// φᴴ f̂ of one nodal diameter, its modal forces.
+    #[inline(always)]
+    fn load_segment<S: Simd>(&mut self, simd: S, index: usize, rows: &Rows, loads: Loads<'_>) {
+        let Segment { single, length, column, .. } = self.segments[index];
+        let block = &rows.blocks[index];
+        let force = &loads.force[column * rows.stride..];
+        if single {
+            let out = &mut self.state.force[..length];
+            simd.vectorize(LoadSingle { block, loaded: loads.rows, force, out });
+        } else {
+            let (force_re, force_im) = force.split_at(rows.stride);
+            let (re, im) = self.state.force[..2 * length].split_at_mut(length);
+            simd.vectorize(LoadPair { block, loaded: loads.rows, force_re, force_im, re, im });
         }
-        lost
     }
 
     /// E of the last step in the discrete identity (see [`super::schemes`]).
     pub(crate) fn energy(&self) -> f64 {
+        let Coefficients { inertia, stiffness, .. } = &self.coefficients;
         let mut twice = 0.0;
         for segment in &self.segments {
-            for part in 0..if segment.single { 1 } else { 2 } {
-                let start = segment.state + part * segment.length;
+            for start in segment.parts() {
                 for m in 0..segment.length {
                     let (z, d) = (self.state.z[start + m], self.state.d[start + m]);
                     let mode = segment.modes + m;
-                    twice += self.inertia[mode] * d * d + self.stiffness[mode] * (z - d) * z;
+                    twice += inertia[mode] * d * d + stiffness[mode] * (z - d) * z;
                 }
             }
         }
@@ -416,13 +408,13 @@ impl Oscillators {
 
     /// Displacement per unit force of mode `family` of nodal diameter `harmonic` within a step.
     pub(crate) fn receptance(&self, harmonic: usize, family: usize) -> f64 {
-        self.receptance[self.segments[harmonic].modes + family]
+        self.coefficients.receptance[self.segments[harmonic].modes + family]
     }
 
     /// Brings to rest what has decayed below any meaning, before its numbers become denormal.
     #[inline(always)]
     pub(crate) fn quench(&mut self) {
-        for values in [&mut self.state.z, &mut self.state.d] {
+        for values in [&mut self.state.z, &mut self.state.d, &mut self.state.swing] {
             for value in values {
                 *value = if value.abs() < VANISHED { 0.0 } else { *value };
             }
@@ -434,12 +426,55 @@ impl Oscillators {
 /// of [`Oscillators::quench`] no scheme shrinks them by as much again.
 const VANISHED: f64 = 1e-100;
 
-/// Each of `group`'s values in every lane. A loop and no closure: a closure would be compiled without the wide vectors.
-#[inline(always)]
-fn gather<S: Simd, const R: usize>(simd: S, values: &[f64], group: [usize; R]) -> [S::f64s; R] {
-    let mut lanes = [simd.splat_f64s(0.0); R];
-    for (lane, row) in lanes.iter_mut().zip(group) {
-        *lane = simd.splat_f64s(values[row]);
+/// [`Coefficients`] of one nodal diameter, as vectors.
+struct Slices<'a, S: Simd> {
+    keep: &'a [S::f64s],
+    pull: &'a [S::f64s],
+    receptance: &'a [S::f64s],
+    loss: &'a [S::f64s],
+}
+
+impl Coefficients {
+    #[inline(always)]
+    fn of<S: Simd>(&self, segment: Segment) -> Slices<'_, S> {
+        let range = segment.modes..segment.modes + segment.length;
+        let keep = S::as_simd_f64s(&self.keep[range.clone()]).0;
+        // Cut to one length, so that no index needs a check.
+        Slices {
+            keep,
+            pull: &S::as_simd_f64s(&self.pull[range.clone()]).0[..keep.len()],
+            receptance: &S::as_simd_f64s(&self.receptance[range.clone()]).0[..keep.len()],
+            loss: &S::as_simd_f64s(&self.loss[range]).0[..keep.len()],
+        }
     }
-    lanes
+}
+
+/// One part (real or imaginary) of one nodal diameter's state, as vectors.
+struct Part<'a, S: Simd> {
+    z: &'a mut [S::f64s],
+    d: &'a mut [S::f64s],
+    swing: &'a mut [S::f64s],
+    force: &'a [S::f64s],
+}
+
+impl State {
+    /// The part of `segment` at `start`; `swing` and `force` are empty unless `touching`.
+    #[inline(always)]
+    fn part<S: Simd>(&mut self, segment: Segment, start: usize, touching: bool) -> Part<'_, S> {
+        let range = start..start + segment.length;
+        let (swing, force) = if touching {
+            (range.clone(), start - segment.state..start - segment.state + segment.length)
+        } else {
+            (0..0, 0..0)
+        };
+        let z = S::as_mut_simd_f64s(&mut self.z[range.clone()]).0;
+        let vectors = z.len();
+        let touched = if touching { vectors } else { 0 };
+        Part {
+            d: &mut S::as_mut_simd_f64s(&mut self.d[range]).0[..vectors],
+            swing: &mut S::as_mut_simd_f64s(&mut self.swing[swing]).0[..touched],
+            force: &S::as_simd_f64s(&self.force[force]).0[..touched],
+            z,
+        }
+    }
 }

@@ -32,25 +32,31 @@ pub(crate) struct Rows {
     pub(super) blocks: Vec<RowBlock>,
 }
 
-/// dᵀφ_m of each row direction d: row-major `[row][mode]`, modes padded.
+/// dᵀφ_m of each row direction d, real and imaginary parts.
 #[derive(Debug, Clone)]
 pub(super) struct RowBlock {
-    pub(super) re: Vec<f64>,
-    pub(super) im: Vec<f64>,
+    pub(super) re: Matrix,
+    pub(super) im: Matrix,
 }
 
-impl RowBlock {
-    /// The rows of `group` in `part` (`re` or `im`), each cut to `vectors` vectors so that no index needs a check.
+/// Row-major `[row][mode]`, modes padded to `length`.
+#[derive(Debug, Clone)]
+pub(super) struct Matrix {
+    length: usize,
+    values: Vec<f64>,
+}
+
+impl Matrix {
+    fn zeros(rows: usize, length: usize) -> Self {
+        Self { length, values: vec![0.0; rows * length] }
+    }
+
+    /// The rows of `group`, each cut to `vectors` vectors so that no index needs a check.
     #[inline(always)]
-    pub(super) fn rows<S: Simd, const R: usize>(
-        part: &[f64],
-        group: [usize; R],
-        length: usize,
-        vectors: usize,
-    ) -> [&[S::f64s]; R] {
+    pub(super) fn rows<S: Simd, const R: usize>(&self, group: [usize; R], vectors: usize) -> [&[S::f64s]; R] {
         let mut rows: [&[S::f64s]; R] = [&[]; R];
         for (slice, row) in rows.iter_mut().zip(group) {
-            *slice = &S::as_simd_f64s(&part[row * length..][..length]).0[..vectors];
+            *slice = &S::as_simd_f64s(&self.values[row * self.length..][..self.length]).0[..vectors];
         }
         rows
     }
@@ -74,13 +80,13 @@ impl Rows {
 
 fn row_block(contact: &Mat<c64>, directions: &[Direction], modes: usize) -> RowBlock {
     let length = padded(modes);
-    let mut block =
-        RowBlock { re: vec![0.0; directions.len() * length], im: vec![0.0; directions.len() * length] };
+    let zeros = || Matrix::zeros(directions.len(), length);
+    let mut block = RowBlock { re: zeros(), im: zeros() };
     for (row, direction) in directions.iter().enumerate() {
         for m in 0..modes {
             let value = direction.of(contact.as_ref(), m);
-            block.re[row * length + m] = value.re;
-            block.im[row * length + m] = value.im;
+            block.re.values[row * length + m] = value.re;
+            block.im.values[row * length + m] = value.im;
         }
     }
     block

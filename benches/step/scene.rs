@@ -1,0 +1,171 @@
+//! The default impeller in front of a casing with two lobes, as the service would integrate it.
+
+use rubmap::analysis::auto_or::AutoOr;
+use rubmap::analysis::monitor::Unwatched;
+use rubmap::analysis::request::{
+    Component, Integration, SchemeChoice, Sensor, SpeedUnit, Speeds, SweepRequest,
+};
+use rubmap::analysis::result::PointStatus;
+use rubmap::analysis::run::{ReducedSector, prepare, run_speed};
+use rubmap::analysis::scene as request;
+use rubmap::dynamics::casing::{Casing, Restriction};
+use rubmap::dynamics::integrate::{SensorRow, Simulation};
+use rubmap::dynamics::modal_wheel::ModalWheel;
+use rubmap::dynamics::oscillators::{Direction, ModalDamping};
+use rubmap::dynamics::reduction::NoCheckpoints;
+use rubmap::dynamics::schemes::Scheme;
+
+pub(crate) const SPEED: f64 = 2500.0;
+pub(crate) const DAMPING: f64 = 0.005;
+/// Clearance at which some blade touches in every step once the restriction has grown.
+pub(crate) const TOUCHING: f64 = 0.30;
+/// Clearance at which none ever does.
+pub(crate) const FREE: f64 = 2.0;
+
+/// A wheel, its damping and its scene.
+pub(crate) struct Scene {
+    pub(crate) reduced: ReducedSector,
+    pub(crate) modal: ModalWheel,
+    pub(crate) damping: ModalDamping,
+    pub(crate) stiffening: bool,
+    modes: usize,
+}
+
+/// A scheme and its steps per revolution.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Stepping {
+    pub(crate) scheme: Scheme,
+    pub(crate) steps: usize,
+}
+
+impl Scene {
+    /// With `modes` fixed-interface modes at each of the first `stiffnesses` speeds of the default impeller.
+    pub(crate) fn new(modes: usize, stiffnesses: usize) -> Self {
+        let package = rubmap::impeller::generate(&Default::default()).expect("the defaults are valid");
+        let mut sector = rubmap::package::to_sector(package).expect("the generator makes valid packages");
+        sector.stiffness.truncate(stiffnesses);
+        sector.speeds_rad_s.truncate(stiffnesses);
+        let reduced = prepare(&sector, modes as u32, None, &NoCheckpoints, &Unwatched)
+            .expect("the default impeller is sound");
+        let stiffening = stiffnesses == 3;
+        let modal = ModalWheel::at(&reduced.wheel, SPEED, stiffening).expect("the default impeller is sound");
+        let damping = ModalDamping { modal_ratio: DAMPING, family_ratios: Vec::new() };
+        Self { reduced, modal, damping, stiffening, modes }
+    }
+
+    /// The casing with this clearance at every node.
+    pub(crate) fn casing(&self, clearance: f64) -> Casing {
+        Casing {
+            clearance: vec![clearance; self.reduced.wheel.contact.len()],
+            restriction: Some(Restriction { count: 2, amplitude: 0.425, width_rad: 0.35, phase_rad: 0.0 }),
+            ramp_revolutions: 1.0,
+        }
+    }
+
+    /// The request for [`Self::casing`] with contact at every speed of `speeds_rad_s`.
+    pub(crate) fn request(
+        &self,
+        scheme: SchemeChoice,
+        kept_modes: AutoOr,
+        revolutions: usize,
+        speeds_rad_s: Vec<f64>,
+    ) -> SweepRequest {
+        let casing = self.casing(TOUCHING);
+        let lobes = casing.restriction.map(|lobes| request::Lobes {
+            count: lobes.count,
+            amplitude: lobes.amplitude,
+            width_rad: lobes.width_rad,
+            phase_rad: lobes.phase_rad,
+        });
+        let clearance = request::Clearance { leading: None, trailing: None, values: Some(casing.clearance) };
+        let last = self.reduced.wheel.contact.len() as u32 - 1;
+        let sensor = |contact_node| Sensor { contact_node, sector: 0, component: Component::Radial };
+        SweepRequest {
+            model: String::new(),
+            modes_per_speed: self.modes as u32,
+            speeds: Speeds {
+                from: None,
+                to: None,
+                count: None,
+                values: Some(speeds_rad_s),
+                unit: SpeedUnit::RadS,
+            },
+            scene: request::Scene {
+                centrifugal_stiffening: self.stiffening,
+                damping: Some(request::Damping { modal_ratio: DAMPING, family_ratios: Vec::new() }),
+                casing: Some(request::Casing { clearance, lobes }),
+                contact: Some(request::Contact {}),
+            },
+            integration: Integration {
+                scheme,
+                kept_modes,
+                steps_per_revolution: AutoOr::Auto,
+                revolutions: revolutions as u32,
+                ramp_revolutions: casing.ramp_revolutions,
+                window_revolutions: 1,
+            },
+            sensors: vec![sensor(0), sensor(last)],
+            max_engine_order: 24,
+        }
+    }
+
+    /// `scheme` with the step that `auto` gives it against the casing.
+    pub(crate) fn automatic(&self, scheme: SchemeChoice, kept_modes: AutoOr) -> Stepping {
+        let request = self.request(scheme, kept_modes, 1, vec![SPEED]);
+        let point = run_speed(&self.reduced, &request, 0, &Unwatched).expect("nobody cancels").point;
+        assert_eq!(point.status, PointStatus::Completed, "{:?}", point.message);
+        let report = point.scheme.expect("a completed run has a scheme");
+        let scheme = match (report.name, report.kept_modes) {
+            (SchemeChoice::CentralDifferences, _) => Scheme::CentralDifferences,
+            (SchemeChoice::ExactModal, _) => Scheme::ExactModal,
+            (SchemeChoice::MasslessBoundary, Some(kept)) => {
+                Scheme::MasslessBoundary { kept_modes: kept as usize }
+            }
+            other => panic!("{other:?} is no scheme"),
+        };
+        Stepping { scheme, steps: point.steps_per_revolution as usize }
+    }
+
+    /// Every scheme at its own automatic step.
+    pub(crate) fn schemes(&self) -> [Stepping; 3] {
+        [SchemeChoice::CentralDifferences, SchemeChoice::ExactModal, SchemeChoice::MasslessBoundary]
+            .map(|scheme| self.automatic(scheme, AutoOr::Auto))
+    }
+
+    /// One revolution from rest, with as many samples as the service takes.
+    pub(crate) fn simulation<'a>(
+        &'a self,
+        stepping: Stepping,
+        casing: &'a Casing,
+        sensors: &'a [SensorRow],
+    ) -> Simulation<'a> {
+        let Stepping { scheme, steps } = stepping;
+        Simulation {
+            wheel: &self.modal,
+            contact_nodes: &self.reduced.wheel.contact,
+            damping: Some(&self.damping),
+            casing: Some(casing),
+            initial: &[],
+            scheme,
+            sensors,
+            steps_per_revolution: steps,
+            samples_per_revolution: (192..steps).find(|s| steps.is_multiple_of(*s)).unwrap_or(steps),
+            revolutions: 1,
+            window_revolutions: 1,
+        }
+    }
+}
+
+/// The radial displacement of a contact node.
+pub(crate) fn radial(node: usize, sector: usize) -> SensorRow {
+    SensorRow { direction: Direction { node, components: [1.0, 0.0, 0.0] }, sector }
+}
+
+/// A scheme in the words of the service.
+pub(crate) fn name(scheme: Scheme) -> String {
+    match scheme {
+        Scheme::CentralDifferences => "`central_differences`".into(),
+        Scheme::ExactModal => "`exact_modal`".into(),
+        Scheme::MasslessBoundary { kept_modes } => format!("`massless_boundary`, {kept_modes} modes"),
+    }
+}

@@ -1,0 +1,61 @@
+//! Displacements through the modes that are not integrated (METHOD §12), where they are read.
+
+use faer::{Mat, c64};
+
+use super::super::contact::flexibility::outward_normals;
+use super::super::oscillators::Direction;
+use super::super::schemes::Scheme;
+use super::super::schemes::massless_boundary::residual_flexibility;
+use super::Simulation;
+
+/// F f of some rows; nothing if the scheme integrates every mode.
+#[derive(Debug)]
+pub(super) struct ResidualDisplacement {
+    harmonics: Vec<Harmonic>,
+}
+
+#[derive(Debug)]
+struct Harmonic {
+    /// Rows × contact nodes.
+    flexibility: Mat<c64>,
+    /// Fourier column of the real part.
+    column: usize,
+    single: bool,
+}
+
+impl ResidualDisplacement {
+    pub(super) fn new(simulation: &Simulation<'_>, rows: &[Direction]) -> Self {
+        let mut harmonics = Vec::new();
+        if let (Scheme::MasslessBoundary { kept_modes }, Some(_)) = (simulation.scheme, simulation.casing) {
+            let normals = outward_normals(simulation.contact_nodes);
+            let blocks = residual_flexibility(simulation.wheel, kept_modes, rows, &normals);
+            let mut column = 0;
+            for (modes, flexibility) in simulation.wheel.harmonics.iter().zip(blocks) {
+                harmonics.push(Harmonic { flexibility, column, single: modes.single });
+                column += if modes.single { 1 } else { 2 };
+            }
+        }
+        Self { harmonics }
+    }
+
+    /// Adds to `out[column][row]` (rows padded to `stride`) what `force[column][node]` (nodes padded to `force_stride`)
+    /// moves.
+    pub(super) fn add(&self, force: &[f64], force_stride: usize, out: &mut [f64], stride: usize) {
+        for Harmonic { flexibility, column, single } in &self.harmonics {
+            for node in 0..flexibility.ncols() {
+                let re = force[column * force_stride + node];
+                let im = if *single { 0.0 } else { force[(column + 1) * force_stride + node] };
+                if re == 0.0 && im == 0.0 {
+                    continue;
+                }
+                for row in 0..flexibility.nrows() {
+                    let moved = flexibility[(row, node)] * c64::new(re, im);
+                    out[column * stride + row] += moved.re;
+                    if !single {
+                        out[(column + 1) * stride + row] += moved.im;
+                    }
+                }
+            }
+        }
+    }
+}

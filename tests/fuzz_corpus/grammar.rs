@@ -1,0 +1,239 @@
+//! Sweep requests as text: sound ones of every feature, with up to three of their parts replaced, doubled or taken out.
+
+use proptest::prelude::*;
+use proptest::sample::{Index, select};
+use serde_json::{Value, json};
+
+/// What stands for a part that is replaced: wrong types, numbers at and beyond every limit, text that is no JSON.
+const NASTY: [&str; 50] = [
+    "null",
+    "true",
+    "\"\"",
+    "\"auto\"",
+    "\"0.3\"",
+    "\"\\u0000\\ud83d\\ude00\"",
+    "[]",
+    "{}",
+    "[[]]",
+    "[0]",
+    "[0.25,0.25,0.25]",
+    "[1e-300,0,1e300]",
+    "NaN",
+    "Infinity",
+    "-",
+    "0",
+    "-0",
+    "-0.0",
+    "1",
+    "-1",
+    "2",
+    "3",
+    "99",
+    "100",
+    "101",
+    "500",
+    "1000",
+    "1001",
+    "100000",
+    "10000000",
+    "4294967295",
+    "4294967296",
+    "18446744073709551616",
+    "123456789012345678901234567890",
+    "0.1",
+    "0.049999999",
+    "0.9999999999999999",
+    "1.0000000000000002",
+    "1e-4",
+    "1e-12",
+    "9e-31",
+    "1e-300",
+    "5e-324",
+    "1e7",
+    "1e12",
+    "1e16",
+    "1e31",
+    "1e300",
+    "1.7976931348623157e308",
+    "1e999",
+];
+
+/// What is done to a part.
+#[derive(Debug, Clone)]
+enum Change {
+    Replace(&'static str),
+    /// A field given twice, an element repeated.
+    Double,
+    Remove,
+    /// A further field or element, deeply nested.
+    Add,
+}
+
+/// Bodies.
+pub(crate) fn request() -> impl Strategy<Value = String> {
+    let change = prop_oneof![
+        8 => select(&NASTY[..]).prop_map(Change::Replace),
+        1 => Just(Change::Double),
+        1 => Just(Change::Remove),
+        1 => Just(Change::Add),
+    ];
+    (sound(), prop::collection::vec((any::<Index>(), change), 0..4))
+        .prop_map(|(request, changes)| changed(request, &changes))
+}
+
+/// Requests that are mostly accepted and quickly run. Lengths are some tenths of a millimetre and speeds those of the
+/// model, where contact is frequent; each also has extremes that are legal.
+fn sound() -> impl Strategy<Value = Value> {
+    let scene = (any::<bool>(), option(damping()), option(casing()), any::<bool>()).prop_map(
+        |(stiffening, damping, casing, contact)| {
+            let mut scene = json!({"centrifugal_stiffening": stiffening});
+            if let Some(damping) = damping {
+                scene["damping"] = damping;
+            }
+            if let Some(casing) = casing {
+                scene["casing"] = casing;
+                if contact {
+                    scene["contact"] = json!({});
+                }
+            }
+            scene
+        },
+    );
+    (speeds(), scene, integration(), prop::collection::vec(sensor(), 0..3), 1..=30u32).prop_map(
+        |(speeds, scene, integration, sensors, engine_order)| {
+            json!({
+                "model": "m", "modes_per_speed": 4, "speeds": speeds, "scene": scene, "integration": integration,
+                "sensors": sensors, "max_engine_order": engine_order
+            })
+        },
+    )
+}
+
+/// Present three times in four.
+fn option(of: impl Strategy<Value = Value>) -> impl Strategy<Value = Option<Value>> {
+    prop::option::weighted(0.75, of)
+}
+
+fn speeds() -> impl Strategy<Value = Value> {
+    let speed = prop_oneof![8 => 300.0..3000.0, 1 => select(vec![1e-12, 1e-3, 30.0, 2999.9999999, 3000.0])];
+    prop_oneof![
+        prop::collection::vec(speed, 1..4).prop_map(|values| json!({"values": values, "unit": "rad_s"})),
+        (1000.0..20000.0, 1..3u32).prop_map(
+            |(from, count)| json!({"from": from, "to": from + f64::from(count - 1), "count": count, "unit": "rpm"})
+        ),
+    ]
+}
+
+fn damping() -> impl Strategy<Value = Value> {
+    let ratio = || select(vec![0.0, 1e-12, 0.001, 0.02, 0.3, 0.999_999]);
+    (ratio(), prop::collection::vec(ratio(), 0..4))
+        .prop_map(|(modal, family)| json!({"modal_ratio": modal, "family_ratios": family}))
+}
+
+fn casing() -> impl Strategy<Value = Value> {
+    let length =
+        || prop_oneof![4 => 0.1..0.5, 1 => select(vec![0.0, 1e-30, 1e-12, 1e-3, 5.0, 1e6, 1e15, 1e30])];
+    let clearance = prop_oneof![
+        (length(), length())
+            .prop_map(|(leading, trailing)| json!({"leading": leading, "trailing": trailing})),
+        prop::collection::vec(length(), 3).prop_map(|values| json!({"values": values})),
+    ];
+    let count = prop_oneof![4 => 1..8u32, 1 => Just(100)];
+    let width = prop_oneof![4 => 0.05..1.0, 1 => select(vec![0.02, 7.0, 100.0])];
+    let lobes = (count, length(), width, -1000.0..1000.0).prop_map(|(count, amplitude, width, phase)| {
+        json!({"count": count, "amplitude": amplitude, "width_rad": width, "phase_rad": phase})
+    });
+    (clearance, option(lobes)).prop_map(|(clearance, lobes)| {
+        let mut casing = json!({"clearance": clearance});
+        if let Some(lobes) = lobes {
+            casing["lobes"] = lobes;
+        }
+        casing
+    })
+}
+
+fn integration() -> impl Strategy<Value = Value> {
+    let steps = prop_oneof![3 => (61..2000u32).prop_map(Value::from), 1 => Just(json!("auto"))];
+    let scheme = select(vec!["auto", "central_differences", "exact_modal", "massless_boundary"]);
+    let kept = prop_oneof![2 => (1..30u32).prop_map(Value::from), 1 => Just(json!("auto"))];
+    (1..4u32, 0..2u32, select(vec![0.0, 0.05, 0.5, 1.0]), steps, scheme, kept).prop_map(
+        |(window, before, ramp, steps, scheme, kept)| {
+            let mut integration = json!({
+                "window_revolutions": window, "revolutions": window + before.max(ramp as u32 + 1),
+                "ramp_revolutions": ramp, "steps_per_revolution": steps, "scheme": scheme
+            });
+            if scheme == "massless_boundary" {
+                integration["kept_modes"] = kept;
+            }
+            integration
+        },
+    )
+}
+
+fn sensor() -> impl Strategy<Value = Value> {
+    let component = select(vec!["radial", "tangential", "axial", "normal"]);
+    (0..3u32, 0..6u32, component).prop_map(
+        |(node, sector, component)| json!({"contact_node": node, "sector": sector, "component": component}),
+    )
+}
+
+/// `request` as text with `changes` made to parts drawn from all of it.
+fn changed(mut request: Value, changes: &[(Index, Change)]) -> String {
+    // Text that a `Value` cannot hold stands behind a mark until the end.
+    let mut marked = Vec::new();
+    for (place, change) in changes {
+        let mut pointers = Vec::new();
+        collect(&request, String::new(), &mut pointers);
+        if pointers.is_empty() {
+            break;
+        }
+        let pointer = place.get(&pointers);
+        let (parent, key) = pointer.rsplit_once('/').unwrap();
+        let mut mark = |part: &mut Value, text: String| {
+            *part = Value::from(format!("mark {}", marked.len()));
+            marked.push((part.to_string(), text));
+        };
+        let part = request.pointer_mut(pointer).unwrap();
+        match change {
+            Change::Replace(text) => mark(part, (*text).to_owned()),
+            Change::Double => {
+                let again = if key.parse::<usize>().is_ok() { String::new() } else { format!("\"{key}\":") };
+                let text = format!("{part},{again}{part}");
+                mark(part, text);
+            }
+            Change::Remove => match request.pointer_mut(parent).unwrap() {
+                Value::Object(fields) => _ = fields.remove(key),
+                Value::Array(elements) => _ = elements.remove(key.parse().unwrap()),
+                _ => unreachable!("a parent has children"),
+            },
+            Change::Add => {
+                let text = format!("{}{}", "[".repeat(200), "]".repeat(200));
+                match part {
+                    Value::Object(fields) => mark(fields.entry("further").or_insert(Value::Null), text),
+                    other => mark(other, text),
+                }
+            }
+        }
+    }
+    let mut text = request.to_string();
+    for (mark, with) in marked.iter().rev() {
+        text = text.replace(mark, with);
+    }
+    text
+}
+
+/// Pointers to all parts below the root.
+fn collect(value: &Value, at: String, pointers: &mut Vec<String>) {
+    let children: Vec<(String, &Value)> = match value {
+        Value::Object(fields) => fields.iter().map(|(key, child)| (key.clone(), child)).collect(),
+        Value::Array(elements) => {
+            elements.iter().enumerate().map(|(index, child)| (index.to_string(), child)).collect()
+        }
+        _ => return,
+    };
+    for (key, child) in children {
+        let pointer = format!("{at}/{key}");
+        pointers.push(pointer.clone());
+        collect(child, pointer, pointers);
+    }
+}

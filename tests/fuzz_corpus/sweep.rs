@@ -1,0 +1,248 @@
+//! Any bytes as the body of a sweep request: parsed, resolved, checked, integrated and summarised on a small wheel.
+//!
+//! A refusal is a fine end. A panic, a violation that points nowhere, a completed speed whose numbers are not sound and a
+//! failed one that shows numbers are not.
+
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use rubmap::analysis::auto_or::AutoOr;
+use rubmap::analysis::error::{AnalysisError, Violation};
+use rubmap::analysis::monitor::{Monitor, Unwatched};
+use rubmap::analysis::request::{Component, SchemeChoice, SweepRequest};
+use rubmap::analysis::result::{Point, PointStatus, SpeedResult};
+use rubmap::analysis::run::{
+    ModelFacts, ReducedSector, check, critical_speeds, interaction_map, map_row, prepare, resolve_sweep,
+    run_speed,
+};
+use rubmap::dynamics::casing::Restriction;
+use rubmap::dynamics::modal_wheel::ModalWheel;
+use rubmap::dynamics::reduction::NoCheckpoints;
+use rubmap::dynamics::schemes::Scheme;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+
+use crate::fixtures::{WheelRecipe, wheel};
+
+/// How far a body got.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum End {
+    /// It is no sweep request.
+    NotParsed,
+    /// The request was refused, every violation at a pointer into it.
+    Refused,
+    /// More work than a quick run does.
+    TooLong,
+    /// Every speed was integrated or failed by name.
+    Ran {
+        /// Speeds that were integrated to the end.
+        completed: usize,
+    },
+}
+
+/// Steps × sensors over all speeds of a request that is still run: some ten milliseconds.
+const BUDGET: f64 = 60_000.0;
+
+/// The wheel: enough for pairs and both single nodal diameters, stiffening, and several nodes in contact.
+struct Model {
+    facts: ModelFacts,
+    reduced: ReducedSector,
+}
+
+fn model() -> &'static Model {
+    static MODEL: OnceLock<Model> = OnceLock::new();
+    MODEL.get_or_init(|| {
+        let sector = wheel(WheelRecipe { sectors: 6, ..Default::default() });
+        let reduced = prepare(&sector, 4, None, &NoCheckpoints, &Unwatched).unwrap();
+        Model { facts: ModelFacts::of(&sector), reduced }
+    })
+}
+
+/// Does with `body` what the service does with the body of a sweep; panics if anything about it is not sound.
+pub(crate) fn run(body: &[u8]) -> End {
+    let Ok(request) = serde_json::from_slice::<SweepRequest>(body) else { return End::NotParsed };
+    let Model { facts, reduced } = model();
+    let asked = serde_json::to_value(&request).unwrap();
+    let request = match resolve_sweep(request, facts) {
+        Ok(request) => request,
+        Err(violations) => return refused(&violations, &asked),
+    };
+    survives_json(&request);
+    assert_eq!(resolve_sweep(request.clone(), facts).as_ref(), Ok(&request), "resolved twice");
+    let speeds = request.speeds.resolve().unwrap();
+    if work(reduced, &request, &speeds) > BUDGET {
+        return End::TooLong;
+    }
+    let watch = Patience::default();
+    match check(reduced, &request, &watch) {
+        Ok(()) => {}
+        Err(AnalysisError::Refused(violations)) => return refused(&violations, &asked),
+        Err(error) => panic!("{error}"),
+    }
+    let mut results = Vec::with_capacity(speeds.len());
+    for index in 0..speeds.len() {
+        match run_speed(reduced, &request, index, &watch) {
+            Ok(result) => results.push(result),
+            Err(AnalysisError::Cancelled) => return End::TooLong,
+            Err(error) => panic!("{error}"),
+        }
+    }
+    for (index, result) in results.iter().enumerate() {
+        assert_eq!((result.point.index as usize, result.point.speed_rad_s), (index, speeds[index]));
+        sound(result, &request);
+    }
+    summaries_survive(&request, &results);
+    let completed = results.iter().filter(|result| result.point.status == PointStatus::Completed).count();
+    End::Ran { completed }
+}
+
+/// Every violation says something about a place that is in the request.
+fn refused(violations: &[Violation], request: &Value) -> End {
+    assert!(!violations.is_empty());
+    for Violation { pointer, message } in violations {
+        assert!(pointer.starts_with('/') && request.pointer(pointer).is_some(), "{pointer}: {message}");
+        assert!(!message.is_empty(), "{pointer}");
+    }
+    End::Refused
+}
+
+/// Upper bound of steps × sensors over all speeds.
+fn work(reduced: &ReducedSector, request: &SweepRequest, speeds: &[f64]) -> f64 {
+    let integration = &request.integration;
+    let per_step = f64::from(integration.revolutions) * request.sensors.len() as f64;
+    // A speed costs its eigenvalues at least.
+    let mut work = speeds.len() as f64 * 1000.0;
+    for &speed in speeds {
+        if work > BUDGET {
+            break;
+        }
+        let steps = match integration.steps_per_revolution {
+            AutoOr::Fixed(steps) => f64::from(steps),
+            AutoOr::Auto => auto_steps(reduced, request, speed),
+        };
+        work += steps * per_step;
+    }
+    work
+}
+
+/// Upper bound of the steps per revolution that `"auto"` takes.
+fn auto_steps(reduced: &ReducedSector, request: &SweepRequest, speed: f64) -> f64 {
+    // A speed that cannot be evaluated, or needs more steps than there may be, fails without a step.
+    let Ok(wheel) = ModalWheel::at(&reduced.wheel, speed, request.scene.centrifugal_stiffening) else {
+        return 0.0;
+    };
+    // No scheme takes more than central differences, but for a boundary left with little flexibility.
+    let scheme = match request.integration.kept_modes {
+        AutoOr::Fixed(kept) => Scheme::MasslessBoundary { kept_modes: kept as usize },
+        AutoOr::Auto => Scheme::CentralDifferences,
+    };
+    let stable = scheme.smallest_stable_steps(&wheel, &reduced.wheel.contact) as f64 / 0.4;
+    let lobes = request.scene.casing.as_ref().and_then(|casing| casing.lobes.as_ref());
+    let seen = lobes.map_or(0.0, |lobes| 63.0 / lobes.width_rad);
+    let steps = stable.max(seen).max(3600.0);
+    if steps > 3e7 { 0.0 } else { steps }
+}
+
+/// Ends what takes longer than [`work`] foresaw.
+#[derive(Default)]
+struct Patience(AtomicUsize);
+
+impl Monitor for Patience {
+    fn progress(&self, _fraction: f64, _phase: &str) {}
+
+    fn is_cancelled(&self) -> bool {
+        self.0.fetch_add(1, Ordering::Relaxed) > 1000
+    }
+}
+
+/// What a speed may claim: all its credentials if it was integrated to the end, no amplitudes and a reason if not.
+fn sound(result: &SpeedResult, request: &SweepRequest) {
+    survives_json(result);
+    let point = &result.point;
+    assert!((0.0..=1.0).contains(&point.contact_share), "{point:?}");
+    if point.status != PointStatus::Completed {
+        assert!(point.message.as_ref().is_some_and(|message| !message.is_empty()), "{point:?}");
+        assert!(
+            result.spectra.is_none() && point.responses.is_empty() && point.settling.is_none(),
+            "{point:?}"
+        );
+        return;
+    }
+    assert!(point.message.is_none() && point.settling.is_some(), "{point:?}");
+    let scheme = point.scheme.as_ref().unwrap();
+    assert!(
+        scheme.name != SchemeChoice::Auto && !scheme.reason.is_empty() && scheme.reach_hz >= 0.0,
+        "{point:?}"
+    );
+    let revolutions = u64::from(request.integration.revolutions);
+    assert_eq!(point.steps, revolutions * u64::from(point.steps_per_revolution), "{point:?}");
+    assert!(point.steps_per_revolution >= point.smallest_stable_steps_per_revolution, "{point:?}");
+    assert!(point.contact_impulse.unwrap() >= 0.0 && point.largest_energy.unwrap() >= 0.0, "{point:?}");
+    assert!(point.smallest_multiplier.is_none_or(|lambda| lambda >= 0.0), "{point:?}");
+    // The README's bound of a healthy run.
+    assert!(point.energy_residual.unwrap() <= 1e-9, "{point:?}");
+    // Work was done if there was contact.
+    assert_eq!(point.contact_impulse > Some(0.0), point.largest_energy > Some(0.0), "{point:?}");
+    // Gaps are differences of lengths of the casing's scale: some hundred roundings of it.
+    assert!(point.largest_penetration.unwrap() <= 1e-13 * length_scale(request).min(radius()), "{point:?}");
+    plausible(point, request);
+    assert_eq!(result.spectra.as_ref().map(|spectra| spectra.sensors.len()), Some(request.sensors.len()));
+}
+
+/// The measures of one history fit to each other, and stay below the tenth of the radius at which a run ends as diverged.
+fn plausible(point: &Point, request: &SweepRequest) {
+    assert_eq!(point.responses.len(), request.sensors.len());
+    for response in &point.responses {
+        // One of n samples deviates from the mean by half the span or more, none by more than the span: to the round-off
+        // of the mean.
+        let (span, round_off) = (2.0 * response.half_peak_to_peak, 1e-12 * response.mean.abs());
+        let least = 0.5 * span / (point.steps as f64).sqrt();
+        assert!(response.rms >= least - round_off && response.rms <= span + round_off, "{response:?}");
+        if request.scene.contact.is_some() && response.sensor.component == Component::Normal {
+            assert!(response.mean.abs().max(0.5 * span) <= 0.1 * radius(), "{response:?}");
+        }
+    }
+}
+
+/// Largest radius of a contact node.
+fn radius() -> f64 {
+    model().reduced.wheel.contact.iter().fold(0.0, |radius, node| radius.max(node.position[0]))
+}
+
+/// Largest length of the casing.
+fn length_scale(request: &SweepRequest) -> f64 {
+    let Some(casing) = &request.scene.casing else { return 0.0 };
+    let clearance = &casing.clearance;
+    let given = clearance.values.iter().flatten().chain(&clearance.leading).chain(&clearance.trailing);
+    let lobes = casing.lobes.as_ref().map_or(0.0, |lobes| {
+        let (count, amplitude) = (lobes.count, lobes.amplitude);
+        Restriction { count, amplitude, width_rad: lobes.width_rad, phase_rad: lobes.phase_rad }.highest()
+    });
+    given.copied().fold(0.0, f64::max) + lobes
+}
+
+/// Maps and critical speeds of whatever ran.
+fn summaries_survive(request: &SweepRequest, results: &[SpeedResult]) {
+    let reduced = &model().reduced;
+    for sensor in 0..request.sensors.len() {
+        let rows = results.iter().rev().map(|result| {
+            let row = result.spectra.as_ref().and_then(|spectra| map_row(spectra, sensor, None));
+            (result.point.clone(), row.map(<[f64]>::to_vec))
+        });
+        let map = interaction_map(request, &reduced.units, rows.collect(), sensor, None);
+        assert!(map.points.iter().map(|point| &point.index).is_sorted());
+        survives_json(&map);
+    }
+    let points: Vec<_> = results.iter().map(|result| result.point.clone()).collect();
+    for table in critical_speeds(reduced, request, &points, &Unwatched).unwrap() {
+        survives_json(&table);
+    }
+}
+
+/// What is written as JSON is read back unchanged; numbers that are none would come back as null.
+fn survives_json<T: Serialize + DeserializeOwned + PartialEq + std::fmt::Debug>(value: &T) {
+    let text = serde_json::to_string(value).unwrap();
+    let read: T = serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error} in {text}"));
+    assert_eq!(&read, value);
+}
