@@ -58,7 +58,7 @@ fn blade(turn: f64, follows: bool) -> f64 {
             d[m] = keep[m] * d[m] - omegas[m].powi(2) * receptance[m] * z[m];
             z[m] += d[m];
         }
-        let wall = 0.5 + (0.05 * f64::from(q)).cos() * -1.0 * f64::from(q).min(1000.0) / 1000.0;
+        let wall = 0.5 - (0.05 * f64::from(q)).cos() * f64::from(q).min(1000.0) / 1000.0;
         let force = ((z[0] + z[1] - wall) / (receptance[0] + receptance[1])).max(0.0);
         let mut energy = 0.0;
         for m in 0..2 {
