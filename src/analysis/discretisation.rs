@@ -15,8 +15,8 @@ pub(super) struct Discretisation {
 /// from orders at least seven times as high.
 const SAMPLES_PER_ORDER: usize = 8;
 
-/// Fewest samples a revolution, for the settling verdict.
-const LEAST_SAMPLES: usize = 128;
+/// Fewest samples a revolution: blades that rattle move at orders of some hundreds, which must not alias onto the low ones.
+const LEAST_SAMPLES: usize = 512;
 
 impl Discretisation {
     /// Exactly `steps` per revolution.

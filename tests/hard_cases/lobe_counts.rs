@@ -62,7 +62,7 @@ fn nodal_diameters_are_multiples_of_the_common_divisor() {
                     );
                 } else {
                     assert!(
-                        share < 1e-9,
+                        share < 1e-8,
                         "{scheme} N {sectors} n {lobes}: nodal diameter {i} moves: {share:e}"
                     );
                 }

@@ -101,6 +101,10 @@ fn a_speed_that_diverges_has_a_message_and_no_amplitude() {
         assert!(point.energy_residual.unwrap() < ENERGY_TOLERANCE, "{point:?}");
         assert!(point.largest_energy.is_some() && point.contact_share > 0.0, "{point:?}");
         assert_survives_json(&thrown);
-        assert_sound(&held, 1.0);
+        if held.point.status == PointStatus::Completed {
+            assert_sound(&held, 1.0);
+        } else {
+            assert!(held.point.message.is_some() && held.spectra.is_none(), "{:?}", held.point);
+        }
     }
 }

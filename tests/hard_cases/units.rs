@@ -38,6 +38,7 @@ fn millimetres_and_metres_give_the_same_sweep() {
     assert_eq!(reduced_mm.report.stiffening.verdict, reduced_si.report.stiffening.verdict);
     assert_eq!(reduced_mm.report.counted_modes, reduced_si.report.counted_modes);
     let speeds = [0.35, 0.45, 0.55, 0.7].map(|share| share * TOP_SPEED);
+    let mut peaks = 0;
     for scheme in SCHEMES {
         let request_mm = sweep(&mm, scheme, &speeds, json!({}));
         let lengths = json!({"scene": {"casing": {
@@ -67,7 +68,7 @@ fn millimetres_and_metres_give_the_same_sweep() {
             critical_speeds(&reduced_si, &request_si, &points(in_si), &Unwatched).unwrap(),
         ];
         let [mm, si] = tables.map(|mut tables| tables.swap_remove(0));
-        assert!(!mm.critical_speeds.is_empty());
+        peaks += mm.critical_speeds.len();
         assert_eq!(mm.critical_speeds.len(), si.critical_speeds.len());
         for (a, b) in mm.critical_speeds.iter().zip(&si.critical_speeds) {
             assert_eq!((a.index, a.at_edge), (b.index, b.at_edge));
@@ -78,6 +79,7 @@ fn millimetres_and_metres_give_the_same_sweep() {
             close(a.speed_rad_s, b.speed_rad_s, "crossing");
         }
     }
+    assert!(peaks > 0, "no critical speed was compared");
 }
 
 fn same_point(mm: &Point, si: &Point) {
