@@ -23,8 +23,8 @@ use crate::support::{
     KEPT_MODES, LIBRARY_SCHEMES, SCHEMES, assert_sound, reduced, run, spectral_difference, sweep,
 };
 
-/// Three revolutions, the last of them recorded, at 1.3 times the smallest stable number of steps; a multiple of 128
-/// steps has 128 samples.
+/// Three revolutions, the last of them recorded, at 1.3 times the smallest stable number of steps; a multiple of 512
+/// steps has 512 samples.
 fn request(sector: &SectorModel, reduced: &ReducedSector, name: &str, scheme: Scheme) -> SweepRequest {
     let speeds = [0.4, 0.7, 1.0].map(|share| share * TOP_SPEED);
     let smallest = speeds.iter().map(|&speed| {
@@ -35,7 +35,7 @@ fn request(sector: &SectorModel, reduced: &ReducedSector, name: &str, scheme: Sc
     let last = sector.sectors - 1;
     let changes = json!({
         "integration": {"revolutions": 3, "window_revolutions": 1, "kept_modes": KEPT_MODES,
-                        "steps_per_revolution": steps.next_multiple_of(128)},
+                        "steps_per_revolution": steps.next_multiple_of(512)},
         "sensors": [
             {"contact_node": 0, "component": "radial"},
             {"contact_node": 1, "sector": last, "component": "axial"},
@@ -71,7 +71,7 @@ fn dense(
     let mut samples = vec![Vec::new(); request.sensors.len()];
     for q in 1..=3 * steps {
         literal.step(&free_gaps(&casing, &reduced.wheel, q as f64 / steps as f64), gauss_seidel);
-        if q > 2 * steps && q % (steps / 128) == 0 {
+        if q > 2 * steps && q % (steps / 512) == 0 {
             for (line, (sensor, d)) in samples.iter_mut().zip(request.sensors.iter().zip([0, 2, 1])) {
                 line.push(literal.displacement(sensor.sector as usize, sensor.contact_node as usize, d));
             }
@@ -121,9 +121,9 @@ fn same_numbers(result: &SpeedResult, samples: &[Vec<f64>], of: &str) {
         }
         let (low, high) = samples.iter().fold((f64::MAX, f64::MIN), |(l, h), &x| (l.min(x), h.max(x)));
         close(response.half_peak_to_peak, 0.5 * (high - low), "half peak to peak");
-        let mean = samples.iter().sum::<f64>() / 128.0;
+        let mean = samples.iter().sum::<f64>() / 512.0;
         close(response.mean, mean, "mean");
-        let variance = samples.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / 128.0;
+        let variance = samples.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / 512.0;
         close(response.rms, variance.sqrt(), "rms");
     }
 }
