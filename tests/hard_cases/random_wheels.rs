@@ -84,11 +84,13 @@ fn withstands(
 
 impl Recipe {
     /// Gaps are differences of lengths below a millimetre: some thousand roundings of them. Where nodes may be
-    /// indistinguishable, the millionth of the casing's lengths from which on the code gives up.
+    /// indistinguishable, the millionth from which on the code gives up: of the casing's lengths, and of the tenths of a
+    /// millimetre by which moving tips may stand in it at the start.
     fn penetration_tolerance(&self, case: &Case) -> f64 {
         let distinct =
             self.shapes == Shapes::Independent && self.modes >= 3 * self.nodes && self.decades < 5.0;
-        if distinct { 1e-12 } else { 1e-6 * case.casing.length_scale(0.1 * RADIUS) }
+        let start = if self.moving { 1.0 } else { 0.0 };
+        if distinct { 1e-12 } else { 1e-6 * (case.casing.length_scale(0.1 * RADIUS) + start) }
     }
 
     /// A mode whose ωh is 1e-10 has no energy beside the round-off of the work done on it.
@@ -139,6 +141,9 @@ fn massless_boundary_does_not_pump() {
     let config = ProptestConfig { source_file: Some(file!()), ..ProptestConfig::with_cases(100) };
     let outcome = TestRunner::new(config).run(&recipes(), |mut recipe| {
         // From rest, no mode so soft that a push alone carries it away, enough modes to leave out.
+        // Lobes wide enough for the blades to follow: a blow tells the schemes apart by what a closing costs.
+        recipe.width_rad = recipe.width_rad.max(0.5);
+        recipe.ramp_revolutions = recipe.ramp_revolutions.max(0.5);
         recipe.moving = false;
         recipe.sectors = recipe.sectors.min(12);
         recipe.decades = recipe.decades.min(1.0);
