@@ -41,16 +41,8 @@ const REACH: f64 = 2.0;
 /// Most steps per revolution, given or chosen.
 pub(super) const MOST_STEPS: u32 = 10_000_000;
 
-/// `"auto"` stays this far below the stability limit of `scheme`. Contact that rattles next to the limit of
-/// `massless_boundary` pumps energy into light damping.
-fn safety(scheme: Scheme) -> f64 {
-    match scheme {
-        Scheme::CentralDifferences | Scheme::ExactModal => 0.8,
-        Scheme::MasslessBoundary { .. } => MASSLESS_SAFETY,
-    }
-}
-
-const MASSLESS_SAFETY: f64 = 0.5;
+/// `"auto"` stays this far below a stability limit.
+const SAFETY: f64 = 0.8;
 
 /// Half-width of the lobes that a scene's blades may touch, rad.
 fn lobe_width(request: &SweepRequest) -> Option<f64> {
@@ -157,10 +149,10 @@ impl Scope<'_> {
     fn bounded(&self, scheme: Scheme) -> Wish {
         let (contact, why) = steps_for_contact(self.request);
         let smallest = scheme.smallest_stable_steps(self.wheel, self.contact_nodes);
-        let limit = (smallest as f64 / safety(scheme)).ceil();
+        let limit = (smallest as f64 / SAFETY).ceil();
         let why_scheme = "as requested".to_owned();
         if limit > contact {
-            let why_steps = format!("the step is {} of the stability limit", safety(scheme));
+            let why_steps = format!("the step is {} of the stability limit", SAFETY);
             Wish { scheme, least_steps: limit, why_scheme, why_steps }
         } else {
             Wish { scheme, least_steps: contact, why_scheme, why_steps: set_so_that(why) }
@@ -183,11 +175,7 @@ impl Scope<'_> {
     /// asked for.
     fn massless(&self) -> Result<Wish, String> {
         let carried = |steps: f64| {
-            massless_boundary::most_kept_modes(
-                self.wheel,
-                self.contact_nodes,
-                (MASSLESS_SAFETY * steps) as u64,
-            )
+            massless_boundary::most_kept_modes(self.wheel, self.contact_nodes, (SAFETY * steps) as u64)
         };
         let none = |steps: f64| {
             format!(
@@ -239,7 +227,7 @@ impl Scope<'_> {
                 ));
             }
             Some(steps) => {
-                let close = f64::from(steps) * safety(wish.scheme) < smallest as f64;
+                let close = f64::from(steps) * SAFETY < smallest as f64;
                 let limit = format!(", closer to the limit of {smallest} than \"auto\" would go");
                 let why =
                     format!("{steps} steps per revolution as requested{}", if close { &limit } else { "" });
@@ -359,7 +347,7 @@ fn smallest_stable_steps(
             Ok(match kept_modes {
                 AutoOr::Fixed(kept) => limit(kept as usize),
                 // As `"auto"` keeps at least one mode, at its own distance from the limit.
-                AutoOr::Auto => (limit(1) as f64 / MASSLESS_SAFETY).ceil() as u64,
+                AutoOr::Auto => (limit(1) as f64 / SAFETY).ceil() as u64,
             })
         }
         _ => Ok(1),
@@ -369,9 +357,12 @@ fn smallest_stable_steps(
 fn refuse(request: &SweepRequest, stable: u64, speed: f64) -> Result<(), AnalysisError> {
     let refused =
         |pointer: &str, message: String| Err(AnalysisError::Refused(vec![Violation::new(pointer, message)]));
-    if let (u64::MAX, AutoOr::Fixed(kept)) = (stable, request.integration.kept_modes) {
-        let message = no_stable_step(Scheme::MasslessBoundary { kept_modes: kept as usize });
-        return refused("/integration/kept_modes", message);
+    if let (u64::MAX, SchemeChoice::MasslessBoundary) = (stable, request.integration.scheme) {
+        let (pointer, kept_modes) = match request.integration.kept_modes {
+            AutoOr::Fixed(kept) => ("/integration/kept_modes", kept as usize),
+            AutoOr::Auto => ("/integration/scheme", 1),
+        };
+        return refused(pointer, no_stable_step(Scheme::MasslessBoundary { kept_modes }));
     }
     let AutoOr::Fixed(steps) = request.integration.steps_per_revolution else { return Ok(()) };
     let seen = least_steps_for_lobes(request) as u64;
@@ -382,7 +373,7 @@ fn refuse(request: &SweepRequest, stable: u64, speed: f64) -> Result<(), Analysi
     let reason = if stable >= seen {
         let bound = match request.integration.scheme {
             SchemeChoice::MasslessBoundary => {
-                "with its kept modes and every contact held, massless_boundary needs h < 2/ω"
+                "massless_boundary needs h < 1/ω_c of the wheel with every contact held"
             }
             _ => "central differences need h < 2/ω_max of the reduced wheel",
         };

@@ -137,7 +137,7 @@ fn auto_steps(reduced: &ReducedSector, request: &SweepRequest, speed: f64) -> f6
         AutoOr::Fixed(kept) => Scheme::MasslessBoundary { kept_modes: kept as usize },
         AutoOr::Auto => Scheme::CentralDifferences,
     };
-    let stable = scheme.smallest_stable_steps(&wheel, &reduced.wheel.contact) as f64 / 0.4;
+    let stable = scheme.smallest_stable_steps(&wheel, &reduced.wheel.contact) as f64 / 0.8;
     let lobes = request.scene.casing.as_ref().and_then(|casing| casing.lobes.as_ref());
     let seen = lobes.map_or(0.0, |lobes| 63.0 / lobes.width_rad);
     let steps = stable.max(seen).max(3600.0);

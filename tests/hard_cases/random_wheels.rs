@@ -126,15 +126,15 @@ fn massless_boundary_holds() {
     let tally = hold(150, |recipe, case| {
         let scheme = Scheme::MasslessBoundary { kept_modes: 1 + recipe.seed as usize % recipe.modes };
         let smallest = scheme.smallest_stable_steps(&case.wheel, &case.contact_nodes);
-        let steps = smallest.saturating_mul(2).max(recipe.steps as u64);
+        let steps = smallest.max(recipe.steps as u64);
         (steps < 20_000).then_some((scheme, steps as usize))
     });
     assert!(tally.touched.get() > 20 && tally.failed.get() < 30, "{tally:?}");
 }
 
 /// Contact that opens and closes from step to step costs nothing without mass at the boundary: at a step that is merely
-/// stable while contact lasts it pumps the modes, with perfect credentials. At half that step it does not: the blades go
-/// no further than by central differences, but for what those lose at closings.
+/// stable while contact lasts it pumps the modes, with perfect credentials. At half that step, the longest that is accepted,
+/// it does not: the blades go no further than by central differences, but for what those lose at closings.
 #[test]
 fn massless_boundary_does_not_pump() {
     let compared = Cell::new(0);
@@ -151,7 +151,7 @@ fn massless_boundary_does_not_pump() {
         let kept_modes = 1 + recipe.seed as usize % (recipe.modes - recipe.nodes);
         let scheme = Scheme::MasslessBoundary { kept_modes };
         let case = recipe.case();
-        let steps = 2 * scheme.smallest_stable_steps(&case.wheel, &case.contact_nodes).min(10_000) as usize;
+        let steps = scheme.smallest_stable_steps(&case.wheel, &case.contact_nodes).min(20_000) as usize;
         if steps == 20_000 {
             return Ok(());
         }

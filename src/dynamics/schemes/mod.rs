@@ -19,7 +19,7 @@
 //! |---|---|---|---|
 //! | [`central_differences`] | yes | a force in the step before | ω_max of the reduced wheel |
 //! | [`exact_modal`] | yes | a force in the step before | accuracy only |
-//! | [`massless_boundary`] | no | a force at the same time | the wheel with its contact closed |
+//! | [`massless_boundary`] | no | a force at the same time | the wheel with its contact closed, twice over |
 
 pub mod central_differences;
 pub mod exact_modal;
