@@ -95,6 +95,7 @@ impl Scene {
                 damping: Some(request::Damping { modal_ratio: DAMPING, family_ratios: Vec::new() }),
                 casing: Some(request::Casing { clearance, lobes }),
                 contact: Some(request::Contact {}),
+                ..request::Scene::default()
             },
             integration: Integration {
                 scheme,

@@ -7,7 +7,7 @@ use super::model::ModelFacts;
 use super::request::{
     Component, Integration, ModalAnalysisRequest, SchemeChoice, Sensor, Speeds, SweepRequest,
 };
-use super::scene::{Casing, Clearance, Damping, Scene};
+use super::scene::{Casing, Clearance, Damping, Scene, Symmetry};
 use super::stepping::MOST_STEPS;
 use crate::dynamics::casing::Restriction;
 
@@ -171,6 +171,26 @@ fn check_scene(found: &mut Findings, scene: &Scene, facts: &ModelFacts) {
     );
     if let Some(casing) = &scene.casing {
         check_casing(found, casing, facts);
+    }
+    check_built(found, scene);
+}
+
+/// Effects whose physics is not there yet.
+fn check_built(found: &mut Findings, scene: &Scene) {
+    let named = [
+        ("coriolis", scene.coriolis),
+        ("friction", scene.friction.is_some()),
+        ("abradable", scene.abradable.is_some()),
+        ("flexible_casing", scene.flexible_casing.is_some()),
+        ("mistuning", scene.mistuning.is_some()),
+        ("engine_order_excitation", !scene.engine_order_excitation.is_empty()),
+        ("orbit", scene.orbit.is_some()),
+        ("initial", scene.initial.is_some()),
+        ("symmetry", scene.symmetry != Symmetry::Full),
+        ("probe", scene.probe.is_some()),
+    ];
+    for (effect, named) in named {
+        found.require(!named, &format!("/scene/{effect}"), "not available yet");
     }
 }
 

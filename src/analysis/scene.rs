@@ -3,8 +3,10 @@
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
+use super::request::Component;
+
 /// Effects of one simulation.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
     /// Use K(Ω) through the package's three stiffness matrices (Eq. 3); otherwise the stiffness at rest.
@@ -19,6 +21,41 @@ pub struct Scene {
     /// Unilateral contact between blade tips and casing; absent: tips pass through it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact: Option<Contact>,
+    /// Coriolis forces through the package's gyroscopic matrix: forward and backward waves split.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub coriolis: bool,
+    /// Coulomb friction at the contact; absent: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub friction: Option<Friction>,
+    /// Abradable coating of the casing; absent: blades touch the metal.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub abradable: Option<Abradable>,
+    /// Elastic casing; absent: rigid.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub flexible_casing: Option<FlexibleCasing>,
+    /// Stiffness deviations of the sectors; absent: a tuned wheel.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mistuning: Option<Mistuning>,
+    /// Harmonic forces at engine orders.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub engine_order_excitation: Vec<EngineOrderExcitation>,
+    /// Eccentric casing or whirling shaft; absent: the wheel turns about the casing's axis.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub orbit: Option<Orbit>,
+    /// State that the wheel starts from; absent: rest.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub initial: Option<Initial>,
+    /// Which part of the wheel is simulated.
+    #[serde(default, skip_serializing_if = "Symmetry::is_full")]
+    pub symmetry: Symmetry,
+    /// The asymmetry that `symmetry: probe` starts from; absent: its defaults.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub probe: Option<Probe>,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde wants a reference")]
+fn is_false(value: &bool) -> bool {
+    !value
 }
 
 /// Modal damping of the reduced wheel.
@@ -78,3 +115,199 @@ pub struct Lobes {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Contact {}
+
+/// Coulomb friction of tips that always slide forwards: their speed is far above that of their vibration. The force on a
+/// blade is −λ(n + μt), t being the direction of rotation along the casing.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Friction {
+    /// Coefficient μ, 0 to 1; metal on metal 0.1 to 0.3. Refused before the run where the wheel would jam.
+    pub coefficient: f64,
+}
+
+/// Coating of elasto-plastic rods that stand on the casing and are worn by the blades; stresses in the model's units.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Abradable {
+    /// Young's modulus E of the coating, force/length².
+    pub modulus: f64,
+    /// Yield stress, force/length².
+    pub yield_stress: f64,
+    /// Plastic modulus K of linear hardening, force/length².
+    pub hardening: f64,
+    /// Thickness, length. Behind it is metal.
+    pub thickness: f64,
+    /// Rods around the circumference, one row for every contact node along the chord. A time step never jumps a rod.
+    #[serde(default = "default_rods_around")]
+    pub rods_around: u32,
+}
+
+fn default_rods_around() -> u32 {
+    2000
+}
+
+/// Elastic casing in the fixed frame: a ring, or its modes as given.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FlexibleCasing {
+    /// Ring whose in-plane bending modes are computed; else give `modes`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ring: Option<Ring>,
+    /// Modes as given; else give `ring`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub modes: Option<Vec<CasingMode>>,
+    /// Modal damping ratio of every casing mode, in [0, 1).
+    #[serde(default = "default_casing_damping")]
+    pub damping_ratio: f64,
+}
+
+fn default_casing_damping() -> f64 {
+    0.01
+}
+
+/// Thin elastic ring, inextensional bending in its plane (n ≥ 2).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Ring {
+    /// Radius of the centre line, length.
+    pub radius: f64,
+    /// Young's modulus, force/length².
+    pub modulus: f64,
+    /// Mass per volume.
+    pub density: f64,
+    /// Area of the section, length².
+    pub area: f64,
+    /// Second moment of area for bending in the ring's plane, length⁴.
+    pub second_moment: f64,
+    /// Highest nodal diameter n of its modes; 2 is the lowest.
+    #[serde(default = "default_n_max")]
+    pub n_max: u32,
+}
+
+fn default_n_max() -> u32 {
+    8
+}
+
+/// One nodal diameter of the casing: two waves, cos nφ and sin nφ (one for n = 0).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CasingMode {
+    /// Nodal diameter n.
+    pub nodal_diameter: u32,
+    /// Natural frequency, Hz.
+    pub frequency_hz: f64,
+    /// Modal mass for a radial displacement of unit amplitude.
+    pub modal_mass: f64,
+}
+
+/// Relative stiffness deviations of the sectors: given as `deviations`, or drawn with `spread` and `seed`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Mistuning {
+    /// δ of every sector: its stiffness is (1 + δ) times that of the tuned wheel.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub deviations: Option<Vec<f64>>,
+    /// Standard deviation of normally distributed δ.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spread: Option<f64>,
+    /// Seed of the distribution; the same seed gives the same wheel.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub seed: Option<u64>,
+}
+
+/// Force A cos(k(φ + Ωt) + phase) on contact nodes of every sector, φ being the sector's angle: what a wheel feels that turns through
+/// a steady field of k periods.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct EngineOrderExcitation {
+    /// Engine order k ≥ 1.
+    pub order: u32,
+    /// Contact nodes, counted from the leading edge from 0; each gets the whole amplitude.
+    pub contact_nodes: Vec<u32>,
+    /// Direction of the force.
+    pub component: Component,
+    /// Amplitude A, force.
+    pub amplitude: f64,
+    /// Phase, rad.
+    #[serde(default)]
+    pub phase_rad: f64,
+}
+
+/// The wheel's axis circles about the casing's: the gap at angle φ in the fixed frame shrinks by
+/// radius·cos(φ − `whirl_ratio`·Ωt − phase), and by as much less as the node's normal is not radial.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Orbit {
+    /// Radius of the orbit, length.
+    pub radius: f64,
+    /// Whirl speed over Ω: 0 is an eccentric casing, 1 synchronous forward whirl, negative backward whirl.
+    #[serde(default)]
+    pub whirl_ratio: f64,
+    /// Angle of the displaced axis at the start, rad.
+    #[serde(default)]
+    pub phase_rad: f64,
+}
+
+/// One mode that moves when the run starts.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Initial {
+    /// Nodal diameter i.
+    pub nodal_diameter: u32,
+    /// Modal family within it, counted from 1.
+    pub family: u32,
+    /// Largest displacement of any contact node in any direction, length.
+    pub amplitude: f64,
+    /// Standing, or travelling with or against the rotation (pairs only).
+    #[serde(default)]
+    pub wave: InitialWave,
+}
+
+/// How an initial mode moves.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum InitialWave {
+    /// Released at rest from its amplitude.
+    #[default]
+    Standing,
+    /// Travelling with the rotation.
+    Forward,
+    /// Travelling against the rotation.
+    Backward,
+}
+
+/// Which part of the wheel is simulated.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Symmetry {
+    /// All of it.
+    #[default]
+    Full,
+    /// The sub-wheel that the scene repeats; refused where it does not repeat.
+    Exact,
+    /// All of it, started from a tiny asymmetry; the result says whether and how fast what the symmetry forbids grows.
+    Probe,
+}
+
+impl Symmetry {
+    #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde wants a reference")]
+    fn is_full(&self) -> bool {
+        *self == Self::Full
+    }
+}
+
+/// The asymmetry that `symmetry: probe` starts from.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Probe {
+    /// Its displacement relative to the smallest clearance, 1e-12 to 1e-2.
+    pub amplitude: f64,
+    /// Seed of its phases.
+    pub seed: u64,
+}
+
+impl Default for Probe {
+    fn default() -> Self {
+        Self { amplitude: 1e-6, seed: 0 }
+    }
+}

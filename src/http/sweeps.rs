@@ -59,5 +59,5 @@ pub(super) async fn create_sweep(
     key: IdempotencyKey,
     body: JsonBody<SweepRequest>,
 ) -> Result<Response, Problem> {
-    submit::accept(&state, key, &body.fingerprint, JobRequest::Sweep(body.value)).await
+    submit::accept(&state, key, &body.fingerprint, JobRequest::Sweep(Box::new(body.value))).await
 }

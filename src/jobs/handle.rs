@@ -66,9 +66,9 @@ impl Jobs {
         let (request, facts, speeds) = match request {
             JobRequest::Sweep(request) => {
                 let facts = self.facts(&request.model).await?;
-                let request = run::resolve_sweep(request, &facts).map_err(refused)?;
+                let request = run::resolve_sweep(*request, &facts).map_err(refused)?;
                 let speeds = request.speeds.resolve().map_err(refused)?.len();
-                (JobRequest::Sweep(request), Some(facts), speeds)
+                (JobRequest::Sweep(Box::new(request)), Some(facts), speeds)
             }
             JobRequest::ModalAnalysis(request) => {
                 let facts = self.facts(&request.model).await?;

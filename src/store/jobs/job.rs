@@ -66,7 +66,7 @@ impl JobKind {
 #[derive(Debug, Clone, PartialEq)]
 pub enum JobRequest {
     /// Contact simulations over speeds.
-    Sweep(SweepRequest),
+    Sweep(Box<SweepRequest>),
     /// Natural frequencies over speeds.
     ModalAnalysis(ModalAnalysisRequest),
     /// A model from the parameters of the generator.
