@@ -1,5 +1,7 @@
 //! Time integration with contact (Eqs 8–10): what a run is given and what it returns. The loop is in `stepper`.
 
+#[cfg(test)]
+mod digests;
 mod obstacle;
 mod recorder;
 mod residual;
@@ -125,7 +127,13 @@ impl Simulation<'_> {
     /// # Panics
     /// If the sample count does not divide the step count, the window exceeds the run, or an initial mode is not integrated.
     pub fn run(&self, watch: &dyn Fn(f64) -> bool) -> Run {
-        self.dispatch(Stepper::new(self), watch)
+        self.dispatch(pulp::Arch::new(), Stepper::new(self), watch)
+    }
+
+    /// Runs on vectors of a given kind.
+    #[cfg(test)]
+    fn run_on(&self, arch: pulp::Arch, watch: &dyn Fn(f64) -> bool) -> Run {
+        self.dispatch(arch, Stepper::new(self), watch)
     }
 
     /// Runs against a restriction of any shape instead of the casing's lobes.
@@ -133,13 +141,13 @@ impl Simulation<'_> {
     pub(super) fn run_against(&self, restriction: RestrictionTable, watch: &dyn Fn(f64) -> bool) -> Run {
         let mut stepper = Stepper::new(self);
         stepper.replace_restriction(restriction);
-        self.dispatch(stepper, watch)
+        self.dispatch(pulp::Arch::new(), stepper, watch)
     }
 
-    fn dispatch(&self, mut stepper: Stepper, watch: &dyn Fn(f64) -> bool) -> Run {
+    fn dispatch(&self, arch: pulp::Arch, mut stepper: Stepper, watch: &dyn Fn(f64) -> bool) -> Run {
         assert!(self.steps_per_revolution.is_multiple_of(self.samples_per_revolution));
         assert!(self.window_revolutions <= self.revolutions);
-        pulp::Arch::new().dispatch(Loop { simulation: self, stepper: &mut stepper, watch })
+        arch.dispatch(Loop { simulation: self, stepper: &mut stepper, watch })
     }
 
     /// Normal displacement of a tip beyond which a run ends as diverged; without bound where all tips lie on the axis.

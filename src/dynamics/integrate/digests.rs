@@ -1,0 +1,166 @@
+//! The bits of scenes without effects, on every kind of vectors of this machine: what an effect may never change.
+
+use faer::{Mat, c64};
+use pulp::Arch;
+use sha2::{Digest, Sha256};
+
+use super::super::casing::{Casing, Restriction};
+use super::super::initial::InitialMode;
+use super::super::modal_wheel::{ModalHarmonic, ModalWheel};
+use super::super::oscillators::{Direction, ModalDamping};
+use super::super::schemes::Scheme;
+use super::super::sector::ContactNode;
+use super::{Outcome, SensorRow, Simulation};
+
+const SECTORS: usize = 5;
+const NODES: usize = 3;
+const MODES: usize = 11;
+
+/// Numbers in [−1, 1) whose bits depend on no library.
+struct Numbers(u64);
+
+impl Numbers {
+    fn next(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 12) as f64 / (1u64 << 51) as f64 - 1.0
+    }
+}
+
+fn wheel() -> ModalWheel {
+    let mut numbers = Numbers(0x9E37_79B9_7F4A_7C15);
+    let harmonic = |harmonic: usize| {
+        let single = harmonic == 0;
+        let omega = (0..MODES).map(|m| 4000.0 * (1 + m) as f64 + 500.0 * harmonic as f64).collect();
+        let contact = Mat::from_fn(3 * NODES, MODES, |_, _| {
+            let (re, im) = (numbers.next(), numbers.next());
+            c64::new(100.0 * re, if single { 0.0 } else { 100.0 * im })
+        });
+        ModalHarmonic { harmonic, single, omega, contact }
+    };
+    ModalWheel { speed_rad_s: 1000.0, sectors: SECTORS, harmonics: (0..=SECTORS / 2).map(harmonic).collect() }
+}
+
+fn digest(arch: Arch, scheme: Scheme, damped: bool, touching: bool) -> String {
+    let wheel = wheel();
+    let node = |k: usize| ContactNode {
+        id: k as u64,
+        position: [100.0, 0.03 * k as f64, 4.0 * k as f64],
+        normal: [0.8, 0.0, 0.6],
+        dofs: [3 * k, 3 * k + 1, 3 * k + 2],
+    };
+    let contact_nodes: Vec<_> = (0..NODES).map(node).collect();
+    let casing = Casing {
+        clearance: vec![0.25, 0.3, 0.35],
+        restriction: Some(Restriction { count: 2, amplitude: 0.5, width_rad: 0.4, phase_rad: 0.1 }),
+        ramp_revolutions: 0.5,
+    };
+    let damping = ModalDamping { modal_ratio: 0.01, family_ratios: vec![0.005] };
+    let push = InitialMode {
+        harmonic: 1,
+        family: 2,
+        displacement: c64::new(1e-4, -2e-4),
+        velocity: c64::new(0.5, 0.25),
+    };
+    let sensor = |node| SensorRow { direction: Direction { node, components: [1.0, 0.25, 0.5] }, sector: 3 };
+    let run = Simulation {
+        wheel: &wheel,
+        contact_nodes: &contact_nodes,
+        damping: damped.then_some(&damping),
+        casing: touching.then_some(&casing),
+        initial: &[push],
+        sensors: &[sensor(0), sensor(2)],
+        scheme,
+        steps_per_revolution: 600,
+        samples_per_revolution: 120,
+        revolutions: 2,
+        window_revolutions: 1,
+    }
+    .run_on(arch, &|_| true);
+    let Outcome::Completed(history) = run.outcome else { panic!("{:?}", run.outcome) };
+    assert_eq!(run.statistics.contact_impulse > 0.0, touching);
+    let mut hash = Sha256::new();
+    let lines = history.displacement.iter().chain(history.harmonics.iter().flatten());
+    let credentials = [
+        run.statistics.contact_impulse,
+        run.energy.residual(),
+        run.energy.largest_energy(),
+        run.energy.loss(),
+    ];
+    for value in lines.flatten().chain(&credentials) {
+        hash.update(value.to_bits().to_le_bytes());
+    }
+    hash.finalize().iter().take(6).map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// Digests of every scheme: free, touching, touching and damped.
+fn digests(arch: Arch) -> Vec<String> {
+    let schemes =
+        [Scheme::CentralDifferences, Scheme::ExactModal, Scheme::MasslessBoundary { kept_modes: 5 }];
+    let cases = [(false, false), (false, true), (true, true)];
+    schemes
+        .into_iter()
+        .flat_map(|scheme| cases.map(|(damped, touching)| digest(arch, scheme, damped, touching)))
+        .collect()
+}
+
+/// Stored when there were no effects but the casing, contact and damping. Vectors of another width add up in another
+/// order, so each kind has its own; on a machine that has none of them there is nothing to compare with.
+#[test]
+fn scenes_without_effects_keep_their_bits() {
+    let stored: [(&str, [&str; 9]); 3] = [
+        (
+            "Scalar",
+            [
+                "386790c93f69",
+                "41f37ce0a60c",
+                "7c9110842d23",
+                "162060c8422c",
+                "b725117327c8",
+                "ef52ea7722ae",
+                "162060c8422c",
+                "8a8c7bf0f3c9",
+                "5b89b17cc4c6",
+            ],
+        ),
+        (
+            "V3",
+            [
+                "9189aa0b635c",
+                "60c5f65c3e08",
+                "1a81ddb066a3",
+                "4a7c1a2222e4",
+                "ea214a25f3c3",
+                "61e6e39764f3",
+                "4a7c1a2222e4",
+                "7b23b2df84ab",
+                "fa291d343d3e",
+            ],
+        ),
+        (
+            "V4",
+            [
+                "9189aa0b635c",
+                "c4b5086e96a0",
+                "acea6415b3a1",
+                "4a7c1a2222e4",
+                "4d03026d31c5",
+                "3bed487c7d06",
+                "4a7c1a2222e4",
+                "09e49e4f27f6",
+                "822302081952",
+            ],
+        ),
+    ];
+    let mut here = vec![Arch::Scalar];
+    #[cfg(target_arch = "x86_64")]
+    {
+        here.extend(pulp::x86::V3::try_new().map(Arch::V3));
+        here.extend(pulp::x86::V4::try_new().map(Arch::V4));
+    }
+    let found: Vec<_> = here.into_iter().map(digests).collect();
+    for (found, (name, stored)) in found.iter().zip(&stored) {
+        assert_eq!(found, stored, "{name}");
+    }
+}
