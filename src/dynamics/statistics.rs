@@ -1,6 +1,6 @@
 //! What a run counted.
 
-use crate::numerics::complementarity::PivotStatistics;
+use crate::numerics::complementarity::active_set::PivotStatistics;
 
 /// Work and contact counters of one run.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

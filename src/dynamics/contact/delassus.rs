@@ -5,7 +5,7 @@ use faer::{Mat, c64};
 use super::super::oscillators::LANES;
 use super::flexibility::ridge;
 use crate::numerics::aligned::Aligned;
-use crate::numerics::complementarity::{SymmetricOperator, any_below};
+use crate::numerics::complementarity::{ContactOperator, any_below};
 use crate::numerics::sector_fourier::{SectorFourier, is_single};
 
 /// W over all contact nodes of all sectors, index = sector·stride + node (nodes padded to `stride`).
@@ -17,7 +17,7 @@ pub(crate) struct Delassus {
     /// `[sector distance][column node][row node]`.
     table: Aligned,
     ridge: f64,
-    /// Largest magnitude of any entry, which is on the diagonal.
+    /// Largest magnitude of any entry.
     largest: f64,
     /// (sector, node) of every index.
     places: Vec<(usize, usize)>,
@@ -62,7 +62,7 @@ impl Delassus {
     }
 }
 
-impl SymmetricOperator for Delassus {
+impl ContactOperator for Delassus {
     fn size(&self) -> usize {
         self.sectors * self.stride
     }

@@ -12,7 +12,8 @@ use super::super::schemes::massless_boundary::residual_flexibility;
 use super::super::statistics::RunStatistics;
 use super::Simulation;
 use super::residual::ResidualDisplacement;
-use crate::numerics::complementarity::{ActiveSetSolver, ComplementarityError};
+use crate::numerics::complementarity::ComplementarityError;
+use crate::numerics::complementarity::active_set::ActiveSetSolver;
 use crate::numerics::sector_fourier::SectorFourier;
 
 /// Penetration that the ridge of a singular W may leave, relative to clearance and restriction. Nodes that W cannot tell
