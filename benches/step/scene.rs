@@ -8,6 +8,7 @@ use rubmap::analysis::request::{
 use rubmap::analysis::result::PointStatus;
 use rubmap::analysis::run::{ReducedSector, prepare, run_speed};
 use rubmap::analysis::scene as request;
+use rubmap::dynamics::effects::Effects;
 use rubmap::dynamics::casing::{Casing, Restriction};
 use rubmap::dynamics::integrate::{SensorRow, Simulation};
 use rubmap::dynamics::modal_wheel::ModalWheel;
@@ -146,6 +147,7 @@ impl Scene {
             contact_nodes: &self.reduced.wheel.contact,
             damping: Some(&self.damping),
             casing: Some(casing),
+            effects: Effects::default(),
             initial: &[],
             scheme,
             sensors,

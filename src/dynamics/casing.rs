@@ -50,13 +50,9 @@ pub struct Casing {
 }
 
 impl Casing {
-    /// Growth of the restriction after `revolutions`: x²(3 − 2x), x = revolutions/ramp, then 1.
+    /// Growth of the restriction after `revolutions`.
     pub fn growth(&self, revolutions: f64) -> f64 {
-        if revolutions >= self.ramp_revolutions {
-            return 1.0;
-        }
-        let x = revolutions / self.ramp_revolutions;
-        x * x * (3.0 - 2.0 * x)
+        ramp(revolutions, self.ramp_revolutions)
     }
 
     /// The length against which gaps are round-off: largest clearance and restriction, of each no more than `reach`,
@@ -65,6 +61,15 @@ impl Casing {
         let clearance = self.clearance.iter().fold(0.0f64, |m, c| m.max(c.abs()));
         clearance.min(reach) + self.restriction.map_or(0.0, |r| r.highest().min(reach))
     }
+}
+
+/// x²(3 − 2x), x = revolutions/ramp, then 1.
+pub(crate) fn ramp(revolutions: f64, ramp_revolutions: f64) -> f64 {
+    if revolutions >= ramp_revolutions {
+        return 1.0;
+    }
+    let x = revolutions / ramp_revolutions;
+    x * x * (3.0 - 2.0 * x)
 }
 
 /// Clearances linear in the arc length through the contact nodes, from `leading` to `trailing`.

@@ -2,6 +2,22 @@
 
 use super::oscillators::Exchange;
 
+/// Work of the effects of a scene, force·length; 0 for those it does not name.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct EffectWork {
+    /// Of forces at engine orders, on the wheel.
+    pub excitation: f64,
+    /// Of mistuning: minus the energy that the stiffness deviations store.
+    pub mistuning: f64,
+    /// Of contact forces on the casing.
+    pub casing: f64,
+    /// Lost in the casing's damping.
+    pub casing_loss: f64,
+    /// Heat of friction, which the shaft supplies against the rotation: Σ μλ·rΩ·h. Its work on the vibration is part of that
+    /// of contact.
+    pub friction_heat: f64,
+}
+
 /// Both sides of E^{q+½} − E^{q−½} = fᵀ(u_{q+1} − u_{q−1})/2 − loss, summed over a run; E is the
 /// scheme's own energy ([`super::schemes`]).
 ///
@@ -14,6 +30,7 @@ pub struct EnergyAudit {
     loss: f64,
     largest_energy: f64,
     largest_residual: f64,
+    effects: EffectWork,
 }
 
 impl EnergyAudit {
@@ -29,16 +46,39 @@ impl EnergyAudit {
         self.loss += exchange.loss;
     }
 
+    /// Adds what contact forces did to the casing.
+    pub(crate) fn add_casing(&mut self, exchange: Exchange) {
+        self.effects.casing += exchange.work;
+        self.effects.casing_loss += exchange.loss;
+    }
+
+    /// What the effects do is counted here as it happens.
+    pub(crate) fn effects_mut(&mut self) -> &mut EffectWork {
+        &mut self.effects
+    }
+
     /// Compares the mechanical energy with the sums so far.
     pub(crate) fn check(&mut self, energy: f64) {
         self.largest_energy = larger(self.largest_energy, energy.abs());
-        self.largest_residual =
-            larger(self.largest_residual, (energy - (self.initial + self.work - self.loss)).abs());
+        let EffectWork { excitation, mistuning, casing, casing_loss, .. } = self.effects;
+        let effects = excitation + mistuning + casing - casing_loss;
+        let expected = self.initial + self.work - self.loss + effects;
+        self.largest_residual = larger(self.largest_residual, (energy - expected).abs());
     }
 
     /// Largest mechanical energy seen, force·length.
     pub fn largest_energy(&self) -> f64 {
         self.largest_energy
+    }
+
+    /// Work of the contact forces on the wheel so far.
+    pub fn work(&self) -> f64 {
+        self.work
+    }
+
+    /// Work of the effects so far.
+    pub fn effects(&self) -> EffectWork {
+        self.effects
     }
 
     /// Energy lost so far to damping, and to modes that follow statically.

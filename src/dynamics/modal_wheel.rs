@@ -28,6 +28,8 @@ pub struct ModalHarmonic {
     pub omega: Vec<f64>,
     /// φ restricted to the contact DOF, `n_b × modes`, mass-normalised.
     pub contact: Mat<c64>,
+    /// g = ΦᴴĜΦ, `modes × modes`, skew-Hermitian; only with Coriolis forces.
+    pub gyroscopic: Option<Mat<c64>>,
 }
 
 /// All modes of the reduced wheel at one speed.
@@ -35,8 +37,10 @@ pub struct ModalHarmonic {
 pub struct ModalWheel {
     /// Ω, rad/s.
     pub speed_rad_s: f64,
-    /// N.
+    /// Sectors simulated: all N, or one of the parts the wheel repeats.
     pub sectors: usize,
+    /// How often the wheel repeats them around the circumference: 1 for a full wheel.
+    pub repeats: usize,
     /// One per nodal diameter.
     pub harmonics: Vec<ModalHarmonic>,
 }
@@ -46,7 +50,7 @@ impl ModalWheel {
     pub fn at(reduced: &ReducedWheel, speed_rad_s: f64, stiffening: bool) -> Result<Self, ModelError> {
         let solve = |h: &ReducedHarmonic| modal_harmonic(h, reduced, speed_rad_s, stiffening);
         let harmonics = reduced.harmonics.iter().map(solve).collect::<Result<_, _>>()?;
-        Ok(Self { speed_rad_s, sectors: reduced.sectors, harmonics })
+        Ok(Self { speed_rad_s, sectors: reduced.sectors, repeats: 1, harmonics })
     }
 
     /// ω_max in rad/s: with central differences it bounds the step, h < 2/ω_max.
@@ -98,6 +102,7 @@ fn modal_harmonic(
         single,
         omega: frequencies(&pairs.values, harmonic, speed_rad_s)?,
         contact: pairs.vectors.subrows(0, wheel.contact_dofs()).to_owned(),
+        gyroscopic: None,
     })
 }
 

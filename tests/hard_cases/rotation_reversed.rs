@@ -9,6 +9,7 @@
 use std::f64::consts::TAU;
 
 use faer::sparse::{SparseColMat, Triplet};
+use rubmap::dynamics::effects::Effects;
 use rubmap::dynamics::casing::{Casing, Restriction};
 use rubmap::dynamics::integrate::{Outcome, SensorRow, Simulation};
 use rubmap::dynamics::modal_wheel::ModalWheel;
@@ -134,6 +135,7 @@ fn turns_backwards(scheme: Scheme, sectors: usize) {
         contact_nodes: &turned.contact,
         damping: Some(&damping),
         casing: Some(&casing(contact_nodes, -0.1)),
+        effects: Effects::default(),
         initial: &[],
         scheme,
         sensors: &sensors,

@@ -1,6 +1,7 @@
 //! What the hard cases of time integration share: scenes given to a simulation without the door.
 
 use faer::{Mat, c64};
+use rubmap::dynamics::effects::Effects;
 use rubmap::dynamics::casing::{Casing, Restriction};
 use rubmap::dynamics::initial::InitialMode;
 use rubmap::dynamics::integrate::{History, Outcome, Run, SensorRow, Simulation};
@@ -85,6 +86,7 @@ impl Scene {
             contact_nodes: &self.contact,
             damping: (self.damping_ratio > 0.0).then_some(&damping),
             casing: self.casing.as_ref(),
+            effects: Effects::default(),
             initial: &self.initial,
             sensors: &self.sensors,
             scheme,

@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use rubmap::dynamics::effects::Effects;
 use rubmap::dynamics::casing::{Casing, Restriction};
 use rubmap::dynamics::integrate::{Outcome, SensorRow, Simulation};
 use rubmap::dynamics::modal_wheel::ModalWheel;
@@ -53,6 +54,7 @@ fn agree_by(scheme: Scheme, recipe: WheelRecipe, damping_ratio: f64, lobes: u32,
         contact_nodes: &reduced.contact,
         damping: (damping_ratio > 0.0).then_some(&damping),
         casing: Some(&casing),
+        effects: Effects::default(),
         initial: &[],
         scheme,
         sensors: &sensors,

@@ -1,6 +1,7 @@
 //! What must hold for every wheel, casing and step: complementarity, the energy identity, symmetry.
 
 use proptest::prelude::*;
+use rubmap::dynamics::effects::Effects;
 use rubmap::dynamics::casing::{Casing, Restriction};
 use rubmap::dynamics::integrate::{History, Outcome, Run, SensorRow, Simulation};
 use rubmap::dynamics::modal_wheel::ModalWheel;
@@ -52,6 +53,7 @@ impl Scene {
             contact_nodes: &self.reduced.contact,
             damping: (self.damping_ratio > 0.0).then_some(&damping),
             casing: Some(&self.casing),
+            effects: Effects::default(),
             initial: &[],
             scheme: Scheme::CentralDifferences,
             sensors: &[self.sensor],

@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use faer::{Mat, c64};
+use rubmap::dynamics::effects::Effects;
 use rubmap::dynamics::casing::{Casing, Restriction};
 use rubmap::dynamics::initial::InitialMode;
 use rubmap::dynamics::integrate::{Outcome, SensorRow, Simulation};
@@ -76,6 +77,7 @@ impl Scene {
             contact_nodes: &self.contact,
             damping: (self.damping_ratio > 0.0).then_some(&damping),
             casing: Some(&self.casing),
+            effects: Effects::default(),
             initial: &[],
             sensors: &[sensor],
             scheme,
@@ -189,9 +191,10 @@ fn a_mass_bounces_off_a_stop_at_the_frequency_of_restitution_one() {
         // ω0 = 1 and a flexibility of (10/10⁴)²: in contact the mass swings at ω_c = 1000 ω0.
         contact[(0, 0)] = c64::new(1.0, 0.0);
         contact[(0, 1)] = c64::new(10.0, 0.0);
-        let modes = ModalHarmonic { harmonic: 0, single: true, omega: vec![1.0, 1e4], contact };
+        let modes =
+            ModalHarmonic { harmonic: 0, single: true, omega: vec![1.0, 1e4], contact, gyroscopic: None };
         // A revolution is ten periods of the free mass.
-        let wheel = ModalWheel { speed_rad_s: 0.1, sectors: 1, harmonics: vec![modes] };
+        let wheel = ModalWheel { speed_rad_s: 0.1, sectors: 1, repeats: 1, harmonics: vec![modes] };
         let steps = 32 * scheme.smallest_stable_steps(&wheel, std::slice::from_ref(&tip)) as usize;
         let start =
             InitialMode { harmonic: 0, family: 0, displacement: c64::new(-1.0, 0.0), velocity: c64::ZERO };
@@ -200,6 +203,7 @@ fn a_mass_bounces_off_a_stop_at_the_frequency_of_restitution_one() {
             contact_nodes: std::slice::from_ref(&tip),
             damping: None,
             casing: Some(&Casing { clearance: vec![share], restriction: None, ramp_revolutions: 0.0 }),
+            effects: Effects::default(),
             initial: &[start],
             sensors: &[SensorRow {
                 direction: Direction { node: 0, components: [1.0, 0.0, 0.0] },

@@ -10,6 +10,7 @@ use std::f64::consts::TAU;
 use faer::{Mat, c64};
 
 use super::casing::{Casing, RestrictionTable};
+use super::effects::Effects;
 use super::initial::InitialMode;
 use super::integrate::{Outcome, Run, SensorRow, Simulation};
 use super::modal_wheel::{ModalHarmonic, ModalWheel};
@@ -82,6 +83,7 @@ fn bar_modes(elements: usize, duration: f64) -> ModalWheel {
     ModalWheel {
         speed_rad_s: TAU / duration,
         sectors: 1,
+        repeats: 1,
         harmonics: vec![ModalHarmonic {
             harmonic: 0,
             single: true,
@@ -91,6 +93,7 @@ fn bar_modes(elements: usize, duration: f64) -> ModalWheel {
                 let value = if row % 3 == 0 { pairs.vectors[(row / 3, mode)] } else { 0.0 };
                 c64::new(value, 0.0)
             }),
+            gyroscopic: None,
         }],
     }
 }
@@ -141,6 +144,7 @@ impl Bar {
             contact_nodes: &TIP,
             damping: None,
             casing: Some(&casing),
+            effects: Effects::default(),
             initial,
             scheme,
             sensors: &sensors,

@@ -3,7 +3,6 @@
 use faer::{Mat, c64};
 
 use super::super::oscillators::LANES;
-use super::flexibility::ridge;
 use crate::numerics::aligned::Aligned;
 use crate::numerics::complementarity::{ContactOperator, any_below};
 use crate::numerics::sector_fourier::{SectorFourier, is_single};
@@ -24,9 +23,9 @@ pub(crate) struct Delassus {
 }
 
 impl Delassus {
-    /// W = Σ_i w_i² Re(W_i e^{jiα(s−s')}) from the `nodes × nodes` blocks W_i of the nodal diameters, with a
-    /// [`ridge`] if they are singular.
-    pub(crate) fn new(blocks: &[Mat<c64>], stride: usize, fourier: &SectorFourier) -> Self {
+    /// W = Σ_i w_i² Re(W_i e^{jiα(s−s')}) from the `nodes × nodes` blocks W_i of the nodal diameters, with the
+    /// [`ridge`](super::flexibility::ridge) of those without friction.
+    pub(crate) fn new(blocks: &[Mat<c64>], ridge: f64, stride: usize, fourier: &SectorFourier) -> Self {
         let (sectors, nodes) = (fourier.sectors(), blocks[0].nrows());
         let mut table = Aligned::zeros(sectors * nodes * stride);
         let mut column = 0;
@@ -48,7 +47,19 @@ impl Delassus {
         }
         let places = (0..sectors * stride).map(|index| (index / stride, index % stride)).collect();
         let largest = table.iter().fold(0.0f64, |m, w| m.max(w.abs()));
-        Self { sectors, nodes, stride, table, ridge: ridge(blocks, sectors), largest, places }
+        Self { sectors, nodes, stride, table, ridge, largest, places }
+    }
+
+    /// Adds what a unit force at a node opens at another, `term(sector distance, to, from)`.
+    pub(crate) fn add(&mut self, term: impl Fn(usize, usize, usize) -> f64) {
+        for distance in 0..self.sectors {
+            for from in 0..self.nodes {
+                for to in 0..self.nodes {
+                    self.table[(distance * self.nodes + from) * self.stride + to] += term(distance, to, from);
+                }
+            }
+        }
+        self.largest = self.table.iter().fold(0.0, |m, w| m.max(w.abs()));
     }
 
     /// Sector and contact node of an index.

@@ -5,6 +5,7 @@ use pulp::Arch;
 use sha2::{Digest, Sha256};
 
 use super::super::casing::{Casing, Restriction};
+use super::super::effects::Effects;
 use super::super::initial::InitialMode;
 use super::super::modal_wheel::{ModalHarmonic, ModalWheel};
 use super::super::oscillators::{Direction, ModalDamping};
@@ -37,9 +38,14 @@ fn wheel() -> ModalWheel {
             let (re, im) = (numbers.next(), numbers.next());
             c64::new(100.0 * re, if single { 0.0 } else { 100.0 * im })
         });
-        ModalHarmonic { harmonic, single, omega, contact }
+        ModalHarmonic { harmonic, single, omega, contact, gyroscopic: None }
     };
-    ModalWheel { speed_rad_s: 1000.0, sectors: SECTORS, harmonics: (0..=SECTORS / 2).map(harmonic).collect() }
+    ModalWheel {
+        speed_rad_s: 1000.0,
+        sectors: SECTORS,
+        repeats: 1,
+        harmonics: (0..=SECTORS / 2).map(harmonic).collect(),
+    }
 }
 
 fn digest(arch: Arch, scheme: Scheme, damped: bool, touching: bool) -> String {
@@ -69,6 +75,7 @@ fn digest(arch: Arch, scheme: Scheme, damped: bool, touching: bool) -> String {
         contact_nodes: &contact_nodes,
         damping: damped.then_some(&damping),
         casing: touching.then_some(&casing),
+        effects: Effects::default(),
         initial: &[push],
         sensors: &[sensor(0), sensor(2)],
         scheme,

@@ -6,6 +6,7 @@ mod obstacle;
 mod recorder;
 mod residual;
 mod stepper;
+mod surroundings;
 
 use std::f64::consts::TAU;
 
@@ -15,6 +16,7 @@ use self::stepper::Stepper;
 use super::casing::Casing;
 #[cfg(test)]
 use super::casing::RestrictionTable;
+use super::effects::Effects;
 use super::energy::EnergyAudit;
 use super::initial::InitialMode;
 use super::modal_wheel::ModalWheel;
@@ -35,6 +37,8 @@ pub struct Simulation<'a> {
     pub damping: Option<&'a ModalDamping>,
     /// Casing that the blades may touch; absent: none.
     pub casing: Option<&'a Casing>,
+    /// Effects beyond damping and a rigid casing.
+    pub effects: Effects<'a>,
     /// Modes that move at the start; empty: from rest.
     pub initial: &'a [InitialMode],
     /// Recorded displacements.

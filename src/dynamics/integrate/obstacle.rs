@@ -4,7 +4,9 @@ use pulp::Simd;
 
 use super::super::casing::{Casing, RestrictionTable};
 use super::super::contact::delassus::Delassus;
-use super::super::contact::flexibility::{flexibility, outward_normals};
+use super::super::contact::flexibility::{flexibility, outward_normals, ridge};
+use super::super::energy::EffectWork;
+use super::super::flexible_casing::CasingMotion;
 use super::super::oscillators::rows::Rows;
 use super::super::oscillators::{LANES, Oscillators};
 use super::super::schemes::Scheme;
@@ -12,6 +14,7 @@ use super::super::schemes::massless_boundary::residual_flexibility;
 use super::super::statistics::RunStatistics;
 use super::Simulation;
 use super::residual::ResidualDisplacement;
+use super::surroundings::Surroundings;
 use crate::numerics::complementarity::ComplementarityError;
 use crate::numerics::complementarity::active_set::ActiveSetSolver;
 use crate::numerics::sector_fourier::SectorFourier;
@@ -25,6 +28,8 @@ pub(super) struct Obstacle {
     pub(super) rows: Rows,
     delassus: Delassus,
     solver: ActiveSetSolver,
+    /// None for a scene without effects.
+    pub(super) surroundings: Option<Surroundings>,
     residual: ResidualDisplacement,
     casing: Casing,
     pub(super) restriction: Option<RestrictionTable>,
@@ -44,7 +49,7 @@ pub(super) struct Obstacle {
     /// Contact nodes with a force on any sector.
     pub(super) loaded: Vec<usize>,
     is_loaded: Vec<bool>,
-    /// Along the outward normals, `[Fourier column][node]`.
+    /// Along [`Self::applied`], `[Fourier column][node]`.
     pub(super) force: Vec<f64>,
 }
 
@@ -66,20 +71,13 @@ impl Obstacle {
         });
         let mut clearance = casing.clearance.clone();
         clearance.resize(stride, f64::INFINITY);
-        let blocks = match scheme {
-            Scheme::CentralDifferences | Scheme::ExactModal => {
-                flexibility(wheel, &normals, &normals, |harmonic, mode| {
-                    oscillators.receptance(harmonic, mode)
-                })
-            }
-            Scheme::MasslessBoundary { kept_modes } => {
-                residual_flexibility(wheel, kept_modes, &normals, &normals)
-            }
-        };
+        let surroundings = Surroundings::new(simulation, stride);
+        let delassus = delassus(simulation, oscillators, fourier, stride, surroundings.as_ref());
         let size = sectors * stride;
         let length = casing.length_scale(simulation.reach());
         Self {
-            delassus: Delassus::new(&blocks, stride, fourier),
+            delassus,
+            surroundings,
             solver: ActiveSetSolver::new(size),
             residual: ResidualDisplacement::new(simulation, &normals),
             restriction,
@@ -103,7 +101,7 @@ impl Obstacle {
     /// Normal displacements of all sectors from their Fourier coordinates, and g_p = c − p − nᵀu, whose smallest value
     /// is returned.
     #[inline(always)]
-    pub(super) fn predict_gaps<S: Simd>(
+    pub(super) fn predict_gaps<S: Simd, const EFFECTS: bool>(
         &mut self,
         simd: S,
         fourier: &SectorFourier,
@@ -113,24 +111,36 @@ impl Obstacle {
         let mut smallest = simd.splat_f64s(f64::INFINITY);
         let stride = self.rows.stride;
         let vectors = stride / S::F64_LANES;
-        let growth = simd.splat_f64s(self.casing.growth(revolutions));
+        let growth = self.casing.growth(revolutions);
+        let shift = match &mut self.surroundings {
+            Some(surroundings) if EFFECTS => {
+                surroundings.move_to(revolutions, growth);
+                surroundings.shift.as_slice()
+            }
+            _ => &[],
+        };
+        let growth = simd.splat_f64s(growth);
         let clearance = &S::as_simd_f64s(&self.clearance).0[..vectors];
         let harmonic = S::as_simd_f64s(&self.harmonic).0;
         for sector in 0..fourier.sectors() {
             let range = sector * stride..(sector + 1) * stride;
             let normal = &mut S::as_mut_simd_f64s(&mut self.normal[range.clone()]).0[..vectors];
-            let gap = &mut S::as_mut_simd_f64s(&mut self.predicted_gap[range]).0[..vectors];
+            let gap = &mut S::as_mut_simd_f64s(&mut self.predicted_gap[range.clone()]).0[..vectors];
             let restricted = match &self.restriction {
                 Some(table) => table.at(step, sector),
                 None => &self.unrestricted,
             };
             let restricted = &S::as_simd_f64s(restricted).0[..vectors];
+            let shift = if EFFECTS { &S::as_simd_f64s(&shift[range.clone()]).0[..vectors] } else { &[] };
             for v in 0..vectors {
                 let mut u = simd.splat_f64s(0.0);
                 for (&f, column) in fourier.row(sector).iter().zip(harmonic.chunks_exact(vectors)) {
                     u = simd.mul_add_e_f64s(simd.splat_f64s(f), column[v], u);
                 }
-                let free = simd.negate_mul_add_e_f64s(growth, restricted[v], clearance[v]);
+                let mut free = simd.negate_mul_add_e_f64s(growth, restricted[v], clearance[v]);
+                if EFFECTS {
+                    free = simd.add_f64s(free, shift[v]);
+                }
                 normal[v] = u;
                 gap[v] = simd.sub_f64s(free, u);
                 smallest = simd.min_f64s(smallest, gap[v]);
@@ -139,24 +149,53 @@ impl Obstacle {
         simd.reduce_min_f64s(smallest)
     }
 
+    /// The casing in motion, if it is elastic.
+    pub(super) fn flexible_casing(&mut self) -> Option<&mut CasingMotion> {
+        self.surroundings.as_mut()?.casing.as_mut()
+    }
+
+    /// What contact forces act along: the normals, but for friction.
+    #[inline(always)]
+    pub(super) fn applied<const EFFECTS: bool>(&self) -> &Rows {
+        match &self.surroundings {
+            Some(Surroundings { sliding: Some(sliding), .. }) if EFFECTS => &sliding.rows,
+            _ => &self.rows,
+        }
+    }
+
     /// Contact forces of the predicted gaps (Eqs 9, 10) and what they add to the statistics.
     #[inline(always)]
-    pub(super) fn solve(
+    pub(super) fn solve<const EFFECTS: bool>(
         &mut self,
         fourier: &SectorFourier,
         statistics: &mut RunStatistics,
+        work: &mut EffectWork,
     ) -> Result<(), ComplementarityError> {
-        self.solver.solve(&self.delassus, &self.predicted_gap, self.tolerance)?;
-        let deepest = -lowest(self.solver.gap());
+        let (general, sliding, mut casing) = match &mut self.surroundings {
+            Some(s) if EFFECTS => (s.general.as_mut(), s.sliding.as_ref(), s.casing.as_mut()),
+            _ => (None, None, None),
+        };
+        let (active, lambda, gap, pivots) = match general {
+            Some(solver) => {
+                solver.solve(&self.delassus, &self.predicted_gap, self.tolerance)?;
+                (solver.active(), solver.lambda(), solver.gap(), solver.statistics())
+            }
+            None => {
+                let solver = &mut self.solver;
+                solver.solve(&self.delassus, &self.predicted_gap, self.tolerance)?;
+                (solver.active(), solver.lambda(), solver.gap(), solver.statistics())
+            }
+        };
+        let deepest = -lowest(gap);
         statistics.largest_penetration = statistics.largest_penetration.max(deepest);
         // A run that explodes leaves round-off of its own size; that is for the bounds to find.
         if deepest > self.most_left && deepest > LEFT * -lowest(&self.predicted_gap) {
             return Err(ComplementarityError::Infeasible { penetration: deepest });
         }
-        statistics.pivots = self.solver.statistics();
+        statistics.pivots = pivots;
         let stride = self.rows.stride;
         let mut impulse = 0.0;
-        for (&index, &lambda) in self.solver.active().iter().zip(self.solver.lambda()) {
+        for (&index, &lambda) in active.iter().zip(lambda) {
             let (sector, row) = self.delassus.place(index);
             if !self.is_loaded[row] {
                 self.is_loaded[row] = true;
@@ -164,6 +203,12 @@ impl Obstacle {
             }
             for (column, &f) in fourier.row(sector).iter().enumerate() {
                 self.force[column * stride + row] -= f * lambda;
+            }
+            if let Some(sliding) = sliding {
+                work.friction_heat += sliding.heat[row] * lambda;
+            }
+            if let Some(casing) = &mut casing {
+                casing.press(index, lambda);
             }
             impulse += lambda * self.step_s;
             let smallest = statistics.smallest_multiplier.map_or(lambda, |least| least.min(lambda));
@@ -178,7 +223,7 @@ impl Obstacle {
 
     /// Largest penetration of the state as it is, at the instant of the last gaps.
     #[inline(always)]
-    pub(super) fn penetration<S: Simd>(
+    pub(super) fn penetration<S: Simd, const EFFECTS: bool>(
         &mut self,
         simd: S,
         oscillators: &Oscillators,
@@ -188,7 +233,7 @@ impl Obstacle {
     ) -> f64 {
         oscillators.project(simd, &self.rows, &mut self.harmonic);
         self.residual.add(&self.force, self.rows.stride, &mut self.harmonic, self.rows.stride);
-        (-self.predict_gaps(simd, fourier, step, revolutions)).max(0.0)
+        (-self.predict_gaps::<S, EFFECTS>(simd, fourier, step, revolutions)).max(0.0)
     }
 
     /// No forces, until the next solution.
@@ -216,6 +261,41 @@ impl Obstacle {
         }
         (largest.0, largest.1.abs())
     }
+}
+
+/// W of the scheme, with what the effects make of it.
+fn delassus(
+    simulation: &Simulation<'_>,
+    oscillators: &Oscillators,
+    fourier: &SectorFourier,
+    stride: usize,
+    surroundings: Option<&Surroundings>,
+) -> Delassus {
+    let Simulation { wheel, scheme, .. } = *simulation;
+    let normals = outward_normals(simulation.contact_nodes);
+    let blocks = |from: &[_], turned: bool| match scheme {
+        Scheme::CentralDifferences | Scheme::ExactModal if turned => {
+            oscillators.turned_flexibility(wheel, simulation.step_s(), &normals, from)
+        }
+        Scheme::CentralDifferences | Scheme::ExactModal => {
+            flexibility(wheel, &normals, from, |harmonic, mode| oscillators.receptance(harmonic, mode))
+        }
+        Scheme::MasslessBoundary { kept_modes } => residual_flexibility(wheel, kept_modes, &normals, from),
+    };
+    let plain = blocks(&normals, false);
+    let ridge = ridge(&plain, wheel.sectors);
+    let turned = wheel.harmonics.iter().any(|harmonic| harmonic.gyroscopic.is_some());
+    let mut delassus = match simulation.effects.friction {
+        None if !turned => Delassus::new(&plain, ridge, stride, fourier),
+        friction => {
+            let from = friction.map_or(normals.as_slice(), |friction| friction.directions);
+            Delassus::new(&blocks(from, turned), ridge, stride, fourier)
+        }
+    };
+    if let Some(casing) = surroundings.and_then(|surroundings| surroundings.casing.as_ref()) {
+        delassus.add(|distance, to, from| casing.operator(distance, to, from));
+    }
+    delassus
 }
 
 /// The smallest of 0 and `values`, whose number is a multiple of the lanes; lane by lane, so that it vectorises.

@@ -27,8 +27,11 @@ impl ResidualDisplacement {
     pub(super) fn new(simulation: &Simulation<'_>, rows: &[Direction]) -> Self {
         let mut harmonics = Vec::new();
         if let (Scheme::MasslessBoundary { kept_modes }, Some(_)) = (simulation.scheme, simulation.casing) {
-            let normals = outward_normals(simulation.contact_nodes);
-            let blocks = residual_flexibility(simulation.wheel, kept_modes, rows, &normals);
+            let applied = match simulation.effects.friction {
+                Some(friction) => friction.directions.to_vec(),
+                None => outward_normals(simulation.contact_nodes),
+            };
+            let blocks = residual_flexibility(simulation.wheel, kept_modes, rows, &applied);
             let mut column = 0;
             for (modes, flexibility) in simulation.wheel.harmonics.iter().zip(blocks) {
                 harmonics.push(Harmonic { flexibility, column, single: modes.single });

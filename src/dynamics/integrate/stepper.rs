@@ -4,17 +4,22 @@
 //! contact node and solves the complementarity problem of the gaps (Eqs 9, 10) for the forces that complete it; they are
 //! applied together with the next step's prediction, in one pass over the mode shapes. Without mass at the contact, the
 //! forces of the last instant carry the modes to the next one, where the boundary then finds its own equilibrium.
+//!
+//! Scenes with effects have a loop of their own, so that the others do not even ask for them.
 
 use pulp::Simd;
 
 #[cfg(test)]
 use super::super::casing::RestrictionTable;
 use super::super::energy::EnergyAudit;
+use super::super::flexible_casing::CasingMotion;
+use super::super::oscillators::driven::Drive;
 use super::super::oscillators::{Loads, Oscillators};
 use super::super::schemes::Scheme;
 use super::super::statistics::RunStatistics;
 use super::obstacle::Obstacle;
 use super::recorder::Recorder;
+use super::surroundings::Surroundings;
 use super::{Divergence, Outcome, Run, Simulation};
 use crate::numerics::sector_fourier::SectorFourier;
 
@@ -38,6 +43,8 @@ mod contact {
 pub(super) struct Stepper {
     fourier: SectorFourier,
     oscillators: Oscillators,
+    /// What else than contact moves the wheel.
+    drive: Option<Drive>,
     obstacle: Option<Obstacle>,
     recorder: Recorder,
     statistics: RunStatistics,
@@ -61,10 +68,12 @@ impl Stepper {
         );
         let obstacle =
             simulation.casing.map(|casing| Obstacle::new(simulation, casing, &oscillators, &fourier));
+        let step = simulation.step_s();
+        let drive = Drive::new(wheel, &simulation.effects, &oscillators, &fourier, step);
         let recorder = Recorder::new(simulation, &fourier);
         let energy = EnergyAudit::starting_at(oscillators.energy());
         let statistics = RunStatistics::default();
-        Self { fourier, oscillators, obstacle, recorder, statistics, energy, last_energy: None }
+        Self { fourier, oscillators, drive, obstacle, recorder, statistics, energy, last_energy: None }
     }
 
     #[cfg(test)]
@@ -83,14 +92,23 @@ impl Stepper {
         watch: &dyn Fn(f64) -> bool,
     ) -> Run {
         use contact::{COMPLETES, MASSLESS, NONE};
-        let massless = matches!(simulation.scheme, Scheme::MasslessBoundary { .. });
-        let outcome = match (self.oscillators.dissipates(), self.obstacle.is_some(), massless) {
-            (true, false, _) => self.integrate::<S, true, NONE>(simd, simulation, watch),
-            (false, false, _) => self.integrate::<S, false, NONE>(simd, simulation, watch),
-            (true, true, false) => self.integrate::<S, true, COMPLETES>(simd, simulation, watch),
-            (false, true, false) => self.integrate::<S, false, COMPLETES>(simd, simulation, watch),
-            (true, true, true) => self.integrate::<S, true, MASSLESS>(simd, simulation, watch),
-            (false, true, true) => self.integrate::<S, false, MASSLESS>(simd, simulation, watch),
+        let contact = match (&self.obstacle, simulation.scheme) {
+            (None, _) => NONE,
+            (Some(_), Scheme::MasslessBoundary { .. }) => MASSLESS,
+            (Some(_), _) => COMPLETES,
+        };
+        let surrounded = self.obstacle.as_ref().is_some_and(|obstacle| obstacle.surroundings.is_some());
+        let effects = self.drive.is_some() || surrounded;
+        let outcome = match (effects, self.oscillators.dissipates(), contact) {
+            (false, true, NONE) => self.integrate::<S, true, NONE, false>(simd, simulation, watch),
+            (false, false, NONE) => self.integrate::<S, false, NONE, false>(simd, simulation, watch),
+            (false, true, MASSLESS) => self.integrate::<S, true, MASSLESS, false>(simd, simulation, watch),
+            (false, false, MASSLESS) => self.integrate::<S, false, MASSLESS, false>(simd, simulation, watch),
+            (false, true, _) => self.integrate::<S, true, COMPLETES, false>(simd, simulation, watch),
+            (false, false, _) => self.integrate::<S, false, COMPLETES, false>(simd, simulation, watch),
+            (true, _, NONE) => self.integrate::<S, true, NONE, true>(simd, simulation, watch),
+            (true, _, MASSLESS) => self.integrate::<S, true, MASSLESS, true>(simd, simulation, watch),
+            (true, _, _) => self.integrate::<S, true, COMPLETES, true>(simd, simulation, watch),
         };
         let outcome = match outcome {
             Ok(()) => Outcome::Completed(self.recorder.take()),
@@ -100,7 +118,7 @@ impl Stepper {
     }
 
     #[inline(always)]
-    fn integrate<S: Simd, const DISSIPATES: bool, const CONTACT: u8>(
+    fn integrate<S: Simd, const DISSIPATES: bool, const CONTACT: u8, const EFFECTS: bool>(
         &mut self,
         simd: S,
         simulation: &Simulation<'_>,
@@ -113,10 +131,16 @@ impl Stepper {
         for revolution in 0..simulation.revolutions {
             for step in 1..=steps {
                 let revolutions = revolution as f64 + step as f64 / steps as f64;
-                if CONTACT == contact::NONE {
+                if EFFECTS {
+                    let before = revolution as f64 + (step - 1) as f64 / steps as f64;
+                    self.advance_wheel::<S, CONTACT>(simd, before);
+                } else if CONTACT == contact::NONE {
                     self.energy.add(self.oscillators.advance::<S, DISSIPATES>(simd));
                 } else {
-                    self.step_touching::<S, DISSIPATES, CONTACT>(simd, step % steps, revolutions)?;
+                    self.advance_touching::<S, DISSIPATES, CONTACT>(simd);
+                }
+                if CONTACT != contact::NONE {
+                    self.touch::<S, EFFECTS>(simd, step % steps, revolutions)?;
                 }
                 self.statistics.steps += 1;
                 if DISSIPATES && self.statistics.steps.is_multiple_of(QUENCHED_STEPS) {
@@ -129,25 +153,85 @@ impl Stepper {
                 }
                 if step % sampling == 0 {
                     if CONTACT == contact::COMPLETES {
-                        self.complete::<S, DISSIPATES>(simd);
+                        self.complete::<S, DISSIPATES, EFFECTS>(simd);
                     }
                     if CONTACT != contact::NONE {
-                        self.check_penetration(simd, step % steps, revolutions);
+                        self.check_penetration::<S, EFFECTS>(simd, step % steps, revolutions);
                     }
-                    let energy = self.oscillators.energy();
+                    let energy = self.mechanical_energy();
                     self.energy.check(energy);
                     self.record(simd, revolution >= window_start);
                     self.check_bounds(energy, reach, revolutions)?;
                 }
             }
-            self.last_energy = Some(self.oscillators.energy());
+            self.last_energy = Some(self.mechanical_energy());
         }
         Ok(())
     }
 
-    /// One step of a wheel that may touch the casing; `step` is its position in the revolution.
+    /// A step of a wheel that may touch the casing, up to its gaps.
     #[inline(always)]
-    fn step_touching<S: Simd, const DISSIPATES: bool, const CONTACT: u8>(
+    fn advance_touching<S: Simd, const DISSIPATES: bool, const CONTACT: u8>(&mut self, simd: S) {
+        let Some(obstacle) = &mut self.obstacle else {
+            return;
+        };
+        let loads = Loads { rows: &obstacle.loaded, force: &obstacle.force };
+        let (rows, out) = (&obstacle.rows, &mut obstacle.harmonic);
+        let exchange = if CONTACT == contact::MASSLESS {
+            self.oscillators.advance_loaded::<S, DISSIPATES>(simd, rows, (rows, loads), out)
+        } else {
+            self.oscillators.complete_and_predict::<S, DISSIPATES>(simd, rows, (rows, loads), out)
+        };
+        self.energy.add(exchange);
+        obstacle.clear_forces(&self.fourier);
+    }
+
+    /// A step of a wheel with effects that starts after `revolutions`, up to its gaps.
+    #[inline(always)]
+    fn advance_wheel<S: Simd, const CONTACT: u8>(&mut self, simd: S, revolutions: f64) {
+        let Self { oscillators, drive, obstacle, energy, .. } = self;
+        let Some(obstacle) = obstacle else {
+            let exchange = match drive {
+                Some(drive) => {
+                    oscillators.advance_driven(simd, drive, None, revolutions, energy.effects_mut())
+                }
+                None => oscillators.advance::<S, true>(simd),
+            };
+            return energy.add(exchange);
+        };
+        let loads = Loads { rows: &obstacle.loaded, force: &obstacle.force };
+        let applied = match &obstacle.surroundings {
+            Some(Surroundings { sliding: Some(sliding), .. }) => &sliding.rows,
+            _ => &obstacle.rows,
+        };
+        let (rows, out) = (&obstacle.rows, &mut obstacle.harmonic);
+        let exchange = match (drive, CONTACT == contact::MASSLESS) {
+            (None, true) => oscillators.advance_loaded::<S, true>(simd, rows, (applied, loads), out),
+            (None, false) => oscillators.complete_and_predict::<S, true>(simd, rows, (applied, loads), out),
+            (Some(drive), massless) => {
+                let work = energy.effects_mut();
+                let exchange = if massless {
+                    oscillators.advance_driven(simd, drive, Some((applied, loads)), revolutions, work)
+                } else {
+                    let exchange = oscillators.complete_driven(simd, drive, applied, loads, work);
+                    oscillators.predict_driven(simd, drive, revolutions);
+                    exchange
+                };
+                oscillators.project(simd, rows, out);
+                exchange
+            }
+        };
+        energy.add(exchange);
+        if let Some(casing) = obstacle.flexible_casing() {
+            energy.add_casing(casing.complete());
+            casing.predict();
+        }
+        obstacle.clear_forces(&self.fourier);
+    }
+
+    /// Contact at the end of a step; `step` is its position in the revolution.
+    #[inline(always)]
+    fn touch<S: Simd, const EFFECTS: bool>(
         &mut self,
         simd: S,
         step: usize,
@@ -156,39 +240,48 @@ impl Stepper {
         let Some(obstacle) = &mut self.obstacle else {
             return Ok(());
         };
-        let loads = Loads { rows: &obstacle.loaded, force: &obstacle.force };
-        let (rows, out) = (&obstacle.rows, &mut obstacle.harmonic);
-        let exchange = if CONTACT == contact::MASSLESS {
-            self.oscillators.advance_loaded::<S, DISSIPATES>(simd, rows, loads, out)
-        } else {
-            self.oscillators.complete_and_predict::<S, DISSIPATES>(simd, rows, loads, out)
-        };
-        self.energy.add(exchange);
-        obstacle.clear_forces(&self.fourier);
-        if obstacle.predict_gaps(simd, &self.fourier, step, revolutions) >= 0.0 {
+        if obstacle.predict_gaps::<S, EFFECTS>(simd, &self.fourier, step, revolutions) >= 0.0 {
             return Ok(());
         }
         obstacle
-            .solve(&self.fourier, &mut self.statistics)
+            .solve::<EFFECTS>(&self.fourier, &mut self.statistics, self.energy.effects_mut())
             .map_err(|error| Outcome::ContactFailed { revolutions, error })
     }
 
     /// Completes the last step now instead of with the next one.
     #[inline(always)]
-    fn complete<S: Simd, const DISSIPATES: bool>(&mut self, simd: S) {
+    fn complete<S: Simd, const DISSIPATES: bool, const EFFECTS: bool>(&mut self, simd: S) {
         let Some(obstacle) = &mut self.obstacle else {
             return;
         };
         let loads = Loads { rows: &obstacle.loaded, force: &obstacle.force };
-        self.energy.add(self.oscillators.complete::<S, DISSIPATES>(simd, &obstacle.rows, loads));
+        let applied = obstacle.applied::<EFFECTS>();
+        let exchange = match &mut self.drive {
+            Some(drive) if EFFECTS => {
+                let work = self.energy.effects_mut();
+                self.oscillators.complete_driven(simd, drive, applied, loads, work)
+            }
+            _ => self.oscillators.complete::<S, DISSIPATES>(simd, applied, loads),
+        };
+        self.energy.add(exchange);
+        if EFFECTS && let Some(casing) = obstacle.flexible_casing() {
+            self.energy.add_casing(casing.complete());
+        }
         obstacle.clear_forces(&self.fourier);
+    }
+
+    fn mechanical_energy(&self) -> f64 {
+        let surroundings = self.obstacle.as_ref().and_then(|obstacle| obstacle.surroundings.as_ref());
+        let casing = surroundings.and_then(|surroundings| surroundings.casing.as_ref());
+        self.oscillators.energy() + casing.map_or(0.0, CasingMotion::energy)
     }
 
     /// Holds what the contact solution promised against the state.
     #[inline(always)]
-    fn check_penetration<S: Simd>(&mut self, simd: S, step: usize, revolutions: f64) {
+    fn check_penetration<S: Simd, const EFFECTS: bool>(&mut self, simd: S, step: usize, revolutions: f64) {
         let Some(obstacle) = &mut self.obstacle else { return };
-        let left = obstacle.penetration(simd, &self.oscillators, &self.fourier, step, revolutions);
+        let left =
+            obstacle.penetration::<S, EFFECTS>(simd, &self.oscillators, &self.fourier, step, revolutions);
         self.statistics.largest_penetration = self.statistics.largest_penetration.max(left);
     }
 

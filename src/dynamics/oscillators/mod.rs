@@ -5,6 +5,7 @@
 //! coefficients. The modes of one nodal diameter are forced, advanced and projected one after the other, while its mode
 //! shapes are in the first-level cache.
 
+pub(crate) mod driven;
 mod product;
 pub(crate) mod rows;
 
@@ -237,20 +238,20 @@ impl Oscillators {
         sums.total(simd)
     }
 
-    /// Completes the last step by `loads` on `rows` (Eq. 10), takes the next one free of them (Eq. 8), and reads `rows` in
-    /// Fourier coordinates, `out[column][row]`. Returns the exchange of the completed step.
+    /// Completes the last step by `loads` on the rows `applied` (Eq. 10), takes the next one free of them (Eq. 8), and reads
+    /// `rows` in Fourier coordinates, `out[column][row]`. Returns the exchange of the completed step.
     #[inline(always)]
     pub(crate) fn complete_and_predict<S: Simd, const DISSIPATES: bool>(
         &mut self,
         simd: S,
         rows: &Rows,
-        loads: Loads<'_>,
+        (applied, loads): (&Rows, Loads<'_>),
         out: &mut [f64],
     ) -> Exchange {
         if loads.rows.is_empty() {
-            self.complete_and_predict_loaded::<S, DISSIPATES, false>(simd, rows, loads, out)
+            self.complete_and_predict_loaded::<S, DISSIPATES, false>(simd, rows, (applied, loads), out)
         } else {
-            self.complete_and_predict_loaded::<S, DISSIPATES, true>(simd, rows, loads, out)
+            self.complete_and_predict_loaded::<S, DISSIPATES, true>(simd, rows, (applied, loads), out)
         }
     }
 
@@ -259,13 +260,13 @@ impl Oscillators {
         &mut self,
         simd: S,
         rows: &Rows,
-        loads: Loads<'_>,
+        (applied, loads): (&Rows, Loads<'_>),
         out: &mut [f64],
     ) -> Exchange {
         let mut sums = Sums::new(simd);
         for index in 0..self.segments.len() {
             if LOADED {
-                self.load_segment(simd, index, rows, loads);
+                self.load_segment(simd, index, applied, loads);
             }
             let segment = self.segments[index];
             let of = self.coefficients.of::<S>(segment);
@@ -320,19 +321,19 @@ impl Oscillators {
         sums.total(simd)
     }
 
-    /// One step of every mode under `loads` on `rows`, which act from its start, and the values of `rows` at its end in
-    /// Fourier coordinates, `out[column][row]`.
+    /// One step of every mode under `loads` on the rows `applied`, which act from its start, and the values of `rows` at its
+    /// end in Fourier coordinates, `out[column][row]`.
     #[inline(always)]
     pub(crate) fn advance_loaded<S: Simd, const DISSIPATES: bool>(
         &mut self,
         simd: S,
         rows: &Rows,
-        loads: Loads<'_>,
+        (applied, loads): (&Rows, Loads<'_>),
         out: &mut [f64],
     ) -> Exchange {
         let mut sums = Sums::new(simd);
         for index in 0..self.segments.len() {
-            self.load_segment(simd, index, rows, loads);
+            self.load_segment(simd, index, applied, loads);
             let segment = self.segments[index];
             let of = self.coefficients.of::<S>(segment);
             for start in segment.parts() {

@@ -63,6 +63,21 @@ impl Matrix {
     }
 }
 
+impl RowBlock {
+    /// `matrix` itself, its columns padded to `length`.
+    pub(super) fn padded(matrix: MatRef<'_, c64>, length: usize) -> Self {
+        let zeros = || Matrix::zeros(matrix.nrows(), length);
+        let mut block = Self { re: zeros(), im: zeros() };
+        for row in 0..matrix.nrows() {
+            for column in 0..matrix.ncols() {
+                block.re.values[row * length + column] = matrix[(row, column)].re;
+                block.im.values[row * length + column] = matrix[(row, column)].im;
+            }
+        }
+        block
+    }
+}
+
 impl Rows {
     /// Rows over the first `integrated(modes)` of the modes of every nodal diameter.
     pub(crate) fn new(
@@ -80,15 +95,6 @@ impl Rows {
 }
 
 fn row_block(contact: &Mat<c64>, directions: &[Direction], modes: usize) -> RowBlock {
-    let length = padded(modes);
-    let zeros = || Matrix::zeros(directions.len(), length);
-    let mut block = RowBlock { re: zeros(), im: zeros() };
-    for (row, direction) in directions.iter().enumerate() {
-        for m in 0..modes {
-            let value = direction.of(contact.as_ref(), m);
-            block.re.values[row * length + m] = value.re;
-            block.im.values[row * length + m] = value.im;
-        }
-    }
-    block
+    let shape = |row: usize, m: usize| directions[row].of(contact.as_ref(), m);
+    RowBlock::padded(Mat::from_fn(directions.len(), modes, shape).as_ref(), padded(modes))
 }

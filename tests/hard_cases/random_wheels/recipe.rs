@@ -5,6 +5,7 @@ use std::f64::consts::{PI, TAU};
 use faer::{Mat, c64};
 use proptest::prelude::*;
 use proptest::sample::select;
+use rubmap::dynamics::effects::Effects;
 use rubmap::dynamics::casing::{Casing, Restriction};
 use rubmap::dynamics::initial::InitialMode;
 use rubmap::dynamics::integrate::{History, Run, SensorRow, Simulation};
@@ -123,7 +124,7 @@ impl Recipe {
             contact_nodes[1] = contact_nodes[0].clone();
             clearance[1] = clearance[0];
         }
-        let wheel = ModalWheel { speed_rad_s: SPEED, sectors: self.sectors, harmonics };
+        let wheel = ModalWheel { speed_rad_s: SPEED, sectors: self.sectors, repeats: 1, harmonics };
         let initial = InitialMode {
             harmonic: self.sectors / 2,
             family: 0,
@@ -169,7 +170,7 @@ impl Recipe {
                 }
             }
         }
-        ModalHarmonic { harmonic, single, omega, contact }
+        ModalHarmonic { harmonic, single, omega, contact, gyroscopic: None }
     }
 }
 
@@ -198,6 +199,7 @@ impl Case {
             contact_nodes: &self.contact_nodes,
             damping: self.damping.as_ref(),
             casing: Some(&self.casing),
+            effects: Effects::default(),
             initial: &self.initial,
             sensors: &self.sensors,
             scheme,

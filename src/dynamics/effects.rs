@@ -1,0 +1,41 @@
+//! Effects beyond damping and contact with a rigid casing. One that is absent does not exist in the run.
+
+use super::excitation::EngineOrderExcitation;
+use super::flexible_casing::FlexibleCasing;
+use super::orbit::Orbit;
+use super::oscillators::Direction;
+
+/// Effects of a simulation. Coriolis forces are the wheel's own: they act where it has gyroscopic matrices.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Effects<'a> {
+    /// Coulomb friction at the contact.
+    pub friction: Option<Friction<'a>>,
+    /// Elastic casing.
+    pub flexible_casing: Option<&'a FlexibleCasing>,
+    /// Eccentric casing or whirling shaft.
+    pub orbit: Option<Orbit>,
+    /// Relative stiffness deviation of every sector.
+    pub mistuning: Option<&'a [f64]>,
+    /// Forces at engine orders.
+    pub excitation: &'a [EngineOrderExcitation],
+}
+
+/// Coulomb friction of tips that slide forwards.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Friction<'a> {
+    /// μ.
+    pub coefficient: f64,
+    /// n + μt of every contact node.
+    pub directions: &'a [Direction],
+}
+
+impl Effects<'_> {
+    /// Whether there is any.
+    pub(crate) fn any(&self) -> bool {
+        self.friction.is_some()
+            || self.flexible_casing.is_some()
+            || self.orbit.is_some()
+            || self.mistuning.is_some()
+            || !self.excitation.is_empty()
+    }
+}

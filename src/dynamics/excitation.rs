@@ -1,0 +1,76 @@
+//! Forces at engine orders: what blades feel that turn through a steady field of k periods.
+//!
+//! ```text
+//! f_s(t) = A cos(k(sα + Ωt) + ψ)      on given contact nodes and directions of every sector
+//! ```
+//!
+//! It drives the nodal diameter |k − N·round(k/N)| alone (aliasing), as one travelling wave, so its modal forces turn at
+//! kΩ and nothing but that is left to the step loop. It grows over the ramp like the restriction.
+
+use std::f64::consts::TAU;
+
+use faer::c64;
+
+use super::casing::ramp;
+use super::modal_wheel::ModalWheel;
+use super::oscillators::Direction;
+
+/// A force at one engine order.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EngineOrderExcitation {
+    /// k.
+    pub order: u32,
+    /// Where and along what; each gets the whole amplitude.
+    pub directions: Vec<Direction>,
+    /// A, force.
+    pub amplitude: f64,
+    /// ψ, rad.
+    pub phase_rad: f64,
+    /// Revolutions over which it grows.
+    pub ramp_revolutions: f64,
+}
+
+/// Its modal forces.
+#[derive(Debug)]
+pub(crate) struct ModalExcitation {
+    /// Index of the nodal diameter among the wheel's harmonics.
+    pub(crate) harmonic: usize,
+    /// Force of every mode at kΩt = 0, turned by e^{+jkΩt} or, `backwards`, by e^{−jkΩt}; of a single harmonic the real
+    /// part counts.
+    pub(crate) amplitude: Vec<c64>,
+    backwards: bool,
+    order: f64,
+    ramp_revolutions: f64,
+}
+
+impl ModalExcitation {
+    pub(crate) fn new(excitation: &EngineOrderExcitation, wheel: &ModalWheel) -> Self {
+        let around = wheel.sectors * wheel.repeats;
+        let alias = excitation.order as usize % around;
+        let (diameter, backwards) = if 2 * alias > around { (around - alias, true) } else { (alias, false) };
+        let harmonic = diameter / wheel.repeats;
+        let modes = &wheel.harmonics[harmonic];
+        // f̂ = w Σ_s f_s e^{−jisα}: of a pair only one of the two halves of the cosine adds up.
+        let sectors = wheel.sectors as f64;
+        let weight = if modes.single { sectors.sqrt() } else { (0.5 * sectors).sqrt() };
+        let (sin, cos) = excitation.phase_rad.sin_cos();
+        let phase = c64::new(cos, if backwards { -sin } else { sin }) * (weight * excitation.amplitude);
+        let along = |m: usize| {
+            excitation.directions.iter().map(|d| d.of(modes.contact.as_ref(), m)).sum::<c64>().conj() * phase
+        };
+        Self {
+            harmonic,
+            amplitude: (0..modes.omega.len()).map(along).collect(),
+            backwards,
+            order: f64::from(excitation.order),
+            ramp_revolutions: excitation.ramp_revolutions,
+        }
+    }
+
+    /// Factor of the amplitudes after `revolutions`.
+    pub(crate) fn turn(&self, revolutions: f64) -> c64 {
+        let growth = ramp(revolutions, self.ramp_revolutions);
+        let (sin, cos) = (TAU * (self.order * revolutions.fract()).fract()).sin_cos();
+        c64::new(growth * cos, if self.backwards { -growth * sin } else { growth * sin })
+    }
+}

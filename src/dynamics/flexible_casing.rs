@@ -1,0 +1,293 @@
+//! Elastic casing: waves cos nφ and sin nφ in the fixed frame, one oscillator each.
+//!
+//! ```text
+//! w(φ, t) = Σ_n c_n cos nφ + s_n sin nφ          radial, outwards
+//! m_n (c̈ + 2ζω_n ċ + ω_n² c) = Σ_nodes n_r λ cos nφ            (sin for s_n)
+//! g = … + n_r w(φ),   φ = θ_k + sα + Ωt
+//! ```
+//!
+//! n_r is the radial component of the node's normal: the casing is a ring, the same all along the chord. Both waves of one
+//! n have the same receptance, so what a force at one angle moves at another depends on their difference only, which
+//! rotation does not change: the casing's part of the contact operator, Σ_n r_n cos n(φ − φ′), is one more
+//! block-circulant table.
+//!
+//! Ring in its own plane (Love; Timoshenko, Vibration Problems in Engineering): inextensional bending for n ≥ 2,
+//! breathing for n = 0. n = 1 is a rigid translation, which a free ring does not resist; a mounted casing that has it
+//! is given by its modes.
+//!
+//! ```text
+//! ω_n² = EI n²(n²−1)² / (ρA R⁴(n²+1)),  m_n = πρAR(1 + 1/n²);      ω_0² = E/(ρR²),  m_0 = 2πρAR
+//! ```
+
+use std::f64::consts::{PI, TAU};
+
+use super::oscillators::Exchange;
+use super::schemes::Scheme;
+use super::sector::ContactNode;
+
+/// One nodal diameter of the casing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CasingWave {
+    /// n.
+    pub nodal_diameter: u32,
+    /// ω_n, rad/s.
+    pub omega: f64,
+    /// m_n for a radial amplitude of 1.
+    pub modal_mass: f64,
+}
+
+/// Elastic casing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FlexibleCasing {
+    /// Its nodal diameters.
+    pub waves: Vec<CasingWave>,
+    /// ζ of all of them.
+    pub damping_ratio: f64,
+}
+
+/// Thin elastic ring.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ring {
+    /// R of the centre line, length.
+    pub radius: f64,
+    /// E, force/length².
+    pub modulus: f64,
+    /// ρ, mass/volume.
+    pub density: f64,
+    /// A, length².
+    pub area: f64,
+    /// I for bending in the ring's plane, length⁴.
+    pub second_moment: f64,
+}
+
+impl Ring {
+    /// Its waves n = 0, 2, 3 … `highest`.
+    pub fn waves(&self, highest: u32) -> Vec<CasingWave> {
+        let Self { radius, modulus, density, area, second_moment } = *self;
+        let wave = |nodal_diameter: u32| {
+            let n = f64::from(nodal_diameter);
+            let (omega_squared, modal_mass) = if nodal_diameter == 0 {
+                (modulus / (density * radius.powi(2)), 2.0 * PI * density * area * radius)
+            } else {
+                let bending = modulus * second_moment * (n * (n * n - 1.0)).powi(2);
+                (
+                    bending / (density * area * radius.powi(4) * (n * n + 1.0)),
+                    PI * density * area * radius * (1.0 + 1.0 / (n * n)),
+                )
+            };
+            CasingWave { nodal_diameter, omega: omega_squared.sqrt(), modal_mass }
+        };
+        (0..=highest).filter(|&n| n != 1).map(wave).collect()
+    }
+}
+
+/// The casing in motion, in coordinates of modal mass 1.
+#[derive(Debug)]
+pub(crate) struct CasingMotion {
+    waves: Vec<WaveMotion>,
+    /// θ_k.
+    angles: Vec<f64>,
+    radial: Vec<f64>,
+    around: usize,
+    /// Ωt at the last gaps, in revolutions.
+    turned: f64,
+    largest: f64,
+}
+
+#[derive(Debug)]
+struct WaveMotion {
+    n: f64,
+    keep: f64,
+    receptance: f64,
+    stiffness: f64,
+    inertia: f64,
+    loss: f64,
+    /// 1/√m.
+    scale: f64,
+    /// n_r cos and n_r sin of n(θ_k + sα) over √m, `[sector][node]`.
+    cos: Vec<f64>,
+    sin: Vec<f64>,
+    /// Of the cosine and of the sine wave.
+    parts: [Part; 2],
+    /// e^{jnΩt} at the last gaps.
+    turn: (f64, f64),
+}
+
+/// z, z − z⁻, z⁺ − z⁻ not yet counted, and force.
+#[derive(Debug, Clone, Copy, Default)]
+struct Part {
+    z: f64,
+    d: f64,
+    swing: f64,
+    force: f64,
+}
+
+impl CasingMotion {
+    /// At rest; `sectors` of the `around` on the circumference, nodes padded to `stride`.
+    pub(crate) fn new(
+        casing: &FlexibleCasing,
+        scheme: Scheme,
+        step: f64,
+        contact_nodes: &[ContactNode],
+        (sectors, around): (usize, usize),
+        stride: usize,
+    ) -> Self {
+        let wave = |wave: &CasingWave| {
+            let mode = scheme.mode_step(wave.omega, casing.damping_ratio, step, true);
+            let (n, scale) = (f64::from(wave.nodal_diameter), wave.modal_mass.sqrt().recip());
+            let mut cos = vec![0.0; sectors * stride];
+            let mut sin = cos.clone();
+            for sector in 0..sectors {
+                for (k, node) in contact_nodes.iter().enumerate() {
+                    let angle = n * (node.position[1] + TAU * sector as f64 / around as f64);
+                    cos[sector * stride + k] = node.normal[0] * scale * angle.cos();
+                    sin[sector * stride + k] = node.normal[0] * scale * angle.sin();
+                }
+            }
+            WaveMotion {
+                n,
+                keep: mode.keep,
+                receptance: mode.receptance,
+                stiffness: wave.omega.powi(2),
+                inertia: mode.inertia(),
+                loss: 0.5 * mode.dissipation() * mode.inertia(),
+                scale,
+                cos,
+                sin,
+                parts: [Part::default(); 2],
+                turn: (1.0, 0.0),
+            }
+        };
+        Self {
+            waves: casing.waves.iter().map(wave).collect(),
+            angles: contact_nodes.iter().map(|node| node.position[1]).collect(),
+            radial: contact_nodes.iter().map(|node| node.normal[0]).collect(),
+            around,
+            turned: 0.0,
+            largest: 0.0,
+        }
+    }
+
+    /// What a unit force at node `from` opens at node `to`, `distance` sectors ahead, within a step.
+    pub(crate) fn operator(&self, distance: usize, to: usize, from: usize) -> f64 {
+        let angle = self.angles[to] - self.angles[from] + TAU * distance as f64 / self.around as f64;
+        let wave = |wave: &WaveMotion| wave.receptance * wave.scale.powi(2) * (wave.n * angle).cos();
+        self.radial[to] * self.radial[from] * self.waves.iter().map(wave).sum::<f64>()
+    }
+
+    /// Completes the last step by the forces pressed since, which it forgets.
+    pub(crate) fn complete(&mut self) -> Exchange {
+        let (mut twice_work, mut loss) = (0.0, 0.0);
+        for wave in &mut self.waves {
+            for part in &mut wave.parts {
+                let moved = wave.receptance * part.force;
+                part.z += moved;
+                part.d += moved;
+                let swing = part.swing + moved;
+                twice_work += part.force * swing;
+                loss += wave.loss * swing * swing;
+                (part.force, part.swing) = (0.0, 0.0);
+            }
+            let radial = wave.scale * wave.parts[0].z.hypot(wave.parts[1].z);
+            self.largest = self.largest.max(radial);
+        }
+        Exchange { work: 0.5 * twice_work, loss }
+    }
+
+    /// One step free of forces.
+    pub(crate) fn predict(&mut self) {
+        for wave in &mut self.waves {
+            // The sine wave of n = 0 is never forced and stays at rest.
+            for part in &mut wave.parts {
+                let next = wave.keep * part.d - wave.stiffness * wave.receptance * part.z;
+                part.swing = next + part.d;
+                part.d = next;
+                part.z += next;
+            }
+        }
+    }
+
+    /// Adds the casing's displacement to the gaps after `revolutions`.
+    pub(crate) fn add(&mut self, revolutions: f64, gaps: &mut [f64]) {
+        self.turned = revolutions.fract();
+        for wave in &mut self.waves {
+            let (sin, cos) = (TAU * (wave.n * self.turned).fract()).sin_cos();
+            wave.turn = (cos, sin);
+            let [c, s] = wave.parts.map(|part| part.z);
+            let (along, across) = (c * cos + s * sin, s * cos - c * sin);
+            for (gap, (a, b)) in gaps.iter_mut().zip(wave.cos.iter().zip(&wave.sin)) {
+                *gap += a * along + b * across;
+            }
+        }
+    }
+
+    /// Presses with λ at a place of the last gaps.
+    pub(crate) fn press(&mut self, place: usize, lambda: f64) {
+        for wave in &mut self.waves {
+            let ((cos, sin), (a, b)) = (wave.turn, (wave.cos[place], wave.sin[place]));
+            wave.parts[0].force += lambda * (a * cos - b * sin);
+            wave.parts[1].force += lambda * (a * sin + b * cos);
+        }
+    }
+
+    /// Mechanical energy of the last step, as [`super::schemes`] has it.
+    pub(crate) fn energy(&self) -> f64 {
+        let of = |wave: &WaveMotion| {
+            let part =
+                |part: &Part| wave.inertia * part.d * part.d + wave.stiffness * (part.z - part.d) * part.z;
+            wave.parts.iter().map(part).sum::<f64>()
+        };
+        0.5 * self.waves.iter().map(of).sum::<f64>()
+    }
+
+    /// Largest amplitude of any wave so far, length.
+    pub(crate) fn largest_amplitude(&self) -> f64 {
+        self.largest
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// R = 1, EI/(ρA) = 1: ω_2² = 36/5, ω_3² = 576/10.
+    #[test]
+    fn ring_has_its_closed_form() {
+        let ring = Ring { radius: 1.0, modulus: 2.0, density: 4.0, area: 0.25, second_moment: 0.5 };
+        let waves = ring.waves(3);
+        let found: Vec<_> = waves.iter().map(|w| (w.nodal_diameter, w.omega.powi(2), w.modal_mass)).collect();
+        let expected = [(0, 0.5, 2.0 * PI), (2, 7.2, PI * 1.25), (3, 57.6, PI * (1.0 + 1.0 / 9.0))];
+        for (found, expected) in found.iter().zip(expected) {
+            assert_eq!(found.0, expected.0);
+            assert!((found.1 / expected.1 - 1.0).abs() < 1e-14 && (found.2 / expected.2 - 1.0).abs() < 1e-14);
+        }
+    }
+
+    /// A force turning with one blade, by the operator and by pressing, moves the casing under every node alike.
+    #[test]
+    fn the_operator_is_what_pressing_does() {
+        let node = |theta: f64, radial: f64| ContactNode {
+            id: 0,
+            position: [10.0, theta, 0.0],
+            normal: [radial, 0.0, (1.0 - radial * radial).sqrt()],
+            dofs: [0, 1, 2],
+        };
+        let nodes = [node(0.2, 0.9), node(-0.3, 0.5)];
+        let wave = |nodal_diameter, omega, modal_mass| CasingWave { nodal_diameter, omega, modal_mass };
+        let casing = FlexibleCasing {
+            waves: vec![wave(0, 3.0, 2.0), wave(2, 5.0, 3.0), wave(3, 7.0, 4.0)],
+            damping_ratio: 0.1,
+        };
+        let mut motion = CasingMotion::new(&casing, Scheme::ExactModal, 0.01, &nodes, (5, 5), 8);
+        let mut gaps = vec![0.0; 40];
+        motion.add(17.3, &mut gaps);
+        motion.press(2 * 8 + 1, 6.0);
+        motion.complete();
+        gaps.fill(0.0);
+        motion.add(17.3, &mut gaps);
+        for (sector, k) in [(0, 0), (2, 1), (4, 0), (1, 1)] {
+            let expected = 6.0 * motion.operator((sector + 5 - 2) % 5, k, 1);
+            assert!((gaps[sector * 8 + k] - expected).abs() < 1e-16, "{sector} {k}");
+        }
+    }
+}
