@@ -11,6 +11,7 @@ pub mod matrix_serde;
 pub mod multifrontal;
 pub mod nested_dissection;
 pub mod orthonormal;
+pub mod p_matrix;
 pub mod sector_fourier;
 pub mod sparse_cholesky;
 pub mod sparse_product;

@@ -11,3 +11,4 @@
 
 pub(crate) mod delassus;
 pub(crate) mod flexibility;
+pub mod friction;
