@@ -2,13 +2,12 @@
 
 use rubmap::analysis::auto_or::AutoOr;
 use rubmap::analysis::monitor::Unwatched;
-use rubmap::analysis::request::{
-    Component, Integration, SchemeChoice, Sensor, SpeedUnit, Speeds, SweepRequest,
-};
+use rubmap::analysis::request::{Component, Integration, SchemeChoice, Sensor, SweepRequest};
 use rubmap::analysis::result::PointStatus;
 use rubmap::analysis::run::{ReducedSector, prepare, run_speed};
 use rubmap::analysis::scene as request;
 use rubmap::dynamics::effects::Effects;
+use rubmap::analysis::speeds::{SpeedSet, SpeedUnit, Speeds};
 use rubmap::dynamics::casing::{Casing, Restriction};
 use rubmap::dynamics::integrate::{SensorRow, Simulation};
 use rubmap::dynamics::modal_wheel::ModalWheel;
@@ -84,13 +83,13 @@ impl Scene {
         SweepRequest {
             model: String::new(),
             modes_per_speed: self.modes as u32,
-            speeds: Speeds {
+            speeds: Speeds::One(SpeedSet {
                 from: None,
                 to: None,
                 count: None,
                 values: Some(speeds_rad_s),
                 unit: SpeedUnit::RadS,
-            },
+            }),
             scene: request::Scene {
                 centrifugal_stiffening: self.stiffening,
                 damping: Some(request::Damping { modal_ratio: DAMPING, family_ratios: Vec::new() }),

@@ -16,5 +16,6 @@ pub mod result;
 pub mod run;
 pub mod scene;
 mod speed;
+pub mod speeds;
 mod stepping;
 mod summary;

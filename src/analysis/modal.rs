@@ -70,7 +70,7 @@ pub fn modal_analysis(
     monitor: &dyn Monitor,
 ) -> Result<Campbell, AnalysisError> {
     let start = Instant::now();
-    let speeds = request.speeds.resolve().map_err(AnalysisError::Refused)?;
+    let speeds = request.speeds.ascending().map_err(AnalysisError::Refused)?;
     let families = request.families as usize;
     let source = WheelFrequencies { wheel: &reduced.wheel, stiffening: true };
     let table = source.table(&speeds, families, monitor)?;

@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
 use super::auto_or::AutoOr;
-use super::error::Violation;
 use super::scene::Scene;
+use super::speeds::Speeds;
 
 /// A sweep of contact simulations over rotational speeds.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
@@ -17,7 +17,7 @@ pub struct SweepRequest {
     #[serde(default = "default_modes_per_speed")]
     #[schema(minimum = 1, maximum = 500)]
     pub modes_per_speed: u32,
-    /// Speeds to simulate.
+    /// Speeds to simulate, in the order given.
     pub speeds: Speeds,
     /// Effects of the simulation.
     pub scene: Scene,
@@ -54,7 +54,7 @@ pub struct ModalAnalysisRequest {
     /// Highest engine order of the driven crossings.
     #[serde(default = "default_max_engine_order")]
     pub max_engine_order: u32,
-    /// Speeds of the Campbell diagram, in ascending order.
+    /// Speeds of the Campbell diagram: every range and list ascends, several are merged.
     pub speeds: Speeds,
 }
 
@@ -76,96 +76,6 @@ fn default_superharmonics() -> Vec<u32> {
 
 fn default_lobes() -> u32 {
     2
-}
-
-/// Rotational speeds: evenly spaced `from`–`to` with `count`, or a list of `values`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Speeds {
-    /// First speed of the range.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub from: Option<f64>,
-    /// Last speed of the range.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub to: Option<f64>,
-    /// Number of speeds in the range, both ends included.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub count: Option<u32>,
-    /// Explicit speeds.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub values: Option<Vec<f64>>,
-    /// Unit of the numbers above.
-    pub unit: SpeedUnit,
-}
-
-/// Unit of a rotational speed on the wire.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum SpeedUnit {
-    /// Radians per second.
-    RadS,
-    /// Revolutions per minute.
-    Rpm,
-    /// Revolutions per second.
-    Hz,
-}
-
-impl SpeedUnit {
-    fn rad_s(self) -> f64 {
-        use std::f64::consts::TAU;
-        match self {
-            Self::RadS => 1.0,
-            Self::Rpm => TAU / 60.0,
-            Self::Hz => TAU,
-        }
-    }
-}
-
-/// Speeds beyond this, in rad/s, are typing errors.
-pub const HIGHEST_SPEED: f64 = 1e7;
-
-/// Largest number of speeds in one job.
-pub const MAX_SPEEDS: usize = 10_000;
-
-impl Speeds {
-    /// The speeds in rad/s, in the order given.
-    pub fn resolve(&self) -> Result<Vec<f64>, Vec<Violation>> {
-        let at = |field: &str, message: &str| vec![Violation::new(format!("/speeds{field}"), message)];
-        let speeds = match (&self.values, self.from, self.to, self.count) {
-            (Some(values), None, None, None) => values.clone(),
-            (None, Some(from), Some(to), Some(count)) => match count {
-                0 => return Err(at("/count", "at least one speed is needed")),
-                1 if from != to => {
-                    return Err(at("/count", "one speed cannot span from and to; give count ≥ 2"));
-                }
-                1 => vec![from],
-                _ if count as usize > MAX_SPEEDS => {
-                    return Err(at("/count", &format!("at most {MAX_SPEEDS} speeds in one job")));
-                }
-                _ => {
-                    let last = f64::from(count - 1);
-                    (0..count).map(|i| from + (to - from) * (f64::from(i) / last)).collect()
-                }
-            },
-            _ => return Err(at("", "give either `from`, `to` and `count`, or `values`")),
-        };
-        if speeds.is_empty() {
-            return Err(at("/values", "at least one speed is needed"));
-        }
-        if speeds.len() > MAX_SPEEDS {
-            return Err(at("/values", &format!("at most {MAX_SPEEDS} speeds in one job")));
-        }
-        let in_rad_s: Vec<f64> = speeds.iter().map(|v| v * self.unit.rad_s()).collect();
-        match in_rad_s.iter().position(|speed| !(0.0..=HIGHEST_SPEED).contains(speed)) {
-            Some(bad) => {
-                let field = if self.values.is_some() { format!("/values/{bad}") } else { String::new() };
-                let message =
-                    format!("a speed lies between 0 and {HIGHEST_SPEED:e} rad/s, unlike {}", speeds[bad]);
-                Err(at(&field, &message))
-            }
-            None => Ok(in_rad_s),
-        }
-    }
 }
 
 /// Settings of the time integration.

@@ -4,10 +4,9 @@ use super::auto_or::AutoOr;
 use super::discretisation::most_samples;
 use super::error::Violation;
 use super::model::ModelFacts;
-use super::request::{
-    Component, Integration, ModalAnalysisRequest, SchemeChoice, Sensor, Speeds, SweepRequest,
-};
+use super::request::{Component, Integration, ModalAnalysisRequest, SchemeChoice, Sensor, SweepRequest};
 use super::scene::{Casing, Clearance, Damping, Scene, Symmetry};
+use super::speeds::{Part, Speeds};
 use super::stepping::MOST_STEPS;
 use crate::dynamics::casing::Restriction;
 
@@ -116,26 +115,27 @@ fn check_modes(found: &mut Findings, modes_per_speed: u32) {
 }
 
 fn check_speeds(found: &mut Findings, speeds: &Speeds, facts: &ModelFacts, stiffening: bool, campbell: bool) {
-    let values = match speeds.resolve() {
-        Ok(values) => values,
+    let parts = match speeds.parts() {
+        Ok(parts) => parts,
         Err(violations) => return found.0.extend(violations),
     };
-    found.require(
-        campbell || values.iter().all(|&omega| omega > 0.0),
-        "/speeds",
-        "a contact simulation needs a speed above 0: its clock is the revolution",
-    );
-    found.require(
-        !campbell || values.windows(2).all(|pair| pair[0] < pair[1]),
-        "/speeds",
-        "the speeds of a Campbell diagram ascend",
-    );
     let highest = facts.speeds_rad_s.last().copied().unwrap_or(0.0);
-    if stiffening && facts.has_stiffening() {
+    for Part { pointer, speeds_rad_s } in &parts {
+        found.require(
+            campbell || speeds_rad_s.iter().all(|&omega| omega > 0.0),
+            pointer,
+            "a contact simulation needs a speed above 0: its clock is the revolution",
+        );
+        found.require(
+            !campbell || speeds_rad_s.windows(2).all(|pair| pair[0] < pair[1]),
+            pointer,
+            "the speeds of a Campbell diagram ascend",
+        );
         // A speed given in rpm may differ from the model's rad/s in the last digits.
         found.require(
-            values.iter().all(|&omega| omega <= highest * (1.0 + 1e-6)),
-            "/speeds",
+            !(stiffening && facts.has_stiffening())
+                || speeds_rad_s.iter().all(|&omega| omega <= highest * (1.0 + 1e-6)),
+            pointer,
             format!(
                 "the model's stiffness is given up to {highest} rad/s; K(Ω) is not extrapolated: stay below, or \
                  export the stiffness at a higher speed"

@@ -225,7 +225,9 @@ mod tests {
         let problem = refused(r#"{"model": "a", "speeds": {"values": [1], "unit": "hz"}, "scene": []}"#);
         assert_eq!(pointer(&problem), "/scene");
         let problem = refused(r#"{"model": "a", "speeds": [null, null, null, [1], "hz"], "scene": {}}"#);
-        assert_eq!(pointer(&problem), "/speeds");
+        assert_eq!(pointer(&problem), "/speeds/0");
+        let problem = refused(r#"{"model": "a", "speeds": [[null, null, null, [1], "hz"]], "scene": {}}"#);
+        assert_eq!(pointer(&problem), "/speeds/0");
     }
 
     #[test]
@@ -235,6 +237,9 @@ mod tests {
         let problem = refused(r#"{"model": "a", "speeds": {"values": [1, "fast"], "unit": "hz"}}"#);
         assert_eq!(problem.r#type, "urn:rubmap:problem:invalid-request");
         assert_eq!(pointer(&problem), "/speeds/values/1");
+        let problem = refused(r#"{"model": "a", "speeds": [{"values": [1, "fast"], "unit": "hz"}]}"#);
+        assert_eq!(pointer(&problem), "/speeds/0/values/1");
+        assert_eq!(pointer(&refused(r#"{"model": "a", "speeds": 7}"#)), "/speeds");
     }
 
     #[test]

@@ -73,7 +73,7 @@ impl Jobs {
             JobRequest::ModalAnalysis(request) => {
                 let facts = self.facts(&request.model).await?;
                 let request = run::resolve_modal_analysis(request, &facts).map_err(refused)?;
-                let speeds = request.speeds.resolve().map_err(refused)?.len();
+                let speeds = request.speeds.ascending().map_err(refused)?.len();
                 (JobRequest::ModalAnalysis(request), Some(facts), speeds)
             }
             // Resolved by `generation_of`.

@@ -59,6 +59,13 @@ async fn fields_that_do_not_exist_or_make_no_sense() {
     assert_eq!(api.post("/v1/sweeps", &request).await.pointers(422, "invalid-request"), ["/speeds/unit"]);
 
     let mut request = sweep_of(&model);
+    let range = |count: u32| json!({"from": 300.0, "to": 400.0, "count": count, "unit": "rad_s"});
+    request["speeds"] = json!([range(3), range(0)]);
+    assert_eq!(api.post("/v1/sweeps", &request).await.pointers(422, "invalid-request"), ["/speeds/1/count"]);
+    request["speeds"] = json!([range(3), {"values": [0.0], "unit": "hz"}]);
+    assert_eq!(api.post("/v1/sweeps", &request).await.pointers(422, "invalid-request"), ["/speeds/1"]);
+
+    let mut request = sweep_of(&model);
     request.as_object_mut().unwrap().remove("scene");
     assert_eq!(api.post("/v1/sweeps", &request).await.pointers(422, "invalid-request"), ["/scene"]);
 

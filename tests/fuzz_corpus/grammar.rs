@@ -116,12 +116,13 @@ fn option(of: impl Strategy<Value = Value>) -> impl Strategy<Value = Option<Valu
 
 fn speeds() -> impl Strategy<Value = Value> {
     let speed = prop_oneof![8 => 300.0..3000.0, 1 => select(vec![1e-12, 1e-3, 30.0, 2999.9999999, 3000.0])];
-    prop_oneof![
+    let set = prop_oneof![
         prop::collection::vec(speed, 1..4).prop_map(|values| json!({"values": values, "unit": "rad_s"})),
         (1000.0..20000.0, 1..3u32).prop_map(
             |(from, count)| json!({"from": from, "to": from + f64::from(count - 1), "count": count, "unit": "rpm"})
         ),
-    ]
+    ];
+    prop_oneof![4 => set.clone(), 1 => prop::collection::vec(set, 1..3).prop_map(Value::from)]
 }
 
 fn damping() -> impl Strategy<Value = Value> {
