@@ -6,9 +6,9 @@ use rubmap::analysis::request::{Component, Integration, SchemeChoice, Sensor, Sw
 use rubmap::analysis::result::PointStatus;
 use rubmap::analysis::run::{ReducedSector, prepare, run_speed};
 use rubmap::analysis::scene as request;
-use rubmap::dynamics::effects::Effects;
 use rubmap::analysis::speeds::{SpeedSet, SpeedUnit, Speeds};
 use rubmap::dynamics::casing::{Casing, Restriction};
+use rubmap::dynamics::effects::Effects;
 use rubmap::dynamics::integrate::{SensorRow, Simulation};
 use rubmap::dynamics::modal_wheel::ModalWheel;
 use rubmap::dynamics::oscillators::{Direction, ModalDamping};

@@ -6,6 +6,7 @@
 
 pub mod auto_or;
 mod discretisation;
+mod effects;
 pub mod error;
 mod modal;
 mod model;

@@ -4,6 +4,8 @@ use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
 use super::request::{SchemeChoice, Sensor};
+use super::scene::Scene;
+use crate::dynamics::energy::EnergyAudit;
 use crate::dynamics::sector::Units;
 
 pub use crate::response::campbell::{Crossing, DrivenCrossing};
@@ -54,6 +56,48 @@ pub struct SchemeReport {
     pub reach_hz: f64,
 }
 
+/// Both sides of the energy identity over the whole run, in force·length; effects that the scene does not name are absent.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct EnergyReport {
+    /// Work of the contact forces on the wheel.
+    pub contact_work: f64,
+    /// Lost to modal damping, and to modes that follow statically.
+    pub damping_loss: f64,
+    /// Work of the forces at engine orders.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub excitation_work: Option<f64>,
+    /// Minus the energy that the stiffness deviations store at the end.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mistuning_work: Option<f64>,
+    /// Work of the contact forces on the elastic casing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub casing_work: Option<f64>,
+    /// Lost in the casing's damping.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub casing_loss: Option<f64>,
+    /// Heat of friction, supplied by the shaft; its work on the vibration is part of the work of contact.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub friction_heat: Option<f64>,
+}
+
+impl EnergyReport {
+    /// None if a number is not finite.
+    pub(super) fn of(audit: &EnergyAudit, scene: &Scene) -> Option<Self> {
+        let effects = audit.effects();
+        let named = |effect: bool, value: f64| effect.then_some(value);
+        let all = [audit.work(), audit.loss(), effects.excitation, effects.casing, effects.friction_heat];
+        all.iter().all(|value| value.is_finite()).then(|| Self {
+            contact_work: audit.work(),
+            damping_loss: audit.loss(),
+            excitation_work: named(!scene.engine_order_excitation.is_empty(), effects.excitation),
+            mistuning_work: named(scene.mistuning.is_some(), effects.mistuning),
+            casing_work: named(scene.flexible_casing.is_some(), effects.casing),
+            casing_loss: named(scene.flexible_casing.is_some(), effects.casing_loss),
+            friction_heat: named(scene.friction.is_some(), effects.friction_heat),
+        })
+    }
+}
+
 /// One speed of a sweep with its credentials.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Point {
@@ -94,9 +138,15 @@ pub struct Point {
     /// Largest violation of the energy identity, relative to the largest energy seen (§8).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy_residual: Option<f64>,
+    /// Where that energy came from and went; absent where nothing was integrated or the run overflowed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub energy: Option<EnergyReport>,
     /// Largest mechanical energy seen, in force·length.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub largest_energy: Option<f64>,
+    /// Largest radial amplitude of any wave of an elastic casing, in the model's unit of length.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub casing_amplitude: Option<f64>,
     /// Steady response per sensor; empty unless `completed`.
     pub responses: Vec<SensorResponse>,
     /// Wall time of this speed, s.

@@ -3,11 +3,14 @@
 use std::time::Instant;
 
 use super::discretisation::Discretisation;
+use super::effects::{SceneEffects, direction, initial};
 use super::error::AnalysisError;
 use super::model::ReducedSector;
 use super::monitor::Monitor;
-use super::request::{Component, Sensor, SweepRequest};
-use super::result::{Point, PointStatus, SensorResponse, SensorSpectrum, SpeedResult, SpeedSpectra};
+use super::request::{Sensor, SweepRequest};
+use super::result::{
+    EnergyReport, Point, PointStatus, SensorResponse, SensorSpectrum, SpeedResult, SpeedSpectra,
+};
 use super::run::VERSION;
 use super::stepping::Stepping;
 use crate::dynamics::casing::{Casing, Restriction, RestrictionTable, clearance_along_chord};
@@ -15,7 +18,7 @@ use crate::dynamics::integrate::{
     Divergence, History, MAX_TABLE_VALUES, Outcome, Run, SensorRow, Simulation,
 };
 use crate::dynamics::modal_wheel::ModalWheel;
-use crate::dynamics::oscillators::{Direction, ModalDamping};
+use crate::dynamics::oscillators::ModalDamping;
 use crate::dynamics::reduction::ReducedWheel;
 use crate::dynamics::schemes::Scheme;
 use crate::numerics::sector_fourier::SectorFourier;
@@ -77,7 +80,9 @@ fn empty_point(index: usize, speed_rad_s: f64) -> Point {
         largest_penetration: None,
         smallest_multiplier: None,
         energy_residual: None,
+        energy: None,
         largest_energy: None,
+        casing_amplitude: None,
         responses: Vec::new(),
         wall_time_s: 0.0,
         version: VERSION.to_owned(),
@@ -109,13 +114,25 @@ fn simulate(
             ));
         }
     }
+    let effects = SceneEffects::of(request, &reduced.contact, wheel.sectors).map_err(|e| e.to_string())?;
+    if let Scheme::MasslessBoundary { kept_modes } = scheme
+        && let Some(initial) = &scene.initial
+        && initial.family as usize > kept_modes
+    {
+        return Err(format!(
+            "the initial mode is the {}th of its nodal diameter, and {kept_modes} are kept: keep more, or take another scheme",
+            initial.family
+        ));
+    }
+    let initial = initial(request, wheel)?;
     let sensors: Vec<_> = request.sensors.iter().map(|sensor| sensor_row(reduced, sensor)).collect();
     Ok(Simulation {
         wheel,
         contact_nodes: &reduced.contact,
         damping: damping.as_ref(),
         casing: casing.as_ref(),
-        initial: &[],
+        effects: effects.borrow(),
+        initial: &initial,
         scheme,
         sensors: &sensors,
         steps_per_revolution: steps.per_revolution,
@@ -145,14 +162,10 @@ fn casing(reduced: &ReducedWheel, request: &SweepRequest) -> Option<Casing> {
 }
 
 fn sensor_row(reduced: &ReducedWheel, sensor: &Sensor) -> SensorRow {
-    let node = sensor.contact_node as usize;
-    let components = match sensor.component {
-        Component::Radial => [1.0, 0.0, 0.0],
-        Component::Tangential => [0.0, 1.0, 0.0],
-        Component::Axial => [0.0, 0.0, 1.0],
-        Component::Normal => reduced.contact[node].normal,
-    };
-    SensorRow { direction: Direction { node, components }, sector: sensor.sector as usize }
+    SensorRow {
+        direction: direction(&reduced.contact, sensor.contact_node, sensor.component),
+        sector: sensor.sector as usize,
+    }
 }
 
 /// Writes a run's credentials into `point`; returns its spectra if it is complete.
@@ -177,7 +190,9 @@ fn record_run(
     point.contact_impulse = finite(run.statistics.contact_impulse);
     point.largest_penetration = finite(run.statistics.largest_penetration);
     point.smallest_multiplier = run.statistics.smallest_multiplier.and_then(finite);
+    point.casing_amplitude = run.statistics.casing_amplitude.and_then(finite);
     point.energy_residual = finite(run.energy.residual());
+    point.energy = EnergyReport::of(&run.energy, &request.scene);
     point.largest_energy = finite(run.energy.largest_energy());
     match run.outcome {
         Outcome::Cancelled => Err(AnalysisError::Cancelled),

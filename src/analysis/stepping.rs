@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use super::auto_or::AutoOr;
 use super::discretisation::Discretisation;
+use super::effects::flexible_casing;
 use super::error::{AnalysisError, Violation};
 use super::model::ReducedSector;
 use super::monitor::Monitor;
@@ -70,6 +71,33 @@ fn resolving_steps(wheel: &ModalWheel, speed_rad_s: f64) -> f64 {
     (TAU * wheel.largest_frequency() / (speed_rad_s * exact_modal::FOLLOWS)).ceil()
 }
 
+/// Whether something else than contact acts on the modes, so that a step is no longer exact.
+fn is_driven(request: &SweepRequest) -> bool {
+    let scene = &request.scene;
+    scene.coriolis || scene.mistuning.is_some() || !scene.engine_order_excitation.is_empty()
+}
+
+/// [`Scheme::smallest_stable_steps`] of the wheel and, if it is elastic, its casing.
+fn smallest_stable_steps(
+    scheme: Scheme,
+    wheel: &ModalWheel,
+    contact_nodes: &[ContactNode],
+    request: &SweepRequest,
+) -> u64 {
+    let smallest = scheme.smallest_stable_steps(wheel, contact_nodes);
+    match scheme {
+        Scheme::CentralDifferences => smallest.max(casing_limit(request, wheel.speed_rad_s)),
+        _ => smallest,
+    }
+}
+
+/// Smallest stable number of steps for the waves of an elastic casing by central differences; 1 if it is rigid.
+fn casing_limit(request: &SweepRequest, speed_rad_s: f64) -> u64 {
+    let Some(casing) = &request.scene.flexible_casing else { return 1 };
+    let highest = flexible_casing(casing).waves.iter().fold(0.0f64, |most, wave| most.max(wave.omega));
+    central_differences::smallest_stable_steps(highest, speed_rad_s)
+}
+
 /// Contact nodes that may touch in this scene.
 fn touching<'a>(contact_nodes: &'a [ContactNode], request: &SweepRequest) -> &'a [ContactNode] {
     if request.scene.contact.is_some() { contact_nodes } else { &[] }
@@ -128,9 +156,11 @@ impl Scope<'_> {
         let stiffest = resolving_steps(self.wheel, slowest);
         let affordable = self.given.map_or(PRICE_OF_STIFFNESS * steps_for_contact(self.request).0, f64::from);
         let mut wish = self.exact();
-        if self.contact_nodes.is_empty() || stiffest <= affordable {
+        let massive_casing = self.request.scene.flexible_casing.is_some();
+        if self.contact_nodes.is_empty() || massive_casing || stiffest <= affordable {
             let resolving = resolving_steps(self.wheel, self.wheel.speed_rad_s);
-            if !self.contact_nodes.is_empty() && resolving > wish.least_steps {
+            let pays = stiffest <= affordable && !self.contact_nodes.is_empty();
+            if pays && resolving > wish.least_steps {
                 wish.least_steps = resolving;
                 wish.why_steps = "the step resolves the stiffest mode".to_owned();
             }
@@ -148,7 +178,7 @@ impl Scope<'_> {
     /// A scheme with a stability limit.
     fn bounded(&self, scheme: Scheme) -> Wish {
         let (contact, why) = steps_for_contact(self.request);
-        let smallest = scheme.smallest_stable_steps(self.wheel, self.contact_nodes);
+        let smallest = self.smallest_stable_steps(scheme);
         let limit = (smallest as f64 / SAFETY).ceil();
         let why_scheme = "as requested".to_owned();
         if limit > contact {
@@ -163,7 +193,7 @@ impl Scope<'_> {
     fn exact(&self) -> Wish {
         let why_scheme = "every mode is advanced exactly".to_owned();
         let scheme = Scheme::ExactModal;
-        if self.contact_nodes.is_empty() {
+        if self.contact_nodes.is_empty() && !is_driven(self.request) {
             let why_steps = "nothing touches, so that any step is exact".to_owned();
             return Wish { scheme, least_steps: 1.0, why_scheme, why_steps };
         }
@@ -203,6 +233,10 @@ impl Scope<'_> {
         Ok(Wish { why_scheme, ..self.bounded(scheme) })
     }
 
+    fn smallest_stable_steps(&self, scheme: Scheme) -> u64 {
+        smallest_stable_steps(scheme, self.wheel, self.contact_nodes, self.request)
+    }
+
     /// Of the highest engine order asked for, rad/s.
     fn highest_frequency(&self) -> f64 {
         f64::from(self.request.max_engine_order) * self.wheel.speed_rad_s
@@ -216,7 +250,7 @@ impl Scope<'_> {
 
     /// Steps and report of a wish, if it can be had.
     fn grant(&self, wish: Wish) -> Result<Stepping, String> {
-        let smallest = wish.scheme.smallest_stable_steps(self.wheel, self.contact_nodes);
+        let smallest = self.smallest_stable_steps(wish.scheme);
         if smallest == u64::MAX {
             return Err(no_stable_step(wish.scheme));
         }
@@ -314,7 +348,7 @@ pub fn check(
         if monitor.is_cancelled() {
             return Err(AnalysisError::Cancelled);
         }
-        let Ok(smallest) = smallest_stable_steps(reduced, request, speed) else { continue };
+        let Ok(smallest) = limit_of_request(reduced, request, speed) else { continue };
         if smallest > worst.0 {
             worst = (smallest, speed);
         }
@@ -323,7 +357,7 @@ pub fn check(
 }
 
 /// The stability limit of what a request fixes, at one speed; 1 where nothing it fixes has one.
-fn smallest_stable_steps(
+fn limit_of_request(
     reduced: &ReducedSector,
     request: &SweepRequest,
     speed_rad_s: f64,
@@ -336,7 +370,8 @@ fn smallest_stable_steps(
                 let omega = natural_frequencies(harmonic, speed_rad_s, stiffening)?;
                 largest = largest.max(omega.last().copied().unwrap_or(0.0));
             }
-            Ok(central_differences::smallest_stable_steps(largest, speed_rad_s))
+            let limit = central_differences::smallest_stable_steps(largest, speed_rad_s);
+            Ok(limit.max(casing_limit(request, speed_rad_s)))
         }
         (SchemeChoice::MasslessBoundary, kept_modes) => {
             let wheel = ModalWheel::at(&reduced.wheel, speed_rad_s, stiffening)?;

@@ -2,10 +2,12 @@
 
 use faer::c64;
 
+use super::modal_wheel::ModalWheel;
+
 /// One mode that moves when the run starts; all others are at rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct InitialMode {
-    /// Nodal diameter i.
+    /// Index of the nodal diameter among the wheel's harmonics.
     pub harmonic: usize,
     /// Mode within the nodal diameter, counted from 0; one that the scheme integrates.
     pub family: usize,
@@ -13,4 +15,42 @@ pub struct InitialMode {
     pub displacement: c64,
     /// ż(0).
     pub velocity: c64,
+}
+
+/// How a mode moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum InitialWave {
+    /// Released at rest.
+    Standing,
+    /// Travelling towards +θ, z ∝ e^{−jωt}.
+    Forward,
+    /// Travelling towards −θ, z ∝ e^{jωt}.
+    Backward,
+}
+
+impl InitialMode {
+    /// A mode whose largest displacement component at any contact node of any sector is `amplitude`; `phase`, of modulus
+    /// 1, turns it about the axis. Modes of single harmonics stand, whatever `wave` says.
+    pub fn of_amplitude(
+        wheel: &ModalWheel,
+        harmonic: usize,
+        family: usize,
+        amplitude: f64,
+        phase: c64,
+        wave: InitialWave,
+    ) -> Self {
+        let modes = &wheel.harmonics[harmonic];
+        let sectors = wheel.sectors as f64;
+        let weight = if modes.single { (1.0 / sectors).sqrt() } else { (2.0 / sectors).sqrt() };
+        let largest =
+            (0..modes.contact.nrows()).map(|row| modes.contact[(row, family)].norm()).fold(0.0, f64::max);
+        let displacement = if largest > 0.0 { phase * (amplitude / (weight * largest)) } else { c64::ZERO };
+        let turning = match wave {
+            _ if modes.single => c64::ZERO,
+            InitialWave::Standing => c64::ZERO,
+            InitialWave::Forward => c64::new(0.0, -1.0),
+            InitialWave::Backward => c64::new(0.0, 1.0),
+        };
+        Self { harmonic, family, displacement, velocity: displacement * turning * modes.omega[family] }
+    }
 }

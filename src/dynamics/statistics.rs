@@ -15,6 +15,8 @@ pub struct RunStatistics {
     pub largest_penetration: f64,
     /// Smallest multiplier of an active node; none without contact.
     pub smallest_multiplier: Option<f64>,
+    /// Largest radial amplitude of any wave of an elastic casing, length.
+    pub casing_amplitude: Option<f64>,
     /// Work of the complementarity solver.
     pub pivots: PivotStatistics,
 }

@@ -1,8 +1,8 @@
 //! What the hard cases of time integration share: scenes given to a simulation without the door.
 
 use faer::{Mat, c64};
-use rubmap::dynamics::effects::Effects;
 use rubmap::dynamics::casing::{Casing, Restriction};
+use rubmap::dynamics::effects::Effects;
 use rubmap::dynamics::initial::InitialMode;
 use rubmap::dynamics::integrate::{History, Outcome, Run, SensorRow, Simulation};
 use rubmap::dynamics::modal_wheel::{ModalHarmonic, ModalWheel};

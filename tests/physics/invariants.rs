@@ -1,8 +1,8 @@
 //! What must hold for every wheel, casing and step: complementarity, the energy identity, symmetry.
 
 use proptest::prelude::*;
-use rubmap::dynamics::effects::Effects;
 use rubmap::dynamics::casing::{Casing, Restriction};
+use rubmap::dynamics::effects::Effects;
 use rubmap::dynamics::integrate::{History, Outcome, Run, SensorRow, Simulation};
 use rubmap::dynamics::modal_wheel::ModalWheel;
 use rubmap::dynamics::oscillators::{Direction, ModalDamping};

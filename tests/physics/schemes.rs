@@ -3,8 +3,8 @@
 use std::f64::consts::{PI, TAU};
 
 use faer::{Mat, c64};
-use rubmap::dynamics::effects::Effects;
 use rubmap::dynamics::casing::{Casing, Restriction};
+use rubmap::dynamics::effects::Effects;
 use rubmap::dynamics::initial::InitialMode;
 use rubmap::dynamics::integrate::{Outcome, SensorRow, Simulation};
 use rubmap::dynamics::modal_wheel::{ModalHarmonic, ModalWheel};

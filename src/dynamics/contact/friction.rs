@@ -209,11 +209,13 @@ mod tests {
         let wheel = ModalWheel {
             speed_rad_s: 1.0,
             sectors: 1,
+            repeats: 1,
             harmonics: vec![ModalHarmonic {
                 harmonic: 0,
                 single: true,
                 omega: vec![1.0, 1.0],
                 contact: Mat::from_fn(3, 2, |component, mode| c64::new(shapes[mode][component], 0.0)),
+                gyroscopic: None,
             }],
         };
         let nodes = [contact_node([1.0, 0.0, 0.0])];

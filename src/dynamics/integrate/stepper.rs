@@ -114,6 +114,7 @@ impl Stepper {
             Ok(()) => Outcome::Completed(self.recorder.take()),
             Err(ended) => ended,
         };
+        self.statistics.casing_amplitude = self.flexible_casing().map(CasingMotion::largest_amplitude);
         Run { outcome, statistics: self.statistics, energy: self.energy }
     }
 
@@ -271,9 +272,11 @@ impl Stepper {
     }
 
     fn mechanical_energy(&self) -> f64 {
-        let surroundings = self.obstacle.as_ref().and_then(|obstacle| obstacle.surroundings.as_ref());
-        let casing = surroundings.and_then(|surroundings| surroundings.casing.as_ref());
-        self.oscillators.energy() + casing.map_or(0.0, CasingMotion::energy)
+        self.oscillators.energy() + self.flexible_casing().map_or(0.0, CasingMotion::energy)
+    }
+
+    fn flexible_casing(&self) -> Option<&CasingMotion> {
+        self.obstacle.as_ref()?.surroundings.as_ref()?.casing.as_ref()
     }
 
     /// Holds what the contact solution promised against the state.

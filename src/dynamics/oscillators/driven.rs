@@ -166,12 +166,12 @@ impl Oscillators {
             if !loads.rows.is_empty() {
                 load(simd, segment, &rows.blocks[index], rows.stride, loads, &mut drive.force);
                 let receptance = &self.coefficients.receptance[segment.modes..][..segment.length];
-                for (part, start) in segment.parts().enumerate() {
-                    let offset = part * segment.length;
-                    for m in 0..segment.length {
-                        drive.free[offset + m] = receptance[m] * drive.force[offset + m];
+                for part in 0..segment.parts().count() {
+                    let range = part * segment.length..(part + 1) * segment.length;
+                    let (free, force) = (&mut drive.free[range.clone()], &drive.force[range]);
+                    for (free, (r, f)) in free.iter_mut().zip(receptance.iter().zip(force)) {
+                        *free = r * f;
                     }
-                    debug_assert_eq!(start, segment.state + offset);
                 }
                 let moved = if drive.turning.is_empty() {
                     &drive.free

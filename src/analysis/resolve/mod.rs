@@ -1,13 +1,17 @@
 //! Checks a request against its model and fills in defaults: all violations at once, each at its JSON pointer.
 
-use super::auto_or::AutoOr;
-use super::discretisation::most_samples;
-use super::error::Violation;
-use super::model::ModelFacts;
-use super::request::{Component, Integration, ModalAnalysisRequest, SchemeChoice, Sensor, SweepRequest};
-use super::scene::{Casing, Clearance, Damping, Scene, Symmetry};
-use super::speeds::{Part, Speeds};
-use super::stepping::MOST_STEPS;
+mod effects;
+
+use crate::analysis::auto_or::AutoOr;
+use crate::analysis::discretisation::most_samples;
+use crate::analysis::error::Violation;
+use crate::analysis::model::ModelFacts;
+use crate::analysis::request::{
+    Component, Integration, ModalAnalysisRequest, SchemeChoice, Sensor, SweepRequest,
+};
+use crate::analysis::scene::{Casing, Clearance, Damping, Lobes, Scene, Symmetry};
+use crate::analysis::speeds::{Part, Speeds};
+use crate::analysis::stepping::MOST_STEPS;
 use crate::dynamics::casing::Restriction;
 
 /// Bounds that keep a request's memory and time within reason.
@@ -30,6 +34,10 @@ mod limits {
     pub(super) const LENGTH: std::ops::RangeInclusive<f64> = 1e-30..=1e30;
     pub(super) const LOBE_WIDTH_RAD: std::ops::RangeInclusive<f64> = 1e-4..=100.0;
     pub(super) const PHASE_RAD: f64 = 1000.0;
+    pub(super) const CASING_WAVES: u32 = 50;
+    pub(super) const SPREAD: f64 = 0.1;
+    pub(super) const FORCE: f64 = 1e30;
+    pub(super) const WHIRL_RATIO: f64 = 100.0;
 }
 
 /// Collects violations.
@@ -56,6 +64,7 @@ pub fn resolve_sweep(mut request: SweepRequest, facts: &ModelFacts) -> Result<Sw
     check_scene(&mut found, &request.scene, facts);
     check_integration(&mut found, &request.integration, request.max_engine_order);
     check_ramp(&mut found, &request);
+    effects::check_effects(&mut found, &request, facts);
     if request.sensors.is_empty() {
         request.sensors = default_sensors(facts);
     }
@@ -179,15 +188,8 @@ fn check_scene(found: &mut Findings, scene: &Scene, facts: &ModelFacts) {
 fn check_built(found: &mut Findings, scene: &Scene) {
     let named = [
         ("coriolis", scene.coriolis),
-        ("friction", scene.friction.is_some()),
         ("abradable", scene.abradable.is_some()),
-        ("flexible_casing", scene.flexible_casing.is_some()),
-        ("mistuning", scene.mistuning.is_some()),
-        ("engine_order_excitation", !scene.engine_order_excitation.is_empty()),
-        ("orbit", scene.orbit.is_some()),
-        ("initial", scene.initial.is_some()),
         ("symmetry", scene.symmetry != Symmetry::Full),
-        ("probe", scene.probe.is_some()),
     ];
     for (effect, named) in named {
         found.require(!named, &format!("/scene/{effect}"), "not available yet");
@@ -342,26 +344,25 @@ fn check_memory(found: &mut Findings, request: &SweepRequest, facts: &ModelFacts
 /// Without a ramp a restriction inside the blade would hit it as a step: forces scale as 1/h, nothing converges.
 fn check_ramp(found: &mut Findings, request: &SweepRequest) {
     let Scene { casing: Some(casing), contact: Some(_), .. } = &request.scene else { return };
-    let Some(lobes) = &casing.lobes else { return };
-    if lobes.count > limits::LOBES {
-        return;
-    }
-    let restriction = Restriction {
-        count: lobes.count,
-        amplitude: lobes.amplitude,
-        width_rad: lobes.width_rad,
-        phase_rad: lobes.phase_rad,
+    let restriction = match &casing.lobes {
+        Some(lobes) if lobes.count > limits::LOBES => return,
+        Some(lobes) => {
+            let Lobes { count, amplitude, width_rad, phase_rad } = *lobes;
+            Restriction { count, amplitude, width_rad, phase_rad }.highest()
+        }
+        None => 0.0,
     };
+    let orbit = request.scene.orbit.as_ref().map_or(0.0, |orbit| orbit.radius);
     let clearance = &casing.clearance;
     let given = clearance.values.iter().flatten().chain(&clearance.leading).chain(&clearance.trailing);
     let smallest = given.copied().fold(f64::INFINITY, f64::min);
-    let highest = restriction.highest();
+    let highest = restriction + orbit;
     found.require(
         request.integration.ramp_revolutions >= limits::RAMP_REVOLUTIONS || highest <= smallest,
         "/integration/ramp_revolutions",
         format!(
-            "lobes of up to {highest} stand inside the blade at rest (smallest clearance {smallest}): let them grow \
-             over at least {} revolutions",
+            "lobes and orbit of up to {highest} reach inside the blade at rest (smallest clearance {smallest}): let them \
+             grow over at least {} revolutions",
             limits::RAMP_REVOLUTIONS
         ),
     );

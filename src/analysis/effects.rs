@@ -1,0 +1,137 @@
+//! The effects of a scene in the terms of the physics.
+
+use faer::c64;
+
+use super::request::{Component, SweepRequest};
+use super::scene::{CasingMode, FlexibleCasing as FlexibleCasingRequest, Mistuning};
+use crate::dynamics::contact::friction::{FrictionError, sliding_directions};
+use crate::dynamics::effects::{Effects, Friction};
+use crate::dynamics::excitation::EngineOrderExcitation;
+use crate::dynamics::flexible_casing::{CasingWave, FlexibleCasing, Ring};
+use crate::dynamics::initial::{InitialMode, InitialWave};
+use crate::dynamics::mistuning::normal_deviations;
+use crate::dynamics::modal_wheel::ModalWheel;
+use crate::dynamics::orbit::Orbit;
+use crate::dynamics::oscillators::Direction;
+use crate::dynamics::sector::ContactNode;
+
+/// What [`Effects`] borrows.
+#[derive(Debug, Default)]
+pub(super) struct SceneEffects {
+    /// μ and n + μt.
+    friction: Option<(f64, Vec<Direction>)>,
+    flexible_casing: Option<FlexibleCasing>,
+    orbit: Option<Orbit>,
+    mistuning: Option<Vec<f64>>,
+    excitation: Vec<EngineOrderExcitation>,
+}
+
+impl SceneEffects {
+    /// The effects that `request` names, on a wheel of `sectors`.
+    pub(super) fn of(
+        request: &SweepRequest,
+        contact_nodes: &[ContactNode],
+        sectors: usize,
+    ) -> Result<Self, FrictionError> {
+        let scene = &request.scene;
+        let friction = match &scene.friction {
+            Some(friction) => {
+                Some((friction.coefficient, sliding_directions(contact_nodes, friction.coefficient)?))
+            }
+            None => None,
+        };
+        let excitation = scene.engine_order_excitation.iter().map(|excitation| EngineOrderExcitation {
+            order: excitation.order,
+            directions: (excitation.contact_nodes.iter())
+                .map(|&node| direction(contact_nodes, node, excitation.component))
+                .collect(),
+            amplitude: excitation.amplitude,
+            phase_rad: excitation.phase_rad,
+            ramp_revolutions: request.integration.ramp_revolutions,
+        });
+        Ok(Self {
+            friction,
+            flexible_casing: scene.flexible_casing.as_ref().map(flexible_casing),
+            orbit: scene.orbit.as_ref().map(|orbit| Orbit {
+                radius: orbit.radius,
+                whirl_ratio: orbit.whirl_ratio,
+                phase_rad: orbit.phase_rad,
+            }),
+            mistuning: scene.mistuning.as_ref().map(|mistuning| deviations(mistuning, sectors)),
+            excitation: excitation.collect(),
+        })
+    }
+
+    /// As a simulation takes them.
+    pub(super) fn borrow(&self) -> Effects<'_> {
+        Effects {
+            friction: (self.friction.as_ref())
+                .map(|(coefficient, directions)| Friction { coefficient: *coefficient, directions }),
+            flexible_casing: self.flexible_casing.as_ref(),
+            orbit: self.orbit,
+            mistuning: self.mistuning.as_deref(),
+            excitation: &self.excitation,
+        }
+    }
+}
+
+/// The direction of a component at a contact node.
+pub(super) fn direction(contact_nodes: &[ContactNode], node: u32, component: Component) -> Direction {
+    let node = node as usize;
+    let components = match component {
+        Component::Radial => [1.0, 0.0, 0.0],
+        Component::Tangential => [0.0, 1.0, 0.0],
+        Component::Axial => [0.0, 0.0, 1.0],
+        Component::Normal => contact_nodes[node].normal,
+    };
+    Direction { node, components }
+}
+
+/// The casing's waves; of a ring or as given.
+pub(super) fn flexible_casing(casing: &FlexibleCasingRequest) -> FlexibleCasing {
+    let given = casing.modes.iter().flatten().map(|mode: &CasingMode| CasingWave {
+        nodal_diameter: mode.nodal_diameter,
+        omega: std::f64::consts::TAU * mode.frequency_hz,
+        modal_mass: mode.modal_mass,
+    });
+    let ring = casing.ring.iter().flat_map(|ring| {
+        let section = Ring {
+            radius: ring.radius,
+            modulus: ring.modulus,
+            density: ring.density,
+            area: ring.area,
+            second_moment: ring.second_moment,
+        };
+        section.waves(ring.n_max)
+    });
+    FlexibleCasing { waves: given.chain(ring).collect(), damping_ratio: casing.damping_ratio }
+}
+
+/// δ of every sector.
+pub(super) fn deviations(mistuning: &Mistuning, sectors: usize) -> Vec<f64> {
+    match (&mistuning.deviations, mistuning.spread) {
+        (Some(given), _) => given.clone(),
+        (None, spread) => normal_deviations(spread.unwrap_or(0.0), mistuning.seed.unwrap_or(0), sectors),
+    }
+}
+
+/// The mode that a scene starts with, if any.
+pub(super) fn initial(request: &SweepRequest, wheel: &ModalWheel) -> Result<Vec<InitialMode>, String> {
+    let Some(initial) = &request.scene.initial else { return Ok(Vec::new()) };
+    let (harmonic, family) = (initial.nodal_diameter as usize / wheel.repeats, initial.family as usize - 1);
+    let modes = &wheel.harmonics[harmonic];
+    if family >= modes.omega.len() {
+        return Err(format!(
+            "nodal diameter {} of the reduced wheel has {} modal families, not {}",
+            initial.nodal_diameter,
+            modes.omega.len(),
+            initial.family
+        ));
+    }
+    let wave = match initial.wave {
+        super::scene::InitialWave::Standing => InitialWave::Standing,
+        super::scene::InitialWave::Forward => InitialWave::Forward,
+        super::scene::InitialWave::Backward => InitialWave::Backward,
+    };
+    Ok(vec![InitialMode::of_amplitude(wheel, harmonic, family, initial.amplitude, c64::ONE, wave)])
+}
