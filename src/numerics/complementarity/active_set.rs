@@ -76,7 +76,8 @@ impl<F: Factor> ActiveSetSolver<F> {
             if !any_below(&self.lambda, 0.0) && !any_below(&self.gap, -tolerance) {
                 return Ok(());
             }
-            self.find_violated(tolerance + F::round_off(w, &self.active, &self.lambda));
+            let round_off = F::round_off(|i, j| w.entry(i, j), &self.active, &self.lambda);
+            self.find_violated(tolerance + round_off);
             if self.violated.is_empty() {
                 return Ok(());
             }
@@ -139,7 +140,7 @@ impl<F: Factor> ActiveSetSolver<F> {
     fn factorise<W: ContactOperator>(&mut self, w: &W) -> Result<(), ComplementarityError> {
         self.statistics.factorisations += 1;
         self.factored.clear();
-        self.factor.factorise(w, &self.active)?;
+        self.factor.factorise(|i, j| w.entry(i, j), &self.active)?;
         self.factored.extend_from_slice(&self.active);
         Ok(())
     }

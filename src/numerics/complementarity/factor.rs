@@ -1,17 +1,21 @@
-//! Dense factors of a contact operator on an active set; nothing is allocated once the reserve is there.
+//! Dense factors of a matrix on an active set; nothing is allocated once the reserve is there.
 
-use super::{ComplementarityError, ContactOperator};
+use super::ComplementarityError;
 
 /// Solves with W restricted to an active set.
 pub trait Factor: Default {
-    /// Factorises W on the `active` indices. After an error the factor is of no use.
-    fn factorise<W: ContactOperator>(&mut self, w: &W, active: &[usize]) -> Result<(), ComplementarityError>;
+    /// Factorises W on the `active` indices from its entries W(i, j). After an error the factor is of no use.
+    fn factorise(
+        &mut self,
+        entry: impl Fn(usize, usize) -> f64,
+        active: &[usize],
+    ) -> Result<(), ComplementarityError>;
 
     /// Solves in place.
     fn solve(&self, x: &mut [f64]);
 
     /// Round-off of g = q + Wλ, whose terms may be much larger than their sum where W is nearly singular.
-    fn round_off<W: ContactOperator>(w: &W, active: &[usize], lambda: &[f64]) -> f64;
+    fn round_off(entry: impl Fn(usize, usize) -> f64, active: &[usize], lambda: &[f64]) -> f64;
 }
 
 /// Active indices whose factor is reserved beforehand; more of them at once make it grow, once.
@@ -35,24 +39,28 @@ impl Default for Cholesky {
 
 impl Factor for Cholesky {
     #[inline(always)]
-    fn factorise<W: ContactOperator>(&mut self, w: &W, active: &[usize]) -> Result<(), ComplementarityError> {
+    fn factorise(
+        &mut self,
+        entry: impl Fn(usize, usize) -> f64,
+        active: &[usize],
+    ) -> Result<(), ComplementarityError> {
         self.lower.clear();
         for (i, &row) in active.iter().enumerate() {
             for (j, &column) in active[..=i].iter().enumerate() {
-                let mut value = w.entry(row, column);
+                let mut value = entry(row, column);
                 let (head, current) = self.lower.split_at(i * (i + 1) / 2);
                 let other = if j < i { &head[j * (j + 1) / 2..][..=j] } else { current };
                 for (a, b) in current[..j].iter().zip(other) {
                     value -= a * b;
                 }
-                let entry = if j < i {
+                let next = if j < i {
                     value / other[j]
                 } else if value > 0.0 {
                     value.sqrt()
                 } else {
                     return Err(ComplementarityError::NotPositiveDefinite { active: active.len() });
                 };
-                self.lower.push(entry);
+                self.lower.push(next);
             }
         }
         Ok(())
@@ -76,8 +84,8 @@ impl Factor for Cholesky {
     }
 
     /// |W(i, j)|² < W(i, i) W(j, j): the diagonal bounds every term.
-    fn round_off<W: ContactOperator>(w: &W, active: &[usize], lambda: &[f64]) -> f64 {
-        let terms = active.iter().zip(lambda).map(|(&i, lambda)| w.entry(i, i) * lambda.abs());
+    fn round_off(entry: impl Fn(usize, usize) -> f64, active: &[usize], lambda: &[f64]) -> f64 {
+        let terms = active.iter().zip(lambda).map(|(&i, lambda)| entry(i, i) * lambda.abs());
         ROUND_OFF * terms.sum::<f64>()
     }
 }
@@ -99,12 +107,16 @@ impl Default for Lu {
 
 impl Factor for Lu {
     /// Refuses a block whose determinant is not positive: W is then no P-matrix.
-    fn factorise<W: ContactOperator>(&mut self, w: &W, active: &[usize]) -> Result<(), ComplementarityError> {
+    fn factorise(
+        &mut self,
+        entry: impl Fn(usize, usize) -> f64,
+        active: &[usize],
+    ) -> Result<(), ComplementarityError> {
         let n = active.len();
         self.factor.clear();
         self.exchanged.clear();
         for &row in active {
-            self.factor.extend(active.iter().map(|&column| w.entry(row, column)));
+            self.factor.extend(active.iter().map(|&column| entry(row, column)));
         }
         let mut positive = true;
         for k in 0..n {
@@ -150,8 +162,8 @@ impl Factor for Lu {
         }
     }
 
-    fn round_off<W: ContactOperator>(w: &W, active: &[usize], lambda: &[f64]) -> f64 {
-        let largest = |j: usize| active.iter().fold(0.0f64, |most, &i| most.max(w.entry(i, j).abs()));
+    fn round_off(entry: impl Fn(usize, usize) -> f64, active: &[usize], lambda: &[f64]) -> f64 {
+        let largest = |j: usize| active.iter().fold(0.0f64, |most, &i| most.max(entry(i, j).abs()));
         let terms = active.iter().zip(lambda).map(|(&j, lambda)| largest(j) * lambda.abs());
         ROUND_OFF * terms.sum::<f64>()
     }

@@ -4,11 +4,14 @@
 //! and Stone, The Linear Complementarity Problem, 1992, theorem 3.3.7). Symmetric positive definite matrices are; so is W of
 //! frictional contact as long as the coefficient is small.
 //!
-//! - [`active_set`]: block principal pivoting, the solver;
+//! - [`active_set`]: block principal pivoting, the solver for rigid obstacles;
+//! - [`branches`]: its relative for obstacles that give way by a [`law`];
 //! - [`factor`]: how W on an active set is factorised, Cholesky for symmetric W and LU for others.
 
 pub mod active_set;
+pub mod branches;
 pub mod factor;
+pub mod law;
 #[cfg(test)]
 mod tests;
 
