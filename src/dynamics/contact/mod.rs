@@ -9,6 +9,7 @@
 //! g_p being the gaps of the predicted displacements. Eq. 10 of the paper is the special case in which every
 //! penetrating node, and no other, ends up active.
 
+pub mod coating;
 pub(crate) mod delassus;
 pub(crate) mod flexibility;
 pub mod friction;
