@@ -3,8 +3,9 @@
 use faer::c64;
 
 use super::request::{Component, SweepRequest};
-use super::scene::{CasingMode, FlexibleCasing as FlexibleCasingRequest, Mistuning};
-use crate::dynamics::contact::friction::{FrictionError, sliding_directions};
+use super::scene::{Abradable, CasingMode, FlexibleCasing as FlexibleCasingRequest, Mistuning};
+use crate::dynamics::contact::coating::{Coating, CoatingMaterial};
+use crate::dynamics::contact::friction::sliding_directions;
 use crate::dynamics::effects::{Effects, Friction};
 use crate::dynamics::excitation::EngineOrderExcitation;
 use crate::dynamics::flexible_casing::{CasingWave, FlexibleCasing, Ring};
@@ -20,6 +21,7 @@ use crate::dynamics::sector::ContactNode;
 pub(super) struct SceneEffects {
     /// μ and n + μt.
     friction: Option<(f64, Vec<Direction>)>,
+    coating: Option<Coating>,
     flexible_casing: Option<FlexibleCasing>,
     orbit: Option<Orbit>,
     mistuning: Option<Vec<f64>>,
@@ -32,11 +34,21 @@ impl SceneEffects {
         request: &SweepRequest,
         contact_nodes: &[ContactNode],
         sectors: usize,
-    ) -> Result<Self, FrictionError> {
+    ) -> Result<Self, String> {
         let scene = &request.scene;
         let friction = match &scene.friction {
             Some(friction) => {
-                Some((friction.coefficient, sliding_directions(contact_nodes, friction.coefficient)?))
+                let directions = sliding_directions(contact_nodes, friction.coefficient);
+                Some((friction.coefficient, directions.map_err(|error| error.to_string())?))
+            }
+            None => None,
+        };
+        let coating = match &scene.abradable {
+            Some(coating) => {
+                let Abradable { modulus, yield_stress, hardening, thickness, rods_around } = *coating;
+                let material = CoatingMaterial { modulus, yield_stress, hardening };
+                let coating = Coating::new(material, thickness, rods_around as usize, contact_nodes, sectors);
+                Some(coating.map_err(|error| error.to_string())?)
             }
             None => None,
         };
@@ -51,6 +63,7 @@ impl SceneEffects {
         });
         Ok(Self {
             friction,
+            coating,
             flexible_casing: scene.flexible_casing.as_ref().map(flexible_casing),
             orbit: scene.orbit.as_ref().map(|orbit| Orbit {
                 radius: orbit.radius,
@@ -67,6 +80,7 @@ impl SceneEffects {
         Effects {
             friction: (self.friction.as_ref())
                 .map(|(coefficient, directions)| Friction { coefficient: *coefficient, directions }),
+            coating: self.coating.as_ref(),
             flexible_casing: self.flexible_casing.as_ref(),
             orbit: self.orbit,
             mistuning: self.mistuning.as_deref(),

@@ -98,6 +98,19 @@ impl EnergyReport {
     }
 }
 
+/// What the blades wore off an abradable coating.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct WearReport {
+    /// Volume removed, length³.
+    pub removed_volume: f64,
+    /// Deepest wear, length.
+    pub deepest: f64,
+    /// Work that went into plastic strain, force·length.
+    pub plastic_work: f64,
+    /// Whether a tip met the metal behind the coating.
+    pub reached_metal: bool,
+}
+
 /// One speed of a sweep with its credentials.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Point {
@@ -147,6 +160,9 @@ pub struct Point {
     /// Largest radial amplitude of any wave of an elastic casing, in the model's unit of length.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub casing_amplitude: Option<f64>,
+    /// Wear of an abradable coating at the end of the run.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wear: Option<WearReport>,
     /// Steady response per sensor; empty unless `completed`.
     pub responses: Vec<SensorResponse>,
     /// Wall time of this speed, s.

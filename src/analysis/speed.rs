@@ -9,7 +9,7 @@ use super::model::ReducedSector;
 use super::monitor::Monitor;
 use super::request::{Sensor, SweepRequest};
 use super::result::{
-    EnergyReport, Point, PointStatus, SensorResponse, SensorSpectrum, SpeedResult, SpeedSpectra,
+    EnergyReport, Point, PointStatus, SensorResponse, SensorSpectrum, SpeedResult, SpeedSpectra, WearReport,
 };
 use super::run::VERSION;
 use super::stepping::Stepping;
@@ -83,6 +83,7 @@ fn empty_point(index: usize, speed_rad_s: f64) -> Point {
         energy: None,
         largest_energy: None,
         casing_amplitude: None,
+        wear: None,
         responses: Vec::new(),
         wall_time_s: 0.0,
         version: VERSION.to_owned(),
@@ -114,7 +115,7 @@ fn simulate(
             ));
         }
     }
-    let effects = SceneEffects::of(request, &reduced.contact, wheel.sectors).map_err(|e| e.to_string())?;
+    let effects = SceneEffects::of(request, &reduced.contact, wheel.sectors)?;
     if let Scheme::MasslessBoundary { kept_modes } = scheme
         && let Some(initial) = &scene.initial
         && initial.family as usize > kept_modes
@@ -190,6 +191,12 @@ fn record_run(
     point.contact_impulse = finite(run.statistics.contact_impulse);
     point.largest_penetration = finite(run.statistics.largest_penetration);
     point.smallest_multiplier = run.statistics.smallest_multiplier.and_then(finite);
+    point.wear = run.coating.as_ref().map(|coating| WearReport {
+        removed_volume: coating.removed_volume(),
+        deepest: coating.worn_depths().into_iter().flatten().fold(0.0, f64::max),
+        plastic_work: coating.plastic_work(),
+        reached_metal: coating.reached_metal(),
+    });
     point.casing_amplitude = run.statistics.casing_amplitude.and_then(finite);
     point.energy_residual = finite(run.energy.residual());
     point.energy = EnergyReport::of(&run.energy, &request.scene);

@@ -59,7 +59,10 @@ fn least_steps_for_lobes(request: &SweepRequest) -> f64 {
 /// Steps per revolution that `"auto"` gives contact, and why.
 fn steps_for_contact(request: &SweepRequest) -> (f64, &'static str) {
     let lobes = lobe_width(request).map_or(0.0, |width| (AUTO_STEPS_PER_WIDTH * TAU / width).ceil());
-    if lobes > LEAST_AUTO_STEPS {
+    let rods = request.scene.abradable.as_ref().map_or(0.0, |coating| f64::from(coating.rods_around));
+    if rods > lobes.max(LEAST_AUTO_STEPS) {
+        (rods, "no step jumps a rod of the coating")
+    } else if lobes > LEAST_AUTO_STEPS {
         (lobes, "ten steps fall on the half-width of a lobe")
     } else {
         (LEAST_AUTO_STEPS, "contact begins and ends within a tenth of a degree")

@@ -1,5 +1,6 @@
 //! Effects beyond damping and contact with a rigid casing. One that is absent does not exist in the run.
 
+use super::contact::coating::Coating;
 use super::excitation::EngineOrderExcitation;
 use super::flexible_casing::FlexibleCasing;
 use super::orbit::Orbit;
@@ -10,6 +11,8 @@ use super::oscillators::Direction;
 pub struct Effects<'a> {
     /// Coulomb friction at the contact.
     pub friction: Option<Friction<'a>>,
+    /// Abradable coating of the casing.
+    pub coating: Option<&'a Coating>,
     /// Elastic casing.
     pub flexible_casing: Option<&'a FlexibleCasing>,
     /// Eccentric casing or whirling shaft.
@@ -33,6 +36,7 @@ impl Effects<'_> {
     /// Whether there is any.
     pub(crate) fn any(&self) -> bool {
         self.friction.is_some()
+            || self.coating.is_some()
             || self.flexible_casing.is_some()
             || self.orbit.is_some()
             || self.mistuning.is_some()

@@ -16,6 +16,7 @@ use self::stepper::Stepper;
 use super::casing::Casing;
 #[cfg(test)]
 use super::casing::RestrictionTable;
+use super::contact::coating::WornCoating;
 use super::effects::Effects;
 use super::energy::EnergyAudit;
 use super::initial::InitialMode;
@@ -116,6 +117,8 @@ pub struct Run {
     pub statistics: RunStatistics,
     /// The energy identity.
     pub energy: EnergyAudit,
+    /// The coating at the end, if there is one.
+    pub coating: Option<WornCoating>,
 }
 
 /// Displacements beyond this share of the largest contact radius end a run as diverged: linear structural theory is

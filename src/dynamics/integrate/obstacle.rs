@@ -3,6 +3,7 @@
 use pulp::Simd;
 
 use super::super::casing::{Casing, RestrictionTable};
+use super::super::contact::coating::WornCoating;
 use super::super::contact::delassus::Delassus;
 use super::super::contact::flexibility::{flexibility, outward_normals, ridge};
 use super::super::energy::EffectWork;
@@ -14,7 +15,7 @@ use super::super::schemes::massless_boundary::residual_flexibility;
 use super::super::statistics::RunStatistics;
 use super::Simulation;
 use super::residual::ResidualDisplacement;
-use super::surroundings::Surroundings;
+use super::surroundings::{Law, Surroundings};
 use crate::numerics::complementarity::ComplementarityError;
 use crate::numerics::complementarity::active_set::ActiveSetSolver;
 use crate::numerics::sector_fourier::SectorFourier;
@@ -154,6 +155,14 @@ impl Obstacle {
         self.surroundings.as_mut()?.casing.as_mut()
     }
 
+    /// The coating as it is now, if there is one.
+    pub(super) fn worn_coating(&self) -> Option<&WornCoating> {
+        match &self.surroundings.as_ref()?.law {
+            Law::Coated(_, coating) => Some(coating),
+            Law::Plain | Law::General(_) => None,
+        }
+    }
+
     /// What contact forces act along: the normals, but for friction.
     #[inline(always)]
     pub(super) fn applied<const EFFECTS: bool>(&self) -> &Rows {
@@ -168,25 +177,41 @@ impl Obstacle {
     pub(super) fn solve<const EFFECTS: bool>(
         &mut self,
         fourier: &SectorFourier,
+        step: usize,
         statistics: &mut RunStatistics,
         work: &mut EffectWork,
     ) -> Result<(), ComplementarityError> {
-        let (general, sliding, mut casing) = match &mut self.surroundings {
-            Some(s) if EFFECTS => (s.general.as_mut(), s.sliding.as_ref(), s.casing.as_mut()),
-            _ => (None, None, None),
+        let (law, sliding, mut casing) = match &mut self.surroundings {
+            Some(s) if EFFECTS => (&mut s.law, s.sliding.as_ref(), s.casing.as_mut()),
+            _ => (&mut Law::Plain, None, None),
         };
-        let (active, lambda, gap, pivots) = match general {
-            Some(solver) => {
+        let mut allowed = 0.0;
+        let (active, lambda, gap, pivots) = match law {
+            Law::General(solver) => {
                 solver.solve(&self.delassus, &self.predicted_gap, self.tolerance)?;
                 (solver.active(), solver.lambda(), solver.gap(), solver.statistics())
             }
-            None => {
+            Law::Coated(solver, coating) => {
+                let law = |index: usize| {
+                    let (sector, row) = self.delassus.place(index);
+                    coating.law(coating.rod(step, sector, row), row)
+                };
+                solver.solve(&self.delassus, law, &self.predicted_gap, self.tolerance)?;
+                for &index in solver.active() {
+                    let (sector, row) = self.delassus.place(index);
+                    let rod = coating.rod(step, sector, row);
+                    coating.press(rod, row, -solver.gap()[index]);
+                }
+                allowed = coating.thickness();
+                (solver.active(), solver.lambda(), solver.gap(), solver.statistics())
+            }
+            Law::Plain => {
                 let solver = &mut self.solver;
                 solver.solve(&self.delassus, &self.predicted_gap, self.tolerance)?;
                 (solver.active(), solver.lambda(), solver.gap(), solver.statistics())
             }
         };
-        let deepest = -lowest(gap);
+        let deepest = (-lowest(gap) - allowed).max(0.0);
         statistics.largest_penetration = statistics.largest_penetration.max(deepest);
         // A run that explodes leaves round-off of its own size; that is for the bounds to find.
         if deepest > self.most_left && deepest > LEFT * -lowest(&self.predicted_gap) {
@@ -233,7 +258,11 @@ impl Obstacle {
     ) -> f64 {
         oscillators.project(simd, &self.rows, &mut self.harmonic);
         self.residual.add(&self.force, self.rows.stride, &mut self.harmonic, self.rows.stride);
-        (-self.predict_gaps::<S, EFFECTS>(simd, fourier, step, revolutions)).max(0.0)
+        let allowed = match &self.surroundings {
+            Some(Surroundings { law: Law::Coated(_, coating), .. }) if EFFECTS => coating.thickness(),
+            _ => 0.0,
+        };
+        (-self.predict_gaps::<S, EFFECTS>(simd, fourier, step, revolutions) - allowed).max(0.0)
     }
 
     /// No forces, until the next solution.

@@ -115,7 +115,8 @@ impl Stepper {
             Err(ended) => ended,
         };
         self.statistics.casing_amplitude = self.flexible_casing().map(CasingMotion::largest_amplitude);
-        Run { outcome, statistics: self.statistics, energy: self.energy }
+        let coating = self.obstacle.as_ref().and_then(Obstacle::worn_coating).cloned();
+        Run { outcome, statistics: self.statistics, energy: self.energy, coating }
     }
 
     #[inline(always)]
@@ -245,7 +246,7 @@ impl Stepper {
             return Ok(());
         }
         obstacle
-            .solve::<EFFECTS>(&self.fourier, &mut self.statistics, self.energy.effects_mut())
+            .solve::<EFFECTS>(&self.fourier, step, &mut self.statistics, self.energy.effects_mut())
             .map_err(|error| Outcome::ContactFailed { revolutions, error })
     }
 

@@ -1,22 +1,34 @@
 //! What the effects of a scene add to contact.
 
+use super::super::contact::coating::WornCoating;
 use super::super::flexible_casing::CasingMotion;
 use super::super::orbit::OrbitShift;
 use super::super::oscillators::rows::Rows;
 use super::Simulation;
 use crate::numerics::complementarity::active_set::ActiveSetSolver;
+use crate::numerics::complementarity::branches::BranchSolver;
 use crate::numerics::complementarity::factor::Lu;
 
 /// Each is absent unless the scene names it.
 #[derive(Debug)]
 pub(super) struct Surroundings {
     pub(super) sliding: Option<Sliding>,
-    /// For contact operators that are not symmetric.
-    pub(super) general: Option<ActiveSetSolver<Lu>>,
+    pub(super) law: Law,
     pub(super) casing: Option<CasingMotion>,
     orbit: Option<OrbitShift>,
     /// What is added to the gaps, `[sector][node]`.
     pub(super) shift: Vec<f64>,
+}
+
+/// What a tip meets, where it is not a rigid wall on a symmetric operator.
+#[derive(Debug)]
+pub(super) enum Law {
+    /// That.
+    Plain,
+    /// A rigid wall, on an operator that is not symmetric.
+    General(ActiveSetSolver<Lu>),
+    /// A coating with metal behind it.
+    Coated(Box<BranchSolver<Lu>>, Box<WornCoating>),
 }
 
 /// Friction at the contact nodes.
@@ -48,7 +60,19 @@ impl Surroundings {
         let size = wheel.sectors * stride;
         let around = (wheel.sectors, wheel.sectors * wheel.repeats);
         Some(Self {
-            general: (sliding.is_some() || coriolis).then(|| ActiveSetSolver::new(size)),
+            law: match effects.coating {
+                Some(coating) => Law::Coated(
+                    Box::new(BranchSolver::new(size)),
+                    Box::new(WornCoating::new(
+                        coating.clone(),
+                        contact_nodes,
+                        wheel.sectors,
+                        simulation.steps_per_revolution,
+                    )),
+                ),
+                None if sliding.is_some() || coriolis => Law::General(ActiveSetSolver::new(size)),
+                None => Law::Plain,
+            },
             sliding,
             casing: effects.flexible_casing.map(|casing| {
                 CasingMotion::new(casing, scheme, simulation.step_s(), contact_nodes, around, stride)

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 /// Places of the contact nodes of all sectors over the rods, of which number j stands at the angles from 2πj/R to 2π(j + 1)/R.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct RodPlaces {
     rods: u64,
     sectors: u64,

@@ -10,7 +10,7 @@ const ON_METAL: f64 = 1.0 - 1e-9;
 
 /// A coating with its wear. Rods are counted in the direction of rotation from the package's x axis, rows are contact nodes from
 /// the leading edge.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct WornCoating {
     coating: Coating,
     places: RodPlaces,
@@ -71,6 +71,11 @@ impl WornCoating {
             let mean_stress = yield_stress + 0.5 * hardening * (before + after);
             self.plastic_work += self.volume(row) * mean_stress * (after - before);
         }
+    }
+
+    /// Depth of the metal behind the unworn surface, length.
+    pub fn thickness(&self) -> f64 {
+        self.coating.thickness
     }
 
     /// Energy that a rod at a penetration would give back, force·length.
@@ -231,9 +236,9 @@ mod tests {
         // The trapezoidal rule is exact but for the steps across a corner of the law.
         let difference = work / (stored + coating.plastic_work()) - 1.0;
         assert!(difference.abs() < 1e-5, "{difference}");
-        for row in 0..2 {
+        for (row, deepest) in deepest.iter().enumerate() {
             let depth = coating.worn_depths()[0][row];
-            assert!((depth / (worn(deepest[row] / THICKNESS) * THICKNESS) - 1.0).abs() < 1e-12);
+            assert!((depth / (worn(deepest / THICKNESS) * THICKNESS) - 1.0).abs() < 1e-12);
         }
     }
 
