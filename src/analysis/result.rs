@@ -10,6 +10,7 @@ use crate::dynamics::sector::Units;
 
 pub use crate::response::campbell::{Crossing, DrivenCrossing};
 pub use crate::response::settling::{Settling, Verdict};
+pub use crate::response::side_bands::SideBands;
 
 /// How one speed of a sweep ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
@@ -38,6 +39,10 @@ pub struct SensorResponse {
     pub dominant_engine_order: f64,
     /// Nodal diameter that carries the dominant engine order.
     pub dominant_nodal_diameter: u32,
+    /// Pairs of spectral lines k ± δ about integer engine orders, the strongest ones by ascending order; only where they
+    /// stand clear of the floor of the spectrum.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub side_bands: Vec<SideBands>,
 }
 
 /// The scheme of a run, and why it was taken.

@@ -9,7 +9,8 @@ use super::model::ReducedSector;
 use super::monitor::Monitor;
 use super::request::{Sensor, SweepRequest};
 use super::result::{
-    EnergyReport, Point, PointStatus, SensorResponse, SensorSpectrum, SpeedResult, SpeedSpectra, WearReport,
+    EnergyReport, Point, PointStatus, SensorResponse, SensorSpectrum, SideBands, SpeedResult, SpeedSpectra,
+    Verdict, WearReport,
 };
 use super::run::VERSION;
 use super::stepping::Stepping;
@@ -24,6 +25,7 @@ use crate::dynamics::schemes::Scheme;
 use crate::numerics::sector_fourier::SectorFourier;
 use crate::numerics::spectrum::amplitudes;
 use crate::response::settling::judge;
+use crate::response::side_bands::side_bands;
 use crate::response::spectra::{engine_orders, nodal_diameter_amplitudes};
 
 /// Simulates speed `index` of a sweep. Deterministic; runs on the calling thread. A speed that diverges or cannot be
@@ -216,8 +218,12 @@ fn record_run(
             point.status = PointStatus::Completed;
             let spectra = spectra(&history, request, sectors);
             let window = request.integration.window_revolutions as usize;
-            point.settling = Some(judge(&history.displacement, steps.samples, window));
             point.responses = responses(&history, request, &spectra, window * steps.samples);
+            let mut settling = judge(&history.displacement, steps.samples, window, lobes(request));
+            if settling.verdict == Verdict::Aperiodic {
+                settling.side_band_spacing = side_band_spacing(&point.responses);
+            }
+            point.settling = Some(settling);
             Ok(Some(spectra))
         }
     }
@@ -284,9 +290,27 @@ fn responses(
             half_peak_to_peak: 0.5 * (high - low),
             dominant_engine_order: spectra.engine_orders[bin],
             dominant_nodal_diameter: largest_bin(&carried) as u32,
+            side_bands: side_bands(
+                window,
+                request.integration.window_revolutions as usize,
+                request.max_engine_order as usize,
+            ),
         }
     };
     request.sensors.iter().enumerate().map(of).collect()
+}
+
+/// Lobes that pass a blade in a revolution, if it may touch them.
+fn lobes(request: &SweepRequest) -> Option<u32> {
+    request.scene.contact.as_ref()?;
+    Some(request.scene.casing.as_ref()?.lobes.as_ref()?.count)
+}
+
+/// δ of the strongest pair at the sensor with the largest response.
+fn side_band_spacing(responses: &[SensorResponse]) -> Option<f64> {
+    let loudest = responses.iter().max_by(|a, b| a.rms.total_cmp(&b.rms))?;
+    let weaker = |pair: &SideBands| pair.lower.min(pair.upper);
+    loudest.side_bands.iter().max_by(|a, b| weaker(a).total_cmp(&weaker(b))).map(|pair| pair.spacing)
 }
 
 fn largest_bin(values: &[f64]) -> usize {

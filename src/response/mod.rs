@@ -3,4 +3,5 @@
 pub mod campbell;
 pub mod critical_speed;
 pub mod settling;
+pub mod side_bands;
 pub mod spectra;
