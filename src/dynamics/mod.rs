@@ -21,3 +21,4 @@ pub mod reduction;
 pub mod schemes;
 pub mod sector;
 pub mod statistics;
+pub mod symmetry;

@@ -5,3 +5,4 @@ pub mod critical_speed;
 pub mod settling;
 pub mod side_bands;
 pub mod spectra;
+pub mod symmetry_breaking;

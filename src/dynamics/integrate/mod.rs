@@ -73,6 +73,10 @@ pub struct History {
     /// `[sensor][Fourier column][sample]`: coordinates of all sectors in the real orthonormal Fourier basis, over the
     /// window.
     pub harmonics: Vec<Vec<Vec<f64>>>,
+    /// `[revolution][nodal diameter]`: mechanical energy at its end.
+    pub energies: Vec<Vec<f64>>,
+    /// All modes at the end of the run.
+    pub end: Vec<InitialMode>,
 }
 
 /// A response that left the bounds of the theory.

@@ -35,6 +35,8 @@ impl Recorder {
                 harmonics: (0..sensors)
                     .map(|_| (0..fourier.sectors()).map(|_| Vec::with_capacity(window)).collect())
                     .collect(),
+                energies: Vec::with_capacity(simulation.revolutions),
+                end: Vec::new(),
             },
             rows,
         }
@@ -65,6 +67,19 @@ impl Recorder {
                 }
             }
         }
+    }
+
+    pub(super) fn end_revolution(&mut self, oscillators: &Oscillators) {
+        self.history.energies.push(oscillators.energies().collect());
+    }
+
+    pub(super) fn end(&mut self, simulation: &Simulation<'_>, oscillators: &Oscillators) {
+        let (step, touching) = (simulation.step_s(), simulation.casing.is_some());
+        self.history.end = oscillators.modal_state(|harmonic, family, z, d| {
+            let omega = simulation.wheel.harmonics[harmonic].omega[family];
+            let zeta = simulation.damping.map_or(0.0, |damping| damping.ratio(family));
+            simulation.scheme.velocity(omega, zeta, step, z, d, touching)
+        });
     }
 
     pub(super) fn take(&mut self) -> History {

@@ -167,7 +167,9 @@ impl Stepper {
                 }
             }
             self.last_energy = Some(self.mechanical_energy());
+            self.recorder.end_revolution(&self.oscillators);
         }
+        self.recorder.end(simulation, &self.oscillators);
         Ok(())
     }
 

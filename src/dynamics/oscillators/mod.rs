@@ -9,6 +9,7 @@ pub(crate) mod driven;
 mod product;
 pub(crate) mod rows;
 
+use faer::c64;
 use pulp::Simd;
 
 use self::product::{LoadPair, LoadSingle, ProjectPair, ProjectSingle};
@@ -393,18 +394,46 @@ impl Oscillators {
 
     /// E of the last step in the discrete identity (see [`super::schemes`]).
     pub(crate) fn energy(&self) -> f64 {
+        0.5 * self.segments.iter().fold(0.0, |twice, segment| self.add_twice_energy(segment, twice))
+    }
+
+    /// The same of every nodal diameter.
+    pub(crate) fn energies(&self) -> impl Iterator<Item = f64> {
+        self.segments.iter().map(|segment| 0.5 * self.add_twice_energy(segment, 0.0))
+    }
+
+    fn add_twice_energy(&self, segment: &Segment, mut twice: f64) -> f64 {
         let Coefficients { inertia, stiffness, .. } = &self.coefficients;
-        let mut twice = 0.0;
-        for segment in &self.segments {
-            for start in segment.parts() {
-                for m in 0..segment.length {
-                    let (z, d) = (self.state.z[start + m], self.state.d[start + m]);
-                    let mode = segment.modes + m;
-                    twice += inertia[mode] * d * d + stiffness[mode] * (z - d) * z;
-                }
+        for start in segment.parts() {
+            for m in 0..segment.length {
+                let (z, d) = (self.state.z[start + m], self.state.d[start + m]);
+                let mode = segment.modes + m;
+                twice += inertia[mode] * d * d + stiffness[mode] * (z - d) * z;
             }
         }
-        0.5 * twice
+        twice
+    }
+
+    /// z and ż of every mode, `velocity(harmonic, family, z, d)` being the scheme's.
+    pub(crate) fn modal_state(&self, velocity: impl Fn(usize, usize, f64, f64) -> f64) -> Vec<InitialMode> {
+        let mut modes = Vec::new();
+        for (harmonic, segment) in self.segments.iter().enumerate() {
+            for family in 0..segment.integrated {
+                let part = |start: usize| {
+                    let (z, d) = (self.state.z[start + family], self.state.d[start + family]);
+                    (z, velocity(harmonic, family, z, d))
+                };
+                let re = part(segment.state);
+                let im = if segment.single { (0.0, 0.0) } else { part(segment.state + segment.length) };
+                modes.push(InitialMode {
+                    harmonic,
+                    family,
+                    displacement: c64::new(re.0, im.0),
+                    velocity: c64::new(re.1, im.1),
+                });
+            }
+        }
+        modes
     }
 
     /// Displacement per unit force of mode `family` of nodal diameter `harmonic` within a step.

@@ -30,6 +30,12 @@ pub(super) fn mode_step(omega: f64, zeta: f64, h: f64) -> ModeStep {
     ModeStep { keep: (1.0 - c) / (1.0 + c), receptance: h * h / (1.0 + c) }
 }
 
+/// ż of the same.
+pub(super) fn velocity(omega: f64, zeta: f64, h: f64, displacement: f64, increment: f64) -> f64 {
+    let ModeStep { keep, receptance } = mode_step(omega, zeta, h);
+    ((1.0 + keep) * increment - omega * omega * receptance * displacement) / (2.0 * h)
+}
+
 /// From z⁺ − z⁻ = 2hż, the scheme's own velocity.
 pub(super) fn first_increment(omega: f64, zeta: f64, h: f64, displacement: f64, velocity: f64) -> f64 {
     let ModeStep { keep, receptance } = mode_step(omega, zeta, h);

@@ -41,11 +41,27 @@ pub(super) fn touched_mode_step(omega: f64, zeta: f64, h: f64) -> ModeStep {
 
 /// From the free motion backwards to −h.
 pub(super) fn first_increment(omega: f64, zeta: f64, h: f64, displacement: f64, velocity: f64) -> f64 {
+    let (lag, sine) = backwards(omega, zeta, h);
+    let swing = velocity + zeta * omega * displacement;
+    displacement * lag + (zeta * omega * h).exp() * swing * sine
+}
+
+/// Least |sin θ| that tells a velocity from an increment.
+const TELLS: f64 = 1e-3;
+
+/// ż of the same; 0 for a mode whose increments do not depend on it, ωh being near a multiple of π.
+pub(super) fn velocity(omega: f64, zeta: f64, h: f64, displacement: f64, increment: f64) -> f64 {
+    let (lag, sine) = backwards(omega, zeta, h);
+    if (sine * omega).abs() < TELLS && omega * h > TELLS {
+        return 0.0;
+    }
+    (increment - displacement * lag) / ((zeta * omega * h).exp() * sine) - zeta * omega * displacement
+}
+
+/// 1 − e^{ζωh} cosθ, without cancellation, and sinθ over the damped frequency.
+fn backwards(omega: f64, zeta: f64, h: f64) -> (f64, f64) {
     let damped = omega * (1.0 - zeta * zeta).sqrt();
     let theta = damped * h;
-    let swing = velocity + zeta * omega * displacement;
-    let sine = if theta > 0.0 { theta.sin() / damped } else { h };
-    // 1 − e^{ζωh} cosθ, without cancellation.
     let lag = 2.0 * (0.5 * theta).sin().powi(2) - (zeta * omega * h).exp_m1() * theta.cos();
-    displacement * lag + (zeta * omega * h).exp() * swing * sine
+    (lag, if theta > 0.0 { theta.sin() / damped } else { h })
 }

@@ -114,4 +114,33 @@ impl Scheme {
             }
         }
     }
+
+    /// ż at the end of a step of a mode with displacement z and increment d = z − z⁻: the inverse of
+    /// [`Self::first_increment`]; 0 for a mode that follows statically.
+    pub(crate) fn velocity(self, omega: f64, zeta: f64, h: f64, z: f64, d: f64, touching: bool) -> f64 {
+        match self {
+            Self::CentralDifferences => central_differences::velocity(omega, zeta, h, z, d),
+            Self::ExactModal if touching && omega * h > exact_modal::FOLLOWS => 0.0,
+            Self::ExactModal | Self::MasslessBoundary { .. } => exact_modal::velocity(omega, zeta, h, z, d),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_state_is_read_back_from_its_increment() {
+        let schemes =
+            [Scheme::CentralDifferences, Scheme::ExactModal, Scheme::MasslessBoundary { kept_modes: 1 }];
+        for scheme in schemes {
+            for (omega, zeta) in [(1.0, 0.0), (30.0, 0.02), (150.0, 0.3)] {
+                let (h, z, v) = (0.01, 0.7, -20.0);
+                let d = scheme.first_increment(omega, zeta, h, z, v);
+                let found = scheme.velocity(omega, zeta, h, z, d, false);
+                assert!((found - v).abs() < 1e-11 * omega.max(20.0), "{scheme:?} {omega}: {found}");
+            }
+        }
+    }
 }

@@ -1,0 +1,113 @@
+//! Do the nodal diameters grow that the symmetry of a scene keeps at rest? (METHOD §10)
+//!
+//! A run is started from a tiny asymmetry; the amplitude of the nodal diameters that a symmetric run would leave at rest,
+//! √(their energy), is followed from revolution to revolution and fitted by e^{rate·revolutions} as long as it is small.
+
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+/// What became of a tiny asymmetry.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct SymmetryBreaking {
+    /// How often the scene repeats around the wheel.
+    pub repeats: u32,
+    /// Whether the asymmetry grew: it left the linear range or its fitted rate is clearly above 0.
+    pub grows: bool,
+    /// Growth rate of its amplitude per revolution, natural logarithm; negative where it decays. Absent where too few
+    /// revolutions lie in the linear range.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rate_per_revolution: Option<f64>,
+    /// Standard error of the rate.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rate_error: Option<f64>,
+    /// Revolution by which it had left the linear range (a hundredth of the response), if it did.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub broken_after_revolutions: Option<u32>,
+    /// Share of the broken nodal diameters in the energy at the end.
+    pub energy_share: f64,
+    /// The nodal diameters that symmetry keeps at rest.
+    pub nodal_diameters: Vec<u32>,
+}
+
+/// Energies of the asymmetry beyond this share of the whole are no longer small: a hundredth in amplitude.
+const LINEAR: f64 = 1e-4;
+
+/// Energies below this share are round-off.
+const ROUND_OFF: f64 = 1e-24;
+
+/// Fewest revolutions that a rate is fitted to.
+const LEAST: usize = 5;
+
+/// A rate this many standard errors above 0 is one.
+const CLEARLY: f64 = 3.0;
+
+/// Judges `energies[revolution][nodal diameter]` from revolution `from` on (when the casing is fully grown) for a scene that
+/// repeats `repeats` times.
+pub fn judge(energies: &[Vec<f64>], repeats: usize, from: usize) -> SymmetryBreaking {
+    let diameters = energies.first().map_or(0, Vec::len);
+    let broken: Vec<usize> = (0..diameters).filter(|i| !i.is_multiple_of(repeats)).collect();
+    let share = |row: &Vec<f64>| {
+        let total: f64 = row.iter().sum();
+        let asymmetric: f64 = broken.iter().map(|&i| row[i]).sum();
+        if total > 0.0 { asymmetric / total } else { 0.0 }
+    };
+    let broken_after = energies.iter().position(|row| share(row) > LINEAR);
+    let mut line = Vec::new();
+    for (revolution, row) in energies.iter().enumerate().skip(from) {
+        let (asymmetric, share) = (broken.iter().map(|&i| row[i]).sum::<f64>(), share(row));
+        if !(ROUND_OFF..=LINEAR).contains(&share) {
+            break;
+        }
+        line.push((revolution as f64, 0.5 * asymmetric.ln()));
+    }
+    let fit = (line.len() >= LEAST).then(|| slope(&line));
+    SymmetryBreaking {
+        repeats: repeats as u32,
+        grows: broken_after.is_some() || fit.is_some_and(|(rate, error)| rate > CLEARLY * error),
+        rate_per_revolution: fit.map(|(rate, _)| rate),
+        rate_error: fit.map(|(_, error)| error),
+        broken_after_revolutions: broken_after.map(|revolution| revolution as u32 + 1),
+        energy_share: energies.last().map_or(0.0, share),
+        nodal_diameters: broken.iter().map(|&i| i as u32).collect(),
+    }
+}
+
+/// Slope of the least-squares line and its standard error.
+fn slope(points: &[(f64, f64)]) -> (f64, f64) {
+    let n = points.len() as f64;
+    let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / n;
+    let (x, y) = (mean(|p| p.0), mean(|p| p.1));
+    let xx: f64 = points.iter().map(|p| (p.0 - x).powi(2)).sum();
+    let slope = points.iter().map(|p| (p.0 - x) * (p.1 - y)).sum::<f64>() / xx;
+    let left: f64 = points.iter().map(|p| (p.1 - y - slope * (p.0 - x)).powi(2)).sum();
+    (slope, (left / ((n - 2.0) * xx)).sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn energies(rate: f64, revolutions: usize) -> Vec<Vec<f64>> {
+        let amplitude =
+            |r: usize| 1e-8 * (rate * r as f64).exp() * if r.is_multiple_of(2) { 1.05 } else { 0.95 };
+        (0..revolutions).map(|r| vec![1.0, amplitude(r).powi(2), 0.5, 0.0]).collect()
+    }
+
+    #[test]
+    fn finds_the_rate_of_growth_and_of_decay() {
+        for rate in [0.4, 0.05, -0.3] {
+            let found = judge(&energies(rate, 30), 2, 1);
+            assert!((found.rate_per_revolution.unwrap() - rate).abs() < 3.0 * found.rate_error.unwrap());
+            assert_eq!((found.grows, found.nodal_diameters), (rate > 0.0, vec![1, 3]));
+            assert_eq!(found.broken_after_revolutions, None);
+        }
+        let flat = judge(&energies(0.0, 30), 2, 1);
+        assert!(!flat.grows && flat.rate_per_revolution.unwrap().abs() < 1e-2);
+    }
+
+    #[test]
+    fn an_asymmetry_that_takes_over_is_said() {
+        let found = judge(&energies(0.9, 40), 2, 1);
+        assert!(found.grows && found.broken_after_revolutions.unwrap() == 17 && found.energy_share > 0.5);
+    }
+}
