@@ -20,10 +20,12 @@ pub struct Units {
 /// A sector matrix Y split by the cyclic structure (Eq. 2), both parts over the own DOF.
 ///
 /// The wheel couples sector s to itself by `own` (Y0, with the high face's own block already added on the low
-/// face) and to sector s+1 by `next` (Y1, whose non-zero columns are low-face DOF of sector s+1).
+/// face) and to sector s+1 by `next` (Y1, whose non-zero columns are low-face DOF of sector s+1). Mass and stiffness are
+/// symmetric, Ŷ(i) = Y0 + Y1 e^{jiα} + Y1ᵀ e^{−jiα}; the gyroscopic matrix is skew-symmetric,
+/// Ĝ(i) = G0 + G1 e^{jiα} − G1ᵀ e^{−jiα}.
 #[derive(Debug, Clone)]
 pub struct CyclicMatrix {
-    /// Y0: symmetric, both triangles stored, `n × n`.
+    /// Y0: both triangles stored, `n × n`.
     pub own: SparseColMat<usize, f64>,
     /// Y1: coupling of this sector's rows to the next sector's low-face columns, `n × n`.
     pub next: SparseColMat<usize, f64>,
@@ -57,6 +59,9 @@ pub struct SectorModel {
     pub mass: CyclicMatrix,
     /// Stiffness at each speed of `speeds_rad_s`.
     pub stiffness: Vec<CyclicMatrix>,
+    /// Gyroscopic matrix G of M ü + Ω G u̇ + K(Ω) u = f in the rotating frame, skew-symmetric; absent if the package has
+    /// none. A point mass m in (r, θ) has m(r̈ − 2Ωθ̇), m(θ̈ + 2Ωṙ): `G_rθ` = −2m, `G_θr` = 2m.
+    pub gyroscopic: Option<CyclicMatrix>,
     /// Speeds of the stiffness matrices: `[0]` or `[0, Ω1/2, Ω1]`.
     pub speeds_rad_s: Vec<f64>,
     /// Contact nodes from leading to trailing edge.

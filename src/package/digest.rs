@@ -6,7 +6,7 @@
 //! (white space, order of fields). Of a `.npz` matrix its arrays count, not how they are zipped (numpy writes the time of
 //! day there, and compresses or not). Two texts of the same numbers (`1.0` and `1e0` in a matrix) are two contents.
 
-use std::fmt::Write;
+use std::fmt::{self, Write};
 
 use sha2::{Digest, Sha256};
 
@@ -28,11 +28,11 @@ pub(super) fn digest<'a>(manifest: &Manifest, files: impl Iterator<Item = (&'a s
     for name in [&mut manifest.mass, &mut manifest.nodes, &mut manifest.dofs]
         .into_iter()
         .chain(&mut manifest.stiffness)
+        .chain(&mut manifest.gyroscopic)
     {
         *name = plain(name).to_owned();
     }
-    // `Debug` prints every field by name and every number shortest-round-trip, and cannot fail.
-    part(format!("{manifest:?}").as_bytes());
+    part(format!("{:?}", Stated(&manifest)).as_bytes());
     let mut files: Vec<_> = files.map(|(name, hash)| (plain(name), hash)).collect();
     files.sort_unstable();
     files.dedup();
@@ -46,7 +46,61 @@ pub(super) fn digest<'a>(manifest: &Manifest, files: impl Iterator<Item = (&'a s
     })
 }
 
+/// Prints every field of a manifest by name and every number shortest-round-trip; optional entries only where they are
+/// given, so that older packages keep their address.
+struct Stated<'a>(&'a Manifest);
+
+impl fmt::Debug for Stated<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Manifest {
+            name,
+            sectors,
+            units,
+            axis,
+            speeds_rad_s,
+            frame,
+            mass,
+            stiffness,
+            gyroscopic,
+            nodes,
+            dofs,
+            cyclic,
+            contact,
+        } = self.0;
+        let mut fields = f.debug_struct("Manifest");
+        fields.field("name", name).field("sectors", sectors).field("units", units).field("axis", axis);
+        fields.field("speeds_rad_s", speeds_rad_s).field("frame", frame);
+        fields.field("mass", mass).field("stiffness", stiffness);
+        if let Some(file) = gyroscopic {
+            fields.field("gyroscopic", file);
+        }
+        fields.field("nodes", nodes).field("dofs", dofs).field("cyclic", cyclic).field("contact", contact);
+        fields.finish()
+    }
+}
+
 /// The name of a file without `.gz`.
 fn plain(name: &str) -> &str {
     name.strip_suffix(".gz").unwrap_or(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Older packages were addressed by all that `Debug` printed, when there was no gyroscopic entry.
+    #[test]
+    fn a_package_without_optional_entries_is_stated_as_ever() {
+        let text = r#"{"name": "w", "sectors": 3, "units": {"length": "mm", "force": "N", "time": "s", "mass": "t"},
+            "axis": {"origin": [0, 0, 0], "direction": [0, 0, 1]}, "speeds_rad_s": [0], "frame": "cartesian", "mass": "m",
+            "stiffness": ["k"], "nodes": "n", "dofs": "d", "cyclic": [[1, 2]], "contact": [{"node": 3, "normal": [1, 0, 0]}]}"#;
+        let mut manifest: Manifest = serde_json::from_str(text).unwrap();
+        let derived = format!("{manifest:?}");
+        assert_eq!(format!("{:?}", Stated(&manifest)), derived.replace("gyroscopic: None, ", ""));
+        manifest.gyroscopic = Some("g".to_owned());
+        assert_eq!(
+            format!("{:?}", Stated(&manifest)),
+            format!("{manifest:?}").replace(r#"Some("g")"#, r#""g""#)
+        );
+    }
 }

@@ -1,4 +1,4 @@
-//! A streaming reader of Matrix Market coordinate files, `symmetric` and `general`, real or integer.
+//! A streaming reader of Matrix Market coordinate files, `symmetric` (`skew-symmetric`) and `general`, real or integer.
 //!
 //! Written for files of tens of millions of lines: one pass, no text held, about 16 bytes of memory per entry.
 
@@ -8,7 +8,7 @@ use super::Limits;
 use super::error::MatrixProblem;
 use super::lines::{Fault, Lines};
 use super::raw::RawMatrix;
-use super::symmetric::{self, Entry};
+use super::symmetric::{self, Entry, Mirror};
 
 type MatrixFault = Fault<MatrixProblem>;
 
@@ -18,25 +18,27 @@ const TRUSTED_ENTRIES: u64 = 1 << 22;
 /// Reads a matrix of `dofs` rows; `open` starts the file anew, a second time only to find the lines of a problem.
 pub(super) fn read<S: Read>(
     source: S,
+    mirror: Mirror,
     dofs: usize,
     limits: &Limits,
 ) -> Result<Result<RawMatrix, MatrixProblem>, MatrixFault> {
-    let (header, lower, upper) = read_entries(source, dofs, limits)?;
-    Ok(match header.symmetry {
-        Symmetry::Symmetric => symmetric::from_triangle(dofs, lower),
-        Symmetry::General => symmetric::from_both_triangles(dofs, lower, upper),
+    let (header, lower, upper) = read_entries(source, mirror, dofs, limits)?;
+    Ok(match header.triangles {
+        Triangles::One => symmetric::from_triangle(mirror, dofs, lower),
+        Triangles::Both => symmetric::from_both_triangles(mirror, dofs, lower, upper),
     })
 }
 
 /// Lines of the first two entries at (`row`, `column`), or at either mirror image; positions count from 1.
 pub(super) fn lines_of<S: Read>(
     source: S,
+    mirror: Mirror,
     row: u64,
     column: u64,
     or_mirrored: bool,
 ) -> Result<Vec<u64>, MatrixFault> {
     let mut lines = Lines::new(source);
-    read_header(&mut lines)?;
+    read_header(&mut lines, mirror)?;
     let mut found = Vec::new();
     while let (Some(line), true) = (lines.next(too_long)?, found.len() < 2) {
         let here = parse_entry(line)
@@ -48,28 +50,30 @@ pub(super) fn lines_of<S: Read>(
     Ok(found)
 }
 
+/// What a file holds of its matrix.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Symmetry {
-    Symmetric,
-    General,
+enum Triangles {
+    One,
+    Both,
 }
 
 struct Header {
-    symmetry: Symmetry,
+    triangles: Triangles,
     entries: u64,
     rows: u64,
     columns: u64,
 }
 
-/// Entries folded into the lower triangle: for `symmetric` all of them in the first list; for `general` the
-/// lower triangle with the diagonal in the first, the mirrored strict upper triangle in the second.
+/// Entries folded into the lower triangle: of one triangle all of them in the first list; of both (`general`) the
+/// lower triangle with the diagonal in the first, the strict upper triangle in the second.
 fn read_entries<S: Read>(
     source: S,
+    mirror: Mirror,
     dofs: usize,
     limits: &Limits,
 ) -> Result<(Header, Vec<Entry>, Vec<Entry>), MatrixFault> {
     let mut lines = Lines::new(source);
-    let header = read_header(&mut lines)?;
+    let header = read_header(&mut lines, mirror)?;
     let at = |line, problem| Err(Fault::At { line, problem });
     let size_line = lines.number();
     if header.rows != header.columns {
@@ -106,12 +110,11 @@ fn read_entries<S: Read>(
         }
         // In range of `size`, which the row limit keeps within u32.
         let (r, c) = ((row - 1) as u32, (column - 1) as u32);
-        if r >= c {
-            lower.push((r, c, value));
-        } else if header.symmetry == Symmetry::Symmetric {
-            lower.push((c, r, value));
+        let entry = mirror.folded(r, c, value);
+        if r >= c || header.triangles == Triangles::One {
+            lower.push(entry);
         } else {
-            upper.push((c, r, value));
+            upper.push(entry);
         }
     }
     if found < header.entries {
@@ -120,9 +123,9 @@ fn read_entries<S: Read>(
     Ok((header, lower, upper))
 }
 
-fn read_header<S: Read>(lines: &mut Lines<S>) -> Result<Header, MatrixFault> {
+fn read_header<S: Read>(lines: &mut Lines<S>, mirror: Mirror) -> Result<Header, MatrixFault> {
     let first = lines.next(too_long)?.unwrap_or_default();
-    let symmetry = parse_banner(first.strip_prefix(b"\xef\xbb\xbf").unwrap_or(first))
+    let triangles = parse_banner(first.strip_prefix(b"\xef\xbb\xbf").unwrap_or(first), mirror)
         .map_err(|problem| Fault::At { line: 1, problem })?;
     loop {
         let Some(line) = lines.next(too_long)? else {
@@ -135,28 +138,33 @@ fn read_header<S: Read>(lines: &mut Lines<S>) -> Result<Header, MatrixFault> {
         let Some(&[rows, columns, entries]) = sizes.as_deref() else {
             return Err(Fault::At { line: lines.number(), problem: MatrixProblem::BadSizeLine });
         };
-        return Ok(Header { symmetry, entries, rows, columns });
+        return Ok(Header { triangles, entries, rows, columns });
     }
 }
 
-fn parse_banner(line: &[u8]) -> Result<Symmetry, MatrixProblem> {
+fn parse_banner(line: &[u8], mirror: Mirror) -> Result<Triangles, MatrixProblem> {
     let line = String::from_utf8_lossy(line).to_ascii_lowercase();
     let mut words = line.split_ascii_whitespace();
     if words.next() != Some("%%matrixmarket") {
         return Err(MatrixProblem::NoHeader);
     }
+    let one_triangle = match mirror {
+        Mirror::Symmetric => "symmetric",
+        Mirror::Skew => "skew-symmetric",
+    };
     let mut word = |what, accepted: &[&str]| {
         let word = words.next().unwrap_or_default();
         if accepted.contains(&word) {
             return Ok(word.to_owned());
         }
-        Err(MatrixProblem::UnsupportedHeader { what, word: word.chars().take(40).collect() })
+        let word = word.chars().take(40).collect();
+        Err(MatrixProblem::UnsupportedHeader { what, word, one_triangle })
     };
     word("object", &["matrix"])?;
     word("format", &["coordinate"])?;
     word("field", &["real", "integer"])?;
-    let symmetry = word("symmetry", &["symmetric", "general"])?;
-    Ok(if symmetry == "general" { Symmetry::General } else { Symmetry::Symmetric })
+    let symmetry = word("symmetry", &[one_triangle, "general"])?;
+    Ok(if symmetry == "general" { Triangles::Both } else { Triangles::One })
 }
 
 /// `row column value`; `None` if the line is anything else.

@@ -43,7 +43,7 @@ use raw::RawPackage;
 pub struct Limits {
     /// Bytes that may leave decompressors, zip and gzip alike, over all files (default 16 GiB).
     pub expanded_bytes: u64,
-    /// Entries of the archive, folders included (default 100; a package needs at most 7 files).
+    /// Entries of the archive, folders included (default 100; a package needs at most 8 files).
     pub entries: usize,
     /// Bytes of `sector.json`, which is held as text (default 64 MiB).
     pub manifest_bytes: u64,

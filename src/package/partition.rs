@@ -8,7 +8,8 @@
 //! Y0 = A_oo + P A_cc Pᵀ        Y1 = A_oc Pᵀ        Ŷ(i) = Y0 + Y1 e^{jiα} + Y1ᵀ e^{−jiα}
 //! ```
 //!
-//! for assembled (A_cc = 0) and unassembled packages alike, and any N, 1 and 2 included.
+//! for assembled (A_cc = 0) and unassembled packages alike, and any N, 1 and 2 included; the gyroscopic matrix likewise, with
+//! −Y1ᵀ in the place of Y1ᵀ.
 
 use std::collections::HashMap;
 use std::f64::consts::TAU;
@@ -19,6 +20,7 @@ use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use super::check::{Layout, NONE};
 use super::frame::{Basis, GLOBAL, apply};
 use super::raw::{Frame, RawMatrix, RawPackage};
+use super::symmetric::Mirror;
 use crate::dynamics::sector::{ContactNode, CyclicMatrix, SectorModel};
 
 /// Builds the sector model; matrices in parallel, each the same bits for any number of threads.
@@ -30,9 +32,15 @@ pub(super) fn build(package: RawPackage, layout: &Layout) -> SectorModel {
     let components: Vec<u8> = package.dofs.iter().map(|dof| dof.component - 1).collect();
     let folding = Folding { layout, components: &components, bases: bases.as_deref() };
     let contact = contact_nodes(&package, layout, bases.as_deref());
-    let mass_first: Vec<RawMatrix> = std::iter::once(package.mass).chain(package.stiffness).collect();
+    let speeds = package.stiffness.len();
+    let mass_first: Vec<(RawMatrix, Mirror)> = std::iter::once(package.mass)
+        .chain(package.stiffness)
+        .map(|matrix| (matrix, Mirror::Symmetric))
+        .chain(package.gyroscopic.map(|matrix| (matrix, Mirror::Skew)))
+        .collect();
     let mut matrices: Vec<CyclicMatrix> =
-        mass_first.into_par_iter().map(|matrix| folding.fold(matrix)).collect();
+        mass_first.into_par_iter().map(|(matrix, mirror)| folding.fold(matrix, mirror)).collect();
+    let gyroscopic = matrices.split_off(1 + speeds).pop();
     let stiffness = matrices.split_off(1);
     let Some(mass) = matrices.pop() else {
         unreachable!("one matrix is folded per matrix, and the mass is the first")
@@ -43,6 +51,7 @@ pub(super) fn build(package: RawPackage, layout: &Layout) -> SectorModel {
         units: package.manifest.units,
         mass,
         stiffness,
+        gyroscopic,
         speeds_rad_s: package.manifest.speeds_rad_s,
         contact,
         node_of_dof: node_of_dof(layout),
@@ -115,8 +124,8 @@ struct Folding<'a> {
 type Block = [[f64; 3]; 3];
 
 impl Folding<'_> {
-    fn fold(&self, matrix: RawMatrix) -> CyclicMatrix {
-        let full = Columns::from_lower(matrix);
+    fn fold(&self, matrix: RawMatrix, mirror: Mirror) -> CyclicMatrix {
+        let full = Columns::from_lower(matrix, mirror);
         let nodes = self.layout.rows_of_node.len();
         let mut own = Builder::new(self.layout.own_rows.len());
         let mut next = Builder::new(self.layout.own_rows.len());
@@ -129,7 +138,7 @@ impl Folding<'_> {
             for (row_node, block) in blocks.iter_mut() {
                 *block = self.rotated(*block, (row_node, node), row_node < node);
                 if row_node == node {
-                    symmetrise(block);
+                    make_exact(mirror, block);
                 }
             }
             if high != NONE {
@@ -138,7 +147,7 @@ impl Folding<'_> {
                     let row_node = self.layout.low_of[row_high as usize];
                     let mut block = self.rotated(*block, (row_high, high), row_node < node);
                     if row_node == node {
-                        symmetrise(&mut block);
+                        make_exact(mirror, &mut block);
                     }
                     add(blocks.at(row_node), &block);
                 }
@@ -171,7 +180,7 @@ impl Folding<'_> {
     }
 
     /// B_row · block · B_columnᵀ, computed from the transposed block if asked to: mirrored blocks then have mirrored
-    /// bits, and Y0 is exactly symmetric.
+    /// bits, and Y0 is exactly (skew-)symmetric.
     fn rotated(&self, block: Block, (row_node, column_node): (u32, u32), by_transpose: bool) -> Block {
         let Some(bases) = self.bases else { return block };
         let (row, column) = (&bases[row_node as usize], &bases[column_node as usize]);
@@ -216,10 +225,13 @@ fn transpose(block: Block) -> Block {
     std::array::from_fn(|i| std::array::from_fn(|j| block[j][i]))
 }
 
-/// A diagonal block is symmetric but for the rounding of its rotation.
-fn symmetrise(block: &mut Block) {
+/// A diagonal block is (skew-)symmetric but for the rounding of its rotation.
+fn make_exact(mirror: Mirror, block: &mut Block) {
     for (i, j) in [(1, 0), (2, 0), (2, 1)] {
-        block[j][i] = block[i][j];
+        block[j][i] = mirror.image(block[i][j]);
+    }
+    if mirror == Mirror::Skew {
+        (0..3).for_each(|k| block[k][k] = 0.0);
     }
 }
 
@@ -229,7 +241,7 @@ fn add(to: &mut Block, from: &Block) {
     }
 }
 
-/// A symmetric matrix with both triangles in compressed columns; 12 bytes per stored entry.
+/// A matrix with both triangles in compressed columns; 12 bytes per stored entry.
 struct Columns {
     starts: Vec<usize>,
     rows: Vec<u32>,
@@ -237,7 +249,7 @@ struct Columns {
 }
 
 impl Columns {
-    fn from_lower(matrix: RawMatrix) -> Self {
+    fn from_lower(matrix: RawMatrix, mirror: Mirror) -> Self {
         let mut starts = vec![0; matrix.size + 1];
         for &(row, column, _) in &matrix.entries {
             starts[column as usize + 1] += 1;
@@ -259,7 +271,7 @@ impl Columns {
         for (row, column, value) in matrix.entries {
             put(row, column, value);
             if row != column {
-                put(column, row, value);
+                put(column, row, mirror.image(value));
             }
         }
         Self { starts, rows, values }

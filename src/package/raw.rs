@@ -24,6 +24,9 @@ pub struct Manifest {
     pub mass: String,
     /// File names of the stiffness matrices, one per speed.
     pub stiffness: Vec<String>,
+    /// File name of the gyroscopic matrix, if the package has one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gyroscopic: Option<String>,
     /// File name of the node table.
     pub nodes: String,
     /// File name of the DOF table.
@@ -37,7 +40,7 @@ pub struct Manifest {
 impl Manifest {
     /// Renames the matrix files, so that [`write`](super::write()) stores them in `format`.
     pub fn store_matrices_as(&mut self, format: MatrixFormat) {
-        for name in std::iter::once(&mut self.mass).chain(&mut self.stiffness) {
+        for name in std::iter::once(&mut self.mass).chain(&mut self.stiffness).chain(&mut self.gyroscopic) {
             let plain = name.strip_suffix(".gz").unwrap_or(name);
             let stem = plain.strip_suffix(MatrixFormat::of(plain).extension()).unwrap_or(plain);
             *name = format!("{stem}{}", format.extension());
@@ -117,7 +120,8 @@ pub struct RawDof {
     pub component: u8,
 }
 
-/// Entries of a symmetric matrix: the lower triangle, 0-based, each position once.
+/// Entries of a symmetric or skew-symmetric matrix: the lower triangle (of a skew-symmetric one without its diagonal,
+/// which is zero), 0-based, each position once.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RawMatrix {
     /// Rows (= columns).
@@ -139,4 +143,6 @@ pub struct RawPackage {
     pub mass: RawMatrix,
     /// Stiffness matrices, in the order of the speeds.
     pub stiffness: Vec<RawMatrix>,
+    /// Gyroscopic matrix G per unit speed, skew-symmetric.
+    pub gyroscopic: Option<RawMatrix>,
 }

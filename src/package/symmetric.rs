@@ -1,4 +1,5 @@
-//! From a list of entries to a symmetric matrix: sorted, each position once, both triangles equal.
+//! From a list of entries to a symmetric or skew-symmetric matrix: sorted, each position once, the triangles mirror
+//! images.
 
 use rayon::slice::ParallelSliceMut;
 
@@ -11,21 +12,55 @@ pub(super) type Entry = (u32, u32, f64);
 /// Two mirrored entries may differ by this much of the larger: exports are rounded to seven digits at worst.
 const MIRROR_TOLERANCE: f64 = 1e-6;
 
-/// … or by this much of the geometric mean of their diagonals: entries that cancel to nearly zero in assembly.
+/// … or by this much of the geometric mean of their diagonals, of the largest entry where the diagonal is zero: entries
+/// that cancel to nearly zero in assembly.
 const CANCELLATION_TOLERANCE: f64 = 1e-12;
 
+/// How the triangles of a matrix mirror each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Mirror {
+    /// Aᵀ = A.
+    Symmetric,
+    /// Aᵀ = −A.
+    Skew,
+}
+
+impl Mirror {
+    /// What stands at (column, row) where `value` stands at (row, column).
+    pub(super) fn image(self, value: f64) -> f64 {
+        match self {
+            Self::Symmetric => value,
+            // Not −value: an absent entry has an absent image, not −0.
+            Self::Skew => 0.0 - value,
+        }
+    }
+
+    /// An entry of any triangle as the one of the lower triangle that says the same.
+    pub(super) fn folded(self, row: u32, column: u32, value: f64) -> Entry {
+        if row >= column { (row, column, value) } else { (column, row, self.image(value)) }
+    }
+}
+
 /// A matrix from entries of which each position appears once, folded into the lower triangle.
-pub(super) fn from_triangle(size: usize, mut entries: Vec<Entry>) -> Result<RawMatrix, MatrixProblem> {
+pub(super) fn from_triangle(
+    mirror: Mirror,
+    size: usize,
+    mut entries: Vec<Entry>,
+) -> Result<RawMatrix, MatrixProblem> {
     sort(&mut entries);
     // Folding has lost which triangle each of two equal positions came from; off the diagonal it may be the other.
     check_unique(&entries, true)?;
+    if mirror == Mirror::Skew {
+        drop_diagonal(&mut entries)?;
+    }
     Ok(RawMatrix { size, entries })
 }
 
-/// A matrix from its lower triangle with the diagonal, and the mirror image of its strict upper triangle.
+/// A matrix from its lower triangle with the diagonal, and its strict upper triangle folded into the lower.
 ///
 /// A pair within tolerance becomes its mean; equal values keep their bits.
 pub(super) fn from_both_triangles(
+    mirror: Mirror,
     size: usize,
     mut lower: Vec<Entry>,
     mut upper: Vec<Entry>,
@@ -33,18 +68,27 @@ pub(super) fn from_both_triangles(
     sort(&mut lower);
     sort(&mut upper);
     check_unique(&lower, false)?;
-    check_unique(&upper, false).map_err(mirror)?;
-    let mut diagonal = vec![0.0; size];
-    for &(row, column, value) in lower.iter().filter(|entry| entry.0 == entry.1) {
-        debug_assert_eq!(row, column);
-        diagonal[row as usize] = f64::abs(value);
-    }
+    check_unique(&upper, false).map_err(other_triangle)?;
+    // What entries that cancel are small against, per row: its product is a geometric mean.
+    let scale: Vec<f64> = match mirror {
+        Mirror::Symmetric => {
+            let mut diagonal = vec![0.0; size];
+            for &(row, _, value) in lower.iter().filter(|entry| entry.0 == entry.1) {
+                diagonal[row as usize] = f64::abs(value).sqrt();
+            }
+            diagonal
+        }
+        Mirror::Skew => {
+            drop_diagonal(&mut lower)?;
+            vec![largest(&lower).max(largest(&upper)).sqrt(); size]
+        }
+    };
     let mut entries = Vec::with_capacity(lower.len());
     let mut worst: Option<(f64, Entry, f64)> = None;
     let mut count = 0;
     let mut pair = |row: u32, column: u32, below: f64, above: f64| {
         let difference = (below - above).abs();
-        let scale = (diagonal[row as usize].sqrt()) * (diagonal[column as usize].sqrt());
+        let scale = scale[row as usize] * scale[column as usize];
         let tolerance = (MIRROR_TOLERANCE * below.abs().max(above.abs())).max(CANCELLATION_TOLERANCE * scale);
         // Not finite (overflow of the difference) is worse than any number.
         if difference > tolerance || !difference.is_finite() {
@@ -71,10 +115,11 @@ pub(super) fn from_both_triangles(
     if let Some((_, (row, column, value), mirrored)) = worst {
         let (row, column) = (u64::from(row) + 1, u64::from(column) + 1);
         return Err(MatrixProblem::NotSymmetric {
+            skew: mirror == Mirror::Skew,
             row,
             column,
             value,
-            mirrored,
+            mirrored: mirror.image(mirrored),
             line: None,
             mirrored_line: None,
             count,
@@ -85,10 +130,11 @@ pub(super) fn from_both_triangles(
 
 /// A matrix from stored entries of unstated symmetry, positions repeated or not: repeated ones are summed.
 ///
-/// `lower` has the lower triangle with the diagonal, `upper` the mirror image of the strict upper one. If only one of
+/// `lower` has the lower triangle with the diagonal, `upper` the strict upper one folded into it. If only one of
 /// the two has an entry that is not zero, the matrix is that triangle and its mirror image; if both have, they must
 /// agree; if neither has, the matrix is diagonal and both readings are the same.
 pub(super) fn from_any(
+    mirror: Mirror,
     size: usize,
     lower: Vec<Entry>,
     mut upper: Vec<Entry>,
@@ -98,7 +144,7 @@ pub(super) fn from_any(
     let below = lower.iter().any(|entry| off_diagonal(entry) && entry.2 != 0.0);
     let above = upper.iter().any(|entry| entry.2 != 0.0);
     if below && above {
-        return from_both_triangles(size, lower, summed(upper));
+        return from_both_triangles(mirror, size, lower, summed(upper));
     }
     if above {
         // Zeros stored in the empty triangle mean nothing.
@@ -106,7 +152,7 @@ pub(super) fn from_any(
         lower.append(&mut upper);
         lower = summed(lower);
     }
-    from_triangle(size, lower)
+    from_triangle(mirror, size, lower)
 }
 
 /// Entries sorted, those of equal positions summed in the order given.
@@ -120,6 +166,22 @@ fn summed(mut entries: Vec<Entry>) -> Vec<Entry> {
         same
     });
     entries
+}
+
+/// The diagonal of a skew-symmetric matrix is zero; zeros and what is left of cancellation need not be kept.
+fn drop_diagonal(entries: &mut Vec<Entry>) -> Result<(), MatrixProblem> {
+    let tolerance = CANCELLATION_TOLERANCE * largest(entries);
+    match entries.iter().find(|entry| entry.0 == entry.1 && entry.2.abs() > tolerance) {
+        Some(&(row, _, value)) => Err(MatrixProblem::SkewDiagonal { row: u64::from(row) + 1, value }),
+        None => {
+            entries.retain(|entry| entry.0 != entry.1);
+            Ok(())
+        }
+    }
+}
+
+fn largest(entries: &[Entry]) -> f64 {
+    entries.iter().fold(0.0, |largest, entry| f64::max(largest, entry.2.abs()))
 }
 
 /// By column, then row: the order of compressed columns, and of most files.
@@ -146,7 +208,7 @@ fn check_unique(entries: &[Entry], folded: bool) -> Result<(), MatrixProblem> {
     }
 }
 
-fn mirror(problem: MatrixProblem) -> MatrixProblem {
+fn other_triangle(problem: MatrixProblem) -> MatrixProblem {
     match problem {
         MatrixProblem::Repeated { row, column, first_line, mirrored } => {
             MatrixProblem::Repeated { row: column, column: row, first_line, mirrored }

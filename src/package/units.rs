@@ -71,14 +71,16 @@ type Names = &'static [(&'static [&'static str], f64)];
 const QUANTITIES: [(&str, Names); 4] = [("length", LENGTH), ("force", FORCE), ("time", TIME), ("mass", MASS)];
 
 /// Brings a sector whose matrices count time in another unit than seconds to seconds, in which speeds are given:
-/// mass becomes force·s²/length, stiffness stays.
+/// mass and the gyroscopic matrix, which is measured in mass, become force·s²/length; stiffness stays.
 pub(super) fn count_time_in_seconds(sector: &mut SectorModel) {
     let seconds = size(TIME, &sector.units.time).unwrap_or(1.0);
     if seconds == 1.0 {
         return;
     }
-    for values in [sector.mass.own.val_mut(), sector.mass.next.val_mut()] {
-        values.iter_mut().for_each(|value| *value *= seconds * seconds);
+    for matrix in std::iter::once(&mut sector.mass).chain(&mut sector.gyroscopic) {
+        for values in [matrix.own.val_mut(), matrix.next.val_mut()] {
+            values.iter_mut().for_each(|value| *value *= seconds * seconds);
+        }
     }
     let Units { length, force, .. } = &sector.units;
     sector.units.mass = format!("{force}·s²/{length}");

@@ -8,6 +8,7 @@ use zip::{CompressionMethod, ZipWriter};
 use super::error::{ArchiveProblem, MANIFEST_FILE, PackageError};
 use super::npz;
 use super::raw::{MatrixFormat, RawMatrix, RawPackage};
+use super::symmetric::Mirror;
 
 /// Writes `package` as a deflated zip; reading it back gives the same bits.
 ///
@@ -31,12 +32,15 @@ pub fn write(package: &RawPackage, out: impl Write + Seek) -> Result<(), Package
     add(&mut zip, &names.dofs, |file| {
         package.dofs.iter().try_for_each(|dof| writeln!(file, "{},{}", dof.node, dof.component))
     })?;
-    add_matrix(&mut zip, &names.mass, &package.mass)?;
+    add_matrix(&mut zip, &names.mass, &package.mass, Mirror::Symmetric)?;
     let stiffness = || names.stiffness.iter().zip(&package.stiffness);
     for (k, (name, matrix)) in stiffness().enumerate() {
         if !stiffness().take(k).any(|(earlier, _)| earlier == name) {
-            add_matrix(&mut zip, name, matrix)?;
+            add_matrix(&mut zip, name, matrix, Mirror::Symmetric)?;
         }
+    }
+    if let (Some(name), Some(matrix)) = (&names.gyroscopic, &package.gyroscopic) {
+        add_matrix(&mut zip, name, matrix, Mirror::Skew)?;
     }
     zip.finish().map_err(|error| failed(None, error))?.flush()?;
     Ok(())
@@ -54,9 +58,10 @@ fn add_matrix<W: Write + Seek>(
     zip: &mut ZipWriter<W>,
     name: &str,
     matrix: &RawMatrix,
+    mirror: Mirror,
 ) -> Result<(), PackageError> {
     match MatrixFormat::of(name) {
-        MatrixFormat::Mtx => add(zip, name, |file| write_matrix(matrix, file)),
+        MatrixFormat::Mtx => add(zip, name, |file| write_matrix(matrix, mirror, file)),
         // A zip of its own already, made aside because its writer goes back to note lengths.
         MatrixFormat::Npz => add_by(zip, name, CompressionMethod::Stored, |file| {
             let mut made = tempfile::tempfile()?;
@@ -87,8 +92,12 @@ fn add_by<W: Write + Seek>(
     Ok(())
 }
 
-fn write_matrix(matrix: &RawMatrix, file: &mut dyn Write) -> io::Result<()> {
-    writeln!(file, "%%MatrixMarket matrix coordinate real symmetric")?;
+fn write_matrix(matrix: &RawMatrix, mirror: Mirror, file: &mut dyn Write) -> io::Result<()> {
+    let symmetry = match mirror {
+        Mirror::Symmetric => "symmetric",
+        Mirror::Skew => "skew-symmetric",
+    };
+    writeln!(file, "%%MatrixMarket matrix coordinate real {symmetry}")?;
     writeln!(file, "{} {} {}", matrix.size, matrix.size, matrix.entries.len())?;
     matrix.entries.iter().try_for_each(|(row, column, value)| {
         writeln!(file, "{} {} {value:e}", u64::from(*row) + 1, u64::from(*column) + 1)

@@ -12,6 +12,7 @@ use super::error::{
 };
 use super::lines::Fault;
 use super::raw::{Manifest, MatrixFormat, RawMatrix, RawPackage};
+use super::symmetric::Mirror;
 use super::tables::Table;
 use super::{Limits, check, digest, manifest, matrix_market, npz, tables};
 
@@ -25,16 +26,23 @@ pub(super) fn load(path: &Path, limits: &Limits) -> Result<Content, PackageError
     let nodes = read_table(&archive, &files.nodes, |source| tables::read_nodes(source, limits.table_rows))?;
     let dofs = read_table(&archive, &files.dofs, |source| tables::read_dofs(source, limits.table_rows))?;
     let rows = dofs.value.rows.len();
-    let matrix_files: Vec<&String> = std::iter::once(&files.mass).chain(&files.stiffness).collect();
+    let matrix_files: Vec<(&String, Mirror)> = std::iter::once(&files.mass)
+        .chain(&files.stiffness)
+        .map(|file| (file, Mirror::Symmetric))
+        .chain(files.gyroscopic.iter().map(|file| (file, Mirror::Skew)))
+        .collect();
     // Collected before looking at errors, so that the error reported is the first file's, however threads run.
-    let matrices: Vec<_> =
-        matrix_files.par_iter().map(|file| read_matrix(path, &archive, file, rows, limits)).collect();
+    let matrices: Vec<_> = matrix_files
+        .par_iter()
+        .map(|&(file, mirror)| read_matrix(path, &archive, file, mirror, rows, limits))
+        .collect();
     let mut matrices = matrices.into_iter().collect::<Result<Vec<_>, _>>()?;
     let mut hashes = vec![(files.nodes.as_str(), nodes.sha256), (files.dofs.as_str(), dofs.sha256)];
     hashes.extend(
-        matrix_files.iter().map(|file| file.as_str()).zip(matrices.iter().map(|matrix| matrix.sha256)),
+        matrix_files.iter().map(|(file, _)| file.as_str()).zip(matrices.iter().map(|matrix| matrix.sha256)),
     );
     let digest = digest::digest(&manifest, hashes.into_iter());
+    let gyroscopic = matrices.split_off(1 + files.stiffness.len()).pop();
     let stiffness = matrices.split_off(1);
     let Some(mass) = matrices.pop() else {
         unreachable!("one matrix is read per file, and the mass is the first")
@@ -46,6 +54,7 @@ pub(super) fn load(path: &Path, limits: &Limits) -> Result<Content, PackageError
             dofs: dofs.value.rows,
             mass: mass.value,
             stiffness: stiffness.into_iter().map(|matrix| matrix.value).collect(),
+            gyroscopic: gyroscopic.map(|matrix| matrix.value),
         },
         lines: SourceLines { nodes: nodes.value.lines, dofs: dofs.value.lines },
         digest,
@@ -56,6 +65,7 @@ pub(super) fn load(path: &Path, limits: &Limits) -> Result<Content, PackageError
 struct Files {
     mass: String,
     stiffness: Vec<String>,
+    gyroscopic: Option<String>,
     nodes: String,
     dofs: String,
 }
@@ -86,6 +96,9 @@ impl Files {
             stiffness: (manifest.stiffness.iter().enumerate())
                 .map(|(k, name)| resolve(format!("/stiffness/{k}"), name, "a stiffness matrix"))
                 .collect::<Result<_, _>>()?,
+            gyroscopic: (manifest.gyroscopic.as_ref())
+                .map(|name| resolve("/gyroscopic".to_owned(), name, "the gyroscopic matrix"))
+                .transpose()?,
             nodes: resolve("/nodes".to_owned(), &manifest.nodes, "the node table")?,
             dofs: resolve("/dofs".to_owned(), &manifest.dofs, "the DOF table")?,
         };
@@ -138,14 +151,15 @@ fn read_matrix(
     path: &Path,
     archive: &Archive,
     file: &str,
+    mirror: Mirror,
     dofs: usize,
     limits: &Limits,
 ) -> Result<Hashed<RawMatrix>, PackageError> {
     if MatrixFormat::of(file) == MatrixFormat::Npz {
-        return npz::read(archive, file, dofs, limits);
+        return npz::read(archive, file, mirror, dofs, limits);
     }
     archive.read(file, |source| {
-        matrix_market::read(source, dofs, limits)
+        matrix_market::read(source, mirror, dofs, limits)
             .map_err(|fault| match fault {
                 Fault::Io(error) => archive.fault(file, error),
                 Fault::At { line, problem } => {
@@ -153,19 +167,25 @@ fn read_matrix(
                 }
             })?
             .map_err(|problem| {
-                let (line, problem) = located(path, file, limits, problem);
+                let (line, problem) = located(path, file, mirror, limits, problem);
                 PackageError::Matrix { file: file.to_owned(), line, problem }
             })
     })
 }
 
 /// Reads the file once more to say on which lines the entries stand that do not go together.
-fn located(path: &Path, file: &str, limits: &Limits, problem: MatrixProblem) -> (Option<u64>, MatrixProblem) {
+fn located(
+    path: &Path,
+    file: &str,
+    mirror: Mirror,
+    limits: &Limits,
+    problem: MatrixProblem,
+) -> (Option<u64>, MatrixProblem) {
     let lines = |row, column, or_mirrored| {
         // A fresh archive, because this pass must not count against the expansion limit again.
         let archive = Archive::open(path, limits).ok()?;
         let read = archive.read(file, |source| {
-            matrix_market::lines_of(source, row, column, or_mirrored).map_err(|_| {
+            matrix_market::lines_of(source, mirror, row, column, or_mirrored).map_err(|_| {
                 PackageError::archive(
                     file.to_owned(),
                     ArchiveProblem::Damaged { reason: "second pass".to_owned() },
@@ -187,12 +207,24 @@ fn located(path: &Path, file: &str, limits: &Limits, problem: MatrixProblem) -> 
             };
             (found.get(1).copied(), problem)
         }
-        MatrixProblem::NotSymmetric { row, column, value, mirrored, count, .. } => {
+        MatrixProblem::NotSymmetric { skew, row, column, value, mirrored, count, .. } => {
             let line = |row, column| lines(row, column, false).and_then(|found| found.first().copied());
             let (line, mirrored_line) = (line(row, column), line(column, row));
-            let problem =
-                MatrixProblem::NotSymmetric { row, column, value, mirrored, line, mirrored_line, count };
-            (line.or(mirrored_line), problem)
+            let place = line.or(mirrored_line);
+            let problem = MatrixProblem::NotSymmetric {
+                skew,
+                row,
+                column,
+                value,
+                mirrored,
+                line,
+                mirrored_line,
+                count,
+            };
+            (place, problem)
+        }
+        MatrixProblem::SkewDiagonal { row, .. } => {
+            (lines(row, row, false).and_then(|found| found.first().copied()), problem)
         }
         problem => (None, problem),
     }

@@ -5,6 +5,7 @@ mod calculix;
 mod calculix_deck;
 mod damaged;
 mod equivalent;
+mod gyroscopic;
 mod npz;
 mod sample;
 mod shared_models;

@@ -92,6 +92,7 @@ pub(crate) fn package(shape: Shape) -> RawPackage {
     RawPackage {
         mass: matrix(1e-9),
         stiffness: vec![matrix(1e5), matrix(1.1e5), matrix(1.3e5)],
+        gyroscopic: None,
         manifest: Manifest {
             name: "sample".into(),
             sectors: shape.sectors,
@@ -101,6 +102,7 @@ pub(crate) fn package(shape: Shape) -> RawPackage {
             frame: shape.frame,
             mass: "m.mtx".into(),
             stiffness: vec!["k0.mtx".into(), "k1.mtx".into(), "k2.mtx".into()],
+            gyroscopic: None,
             nodes: "nodes.csv".into(),
             dofs: "dofs.csv".into(),
             cyclic: vec![[1, 5], [2, 6]],
@@ -112,6 +114,17 @@ pub(crate) fn package(shape: Shape) -> RawPackage {
         nodes: nodes.into_iter().map(|(id, position)| RawNode { id, position }).collect(),
         dofs,
     }
+}
+
+/// The package with a random gyroscopic matrix in `g.mtx`.
+pub(crate) fn with_gyroscopic(mut package: RawPackage, seed: u64) -> RawPackage {
+    let mut numbers = Numbers(seed);
+    let size = package.dofs.len();
+    let below = |column: u32| (column + 1..size as u32).map(move |row| (row, column));
+    let entries = (0..size as u32).flat_map(below).map(|(row, column)| (row, column, 1e-9 * numbers.next()));
+    package.gyroscopic = Some(RawMatrix { size, entries: entries.collect() });
+    package.manifest.gyroscopic = Some("g.mtx".into());
+    package
 }
 
 /// A package as files, in a form that tests can spoil.

@@ -1,7 +1,8 @@
 //! What the sector model means: the energy of the assembled wheel, computed without any of the importer's steps.
 //!
 //! A random displacement of every node of the wheel, in global components, has an energy that the raw sector
-//! matrices give sector by sector, and that Y0 and Y1 must give too: Σ_s q_sᵀ Y0 q_s + 2 q_sᵀ Y1 q_{s+1}.
+//! matrices give sector by sector, and that Y0 and Y1 must give too: Σ_s q_sᵀ Y0 q_s + 2 q_sᵀ Y1 q_{s+1}. Likewise the power
+//! of Coriolis forces between two displacements: Σ_s p_sᵀ G0 q_s + p_sᵀ G1 q_{s+1} − q_sᵀ G1 p_{s+1}.
 
 use std::f64::consts::TAU;
 
@@ -11,7 +12,7 @@ use rubmap::dynamics::sector::{CyclicMatrix, SectorModel};
 use rubmap::package;
 use rubmap::package::raw::{Frame, RawMatrix, RawPackage};
 
-use crate::sample::{Numbers, Shape, package as sample, turn, unit};
+use crate::sample::{Numbers, Shape, package as sample, turn, unit, with_gyroscopic};
 
 type Vector = [f64; 3];
 
@@ -26,6 +27,24 @@ fn raw_energy(matrix: &RawMatrix, u: &[f64]) -> f64 {
 
 fn bilinear(matrix: &SparseColMat<usize, f64>, left: &[f64], right: &[f64]) -> f64 {
     matrix.triplet_iter().map(|entry| left[entry.row] * entry.val * right[entry.col]).sum()
+}
+
+/// pᵀ G u of one sector, G skew-symmetric.
+fn raw_power(matrix: &RawMatrix, p: &[f64], u: &[f64]) -> f64 {
+    let term = |&(i, j, value): &(u32, u32, f64)| {
+        let (i, j) = (i as usize, j as usize);
+        value * (p[i] * u[j] - p[j] * u[i])
+    };
+    matrix.entries.iter().map(term).sum()
+}
+
+fn folded_power(matrix: &CyclicMatrix, p: &[Vec<f64>], q: &[Vec<f64>]) -> f64 {
+    let of = |s: usize| {
+        let t = (s + 1) % q.len();
+        bilinear(&matrix.own, &p[s], &q[s]) + bilinear(&matrix.next, &p[s], &q[t])
+            - bilinear(&matrix.next, &q[s], &p[t])
+    };
+    (0..q.len()).map(of).sum()
 }
 
 fn folded_energy(matrix: &CyclicMatrix, q: &[Vec<f64>]) -> f64 {
@@ -51,8 +70,8 @@ fn dot(a: Vector, b: Vector) -> f64 {
     (0..3).map(|k| a[k] * b[k]).sum()
 }
 
-/// Energies of a random displacement, by the package's mass and first stiffness, and by the sector model's.
-fn energies(package: &RawPackage, model: &SectorModel, seed: u64) -> [(f64, f64); 2] {
+/// A random displacement of the wheel, sector by sector: in the rows of the package, and in those of the sector model.
+fn displacement(package: &RawPackage, seed: u64) -> [Vec<Vec<f64>>; 2] {
     let sectors = package.manifest.sectors;
     let alpha = TAU / sectors as f64;
     let axis = unit(package.manifest.axis.direction);
@@ -101,8 +120,12 @@ fn energies(package: &RawPackage, model: &SectorModel, seed: u64) -> [(f64, f64)
         };
         own_dofs.map(component).collect()
     };
-    let q: Vec<_> = (0..sectors).map(own).collect();
-    let raw: Vec<_> = (0..sectors).map(raw).collect();
+    [(0..sectors).map(raw).collect(), (0..sectors).map(own).collect()]
+}
+
+/// Energies of a random displacement, by the package's mass and first stiffness, and by the sector model's.
+fn energies(package: &RawPackage, model: &SectorModel, seed: u64) -> [(f64, f64); 2] {
+    let [raw, q] = displacement(package, seed);
     let both = |matrix: &RawMatrix, folded: &CyclicMatrix| {
         (raw.iter().map(|u| raw_energy(matrix, u)).sum(), folded_energy(folded, &q))
     };
@@ -120,6 +143,23 @@ fn assert_energies_agree(package: &RawPackage) {
     {
         // Sums of some hundred terms of one sign: round-off, not more.
         assert!((raw - folded).abs() <= 1e-12 * raw.abs(), "seed {seed}: raw {raw:e}, folded {folded:e}");
+    }
+    assert_powers_agree(package);
+}
+
+fn assert_powers_agree(package: &RawPackage) {
+    let package = with_gyroscopic(package.clone(), 77);
+    let model = package::to_sector(package.clone()).expect("a good package");
+    let (raw, folded) = (package.gyroscopic.as_ref().unwrap(), model.gyroscopic.as_ref().unwrap());
+    let own = folded.own.to_dense();
+    assert_eq!(own, -own.transpose(), "G0 is skew-symmetric to the last bit");
+    for seed in 1..4 {
+        let ([raw_p, p], [raw_q, q]) = (displacement(&package, seed), displacement(&package, seed + 10));
+        let by_sector: Vec<f64> = raw_p.iter().zip(&raw_q).map(|(p, u)| raw_power(raw, p, u)).collect();
+        // Some hundred terms of up to 1e-9 a sector, of both signs.
+        let scale = 1e-7 * by_sector.len() as f64;
+        let (expected, found) = (by_sector.iter().sum::<f64>(), folded_power(folded, &p, &q));
+        assert!((expected - found).abs() <= 1e-14 * scale, "seed {seed}: {expected:e} {found:e}");
     }
 }
 

@@ -11,7 +11,7 @@ use super::text::TextLines;
 use crate::package::error::MatrixProblem;
 use crate::package::matrix_market::parse_entry;
 use crate::package::raw::{RawDof, RawMatrix};
-use crate::package::symmetric;
+use crate::package::symmetric::{self, Mirror};
 
 /// The DOF of each matrix row, and the file that said so.
 #[derive(Debug)]
@@ -106,9 +106,10 @@ pub(super) fn read(
             entries.push((row.max(column), row.min(column), value));
         }
     }
-    let matrix = symmetric::from_triangle(size, entries).map_err(|problem| match problem {
-        MatrixProblem::Repeated { row, column, .. } => lines.fault(LineProblem::Repeated { row, column }),
-        problem => crate::package::PackageError::matrix(&path.display().to_string(), problem).into(),
-    });
+    let matrix =
+        symmetric::from_triangle(Mirror::Symmetric, size, entries).map_err(|problem| match problem {
+            MatrixProblem::Repeated { row, column, .. } => lines.fault(LineProblem::Repeated { row, column }),
+            problem => crate::package::PackageError::matrix(&path.display().to_string(), problem).into(),
+        });
     Ok((matrix?, held))
 }

@@ -174,12 +174,13 @@ pub fn import(model: &CalculixModel) -> Result<(RawPackage, ImportSummary), Calc
         frame: Frame::Cartesian,
         mass: "m.npz".to_owned(),
         stiffness: (0..stiffness.len()).map(|k| format!("k{k}.npz")).collect(),
+        gyroscopic: None,
         nodes: "nodes.csv".to_owned(),
         dofs: "dofs.csv".to_owned(),
         cyclic: pairs,
         contact: summary.contact.iter().map(|point| manifest_contact(point, &frame)).collect(),
     };
-    Ok((RawPackage { manifest, nodes, dofs, mass, stiffness }, summary))
+    Ok((RawPackage { manifest, nodes, dofs, mass, stiffness, gyroscopic: None }, summary))
 }
 
 fn manifest_contact(point: &ContactPoint, frame: &AxisFrame) -> ManifestContact {

@@ -1,26 +1,40 @@
 //! The matrices against the DOF table; what a file reader has seen already is seen again for packages made in memory.
 
-use crate::package::error::{MatrixProblem, PackageError};
+use crate::package::error::{ArchiveProblem, ManifestProblem, MatrixProblem, PackageError};
 use crate::package::raw::{RawMatrix, RawPackage};
-use crate::package::symmetric;
+use crate::package::symmetric::{self, Mirror};
 
 /// Checks sizes, ranges and values, and sorts entries by column, then row.
 pub(super) fn check(package: &mut RawPackage) -> Result<(), PackageError> {
     let dofs = package.dofs.len();
     let names = &package.manifest;
-    check_one(&mut package.mass, dofs).map_err(|problem| PackageError::matrix(&names.mass, problem))?;
+    let symmetric = Mirror::Symmetric;
+    check_one(&mut package.mass, symmetric, dofs)
+        .map_err(|problem| PackageError::matrix(&names.mass, problem))?;
     if package.stiffness.len() != names.stiffness.len() {
         let (matrices, speeds) = (package.stiffness.len(), names.speeds_rad_s.len());
-        let problem = crate::package::error::ManifestProblem::StiffnessCount { matrices, speeds };
+        let problem = ManifestProblem::StiffnessCount { matrices, speeds };
         return Err(PackageError::manifest("/stiffness", problem));
     }
     for (matrix, name) in package.stiffness.iter_mut().zip(&names.stiffness) {
-        check_one(matrix, dofs).map_err(|problem| PackageError::matrix(name, problem))?;
+        check_one(matrix, symmetric, dofs).map_err(|problem| PackageError::matrix(name, problem))?;
     }
-    Ok(())
+    match (&names.gyroscopic, &mut package.gyroscopic) {
+        (Some(name), Some(matrix)) => {
+            check_one(matrix, Mirror::Skew, dofs).map_err(|problem| PackageError::matrix(name, problem))
+        }
+        (Some(name), None) => {
+            let problem = ManifestProblem::FileMissing { file: name.clone(), found_in: None };
+            Err(PackageError::manifest("/gyroscopic", problem))
+        }
+        (None, Some(_)) => {
+            Err(PackageError::archive("the gyroscopic matrix".to_owned(), ArchiveProblem::Surplus))
+        }
+        (None, None) => Ok(()),
+    }
 }
 
-fn check_one(matrix: &mut RawMatrix, dofs: usize) -> Result<(), MatrixProblem> {
+fn check_one(matrix: &mut RawMatrix, mirror: Mirror, dofs: usize) -> Result<(), MatrixProblem> {
     let size = matrix.size;
     if size != dofs {
         return Err(MatrixProblem::SizeDisagrees { rows: size as u64, dofs });
@@ -33,8 +47,8 @@ fn check_one(matrix: &mut RawMatrix, dofs: usize) -> Result<(), MatrixProblem> {
         if !entry.2.is_finite() {
             return Err(MatrixProblem::NotFinite { row, column });
         }
-        *entry = (entry.0.max(entry.1), entry.0.min(entry.1), entry.2);
+        *entry = mirror.folded(entry.0, entry.1, entry.2);
     }
-    *matrix = symmetric::from_triangle(size, std::mem::take(&mut matrix.entries))?;
+    *matrix = symmetric::from_triangle(mirror, size, std::mem::take(&mut matrix.entries))?;
     Ok(())
 }

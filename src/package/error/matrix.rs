@@ -13,13 +13,15 @@ pub enum MatrixProblem {
     NoHeader,
     /// A header word that is not supported.
     #[error(
-        "the {what} \"{word}\" is not supported; write \"matrix coordinate real symmetric\" or \"general\""
+        "the {what} \"{word}\" is not supported; write \"matrix coordinate real {one_triangle}\" or \"general\""
     )]
     UnsupportedHeader {
         /// Object, format, field or symmetry.
         what: &'static str,
         /// The word found.
         word: String,
+        /// The symmetry that a file of one triangle declares.
+        one_triangle: &'static str,
     },
     /// The line of sizes.
     #[error("the line after the header must be \"rows columns entries\", three integers")]
@@ -105,13 +107,15 @@ pub enum MatrixProblem {
         /// Whether the two mentions are mirror images of each other.
         mirrored: bool,
     },
-    /// A general matrix that is not symmetric.
+    /// A general matrix that is not (skew-)symmetric.
     #[error(
-        "the matrix is not symmetric: entry ({row}, {column}) is {value:e}{}, entry ({column}, {row}) is \
+        "the matrix is not {}: entry ({row}, {column}) is {value:e}{}, entry ({column}, {row}) is \
          {mirrored:e}{} (the worst of {count})",
-        at_line(*.line), at_line(*.mirrored_line)
+        if *.skew { "skew-symmetric" } else { "symmetric" }, at_line(*.line), at_line(*.mirrored_line)
     )]
     NotSymmetric {
+        /// Whether the triangles must differ in sign.
+        skew: bool,
         /// Row.
         row: u64,
         /// Column.
@@ -126,6 +130,17 @@ pub enum MatrixProblem {
         mirrored_line: Option<u64>,
         /// How many pairs differ by more than the tolerance.
         count: usize,
+    },
+    /// A skew-symmetric matrix with a diagonal.
+    #[error(
+        "entry ({row}, {row}) is {value:e}, but the diagonal of a skew-symmetric matrix is zero: is this the gyroscopic \
+         matrix?"
+    )]
+    SkewDiagonal {
+        /// Row and column.
+        row: u64,
+        /// Its value.
+        value: f64,
     },
     /// A mass that cannot be positive definite: diagonal.
     #[error(

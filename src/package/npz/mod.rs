@@ -2,7 +2,7 @@
 //! but for the indices.
 //!
 //! `csr`, `csc` and `coo` of float64 or float32 with int32 or int64 indices; positions given twice are summed, as
-//! scipy does. The file does not say whether it holds a symmetric matrix or one triangle of it:
+//! scipy does. The file does not say whether it holds a whole (skew-)symmetric matrix or one triangle of it:
 //! [`symmetric::from_any`] has the rule.
 
 mod write;
@@ -18,7 +18,7 @@ use super::archive::{Archive, Hashed, storage};
 use super::error::{MatrixProblem, NpzProblem, PackageError};
 use super::npy::{Npy, NpyFault};
 use super::raw::RawMatrix;
-use super::symmetric::{self, Entry};
+use super::symmetric::{self, Entry, Mirror};
 
 pub(super) use write::write;
 
@@ -29,6 +29,7 @@ const TRUSTED_ENTRIES: u64 = 1 << 22;
 pub(super) fn read(
     archive: &Archive,
     file: &str,
+    mirror: Mirror,
     dofs: usize,
     limits: &Limits,
 ) -> Result<Hashed<RawMatrix>, PackageError> {
@@ -53,7 +54,7 @@ pub(super) fn read(
     if rows != dofs as u64 {
         return Err(PackageError::matrix(file, MatrixProblem::SizeDisagrees { rows, dofs }));
     }
-    let mut triangles = Triangles { lower: Vec::new(), upper: Vec::new(), not_finite: None };
+    let mut triangles = Triangles { mirror, lower: Vec::new(), upper: Vec::new(), not_finite: None };
     if format == "coo" {
         let row = arrays.indices("row", dofs, limits)?;
         let column = arrays.indices("col", dofs, limits)?;
@@ -101,6 +102,7 @@ pub(super) fn read(
 
 /// Entries folded into the lower triangle, by the triangle they were stored in.
 struct Triangles {
+    mirror: Mirror,
     lower: Vec<Entry>,
     upper: Vec<Entry>,
     /// The first entry that is not a finite number, counted from 1.
@@ -112,17 +114,18 @@ impl Triangles {
         if !value.is_finite() && self.not_finite.is_none() {
             self.not_finite = Some((u64::from(row) + 1, u64::from(column) + 1));
         }
+        let entry = self.mirror.folded(row, column, value);
         if row >= column {
-            self.lower.push((row, column, value));
+            self.lower.push(entry);
         } else {
-            self.upper.push((column, row, value));
+            self.upper.push(entry);
         }
     }
 
     fn matrix(self, size: usize) -> Result<RawMatrix, MatrixProblem> {
         match self.not_finite {
             Some((row, column)) => Err(MatrixProblem::NotFinite { row, column }),
-            None => symmetric::from_any(size, self.lower, self.upper),
+            None => symmetric::from_any(self.mirror, size, self.lower, self.upper),
         }
     }
 }
