@@ -35,6 +35,9 @@ pub struct GenerateArgs {
     /// Number of contact nodes from leading to trailing edge; overrides the file
     #[arg(long)]
     pub contact_nodes: Option<usize>,
+    /// Write the gyroscopic matrix too, for Coriolis forces; overrides the file
+    #[arg(long)]
+    pub gyroscopic: bool,
     /// How the package stores its matrices
     #[arg(long, value_enum, default_value_t = MatrixFormat::Npz)]
     pub matrices: MatrixFormat,
@@ -90,6 +93,7 @@ impl GenerateArgs {
             ("outlet_radius", self.outlet_radius.map(Value::from)),
             ("top_speed_rad_s", self.speed.map(Value::from)),
             ("contact_nodes", self.contact_nodes.map(Value::from)),
+            ("gyroscopic", self.gyroscopic.then(|| Value::from(true))),
         ];
         for (field, value) in options {
             if let Some(value) = value {

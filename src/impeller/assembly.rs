@@ -39,7 +39,7 @@ impl<'a, const N: usize> Assembly<'a, N> {
         Self { elements, numbering, frames }
     }
 
-    /// Sums `matrix(e)`, symmetric and in x, y, z, over the elements: a value per position of `pattern`, which is
+    /// Sums `matrix(e)`, (skew-)symmetric and in x, y, z, over the elements: a value per position of `pattern`, which is
     /// that of these elements under this numbering.
     pub(super) fn matrix(&self, pattern: &Pattern, matrix: impl Fn(usize) -> Blocks<N> + Sync) -> Vec<f64> {
         let mut values = vec![0.0; pattern.len()];

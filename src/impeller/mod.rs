@@ -5,7 +5,7 @@
 //! function that makes one ([`cantilever()`], [`annulus()`]), and another element is another [`element::Hexahedron`].
 //!
 //! The matrices are honest: `K(Ω) = K_e + K_σ(Ω) − Ω² M_spin` on the undeformed geometry (METHOD §3), exactly
-//! linear in Ω². There are no gyroscopic terms, as in the package format.
+//! linear in Ω². Where asked for, the gyroscopic matrix of Coriolis forces joins them.
 
 mod annulus;
 mod assembly;
@@ -16,6 +16,7 @@ mod dofs;
 pub mod element;
 mod error;
 mod geometry;
+mod gyroscopic;
 mod material;
 mod matrices;
 mod memory;
@@ -34,6 +35,7 @@ pub use assembly::cylindrical_frame;
 pub use cantilever::{CantileverParameters, cantilever, cantilever_mesh};
 pub use dofs::SectorDofs;
 pub use error::ImpellerError;
+pub use gyroscopic::gyroscopic_matrix;
 pub use material::Material;
 pub use matrices::{RestMatrices, SectorMatrices};
 pub use memory::generation_bytes;
@@ -56,5 +58,11 @@ pub fn generate(parameters: &ImpellerParameters) -> Result<RawPackage, ImpellerE
         "rubmap impeller, {} sectors, outlet radius {} {}",
         parameters.sectors, parameters.outlet_radius, parameters.units.length
     );
-    to_package(&name, &sector, &parameters.material, &parameters.units, parameters.top_speed_rad_s)
+    let mut package =
+        to_package(&name, &sector, &parameters.material, &parameters.units, parameters.top_speed_rad_s)?;
+    if parameters.gyroscopic {
+        package.manifest.gyroscopic = Some("g.npz".to_owned());
+        package.gyroscopic = Some(gyroscopic_matrix(&sector, &parameters.material)?);
+    }
+    Ok(package)
 }

@@ -62,6 +62,8 @@ pub struct ImpellerParameters {
     /// Ω1: the highest of the three speeds of the stiffness matrices, positive (rad/s).
     #[schema(exclusive_minimum = 0)]
     pub top_speed_rad_s: f64,
+    /// Whether the package has a gyroscopic matrix, for Coriolis forces.
+    pub gyroscopic: bool,
     /// Number of contact nodes along the main blade's tip, evenly spaced from leading to trailing edge, at least 2.
     #[schema(minimum = 2)]
     pub contact_nodes: usize,
@@ -134,6 +136,7 @@ impl Default for ImpellerParameters {
             splitter: None,
             material: Material::default(),
             top_speed_rad_s: 4000.0,
+            gyroscopic: false,
             contact_nodes: 10,
             element_order: ElementOrder::default(),
             mesh: MeshDensities::default(),

@@ -37,6 +37,7 @@ pub fn to_package(
         frame: Frame::Cylindrical,
         mass: "m.npz".to_owned(),
         stiffness: (0..3).map(|s| format!("k{s}.npz")).collect(),
+        gyroscopic: None,
         nodes: "nodes.csv".to_owned(),
         dofs: "dofs.csv".to_owned(),
         cyclic,
@@ -50,6 +51,7 @@ pub fn to_package(
         dofs: dofs.iter().map(|&(n, c)| RawDof { node: id(n), component: c as u8 + 1 }).collect(),
         stiffness: speeds_rad_s.iter().map(|&speed| matrices.stiffness(speed)).collect(),
         mass: without_zeros(matrices.rest.mass()),
+        gyroscopic: None,
     })
 }
 

@@ -8,6 +8,7 @@ mod disk;
 mod disk_mesh;
 mod eigen;
 mod element;
+mod gyroscopic;
 mod impeller_a;
 mod impeller_mesh;
 mod plate;
