@@ -10,7 +10,7 @@ use rubmap::analysis::speeds::{SpeedSet, SpeedUnit, Speeds};
 use rubmap::dynamics::casing::{Casing, Restriction};
 use rubmap::dynamics::effects::Effects;
 use rubmap::dynamics::integrate::{SensorRow, Simulation};
-use rubmap::dynamics::modal_wheel::ModalWheel;
+use rubmap::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use rubmap::dynamics::oscillators::{Direction, ModalDamping};
 use rubmap::dynamics::reduction::NoCheckpoints;
 use rubmap::dynamics::schemes::Scheme;
@@ -48,7 +48,8 @@ impl Scene {
         let reduced = prepare(&sector, modes as u32, None, &NoCheckpoints, &Unwatched)
             .expect("the default impeller is sound");
         let stiffening = stiffnesses == 3;
-        let modal = ModalWheel::at(&reduced.wheel, SPEED, stiffening).expect("the default impeller is sound");
+        let modal = ModalWheel::at(&reduced.wheel, SPEED, RotationEffects::stiffening(stiffening))
+            .expect("the default impeller is sound");
         let damping = ModalDamping { modal_ratio: DAMPING, family_ratios: Vec::new() };
         Self { reduced, modal, damping, stiffening, modes }
     }

@@ -18,7 +18,7 @@ use crate::dynamics::casing::{Casing, Restriction, RestrictionTable, clearance_a
 use crate::dynamics::integrate::{
     Divergence, History, MAX_TABLE_VALUES, Outcome, Run, SensorRow, Simulation,
 };
-use crate::dynamics::modal_wheel::ModalWheel;
+use crate::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use crate::dynamics::oscillators::ModalDamping;
 use crate::dynamics::reduction::ReducedWheel;
 use crate::dynamics::schemes::Scheme;
@@ -41,8 +41,9 @@ pub fn run_speed(
     let speeds = request.speeds.resolve().map_err(AnalysisError::Refused)?;
     let mut point = empty_point(index, speeds[index]);
     let mut spectra = None;
-    let stiffening = request.scene.centrifugal_stiffening;
-    match ModalWheel::at(&reduced.wheel, point.speed_rad_s, stiffening) {
+    let scene = &request.scene;
+    let effects = RotationEffects { stiffening: scene.centrifugal_stiffening, coriolis: scene.coriolis };
+    match ModalWheel::at(&reduced.wheel, point.speed_rad_s, effects) {
         Err(error) => point.message = Some(error.to_string()),
         Ok(wheel) => match Stepping::choose(&wheel, &reduced.wheel.contact, request) {
             Err(message) => point.message = Some(message),

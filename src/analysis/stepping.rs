@@ -11,7 +11,7 @@ use super::monitor::Monitor;
 use super::request::{Integration, SchemeChoice, SweepRequest};
 use super::result::SchemeReport;
 use crate::dynamics::error::ModelError;
-use crate::dynamics::modal_wheel::{ModalWheel, natural_frequencies};
+use crate::dynamics::modal_wheel::{ModalWheel, RotationEffects, natural_frequencies};
 use crate::dynamics::schemes::{Scheme, central_differences, exact_modal, massless_boundary};
 use crate::dynamics::sector::ContactNode;
 
@@ -377,7 +377,8 @@ fn limit_of_request(
             Ok(limit.max(casing_limit(request, speed_rad_s)))
         }
         (SchemeChoice::MasslessBoundary, kept_modes) => {
-            let wheel = ModalWheel::at(&reduced.wheel, speed_rad_s, stiffening)?;
+            let effects = RotationEffects::stiffening(stiffening);
+            let wheel = ModalWheel::at(&reduced.wheel, speed_rad_s, effects)?;
             let limit = |kept_modes| {
                 let scheme = Scheme::MasslessBoundary { kept_modes };
                 scheme.smallest_stable_steps(&wheel, touching(&reduced.wheel.contact, request))

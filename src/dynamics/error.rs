@@ -62,6 +62,9 @@ pub enum ModelError {
         /// Ω in rad/s.
         speed_rad_s: f64,
     },
+    /// Coriolis forces of a model without gyroscopic matrix.
+    #[error("the model has no gyroscopic matrix, so there are no Coriolis forces to simulate")]
+    NoGyroscopicMatrix,
     /// A dense decomposition of a small reduced matrix failed.
     #[error("the eigenvalue decomposition of nodal diameter {nodal_diameter} at {speed_rad_s} rad/s failed")]
     DecompositionFailed {

@@ -22,3 +22,4 @@ pub mod schemes;
 pub mod sector;
 pub mod statistics;
 pub mod symmetry;
+pub mod waves;

@@ -8,6 +8,7 @@
 //! z̈ + 2ζω ż + ω² z = φᴴ f̂⁽ⁱ⁾,                                f̂⁽ⁱ⁾ = w_i Σ_s f_s e^{−jisα}
 //! ```
 //!
+//! Coriolis forces, where asked for, couple the modes of a nodal diameter: Ω g ż with g = Φᴴ Ĝ Φ joins the left side.
 //! z is complex for pairs (cosine and sine mode) and real for single harmonics; with these weights the modal mass is 1.
 
 use faer::{Mat, c64};
@@ -16,6 +17,22 @@ use super::error::ModelError;
 use super::reduction::{ReducedHarmonic, ReducedWheel};
 use crate::numerics::hermitian::{EigenError, Eigenpairs, generalised_eigenpairs, generalised_eigenvalues};
 use crate::numerics::sector_fourier::is_single;
+
+/// Which effects of rotation a wheel has at a speed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RotationEffects {
+    /// K(Ω) instead of the stiffness at rest.
+    pub stiffening: bool,
+    /// Coriolis forces.
+    pub coriolis: bool,
+}
+
+impl RotationEffects {
+    /// No Coriolis forces.
+    pub fn stiffening(stiffening: bool) -> Self {
+        Self { stiffening, coriolis: false }
+    }
+}
 
 /// Modes of one nodal diameter.
 #[derive(Debug, Clone)]
@@ -28,7 +45,7 @@ pub struct ModalHarmonic {
     pub omega: Vec<f64>,
     /// φ restricted to the contact DOF, `n_b × modes`, mass-normalised.
     pub contact: Mat<c64>,
-    /// g = ΦᴴĜΦ, `modes × modes`, skew-Hermitian; only with Coriolis forces.
+    /// g = Φᴴ Ĝ Φ per unit speed, `modes × modes`, skew-Hermitian, real for single modes; absent without Coriolis forces.
     pub gyroscopic: Option<Mat<c64>>,
 }
 
@@ -46,10 +63,15 @@ pub struct ModalWheel {
 }
 
 impl ModalWheel {
-    /// Solves every nodal diameter of `reduced` at `speed_rad_s`. Refuses a K(Ω) that is not positive definite.
-    pub fn at(reduced: &ReducedWheel, speed_rad_s: f64, stiffening: bool) -> Result<Self, ModelError> {
-        let solve = |h: &ReducedHarmonic| modal_harmonic(h, reduced, speed_rad_s, stiffening);
-        let harmonics = reduced.harmonics.iter().map(solve).collect::<Result<_, _>>()?;
+    /// Solves every nodal diameter of `reduced` at `speed_rad_s`. Refuses a K(Ω) that is not positive definite, and
+    /// Coriolis forces of a wheel without gyroscopic matrix.
+    pub fn at(
+        reduced: &ReducedWheel,
+        speed_rad_s: f64,
+        effects: RotationEffects,
+    ) -> Result<Self, ModelError> {
+        let solve = |nodal_diameter| modal_harmonic(reduced, nodal_diameter, speed_rad_s, effects);
+        let harmonics = (0..reduced.harmonics.len()).map(solve).collect::<Result<_, _>>()?;
         Ok(Self { speed_rad_s, sectors: reduced.sectors, repeats: 1, harmonics })
     }
 
@@ -76,17 +98,17 @@ pub fn natural_frequencies(
     frequencies(&values, harmonic.harmonic, speed_rad_s)
 }
 
-fn modal_harmonic(
-    reduced: &ReducedHarmonic,
+/// Modes of nodal diameter `harmonic` of `wheel` at `speed_rad_s`; errors as of [`ModalWheel::at`].
+pub(super) fn modal_harmonic(
     wheel: &ReducedWheel,
+    harmonic: usize,
     speed_rad_s: f64,
-    stiffening: bool,
+    effects: RotationEffects,
 ) -> Result<ModalHarmonic, ModelError> {
-    let harmonic = reduced.harmonic;
+    let reduced = &wheel.harmonics[harmonic];
     let single = is_single(harmonic, wheel.sectors);
-    let stiffness = reduced.stiffness.at(speed_rad_s, stiffening);
+    let stiffness = reduced.stiffness.at(speed_rad_s, effects.stiffening);
     let pairs = if single {
-        let real = |matrix: &Mat<c64>| Mat::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)].re);
         let (k, m) = (real(&stiffness), real(&reduced.mass));
         generalised_eigenpairs(k.as_ref(), m.as_ref()).map(|Eigenpairs { values, vectors }| {
             let complex =
@@ -102,8 +124,30 @@ fn modal_harmonic(
         single,
         omega: frequencies(&pairs.values, harmonic, speed_rad_s)?,
         contact: pairs.vectors.subrows(0, wheel.contact_dofs()).to_owned(),
-        gyroscopic: None,
+        gyroscopic: if effects.coriolis {
+            Some(modal_gyroscopic(reduced, &pairs.vectors, single)?)
+        } else {
+            None
+        },
     })
+}
+
+/// Φᴴ Ĝ Φ, skew-Hermitian to the last bit; real where the modes are.
+fn modal_gyroscopic(
+    reduced: &ReducedHarmonic,
+    modes: &Mat<c64>,
+    single: bool,
+) -> Result<Mat<c64>, ModelError> {
+    let gyroscopic = reduced.gyroscopic.as_ref().ok_or(ModelError::NoGyroscopicMatrix)?;
+    let full = modes.adjoint() * (gyroscopic * modes);
+    Ok(Mat::from_fn(full.nrows(), full.ncols(), |i, j| {
+        let skew = (full[(i, j)] - full[(j, i)].conj()) * 0.5;
+        if single { c64::new(skew.re, 0.0) } else { skew }
+    }))
+}
+
+fn real(matrix: &Mat<c64>) -> Mat<f64> {
+    Mat::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)].re)
 }
 
 /// Eigenvalues below this fraction of the largest are round-off: zero, as far as double precision can tell.

@@ -44,6 +44,22 @@ pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Mat<c64
     Flat::deserialize(deserializer)?.try_into().map_err(D::Error::custom)
 }
 
+/// The same for a matrix that may be absent.
+pub mod option {
+    use super::*;
+
+    /// Serialises the matrix, if there is one.
+    pub fn serialize<S: Serializer>(matrix: &Option<Mat<c64>>, serializer: S) -> Result<S::Ok, S::Error> {
+        matrix.as_ref().map(Flat::from).serialize(serializer)
+    }
+
+    /// Deserialises the matrix, if there is one.
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Mat<c64>>, D::Error> {
+        let flat = Option::<Flat>::deserialize(deserializer)?;
+        flat.map(|flat| flat.try_into().map_err(D::Error::custom)).transpose()
+    }
+}
+
 /// The same for a list of matrices.
 pub mod list {
     use super::*;

@@ -6,7 +6,7 @@ use crate::analysis::run::ReducedSector;
 
 /// Layout of a stored reduction and of its checkpoints: raise it when [`ReducedSector`] or the parts of a reduction
 /// change, so that old ones are computed again instead of misread.
-pub(super) const LAYOUT: i64 = 3;
+pub(super) const LAYOUT: i64 = 4;
 
 impl Store {
     /// The stored reduction of `model`, if this version of the program can read it.

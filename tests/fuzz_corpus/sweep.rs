@@ -16,7 +16,7 @@ use rubmap::analysis::run::{
     run_speed,
 };
 use rubmap::dynamics::casing::Restriction;
-use rubmap::dynamics::modal_wheel::ModalWheel;
+use rubmap::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use rubmap::dynamics::reduction::NoCheckpoints;
 use rubmap::dynamics::schemes::Scheme;
 use serde::Serialize;
@@ -129,7 +129,11 @@ fn work(reduced: &ReducedSector, request: &SweepRequest, speeds: &[f64]) -> f64 
 /// Upper bound of the steps per revolution that `"auto"` takes.
 fn auto_steps(reduced: &ReducedSector, request: &SweepRequest, speed: f64) -> f64 {
     // A speed that cannot be evaluated, or needs more steps than there may be, fails without a step.
-    let Ok(wheel) = ModalWheel::at(&reduced.wheel, speed, request.scene.centrifugal_stiffening) else {
+    let Ok(wheel) = ModalWheel::at(
+        &reduced.wheel,
+        speed,
+        RotationEffects::stiffening(request.scene.centrifugal_stiffening),
+    ) else {
         return 0.0;
     };
     // No scheme takes more than central differences, but for a boundary left with little flexibility.

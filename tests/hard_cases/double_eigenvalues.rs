@@ -8,7 +8,7 @@
 use std::f64::consts::PI;
 
 use faer::sparse::{SparseColMat, Triplet};
-use rubmap::dynamics::modal_wheel::ModalWheel;
+use rubmap::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use rubmap::dynamics::sector::{ContactNode, CyclicMatrix, SectorModel, Units};
 use serde_json::json;
 
@@ -49,6 +49,7 @@ fn chains(sectors: usize, factors: &[f64]) -> SectorModel {
         units: Units { length: "mm".into(), force: "N".into(), time: "s".into(), mass: "t".into() },
         mass: matrix(&mass),
         stiffness: vec![matrix(&own)],
+        gyroscopic: None,
         speeds_rad_s: vec![0.0],
         contact: vec![ContactNode {
             id: 1,
@@ -153,7 +154,9 @@ fn blades_that_nothing_joins_do_what_one_does_alone() {
     for sectors in [1, 6, 7] {
         let pair = twins(&alone, sectors);
         let of_pair = reduced(&pair, 12);
-        let modes = |reduced, speed| ModalWheel::at(reduced, speed, true).unwrap().harmonics;
+        let modes = |reduced, speed| {
+            ModalWheel::at(reduced, speed, RotationEffects::stiffening(true)).unwrap().harmonics
+        };
         let single = &modes(&of_alone.wheel, 0.6 * TOP_SPEED)[0].omega;
         for harmonic in modes(&of_pair.wheel, 0.6 * TOP_SPEED) {
             assert_eq!(harmonic.omega.len(), 2 * single.len());

@@ -4,7 +4,7 @@
 //! the stiffest modes of the wheel. Guaranteed: rank k, no trace of K1 and K2, and the sweep that the package with
 //! that stiffness alone gives.
 
-use rubmap::dynamics::modal_wheel::ModalWheel;
+use rubmap::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use rubmap::dynamics::sector::SectorModel;
 use serde_json::json;
 
@@ -35,8 +35,8 @@ fn the_basis_has_rank_k() {
     }
     for share in [0.0, 0.3, 1.0] {
         let (a, b) = (
-            ModalWheel::at(&once.wheel, share * TOP_SPEED, false).unwrap(),
-            ModalWheel::at(&thrice.wheel, share * TOP_SPEED, true).unwrap(),
+            ModalWheel::at(&once.wheel, share * TOP_SPEED, RotationEffects::stiffening(false)).unwrap(),
+            ModalWheel::at(&thrice.wheel, share * TOP_SPEED, RotationEffects::stiffening(true)).unwrap(),
         );
         for (a, b) in a.harmonics.iter().zip(&b.harmonics) {
             for (a, b) in a.omega.iter().zip(&b.omega) {

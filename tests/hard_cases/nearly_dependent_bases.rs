@@ -8,7 +8,7 @@
 //! ε is round-off; largest frequency and step within the third that more modes would cost anyway; frequencies no worse than
 //! those of the rank-k basis; a sweep with its energy accounted for.
 
-use rubmap::dynamics::modal_wheel::{ModalWheel, natural_frequencies};
+use rubmap::dynamics::modal_wheel::{ModalWheel, RotationEffects, natural_frequencies};
 use rubmap::dynamics::reduction::{NoCheckpoints, ReductionOptions, reduce};
 use rubmap::dynamics::sector::SectorModel;
 use rubmap::package::to_sector;
@@ -52,7 +52,9 @@ fn the_kept_directions_are_bounded_and_not_stiff() {
         let boundary = 3 * whole.contact.len() as u32;
         let largest = |sector: &SectorModel| {
             let found = reduced(sector, MODES);
-            let frequency = ModalWheel::at(&found.wheel, speed, true).unwrap().largest_frequency();
+            let frequency = ModalWheel::at(&found.wheel, speed, RotationEffects::stiffening(true))
+                .unwrap()
+                .largest_frequency();
             let kept = found.report.unknowns.iter().map(|unknowns| unknowns - boundary).collect::<Vec<_>>();
             (frequency, kept)
         };

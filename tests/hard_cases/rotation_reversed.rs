@@ -12,7 +12,7 @@ use faer::sparse::{SparseColMat, Triplet};
 use rubmap::dynamics::casing::{Casing, Restriction};
 use rubmap::dynamics::effects::Effects;
 use rubmap::dynamics::integrate::{Outcome, SensorRow, Simulation};
-use rubmap::dynamics::modal_wheel::ModalWheel;
+use rubmap::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use rubmap::dynamics::oscillators::{Direction, ModalDamping};
 use rubmap::dynamics::reduction::{NoCheckpoints, ReducedWheel, ReductionOptions, reduce};
 use rubmap::dynamics::schemes::Scheme;
@@ -111,7 +111,7 @@ fn turns_backwards(scheme: Scheme, sectors: usize) {
         reduce(sector, &ReductionOptions::new(6), &NoCheckpoints, &|_, _| true).unwrap()
     };
     let (original, turned) = (reduce(&sector), reduce(&seen_from_behind(&sector)));
-    let modal = ModalWheel::at(&turned, SPEED, true).unwrap();
+    let modal = ModalWheel::at(&turned, SPEED, RotationEffects::stiffening(true)).unwrap();
     let steps = 2 * smallest_stable_steps(modal.largest_frequency(), SPEED) as usize;
 
     let backwards = dense(scheme, &original, &casing(contact_nodes, 0.1), steps, -1.0);

@@ -5,7 +5,7 @@ use rubmap::dynamics::casing::{Casing, Restriction};
 use rubmap::dynamics::effects::Effects;
 use rubmap::dynamics::initial::InitialMode;
 use rubmap::dynamics::integrate::{History, Outcome, Run, SensorRow, Simulation};
-use rubmap::dynamics::modal_wheel::{ModalHarmonic, ModalWheel};
+use rubmap::dynamics::modal_wheel::{ModalHarmonic, ModalWheel, RotationEffects};
 use rubmap::dynamics::oscillators::{Direction, ModalDamping};
 use rubmap::dynamics::reduction::{NoCheckpoints, ReductionOptions, reduce};
 use rubmap::dynamics::schemes::Scheme;
@@ -34,7 +34,8 @@ impl Scene {
     pub(crate) fn new(recipe: WheelRecipe) -> Self {
         let reduced =
             reduce(&wheel(recipe), &ReductionOptions::new(6), &NoCheckpoints, &|_, _| true).unwrap();
-        let wheel = ModalWheel::at(&reduced, 0.6 * TOP_SPEED, recipe.stiffening).unwrap();
+        let wheel = ModalWheel::at(&reduced, 0.6 * TOP_SPEED, RotationEffects::stiffening(recipe.stiffening))
+            .unwrap();
         let mut scene = Self {
             wheel,
             damping_ratio: 0.05,

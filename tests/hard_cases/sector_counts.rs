@@ -11,7 +11,7 @@ use rubmap::analysis::request::SweepRequest;
 use rubmap::analysis::result::SpeedResult;
 use rubmap::analysis::run::ReducedSector;
 use rubmap::dynamics::casing::{Casing, Restriction};
-use rubmap::dynamics::modal_wheel::ModalWheel;
+use rubmap::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use rubmap::dynamics::schemes::Scheme;
 use rubmap::dynamics::sector::SectorModel;
 use serde_json::{Value, json};
@@ -28,7 +28,7 @@ use crate::support::{
 fn request(sector: &SectorModel, reduced: &ReducedSector, name: &str, scheme: Scheme) -> SweepRequest {
     let speeds = [0.4, 0.7, 1.0].map(|share| share * TOP_SPEED);
     let smallest = speeds.iter().map(|&speed| {
-        let modal = ModalWheel::at(&reduced.wheel, speed, true).unwrap();
+        let modal = ModalWheel::at(&reduced.wheel, speed, RotationEffects::stiffening(true)).unwrap();
         scheme.smallest_stable_steps(&modal, &reduced.wheel.contact)
     });
     let steps = (1.3 * smallest.max().unwrap() as f64) as u64;

@@ -14,7 +14,7 @@ use rubmap::analysis::request::SweepRequest;
 use rubmap::analysis::run::{ReducedSector, check};
 use rubmap::dynamics::initial::InitialMode;
 use rubmap::dynamics::integrate::Outcome;
-use rubmap::dynamics::modal_wheel::ModalWheel;
+use rubmap::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use rubmap::dynamics::schemes::Scheme;
 use serde_json::json;
 
@@ -54,7 +54,8 @@ fn accepted(reduced: &ReducedSector, request: &SweepRequest, steps: u64, smalles
 fn the_limit_itself_is_refused_to_the_last_digit() {
     let sector = wheel(RECIPE);
     let reduced = reduced(&sector, 6);
-    let largest = ModalWheel::at(&reduced.wheel, 1.0, false).unwrap().largest_frequency();
+    let largest =
+        ModalWheel::at(&reduced.wheel, 1.0, RotationEffects::stiffening(false)).unwrap().largest_frequency();
     let mut admitted = 0;
     for steps in 500..600u64 {
         let speed = PI * largest / steps as f64;
@@ -70,8 +71,11 @@ fn only_the_shorter_step_runs() {
     let sector = wheel(RECIPE);
     let reduced = reduced(&sector, 6);
     // Slow enough for one per cent of the step to be many steps.
-    let speed = ModalWheel::at(&reduced.wheel, 1.0, false).unwrap().largest_frequency() * PI / 2000.0;
-    let modal = ModalWheel::at(&reduced.wheel, speed, false).unwrap();
+    let speed =
+        ModalWheel::at(&reduced.wheel, 1.0, RotationEffects::stiffening(false)).unwrap().largest_frequency()
+            * PI
+            / 2000.0;
+    let modal = ModalWheel::at(&reduced.wheel, speed, RotationEffects::stiffening(false)).unwrap();
     for (name, scheme) in [
         ("central_differences", Scheme::CentralDifferences),
         ("massless_boundary", Scheme::MasslessBoundary { kept_modes: 7 }),

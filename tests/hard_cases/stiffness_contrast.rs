@@ -11,7 +11,7 @@ use faer::sparse::{SparseColMat, Triplet};
 use rubmap::analysis::error::AnalysisError;
 use rubmap::analysis::monitor::Unwatched;
 use rubmap::analysis::run::prepare;
-use rubmap::dynamics::modal_wheel::ModalWheel;
+use rubmap::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use rubmap::dynamics::reduction::NoCheckpoints;
 use rubmap::dynamics::sector::{ContactNode, CyclicMatrix, SectorModel, Units};
 use serde_json::json;
@@ -45,6 +45,7 @@ fn sector(hub: [f64; 3], tip: [f64; 3]) -> SectorModel {
         units: Units { length: "mm".into(), force: "N".into(), time: "s".into(), mass: "t".into() },
         mass: CyclicMatrix { own: sparse(&mass), next: sparse(&[]) },
         stiffness: vec![CyclicMatrix { own: sparse(&own), next: sparse(&next) }],
+        gyroscopic: None,
         speeds_rad_s: vec![0.0],
         contact: vec![ContactNode {
             id: 1,
@@ -80,7 +81,7 @@ fn expected(hub: [f64; 3], tip: [f64; 3], i: usize) -> Vec<f64> {
 /// Largest relative error of the (lowest, highest) three frequencies of each nodal diameter.
 fn errors(hub: [f64; 3], tip: [f64; 3]) -> Result<[f64; 2], AnalysisError> {
     let reduced = prepare(&sector(hub, tip), 3, None, &NoCheckpoints, &Unwatched)?;
-    let modal = ModalWheel::at(&reduced.wheel, 100.0, false)?;
+    let modal = ModalWheel::at(&reduced.wheel, 100.0, RotationEffects::stiffening(false))?;
     let mut worst = [0.0f64; 2];
     for harmonic in &modal.harmonics {
         let all = expected(hub, tip, harmonic.harmonic);

@@ -1,7 +1,7 @@
 //! Nodal diameters and reduction against the explicitly assembled wheel.
 
 use rubmap::dynamics::error::ModelError;
-use rubmap::dynamics::modal_wheel::{ModalWheel, natural_frequencies};
+use rubmap::dynamics::modal_wheel::{ModalWheel, RotationEffects, natural_frequencies};
 use rubmap::dynamics::reduction::{NoCheckpoints, ReductionError, ReductionOptions, reduce};
 use rubmap::dynamics::sector::SectorModel;
 
@@ -33,7 +33,8 @@ fn complete_basis_reproduces_the_assembled_wheel() {
         let mass = assembled_wheel(&sector.mass, sectors);
         for share in [0.0, 0.3, 0.5, 0.8, 1.0] {
             let speed = share * TOP_SPEED;
-            let found = squares(&ModalWheel::at(&reduced, speed, stiffening).unwrap());
+            let found =
+                squares(&ModalWheel::at(&reduced, speed, RotationEffects::stiffening(stiffening)).unwrap());
             // The fixture's K is linear in Ω².
             let blend = |matrices: &[nalgebra::DMatrix<f64>]| {
                 if stiffening {

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use rubmap::dynamics::casing::{Casing, Restriction};
 use rubmap::dynamics::effects::Effects;
 use rubmap::dynamics::integrate::{Outcome, SensorRow, Simulation};
-use rubmap::dynamics::modal_wheel::ModalWheel;
+use rubmap::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use rubmap::dynamics::oscillators::{Direction, ModalDamping};
 use rubmap::dynamics::reduction::{NoCheckpoints, ReductionOptions, reduce};
 use rubmap::dynamics::schemes::Scheme;
@@ -29,7 +29,7 @@ fn agree_by(scheme: Scheme, recipe: WheelRecipe, damping_ratio: f64, lobes: u32,
     let sector = wheel(recipe);
     let reduced = reduce(&sector, &ReductionOptions::new(6), &NoCheckpoints, &|_, _| true).unwrap();
     let speed = 0.6 * TOP_SPEED;
-    let modal = ModalWheel::at(&reduced, speed, recipe.stiffening).unwrap();
+    let modal = ModalWheel::at(&reduced, speed, RotationEffects::stiffening(recipe.stiffening)).unwrap();
     let casing = Casing {
         clearance: (0..recipe.contact_nodes).map(|k| 0.30 - 0.02 * k as f64).collect(),
         restriction: Some(Restriction { count: lobes, amplitude: 0.425, width_rad: 0.35, phase_rad: 0.1 }),

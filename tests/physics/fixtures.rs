@@ -119,6 +119,7 @@ pub(crate) fn wheel(recipe: WheelRecipe) -> SectorModel {
         units: Units { length: "mm".into(), force: "N".into(), time: "s".into(), mass: "t".into() },
         mass: cyclic(&mass, &DMatrix::zeros(size, size)),
         stiffness,
+        gyroscopic: None,
         speeds_rad_s: speeds,
         contact,
         node_of_dof: (0..size).map(|dof| dof / 3).collect(),
@@ -149,7 +150,7 @@ fn add(matrix: &mut DMatrix<f64>, a: usize, b: usize, block: &DMatrix<f64>) {
     view += block;
 }
 
-fn cyclic(own: &DMatrix<f64>, next: &DMatrix<f64>) -> CyclicMatrix {
+pub(crate) fn cyclic(own: &DMatrix<f64>, next: &DMatrix<f64>) -> CyclicMatrix {
     CyclicMatrix { own: sparse(own), next: sparse(next) }
 }
 
@@ -177,6 +178,34 @@ pub(crate) fn assembled_wheel(matrix: &CyclicMatrix, sectors: usize) -> DMatrix<
         for entry in matrix.next.triplet_iter() {
             wheel[(s * size + entry.row, t * size + entry.col)] += *entry.val;
             wheel[(t * size + entry.col, s * size + entry.row)] += *entry.val;
+        }
+    }
+    wheel
+}
+
+/// A random gyroscopic matrix of the size of `recipe`'s masses, with the couplings of its faces.
+pub(crate) fn gyroscopic(recipe: WheelRecipe, seed: u64) -> CyclicMatrix {
+    let mut numbers = Numbers::new(seed);
+    let size = 3 * recipe.nodes;
+    let mut random = |columns: usize| {
+        DMatrix::from_fn(size, size, |_, j| if j < columns { 1e-5 * (numbers.next() - 0.5) } else { 0.0 })
+    };
+    let half = random(size);
+    cyclic(&(&half - half.transpose()), &random(3 * recipe.face_nodes))
+}
+
+/// The whole wheel of a skew-symmetric matrix.
+pub(crate) fn assembled_skew(matrix: &CyclicMatrix, sectors: usize) -> DMatrix<f64> {
+    let size = matrix.own.nrows();
+    let mut wheel = DMatrix::zeros(sectors * size, sectors * size);
+    for s in 0..sectors {
+        let t = (s + 1) % sectors;
+        for entry in matrix.own.triplet_iter() {
+            wheel[(s * size + entry.row, s * size + entry.col)] += *entry.val;
+        }
+        for entry in matrix.next.triplet_iter() {
+            wheel[(s * size + entry.row, t * size + entry.col)] += *entry.val;
+            wheel[(t * size + entry.col, s * size + entry.row)] -= *entry.val;
         }
     }
     wheel

@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use rubmap::dynamics::casing::{Casing, Restriction};
 use rubmap::dynamics::effects::Effects;
 use rubmap::dynamics::integrate::{History, Outcome, Run, SensorRow, Simulation};
-use rubmap::dynamics::modal_wheel::ModalWheel;
+use rubmap::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use rubmap::dynamics::oscillators::{Direction, ModalDamping};
 use rubmap::dynamics::reduction::{NoCheckpoints, ReducedWheel, ReductionOptions, reduce};
 use rubmap::dynamics::schemes::Scheme;
@@ -43,7 +43,7 @@ impl Scene {
     }
 
     fn run(&self) -> Run {
-        let modal = ModalWheel::at(&self.reduced, self.speed, true).unwrap();
+        let modal = ModalWheel::at(&self.reduced, self.speed, RotationEffects::stiffening(true)).unwrap();
         let smallest = smallest_stable_steps(modal.largest_frequency(), self.speed) as f64;
         let samples = 64;
         let steps = ((self.steps_factor * smallest).max(720.0) as usize).next_multiple_of(samples);

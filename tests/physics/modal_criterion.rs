@@ -1,7 +1,7 @@
 //! Closed-form frequencies through the whole chain.
 
 use faer::sparse::{SparseColMat, Triplet};
-use rubmap::dynamics::modal_wheel::ModalWheel;
+use rubmap::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use rubmap::dynamics::reduction::{NoCheckpoints, ReductionOptions, reduce};
 use rubmap::dynamics::sector::{ContactNode, CyclicMatrix, SectorModel, Units};
 
@@ -24,6 +24,7 @@ fn cyclic_chain() {
             units: Units { length: "mm".into(), force: "N".into(), time: "s".into(), mass: "t".into() },
             mass: CyclicMatrix { own: sparse(&[(0, 0, m), (1, 1, m), (2, 2, m)]), next: sparse(&[]) },
             stiffness: vec![CyclicMatrix { own, next }],
+            gyroscopic: None,
             speeds_rad_s: vec![0.0],
             contact: vec![ContactNode {
                 id: 1,
@@ -34,7 +35,7 @@ fn cyclic_chain() {
             node_of_dof: vec![0; 3],
         };
         let reduced = reduce(&sector, &ReductionOptions::new(4), &NoCheckpoints, &|_, _| true).unwrap();
-        let modal = ModalWheel::at(&reduced, 100.0, false).unwrap();
+        let modal = ModalWheel::at(&reduced, 100.0, RotationEffects::stiffening(false)).unwrap();
         assert_eq!(modal.harmonics.len(), sectors / 2 + 1);
         assert_eq!(modal.unknowns(), 3 * sectors);
         for harmonic in &modal.harmonics {

@@ -7,7 +7,7 @@ use rubmap::dynamics::casing::{Casing, Restriction};
 use rubmap::dynamics::effects::Effects;
 use rubmap::dynamics::initial::InitialMode;
 use rubmap::dynamics::integrate::{Outcome, SensorRow, Simulation};
-use rubmap::dynamics::modal_wheel::{ModalHarmonic, ModalWheel};
+use rubmap::dynamics::modal_wheel::{ModalHarmonic, ModalWheel, RotationEffects};
 use rubmap::dynamics::oscillators::{Direction, ModalDamping};
 use rubmap::dynamics::reduction::{NoCheckpoints, ReductionOptions, reduce};
 use rubmap::dynamics::schemes::Scheme;
@@ -39,7 +39,7 @@ impl Scene {
     ) -> Self {
         let reduced =
             reduce(sector, &ReductionOptions::new(modes_per_speed), &NoCheckpoints, &|_, _| true).unwrap();
-        let wheel = ModalWheel::at(&reduced, speed, stiffening).unwrap();
+        let wheel = ModalWheel::at(&reduced, speed, RotationEffects::stiffening(stiffening)).unwrap();
         Self { wheel, contact: reduced.contact, casing, damping_ratio: 0.005, revolutions: 1 }
     }
 

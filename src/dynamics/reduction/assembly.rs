@@ -8,11 +8,25 @@ use crate::dynamics::sector::{CyclicMatrix, SectorModel};
 use crate::numerics::nested_dissection::dissection;
 
 impl UntiedSector {
-    /// Σ factor · matrix over `terms`, untied, both triangles.
+    /// Σ factor · matrix over `terms`, all symmetric, untied, both triangles.
     pub(super) fn assemble(&self, terms: &[(f64, &CyclicMatrix)]) -> SparseColMat<usize, f64> {
         let matrices: Vec<&CyclicMatrix> = terms.iter().map(|&(_, matrix)| matrix).collect();
-        let (starts, rows, values) =
-            self.gather(&matrices, |term, value| terms[term].0 * value, |sum, value| *sum += value);
+        self.untied(&matrices, 1.0, |term, value| terms[term].0 * value)
+    }
+
+    /// The transpose of a skew-symmetric matrix, untied, both triangles.
+    pub(super) fn assemble_skew_transpose(&self, matrix: &CyclicMatrix) -> SparseColMat<usize, f64> {
+        self.untied(&[matrix], -1.0, |_, value| -value)
+    }
+
+    /// Σ value(matrix, entry) over `matrices`; an entry of `next` stands again at its mirror image, times `image`.
+    fn untied(
+        &self,
+        matrices: &[&CyclicMatrix],
+        image: f64,
+        value: impl Fn(usize, f64) -> f64,
+    ) -> SparseColMat<usize, f64> {
+        let (starts, rows, values) = self.gather(matrices, image, value, |sum, value| *sum += value);
         let symbolic = SymbolicSparseColMat::new_checked(self.size(), self.size(), starts, None, rows);
         SparseColMat::new(symbolic, values)
     }
@@ -26,26 +40,27 @@ impl UntiedSector {
                 distinct.push(matrix);
             }
         }
-        let (starts, rows, _) = self.gather(&distinct, |_, _| (), |(), ()| ());
+        let (starts, rows, _) = self.gather(&distinct, 1.0, |_, _| (), |(), ()| ());
         SymbolicSparseColMat::new_checked(self.size(), self.size(), starts, None, rows)
     }
 
     /// Entries of all `matrices` by column, then row: column starts, rows, values; `value` of an entry of a matrix,
-    /// and `add` for entries that fall together.
+    /// and `add` for entries that fall together; `image` as in [`untied`](Self::untied).
     fn gather<T: Copy + Default + Send + Sync>(
         &self,
         matrices: &[&CyclicMatrix],
+        image: f64,
         value: impl Fn(usize, f64) -> T,
         add: impl Fn(&mut T, T) + Sync,
     ) -> (Vec<usize>, Vec<usize>, Vec<T>) {
         let mut ends = vec![0usize; self.size() + 1];
-        self.visit(matrices, |_, column, _, _| ends[column + 1] += 1);
+        self.visit(matrices, image, |_, column, _, _| ends[column + 1] += 1);
         for column in 0..self.size() {
             ends[column + 1] += ends[column];
         }
         let starts = ends.clone();
         let mut entries = vec![(0u32, T::default()); starts[self.size()]];
-        self.visit(matrices, |row, column, matrix, number| {
+        self.visit(matrices, image, |row, column, matrix, number| {
             entries[ends[column]] = (row as u32, value(matrix, number));
             ends[column] += 1;
         });
@@ -74,14 +89,14 @@ impl UntiedSector {
     }
 
     /// Calls `entry(row, column, matrix, value)` for every untied entry of each matrix.
-    fn visit(&self, matrices: &[&CyclicMatrix], mut entry: impl FnMut(usize, usize, usize, f64)) {
+    fn visit(&self, matrices: &[&CyclicMatrix], image: f64, mut entry: impl FnMut(usize, usize, usize, f64)) {
         for (index, matrix) in matrices.iter().enumerate() {
             for from in matrix.own.triplet_iter() {
                 entry(self.place[from.row], self.place[from.col], index, *from.val);
             }
             for from in matrix.next.triplet_iter() {
                 entry(self.place[from.row], self.high[from.col], index, *from.val);
-                entry(self.high[from.col], self.place[from.row], index, *from.val);
+                entry(self.high[from.col], self.place[from.row], index, image * *from.val);
             }
         }
     }

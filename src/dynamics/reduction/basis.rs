@@ -44,8 +44,18 @@ impl<'a> Basis<'a> {
 
     /// Υ̂ᴴ Ŷ Υ̂ with `matrix` the untied Y, Hermitian to the last bit (Eq. 6).
     pub(super) fn project(&self, matrix: &SparseColMat<usize, f64>) -> Mat<c64> {
-        let image = self.untied.product(matrix, &self.tie, self.vectors.as_ref());
-        let full = self.vectors.adjoint() * image;
+        let full = self.product(matrix);
         Mat::from_fn(full.nrows(), full.ncols(), |i, j| (full[(i, j)] + full[(j, i)].conj()) * 0.5)
+    }
+
+    /// Υ̂ᴴ Ĝ Υ̂ with `transpose` the untied Gᵀ = −G, skew-Hermitian to the last bit.
+    pub(super) fn project_skew(&self, transpose: &SparseColMat<usize, f64>) -> Mat<c64> {
+        let full = self.product(transpose);
+        Mat::from_fn(full.nrows(), full.ncols(), |i, j| (full[(i, j)] - full[(j, i)].conj()) * 0.5)
+    }
+
+    fn product(&self, transpose: &SparseColMat<usize, f64>) -> Mat<c64> {
+        let image = self.untied.product(transpose, &self.tie, self.vectors.as_ref());
+        self.vectors.adjoint() * image
     }
 }

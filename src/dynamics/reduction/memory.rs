@@ -22,7 +22,8 @@ pub(super) fn needed_bytes(
     let entries = |matrix: &CyclicMatrix| matrix.own.compute_nnz() + 2 * matrix.next.compute_nnz();
     let (mass, stiffness) = (entries(&sector.mass), entries(&sector.stiffness[0]));
     let speeds = sector.stiffness.len();
-    let given = ENTRY * (mass + speeds * stiffness);
+    let gyroscopic = sector.gyroscopic.as_ref().map_or(0, entries);
+    let given = ENTRY * (mass + speeds * stiffness + gyroscopic);
     // Between the given speeds all of K(Ω)'s matrices meet: their entries, sorted columns, the sum.
     let assembly = ENTRY * (2 * speeds + 1) * stiffness;
     let factor = REAL * (untied.analysis.factor_entries() + untied.analysis.working_entries());

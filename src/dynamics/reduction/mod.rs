@@ -7,6 +7,8 @@
 //! Υ̂(i) = [ I       0  ]      Y_r(i) = Υ̂(i)ᴴ Ŷ(i) Υ̂(i)      Y = M, K0, K1, K2
 //!        [ Ψ_s(0)  Ψ* ]
 //! ```
+//!
+//! The gyroscopic matrix, if the sector has one, is projected on the same basis.
 
 mod assembly;
 mod basis;
@@ -21,7 +23,6 @@ mod speed;
 mod tied_factor;
 mod untied;
 
-use faer::sparse::SparseColMat;
 use faer::{Mat, c64};
 use serde::{Deserialize, Serialize};
 
@@ -72,6 +73,9 @@ pub struct ReducedHarmonic {
     pub mass: Mat<c64>,
     /// K_r(Ω).
     pub stiffness: StiffnessPolynomial,
+    /// G_r per unit speed, skew-Hermitian; absent if the sector has none.
+    #[serde(with = "matrix_serde::option")]
+    pub gyroscopic: Option<Mat<c64>>,
     /// Its fixed-interface modes at each given speed, with the proof that they are the lowest ones.
     pub certificates: Vec<ModeCertificate>,
 }
@@ -160,7 +164,8 @@ pub fn reduce(
     if !watch(0.0, "reduction: ordering") {
         return Err(ReductionError::Cancelled);
     }
-    let matrices: Vec<_> = std::iter::once(&sector.mass).chain(&sector.stiffness).collect();
+    let matrices: Vec<_> =
+        std::iter::once(&sector.mass).chain(&sector.stiffness).chain(&sector.gyroscopic).collect();
     let untied = UntiedSector::new(sector, &matrices);
     let modes_per_speed = options.modes_per_speed.min(untied.internal());
     let needed_bytes = memory::needed_bytes(sector, &untied, modes_per_speed, harmonics);
@@ -239,24 +244,31 @@ fn project(
             )
         })
         .collect::<Result<_, _>>()?;
-    let mut project_all = |matrix: &SparseColMat<usize, f64>, share: f64, name: &str| {
+    let count = 1 + speeds.len() + usize::from(work.sector.gyroscopic.is_some());
+    let mut project_all = |number: usize, name: &str, project: &dyn Fn(&Basis<'_>) -> Mat<c64>| {
         for (h, (basis, projected)) in bases.iter().zip(&mut projected).enumerate() {
             if !watch(
-                share + 0.25 * h as f64 / bases.len() as f64,
+                (number as f64 + h as f64 / bases.len() as f64) / count as f64,
                 &format!("projecting {name}, nodal diameter {h}"),
             ) {
                 return Err(ReductionError::Cancelled);
             }
-            projected.push(basis.project(matrix));
+            projected.push(project(basis));
         }
         Ok(())
     };
-    project_all(work.mass, 0.0, "the mass")?;
+    project_all(0, "the mass", &|basis| basis.project(work.mass))?;
     for (index, speed) in speeds.iter().enumerate() {
         let stiffness = work.untied.assemble(&[(1.0, &work.sector.stiffness[index])]);
-        project_all(&stiffness, 0.25 * (index as f64 + 1.0), &format!("the stiffness at {speed} rad/s"))?;
+        let name = format!("the stiffness at {speed} rad/s");
+        project_all(1 + index, &name, &|basis| basis.project(&stiffness))?;
+    }
+    if let Some(gyroscopic) = &work.sector.gyroscopic {
+        let transpose = work.untied.assemble_skew_transpose(gyroscopic);
+        project_all(count - 1, "the gyroscopic matrix", &|basis| basis.project_skew(&transpose))?;
     }
     let finish = |(h, mut matrices): (usize, Vec<Mat<c64>>)| {
+        let gyroscopic = matrices.split_off(1 + speeds.len()).pop();
         let stiffness = matrices.split_off(1);
         let certificate = |(part, &speed_rad_s): (&SpeedPart, &f64)| ModeCertificate {
             speed_rad_s,
@@ -268,6 +280,7 @@ fn project(
             harmonic: h,
             mass: matrices.remove(0),
             stiffness: StiffnessPolynomial::fit(stiffness, speeds),
+            gyroscopic,
             certificates: parts.iter().zip(speeds).map(certificate).collect(),
         };
         // A wheel that is not held at rest is no model at any speed.

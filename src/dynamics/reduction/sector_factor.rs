@@ -18,7 +18,7 @@ use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use super::tied_factor::{NotPositiveDefinite, TiedFactor, cholesky, tied_schur};
 use super::untied::UntiedSector;
 use crate::numerics::multifrontal::PartialFactor;
-use crate::numerics::sparse_product::symmetric_product;
+use crate::numerics::sparse_product::row_product;
 
 /// The factor of the untied sector's interior at one stiffness.
 pub(super) struct SectorFactor<'a> {
@@ -112,7 +112,7 @@ impl<'a> SectorFactor<'a> {
         let images = self.through(loads, rows, |mut panel| {
             self.scale_interior(panel.rb_mut());
             self.factor.backward(panel.rb_mut());
-            let product = symmetric_product(mass, panel.as_ref());
+            let product = row_product(mass, panel.as_ref());
             panel.copy_from(&product);
             self.factor.forward(panel.rb_mut());
             self.scale_interior(panel);

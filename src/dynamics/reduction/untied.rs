@@ -19,7 +19,7 @@ use crate::dynamics::sector::{CyclicMatrix, SectorModel};
 use crate::numerics::multifrontal::{Analysis, postorder};
 
 use crate::numerics::sector_fourier::is_single;
-use crate::numerics::sparse_product::symmetric_product;
+use crate::numerics::sparse_product::row_product;
 
 /// How one nodal diameter ties the faces.
 #[derive(Debug, Clone, Copy)]
@@ -200,7 +200,8 @@ impl UntiedSector {
         folded
     }
 
-    /// Ŷ(i) x for tied vectors `x`, with `matrix` the untied Y; as many rows as `x` has. Columns in parallel.
+    /// Ŷ(i) x for tied vectors `x`, with `matrix` the untied Yᵀ, which is Y for all but the gyroscopic matrix; as many rows
+    /// as `x` has. Columns in parallel.
     pub(super) fn product(
         &self,
         matrix: &SparseColMat<usize, f64>,
@@ -215,7 +216,7 @@ impl UntiedSector {
                 let columns = x.subcols(first, COLUMNS.min(x.ncols() - first));
                 let mut panel = Mat::zeros(Self::width(tie, columns.ncols()), self.size());
                 self.expand(tie, columns, panel.as_mut());
-                self.fold(tie, symmetric_product(matrix, panel.as_ref()).as_ref(), x.nrows())
+                self.fold(tie, row_product(matrix, panel.as_ref()).as_ref(), x.nrows())
             })
             .collect();
         let mut product = Mat::zeros(x.nrows(), x.ncols());
