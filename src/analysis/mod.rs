@@ -5,6 +5,7 @@
 //! - [`run::interaction_map`] and [`run::critical_speeds`] assemble the finished speeds of a sweep.
 
 pub mod auto_or;
+mod diagram;
 mod discretisation;
 mod effects;
 pub mod error;

@@ -43,6 +43,9 @@ pub struct ModelFacts {
     pub speeds_rad_s: Vec<f64>,
     /// Units.
     pub units: Units,
+    /// Whether the package has a gyroscopic matrix, so that Coriolis forces can be simulated.
+    #[serde(default)]
+    pub gyroscopic: bool,
 }
 
 impl ModelFacts {
@@ -55,6 +58,7 @@ impl ModelFacts {
             own_dofs: sector.own_dofs() as u32,
             speeds_rad_s: sector.speeds_rad_s.clone(),
             units: sector.units.clone(),
+            gyroscopic: sector.gyroscopic.is_some(),
         }
     }
 

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
 use super::auto_or::AutoOr;
-use super::scene::Scene;
+use super::scene::{Scene, is_false};
 use super::speeds::Speeds;
 
 /// A sweep of contact simulations over rotational speeds.
@@ -54,6 +54,10 @@ pub struct ModalAnalysisRequest {
     /// Highest engine order of the driven crossings.
     #[serde(default = "default_max_engine_order")]
     pub max_engine_order: u32,
+    /// Coriolis forces through the package's gyroscopic matrix: the frequencies of waves that travel with and against the
+    /// rotation, which then cross engine orders in their place.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub coriolis: bool,
     /// Speeds of the Campbell diagram: every range and list ascends, several are merged.
     pub speeds: Speeds,
 }

@@ -1,7 +1,7 @@
 //! What the speeds of a sweep say together: the interaction map and the critical speeds.
 
+use super::diagram::FrequencyDiagram;
 use super::error::AnalysisError;
-use super::modal::WheelFrequencies;
 use super::model::ReducedSector;
 use super::monitor::Monitor;
 use super::request::{Sensor, SweepRequest};
@@ -9,8 +9,8 @@ use super::result::{
     CriticalSpeed, CriticalSpeeds, Crossing, DrivenCrossing, InteractionMap, Point, PointStatus, SpeedSpectra,
 };
 use super::run::VERSION;
+use crate::dynamics::modal_wheel::RotationEffects;
 use crate::dynamics::sector::Units;
-use crate::response::campbell::{crossings, driven_crossings};
 use crate::response::critical_speed::peaks;
 use crate::response::spectra::engine_orders;
 
@@ -124,32 +124,21 @@ fn predict(
     ascending: impl Iterator<Item = f64>,
     monitor: &dyn Monitor,
 ) -> Result<(Vec<Crossing>, Vec<DrivenCrossing>), AnalysisError> {
-    let source = WheelFrequencies { wheel: &reduced.wheel, stiffening: request.scene.centrifugal_stiffening };
-    // Repeated speeds would bracket nothing; speeds at which the model fails predict nothing.
+    let scene = &request.scene;
+    let effects = RotationEffects { stiffening: scene.centrifugal_stiffening, coriolis: scene.coriolis };
+    let mut diagram = FrequencyDiagram::new(&reduced.wheel, effects, PREDICTED_FAMILIES);
+    // Repeated speeds would bracket nothing.
     let mut speeds: Vec<f64> = ascending.collect();
     speeds.dedup();
-    let (mut grid, mut table) = (Vec::new(), Vec::new());
     for (done, &speed) in speeds.iter().enumerate() {
         monitor.progress(done as f64 / speeds.len() as f64, "linear prediction");
         if monitor.is_cancelled() {
             return Err(AnalysisError::Cancelled);
         }
-        if let Ok(row) = source.row(speed, PREDICTED_FAMILIES) {
-            grid.push(speed);
-            table.push(row);
-        }
+        // A speed at which the model fails predicts nothing.
+        let _ = diagram.push(speed);
     }
-    let linear = crossings(&source, &table, &grid, PREDICTED_FAMILIES, &PREDICTED_SUPERHARMONICS);
-    let lobes = request.scene.casing.as_ref().and_then(|casing| casing.lobes.as_ref()).map_or(0, |l| l.count);
-    let sectors = reduced.wheel.sectors as u32;
-    let driven = driven_crossings(
-        &source,
-        &table,
-        &grid,
-        PREDICTED_FAMILIES,
-        lobes,
-        request.max_engine_order,
-        sectors,
-    );
-    Ok((linear, driven))
+    let lobes = scene.casing.as_ref().and_then(|casing| casing.lobes.as_ref()).map_or(0, |l| l.count);
+    let linear = diagram.crossings(&PREDICTED_SUPERHARMONICS);
+    Ok((linear, diagram.driven_crossings(lobes, request.max_engine_order)))
 }

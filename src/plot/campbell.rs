@@ -6,7 +6,7 @@ use super::colour::ordinal;
 use super::diagram::Diagram;
 use super::marks;
 use super::svg::{Element, document, group, line, polyline, text};
-use crate::analysis::result::Campbell;
+use crate::analysis::result::{Campbell, Wave};
 
 const WIDTH: f64 = 1180.0;
 const HEIGHT: f64 = 780.0;
@@ -42,7 +42,8 @@ pub fn campbell(campbell: &Campbell) -> String {
 }
 
 fn diagram(campbell: &Campbell) -> Diagram {
-    let frequencies = campbell.frequencies_hz.iter().flatten().flatten().copied();
+    let branches = campbell.branches();
+    let frequencies = branches.iter().flat_map(|(_, table)| table.iter().flatten().flatten()).copied();
     let highest = frequencies.filter(|f| f.is_finite()).fold(0.0, f64::max);
     let speeds = campbell.speeds_rad_s.iter().map(|speed| rpm(*speed));
     let (slow, fast) =
@@ -60,24 +61,29 @@ fn counts(campbell: &Campbell) -> (usize, usize) {
 
 fn natural_frequencies(campbell: &Campbell, diagram: &Diagram) -> Element {
     let (harmonics, families) = counts(campbell);
-    let mut curves = group().set("stroke-width", "1.8");
-    for nodal_diameter in 0..harmonics {
-        for family in 0..families {
-            let points = campbell.speeds_rad_s.iter().zip(&campbell.frequencies_hz);
+    let mut curves = group();
+    for (wave, table) in campbell.branches() {
+        for (nodal_diameter, family) in (0..harmonics).flat_map(|i| (0..families).map(move |j| (i, j))) {
+            let points = campbell.speeds_rad_s.iter().zip(table);
             let curve = polyline(points.map(|(speed, frequencies)| {
                 let hz = frequencies.get(nodal_diameter)?.get(family)?;
                 diagram.inside(rpm(*speed), *hz)
             }));
-            let words = format!("nodal diameter {nodal_diameter}, family {}", family + 1);
+            let words = marks::mode(nodal_diameter as u32, family as u32 + 1, wave);
             curves = curves.child(
                 curve
                     .set("stroke", ordinal(nodal_diameter, harmonics))
+                    .set("stroke-width", stroke_width(wave))
                     .set("stroke-dasharray", DASHES[family.min(DASHES.len() - 1)])
                     .title(&words),
             );
         }
     }
     curves
+}
+
+fn stroke_width(wave: Option<Wave>) -> &'static str {
+    if wave == Some(Wave::Forward) { "0.9" } else { "1.8" }
 }
 
 /// Rays f = kΩ/2π for every order that a crossing needs, those of the lobes darker, labelled where they leave.
@@ -166,6 +172,12 @@ fn legend(campbell: &Campbell, x: f64) -> Element {
     }
     for (family, dashes) in DASHES.iter().enumerate().take(families) {
         rows = row(stroke("#444444".to_owned(), dashes), &format!("family {}", family + 1), rows);
+    }
+    let directions = [("forward waves", Wave::Forward), ("backward waves", Wave::Backward)];
+    for (words, wave) in directions.into_iter().filter(|_| campbell.waves.is_some()) {
+        let mark = line((0.0, 0.0), (32.0, 0.0)).set("stroke", "#444444");
+        let mark = mark.set("stroke-width", stroke_width(Some(wave)));
+        rows = row(mark, words, rows);
     }
     let lobes = campbell.settings.lobes;
     rows = row(stroke("#777777".to_owned(), ""), &format!("engine order {lobes}, {}, …", 2 * lobes), rows);

@@ -80,8 +80,8 @@ fn diagram(map: &InteractionMap, cells: &[Cell], campbell: Option<&Campbell>, ax
         VerticalAxis::EngineOrder => highest_order + 0.5,
         VerticalAxis::Frequency => {
             // Full spectra at all speeds, and room above the natural frequencies.
-            let natural =
-                campbell.into_iter().flat_map(|campbell| campbell.frequencies_hz.iter().flatten().flatten());
+            let branches = campbell.map(Campbell::branches).unwrap_or_default();
+            let natural = branches.into_iter().flat_map(|(_, table)| table.iter().flatten().flatten());
             let wanted = natural.fold(highest_order * speeds.0 / 60.0, |top, hz| top.max(1.6 * hz));
             wanted.min(highest_order * speeds.1 / 60.0)
         }
@@ -185,18 +185,18 @@ impl View {
         let harmonics = campbell.frequencies_hz.first().map_or(0, Vec::len);
         let mut curves =
             group().set("stroke", NATURAL).set("stroke-opacity", "0.55").set("stroke-width", "0.9");
-        for nodal_diameter in 0..harmonics {
-            let families = campbell.frequencies_hz[0][nodal_diameter].len();
-            for family in 0..families {
-                let points = campbell.speeds_rad_s.iter().zip(&campbell.frequencies_hz);
+        for (wave, table) in campbell.branches() {
+            let families = |i: usize| (0..campbell.frequencies_hz[0][i].len()).map(move |j| (i, j));
+            for (nodal_diameter, family) in (0..harmonics).flat_map(families) {
+                let points = campbell.speeds_rad_s.iter().zip(table);
                 let curve = polyline(points.map(|(speed, frequencies)| {
                     let hz = frequencies.get(nodal_diameter)?.get(family)?;
                     let rpm = rpm(*speed);
                     (rpm > 0.0).then_some(())?;
                     self.place(rpm, hz * 60.0 / rpm)
                 }));
-                curves = curves
-                    .child(curve.title(&format!("nodal diameter {nodal_diameter}, family {}", family + 1)));
+                let words = marks::mode(nodal_diameter as u32, family as u32 + 1, wave);
+                curves = curves.child(curve.title(&words));
             }
         }
         curves

@@ -3,7 +3,7 @@
 use super::axis::{label, significant};
 use super::cells::rpm;
 use super::svg::{Element, line, upright};
-use crate::analysis::result::{CriticalSpeed, Crossing, DrivenCrossing, Verdict};
+use crate::analysis::result::{CriticalSpeed, Crossing, DrivenCrossing, Verdict, Wave};
 
 /// Distance that keeps upright labels apart.
 const LABEL_SPACING: f64 = 15.0;
@@ -27,12 +27,23 @@ pub(super) fn linear((x, y): (f64, f64), stroke: &str, crossing: &Crossing) -> E
 
 /// A filled diamond: a crossing that the lobes can drive.
 pub(super) fn driven((x, y): (f64, f64), fill: &str, stroke: &str, crossing: &DrivenCrossing) -> Element {
-    let DrivenCrossing { nodal_diameter: i, family: j, engine_order: k, .. } = crossing;
+    let DrivenCrossing { nodal_diameter, family, engine_order: k, wave, .. } = *crossing;
     diamond((x, y), fill, stroke).title(&format!(
-        "driven: engine order {k}, nodal diameter {i}, family {j}: {} rpm, {} Hz",
+        "driven: engine order {k}, {}: {} rpm, {} Hz",
+        mode(nodal_diameter, family, wave),
         label(rpm(crossing.speed_rad_s), 0),
         significant(crossing.frequency_hz)
     ))
+}
+
+/// A mode in words.
+pub(super) fn mode(nodal_diameter: u32, family: u32, wave: Option<Wave>) -> String {
+    let direction = match wave {
+        None => "",
+        Some(Wave::Forward) => ", forward wave",
+        Some(Wave::Backward) => ", backward wave",
+    };
+    format!("nodal diameter {nodal_diameter}, family {family}{direction}")
 }
 
 /// A diamond.

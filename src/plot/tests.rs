@@ -6,7 +6,7 @@ use roxmltree::{Document, Node};
 use serde_json::{Value, json};
 
 use super::{VerticalAxis, campbell, interaction_map};
-use crate::analysis::result::{Campbell, CriticalSpeeds, InteractionMap};
+use crate::analysis::result::{Campbell, CriticalSpeeds, InteractionMap, WaveTables};
 
 fn rad_s(rpm: f64) -> f64 {
     rpm * TAU / 60.0
@@ -96,6 +96,36 @@ fn modes() -> Campbell {
         "wall_time_s": 0.0, "version": "0",
     }))
     .unwrap()
+}
+
+/// `modes` with its frequencies split by ∓3 Hz.
+fn waves() -> Campbell {
+    let modes = modes();
+    let by = |split: f64| {
+        let row = |line: &Vec<f64>| line.iter().map(|hz| hz + split).collect();
+        modes.frequencies_hz.iter().map(|rows| rows.iter().map(row).collect()).collect()
+    };
+    let waves = WaveTables { forward_hz: by(-3.0), backward_hz: by(3.0) };
+    Campbell { waves: Some(waves), ..modes }
+}
+
+/// Both waves of every mode are drawn in the place of one curve, and told apart in the legend.
+#[test]
+fn split_waves_are_drawn_apart() {
+    let count = |drawing: &str, words: &str| drawing.matches(words).count();
+    for (together, apart) in [
+        (campbell(&modes()), campbell(&waves())),
+        (
+            interaction_map(&map(), Some(&critical()), Some(&modes()), VerticalAxis::EngineOrder),
+            interaction_map(&map(), Some(&critical()), Some(&waves()), VerticalAxis::EngineOrder),
+        ),
+    ] {
+        assert_eq!(count(&together, "wave</title>"), 0);
+        for wave in ["forward", "backward"] {
+            assert_eq!(count(&apart, &format!("family 1, {wave} wave</title>")), 3);
+        }
+    }
+    assert_eq!(count(&campbell(&waves()), "forward waves"), 1);
 }
 
 fn of_class<'a>(drawing: &'a Document, class: &'a str) -> impl Iterator<Item = Node<'a, 'a>> {

@@ -5,7 +5,10 @@ use std::f64::consts::TAU;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-/// A natural frequency that equals an engine order: where the linear criterion expects an interaction.
+use super::waves::{Branch, Frequencies, Wave, Waves, driven_wave, fold};
+
+/// A natural frequency that equals an engine order: where the linear criterion expects an interaction. With Coriolis forces
+/// that of the backward wave, which alone can stand still in the fixed frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Crossing {
     /// Nodal diameter i.
@@ -33,12 +36,10 @@ pub struct DrivenCrossing {
     pub speed_rad_s: f64,
     /// Frequency in the rotating frame, Hz.
     pub frequency_hz: f64,
-}
-
-/// Nodal diameter that engine order `order` drives on `sectors` sectors: |k − N·round(k/N)| (aliasing).
-pub fn fold(order: u32, sectors: u32) -> u32 {
-    let rest = order % sectors;
-    rest.min(sectors - rest)
+    /// With Coriolis forces: the wave whose frequency it is, the one that engine order k drives. Absent without them and
+    /// where the nodal diameter is single.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wave: Option<Wave>,
 }
 
 /// f_a = |−f + i·n·Ω/2π| of Eq. 11, f in Hz, Ω in rad/s.
@@ -51,19 +52,11 @@ pub fn absolute_frequency(
     (f64::from(nodal_diameter * superharmonic) * speed_rad_s / TAU - frequency_hz).abs()
 }
 
-/// Natural frequencies over speed.
-pub trait Frequencies {
-    /// Frequencies in Hz of nodal diameter `nodal_diameter` at `speed_rad_s`, ascending; none at a speed at which the
-    /// model has no modes (K(Ω) not positive definite).
-    fn at(&self, speed_rad_s: f64, nodal_diameter: u32) -> Option<Vec<f64>>;
-}
-
 /// Speeds in the range of `grid` (ascending, rad/s) at which a frequency of the first `families` equals engine
 /// order `order`: sign changes of kΩ/2π − f between neighbouring grid points, refined on newly
 /// computed frequencies. No crossing is reported where the model fails on the way.
 fn roots<F: Frequencies>(
-    frequencies: &F,
-    table: &[Vec<Vec<f64>>],
+    &Branch { table, frequencies }: &Branch<'_, F>,
     grid: &[f64],
     nodal_diameter: u32,
     family: usize,
@@ -130,23 +123,21 @@ fn refine(
 }
 
 /// The linear criterion: roots of f_a = 0 for every nodal diameter, the first `families` and each superharmonic number,
-/// in ascending speed. `table` is `[grid point][nodal diameter][family]` in Hz.
+/// in ascending speed.
 pub fn crossings<F: Frequencies>(
-    frequencies: &F,
-    table: &[Vec<Vec<f64>>],
+    waves: &Waves<'_, F>,
     grid: &[f64],
     families: usize,
     superharmonics: &[u32],
 ) -> Vec<Crossing> {
-    let harmonics = table.first().map_or(0, Vec::len) as u32;
+    let branch = waves.of(Wave::Backward);
+    let harmonics = branch.table.first().map_or(0, Vec::len) as u32;
     let mut all = Vec::new();
     for nodal_diameter in 1..harmonics {
         for family in 0..families {
             for &superharmonic in superharmonics {
                 let order = nodal_diameter * superharmonic;
-                for (speed_rad_s, frequency_hz) in
-                    roots(frequencies, table, grid, nodal_diameter, family, order)
-                {
+                for (speed_rad_s, frequency_hz) in roots(branch, grid, nodal_diameter, family, order) {
                     all.push(Crossing {
                         nodal_diameter,
                         family: family as u32 + 1,
@@ -163,10 +154,10 @@ pub fn crossings<F: Frequencies>(
 }
 
 /// Crossings that `lobes` equal lobes can drive: f = kΩ/2π with k ≤ `max_engine_order` a multiple of `lobes` and
-/// fold(k) = i, for the first `families`; in ascending speed.
+/// fold(k) = i, for the first `families`; in ascending speed. Split waves are each met by the engine orders that drive
+/// them.
 pub fn driven_crossings<F: Frequencies>(
-    frequencies: &F,
-    table: &[Vec<Vec<f64>>],
+    waves: &Waves<'_, F>,
     grid: &[f64],
     families: usize,
     lobes: u32,
@@ -179,15 +170,17 @@ pub fn driven_crossings<F: Frequencies>(
     }
     for order in (lobes..=max_engine_order).step_by(lobes as usize) {
         let nodal_diameter = fold(order, sectors);
+        let wave = driven_wave(order, sectors);
+        let branch = waves.of(wave.unwrap_or(Wave::Backward));
         for family in 0..families {
-            for (speed_rad_s, frequency_hz) in roots(frequencies, table, grid, nodal_diameter, family, order)
-            {
+            for (speed_rad_s, frequency_hz) in roots(branch, grid, nodal_diameter, family, order) {
                 all.push(DrivenCrossing {
                     nodal_diameter,
                     family: family as u32 + 1,
                     engine_order: order,
                     speed_rad_s,
                     frequency_hz,
+                    wave: wave.filter(|_| waves.are_split()),
                 });
             }
         }
@@ -199,6 +192,7 @@ pub fn driven_crossings<F: Frequencies>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::response::waves::Table;
 
     /// f² = f0² + BΩ² fitted to the paper's Table 2 (BENCHMARKS.md): per nodal diameter (f0, B) of families 1 and 2.
     struct PaperFit;
@@ -228,6 +222,10 @@ mod tests {
         }
     }
 
+    fn alike(table: &Table) -> Waves<'_, PaperFit> {
+        Waves::Alike(Branch { table, frequencies: &PaperFit })
+    }
+
     #[test]
     fn finds_table_2_of_the_paper() {
         let table_2 = [
@@ -255,9 +253,9 @@ mod tests {
             (5.83, 4, 2, 1),
         ];
         let grid: Vec<f64> = (0..=24).map(|i| TAU * 0.25 * f64::from(i)).collect();
-        let table: Vec<Vec<Vec<f64>>> =
+        let table: Table =
             grid.iter().map(|&s| (0..=5).map(|i| PaperFit.at(s, i).unwrap()).collect()).collect();
-        let found = crossings(&PaperFit, &table, &grid, 2, &[1, 2, 3]);
+        let found = crossings(&alike(&table), &grid, 2, &[1, 2, 3]);
         assert_eq!(found.len(), table_2.len(), "{found:#?}");
         for (omega, i, j, n) in table_2 {
             let row =
@@ -271,18 +269,11 @@ mod tests {
     }
 
     #[test]
-    fn engine_orders_alias_onto_nodal_diameters() {
-        assert_eq!([0, 2, 5, 6, 8, 10, 14].map(|k| fold(k, 10)), [0, 2, 5, 4, 2, 0, 4]);
-        assert_eq!([3, 4, 7].map(|k| fold(k, 7)), [3, 3, 0]);
-        assert_eq!(fold(5, 1), 0);
-    }
-
-    #[test]
     fn driven_crossings_are_multiples_of_the_lobe_count_on_their_alias() {
         let grid: Vec<f64> = (2..=24).map(|i| TAU * 0.25 * f64::from(i)).collect();
-        let table: Vec<Vec<Vec<f64>>> =
+        let table: Table =
             grid.iter().map(|&s| (0..=5).map(|i| PaperFit.at(s, i).unwrap()).collect()).collect();
-        let found = driven_crossings(&PaperFit, &table, &grid, 2, 2, 24, 10);
+        let found = driven_crossings(&alike(&table), &grid, 2, 2, 24, 10);
         assert!(!found.is_empty());
         for c in &found {
             assert_eq!(c.engine_order % 2, 0);

@@ -6,3 +6,4 @@ pub mod settling;
 pub mod side_bands;
 pub mod spectra;
 pub mod symmetry_breaking;
+pub mod waves;

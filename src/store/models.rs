@@ -190,6 +190,7 @@ mod tests {
             own_dofs: 100,
             speeds_rad_s: vec![0.0],
             units: Units { length: unit(), force: unit(), time: unit(), mass: unit() },
+            gyroscopic: false,
         };
         let upload = store.new_upload().unwrap().into_temp_path();
         std::fs::write(&upload, "package").unwrap();

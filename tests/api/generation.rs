@@ -73,6 +73,40 @@ async fn a_generated_model_is_the_one_that_would_be_uploaded() {
 }
 
 #[tokio::test]
+async fn waves_of_a_model_with_gyroscopic_matrix() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let mut models = Vec::new();
+    for gyroscopic in [false, true] {
+        let mut parameters = coarse();
+        parameters["gyroscopic"] = gyroscopic.into();
+        let job = api.finish(&generation_of(api, &parameters).await).await;
+        let model = job["model"].as_str().unwrap().to_owned();
+        assert_eq!(api.get(&format!("/v1/models/{model}")).await.body["gyroscopic"], gyroscopic);
+        models.push(model);
+    }
+    let [without, with] = [&models[0], &models[1]].map(|model| {
+        let mut request = modal_analysis_of(model);
+        request["coriolis"] = true.into();
+        request
+    });
+    assert_eq!(
+        api.post("/v1/modal-analyses", &without).await.pointers(422, "invalid-request"),
+        ["/coriolis"]
+    );
+    let analysis = api.post("/v1/modal-analyses", &with).await.text("/id");
+    assert_eq!(api.finish(&analysis).await["status"], "successful");
+    let campbell = api.get(&format!("/v1/jobs/{analysis}/campbell")).await.body;
+    let at =
+        |table: &str, nodal_diameter: usize| campbell["waves"][table][6][nodal_diameter][0].as_f64().unwrap();
+    for nodal_diameter in 0..=5 {
+        let split = at("backward_hz", nodal_diameter) != at("forward_hz", nodal_diameter);
+        assert_eq!(split, (1..5).contains(&nodal_diameter), "nodal diameter {nodal_diameter} of 10 sectors");
+    }
+    app.stop().await;
+}
+
+#[tokio::test]
 async fn bad_parameters_are_refused_at_once() {
     let app = TestApp::start().await;
     let api = &app.api;

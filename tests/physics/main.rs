@@ -1,5 +1,6 @@
 //! The physics against independent truth: explicitly assembled wheels, a literal dense integrator, invariants.
 
+mod coriolis;
 mod cyclic_structure;
 mod dense_agreement;
 mod fixtures;

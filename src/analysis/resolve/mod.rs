@@ -112,6 +112,7 @@ pub fn resolve_modal_analysis(
         );
     }
     check_lobe_count(&mut found, request.lobes, "/lobes");
+    check_coriolis(&mut found, request.coriolis, "/coriolis", facts);
     found.finish(request)
 }
 
@@ -181,7 +182,17 @@ fn check_scene(found: &mut Findings, scene: &Scene, facts: &ModelFacts) {
     if let Some(casing) = &scene.casing {
         check_casing(found, casing, facts);
     }
+    check_coriolis(found, scene.coriolis, "/scene/coriolis", facts);
     check_built(found, scene);
+}
+
+fn check_coriolis(found: &mut Findings, coriolis: bool, pointer: &str, facts: &ModelFacts) {
+    found.require(
+        !coriolis || facts.gyroscopic,
+        pointer,
+        "the model has no gyroscopic matrix, so there are no Coriolis forces to simulate: set this to false, or upload a \
+         package with the entry `gyroscopic`",
+    );
 }
 
 /// Effects whose physics is not there yet.
