@@ -118,26 +118,41 @@ pub struct Contact {}
 
 /// Coulomb friction of tips that always slide forwards: their speed is far above that of their vibration. The force on a
 /// blade is −λ(n + μt), t being the direction of rotation along the casing.
+///
+/// Refused at a speed where the wheel would jam, that is where friction presses tips that lean forwards into the casing more
+/// than the contact force lifts them off: the message names the contact node and the largest coefficient that passes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Friction {
-    /// Coefficient μ, 0 to 1; metal on metal 0.1 to 0.3. Refused before the run where the wheel would jam.
+    /// Coefficient μ, 0 to 1. Metal sliding on metal at tip speed is reported between 0.1 and 0.3; 0 is no friction.
+    #[schema(minimum = 0, maximum = 1)]
     pub coefficient: f64,
 }
 
-/// Coating of elasto-plastic rods that stand on the casing and are worn by the blades; stresses in the model's units.
+/// Coating of elasto-plastic rods that stand on the casing and are worn by the blades (Legrand, Batailly, Pierre, J. Comput.
+/// Nonlinear Dyn. 7, 2012); stresses in the model's units. The clearance is that to the unworn coating.
+///
+/// A rod of area A resists with Aσ, σ = E(ε − ε_p) up to the yield stress σ_Y + Kε_p; plastic strain ε_p stays and is worn off: the
+/// worn depth is ε_p times the thickness. All blades press the same coating, new at the start of every speed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Abradable {
-    /// Young's modulus E of the coating, force/length².
+    /// Young's modulus E of the coating, force/length². Thermally sprayed aluminium-polyester: some GPa.
     pub modulus: f64,
-    /// Yield stress, force/length².
+    /// Yield stress σ_Y, force/length², from 0 to below the modulus. What a blade must overcome to wear anything at all: some 10
+    /// MPa for coatings made to be rubbed.
     pub yield_stress: f64,
-    /// Plastic modulus K of linear hardening, force/length².
+    /// Plastic modulus K of linear hardening, force/length²: how much more a rod resists the deeper it is worn. At least a
+    /// millionth of the modulus; usually fitted to a rub test, well below the modulus.
     pub hardening: f64,
-    /// Thickness, length. Behind it is metal.
+    /// Thickness, length. Behind it is metal, which a blade meets once it has worn through.
     pub thickness: f64,
-    /// Rods around the circumference, one row for every contact node along the chord. A time step never jumps a rod.
+    /// Rods around the circumference, one row for every contact node along the chord; at least four for every sector, so that
+    /// blades share none, and no more than there are steps per revolution, so that no step jumps one.
+    ///
+    /// A tip presses one rod at a time: the width 2πr/`rods_around` is that of the contact across the tip, and forces are
+    /// proportional to it. 2000 of them are 0.3 mm wide at a radius of 100 mm; choose the number that makes a rod as wide as your
+    /// tips are thick.
     #[serde(default = "default_rods_around")]
     pub rods_around: u32,
 }

@@ -1,5 +1,6 @@
 //! Checks of the effects that a scene names, and of which go together.
 
+use super::contact_effects::{check_abradable, check_friction};
 use super::{Findings, limits};
 use crate::analysis::model::ModelFacts;
 use crate::analysis::request::{SchemeChoice, SweepRequest};
@@ -12,6 +13,12 @@ use crate::dynamics::mistuning::LARGEST_DEVIATION;
 pub(super) fn check_effects(found: &mut Findings, request: &SweepRequest, facts: &ModelFacts) {
     let scene = &request.scene;
     check_contact_is_there(found, scene);
+    if let Some(friction) = &scene.friction {
+        check_friction(found, friction);
+    }
+    if let Some(abradable) = &scene.abradable {
+        check_abradable(found, abradable, &request.integration, facts);
+    }
     if let Some(casing) = &scene.flexible_casing {
         check_flexible_casing(found, casing, request);
     }

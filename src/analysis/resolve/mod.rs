@@ -1,5 +1,6 @@
 //! Checks a request against its model and fills in defaults: all violations at once, each at its JSON pointer.
 
+mod contact_effects;
 mod effects;
 
 use crate::analysis::auto_or::AutoOr;
@@ -30,7 +31,9 @@ mod limits {
     pub(super) const DELASSUS: usize = 1 << 26;
     /// Shortest ramp of lobes that stand inside the blade.
     pub(super) const RAMP_REVOLUTIONS: f64 = 0.05;
-    /// Lengths other than 0, in any unit: far from where squares overflow or motion counts as decayed to nothing.
+    /// Rods of a coating, all rows together: the wear map of a result has a number for each.
+    pub(super) const RODS: u32 = 1 << 20;
+    /// Lengths and stresses other than 0, in any unit: far from where squares overflow or motion counts as decayed to nothing.
     pub(super) const LENGTH: std::ops::RangeInclusive<f64> = 1e-30..=1e30;
     pub(super) const LOBE_WIDTH_RAD: std::ops::RangeInclusive<f64> = 1e-4..=100.0;
     pub(super) const PHASE_RAD: f64 = 1000.0;
