@@ -3,15 +3,19 @@
 use faer::c64;
 
 use super::request::{Component, SweepRequest};
-use super::scene::{Abradable, CasingMode, FlexibleCasing as FlexibleCasingRequest, Mistuning};
+use super::resolve::repeats;
+use super::scene::{
+    Abradable, CasingMode, FlexibleCasing as FlexibleCasingRequest, Mistuning, Probe, Scene, Symmetry,
+};
+use crate::dynamics::casing::Casing;
 use crate::dynamics::contact::coating::{Coating, CoatingMaterial};
 use crate::dynamics::contact::friction::sliding_directions;
 use crate::dynamics::effects::{Effects, Friction};
 use crate::dynamics::excitation::EngineOrderExcitation;
 use crate::dynamics::flexible_casing::{CasingWave, FlexibleCasing, Ring};
 use crate::dynamics::initial::{InitialMode, InitialWave};
-use crate::dynamics::mistuning::normal_deviations;
-use crate::dynamics::modal_wheel::ModalWheel;
+use crate::dynamics::mistuning::{normal_deviations, normal_numbers};
+use crate::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use crate::dynamics::orbit::Orbit;
 use crate::dynamics::oscillators::Direction;
 use crate::dynamics::sector::ContactNode;
@@ -29,12 +33,13 @@ pub(super) struct SceneEffects {
 }
 
 impl SceneEffects {
-    /// The effects that `request` names, on a wheel of `sectors`.
+    /// The effects that `request` names, on `wheel` or the part of it that is simulated.
     pub(super) fn of(
         request: &SweepRequest,
         contact_nodes: &[ContactNode],
-        sectors: usize,
+        wheel: &ModalWheel,
     ) -> Result<Self, String> {
+        let sectors = wheel.sectors * wheel.repeats;
         let scene = &request.scene;
         let friction = match &scene.friction {
             Some(friction) => {
@@ -64,7 +69,8 @@ impl SceneEffects {
         Ok(Self {
             friction,
             coating,
-            flexible_casing: scene.flexible_casing.as_ref().map(flexible_casing),
+            flexible_casing: (scene.flexible_casing.as_ref())
+                .map(|casing| flexible_casing(casing).under_parts(wheel.repeats)),
             orbit: scene.orbit.as_ref().map(|orbit| Orbit {
                 radius: orbit.radius,
                 whirl_ratio: orbit.whirl_ratio,
@@ -87,6 +93,11 @@ impl SceneEffects {
             excitation: &self.excitation,
         }
     }
+}
+
+/// What rotation does to the modes of the wheel.
+pub(super) fn rotation(scene: &Scene) -> RotationEffects {
+    RotationEffects { stiffening: scene.centrifugal_stiffening, coriolis: scene.coriolis }
 }
 
 /// The direction of a component at a contact node.
@@ -129,8 +140,15 @@ pub(super) fn deviations(mistuning: &Mistuning, sectors: usize) -> Vec<f64> {
     }
 }
 
-/// The mode that a scene starts with, if any.
-pub(super) fn initial(request: &SweepRequest, wheel: &ModalWheel) -> Result<Vec<InitialMode>, String> {
+/// The modes that a scene starts with.
+pub(super) fn initial(
+    request: &SweepRequest,
+    wheel: &ModalWheel,
+    casing: Option<&Casing>,
+) -> Result<Vec<InitialMode>, String> {
+    if request.scene.symmetry == Symmetry::Probe {
+        return Ok(asymmetry(request, wheel, casing));
+    }
     let Some(initial) = &request.scene.initial else { return Ok(Vec::new()) };
     let (harmonic, family) = (initial.nodal_diameter as usize / wheel.repeats, initial.family as usize - 1);
     let modes = &wheel.harmonics[harmonic];
@@ -148,4 +166,31 @@ pub(super) fn initial(request: &SweepRequest, wheel: &ModalWheel) -> Result<Vec<
         super::scene::InitialWave::Backward => InitialWave::Backward,
     };
     Ok(vec![InitialMode::of_amplitude(wheel, harmonic, family, initial.amplitude, c64::ONE, wave)])
+}
+
+/// The lowest mode of every nodal diameter that the symmetry of the scene keeps at rest, at a phase of its own.
+fn asymmetry(request: &SweepRequest, wheel: &ModalWheel, casing: Option<&Casing>) -> Vec<InitialMode> {
+    let Probe { amplitude, seed } = request.scene.probe.clone().unwrap_or_default();
+    let repeats = repeats(&request.scene, wheel.sectors as u32) as usize;
+    let reach = wheel_reach(casing);
+    let phases = normal_numbers(seed).take(wheel.harmonics.len());
+    let modes = (wheel.harmonics.iter().enumerate()).zip(phases).filter_map(|((index, harmonic), phase)| {
+        let broken = !harmonic.harmonic.is_multiple_of(repeats);
+        let phase = c64::new(phase.cos(), phase.sin());
+        let mode =
+            || InitialMode::of_amplitude(wheel, index, 0, amplitude * reach, phase, InitialWave::Standing);
+        broken.then(mode)
+    });
+    modes.collect()
+}
+
+/// The length that an asymmetry is small against: the smallest clearance, or the restriction where that is zero; 1 without
+/// a casing, where all motion is linear.
+fn wheel_reach(casing: Option<&Casing>) -> f64 {
+    let Some(casing) = casing else { return 1.0 };
+    let smallest = casing.clearance.iter().copied().fold(f64::INFINITY, f64::min);
+    match casing.restriction {
+        Some(restriction) if smallest == 0.0 => restriction.highest(),
+        _ => smallest,
+    }
 }

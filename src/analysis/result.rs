@@ -11,6 +11,7 @@ use crate::dynamics::sector::Units;
 pub use crate::response::campbell::{Crossing, DrivenCrossing};
 pub use crate::response::settling::{Settling, Verdict};
 pub use crate::response::side_bands::SideBands;
+pub use crate::response::symmetry_breaking::SymmetryBreaking;
 pub use crate::response::waves::{Table, Wave};
 
 /// How one speed of a sweep ended.
@@ -87,14 +88,14 @@ pub struct EnergyReport {
 }
 
 impl EnergyReport {
-    /// None if a number is not finite.
-    pub(super) fn of(audit: &EnergyAudit, scene: &Scene) -> Option<Self> {
+    /// Of a run on one of the `parts` of a wheel; none if a number is not finite.
+    pub(super) fn of(audit: &EnergyAudit, scene: &Scene, parts: f64) -> Option<Self> {
         let effects = audit.effects();
-        let named = |effect: bool, value: f64| effect.then_some(value);
+        let named = |effect: bool, value: f64| effect.then_some(parts * value);
         let all = [audit.work(), audit.loss(), effects.excitation, effects.casing, effects.friction_heat];
         all.iter().all(|value| value.is_finite()).then(|| Self {
-            contact_work: audit.work(),
-            damping_loss: audit.loss(),
+            contact_work: parts * audit.work(),
+            damping_loss: parts * audit.loss(),
             excitation_work: named(!scene.engine_order_excitation.is_empty(), effects.excitation),
             mistuning_work: named(scene.mistuning.is_some(), effects.mistuning),
             casing_work: named(scene.flexible_casing.is_some(), effects.casing),
@@ -169,6 +170,9 @@ pub struct Point {
     /// Wear of an abradable coating at the end of the run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub wear: Option<WearReport>,
+    /// What became of a tiny asymmetry; with `symmetry: probe`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub symmetry_breaking: Option<SymmetryBreaking>,
     /// Steady response per sensor; empty unless `completed`.
     pub responses: Vec<SensorResponse>,
     /// Wall time of this speed, s.

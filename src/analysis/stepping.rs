@@ -4,12 +4,13 @@ use std::f64::consts::TAU;
 
 use super::auto_or::AutoOr;
 use super::discretisation::Discretisation;
-use super::effects::flexible_casing;
+use super::effects::{flexible_casing, rotation};
 use super::error::{AnalysisError, Violation};
 use super::model::ReducedSector;
 use super::monitor::Monitor;
 use super::request::{Integration, SchemeChoice, SweepRequest};
 use super::result::SchemeReport;
+use super::sliding;
 use crate::dynamics::error::ModelError;
 use crate::dynamics::modal_wheel::{ModalWheel, RotationEffects, natural_frequencies};
 use crate::dynamics::schemes::{Scheme, central_differences, exact_modal, massless_boundary};
@@ -340,11 +341,12 @@ pub fn check(
     request: &SweepRequest,
     monitor: &dyn Monitor,
 ) -> Result<(), AnalysisError> {
+    let speeds = request.speeds.resolve().map_err(AnalysisError::Refused)?;
+    check_sliding(reduced, request, &speeds)?;
     let Integration { steps_per_revolution, kept_modes, .. } = request.integration;
     if (steps_per_revolution, kept_modes) == (AutoOr::Auto, AutoOr::Auto) {
         return Ok(());
     }
-    let speeds = request.speeds.resolve().map_err(AnalysisError::Refused)?;
     let mut worst = (0, 0.0);
     for (index, &speed) in speeds.iter().enumerate() {
         monitor.progress(index as f64 / speeds.len() as f64, "stability limit of the time step");
@@ -357,6 +359,31 @@ pub fn check(
         }
     }
     refuse(request, worst.0, worst.1)
+}
+
+/// Whether the wheel slides at the slowest and at the fastest speed; those between are left to their own runs.
+fn check_sliding(
+    reduced: &ReducedSector,
+    request: &SweepRequest,
+    speeds: &[f64],
+) -> Result<(), AnalysisError> {
+    if request.scene.friction.is_none() {
+        return Ok(());
+    }
+    let slowest = speeds.iter().copied().fold(f64::INFINITY, f64::min);
+    let fastest = speeds.iter().copied().fold(0.0, f64::max);
+    for speed in [slowest, fastest] {
+        let contact = &reduced.wheel.contact;
+        let Ok(wheel) = ModalWheel::at(&reduced.wheel, speed, rotation(&request.scene)) else { continue };
+        let Ok(stepping) = Stepping::choose(&wheel, contact, request) else { continue };
+        let steps = stepping.discretisation.per_revolution;
+        if let Err(error) = sliding::check(&wheel, contact, request, stepping.scheme, steps) {
+            let message = format!("at {speed:.6} rad/s {error}");
+            let violation = Violation::new("/scene/friction/coefficient", message);
+            return Err(AnalysisError::Refused(vec![violation]));
+        }
+    }
+    Ok(())
 }
 
 /// The stability limit of what a request fixes, at one speed; 1 where nothing it fixes has one.

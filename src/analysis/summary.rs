@@ -1,6 +1,7 @@
 //! What the speeds of a sweep say together: the interaction map and the critical speeds.
 
 use super::diagram::FrequencyDiagram;
+use super::effects::rotation;
 use super::error::AnalysisError;
 use super::model::ReducedSector;
 use super::monitor::Monitor;
@@ -9,7 +10,6 @@ use super::result::{
     CriticalSpeed, CriticalSpeeds, Crossing, DrivenCrossing, InteractionMap, Point, PointStatus, SpeedSpectra,
 };
 use super::run::VERSION;
-use crate::dynamics::modal_wheel::RotationEffects;
 use crate::dynamics::sector::Units;
 use crate::response::critical_speed::peaks;
 use crate::response::spectra::engine_orders;
@@ -125,7 +125,7 @@ fn predict(
     monitor: &dyn Monitor,
 ) -> Result<(Vec<Crossing>, Vec<DrivenCrossing>), AnalysisError> {
     let scene = &request.scene;
-    let effects = RotationEffects { stiffening: scene.centrifugal_stiffening, coriolis: scene.coriolis };
+    let effects = rotation(scene);
     let mut diagram = FrequencyDiagram::new(&reduced.wheel, effects, PREDICTED_FAMILIES);
     // Repeated speeds would bracket nothing.
     let mut speeds: Vec<f64> = ascending.collect();

@@ -136,10 +136,16 @@ impl ModalMistuning {
 }
 
 /// δ of `sectors` sectors, normally distributed with standard deviation `spread` about 0 and cut at
-/// [`LARGEST_DEVIATION`]. The same numbers for the same seed on every machine (SplitMix64 and Box–Muller).
+/// [`LARGEST_DEVIATION`].
 pub fn normal_deviations(spread: f64, seed: u64, sectors: usize) -> Vec<f64> {
+    let cut = |x: f64| (spread * x).clamp(-LARGEST_DEVIATION, LARGEST_DEVIATION);
+    normal_numbers(seed).take(sectors).map(cut).collect()
+}
+
+/// Normally distributed numbers of variance 1, the same for the same seed in every version (SplitMix64, Box–Muller).
+pub fn normal_numbers(seed: u64) -> impl Iterator<Item = f64> {
     let mut state = seed;
-    let mut uniform = || {
+    let mut uniform = move || {
         state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut x = state;
         x = (x ^ (x >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
@@ -148,9 +154,5 @@ pub fn normal_deviations(spread: f64, seed: u64, sectors: usize) -> Vec<f64> {
         // In (0, 1].
         ((x >> 11) + 1) as f64 / (1u64 << 53) as f64
     };
-    let mut normal = || {
-        let radius = (-2.0 * uniform().ln()).sqrt();
-        radius * (std::f64::consts::TAU * uniform()).cos()
-    };
-    (0..sectors).map(|_| (spread * normal()).clamp(-LARGEST_DEVIATION, LARGEST_DEVIATION)).collect()
+    std::iter::repeat_with(move || (-2.0 * uniform().ln()).sqrt() * (std::f64::consts::TAU * uniform()).cos())
 }

@@ -99,7 +99,15 @@ mod tests {
         let unit = |name: &str| name.to_owned();
         let units = Units { length: unit("mm"), force: unit("N"), time: unit("s"), mass: unit("t") };
         let name = unit("wheel");
-        ModelFacts { name, sectors: 10, contact_nodes, own_dofs: 900, speeds_rad_s: vec![0.0], units }
+        ModelFacts {
+            name,
+            sectors: 10,
+            contact_nodes,
+            own_dofs: 900,
+            speeds_rad_s: vec![0.0],
+            units,
+            gyroscopic: false,
+        }
     }
 
     fn friction(coefficient: f64) -> Vec<Violation> {

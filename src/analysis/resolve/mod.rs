@@ -3,6 +3,7 @@
 mod contact_effects;
 mod effects;
 
+pub(super) use self::effects::repeats;
 use crate::analysis::auto_or::AutoOr;
 use crate::analysis::discretisation::most_samples;
 use crate::analysis::error::Violation;
@@ -10,7 +11,7 @@ use crate::analysis::model::ModelFacts;
 use crate::analysis::request::{
     Component, Integration, ModalAnalysisRequest, SchemeChoice, Sensor, SweepRequest,
 };
-use crate::analysis::scene::{Casing, Clearance, Damping, Lobes, Scene, Symmetry};
+use crate::analysis::scene::{Casing, Clearance, Damping, Lobes, Scene};
 use crate::analysis::speeds::{Part, Speeds};
 use crate::analysis::stepping::MOST_STEPS;
 use crate::dynamics::casing::Restriction;
@@ -186,7 +187,6 @@ fn check_scene(found: &mut Findings, scene: &Scene, facts: &ModelFacts) {
         check_casing(found, casing, facts);
     }
     check_coriolis(found, scene.coriolis, "/scene/coriolis", facts);
-    check_built(found, scene);
 }
 
 fn check_coriolis(found: &mut Findings, coriolis: bool, pointer: &str, facts: &ModelFacts) {
@@ -196,18 +196,6 @@ fn check_coriolis(found: &mut Findings, coriolis: bool, pointer: &str, facts: &M
         "the model has no gyroscopic matrix, so there are no Coriolis forces to simulate: set this to false, or upload a \
          package with the entry `gyroscopic`",
     );
-}
-
-/// Effects whose physics is not there yet.
-fn check_built(found: &mut Findings, scene: &Scene) {
-    let named = [
-        ("coriolis", scene.coriolis),
-        ("abradable", scene.abradable.is_some()),
-        ("symmetry", scene.symmetry != Symmetry::Full),
-    ];
-    for (effect, named) in named {
-        found.require(!named, &format!("/scene/{effect}"), "not available yet");
-    }
 }
 
 fn check_casing(found: &mut Findings, casing: &Casing, facts: &ModelFacts) {

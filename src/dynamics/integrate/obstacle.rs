@@ -68,7 +68,8 @@ impl Obstacle {
         let angles: Vec<_> = nodes.iter().map(|node| node.position[1]).collect();
         let restriction = casing.restriction.map(|restriction| {
             let profile = |angle| restriction.height(angle);
-            RestrictionTable::new(profile, &angles, simulation.steps_per_revolution, sectors, stride)
+            let around = sectors * wheel.repeats;
+            RestrictionTable::new(profile, &angles, simulation.steps_per_revolution, around, stride)
         });
         let mut clearance = casing.clearance.clone();
         clearance.resize(stride, f64::INFINITY);

@@ -1,0 +1,38 @@
+//! Whether a wheel can slide along its casing with the friction asked for.
+
+use std::f64::consts::TAU;
+
+use super::request::SweepRequest;
+use super::speed::modal_damping;
+use crate::dynamics::contact::flexibility::{flexibility, outward_normals};
+use crate::dynamics::contact::friction::{FrictionError, SlidingFlexibility, tangents};
+use crate::dynamics::modal_wheel::ModalWheel;
+use crate::dynamics::schemes::Scheme;
+use crate::dynamics::schemes::massless_boundary::residual_flexibility;
+use crate::dynamics::sector::ContactNode;
+
+/// Checks the contact operator of a scheme and its step (METHOD §7) before it runs; a scene without friction passes.
+pub(super) fn check(
+    wheel: &ModalWheel,
+    contact_nodes: &[ContactNode],
+    request: &SweepRequest,
+    scheme: Scheme,
+    steps_per_revolution: usize,
+) -> Result<(), FrictionError> {
+    let Some(friction) = &request.scene.friction else { return Ok(()) };
+    let step = TAU / (wheel.speed_rad_s * steps_per_revolution as f64);
+    let damping = modal_damping(request);
+    let (normals, tangents) = (outward_normals(contact_nodes), tangents(contact_nodes)?);
+    let blocks = |from| match scheme {
+        Scheme::MasslessBoundary { kept_modes } => residual_flexibility(wheel, kept_modes, &normals, from),
+        Scheme::CentralDifferences | Scheme::ExactModal => {
+            flexibility(wheel, &normals, from, |harmonic, mode| {
+                let omega = wheel.harmonics[harmonic].omega[mode];
+                let zeta = damping.as_ref().map_or(0.0, |damping| damping.ratio(mode));
+                scheme.mode_step(omega, zeta, step, true).receptance
+            })
+        }
+    };
+    let flexibility = SlidingFlexibility { normal: blocks(&normals), tangential: blocks(&tangents) };
+    flexibility.check(wheel.sectors, friction.coefficient)
+}
