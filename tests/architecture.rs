@@ -67,7 +67,13 @@ fn only_the_store_has_sql_and_only_http_has_status_codes() {
 
 #[test]
 fn http_computes_nothing() {
-    let verbs =
-        ["run::prepare", "run::check", "run::run_speed", "run::modal_analysis", "run::critical_speeds"];
+    let verbs = [
+        "run::prepare",
+        "run::check",
+        "run::run_speed",
+        "run::modal_analysis",
+        "run::critical_speeds",
+        "run::plan",
+    ];
     assert_eq!(offenders("http", &verbs), [""; 0].map(PathBuf::from));
 }

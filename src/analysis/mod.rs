@@ -2,17 +2,21 @@
 //!
 //! - [`run::prepare`] reduces a sector (once per model and `modes_per_speed`);
 //! - [`run::check`], [`run::run_speed`] and [`run::modal_analysis`] compute on the reduced sector;
+//! - [`run::plan_sweep`] and [`run::plan_modal_analysis`] say beforehand what that will do and cost;
 //! - [`run::interaction_map`] and [`run::critical_speeds`] assemble the finished speeds of a sweep.
 
 pub mod auto_or;
+mod calibration;
 mod diagram;
 mod discretisation;
+mod effect_list;
 mod effects;
 pub mod error;
 mod modal;
 mod model;
 pub mod monitor;
 mod record;
+mod plan;
 pub mod request;
 mod resolve;
 pub mod result;
@@ -23,3 +27,4 @@ mod speed;
 pub mod speeds;
 mod stepping;
 mod summary;
+mod symmetry;

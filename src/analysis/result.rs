@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
+use super::plan::{Estimate, Spent};
 use super::request::{SchemeChoice, Sensor};
 use super::scene::Scene;
 use crate::dynamics::energy::EnergyAudit;
@@ -229,6 +230,11 @@ pub struct InteractionMap {
     pub units: Units,
     /// Credentials, one per finished speed, in the order of the speeds.
     pub points: Vec<Point>,
+    /// What the sweep was expected to cost; absent before its speeds are queued.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub plan: Option<Estimate>,
+    /// What its finished speeds have cost.
+    pub spent: Spent,
     /// The whole request as resolved.
     pub settings: super::request::SweepRequest,
     /// Version of the code.
@@ -336,6 +342,11 @@ pub struct CriticalSpeeds {
     pub driven_crossings: Vec<DrivenCrossing>,
     /// Speeds that gave no amplitude, by index.
     pub missing: Vec<u32>,
+    /// What the sweep was expected to cost.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub plan: Option<Estimate>,
+    /// What it has cost.
+    pub spent: Spent,
     /// What the reduction found about the model.
     pub reduction: ReductionReport,
     /// The whole request as resolved.

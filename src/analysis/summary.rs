@@ -5,6 +5,7 @@ use super::effects::rotation;
 use super::error::AnalysisError;
 use super::model::ReducedSector;
 use super::monitor::Monitor;
+use super::plan::Spent;
 use super::request::{Sensor, SweepRequest};
 use super::result::{
     CriticalSpeed, CriticalSpeeds, Crossing, DrivenCrossing, InteractionMap, Point, PointStatus, SpeedSpectra,
@@ -23,7 +24,8 @@ pub fn map_row(spectra: &SpeedSpectra, sensor: usize, nodal_diameter: Option<u32
     }
 }
 
-/// The interaction map of `sensor` from the speeds finished so far, in any order, each with its [`map_row`].
+/// The interaction map of `sensor` from the speeds finished so far, in any order, each with its [`map_row`]; the plan is for
+/// the caller to add.
 pub fn interaction_map(
     request: &SweepRequest,
     units: &Units,
@@ -46,6 +48,8 @@ pub fn interaction_map(
         sensor: request.sensors[sensor],
         nodal_diameter,
         units: units.clone(),
+        plan: None,
+        spent: Spent::on(&points),
         points,
         settings: request.clone(),
         version: VERSION.to_owned(),
@@ -59,7 +63,8 @@ const PREDICTED_SUPERHARMONICS: [u32; 3] = [1, 2, 3];
 /// Peaks of the response that rise above their surroundings by less than this share of the largest are left out.
 const PROMINENT: f64 = 0.1;
 
-/// Critical speeds of a sweep, one table per sensor, beside the linear prediction; from the points of all speeds.
+/// Critical speeds of a sweep, one table per sensor, beside the linear prediction; from the points of all speeds. The
+/// plan is for the caller to add.
 pub fn critical_speeds(
     reduced: &ReducedSector,
     request: &SweepRequest,
@@ -83,6 +88,8 @@ pub fn critical_speeds(
         linear_crossings: prediction.0.clone(),
         driven_crossings: prediction.1.clone(),
         missing: missing.clone(),
+        plan: None,
+        spent: Spent::on(points),
         units: reduced.units.clone(),
         settings: request.clone(),
         reduction: reduced.report.clone(),

@@ -1,5 +1,6 @@
 //! Modal analyses.
 
+use axum::Json;
 use axum::extract::State;
 use axum::response::Response;
 
@@ -9,6 +10,7 @@ use super::idempotency::IdempotencyKey;
 use super::problem::Problem;
 use super::submit::{self, Receipt};
 use crate::analysis::request::ModalAnalysisRequest;
+use crate::analysis::run::ModalAnalysisPlan;
 use crate::store::jobs::JobRequest;
 
 /// Compute natural frequencies over speed and the linear interaction criterion.
@@ -42,4 +44,27 @@ pub(super) async fn create_modal_analysis(
     body: JsonBody<ModalAnalysisRequest>,
 ) -> Result<Response, Problem> {
     submit::accept(&state, key, &body.fingerprint, JobRequest::ModalAnalysis(body.value)).await
+}
+
+/// Say what a modal analysis would do and cost, without starting anything.
+///
+/// Takes the body of `POST /v1/modal-analyses` and answers at once.
+#[utoipa::path(post, path = "/v1/modal-analyses/plan", operation_id = "plan_modal_analysis", tag = "jobs",
+    request_body(content = ModalAnalysisRequest),
+    responses(
+        (status = 200, description = "The plan.", body = ModalAnalysisPlan),
+        (status = 400, description = "The body is not JSON; `errors` has line and column.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 413, description = "The body is too large.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 415, description = "The body is not declared as application/json.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 422, description = "A field is unknown, missing or impossible, or the model is unknown: `errors` points \
+            at each.", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(super) async fn plan_modal_analysis(
+    state: State<AppState>,
+    body: JsonBody<ModalAnalysisRequest>,
+) -> Result<Json<ModalAnalysisPlan>, Problem> {
+    Ok(Json(state.jobs.plan_modal_analysis(body.value).await?))
 }

@@ -236,6 +236,7 @@ impl From<SubmitError> for Problem {
             SubmitError::Refused(violations) => Self::violations(Kind::InvalidRequest, violations),
             SubmitError::KeyTaken => Self::new(Kind::KeyReused, error.to_string()),
             SubmitError::Store(error) => error.into(),
+            SubmitError::Defect(error) => error.into(),
         }
     }
 }

@@ -83,7 +83,8 @@ pub(super) async fn get_interaction_map(
     let sensor = sensor as usize;
     let row = |spectra: &SpeedSpectra| run::map_row(spectra, sensor, nodal_diameter).map(<[f64]>::to_vec);
     let finished = state.store.map_rows(id, row).await?;
-    Ok(Json(run::interaction_map(request, &facts.units, finished, sensor, nodal_diameter)))
+    let map = run::interaction_map(request, &facts.units, finished, sensor, nodal_diameter);
+    Ok(Json(InteractionMap { plan: job.plan.clone(), ..map }))
 }
 
 /// Download the spectra of one speed.

@@ -1,5 +1,6 @@
 //! Sweeps of contact simulations.
 
+use axum::Json;
 use axum::extract::State;
 use axum::response::Response;
 
@@ -9,6 +10,7 @@ use super::idempotency::IdempotencyKey;
 use super::problem::Problem;
 use super::submit::{self, Receipt};
 use crate::analysis::request::SweepRequest;
+use crate::analysis::run::SweepPlan;
 use crate::store::jobs::JobRequest;
 
 /// Simulate contact over rotational speeds.
@@ -60,4 +62,29 @@ pub(super) async fn create_sweep(
     body: JsonBody<SweepRequest>,
 ) -> Result<Response, Problem> {
     submit::accept(&state, key, &body.fingerprint, JobRequest::Sweep(Box::new(body.value))).await
+}
+
+/// Say what a sweep would do and cost, without starting anything.
+///
+/// Takes the body of `POST /v1/sweeps` and answers at once: effects on and off, symmetry, contact pairs, and, if the reduction is
+/// stored, unknowns, scheme and step with the reason that set them, and the expected computing time and memory, from a
+/// short calibration of this machine. The results of a sweep repeat the estimate beside what was spent.
+#[utoipa::path(post, path = "/v1/sweeps/plan", operation_id = "plan_sweep", tag = "jobs",
+    request_body(content = SweepRequest),
+    responses(
+        (status = 200, description = "The plan.", body = SweepPlan),
+        (status = 400, description = "The body is not JSON; `errors` has line and column.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 413, description = "The body is too large.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 415, description = "The body is not declared as application/json.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 422, description = "A field is unknown, missing or impossible, or the model is unknown: `errors` points \
+            at each.", body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(super) async fn plan_sweep(
+    state: State<AppState>,
+    body: JsonBody<SweepRequest>,
+) -> Result<Json<SweepPlan>, Problem> {
+    Ok(Json(state.jobs.plan_sweep(body.value).await?))
 }

@@ -8,6 +8,7 @@ use tokio::sync::Notify;
 
 use super::error::Halt;
 use super::memory::Memory;
+use super::plans::Calibrated;
 use super::pool::CpuPool;
 use super::progress::{News, Watch};
 use super::reductions::Reductions;
@@ -25,6 +26,7 @@ pub(super) struct Engine {
     /// Reads uploads, so that they do not wait behind speeds.
     pub(super) importer: CpuPool,
     pub(super) reductions: Reductions,
+    pub(super) calibrated: Calibrated,
     /// What reductions and generations may take together.
     pub(super) memory: Arc<Memory>,
     /// Rung when there is something new to prepare.
@@ -57,6 +59,7 @@ impl Engine {
         let memory = Arc::new(memory);
         Arc::new(Self {
             reductions: Reductions::new(store.clone(), pool.clone(), Arc::clone(&memory)),
+            calibrated: Calibrated::new(store.clone()),
             memory,
             store,
             queue,

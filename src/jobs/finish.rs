@@ -15,8 +15,10 @@ pub(super) async fn sweep(engine: &Engine, job: &Live, request: &SweepRequest) -
     let points = engine.store.points(job.id).await?;
     let settings = request.clone();
     let monitor = PhaseMonitor::uncounted(job.watch.clone());
-    let tables =
+    let mut tables =
         engine.pool.run(move || run::critical_speeds(&reduced, &settings, &points, &monitor)).await??;
+    let plan = engine.store.job(job.id).await?.and_then(|job| job.plan);
+    tables.iter_mut().for_each(|table| table.plan.clone_from(&plan));
     let documents = (0..)
         .zip(&tables)
         .map(|(sensor, table)| Ok((Document::CriticalSpeeds(sensor), serde_json::to_string(table)?)))

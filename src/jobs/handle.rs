@@ -4,9 +4,11 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::engine::Engine;
+use super::plans;
 use super::pool::Panicked;
 use crate::analysis::error::Violation;
-use crate::analysis::run;
+use crate::analysis::request::{ModalAnalysisRequest, SweepRequest};
+use crate::analysis::run::{self, ModalAnalysisPlan, SweepPlan};
 use crate::impeller::{ImpellerError, ImpellerRequest};
 use crate::package;
 use crate::store::StoreError;
@@ -35,6 +37,9 @@ pub enum SubmitError {
     /// It could not be kept.
     #[error(transparent)]
     Store(#[from] StoreError),
+    /// Planning it panicked.
+    #[error(transparent)]
+    Defect(#[from] Panicked),
 }
 
 /// What became of a job that was to be cancelled.
@@ -92,6 +97,25 @@ impl Jobs {
         engine.queue.push_preparation(id).await?;
         engine.new_preparation.notify_one();
         Ok(())
+    }
+
+    /// Checks a sweep against its model and says what it would do and cost. Starts nothing, not even its reduction.
+    pub async fn plan_sweep(&self, request: SweepRequest) -> Result<SweepPlan, SubmitError> {
+        let facts = self.facts(&request.model).await?;
+        let request = run::resolve_sweep(request, &facts).map_err(SubmitError::Refused)?;
+        let reduced = self.engine.reductions.stored(&request.model, request.modes_per_speed).await?;
+        plans::sweep(&self.engine, request, facts, reduced).await
+    }
+
+    /// The same for a modal analysis.
+    pub async fn plan_modal_analysis(
+        &self,
+        request: ModalAnalysisRequest,
+    ) -> Result<ModalAnalysisPlan, SubmitError> {
+        let facts = self.facts(&request.model).await?;
+        let request = run::resolve_modal_analysis(request, &facts).map_err(SubmitError::Refused)?;
+        let reduced = self.engine.reductions.stored(&request.model, request.modes_per_speed).await?;
+        Ok(plans::modal_analysis(&self.engine, request, facts, reduced).await?)
     }
 
     async fn facts(&self, model: &str) -> Result<run::ModelFacts, SubmitError> {

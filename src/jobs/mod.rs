@@ -22,6 +22,7 @@ mod generation;
 mod handle;
 mod memory;
 mod modal_analysis;
+mod plans;
 mod pool;
 mod prepare;
 mod progress;

@@ -11,6 +11,7 @@ type Work = Box<dyn FnOnce() + Send>;
 #[derive(Debug, Clone)]
 pub(crate) struct CpuPool {
     sender: mpsc::Sender<Work>,
+    threads: usize,
     /// Threads for work that is parallel in itself.
     inner_threads: usize,
 }
@@ -40,7 +41,12 @@ impl CpuPool {
                 }
             })?;
         }
-        Ok(Self { sender, inner_threads })
+        Ok(Self { sender, threads, inner_threads })
+    }
+
+    /// Its threads.
+    pub(crate) fn threads(&self) -> usize {
+        self.threads
     }
 
     /// Runs `compute` on one of the threads and waits for its result.

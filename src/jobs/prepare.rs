@@ -1,9 +1,11 @@
 //! The first task of a job: reduction, checks, and one task per missing speed.
 
+use std::sync::Arc;
+
 use super::engine::{Engine, Live};
 use super::error::Halt;
 use super::progress::PhaseMonitor;
-use super::{finish, generation, modal_analysis};
+use super::{finish, generation, modal_analysis, plans};
 use crate::analysis::request::SweepRequest;
 use crate::analysis::run;
 use crate::store::jobs::{JobId, JobRequest};
@@ -26,7 +28,9 @@ async fn prepare_sweep(engine: &Engine, job: &Live, request: &SweepRequest) -> R
     let reduced = engine.reductions.get(&request.model, request.modes_per_speed, monitor).await?;
 
     let (checked, monitor) = (request.clone(), PhaseMonitor::uncounted(job.watch.clone()));
-    engine.pool.run(move || run::check(&reduced, &checked, &monitor)).await??;
+    let sector = Arc::clone(&reduced);
+    engine.pool.run(move || run::check(&sector, &checked, &monitor)).await??;
+    plans::keep(engine, job, request, reduced).await?;
 
     let finished = engine.store.finished_speeds(job.id).await?;
     let missing: Vec<u32> = (0..job.speeds).filter(|speed| !finished.contains(speed)).collect();

@@ -12,8 +12,8 @@ use crate::analysis::error::AnalysisError;
 use crate::analysis::monitor::Monitor;
 use crate::analysis::run::{self, ReducedSector};
 use crate::package::{self, Limits};
-use crate::store::Store;
 use crate::store::jobs::{Failure, FailureCause};
+use crate::store::{Store, StoreError};
 
 /// Reduced sectors kept in memory: tens of megabytes each at most, and jobs come in runs on the same model.
 const KEPT: usize = 4;
@@ -68,6 +68,20 @@ impl Reductions {
             flights.remove(&key);
         }
         result
+    }
+
+    /// The reduction of `model` if it has been computed.
+    pub(super) async fn stored(
+        &self,
+        model: &str,
+        modes_per_speed: u32,
+    ) -> Result<Option<Arc<ReducedSector>>, StoreError> {
+        let key = (model.to_owned(), modes_per_speed);
+        if let Some(reduced) = self.recall(&key) {
+            return Ok(Some(reduced));
+        }
+        let stored = self.store.reduction(model, modes_per_speed).await?;
+        Ok(stored.map(|reduced| self.remember(&key, reduced)))
     }
 
     /// With the flight's lock held.

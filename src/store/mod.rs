@@ -4,6 +4,7 @@
 //! One function per question; rows become domain types here. All writes go through one connection, so transactions
 //! never meet a busy database, and readers never wait for writers (WAL).
 
+mod calibrations;
 pub mod checkpoints;
 mod error;
 pub mod idempotency;

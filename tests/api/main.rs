@@ -10,4 +10,5 @@ mod kill;
 mod model;
 mod models;
 mod openapi;
+mod plans;
 mod sweeps;

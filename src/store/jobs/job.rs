@@ -6,7 +6,7 @@ use uuid::Uuid;
 
 use crate::analysis::error::Violation;
 use crate::analysis::request::{ModalAnalysisRequest, SweepRequest};
-use crate::analysis::run::ModelFacts;
+use crate::analysis::run::{Estimate, ModelFacts};
 use crate::impeller::ImpellerParameters;
 use crate::store::status::JobStatus;
 
@@ -150,6 +150,8 @@ pub struct Job {
     pub phase: String,
     /// Its speeds.
     pub speeds: SpeedCounts,
+    /// What a sweep was expected to cost when its speeds were queued.
+    pub plan: Option<Estimate>,
     /// Why it failed.
     pub failure: Option<Failure>,
     /// RFC 3339, as all below.

@@ -10,7 +10,7 @@ use super::idempotency::{self, Answer};
 use super::results::Document;
 use super::status::JobStatus;
 use super::{Store, StoreError, now};
-use crate::analysis::run::ModelFacts;
+use crate::analysis::run::{Estimate, ModelFacts};
 
 pub use job::{Failure, FailureCause, Job, JobId, JobKind, JobRequest, SpeedCounts};
 
@@ -207,6 +207,16 @@ impl Store {
         .await?;
         Ok(())
     }
+
+    /// Keeps what a sweep is expected to cost; the first estimate stays.
+    pub async fn record_plan(&self, id: JobId, estimate: &Estimate) -> Result<(), StoreError> {
+        sqlx::query("update jobs set plan = ? where id = ? and plan is null")
+            .bind(serde_json::to_string(estimate)?)
+            .bind(id.to_string())
+            .execute(&self.writer)
+            .await?;
+        Ok(())
+    }
 }
 
 async fn status_of(
@@ -254,6 +264,7 @@ fn read(row: &SqliteRow) -> Result<Job, StoreError> {
             diverged: row.try_get("diverged")?,
             failed: row.try_get("failed")?,
         },
+        plan: row.try_get::<Option<&str>, _>("plan")?.map(serde_json::from_str).transpose()?,
         failure: row.try_get::<Option<&str>, _>("error")?.map(serde_json::from_str).transpose()?,
         created_at: row.try_get("created_at")?,
         started_at: row.try_get("started_at")?,

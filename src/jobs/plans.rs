@@ -1,0 +1,85 @@
+//! Plans of jobs: what they will do and cost on this machine.
+
+use std::sync::Arc;
+
+use tokio::sync::OnceCell;
+
+use super::engine::{Engine, Live};
+use super::error::Halt;
+use super::pool::{CpuPool, Panicked};
+use super::room::once_there_is_room;
+use crate::analysis::request::{ModalAnalysisRequest, SweepRequest};
+use crate::analysis::run::{self, Calibration, ModalAnalysisPlan, ModelFacts, ReducedSector, SweepPlan};
+use crate::store::{Store, StoreError};
+
+/// What steps cost on this machine: from the store, or measured at first use.
+#[derive(Debug)]
+pub(super) struct Calibrated {
+    store: Store,
+    known: OnceCell<Arc<Calibration>>,
+}
+
+impl Calibrated {
+    pub(super) fn new(store: Store) -> Self {
+        Self { store, known: OnceCell::new() }
+    }
+
+    /// Measures on a thread of `pool`, if need be.
+    async fn get<E: From<StoreError> + From<Panicked>>(&self, pool: &CpuPool) -> Result<Arc<Calibration>, E> {
+        let known = self
+            .known
+            .get_or_try_init(|| async {
+                let processors = std::thread::available_parallelism().map_or(1, |n| n.get() as u32);
+                if let Some(kept) = self.store.calibration(processors).await? {
+                    return Ok::<_, E>(Arc::new(kept));
+                }
+                let measured = pool.run(Calibration::measure).await?;
+                tracing::info!(processors, ?measured, "measured what a step costs");
+                if let Err(error) = self.store.insert_calibration(processors, &measured).await {
+                    tracing::warn!(%error, "could not keep what a step costs; the next start measures again");
+                }
+                Ok(Arc::new(measured))
+            })
+            .await?;
+        Ok(Arc::clone(known))
+    }
+}
+
+/// Plans a resolved sweep. Not on the threads that compute: they may be busy for minutes.
+pub(super) async fn sweep<E: From<StoreError> + From<Panicked>>(
+    engine: &Engine,
+    request: SweepRequest,
+    facts: ModelFacts,
+    reduced: Option<Arc<ReducedSector>>,
+) -> Result<SweepPlan, E> {
+    let calibration = engine.calibrated.get::<E>(&engine.importer).await?;
+    let workers = engine.pool.threads();
+    let plan = move || run::plan_sweep(&request, &facts, reduced.as_deref(), &calibration, workers);
+    Ok(engine.importer.run(plan).await?)
+}
+
+/// Plans a resolved modal analysis.
+pub(super) async fn modal_analysis(
+    engine: &Engine,
+    request: ModalAnalysisRequest,
+    facts: ModelFacts,
+    reduced: Option<Arc<ReducedSector>>,
+) -> Result<ModalAnalysisPlan, Panicked> {
+    engine.importer.run(move || run::plan_modal_analysis(&request, &facts, reduced.as_deref())).await
+}
+
+/// Keeps the estimate of a sweep whose reduction is there, unless one was kept before.
+pub(super) async fn keep(
+    engine: &Engine,
+    job: &Live,
+    request: &SweepRequest,
+    reduced: Arc<ReducedSector>,
+) -> Result<(), Halt> {
+    let Some(stored) = engine.store.job(job.id).await? else { return Ok(()) };
+    let (Some(facts), None) = (stored.facts, stored.plan) else { return Ok(()) };
+    let plan = sweep::<Halt>(engine, request.clone(), facts, Some(reduced)).await?;
+    if let Some(estimate) = plan.estimate {
+        once_there_is_room(&job.watch, || engine.store.record_plan(job.id, &estimate)).await?;
+    }
+    Ok(())
+}

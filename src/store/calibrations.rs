@@ -1,0 +1,38 @@
+//! What time steps cost on this machine.
+
+use super::{Store, StoreError, now};
+use crate::analysis::run::{Calibration, VERSION};
+
+impl Store {
+    /// What this version of the program measured on a machine with so many processors.
+    pub async fn calibration(&self, processors: u32) -> Result<Option<Calibration>, StoreError> {
+        let body: Option<String> =
+            sqlx::query_scalar("select body from calibrations where version = ? and processors = ?")
+                .bind(VERSION)
+                .bind(processors)
+                .fetch_optional(&self.readers)
+                .await?;
+        // One that does not read is measured again.
+        Ok(body.and_then(|body| serde_json::from_str(&body).ok()))
+    }
+
+    /// Keeps it, in place of an earlier one.
+    pub async fn insert_calibration(
+        &self,
+        processors: u32,
+        measured: &Calibration,
+    ) -> Result<(), StoreError> {
+        sqlx::query(
+            "insert into calibrations (version, processors, body, created_at) values (?, ?, ?, ?)
+             on conflict (version, processors) do update
+             set body = excluded.body, created_at = excluded.created_at",
+        )
+        .bind(VERSION)
+        .bind(processors)
+        .bind(serde_json::to_string(measured)?)
+        .bind(now())
+        .execute(&self.writer)
+        .await?;
+        Ok(())
+    }
+}

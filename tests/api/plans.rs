@@ -1,0 +1,120 @@
+//! Plans: what a job would do and cost, before it runs.
+
+use rubmap::store::Store;
+use serde_json::{Value, json};
+
+use super::app::{TestApp, modal_analysis_of, sweep_of};
+use super::model;
+
+/// Names of the effects that are on.
+fn effects_on(plan: &Value) -> Vec<&str> {
+    let effects = plan["effects"].as_array().unwrap().iter();
+    let on = effects.filter(|effect| effect["on"] == true);
+    on.inspect(|effect| assert!(effect["adds"].is_string(), "{effect}"))
+        .map(|effect| effect["name"].as_str().unwrap())
+        .collect()
+}
+
+#[tokio::test]
+async fn a_plan_starts_nothing_and_foretells_the_sweep() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(model::package(1.0)).await;
+    let request = sweep_of(&model);
+    let answer = api.post("/v1/sweeps/plan", &request).await;
+    assert_eq!(answer.status, 200, "{}", answer.body);
+    let plan = answer.body;
+    assert_eq!(effects_on(&plan), ["damping", "casing", "contact"]);
+    // Two lobes on four sectors.
+    assert_eq!(
+        plan["symmetry"],
+        json!({"repeats": 2, "moving_nodal_diameters": [0, 2], "resting_nodal_diameters": [1]})
+    );
+    assert_eq!(
+        (&plan["contact_pairs"], &plan["speeds"], &plan["workers"]),
+        (&json!(8), &json!(6), &json!(2))
+    );
+    assert_eq!(plan["settings"]["sensors"].as_array().unwrap().len(), 2, "the request is resolved");
+    assert_eq!(plan["reduction"], "to be computed");
+    // N(n_b + 3k) with one stiffness instead of three.
+    assert_eq!(plan["reduced_unknowns"], 4 * (6 + 3));
+    assert_eq!((&plan["points"], &plan["estimate"]), (&json!([]), &Value::Null));
+    assert_eq!(api.get("/v1/jobs").await.body["jobs"], json!([]));
+    assert_eq!(api.get(&format!("/v1/models/{model}")).await.body["reductions"], json!([]));
+
+    let id = api.sweep(&request).await;
+    assert_eq!(api.finish(&id).await["status"], "successful");
+    let plan = api.post("/v1/sweeps/plan", &request).await.body;
+    assert_eq!(plan["reduction"], "stored");
+    let planned: Vec<_> = plan["points"].as_array().unwrap().iter().map(|point| &point["index"]).collect();
+    assert_eq!(planned, [0, 3, 5], "slowest, middle and fastest");
+    let map = api.get(&format!("/v1/jobs/{id}/interaction-map")).await.body;
+    for point in plan["points"].as_array().unwrap() {
+        assert_eq!(point["integrated_unknowns"], plan["reduced_unknowns"]);
+        let ran = &map["points"][point["index"].as_u64().unwrap() as usize];
+        for field in ["speed_rad_s", "scheme", "steps_per_revolution", "steps"] {
+            assert_eq!(point[field], ran[field], "{field}");
+        }
+        let time = &point["computing_time_s"];
+        assert!(time["free"].as_f64() > Some(0.0) && time["contact"].as_f64() >= time["free"].as_f64());
+        assert!(point["memory_bytes"].as_u64() > Some(1000));
+    }
+    // The results have what was planned beside what was spent.
+    let critical = api.get(&format!("/v1/jobs/{id}/critical-speeds")).await.body;
+    assert_eq!(map["plan"], critical["plan"]);
+    assert_eq!(map["plan"]["steps"], plan["estimate"]["steps"]);
+    assert_eq!(map["spent"], critical["spent"]);
+    assert_eq!(map["spent"]["steps"], plan["estimate"]["steps"], "one step fits all speeds here");
+    let times = map["points"].as_array().unwrap().iter().map(|point| point["wall_time_s"].as_f64().unwrap());
+    assert!((map["spent"]["wall_time_s"].as_f64().unwrap() - times.sum::<f64>()).abs() < 1e-9);
+    app.stop().await;
+}
+
+#[tokio::test]
+async fn what_cannot_be_is_refused_or_said() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(model::package(1.0)).await;
+    let mut request = sweep_of(&model);
+    request["speeds"] = json!([{"from": 300.0, "to": 900.0, "count": 0, "unit": "rad_s"}]);
+    let pointers = api.post("/v1/sweeps/plan", &request).await.pointers(422, "invalid-request");
+    assert_eq!(pointers, ["/speeds/0/count"]);
+    let pointers = api
+        .post("/v1/modal-analyses/plan", &modal_analysis_of("0000"))
+        .await
+        .pointers(422, "invalid-request");
+    assert_eq!(pointers, ["/model"]);
+
+    let id = api.post("/v1/modal-analyses", &modal_analysis_of(&model)).await.text("/id");
+    assert_eq!(api.finish(&id).await["status"], "successful");
+    let plan = api.post("/v1/modal-analyses/plan", &modal_analysis_of(&model)).await.body;
+    assert_eq!((&plan["reduction"], &plan["speeds"]), (&json!("stored"), &json!(7)));
+    assert_eq!((&plan["nodal_diameters"], effects_on(&plan)), (&json!(3), Vec::new()));
+    assert!(plan["computing_time_s"].as_f64() > Some(0.0));
+
+    // A step that only the reduced model shows to be unstable.
+    let mut request = sweep_of(&model);
+    request["integration"]["scheme"] = "central_differences".into();
+    request["integration"]["steps_per_revolution"] = 20.into();
+    let plan = api.post("/v1/sweeps/plan", &request).await.body;
+    assert!(plan["points"][0]["message"].as_str().unwrap().contains("unstable"), "{plan}");
+    app.stop().await;
+}
+
+#[tokio::test]
+async fn a_machine_is_measured_once() {
+    let data = tempfile::tempdir().unwrap();
+    let processors = std::thread::available_parallelism().unwrap().get() as u32;
+    let mut kept = Vec::new();
+    for _ in 0..2 {
+        let app = TestApp::start_on(data.path()).await;
+        let model = app.api.model(model::package(1.0)).await;
+        assert_eq!(app.api.post("/v1/sweeps/plan", &sweep_of(&model)).await.status, 200);
+        app.stop().await;
+        let store = Store::open(data.path()).await.unwrap();
+        kept.push(store.calibration(processors).await.unwrap().unwrap());
+        store.close().await;
+    }
+    // No two measurements give the same nanoseconds.
+    assert_eq!(kept[0], kept[1]);
+}
