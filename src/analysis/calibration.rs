@@ -8,6 +8,7 @@ use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
 use crate::dynamics::casing::{Casing, Restriction};
+use crate::dynamics::effects::Effects;
 use crate::dynamics::integrate::{SensorRow, Simulation};
 use crate::dynamics::modal_wheel::{ModalHarmonic, ModalWheel};
 use crate::dynamics::oscillators::{Direction, ModalDamping};
@@ -144,10 +145,12 @@ impl Wheel {
                 let phase = 0.7 * ((dof + 1) * (m + 1)) as f64;
                 c64::new(phase.cos(), if is_single(harmonic, sectors) { 0.0 } else { 0.3 * phase.sin() })
             }),
+            gyroscopic: None,
         };
         let modal = ModalWheel {
             speed_rad_s: SPEED_RAD_S,
             sectors,
+            repeats: 1,
             harmonics: (0..harmonic_count(sectors)).map(harmonic).collect(),
         };
         let node = |k: usize| ContactNode {
@@ -180,6 +183,7 @@ impl Wheel {
                 contact_nodes: &self.contact_nodes,
                 damping: Some(&damping),
                 casing: casing.as_ref(),
+                effects: Effects::default(),
                 initial: &[],
                 scheme: Scheme::ExactModal,
                 sensors: &sensors,

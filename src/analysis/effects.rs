@@ -3,14 +3,15 @@
 use faer::c64;
 
 use super::request::{Component, SweepRequest};
-use super::resolve::repeats;
 use super::scene::{
     Abradable, CasingMode, FlexibleCasing as FlexibleCasingRequest, Mistuning, Probe, Scene, Symmetry,
 };
+use super::symmetry::repeats;
 use crate::dynamics::casing::Casing;
 use crate::dynamics::contact::coating::{Coating, CoatingMaterial};
 use crate::dynamics::contact::friction::sliding_directions;
 use crate::dynamics::effects::{Effects, Friction};
+use crate::dynamics::error::ModelError;
 use crate::dynamics::excitation::EngineOrderExcitation;
 use crate::dynamics::flexible_casing::{CasingWave, FlexibleCasing, Ring};
 use crate::dynamics::initial::{InitialMode, InitialWave};
@@ -18,6 +19,7 @@ use crate::dynamics::mistuning::{normal_deviations, normal_numbers};
 use crate::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use crate::dynamics::orbit::Orbit;
 use crate::dynamics::oscillators::Direction;
+use crate::dynamics::reduction::ReducedWheel;
 use crate::dynamics::sector::ContactNode;
 
 /// What [`Effects`] borrows.
@@ -98,6 +100,19 @@ impl SceneEffects {
 /// What rotation does to the modes of the wheel.
 pub(super) fn rotation(scene: &Scene) -> RotationEffects {
     RotationEffects { stiffening: scene.centrifugal_stiffening, coriolis: scene.coriolis }
+}
+
+/// The wheel of a scene at a speed, or the part of it that the scene repeats.
+pub(super) fn wheel_of(
+    scene: &Scene,
+    reduced: &ReducedWheel,
+    speed_rad_s: f64,
+) -> Result<ModalWheel, ModelError> {
+    let parts = match scene.symmetry {
+        Symmetry::Exact => repeats(scene, reduced.sectors as u32) as usize,
+        Symmetry::Full | Symmetry::Probe => 1,
+    };
+    Ok(ModalWheel::at(reduced, speed_rad_s, rotation(scene))?.part(parts))
 }
 
 /// The direction of a component at a contact node.

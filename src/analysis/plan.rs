@@ -6,8 +6,9 @@ use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
 use super::calibration::{Calibration, StepSize};
+use super::diagram::FrequencyDiagram;
 use super::effect_list::{PlannedEffect, effects_of};
-use super::modal::WheelFrequencies;
+use super::effects::wheel_of;
 use super::model::{ModelFacts, ReducedSector};
 use super::request::{ModalAnalysisRequest, SweepRequest};
 use super::result::{Point, SchemeReport};
@@ -16,7 +17,7 @@ use super::scene::Scene;
 use super::stepping::Stepping;
 use super::symmetry::FoundSymmetry;
 use crate::dynamics::casing::RestrictionTable;
-use crate::dynamics::modal_wheel::ModalWheel;
+use crate::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use crate::numerics::sector_fourier::harmonic_count;
 
 /// What a sweep will do and cost.
@@ -194,14 +195,19 @@ pub fn plan_modal_analysis(
 ) -> ModalAnalysisPlan {
     let speeds = request.speeds.ascending().unwrap_or_default();
     let one = |reduced: &ReducedSector| {
-        let source = WheelFrequencies { wheel: &reduced.wheel, stiffening: true };
+        let effects = RotationEffects { stiffening: true, coriolis: request.coriolis };
+        let mut diagram = FrequencyDiagram::new(&reduced.wheel, effects, request.families as usize);
         let start = Instant::now();
-        source.row(speeds[speeds.len() / 2], request.families as usize).ok()?;
+        diagram.push(speeds[speeds.len() / 2]).ok()?;
         Some(start.elapsed().as_secs_f64())
     };
-    let scene = Scene { centrifugal_stiffening: facts.has_stiffening(), ..Scene::default() };
+    let scene = Scene {
+        centrifugal_stiffening: facts.has_stiffening(),
+        coriolis: request.coriolis,
+        ..Scene::default()
+    };
     let mut effects = effects_of(&scene);
-    effects.retain(|effect| effect.name == "centrifugal_stiffening");
+    effects.retain(|effect| ["centrifugal_stiffening", "coriolis"].contains(&effect.name.as_str()));
     ModalAnalysisPlan {
         effects,
         reduction: state(reduced),
@@ -242,7 +248,7 @@ fn plan_point(
     speed_rad_s: f64,
 ) -> PlannedPoint {
     let start = Instant::now();
-    let chosen = ModalWheel::at(&reduced.wheel, speed_rad_s, request.scene.centrifugal_stiffening)
+    let chosen = wheel_of(&request.scene, &reduced.wheel, speed_rad_s)
         .map_err(|error| error.to_string())
         .and_then(|wheel| Ok((Stepping::choose(&wheel, &reduced.wheel.contact, request)?, wheel)));
     let set_up = start.elapsed().as_secs_f64();
@@ -296,8 +302,11 @@ fn running_bytes(wheel: &ModalWheel, request: &SweepRequest, stepping: &Stepping
     let shapes: usize = wheel.harmonics.iter().map(|h| COMPLEX * h.contact.nrows() * h.contact.ncols()).sum();
     let stride = nodes.next_multiple_of(8);
     let lobes = nodes > 0 && request.scene.casing.as_ref().is_some_and(|casing| casing.lobes.is_some());
-    let table =
-        if lobes { REAL * RestrictionTable::size(steps.per_revolution, wheel.sectors, stride) } else { 0 };
+    let table = if lobes {
+        REAL * RestrictionTable::size(steps.per_revolution, wheel.sectors * wheel.repeats, stride)
+    } else {
+        0
+    };
     let rows = 2 * REAL * (nodes + request.sensors.len()) * sizes.sum::<usize>();
     let history = REAL * steps.samples * request.sensors.len() * (revolutions + wheel.sectors * window);
     let spectrum = 4 * COMPLEX * steps.samples * window;

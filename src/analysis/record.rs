@@ -8,6 +8,7 @@ use super::result::{
     WearReport,
 };
 use super::scene::Symmetry;
+use super::symmetry::repeats;
 use crate::dynamics::contact::coating::WornCoating;
 use crate::dynamics::integrate::{Divergence, History, Outcome, Run};
 use crate::dynamics::modal_wheel::ModalWheel;
@@ -26,7 +27,6 @@ pub(super) fn record_run(
     request: &SweepRequest,
     wheel: &ModalWheel,
     steps: &Discretisation,
-    repeats: usize,
 ) -> Result<Option<SpeedSpectra>, AnalysisError> {
     let parts = wheel.repeats as f64;
     point.steps = run.statistics.steps;
@@ -64,6 +64,7 @@ pub(super) fn record_run(
             point.settling = Some(settling);
             if request.scene.symmetry == Symmetry::Probe {
                 let grown = request.integration.ramp_revolutions.ceil() as usize;
+                let repeats = repeats(&request.scene, wheel.sectors as u32) as usize;
                 point.symmetry_breaking = Some(symmetry_breaking::judge(&history.energies, repeats, grown));
             }
             Ok(Some(spectra))

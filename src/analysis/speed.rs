@@ -3,16 +3,14 @@
 use std::time::Instant;
 
 use super::discretisation::Discretisation;
-use super::effects::{SceneEffects, direction, initial, rotation};
+use super::effects::{SceneEffects, direction, initial, wheel_of};
 use super::error::AnalysisError;
 use super::model::ReducedSector;
 use super::monitor::Monitor;
 use super::record::record_run;
 use super::request::{Sensor, SweepRequest};
-use super::resolve::repeats;
 use super::result::{Point, PointStatus, SpeedResult};
 use super::run::VERSION;
-use super::scene::Symmetry;
 use super::sliding;
 use super::stepping::Stepping;
 use crate::dynamics::casing::{Casing, Restriction, RestrictionTable, clearance_along_chord};
@@ -36,9 +34,7 @@ pub fn run_speed(
     let mut point = empty_point(index, speeds[index]);
     let mut spectra = None;
     let scene = &request.scene;
-    let repeats = repeats(scene, reduced.wheel.sectors as u32) as usize;
-    let part = if scene.symmetry == Symmetry::Exact { repeats } else { 1 };
-    match ModalWheel::at(&reduced.wheel, point.speed_rad_s, rotation(scene)).map(|wheel| wheel.part(part)) {
+    match wheel_of(scene, &reduced.wheel, point.speed_rad_s) {
         Err(error) => point.message = Some(error.to_string()),
         Ok(wheel) => match Stepping::choose(&wheel, &reduced.wheel.contact, request) {
             Err(message) => point.message = Some(message),
@@ -54,7 +50,7 @@ pub fn run_speed(
                         point.smallest_stable_steps_per_revolution = stepping.smallest as u32;
                         point.steps_per_revolution = steps.per_revolution as u32;
                         point.scheme = Some(stepping.report);
-                        spectra = record_run(&mut point, run, request, &wheel, steps, repeats)?;
+                        spectra = record_run(&mut point, run, request, &wheel, steps)?;
                     }
                 }
             }

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-use super::scene::{Scene, Symmetry};
+use super::scene::Scene;
 use crate::numerics::sector_fourier::harmonic_count;
 
 /// How often a scene repeats around the wheel.
@@ -21,20 +21,25 @@ pub struct FoundSymmetry {
 impl FoundSymmetry {
     /// That of `scene` around `sectors` sectors.
     pub(super) fn of(scene: &Scene, sectors: u32) -> Self {
-        let lobes = match (&scene.contact, &scene.casing) {
-            (Some(_), Some(casing)) => casing.lobes.as_ref().map_or(0, |lobes| lobes.count),
-            _ => 0,
-        };
-        let excitation = scene.engine_order_excitation.iter().map(|force| force.order);
-        let initial = scene.initial.as_ref().map(|mode| mode.nodal_diameter);
-        // Order 1 repeats once.
-        let once = [scene.orbit.is_some(), scene.mistuning.is_some(), scene.symmetry == Symmetry::Probe];
-        let once = once.into_iter().filter(|present| *present).map(|_| 1);
-        let repeats = excitation.chain(initial).chain(once).chain([lobes]).fold(sectors, gcd);
+        let repeats = repeats(scene, sectors);
         let (moving, resting) =
             (0..harmonic_count(sectors as usize) as u32).partition(|i| i.is_multiple_of(repeats));
         Self { repeats, moving_nodal_diameters: moving, resting_nodal_diameters: resting }
     }
+}
+
+/// [`FoundSymmetry::repeats`].
+pub(super) fn repeats(scene: &Scene, sectors: u32) -> u32 {
+    let lobes = match (&scene.contact, &scene.casing) {
+        (Some(_), Some(casing)) => casing.lobes.as_ref().map_or(0, |lobes| lobes.count),
+        _ => 0,
+    };
+    let excitation = scene.engine_order_excitation.iter().map(|force| force.order);
+    let initial = scene.initial.as_ref().map(|mode| mode.nodal_diameter);
+    // Order 1 repeats once.
+    let once = [scene.orbit.is_some(), scene.mistuning.is_some()];
+    let once = once.into_iter().filter(|present| *present).map(|_| 1);
+    excitation.chain(initial).chain(once).chain([lobes]).fold(sectors, gcd)
 }
 
 /// Greatest common divisor; 0 leaves the other as it is.

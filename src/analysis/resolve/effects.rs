@@ -8,6 +8,7 @@ use crate::analysis::scene::{
     CasingMode, EngineOrderExcitation, FlexibleCasing, Initial, InitialWave, Mistuning, Orbit, Probe, Ring,
     Scene, Symmetry,
 };
+use crate::analysis::symmetry::repeats;
 use crate::dynamics::mistuning::LARGEST_DEVIATION;
 
 pub(super) fn check_effects(found: &mut Findings, request: &SweepRequest, facts: &ModelFacts) {
@@ -266,8 +267,8 @@ fn check_symmetry(found: &mut Findings, request: &SweepRequest, facts: &ModelFac
     found.require(
         repeats > 1,
         "/scene/symmetry",
-        "the scene repeats nothing around the wheel: the numbers of sectors and lobes and the engine orders have no \
-         common divisor",
+        "the scene repeats nothing around the wheel: the numbers of sectors and lobes, the engine orders and the \
+         initial nodal diameter have no common divisor",
     );
     if scene.symmetry == Symmetry::Exact {
         found.require(
@@ -275,32 +276,10 @@ fn check_symmetry(found: &mut Findings, request: &SweepRequest, facts: &ModelFac
             "/scene/symmetry",
             "rods of an abradable coating are worn by all blades: take `full` or `probe`",
         );
-        if let Some(initial) = &scene.initial {
-            found.require(
-                initial.nodal_diameter.is_multiple_of(repeats),
-                "/scene/initial/nodal_diameter",
-                format!("exact symmetry of {repeats} repeats keeps multiples of {repeats} only"),
-            );
-        }
     }
     found.require(
         scene.symmetry != Symmetry::Probe || scene.initial.is_none(),
         "/scene/initial",
         "the probe starts from its own asymmetry",
     );
-}
-
-/// How often a scene repeats itself around a wheel of `sectors`: the greatest common divisor of sectors, lobes and engine
-/// orders; all sectors where the casing is circular and nothing drives.
-pub(in crate::analysis) fn repeats(scene: &Scene, sectors: u32) -> u32 {
-    if scene.mistuning.is_some() || scene.orbit.is_some() {
-        return 1;
-    }
-    let lobes = scene.casing.as_ref().and_then(|casing| casing.lobes.as_ref()).map(|lobes| lobes.count);
-    let orders = scene.engine_order_excitation.iter().map(|excitation| excitation.order);
-    lobes.into_iter().chain(orders).fold(sectors, gcd)
-}
-
-fn gcd(a: u32, b: u32) -> u32 {
-    if b == 0 { a } else { gcd(b, a % b) }
 }

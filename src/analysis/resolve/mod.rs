@@ -3,7 +3,6 @@
 mod contact_effects;
 mod effects;
 
-pub(super) use self::effects::repeats;
 use crate::analysis::auto_or::AutoOr;
 use crate::analysis::discretisation::most_samples;
 use crate::analysis::error::Violation;
