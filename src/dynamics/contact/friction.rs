@@ -17,7 +17,7 @@ use faer::{Mat, Side, c64};
 
 use super::super::oscillators::Direction;
 use super::super::sector::ContactNode;
-use super::flexibility::ridge;
+use super::flexibility::outward_normals;
 use crate::numerics::p_matrix::non_positive_minor;
 use crate::numerics::sector_fourier::is_single;
 
@@ -103,6 +103,15 @@ pub struct SlidingFlexibility {
 }
 
 impl SlidingFlexibility {
+    /// Of the operator whose `blocks(from)` are what forces along `from` move along the outward normals.
+    pub fn new(
+        contact_nodes: &[ContactNode],
+        blocks: impl Fn(&[Direction]) -> Vec<Mat<c64>>,
+    ) -> Result<Self, FrictionError> {
+        let tangential = blocks(&tangents(contact_nodes)?);
+        Ok(Self { normal: blocks(&outward_normals(contact_nodes)), tangential })
+    }
+
     /// W_n + μ W_t; with μ = 0 the bits of W_n.
     pub fn blocks(&self, coefficient: f64) -> Vec<Mat<c64>> {
         let sum = |(normal, tangential): (&Mat<c64>, &Mat<c64>)| {
@@ -113,17 +122,16 @@ impl SlidingFlexibility {
         self.normal.iter().zip(&self.tangential).map(sum).collect()
     }
 
-    /// Whether contact of a wheel of `sectors` has a unique solution with `coefficient` ≥ 0, W having the ridge that a singular
-    /// W_n gets in the run too.
+    /// Whether contact of a wheel of `sectors` has a unique solution with `coefficient` ≥ 0; `ridge` is what is added to the
+    /// diagonal of W where nodes cannot be told apart.
     ///
     /// First the diagonal of W, necessary. Then the Hermitian parts of all blocks: sufficient if they are positive definite. Where
     /// one is not, the principal minors of one sector's block decide, necessary and, as sectors are weakly coupled, all but
     /// sufficient: see [`non_positive_minor`] for which.
-    pub fn check(&self, sectors: usize, coefficient: f64) -> Result<(), FrictionError> {
+    pub fn check(&self, sectors: usize, ridge: f64, coefficient: f64) -> Result<(), FrictionError> {
         if coefficient == 0.0 {
             return Ok(());
         }
-        let ridge = ridge(&self.normal, sectors);
         let Err(verdict) = self.verdict(sectors, ridge, coefficient) else { return Ok(()) };
         let largest = self.largest_coefficient(sectors, ridge, coefficient);
         Err(match verdict {
@@ -196,7 +204,7 @@ mod tests {
     use std::f64::consts::FRAC_PI_4;
 
     use super::super::super::modal_wheel::{ModalHarmonic, ModalWheel};
-    use super::super::flexibility::{flexibility, outward_normals};
+    use super::super::flexibility::{flexibility, ridge};
     use super::*;
 
     fn contact_node(normal: [f64; 3]) -> ContactNode {
@@ -219,10 +227,10 @@ mod tests {
             }],
         };
         let nodes = [contact_node([1.0, 0.0, 0.0])];
-        let (normals, tangents) = (outward_normals(&nodes), tangents(&nodes).unwrap());
+        let normals = outward_normals(&nodes);
         let blocks =
             |from: &[Direction]| flexibility(&wheel, &normals, from, |_, mode| [along, across][mode]);
-        SlidingFlexibility { normal: blocks(&normals), tangential: blocks(&tangents) }
+        SlidingFlexibility::new(&nodes, blocks).unwrap()
     }
 
     #[test]
@@ -253,15 +261,15 @@ mod tests {
             let (sin, cos) = lean.sin_cos();
             let limit = (along * cos * cos + sin * sin) / ((1.0 - along) * sin * cos);
             let rod = leaning_rod(lean, along, 1.0);
-            assert_eq!(rod.check(1, limit - 1e-3), Ok(()));
+            assert_eq!(rod.check(1, 0.0, limit - 1e-3), Ok(()));
             let coefficient = limit + 0.1;
             let largest = (limit * 1000.0).floor() / 1000.0;
             assert_eq!(
-                rod.check(1, coefficient),
+                rod.check(1, 0.0, coefficient),
                 Err(FrictionError::Jams { node: 0, coefficient, largest }),
                 "{lean} {along}"
             );
-            assert_eq!(leaning_rod(-lean, along, 1.0).check(1, 100.0), Ok(()));
+            assert_eq!(leaning_rod(-lean, along, 1.0).check(1, 0.0, 100.0), Ok(()));
         }
     }
 
@@ -286,10 +294,10 @@ mod tests {
             tangential: real([[0.0, 2.0], [0.0, 0.0]]),
         };
         for coefficient in [0.0, 0.4, 0.6, 0.74] {
-            assert_eq!(pair.check(1, coefficient), Ok(()), "{coefficient}");
+            assert_eq!(pair.check(1, 0.0, coefficient), Ok(()), "{coefficient}");
         }
         let error = FrictionError::JamsTogether { node: 1, coefficient: 0.8, largest: 0.749 };
-        assert_eq!(pair.check(1, 0.8), Err(error));
+        assert_eq!(pair.check(1, 0.0, 0.8), Err(error));
     }
 
     /// Coincident nodes leave W singular; friction small enough for one node is small enough for both.
@@ -298,7 +306,9 @@ mod tests {
         let twin = |blocks: Vec<Mat<c64>>| vec![Mat::from_fn(2, 2, |_, _| blocks[0][(0, 0)])];
         let rod = leaning_rod(0.2, 0.01, 1.0);
         let twins = SlidingFlexibility { normal: twin(rod.normal), tangential: twin(rod.tangential) };
-        assert_eq!(twins.check(1, 0.2), Ok(()));
-        assert!(matches!(twins.check(1, 0.3), Err(FrictionError::Jams { node: 0, .. })));
+        let ridge = ridge(&twins.normal, 1);
+        assert!(ridge > 0.0);
+        assert_eq!(twins.check(1, ridge, 0.2), Ok(()));
+        assert!(matches!(twins.check(1, ridge, 0.3), Err(FrictionError::Jams { node: 0, .. })));
     }
 }
