@@ -4,14 +4,15 @@ use std::f64::consts::TAU;
 
 use super::request::SweepRequest;
 use super::speed::modal_damping;
-use crate::dynamics::contact::flexibility::{flexibility, outward_normals};
-use crate::dynamics::contact::friction::{FrictionError, SlidingFlexibility, tangents};
+use crate::dynamics::contact::flexibility::{flexibility, outward_normals, ridge};
+use crate::dynamics::contact::friction::{FrictionError, SlidingFlexibility};
 use crate::dynamics::modal_wheel::ModalWheel;
 use crate::dynamics::schemes::Scheme;
 use crate::dynamics::schemes::massless_boundary::residual_flexibility;
 use crate::dynamics::sector::ContactNode;
 
-/// Checks the contact operator of a scheme and its step (METHOD §7) before it runs; a scene without friction passes.
+/// Checks the contact operator of a scheme and its step (METHOD §7) before it runs, an elastic casing's and Coriolis forces' share apart, which only help or
+/// are small; a scene without friction passes.
 pub(super) fn check(
     wheel: &ModalWheel,
     contact_nodes: &[ContactNode],
@@ -22,8 +23,8 @@ pub(super) fn check(
     let Some(friction) = &request.scene.friction else { return Ok(()) };
     let step = TAU / (wheel.speed_rad_s * steps_per_revolution as f64);
     let damping = modal_damping(request);
-    let (normals, tangents) = (outward_normals(contact_nodes), tangents(contact_nodes)?);
-    let blocks = |from| match scheme {
+    let normals = outward_normals(contact_nodes);
+    let blocks = |from: &[_]| match scheme {
         Scheme::MasslessBoundary { kept_modes } => residual_flexibility(wheel, kept_modes, &normals, from),
         Scheme::CentralDifferences | Scheme::ExactModal => {
             flexibility(wheel, &normals, from, |harmonic, mode| {
@@ -33,6 +34,7 @@ pub(super) fn check(
             })
         }
     };
-    let flexibility = SlidingFlexibility { normal: blocks(&normals), tangential: blocks(&tangents) };
-    flexibility.check(wheel.sectors, friction.coefficient)
+    let flexibility = SlidingFlexibility::new(contact_nodes, blocks)?;
+    let ridge = ridge(&flexibility.normal, wheel.sectors);
+    flexibility.check(wheel.sectors, ridge, friction.coefficient)
 }
