@@ -2,7 +2,7 @@
 
 use rubmap::analysis::auto_or::AutoOr;
 use rubmap::analysis::monitor::Unwatched;
-use rubmap::analysis::request::{Component, Integration, SchemeChoice, Sensor, SweepRequest};
+use rubmap::analysis::request::{Component, Integration, SchemeChoice, Sensor, SweepDirection, SweepRequest};
 use rubmap::analysis::result::PointStatus;
 use rubmap::analysis::run::{ReducedSector, prepare, run_speed};
 use rubmap::analysis::scene as request;
@@ -108,13 +108,14 @@ impl Scene {
             },
             sensors: vec![sensor(0), sensor(last)],
             max_engine_order: 24,
+            sweep: SweepDirection::Independent,
         }
     }
 
     /// `scheme` with the step that `auto` gives it against the casing.
     pub(crate) fn automatic(&self, scheme: SchemeChoice, kept_modes: AutoOr) -> Stepping {
         let request = self.request(scheme, kept_modes, 1, vec![SPEED]);
-        let point = run_speed(&self.reduced, &request, 0, &Unwatched).expect("nobody cancels").point;
+        let point = run_speed(&self.reduced, &request, 0, None, &Unwatched).expect("nobody cancels").point;
         assert_eq!(point.status, PointStatus::Completed, "{:?}", point.message);
         let report = point.scheme.expect("a completed run has a scheme");
         let scheme = match (report.name, report.kept_modes) {

@@ -52,7 +52,7 @@ fn sweep(reduced: &ReducedSector, request: &SweepRequest, workers: usize) -> Vec
             if index >= SPEEDS {
                 return done;
             }
-            let mut result = run_speed(reduced, request, index, &Unwatched).expect("nobody cancels");
+            let mut result = run_speed(reduced, request, index, None, &Unwatched).expect("nobody cancels");
             // All that may differ from run to run.
             result.point.wall_time_s = 0.0;
             done.push(result);

@@ -11,6 +11,7 @@ mod diagram;
 mod discretisation;
 mod effect_list;
 mod effects;
+pub mod end_state;
 pub mod error;
 mod modal;
 mod model;

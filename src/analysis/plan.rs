@@ -10,7 +10,7 @@ use super::diagram::FrequencyDiagram;
 use super::effect_list::{PlannedEffect, effects_of};
 use super::effects::wheel_of;
 use super::model::{ModelFacts, ReducedSector};
-use super::request::{ModalAnalysisRequest, SweepRequest};
+use super::request::{ModalAnalysisRequest, SweepDirection, SweepRequest};
 use super::result::{Point, SchemeReport};
 use super::run::VERSION;
 use super::scene::Scene;
@@ -37,7 +37,7 @@ pub struct SweepPlan {
     pub reduced_unknowns: u64,
     /// Speeds to simulate.
     pub speeds: u32,
-    /// Threads that compute speeds side by side.
+    /// Threads that compute speeds side by side; one where each starts from the end of another.
     pub workers: u32,
     /// Every speed if there are no more than three, otherwise the slowest, the middle and the fastest one.
     pub points: Vec<PlannedPoint>,
@@ -162,6 +162,8 @@ pub fn plan_sweep(
     workers: usize,
 ) -> SweepPlan {
     let speeds = request.speeds.resolve().unwrap_or_default();
+    // One speed after the other.
+    let workers = if request.sweep == SweepDirection::Independent { workers } else { 1 };
     let points: Vec<PlannedPoint> = match reduced {
         Some(reduced) => representatives(&speeds)
             .into_iter()

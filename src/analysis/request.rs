@@ -30,6 +30,42 @@ pub struct SweepRequest {
     /// Highest engine order of spectra and map.
     #[serde(default = "default_max_engine_order")]
     pub max_engine_order: u32,
+    /// Where each speed starts from.
+    #[serde(default, skip_serializing_if = "SweepDirection::is_independent")]
+    pub sweep: SweepDirection,
+}
+
+/// Where each speed of a sweep starts from. A response with several branches shows the one that it is led along.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SweepDirection {
+    /// From rest, or what the scene says; speeds are computed side by side.
+    #[default]
+    Independent,
+    /// From the end of the next slower speed; one speed is computed after the other.
+    Up,
+    /// From the end of the next faster speed; one speed is computed after the other.
+    Down,
+}
+
+impl SweepDirection {
+    #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde wants a reference")]
+    fn is_independent(&self) -> bool {
+        *self == Self::Independent
+    }
+
+    /// In which order `speeds_rad_s`, given by index, follow each other; none if each is on its own. Equal ones follow in the
+    /// order given.
+    pub fn chain(self, speeds_rad_s: &[f64]) -> Option<Vec<u32>> {
+        let speed = |index: &u32| speeds_rad_s[*index as usize];
+        let mut order: Vec<u32> = (0..speeds_rad_s.len() as u32).collect();
+        match self {
+            Self::Independent => return None,
+            Self::Up => order.sort_by(|a, b| speed(a).total_cmp(&speed(b))),
+            Self::Down => order.sort_by(|a, b| speed(b).total_cmp(&speed(a))),
+        }
+        Some(order)
+    }
 }
 
 /// Natural frequencies over speed and the linear interaction criterion.

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
+use super::end_state::EndState;
 use super::plan::{Estimate, Spent};
 use super::request::{SchemeChoice, Sensor};
 use super::scene::Scene;
@@ -128,7 +129,7 @@ pub struct Point {
     pub speed_rad_s: f64,
     /// How the run ended.
     pub status: PointStatus,
-    /// Why, for `diverged` and `failed`.
+    /// Why, for `diverged` and `failed`; and whether a speed of a sweep up or down had to start from rest.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub message: Option<String>,
     /// Steady-state verdict; absent without a complete run.
@@ -210,6 +211,8 @@ pub struct SpeedResult {
     pub point: Point,
     /// Absent unless `point.status` is `completed`.
     pub spectra: Option<SpeedSpectra>,
+    /// Where the wheel was at the end of a completed run of a sweep up or down, otherwise absent.
+    pub end_state: Option<EndState>,
 }
 
 /// Spectra side by side over Ω, as downloaded.

@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use super::discretisation::Discretisation;
 use super::effects::{SceneEffects, direction, initial, wheel_of};
+use super::end_state::EndState;
 use super::error::AnalysisError;
 use super::model::ReducedSector;
 use super::monitor::Monitor;
@@ -20,16 +21,18 @@ use crate::dynamics::oscillators::ModalDamping;
 use crate::dynamics::reduction::ReducedWheel;
 use crate::dynamics::schemes::Scheme;
 
-/// Simulates speed `index` of a sweep. Deterministic; runs on the calling thread. A speed that diverges or cannot be
+/// Simulates speed `index` of a sweep, from `start` if it is given: the end of the neighbouring speed of a sweep up or down.
+/// Deterministic; runs on the calling thread. A speed that diverges or cannot be
 /// evaluated is a result (with its status), not an error; the only errors are cancellation and a request that was
 /// never resolved.
 pub fn run_speed(
     reduced: &ReducedSector,
     request: &SweepRequest,
     index: usize,
+    start: Option<&EndState>,
     monitor: &dyn Monitor,
 ) -> Result<SpeedResult, AnalysisError> {
-    let start = Instant::now();
+    let clock = Instant::now();
     let speeds = request.speeds.resolve().map_err(AnalysisError::Refused)?;
     let mut point = empty_point(index, speeds[index]);
     let mut spectra = None;
@@ -56,8 +59,22 @@ pub fn run_speed(
             }
         },
     }
-    point.wall_time_s = start.elapsed().as_secs_f64();
-    Ok(SpeedResult { point, spectra })
+    if start.is_none() && follows_another(request, &speeds, index) {
+        point.message = Some(from_rest(point.message.take()));
+    }
+    point.wall_time_s = clock.elapsed().as_secs_f64();
+    Ok(SpeedResult { point, spectra, end_state: None })
+}
+
+/// Whether speed `index` should start from the end of another one.
+fn follows_another(request: &SweepRequest, speeds: &[f64], index: usize) -> bool {
+    let chain = request.sweep.chain(speeds);
+    chain.is_some_and(|chain| chain.first() != Some(&(index as u32)))
+}
+
+fn from_rest(ended: Option<String>) -> String {
+    let started = "started from rest, since the neighbouring speed left no state to start from";
+    ended.map_or_else(|| started.to_owned(), |ended| format!("{started}; {ended}"))
 }
 
 fn empty_point(index: usize, speed_rad_s: f64) -> Point {

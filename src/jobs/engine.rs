@@ -25,6 +25,8 @@ pub(super) struct Engine {
     pub(super) pool: CpuPool,
     /// Reads uploads, so that they do not wait behind speeds.
     pub(super) importer: CpuPool,
+    /// Plans, which are wanted at once.
+    pub(super) planner: CpuPool,
     pub(super) reductions: Reductions,
     pub(super) calibrated: Calibrated,
     /// What reductions and generations may take together.
@@ -46,14 +48,35 @@ pub(super) struct Live {
     pub(super) id: JobId,
     pub(super) request: JobRequest,
     pub(super) speeds: u32,
+    /// Its speeds in the order in which each starts from the end of the one before; none where each is on its own.
+    pub(super) chain: Option<Vec<u32>>,
     pub(super) watch: Arc<Watch>,
+}
+
+impl Live {
+    /// The speeds before and after `speed` in the chain, if there are such.
+    pub(super) fn neighbours(&self, speed: u32) -> (Option<u32>, Option<u32>) {
+        let Some(chain) = &self.chain else { return (None, None) };
+        let at = |place: Option<usize>| place.and_then(|place| chain.get(place)).copied();
+        let place = chain.iter().position(|&link| link == speed);
+        (at(place.and_then(|place| place.checked_sub(1))), at(place.map(|place| place + 1)))
+    }
+}
+
+/// The chain of a sweep up or down.
+fn chain(request: &JobRequest) -> Option<Vec<u32>> {
+    match request {
+        // Resolved when it was accepted.
+        JobRequest::Sweep(sweep) => sweep.sweep.chain(&sweep.speeds.resolve().ok()?),
+        JobRequest::ModalAnalysis(_) | JobRequest::ModelGeneration(_) => None,
+    }
 }
 
 impl Engine {
     pub(super) fn new(
         store: Store,
         queue: QueueFile,
-        (pool, importer): (CpuPool, CpuPool),
+        (pool, importer, planner): (CpuPool, CpuPool, CpuPool),
         memory: Memory,
     ) -> Arc<Self> {
         let memory = Arc::new(memory);
@@ -65,6 +88,7 @@ impl Engine {
             queue,
             pool,
             importer,
+            planner,
             new_preparation: Arc::default(),
             new_speeds: Arc::default(),
             stopping: Arc::default(),
@@ -86,7 +110,8 @@ impl Engine {
             return Ok(None);
         }
         let watch = Watch::new(id, speeds.total, Arc::clone(&self.stopping), Arc::clone(&self.news));
-        let live = Live { id, request, speeds: speeds.total, watch };
+        let chain = chain(&request);
+        let live = Live { id, request, speeds: speeds.total, chain, watch };
         let live = Arc::clone(self.lock_live().entry(id).or_insert_with(|| Arc::new(live)));
         // A dismissal between the two lines above found nobody to tell.
         if self.store.job(id).await?.is_none_or(|job| job.status.is_final()) {

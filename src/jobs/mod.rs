@@ -7,6 +7,9 @@
 //!                                             └─→ speed: run, commit its row ─→ the last one: finish
 //! ```
 //!
+//! A sweep up or down has one task out at a time: each speed queues the next once it is committed, with the state that the next
+//! one starts from.
+//!
 //! The unit of work is one speed of one job; a modal analysis and the generation of a model are one unit each. Tasks are carried by `apalis`; the tables of [`crate::store`] are what is
 //! true. A handler looks there first, so a task that runs twice, or somewhere else, does no harm.
 //!

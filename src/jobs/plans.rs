@@ -45,17 +45,17 @@ impl Calibrated {
     }
 }
 
-/// Plans a resolved sweep. Not on the threads that compute: they may be busy for minutes.
+/// Plans a resolved sweep.
 pub(super) async fn sweep<E: From<StoreError> + From<Panicked>>(
     engine: &Engine,
     request: SweepRequest,
     facts: ModelFacts,
     reduced: Option<Arc<ReducedSector>>,
 ) -> Result<SweepPlan, E> {
-    let calibration = engine.calibrated.get::<E>(&engine.importer).await?;
+    let calibration = engine.calibrated.get::<E>(&engine.planner).await?;
     let workers = engine.pool.threads();
     let plan = move || run::plan_sweep(&request, &facts, reduced.as_deref(), &calibration, workers);
-    Ok(engine.importer.run(plan).await?)
+    Ok(engine.planner.run(plan).await?)
 }
 
 /// Plans a resolved modal analysis.
@@ -65,7 +65,7 @@ pub(super) async fn modal_analysis(
     facts: ModelFacts,
     reduced: Option<Arc<ReducedSector>>,
 ) -> Result<ModalAnalysisPlan, Panicked> {
-    engine.importer.run(move || run::plan_modal_analysis(&request, &facts, reduced.as_deref())).await
+    engine.planner.run(move || run::plan_modal_analysis(&request, &facts, reduced.as_deref())).await
 }
 
 /// Keeps the estimate of a sweep whose reduction is there, unless one was kept before.

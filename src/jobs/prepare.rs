@@ -33,8 +33,13 @@ async fn prepare_sweep(engine: &Engine, job: &Live, request: &SweepRequest) -> R
     plans::keep(engine, job, request, reduced).await?;
 
     let finished = engine.store.finished_speeds(job.id).await?;
-    let missing: Vec<u32> = (0..job.speeds).filter(|speed| !finished.contains(speed)).collect();
-    job.watch.speeds_finished(job.speeds - missing.len() as u32, None);
+    let mut missing = job.chain.clone().unwrap_or_else(|| (0..job.speeds).collect());
+    missing.retain(|speed| !finished.contains(speed));
+    if job.chain.is_some() {
+        // Its end queues the next one.
+        missing.truncate(1);
+    }
+    job.watch.speeds_finished(finished.len() as u32, None);
     tracing::info!(job.id = %job.id, speeds = job.speeds, finished = finished.len(), "prepared");
     if missing.is_empty() {
         return finish::sweep(engine, job, request).await;

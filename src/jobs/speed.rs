@@ -19,9 +19,14 @@ pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) 
     let monitor = PhaseMonitor::uncounted(job.watch.clone());
     let reduced = engine.reductions.get(&request.model, request.modes_per_speed, monitor).await?;
 
+    let (before, after) = job.neighbours(speed);
+    let start = match before {
+        Some(before) => engine.store.end_state(id, before).await?,
+        None => None,
+    };
     let (settings, monitor) = (request.clone(), SpeedMonitor::new(job.watch.clone(), speed));
-    let result =
-        engine.pool.run(move || run::run_speed(&reduced, &settings, speed as usize, &monitor)).await??;
+    let compute = move || run::run_speed(&reduced, &settings, speed as usize, start.as_ref(), &monitor);
+    let result = engine.pool.run(compute).await??;
 
     let finished = once_there_is_room(&job.watch, || engine.store.insert_speed(id, &result)).await?;
     job.watch.speeds_finished(finished, Some(speed));
@@ -33,6 +38,9 @@ pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) 
     );
     if finished == job.speeds {
         finish::sweep(engine, &job, request).await?;
+    } else if let Some(next) = after {
+        engine.queue.push_speeds(id, &[next]).await?;
+        engine.new_speeds.notify_one();
     }
     Ok(())
 }

@@ -62,7 +62,7 @@ impl Runner {
     pub async fn start(store: Store, settings: Settings) -> Result<Self, StoreError> {
         let queue = QueueFile::create(&settings.data).await?;
         let pool = |name, threads| CpuPool::start(name, threads, settings.workers);
-        let pools = (pool("compute", settings.workers)?, pool("import", 1)?);
+        let pools = (pool("compute", settings.workers)?, pool("import", 1)?, pool("plan", 1)?);
         let memory = Memory::new(settings.memory_bytes);
         let engine = Engine::new(store.clone(), queue, pools, memory);
         for (job, crashes) in store.take_up_jobs().await? {

@@ -6,6 +6,7 @@
 
 mod calibrations;
 pub mod checkpoints;
+mod end_states;
 mod error;
 pub mod idempotency;
 pub mod jobs;

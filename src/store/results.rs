@@ -7,7 +7,7 @@ use sqlx::Row;
 use sqlx::sqlite::SqliteRow;
 
 use super::jobs::JobId;
-use super::{Store, StoreError, now};
+use super::{Store, StoreError, end_states, now};
 use crate::analysis::result::{Point, PointStatus, SpeedResult, SpeedSpectra};
 
 /// A document computed at the end of a job.
@@ -30,12 +30,13 @@ impl Document {
 }
 
 impl Store {
-    /// Keeps a finished speed in a transaction of its own. A speed that is there already stays as it is.
+    /// Keeps a finished speed in a transaction of its own, with its end state in place of the last one's, if the job still
+    /// wants work. A speed that is there already stays as it is.
     /// Returns how many speeds of the job are finished now.
     pub async fn insert_speed(&self, job: JobId, result: &SpeedResult) -> Result<u32, StoreError> {
         let spectra = result.spectra.as_ref().map(postcard::to_stdvec).transpose()?;
         let mut transaction = self.writer.begin().await?;
-        sqlx::query(
+        let inserted = sqlx::query(
             "insert into speed_results (job, speed, status, point, spectra, created_at) values (?, ?, ?, ?, ?, ?)
              on conflict (job, speed) do nothing",
         )
@@ -51,6 +52,9 @@ impl Store {
         .bind(now())
         .execute(&mut *transaction)
         .await?;
+        if inserted.rows_affected() == 1 {
+            end_states::replace(&mut transaction, job, result).await?;
+        }
         sqlx::query("update jobs set crashes = 0 where id = ? and crashes > 0")
             .bind(job.to_string())
             .execute(&mut *transaction)
@@ -103,7 +107,7 @@ impl Store {
             .fetch(&self.readers);
         let mut rows = Vec::new();
         while let Some(speed) = speeds.try_next().await? {
-            let SpeedResult { point, spectra } = read(&speed)?;
+            let SpeedResult { point, spectra, .. } = read(&speed)?;
             rows.push((point, spectra.as_ref().and_then(&row)));
         }
         Ok(rows)
@@ -135,5 +139,5 @@ impl Store {
 fn read(row: &SqliteRow) -> Result<SpeedResult, StoreError> {
     let spectra: Option<&[u8]> = row.try_get("spectra")?;
     let spectra: Option<SpeedSpectra> = spectra.map(postcard::from_bytes).transpose()?;
-    Ok(SpeedResult { point: serde_json::from_str(row.try_get("point")?)?, spectra })
+    Ok(SpeedResult { point: serde_json::from_str(row.try_get("point")?)?, spectra, end_state: None })
 }

@@ -15,6 +15,7 @@ use rubmap::store::Store;
 use serde_json::{Value, json};
 
 use super::app::{Api, config, long_sweep_of, modal_analysis_of};
+use super::chains::{finished, first_of};
 use super::model::{self, files_in};
 
 /// `rubmap serve` as a child process.
@@ -101,6 +102,50 @@ async fn a_killed_service_resumes_without_computing_anything_again() {
         assert_eq!(&after[index], point, "speed {index} was computed again");
     }
     assert_eq!(program.api.get(&format!("/v1/jobs/{id}/critical-speeds")).await.status, 200);
+}
+
+#[tokio::test]
+async fn a_killed_chain_goes_on_where_it_was() {
+    let data = tempfile::tempdir().unwrap();
+    let program = Program::serve(data.path());
+    let model = program.api.model(model::package(1.0)).await;
+    let mut request = long_sweep_of(&model, 12);
+    request["sweep"] = "down".into();
+    let down: Vec<u64> = (0..12).rev().collect();
+    let id = program.api.sweep(&request).await;
+    program.api.follow(&id, |job| job["speeds"]["finished"].as_u64() >= Some(3)).await;
+    let before = points(&program.api, &id).await;
+    program.kill();
+    assert!((3..12).contains(&before.len()), "{} speeds were finished", before.len());
+    assert_eq!(before.keys().copied().collect::<Vec<_>>(), first_of(&down, before.len()));
+
+    let program = Program::serve(data.path());
+    program.api.follow(&id, |job| job["speeds"]["finished"].as_u64() > Some(before.len() as u64)).await;
+    let more = finished(&program.api, &id).await;
+    assert_eq!(more, first_of(&down, more.len()), "goes on in order");
+    let job = program.api.finish(&id).await;
+    assert_eq!(job["status"], "successful", "{job}");
+    let after = points(&program.api, &id).await;
+    assert_eq!(after.len(), 12, "no speed is lost");
+    for (index, point) in &before {
+        assert_eq!(&after[index], point, "speed {index} was computed again");
+    }
+    program.kill();
+
+    // The same as undisturbed, but for the times.
+    let undisturbed = tempfile::tempdir().unwrap();
+    let program = Program::serve(undisturbed.path());
+    assert_eq!(program.api.model(model::package(1.0)).await, model);
+    let id = program.api.sweep(&request).await;
+    program.api.finish(&id).await;
+    let timeless = |points: BTreeMap<u64, Value>| -> Vec<Value> {
+        let clear = |mut point: Value| {
+            point["wall_time_s"] = Value::Null;
+            point
+        };
+        points.into_values().map(clear).collect()
+    };
+    assert_eq!(timeless(points(&program.api, &id).await), timeless(after));
 }
 
 /// Accuracy of the reductions below: high enough that one can be caught in the middle.

@@ -1,6 +1,7 @@
 //! The service from outside: real sockets, real files, real computations on a small model.
 
 mod app;
+mod chains;
 mod checkpoints;
 mod errors;
 mod generation;

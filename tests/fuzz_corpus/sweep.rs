@@ -82,7 +82,7 @@ pub(crate) fn run(body: &[u8]) -> End {
     }
     let mut results = Vec::with_capacity(speeds.len());
     for index in 0..speeds.len() {
-        match run_speed(reduced, &request, index, &watch) {
+        match run_speed(reduced, &request, index, None, &watch) {
             Ok(result) => results.push(result),
             Err(AnalysisError::Cancelled) => return End::TooLong,
             Err(error) => panic!("{error}"),

@@ -38,7 +38,7 @@ fn a_speed_at_which_the_stiffness_is_indefinite_fails_alone() {
     for scheme in SCHEMES {
         let request = sweep(&sector, scheme, &[0.1 * TOP_SPEED, 0.7 * TOP_SPEED, TOP_SPEED], json!({}));
         let results: Vec<_> =
-            (0..3).map(|index| run_speed(&reduced, &request, index, &Unwatched).unwrap()).collect();
+            (0..3).map(|index| run_speed(&reduced, &request, index, None, &Unwatched).unwrap()).collect();
         let status: Vec<_> = results.iter().map(|r| r.point.status).collect();
         assert_eq!(status, [PointStatus::Completed, PointStatus::Failed, PointStatus::Completed]);
         assert_sound(&results[0], 1.0);
@@ -76,7 +76,7 @@ fn at_the_edge_of_definiteness_every_speed_has_a_verdict() {
     for scheme in SCHEMES {
         let request = sweep(&sector, scheme, &speeds, json!({}));
         for (index, factor) in factors.iter().enumerate() {
-            let result = run_speed(&reduced, &request, index, &Unwatched).unwrap();
+            let result = run_speed(&reduced, &request, index, None, &Unwatched).unwrap();
             assert_survives_json(&result);
             let message = result.point.message.as_deref().unwrap_or_default();
             match result.point.status {

@@ -75,7 +75,7 @@ fn without_damping_numbers_are_finite_or_withheld() {
                 "integration": {"revolutions": 60, "window_revolutions": 8}
             });
             let request = sweep(&sector, scheme, &[speed], changes);
-            let result = run_speed(&reduced, &request, 0, &Unwatched).unwrap();
+            let result = run_speed(&reduced, &request, 0, None, &Unwatched).unwrap();
             assert_survives_json(&result);
             match result.point.status {
                 PointStatus::Completed => assert_sound(&result, 1.0),

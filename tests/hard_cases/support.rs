@@ -72,7 +72,7 @@ pub(crate) fn reduced(sector: &SectorModel, modes_per_speed: u32) -> ReducedSect
 pub(crate) fn run(reduced: &ReducedSector, request: &SweepRequest) -> Vec<SpeedResult> {
     check(reduced, request, &Unwatched).unwrap();
     let speeds = request.speeds.resolve().unwrap().len();
-    (0..speeds).map(|index| run_speed(reduced, request, index, &Unwatched).unwrap()).collect()
+    (0..speeds).map(|index| run_speed(reduced, request, index, None, &Unwatched).unwrap()).collect()
 }
 
 /// Completed, with finite numbers, complementary contact and balanced energy. Gaps are differences of lengths of

@@ -85,7 +85,8 @@ fn a_speed_that_diverges_has_a_message_and_no_amplitude() {
             "integration": {"revolutions": 30, "window_revolutions": 4}
         });
         let request = sweep(&sector, scheme, &[0.6, 0.3].map(|share| share * TOP_SPEED), changes);
-        let [thrown, held] = [0, 1].map(|index| run_speed(&reduced, &request, index, &Unwatched).unwrap());
+        let [thrown, held] =
+            [0, 1].map(|index| run_speed(&reduced, &request, index, None, &Unwatched).unwrap());
         let point = &thrown.point;
         assert_eq!(point.status, PointStatus::Diverged, "{point:?}");
         assert!(point.steps < 30 * u64::from(point.steps_per_revolution), "{point:?}");

@@ -109,7 +109,7 @@ fn simulate(path: &std::path::Path) -> SpeedResult {
         "integration": {"revolutions": 12, "window_revolutions": 4}
     });
     let request = resolve_sweep(serde_json::from_value(request).unwrap(), &facts).unwrap();
-    run_speed(&reduced, &request, 0, &Unwatched).unwrap()
+    run_speed(&reduced, &request, 0, None, &Unwatched).unwrap()
 }
 
 /// The Cartesian twin gives the same spectra: the frame is the exporter's affair.

@@ -39,7 +39,7 @@ fn fixed_steps_are_held_against_the_stability_limit_of_the_slowest_speed() {
     let sector = wheel(WheelRecipe::default());
     let reduced = reduced(&sector);
     let mut request = request(&sector, &[0.9 * TOP_SPEED, 0.3 * TOP_SPEED]);
-    let auto = run_speed(&reduced, &request, 1, &Unwatched).unwrap().point;
+    let auto = run_speed(&reduced, &request, 1, None, &Unwatched).unwrap().point;
     let smallest = auto.smallest_stable_steps_per_revolution;
     assert!(auto.steps_per_revolution > smallest);
     request.integration.steps_per_revolution = AutoOr::Fixed(smallest - 1);
@@ -51,7 +51,7 @@ fn fixed_steps_are_held_against_the_stability_limit_of_the_slowest_speed() {
     request.integration.steps_per_revolution = AutoOr::Fixed(smallest);
     check(&reduced, &request, &Unwatched).unwrap();
     for index in 0..2 {
-        let point = run_speed(&reduced, &request, index, &Unwatched).unwrap().point;
+        let point = run_speed(&reduced, &request, index, None, &Unwatched).unwrap().point;
         assert_eq!(point.status, PointStatus::Completed, "{point:?}");
         assert_eq!(point.steps_per_revolution, smallest);
         assert!(point.energy_residual.unwrap() < 1e-9, "{point:?}");
@@ -65,7 +65,7 @@ fn results_are_consistent() {
     let reduced = reduced(&sector);
     let mut request = request(&sector, &[0.5 * TOP_SPEED]);
     request.integration.revolutions = 30;
-    let result = run_speed(&reduced, &request, 0, &Unwatched).unwrap();
+    let result = run_speed(&reduced, &request, 0, None, &Unwatched).unwrap();
     let settling = result.point.settling.as_ref().unwrap();
     assert_eq!((settling.verdict, settling.ratio), (Verdict::Periodic, Some(1)), "{settling:?}");
     let spectra = result.spectra.unwrap();
@@ -100,7 +100,7 @@ fn cancellation_is_seen_inside_every_verb() {
     assert!(matches!(prepare(&sector, 6, None, &NoCheckpoints, &Impatient), Err(AnalysisError::Cancelled)));
     let reduced = reduced(&sector);
     let mut request = request(&sector, &[1000.0]);
-    assert!(matches!(run_speed(&reduced, &request, 0, &Impatient), Err(AnalysisError::Cancelled)));
+    assert!(matches!(run_speed(&reduced, &request, 0, None, &Impatient), Err(AnalysisError::Cancelled)));
     request.integration.steps_per_revolution = AutoOr::Fixed(100_000);
     assert!(matches!(check(&reduced, &request, &Impatient), Err(AnalysisError::Cancelled)));
 }
@@ -121,6 +121,6 @@ fn narrow_lobes_are_not_stepped_over() {
     assert!(violations[0].message.contains("at least 6284"), "{violations:?}");
     request.integration.steps_per_revolution = AutoOr::Auto;
     request.integration.revolutions = 6;
-    let point = run_speed(&reduced, &request, 0, &Unwatched).unwrap().point;
+    let point = run_speed(&reduced, &request, 0, None, &Unwatched).unwrap().point;
     assert!(point.steps_per_revolution >= 31416 && point.contact_share > 0.0, "{point:?}");
 }

@@ -9,7 +9,7 @@ use sqlx::sqlite::SqliteRow;
 use super::idempotency::{self, Answer};
 use super::results::Document;
 use super::status::JobStatus;
-use super::{Store, StoreError, now};
+use super::{Store, StoreError, end_states, now};
 use crate::analysis::run::{Estimate, ModelFacts};
 
 pub use job::{Failure, FailureCause, Job, JobId, JobKind, JobRequest, SpeedCounts};
@@ -136,6 +136,9 @@ impl Store {
         .bind(next.is_final())
         .execute(&mut *transaction)
         .await?;
+        if next.is_final() {
+            end_states::drop_of(&mut transaction, id).await?;
+        }
         transaction.commit().await?;
         Ok(Some(next))
     }
@@ -189,6 +192,7 @@ impl Store {
         .bind(made)
         .execute(&mut *transaction)
         .await?;
+        end_states::drop_of(&mut transaction, id).await?;
         transaction.commit().await?;
         Ok(true)
     }

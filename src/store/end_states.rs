@@ -1,0 +1,114 @@
+//! End states of sweeps up or down: one a job, that of the speed finished last.
+
+use sqlx::SqliteConnection;
+
+use super::jobs::JobId;
+use super::{Store, StoreError};
+use crate::analysis::end_state::EndState;
+use crate::analysis::result::SpeedResult;
+
+impl Store {
+    /// Where the wheel was at the end of speed `index` of a job, if that was finished last and left a state.
+    pub async fn end_state(&self, job: JobId, index: u32) -> Result<Option<EndState>, StoreError> {
+        let state: Option<Vec<u8>> =
+            sqlx::query_scalar("select state from end_states where job = ? and speed = ?")
+                .bind(job.to_string())
+                .bind(index)
+                .fetch_optional(&self.readers)
+                .await?;
+        Ok(state.map(|state| postcard::from_bytes(&state)).transpose()?)
+    }
+}
+
+/// Keeps the end state of a speed that has just been finished in place of the one before; if it left none, there is none.
+pub(super) async fn replace(
+    connection: &mut SqliteConnection,
+    job: JobId,
+    result: &SpeedResult,
+) -> Result<(), StoreError> {
+    drop_of(connection, job).await?;
+    let Some(state) = &result.end_state else { return Ok(()) };
+    sqlx::query(
+        "insert into end_states (job, speed, state)
+         select ?1, ?2, ?3 where exists (select 1 from jobs where id = ?1 and status in ('accepted', 'running'))",
+    )
+    .bind(job.to_string())
+    .bind(result.point.index)
+    .bind(postcard::to_stdvec(state)?)
+    .execute(connection)
+    .await?;
+    Ok(())
+}
+
+/// Drops the end state of a job.
+pub(super) async fn drop_of(connection: &mut SqliteConnection, job: JobId) -> Result<(), StoreError> {
+    sqlx::query("delete from end_states where job = ?").bind(job.to_string()).execute(connection).await?;
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+    use crate::store::status::JobStatus;
+
+    /// A finished speed that ended at `state`.
+    fn result(index: u32, state: Option<f64>) -> SpeedResult {
+        let point = json!({
+            "index": index, "speed_rad_s": 1.0, "status": "completed", "steps_per_revolution": 1,
+            "smallest_stable_steps_per_revolution": 1, "steps": 1, "contact_share": 0.0, "responses": [],
+            "wall_time_s": 0.1, "version": "0",
+        });
+        SpeedResult {
+            point: serde_json::from_value(point).unwrap(),
+            spectra: None,
+            end_state: state.map(|x| EndState(vec![x, 0.1 + 0.2])),
+        }
+    }
+
+    async fn running_job(store: &Store) -> JobId {
+        let job = JobId::new();
+        sqlx::query(
+            "insert into jobs (id, kind, status, model, modes_per_speed, facts, request, speeds, created_at, updated_at)
+             values (?, 'sweep', 'running', 'm', 20, '{}', '{}', 5, 'a', 'a')",
+        )
+        .bind(job.to_string())
+        .execute(&store.writer)
+        .await
+        .unwrap();
+        job
+    }
+
+    #[tokio::test]
+    async fn the_state_of_the_last_speed_is_kept_until_the_job_is_final() {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::open(folder.path()).await.unwrap();
+        let (job, other) = (running_job(&store).await, running_job(&store).await);
+        let state = async |index| store.end_state(job, index).await.unwrap();
+        let first = result(4, Some(1.0));
+        store.insert_speed(job, &first).await.unwrap();
+        store.insert_speed(other, &result(4, Some(7.0))).await.unwrap();
+        assert_eq!(state(4).await, first.end_state, "to the bit");
+        assert_eq!(state(3).await, None);
+        // Of a speed that is there already nothing changes.
+        store.insert_speed(job, &result(4, Some(2.0))).await.unwrap();
+        assert_eq!(state(4).await, first.end_state);
+        let second = result(3, Some(3.0));
+        store.insert_speed(job, &second).await.unwrap();
+        assert_eq!((state(4).await, state(3).await), (None, second.end_state));
+        // A speed that diverged leaves nothing to the next.
+        store.insert_speed(job, &result(2, None)).await.unwrap();
+        assert_eq!((state(3).await, state(2).await), (None, None));
+
+        store.insert_speed(job, &result(1, Some(4.0))).await.unwrap();
+        store.advance_job(job, JobStatus::Dismissed, None).await.unwrap();
+        assert_eq!(state(1).await, None);
+        // What was still being computed then comes too late.
+        store.insert_speed(job, &result(0, Some(5.0))).await.unwrap();
+        assert_eq!(state(0).await, None);
+        assert!(store.end_state(other, 4).await.unwrap().is_some());
+        assert!(store.complete_job(other, &[], None).await.unwrap());
+        assert_eq!(store.end_state(other, 4).await.unwrap(), None);
+    }
+}
