@@ -35,14 +35,14 @@ pub(super) struct SceneEffects {
 }
 
 impl SceneEffects {
-    /// The effects that `request` names, on `wheel` or the part of it that is simulated.
+    /// The effects that `scene` names, on `wheel` or the part of it that is simulated.
     pub(super) fn of(
-        request: &SweepRequest,
+        scene: &Scene,
         contact_nodes: &[ContactNode],
         wheel: &ModalWheel,
+        ramp_revolutions: f64,
     ) -> Result<Self, String> {
         let sectors = wheel.sectors * wheel.repeats;
-        let scene = &request.scene;
         let friction = match &scene.friction {
             Some(friction) => {
                 let directions = sliding_directions(contact_nodes, friction.coefficient);
@@ -66,7 +66,7 @@ impl SceneEffects {
                 .collect(),
             amplitude: excitation.amplitude,
             phase_rad: excitation.phase_rad,
-            ramp_revolutions: request.integration.ramp_revolutions,
+            ramp_revolutions,
         });
         Ok(Self {
             friction,

@@ -23,7 +23,7 @@ use crate::response::symmetry_breaking;
 /// of the wheel: what adds up over the wheel is multiplied here.
 pub(super) fn record_run(
     point: &mut Point,
-    run: Run,
+    run: &Run,
     request: &SweepRequest,
     wheel: &ModalWheel,
     steps: &Discretisation,
@@ -41,11 +41,11 @@ pub(super) fn record_run(
     point.energy_residual = finite(run.energy.residual());
     point.energy = EnergyReport::of(&run.energy, &request.scene, parts);
     point.largest_energy = finite(parts * run.energy.largest_energy());
-    match run.outcome {
+    match &run.outcome {
         Outcome::Cancelled => Err(AnalysisError::Cancelled),
         Outcome::Diverged(divergence) => {
             point.status = PointStatus::Diverged;
-            point.message = Some(describe(&divergence));
+            point.message = Some(describe(divergence));
             Ok(None)
         }
         Outcome::ContactFailed { revolutions, error } => {
@@ -54,9 +54,9 @@ pub(super) fn record_run(
         }
         Outcome::Completed(history) => {
             point.status = PointStatus::Completed;
-            let spectra = spectra(&history, request, wheel);
+            let spectra = spectra(history, request, wheel);
             let window = request.integration.window_revolutions as usize;
-            point.responses = responses(&history, request, &spectra, window * steps.samples);
+            point.responses = responses(history, request, &spectra, window * steps.samples);
             let mut settling = judge(&history.displacement, steps.samples, window, lobes(request));
             if settling.verdict == Verdict::Aperiodic {
                 settling.side_band_spacing = side_band_spacing(&point.responses);

@@ -120,6 +120,14 @@ pub struct WearReport {
     pub reached_metal: bool,
 }
 
+/// How deep the blades wore an abradable coating.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct WearMap {
+    /// `[rod][contact node]`, length: rods in the direction of rotation from the package's x axis, contact nodes from the
+    /// leading edge.
+    pub depths: Vec<Vec<f64>>,
+}
+
 /// One speed of a sweep with its credentials.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Point {
@@ -213,6 +221,8 @@ pub struct SpeedResult {
     pub spectra: Option<SpeedSpectra>,
     /// Where the wheel was at the end of a completed run of a sweep up or down, otherwise absent.
     pub end_state: Option<EndState>,
+    /// Of an abradable coating.
+    pub wear: Option<WearMap>,
 }
 
 /// Spectra side by side over Ω, as downloaded.

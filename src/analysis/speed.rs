@@ -2,20 +2,19 @@
 
 use std::time::Instant;
 
-use super::discretisation::Discretisation;
 use super::effects::{SceneEffects, direction, initial, wheel_of};
 use super::end_state::EndState;
 use super::error::AnalysisError;
 use super::model::ReducedSector;
 use super::monitor::Monitor;
 use super::record::record_run;
-use super::request::{Sensor, SweepRequest};
-use super::result::{Point, PointStatus, SpeedResult};
+use super::request::{Sensor, SweepDirection, SweepRequest};
+use super::result::{Point, PointStatus, SpeedResult, WearMap};
 use super::run::VERSION;
 use super::sliding;
 use super::stepping::Stepping;
 use crate::dynamics::casing::{Casing, Restriction, RestrictionTable, clearance_along_chord};
-use crate::dynamics::integrate::{MAX_TABLE_VALUES, Run, SensorRow, Simulation};
+use crate::dynamics::integrate::{MAX_TABLE_VALUES, Outcome, Run, SensorRow, Simulation};
 use crate::dynamics::modal_wheel::ModalWheel;
 use crate::dynamics::oscillators::ModalDamping;
 use crate::dynamics::reduction::ReducedWheel;
@@ -35,7 +34,7 @@ pub fn run_speed(
     let clock = Instant::now();
     let speeds = request.speeds.resolve().map_err(AnalysisError::Refused)?;
     let mut point = empty_point(index, speeds[index]);
-    let mut spectra = None;
+    let (mut spectra, mut end_state, mut wear) = (None, None, None);
     let scene = &request.scene;
     match wheel_of(scene, &reduced.wheel, point.speed_rad_s) {
         Err(error) => point.message = Some(error.to_string()),
@@ -47,13 +46,15 @@ pub fn run_speed(
                     monitor.progress(fraction, "contact simulation");
                     !monitor.is_cancelled()
                 };
-                match simulate(&reduced.wheel, &wheel, request, stepping.scheme, steps, &watch) {
+                match simulate(&reduced.wheel, &wheel, request, &stepping, start, &watch) {
                     Err(message) => point.message = Some(message),
                     Ok(run) => {
                         point.smallest_stable_steps_per_revolution = stepping.smallest as u32;
                         point.steps_per_revolution = steps.per_revolution as u32;
+                        spectra = record_run(&mut point, &run, request, &wheel, steps)?;
+                        end_state = end_state_of(&run, &reduced.wheel, &wheel, request);
+                        wear = run.coating.map(|coating| WearMap { depths: coating.worn_depths() });
                         point.scheme = Some(stepping.report);
-                        spectra = record_run(&mut point, run, request, &wheel, steps)?;
                     }
                 }
             }
@@ -63,7 +64,21 @@ pub fn run_speed(
         point.message = Some(from_rest(point.message.take()));
     }
     point.wall_time_s = clock.elapsed().as_secs_f64();
-    Ok(SpeedResult { point, spectra, end_state: None })
+    Ok(SpeedResult { point, spectra, wear, end_state })
+}
+
+/// What the next speed of a chain starts from, if the sweep is one and this speed was integrated to its end.
+fn end_state_of(
+    run: &Run,
+    reduced: &ReducedWheel,
+    wheel: &ModalWheel,
+    request: &SweepRequest,
+) -> Option<EndState> {
+    let Outcome::Completed(history) = &run.outcome else { return None };
+    if request.sweep == SweepDirection::Independent {
+        return None;
+    }
+    EndState::new(&history.end, wheel, reduced, request.scene.centrifugal_stiffening).ok()
 }
 
 /// Whether speed `index` should start from the end of another one.
@@ -108,15 +123,19 @@ fn simulate(
     reduced: &ReducedWheel,
     wheel: &ModalWheel,
     request: &SweepRequest,
-    scheme: Scheme,
-    steps: &Discretisation,
+    stepping: &Stepping,
+    start: Option<&EndState>,
     watch: &dyn Fn(f64) -> bool,
 ) -> Result<Run, String> {
     let scene = &request.scene;
+    let Stepping { scheme, discretisation: steps, .. } = stepping;
+    let scheme = *scheme;
+    // A wheel that comes from another speed is in contact with a casing that is there.
+    let ramp_revolutions = if start.is_some() { 0.0 } else { request.integration.ramp_revolutions };
     sliding::check(wheel, &reduced.contact, request, scheme, steps.per_revolution)
         .map_err(|error| error.to_string())?;
     let damping = modal_damping(request);
-    let casing = casing(reduced, request);
+    let casing = casing(reduced, request, ramp_revolutions);
     if casing.as_ref().is_some_and(|casing| casing.restriction.is_some()) {
         let stride = reduced.contact.len().next_multiple_of(8);
         let size = RestrictionTable::size(steps.per_revolution, reduced.sectors, stride);
@@ -128,7 +147,7 @@ fn simulate(
             ));
         }
     }
-    let effects = SceneEffects::of(request, &reduced.contact, wheel)?;
+    let effects = SceneEffects::of(scene, &reduced.contact, wheel, ramp_revolutions)?;
     if let Scheme::MasslessBoundary { kept_modes } = scheme
         && let Some(initial) = &scene.initial
         && initial.family as usize > kept_modes
@@ -138,7 +157,13 @@ fn simulate(
             initial.family
         ));
     }
-    let initial = initial(request, wheel, casing.as_ref())?;
+    let initial = match start {
+        Some(state) => state
+            .modes(wheel, reduced, scene.centrifugal_stiffening, scheme)
+            .map_err(|error| error.to_string())?
+            .ok_or("the neighbouring speed ended in a state of another reduction: run the sweep again")?,
+        None => initial(request, wheel, casing.as_ref())?,
+    };
     let sensors: Vec<_> = request.sensors.iter().map(|sensor| sensor_row(reduced, wheel, sensor)).collect();
     Ok(Simulation {
         wheel,
@@ -164,7 +189,7 @@ pub(super) fn modal_damping(request: &SweepRequest) -> Option<ModalDamping> {
 }
 
 /// The casing of a scene with contact; a casing that nothing touches does not exist for the integration.
-fn casing(reduced: &ReducedWheel, request: &SweepRequest) -> Option<Casing> {
+fn casing(reduced: &ReducedWheel, request: &SweepRequest, ramp_revolutions: f64) -> Option<Casing> {
     let casing = request.scene.casing.as_ref()?;
     request.scene.contact.as_ref()?;
     let positions: Vec<_> = reduced.contact.iter().map(|node| node.position).collect();
@@ -178,7 +203,7 @@ fn casing(reduced: &ReducedWheel, request: &SweepRequest) -> Option<Casing> {
         width_rad: lobes.width_rad,
         phase_rad: lobes.phase_rad,
     });
-    Some(Casing { clearance, restriction, ramp_revolutions: request.integration.ramp_revolutions })
+    Some(Casing { clearance, restriction, ramp_revolutions })
 }
 
 fn sensor_row(reduced: &ReducedWheel, wheel: &ModalWheel, sensor: &Sensor) -> SensorRow {

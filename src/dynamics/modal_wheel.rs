@@ -98,17 +98,26 @@ pub fn natural_frequencies(
     frequencies(&values, harmonic.harmonic, speed_rad_s)
 }
 
-/// Modes of nodal diameter `harmonic` of `wheel` at `speed_rad_s`; errors as of [`ModalWheel::at`].
-pub(super) fn modal_harmonic(
+/// Φ of nodal diameter `harmonic` of `wheel` in the coordinates of the reduction, `unknowns × modes`, mass-normalised: the
+/// same to the last bit as those behind [`ModalWheel::at`].
+pub fn mode_shapes(
     wheel: &ReducedWheel,
     harmonic: usize,
     speed_rad_s: f64,
-    effects: RotationEffects,
-) -> Result<ModalHarmonic, ModelError> {
+    stiffening: bool,
+) -> Result<Mat<c64>, ModelError> {
+    Ok(eigenpairs(wheel, harmonic, speed_rad_s, stiffening)?.vectors)
+}
+
+fn eigenpairs(
+    wheel: &ReducedWheel,
+    harmonic: usize,
+    speed_rad_s: f64,
+    stiffening: bool,
+) -> Result<Eigenpairs<c64>, ModelError> {
     let reduced = &wheel.harmonics[harmonic];
-    let single = is_single(harmonic, wheel.sectors);
-    let stiffness = reduced.stiffness.at(speed_rad_s, effects.stiffening);
-    let pairs = if single {
+    let stiffness = reduced.stiffness.at(speed_rad_s, stiffening);
+    let pairs = if is_single(harmonic, wheel.sectors) {
         let (k, m) = (real(&stiffness), real(&reduced.mass));
         generalised_eigenpairs(k.as_ref(), m.as_ref()).map(|Eigenpairs { values, vectors }| {
             let complex =
@@ -118,14 +127,25 @@ pub(super) fn modal_harmonic(
     } else {
         generalised_eigenpairs(stiffness.as_ref(), reduced.mass.as_ref())
     };
-    let pairs = pairs.map_err(|error| decomposition_error(error, harmonic, speed_rad_s))?;
+    pairs.map_err(|error| decomposition_error(error, harmonic, speed_rad_s))
+}
+
+/// Modes of nodal diameter `harmonic` of `wheel` at `speed_rad_s`; errors as of [`ModalWheel::at`].
+pub(super) fn modal_harmonic(
+    wheel: &ReducedWheel,
+    harmonic: usize,
+    speed_rad_s: f64,
+    effects: RotationEffects,
+) -> Result<ModalHarmonic, ModelError> {
+    let single = is_single(harmonic, wheel.sectors);
+    let pairs = eigenpairs(wheel, harmonic, speed_rad_s, effects.stiffening)?;
     Ok(ModalHarmonic {
         harmonic,
         single,
         omega: frequencies(&pairs.values, harmonic, speed_rad_s)?,
         contact: pairs.vectors.subrows(0, wheel.contact_dofs()).to_owned(),
         gyroscopic: if effects.coriolis {
-            Some(modal_gyroscopic(reduced, &pairs.vectors, single)?)
+            Some(modal_gyroscopic(&wheel.harmonics[harmonic], &pairs.vectors, single)?)
         } else {
             None
         },

@@ -11,7 +11,9 @@ use super::AppState;
 use super::extract::{JobPath, Parameters, job_not_found};
 use super::problem::{Kind, Problem};
 use crate::analysis::request::SweepRequest;
-use crate::analysis::result::{Campbell, CriticalSpeeds, InteractionMap, Point, SpeedSpectra};
+use crate::analysis::result::{
+    Campbell, CriticalSpeeds, InteractionMap, Point, SpeedResult, SpeedSpectra, WearMap,
+};
 use crate::analysis::run::{self, ModelFacts};
 use crate::dynamics::sector::Units;
 use crate::store::jobs::{Job, JobId, JobKind, JobRequest};
@@ -49,6 +51,9 @@ pub(super) struct SpectraBody {
     units: Units,
     /// Amplitudes over engine order, per sensor and nodal diameter; null unless `point.status` is `completed`.
     spectra: Option<SpeedSpectra>,
+    /// Wear of an abradable coating; absent without one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    wear: Option<WearMap>,
 }
 
 /// Download the interaction map: amplitude over speed and engine order.
@@ -113,7 +118,8 @@ pub(super) async fn get_spectra(
     })?;
     match state.store.speed_result(id, index).await? {
         Some(result) => {
-            Ok(Json(SpectraBody { point: result.point, units: facts.units.clone(), spectra: result.spectra }))
+            let SpeedResult { point, spectra, wear, .. } = result;
+            Ok(Json(SpectraBody { point, units: facts.units.clone(), spectra, wear }))
         }
         None if job.status.is_final() => Err(Problem::new(
             Kind::SpeedNotFound,

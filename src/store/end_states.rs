@@ -63,6 +63,7 @@ mod tests {
         SpeedResult {
             point: serde_json::from_value(point).unwrap(),
             spectra: None,
+            wear: None,
             end_state: state.map(|x| EndState(vec![x, 0.1 + 0.2])),
         }
     }

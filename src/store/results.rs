@@ -8,7 +8,7 @@ use sqlx::sqlite::SqliteRow;
 
 use super::jobs::JobId;
 use super::{Store, StoreError, end_states, now};
-use crate::analysis::result::{Point, PointStatus, SpeedResult, SpeedSpectra};
+use crate::analysis::result::{Point, PointStatus, SpeedResult, SpeedSpectra, WearMap};
 
 /// A document computed at the end of a job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,9 +35,10 @@ impl Store {
     /// Returns how many speeds of the job are finished now.
     pub async fn insert_speed(&self, job: JobId, result: &SpeedResult) -> Result<u32, StoreError> {
         let spectra = result.spectra.as_ref().map(postcard::to_stdvec).transpose()?;
+        let wear = result.wear.as_ref().map(postcard::to_stdvec).transpose()?;
         let mut transaction = self.writer.begin().await?;
         let inserted = sqlx::query(
-            "insert into speed_results (job, speed, status, point, spectra, created_at) values (?, ?, ?, ?, ?, ?)
+            "insert into speed_results (job, speed, status, point, spectra, wear, created_at) values (?, ?, ?, ?, ?, ?, ?)
              on conflict (job, speed) do nothing",
         )
         .bind(job.to_string())
@@ -49,6 +50,7 @@ impl Store {
         })
         .bind(serde_json::to_string(&result.point)?)
         .bind(spectra)
+        .bind(wear)
         .bind(now())
         .execute(&mut *transaction)
         .await?;
@@ -102,9 +104,11 @@ impl Store {
         job: JobId,
         row: impl Fn(&SpeedSpectra) -> Option<Vec<f64>>,
     ) -> Result<Vec<(Point, Option<Vec<f64>>)>, StoreError> {
-        let mut speeds = sqlx::query("select point, spectra from speed_results where job = ? order by speed")
-            .bind(job.to_string())
-            .fetch(&self.readers);
+        let mut speeds = sqlx::query(
+            "select point, spectra, null as wear from speed_results where job = ? order by speed",
+        )
+        .bind(job.to_string())
+        .fetch(&self.readers);
         let mut rows = Vec::new();
         while let Some(speed) = speeds.try_next().await? {
             let SpeedResult { point, spectra, .. } = read(&speed)?;
@@ -115,7 +119,7 @@ impl Store {
 
     /// Speed `index` of a job, if it is finished.
     pub async fn speed_result(&self, job: JobId, index: u32) -> Result<Option<SpeedResult>, StoreError> {
-        sqlx::query("select point, spectra from speed_results where job = ? and speed = ?")
+        sqlx::query("select point, spectra, wear from speed_results where job = ? and speed = ?")
             .bind(job.to_string())
             .bind(index)
             .fetch_optional(&self.readers)
@@ -139,5 +143,7 @@ impl Store {
 fn read(row: &SqliteRow) -> Result<SpeedResult, StoreError> {
     let spectra: Option<&[u8]> = row.try_get("spectra")?;
     let spectra: Option<SpeedSpectra> = spectra.map(postcard::from_bytes).transpose()?;
-    Ok(SpeedResult { point: serde_json::from_str(row.try_get("point")?)?, spectra, end_state: None })
+    let wear: Option<&[u8]> = row.try_get("wear")?;
+    let wear: Option<WearMap> = wear.map(postcard::from_bytes).transpose()?;
+    Ok(SpeedResult { point: serde_json::from_str(row.try_get("point")?)?, spectra, wear, end_state: None })
 }
