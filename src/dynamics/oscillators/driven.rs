@@ -9,7 +9,7 @@ use pulp::Simd;
 use super::super::coriolis::swing_matrix;
 use super::super::effects::Effects;
 use super::super::energy::EffectWork;
-use super::super::excitation::ModalExcitation;
+use super::super::excitation::{EngineOrderExcitation, ModalExcitation};
 use super::super::mistuning::{ModalMistuning, Place, RESOLVED};
 use super::super::modal_wheel::ModalWheel;
 use super::product::{LoadPair, LoadSingle, ProjectPair, ProjectSingle};
@@ -68,8 +68,13 @@ impl Drive {
             ModalMistuning::new(deviations, wheel, fourier, oscillators.resolved_families())
         });
         let longest = oscillators.segments.iter().map(|segment| segment.length).max().unwrap_or(0);
+        let excitation = |excitation: &EngineOrderExcitation| {
+            let mut modal = ModalExcitation::new(excitation, wheel);
+            modal.amplitude.truncate(oscillators.segments[modal.harmonic].integrated);
+            modal
+        };
         Some(Self {
-            excitations: effects.excitation.iter().map(|e| ModalExcitation::new(e, wheel)).collect(),
+            excitations: effects.excitation.iter().map(excitation).collect(),
             excitation: of(!effects.excitation.is_empty()),
             pull: of(mistuning.is_some()),
             mistuning,
