@@ -58,7 +58,7 @@ impl Stepper {
         let (wheel, scheme) = (simulation.wheel, simulation.scheme);
         let fourier = SectorFourier::new(wheel.sectors);
         let touching = simulation.casing.is_some();
-        let oscillators = Oscillators::new(
+        let mut oscillators = Oscillators::new(
             wheel,
             scheme,
             simulation.step_s(),
@@ -69,7 +69,10 @@ impl Stepper {
         let obstacle =
             simulation.casing.map(|casing| Obstacle::new(simulation, casing, &oscillators, &fourier));
         let step = simulation.step_s();
-        let drive = Drive::new(wheel, &simulation.effects, &oscillators, &fourier, step);
+        let mut drive = Drive::new(wheel, &simulation.effects, &oscillators, &fourier, step);
+        if let Some(drive) = &mut drive {
+            drive.start(wheel, simulation.initial, &mut oscillators);
+        }
         let recorder = Recorder::new(simulation, &fourier);
         let energy = EnergyAudit::starting_at(oscillators.energy());
         let statistics = RunStatistics::default();

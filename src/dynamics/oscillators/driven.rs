@@ -10,6 +10,7 @@ use super::super::coriolis::swing_matrix;
 use super::super::effects::Effects;
 use super::super::energy::EffectWork;
 use super::super::excitation::{EngineOrderExcitation, ModalExcitation};
+use super::super::initial::InitialMode;
 use super::super::mistuning::{ModalMistuning, Place, RESOLVED};
 use super::super::modal_wheel::ModalWheel;
 use super::product::{LoadPair, LoadSingle, ProjectPair, ProjectSingle};
@@ -85,6 +86,44 @@ impl Drive {
             free: Aligned::zeros(2 * longest),
             turned: Aligned::zeros(2 * longest),
         })
+    }
+
+    /// Gives the drive's forces at the start their part in the first increments d = z − z⁻, which are those of free motion:
+    /// without it the start would be of first order in h only.
+    pub(crate) fn start(
+        &mut self,
+        wheel: &ModalWheel,
+        initial: &[InitialMode],
+        oscillators: &mut Oscillators,
+    ) {
+        self.prepare(&oscillators.state.z, 0.0);
+        for force in [&self.excitation, &self.pull] {
+            for (sum, f) in self.swing.iter_mut().zip(force.iter()) {
+                *sum += f;
+            }
+        }
+        for mode in initial {
+            let (segment, harmonic) = (oscillators.segments[mode.harmonic], &wheel.harmonics[mode.harmonic]);
+            let Some(g) = &harmonic.gyroscopic else { continue };
+            for m in 0..segment.integrated {
+                let velocity = if segment.single { c64::from(mode.velocity.re) } else { mode.velocity };
+                let force = -g[(m, mode.family)] * velocity * wheel.speed_rad_s;
+                for (start, part) in segment.parts().zip([force.re, force.im]) {
+                    self.swing[start + m] += part;
+                }
+            }
+        }
+        let Oscillators { segments, coefficients, state } = oscillators;
+        for segment in segments {
+            for start in segment.parts() {
+                for m in 0..segment.integrated {
+                    let mode = segment.modes + m;
+                    let share = coefficients.receptance[mode] / (1.0 + coefficients.keep[mode]);
+                    state.d[start + m] -= share * self.swing[start + m];
+                }
+            }
+        }
+        self.swing.fill(0.0);
     }
 
     /// Forces at the instant of the state `z`, `revolutions` after the start.
