@@ -136,6 +136,9 @@ struct Part {
 
 impl CasingMotion {
     /// At rest; `sectors` of the `around` on the circumference, nodes padded to `stride`.
+    ///
+    /// Where they are one of several parts that the wheel repeats, the forces of all parts cancel but on waves that repeat
+    /// with them, of which each part moves its share.
     pub(crate) fn new(
         casing: &FlexibleCasing,
         scheme: Scheme,
@@ -144,9 +147,10 @@ impl CasingMotion {
         (sectors, around): (usize, usize),
         stride: usize,
     ) -> Self {
+        let repeats = around / sectors;
         let wave = |wave: &CasingWave| {
             let mode = scheme.mode_step(wave.omega, casing.damping_ratio, step, true);
-            let (n, scale) = (f64::from(wave.nodal_diameter), wave.modal_mass.sqrt().recip());
+            let (n, scale) = (f64::from(wave.nodal_diameter), (repeats as f64 / wave.modal_mass).sqrt());
             let mut cos = vec![0.0; sectors * stride];
             let mut sin = cos.clone();
             for sector in 0..sectors {
@@ -171,7 +175,10 @@ impl CasingMotion {
             }
         };
         Self {
-            waves: casing.waves.iter().map(wave).collect(),
+            waves: (casing.waves.iter())
+                .filter(|wave| (wave.nodal_diameter as usize).is_multiple_of(repeats))
+                .map(wave)
+                .collect(),
             angles: contact_nodes.iter().map(|node| node.position[1]).collect(),
             radial: contact_nodes.iter().map(|node| node.normal[0]).collect(),
             around,
