@@ -1,0 +1,163 @@
+//! Limits in which an effect vanishes, and scenes that are the same scene in two guises.
+
+use rubmap::dynamics::excitation::EngineOrderExcitation;
+use rubmap::dynamics::flexible_casing::{CasingWave, FlexibleCasing};
+use rubmap::dynamics::integrate::SensorRow;
+use rubmap::dynamics::modal_wheel::ModalWheel;
+use rubmap::dynamics::orbit::Orbit;
+use rubmap::dynamics::oscillators::Direction;
+use rubmap::dynamics::schemes::Scheme;
+
+use crate::scene::{Effect, SPEED, Scene, Start, difference, history, set_gyroscopic};
+
+const SCHEMES: [Scheme; 3] =
+    [Scheme::CentralDifferences, Scheme::ExactModal, Scheme::MasslessBoundary { kept_modes: 2 }];
+
+/// Rubs by `scheme`, with modes to leave out.
+fn rubbing(sectors: usize, scheme: Scheme) -> Scene {
+    let mut scene = Scene::rubbing(sectors, Start::Travelling);
+    scene.wheel = crate::scene::wheel(sectors, 2, 5);
+    scene.scheme = scheme;
+    scene
+}
+
+fn apart(a: &Scene, b: &Scene) -> f64 {
+    let (a, b) = (a.run(), b.run());
+    assert!(a.statistics.contact_steps > 20 && b.statistics.contact_steps > 20, "no contact");
+    difference(&history(&a).displacement, &history(&b).displacement)
+}
+
+/// An effect of size zero runs in another loop than none, and differs by round-off.
+#[test]
+fn effects_of_no_size_leave_the_plain_scene() {
+    for scheme in SCHEMES {
+        for sectors in [4, 5] {
+            let plain = rubbing(sectors, scheme);
+            let mut gyroscopic = plain.clone();
+            set_gyroscopic(&mut gyroscopic.wheel, 0.0);
+            let silent = EngineOrderExcitation {
+                order: 2,
+                directions: vec![Direction { node: 0, components: [1.0, 0.0, 0.0] }],
+                amplitude: 0.0,
+                phase_rad: 0.3,
+                ramp_revolutions: 0.0,
+            };
+            let still = Orbit { radius: 0.0, whirl_ratio: 0.3, phase_rad: 0.2 };
+            let cases = [
+                ("friction", Scene { friction: Some(0.0), ..plain.clone() }),
+                ("mistuning", Scene { mistuning: Some(vec![0.0; sectors]), ..plain.clone() }),
+                ("engine orders", Scene { excitation: vec![silent], ..plain.clone() }),
+                ("orbit", Scene { orbit: Some(still), ..plain.clone() }),
+                ("Coriolis", gyroscopic),
+            ];
+            for (name, scene) in cases {
+                let apart = apart(&scene, &plain);
+                assert!(apart < 1e-10, "{scheme:?} {sectors}, {name}: {apart:e}");
+            }
+        }
+    }
+}
+
+/// Of first order: half a revolution, in which differences do not grow by themselves.
+fn first_order(limit: &Scene, scene: impl Fn(f64) -> Scene) {
+    let error = |size: f64| apart(&scene(size), limit);
+    let (coarse, fine) = (error(1e3), error(1e4));
+    assert!(fine < 0.03 && coarse > 1e-9, "{coarse:e} {fine:e}");
+    assert!((5.0..20.0).contains(&(coarse / fine)), "{coarse:e} {fine:e}");
+}
+
+#[test]
+fn a_heavy_casing_is_rigid() {
+    for scheme in [Scheme::CentralDifferences, Scheme::ExactModal] {
+        for sectors in [4, 5] {
+            let rigid = Scene { revolutions: 1, ..rubbing(sectors, scheme) };
+            first_order(&rigid, |size| {
+                let mut scene = rigid.clone().with(&[Effect::FlexibleCasing]);
+                for wave in &mut scene.flexible_casing.as_mut().unwrap().waves {
+                    wave.modal_mass *= size;
+                }
+                scene
+            });
+        }
+    }
+}
+
+/// At the surface of the coating, and all its work is elastic.
+#[test]
+fn a_stiff_coating_is_rigid() {
+    for scheme in SCHEMES {
+        for sectors in [4, 5] {
+            let rigid = Scene { revolutions: 1, ..rubbing(sectors, scheme) };
+            first_order(&rigid, |size| {
+                let mut scene = rigid.clone().with(&[Effect::Coating]);
+                let coating = scene.coating.as_mut().unwrap();
+                coating.material.modulus = 1e4 * size;
+                coating.material.hardening = 1e14;
+                coating.material.yield_stress = 1e9;
+                scene
+            });
+        }
+    }
+}
+
+/// A synchronous whirl turns with the wheel: every node has the clearance that is left to it, for ever.
+#[test]
+fn a_synchronous_whirl_is_another_clearance() {
+    for scheme in SCHEMES {
+        let mut whirling = rubbing(1, scheme);
+        let casing = whirling.casing.as_mut().unwrap();
+        casing.ramp_revolutions = 0.0;
+        let orbit = Orbit { radius: 0.05, whirl_ratio: 1.0, phase_rad: 0.9 };
+        whirling.orbit = Some(orbit);
+        let mut nearer = Scene { orbit: None, ..whirling.clone() };
+        for (clearance, node) in nearer.casing.as_mut().unwrap().clearance.iter_mut().zip(&whirling.nodes) {
+            *clearance -= node.normal[0] * orbit.radius * (node.position[1] - orbit.phase_rad).cos();
+        }
+        let apart = apart(&whirling, &nearer);
+        assert!(apart < 1e-10, "{scheme:?}: {apart:e}");
+    }
+}
+
+/// One of `repeats` parts that a wheel of `sectors` repeats.
+fn part(wheel: &ModalWheel, repeats: usize) -> ModalWheel {
+    let sectors = wheel.sectors / repeats;
+    let harmonics = (0..=sectors / 2).map(|harmonic| {
+        let mut modes = wheel.harmonics[harmonic * repeats].clone();
+        modes.harmonic = harmonic;
+        modes
+    });
+    ModalWheel { speed_rad_s: wheel.speed_rad_s, sectors, repeats, harmonics: harmonics.collect() }
+}
+
+/// What repeats around the wheel needs to be simulated but once, elastic casing and engine orders included.
+#[test]
+fn a_part_does_what_the_whole_wheel_does() {
+    for scheme in [Scheme::CentralDifferences, Scheme::ExactModal] {
+        for (sectors, repeats) in [(4, 2), (6, 2), (6, 3)] {
+            let mut whole = Scene { scheme, ..Scene::rubbing(sectors, Start::Rest) };
+            whole.add(Effect::Friction);
+            whole.add(Effect::Coriolis);
+            whole.casing.as_mut().unwrap().restriction.as_mut().unwrap().count = repeats as u32;
+            let wave = |nodal_diameter: usize, omega: f64| CasingWave {
+                nodal_diameter: nodal_diameter as u32,
+                omega: omega * SPEED,
+                modal_mass: 4e-4,
+            };
+            let waves = vec![wave(0, 8.0), wave(1, 3.0), wave(repeats, 4.0), wave(sectors, 6.0)];
+            whole.flexible_casing = Some(FlexibleCasing { waves, damping_ratio: 0.02 });
+            whole.excitation = vec![EngineOrderExcitation {
+                order: repeats as u32,
+                directions: vec![Direction { node: 1, components: [0.5, 0.3, -0.2] }],
+                amplitude: 4.0,
+                phase_rad: 0.3,
+                ramp_revolutions: 0.5,
+            }];
+            let sensor =
+                |sector| SensorRow { direction: Direction { node: 0, components: [1.0, 0.2, -0.3] }, sector };
+            whole.sensors = (0..sectors / repeats).map(sensor).collect();
+            let sub = Scene { wheel: part(&whole.wheel, repeats), ..whole.clone() };
+            let apart = apart(&sub, &whole);
+            assert!(apart < 1e-9, "{scheme:?} {sectors}/{repeats}: {apart:e}");
+        }
+    }
+}

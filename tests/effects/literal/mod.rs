@@ -1,0 +1,499 @@
+//! The equations of a scene with effects, written out: real coordinates of all modes and all casing waves in one vector,
+//! dense matrices, one linear system a step, forces sector by sector, contact by trying every combination. Slow, and shares
+//! nothing with the production code but the types that describe a scene.
+
+mod contact;
+mod rods;
+
+use std::f64::consts::TAU;
+
+use faer::c64;
+use nalgebra::{DMatrix, DVector, Dyn, LU, RowDVector};
+use rubmap::dynamics::initial::InitialMode;
+use rubmap::dynamics::modal_wheel::ModalWheel;
+use rubmap::dynamics::schemes::Scheme;
+
+use self::contact::Law;
+use self::rods::Rods;
+use crate::scene::{SPEED, Scene, sliding};
+
+/// Part of a mode's complex amplitude.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Part {
+    Real,
+    Imaginary,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Coordinate {
+    harmonic: usize,
+    family: usize,
+    part: Part,
+}
+
+/// The system and its state.
+pub(crate) struct Literal<'a> {
+    scene: &'a Scene,
+    coordinates: Vec<Coordinate>,
+    /// Contact DOF of all sectors (rows) from the wheel's coordinates, `[sector][node][component]`.
+    displacement: DMatrix<f64>,
+    /// The same of what forces at the contact DOF move through modes that follow statically.
+    residual: DMatrix<f64>,
+    /// K of mistuning, over all coordinates.
+    mistuning: DMatrix<f64>,
+    /// Damping constants 2ζω m of all coordinates.
+    damping: DVector<f64>,
+    recursion: Recursion,
+    now: DVector<f64>,
+    before: DVector<f64>,
+    rods: Option<Rods>,
+}
+
+/// left·x⁺ = now·x + before·x⁻ + load f
+struct Recursion {
+    left: LU<f64, Dyn, Dyn>,
+    now: DMatrix<f64>,
+    before: DMatrix<f64>,
+    load: DVector<f64>,
+}
+
+/// What came out.
+#[derive(Debug, Default)]
+pub(crate) struct Record {
+    /// `[sensor][sample]`
+    pub(crate) displacement: Vec<Vec<f64>>,
+    /// Σ λh
+    pub(crate) impulse: f64,
+    /// Σ μλ t_θ rΩh
+    pub(crate) friction_heat: f64,
+    pub(crate) excitation_work: f64,
+    pub(crate) mistuning_work: f64,
+    pub(crate) casing_work: f64,
+    pub(crate) casing_loss: f64,
+    pub(crate) contact_work: f64,
+    /// `[rod][row]`
+    pub(crate) worn_depths: Vec<Vec<f64>>,
+    /// Largest √(c² + s²) of any casing wave.
+    pub(crate) casing_amplitude: f64,
+}
+
+/// Real coordinates of the first `families` modes, or of the others, of every nodal diameter.
+fn coordinates(wheel: &ModalWheel, kept: impl Fn(usize) -> bool) -> Vec<Coordinate> {
+    let mut all = Vec::new();
+    for (harmonic, modes) in wheel.harmonics.iter().enumerate() {
+        for family in (0..modes.omega.len()).filter(|&family| kept(family)) {
+            all.push(Coordinate { harmonic, family, part: Part::Real });
+            if !modes.single {
+                all.push(Coordinate { harmonic, family, part: Part::Imaginary });
+            }
+        }
+    }
+    all
+}
+
+/// u_{s,d} = Σ_i Re(w_i e^{jisα} φ_d z_i) at every contact DOF of every sector.
+fn displacements(wheel: &ModalWheel, coordinates: &[Coordinate]) -> DMatrix<f64> {
+    let dofs = wheel.harmonics[0].contact.nrows();
+    DMatrix::from_fn(wheel.sectors * dofs, coordinates.len(), |row, column| {
+        let (sector, dof) = (row / dofs, row % dofs);
+        let Coordinate { harmonic, family, part } = coordinates[column];
+        weighted(wheel, harmonic, sector, part, wheel.harmonics[harmonic].contact[(dof, family)])
+    })
+}
+
+/// Re(w e^{jisα} φ z) for z = 1 or j.
+fn weighted(wheel: &ModalWheel, harmonic: usize, sector: usize, part: Part, shape: c64) -> f64 {
+    let n = wheel.sectors as f64;
+    let weight = if wheel.harmonics[harmonic].single { (1.0 / n).sqrt() } else { (2.0 / n).sqrt() };
+    let angle = TAU * (harmonic * sector) as f64 / n;
+    let turned = c64::new(angle.cos(), angle.sin()) * shape;
+    weight * if part == Part::Real { turned.re } else { -turned.im }
+}
+
+/// Strain energy ½ Σ δ_s a_s² of each family, a_s being what its blade in sector s is bent by: the displacement of the first
+/// contact DOF relative to the family's shape, times ω.
+fn mistuning_stiffness(scene: &Scene, coordinates: &[Coordinate], size: usize) -> DMatrix<f64> {
+    let mut stiffness = DMatrix::zeros(size, size);
+    let Some(deviations) = &scene.mistuning else { return stiffness };
+    let wheel = &scene.wheel;
+    let families = coordinates.iter().map(|c| c.family + 1).max().unwrap_or(0);
+    for family in 0..families {
+        let bent = |sector: usize| {
+            RowDVector::from_fn(size, |_, column| match coordinates.get(column) {
+                Some(c) if c.family == family => {
+                    let modes = &wheel.harmonics[c.harmonic];
+                    let blade = wheel.harmonics[0].contact[(0, family)].re;
+                    weighted(wheel, c.harmonic, sector, c.part, modes.contact[(0, family)]) / blade
+                        * modes.omega[family]
+                }
+                _ => 0.0,
+            })
+        };
+        for (sector, delta) in deviations.iter().enumerate() {
+            let row = bent(sector);
+            stiffness += row.transpose() * &row * *delta;
+        }
+    }
+    stiffness
+}
+
+/// Ω G of the coordinates (a, b) of z = a + jb: g z = (g' a − g'' b) + j(g'' a + g' b).
+fn gyroscopic(wheel: &ModalWheel, coordinates: &[Coordinate], size: usize) -> DMatrix<f64> {
+    let mut matrix = DMatrix::zeros(size, size);
+    for (row, to) in coordinates.iter().enumerate() {
+        for (column, from) in coordinates.iter().enumerate() {
+            let Some(g) = &wheel.harmonics[to.harmonic].gyroscopic else { continue };
+            if to.harmonic != from.harmonic {
+                continue;
+            }
+            let g = g[(to.family, from.family)];
+            matrix[(row, column)] = wheel.speed_rad_s
+                * match (to.part, from.part) {
+                    (Part::Real, Part::Real) | (Part::Imaginary, Part::Imaginary) => g.re,
+                    (Part::Real, Part::Imaginary) => -g.im,
+                    (Part::Imaginary, Part::Real) => g.im,
+                };
+        }
+    }
+    assert_eq!(matrix, -matrix.transpose(), "Coriolis forces do no work");
+    matrix
+}
+
+impl<'a> Literal<'a> {
+    pub(crate) fn new(scene: &'a Scene) -> Self {
+        let wheel = &scene.wheel;
+        let kept = match scene.scheme {
+            Scheme::MasslessBoundary { kept_modes } => kept_modes,
+            Scheme::CentralDifferences | Scheme::ExactModal => usize::MAX,
+        };
+        let integrated = coordinates(wheel, |family| family < kept);
+        let following = coordinates(wheel, |family| family >= kept);
+        let follow = displacements(wheel, &following);
+        let flexibility = DVector::from_iterator(
+            following.len(),
+            following.iter().map(|c| wheel.harmonics[c.harmonic].omega[c.family].powi(-2)),
+        );
+        let residual = &follow * DMatrix::from_diagonal(&flexibility) * follow.transpose();
+        // ω, ζ and mass of the wheel's coordinates, then of cosine and sine of every casing wave.
+        let mut numbers: Vec<(f64, f64, f64)> = integrated
+            .iter()
+            .map(|c| {
+                let zeta = scene.damping.as_ref().map_or(0.0, |damping| {
+                    damping.family_ratios.get(c.family).copied().unwrap_or(damping.modal_ratio)
+                });
+                (wheel.harmonics[c.harmonic].omega[c.family], zeta, 1.0)
+            })
+            .collect();
+        if let Some(casing) = &scene.flexible_casing {
+            for wave in &casing.waves {
+                numbers.extend([(wave.omega, casing.damping_ratio, wave.modal_mass); 2]);
+            }
+        }
+        let size = numbers.len();
+        let mistuning = mistuning_stiffness(scene, &integrated, size);
+        let coriolis = gyroscopic(wheel, &integrated, size);
+        let h = scene.step_s();
+        let diagonal = |of: &dyn Fn(&(f64, f64, f64)) -> f64| {
+            DMatrix::from_diagonal(&DVector::from_iterator(size, numbers.iter().map(of)))
+        };
+        let recursion = match scene.scheme {
+            Scheme::CentralDifferences => {
+                let mass = diagonal(&|&(_, _, m)| m / (h * h));
+                let damping = diagonal(&|&(omega, zeta, m)| 2.0 * zeta * omega * m / (2.0 * h));
+                let stiffness = diagonal(&|&(omega, _, m)| m * omega * omega) + &mistuning;
+                let swing = damping + &coriolis / (2.0 * h);
+                Recursion {
+                    left: (&mass + &swing).lu(),
+                    now: &mass * 2.0 - stiffness,
+                    before: swing - mass,
+                    load: DVector::from_element(size, 1.0),
+                }
+            }
+            Scheme::ExactModal | Scheme::MasslessBoundary { .. } => {
+                let decay = |omega: f64, zeta: f64| (-zeta * omega * h).exp();
+                let twice_cos = |omega: f64, zeta: f64| {
+                    2.0 * decay(omega, zeta) * (omega * h * (1.0 - zeta * zeta).sqrt()).cos()
+                };
+                let moved = diagonal(&|&(omega, zeta, m)| {
+                    (1.0 - twice_cos(omega, zeta) + decay(omega, zeta).powi(2)) / (m * omega * omega)
+                });
+                let turned = &moved * &coriolis / (2.0 * h);
+                Recursion {
+                    left: (DMatrix::identity(size, size) + &turned).lu(),
+                    now: diagonal(&|&(omega, zeta, _)| twice_cos(omega, zeta)) - &moved * &mistuning,
+                    before: turned - diagonal(&|&(omega, zeta, _)| decay(omega, zeta).powi(2)),
+                    load: moved.diagonal(),
+                }
+            }
+        };
+        let mut this = Self {
+            scene,
+            displacement: displacements(wheel, &integrated),
+            residual,
+            damping: DVector::from_iterator(size, numbers.iter().map(|&(w, z, m)| 2.0 * z * w * m)),
+            mistuning,
+            recursion,
+            now: DVector::zeros(size),
+            before: DVector::zeros(size),
+            rods: scene.coating.map(|coating| Rods::new(coating, &scene.nodes)),
+            coordinates: integrated,
+        };
+        this.start(&numbers, &coriolis);
+        this
+    }
+
+    /// x(0) and x(−h) with the right velocity at 0.
+    fn start(&mut self, numbers: &[(f64, f64, f64)], coriolis: &DMatrix<f64>) {
+        let h = self.scene.step_s();
+        let mut velocity = DVector::zeros(numbers.len());
+        let (displacements, velocities) = self.initial();
+        self.now.rows_mut(0, displacements.len()).copy_from(&displacements);
+        velocity.rows_mut(0, velocities.len()).copy_from(&velocities);
+        let force = self.excitation(0.0);
+        let others = force - &self.mistuning * &self.now - coriolis * &velocity;
+        for (row, &(omega, zeta, mass)) in numbers.iter().enumerate() {
+            let (z, v) = (self.now[row], velocity[row]);
+            self.before[row] = match self.scene.scheme {
+                // x(0) − hẋ + ½h²ẍ, the only start from which (x⁺ − x⁻)/2h is ẋ.
+                Scheme::CentralDifferences => {
+                    let acceleration = others[row] / mass - 2.0 * zeta * omega * v - omega * omega * z;
+                    z - h * v + 0.5 * h * h * acceleration
+                }
+                // Free motion backwards, and what the other forces add to it: z⁺ and z⁻ alike.
+                Scheme::ExactModal | Scheme::MasslessBoundary { .. } => {
+                    let damped = omega * (1.0 - zeta * zeta).sqrt();
+                    let (sin, cos) = (damped * h).sin_cos();
+                    let grown = (zeta * omega * h).exp();
+                    let free = grown * (z * cos - (v + zeta * omega * z) / damped * sin);
+                    free + self.recursion.load[row] / (1.0 + grown.powi(-2)) * others[row]
+                }
+            };
+        }
+    }
+
+    /// Aᵢcos(k(sα + Ωt) + ψ) on the given directions of every sector, after `revolutions`.
+    fn excitation(&self, revolutions: f64) -> DVector<f64> {
+        let wheel = &self.scene.wheel;
+        let dofs = 3 * self.scene.nodes.len();
+        let mut force = DVector::zeros(wheel.sectors * dofs);
+        for of in &self.scene.excitation {
+            for sector in 0..wheel.sectors {
+                let angle = TAU * (sector as f64 / wheel.sectors as f64 + revolutions);
+                let along = of.amplitude * (f64::from(of.order) * angle + of.phase_rad).cos();
+                for direction in &of.directions {
+                    for d in 0..3 {
+                        force[sector * dofs + 3 * direction.node + d] +=
+                            along * direction.components[d] * growth(revolutions, of.ramp_revolutions);
+                    }
+                }
+            }
+        }
+        let mut all = DVector::zeros(self.now.len());
+        all.rows_mut(0, self.coordinates.len()).copy_from(&(self.displacement.transpose() * force));
+        all
+    }
+
+    /// Angle of a contact node in the fixed frame.
+    fn angle(&self, sector: usize, node: usize, revolutions: f64) -> f64 {
+        self.scene.nodes[node].position[1]
+            + TAU * (sector as f64 / self.scene.wheel.sectors as f64 + revolutions)
+    }
+
+    /// c − p minus the orbit's share at every contact node of every sector.
+    fn clearances(&self, revolutions: f64) -> DVector<f64> {
+        let Some(casing) = &self.scene.casing else { return DVector::zeros(0) };
+        let nodes = self.scene.nodes.len();
+        DVector::from_fn(self.scene.wheel.sectors * nodes, |place, _| {
+            let (sector, node) = (place / nodes, place % nodes);
+            let angle = self.angle(sector, node, revolutions);
+            let mut taken = 0.0;
+            if let Some(lobes) = &casing.restriction {
+                for l in 0..lobes.count {
+                    let centre = TAU * f64::from(l) / f64::from(lobes.count) + lobes.phase_rad;
+                    let distance = (angle - centre).sin().atan2((angle - centre).cos());
+                    taken += lobes.amplitude * (-(distance / lobes.width_rad).powi(2)).exp();
+                }
+            }
+            if let Some(orbit) = &self.scene.orbit {
+                // The axis is displaced by (x, y), of which the node's radial direction sees its share.
+                let towards = TAU * orbit.whirl_ratio * revolutions + orbit.phase_rad;
+                let (x, y) = (orbit.radius * towards.cos(), orbit.radius * towards.sin());
+                taken += self.scene.nodes[node].normal[0] * (x * angle.cos() + y * angle.sin());
+            }
+            casing.clearance[node] - taken * growth(revolutions, casing.ramp_revolutions)
+        })
+    }
+
+    /// Along the normals (of displacement) or against the forces' directions, of all places: over the contact DOF, and over
+    /// the casing's waves, whose displacement opens the gap.
+    fn directions(&self, revolutions: f64, mu: f64) -> (DMatrix<f64>, DMatrix<f64>) {
+        let nodes = self.scene.nodes.len();
+        let places = self.scene.wheel.sectors * nodes;
+        let mut blades = DMatrix::zeros(places, 3 * places);
+        let mut casing = DMatrix::zeros(places, self.now.len() - self.coordinates.len());
+        for place in 0..places {
+            let (sector, node) = (place / nodes, place % nodes);
+            let components = sliding(&self.scene.nodes[node], mu);
+            for d in 0..3 {
+                blades[(place, 3 * place + d)] = components[d];
+            }
+            let angle = self.angle(sector, node, revolutions);
+            for (w, wave) in self.scene.flexible_casing.iter().flat_map(|c| &c.waves).enumerate() {
+                let radial = self.scene.nodes[node].normal[0];
+                let turned = f64::from(wave.nodal_diameter) * angle;
+                casing[(place, 2 * w)] = radial * turned.cos();
+                casing[(place, 2 * w + 1)] = radial * turned.sin();
+            }
+        }
+        (blades, casing)
+    }
+
+    /// The wheel without contact as ẍ + Cẋ + Kx = Bᵀf, u = Bx: K, C with damping and Coriolis forces, and B.
+    pub(crate) fn continuous(&self) -> (DMatrix<f64>, DMatrix<f64>, DMatrix<f64>) {
+        let wheel = &self.scene.wheel;
+        let stiffness = DVector::from_iterator(
+            self.coordinates.len(),
+            self.coordinates.iter().map(|c| wheel.harmonics[c.harmonic].omega[c.family].powi(2)),
+        );
+        let coriolis = gyroscopic(wheel, &self.coordinates, self.coordinates.len());
+        (
+            DMatrix::from_diagonal(&stiffness) + &self.mistuning,
+            DMatrix::from_diagonal(&self.damping) + coriolis,
+            self.displacement.clone(),
+        )
+    }
+
+    /// x(0) and ẋ(0).
+    pub(crate) fn initial(&self) -> (DVector<f64>, DVector<f64>) {
+        let of = |which: fn(&InitialMode) -> c64| {
+            DVector::from_iterator(
+                self.coordinates.len(),
+                self.coordinates.iter().map(|c| {
+                    let modes = self.scene.initial.iter();
+                    let moving = modes.filter(|m| (m.harmonic, m.family) == (c.harmonic, c.family));
+                    moving.map(|m| if c.part == Part::Real { which(m).re } else { which(m).im }).sum()
+                }),
+            )
+        };
+        (of(|mode| mode.displacement), of(|mode| mode.velocity))
+    }
+
+    /// Integrates the scene.
+    pub(crate) fn run(mut self) -> Record {
+        let scene = self.scene;
+        let (nodes, h) = (scene.nodes.len(), scene.step_s());
+        let wheel_size = self.coordinates.len();
+        let mu = scene.friction.unwrap_or(0.0);
+        let massless = matches!(scene.scheme, Scheme::MasslessBoundary { .. });
+        let mut record = Record { displacement: vec![Vec::new(); scene.sensors.len()], ..Record::default() };
+        let places = if scene.casing.is_some() { scene.wheel.sectors * nodes } else { 0 };
+        // Forces on all coordinates and at the contact DOF that act through the next step (boundary without mass).
+        let mut acting = DVector::zeros(self.now.len());
+        for step in 1..=scene.steps * scene.revolutions {
+            let revolutions = step as f64 / scene.steps as f64;
+            let excitation = self.excitation((step - 1) as f64 / scene.steps as f64);
+            let Recursion { left, now, before, load } = &self.recursion;
+            let known = &excitation + if massless { acting.clone() } else { DVector::zeros(acting.len()) };
+            let right = now * &self.now + before * &self.before + load.component_mul(&known);
+            let mut next = left.solve(&right).unwrap();
+            let mut contact = if massless { acting.clone() } else { DVector::zeros(acting.len()) };
+            let mut follows = DVector::zeros(self.displacement.nrows());
+            if places > 0 {
+                let (normals, casing) = self.directions(revolutions, 0.0);
+                let (against, _) = self.directions(revolutions, mu);
+                let reading = |next: &DVector<f64>| {
+                    &normals * &self.displacement * next.rows(0, wheel_size)
+                        - &casing * next.rows(wheel_size, next.len() - wheel_size)
+                };
+                let gap = self.clearances(revolutions) - reading(&next);
+                // Forces of λ on all coordinates.
+                let mut forces = DMatrix::zeros(next.len(), places);
+                forces.rows_mut(0, wheel_size).copy_from(&-(&against * &self.displacement).transpose());
+                forces.rows_mut(wheel_size, next.len() - wheel_size).copy_from(&casing.transpose());
+                let mut lambda = DVector::zeros(places);
+                if gap.iter().any(|&g| g < 0.0) {
+                    let w = if massless {
+                        &normals * &self.residual * against.transpose()
+                    } else {
+                        let moved = left.solve(&(DMatrix::from_diagonal(load) * &forces)).unwrap();
+                        DMatrix::from_columns(
+                            &(0..places).map(|p| -reading(&moved.column(p).into_owned())).collect::<Vec<_>>(),
+                        )
+                    };
+                    let rod = |rods: &Rods, place: usize| {
+                        rods.at(self.angle(place / nodes, place % nodes, revolutions))
+                    };
+                    lambda = contact::solve(&w, &gap, |place| match &self.rods {
+                        Some(rods) => rods.law(rod(rods, place), place % nodes),
+                        None => Law::wall(),
+                    });
+                    let angles: Vec<_> = (0..places)
+                        .map(|place| self.angle(place / nodes, place % nodes, revolutions))
+                        .collect();
+                    if let Some(rods) = &mut self.rods {
+                        for (place, angle) in angles.into_iter().enumerate() {
+                            rods.press(rods.at(angle), place % nodes, lambda[place]);
+                        }
+                    }
+                }
+                for (place, force) in lambda.iter().enumerate() {
+                    let node = &scene.nodes[place % nodes];
+                    let forward = sliding(node, mu)[1] - node.normal[1];
+                    record.impulse += force * h;
+                    record.friction_heat += force * forward * node.position[0] * SPEED * h;
+                }
+                let now = forces * &lambda;
+                if massless {
+                    acting = now;
+                    follows = -(&self.residual * against.transpose() * &lambda);
+                } else {
+                    next += left.solve(&load.component_mul(&now)).unwrap();
+                    contact = now;
+                }
+            }
+            self.count(&next, &excitation, &contact, &mut record);
+            self.before = std::mem::replace(&mut self.now, next);
+            if step.is_multiple_of(scene.steps / scene.samples) {
+                let moved = &self.displacement * self.now.rows(0, wheel_size) + &follows;
+                for (line, sensor) in record.displacement.iter_mut().zip(&scene.sensors) {
+                    let first = 3 * (sensor.sector * nodes + sensor.direction.node);
+                    line.push((0..3).map(|d| sensor.direction.components[d] * moved[first + d]).sum());
+                }
+            }
+        }
+        record.worn_depths = self.rods.map_or(Vec::new(), |rods| rods.depth);
+        record
+    }
+
+    /// Work is force times half of x⁺ − x⁻.
+    fn count(
+        &self,
+        next: &DVector<f64>,
+        excitation: &DVector<f64>,
+        contact: &DVector<f64>,
+        record: &mut Record,
+    ) {
+        let swing = next - &self.before;
+        let (wheel, casing) = (self.coordinates.len(), next.len() - self.coordinates.len());
+        record.excitation_work += 0.5 * excitation.dot(&swing);
+        record.mistuning_work -= 0.5 * swing.dot(&(&self.mistuning * &self.now));
+        record.contact_work += 0.5 * contact.rows(0, wheel).dot(&swing.rows(0, wheel));
+        record.casing_work += 0.5 * contact.rows(wheel, casing).dot(&swing.rows(wheel, casing));
+        let h = self.scene.step_s();
+        for row in wheel..next.len() {
+            record.casing_loss += self.damping[row] * swing[row].powi(2) / (4.0 * h);
+        }
+        for wave in next.rows(wheel, casing).as_slice().chunks_exact(2) {
+            record.casing_amplitude = record.casing_amplitude.max(wave[0].hypot(wave[1]));
+        }
+    }
+}
+
+/// x²(3 − 2x) up to 1.
+fn growth(revolutions: f64, ramp_revolutions: f64) -> f64 {
+    if revolutions >= ramp_revolutions {
+        return 1.0;
+    }
+    let x = revolutions / ramp_revolutions;
+    x * x * (3.0 - 2.0 * x)
+}

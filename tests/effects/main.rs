@@ -1,0 +1,13 @@
+//! The effects of a scene in time: held against a literal model of the same equations, alone, in pairs and all together,
+//! against closed forms, and in the limits in which they vanish.
+
+mod agreement;
+mod closed_forms;
+#[path = "../physics/fixtures.rs"]
+#[allow(dead_code, reason = "shared with the physics tests, which use all of it")]
+mod fixtures;
+mod frequencies;
+mod limits;
+mod literal;
+mod responses;
+mod scene;
