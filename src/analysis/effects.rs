@@ -71,8 +71,7 @@ impl SceneEffects {
         Ok(Self {
             friction,
             coating,
-            flexible_casing: (scene.flexible_casing.as_ref())
-                .map(|casing| flexible_casing(casing).under_parts(wheel.repeats)),
+            flexible_casing: scene.flexible_casing.as_ref().map(flexible_casing),
             orbit: scene.orbit.as_ref().map(|orbit| Orbit {
                 radius: orbit.radius,
                 whirl_ratio: orbit.whirl_ratio,

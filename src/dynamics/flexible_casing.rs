@@ -45,18 +45,6 @@ pub struct FlexibleCasing {
     pub damping_ratio: f64,
 }
 
-impl FlexibleCasing {
-    /// As one of `repeats` equal parts of the wheel feels it: the others push as it does, which moves the waves that repeat
-    /// as often, each `repeats` times as much, and no others.
-    pub fn under_parts(mut self, repeats: usize) -> Self {
-        self.waves.retain(|wave| (wave.nodal_diameter as usize).is_multiple_of(repeats));
-        for wave in &mut self.waves {
-            wave.modal_mass /= repeats as f64;
-        }
-        self
-    }
-}
-
 /// Thin elastic ring.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ring {
