@@ -14,6 +14,7 @@ use rubmap::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use rubmap::dynamics::oscillators::{Direction, ModalDamping};
 use rubmap::dynamics::reduction::NoCheckpoints;
 use rubmap::dynamics::schemes::Scheme;
+use rubmap::impeller::ImpellerParameters;
 
 pub(crate) const SPEED: f64 = 2500.0;
 pub(crate) const DAMPING: f64 = 0.005;
@@ -41,7 +42,17 @@ pub(crate) struct Stepping {
 impl Scene {
     /// With `modes` fixed-interface modes at each of the first `stiffnesses` speeds of the default impeller.
     pub(crate) fn new(modes: usize, stiffnesses: usize) -> Self {
-        let package = rubmap::impeller::generate(&Default::default()).expect("the defaults are valid");
+        Self::of(&ImpellerParameters::default(), modes, stiffnesses)
+    }
+
+    /// The same with a gyroscopic matrix.
+    pub(crate) fn gyroscopic(modes: usize, stiffnesses: usize) -> Self {
+        let parameters = ImpellerParameters { gyroscopic: true, ..ImpellerParameters::default() };
+        Self::of(&parameters, modes, stiffnesses)
+    }
+
+    fn of(parameters: &ImpellerParameters, modes: usize, stiffnesses: usize) -> Self {
+        let package = rubmap::impeller::generate(parameters).expect("the defaults are valid");
         let mut sector = rubmap::package::to_sector(package).expect("the generator makes valid packages");
         sector.stiffness.truncate(stiffnesses);
         sector.speeds_rad_s.truncate(stiffnesses);

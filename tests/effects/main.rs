@@ -3,6 +3,7 @@
 
 mod agreement;
 mod closed_forms;
+mod door;
 #[path = "../physics/fixtures.rs"]
 #[allow(dead_code, reason = "shared with the physics tests, which use all of it")]
 mod fixtures;
@@ -11,3 +12,6 @@ mod limits;
 mod literal;
 mod responses;
 mod scene;
+#[path = "../hard_cases/support.rs"]
+#[allow(dead_code, reason = "shared with the hard cases, which use all of it")]
+mod support;

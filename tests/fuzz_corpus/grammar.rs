@@ -84,9 +84,12 @@ pub(crate) fn request() -> impl Strategy<Value = String> {
 /// Requests that are mostly accepted and quickly run. Lengths are some tenths of a millimetre and speeds those of the
 /// model, where contact is frequent; each also has extremes that are legal.
 fn sound() -> impl Strategy<Value = Value> {
-    let scene = (any::<bool>(), option(damping()), option(casing()), any::<bool>()).prop_map(
-        |(stiffening, damping, casing, contact)| {
+    let scene = (any::<bool>(), option(damping()), option(casing()), any::<bool>(), effects()).prop_map(
+        |(stiffening, damping, casing, contact, effects)| {
             let mut scene = json!({"centrifugal_stiffening": stiffening});
+            for (name, effect) in effects {
+                scene[name] = effect;
+            }
             if let Some(damping) = damping {
                 scene["damping"] = damping;
             }
@@ -129,6 +132,51 @@ fn damping() -> impl Strategy<Value = Value> {
     let ratio = || select(vec![0.0, 1e-12, 0.001, 0.02, 0.3, 0.999_999]);
     (ratio(), prop::collection::vec(ratio(), 0..4))
         .prop_map(|(modal, family)| json!({"modal_ratio": modal, "family_ratios": family}))
+}
+
+/// None for half of the scenes, up to four for the others.
+fn effects() -> impl Strategy<Value = Vec<(&'static str, Value)>> {
+    let small = || select(vec![0.0, 1e-12, 1e-3, 0.05, 0.3, 1.0]);
+    let stiff = || select(vec![1e-3, 20.0, 2e3, 2e5, 1e12]);
+    let named = |name: &'static str, of: BoxedStrategy<Value>| of.prop_map(move |value| (name, value));
+    let friction = small().prop_map(|mu| json!({"coefficient": mu}));
+    let abradable = (stiff(), stiff(), stiff(), small(), 24..3000u32).prop_map(|(e, y, k, t, rods)| {
+        json!({"modulus": e, "yield_stress": y, "hardening": k, "thickness": t, "rods_around": rods})
+    });
+    let ring = (stiff(), 0..10u32).prop_map(|(modulus, n_max)| {
+        json!({"ring": {"radius": 70, "modulus": modulus, "density": 8e-9, "area": 40, "second_moment": 133,
+                        "n_max": n_max}})
+    });
+    let modes = (0..5u32, stiff(), small()).prop_map(|(n, mass, zeta)| {
+        json!({"modes": [{"nodal_diameter": n, "frequency_hz": 700, "modal_mass": 1e-6 * mass}],
+               "damping_ratio": zeta})
+    });
+    let spread = (small(), any::<u64>()).prop_map(|(spread, seed)| json!({"spread": spread, "seed": seed}));
+    let deviations =
+        prop::collection::vec(-0.3..0.3, 5..7usize).prop_map(|values| json!({"deviations": values}));
+    let order = (1..40u32, 0..3u32, small(), -9.0..9.0).prop_map(|(order, node, amplitude, phase)| {
+        json!([{"order": order, "contact_nodes": [node], "component": "axial", "amplitude": amplitude,
+                "phase_rad": phase}])
+    });
+    let orbit = (small(), -3.0..3.0)
+        .prop_map(|(radius, ratio)| json!({"radius": radius, "whirl_ratio": ratio, "phase_rad": 0.3}));
+    let wave = select(vec!["standing", "forward", "backward"]);
+    let initial = (0..4u32, 1..6u32, small(), wave).prop_map(|(i, family, amplitude, wave)| {
+        json!({"nodal_diameter": i, "family": family, "amplitude": amplitude, "wave": wave})
+    });
+    let effect = prop_oneof![
+        named("coriolis", any::<bool>().prop_map(Value::from).boxed()),
+        named("friction", friction.boxed()),
+        named("abradable", abradable.boxed()),
+        named("flexible_casing", prop_oneof![ring, modes].boxed()),
+        named("mistuning", prop_oneof![spread, deviations].boxed()),
+        named("engine_order_excitation", order.boxed()),
+        named("orbit", orbit.boxed()),
+        named("initial", initial.boxed()),
+        named("symmetry", select(vec!["full", "exact", "probe"]).prop_map(Value::from).boxed()),
+        named("probe", small().prop_map(|amplitude| json!({"amplitude": amplitude})).boxed()),
+    ];
+    prop_oneof![Just(Vec::new()), prop::collection::vec(effect, 1..4)]
 }
 
 fn casing() -> impl Strategy<Value = Value> {

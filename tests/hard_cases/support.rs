@@ -53,7 +53,7 @@ pub(crate) fn sweep(sector: &SectorModel, scheme: &str, speeds: &[f64], changes:
 }
 
 /// Every field of `changes` over that of `base`.
-fn merge(base: &mut Value, changes: Value) {
+pub(crate) fn merge(base: &mut Value, changes: Value) {
     match (base, changes) {
         (Value::Object(base), Value::Object(changes)) => {
             for (name, value) in changes {

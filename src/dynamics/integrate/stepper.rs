@@ -36,6 +36,8 @@ mod contact {
     pub(super) const COMPLETES: u8 = 1;
     /// The force acts from the instant at which it closes the gap.
     pub(super) const MASSLESS: u8 = 2;
+    /// Any of these, asked for at every step: in scenes with effects.
+    pub(super) const ASKED: u8 = 3;
 }
 
 /// Everything a step changes or reads; built before the loop, nothing is allocated in it.
@@ -94,24 +96,24 @@ impl Stepper {
         simulation: &Simulation<'_>,
         watch: &dyn Fn(f64) -> bool,
     ) -> Run {
-        use contact::{COMPLETES, MASSLESS, NONE};
-        let contact = match (&self.obstacle, simulation.scheme) {
-            (None, _) => NONE,
-            (Some(_), Scheme::MasslessBoundary { .. }) => MASSLESS,
-            (Some(_), _) => COMPLETES,
-        };
+        use contact::{ASKED, COMPLETES, MASSLESS, NONE};
+        let massless = is_massless(simulation);
         let surrounded = self.obstacle.as_ref().is_some_and(|obstacle| obstacle.surroundings.is_some());
         let effects = self.drive.is_some() || surrounded;
-        let outcome = match (effects, self.oscillators.dissipates(), contact) {
-            (false, true, NONE) => self.integrate::<S, true, NONE, false>(simd, simulation, watch),
-            (false, false, NONE) => self.integrate::<S, false, NONE, false>(simd, simulation, watch),
-            (false, true, MASSLESS) => self.integrate::<S, true, MASSLESS, false>(simd, simulation, watch),
-            (false, false, MASSLESS) => self.integrate::<S, false, MASSLESS, false>(simd, simulation, watch),
-            (false, true, _) => self.integrate::<S, true, COMPLETES, false>(simd, simulation, watch),
-            (false, false, _) => self.integrate::<S, false, COMPLETES, false>(simd, simulation, watch),
-            (true, _, NONE) => self.integrate::<S, true, NONE, true>(simd, simulation, watch),
-            (true, _, MASSLESS) => self.integrate::<S, true, MASSLESS, true>(simd, simulation, watch),
-            (true, _, _) => self.integrate::<S, true, COMPLETES, true>(simd, simulation, watch),
+        let outcome = match (effects, self.oscillators.dissipates(), self.obstacle.is_some(), massless) {
+            (false, true, false, _) => self.integrate::<S, true, NONE, false>(simd, simulation, watch),
+            (false, false, false, _) => self.integrate::<S, false, NONE, false>(simd, simulation, watch),
+            (false, true, true, false) => {
+                self.integrate::<S, true, COMPLETES, false>(simd, simulation, watch)
+            }
+            (false, false, true, false) => {
+                self.integrate::<S, false, COMPLETES, false>(simd, simulation, watch)
+            }
+            (false, true, true, true) => self.integrate::<S, true, MASSLESS, false>(simd, simulation, watch),
+            (false, false, true, true) => {
+                self.integrate::<S, false, MASSLESS, false>(simd, simulation, watch)
+            }
+            (true, ..) => self.integrate::<S, true, ASKED, true>(simd, simulation, watch),
         };
         let outcome = match outcome {
             Ok(()) => Outcome::Completed(self.recorder.take()),
@@ -131,14 +133,14 @@ impl Stepper {
     ) -> Result<(), Outcome> {
         let steps = simulation.steps_per_revolution;
         let sampling = steps / simulation.samples_per_revolution;
-        let reach = simulation.reach();
+        let (reach, massless) = (simulation.reach(), is_massless(simulation));
         let window_start = simulation.revolutions - simulation.window_revolutions;
         for revolution in 0..simulation.revolutions {
             for step in 1..=steps {
                 let revolutions = revolution as f64 + step as f64 / steps as f64;
                 if EFFECTS {
                     let before = revolution as f64 + (step - 1) as f64 / steps as f64;
-                    self.advance_wheel::<S, CONTACT>(simd, before);
+                    self.advance_wheel(simd, massless, before);
                 } else if CONTACT == contact::NONE {
                     self.energy.add(self.oscillators.advance::<S, DISSIPATES>(simd));
                 } else {
@@ -157,7 +159,7 @@ impl Stepper {
                     return Err(Outcome::Cancelled);
                 }
                 if step % sampling == 0 {
-                    if CONTACT == contact::COMPLETES {
+                    if CONTACT == contact::COMPLETES || (EFFECTS && !massless) {
                         self.complete::<S, DISSIPATES, EFFECTS>(simd);
                     }
                     if CONTACT != contact::NONE {
@@ -195,7 +197,7 @@ impl Stepper {
 
     /// A step of a wheel with effects that starts after `revolutions`, up to its gaps.
     #[inline(always)]
-    fn advance_wheel<S: Simd, const CONTACT: u8>(&mut self, simd: S, revolutions: f64) {
+    fn advance_wheel<S: Simd>(&mut self, simd: S, massless: bool, revolutions: f64) {
         let Self { oscillators, drive, obstacle, energy, .. } = self;
         let Some(obstacle) = obstacle else {
             let exchange = match drive {
@@ -212,7 +214,7 @@ impl Stepper {
             _ => &obstacle.rows,
         };
         let (rows, out) = (&obstacle.rows, &mut obstacle.harmonic);
-        let exchange = match (drive, CONTACT == contact::MASSLESS) {
+        let exchange = match (drive, massless) {
             (None, true) => oscillators.advance_loaded::<S, true>(simd, rows, (applied, loads), out),
             (None, false) => oscillators.complete_and_predict::<S, true>(simd, rows, (applied, loads), out),
             (Some(drive), massless) => {
@@ -315,4 +317,8 @@ impl Stepper {
             energy_growth: self.last_energy.map(|last| energy / last),
         }))
     }
+}
+
+fn is_massless(simulation: &Simulation<'_>) -> bool {
+    matches!(simulation.scheme, Scheme::MasslessBoundary { .. })
 }

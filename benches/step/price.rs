@@ -1,0 +1,117 @@
+//! The price list: what a step costs with each effect of a scene, beside the scene without.
+
+use rubmap::dynamics::contact::coating::{Coating, CoatingMaterial};
+use rubmap::dynamics::contact::friction::sliding_directions;
+use rubmap::dynamics::effects::{Effects, Friction};
+use rubmap::dynamics::excitation::EngineOrderExcitation;
+use rubmap::dynamics::flexible_casing::{FlexibleCasing, Ring};
+use rubmap::dynamics::integrate::{Outcome, Simulation};
+use rubmap::dynamics::mistuning::normal_deviations;
+use rubmap::dynamics::modal_wheel::{ModalWheel, RotationEffects};
+use rubmap::dynamics::orbit::Orbit;
+use rubmap::dynamics::oscillators::Direction;
+use rubmap::dynamics::schemes::Scheme;
+
+use crate::scene::{SPEED, Scene, Stepping, TOUCHING, name, radial};
+use crate::timing::{Contender, medians, timed};
+
+const ROUNDS: usize = 7;
+const REVOLUTIONS: usize = 6;
+/// Modes per speed: 900 unknowns with one stiffness matrix.
+const MODES: usize = 60;
+
+pub(crate) fn measure() {
+    let scene = Scene::gyroscopic(MODES, 1);
+    let contact = &scene.reduced.wheel.contact;
+    let sectors = scene.modal.sectors;
+    let turning = ModalWheel::at(
+        &scene.reduced.wheel,
+        SPEED,
+        RotationEffects { stiffening: scene.stiffening, coriolis: true },
+    )
+    .expect("the default impeller is sound");
+    let sliding = sliding_directions(contact, 0.1).expect("its tips can slide");
+    let material = CoatingMaterial { modulus: 2000.0, yield_stress: 5.0, hardening: 200.0 };
+    let coating = Coating::new(material, 2.0, 2000, contact, sectors).expect("a coating");
+    let radius = contact.iter().map(|node| node.position[0]).fold(0.0, f64::max);
+    let ring = Ring { radius, modulus: 2.1e5, density: 7.8e-9, area: 400.0, second_moment: 13_000.0 };
+    let casing = FlexibleCasing { waves: ring.waves(8), damping_ratio: 0.01 };
+    let deviations = normal_deviations(0.02, 1, sectors);
+    let excitation = [EngineOrderExcitation {
+        order: 4,
+        directions: vec![Direction { node: 0, components: [0.0, 0.0, 1.0] }],
+        amplitude: 1.0,
+        phase_rad: 0.0,
+        ramp_revolutions: 1.0,
+    }];
+    let friction = Some(Friction { coefficient: 0.1, directions: &sliding });
+    let orbit = Some(Orbit { radius: 0.02, whirl_ratio: 0.4, phase_rad: 0.0 });
+    let none = Effects::default();
+    let all = Effects {
+        friction,
+        coating: Some(&coating),
+        flexible_casing: Some(&casing),
+        orbit,
+        mistuning: Some(&deviations),
+        excitation: &excitation,
+    };
+    let [central, exact, massless] = scene.schemes();
+    let entries = [
+        ("no effect", exact, &scene.modal, none),
+        ("no effect", central, &scene.modal, none),
+        ("no effect", massless, &scene.modal, none),
+        ("friction", exact, &scene.modal, Effects { friction, ..none }),
+        ("abradable", exact, &scene.modal, Effects { coating: Some(&coating), ..none }),
+        ("flexible_casing", exact, &scene.modal, Effects { flexible_casing: Some(&casing), ..none }),
+        ("orbit", exact, &scene.modal, Effects { orbit, ..none }),
+        ("mistuning", exact, &scene.modal, Effects { mistuning: Some(&deviations), ..none }),
+        ("engine_order_excitation", exact, &scene.modal, Effects { excitation: &excitation, ..none }),
+        ("coriolis", exact, &turning, none),
+        ("all together", exact, &turning, all),
+    ];
+    let mut shares = vec![0.0; entries.len()];
+    let mut contenders: Vec<Contender<'_>> = Vec::new();
+    for ((_, stepping, wheel, effects), share) in entries.iter().zip(&mut shares) {
+        let scene = &scene;
+        contenders.push(Box::new(move || {
+            let (seconds, contact_share) = run(scene, *stepping, wheel, *effects);
+            *share = contact_share;
+            seconds
+        }));
+    }
+    let times = medians(ROUNDS, &mut contenders);
+    drop(contenders);
+    println!(
+        "\nPrice list: {} unknowns, {sectors} × {} contact nodes, two lobes, {REVOLUTIONS} revolutions with their set-up. \
+         `centrifugal_stiffening`, `initial` and `symmetry: probe` cost nothing in a step; `symmetry: exact` leaves a fraction of the \
+         unknowns.\n",
+        scene.modal.unknowns(),
+        contact.len()
+    );
+    println!("| effect | scheme | steps/rev | contact | ns/step | over none |");
+    println!("|---|---|---|---|---|---|");
+    for (((label, stepping, ..), share), time) in entries.iter().zip(&shares).zip(&times) {
+        println!(
+            "| {label} | {} | {} | {share:.2} | {:.0} | {:.2} |",
+            name(stepping.scheme),
+            stepping.steps,
+            1e9 * time,
+            time / times[0]
+        );
+    }
+}
+
+/// Seconds per step of a whole run, and the share of steps with contact.
+fn run(scene: &Scene, stepping: Stepping, wheel: &ModalWheel, effects: Effects<'_>) -> (f64, f64) {
+    let casing = scene.casing(TOUCHING);
+    let sensors = [radial(0, 0)];
+    let simulation = Simulation {
+        wheel,
+        effects,
+        revolutions: REVOLUTIONS,
+        ..scene.simulation(stepping, &casing, &sensors)
+    };
+    let (run, time) = timed(|| simulation.run(&|_| true));
+    assert!(matches!(run.outcome, Outcome::Completed(_)), "{:?}", run.outcome);
+    (time / run.statistics.steps as f64, run.statistics.contact_share())
+}

@@ -1,0 +1,222 @@
+//! Scenes with effects through the door: what runs with what, what is refused by name, and what must agree.
+
+use rubmap::analysis::monitor::Unwatched;
+use rubmap::analysis::request::SweepRequest;
+use rubmap::analysis::result::SpeedResult;
+use rubmap::analysis::run::{ModelFacts, ReducedSector, resolve_sweep, run_speed};
+use rubmap::dynamics::sector::SectorModel;
+use serde_json::{Value, json};
+
+use crate::fixtures::{WheelRecipe, gyroscopic, wheel};
+use crate::support::{assert_sound, merge, reduced, spectral_difference};
+
+const SPEED: f64 = 1500.0;
+
+fn sector() -> SectorModel {
+    let recipe = WheelRecipe { sectors: 6, ..WheelRecipe::default() };
+    let mut sector = wheel(recipe);
+    sector.gyroscopic = Some(gyroscopic(recipe, 5));
+    sector
+}
+
+/// Every effect of a scene, as a user names it.
+fn effects() -> Vec<(&'static str, Value)> {
+    vec![
+        ("centrifugal_stiffening", json!({"centrifugal_stiffening": true})),
+        ("coriolis", json!({"coriolis": true})),
+        ("friction", json!({"friction": {"coefficient": 0.05}})),
+        (
+            "abradable",
+            json!({"abradable": {"modulus": 2e4, "yield_stress": 20.0, "hardening": 500.0, "thickness": 2.0,
+                                 "rods_around": 400}}),
+        ),
+        (
+            "flexible_casing",
+            json!({"flexible_casing": {"modes": [
+                {"nodal_diameter": 0, "frequency_hz": 2000.0, "modal_mass": 1e-3},
+                {"nodal_diameter": 2, "frequency_hz": 500.0, "modal_mass": 1e-3}]}}),
+        ),
+        ("mistuning", json!({"mistuning": {"spread": 0.03, "seed": 7}})),
+        (
+            "engine_order_excitation",
+            json!({"engine_order_excitation": [
+                {"order": 4, "contact_nodes": [0, 2], "component": "axial", "amplitude": 2.0}]}),
+        ),
+        ("orbit", json!({"orbit": {"radius": 0.05, "whirl_ratio": 0.4}})),
+        (
+            "initial",
+            json!({"initial": {"nodal_diameter": 2, "family": 1, "amplitude": 0.05, "wave": "forward"}}),
+        ),
+        ("exact", json!({"symmetry": "exact"})),
+        ("probe", json!({"symmetry": "probe"})),
+    ]
+}
+
+/// A sweep over `speeds` with two lobes beyond the clearance and the fields of `scene`.
+fn request(speeds: &[f64], scene: &[&Value], integration: Value) -> SweepRequest {
+    let mut request = json!({
+        "model": "test wheel", "modes_per_speed": 6, "max_engine_order": 8,
+        "speeds": {"values": speeds, "unit": "rad_s"},
+        "scene": {
+            "damping": {"modal_ratio": 0.05},
+            "casing": {"clearance": {"leading": 0.3, "trailing": 0.22},
+                       "lobes": {"count": 2, "amplitude": 0.425, "width_rad": 0.35}},
+            "contact": {}
+        },
+        "integration": {"revolutions": 4, "window_revolutions": 2}
+    });
+    for fields in scene {
+        merge(&mut request["scene"], (*fields).clone());
+    }
+    merge(&mut request["integration"], integration);
+    serde_json::from_value(request).unwrap()
+}
+
+fn run(reduced: &ReducedSector, sector: &SectorModel, request: SweepRequest) -> SpeedResult {
+    let request = resolve_sweep(request, &ModelFacts::of(sector)).unwrap();
+    run_speed(reduced, &request, 0, None, &Unwatched).unwrap()
+}
+
+/// Every effect alone and every two together run with sound credentials, or are refused with the name of one of them.
+#[test]
+fn every_pair_of_effects_runs_or_is_refused_by_name() {
+    let sector = sector();
+    let (facts, reduced) = (ModelFacts::of(&sector), reduced(&sector, 6));
+    let effects = effects();
+    let mut refused = Vec::new();
+    for (i, (a, fields)) in effects.iter().enumerate() {
+        for (b, others) in &effects[i..] {
+            if (*a, *b) == ("exact", "probe") {
+                // One field.
+                continue;
+            }
+            match resolve_sweep(request(&[SPEED], &[fields, others], json!({})), &facts) {
+                Err(violations) => {
+                    let named = violations.iter().any(|v| {
+                        let text = format!("{} {}", v.pointer, v.message);
+                        text.contains(a) || text.contains(b) || text.contains("symmetry")
+                    });
+                    assert!(named, "{a} with {b}: {violations:?}");
+                    refused.push((*a, *b));
+                }
+                Ok(request) => {
+                    let result = run_speed(&reduced, &request, 0, None, &Unwatched).unwrap();
+                    println!("{a} with {b}: {:?}", result.point.message);
+                    assert_sound(&result, 0.8);
+                }
+            }
+        }
+    }
+    let expected = [
+        ("abradable", "exact"),
+        ("mistuning", "exact"),
+        ("mistuning", "probe"),
+        ("orbit", "exact"),
+        ("orbit", "probe"),
+        ("initial", "probe"),
+    ];
+    assert_eq!(refused, expected);
+}
+
+/// What repeats around the wheel is said by one part of it: the sub-wheel's spectra and credentials are the wheel's.
+#[test]
+fn exact_symmetry_says_what_the_whole_wheel_says() {
+    let sector = sector();
+    let reduced = reduced(&sector, 6);
+    let names = ["coriolis", "friction", "flexible_casing", "engine_order_excitation", "initial"];
+    let all = effects();
+    let alone = names.map(|name| vec![name]);
+    for named in alone.iter().chain([&Vec::new(), &names.to_vec()]) {
+        let fields: Vec<_> = all.iter().filter(|(name, _)| named.contains(name)).map(|(_, f)| f).collect();
+        let exact = json!({"symmetry": "exact"});
+        let sensors = |mut request: SweepRequest| {
+            request.sensors = serde_json::from_value(json!([
+                {"contact_node": 0, "sector": 0, "component": "radial"},
+                {"contact_node": 2, "sector": 5, "component": "axial"}]))
+            .unwrap();
+            request
+        };
+        let whole = run(&reduced, &sector, sensors(request(&[SPEED], &fields, json!({}))));
+        let with_symmetry: Vec<_> = fields.iter().copied().chain([&exact]).collect();
+        let part = run(&reduced, &sector, sensors(request(&[SPEED], &with_symmetry, json!({}))));
+        assert_sound(&part, 0.8);
+        let difference = spectral_difference(&whole, &part);
+        assert!(difference < 1e-9, "{named:?}: {difference:e}");
+        let pairs = [
+            (whole.point.contact_impulse, part.point.contact_impulse),
+            (whole.point.largest_energy, part.point.largest_energy),
+            (whole.point.casing_amplitude, part.point.casing_amplitude),
+        ];
+        for (whole, part) in pairs {
+            let (whole, part) = (whole.unwrap_or(1.0), part.unwrap_or(1.0));
+            assert!((part / whole - 1.0).abs() < 1e-9, "{named:?}: {whole} {part}");
+        }
+        let (whole, part) = (whole.spectra.unwrap(), part.spectra.unwrap());
+        for (whole, part) in whole.sensors.iter().zip(&part.sensors) {
+            let largest = whole.amplitude.iter().fold(0.0f64, |m, &a| m.max(a));
+            assert_eq!(whole.nodal_diameters.len(), part.nodal_diameters.len());
+            for (whole, part) in
+                whole.nodal_diameters.iter().flatten().zip(part.nodal_diameters.iter().flatten())
+            {
+                assert!((whole - part).abs() < 1e-8 * largest, "{named:?}");
+            }
+        }
+    }
+}
+
+/// A run cut in two at a whole revolution, the second half from the end of the first, is the run in one piece.
+#[test]
+fn a_chain_goes_on_where_its_neighbour_ended() {
+    let sector = sector();
+    let (facts, reduced) = (ModelFacts::of(&sector), reduced(&sector, 6));
+    let damping = json!({"damping": {"modal_ratio": 0.01}});
+    for scheme in ["central_differences", "exact_modal"] {
+        let integration = |revolutions: u32| {
+            json!({"scheme": scheme, "revolutions": revolutions, "window_revolutions": 1,
+                   "steps_per_revolution": 7200})
+        };
+        let mut chained = request(&[SPEED, SPEED * (1.0 + 1e-12)], &[&damping], integration(3));
+        chained.sweep = serde_json::from_value(json!("up")).unwrap();
+        let chained = resolve_sweep(chained, &facts).unwrap();
+        let first = run_speed(&reduced, &chained, 0, None, &Unwatched).unwrap();
+        let state = first.end_state.unwrap();
+        let second = run_speed(&reduced, &chained, 1, Some(&state), &Unwatched).unwrap();
+        assert_sound(&second, 0.8);
+        let whole = run(&reduced, &sector, request(&[SPEED], &[&damping], integration(6)));
+        // Only what closes within the first step differs: a state says nothing of the contact that it is in.
+        let difference = spectral_difference(&whole, &second);
+        assert!(difference < 1e-5, "{scheme}: {difference:e}");
+    }
+}
+
+/// Light damping lets a tiny asymmetry grow by the same rate whatever its size, heavy damping lets it decay (METHOD §10).
+#[test]
+fn a_probe_finds_whether_symmetry_breaks() {
+    let sector = sector();
+    let reduced = reduced(&sector, 6);
+    let probe = |ratio: f64, amplitude: f64| {
+        let scene = json!({"damping": {"modal_ratio": ratio}, "symmetry": "probe", "probe": {"amplitude": amplitude}});
+        let integration = json!({"revolutions": 20, "window_revolutions": 4});
+        run(&reduced, &sector, request(&[SPEED], &[&scene], integration)).point.symmetry_breaking.unwrap()
+    };
+    let heavy = probe(0.05, 1e-6);
+    assert_eq!((heavy.repeats, heavy.nodal_diameters.as_slice()), (2, [1, 3].as_slice()));
+    assert!(!heavy.grows && heavy.rate_per_revolution.unwrap() < 0.0, "{heavy:?}");
+    let [larger, smaller] = [1e-6, 1e-9].map(|amplitude| probe(0.05, amplitude).rate_per_revolution.unwrap());
+    assert!((larger / smaller - 1.0).abs() < 0.03, "{larger} {smaller}");
+}
+
+/// Too much friction for the geometry is refused before the job runs, with the coefficient that would pass.
+#[test]
+fn a_wheel_that_jams_is_refused_before_it_runs() {
+    let sector = sector();
+    let (facts, reduced) = (ModelFacts::of(&sector), reduced(&sector, 6));
+    let scene = json!({"friction": {"coefficient": 1.0}});
+    let request = resolve_sweep(request(&[SPEED], &[&scene], json!({})), &facts).unwrap();
+    let refused = rubmap::analysis::run::check(&reduced, &request, &Unwatched);
+    println!("{refused:?}");
+    if let Err(error) = refused {
+        let text = format!("{error:?}");
+        assert!(text.contains("/scene/friction/coefficient") && text.contains("largest"), "{text}");
+    }
+}
