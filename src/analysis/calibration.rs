@@ -126,8 +126,8 @@ const SPEED_RAD_S: f64 = 1000.0;
 const STEPS: usize = 480;
 const SAMPLES: usize = 60;
 /// Revolutions beyond the first, which has the set-up to itself.
-const REVOLUTIONS: usize = 4;
-const ROUNDS: usize = 2;
+const REVOLUTIONS: usize = 3;
+const ROUNDS: usize = 4;
 
 /// A wheel of no particular shape.
 struct Wheel {
@@ -196,17 +196,20 @@ impl Wheel {
             let run = simulation.run(&|_| true);
             (start.elapsed().as_secs_f64(), run.statistics)
         };
-        let mut best = (f64::INFINITY, 0.0);
-        for _ in 0..ROUNDS {
-            let ((set_up, first), (whole, all)) = (run(1), run(1 + REVOLUTIONS));
-            let steps = (all.steps - first.steps).max(1) as f64;
-            // A clock that stands still would make steps cost nothing.
-            let seconds = ((whole - set_up) / steps).max(1e-9);
-            if seconds < best.0 {
-                best = (seconds, (all.contact_steps - first.contact_steps) as f64 / steps);
+        // Each at its best: a machine that has other work interrupts the one or the other.
+        let fastest = |revolutions| {
+            let (mut least, statistics) = run(revolutions);
+            for _ in 1..ROUNDS {
+                least = least.min(run(revolutions).0);
             }
-        }
-        best
+            (least, statistics)
+        };
+        let ((set_up, first), (whole, all)) = (fastest(1), fastest(1 + REVOLUTIONS));
+        let steps = (all.steps - first.steps).max(1) as f64;
+        let share = (all.contact_steps - first.contact_steps) as f64 / steps;
+        // Interrupted throughout: then with the set-up.
+        let beyond = if whole > set_up { (whole - set_up) / steps } else { whole / all.steps.max(1) as f64 };
+        (beyond.max(1e-9), share)
     }
 }
 

@@ -39,7 +39,7 @@ const EFFECTS: [Effect; 14] = [
     Effect {
         name: "coriolis",
         is_on: |scene| scene.coriolis,
-        adds: "the gyroscopic matrix in the eigenproblems: forward and backward waves of their own frequencies",
+        adds: "a product with the gyroscopic matrix of every nodal diameter in every step; the contact problem is no longer symmetric",
     },
     Effect {
         name: "friction",
@@ -49,24 +49,28 @@ const EFFECTS: [Effect; 14] = [
     Effect {
         name: "abradable",
         is_on: |scene| scene.abradable.is_some(),
-        adds: "a plastic length for every rod of the coating, kept over the run; steps that jump no rod",
+        adds: "a worn depth for every rod, kept over the run, and another law of contact; steps that jump no rod",
     },
     Effect {
         name: "flexible_casing",
         is_on: |scene| scene.flexible_casing.is_some(),
-        adds: "the casing's modes as further unknowns of the same contact problem",
+        adds: "two waves of the casing for every n as further oscillators in the same contact problem",
     },
     Effect {
         name: "mistuning",
         is_on: |scene| scene.mistuning.is_some(),
-        adds: "a coupling of all nodal diameters: one eigenproblem of the whole wheel a speed",
+        adds: "forces that couple the nodal diameters of every modal family in every step",
     },
     Effect {
         name: "engine_order_excitation",
         is_on: |scene| !scene.engine_order_excitation.is_empty(),
         adds: "harmonic forces on the modes in every step",
     },
-    Effect { name: "orbit", is_on: |scene| scene.orbit.is_some(), adds: "a gap that moves with the axis" },
+    Effect {
+        name: "orbit",
+        is_on: |scene| scene.orbit.is_some(),
+        adds: "a shift of every gap that moves with the axis",
+    },
     Effect {
         name: "initial",
         is_on: |scene| scene.initial.is_some(),

@@ -39,7 +39,8 @@ pub struct SweepPlan {
     pub speeds: u32,
     /// Threads that compute speeds side by side; one where each starts from the end of another.
     pub workers: u32,
-    /// Every speed if there are no more than three, otherwise the slowest, the middle and the fastest one.
+    /// Every speed if there are no more than three, otherwise the slowest, the middle and the fastest one; of wheels with
+    /// large eigenproblems the slowest alone, which usually takes most steps.
     pub points: Vec<PlannedPoint>,
     /// Cost of all speeds together; absent where none of `points` can be integrated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -165,7 +166,7 @@ pub fn plan_sweep(
     // One speed after the other.
     let workers = if request.sweep == SweepDirection::Independent { workers } else { 1 };
     let points: Vec<PlannedPoint> = match reduced {
-        Some(reduced) => representatives(&speeds)
+        Some(reduced) => representatives(&speeds, &reduced.report.unknowns)
             .into_iter()
             .map(|index| plan_point(reduced, request, calibration, index, speeds[index]))
             .collect(),
@@ -232,10 +233,17 @@ fn reduced_unknowns(facts: &ModelFacts, reduced: Option<&ReducedSector>, modes_p
     reduced.map_or_else(expected, |reduced| reduced.report.wheel_unknowns.into())
 }
 
-/// Indices of all speeds or of the slowest, the middle and the fastest one, in ascending speed.
-fn representatives(speeds: &[f64]) -> Vec<usize> {
+/// Cubed unknowns over all nodal diameters that a plan solves three times: about a second.
+const EIGEN_WORK: f64 = 1e8;
+
+/// Indices of all speeds or of the slowest, the middle and the fastest one, in ascending speed; of the slowest alone where its
+/// eigenproblems of `unknowns` take long.
+fn representatives(speeds: &[f64], unknowns: &[u32]) -> Vec<usize> {
     let mut ascending: Vec<usize> = (0..speeds.len()).collect();
     ascending.sort_by(|&a, &b| speeds[a].total_cmp(&speeds[b]));
+    if unknowns.iter().map(|&n| f64::from(n).powi(3)).sum::<f64>() > EIGEN_WORK {
+        ascending.truncate(1);
+    }
     if ascending.len() <= 3 {
         return ascending;
     }
@@ -373,8 +381,9 @@ mod tests {
 
     #[test]
     fn slowest_middle_and_fastest_stand_for_many() {
-        assert_eq!(representatives(&[3.0, 1.0]), [1, 0]);
-        assert_eq!(representatives(&[5.0, 1.0, 4.0, 2.0, 3.0]), [1, 4, 0]);
+        assert_eq!(representatives(&[3.0, 1.0], &[90; 6]), [1, 0]);
+        assert_eq!(representatives(&[5.0, 1.0, 4.0, 2.0, 3.0], &[90; 6]), [1, 4, 0]);
+        assert_eq!(representatives(&[5.0, 1.0], &[1500; 6]), [1]);
     }
 
     #[test]

@@ -4,8 +4,7 @@ use super::discretisation::Discretisation;
 use super::error::AnalysisError;
 use super::request::{Sensor, SweepRequest};
 use super::result::{
-    EnergyReport, Point, PointStatus, SensorResponse, SensorSpectrum, SideBands, SpeedSpectra, Verdict,
-    WearReport,
+    EnergyReport, Point, PointStatus, SensorResponse, SensorSpectrum, SideBands, SpeedSpectra, WearReport,
 };
 use super::scene::Symmetry;
 use super::symmetry::repeats;
@@ -57,11 +56,8 @@ pub(super) fn record_run(
             let spectra = spectra(history, request, wheel);
             let window = request.integration.window_revolutions as usize;
             point.responses = responses(history, request, &spectra, window * steps.samples);
-            let mut settling = judge(&history.displacement, steps.samples, window, lobes(request));
-            if settling.verdict == Verdict::Aperiodic {
-                settling.side_band_spacing = side_band_spacing(&point.responses);
-            }
-            point.settling = Some(settling);
+            let settling = judge(&history.displacement, steps.samples, window, lobes(request));
+            point.settling = Some(settling.beside(strongest_side_bands(&point.responses)));
             if request.scene.symmetry == Symmetry::Probe {
                 let grown = request.integration.ramp_revolutions.ceil() as usize;
                 let repeats = repeats(&request.scene, wheel.sectors as u32) as usize;
@@ -172,11 +168,10 @@ fn lobes(request: &SweepRequest) -> Option<u32> {
     Some(request.scene.casing.as_ref()?.lobes.as_ref()?.count)
 }
 
-/// δ of the strongest pair at the sensor with the largest response.
-fn side_band_spacing(responses: &[SensorResponse]) -> Option<f64> {
+/// The strongest pair at the sensor with the largest response.
+fn strongest_side_bands(responses: &[SensorResponse]) -> Option<&SideBands> {
     let loudest = responses.iter().max_by(|a, b| a.rms.total_cmp(&b.rms))?;
-    let weaker = |pair: &SideBands| pair.lower.min(pair.upper);
-    loudest.side_bands.iter().max_by(|a, b| weaker(a).total_cmp(&weaker(b))).map(|pair| pair.spacing)
+    loudest.side_bands.iter().max_by(|a, b| a.weaker().total_cmp(&b.weaker()))
 }
 
 fn largest_bin(values: &[f64]) -> usize {

@@ -247,6 +247,7 @@ pub struct InteractionMap {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plan: Option<Estimate>,
     /// What its finished speeds have cost.
+    #[serde(default)]
     pub spent: Spent,
     /// The whole request as resolved.
     pub settings: super::request::SweepRequest,
@@ -359,6 +360,7 @@ pub struct CriticalSpeeds {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plan: Option<Estimate>,
     /// What it has cost.
+    #[serde(default)]
     pub spent: Spent,
     /// What the reduction found about the model.
     pub reduction: ReductionReport,

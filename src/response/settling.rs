@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
+use super::side_bands::SideBands;
 use crate::numerics::spectrum::amplitudes;
 
 /// What the end of a run looks like, revolution by revolution.
@@ -47,9 +48,39 @@ pub struct Settling {
     pub largest_change: Option<f64>,
 }
 
+impl Settling {
+    /// The verdict held against the strongest pair of side bands in the window: an aperiodic response takes its spacing, and one
+    /// that seems to repeat every few revolutions, though its side bands do not, is aperiodic. Side bands of some per cent
+    /// drift by less than the tolerance over a period that they nearly fit.
+    #[must_use]
+    pub fn beside(mut self, strongest: Option<&SideBands>) -> Self {
+        let Some(pair) = strongest else { return self };
+        if let (Verdict::Subharmonic, Some(ratio)) = (self.verdict, self.ratio) {
+            let beats = f64::from(ratio) * pair.spacing;
+            if (beats - beats.round()).abs() <= f64::from(ratio) * LOCATED * pair.resolution {
+                return self;
+            }
+            self = Self {
+                verdict: Verdict::Aperiodic,
+                ratio: None,
+                lobe_passages: None,
+                after_revolutions: None,
+                ..self
+            };
+        }
+        if self.verdict == Verdict::Aperiodic {
+            self.side_band_spacing = Some(pair.spacing);
+        }
+        self
+    }
+}
+
 /// Revolutions differ by less than this share of the response in a steady state. Spectral leakage of a slower
 /// drift stays an order below engine-order peaks of that share.
 const TOLERANCE: f64 = 1e-2;
+
+/// Side bands are located to this many bins, at worst.
+const LOCATED: f64 = 0.25;
 
 /// Longest period looked for, in revolutions.
 const LONGEST_PERIOD: usize = 8;
@@ -205,6 +236,7 @@ impl<'a> Line<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::response::side_bands::side_bands;
     use std::f64::consts::TAU;
 
     fn history(revolutions: usize, x: impl Fn(f64) -> f64) -> Vec<Vec<f64>> {
@@ -276,6 +308,30 @@ mod tests {
         // A thousandth of a period from one pair of revolutions to the next.
         assert_eq!(judge(&history(520, beat(5e-4)), 64, 500, None).verdict, Verdict::Aperiodic);
         assert_eq!(judge(&history(40, beat(5e-4)), 64, 20, None).ratio, Some(2));
+    }
+
+    #[test]
+    fn side_bands_that_nearly_fit_a_period_do_not_repeat() {
+        // Seen on the demo impeller: four revolutions hold 1.08 beats, weak enough to pass for one.
+        let split = |spacing: f64| {
+            move |t: f64| {
+                let pair = (TAU * (1.0 + spacing) * t).sin() + (TAU * (1.0 - spacing) * t).cos();
+                (TAU * 2.0 * t).sin() + 0.008 * pair
+            }
+        };
+        for (spacing, verdict) in [(0.2697, Verdict::Aperiodic), (0.25, Verdict::Subharmonic)] {
+            let samples = history(60, split(spacing));
+            let alone = judge(&samples, 64, 20, None);
+            assert_eq!((alone.verdict, alone.ratio), (Verdict::Subharmonic, Some(4)), "{alone:?}");
+            let pairs = side_bands(&samples[0][40 * 64..], 20, 8);
+            let held = alone.clone().beside(pairs.first());
+            assert_eq!(held.verdict, verdict, "{held:?}");
+            match held.side_band_spacing {
+                Some(found) => assert!((found - spacing).abs() < 0.005, "{held:?}"),
+                None => assert_eq!(held, alone),
+            }
+            assert_eq!(alone.clone().beside(None), alone);
+        }
     }
 
     #[test]

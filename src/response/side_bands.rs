@@ -33,6 +33,13 @@ pub struct SideBands {
     pub upper: f64,
 }
 
+impl SideBands {
+    /// Amplitude of the weaker line: what makes them a pair.
+    pub fn weaker(&self) -> f64 {
+        self.lower.min(self.upper)
+    }
+}
+
 /// A line stands clear of the floor, the lower quartile of the bins between the engine orders nearby, if it is this many
 /// times as high: of noise, one bin in 10⁸ is.
 const CLEAR: f64 = 8.0;
@@ -60,7 +67,7 @@ pub fn side_bands(window: &[f64], revolutions: usize, max_engine_order: usize) -
     let strongest = amplitude[REACH + 1..].iter().fold(0.0f64, |m, &a| m.max(a));
     let spectrum = Spectrum { amplitude: &amplitude, revolutions, least: SIGNIFICANT * strongest };
     let mut pairs: Vec<_> = (1..=highest).filter_map(|order| spectrum.pair_about(order)).collect();
-    pairs.sort_by(|a, b| b.lower.min(b.upper).total_cmp(&a.lower.min(a.upper)));
+    pairs.sort_by(|a, b| b.weaker().total_cmp(&a.weaker()));
     pairs.truncate(MOST);
     pairs.sort_by_key(|pair| pair.engine_order);
     pairs
