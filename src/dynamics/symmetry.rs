@@ -4,7 +4,7 @@
 //! and s + N/g at every instant, contact included. Only the nodal diameters that are multiples of g move, and N/g sectors
 //! say everything: their nodal diameters i′ are the wheel's g·i′. The sub-wheel's modal coordinates are the wheel's over √g,
 //! its energies, forces and impulses a g-th of the wheel's. Exact until the symmetry breaks, which the sub-wheel cannot see:
-//! small asymmetries of the full wheel may grow ([`crate::response::symmetry_breaking`]).
+//! small asymmetries of the full wheel may grow (`response::symmetry_breaking`).
 
 use super::modal_wheel::ModalWheel;
 
