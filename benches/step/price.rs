@@ -10,7 +10,6 @@ use rubmap::dynamics::mistuning::normal_deviations;
 use rubmap::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use rubmap::dynamics::orbit::Orbit;
 use rubmap::dynamics::oscillators::Direction;
-use rubmap::dynamics::schemes::Scheme;
 
 use crate::scene::{SPEED, Scene, Stepping, TOUCHING, name, radial};
 use crate::timing::{Contender, medians, timed};
