@@ -2,13 +2,14 @@
 
 use std::f64::consts::TAU;
 
-use super::result::{Crossing, DrivenCrossing, WaveTables};
+use super::result::{Coincidence, Crossing, DrivenCrossing, WaveTables};
 use crate::dynamics::error::ModelError;
 use crate::dynamics::modal_wheel::{RotationEffects, natural_frequencies};
 use crate::dynamics::reduction::ReducedWheel;
 use crate::dynamics::waves::wave_frequencies;
 use crate::numerics::sector_fourier::harmonic_count;
 use crate::response::campbell::{crossings, driven_crossings};
+use crate::response::coincidence::coincidences;
 use crate::response::waves::{Branch, Frequencies, Table, Wave, Waves};
 
 /// Frequencies of the first families over ascending speeds.
@@ -69,6 +70,12 @@ impl<'a> FrequencyDiagram<'a> {
         self.with_waves(|waves| {
             driven_crossings(waves, &self.speeds, self.families, lobes, max_engine_order, sectors)
         })
+    }
+
+    /// Coincidences with the waves of a casing.
+    pub(super) fn coincidences(&self, casing: &[(u32, f64)]) -> Vec<Coincidence> {
+        let sectors = self.wheel.sectors as u32;
+        self.with_waves(|waves| coincidences(waves, &self.speeds, self.families, casing, sectors))
     }
 
     fn with_waves<T>(&self, use_them: impl FnOnce(&Waves<'_, WheelFrequencies<'_>>) -> T) -> T {

@@ -42,7 +42,7 @@ impl SceneEffects {
         wheel: &ModalWheel,
         ramp_revolutions: f64,
     ) -> Result<Self, String> {
-        let sectors = wheel.sectors * wheel.repeats;
+        let sectors = wheel.around();
         let friction = match &scene.friction {
             Some(friction) => {
                 let directions = sliding_directions(contact_nodes, friction.coefficient);

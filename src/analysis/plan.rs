@@ -312,11 +312,8 @@ fn running_bytes(wheel: &ModalWheel, request: &SweepRequest, stepping: &Stepping
     let shapes: usize = wheel.harmonics.iter().map(|h| COMPLEX * h.contact.nrows() * h.contact.ncols()).sum();
     let stride = nodes.next_multiple_of(8);
     let lobes = nodes > 0 && request.scene.casing.as_ref().is_some_and(|casing| casing.lobes.is_some());
-    let table = if lobes {
-        REAL * RestrictionTable::size(steps.per_revolution, wheel.sectors * wheel.repeats, stride)
-    } else {
-        0
-    };
+    let table =
+        if lobes { REAL * RestrictionTable::size(steps.per_revolution, wheel.around(), stride) } else { 0 };
     let rows = 2 * REAL * (nodes + request.sensors.len()) * sizes.sum::<usize>();
     let history = REAL * steps.samples * request.sensors.len() * (revolutions + wheel.sectors * window);
     let spectrum = 4 * COMPLEX * steps.samples * window;

@@ -120,7 +120,7 @@ fn of_the_wheel(part: Vec<Vec<f64>>, wheel: &ModalWheel) -> Vec<Vec<f64>> {
         return part;
     }
     let bins = part.first().map_or(0, Vec::len);
-    let mut whole = vec![vec![0.0; bins]; harmonic_count(wheel.sectors * wheel.repeats)];
+    let mut whole = vec![vec![0.0; bins]; harmonic_count(wheel.around())];
     let scale = (wheel.repeats as f64).sqrt();
     for (index, line) in part.into_iter().enumerate() {
         whole[index * wheel.repeats] = line.into_iter().map(|amplitude| scale * amplitude).collect();

@@ -11,6 +11,7 @@ use crate::dynamics::energy::EnergyAudit;
 use crate::dynamics::sector::Units;
 
 pub use crate::response::campbell::{Crossing, DrivenCrossing};
+pub use crate::response::coincidence::Coincidence;
 pub use crate::response::settling::{Settling, Verdict};
 pub use crate::response::side_bands::SideBands;
 pub use crate::response::symmetry_breaking::SymmetryBreaking;
@@ -354,6 +355,9 @@ pub struct CriticalSpeeds {
     pub linear_crossings: Vec<Crossing>,
     /// Crossings that the lobes can drive.
     pub driven_crossings: Vec<DrivenCrossing>,
+    /// Where travelling waves of the wheel meet those of an elastic casing; absent where it is rigid.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub casing_coincidences: Vec<Coincidence>,
     /// Speeds that gave no amplitude, by index.
     pub missing: Vec<u32>,
     /// What the sweep was expected to cost.

@@ -280,7 +280,7 @@ impl Scope<'_> {
             }
             None => {
                 let steps = wish.least_steps as usize;
-                (Discretisation::at_least(steps, self.request, self.wheel.sectors), wish.why_steps)
+                (Discretisation::at_least(steps, self.request, self.wheel.around()), wish.why_steps)
             }
         };
         let reason = format!("{}; {why_steps}", wish.why_scheme);

@@ -1,14 +1,17 @@
 //! What the speeds of a sweep say together: the interaction map and the critical speeds.
 
 use super::diagram::FrequencyDiagram;
-use super::effects::rotation;
+use std::f64::consts::TAU;
+
+use super::effects::{flexible_casing, rotation};
 use super::error::AnalysisError;
 use super::model::ReducedSector;
 use super::monitor::Monitor;
 use super::plan::Spent;
 use super::request::{Sensor, SweepRequest};
 use super::result::{
-    CriticalSpeed, CriticalSpeeds, Crossing, DrivenCrossing, InteractionMap, Point, PointStatus, SpeedSpectra,
+    Coincidence, CriticalSpeed, CriticalSpeeds, Crossing, DrivenCrossing, InteractionMap, Point, PointStatus,
+    SpeedSpectra,
 };
 use super::run::VERSION;
 use crate::dynamics::sector::Units;
@@ -84,9 +87,10 @@ pub fn critical_speeds(
         (0..).zip(&completed).filter(|(_, point)| point.is_none()).map(|(i, _)| i).collect();
     let table = |(sensor, &of): (usize, &Sensor)| CriticalSpeeds {
         sensor: of,
-        critical_speeds: response_peaks(&ordered, sensor, &prediction.0),
-        linear_crossings: prediction.0.clone(),
-        driven_crossings: prediction.1.clone(),
+        critical_speeds: response_peaks(&ordered, sensor, &prediction.linear),
+        linear_crossings: prediction.linear.clone(),
+        driven_crossings: prediction.driven.clone(),
+        casing_coincidences: prediction.coincidences.clone(),
         missing: missing.clone(),
         plan: None,
         spent: Spent::on(points),
@@ -124,13 +128,20 @@ fn response_peaks(ordered: &[Option<&Point>], sensor: usize, linear: &[Crossing]
     critical.collect()
 }
 
-/// Linear and driven crossings over the range of a sweep.
+/// What linear theory expects over the range of a sweep.
+struct Prediction {
+    linear: Vec<Crossing>,
+    driven: Vec<DrivenCrossing>,
+    coincidences: Vec<Coincidence>,
+}
+
+/// Crossings and coincidences over the range of a sweep.
 fn predict(
     reduced: &ReducedSector,
     request: &SweepRequest,
     ascending: impl Iterator<Item = f64>,
     monitor: &dyn Monitor,
-) -> Result<(Vec<Crossing>, Vec<DrivenCrossing>), AnalysisError> {
+) -> Result<Prediction, AnalysisError> {
     let scene = &request.scene;
     let effects = rotation(scene);
     let mut diagram = FrequencyDiagram::new(&reduced.wheel, effects, PREDICTED_FAMILIES);
@@ -146,6 +157,13 @@ fn predict(
         let _ = diagram.push(speed);
     }
     let lobes = scene.casing.as_ref().and_then(|casing| casing.lobes.as_ref()).map_or(0, |l| l.count);
-    let linear = diagram.crossings(&PREDICTED_SUPERHARMONICS);
-    Ok((linear, diagram.driven_crossings(lobes, request.max_engine_order)))
+    let casing = scene.flexible_casing.as_ref().map(|casing| {
+        flexible_casing(casing).waves.iter().map(|wave| (wave.nodal_diameter, wave.omega / TAU)).collect()
+    });
+    let casing: Vec<(u32, f64)> = casing.unwrap_or_default();
+    Ok(Prediction {
+        linear: diagram.crossings(&PREDICTED_SUPERHARMONICS),
+        driven: diagram.driven_crossings(lobes, request.max_engine_order),
+        coincidences: diagram.coincidences(&casing),
+    })
 }

@@ -45,7 +45,7 @@ pub(crate) struct ModalExcitation {
 
 impl ModalExcitation {
     pub(crate) fn new(excitation: &EngineOrderExcitation, wheel: &ModalWheel) -> Self {
-        let around = wheel.sectors * wheel.repeats;
+        let around = wheel.around();
         let alias = excitation.order as usize % around;
         let (diameter, backwards) = if 2 * alias > around { (around - alias, true) } else { (alias, false) };
         let harmonic = diameter / wheel.repeats;

@@ -75,6 +75,11 @@ impl ModalWheel {
         Ok(Self { speed_rad_s, sectors: reduced.sectors, repeats: 1, harmonics })
     }
 
+    /// N, of which [`Self::sectors`] are simulated.
+    pub fn around(&self) -> usize {
+        self.sectors * self.repeats
+    }
+
     /// ω_max in rad/s: with central differences it bounds the step, h < 2/ω_max.
     pub fn largest_frequency(&self) -> f64 {
         self.harmonics.iter().filter_map(|h| h.omega.last()).copied().fold(0.0, f64::max)

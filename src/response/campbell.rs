@@ -52,26 +52,52 @@ pub fn absolute_frequency(
     (f64::from(nodal_diameter * superharmonic) * speed_rad_s / TAU - frequency_hz).abs()
 }
 
-/// Speeds in the range of `grid` (ascending, rad/s) at which a frequency of the first `families` equals engine
-/// order `order`: sign changes of kΩ/2π − f between neighbouring grid points, refined on newly
-/// computed frequencies. No crossing is reported where the model fails on the way.
-fn roots<F: Frequencies>(
+/// The line over speed that a frequency f is to meet: ±f = kΩ/2π − offset.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Line {
+    /// k.
+    pub(super) order: u32,
+    /// 1 or −1, the sign of f.
+    pub(super) sign: f64,
+    /// Hz.
+    pub(super) offset: f64,
+}
+
+impl Line {
+    /// Engine order `order`.
+    fn engine_order(order: u32) -> Self {
+        Self { order, sign: 1.0, offset: 0.0 }
+    }
+
+    fn excess(self, speed: f64, frequency: f64) -> f64 {
+        f64::from(self.order) / TAU * speed - self.sign * frequency - self.offset
+    }
+
+    fn frequency(self, speed: f64) -> f64 {
+        self.sign * (f64::from(self.order) / TAU * speed - self.offset)
+    }
+}
+
+/// Speeds in the range of `grid` (ascending, rad/s) at which the frequency of a family meets `line`, with that frequency: sign
+/// changes of the difference between neighbouring grid points, refined on newly computed frequencies. No crossing is reported
+/// where the model fails on the way.
+pub(super) fn roots<F: Frequencies>(
     &Branch { table, frequencies }: &Branch<'_, F>,
     grid: &[f64],
     nodal_diameter: u32,
     family: usize,
-    order: u32,
+    line: Line,
 ) -> Vec<(f64, f64)> {
-    let slope = f64::from(order) / TAU;
+    let slope = f64::from(line.order) / TAU;
     let excess = |point: usize| {
         let found = table[point][nodal_diameter as usize].get(family);
-        found.map(|f| slope * grid[point] - f)
+        found.map(|&f| line.excess(grid[point], f))
     };
     let mut found = Vec::new();
     for point in 0..grid.len() {
         let Some(here) = excess(point) else { return found };
         if here == 0.0 {
-            found.push((grid[point], slope * grid[point]));
+            found.push((grid[point], line.frequency(grid[point])));
         }
         if point + 1 == grid.len() {
             break;
@@ -80,10 +106,10 @@ fn roots<F: Frequencies>(
         if here * there < 0.0 {
             let excess_at = |speed: f64| {
                 let refined = frequencies.at(speed, nodal_diameter)?;
-                refined.get(family).map(|f| slope * speed - f)
+                refined.get(family).map(|&f| line.excess(speed, f))
             };
             if let Some(root) = refine((grid[point], here), (grid[point + 1], there), slope, excess_at) {
-                found.push((root, slope * root));
+                found.push((root, line.frequency(root)));
             }
         }
     }
@@ -136,8 +162,8 @@ pub fn crossings<F: Frequencies>(
     for nodal_diameter in 1..harmonics {
         for family in 0..families {
             for &superharmonic in superharmonics {
-                let order = nodal_diameter * superharmonic;
-                for (speed_rad_s, frequency_hz) in roots(branch, grid, nodal_diameter, family, order) {
+                let line = Line::engine_order(nodal_diameter * superharmonic);
+                for (speed_rad_s, frequency_hz) in roots(branch, grid, nodal_diameter, family, line) {
                     all.push(Crossing {
                         nodal_diameter,
                         family: family as u32 + 1,
@@ -173,7 +199,8 @@ pub fn driven_crossings<F: Frequencies>(
         let wave = driven_wave(order, sectors);
         let branch = waves.of(wave.unwrap_or(Wave::Backward));
         for family in 0..families {
-            for (speed_rad_s, frequency_hz) in roots(branch, grid, nodal_diameter, family, order) {
+            let line = Line::engine_order(order);
+            for (speed_rad_s, frequency_hz) in roots(branch, grid, nodal_diameter, family, line) {
                 all.push(DrivenCrossing {
                     nodal_diameter,
                     family: family as u32 + 1,

@@ -1,6 +1,7 @@
 //! From histories to engineering results: spectra, nodal diameters, settling and critical speeds (§9).
 
 pub mod campbell;
+pub mod coincidence;
 pub mod critical_speed;
 pub mod settling;
 pub mod side_bands;

@@ -68,7 +68,7 @@ impl Obstacle {
         let angles: Vec<_> = nodes.iter().map(|node| node.position[1]).collect();
         let restriction = casing.restriction.map(|restriction| {
             let profile = |angle| restriction.height(angle);
-            let around = sectors * wheel.repeats;
+            let around = wheel.around();
             RestrictionTable::new(profile, &angles, simulation.steps_per_revolution, around, stride)
         });
         let mut clearance = casing.clearance.clone();

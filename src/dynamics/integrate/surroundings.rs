@@ -58,7 +58,7 @@ impl Surroundings {
             return None;
         }
         let size = wheel.sectors * stride;
-        let around = (wheel.sectors, wheel.sectors * wheel.repeats);
+        let around = (wheel.sectors, wheel.around());
         Some(Self {
             law: match effects.coating {
                 Some(coating) => Law::Coated(
