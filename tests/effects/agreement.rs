@@ -1,15 +1,16 @@
 //! The production code against the literal model: every effect alone, every pair, all together, by every scheme.
 
+use rubmap::dynamics::contact::friction::sliding_directions;
 use rubmap::dynamics::schemes::Scheme;
 
 use crate::literal::{Literal, Record};
-use crate::scene::{EFFECTS, Effect, Scene, Start, difference, history};
+use crate::scene::{EFFECTS, Effect, Scene, Start, contact_nodes, difference, history, sliding};
 
 /// Over two revolutions of lightly damped contact round-off grows to some 1e-12 of the largest displacement.
 const AGREE: f64 = 1e-9;
 
 /// Runs both, compares everything that both know, and returns the difference of the histories.
-fn agrees(scene: &Scene, name: &str) -> f64 {
+pub(crate) fn agrees(scene: &Scene, name: &str) -> f64 {
     let run = scene.run();
     let found = history(&run);
     let expected: Record = Literal::new(scene).run();
@@ -176,6 +177,39 @@ fn massless_boundary_agrees() {
             let smallest = scene.scheme.smallest_stable_steps(&scene.wheel, &scene.nodes);
             assert!(smallest <= scene.steps as u64, "{smallest}");
             agrees(&scene, &format!("{effects:?} {sectors}"));
+        }
+    }
+}
+
+/// The directions that the scenes here are given are those that a request gets.
+#[test]
+fn directions_of_sliding_agree() {
+    let nodes = contact_nodes(4);
+    let found = sliding_directions(&nodes, 0.3).unwrap();
+    for (node, (found, contact)) in found.iter().zip(&nodes).enumerate() {
+        assert_eq!(found.node, node);
+        for (found, expected) in found.components.iter().zip(sliding(contact, 0.3)) {
+            assert!((found - expected).abs() < 1e-15);
+        }
+    }
+}
+
+/// Steps so long that some families stay tuned and some follow statically.
+#[test]
+fn steps_that_hardly_resolve_the_modes_agree() {
+    let effects = [Effect::Mistuning, Effect::Coriolis, Effect::Excitation, Effect::FlexibleCasing];
+    for (scheme, steps) in [(Scheme::CentralDifferences, 36), (Scheme::ExactModal, 24)] {
+        for sectors in [4, 5] {
+            let mut scene = Scene::rubbing(sectors, Start::Travelling);
+            scene.wheel = crate::scene::wheel(sectors, 2, 5);
+            scene.damping = None;
+            (scene.scheme, scene.steps, scene.samples) = (scheme, steps, steps);
+            let scene = scene.with(&effects);
+            let modes = &scene.wheel.harmonics[0].omega;
+            let angles = [modes[0], modes[4]].map(|omega| omega * scene.step_s());
+            assert!(angles[0].powi(2) < 3.0 && angles[1].powi(2) > 3.0, "{angles:?}");
+            let apart = agrees(&scene, &format!("{scheme:?} {sectors}"));
+            println!("{scheme:?} {sectors}: {angles:?} {apart:.1e}");
         }
     }
 }

@@ -2,8 +2,10 @@
 
 use std::f64::consts::TAU;
 
+use faer::c64;
 use nalgebra::{Complex, DMatrix, DVector};
 use rubmap::dynamics::excitation::EngineOrderExcitation;
+use rubmap::dynamics::initial::{InitialMode, InitialWave};
 use rubmap::dynamics::oscillators::Direction;
 use rubmap::dynamics::schemes::Scheme;
 
@@ -146,5 +148,35 @@ fn an_engine_order_drives_its_alias_only() {
                 assert_eq!(largest(line) > 0.0, diameter == driven, "order {order}, column {column}");
             }
         }
+    }
+}
+
+/// u_s(t) = a cos(isα ∓ ωt + …): forward towards +θ, with the amplitude that was asked for.
+#[test]
+fn initial_waves_travel_as_they_are_called() {
+    let (sectors, harmonic, amplitude) = (5, 2, 0.3);
+    let wheel = crate::scene::wheel(sectors, 1, 1);
+    let omega = wheel.harmonics[harmonic].omega[0];
+    for (wave, direction) in [(InitialWave::Forward, -1.0), (InitialWave::Backward, 1.0)] {
+        let phase = c64::cis(0.7);
+        let start = InitialMode::of_amplitude(&wheel, harmonic, 0, amplitude, phase, wave);
+        let mut scene = Scene { scheme: Scheme::ExactModal, ..Scene::free(wheel.clone(), vec![start]) };
+        let shape = &wheel.harmonics[harmonic].contact;
+        // The component that moves most.
+        let norm = |d: usize| shape[(d, 0)].norm();
+        let most = (0..3).max_by(|&a, &b| norm(a).total_cmp(&norm(b))).unwrap();
+        for sensor in &mut scene.sensors {
+            sensor.direction.components = [0, 1, 2].map(|d| if d == most { 1.0 } else { 0.0 });
+        }
+        let turned = shape[(most, 0)] / norm(most) * phase;
+        let exact: Vec<Vec<f64>> = (0..sectors)
+            .map(|s| {
+                let around = c64::cis(TAU * (harmonic * s) as f64 / sectors as f64) * turned * amplitude;
+                let time = |q: usize| scene.step_s() * (q + 1) as f64;
+                (0..2 * scene.steps).map(|q| (around * c64::cis(direction * omega * time(q))).re).collect()
+            })
+            .collect();
+        let apart = difference(&history(&scene.run()).displacement, &exact);
+        assert!(apart < 1e-10, "{wave:?}: {apart:e}");
     }
 }

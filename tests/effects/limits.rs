@@ -132,9 +132,9 @@ fn part(wheel: &ModalWheel, repeats: usize) -> ModalWheel {
 /// What repeats around the wheel needs to be simulated but once, elastic casing and engine orders included.
 #[test]
 fn a_part_does_what_the_whole_wheel_does() {
-    for scheme in [Scheme::CentralDifferences, Scheme::ExactModal] {
+    for scheme in SCHEMES {
         for (sectors, repeats) in [(4, 2), (6, 2), (6, 3)] {
-            let mut whole = Scene { scheme, ..Scene::rubbing(sectors, Start::Rest) };
+            let mut whole = Scene { initial: Vec::new(), ..rubbing(sectors, scheme) };
             whole.add(Effect::Friction);
             whole.add(Effect::Coriolis);
             whole.casing.as_mut().unwrap().restriction.as_mut().unwrap().count = repeats as u32;
@@ -144,7 +144,9 @@ fn a_part_does_what_the_whole_wheel_does() {
                 modal_mass: 4e-4,
             };
             let waves = vec![wave(0, 8.0), wave(1, 3.0), wave(repeats, 4.0), wave(sectors, 6.0)];
-            whole.flexible_casing = Some(FlexibleCasing { waves, damping_ratio: 0.02 });
+            if !matches!(scheme, Scheme::MasslessBoundary { .. }) {
+                whole.flexible_casing = Some(FlexibleCasing { waves, damping_ratio: 0.02 });
+            }
             whole.excitation = vec![EngineOrderExcitation {
                 order: repeats as u32,
                 directions: vec![Direction { node: 1, components: [0.5, 0.3, -0.2] }],

@@ -74,7 +74,7 @@ fn fits(
         w[(active[r].0, active[c].0)] + if r == c { active[r].1.compliance } else { 0.0 }
     });
     let right = DVector::from_fn(active.len(), |r, _| -(q[active[r].0] + active[r].1.start));
-    let solved = matrix.lu().solve(&right)?;
+    let solved = if active.is_empty() { right } else { matrix.lu().solve(&right)? };
     let mut lambda = DVector::zeros(q.len());
     for (&(i, piece), &force) in active.iter().zip(&solved) {
         // A force is known to a gap's round-off over what gives way.

@@ -5,7 +5,7 @@
 mod contact;
 mod rods;
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use faer::c64;
 use nalgebra::{DMatrix, DVector, Dyn, LU, RowDVector};
@@ -43,6 +43,8 @@ pub(crate) struct Literal<'a> {
     mistuning: DMatrix<f64>,
     /// Damping constants 2ζω m of all coordinates.
     damping: DVector<f64>,
+    /// Energy that a step loses over (x⁺ − x⁻)², of all coordinates.
+    loss: DVector<f64>,
     recursion: Recursion,
     now: DVector<f64>,
     before: DVector<f64>,
@@ -117,7 +119,8 @@ fn mistuning_stiffness(scene: &Scene, coordinates: &[Coordinate], size: usize) -
     let Some(deviations) = &scene.mistuning else { return stiffness };
     let wheel = &scene.wheel;
     let families = coordinates.iter().map(|c| c.family + 1).max().unwrap_or(0);
-    for family in 0..families {
+    let tuned = (0..families).find(|&family| !resolved(scene, family)).unwrap_or(families);
+    for family in 0..tuned {
         let bent = |sector: usize| {
             RowDVector::from_fn(size, |_, column| match coordinates.get(column) {
                 Some(c) if c.family == family => {
@@ -135,6 +138,19 @@ fn mistuning_stiffness(scene: &Scene, coordinates: &[Coordinate], size: usize) -
         }
     }
     stiffness
+}
+
+/// Whether a step resolves a family of undamped modes: at most three quarters of the stability limit of central differences,
+/// and with the exact propagator of the angle at which 2 sin(θ/2) is as large.
+fn resolved(scene: &Scene, family: usize) -> bool {
+    scene.wheel.harmonics.iter().all(|modes| {
+        let angle = modes.omega[family] * scene.step_s();
+        match scene.scheme {
+            Scheme::CentralDifferences => angle * angle <= 3.0,
+            _ if follows(scene, modes.omega[family]) => true,
+            _ => angle <= 2.0 * PI / 3.0,
+        }
+    })
 }
 
 /// Ω G of the coordinates (a, b) of z = a + jb: g z = (g' a − g'' b) + j(g'' a + g' b).
@@ -157,6 +173,11 @@ fn gyroscopic(wheel: &ModalWheel, coordinates: &[Coordinate], size: usize) -> DM
     }
     assert_eq!(matrix, -matrix.transpose(), "Coriolis forces do no work");
     matrix
+}
+
+/// Modes at the rhythm of the steps follow statically where there is contact.
+fn follows(scene: &Scene, omega: f64) -> bool {
+    scene.scheme == Scheme::ExactModal && scene.casing.is_some() && omega * scene.step_s() > 5.0 / 6.0 * PI
 }
 
 impl<'a> Literal<'a> {
@@ -196,34 +217,43 @@ impl<'a> Literal<'a> {
         let diagonal = |of: &dyn Fn(&(f64, f64, f64)) -> f64| {
             DMatrix::from_diagonal(&DVector::from_iterator(size, numbers.iter().map(of)))
         };
-        let recursion = match scene.scheme {
+        let (recursion, loss) = match scene.scheme {
             Scheme::CentralDifferences => {
                 let mass = diagonal(&|&(_, _, m)| m / (h * h));
                 let damping = diagonal(&|&(omega, zeta, m)| 2.0 * zeta * omega * m / (2.0 * h));
                 let stiffness = diagonal(&|&(omega, _, m)| m * omega * omega) + &mistuning;
+                // The velocity (x⁺ − x⁻)/2h for a time h.
+                let loss = damping.diagonal() / 2.0;
                 let swing = damping + &coriolis / (2.0 * h);
-                Recursion {
+                let recursion = Recursion {
                     left: (&mass + &swing).lu(),
                     now: &mass * 2.0 - stiffness,
                     before: swing - mass,
                     load: DVector::from_element(size, 1.0),
-                }
+                };
+                (recursion, loss)
             }
             Scheme::ExactModal | Scheme::MasslessBoundary { .. } => {
-                let decay = |omega: f64, zeta: f64| (-zeta * omega * h).exp();
+                let decay = |omega: f64, zeta: f64| {
+                    if follows(scene, omega) { 0.0 } else { (-zeta * omega * h).exp() }
+                };
                 let twice_cos = |omega: f64, zeta: f64| {
                     2.0 * decay(omega, zeta) * (omega * h * (1.0 - zeta * zeta).sqrt()).cos()
                 };
                 let moved = diagonal(&|&(omega, zeta, m)| {
                     (1.0 - twice_cos(omega, zeta) + decay(omega, zeta).powi(2)) / (m * omega * omega)
                 });
+                let remains = diagonal(&|&(omega, zeta, _)| decay(omega, zeta).powi(2));
                 let turned = &moved * &coriolis / (2.0 * h);
-                Recursion {
+                // x⁺ − 2 cos… x + a² x⁻ = b f times (x⁺ − x⁻)/2b: what is left beside differences of an energy.
+                let loss = DVector::from_fn(size, |i, _| (1.0 - remains[(i, i)]) / (4.0 * moved[(i, i)]));
+                let recursion = Recursion {
                     left: (DMatrix::identity(size, size) + &turned).lu(),
                     now: diagonal(&|&(omega, zeta, _)| twice_cos(omega, zeta)) - &moved * &mistuning,
-                    before: turned - diagonal(&|&(omega, zeta, _)| decay(omega, zeta).powi(2)),
+                    before: turned - remains,
                     load: moved.diagonal(),
-                }
+                };
+                (recursion, loss)
             }
         };
         let mut this = Self {
@@ -231,6 +261,7 @@ impl<'a> Literal<'a> {
             displacement: displacements(wheel, &integrated),
             residual,
             damping: DVector::from_iterator(size, numbers.iter().map(|&(w, z, m)| 2.0 * z * w * m)),
+            loss,
             mistuning,
             recursion,
             now: DVector::zeros(size),
@@ -265,7 +296,8 @@ impl<'a> Literal<'a> {
                     let (sin, cos) = (damped * h).sin_cos();
                     let grown = (zeta * omega * h).exp();
                     let free = grown * (z * cos - (v + zeta * omega * z) / damped * sin);
-                    free + self.recursion.load[row] / (1.0 + grown.powi(-2)) * others[row]
+                    let remains = if follows(self.scene, omega) { 0.0 } else { grown.powi(-2) };
+                    free + self.recursion.load[row] / (1.0 + remains) * others[row]
                 }
             };
         }
@@ -479,9 +511,8 @@ impl<'a> Literal<'a> {
         record.mistuning_work -= 0.5 * swing.dot(&(&self.mistuning * &self.now));
         record.contact_work += 0.5 * contact.rows(0, wheel).dot(&swing.rows(0, wheel));
         record.casing_work += 0.5 * contact.rows(wheel, casing).dot(&swing.rows(wheel, casing));
-        let h = self.scene.step_s();
         for row in wheel..next.len() {
-            record.casing_loss += self.damping[row] * swing[row].powi(2) / (4.0 * h);
+            record.casing_loss += self.loss[row] * swing[row].powi(2);
         }
         for wave in next.rows(wheel, casing).as_slice().chunks_exact(2) {
             record.casing_amplitude = record.casing_amplitude.max(wave[0].hypot(wave[1]));
