@@ -10,6 +10,7 @@ mod fixtures;
 mod frequencies;
 mod limits;
 mod literal;
+mod random_scenes;
 mod responses;
 mod scene;
 #[path = "../hard_cases/support.rs"]

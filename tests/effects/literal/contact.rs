@@ -1,4 +1,4 @@
-//! Contact by trying every combination of branches.
+//! Contact by trying combinations of branches: the one that Gauss–Seidel sweeps end on, and then every other.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -48,6 +48,10 @@ pub(super) fn solve(w: &DMatrix<f64>, q: &DVector<f64>, law: impl Fn(usize) -> L
 
 /// The first combination that fits all candidates.
 fn enumerate(w: &DMatrix<f64>, q: &DVector<f64>, laws: &[Law], candidates: &[usize]) -> DVector<f64> {
+    let guess = sweep(w, q, laws, candidates);
+    if let Some(lambda) = fits(w, q, laws, candidates, &guess) {
+        return lambda;
+    }
     let mut branch = vec![0usize; candidates.len()];
     loop {
         if let Some(lambda) = fits(w, q, laws, candidates, &branch) {
@@ -58,6 +62,32 @@ fn enumerate(w: &DMatrix<f64>, q: &DVector<f64>, laws: &[Law], candidates: &[usi
         branch[next] += 1;
         branch[..next].fill(0);
     }
+}
+
+/// Branches that sweeps over the candidates end on, each place meeting its law while the others stay.
+fn sweep(w: &DMatrix<f64>, q: &DVector<f64>, laws: &[Law], candidates: &[usize]) -> Vec<usize> {
+    let mut lambda = DVector::zeros(q.len());
+    let mut branch = vec![0; candidates.len()];
+    for _ in 0..1000 {
+        let mut change = 0.0f64;
+        for (&i, branch) in candidates.iter().zip(&mut branch) {
+            let others = w.row(i).transpose().dot(&lambda) - w[(i, i)] * lambda[i];
+            let on = |piece: &Piece| -(q[i] + others + piece.start) / (w[(i, i)] + piece.compliance);
+            let mut force = 0.0;
+            *branch = 0;
+            for (number, piece) in laws[i].pieces.iter().enumerate() {
+                if on(piece) > piece.least_force {
+                    (*branch, force) = (number + 1, on(piece));
+                }
+            }
+            change = change.max((force - lambda[i]).abs() / (1.0 + force));
+            lambda[i] = force;
+        }
+        if change < 1e-14 {
+            break;
+        }
+    }
+    branch
 }
 
 /// Forces if the candidates are on these branches (0: no force), unless one of them lies outside its own.
