@@ -171,7 +171,7 @@ pub struct FlexibleCasing {
     /// Modes as given; else give `ring`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub modes: Option<Vec<CasingMode>>,
-    /// Modal damping ratio of every casing mode, in [0, 1).
+    /// Modal damping ratio of every casing mode, in [0, 1); 1 % by default, that of a bolted steel structure.
     #[serde(default = "default_casing_damping")]
     pub damping_ratio: f64,
 }
@@ -180,7 +180,8 @@ fn default_casing_damping() -> f64 {
     0.01
 }
 
-/// Thin elastic ring, inextensional bending in its plane (n ≥ 2).
+/// Thin elastic ring: breathing (n = 0) and inextensional bending in its plane (n ≥ 2). A free ring resists no translation
+/// (n = 1): give `modes` of the mounted casing where that matters.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Ring {
@@ -194,7 +195,8 @@ pub struct Ring {
     pub area: f64,
     /// Second moment of area for bending in the ring's plane, length⁴.
     pub second_moment: f64,
-    /// Highest nodal diameter n of its modes; 2 is the lowest.
+    /// Highest nodal diameter n, at most 50. Waves of more than n_max periods count as rigid; 8 reaches what a handful of lobes
+    /// and blades excites.
     #[serde(default = "default_n_max")]
     pub n_max: u32,
 }
@@ -215,14 +217,15 @@ pub struct CasingMode {
     pub modal_mass: f64,
 }
 
-/// Relative stiffness deviations of the sectors: given as `deviations`, or drawn with `spread` and `seed`.
+/// Relative stiffness deviations of the sectors: given as `deviations`, or drawn with `spread` and `seed`. Twice the relative
+/// deviation of a blade's frequency; within each modal family (Feiner and Griffin, J. Turbomachinery 124, 2002).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Mistuning {
-    /// δ of every sector: its stiffness is (1 + δ) times that of the tuned wheel.
+    /// δ of every sector, at most 0.25 either way: its stiffness is (1 + δ) times that of the tuned wheel.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub deviations: Option<Vec<f64>>,
-    /// Standard deviation of normally distributed δ.
+    /// Standard deviation of normally distributed δ, 0 to 0.1; machined blades scatter by 0.01 to 0.04.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spread: Option<f64>,
     /// Seed of the distribution; the same seed gives the same wheel.
@@ -235,7 +238,7 @@ pub struct Mistuning {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EngineOrderExcitation {
-    /// Engine order k ≥ 1.
+    /// Engine order k, 1 to 1000.
     pub order: u32,
     /// Contact nodes, counted from the leading edge from 0; each gets the whole amplitude.
     pub contact_nodes: Vec<u32>,
@@ -249,11 +252,11 @@ pub struct EngineOrderExcitation {
 }
 
 /// The wheel's axis circles about the casing's: the gap at angle φ in the fixed frame shrinks by
-/// radius·cos(φ − `whirl_ratio`·Ωt − phase), and by as much less as the node's normal is not radial.
+/// radius·cos(φ − `whirl_ratio`·Ωt − phase), and by as much less as the node's normal is not radial. Grows over the ramp.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Orbit {
-    /// Radius of the orbit, length.
+    /// Radius of the orbit, length: hundredths of the clearance for a machine in order, more than it in a transient.
     pub radius: f64,
     /// Whirl speed over Ω: 0 is an eccentric casing, 1 synchronous forward whirl, negative backward whirl.
     #[serde(default)]
@@ -271,7 +274,7 @@ pub struct Initial {
     pub nodal_diameter: u32,
     /// Modal family within it, counted from 1.
     pub family: u32,
-    /// Largest displacement of any contact node in any direction, length.
+    /// Largest displacement component of any contact node, length. What a run from rest never reaches may begin beyond a clearance.
     pub amplitude: f64,
     /// Standing, or travelling with or against the rotation (pairs only).
     #[serde(default)]
