@@ -3,7 +3,6 @@
 use rubmap::dynamics::excitation::EngineOrderExcitation;
 use rubmap::dynamics::flexible_casing::{CasingWave, FlexibleCasing};
 use rubmap::dynamics::integrate::SensorRow;
-use rubmap::dynamics::modal_wheel::ModalWheel;
 use rubmap::dynamics::orbit::Orbit;
 use rubmap::dynamics::oscillators::Direction;
 use rubmap::dynamics::schemes::Scheme;
@@ -118,17 +117,6 @@ fn a_synchronous_whirl_is_another_clearance() {
     }
 }
 
-/// One of `repeats` parts that a wheel of `sectors` repeats.
-fn part(wheel: &ModalWheel, repeats: usize) -> ModalWheel {
-    let sectors = wheel.sectors / repeats;
-    let harmonics = (0..=sectors / 2).map(|harmonic| {
-        let mut modes = wheel.harmonics[harmonic * repeats].clone();
-        modes.harmonic = harmonic;
-        modes
-    });
-    ModalWheel { speed_rad_s: wheel.speed_rad_s, sectors, repeats, harmonics: harmonics.collect() }
-}
-
 /// What repeats around the wheel needs to be simulated but once, elastic casing and engine orders included.
 #[test]
 fn a_part_does_what_the_whole_wheel_does() {
@@ -157,7 +145,7 @@ fn a_part_does_what_the_whole_wheel_does() {
             let sensor =
                 |sector| SensorRow { direction: Direction { node: 0, components: [1.0, 0.2, -0.3] }, sector };
             whole.sensors = (0..sectors / repeats).map(sensor).collect();
-            let sub = Scene { wheel: part(&whole.wheel, repeats), ..whole.clone() };
+            let sub = Scene { wheel: whole.wheel.clone().part(repeats), ..whole.clone() };
             let apart = apart(&sub, &whole);
             assert!(apart < 1e-9, "{scheme:?} {sectors}/{repeats}: {apart:e}");
         }
