@@ -180,3 +180,21 @@ fn initial_waves_travel_as_they_are_called() {
         assert!(apart < 1e-10, "{wave:?}: {apart:e}");
     }
 }
+
+/// A run that starts from the end of another goes on as that would have.
+#[test]
+fn a_run_goes_on_from_its_end() {
+    let effects = [Effect::Mistuning, Effect::Coriolis, Effect::Excitation];
+    for scheme in SCHEMES {
+        for effects in [&effects[..1], &effects[1..2], &effects[2..], &effects] {
+            let mut whole = Scene { scheme, ..free(5, Start::Travelling, effects) };
+            whole.excitation.iter_mut().for_each(|of| of.ramp_revolutions = 0.0);
+            let first = Scene { revolutions: 1, ..whole.clone() };
+            let second = Scene { initial: history(&first.run()).end.clone(), ..first };
+            let rest: Vec<_> =
+                history(&whole.run()).displacement.iter().map(|u| u[SAMPLES..].to_vec()).collect();
+            let apart = difference(&history(&second.run()).displacement, &rest);
+            assert!(apart < 1e-9, "{scheme:?} {effects:?}: {apart:e}");
+        }
+    }
+}

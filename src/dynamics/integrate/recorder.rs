@@ -2,6 +2,7 @@
 
 use pulp::Simd;
 
+use super::super::initial::InitialMode;
 use super::super::oscillators::Oscillators;
 use super::super::oscillators::rows::Rows;
 use super::residual::ResidualDisplacement;
@@ -73,13 +74,8 @@ impl Recorder {
         self.history.energies.push(oscillators.energies().collect());
     }
 
-    pub(super) fn end(&mut self, simulation: &Simulation<'_>, oscillators: &Oscillators) {
-        let (step, touching) = (simulation.step_s(), simulation.casing.is_some());
-        self.history.end = oscillators.modal_state(|harmonic, family, z, d| {
-            let omega = simulation.wheel.harmonics[harmonic].omega[family];
-            let zeta = simulation.damping.map_or(0.0, |damping| damping.ratio(family));
-            simulation.scheme.velocity(omega, zeta, step, z, d, touching)
-        });
+    pub(super) fn end(&mut self, modes: Vec<InitialMode>) {
+        self.history.end = modes;
     }
 
     pub(super) fn take(&mut self) -> History {

@@ -13,6 +13,7 @@ use pulp::Simd;
 use super::super::casing::RestrictionTable;
 use super::super::energy::EnergyAudit;
 use super::super::flexible_casing::CasingMotion;
+use super::super::initial::InitialMode;
 use super::super::oscillators::driven::Drive;
 use super::super::oscillators::{Loads, Oscillators};
 use super::super::schemes::Scheme;
@@ -174,7 +175,11 @@ impl Stepper {
             self.last_energy = Some(self.mechanical_energy());
             self.recorder.end_revolution(&self.oscillators);
         }
-        self.recorder.end(simulation, &self.oscillators);
+        if let Some(drive) = &mut self.drive {
+            let read = |oscillators: &Oscillators| modal_state(simulation, oscillators);
+            drive.end(simulation.wheel, simulation.revolutions as f64, &mut self.oscillators, read);
+        }
+        self.recorder.end(modal_state(simulation, &self.oscillators));
         Ok(())
     }
 
@@ -317,6 +322,16 @@ impl Stepper {
             energy_growth: self.last_energy.map(|last| energy / last),
         }))
     }
+}
+
+/// z and ż of every mode, its increment being that of free motion.
+fn modal_state(simulation: &Simulation<'_>, oscillators: &Oscillators) -> Vec<InitialMode> {
+    let (step, touching) = (simulation.step_s(), simulation.casing.is_some());
+    oscillators.modal_state(|harmonic, family, z, d| {
+        let omega = simulation.wheel.harmonics[harmonic].omega[family];
+        let zeta = simulation.damping.map_or(0.0, |damping| damping.ratio(family));
+        simulation.scheme.velocity(omega, zeta, step, z, d, touching)
+    })
 }
 
 fn is_massless(simulation: &Simulation<'_>) -> bool {

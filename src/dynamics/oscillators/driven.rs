@@ -96,13 +96,45 @@ impl Drive {
         initial: &[InitialMode],
         oscillators: &mut Oscillators,
     ) {
-        self.prepare(&oscillators.state.z, 0.0);
+        self.add_to_increments(wheel, initial, oscillators, 0.0, -1.0);
+    }
+
+    /// The counterpart of [`Self::start`] after `revolutions`: leaves the increments that free motion has at the same
+    /// velocities, as `read` finds them.
+    pub(crate) fn end(
+        &mut self,
+        wheel: &ModalWheel,
+        revolutions: f64,
+        oscillators: &mut Oscillators,
+        read: impl Fn(&Oscillators) -> Vec<InitialMode>,
+    ) {
+        // Coriolis forces depend on the velocities they are read with, by hΩ|g|/2 of them.
+        const ROUNDS: usize = 20;
+        let increments = oscillators.state.d.clone();
+        for _ in 0..ROUNDS {
+            let modes = read(oscillators);
+            oscillators.state.d.copy_from_slice(&increments);
+            self.add_to_increments(wheel, &modes, oscillators, revolutions, 1.0);
+        }
+    }
+
+    /// Adds `sign` times the part that the drive's forces have in the increments of a wheel whose `modes` move.
+    fn add_to_increments(
+        &mut self,
+        wheel: &ModalWheel,
+        modes: &[InitialMode],
+        oscillators: &mut Oscillators,
+        revolutions: f64,
+        sign: f64,
+    ) {
+        self.prepare(&oscillators.state.z, revolutions);
+        self.swing.fill(0.0);
         for force in [&self.excitation, &self.pull] {
             for (sum, f) in self.swing.iter_mut().zip(force.iter()) {
                 *sum += f;
             }
         }
-        for mode in initial {
+        for mode in modes {
             let (segment, harmonic) = (oscillators.segments[mode.harmonic], &wheel.harmonics[mode.harmonic]);
             let Some(g) = &harmonic.gyroscopic else { continue };
             for m in 0..segment.integrated {
@@ -119,7 +151,7 @@ impl Drive {
                 for m in 0..segment.integrated {
                     let mode = segment.modes + m;
                     let share = coefficients.receptance[mode] / (1.0 + coefficients.keep[mode]);
-                    state.d[start + m] -= share * self.swing[start + m];
+                    state.d[start + m] += sign * share * self.swing[start + m];
                 }
             }
         }
