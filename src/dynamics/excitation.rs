@@ -5,7 +5,8 @@
 //! ```
 //!
 //! It drives the nodal diameter |k − N·round(k/N)| alone (aliasing), as one travelling wave, so its modal forces turn at
-//! kΩ and nothing but that is left to the step loop. It grows over the ramp like the restriction.
+//! kΩ and nothing but that is left to the step loop. It grows over the ramp like the restriction. A boundary without mass
+//! feels it through the modes it keeps only.
 
 use std::f64::consts::TAU;
 

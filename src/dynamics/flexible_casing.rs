@@ -11,6 +11,8 @@
 //! rotation does not change: the casing's part of the contact operator, Σ_n r_n cos n(φ − φ′), is one more
 //! block-circulant table.
 //!
+//! A contact force acts along the waves as they stand at the end of its step: first order in nΩh where n > 0.
+//!
 //! Ring in its own plane (Love; Timoshenko, Vibration Problems in Engineering): inextensional bending for n ≥ 2,
 //! breathing for n = 0. n = 1 is a rigid translation, which a free ring does not resist; a mounted casing that has it
 //! is given by its modes.

@@ -3,7 +3,8 @@
 use rubmap::analysis::monitor::Unwatched;
 use rubmap::analysis::request::SweepRequest;
 use rubmap::analysis::result::SpeedResult;
-use rubmap::analysis::run::{ModelFacts, ReducedSector, resolve_sweep, run_speed};
+use rubmap::analysis::error::AnalysisError;
+use rubmap::analysis::run::{ModelFacts, ReducedSector, check, resolve_sweep, run_speed};
 use rubmap::dynamics::sector::SectorModel;
 use serde_json::{Value, json};
 
@@ -101,7 +102,6 @@ fn every_pair_of_effects_runs_or_is_refused_by_name() {
                 }
                 Ok(request) => {
                     let result = run_speed(&reduced, &request, 0, None, &Unwatched).unwrap();
-                    println!("{a} with {b}: {:?}", result.point.message);
                     assert_sound(&result, 0.8);
                 }
             }
@@ -192,31 +192,52 @@ fn a_chain_goes_on_where_its_neighbour_ended() {
 /// Light damping lets a tiny asymmetry grow by the same rate whatever its size, heavy damping lets it decay (METHOD §10).
 #[test]
 fn a_probe_finds_whether_symmetry_breaks() {
-    let sector = sector();
+    let sector = wheel(WheelRecipe::default());
     let reduced = reduced(&sector, 6);
     let probe = |ratio: f64, amplitude: f64| {
-        let scene = json!({"damping": {"modal_ratio": ratio}, "symmetry": "probe", "probe": {"amplitude": amplitude}});
-        let integration = json!({"revolutions": 20, "window_revolutions": 4});
+        let scene = json!({"centrifugal_stiffening": true, "damping": {"modal_ratio": ratio}, "symmetry": "probe",
+                           "probe": {"amplitude": amplitude}});
+        let integration = json!({"revolutions": 14, "window_revolutions": 4});
         run(&reduced, &sector, request(&[SPEED], &[&scene], integration)).point.symmetry_breaking.unwrap()
     };
-    let heavy = probe(0.05, 1e-6);
-    assert_eq!((heavy.repeats, heavy.nodal_diameters.as_slice()), (2, [1, 3].as_slice()));
-    assert!(!heavy.grows && heavy.rate_per_revolution.unwrap() < 0.0, "{heavy:?}");
-    let [larger, smaller] = [1e-6, 1e-9].map(|amplitude| probe(0.05, amplitude).rate_per_revolution.unwrap());
-    assert!((larger / smaller - 1.0).abs() < 0.03, "{larger} {smaller}");
+    for (ratio, grows) in [(0.05, false), (0.0, true)] {
+        let [larger, smaller] = [1e-6, 1e-8].map(|amplitude| probe(ratio, amplitude));
+        assert_eq!((larger.repeats, larger.nodal_diameters.as_slice()), (2, [1, 3, 5].as_slice()));
+        assert_eq!((larger.grows, smaller.grows), (grows, grows));
+        let [larger, smaller] = [larger, smaller].map(|found| found.rate_per_revolution.unwrap());
+        assert!((larger / smaller - 1.0).abs() < 0.1, "{ratio}: {larger} {smaller}");
+    }
 }
 
-/// Too much friction for the geometry is refused before the job runs, with the coefficient that would pass.
+/// Too much friction for the geometry is refused before the job runs, with the coefficient that would pass. Normals lean
+/// backwards by 45°, where tangential flexibility makes tips dig in; few of the random wheels are that flexible.
 #[test]
 fn a_wheel_that_jams_is_refused_before_it_runs() {
-    let sector = sector();
-    let (facts, reduced) = (ModelFacts::of(&sector), reduced(&sector, 6));
-    let scene = json!({"friction": {"coefficient": 1.0}});
-    let request = resolve_sweep(request(&[SPEED], &[&scene], json!({})), &facts).unwrap();
-    let refused = rubmap::analysis::run::check(&reduced, &request, &Unwatched);
-    println!("{refused:?}");
-    if let Err(error) = refused {
-        let text = format!("{error:?}");
-        assert!(text.contains("/scene/friction/coefficient") && text.contains("largest"), "{text}");
-    }
+    let jammed = (1..=40).find_map(|seed| {
+        let mut sector = wheel(WheelRecipe { sectors: 4, seed, ..WheelRecipe::default() });
+        for node in &mut sector.contact {
+            node.normal = [0.5f64.sqrt(), -(0.5f64.sqrt()), 0.0];
+        }
+        let (facts, reduced) = (ModelFacts::of(&sector), reduced(&sector, 6));
+        let try_with = |coefficient: f64| {
+            let scene = json!({"friction": {"coefficient": coefficient}});
+            let integration = json!({"scheme": "massless_boundary", "kept_modes": 3});
+            let request = resolve_sweep(request(&[SPEED], &[&scene], integration), &facts).unwrap();
+            check(&reduced, &request, &Unwatched)
+        };
+        match try_with(1.0) {
+            Err(AnalysisError::Refused(violations)) => {
+                assert_eq!(violations[0].pointer, "/scene/friction/coefficient");
+                let message = violations[0].message.clone();
+                let largest: f64 = message.rsplit(' ').next().unwrap().parse().unwrap();
+                assert!(largest < 1.0 && try_with(largest).is_ok(), "{message}");
+                Some(message)
+            }
+            other => {
+                other.unwrap();
+                None
+            }
+        }
+    });
+    assert!(jammed.unwrap().contains("contact node"));
 }
