@@ -2,6 +2,7 @@
 
 use super::auto_or::AutoOr;
 use super::request::SweepRequest;
+use super::symmetry::gcd;
 
 /// Steps and samples of a revolution.
 pub(super) struct Discretisation {
@@ -24,14 +25,24 @@ impl Discretisation {
         Self { per_revolution: steps, samples: samples_of(steps, wanted_samples(request)) }
     }
 
-    /// At least `steps` per revolution and as many as are sampled, a convenient number for `sectors`.
+    /// At least `steps` per revolution and as many as are sampled, the same for every blade of a wheel of `sectors` and at every
+    /// lobe.
     pub(super) fn at_least(steps: usize, request: &SweepRequest, sectors: usize) -> Self {
         let steps = steps.max(wanted_samples(request));
         // S = decimation · samples, both whole; samples a multiple of N share the casing table.
         let decimation = steps / wanted_samples(request);
-        let samples = steps.div_ceil(decimation).next_multiple_of(sectors);
+        let samples = steps.div_ceil(decimation).next_multiple_of(alike(request, sectors));
         Self { per_revolution: decimation * samples, samples }
     }
+}
+
+/// What samples, and thus steps, are a multiple of: the blades of a wheel of `sectors`, and the lobes as well unless that takes
+/// over a quarter more. Lobes that a blade meets now on a step, now between two, drive orders that are no multiple of their number by some
+/// thousandths of the response.
+fn alike(request: &SweepRequest, sectors: usize) -> usize {
+    let lobes = request.scene.touched_lobes().map_or(1, |lobes| lobes.count);
+    let both = sectors * (lobes / gcd(lobes, sectors as u32)) as usize;
+    if both <= LEAST_SAMPLES / 4 { both } else { sectors }
 }
 
 fn wanted_samples(request: &SweepRequest) -> usize {
@@ -43,11 +54,11 @@ fn samples_of(steps: usize, wanted: usize) -> usize {
     (wanted..=steps / 2).find(|samples| steps.is_multiple_of(*samples)).unwrap_or(steps)
 }
 
-/// Upper bound of the samples a revolution of this request records at any speed, on `sectors` sectors.
+/// Upper bound of the samples a revolution of this request records at any speed, on a wheel of `sectors`.
 pub(super) fn most_samples(request: &SweepRequest, sectors: usize) -> usize {
     let wanted = wanted_samples(request);
     match request.integration.steps_per_revolution {
-        AutoOr::Auto => 2 * wanted + sectors,
+        AutoOr::Auto => 2 * wanted + alike(request, sectors),
         AutoOr::Fixed(steps) => samples_of(steps as usize, wanted),
     }
 }
@@ -55,6 +66,31 @@ pub(super) fn most_samples(request: &SweepRequest, sectors: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn blades_meet_lobes_at_the_same_steps() {
+        let steps = |sectors: usize, lobes: u32| {
+            let casing = serde_json::json!({"clearance": {"leading": 1, "trailing": 1},
+                "lobes": {"count": lobes, "amplitude": 1, "width_rad": 0.3}});
+            let request = serde_json::from_value(serde_json::json!({
+                "model": "", "speeds": {"values": [1.0], "unit": "rad_s"},
+                "scene": {"casing": casing, "contact": {}}, "integration": {}
+            }));
+            let found = Discretisation::at_least(3600, &request.unwrap(), sectors);
+            assert!(found.per_revolution.is_multiple_of(found.samples) && found.per_revolution >= 3600);
+            found.per_revolution
+        };
+        for (sectors, lobes) in [(10, 2), (5, 2), (13, 2), (10, 3), (19, 6)] {
+            let steps = steps(sectors, lobes);
+            assert!(
+                steps.is_multiple_of(sectors) && steps.is_multiple_of(lobes as usize),
+                "{sectors} {lobes}"
+            );
+            assert!(steps < 4500, "{steps}");
+        }
+        // Not at any price.
+        assert!(steps(97, 89) < 4500);
+    }
 
     #[test]
     fn samples_divide_the_steps() {

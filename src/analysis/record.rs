@@ -56,7 +56,8 @@ pub(super) fn record_run(
             let spectra = spectra(history, request, wheel);
             let window = request.integration.window_revolutions as usize;
             point.responses = responses(history, request, &spectra, window * steps.samples);
-            let settling = judge(&history.displacement, steps.samples, window, lobes(request));
+            let lobes = request.scene.touched_lobes().map(|lobes| lobes.count);
+            let settling = judge(&history.displacement, steps.samples, window, lobes);
             point.settling = Some(settling.beside(strongest_side_bands(&point.responses)));
             if request.scene.symmetry == Symmetry::Probe {
                 let grown = request.integration.ramp_revolutions.ceil() as usize;
@@ -160,12 +161,6 @@ fn responses(
         }
     };
     request.sensors.iter().enumerate().map(of).collect()
-}
-
-/// Lobes that pass a blade in a revolution, if it may touch them.
-fn lobes(request: &SweepRequest) -> Option<u32> {
-    request.scene.contact.as_ref()?;
-    Some(request.scene.casing.as_ref()?.lobes.as_ref()?.count)
 }
 
 /// The strongest pair at the sensor with the largest response.

@@ -53,6 +53,14 @@ pub struct Scene {
     pub probe: Option<Probe>,
 }
 
+impl Scene {
+    /// Lobes that pass the blades and may be touched.
+    pub(super) fn touched_lobes(&self) -> Option<&Lobes> {
+        self.contact.as_ref()?;
+        self.casing.as_ref()?.lobes.as_ref()
+    }
+}
+
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde wants a reference")]
 pub(super) fn is_false(value: &bool) -> bool {
     !value

@@ -48,8 +48,7 @@ const SAFETY: f64 = 0.8;
 
 /// Half-width of the lobes that a scene's blades may touch, rad.
 fn lobe_width(request: &SweepRequest) -> Option<f64> {
-    request.scene.contact.as_ref()?;
-    Some(request.scene.casing.as_ref()?.lobes.as_ref()?.width_rad)
+    request.scene.touched_lobes().map(|lobes| lobes.width_rad)
 }
 
 /// The smallest number of steps per revolution that sees the lobes of a scene.

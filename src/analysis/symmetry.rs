@@ -30,10 +30,7 @@ impl FoundSymmetry {
 
 /// [`FoundSymmetry::repeats`].
 pub(super) fn repeats(scene: &Scene, sectors: u32) -> u32 {
-    let lobes = match (&scene.contact, &scene.casing) {
-        (Some(_), Some(casing)) => casing.lobes.as_ref().map_or(0, |lobes| lobes.count),
-        _ => 0,
-    };
+    let lobes = scene.touched_lobes().map_or(0, |lobes| lobes.count);
     let excitation = scene.engine_order_excitation.iter().map(|force| force.order);
     let initial = scene.initial.as_ref().map(|mode| mode.nodal_diameter);
     // Order 1 repeats once.
@@ -43,7 +40,7 @@ pub(super) fn repeats(scene: &Scene, sectors: u32) -> u32 {
 }
 
 /// Greatest common divisor; 0 leaves the other as it is.
-fn gcd(a: u32, b: u32) -> u32 {
+pub(super) fn gcd(a: u32, b: u32) -> u32 {
     if b == 0 { a } else { gcd(b, a % b) }
 }
 
