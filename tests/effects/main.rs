@@ -10,6 +10,7 @@ mod fixtures;
 mod frequencies;
 mod limits;
 mod literal;
+mod period_doubling;
 mod random_scenes;
 mod responses;
 mod scene;
