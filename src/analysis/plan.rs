@@ -5,7 +5,7 @@ use std::time::Instant;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-use super::calibration::{Calibration, StepSize};
+use super::calibration::{Calibration, EffectSizes, StepSize};
 use super::diagram::FrequencyDiagram;
 use super::effect_list::{PlannedEffect, effects_of};
 use super::effects::wheel_of;
@@ -284,7 +284,9 @@ fn plan_point(
         .sum();
     let steps = stepping.discretisation.per_revolution as u64 * u64::from(request.integration.revolutions);
     let nodes = if request.scene.contact.is_some() { reduced.wheel.contact.len() } else { 0 };
-    let (free, contact) = calibration.step_seconds(StepSize { sectors: wheel.sectors, nodes, unknowns });
+    let size = StepSize { sectors: wheel.sectors, nodes, unknowns };
+    let effects = EffectSizes::of(&request.scene, &wheel, stepping.scheme, nodes);
+    let (free, contact) = calibration.step_seconds(size, effects);
     PlannedPoint {
         integrated_unknowns: unknowns as u32,
         steps_per_revolution: stepping.discretisation.per_revolution as u32,

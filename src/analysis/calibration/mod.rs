@@ -1,20 +1,15 @@
-//! What a time step costs on this machine: the real step loop on a few synthetic wheels, some hundredths of a second.
+//! What a time step costs on this machine: the real step loop on a few synthetic wheels, some tenths of a second.
 
-use std::f64::consts::TAU;
-use std::time::Instant;
+mod effects;
+mod wheel;
 
-use faer::{Mat, c64};
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
-use crate::dynamics::casing::{Casing, Restriction};
+use self::effects::EffectCosts;
+pub(super) use self::effects::EffectSizes;
+use self::wheel::Wheel;
 use crate::dynamics::effects::Effects;
-use crate::dynamics::integrate::{SensorRow, Simulation};
-use crate::dynamics::modal_wheel::{ModalHarmonic, ModalWheel};
-use crate::dynamics::oscillators::{Direction, ModalDamping};
-use crate::dynamics::schemes::Scheme;
-use crate::dynamics::sector::ContactNode;
-use crate::numerics::sector_fourier::{harmonic_count, is_single};
 
 /// What a time step costs on one machine; measured once and kept.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -25,6 +20,8 @@ pub struct Calibration {
     free: StepCost,
     /// Something touches.
     contact: StepCost,
+    /// Over these.
+    effects: EffectCosts,
 }
 
 /// Nanoseconds of a step: `fixed + per_product·products + per_transform·transforms`, fitted to what was measured.
@@ -87,14 +84,15 @@ impl StepCost {
 }
 
 impl Calibration {
-    /// Seconds of a step, if nothing ever touches and if something always does.
-    pub(super) fn step_seconds(&self, size: StepSize) -> (f64, f64) {
+    /// Seconds of a step with such effects, if nothing ever touches and if something always does.
+    pub(super) fn step_seconds(&self, size: StepSize, effects: EffectSizes) -> (f64, f64) {
+        let (added_free, added_contact) = self.effects.seconds(effects);
         if size.nodes == 0 {
-            let seconds = self.without_contact.seconds(size);
+            let seconds = self.without_contact.seconds(size) + added_free;
             return (seconds, seconds);
         }
-        let free = self.free.seconds(size);
-        (free, self.contact.seconds(size).max(free))
+        let free = self.free.seconds(size) + added_free;
+        (free, (self.contact.seconds(size) + added_contact).max(free))
     }
 
     /// Measures this machine, on the calling thread.
@@ -102,116 +100,19 @@ impl Calibration {
         let (mut without, mut free, mut contact) = (Vec::new(), Vec::new(), Vec::new());
         for (sectors, nodes, modes) in SIZES {
             let wheel = Wheel::new(sectors, nodes, modes);
-            let size = StepSize { sectors, nodes, unknowns: wheel.modal.unknowns() };
-            without.push((StepSize { nodes: 0, ..size }, wheel.step_seconds(None).0));
-            let (alone, _) = wheel.step_seconds(Some(OUT_OF_REACH));
+            let size = StepSize { sectors, nodes, unknowns: wheel.unknowns() };
+            without.push((StepSize { nodes: 0, ..size }, wheel.uncased_seconds()));
+            let (alone, touching) = wheel.step_seconds(Effects::default());
             free.push((size, alone));
-            let (touching, share) = wheel.step_seconds(Some(WITHIN_REACH));
-            // As if every step had a contact.
-            contact.push((size, alone + (touching - alone).max(0.0) / share.max(0.1)));
+            contact.push((size, touching));
         }
         let [without_contact, free, contact] = [without, free, contact].map(|times| StepCost::fit(&times));
-        Self { without_contact, free, contact }
+        Self { without_contact, free, contact, effects: EffectCosts::measure() }
     }
 }
 
 /// Sectors, contact nodes of each, and modes per nodal diameter.
 const SIZES: [(usize, usize, usize); 4] = [(4, 2, 8), (10, 10, 30), (10, 10, 90), (16, 5, 60)];
-
-/// Clearances over the height of the lobes.
-const OUT_OF_REACH: f64 = 100.0;
-const WITHIN_REACH: f64 = 0.6;
-
-const SPEED_RAD_S: f64 = 1000.0;
-const STEPS: usize = 480;
-const SAMPLES: usize = 60;
-/// Revolutions beyond the first, which has the set-up to itself.
-const REVOLUTIONS: usize = 3;
-const ROUNDS: usize = 4;
-
-/// A wheel of no particular shape.
-struct Wheel {
-    modal: ModalWheel,
-    contact_nodes: Vec<ContactNode>,
-}
-
-impl Wheel {
-    fn new(sectors: usize, nodes: usize, modes: usize) -> Self {
-        let harmonic = |harmonic| ModalHarmonic {
-            harmonic,
-            single: is_single(harmonic, sectors),
-            omega: (0..modes).map(|m| SPEED_RAD_S * (2.3 + 0.2 * harmonic as f64 + 1.5 * m as f64)).collect(),
-            contact: Mat::from_fn(3 * nodes, modes, |dof, m| {
-                let phase = 0.7 * ((dof + 1) * (m + 1)) as f64;
-                c64::new(phase.cos(), if is_single(harmonic, sectors) { 0.0 } else { 0.3 * phase.sin() })
-            }),
-            gyroscopic: None,
-        };
-        let modal = ModalWheel {
-            speed_rad_s: SPEED_RAD_S,
-            sectors,
-            repeats: 1,
-            harmonics: (0..harmonic_count(sectors)).map(harmonic).collect(),
-        };
-        let node = |k: usize| ContactNode {
-            id: k as u64,
-            position: [1000.0, 0.0, k as f64],
-            normal: [1.0, 0.0, 0.0],
-            dofs: [3 * k, 3 * k + 1, 3 * k + 2],
-        };
-        Self { modal, contact_nodes: (0..nodes).map(node).collect() }
-    }
-
-    /// Seconds per step, and the share of steps with contact, in front of two lobes of height 1 that always face a blade.
-    fn step_seconds(&self, clearance: Option<f64>) -> (f64, f64) {
-        let casing = clearance.map(|clearance| Casing {
-            clearance: vec![clearance; self.contact_nodes.len()],
-            restriction: Some(Restriction {
-                count: 2,
-                amplitude: 1.0,
-                width_rad: 0.7 * TAU / self.modal.sectors as f64,
-                phase_rad: 0.0,
-            }),
-            ramp_revolutions: 0.5,
-        });
-        let damping = ModalDamping { modal_ratio: 0.05, family_ratios: Vec::new() };
-        let sensors =
-            [SensorRow { direction: Direction { node: 0, components: [1.0, 0.0, 0.0] }, sector: 0 }];
-        let run = |revolutions| {
-            let simulation = Simulation {
-                wheel: &self.modal,
-                contact_nodes: &self.contact_nodes,
-                damping: Some(&damping),
-                casing: casing.as_ref(),
-                effects: Effects::default(),
-                initial: &[],
-                scheme: Scheme::ExactModal,
-                sensors: &sensors,
-                steps_per_revolution: STEPS,
-                samples_per_revolution: SAMPLES,
-                revolutions,
-                window_revolutions: 1,
-            };
-            let start = Instant::now();
-            let run = simulation.run(&|_| true);
-            (start.elapsed().as_secs_f64(), run.statistics)
-        };
-        // Each at its best: a machine that has other work interrupts the one or the other.
-        let fastest = |revolutions| {
-            let (mut least, statistics) = run(revolutions);
-            for _ in 1..ROUNDS {
-                least = least.min(run(revolutions).0);
-            }
-            (least, statistics)
-        };
-        let ((set_up, first), (whole, all)) = (fastest(1), fastest(1 + REVOLUTIONS));
-        let steps = (all.steps - first.steps).max(1) as f64;
-        let share = (all.contact_steps - first.contact_steps) as f64 / steps;
-        // Interrupted throughout: then with the set-up.
-        let beyond = if whole > set_up { (whole - set_up) / steps } else { whole / all.steps.max(1) as f64 };
-        (beyond.max(1e-9), share)
-    }
-}
 
 #[cfg(test)]
 mod tests {
@@ -239,12 +140,21 @@ mod tests {
     fn the_synthetic_wheels_touch_and_run_to_the_end() {
         for (sectors, nodes, modes) in SIZES {
             let wheel = Wheel::new(sectors, nodes, modes);
-            assert_eq!(wheel.modal.unknowns(), sectors * modes);
-            assert_eq!(wheel.step_seconds(Some(OUT_OF_REACH)).1, 0.0);
-            assert!(wheel.step_seconds(Some(WITHIN_REACH)).1 > 0.3, "{sectors} sectors hardly touch");
+            assert_eq!(wheel.unknowns(), sectors * modes);
+            wheel.assert_rubbing(Effects::default(), &format!("{sectors} sectors"));
         }
         let measured = Calibration::measure();
-        let (free, contact) = measured.step_seconds(StepSize { sectors: 10, nodes: 10, unknowns: 600 });
+        let size = StepSize { sectors: 10, nodes: 10, unknowns: 600 };
+        let (free, contact) = measured.step_seconds(size, EffectSizes::default());
         assert!(free > 0.0 && contact >= free);
+    }
+
+    #[test]
+    fn a_calibration_without_effects_does_not_read() {
+        let measured = Calibration::measure();
+        let mut body = serde_json::to_value(&measured).unwrap();
+        assert_eq!(serde_json::from_value::<Calibration>(body.clone()).unwrap(), measured);
+        body.as_object_mut().unwrap().remove("effects");
+        assert!(serde_json::from_value::<Calibration>(body).is_err());
     }
 }
