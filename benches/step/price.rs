@@ -53,6 +53,7 @@ pub(crate) fn measure() {
         orbit,
         mistuning: Some(&deviations),
         excitation: &excitation,
+        energies: false,
     };
     let [central, exact, massless] = scene.schemes();
     let entries = [

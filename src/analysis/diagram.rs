@@ -64,12 +64,10 @@ impl<'a> FrequencyDiagram<'a> {
         self.with_waves(|waves| crossings(waves, &self.speeds, self.families, superharmonics))
     }
 
-    /// Crossings that `lobes` lobes can drive.
-    pub(super) fn driven_crossings(&self, lobes: u32, max_engine_order: u32) -> Vec<DrivenCrossing> {
+    /// Crossings that fields of `orders` periods can drive.
+    pub(super) fn driven_crossings(&self, orders: &[u32]) -> Vec<DrivenCrossing> {
         let sectors = self.wheel.sectors as u32;
-        self.with_waves(|waves| {
-            driven_crossings(waves, &self.speeds, self.families, lobes, max_engine_order, sectors)
-        })
+        self.with_waves(|waves| driven_crossings(waves, &self.speeds, self.families, orders, sectors))
     }
 
     /// Coincidences with the waves of a casing.

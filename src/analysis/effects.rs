@@ -1,14 +1,19 @@
 //! The effects of a scene in the terms of the physics.
 
+use std::f64::consts::TAU;
+
 use faer::c64;
 
 use super::request::{Component, SweepRequest};
 use super::scene::{
-    Abradable, CasingMode, FlexibleCasing as FlexibleCasingRequest, Mistuning, Probe, Scene, Symmetry,
+    Abradable, CasingMode, FlexibleCasing as FlexibleCasingRequest, Initial, Mistuning, Probe, Scene,
+    Symmetry,
 };
+use super::stepping::Stepping;
 use super::symmetry::repeats;
 use crate::dynamics::casing::Casing;
 use crate::dynamics::contact::coating::{Coating, CoatingMaterial};
+use crate::dynamics::contact::flexibility::outward_normals;
 use crate::dynamics::contact::friction::sliding_directions;
 use crate::dynamics::effects::{Effects, Friction};
 use crate::dynamics::error::ModelError;
@@ -20,6 +25,7 @@ use crate::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use crate::dynamics::orbit::Orbit;
 use crate::dynamics::oscillators::Direction;
 use crate::dynamics::reduction::ReducedWheel;
+use crate::dynamics::schemes::{Scheme, exact_modal};
 use crate::dynamics::sector::ContactNode;
 
 /// What [`Effects`] borrows.
@@ -32,6 +38,7 @@ pub(super) struct SceneEffects {
     orbit: Option<Orbit>,
     mistuning: Option<Vec<f64>>,
     excitation: Vec<EngineOrderExcitation>,
+    energies: bool,
 }
 
 impl SceneEffects {
@@ -50,15 +57,7 @@ impl SceneEffects {
             }
             None => None,
         };
-        let coating = match &scene.abradable {
-            Some(coating) => {
-                let Abradable { modulus, yield_stress, hardening, thickness, rods_around } = *coating;
-                let material = CoatingMaterial { modulus, yield_stress, hardening };
-                let coating = Coating::new(material, thickness, rods_around as usize, contact_nodes, sectors);
-                Some(coating.map_err(|error| error.to_string())?)
-            }
-            None => None,
-        };
+        let coating = coating(scene, contact_nodes, sectors)?;
         let excitation = scene.engine_order_excitation.iter().map(|excitation| EngineOrderExcitation {
             order: excitation.order,
             directions: (excitation.contact_nodes.iter())
@@ -79,6 +78,7 @@ impl SceneEffects {
             }),
             mistuning: scene.mistuning.as_ref().map(|mistuning| deviations(mistuning, sectors)),
             excitation: excitation.collect(),
+            energies: scene.symmetry == Symmetry::Probe,
         })
     }
 
@@ -92,8 +92,23 @@ impl SceneEffects {
             orbit: self.orbit,
             mistuning: self.mistuning.as_deref(),
             excitation: &self.excitation,
+            energies: self.energies,
         }
     }
+}
+
+/// The coating of a scene on a wheel of `sectors`.
+pub(super) fn coating(
+    scene: &Scene,
+    contact_nodes: &[ContactNode],
+    sectors: usize,
+) -> Result<Option<Coating>, String> {
+    let Some(coating) = &scene.abradable else { return Ok(None) };
+    let Abradable { modulus, yield_stress, hardening, thickness, rods_around } = *coating;
+    let material = CoatingMaterial { modulus, yield_stress, hardening };
+    Coating::new(material, thickness, rods_around as usize, contact_nodes, sectors)
+        .map(Some)
+        .map_err(|error| error.to_string())
 }
 
 /// What rotation does to the modes of the wheel.
@@ -130,7 +145,7 @@ pub(super) fn direction(contact_nodes: &[ContactNode], node: u32, component: Com
 pub(super) fn flexible_casing(casing: &FlexibleCasingRequest) -> FlexibleCasing {
     let given = casing.modes.iter().flatten().map(|mode: &CasingMode| CasingWave {
         nodal_diameter: mode.nodal_diameter,
-        omega: std::f64::consts::TAU * mode.frequency_hz,
+        omega: TAU * mode.frequency_hz,
         modal_mass: mode.modal_mass,
     });
     let ring = casing.ring.iter().flat_map(|ring| {
@@ -158,7 +173,9 @@ pub(super) fn deviations(mistuning: &Mistuning, sectors: usize) -> Vec<f64> {
 pub(super) fn initial(
     request: &SweepRequest,
     wheel: &ModalWheel,
+    contact_nodes: &[ContactNode],
     casing: Option<&Casing>,
+    stepping: &Stepping,
 ) -> Result<Vec<InitialMode>, String> {
     if request.scene.symmetry == Symmetry::Probe {
         return Ok(asymmetry(request, wheel, casing));
@@ -174,12 +191,74 @@ pub(super) fn initial(
             initial.family
         ));
     }
+    check_integrated(initial, modes.omega[family], wheel, casing.is_some(), stepping)?;
     let wave = match initial.wave {
         super::scene::InitialWave::Standing => InitialWave::Standing,
         super::scene::InitialWave::Forward => InitialWave::Forward,
         super::scene::InitialWave::Backward => InitialWave::Backward,
     };
-    Ok(vec![InitialMode::of_amplitude(wheel, harmonic, family, initial.amplitude, c64::ONE, wave)])
+    let mode = InitialMode::of_amplitude(wheel, harmonic, family, initial.amplitude, c64::ONE, wave);
+    if let Some(casing) = casing {
+        check_reach(initial, &mode, wheel, contact_nodes, casing)?;
+    }
+    Ok(vec![mode])
+}
+
+/// A mode that the scheme does not carry would be gone at once.
+fn check_integrated(
+    initial: &Initial,
+    omega: f64,
+    wheel: &ModalWheel,
+    touching: bool,
+    stepping: &Stepping,
+) -> Result<(), String> {
+    let step = TAU / (wheel.speed_rad_s * stepping.discretisation.per_revolution as f64);
+    let (family, diameter) = (initial.family, initial.nodal_diameter);
+    match stepping.scheme {
+        Scheme::MasslessBoundary { kept_modes } if family as usize > kept_modes => Err(format!(
+            "the initial mode is family {family} of nodal diameter {diameter}, of which {kept_modes} are kept: keep more, or take \
+             another scheme"
+        )),
+        Scheme::ExactModal if touching && omega * step > exact_modal::FOLLOWS => Err(format!(
+            "the initial mode, family {family} of nodal diameter {diameter}, is too fast for the step and would follow statically: \
+             take more steps_per_revolution"
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// Blades that stand inside the casing would be thrown out in the first step, with energies that grow as 1/h².
+fn check_reach(
+    initial: &Initial,
+    mode: &InitialMode,
+    wheel: &ModalWheel,
+    contact_nodes: &[ContactNode],
+    casing: &Casing,
+) -> Result<(), String> {
+    let modes = &wheel.harmonics[mode.harmonic];
+    let sectors = wheel.sectors as f64;
+    let weight = if modes.single { (1.0 / sectors).sqrt() } else { (2.0 / sectors).sqrt() };
+    let growth = casing.growth(0.0);
+    let mut fits = f64::INFINITY;
+    for (k, normal) in outward_normals(contact_nodes).iter().enumerate() {
+        let shape = normal.of(modes.contact.as_ref(), mode.family) * mode.displacement * weight;
+        for sector in 0..wheel.sectors {
+            let turn = TAU * (mode.harmonic * sector) as f64 / sectors;
+            let outward = shape.re * turn.cos() - shape.im * turn.sin();
+            let angle = contact_nodes[k].position[1] + TAU * sector as f64 / wheel.around() as f64;
+            let restricted = casing.restriction.map_or(0.0, |restriction| growth * restriction.height(angle));
+            if outward > 0.0 {
+                fits = fits.min((casing.clearance[k] - restricted).max(0.0) / outward);
+            }
+        }
+    }
+    if fits >= 1.0 {
+        return Ok(());
+    }
+    Err(format!(
+        "the initial mode stands inside the casing at rest: at this speed /scene/initial/amplitude is at most {:.6e}",
+        initial.amplitude * fits
+    ))
 }
 
 /// The lowest mode of every nodal diameter that the symmetry of the scene keeps at rest, at a phase of its own.

@@ -10,7 +10,7 @@ use super::request::ModalAnalysisRequest;
 use super::result::{AbsoluteFrequencies, Campbell};
 use super::run::VERSION;
 use crate::dynamics::modal_wheel::RotationEffects;
-use crate::response::campbell::absolute_frequency;
+use crate::response::campbell::{absolute_frequency, multiples};
 
 /// Natural frequencies over speed and the linear criterion.
 pub fn modal_analysis(
@@ -43,7 +43,7 @@ pub fn modal_analysis(
     Ok(Campbell {
         absolute_frequencies_hz: request.superharmonics.iter().map(|&n| absolute(n)).collect(),
         crossings: diagram.crossings(&request.superharmonics),
-        driven_crossings: diagram.driven_crossings(request.lobes, request.max_engine_order),
+        driven_crossings: diagram.driven_crossings(&multiples(request.lobes, request.max_engine_order)),
         frequencies_hz: diagram.frequencies_hz,
         waves: diagram.waves,
         speeds_rad_s: speeds,

@@ -13,9 +13,10 @@ use super::model::{ModelFacts, ReducedSector};
 use super::request::{ModalAnalysisRequest, SweepDirection, SweepRequest};
 use super::result::{Point, SchemeReport};
 use super::run::VERSION;
-use super::scene::Scene;
+use super::scene::{Scene, Symmetry};
+use super::sliding;
 use super::stepping::Stepping;
-use super::symmetry::FoundSymmetry;
+use super::symmetry::{FoundSymmetry, repeats};
 use crate::dynamics::casing::RestrictionTable;
 use crate::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use crate::numerics::sector_fourier::harmonic_count;
@@ -27,7 +28,7 @@ pub struct SweepPlan {
     pub effects: Vec<PlannedEffect>,
     /// Symmetry of the scene.
     pub symmetry: FoundSymmetry,
-    /// Pairs of contact node and casing: all contact nodes of all sectors where the scene has contact, otherwise none. A
+    /// Pairs of contact node and casing: all contact nodes of all simulated sectors where the scene has contact, otherwise none. A
     /// node whose clearance is too large ever to be closed counts too; it costs its gap in every step.
     pub contact_pairs: u64,
     /// Whether the reduction that the sweep rests on is there. While it is not, `points` and `estimate` are left out.
@@ -176,7 +177,7 @@ pub fn plan_sweep(
         effects: effects_of(&request.scene),
         symmetry: FoundSymmetry::of(&request.scene, facts.sectors),
         contact_pairs: match request.scene.contact {
-            Some(_) => u64::from(facts.sectors) * u64::from(facts.contact_nodes),
+            Some(_) => u64::from(sectors_simulated(&request.scene, facts)) * u64::from(facts.contact_nodes),
             None => 0,
         },
         reduction: state(reduced),
@@ -187,6 +188,13 @@ pub fn plan_sweep(
         points,
         settings: request.clone(),
         version: VERSION.to_owned(),
+    }
+}
+
+fn sectors_simulated(scene: &Scene, facts: &ModelFacts) -> u32 {
+    match scene.symmetry {
+        Symmetry::Exact => facts.sectors / repeats(scene, facts.sectors),
+        Symmetry::Full | Symmetry::Probe => facts.sectors,
     }
 }
 
@@ -260,7 +268,14 @@ fn plan_point(
     let start = Instant::now();
     let chosen = wheel_of(&request.scene, &reduced.wheel, speed_rad_s)
         .map_err(|error| error.to_string())
-        .and_then(|wheel| Ok((Stepping::choose(&wheel, &reduced.wheel.contact, request)?, wheel)));
+        .and_then(|wheel| {
+            let contact = &reduced.wheel.contact;
+            let stepping = Stepping::choose(&wheel, contact, request)?;
+            let steps = stepping.discretisation.per_revolution;
+            sliding::check(&wheel, contact, request, stepping.scheme, steps)
+                .map_err(|error| error.to_string())?;
+            Ok((stepping, wheel))
+        });
     let set_up = start.elapsed().as_secs_f64();
     let planned = PlannedPoint {
         index: index as u32,

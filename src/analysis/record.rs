@@ -11,6 +11,7 @@ use super::symmetry::repeats;
 use crate::dynamics::contact::coating::WornCoating;
 use crate::dynamics::integrate::{Divergence, History, Outcome, Run};
 use crate::dynamics::modal_wheel::ModalWheel;
+use crate::numerics::complementarity::ComplementarityError;
 use crate::numerics::sector_fourier::{SectorFourier, harmonic_count};
 use crate::numerics::spectrum::amplitudes;
 use crate::response::settling::judge;
@@ -48,7 +49,13 @@ pub(super) fn record_run(
             Ok(None)
         }
         Outcome::ContactFailed { revolutions, error } => {
-            point.message = Some(format!("after {revolutions:.4} revolutions {error}"));
+            let advice = match (error, &request.scene.friction) {
+                (ComplementarityError::NotPMatrix { .. }, Some(_)) => {
+                    ": tips jam together with this friction; lower /scene/friction/coefficient"
+                }
+                _ => "",
+            };
+            point.message = Some(format!("after {revolutions:.4} revolutions {error}{advice}"));
             Ok(None)
         }
         Outcome::Completed(history) => {

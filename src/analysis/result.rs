@@ -7,7 +7,7 @@ use super::end_state::EndState;
 use super::plan::{Estimate, Spent};
 use super::request::{SchemeChoice, Sensor};
 use super::scene::Scene;
-use crate::dynamics::energy::EnergyAudit;
+use crate::dynamics::energy::{EffectWork, EnergyAudit};
 use crate::dynamics::sector::Units;
 
 pub use crate::response::campbell::{Crossing, DrivenCrossing};
@@ -69,6 +69,11 @@ pub struct SchemeReport {
 /// Both sides of the energy identity over the whole run, in force·length; effects that the scene does not name are absent.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct EnergyReport {
+    /// Mechanical energy at the start, of wheel and elastic casing.
+    pub initial: f64,
+    /// The same at the end: `initial` and all works less all losses.
+    #[serde(rename = "final")]
+    pub last: f64,
     /// Work of the contact forces on the wheel.
     pub contact_work: f64,
     /// Lost to modal damping, and to modes that follow statically.
@@ -76,7 +81,7 @@ pub struct EnergyReport {
     /// Work of the forces at engine orders.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub excitation_work: Option<f64>,
-    /// Minus the energy that the stiffness deviations store at the end.
+    /// Minus the change of the energy that the stiffness deviations store.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mistuning_work: Option<f64>,
     /// Work of the contact forces on the elastic casing.
@@ -95,8 +100,22 @@ impl EnergyReport {
     pub(super) fn of(audit: &EnergyAudit, scene: &Scene, parts: f64) -> Option<Self> {
         let effects = audit.effects();
         let named = |effect: bool, value: f64| effect.then_some(parts * value);
-        let all = [audit.work(), audit.loss(), effects.excitation, effects.casing, effects.friction_heat];
+        let (initial, last) = audit.ends();
+        let EffectWork { excitation, mistuning, casing, casing_loss, friction_heat } = effects;
+        let all = [
+            initial,
+            last,
+            audit.work(),
+            audit.loss(),
+            excitation,
+            mistuning,
+            casing,
+            casing_loss,
+            friction_heat,
+        ];
         all.iter().all(|value| value.is_finite()).then(|| Self {
+            initial: parts * initial,
+            last: parts * last,
             contact_work: parts * audit.work(),
             damping_loss: parts * audit.loss(),
             excitation_work: named(!scene.engine_order_excitation.is_empty(), effects.excitation),

@@ -21,7 +21,8 @@ pub struct Scene {
     /// Unilateral contact between blade tips and casing; absent: tips pass through it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact: Option<Contact>,
-    /// Coriolis forces through the package's gyroscopic matrix: forward and backward waves split.
+    /// Coriolis forces through the package's gyroscopic matrix: forward and backward waves split. Spin softening, their
+    /// companion, is part of `centrifugal_stiffening`: name both.
     #[serde(default, skip_serializing_if = "is_false")]
     pub coriolis: bool,
     /// Coulomb friction at the contact; absent: none.
@@ -77,7 +78,7 @@ pub struct Damping {
     pub family_ratios: Vec<f64>,
 }
 
-/// Rigid casing of revolution with an optional static restriction.
+/// Casing of revolution with an optional static restriction.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Casing {
@@ -119,7 +120,7 @@ pub struct Lobes {
     pub phase_rad: f64,
 }
 
-/// Frictionless unilateral contact, exact complementarity at every step (Eqs 9, 10).
+/// Unilateral contact, exact complementarity at every step (Eqs 9, 10).
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Contact {}
@@ -246,7 +247,7 @@ pub struct Mistuning {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EngineOrderExcitation {
-    /// Engine order k, 1 to 1000.
+    /// Engine order k, 1 to the request's `max_engine_order`.
     pub order: u32,
     /// Contact nodes, counted from the leading edge from 0; each gets the whole amplitude.
     pub contact_nodes: Vec<u32>,
@@ -266,7 +267,8 @@ pub struct EngineOrderExcitation {
 pub struct Orbit {
     /// Radius of the orbit, length: hundredths of the clearance for a machine in order, more than it in a transient.
     pub radius: f64,
-    /// Whirl speed over Ω: 0 is an eccentric casing, 1 synchronous forward whirl, negative backward whirl.
+    /// Whirl speed over Ω, −2 to 2: 0 is an eccentric casing, 1 synchronous forward whirl, negative backward whirl. The gaps move;
+    /// the inertia forces of the moving axis on the blades are left out.
     #[serde(default)]
     pub whirl_ratio: f64,
     /// Angle of the displaced axis at the start, rad.
@@ -282,7 +284,8 @@ pub struct Initial {
     pub nodal_diameter: u32,
     /// Modal family within it, counted from 1.
     pub family: u32,
-    /// Largest displacement component of any contact node, length. What a run from rest never reaches may begin beyond a clearance.
+    /// Largest displacement component of any contact node, length; within the clearances, for blades that stood inside the
+    /// casing would be thrown out of it at once.
     pub amplitude: f64,
     /// Standing, or travelling with or against the rotation (pairs only).
     #[serde(default)]
@@ -326,7 +329,7 @@ impl Symmetry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Probe {
-    /// Its displacement relative to the smallest clearance, 1e-12 to 1e-2.
+    /// Its displacement relative to the smallest clearance, 1e-12 to 1e-3.
     pub amplitude: f64,
     /// Seed of its phases.
     pub seed: u64,

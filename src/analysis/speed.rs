@@ -18,7 +18,6 @@ use crate::dynamics::integrate::{MAX_TABLE_VALUES, Outcome, Run, SensorRow, Simu
 use crate::dynamics::modal_wheel::ModalWheel;
 use crate::dynamics::oscillators::ModalDamping;
 use crate::dynamics::reduction::ReducedWheel;
-use crate::dynamics::schemes::Scheme;
 
 /// Simulates speed `index` of a sweep, from `start` if it is given: the end of the neighbouring speed of a sweep up or down.
 /// Deterministic; runs on the calling thread. A speed that diverges or cannot be
@@ -61,7 +60,7 @@ pub fn run_speed(
         },
     }
     if start.is_none() && follows_another(request, &speeds, index) {
-        point.message = Some(from_rest(point.message.take()));
+        point.message = Some(from_the_start(point.message.take()));
     }
     point.wall_time_s = clock.elapsed().as_secs_f64();
     Ok(SpeedResult { point, spectra, wear, end_state })
@@ -87,8 +86,8 @@ fn follows_another(request: &SweepRequest, speeds: &[f64], index: usize) -> bool
     chain.is_some_and(|chain| chain.first() != Some(&(index as u32)))
 }
 
-fn from_rest(ended: Option<String>) -> String {
-    let started = "started from rest, since the neighbouring speed left no state to start from";
+fn from_the_start(ended: Option<String>) -> String {
+    let started = "started as the first speed does, since the neighbouring speed left no state to start from";
     ended.map_or_else(|| started.to_owned(), |ended| format!("{started}; {ended}"))
 }
 
@@ -148,21 +147,12 @@ fn simulate(
         }
     }
     let effects = SceneEffects::of(scene, &reduced.contact, wheel, ramp_revolutions)?;
-    if let Scheme::MasslessBoundary { kept_modes } = scheme
-        && let Some(initial) = &scene.initial
-        && initial.family as usize > kept_modes
-    {
-        return Err(format!(
-            "the initial mode is the {}th of its nodal diameter, and {kept_modes} are kept: keep more, or take another scheme",
-            initial.family
-        ));
-    }
     let initial = match start {
         Some(state) => state
             .modes(wheel, reduced, scene.centrifugal_stiffening, scheme)
             .map_err(|error| error.to_string())?
             .ok_or("the neighbouring speed ended in a state of another reduction: run the sweep again")?,
-        None => initial(request, wheel, casing.as_ref())?,
+        None => initial(request, wheel, &reduced.contact, casing.as_ref(), stepping)?,
     };
     let sensors: Vec<_> = request.sensors.iter().map(|sensor| sensor_row(reduced, wheel, sensor)).collect();
     Ok(Simulation {

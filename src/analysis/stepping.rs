@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::auto_or::AutoOr;
 use super::discretisation::Discretisation;
-use super::effects::{flexible_casing, rotation};
+use super::effects::{coating, flexible_casing, rotation};
 use super::error::{AnalysisError, Violation};
 use super::model::ReducedSector;
 use super::monitor::Monitor;
@@ -30,6 +30,10 @@ const LEAST_AUTO_STEPS: f64 = 3600.0;
 
 /// `"auto"` takes this many steps over the half-width of a lobe.
 const AUTO_STEPS_PER_WIDTH: f64 = 10.0;
+
+/// `"auto"` takes this many steps over a period of the highest engine order of the forces: their amplitude is then right to
+/// two parts in a thousand.
+const AUTO_STEPS_PER_PERIOD: f64 = 40.0;
 
 /// Fewer steps over the half-width of a lobe would pass it by.
 const LEAST_STEPS_PER_WIDTH: f64 = 2.0;
@@ -60,6 +64,11 @@ fn least_steps_for_lobes(request: &SweepRequest) -> f64 {
 fn steps_for_contact(request: &SweepRequest) -> (f64, &'static str) {
     let lobes = lobe_width(request).map_or(0.0, |width| (AUTO_STEPS_PER_WIDTH * TAU / width).ceil());
     let rods = request.scene.abradable.as_ref().map_or(0.0, |coating| f64::from(coating.rods_around));
+    let order = request.scene.engine_order_excitation.iter().map(|force| force.order).max().unwrap_or(0);
+    let forces = AUTO_STEPS_PER_PERIOD * f64::from(order);
+    if forces > lobes.max(rods).max(LEAST_AUTO_STEPS) {
+        return (forces, "forty steps fall on a period of the fastest force");
+    }
     if rods > lobes.max(LEAST_AUTO_STEPS) {
         (rods, "no step jumps a rod of the coating")
     } else if lobes > LEAST_AUTO_STEPS {
@@ -194,13 +203,18 @@ impl Scope<'_> {
 
     /// Every mode by its exact propagator.
     fn exact(&self) -> Wish {
-        let why_scheme = "every mode is advanced exactly".to_owned();
+        let why_scheme = if is_driven(self.request) {
+            "every mode is advanced exactly but for the forces on it, which are of second order".to_owned()
+        } else {
+            "every mode is advanced exactly".to_owned()
+        };
         let scheme = Scheme::ExactModal;
         if self.contact_nodes.is_empty() && !is_driven(self.request) {
             let why_steps = "nothing touches, so that any step is exact".to_owned();
             return Wish { scheme, least_steps: 1.0, why_scheme, why_steps };
         }
         let (contact, why) = steps_for_contact(self.request);
+        let why = if self.contact_nodes.is_empty() { "its forces are resolved" } else { why };
         Wish { scheme, least_steps: contact, why_scheme, why_steps: set_so_that(why) }
     }
 
@@ -342,6 +356,9 @@ pub fn check(
 ) -> Result<(), AnalysisError> {
     let speeds = request.speeds.resolve().map_err(AnalysisError::Refused)?;
     check_sliding(reduced, request, &speeds)?;
+    if let Err(message) = coating(&request.scene, &reduced.wheel.contact, reduced.wheel.sectors) {
+        return Err(AnalysisError::Refused(vec![Violation::new("/scene/abradable", message)]));
+    }
     let Integration { steps_per_revolution, kept_modes, .. } = request.integration;
     if (steps_per_revolution, kept_modes) == (AutoOr::Auto, AutoOr::Auto) {
         return Ok(());

@@ -1,8 +1,8 @@
 //! What the speeds of a sweep say together: the interaction map and the critical speeds.
 
-use super::diagram::FrequencyDiagram;
 use std::f64::consts::TAU;
 
+use super::diagram::FrequencyDiagram;
 use super::effects::{flexible_casing, rotation};
 use super::error::AnalysisError;
 use super::model::ReducedSector;
@@ -15,6 +15,7 @@ use super::result::{
 };
 use super::run::VERSION;
 use crate::dynamics::sector::Units;
+use crate::response::campbell::multiples;
 use crate::response::critical_speed::peaks;
 use crate::response::spectra::engine_orders;
 
@@ -157,13 +158,17 @@ fn predict(
         let _ = diagram.push(speed);
     }
     let lobes = scene.casing.as_ref().and_then(|casing| casing.lobes.as_ref()).map_or(0, |l| l.count);
+    let mut orders = multiples(lobes, request.max_engine_order);
+    orders.extend(scene.engine_order_excitation.iter().map(|force| force.order));
+    orders.sort_unstable();
+    orders.dedup();
     let casing = scene.flexible_casing.as_ref().map(|casing| {
         flexible_casing(casing).waves.iter().map(|wave| (wave.nodal_diameter, wave.omega / TAU)).collect()
     });
     let casing: Vec<(u32, f64)> = casing.unwrap_or_default();
     Ok(Prediction {
         linear: diagram.crossings(&PREDICTED_SUPERHARMONICS),
-        driven: diagram.driven_crossings(lobes, request.max_engine_order),
+        driven: diagram.driven_crossings(&orders),
         coincidences: diagram.coincidences(&casing),
     })
 }

@@ -21,6 +21,8 @@ pub struct Effects<'a> {
     pub mistuning: Option<&'a [f64]>,
     /// Forces at engine orders.
     pub excitation: &'a [EngineOrderExcitation],
+    /// Whether the energy of every nodal diameter is recorded, revolution by revolution.
+    pub energies: bool,
 }
 
 /// Coulomb friction of tips that slide forwards.

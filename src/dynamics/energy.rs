@@ -7,7 +7,7 @@ use super::oscillators::Exchange;
 pub struct EffectWork {
     /// Of forces at engine orders, on the wheel.
     pub excitation: f64,
-    /// Of mistuning: minus the energy that the stiffness deviations store.
+    /// Of mistuning: minus the change of the energy that the stiffness deviations store.
     pub mistuning: f64,
     /// Of contact forces on the casing.
     pub casing: f64,
@@ -30,13 +30,14 @@ pub struct EnergyAudit {
     loss: f64,
     largest_energy: f64,
     largest_residual: f64,
+    last: f64,
     effects: EffectWork,
 }
 
 impl EnergyAudit {
     /// Of a run that starts with the mechanical energy `initial`.
     pub(crate) fn starting_at(initial: f64) -> Self {
-        Self { initial, largest_energy: initial.abs(), ..Self::default() }
+        Self { initial, last: initial, largest_energy: initial.abs(), ..Self::default() }
     }
 
     /// Adds what the energy gained and lost.
@@ -59,6 +60,7 @@ impl EnergyAudit {
 
     /// Compares the mechanical energy with the sums so far.
     pub(crate) fn check(&mut self, energy: f64) {
+        self.last = energy;
         self.largest_energy = larger(self.largest_energy, energy.abs());
         let EffectWork { excitation, mistuning, casing, casing_loss, .. } = self.effects;
         let effects = excitation + mistuning + casing - casing_loss;
@@ -69,6 +71,11 @@ impl EnergyAudit {
     /// Largest mechanical energy seen, force·length.
     pub fn largest_energy(&self) -> f64 {
         self.largest_energy
+    }
+
+    /// Mechanical energy at the start and when it was last compared, force·length.
+    pub fn ends(&self) -> (f64, f64) {
+        (self.initial, self.last)
     }
 
     /// Work of the contact forces on the wheel so far.

@@ -23,7 +23,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::oscillators::Exchange;
+use super::oscillators::{Exchange, VANISHED};
 use super::schemes::Scheme;
 use super::sector::ContactNode;
 
@@ -91,8 +91,6 @@ pub(crate) struct CasingMotion {
     angles: Vec<f64>,
     radial: Vec<f64>,
     around: usize,
-    /// Ωt at the last gaps, in revolutions.
-    turned: f64,
     largest: f64,
 }
 
@@ -172,7 +170,6 @@ impl CasingMotion {
             angles: contact_nodes.iter().map(|node| node.position[1]).collect(),
             radial: contact_nodes.iter().map(|node| node.normal[0]).collect(),
             around,
-            turned: 0.0,
             largest: 0.0,
         }
     }
@@ -203,6 +200,15 @@ impl CasingMotion {
         Exchange { work: 0.5 * twice_work, loss }
     }
 
+    /// Brings to rest what has decayed to nothing (see [`super::oscillators`]).
+    pub(crate) fn quench(&mut self) {
+        for part in self.waves.iter_mut().flat_map(|wave| &mut wave.parts) {
+            for value in [&mut part.z, &mut part.d] {
+                *value = if value.abs() < VANISHED { 0.0 } else { *value };
+            }
+        }
+    }
+
     /// One step free of forces.
     pub(crate) fn predict(&mut self) {
         for wave in &mut self.waves {
@@ -218,9 +224,9 @@ impl CasingMotion {
 
     /// Adds the casing's displacement to the gaps after `revolutions`.
     pub(crate) fn add(&mut self, revolutions: f64, gaps: &mut [f64]) {
-        self.turned = revolutions.fract();
+        let turned = revolutions.fract();
         for wave in &mut self.waves {
-            let (sin, cos) = (TAU * (wave.n * self.turned).fract()).sin_cos();
+            let (sin, cos) = (TAU * (wave.n * turned).fract()).sin_cos();
             wave.turn = (cos, sin);
             let [c, s] = wave.parts.map(|part| part.z);
             let (along, across) = (c * cos + s * sin, s * cos - c * sin);

@@ -8,7 +8,8 @@
 //!
 //! n_r being the radial component of the node's normal (first order in e over the radius). κ = 0 is an eccentric
 //! casing, which the turning blades feel once a revolution; κ = 1 a synchronous whirl, which they feel as a constant.
-//! The motion is prescribed: what it costs is part of the work of contact. It grows with the restriction.
+//! The motion is prescribed: what it costs is part of the work of contact. It grows with the restriction. The inertia forces
+//! of a whirling axis on the blades, −κ²Ω²e times their mass, are left out.
 
 use std::f64::consts::TAU;
 

@@ -21,7 +21,7 @@ use super::problem::{Kind, Problem};
 use super::submit::{self, Receipt};
 use crate::analysis::result::ReductionReport;
 use crate::analysis::run::ModelFacts;
-use crate::impeller::ImpellerRequest;
+use crate::impeller::{GenerationPlan, ImpellerRequest};
 use crate::jobs::generation_of;
 use crate::store::idempotency::Answer;
 use crate::store::models::{Deletion, StoredModel};
@@ -166,6 +166,27 @@ pub(super) async fn create_model(
         state.store.insert_answer(&kept).await?;
     }
     Ok(idempotency::respond(&answer))
+}
+
+/// Say what generating a model would make and take, without starting anything.
+#[utoipa::path(post, path = "/v1/models/plan", operation_id = "plan_model_generation", tag = "models",
+    request_body(content = ImpellerRequest),
+    responses(
+        (status = 200, description = "The plan.", body = GenerationPlan),
+        (status = 400, description = "The body is not JSON; `errors` has line and column.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 413, description = "The body is too large.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 415, description = "The body is not declared as application/json.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 422, description = "A parameter is unknown or impossible: `errors` points at it.", body = Problem,
+            content_type = "application/problem+json"),
+    ))]
+pub(super) async fn plan_model_generation(
+    state: State<AppState>,
+    body: JsonBody<ImpellerRequest>,
+) -> Result<Json<GenerationPlan>, Problem> {
+    Ok(Json(state.jobs.plan_generation(&body.value).await?))
 }
 
 /// Writes a body to a temporary file beside the models, piece by piece.

@@ -17,6 +17,7 @@ use super::{AppState, health, jobs, modal_analyses, models, openapi, problem, re
 pub(super) fn routes() -> OpenApiRouter<AppState> {
     OpenApiRouter::with_openapi(openapi::Contract::openapi())
         .routes(routes!(models::create_model, models::list_models))
+        .routes(routes!(models::plan_model_generation))
         .routes(routes!(models::get_model, models::delete_model))
         .routes(routes!(modal_analyses::create_modal_analysis))
         .routes(routes!(modal_analyses::plan_modal_analysis))

@@ -9,7 +9,7 @@ use super::pool::Panicked;
 use crate::analysis::error::Violation;
 use crate::analysis::request::{ModalAnalysisRequest, SweepRequest};
 use crate::analysis::run::{self, ModalAnalysisPlan, SweepPlan};
-use crate::impeller::{ImpellerError, ImpellerRequest};
+use crate::impeller::{GenerationPlan, ImpellerError, ImpellerParameters, ImpellerRequest, plan_generation};
 use crate::package;
 use crate::store::StoreError;
 use crate::store::idempotency::Answer;
@@ -118,6 +118,13 @@ impl Jobs {
         Ok(plans::modal_analysis(&self.engine, request, facts, reduced).await?)
     }
 
+    /// The same for the generation of a model.
+    pub async fn plan_generation(&self, request: &ImpellerRequest) -> Result<GenerationPlan, SubmitError> {
+        let parameters = parameters_of(request)?;
+        let planned = self.engine.planner.run(move || plan_generation(&parameters)).await?;
+        planned.map_err(|error| SubmitError::Refused(vec![violation(&error)]))
+    }
+
     async fn facts(&self, model: &str) -> Result<run::ModelFacts, SubmitError> {
         let model = self
             .engine
@@ -161,10 +168,11 @@ impl Jobs {
 /// # Errors
 /// [`SubmitError::Refused`] points at a field that is unknown or out of range.
 pub fn generation_of(request: &ImpellerRequest) -> Result<JobRequest, SubmitError> {
-    match request.resolve() {
-        Ok(parameters) => Ok(JobRequest::ModelGeneration(Box::new(parameters))),
-        Err(error) => Err(SubmitError::Refused(vec![violation(&error)])),
-    }
+    Ok(JobRequest::ModelGeneration(Box::new(parameters_of(request)?)))
+}
+
+fn parameters_of(request: &ImpellerRequest) -> Result<ImpellerParameters, SubmitError> {
+    request.resolve().map_err(|error| SubmitError::Refused(vec![violation(&error)]))
 }
 
 /// Why parameters of the generator are refused, at the field.

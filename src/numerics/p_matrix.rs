@@ -14,14 +14,18 @@ const ROUND_OFF: f64 = 1e-13;
 
 /// An index set of `a` whose principal minor is not positive, by its last index; none was found in a P-matrix.
 ///
-/// Examines all sets of up to [`MOST_INDICES`] indices; of a larger matrix all runs of consecutive indices.
+/// Examines all sets of up to [`MOST_INDICES`] indices; of a larger matrix all runs of as many consecutive indices.
 pub fn non_positive_minor(a: MatRef<'_, f64>) -> Option<usize> {
     let n = a.nrows();
     let least = ROUND_OFF * (0..n).fold(0.0f64, |most, i| most.max(a[(i, i)]));
     if n <= MOST_INDICES {
         any_set(a, least, 0)
     } else {
-        (0..n).find_map(|first| run_from(a.submatrix(first, first, n - first, n - first), least, first))
+        let run = |first: usize| {
+            let length = MOST_INDICES.min(n - first);
+            run_from(a.submatrix(first, first, length, length), least, first)
+        };
+        (0..n).find_map(run)
     }
 }
 

@@ -23,14 +23,15 @@ pub struct Crossing {
     pub frequency_hz: f64,
 }
 
-/// A crossing that the casing's lobes can drive: f = kΩ/2π with k a multiple of the lobe count that aliases onto i.
+/// A crossing that the scene can drive: f = kΩ/2π with k, a multiple of the lobe count or the order of a force, that aliases
+/// onto i.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct DrivenCrossing {
     /// Nodal diameter i = fold(k).
     pub nodal_diameter: u32,
     /// Modal family j, from 1.
     pub family: u32,
-    /// Engine order k, a multiple of the lobe count.
+    /// Engine order k.
     pub engine_order: u32,
     /// Ω in rad/s.
     pub speed_rad_s: f64,
@@ -179,22 +180,22 @@ pub fn crossings<F: Frequencies>(
     all
 }
 
-/// Crossings that `lobes` equal lobes can drive: f = kΩ/2π with k ≤ `max_engine_order` a multiple of `lobes` and
-/// fold(k) = i, for the first `families`; in ascending speed. Split waves are each met by the engine orders that drive
-/// them.
+/// The engine orders of `lobes` equal lobes up to `highest`.
+pub fn multiples(lobes: u32, highest: u32) -> Vec<u32> {
+    if lobes == 0 { Vec::new() } else { (lobes..=highest).step_by(lobes as usize).collect() }
+}
+
+/// Crossings that fields at rest can drive whose periods around the casing are `orders`: f = kΩ/2π with fold(k) = i, for the
+/// first `families`; in ascending speed. Split waves are each met by the engine orders that drive them.
 pub fn driven_crossings<F: Frequencies>(
     waves: &Waves<'_, F>,
     grid: &[f64],
     families: usize,
-    lobes: u32,
-    max_engine_order: u32,
+    orders: &[u32],
     sectors: u32,
 ) -> Vec<DrivenCrossing> {
     let mut all = Vec::new();
-    if lobes == 0 {
-        return all;
-    }
-    for order in (lobes..=max_engine_order).step_by(lobes as usize) {
+    for &order in orders {
         let nodal_diameter = fold(order, sectors);
         let wave = driven_wave(order, sectors);
         let branch = waves.of(wave.unwrap_or(Wave::Backward));
@@ -300,7 +301,7 @@ mod tests {
         let grid: Vec<f64> = (2..=24).map(|i| TAU * 0.25 * f64::from(i)).collect();
         let table: Table =
             grid.iter().map(|&s| (0..=5).map(|i| PaperFit.at(s, i).unwrap()).collect()).collect();
-        let found = driven_crossings(&alike(&table), &grid, 2, 2, 24, 10);
+        let found = driven_crossings(&alike(&table), &grid, 2, &multiples(2, 24), 10);
         assert!(!found.is_empty());
         for c in &found {
             assert_eq!(c.engine_order % 2, 0);

@@ -29,11 +29,14 @@ pub struct SymmetryBreaking {
     pub nodal_diameters: Vec<u32>,
 }
 
-/// Energies of the asymmetry beyond this share of the whole are no longer small: a hundredth in amplitude.
+/// An asymmetry with this share of the symmetric response's largest energy is no longer small: a hundredth in amplitude.
 const LINEAR: f64 = 1e-4;
 
 /// Energies below this share are round-off.
 const ROUND_OFF: f64 = 1e-24;
+
+/// Energies that have grown by this factor have grown.
+const GROWN: f64 = 4.0;
 
 /// Fewest revolutions that a rate is fitted to.
 const LEAST: usize = 5;
@@ -42,32 +45,31 @@ const LEAST: usize = 5;
 const CLEARLY: f64 = 3.0;
 
 /// Judges `energies[revolution][nodal diameter]` from revolution `from` on (when the casing is fully grown) for a scene that
-/// repeats `repeats` times.
+/// repeats `repeats` times. Where no symmetric response is there to be small against, all revolutions count.
 pub fn judge(energies: &[Vec<f64>], repeats: usize, from: usize) -> SymmetryBreaking {
     let diameters = energies.first().map_or(0, Vec::len);
     let broken: Vec<usize> = (0..diameters).filter(|i| !i.is_multiple_of(repeats)).collect();
-    let share = |row: &Vec<f64>| {
-        let total: f64 = row.iter().sum();
-        let asymmetric: f64 = broken.iter().map(|&i| row[i]).sum();
-        if total > 0.0 { asymmetric / total } else { 0.0 }
-    };
-    let broken_after = energies.iter().position(|row| share(row) > LINEAR);
-    let mut line = Vec::new();
-    for (revolution, row) in energies.iter().enumerate().skip(from) {
-        let (asymmetric, share) = (broken.iter().map(|&i| row[i]).sum::<f64>(), share(row));
-        if !(ROUND_OFF..=LINEAR).contains(&share) {
-            break;
-        }
-        line.push((revolution as f64, 0.5 * asymmetric.ln()));
-    }
+    let asymmetric: Vec<f64> = energies.iter().map(|row| broken.iter().map(|&i| row[i]).sum()).collect();
+    let symmetric =
+        energies.iter().zip(&asymmetric).map(|(row, asymmetric)| row.iter().sum::<f64>() - asymmetric);
+    let response = symmetric.fold(0.0, f64::max);
+    let start = asymmetric.get(from).copied().unwrap_or(0.0);
+    let limit = if start < LINEAR * response { LINEAR * response } else { f64::INFINITY };
+    let floor = ROUND_OFF * response.max(start);
+    let since = || asymmetric.iter().enumerate().skip(from);
+    let broken_after =
+        since().find(|&(_, &e)| e > limit && e > GROWN * start).map(|(revolution, _)| revolution);
+    let small = since().take_while(|&(_, &e)| e > floor && e <= limit);
+    let line: Vec<_> = small.map(|(revolution, e)| (revolution as f64, 0.5 * e.ln())).collect();
     let fit = (line.len() >= LEAST).then(|| slope(&line));
+    let last = energies.last().map_or(0.0, |row| row.iter().sum());
     SymmetryBreaking {
         repeats: repeats as u32,
         grows: broken_after.is_some() || fit.is_some_and(|(rate, error)| rate > CLEARLY * error),
         rate_per_revolution: fit.map(|(rate, _)| rate),
         rate_error: fit.map(|(_, error)| error),
         broken_after_revolutions: broken_after.map(|revolution| revolution as u32 + 1),
-        energy_share: energies.last().map_or(0.0, share),
+        energy_share: if last > 0.0 { asymmetric.last().map_or(0.0, |e| e / last) } else { 0.0 },
         nodal_diameters: broken.iter().map(|&i| i as u32).collect(),
     }
 }
@@ -103,6 +105,15 @@ mod tests {
         }
         let flat = judge(&energies(0.0, 30), 2, 1);
         assert!(!flat.grows && flat.rate_per_revolution.unwrap().abs() < 1e-2);
+    }
+
+    #[test]
+    fn an_asymmetry_alone_decays_and_is_not_called_growth() {
+        let alone: Vec<Vec<f64>> =
+            (0..20).map(|r| vec![0.0, (-0.4 * f64::from(r)).exp(), 0.0, 0.0]).collect();
+        let found = judge(&alone, 2, 1);
+        assert!(!found.grows && found.broken_after_revolutions.is_none(), "{found:?}");
+        assert!((found.rate_per_revolution.unwrap() + 0.2).abs() < 1e-12 && found.energy_share == 1.0);
     }
 
     #[test]

@@ -118,3 +118,20 @@ async fn a_machine_is_measured_once() {
     // No two measurements give the same nanoseconds.
     assert_eq!(kept[0], kept[1]);
 }
+
+#[tokio::test]
+async fn a_plan_of_a_generation_makes_no_model() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let answer = api.post("/v1/models/plan", &json!({"preset": "small", "sectors": 7})).await;
+    assert_eq!(answer.status, 200, "{}", answer.body);
+    let plan = answer.body;
+    assert_eq!(plan["settings"]["sectors"], 7);
+    let [nodes, dofs, bytes] = ["nodes", "dofs", "memory_bytes"].map(|field| plan[field].as_u64().unwrap());
+    // The nodes at the bore are clamped, all others have three.
+    assert!(dofs < 3 * nodes && dofs > 5 * nodes / 2 && bytes > 8 * dofs, "{plan}");
+    let refused = api.post("/v1/models/plan", &json!({"sectors": 0})).await;
+    assert_eq!(refused.status, 422);
+    assert_eq!(refused.body["errors"][0]["pointer"], "/sectors");
+    assert_eq!(api.get("/v1/jobs").await.body["jobs"], json!([]));
+}

@@ -1,9 +1,9 @@
 //! Scenes with effects through the door: what runs with what, what is refused by name, and what must agree.
 
+use rubmap::analysis::error::AnalysisError;
 use rubmap::analysis::monitor::Unwatched;
 use rubmap::analysis::request::SweepRequest;
 use rubmap::analysis::result::SpeedResult;
-use rubmap::analysis::error::AnalysisError;
 use rubmap::analysis::run::{ModelFacts, ReducedSector, check, resolve_sweep, run_speed};
 use rubmap::dynamics::sector::SectorModel;
 use serde_json::{Value, json};
@@ -187,6 +187,36 @@ fn a_chain_goes_on_where_its_neighbour_ended() {
         let difference = spectral_difference(&whole, &second);
         assert!(difference < 1e-5, "{scheme}: {difference:e}");
     }
+}
+
+/// What begins anew at every speed cannot go on where the neighbour ended.
+#[test]
+fn a_chain_refuses_what_would_jump() {
+    let sector = sector();
+    let facts = ModelFacts::of(&sector);
+    let refused = effects().into_iter().filter_map(|(name, fields)| {
+        let mut chained = request(&[SPEED, 1.01 * SPEED], &[&fields], json!({}));
+        chained.sweep = serde_json::from_value(json!("down")).unwrap();
+        let violations = resolve_sweep(chained, &facts).err()?;
+        assert_eq!(violations[0].pointer, "/sweep");
+        Some(name)
+    });
+    assert_eq!(refused.collect::<Vec<_>>(), ["abradable", "flexible_casing", "orbit", "probe"]);
+}
+
+/// A mode that would begin inside the casing is refused with the amplitude that fits.
+#[test]
+fn an_initial_mode_stays_within_the_clearance() {
+    let sector = sector();
+    let reduced = reduced(&sector, 6);
+    let start = |amplitude: f64| {
+        let scene = json!({"initial": {"nodal_diameter": 1, "family": 2, "amplitude": amplitude}});
+        run(&reduced, &sector, request(&[SPEED], &[&scene], json!({}))).point
+    };
+    let message = start(5.0).message.unwrap();
+    let largest: f64 = message.rsplit(' ').next().unwrap().parse().unwrap();
+    assert!(largest > 0.2 && largest < 5.0, "{message}");
+    assert!(start(0.999 * largest).message.is_none() && start(1.001 * largest).message.is_some());
 }
 
 /// Light damping lets a tiny asymmetry grow by the same rate whatever its size, heavy damping lets it decay (METHOD §10).

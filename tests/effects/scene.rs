@@ -289,6 +289,7 @@ impl Scene {
                 orbit: self.orbit,
                 mistuning: self.mistuning.as_deref(),
                 excitation: &self.excitation,
+                energies: false,
             },
             initial: &self.initial,
             sensors: &self.sensors,

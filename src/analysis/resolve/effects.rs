@@ -2,8 +2,9 @@
 
 use super::contact_effects::{check_abradable, check_friction};
 use super::{Findings, limits};
+use crate::analysis::effects::flexible_casing;
 use crate::analysis::model::ModelFacts;
-use crate::analysis::request::{SchemeChoice, SweepRequest};
+use crate::analysis::request::{SchemeChoice, SweepDirection, SweepRequest};
 use crate::analysis::scene::{
     CasingMode, EngineOrderExcitation, FlexibleCasing, Initial, InitialWave, Mistuning, Orbit, Probe, Ring,
     Scene, Symmetry,
@@ -28,6 +29,14 @@ pub(super) fn check_effects(found: &mut Findings, request: &SweepRequest, facts:
     }
     for (index, excitation) in scene.engine_order_excitation.iter().enumerate() {
         check_excitation(found, excitation, index, facts);
+        found.require(
+            excitation.order <= request.max_engine_order,
+            &format!("/scene/engine_order_excitation/{index}/order"),
+            format!(
+                "spectra end at engine order {} and would fold this one onto others: ask for a higher max_engine_order",
+                request.max_engine_order
+            ),
+        );
     }
     if let Some(orbit) = &scene.orbit {
         check_orbit(found, orbit);
@@ -36,6 +45,32 @@ pub(super) fn check_effects(found: &mut Findings, request: &SweepRequest, facts:
         check_initial(found, initial, facts);
     }
     check_symmetry(found, request, facts);
+    check_chain(found, request);
+}
+
+/// What a speed cannot take over from its neighbour.
+fn check_chain(found: &mut Findings, request: &SweepRequest) {
+    if request.sweep == SweepDirection::Independent {
+        return;
+    }
+    let scene = &request.scene;
+    let turns = scene
+        .orbit
+        .as_ref()
+        .map_or(0.0, |orbit| orbit.whirl_ratio * f64::from(request.integration.revolutions));
+    let jumps = [
+        ("abradable", scene.abradable.is_some(), "its coating is new at every speed"),
+        ("flexible_casing", scene.flexible_casing.is_some(), "its casing is at rest when a speed begins"),
+        ("symmetry: probe", scene.symmetry == Symmetry::Probe, "its asymmetry is one of the start"),
+        ("orbit", turns.fract() != 0.0, "its axis would jump, for whirl_ratio × revolutions is not whole"),
+    ];
+    for (effect, jumps, why) in jumps {
+        found.require(
+            !jumps,
+            "/sweep",
+            format!("a scene with {effect} cannot go on where the neighbouring speed ended: {why}"),
+        );
+    }
 }
 
 /// Effects on contact need one.
@@ -103,6 +138,15 @@ fn check_flexible_casing(found: &mut Findings, casing: &FlexibleCasing, request:
             format!("at most {}", limits::CASING_WAVES),
         );
     }
+    let computed = flexible_casing(casing).waves;
+    found.require(
+        computed.iter().all(|wave| limits::CASING_OMEGA.contains(&wave.omega)),
+        AT,
+        format!(
+            "natural frequencies of a casing lie in {:?} rad/s: check its numbers and units",
+            limits::CASING_OMEGA
+        ),
+    );
     found.require(
         (modes.as_ref()).is_none_or(|modes| (1..=limits::CASING_WAVES as usize).contains(&modes.len())),
         &format!("{AT}/modes"),
@@ -242,9 +286,9 @@ fn check_symmetry(found: &mut Findings, request: &SweepRequest, facts: &ModelFac
             "this belongs to `\"symmetry\": \"probe\"`",
         );
         found.require(
-            (1e-12..=1e-2).contains(amplitude),
+            (1e-12..=1e-3).contains(amplitude),
             "/scene/probe/amplitude",
-            "the asymmetry is 1e-12 to 1e-2 of the smallest clearance",
+            "the asymmetry is 1e-12 to 1e-3 of the smallest clearance",
         );
     }
     if scene.symmetry == Symmetry::Full {

@@ -40,7 +40,9 @@ mod limits {
     pub(super) const CASING_WAVES: u32 = 50;
     pub(super) const SPREAD: f64 = 0.1;
     pub(super) const FORCE: f64 = 1e30;
-    pub(super) const WHIRL_RATIO: f64 = 100.0;
+    /// The whirl is prescribed and its inertia left out: that of a shaft's own slow whirl.
+    pub(super) const WHIRL_RATIO: f64 = 2.0;
+    pub(super) const CASING_OMEGA: std::ops::RangeInclusive<f64> = 1e-3..=1e9;
 }
 
 /// Collects violations.

@@ -73,7 +73,7 @@ pub struct History {
     /// `[sensor][Fourier column][sample]`: coordinates of all sectors in the real orthonormal Fourier basis, over the
     /// window.
     pub harmonics: Vec<Vec<Vec<f64>>>,
-    /// `[revolution][nodal diameter]`: mechanical energy at its end.
+    /// `[revolution][nodal diameter]`: mechanical energy at its end, if asked for.
     pub energies: Vec<Vec<f64>>,
     /// All modes at the end of the run.
     pub end: Vec<InitialMode>,

@@ -3,9 +3,10 @@
 use pulp::Simd;
 
 use super::super::casing::{Casing, RestrictionTable};
-use super::super::contact::coating::WornCoating;
+use super::super::contact::coating::{Coating, WornCoating};
 use super::super::contact::delassus::Delassus;
 use super::super::contact::flexibility::{flexibility, outward_normals, ridge};
+use super::super::effects::Effects;
 use super::super::energy::EffectWork;
 use super::super::flexible_casing::CasingMotion;
 use super::super::oscillators::rows::Rows;
@@ -76,7 +77,10 @@ impl Obstacle {
         let surroundings = Surroundings::new(simulation, stride);
         let delassus = delassus(simulation, oscillators, fourier, stride, surroundings.as_ref());
         let size = sectors * stride;
-        let length = casing.length_scale(simulation.reach());
+        let Effects { coating, orbit, .. } = simulation.effects;
+        let length = casing.length_scale(simulation.reach())
+            + coating.map_or(0.0, Coating::thickness)
+            + orbit.map_or(0.0, |orbit| orbit.radius);
         Self {
             delassus,
             surroundings,
@@ -203,7 +207,7 @@ impl Obstacle {
                     let rod = coating.rod(step, sector, row);
                     coating.press(rod, row, -solver.gap()[index]);
                 }
-                allowed = coating.thickness();
+                allowed = coating.unworn().thickness();
                 (solver.active(), solver.lambda(), solver.gap(), solver.statistics())
             }
             Law::Plain => {
@@ -260,7 +264,9 @@ impl Obstacle {
         oscillators.project(simd, &self.rows, &mut self.harmonic);
         self.residual.add(&self.force, self.rows.stride, &mut self.harmonic, self.rows.stride);
         let allowed = match &self.surroundings {
-            Some(Surroundings { law: Law::Coated(_, coating), .. }) if EFFECTS => coating.thickness(),
+            Some(Surroundings { law: Law::Coated(_, coating), .. }) if EFFECTS => {
+                coating.unworn().thickness()
+            }
             _ => 0.0,
         };
         (-self.predict_gaps::<S, EFFECTS>(simd, fourier, step, revolutions) - allowed).max(0.0)

@@ -13,6 +13,7 @@ use crate::numerics::sector_fourier::SectorFourier;
 pub(super) struct Recorder {
     rows: Rows,
     sectors: Vec<usize>,
+    energies: bool,
     /// What contact forces add to the sensors through modes that are not integrated.
     residual: ResidualDisplacement,
     harmonic: Vec<f64>,
@@ -29,6 +30,7 @@ impl Recorder {
         let sensors = directions.len();
         Self {
             harmonic: vec![0.0; fourier.sectors() * rows.stride],
+            energies: simulation.effects.energies,
             sectors: simulation.sensors.iter().map(|sensor| sensor.sector).collect(),
             residual: ResidualDisplacement::new(simulation, &directions),
             history: History {
@@ -36,7 +38,7 @@ impl Recorder {
                 harmonics: (0..sensors)
                     .map(|_| (0..fourier.sectors()).map(|_| Vec::with_capacity(window)).collect())
                     .collect(),
-                energies: Vec::with_capacity(simulation.revolutions),
+                energies: Vec::new(),
                 end: Vec::new(),
             },
             rows,
@@ -71,7 +73,9 @@ impl Recorder {
     }
 
     pub(super) fn end_revolution(&mut self, oscillators: &Oscillators) {
-        self.history.energies.push(oscillators.energies().collect());
+        if self.energies {
+            self.history.energies.push(oscillators.energies().collect());
+        }
     }
 
     pub(super) fn end(&mut self, modes: Vec<InitialMode>) {

@@ -153,6 +153,11 @@ impl Stepper {
                 self.statistics.steps += 1;
                 if DISSIPATES && self.statistics.steps.is_multiple_of(QUENCHED_STEPS) {
                     self.oscillators.quench();
+                    if EFFECTS
+                        && let Some(casing) = self.obstacle.as_mut().and_then(Obstacle::flexible_casing)
+                    {
+                        casing.quench();
+                    }
                 }
                 if self.statistics.steps.is_multiple_of(WATCHED_STEPS)
                     && !watch(revolutions / simulation.revolutions as f64)

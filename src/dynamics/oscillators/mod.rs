@@ -455,7 +455,7 @@ impl Oscillators {
 /// Modal displacements below this are nothing in any unit, and their squares are still normal numbers. Between two calls
 /// of [`Oscillators::quench`] no mode that moves shrinks by as much again; one that follows statically is at its zero, or
 /// round-off of it, within a step.
-const VANISHED: f64 = 1e-100;
+pub(crate) const VANISHED: f64 = 1e-100;
 
 /// [`Coefficients`] of one nodal diameter, as vectors.
 struct Slices<'a, S: Simd> {

@@ -24,7 +24,7 @@ pub struct WornCoating {
 
 impl WornCoating {
     /// The unworn `coating` in front of the `contact_nodes` of `sectors`, for runs of `steps` per revolution, at least
-    /// [`Coating::fewest_steps`].
+    /// as many as rods, so that no blade jumps one.
     pub fn new(coating: Coating, contact_nodes: &[ContactNode], sectors: usize, steps: usize) -> Self {
         let angles: Vec<_> = contact_nodes.iter().map(|node| node.position[1]).collect();
         let CoatingMaterial { modulus, hardening, .. } = coating.material;
@@ -73,13 +73,14 @@ impl WornCoating {
         }
     }
 
-    /// Depth of the metal behind the unworn surface, length.
-    pub fn thickness(&self) -> f64 {
-        self.coating.thickness
+    /// The coating before it was worn.
+    pub fn unworn(&self) -> &Coating {
+        &self.coating
     }
 
     /// Energy that a rod at a penetration would give back, force·length.
-    pub fn elastic_energy(&self, rod: usize, row: usize, penetration: f64) -> f64 {
+    #[cfg(test)]
+    fn elastic_energy(&self, rod: usize, row: usize, penetration: f64) -> f64 {
         let strain =
             (penetration / self.coating.thickness).min(1.0) - self.plastic_strain[self.index(rod, row)];
         0.5 * self.volume(row) * self.coating.material.modulus * strain.max(0.0).powi(2)
