@@ -8,7 +8,7 @@ use utoipa::ToSchema;
 use super::calibration::{Calibration, EffectSizes, StepSize};
 use super::diagram::FrequencyDiagram;
 use super::effect_list::{PlannedEffect, effects_of};
-use super::effects::wheel_of;
+use super::effects::{initial, wheel_of};
 use super::model::{ModelFacts, ReducedSector};
 use super::request::{ModalAnalysisRequest, SweepDirection, SweepRequest};
 use super::result::{Point, SchemeReport};
@@ -274,6 +274,7 @@ fn plan_point(
             let steps = stepping.discretisation.per_revolution;
             sliding::check(&wheel, contact, request, stepping.scheme, steps)
                 .map_err(|error| error.to_string())?;
+            initial(request, &wheel, contact, None, &stepping)?;
             Ok((stepping, wheel))
         });
     let set_up = start.elapsed().as_secs_f64();

@@ -128,7 +128,8 @@ pub struct Contact {}
 /// Coulomb friction of tips that always slide forwards: their speed is far above that of their vibration. The force on a
 /// blade is −λ(n + μt), t being the direction of rotation along the casing.
 ///
-/// Refused at a speed where the wheel would jam, that is where friction presses tips that lean forwards into the casing more
+/// Friction may also make the vibration itself unstable (flutter, or a tip that is dragged in slowly); such a response grows and
+/// is reported as diverged. Refused at a speed where the wheel would jam within a step, that is where friction presses tips that lean forwards into the casing more
 /// than the contact force lifts them off: the message names the contact node and the largest coefficient that passes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
@@ -243,7 +244,7 @@ pub struct Mistuning {
 }
 
 /// Force A cos(k(φ + Ωt) + phase) on contact nodes of every sector, φ being the sector's angle: what a wheel feels that turns through
-/// a steady field of k periods.
+/// a steady field of k periods. It grows over `ramp_revolutions`, like the restriction.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EngineOrderExcitation {
@@ -276,7 +277,7 @@ pub struct Orbit {
     pub phase_rad: f64,
 }
 
-/// One mode that moves when the run starts.
+/// One mode that moves when the run starts: of the wheel without mistuning and Coriolis forces, which make several waves of it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Initial {

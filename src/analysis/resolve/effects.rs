@@ -120,7 +120,11 @@ fn check_flexible_casing(found: &mut Findings, casing: &FlexibleCasing, request:
             ("second_moment", second_moment),
         ];
         for (field, &value) in numbers {
-            positive(found, value, &format!("{AT}/ring/{field}"), "this");
+            found.require(
+                limits::LENGTH.contains(&value),
+                &format!("{AT}/ring/{field}"),
+                format!("this lies in {:?}, unlike {value}", limits::LENGTH),
+            );
         }
         found.require(
             *n_max <= limits::CASING_WAVES,
@@ -131,7 +135,11 @@ fn check_flexible_casing(found: &mut Findings, casing: &FlexibleCasing, request:
     for (index, mode) in modes.iter().flatten().enumerate().take(2 * limits::CASING_WAVES as usize) {
         let CasingMode { nodal_diameter, frequency_hz, modal_mass } = mode;
         positive(found, *frequency_hz, &format!("{AT}/modes/{index}/frequency_hz"), "a natural frequency");
-        positive(found, *modal_mass, &format!("{AT}/modes/{index}/modal_mass"), "a modal mass");
+        found.require(
+            limits::LENGTH.contains(modal_mass),
+            &format!("{AT}/modes/{index}/modal_mass"),
+            format!("a modal mass lies in {:?}", limits::LENGTH),
+        );
         found.require(
             *nodal_diameter <= limits::CASING_WAVES,
             &format!("{AT}/modes/{index}/nodal_diameter"),

@@ -208,6 +208,10 @@ impl Drive {
             let (out_re, out_im) = (&mut out_re[..segment.integrated], &mut out_im[..segment.integrated]);
             simd.vectorize(ProjectPair { block, re, im, out_re, out_im });
         }
+        // Oscillators that only pad the vectors stay at rest, whatever the last nodal diameter left there.
+        for part in 0..segment.parts().count() {
+            self.turned[part * length + segment.integrated..(part + 1) * length].fill(0.0);
+        }
     }
 }
 
