@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::StepSize;
-use super::wheel::{SPEED, STEPS, Wheel};
+use super::wheel::{Case, SPEED, STEPS, StepSeconds, Wheel, measure};
 use crate::analysis::effects::flexible_casing;
 use crate::analysis::scene::Scene;
 use crate::dynamics::contact::coating::{Coating, CoatingMaterial};
@@ -115,25 +115,32 @@ impl EffectCosts {
         let wheel = Wheel::new(SECTORS, NODES, MODES);
         let sizes = Parts::sizes(wheel.modal(), Scheme::ExactModal, NODES, WAVES);
         let effects = SampleEffects::new(&wheel);
-        let over = |base: (f64, f64), found: (f64, f64), size: f64| Added {
-            free: 1e9 * (found.0 - base.0).max(0.0) / size,
-            contact: 1e9 * (found.1 - base.1).max(0.0) / size,
+        let turning = wheel.clone().turning();
+        let [none, orbit, driven, mistuning, coriolis, friction, abradable, flexible_casing] = measure([
+            Case::of(&wheel, Effects::default()),
+            Case::of(&wheel, effects.orbit()),
+            Case::of(&wheel, effects.driven()),
+            Case::of(&wheel, effects.mistuning()),
+            Case::of(&turning, Effects::default()),
+            Case::of(&wheel, effects.friction()),
+            Case::of(&wheel, effects.abradable()),
+            Case::of(&wheel, effects.flexible_casing()),
+        ]);
+        let per = |seconds: f64, size: f64| 1e9 * seconds.max(0.0) / size;
+        let over = |base: StepSeconds, found: StepSeconds, size: f64| Added {
+            free: per(found.free - base.free, size),
+            contact: per(found.contact - base.contact, size),
         };
-        let none = wheel.step_seconds(Effects::default());
-        let any = wheel.step_seconds(effects.orbit());
-        let driven = wheel.step_seconds(effects.driven());
         // The same forces whether or not something touches.
-        let mistuning = wheel.free_seconds(effects.mistuning()) - driven.0;
-        let mistuning = (mistuning, mistuning);
-        let turning = wheel.clone().turning().step_seconds(Effects::default());
+        let mistuned = per(mistuning.free - driven.free, sizes.mistuning);
         Self(Parts {
-            any: over(none, any, sizes.any),
-            driven: over(any, driven, sizes.driven),
-            mistuning: over((0.0, 0.0), mistuning, sizes.mistuning),
-            coriolis: over(driven, turning, sizes.coriolis),
-            friction: over(any, wheel.step_seconds(effects.friction()), sizes.friction),
-            abradable: over(any, wheel.step_seconds(effects.abradable()), sizes.abradable),
-            flexible_casing: over(any, wheel.step_seconds(effects.flexible_casing()), sizes.flexible_casing),
+            any: over(none, orbit, sizes.any),
+            driven: over(orbit, driven, sizes.driven),
+            mistuning: Added { free: mistuned, contact: mistuned },
+            coriolis: over(driven, coriolis, sizes.coriolis),
+            friction: over(orbit, friction, sizes.friction),
+            abradable: over(orbit, abradable, sizes.abradable),
+            flexible_casing: over(orbit, flexible_casing, sizes.flexible_casing),
         })
     }
 }

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use self::effects::EffectCosts;
 pub(super) use self::effects::EffectSizes;
-use self::wheel::Wheel;
+use self::wheel::{Case, StepSeconds, Wheel};
 use crate::dynamics::effects::Effects;
 
 /// What a time step costs on one machine; measured once and kept.
@@ -97,17 +97,22 @@ impl Calibration {
 
     /// Measures this machine, on the calling thread.
     pub fn measure() -> Self {
-        let (mut without, mut free, mut contact) = (Vec::new(), Vec::new(), Vec::new());
-        for (sectors, nodes, modes) in SIZES {
-            let wheel = Wheel::new(sectors, nodes, modes);
-            let size = StepSize { sectors, nodes, unknowns: wheel.unknowns() };
-            without.push((StepSize { nodes: 0, ..size }, wheel.uncased_seconds()));
-            let (alone, touching) = wheel.step_seconds(Effects::default());
-            free.push((size, alone));
-            contact.push((size, touching));
+        let wheels = SIZES.map(|(sectors, nodes, modes)| Wheel::new(sectors, nodes, modes));
+        let measured = wheel::measure(wheels.each_ref().map(|wheel| Case::of(wheel, Effects::default())));
+        let fit = |of: fn(&StepSeconds) -> f64, touching: bool| {
+            let sizes = SIZES.iter().zip(&wheels).map(|(&(sectors, nodes, _), wheel)| StepSize {
+                sectors,
+                nodes: if touching { nodes } else { 0 },
+                unknowns: wheel.unknowns(),
+            });
+            StepCost::fit(&sizes.zip(measured.iter().map(of)).collect::<Vec<_>>())
+        };
+        Self {
+            without_contact: fit(|seconds| seconds.without, false),
+            free: fit(|seconds| seconds.free, true),
+            contact: fit(|seconds| seconds.contact, true),
+            effects: EffectCosts::measure(),
         }
-        let [without_contact, free, contact] = [without, free, contact].map(|times| StepCost::fit(&times));
-        Self { without_contact, free, contact, effects: EffectCosts::measure() }
     }
 }
 

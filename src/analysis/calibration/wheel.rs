@@ -23,9 +23,10 @@ const WITHIN_REACH: f64 = 0.6;
 pub(super) const SPEED: f64 = 1000.0;
 pub(super) const STEPS: usize = 480;
 const SAMPLES: usize = 60;
-/// Revolutions beyond the first, which has the set-up to itself.
-const REVOLUTIONS: usize = 2;
-const ROUNDS: usize = 3;
+/// One revolution that has the set-up to itself, and another one. As short as that, some of them are not interrupted by the
+/// other work of a machine.
+const REVOLUTIONS: [usize; 2] = [1, 2];
+const ROUNDS: usize = 5;
 
 /// A wheel of no particular shape.
 #[derive(Clone)]
@@ -86,41 +87,6 @@ impl Wheel {
         self.modal.unknowns()
     }
 
-    /// Seconds of a step if there is nothing to touch.
-    pub(super) fn uncased_seconds(&self) -> f64 {
-        self.measure(None, Effects::default()).0
-    }
-
-    /// Seconds of a step with `effects` in front of two lobes of height 1 that always face a blade, out of reach.
-    pub(super) fn free_seconds(&self, effects: Effects<'_>) -> f64 {
-        self.measure(Some(OUT_OF_REACH), effects).0
-    }
-
-    /// The same, and seconds as if every step had a contact.
-    pub(super) fn step_seconds(&self, effects: Effects<'_>) -> (f64, f64) {
-        let alone = self.free_seconds(effects);
-        let (touching, share) = self.measure(Some(WITHIN_REACH), effects);
-        (alone, alone + (touching - alone).max(0.0) / share.max(0.1))
-    }
-
-    /// Seconds per step, and the share of steps with contact.
-    fn measure(&self, clearance: Option<f64>, effects: Effects<'_>) -> (f64, f64) {
-        // Each at its best: a machine that has other work interrupts the one or the other.
-        let fastest = |revolutions| {
-            let (mut least, statistics) = self.run(clearance, effects, revolutions);
-            for _ in 1..ROUNDS {
-                least = least.min(self.run(clearance, effects, revolutions).0);
-            }
-            (least, statistics)
-        };
-        let ((set_up, first), (whole, all)) = (fastest(1), fastest(1 + REVOLUTIONS));
-        let steps = (all.steps - first.steps).max(1) as f64;
-        let share = (all.contact_steps - first.contact_steps) as f64 / steps;
-        // Interrupted throughout: then with the set-up.
-        let beyond = if whole > set_up { (whole - set_up) / steps } else { whole / all.steps.max(1) as f64 };
-        (beyond.max(1e-9), share)
-    }
-
     /// Seconds of a run, and what it counted.
     fn run(&self, clearance: Option<f64>, effects: Effects<'_>, revolutions: usize) -> (f64, RunStatistics) {
         let casing = clearance.map(|clearance| Casing {
@@ -153,6 +119,77 @@ impl Wheel {
         let start = Instant::now();
         let run = simulation.run(&|_| true);
         (start.elapsed().as_secs_f64(), run.statistics)
+    }
+}
+
+/// What is run to see what a step costs.
+#[derive(Clone, Copy)]
+pub(super) struct Case<'a> {
+    pub(super) wheel: &'a Wheel,
+    pub(super) effects: Effects<'a>,
+}
+
+impl<'a> Case<'a> {
+    pub(super) fn of(wheel: &'a Wheel, effects: Effects<'a>) -> Self {
+        Self { wheel, effects }
+    }
+}
+
+/// Seconds of a step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct StepSeconds {
+    /// With nothing around the wheel.
+    pub(super) without: f64,
+    /// In front of two lobes that always face a blade, out of reach.
+    pub(super) free: f64,
+    /// The same within reach, as if every step had a contact.
+    pub(super) contact: f64,
+}
+
+/// Runs all cases in turns, so that other work of the machine meets them alike, and takes each at its best.
+pub(super) fn measure<const N: usize>(cases: [Case<'_>; N]) -> [StepSeconds; N] {
+    const CLEARANCES: [Option<f64>; 3] = [None, Some(OUT_OF_REACH), Some(WITHIN_REACH)];
+    let mut best = [[Best::default(); CLEARANCES.len()]; N];
+    for _ in 0..ROUNDS {
+        for (case, best) in cases.iter().zip(&mut best) {
+            for (&clearance, best) in CLEARANCES.iter().zip(best) {
+                for (revolutions, (seconds, statistics)) in
+                    REVOLUTIONS.into_iter().zip(best.seconds.iter_mut().zip(&mut best.statistics))
+                {
+                    let (time, counted) = case.wheel.run(clearance, case.effects, revolutions);
+                    (*seconds, *statistics) = (seconds.min(time), counted);
+                }
+            }
+        }
+    }
+    best.map(|[without, free, contact]| {
+        let ((without, _), (free, _), (touching, share)) = (without.step(), free.step(), contact.step());
+        StepSeconds { without, free, contact: free + (touching - free).max(0.0) / share.max(0.1) }
+    })
+}
+
+/// The fastest run of each length, and what it counted.
+#[derive(Clone, Copy)]
+struct Best {
+    seconds: [f64; 2],
+    statistics: [RunStatistics; 2],
+}
+
+impl Default for Best {
+    fn default() -> Self {
+        Self { seconds: [f64::INFINITY; 2], statistics: [RunStatistics::default(); 2] }
+    }
+}
+
+impl Best {
+    /// Seconds of a step beyond the set-up, and the share of steps with contact.
+    fn step(&self) -> (f64, f64) {
+        let ([set_up, whole], [first, all]) = (self.seconds, self.statistics);
+        let steps = (all.steps - first.steps).max(1) as f64;
+        let share = (all.contact_steps - first.contact_steps) as f64 / steps;
+        // Interrupted throughout: then with the set-up.
+        let beyond = if whole > set_up { (whole - set_up) / steps } else { whole / all.steps.max(1) as f64 };
+        (beyond.max(1e-9), share)
     }
 }
 
