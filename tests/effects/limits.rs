@@ -164,7 +164,7 @@ fn nodal_diameters_of_different_sizes_keep_to_themselves() {
         }
         set_gyroscopic(&mut scene.wheel, 0.4);
         scene.scheme = scheme;
-        // The run itself is held to the energy identity.
-        assert!(scene.run().statistics.contact_steps > 20);
+        let run = scene.run();
+        assert!(run.statistics.contact_steps > 20 && run.energy.residual() < 1e-9, "{:?}", run.energy);
     }
 }
