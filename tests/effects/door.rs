@@ -204,6 +204,22 @@ fn a_chain_refuses_what_would_jump() {
     assert_eq!(refused.collect::<Vec<_>>(), ["abradable", "flexible_casing", "orbit", "probe"]);
 }
 
+/// Numbers that would cost the memory, or mean another order, are refused at their place.
+#[test]
+fn what_would_mean_something_else_is_refused_at_its_place() {
+    let facts = ModelFacts::of(&sector());
+    let ring = json!({"flexible_casing": {"ring": {"radius": 70, "modulus": 2e5, "density": 8e-9, "area": 40,
+                                                   "second_moment": 133, "n_max": 4294967295u32}}});
+    let order = json!({"engine_order_excitation": [
+        {"order": 9, "contact_nodes": [0], "component": "axial", "amplitude": 1.0}]});
+    for (scene, pointer) in
+        [(ring, "/scene/flexible_casing/ring/n_max"), (order, "/scene/engine_order_excitation/0/order")]
+    {
+        let violations = resolve_sweep(request(&[SPEED], &[&scene], json!({})), &facts).unwrap_err();
+        assert_eq!(violations.iter().map(|v| v.pointer.as_str()).collect::<Vec<_>>(), [pointer]);
+    }
+}
+
 /// A mode that would begin inside the casing is refused with the amplitude that fits.
 #[test]
 fn an_initial_mode_stays_within_the_clearance() {

@@ -51,7 +51,7 @@ pub(super) struct Obstacle {
     /// Contact nodes with a force on any sector.
     pub(super) loaded: Vec<usize>,
     is_loaded: Vec<bool>,
-    /// Along [`Self::applied`], `[Fourier column][node]`.
+    /// Along what [`applied`](super::surroundings::applied) says, `[Fourier column][node]`.
     pub(super) force: Vec<f64>,
 }
 
@@ -165,15 +165,6 @@ impl Obstacle {
         match &self.surroundings.as_ref()?.law {
             Law::Coated(_, coating) => Some(coating),
             Law::Plain | Law::General(_) => None,
-        }
-    }
-
-    /// What contact forces act along: the normals, but for friction.
-    #[inline(always)]
-    pub(super) fn applied<const EFFECTS: bool>(&self) -> &Rows {
-        match &self.surroundings {
-            Some(Surroundings { sliding: Some(sliding), .. }) if EFFECTS => &sliding.rows,
-            _ => &self.rows,
         }
     }
 

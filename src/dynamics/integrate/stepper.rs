@@ -20,7 +20,7 @@ use super::super::schemes::Scheme;
 use super::super::statistics::RunStatistics;
 use super::obstacle::Obstacle;
 use super::recorder::Recorder;
-use super::surroundings::Surroundings;
+use super::surroundings::applied;
 use super::{Divergence, Outcome, Run, Simulation};
 use crate::numerics::sector_fourier::SectorFourier;
 
@@ -219,10 +219,7 @@ impl Stepper {
             return energy.add(exchange);
         };
         let loads = Loads { rows: &obstacle.loaded, force: &obstacle.force };
-        let applied = match &obstacle.surroundings {
-            Some(Surroundings { sliding: Some(sliding), .. }) => &sliding.rows,
-            _ => &obstacle.rows,
-        };
+        let applied = applied(obstacle.surroundings.as_ref(), &obstacle.rows);
         let (rows, out) = (&obstacle.rows, &mut obstacle.harmonic);
         let exchange = match (drive, massless) {
             (None, true) => oscillators.advance_loaded::<S, true>(simd, rows, (applied, loads), out),
@@ -274,7 +271,8 @@ impl Stepper {
             return;
         };
         let loads = Loads { rows: &obstacle.loaded, force: &obstacle.force };
-        let applied = obstacle.applied::<EFFECTS>();
+        let surroundings = if EFFECTS { obstacle.surroundings.as_ref() } else { None };
+        let applied = applied(surroundings, &obstacle.rows);
         let exchange = match &mut self.drive {
             Some(drive) if EFFECTS => {
                 let work = self.energy.effects_mut();

@@ -40,6 +40,15 @@ pub(super) struct Sliding {
     pub(super) heat: Vec<f64>,
 }
 
+/// What contact forces act along: the normals, `rows`, but for friction.
+#[inline(always)]
+pub(super) fn applied<'a>(surroundings: Option<&'a Surroundings>, rows: &'a Rows) -> &'a Rows {
+    match surroundings {
+        Some(Surroundings { sliding: Some(sliding), .. }) => &sliding.rows,
+        _ => rows,
+    }
+}
+
 impl Surroundings {
     /// None for a scene without effects on contact. Gaps are padded to `stride` nodes a sector.
     pub(super) fn new(simulation: &Simulation<'_>, stride: usize) -> Option<Self> {
