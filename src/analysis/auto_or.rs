@@ -4,12 +4,23 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use utoipa::ToSchema;
 
 /// A whole number, or `"auto"`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum AutoOr {
-    /// Chosen by the program, at each speed.
+    /// Chosen by the program.
+    #[default]
     Auto,
     /// This number.
     Fixed(u32),
+}
+
+impl AutoOr {
+    /// The number, or `chosen` if the program may choose.
+    pub(super) fn or(self, chosen: u32) -> u32 {
+        match self {
+            Self::Auto => chosen,
+            Self::Fixed(number) => number,
+        }
+    }
 }
 
 impl Serialize for AutoOr {
@@ -53,7 +64,7 @@ impl utoipa::PartialSchema for AutoOr {
     fn schema() -> utoipa::openapi::RefOr<utoipa::openapi::schema::Schema> {
         use utoipa::openapi::schema::{ObjectBuilder, OneOfBuilder, Type};
         OneOfBuilder::new()
-            .description(Some("A whole number, or `auto` for one that the program chooses at each speed."))
+            .description(Some("A whole number, or `auto` for one that the program chooses."))
             .item(ObjectBuilder::new().schema_type(Type::String).enum_values(Some(["auto"])))
             .item(ObjectBuilder::new().schema_type(Type::Integer).minimum(Some(1)))
             .into()

@@ -265,16 +265,38 @@ fn check_reach(
 fn asymmetry(request: &SweepRequest, wheel: &ModalWheel, casing: Option<&Casing>) -> Vec<InitialMode> {
     let Probe { amplitude, seed } = request.scene.probe.clone().unwrap_or_default();
     let repeats = repeats(&request.scene, wheel.sectors as u32) as usize;
-    let reach = wheel_reach(casing);
+    let mut modes = lowest_modes(wheel, amplitude * wheel_reach(casing), seed);
+    modes.retain(|mode| !wheel.harmonics[mode.harmonic].harmonic.is_multiple_of(repeats));
+    modes
+}
+
+/// Amplitude of the perturbation that a twin starts from, relative to the reach of the wheel.
+const PERTURBATION: f64 = 1e-7;
+
+/// `modes` with a tiny perturbation of the lowest mode of every nodal diameter.
+pub(super) fn perturbed(
+    mut modes: Vec<InitialMode>,
+    wheel: &ModalWheel,
+    casing: Option<&Casing>,
+) -> Vec<InitialMode> {
+    for added in lowest_modes(wheel, PERTURBATION * wheel_reach(casing), 1) {
+        let same = |mode: &&mut InitialMode| (mode.harmonic, mode.family) == (added.harmonic, added.family);
+        match modes.iter_mut().find(same) {
+            Some(mode) => mode.displacement += added.displacement,
+            None => modes.push(added),
+        }
+    }
+    modes
+}
+
+/// The lowest mode of every nodal diameter, standing, at a phase of its own.
+fn lowest_modes(wheel: &ModalWheel, amplitude: f64, seed: u64) -> Vec<InitialMode> {
     let phases = normal_numbers(seed).take(wheel.harmonics.len());
-    let modes = (wheel.harmonics.iter().enumerate()).zip(phases).filter_map(|((index, harmonic), phase)| {
-        let broken = !harmonic.harmonic.is_multiple_of(repeats);
+    let mode = |(index, phase): (usize, f64)| {
         let phase = c64::new(phase.cos(), phase.sin());
-        let mode =
-            || InitialMode::of_amplitude(wheel, index, 0, amplitude * reach, phase, InitialWave::Standing);
-        broken.then(mode)
-    });
-    modes.collect()
+        InitialMode::of_amplitude(wheel, index, 0, amplitude, phase, InitialWave::Standing)
+    };
+    phases.enumerate().map(mode).collect()
 }
 
 /// The length that an asymmetry is small against: the smallest clearance, or the restriction where that is zero; 1 without

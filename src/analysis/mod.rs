@@ -5,6 +5,7 @@
 //! - [`run::plan_sweep`] and [`run::plan_modal_analysis`] say beforehand what that will do and cost;
 //! - [`run::interaction_map`] and [`run::critical_speeds`] assemble the finished speeds of a sweep.
 
+pub mod accuracy;
 pub mod auto_or;
 mod calibration;
 mod diagram;

@@ -181,7 +181,7 @@ pub fn plan_sweep(
             None => 0,
         },
         reduction: state(reduced),
-        reduced_unknowns: reduced_unknowns(facts, reduced, request.modes_per_speed),
+        reduced_unknowns: reduced_unknowns(facts, reduced, request.modes()),
         speeds: speeds.len() as u32,
         workers: workers as u32,
         estimate: reduced.and_then(|reduced| estimate(&points, &speeds, workers, reduced_bytes(reduced))),
@@ -222,7 +222,7 @@ pub fn plan_modal_analysis(
     ModalAnalysisPlan {
         effects,
         reduction: state(reduced),
-        reduced_unknowns: reduced_unknowns(facts, reduced, request.modes_per_speed),
+        reduced_unknowns: reduced_unknowns(facts, reduced, request.modes()),
         speeds: speeds.len() as u32,
         nodal_diameters: harmonic_count(facts.sectors as usize) as u32,
         computing_time_s: reduced.and_then(one).map(|seconds| seconds * speeds.len() as f64),
@@ -293,11 +293,7 @@ fn plan_point(
         Ok(chosen) => chosen,
         Err(message) => return PlannedPoint { message: Some(message), ..planned },
     };
-    let unknowns: usize = wheel
-        .harmonics
-        .iter()
-        .map(|h| stepping.scheme.integrated_modes(h.omega.len()) * if h.single { 1 } else { 2 })
-        .sum();
+    let unknowns = stepping.scheme.integrated_unknowns(&wheel);
     let steps = stepping.discretisation.per_revolution as u64 * u64::from(request.integration.revolutions);
     let nodes = if request.scene.contact.is_some() { reduced.wheel.contact.len() } else { 0 };
     let size = StepSize { sectors: wheel.sectors, nodes, unknowns };

@@ -1,12 +1,12 @@
 //! What a run says: credentials, spectra and steady response of one speed.
 
-use super::discretisation::Discretisation;
 use super::error::AnalysisError;
 use super::request::{Sensor, SweepRequest};
 use super::result::{
     EnergyReport, Point, PointStatus, SensorResponse, SensorSpectrum, SideBands, SpeedSpectra, WearReport,
 };
 use super::scene::Symmetry;
+use super::stepping::Stepping;
 use super::symmetry::repeats;
 use crate::dynamics::contact::coating::WornCoating;
 use crate::dynamics::integrate::{Divergence, History, Outcome, Run};
@@ -26,9 +26,13 @@ pub(super) fn record_run(
     run: &Run,
     request: &SweepRequest,
     wheel: &ModalWheel,
-    steps: &Discretisation,
+    stepping: &Stepping,
 ) -> Result<Option<SpeedSpectra>, AnalysisError> {
     let parts = wheel.repeats as f64;
+    let steps = &stepping.discretisation;
+    point.smallest_stable_steps_per_revolution = stepping.smallest as u32;
+    point.steps_per_revolution = steps.per_revolution as u32;
+    point.scheme = Some(stepping.report.clone());
     point.steps = run.statistics.steps;
     point.contact_share = run.statistics.contact_share();
     // A run that overflowed has sums that are no numbers; JSON has no word for them.

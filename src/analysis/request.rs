@@ -13,10 +13,10 @@ use super::speeds::Speeds;
 pub struct SweepRequest {
     /// Id of an uploaded model.
     pub model: String,
-    /// Fixed-interface modes kept per stiffness speed and nodal diameter: the accuracy dial k.
-    #[serde(default = "default_modes_per_speed")]
-    #[schema(minimum = 1, maximum = 500)]
-    pub modes_per_speed: u32,
+    /// Fixed-interface modes kept per stiffness speed and nodal diameter: the accuracy dial k. `"auto"` is what `accuracy` or
+    /// `budget` chooses, without them 20.
+    #[serde(default)]
+    pub modes_per_speed: AutoOr,
     /// Speeds to simulate, in the order given.
     pub speeds: Speeds,
     /// Effects of the simulation.
@@ -33,6 +33,59 @@ pub struct SweepRequest {
     /// Where each speed starts from.
     #[serde(default, skip_serializing_if = "SweepDirection::is_independent")]
     pub sweep: SweepDirection,
+    /// An accuracy to reach in place of the knobs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub accuracy: Option<Accuracy>,
+    /// A time to keep in place of the knobs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub budget: Option<Budget>,
+    /// How many speeds are simulated again at a finer setting once all are finished, to estimate the error of every speed from;
+    /// default: 5 with `accuracy` or `budget`, otherwise 0. Fewer if the sweep has fewer; none of a sweep up or down.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(maximum = 100)]
+    pub control_speeds: Option<u32>,
+}
+
+impl SweepRequest {
+    /// k of a resolved request.
+    pub fn modes(&self) -> u32 {
+        self.modes_per_speed.or(DEFAULT_MODES_PER_SPEED)
+    }
+
+    /// Whether pilot runs choose the knobs.
+    pub fn chooses(&self) -> bool {
+        self.accuracy.is_some() || self.budget.is_some()
+    }
+
+    /// Speeds that are simulated again.
+    pub fn controls(&self) -> usize {
+        let wanted = self.chooses() && self.sweep == SweepDirection::Independent;
+        self.control_speeds.map_or(if wanted { DEFAULT_CONTROL_SPEEDS } else { 0 }, |n| n as usize)
+    }
+}
+
+/// An accuracy to reach.
+///
+/// Of a sweep: the error of the steady response at the pilot speeds, that is the largest over the sensors of the error of its root
+/// mean square and, where trajectories can be compared, of the error of its lines at integer engine orders (root of the sum of
+/// squares), both relative to the largest sensor's. Of a modal analysis: the largest relative error of the ten lowest natural
+/// frequencies of any nodal diameter.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Accuracy {
+    /// Relative error.
+    #[schema(exclusive_minimum = 0.0, exclusive_maximum = 1.0)]
+    pub target: f64,
+}
+
+/// A time to keep.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Budget {
+    /// Wall time of the whole job on an otherwise idle machine, s: reductions that are not stored, pilot runs, all speeds and
+    /// those that are simulated again.
+    #[schema(exclusive_minimum = 0.0)]
+    pub seconds: f64,
 }
 
 /// Where each speed of a sweep starts from. A response with several branches shows the one that it is led along.
@@ -74,10 +127,10 @@ impl SweepDirection {
 pub struct ModalAnalysisRequest {
     /// Id of an uploaded model.
     pub model: String,
-    /// Fixed-interface modes kept per stiffness speed and nodal diameter.
-    #[serde(default = "default_modes_per_speed")]
-    #[schema(minimum = 1, maximum = 500)]
-    pub modes_per_speed: u32,
+    /// Fixed-interface modes kept per stiffness speed and nodal diameter. `"auto"` is what `accuracy` or `budget` chooses, without
+    /// them 20.
+    #[serde(default)]
+    pub modes_per_speed: AutoOr,
     /// Modal families (frequencies per nodal diameter) to report.
     #[serde(default = "default_families")]
     pub families: u32,
@@ -96,11 +149,31 @@ pub struct ModalAnalysisRequest {
     pub coriolis: bool,
     /// Speeds of the Campbell diagram: every range and list ascends, several are merged.
     pub speeds: Speeds,
+    /// An accuracy to reach in place of `modes_per_speed`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub accuracy: Option<Accuracy>,
+    /// A time to keep in place of `modes_per_speed`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub budget: Option<Budget>,
 }
 
-fn default_modes_per_speed() -> u32 {
-    20
+impl ModalAnalysisRequest {
+    /// k of a resolved request.
+    pub fn modes(&self) -> u32 {
+        self.modes_per_speed.or(DEFAULT_MODES_PER_SPEED)
+    }
+
+    /// Whether the reductions themselves choose `modes_per_speed`.
+    pub fn chooses(&self) -> bool {
+        self.accuracy.is_some() || self.budget.is_some()
+    }
 }
+
+/// k where nobody says otherwise.
+pub(super) const DEFAULT_MODES_PER_SPEED: u32 = 20;
+
+/// Control runs where the service chooses the knobs.
+const DEFAULT_CONTROL_SPEEDS: usize = 5;
 
 fn default_max_engine_order() -> u32 {
     24

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
+use super::accuracy::control::ErrorEstimate;
 use super::end_state::EndState;
 use super::plan::{Estimate, Spent};
 use super::request::{SchemeChoice, Sensor};
@@ -263,6 +264,9 @@ pub struct InteractionMap {
     pub units: Units,
     /// Credentials, one per finished speed, in the order of the speeds.
     pub points: Vec<Point>,
+    /// Estimated errors of the amplitudes, once the job is successful; absent without control runs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub errors: Option<ErrorEstimate>,
     /// What the sweep was expected to cost; absent before its speeds are queued.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plan: Option<Estimate>,
@@ -349,6 +353,9 @@ pub struct CriticalSpeed {
     pub half_peak_to_peak: f64,
     /// Height above the higher of the two neighbouring valleys, in the same measure as `rms`.
     pub prominence: f64,
+    /// Estimated relative error of the steady response at this speed; absent without control runs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub amplitude_error: Option<f64>,
     /// Engine order of the largest spectral amplitude.
     pub dominant_engine_order: f64,
     /// Nodal diameter that carries it.

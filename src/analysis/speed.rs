@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use super::effects::{SceneEffects, direction, initial, wheel_of};
+use super::effects::{SceneEffects, direction, initial, perturbed, wheel_of};
 use super::end_state::EndState;
 use super::error::AnalysisError;
 use super::model::ReducedSector;
@@ -34,36 +34,50 @@ pub fn run_speed(
     let speeds = request.speeds.resolve().map_err(AnalysisError::Refused)?;
     let mut point = empty_point(index, speeds[index]);
     let (mut spectra, mut end_state, mut wear) = (None, None, None);
-    let scene = &request.scene;
-    match wheel_of(scene, &reduced.wheel, point.speed_rad_s) {
-        Err(error) => point.message = Some(error.to_string()),
-        Ok(wheel) => match Stepping::choose(&wheel, &reduced.wheel.contact, request) {
-            Err(message) => point.message = Some(message),
-            Ok(stepping) => {
-                let steps = &stepping.discretisation;
-                let watch = |fraction: f64| {
-                    monitor.progress(fraction, "contact simulation");
-                    !monitor.is_cancelled()
-                };
-                match simulate(&reduced.wheel, &wheel, request, &stepping, start, &watch) {
-                    Err(message) => point.message = Some(message),
-                    Ok(run) => {
-                        point.smallest_stable_steps_per_revolution = stepping.smallest as u32;
-                        point.steps_per_revolution = steps.per_revolution as u32;
-                        spectra = record_run(&mut point, &run, request, &wheel, steps)?;
-                        end_state = end_state_of(&run, &reduced.wheel, &wheel, request);
-                        wear = run.coating.map(|coating| WearMap { depths: coating.worn_depths() });
-                        point.scheme = Some(stepping.report);
-                    }
-                }
-            }
-        },
+    let watch = |fraction: f64| {
+        monitor.progress(fraction, "contact simulation");
+        !monitor.is_cancelled()
+    };
+    let from = start.map_or(Start::Scene, Start::After);
+    let ran = ready(reduced, request, point.speed_rad_s).and_then(|(wheel, stepping)| {
+        let run = simulate(&reduced.wheel, &wheel, request, &stepping, from, &watch)?;
+        Ok((wheel, stepping, run))
+    });
+    match ran {
+        Err(message) => point.message = Some(message),
+        Ok((wheel, stepping, run)) => {
+            spectra = record_run(&mut point, &run, request, &wheel, &stepping)?;
+            end_state = end_state_of(&run, &reduced.wheel, &wheel, request);
+            wear = run.coating.map(|coating| WearMap { depths: coating.worn_depths() });
+        }
     }
     if start.is_none() && follows_another(request, &speeds, index) {
         point.message = Some(from_the_start(point.message.take()));
     }
     point.wall_time_s = clock.elapsed().as_secs_f64();
     Ok(SpeedResult { point, spectra, wear, end_state })
+}
+
+/// The wheel of a scene at a speed, and how it is stepped; or why it cannot be.
+pub(super) fn ready(
+    reduced: &ReducedSector,
+    request: &SweepRequest,
+    speed_rad_s: f64,
+) -> Result<(ModalWheel, Stepping), String> {
+    let wheel = wheel_of(&request.scene, &reduced.wheel, speed_rad_s).map_err(|error| error.to_string())?;
+    let stepping = Stepping::choose(&wheel, &reduced.wheel.contact, request)?;
+    Ok((wheel, stepping))
+}
+
+/// What a run starts from.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Start<'a> {
+    /// Rest, or what the scene says.
+    Scene,
+    /// The same, but for a tiny perturbation of every nodal diameter.
+    Perturbed,
+    /// The end of the neighbouring speed.
+    After(&'a EndState),
 }
 
 /// What the next speed of a chain starts from, if the sweep is one and this speed was integrated to its end.
@@ -91,7 +105,7 @@ fn from_the_start(ended: Option<String>) -> String {
     ended.map_or_else(|| started.to_owned(), |ended| format!("{started}; {ended}"))
 }
 
-fn empty_point(index: usize, speed_rad_s: f64) -> Point {
+pub(super) fn empty_point(index: usize, speed_rad_s: f64) -> Point {
     Point {
         index: index as u32,
         speed_rad_s,
@@ -118,19 +132,23 @@ fn empty_point(index: usize, speed_rad_s: f64) -> Point {
     }
 }
 
-fn simulate(
+/// Runs a scene on `wheel`; or says why it cannot be.
+pub(super) fn simulate(
     reduced: &ReducedWheel,
     wheel: &ModalWheel,
     request: &SweepRequest,
     stepping: &Stepping,
-    start: Option<&EndState>,
+    start: Start<'_>,
     watch: &dyn Fn(f64) -> bool,
 ) -> Result<Run, String> {
     let scene = &request.scene;
     let Stepping { scheme, discretisation: steps, .. } = stepping;
     let scheme = *scheme;
     // A wheel that comes from another speed is in contact with a casing that is there.
-    let ramp_revolutions = if start.is_some() { 0.0 } else { request.integration.ramp_revolutions };
+    let ramp_revolutions = match start {
+        Start::After(_) => 0.0,
+        Start::Scene | Start::Perturbed => request.integration.ramp_revolutions,
+    };
     sliding::check(wheel, &reduced.contact, request, scheme, steps.per_revolution)
         .map_err(|error| error.to_string())?;
     let damping = modal_damping(request);
@@ -148,11 +166,16 @@ fn simulate(
     }
     let effects = SceneEffects::of(scene, &reduced.contact, wheel, ramp_revolutions)?;
     let initial = match start {
-        Some(state) => state
+        Start::After(state) => state
             .modes(wheel, reduced, scene.centrifugal_stiffening, scheme)
             .map_err(|error| error.to_string())?
             .ok_or("the neighbouring speed ended in a state of another reduction: run the sweep again")?,
-        None => initial(request, wheel, &reduced.contact, casing.as_ref(), stepping)?,
+        Start::Scene => initial(request, wheel, &reduced.contact, casing.as_ref(), stepping)?,
+        Start::Perturbed => perturbed(
+            initial(request, wheel, &reduced.contact, casing.as_ref(), stepping)?,
+            wheel,
+            casing.as_ref(),
+        ),
     };
     let sensors: Vec<_> = request.sensors.iter().map(|sensor| sensor_row(reduced, wheel, sensor)).collect();
     Ok(Simulation {

@@ -56,7 +56,7 @@ fn lobe_width(request: &SweepRequest) -> Option<f64> {
 }
 
 /// The smallest number of steps per revolution that sees the lobes of a scene.
-fn least_steps_for_lobes(request: &SweepRequest) -> f64 {
+pub(super) fn least_steps_for_lobes(request: &SweepRequest) -> f64 {
     lobe_width(request).map_or(0.0, |width| (LEAST_STEPS_PER_WIDTH * TAU / width).ceil())
 }
 

@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use super::accuracy::control::ErrorEstimate;
 use super::diagram::FrequencyDiagram;
 use super::effects::{flexible_casing, rotation};
 use super::error::AnalysisError;
@@ -55,6 +56,7 @@ pub fn interaction_map(
         plan: None,
         spent: Spent::on(&points),
         points,
+        errors: None,
         settings: request.clone(),
         version: VERSION.to_owned(),
     }
@@ -67,12 +69,13 @@ const PREDICTED_SUPERHARMONICS: [u32; 3] = [1, 2, 3];
 /// Peaks of the response that rise above their surroundings by less than this share of the largest are left out.
 const PROMINENT: f64 = 0.1;
 
-/// Critical speeds of a sweep, one table per sensor, beside the linear prediction; from the points of all speeds. The
-/// plan is for the caller to add.
+/// Critical speeds of a sweep, one table per sensor, beside the linear prediction; from the points of all speeds and their `errors`
+/// if they were estimated. The plan is for the caller to add.
 pub fn critical_speeds(
     reduced: &ReducedSector,
     request: &SweepRequest,
     points: &[Point],
+    errors: Option<&ErrorEstimate>,
     monitor: &dyn Monitor,
 ) -> Result<Vec<CriticalSpeeds>, AnalysisError> {
     let speeds = request.speeds.resolve().map_err(AnalysisError::Refused)?;
@@ -88,7 +91,7 @@ pub fn critical_speeds(
         (0..).zip(&completed).filter(|(_, point)| point.is_none()).map(|(i, _)| i).collect();
     let table = |(sensor, &of): (usize, &Sensor)| CriticalSpeeds {
         sensor: of,
-        critical_speeds: response_peaks(&ordered, sensor, &prediction.linear),
+        critical_speeds: response_peaks(&ordered, sensor, &prediction.linear, errors),
         linear_crossings: prediction.linear.clone(),
         driven_crossings: prediction.driven.clone(),
         casing_coincidences: prediction.coincidences.clone(),
@@ -104,7 +107,12 @@ pub fn critical_speeds(
 }
 
 /// Prominent peaks of one sensor's level over ascending speeds, each with the nearest linear crossing.
-fn response_peaks(ordered: &[Option<&Point>], sensor: usize, linear: &[Crossing]) -> Vec<CriticalSpeed> {
+fn response_peaks(
+    ordered: &[Option<&Point>],
+    sensor: usize,
+    linear: &[Crossing],
+    errors: Option<&ErrorEstimate>,
+) -> Vec<CriticalSpeed> {
     let level = |point: &&Point| point.responses[sensor].rms;
     let curve: Vec<Option<f64>> = ordered.iter().map(|point| point.as_ref().map(level)).collect();
     let critical = peaks(&curve, PROMINENT).into_iter().filter_map(|peak| {
@@ -119,6 +127,7 @@ fn response_peaks(ordered: &[Option<&Point>], sensor: usize, linear: &[Crossing]
             rms: response.rms,
             half_peak_to_peak: response.half_peak_to_peak,
             prominence: peak.prominence,
+            amplitude_error: errors.and_then(|errors| errors.of(point.index)),
             dominant_engine_order: response.dominant_engine_order,
             dominant_nodal_diameter: response.dominant_nodal_diameter,
             settling: point.settling.as_ref()?.verdict,

@@ -5,7 +5,7 @@ use utoipa::ToSchema;
 
 use super::problem::Problem;
 use crate::analysis::result::ReductionReport;
-use crate::store::jobs::{Job, JobId, JobKind, SpeedCounts};
+use crate::store::jobs::{Chosen, Job, JobId, JobKind, SpeedCounts};
 use crate::store::status::JobStatus;
 
 /// A job.
@@ -53,6 +53,9 @@ pub(super) struct JobDetail {
     /// The job.
     #[serde(flatten)]
     pub(super) job: JobBody,
+    /// The settings that were chosen for it, once they are, of a job that asks for an accuracy or gives a budget.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) choice: Option<Chosen>,
     /// The reduction that its results rest on, once there is one: residuals, sizes, and how far K(Ω) can be trusted
     /// between the given speeds.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -65,8 +68,8 @@ pub(super) struct Link {
     /// Path on this service.
     #[schema(example = "/v1/jobs/0198c5a2-7c1e-7d54-9f3b-2f6d7a6f4b10/interaction-map")]
     href: String,
-    /// What it is: `self`, `interaction-map`, `critical-speeds`, `spectra` (with a `{index}` to fill in), `campbell`
-    /// or `model`.
+    /// What it is: `self`, `interaction-map`, `critical-speeds`, `spectra` (with a `{index}` to fill in), `campbell`,
+    /// `work-precision`, `histories` or `model`.
     rel: &'static str,
 }
 
@@ -101,6 +104,7 @@ pub(super) fn links(id: JobId, kind: JobKind, model: Option<&str>) -> Vec<Link> 
         ],
         JobKind::ModalAnalysis => &[("campbell", "/campbell")],
         JobKind::ModelGeneration => &[],
+        JobKind::Study => &[("work-precision", "/work-precision"), ("histories", "/histories")],
     };
     let model = model.map(|model| Link { href: format!("/v1/models/{model}"), rel: "model" });
     [("self", "")]

@@ -82,14 +82,15 @@ pub(super) async fn get_job(
     JobPath(id): JobPath,
 ) -> Result<Json<JobDetail>, Problem> {
     let job = state.store.job(id).await?.ok_or_else(|| job_not_found(&id))?;
-    let reduction = match job.request.reduction() {
-        Some((model, modes_per_speed)) => {
+    let reduction = match (job.request.model(), job.request.modes_per_speed()) {
+        (Some(model), Some(modes_per_speed)) => {
             let mut reports = state.store.reduction_reports(model).await?.into_iter();
             reports.find(|report| report.modes_per_speed == modes_per_speed)
         }
-        None => None,
+        _ => None,
     };
-    Ok(Json(JobDetail { job: job.into(), reduction }))
+    let choice = job.choice.clone();
+    Ok(Json(JobDetail { job: job.into(), choice, reduction }))
 }
 
 /// Cancel a job.

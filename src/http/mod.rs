@@ -12,6 +12,7 @@ mod page;
 pub mod problem;
 mod results;
 mod router;
+mod studies;
 mod submit;
 mod sweeps;
 

@@ -89,7 +89,9 @@ pub(super) async fn get_interaction_map(
     let row = |spectra: &SpeedSpectra| run::map_row(spectra, sensor, nodal_diameter).map(<[f64]>::to_vec);
     let finished = state.store.map_rows(id, row).await?;
     let map = run::interaction_map(request, &facts.units, finished, sensor, nodal_diameter);
-    Ok(Json(InteractionMap { plan: job.plan.clone(), ..map }))
+    let errors = state.store.document(id, Document::Errors).await?;
+    let errors = errors.map(|errors| serde_json::from_str(&errors)).transpose()?;
+    Ok(Json(InteractionMap { plan: job.plan.clone(), errors, ..map }))
 }
 
 /// Download the spectra of one speed.
@@ -169,7 +171,7 @@ pub(super) async fn get_campbell(state: State<AppState>, JobPath(id): JobPath) -
     document(&state, &job, Document::Campbell).await
 }
 
-async fn find(state: &AppState, id: JobId) -> Result<Job, Problem> {
+pub(super) async fn find(state: &AppState, id: JobId) -> Result<Job, Problem> {
     state.store.job(id).await?.ok_or_else(|| job_not_found(&id))
 }
 
@@ -189,7 +191,7 @@ fn check_sensor(request: &SweepRequest, sensor: u32) -> Result<(), Problem> {
     Ok(())
 }
 
-fn wrong_kind(job: &Job, wanted: JobKind) -> Problem {
+pub(super) fn wrong_kind(job: &Job, wanted: JobKind) -> Problem {
     let (is, wanted) = (job.request.kind().as_str(), wanted.as_str());
     Problem::new(
         Kind::WrongJobKind,
@@ -199,8 +201,18 @@ fn wrong_kind(job: &Job, wanted: JobKind) -> Problem {
 
 /// A document as it was stored.
 async fn document(state: &AppState, job: &Job, document: Document) -> Result<Response, Problem> {
+    let body = document_body(state, job, document).await?;
+    Ok(([(header::CONTENT_TYPE, "application/json")], body).into_response())
+}
+
+/// The JSON text of a document.
+pub(super) async fn document_body(
+    state: &AppState,
+    job: &Job,
+    document: Document,
+) -> Result<String, Problem> {
     if let Some(body) = state.store.document(job.id, document).await? {
-        return Ok(([(header::CONTENT_TYPE, "application/json")], body).into_response());
+        return Ok(body);
     }
     Err(match job.status {
         JobStatus::Accepted | JobStatus::Running | JobStatus::Successful => {

@@ -11,7 +11,7 @@ use utoipa::OpenApi;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
-use super::{AppState, health, jobs, modal_analyses, models, openapi, problem, results, sweeps};
+use super::{AppState, health, jobs, modal_analyses, models, openapi, problem, results, studies, sweeps};
 
 /// The routes with their descriptions.
 pub(super) fn routes() -> OpenApiRouter<AppState> {
@@ -23,12 +23,15 @@ pub(super) fn routes() -> OpenApiRouter<AppState> {
         .routes(routes!(modal_analyses::plan_modal_analysis))
         .routes(routes!(sweeps::create_sweep))
         .routes(routes!(sweeps::plan_sweep))
+        .routes(routes!(studies::create_study))
         .routes(routes!(jobs::list_jobs))
         .routes(routes!(jobs::get_job, jobs::cancel_job))
         .routes(routes!(results::get_campbell))
         .routes(routes!(results::get_interaction_map))
         .routes(routes!(results::get_spectra))
         .routes(routes!(results::get_critical_speeds))
+        .routes(routes!(studies::get_work_precision))
+        .routes(routes!(studies::get_histories))
         .routes(routes!(health::get_health))
         .routes(routes!(health::get_readiness))
         .routes(routes!(openapi::get_openapi))

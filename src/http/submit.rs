@@ -39,7 +39,7 @@ pub(super) async fn accept(
         return Ok(response);
     }
     let (id, kind) = (JobId::new(), request.kind());
-    let links = links(id, kind, request.reduction().map(|(model, _)| model));
+    let links = links(id, kind, request.model());
     let receipt = Receipt { id: id.to_string(), kind, status: JobStatus::Accepted, links };
     let answer = Answer {
         key: String::new(),

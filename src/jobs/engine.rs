@@ -12,8 +12,9 @@ use super::plans::Calibrated;
 use super::pool::CpuPool;
 use super::progress::{News, Watch};
 use super::reductions::Reductions;
+use super::room::once_there_is_room;
 use crate::store::Store;
-use crate::store::jobs::{Failure, FailureCause, Job, JobId, JobRequest};
+use crate::store::jobs::{Chosen, Failure, FailureCause, Job, JobId, JobRequest};
 use crate::store::queue::QueueFile;
 use crate::store::status::JobStatus;
 
@@ -68,7 +69,7 @@ fn chain(request: &JobRequest) -> Option<Vec<u32>> {
     match request {
         // Resolved when it was accepted.
         JobRequest::Sweep(sweep) => sweep.sweep.chain(&sweep.speeds.resolve().ok()?),
-        JobRequest::ModalAnalysis(_) | JobRequest::ModelGeneration(_) => None,
+        JobRequest::ModalAnalysis(_) | JobRequest::ModelGeneration(_) | JobRequest::Study(_) => None,
     }
 }
 
@@ -119,6 +120,24 @@ impl Engine {
             return Ok(None);
         }
         Ok(Some(live))
+    }
+
+    /// Keeps the settings that were chosen for a job and goes on with them.
+    pub(super) async fn choose(
+        &self,
+        job: &Live,
+        request: JobRequest,
+        choice: Chosen,
+    ) -> Result<Arc<Live>, Halt> {
+        once_there_is_room(&job.watch, || self.store.record_choice(job.id, &request, &choice)).await?;
+        let chain = job.chain.clone();
+        let live =
+            Arc::new(Live { id: job.id, request, speeds: job.speeds, chain, watch: Arc::clone(&job.watch) });
+        // Whoever dismissed it meanwhile has told the watch that both share.
+        if let Some(entry) = self.lock_live().get_mut(&job.id) {
+            *entry = Arc::clone(&live);
+        }
+        Ok(live)
     }
 
     /// Stops all computations of a job that has become final and takes its waiting tasks out of the queue.

@@ -81,10 +81,16 @@ impl Jobs {
                 let speeds = request.speeds.ascending().map_err(refused)?.len();
                 (JobRequest::ModalAnalysis(request), Some(facts), speeds)
             }
+            JobRequest::Study(request) => {
+                let facts = self.facts(&request.model).await?;
+                let request = run::resolve_study(*request, &facts).map_err(refused)?;
+                let speeds = request.speeds.resolve().map_err(refused)?.len();
+                (JobRequest::Study(Box::new(request)), Some(facts), speeds)
+            }
             // Resolved by `generation_of`.
             generation @ JobRequest::ModelGeneration(_) => (generation, None, 0),
         };
-        let model = request.reduction().map(|(model, _)| model);
+        let model = request.model();
         match engine.store.insert_job(id, &request, facts.as_ref(), speeds as u32, answer).await? {
             Insertion::Accepted => {}
             Insertion::UnknownModel => {
@@ -103,7 +109,7 @@ impl Jobs {
     pub async fn plan_sweep(&self, request: SweepRequest) -> Result<SweepPlan, SubmitError> {
         let facts = self.facts(&request.model).await?;
         let request = run::resolve_sweep(request, &facts).map_err(SubmitError::Refused)?;
-        let reduced = self.engine.reductions.stored(&request.model, request.modes_per_speed).await?;
+        let reduced = self.engine.reductions.stored(&request.model, request.modes()).await?;
         plans::sweep(&self.engine, request, facts, reduced).await
     }
 
@@ -114,7 +120,7 @@ impl Jobs {
     ) -> Result<ModalAnalysisPlan, SubmitError> {
         let facts = self.facts(&request.model).await?;
         let request = run::resolve_modal_analysis(request, &facts).map_err(SubmitError::Refused)?;
-        let reduced = self.engine.reductions.stored(&request.model, request.modes_per_speed).await?;
+        let reduced = self.engine.reductions.stored(&request.model, request.modes()).await?;
         Ok(plans::modal_analysis(&self.engine, request, facts, reduced).await?)
     }
 

@@ -18,6 +18,8 @@
 //! a small job is never more than a few speeds away from its turn. A reduction may take minutes of one thread: of the
 //! large ones only one runs at a time (`memory`), so that with two threads or more the other jobs go on.
 
+mod choice;
+mod control;
 mod engine;
 mod error;
 mod finish;
@@ -32,6 +34,8 @@ mod progress;
 mod reductions;
 mod room;
 mod speed;
+mod study;
+mod trials;
 mod workers;
 
 pub use handle::{Cancellation, Jobs, SubmitError, generation_of};

@@ -4,14 +4,15 @@ use super::engine::{Engine, Live};
 use super::error::Halt;
 use super::finish;
 use super::progress::PhaseMonitor;
-use crate::analysis::request::ModalAnalysisRequest;
 use crate::analysis::run;
+use crate::store::jobs::JobRequest;
 use crate::store::results::Document;
 
 /// Computes and stores the Campbell diagram.
-pub(super) async fn run(engine: &Engine, job: &Live, request: &ModalAnalysisRequest) -> Result<(), Halt> {
+pub(super) async fn run(engine: &Engine, job: &Live) -> Result<(), Halt> {
+    let JobRequest::ModalAnalysis(request) = &job.request else { return Ok(()) };
     let monitor = PhaseMonitor::reduction_of_modal_analysis(job.watch.clone());
-    let reduced = engine.reductions.get(&request.model, request.modes_per_speed, monitor).await?;
+    let reduced = engine.reductions.get(&request.model, request.modes(), monitor).await?;
     let (settings, monitor) = (request.clone(), PhaseMonitor::modal_analysis(job.watch.clone()));
     let campbell = engine.pool.run(move || run::modal_analysis(&reduced, &settings, &monitor)).await??;
     finish::complete(engine, job, &[(Document::Campbell, serde_json::to_string(&campbell)?)], None).await

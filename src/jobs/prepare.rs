@@ -5,8 +5,7 @@ use std::sync::Arc;
 use super::engine::{Engine, Live};
 use super::error::Halt;
 use super::progress::PhaseMonitor;
-use super::{finish, generation, modal_analysis, plans};
-use crate::analysis::request::SweepRequest;
+use super::{choice, finish, generation, modal_analysis, plans, study};
 use crate::analysis::run;
 use crate::store::jobs::{JobId, JobRequest};
 
@@ -17,15 +16,23 @@ pub(super) async fn prepare(engine: &Engine, id: JobId) -> Result<(), Halt> {
         return Ok(());
     }
     match &job.request {
-        JobRequest::Sweep(request) => prepare_sweep(engine, &job, request).await,
-        JobRequest::ModalAnalysis(request) => modal_analysis::run(engine, &job, request).await,
+        JobRequest::Sweep(request) => {
+            let job = choice::sweep(engine, Arc::clone(&job), request).await?;
+            prepare_sweep(engine, &job).await
+        }
+        JobRequest::ModalAnalysis(request) => {
+            let job = choice::modal_analysis(engine, Arc::clone(&job), request).await?;
+            modal_analysis::run(engine, &job).await
+        }
         JobRequest::ModelGeneration(parameters) => generation::run(engine, &job, parameters).await,
+        JobRequest::Study(request) => study::run(engine, &job, request).await,
     }
 }
 
-async fn prepare_sweep(engine: &Engine, job: &Live, request: &SweepRequest) -> Result<(), Halt> {
+async fn prepare_sweep(engine: &Engine, job: &Live) -> Result<(), Halt> {
+    let JobRequest::Sweep(request) = &job.request else { return Ok(()) };
     let monitor = PhaseMonitor::reduction_of_sweep(job.watch.clone());
-    let reduced = engine.reductions.get(&request.model, request.modes_per_speed, monitor).await?;
+    let reduced = engine.reductions.get(&request.model, request.modes(), monitor).await?;
 
     let (checked, monitor) = (request.clone(), PhaseMonitor::uncounted(job.watch.clone()));
     let sector = Arc::clone(&reduced);

@@ -17,7 +17,7 @@ pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) 
         return Ok(());
     }
     let monitor = PhaseMonitor::uncounted(job.watch.clone());
-    let reduced = engine.reductions.get(&request.model, request.modes_per_speed, monitor).await?;
+    let reduced = engine.reductions.get(&request.model, request.modes(), monitor).await?;
 
     let (before, after) = job.neighbours(speed);
     let start = match before {

@@ -6,6 +6,7 @@
 pub(crate) mod aligned;
 pub mod block_lanczos;
 pub mod complementarity;
+pub mod convergence;
 pub mod hermitian;
 pub mod matrix_serde;
 pub mod multifrontal;

@@ -135,7 +135,9 @@ fn heading(campbell: &Campbell) -> Element {
     let model: String = settings.model.chars().take(12).collect();
     let words = format!(
         "{} modes per speed · {} lobes · model {model} · rubmap {}",
-        settings.modes_per_speed, settings.lobes, campbell.version
+        settings.modes(),
+        settings.lobes,
+        campbell.version
     );
     group()
         .child(

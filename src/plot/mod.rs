@@ -10,6 +10,7 @@ mod cells;
 mod colour;
 mod diagram;
 mod heat;
+mod histories;
 mod interaction_map;
 mod level;
 mod marks;
@@ -17,6 +18,9 @@ mod settling_strip;
 mod svg;
 #[cfg(test)]
 mod tests;
+mod work_precision;
 
 pub use campbell::campbell;
+pub use histories::histories;
 pub use interaction_map::{VerticalAxis, interaction_map};
+pub use work_precision::work_precision;

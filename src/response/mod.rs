@@ -3,6 +3,8 @@
 pub mod campbell;
 pub mod coincidence;
 pub mod critical_speed;
+mod growth;
+pub mod sensitivity;
 pub mod settling;
 pub mod side_bands;
 pub mod spectra;

@@ -6,6 +6,8 @@
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
+use super::growth::{Rate, rate};
+
 /// What became of a tiny asymmetry.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct SymmetryBreaking {
@@ -38,9 +40,6 @@ const ROUND_OFF: f64 = 1e-24;
 /// Energies that have grown by this factor have grown.
 const GROWN: f64 = 4.0;
 
-/// Fewest revolutions that a rate is fitted to.
-const LEAST: usize = 5;
-
 /// A rate this many standard errors above 0 is one.
 const CLEARLY: f64 = 3.0;
 
@@ -61,28 +60,17 @@ pub fn judge(energies: &[Vec<f64>], repeats: usize, from: usize) -> SymmetryBrea
         since().find(|&(_, &e)| e > limit && e > GROWN * start).map(|(revolution, _)| revolution);
     let small = since().take_while(|&(_, &e)| e > floor && e <= limit);
     let line: Vec<_> = small.map(|(revolution, e)| (revolution as f64, 0.5 * e.ln())).collect();
-    let fit = (line.len() >= LEAST).then(|| slope(&line));
+    let fit = rate(&line);
     let last = energies.last().map_or(0.0, |row| row.iter().sum());
     SymmetryBreaking {
         repeats: repeats as u32,
-        grows: broken_after.is_some() || fit.is_some_and(|(rate, error)| rate > CLEARLY * error),
-        rate_per_revolution: fit.map(|(rate, _)| rate),
-        rate_error: fit.map(|(_, error)| error),
+        grows: broken_after.is_some() || fit.is_some_and(|Rate { value, error }| value > CLEARLY * error),
+        rate_per_revolution: fit.map(|rate| rate.value),
+        rate_error: fit.map(|rate| rate.error),
         broken_after_revolutions: broken_after.map(|revolution| revolution as u32 + 1),
         energy_share: if last > 0.0 { asymmetric.last().map_or(0.0, |e| e / last) } else { 0.0 },
         nodal_diameters: broken.iter().map(|&i| i as u32).collect(),
     }
-}
-
-/// Slope of the least-squares line and its standard error.
-fn slope(points: &[(f64, f64)]) -> (f64, f64) {
-    let n = points.len() as f64;
-    let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / n;
-    let (x, y) = (mean(|p| p.0), mean(|p| p.1));
-    let xx: f64 = points.iter().map(|p| (p.0 - x).powi(2)).sum();
-    let slope = points.iter().map(|p| (p.0 - x) * (p.1 - y)).sum::<f64>() / xx;
-    let left: f64 = points.iter().map(|p| (p.1 - y - slope * (p.0 - x)).powi(2)).sum();
-    (slope, (left / ((n - 2.0) * xx)).sqrt())
 }
 
 #[cfg(test)]

@@ -15,6 +15,7 @@ pub mod queue;
 pub mod reductions;
 pub mod results;
 pub mod status;
+pub mod trials;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

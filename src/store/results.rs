@@ -17,6 +17,12 @@ pub enum Document {
     Campbell,
     /// Critical speeds of a sweep at the sensor of this index.
     CriticalSpeeds(u32),
+    /// Estimated errors of a sweep.
+    Errors,
+    /// Errors and times of a study.
+    WorkPrecision,
+    /// Histories of a study at the speed of this index.
+    Histories(u32),
 }
 
 impl Document {
@@ -25,6 +31,9 @@ impl Document {
         match self {
             Self::Campbell => ("campbell", 0),
             Self::CriticalSpeeds(sensor) => ("critical_speeds", sensor),
+            Self::Errors => ("errors", 0),
+            Self::WorkPrecision => ("work_precision", 0),
+            Self::Histories(speed) => ("histories", speed),
         }
     }
 }

@@ -8,7 +8,8 @@ use crate::analysis::discretisation::most_samples;
 use crate::analysis::error::Violation;
 use crate::analysis::model::ModelFacts;
 use crate::analysis::request::{
-    Component, Integration, ModalAnalysisRequest, SchemeChoice, Sensor, SweepRequest,
+    Accuracy, Budget, Component, Integration, ModalAnalysisRequest, SchemeChoice, Sensor, SweepDirection,
+    SweepRequest,
 };
 use crate::analysis::scene::{Casing, Clearance, Damping, Lobes, Scene};
 use crate::analysis::speeds::{Part, Speeds};
@@ -16,8 +17,11 @@ use crate::analysis::stepping::MOST_STEPS;
 use crate::dynamics::casing::Restriction;
 
 /// Bounds that keep a request's memory and time within reason.
-mod limits {
-    pub(super) const MODES_PER_SPEED: u32 = 500;
+pub(super) mod limits {
+    pub(in crate::analysis) const MODES_PER_SPEED: u32 = 500;
+    pub(super) const CONTROL_SPEEDS: u32 = 100;
+    pub(super) const TARGET: std::ops::RangeInclusive<f64> = 1e-9..=0.5;
+    pub(super) const BUDGET_S: std::ops::RangeInclusive<f64> = 1.0..=1e7;
     pub(super) const REVOLUTIONS: u32 = 100_000;
     pub(super) const ENGINE_ORDER: u32 = 1_000;
     pub(super) const SENSORS: usize = 64;
@@ -64,7 +68,8 @@ impl Findings {
 /// Checks a sweep request against its model and fills in the default sensors.
 pub fn resolve_sweep(mut request: SweepRequest, facts: &ModelFacts) -> Result<SweepRequest, Vec<Violation>> {
     let mut found = Findings::default();
-    check_modes(&mut found, request.modes_per_speed);
+    check_knobs(&mut found, &request);
+    check_modes(&mut found, request.modes());
     check_speeds(&mut found, &request.speeds, facts, request.scene.centrifugal_stiffening, false);
     check_scene(&mut found, &request.scene, facts);
     check_integration(&mut found, &request.integration, request.max_engine_order);
@@ -77,16 +82,21 @@ pub fn resolve_sweep(mut request: SweepRequest, facts: &ModelFacts) -> Result<Sw
     if found.0.is_empty() {
         check_memory(&mut found, &request, facts);
     }
+    if !request.chooses() {
+        request.modes_per_speed = AutoOr::Fixed(request.modes());
+    }
     found.finish(request)
 }
 
 /// Checks a modal-analysis request against its model.
 pub fn resolve_modal_analysis(
-    request: ModalAnalysisRequest,
+    mut request: ModalAnalysisRequest,
     facts: &ModelFacts,
 ) -> Result<ModalAnalysisRequest, Vec<Violation>> {
     let mut found = Findings::default();
-    check_modes(&mut found, request.modes_per_speed);
+    let fixed = request.modes_per_speed != AutoOr::Auto;
+    check_choice(&mut found, request.accuracy, request.budget, &[("/modes_per_speed", fixed)]);
+    check_modes(&mut found, request.modes());
     check_speeds(&mut found, &request.speeds, facts, facts.has_stiffening(), true);
     let families = 1..=limits::FAMILIES;
     found.require(
@@ -118,7 +128,64 @@ pub fn resolve_modal_analysis(
     }
     check_lobe_count(&mut found, request.lobes, "/lobes");
     check_coriolis(&mut found, request.coriolis, "/coriolis", facts);
+    if !request.chooses() {
+        request.modes_per_speed = AutoOr::Fixed(request.modes());
+    }
     found.finish(request)
+}
+
+/// The knobs of a sweep are either given or chosen.
+fn check_knobs(found: &mut Findings, request: &SweepRequest) {
+    let Integration { scheme, kept_modes, steps_per_revolution, .. } = request.integration;
+    let fixed = [
+        ("/modes_per_speed", request.modes_per_speed != AutoOr::Auto),
+        ("/integration/scheme", scheme != SchemeChoice::Auto),
+        ("/integration/kept_modes", kept_modes != AutoOr::Auto),
+        ("/integration/steps_per_revolution", steps_per_revolution != AutoOr::Auto),
+    ];
+    check_choice(found, request.accuracy, request.budget, &fixed);
+    found.require(
+        request.control_speeds.is_none_or(|speeds| speeds <= limits::CONTROL_SPEEDS),
+        "/control_speeds",
+        format!("at most {} speeds are simulated again", limits::CONTROL_SPEEDS),
+    );
+    found.require(
+        request.controls() == 0 || request.sweep == SweepDirection::Independent,
+        "/control_speeds",
+        "a speed of a sweep up or down depends on all before it and cannot be simulated again alone: set this to 0",
+    );
+}
+
+/// Either a target or a budget, and none of the knobs (JSON pointer, whether it is given) that it chooses.
+fn check_choice(
+    found: &mut Findings,
+    accuracy: Option<Accuracy>,
+    budget: Option<Budget>,
+    knobs: &[(&str, bool)],
+) {
+    if let Some(Accuracy { target }) = accuracy {
+        found.require(
+            limits::TARGET.contains(&target),
+            "/accuracy/target",
+            format!("a relative error between {:e} and {}", limits::TARGET.start(), limits::TARGET.end()),
+        );
+    }
+    if let Some(Budget { seconds }) = budget {
+        found.require(
+            limits::BUDGET_S.contains(&seconds),
+            "/budget/seconds",
+            format!("a time between {} and {:e} s", limits::BUDGET_S.start(), limits::BUDGET_S.end()),
+        );
+    }
+    found.require(accuracy.is_none() || budget.is_none(), "/budget", "give either an accuracy or a budget");
+    for (pointer, given) in knobs {
+        let chosen = if accuracy.is_some() { "accuracy" } else { "budget" };
+        found.require(
+            !given || (accuracy.is_none() && budget.is_none()),
+            pointer,
+            format!("this is chosen for the {chosen} asked for: leave one of the two away"),
+        );
+    }
 }
 
 fn check_modes(found: &mut Findings, modes_per_speed: u32) {

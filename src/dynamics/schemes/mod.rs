@@ -25,7 +25,7 @@ pub mod central_differences;
 pub mod exact_modal;
 pub mod massless_boundary;
 
-use super::modal_wheel::ModalWheel;
+use super::modal_wheel::{ModalHarmonic, ModalWheel};
 use super::sector::ContactNode;
 
 /// How a run is integrated; chosen once per run.
@@ -71,6 +71,12 @@ impl Scheme {
             Self::CentralDifferences | Self::ExactModal => modes,
             Self::MasslessBoundary { kept_modes } => kept_modes.min(modes),
         }
+    }
+
+    /// Real unknowns of `wheel` that are integrated.
+    pub fn integrated_unknowns(self, wheel: &ModalWheel) -> usize {
+        let of = |h: &ModalHarmonic| self.integrated_modes(h.omega.len()) * if h.single { 1 } else { 2 };
+        wheel.harmonics.iter().map(of).sum()
     }
 
     /// Fewest steps per revolution that are stable for `wheel`, whose blades may touch a casing at `contact_nodes`

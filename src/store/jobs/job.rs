@@ -4,9 +4,10 @@ use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 use uuid::Uuid;
 
+use crate::analysis::auto_or::AutoOr;
 use crate::analysis::error::Violation;
 use crate::analysis::request::{ModalAnalysisRequest, SweepRequest};
-use crate::analysis::run::{Estimate, ModelFacts};
+use crate::analysis::run::{Choice, Estimate, ModelFacts, ModesChoice, StudyRequest};
 use crate::impeller::ImpellerParameters;
 use crate::store::status::JobStatus;
 
@@ -49,6 +50,8 @@ pub enum JobKind {
     ModalAnalysis,
     /// A model from the parameters of the generator.
     ModelGeneration,
+    /// Errors and times of a grid of settings.
+    Study,
 }
 
 impl JobKind {
@@ -58,6 +61,7 @@ impl JobKind {
             Self::Sweep => "sweep",
             Self::ModalAnalysis => "modal_analysis",
             Self::ModelGeneration => "model_generation",
+            Self::Study => "study",
         }
     }
 }
@@ -71,6 +75,8 @@ pub enum JobRequest {
     ModalAnalysis(ModalAnalysisRequest),
     /// A model from the parameters of the generator.
     ModelGeneration(Box<ImpellerParameters>),
+    /// Errors and times of a grid of settings.
+    Study(Box<StudyRequest>),
 }
 
 impl JobRequest {
@@ -80,15 +86,30 @@ impl JobRequest {
             Self::Sweep(_) => JobKind::Sweep,
             Self::ModalAnalysis(_) => JobKind::ModalAnalysis,
             Self::ModelGeneration(_) => JobKind::ModelGeneration,
+            Self::Study(_) => JobKind::Study,
         }
     }
 
-    /// Model and `modes_per_speed` of the reduction it needs, if it needs one.
-    pub fn reduction(&self) -> Option<(&str, u32)> {
+    /// The model it computes from, if it does.
+    pub fn model(&self) -> Option<&str> {
         match self {
-            Self::Sweep(request) => Some((&request.model, request.modes_per_speed)),
-            Self::ModalAnalysis(request) => Some((&request.model, request.modes_per_speed)),
+            Self::Sweep(request) => Some(&request.model),
+            Self::ModalAnalysis(request) => Some(&request.model),
             Self::ModelGeneration(_) => None,
+            Self::Study(request) => Some(&request.model),
+        }
+    }
+
+    /// `modes_per_speed` of the reduction that its results rest on, if there is one and it is known.
+    pub fn modes_per_speed(&self) -> Option<u32> {
+        let given = match self {
+            Self::Sweep(request) => request.modes_per_speed,
+            Self::ModalAnalysis(request) => request.modes_per_speed,
+            Self::ModelGeneration(_) | Self::Study(_) => AutoOr::Auto,
+        };
+        match given {
+            AutoOr::Auto => None,
+            AutoOr::Fixed(modes_per_speed) => Some(modes_per_speed),
         }
     }
 
@@ -97,6 +118,7 @@ impl JobRequest {
             Self::Sweep(request) => serde_json::to_string(request),
             Self::ModalAnalysis(request) => serde_json::to_string(request),
             Self::ModelGeneration(parameters) => serde_json::to_string(parameters),
+            Self::Study(request) => serde_json::to_string(request),
         }
     }
 }
@@ -131,6 +153,16 @@ pub enum FailureCause {
     Storage,
 }
 
+/// Settings that were chosen for a job, and why.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum Chosen {
+    /// For a sweep, by pilot runs.
+    Setting(Choice),
+    /// For a modal analysis, by its reductions.
+    Modes(ModesChoice),
+}
+
 /// A stored job.
 #[derive(Debug, Clone)]
 pub struct Job {
@@ -152,6 +184,8 @@ pub struct Job {
     pub speeds: SpeedCounts,
     /// What a sweep was expected to cost when its speeds were queued.
     pub plan: Option<Estimate>,
+    /// The settings that were chosen for it.
+    pub choice: Option<Chosen>,
     /// Why it failed.
     pub failure: Option<Failure>,
     /// RFC 3339, as all below.

@@ -12,7 +12,7 @@ use super::status::JobStatus;
 use super::{Store, StoreError, end_states, now};
 use crate::analysis::run::{Estimate, ModelFacts};
 
-pub use job::{Failure, FailureCause, Job, JobId, JobKind, JobRequest, SpeedCounts};
+pub use job::{Chosen, Failure, FailureCause, Job, JobId, JobKind, JobRequest, SpeedCounts};
 
 /// What became of a job that was to be kept.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -67,8 +67,8 @@ impl Store {
         )
         .bind(id.to_string())
         .bind(request.kind().as_str())
-        .bind(request.reduction().map(|(model, _)| model))
-        .bind(request.reduction().map(|(_, modes_per_speed)| modes_per_speed))
+        .bind(request.model())
+        .bind(request.modes_per_speed())
         .bind(facts.map(serde_json::to_string).transpose()?)
         .bind(request.to_json()?)
         .bind(speeds)
@@ -212,6 +212,27 @@ impl Store {
         Ok(())
     }
 
+    /// Keeps the settings that were chosen for a running job, and its request with them, in one transaction.
+    pub async fn record_choice(
+        &self,
+        id: JobId,
+        request: &JobRequest,
+        choice: &Chosen,
+    ) -> Result<(), StoreError> {
+        sqlx::query(
+            "update jobs set request = ?2, modes_per_speed = ?3, choice = ?4, updated_at = ?5
+             where id = ?1 and status = 'running'",
+        )
+        .bind(id.to_string())
+        .bind(request.to_json()?)
+        .bind(request.modes_per_speed())
+        .bind(serde_json::to_string(choice)?)
+        .bind(now())
+        .execute(&self.writer)
+        .await?;
+        Ok(())
+    }
+
     /// Keeps what a sweep is expected to cost; the first estimate stays.
     pub async fn record_plan(&self, id: JobId, estimate: &Estimate) -> Result<(), StoreError> {
         sqlx::query("update jobs set plan = ? where id = ? and plan is null")
@@ -244,14 +265,15 @@ fn read(row: &SqliteRow) -> Result<Job, StoreError> {
     let request = match kind {
         "sweep" => JobRequest::Sweep(serde_json::from_str(request)?),
         "modal_analysis" => JobRequest::ModalAnalysis(serde_json::from_str(request)?),
+        "study" => JobRequest::Study(serde_json::from_str(request)?),
         "model_generation" => JobRequest::ModelGeneration(serde_json::from_str(request)?),
         _ => return Err(StoreError::Unknown { column: "jobs.kind", value: kind.to_owned() }),
     };
     let status = JobStatus::from_column(row.try_get("status")?)?;
     let total = row.try_get("speeds")?;
     let finished = match (&request, status) {
-        // A modal analysis computes its speeds together.
-        (JobRequest::ModalAnalysis(_), JobStatus::Successful) => total,
+        // These compute their speeds together.
+        (JobRequest::ModalAnalysis(_) | JobRequest::Study(_), JobStatus::Successful) => total,
         _ => row.try_get("finished")?,
     };
     Ok(Job {
@@ -269,6 +291,7 @@ fn read(row: &SqliteRow) -> Result<Job, StoreError> {
             failed: row.try_get("failed")?,
         },
         plan: row.try_get::<Option<&str>, _>("plan")?.map(serde_json::from_str).transpose()?,
+        choice: row.try_get::<Option<&str>, _>("choice")?.map(serde_json::from_str).transpose()?,
         failure: row.try_get::<Option<&str>, _>("error")?.map(serde_json::from_str).transpose()?,
         created_at: row.try_get("created_at")?,
         started_at: row.try_get("started_at")?,

@@ -1,0 +1,179 @@
+//! The error of a finished sweep, from some of its speeds simulated again at a finer setting.
+
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+use super::choice::{SAFETY, finer_modes, spread};
+use super::errors::{Errors, Response};
+use super::trial::{Setting, Trial, TrialRequest};
+use crate::analysis::auto_or::AutoOr;
+use crate::analysis::request::{SchemeChoice, SweepRequest};
+use crate::analysis::result::{Point, PointStatus, SpeedSpectra};
+use crate::analysis::stepping::MOST_STEPS;
+use crate::response::critical_speed::peaks;
+
+/// Estimated errors of the speeds of a sweep.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct ErrorEstimate {
+    /// The speeds that were simulated again: half of them at the highest peaks of the response, the others evenly spread.
+    pub controls: Vec<Control>,
+    /// One per completed speed, in the order of the request; empty where no control run gave an estimate.
+    pub points: Vec<PointError>,
+    /// The largest of them; absent where there are none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub largest: Option<f64>,
+    /// Whether all of them are within the accuracy that was asked for, if one was.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub target_met: Option<bool>,
+    /// What these numbers are, in words.
+    pub message: String,
+}
+
+impl ErrorEstimate {
+    /// The estimated error of speed `index`, if there is one.
+    pub fn of(&self, index: u32) -> Option<f64> {
+        self.points.iter().find(|point| point.index == index).map(|point| point.estimated_error)
+    }
+}
+
+/// A speed that was simulated again.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Control {
+    /// Index of the speed in the request.
+    pub index: u32,
+    /// Ω, rad/s.
+    pub speed_rad_s: f64,
+    /// The finer setting.
+    pub setting: Setting,
+    /// Differences between the two; absent where the finer run was not completed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub differences: Option<Errors>,
+    /// Estimated relative error of the steady response.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub estimated_error: Option<f64>,
+    /// Why the finer run was not completed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub message: Option<String>,
+}
+
+/// Estimated error of one speed.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct PointError {
+    /// Index of the speed in the request.
+    pub index: u32,
+    /// Relative error of the steady response.
+    pub estimated_error: f64,
+    /// Whether this speed was simulated again itself; otherwise the number is the larger one of the nearest that were on either
+    /// side.
+    pub controlled: bool,
+}
+
+/// A speed of a sweep and its finer run.
+#[derive(Debug, Clone, Copy)]
+pub struct FinerRun<'a> {
+    /// Index of the speed in the request.
+    pub index: u32,
+    /// The finer setting.
+    pub setting: Setting,
+    /// Spectra of the speed in the sweep.
+    pub spectra: &'a SpeedSpectra,
+    /// The finer run.
+    pub trial: &'a Trial,
+}
+
+/// The speeds of a finished sweep that are simulated again, by index, with what is run; from the points of all speeds. `most_modes`
+/// is the largest reduction that memory allows, if that is known.
+pub fn control_requests(
+    request: &SweepRequest,
+    sectors: u32,
+    points: &[Point],
+    most_modes: Option<u32>,
+) -> Vec<(u32, Setting, TrialRequest)> {
+    let mut ascending: Vec<&Point> =
+        points.iter().filter(|point| point.status == PointStatus::Completed).collect();
+    ascending.sort_by(|a, b| a.speed_rad_s.total_cmp(&b.speed_rad_s));
+    let wanted = request.controls().min(ascending.len());
+    let level = |point: &&Point| Some(point.responses.iter().map(|r| r.rms).fold(0.0, f64::max));
+    let mut highest = peaks(&ascending.iter().map(level).collect::<Vec<_>>(), 0.0);
+    highest.sort_by(|a, b| b.prominence.total_cmp(&a.prominence).then(a.index.cmp(&b.index)));
+    let mut chosen: Vec<usize> = highest.iter().take(wanted / 2).map(|peak| peak.index).collect();
+    let others: Vec<usize> = (0..ascending.len()).filter(|index| !chosen.contains(index)).collect();
+    chosen.extend(spread(&others, wanted - chosen.len()));
+    chosen.sort_unstable();
+    let finer = |index: usize| {
+        let point = ascending[index];
+        let setting = finer_setting(request, sectors, point, most_modes);
+        (point.index, setting, TrialRequest::new(request, point.speed_rad_s, setting))
+    };
+    chosen.into_iter().map(finer).collect()
+}
+
+/// Twice the modes and twice the steps, by the exact propagator with mass.
+fn finer_setting(request: &SweepRequest, sectors: u32, point: &Point, most_modes: Option<u32>) -> Setting {
+    let steps = point.steps_per_revolution.saturating_mul(2).min(MOST_STEPS);
+    Setting {
+        modes_per_speed: finer_modes(request.modes(), most_modes),
+        scheme: SchemeChoice::ExactModal,
+        kept_modes: AutoOr::Auto,
+        steps_per_revolution: Setting::aligned_steps(steps, request, sectors),
+    }
+}
+
+/// Estimated errors of all completed speeds from the finer runs of some, each given with the spectra of the speed itself.
+pub fn error_estimate(request: &SweepRequest, points: &[Point], controls: &[FinerRun<'_>]) -> ErrorEstimate {
+    let controls: Vec<Control> = controls
+        .iter()
+        .filter_map(|FinerRun { index, setting, spectra, trial }| {
+            let point = points.iter().find(|point| point.index == *index)?;
+            let differences = Response::of_trial(trial)
+                .map(|finer| Response::of_speed(point, spectra, request).errors(&finer));
+            Some(Control {
+                index: *index,
+                speed_rad_s: point.speed_rad_s,
+                setting: *setting,
+                estimated_error: differences.map(|differences| estimate(&differences)),
+                differences,
+                message: trial.point.message.clone(),
+            })
+        })
+        .collect();
+    let points = point_errors(points, &controls);
+    let largest = points.iter().map(|point| point.estimated_error).reduce(f64::max);
+    let target_met = request.accuracy.and_then(|accuracy| Some(largest? <= accuracy.target));
+    let message = match largest {
+        None => "no control run was completed: the error of the amplitudes is not known".to_owned(),
+        Some(_) => format!(
+            "relative error of the steady response: {SAFETY} times its difference from runs with twice the modes and steps at {} of \
+             the speeds; at the others the larger estimate of the nearest on either side",
+            controls.len()
+        ),
+    };
+    ErrorEstimate { controls, points, largest, target_met, message }
+}
+
+/// Differences of the response times the safety, but at least what its level is known to.
+fn estimate(differences: &Errors) -> f64 {
+    let response = differences.amplitude.max(differences.engine_orders.unwrap_or(0.0));
+    (SAFETY * response).max(differences.amplitude_spread.unwrap_or(0.0))
+}
+
+fn point_errors(points: &[Point], controls: &[Control]) -> Vec<PointError> {
+    let known: Vec<(f64, u32, f64)> = controls
+        .iter()
+        .filter_map(|control| Some((control.speed_rad_s, control.index, control.estimated_error?)))
+        .collect();
+    let of = |point: &Point| {
+        if let Some(&(_, _, estimated_error)) = known.iter().find(|(_, index, _)| *index == point.index) {
+            return Some(PointError { index: point.index, estimated_error, controlled: true });
+        }
+        let nearest = |side: &dyn Fn(f64) -> bool| {
+            let distance = |&&(speed, ..): &&(f64, u32, f64)| (speed - point.speed_rad_s).abs();
+            let here = known.iter().filter(|&&(speed, ..)| side(speed - point.speed_rad_s));
+            here.min_by(|a, b| distance(a).total_cmp(&distance(b))).map(|&(_, _, error)| error)
+        };
+        let (below, above) = (nearest(&|d| d <= 0.0), nearest(&|d| d >= 0.0));
+        let estimated_error = below.into_iter().chain(above).reduce(f64::max)?;
+        Some(PointError { index: point.index, estimated_error, controlled: false })
+    };
+    points.iter().filter(|point| point.status == PointStatus::Completed).filter_map(of).collect()
+}

@@ -1,0 +1,16 @@
+//! What accuracy costs in time: runs at several settings, held against each other.
+//!
+//! - [`trial`]: one run at one setting, with what is compared and what it cost;
+//! - [`errors`]: how far a run is from a finer one;
+//! - [`study`], [`study_request`]: a grid of settings against a reference (work and precision);
+//! - [`choice`]: the cheapest setting that meets a target, or the most accurate one that a budget pays for;
+//! - [`control`]: the error of a finished sweep, from some of its speeds at a finer setting.
+
+pub mod choice;
+pub mod control;
+pub mod errors;
+pub mod modes;
+pub mod study;
+pub mod study_request;
+mod table;
+pub mod trial;

@@ -1,0 +1,106 @@
+//! How many modes a modal analysis takes for the accuracy asked for, or within a budget.
+//!
+//! Nothing is estimated here: every reduction holds its ten lowest frequencies of each nodal diameter against the full sector's.
+
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+use super::choice::{Resources, finer_modes};
+use crate::analysis::error::Violation;
+use crate::analysis::request::ModalAnalysisRequest;
+use crate::analysis::result::ReductionReport;
+
+/// The modes that were chosen, and why.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct ModesChoice {
+    /// k.
+    pub modes_per_speed: u32,
+    /// Largest relative difference of the ten lowest frequencies of any nodal diameter from the full sector's.
+    pub error: f64,
+    /// Why, in words.
+    pub reason: String,
+    /// The reductions that were compared.
+    pub tried: Vec<TriedModes>,
+}
+
+/// A reduction that was compared.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct TriedModes {
+    /// k.
+    pub modes_per_speed: u32,
+    /// Its error.
+    pub error: f64,
+    /// What it took, s.
+    pub wall_time_s: f64,
+}
+
+/// What comes next.
+#[derive(Debug, Clone, PartialEq)]
+pub enum NextModes {
+    /// This reduction is missing.
+    Reduce(u32),
+    /// The choice.
+    Take(ModesChoice),
+    /// It cannot be had.
+    Refuse(Violation),
+}
+
+/// First rung.
+const FIRST_MODES: u32 = 10;
+
+/// Share of what is left of a budget that a reduction may take.
+const PLANNED_SHARE: f64 = 0.9;
+
+/// Chooses for a resolved modal analysis from the reductions known so far.
+pub fn next_modes(
+    request: &ModalAnalysisRequest,
+    resources: &Resources,
+    reports: &[ReductionReport],
+) -> NextModes {
+    let mut modes = FIRST_MODES.min(resources.most_modes.unwrap_or(u32::MAX));
+    let mut tried: Vec<TriedModes> = Vec::new();
+    loop {
+        let Some(report) = reports.iter().find(|report| report.modes_per_speed == modes) else {
+            return NextModes::Reduce(modes);
+        };
+        let error = report.full_model.iter().filter_map(|line| line.largest.as_ref()).map(|l| l.relative);
+        let error = error.fold(0.0, f64::max);
+        let found = TriedModes { modes_per_speed: modes, error, wall_time_s: report.wall_time_s };
+        let stalled = tried.last().is_some_and(|last: &TriedModes| {
+            reports.iter().any(|r| r.modes_per_speed == last.modes_per_speed && r.unknowns == report.unknowns)
+        });
+        tried.push(found);
+        let finer = finer_modes(modes, resources.most_modes);
+        let top = finer <= modes || stalled;
+        if let Some(accuracy) = request.accuracy {
+            if error <= accuracy.target {
+                let reason = format!(
+                    "the fewest modes whose frequencies are within {} of the full sector's",
+                    accuracy.target
+                );
+                return NextModes::Take(ModesChoice { modes_per_speed: modes, error, reason, tried });
+            }
+            if top {
+                return NextModes::Refuse(Violation::new(
+                    "/accuracy/target",
+                    format!(
+                        "{} is not reached with {modes} modes per speed: the frequencies differ by {error:.1e} from the full \
+                         sector's",
+                        accuracy.target
+                    ),
+                ));
+            }
+        } else {
+            let seconds = request.budget.map_or(0.0, |budget| budget.seconds);
+            let known = reports.iter().any(|report| report.modes_per_speed == finer);
+            let expected = if known { 0.0 } else { 2.0 * report.wall_time_s };
+            if top || expected > PLANNED_SHARE * (seconds - resources.spent_s) {
+                let reason = format!(
+                    "as many modes as fit into {seconds} s; twice as many would take {expected:.0} s more"
+                );
+                return NextModes::Take(ModesChoice { modes_per_speed: modes, error, reason, tried });
+            }
+        }
+        modes = finer;
+    }
+}

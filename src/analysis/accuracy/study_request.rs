@@ -1,0 +1,278 @@
+//! What a convergence study asks for: a scene, a few speeds, a grid of settings.
+
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+use super::trial::{Setting, TrialRequest};
+use crate::analysis::auto_or::AutoOr;
+use crate::analysis::error::Violation;
+use crate::analysis::model::ModelFacts;
+use crate::analysis::request::{Integration, SchemeChoice, Sensor, SweepDirection, SweepRequest};
+use crate::analysis::resolve::{limits, resolve_sweep};
+use crate::analysis::scene::Scene;
+use crate::analysis::speeds::Speeds;
+use crate::analysis::stepping::MOST_STEPS;
+
+/// A convergence study: errors of a grid of settings against a reference one level finer, and what each costs.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StudyRequest {
+    /// Id of an uploaded model.
+    pub model: String,
+    /// One to eight speeds.
+    pub speeds: Speeds,
+    /// Effects of the simulation.
+    pub scene: Scene,
+    /// The settings: every combination is run.
+    #[serde(default)]
+    pub grid: Grid,
+    /// The length of a run.
+    #[serde(default)]
+    pub integration: StudyIntegration,
+    /// Revolutions from the start over which displacements are compared, before chaos separates trajectories.
+    #[serde(default = "default_history_revolutions")]
+    #[schema(minimum = 1)]
+    pub history_revolutions: u32,
+    /// Where the response is recorded; default: radial at the first and the last contact node of sector 0.
+    #[serde(default)]
+    pub sensors: Vec<Sensor>,
+    /// Highest engine order that is compared.
+    #[serde(default = "default_max_engine_order")]
+    pub max_engine_order: u32,
+}
+
+fn default_history_revolutions() -> u32 {
+    3
+}
+
+fn default_max_engine_order() -> u32 {
+    24
+}
+
+/// Settings of a study. The defaults are the paper's five sizes (330 to 1560 unknowns of ten sectors with ten contact nodes) by all
+/// schemes.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Grid {
+    /// Fixed-interface modes kept per stiffness speed and nodal diameter.
+    pub modes_per_speed: Vec<u32>,
+    /// Time steps per revolution; each is rounded up so that all histories share their instants.
+    pub steps_per_revolution: Vec<u32>,
+    /// Schemes, none of them `auto`.
+    pub schemes: Vec<SchemeChoice>,
+    /// Modes per nodal diameter that `massless_boundary` integrates.
+    pub kept_modes: Vec<AutoOr>,
+}
+
+impl Default for Grid {
+    fn default() -> Self {
+        Self {
+            modes_per_speed: vec![1, 8, 20, 28, 42],
+            steps_per_revolution: vec![1800, 3600, 7200, 14_400, 28_800],
+            schemes: vec![
+                SchemeChoice::ExactModal,
+                SchemeChoice::MasslessBoundary,
+                SchemeChoice::CentralDifferences,
+            ],
+            kept_modes: vec![AutoOr::Auto],
+        }
+    }
+}
+
+/// The length of a run, as in a sweep.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct StudyIntegration {
+    /// Revolutions to simulate.
+    pub revolutions: u32,
+    /// Revolutions over which the restriction grows from zero to its full height.
+    pub ramp_revolutions: f64,
+    /// Revolutions at the end of the run that spectra are computed from.
+    pub window_revolutions: u32,
+}
+
+impl Default for StudyIntegration {
+    fn default() -> Self {
+        let Integration { revolutions, ramp_revolutions, window_revolutions, .. } = Integration::default();
+        Self { revolutions, ramp_revolutions, window_revolutions }
+    }
+}
+
+/// Most speeds of a study, and most entries of each list of its grid.
+const MOST_SPEEDS: usize = 8;
+const MOST_ENTRIES: usize = 12;
+
+/// A level finer than the finest of a grid: so many times its steps and, where it has a single size, its modes.
+const FINER: u32 = 2;
+
+impl StudyRequest {
+    /// The sweep that its runs are speeds of.
+    pub(super) fn sweep(&self) -> SweepRequest {
+        SweepRequest {
+            model: self.model.clone(),
+            modes_per_speed: AutoOr::Auto,
+            speeds: self.speeds.clone(),
+            scene: self.scene.clone(),
+            integration: Integration {
+                revolutions: self.integration.revolutions,
+                ramp_revolutions: self.integration.ramp_revolutions,
+                window_revolutions: self.integration.window_revolutions,
+                ..Integration::default()
+            },
+            sensors: self.sensors.clone(),
+            max_engine_order: self.max_engine_order,
+            sweep: SweepDirection::Independent,
+            accuracy: None,
+            budget: None,
+            control_speeds: None,
+        }
+    }
+
+    /// Every setting of the grid, sizes first, on a wheel of `sectors`. Steps that come out the same are taken once.
+    pub(super) fn settings(&self, sectors: u32) -> Vec<Setting> {
+        let sweep = self.sweep();
+        let mut steps: Vec<u32> = self
+            .grid
+            .steps_per_revolution
+            .iter()
+            .map(|&s| Setting::aligned_steps(s, &sweep, sectors))
+            .collect();
+        steps.sort_unstable();
+        steps.dedup();
+        let mut settings = Vec::new();
+        for &modes_per_speed in &self.grid.modes_per_speed {
+            for &scheme in &self.grid.schemes {
+                let kept: &[AutoOr] = match scheme {
+                    SchemeChoice::MasslessBoundary => &self.grid.kept_modes,
+                    _ => &[AutoOr::Auto],
+                };
+                for &kept_modes in kept {
+                    let setting = |&steps_per_revolution| Setting {
+                        modes_per_speed,
+                        scheme,
+                        kept_modes,
+                        steps_per_revolution,
+                    };
+                    settings.extend(steps.iter().map(setting));
+                }
+            }
+        }
+        settings
+    }
+
+    /// One level finer than the finest of the grid: by the exact propagator with mass, which all schemes tend to as modes are
+    /// added.
+    pub(super) fn reference(&self, sectors: u32) -> Setting {
+        let mut modes = self.grid.modes_per_speed.clone();
+        modes.sort_unstable();
+        let largest = modes.last().copied().unwrap_or(1);
+        let finer = match modes.iter().rev().find(|&&k| k < largest) {
+            // The grid's own last ratio once more.
+            Some(&next) => (u64::from(largest) * u64::from(largest)).div_ceil(next.into()) as u32,
+            None => FINER * largest,
+        };
+        let steps = self.grid.steps_per_revolution.iter().copied().max().unwrap_or(1);
+        Setting {
+            modes_per_speed: finer.min(limits::MODES_PER_SPEED),
+            scheme: SchemeChoice::ExactModal,
+            kept_modes: AutoOr::Auto,
+            steps_per_revolution: Setting::aligned_steps(steps.saturating_mul(FINER), &self.sweep(), sectors),
+        }
+    }
+
+    /// At `speed_rad_s`: the reference, which has the twin, and the grid.
+    pub(super) fn trials(&self, speed_rad_s: f64, sectors: u32) -> (TrialRequest, Vec<TrialRequest>) {
+        let sweep = self.sweep();
+        let trial = |setting, twin| TrialRequest {
+            history_revolutions: self.history_revolutions,
+            twin,
+            ..TrialRequest::new(&sweep, speed_rad_s, setting)
+        };
+        let reference = trial(self.reference(sectors), true);
+        (reference, self.settings(sectors).into_iter().map(|setting| trial(setting, false)).collect())
+    }
+
+    /// All trials of a resolved study on a wheel of `sectors`, those of few modes first.
+    pub fn all_trials(&self, sectors: u32) -> Vec<TrialRequest> {
+        let mut trials = Vec::new();
+        for speed in self.speeds.resolve().unwrap_or_default() {
+            let (reference, grid) = self.trials(speed, sectors);
+            trials.extend(grid);
+            trials.push(reference);
+        }
+        trials.sort_by_key(|trial| trial.sweep.modes());
+        trials
+    }
+}
+
+/// Checks a study against its model and fills in the default sensors.
+pub fn resolve_study(mut request: StudyRequest, facts: &ModelFacts) -> Result<StudyRequest, Vec<Violation>> {
+    let mut found = match resolve_sweep(request.sweep(), facts) {
+        Ok(sweep) => {
+            request.sensors = sweep.sensors;
+            Vec::new()
+        }
+        Err(found) => found,
+    };
+    let mut require = |holds: bool, pointer: &str, message: String| {
+        if !holds {
+            found.push(Violation::new(pointer, message));
+        }
+    };
+    if let Ok(speeds) = request.speeds.resolve() {
+        let message = format!("a study has at most {MOST_SPEEDS} speeds, not {}", speeds.len());
+        require(speeds.len() <= MOST_SPEEDS, "/speeds", message);
+    }
+    let revolutions = request.integration.revolutions;
+    require(
+        (1..=revolutions).contains(&request.history_revolutions),
+        "/history_revolutions",
+        format!("the run has {revolutions} revolutions: between 1 and {revolutions} are compared"),
+    );
+    let Grid { modes_per_speed, steps_per_revolution, schemes, kept_modes } = &request.grid;
+    for (list, length) in [
+        ("modes_per_speed", modes_per_speed.len()),
+        ("steps_per_revolution", steps_per_revolution.len()),
+        ("schemes", schemes.len()),
+        ("kept_modes", kept_modes.len()),
+    ] {
+        require(
+            (1..=MOST_ENTRIES).contains(&length),
+            &format!("/grid/{list}"),
+            format!("between 1 and {MOST_ENTRIES} entries"),
+        );
+    }
+    for (i, k) in modes_per_speed.iter().enumerate().take(MOST_ENTRIES) {
+        require(
+            (1..=limits::MODES_PER_SPEED).contains(k) && !modes_per_speed[..i].contains(k),
+            &format!("/grid/modes_per_speed/{i}"),
+            format!("numbers between 1 and {}, each once", limits::MODES_PER_SPEED),
+        );
+    }
+    let least = 2 * request.max_engine_order.min(MOST_STEPS) + 1;
+    for (i, steps) in steps_per_revolution.iter().enumerate().take(MOST_ENTRIES) {
+        require(
+            (least..=MOST_STEPS / FINER).contains(steps) && !steps_per_revolution[..i].contains(steps),
+            &format!("/grid/steps_per_revolution/{i}"),
+            format!(
+                "numbers between {least} and {}, each once: the reference takes twice the largest",
+                MOST_STEPS / FINER
+            ),
+        );
+    }
+    for (i, scheme) in schemes.iter().enumerate().take(MOST_ENTRIES) {
+        require(
+            *scheme != SchemeChoice::Auto && !schemes[..i].contains(scheme),
+            &format!("/grid/schemes/{i}"),
+            "central_differences, exact_modal or massless_boundary, each once".to_owned(),
+        );
+    }
+    for (i, kept) in kept_modes.iter().enumerate().take(MOST_ENTRIES) {
+        require(
+            *kept != AutoOr::Fixed(0) && !kept_modes[..i].contains(kept),
+            &format!("/grid/kept_modes/{i}"),
+            "\"auto\" or numbers from 1 on, each once".to_owned(),
+        );
+    }
+    if found.is_empty() { Ok(request) } else { Err(found) }
+}

@@ -1,0 +1,276 @@
+//! A trial: one speed at one setting, run to be compared with others, with its cost.
+
+use std::time::Duration;
+
+use cpu_time::ThreadTime;
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+use crate::analysis::auto_or::AutoOr;
+use crate::analysis::discretisation::Discretisation;
+use crate::analysis::error::AnalysisError;
+use crate::analysis::model::ReducedSector;
+use crate::analysis::monitor::Monitor;
+use crate::analysis::record::record_run;
+use crate::analysis::request::{SchemeChoice, SweepDirection, SweepRequest};
+use crate::analysis::result::{Point, SpeedSpectra};
+use crate::analysis::speed::{Start, empty_point, ready, simulate};
+use crate::analysis::speeds::{SpeedSet, SpeedUnit, Speeds};
+use crate::analysis::stepping::MOST_STEPS;
+use crate::dynamics::integrate::{Outcome, Run};
+use crate::response::sensitivity::{self, Sensitivity};
+
+/// The knobs that accuracy and time depend on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+pub struct Setting {
+    /// Fixed-interface modes kept per stiffness speed and nodal diameter.
+    pub modes_per_speed: u32,
+    /// How time is stepped.
+    pub scheme: SchemeChoice,
+    /// Modes per nodal diameter that `massless_boundary` integrates.
+    pub kept_modes: AutoOr,
+    /// Time steps per revolution.
+    pub steps_per_revolution: u32,
+}
+
+impl Setting {
+    /// `request` with these knobs.
+    #[must_use]
+    pub fn on(self, request: &SweepRequest) -> SweepRequest {
+        let mut request = request.clone();
+        request.modes_per_speed = AutoOr::Fixed(self.modes_per_speed);
+        request.integration.scheme = self.scheme;
+        request.integration.kept_modes = self.kept_modes;
+        request.integration.steps_per_revolution = AutoOr::Fixed(self.steps_per_revolution);
+        request
+    }
+
+    /// At least `steps` per revolution, so many that the histories of all settings of `request` share their instants on a wheel
+    /// of `sectors`.
+    pub(super) fn aligned_steps(steps: u32, request: &SweepRequest, sectors: u32) -> u32 {
+        let aligned = Discretisation::at_least(1, request, sectors as usize).samples as u32;
+        let most = MOST_STEPS / aligned * aligned;
+        steps.checked_next_multiple_of(aligned).map_or(most, |steps| steps.min(most))
+    }
+}
+
+/// What a trial runs. Two equal ones give the same numbers but for times.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct TrialRequest {
+    /// A resolved sweep of one speed with every knob fixed.
+    pub sweep: SweepRequest,
+    /// Revolutions from the start whose displacements are kept; 0 for none.
+    pub history_revolutions: u32,
+    /// Whether a twin that starts from a perturbed state runs beside it.
+    pub twin: bool,
+}
+
+impl TrialRequest {
+    /// `setting` at one speed of `request`, without what chooses settings.
+    pub(super) fn new(request: &SweepRequest, speed_rad_s: f64, setting: Setting) -> Self {
+        let mut sweep = setting.on(request);
+        sweep.speeds = Speeds::One(SpeedSet {
+            from: None,
+            to: None,
+            count: None,
+            values: Some(vec![speed_rad_s]),
+            unit: SpeedUnit::RadS,
+        });
+        (sweep.accuracy, sweep.budget, sweep.control_speeds) = (None, None, None);
+        sweep.sweep = SweepDirection::Independent;
+        Self { sweep, history_revolutions: 0, twin: false }
+    }
+}
+
+/// What a run costs in time of its thread, from some repetitions.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Cost {
+    /// Before the first step, s: eigenproblems at the speed, tables of contact and casing. Without the reduction.
+    pub set_up_s: f64,
+    /// One revolution, s.
+    pub per_revolution_s: f64,
+    /// Repetitions; the medians are given.
+    pub repetitions: u32,
+    /// Half the range of `per_revolution_s` over the repetitions, relative to its median.
+    pub spread: f64,
+}
+
+impl Cost {
+    /// Of a run of `revolutions`, s.
+    pub fn of_run(&self, revolutions: u32) -> f64 {
+        self.set_up_s + f64::from(revolutions) * self.per_revolution_s
+    }
+
+    /// From (set-up, per revolution) of every repetition.
+    fn of(mut repetitions: Vec<(f64, f64)>) -> Self {
+        let count = repetitions.len();
+        let median = |of: fn(&(f64, f64)) -> f64, repetitions: &mut Vec<(f64, f64)>| {
+            repetitions.sort_by(|a, b| of(a).total_cmp(&of(b)));
+            of(&repetitions[count / 2])
+        };
+        let set_up_s = median(|r| r.0, &mut repetitions);
+        let per_revolution_s = median(|r| r.1, &mut repetitions);
+        let range = repetitions[count - 1].1 - repetitions[0].1;
+        let spread = if per_revolution_s > 0.0 { 0.5 * range / per_revolution_s } else { 0.0 };
+        Self { set_up_s, per_revolution_s, repetitions: count as u32, spread }
+    }
+}
+
+/// What a trial found.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Trial {
+    /// As a sweep would report it.
+    pub point: Point,
+    /// Real unknowns that are integrated.
+    pub unknowns: u32,
+    /// `[sensor][engine order]`: amplitudes at the integer engine orders from 1 on, of a completed run.
+    pub lines: Vec<Vec<f64>>,
+    /// `[sensor][block]`: root mean squares over successive parts of the window, of a completed run.
+    pub levels: Vec<Vec<f64>>,
+    /// `[sensor][sample]`: displacement over the first revolutions.
+    pub history: Vec<Vec<f64>>,
+    /// Samples of a revolution of `history`.
+    pub samples_per_revolution: u32,
+    /// Whether trajectories can be compared; of a completed trial with a twin.
+    pub sensitivity: Option<Sensitivity>,
+    /// What it cost.
+    pub cost: Cost,
+}
+
+/// Parts of the window whose levels are compared.
+const BLOCKS: usize = 5;
+
+/// A run is repeated until it has taken this long altogether,
+const TIMED: Duration = Duration::from_millis(300);
+/// or this often.
+const MOST_REPETITIONS: usize = 5;
+
+/// Runs a trial on the calling thread. Deterministic but for times. A run that diverges or cannot be made is a result, with the
+/// status and message of its point.
+///
+/// # Errors
+/// Cancellation, and a request that was never resolved.
+pub fn run_trial(
+    reduced: &ReducedSector,
+    request: &TrialRequest,
+    monitor: &dyn Monitor,
+) -> Result<Trial, AnalysisError> {
+    let sweep = &request.sweep;
+    let speed_rad_s = sweep.speeds.resolve().map_err(AnalysisError::Refused)?[0];
+    let mut trial = Trial {
+        point: empty_point(0, speed_rad_s),
+        unknowns: 0,
+        lines: Vec::new(),
+        levels: Vec::new(),
+        history: Vec::new(),
+        samples_per_revolution: 0,
+        sensitivity: None,
+        cost: Cost::default(),
+    };
+    let watch = |_: f64| !monitor.is_cancelled();
+    let (mut repetitions, mut spent) = (Vec::new(), Duration::ZERO);
+    let mut first = None;
+    while repetitions.is_empty() || (spent < TIMED && repetitions.len() < MOST_REPETITIONS && first.is_some())
+    {
+        let clock = ThreadTime::now();
+        let marks = std::cell::RefCell::new(Vec::new());
+        let marked = |fraction: f64| {
+            marks.borrow_mut().push((fraction, clock.elapsed()));
+            watch(fraction)
+        };
+        let ran = ready(reduced, sweep, speed_rad_s).and_then(|(wheel, stepping)| {
+            let run = simulate(&reduced.wheel, &wheel, sweep, &stepping, Start::Scene, &marked)?;
+            Ok((wheel, stepping, run))
+        });
+        spent += clock.elapsed();
+        repetitions.push(split(&marks.borrow(), clock.elapsed(), sweep.integration.revolutions));
+        match ran {
+            Err(message) => trial.point.message = Some(message),
+            Ok(ran) => first = first.or(Some(ran)),
+        }
+    }
+    trial.cost = Cost::of(repetitions);
+    let Some((wheel, stepping, run)) = first else { return Ok(trial) };
+    trial.unknowns = stepping.scheme.integrated_unknowns(&wheel) as u32;
+    let samples = stepping.discretisation.samples;
+    trial.samples_per_revolution = samples as u32;
+    let spectra = record_run(&mut trial.point, &run, sweep, &wheel, &stepping)?;
+    if let (Outcome::Completed(history), Some(spectra)) = (&run.outcome, &spectra) {
+        let kept = samples * request.history_revolutions.min(sweep.integration.revolutions) as usize;
+        trial.history = history.displacement.iter().map(|line| line[..kept].to_vec()).collect();
+        let window = samples * sweep.integration.window_revolutions as usize;
+        trial.levels = history.displacement.iter().map(|line| levels(&line[line.len() - window..])).collect();
+        trial.lines = lines(spectra, sweep);
+        if request.twin {
+            let twin = simulate(&reduced.wheel, &wheel, sweep, &stepping, Start::Perturbed, &watch);
+            if let Ok(Run { outcome: Outcome::Completed(twin), .. }) = twin {
+                let from = sweep.integration.ramp_revolutions.ceil() as usize;
+                trial.sensitivity =
+                    Some(sensitivity::judge(&history.displacement, &twin.displacement, samples, from));
+            } else if monitor.is_cancelled() {
+                return Err(AnalysisError::Cancelled);
+            }
+        }
+    }
+    Ok(trial)
+}
+
+/// Set-up and time of a revolution from when the loop called its watch, at which fractions of the run.
+fn split(marks: &[(f64, Duration)], whole: Duration, revolutions: u32) -> (f64, f64) {
+    let whole = whole.as_secs_f64();
+    let revolutions = f64::from(revolutions);
+    match (marks.first(), marks.last()) {
+        (Some((first, since)), Some((last, until))) if last > first => {
+            let run = (until.as_secs_f64() - since.as_secs_f64()) / (last - first);
+            ((whole - run).max(0.0), run / revolutions)
+        }
+        // Too short to be watched.
+        _ => (0.0, whole / revolutions),
+    }
+}
+
+/// Root mean squares about the mean of the window over its parts.
+fn levels(window: &[f64]) -> Vec<f64> {
+    let mean = window.iter().sum::<f64>() / window.len() as f64;
+    let level =
+        |part: &[f64]| (part.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / part.len() as f64).sqrt();
+    window.chunks(window.len().div_ceil(BLOCKS)).map(level).collect()
+}
+
+/// `[sensor][engine order]`: amplitudes at the integer engine orders from 1 on.
+pub(super) fn lines(spectra: &SpeedSpectra, request: &SweepRequest) -> Vec<Vec<f64>> {
+    let window = request.integration.window_revolutions as usize;
+    let orders = |amplitude: &[f64]| amplitude.iter().skip(window).step_by(window).copied().collect();
+    spectra.sensors.iter().map(|sensor| orders(&sensor.amplitude)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn time_is_split_at_the_first_watch() {
+        // Two seconds before the first step, then a second a revolution.
+        let at = |revolution: f64| (revolution / 10.0, Duration::from_secs_f64(2.0 + revolution));
+        let (set_up, revolution) = split(&[at(1.5), at(4.0), at(9.5)], Duration::from_secs_f64(12.0), 10);
+        assert!((set_up - 2.0).abs() < 1e-9 && (revolution - 1.0).abs() < 1e-9);
+        assert_eq!(split(&[at(5.0)], Duration::from_secs_f64(12.0), 10), (0.0, 1.2));
+    }
+
+    #[test]
+    fn medians_stand_for_repetitions() {
+        let cost = Cost::of(vec![(3.0, 1.0), (1.0, 1.2), (2.0, 0.8)]);
+        assert_eq!((cost.set_up_s, cost.per_revolution_s, cost.repetitions), (2.0, 1.0, 3));
+        assert!((cost.spread - 0.2).abs() < 1e-12 && (cost.of_run(10) - 12.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn levels_are_of_successive_parts() {
+        let steady: Vec<f64> =
+            (0..500).map(|j| 7.0 + 2.0 * (0.2 * std::f64::consts::PI * f64::from(j)).sin()).collect();
+        for level in levels(&steady) {
+            assert!((level - 2f64.sqrt()).abs() < 1e-9);
+        }
+        assert_eq!(levels(&steady).len(), BLOCKS);
+    }
+}

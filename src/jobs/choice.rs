@@ -1,0 +1,136 @@
+//! Settings that the service chooses for a job, once its pilot runs or reductions are there.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use super::engine::{Engine, Live};
+use super::error::Halt;
+use super::progress::PhaseMonitor;
+use super::trials::Trials;
+use crate::analysis::auto_or::AutoOr;
+use crate::analysis::error::{AnalysisError, Violation};
+use crate::analysis::monitor::Monitor;
+use crate::analysis::request::{ModalAnalysisRequest, SweepRequest};
+use crate::analysis::run::{self, Choice, Next, NextModes, Resources};
+use crate::store::StoreError;
+use crate::store::jobs::{Chosen, Failure, FailureCause, JobRequest};
+
+/// The job with the settings that pilot runs choose for its sweep; as it is where nothing is to be chosen (any more).
+pub(super) async fn sweep(
+    engine: &Engine,
+    job: Arc<Live>,
+    request: &SweepRequest,
+) -> Result<Arc<Live>, Halt> {
+    if !request.chooses() || request.modes_per_speed != AutoOr::Auto {
+        return Ok(job);
+    }
+    let begin = Instant::now();
+    let sectors = sectors(engine, &job).await?;
+    let (mut trials, mut most_modes) = (Trials::default(), None);
+    let choice = loop {
+        let resources = resources(engine, &request.model, begin.elapsed().as_secs_f64(), most_modes).await?;
+        let runs = match run::next(request, sectors, &resources, &|trial| trials.get(trial)) {
+            Next::Take(choice) => break *choice,
+            Next::Refuse(violation) => return Err(refused(violation)),
+            Next::Run(runs) => runs,
+        };
+        let Some(first) = runs.first() else { return Err(Halt::NotWanted) };
+        let (modes, total) = (first.sweep.modes(), runs.len());
+        let monitor = PhaseMonitor::uncounted(job.watch.clone());
+        let tell = |done| {
+            monitor.progress(0.0, &format!("pilot runs with {modes} modes per speed: {done} of {total}"))
+        };
+        tell(0);
+        match trials.obtain(engine, &job, runs, tell).await {
+            Err(Halt::Failed(failure)) if failure.cause == FailureCause::Memory => {
+                most_modes = Some(largest_below(modes, &resources).ok_or(Halt::Failed(failure))?);
+            }
+            outcome => outcome?,
+        }
+    };
+    tracing::info!(
+        job.id = %job.id, setting = ?choice.setting, estimated_error = choice.estimated_error, "chose a setting"
+    );
+    let chosen = JobRequest::Sweep(Box::new(choice.setting.on(request)));
+    engine.choose(&job, chosen, Chosen::Setting(choice)).await
+}
+
+/// The choice for a resolved sweep, if all that it rests on is stored.
+pub(super) async fn stored(
+    engine: &Engine,
+    request: &SweepRequest,
+    sectors: u32,
+) -> Result<Result<Option<Choice>, Violation>, StoreError> {
+    let resources = resources(engine, &request.model, 0.0, None).await?;
+    let mut trials = Trials::default();
+    loop {
+        match run::next(request, sectors, &resources, &|trial| trials.get(trial)) {
+            Next::Take(choice) => return Ok(Ok(Some(*choice))),
+            Next::Refuse(violation) => return Ok(Err(violation)),
+            Next::Run(runs) => {
+                if !trials.recall(engine, &runs).await? {
+                    return Ok(Ok(None));
+                }
+            }
+        }
+    }
+}
+
+/// The same for a modal analysis, by its reductions.
+pub(super) async fn modal_analysis(
+    engine: &Engine,
+    job: Arc<Live>,
+    request: &ModalAnalysisRequest,
+) -> Result<Arc<Live>, Halt> {
+    if !request.chooses() || request.modes_per_speed != AutoOr::Auto {
+        return Ok(job);
+    }
+    let begin = Instant::now();
+    let mut most_modes = None;
+    let choice = loop {
+        let resources = resources(engine, &request.model, begin.elapsed().as_secs_f64(), most_modes).await?;
+        let reports = engine.store.reduction_reports(&request.model).await?;
+        let modes = match run::next_modes(request, &resources, &reports) {
+            NextModes::Take(choice) => break choice,
+            NextModes::Refuse(violation) => return Err(refused(violation)),
+            NextModes::Reduce(modes) => modes,
+        };
+        let monitor = PhaseMonitor::uncounted(job.watch.clone());
+        match engine.reductions.get(&request.model, modes, monitor).await {
+            Err(Halt::Failed(failure)) if failure.cause == FailureCause::Memory => {
+                most_modes = Some(largest_below(modes, &resources).ok_or(Halt::Failed(failure))?);
+            }
+            outcome => drop(outcome?),
+        }
+    };
+    let modes_per_speed = AutoOr::Fixed(choice.modes_per_speed);
+    let chosen = JobRequest::ModalAnalysis(ModalAnalysisRequest { modes_per_speed, ..request.clone() });
+    engine.choose(&job, chosen, Chosen::Modes(choice)).await
+}
+
+/// Sectors of the model that `job` computes from.
+pub(super) async fn sectors(engine: &Engine, job: &Live) -> Result<u32, Halt> {
+    let facts = engine.store.job(job.id).await?.and_then(|job| job.facts);
+    facts.map(|facts| facts.sectors).ok_or(Halt::NotWanted)
+}
+
+/// The largest reduction that is stored with fewer than `modes`.
+fn largest_below(modes: u32, resources: &Resources) -> Option<u32> {
+    resources.reductions.iter().map(|&(k, _)| k).filter(|&k| k < modes).max()
+}
+
+async fn resources(
+    engine: &Engine,
+    model: &str,
+    spent_s: f64,
+    most_modes: Option<u32>,
+) -> Result<Resources, StoreError> {
+    let reports = engine.store.reduction_reports(model).await?;
+    let reductions = reports.iter().map(|report| (report.modes_per_speed, report.wall_time_s)).collect();
+    Ok(Resources { workers: engine.pool.threads(), spent_s, reductions, most_modes })
+}
+
+fn refused(violation: Violation) -> Halt {
+    let message = AnalysisError::Refused(vec![violation.clone()]).to_string();
+    Halt::Failed(Failure { cause: FailureCause::Refused, message, violations: vec![violation] })
+}

@@ -1,0 +1,53 @@
+//! Speeds of a finished sweep that are simulated again at a finer setting.
+
+use super::choice::sectors;
+use super::engine::{Engine, Live};
+use super::error::Halt;
+use super::progress::PhaseMonitor;
+use super::trials::Trials;
+use crate::analysis::monitor::Monitor;
+use crate::analysis::request::SweepRequest;
+use crate::analysis::result::Point;
+use crate::analysis::run::{self, ErrorEstimate, FinerRun};
+use crate::store::jobs::FailureCause;
+
+/// Estimated errors of all speeds, if any are to be simulated again.
+pub(super) async fn errors(
+    engine: &Engine,
+    job: &Live,
+    request: &SweepRequest,
+    points: &[Point],
+) -> Result<Option<ErrorEstimate>, Halt> {
+    if request.controls() == 0 {
+        return Ok(None);
+    }
+    let sectors = sectors(engine, job).await?;
+    let mut trials = Trials::default();
+    let mut controls = run::control_requests(request, sectors, points, None);
+    let monitor = PhaseMonitor::uncounted(job.watch.clone());
+    let total = controls.len();
+    let tell = |done| monitor.progress(0.0, &format!("control runs: {done} of {total}"));
+    tell(0);
+    let requests = |controls: &[(u32, _, run::TrialRequest)]| controls.iter().map(|c| c.2.clone()).collect();
+    match trials.obtain(engine, job, requests(&controls), tell).await {
+        Err(Halt::Failed(failure)) if failure.cause == FailureCause::Memory => {
+            // No memory for more modes: then more steps alone, and the settings say so.
+            controls = run::control_requests(request, sectors, points, Some(request.modes()));
+            trials.obtain(engine, job, requests(&controls), tell).await?;
+        }
+        outcome => outcome?,
+    }
+    let mut spectra = Vec::new();
+    for (index, ..) in &controls {
+        spectra.push(engine.store.speed_result(job.id, *index).await?.and_then(|result| result.spectra));
+    }
+    let finer: Vec<FinerRun> = controls
+        .iter()
+        .zip(&spectra)
+        .filter_map(|((index, setting, request), spectra)| {
+            let (spectra, trial) = (spectra.as_ref()?, trials.get(request)?);
+            Some(FinerRun { index: *index, setting: *setting, spectra, trial })
+        })
+        .collect();
+    Ok(Some(run::error_estimate(request, points, &finer)))
+}

@@ -1,0 +1,39 @@
+//! A convergence study: its reductions and runs, then what they say together.
+
+use super::engine::{Engine, Live};
+use super::error::Halt;
+use super::finish;
+use super::progress::PhaseMonitor;
+use super::trials::Trials;
+use crate::analysis::monitor::Monitor;
+use crate::analysis::run::{self, StudyRequest};
+use crate::store::results::Document;
+
+/// Computes and stores a study.
+pub(super) async fn run(engine: &Engine, job: &Live, request: &StudyRequest) -> Result<(), Halt> {
+    let Some(facts) = engine.store.job(job.id).await?.and_then(|job| job.facts) else { return Ok(()) };
+    let requests = request.all_trials(facts.sectors);
+    let total = requests.len();
+    let monitor = PhaseMonitor::whole(job.watch.clone());
+    let tell = |done: usize| {
+        monitor.progress(done as f64 / total as f64, &format!("{done} of {total} runs finished"))
+    };
+    tell(0);
+    let mut trials = Trials::default();
+    trials.obtain(engine, job, requests.clone(), tell).await?;
+
+    let sizes: Vec<u32> = requests.iter().map(|request| request.sweep.modes()).collect();
+    let mut reports = engine.store.reduction_reports(&request.model).await?;
+    reports.retain(|report| sizes.contains(&report.modes_per_speed));
+    let find = |request: &run::TrialRequest| trials.get(request);
+    let Some((document, histories)) =
+        run::work_precision(request, (facts.sectors, &facts.units), &reports, &find)
+    else {
+        return Err(Halt::NotWanted);
+    };
+    let mut documents = vec![(Document::WorkPrecision, serde_json::to_string(&document)?)];
+    for (speed, histories) in (0..).zip(&histories) {
+        documents.push((Document::Histories(speed), serde_json::to_string(histories)?));
+    }
+    finish::complete(engine, job, &documents, None).await
+}

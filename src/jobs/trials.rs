@@ -1,0 +1,75 @@
+//! Runs that a job compares: each from the store, or run and kept.
+
+use std::collections::HashMap;
+
+use futures::{StreamExt, TryStreamExt, stream};
+
+use super::engine::{Engine, Live};
+use super::error::Halt;
+use super::progress::PhaseMonitor;
+use super::room::once_there_is_room;
+use crate::analysis::run::{self, Trial, TrialRequest};
+use crate::store::StoreError;
+use crate::store::trials::key;
+
+/// Trials at hand, by key.
+#[derive(Debug, Default)]
+pub(super) struct Trials(HashMap<String, Trial>);
+
+impl Trials {
+    /// The trial of `request`, if it is at hand.
+    pub(super) fn get(&self, request: &TrialRequest) -> Option<&Trial> {
+        self.0.get(&key(request).ok()?)
+    }
+
+    /// Takes those of `requests` that are stored; false if one is not.
+    pub(super) async fn recall(
+        &mut self,
+        engine: &Engine,
+        requests: &[TrialRequest],
+    ) -> Result<bool, StoreError> {
+        for request in requests {
+            let key = key(request)?;
+            match engine.store.trial(&key).await? {
+                Some(trial) => self.0.insert(key, trial),
+                None => return Ok(false),
+            };
+        }
+        Ok(true)
+    }
+
+    /// Takes `requests` for `job`, those not stored run side by side. `done` hears how many are there. No more of them are out than
+    /// there are threads: other jobs get their turn in between.
+    pub(super) async fn obtain(
+        &mut self,
+        engine: &Engine,
+        job: &Live,
+        requests: Vec<TrialRequest>,
+        done: impl Fn(usize),
+    ) -> Result<(), Halt> {
+        let mut running = stream::iter(requests)
+            .map(|request| obtain(engine, job, request))
+            .buffered(engine.pool.threads());
+        let mut count = 0;
+        while let Some((key, trial)) = running.try_next().await? {
+            self.0.insert(key, trial);
+            count += 1;
+            done(count);
+        }
+        Ok(())
+    }
+}
+
+async fn obtain(engine: &Engine, job: &Live, request: TrialRequest) -> Result<(String, Trial), Halt> {
+    let key = key(&request)?;
+    if let Some(trial) = engine.store.trial(&key).await? {
+        return Ok((key, trial));
+    }
+    let (model, modes) = (request.sweep.model.clone(), request.sweep.modes());
+    let monitor = PhaseMonitor::uncounted(job.watch.clone());
+    let reduced = engine.reductions.get(&model, modes, monitor.clone()).await?;
+    let trial = engine.pool.run(move || run::run_trial(&reduced, &request, &monitor)).await??;
+    once_there_is_room(&job.watch, || engine.store.insert_trial(job.id, &key, &model, &trial)).await?;
+    tracing::debug!(job.id = %job.id, modes, steps = trial.point.steps, status = ?trial.point.status, "trial run");
+    Ok((key, trial))
+}

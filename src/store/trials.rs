@@ -1,0 +1,56 @@
+//! Runs that are compared with others: of studies, of pilots, of controls.
+
+use sha2::{Digest, Sha256};
+
+use super::jobs::JobId;
+use super::{Store, StoreError, now};
+use crate::analysis::run::{Trial, TrialRequest, VERSION};
+
+/// Digest of what is run, by which version of the program.
+pub fn key(request: &TrialRequest) -> Result<String, StoreError> {
+    let mut digest = Sha256::new();
+    digest.update(VERSION);
+    digest.update([0]);
+    digest.update(serde_json::to_vec(request)?);
+    Ok(format!("{:x}", digest.finalize()))
+}
+
+impl Store {
+    /// The trial of this key, if it was run before.
+    pub async fn trial(&self, key: &str) -> Result<Option<Trial>, StoreError> {
+        let body: Option<String> = sqlx::query_scalar("select body from trials where key = ?")
+            .bind(key)
+            .fetch_optional(&self.readers)
+            .await?;
+        // One that does not read is run again.
+        Ok(body.and_then(|body| serde_json::from_str(&body).ok()))
+    }
+
+    /// Keeps a trial that `job` needed. A model deleted meanwhile keeps nothing.
+    pub async fn insert_trial(
+        &self,
+        job: JobId,
+        key: &str,
+        model: &str,
+        trial: &Trial,
+    ) -> Result<(), StoreError> {
+        let mut transaction = self.writer.begin().await?;
+        sqlx::query(
+            "insert into trials (key, model, body, created_at)
+             select ?1, ?2, ?3, ?4 where exists (select 1 from models where id = ?2)
+             on conflict (key) do update set body = excluded.body, created_at = excluded.created_at",
+        )
+        .bind(key)
+        .bind(model)
+        .bind(serde_json::to_string(trial)?)
+        .bind(now())
+        .execute(&mut *transaction)
+        .await?;
+        sqlx::query("update jobs set crashes = 0 where id = ? and crashes > 0")
+            .bind(job.to_string())
+            .execute(&mut *transaction)
+            .await?;
+        transaction.commit().await?;
+        Ok(())
+    }
+}
