@@ -94,7 +94,7 @@ impl Scene {
         let sensor = |contact_node| Sensor { contact_node, sector: 0, component: Component::Radial };
         SweepRequest {
             model: String::new(),
-            modes_per_speed: self.modes as u32,
+            modes_per_speed: AutoOr::Fixed(self.modes as u32),
             speeds: Speeds::One(SpeedSet {
                 from: None,
                 to: None,
@@ -120,6 +120,9 @@ impl Scene {
             sensors: vec![sensor(0), sensor(last)],
             max_engine_order: 24,
             sweep: SweepDirection::Independent,
+            accuracy: None,
+            budget: None,
+            control_speeds: None,
         }
     }
 

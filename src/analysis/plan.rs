@@ -5,6 +5,8 @@ use std::time::Instant;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
+use super::accuracy::choice::{Choice, pilot_speeds};
+use super::accuracy::modes::ModesChoice;
 use super::calibration::{Calibration, EffectSizes, StepSize};
 use super::diagram::FrequencyDiagram;
 use super::effect_list::{PlannedEffect, effects_of};
@@ -46,7 +48,14 @@ pub struct SweepPlan {
     /// Cost of all speeds together; absent where none of `points` can be integrated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub estimate: Option<Estimate>,
-    /// The whole request as resolved.
+    /// The setting that pilot runs of earlier jobs choose for the accuracy or the budget asked for; `points` and `estimate` are for it.
+    /// A budget has them for nothing; a job that still has to run them has less of it left.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub choice: Option<Choice>,
+    /// Speeds of the pilot runs that the job begins with, rad/s; absent where none are missing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pilot_speeds_rad_s: Option<Vec<f64>>,
+    /// The whole request as resolved, with the setting chosen.
     pub settings: SweepRequest,
     /// Version of the code.
     pub version: String,
@@ -149,13 +158,17 @@ pub struct ModalAnalysisPlan {
     /// to be computed or where that speed has none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub computing_time_s: Option<f64>,
-    /// The whole request as resolved.
+    /// The modes that the stored reductions choose for the accuracy asked for; absent until they do.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub choice: Option<ModesChoice>,
+    /// The whole request as resolved, with the modes chosen.
     pub settings: ModalAnalysisRequest,
     /// Version of the code.
     pub version: String,
 }
 
-/// Plans a resolved sweep on `workers` threads; without `reduced`, what can be said without it.
+/// Plans a resolved sweep on `workers` threads; without `reduced`, what can be said without it. The choice is for the caller to
+/// add.
 pub fn plan_sweep(
     request: &SweepRequest,
     facts: &ModelFacts,
@@ -186,6 +199,8 @@ pub fn plan_sweep(
         workers: workers as u32,
         estimate: reduced.and_then(|reduced| estimate(&points, &speeds, workers, reduced_bytes(reduced))),
         points,
+        choice: None,
+        pilot_speeds_rad_s: request.unchosen().then(|| pilot_speeds(request)),
         settings: request.clone(),
         version: VERSION.to_owned(),
     }
@@ -198,7 +213,7 @@ fn sectors_simulated(scene: &Scene, facts: &ModelFacts) -> u32 {
     }
 }
 
-/// Plans a resolved modal analysis; without `reduced`, what can be said without it.
+/// Plans a resolved modal analysis; without `reduced`, what can be said without it. The choice is for the caller to add.
 pub fn plan_modal_analysis(
     request: &ModalAnalysisRequest,
     facts: &ModelFacts,
@@ -226,6 +241,7 @@ pub fn plan_modal_analysis(
         speeds: speeds.len() as u32,
         nodal_diameters: harmonic_count(facts.sectors as usize) as u32,
         computing_time_s: reduced.and_then(one).map(|seconds| seconds * speeds.len() as f64),
+        choice: None,
         settings: request.clone(),
         version: VERSION.to_owned(),
     }

@@ -57,6 +57,11 @@ impl SweepRequest {
         self.accuracy.is_some() || self.budget.is_some()
     }
 
+    /// Whether they have still to do so.
+    pub fn unchosen(&self) -> bool {
+        self.chooses() && self.modes_per_speed == AutoOr::Auto
+    }
+
     /// Speeds that are simulated again.
     pub fn controls(&self) -> usize {
         let wanted = self.chooses() && self.sweep == SweepDirection::Independent;
@@ -164,8 +169,13 @@ impl ModalAnalysisRequest {
     }
 
     /// Whether the reductions themselves choose `modes_per_speed`.
-    pub fn chooses(&self) -> bool {
+    pub(super) fn chooses(&self) -> bool {
         self.accuracy.is_some() || self.budget.is_some()
+    }
+
+    /// Whether they have still to do so.
+    pub fn unchosen(&self) -> bool {
+        self.chooses() && self.modes_per_speed == AutoOr::Auto
     }
 }
 

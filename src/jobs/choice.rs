@@ -11,7 +11,7 @@ use crate::analysis::auto_or::AutoOr;
 use crate::analysis::error::{AnalysisError, Violation};
 use crate::analysis::monitor::Monitor;
 use crate::analysis::request::{ModalAnalysisRequest, SweepRequest};
-use crate::analysis::run::{self, Choice, Next, NextModes, Resources};
+use crate::analysis::run::{self, Choice, ModesChoice, Next, NextModes, Resources};
 use crate::store::StoreError;
 use crate::store::jobs::{Chosen, Failure, FailureCause, JobRequest};
 
@@ -21,7 +21,7 @@ pub(super) async fn sweep(
     job: Arc<Live>,
     request: &SweepRequest,
 ) -> Result<Arc<Live>, Halt> {
-    if !request.chooses() || request.modes_per_speed != AutoOr::Auto {
+    if !request.unchosen() {
         return Ok(job);
     }
     let begin = Instant::now();
@@ -82,7 +82,7 @@ pub(super) async fn modal_analysis(
     job: Arc<Live>,
     request: &ModalAnalysisRequest,
 ) -> Result<Arc<Live>, Halt> {
-    if !request.chooses() || request.modes_per_speed != AutoOr::Auto {
+    if !request.unchosen() {
         return Ok(job);
     }
     let begin = Instant::now();
@@ -106,6 +106,20 @@ pub(super) async fn modal_analysis(
     let modes_per_speed = AutoOr::Fixed(choice.modes_per_speed);
     let chosen = JobRequest::ModalAnalysis(ModalAnalysisRequest { modes_per_speed, ..request.clone() });
     engine.choose(&job, chosen, Chosen::Modes(choice)).await
+}
+
+/// The choice for a resolved modal analysis, if the reductions that it rests on are stored.
+pub(super) async fn stored_modes(
+    engine: &Engine,
+    request: &ModalAnalysisRequest,
+) -> Result<Result<Option<ModesChoice>, Violation>, StoreError> {
+    let resources = resources(engine, &request.model, 0.0, None).await?;
+    let reports = engine.store.reduction_reports(&request.model).await?;
+    Ok(match run::next_modes(request, &resources, &reports) {
+        NextModes::Take(choice) => Ok(Some(choice)),
+        NextModes::Refuse(violation) => Err(violation),
+        NextModes::Reduce(_) => Ok(None),
+    })
 }
 
 /// Sectors of the model that `job` computes from.

@@ -3,12 +3,14 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use super::choice;
 use super::engine::Engine;
 use super::plans;
 use super::pool::Panicked;
+use crate::analysis::auto_or::AutoOr;
 use crate::analysis::error::Violation;
 use crate::analysis::request::{ModalAnalysisRequest, SweepRequest};
-use crate::analysis::run::{self, ModalAnalysisPlan, SweepPlan};
+use crate::analysis::run::{self, ModalAnalysisPlan, ReducedSector, SweepPlan};
 use crate::impeller::{GenerationPlan, ImpellerError, ImpellerParameters, ImpellerRequest, plan_generation};
 use crate::package;
 use crate::store::StoreError;
@@ -108,9 +110,16 @@ impl Jobs {
     /// Checks a sweep against its model and says what it would do and cost. Starts nothing, not even its reduction.
     pub async fn plan_sweep(&self, request: SweepRequest) -> Result<SweepPlan, SubmitError> {
         let facts = self.facts(&request.model).await?;
-        let request = run::resolve_sweep(request, &facts).map_err(SubmitError::Refused)?;
-        let reduced = self.engine.reductions.stored(&request.model, request.modes()).await?;
-        plans::sweep(&self.engine, request, facts, reduced).await
+        let mut request = run::resolve_sweep(request, &facts).map_err(SubmitError::Refused)?;
+        let mut choice = None;
+        if request.unchosen() {
+            let stored = choice::stored(&self.engine, &request, facts.sectors).await?;
+            choice = stored.map_err(|violation| SubmitError::Refused(vec![violation]))?;
+            request = choice.as_ref().map_or(request.clone(), |choice| choice.setting.on(&request));
+        }
+        let reduced = self.reduction(&request.model, request.unchosen(), request.modes()).await?;
+        let plan = plans::sweep::<SubmitError>(&self.engine, request, facts, reduced).await?;
+        Ok(SweepPlan { choice, ..plan })
     }
 
     /// The same for a modal analysis.
@@ -119,9 +128,31 @@ impl Jobs {
         request: ModalAnalysisRequest,
     ) -> Result<ModalAnalysisPlan, SubmitError> {
         let facts = self.facts(&request.model).await?;
-        let request = run::resolve_modal_analysis(request, &facts).map_err(SubmitError::Refused)?;
-        let reduced = self.engine.reductions.stored(&request.model, request.modes()).await?;
-        Ok(plans::modal_analysis(&self.engine, request, facts, reduced).await?)
+        let mut request = run::resolve_modal_analysis(request, &facts).map_err(SubmitError::Refused)?;
+        let mut choice = None;
+        if request.unchosen() {
+            let stored = choice::stored_modes(&self.engine, &request).await?;
+            choice = stored.map_err(|violation| SubmitError::Refused(vec![violation]))?;
+            if let Some(choice) = &choice {
+                request.modes_per_speed = AutoOr::Fixed(choice.modes_per_speed);
+            }
+        }
+        let reduced = self.reduction(&request.model, request.unchosen(), request.modes()).await?;
+        let plan = plans::modal_analysis(&self.engine, request, facts, reduced).await?;
+        Ok(ModalAnalysisPlan { choice, ..plan })
+    }
+
+    /// The reduction that a plan can rest on: none while its modes are not chosen.
+    async fn reduction(
+        &self,
+        model: &str,
+        unchosen: bool,
+        modes_per_speed: u32,
+    ) -> Result<Option<Arc<ReducedSector>>, SubmitError> {
+        if unchosen {
+            return Ok(None);
+        }
+        Ok(self.engine.reductions.stored(model, modes_per_speed).await?)
     }
 
     /// The same for the generation of a model.

@@ -248,7 +248,7 @@ fn summaries_survive(request: &SweepRequest, results: &[SpeedResult]) {
         survives_json(&map);
     }
     let points: Vec<_> = results.iter().map(|result| result.point.clone()).collect();
-    for table in critical_speeds(reduced, request, &points, &Unwatched).unwrap() {
+    for table in critical_speeds(reduced, request, &points, None, &Unwatched).unwrap() {
         survives_json(&table);
     }
 }

@@ -54,7 +54,7 @@ fn a_speed_at_which_the_stiffness_is_indefinite_fails_alone() {
         assert_eq!(map.points.len(), 3);
         assert_survives_json(&map);
         let points: Vec<_> = results.into_iter().map(|result| result.point).collect();
-        let critical = critical_speeds(&reduced, &request, &points, &Unwatched).unwrap();
+        let critical = critical_speeds(&reduced, &request, &points, None, &Unwatched).unwrap();
         assert_eq!(critical.len(), request.sensors.len());
         assert_eq!(critical[0].missing, [1]);
         assert_survives_json(&critical);

@@ -66,7 +66,7 @@ fn a_sweep_over_a_hair() {
         }
 
         let points: Vec<_> = results.into_iter().map(|result| result.point).collect();
-        let tables = critical_speeds(&reduced, &request, &points, &Unwatched).unwrap();
+        let tables = critical_speeds(&reduced, &request, &points, None, &Unwatched).unwrap();
         assert_survives_json(&tables);
         assert!(tables[0].missing.is_empty());
         let nearest =

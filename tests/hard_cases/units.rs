@@ -64,8 +64,8 @@ fn millimetres_and_metres_give_the_same_sweep() {
             results.into_iter().map(|result| result.point).collect()
         };
         let tables = [
-            critical_speeds(&reduced_mm, &request_mm, &points(in_mm), &Unwatched).unwrap(),
-            critical_speeds(&reduced_si, &request_si, &points(in_si), &Unwatched).unwrap(),
+            critical_speeds(&reduced_mm, &request_mm, &points(in_mm), None, &Unwatched).unwrap(),
+            critical_speeds(&reduced_si, &request_si, &points(in_si), None, &Unwatched).unwrap(),
         ];
         let [mm, si] = tables.map(|mut tables| tables.swap_remove(0));
         peaks += mm.critical_speeds.len();

@@ -273,7 +273,7 @@ impl<'a> Climb<'a, '_> {
             if rung.spread > target {
                 return match self.sensitivity(&rung) {
                     Ok(words) => refuse(self.too_rough(&rung, target, &words)),
-                    Err(missing) => Next::Run(vec![missing]),
+                    Err(missing) => Next::Run(vec![*missing]),
                 };
             }
             tried.push(rung.clone());
@@ -441,12 +441,12 @@ impl<'a> Climb<'a, '_> {
     }
 
     /// What a tiny perturbation does where the level of the response varies most; or the missing run.
-    fn sensitivity(&self, rung: &Rung) -> Result<String, TrialRequest> {
+    fn sensitivity(&self, rung: &Rung) -> Result<String, Box<TrialRequest>> {
         let request = TrialRequest {
             twin: true,
             ..TrialRequest::new(self.request, rung.spread_at, self.setting(rung.modes, rung.steps))
         };
-        let Some(trial) = (self.trial)(&request) else { return Err(request) };
+        let Some(trial) = (self.trial)(&request) else { return Err(Box::new(request)) };
         let chaotic = |s: &&crate::response::sensitivity::Sensitivity| s.chaotic;
         Ok(match (trial.sensitivity.as_ref().filter(chaotic), trial.point.status) {
             (Some(sensitivity), PointStatus::Completed) => match sensitivity.rate_per_revolution {
