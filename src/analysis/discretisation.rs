@@ -20,9 +20,12 @@ const SAMPLES_PER_ORDER: usize = 8;
 const LEAST_SAMPLES: usize = 512;
 
 impl Discretisation {
-    /// Exactly `steps` per revolution.
-    pub(super) fn exactly(steps: usize, request: &SweepRequest) -> Self {
-        Self { per_revolution: steps, samples: samples_of(steps, wanted_samples(request)) }
+    /// Exactly `steps` per revolution of a wheel of `sectors`.
+    pub(super) fn exactly(steps: usize, request: &SweepRequest, sectors: usize) -> Self {
+        let aligned = aligned_samples(request, sectors);
+        let samples =
+            if steps.is_multiple_of(aligned) { aligned } else { samples_of(steps, wanted_samples(request)) };
+        Self { per_revolution: steps, samples }
     }
 
     /// At least `steps` per revolution and as many as are sampled, the same for every blade of a wheel of `sectors` and at every
@@ -45,6 +48,11 @@ fn alike(request: &SweepRequest, sectors: usize) -> usize {
     if both <= LEAST_SAMPLES / 4 { both } else { sectors }
 }
 
+/// The fewest samples, and steps, that are the same for every blade and at every lobe: runs with multiples of them share instants.
+pub(super) fn aligned_samples(request: &SweepRequest, sectors: usize) -> usize {
+    wanted_samples(request).next_multiple_of(alike(request, sectors))
+}
+
 fn wanted_samples(request: &SweepRequest) -> usize {
     LEAST_SAMPLES.max(SAMPLES_PER_ORDER * request.max_engine_order as usize)
 }
@@ -59,7 +67,7 @@ pub(super) fn most_samples(request: &SweepRequest, sectors: usize) -> usize {
     let wanted = wanted_samples(request);
     match request.integration.steps_per_revolution {
         AutoOr::Auto => 2 * wanted + alike(request, sectors),
-        AutoOr::Fixed(steps) => samples_of(steps as usize, wanted),
+        AutoOr::Fixed(steps) => samples_of(steps as usize, wanted).max(aligned_samples(request, sectors)),
     }
 }
 

@@ -56,12 +56,12 @@ fn lobe_width(request: &SweepRequest) -> Option<f64> {
 }
 
 /// The smallest number of steps per revolution that sees the lobes of a scene.
-pub(super) fn least_steps_for_lobes(request: &SweepRequest) -> f64 {
+fn least_steps_for_lobes(request: &SweepRequest) -> f64 {
     lobe_width(request).map_or(0.0, |width| (LEAST_STEPS_PER_WIDTH * TAU / width).ceil())
 }
 
 /// Steps per revolution that `"auto"` gives contact, and why.
-fn steps_for_contact(request: &SweepRequest) -> (f64, &'static str) {
+pub(super) fn steps_for_contact(request: &SweepRequest) -> (f64, &'static str) {
     let lobes = lobe_width(request).map_or(0.0, |width| (AUTO_STEPS_PER_WIDTH * TAU / width).ceil());
     let rods = request.scene.abradable.as_ref().map_or(0.0, |coating| f64::from(coating.rods_around));
     let order = request.scene.engine_order_excitation.iter().map(|force| force.order).max().unwrap_or(0);
@@ -282,7 +282,7 @@ impl Scope<'_> {
                 let limit = format!(", closer to the limit of {smallest} than \"auto\" would go");
                 let why =
                     format!("{steps} steps per revolution as requested{}", if close { &limit } else { "" });
-                (Discretisation::exactly(steps as usize, self.request), why)
+                (Discretisation::exactly(steps as usize, self.request, self.wheel.around()), why)
             }
             None if wish.least_steps > f64::from(MOST_STEPS) => {
                 return Err(format!(

@@ -1,5 +1,6 @@
 //! The service from outside: real sockets, real files, real computations on a small model.
 
+mod accuracy;
 mod app;
 mod chains;
 mod checkpoints;
@@ -12,4 +13,5 @@ mod model;
 mod models;
 mod openapi;
 mod plans;
+mod studies;
 mod sweeps;

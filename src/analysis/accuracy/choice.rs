@@ -17,7 +17,7 @@ use crate::analysis::error::Violation;
 use crate::analysis::request::{SchemeChoice, SweepRequest};
 use crate::analysis::resolve::limits;
 use crate::analysis::result::{PointStatus, Verdict};
-use crate::analysis::stepping::{MOST_STEPS, least_steps_for_lobes};
+use crate::analysis::stepping::{MOST_STEPS, steps_for_contact};
 
 /// The setting that pilot runs chose, and why.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
@@ -93,9 +93,8 @@ pub(super) const SAFETY: f64 = 2.5;
 /// A difference that falls by more than this factor from one level to the next is not believed to have fallen farther.
 const MOST_GAIN: f64 = 4.0;
 
-/// First rungs.
+/// First rung of the modes; that of the steps is half of what `"auto"` gives contact.
 const FIRST_MODES: u32 = 20;
-const FIRST_STEPS: u32 = 1800;
 
 /// Last rung of the steps, as a multiple of the first.
 const MOST_DOUBLINGS: u32 = 7;
@@ -137,6 +136,15 @@ pub fn next<'a>(
     trial: &dyn Fn(&TrialRequest) -> Option<&'a Trial>,
 ) -> Next {
     let climb = Climb { request, sectors, resources, trial, speeds: pilot_speeds(request) };
+    let (fewest, field) =
+        (climb.first_modes(), if request.accuracy.is_some() { "/accuracy" } else { "/budget" });
+    if finer_modes(fewest, resources.most_modes) <= fewest {
+        let message = format!(
+            "memory allows reductions of {fewest} modes per speed, and there is nothing finer to tell their error from: give the \
+             knobs yourself, or the service more memory"
+        );
+        return Next::Refuse(Violation::new(field, message));
+    }
     match (&request.accuracy, &request.budget) {
         (Some(accuracy), _) => climb.to_target(accuracy.target),
         (None, Some(budget)) => climb.within(budget.seconds),
@@ -185,10 +193,16 @@ impl<'a> Climb<'a, '_> {
         }
     }
 
+    fn first_modes(&self) -> u32 {
+        FIRST_MODES.min(self.resources.most_modes.unwrap_or(u32::MAX))
+    }
+
     fn first_steps(&self) -> u32 {
-        let least = least_steps_for_lobes(self.request).max(f64::from(2 * self.request.max_engine_order + 1));
-        let least = least.min(f64::from(MOST_STEPS)) as u32;
-        Setting::aligned_steps(FIRST_STEPS.max(least), self.request, self.sectors)
+        let (automatic, _) = steps_for_contact(self.request);
+        // No step may jump a rod of a coating.
+        let least = if self.request.scene.abradable.is_some() { automatic } else { 0.5 * automatic };
+        let least = least.max(f64::from(2 * self.request.max_engine_order + 1)).min(f64::from(MOST_STEPS));
+        Setting::aligned_steps(least.ceil() as u32, self.request, self.sectors)
     }
 
     /// What the runs at (k, S), (2k, S) and (k, 2S) show at every pilot speed; or the missing ones. `below` is the rung with half
@@ -257,8 +271,7 @@ impl<'a> Climb<'a, '_> {
     /// The first setting on the way up that meets `target`.
     fn to_target(&self, target: f64) -> Next {
         let refuse = |message: String| Next::Refuse(Violation::new("/accuracy/target", message));
-        let (mut modes, mut steps) =
-            (FIRST_MODES.min(self.resources.most_modes.unwrap_or(u32::MAX)), self.first_steps());
+        let (mut modes, mut steps) = (self.first_modes(), self.first_steps());
         let most_steps = self.first_steps().saturating_mul(1 << MOST_DOUBLINGS).min(MOST_STEPS);
         let mut tried: Vec<Rung> = Vec::new();
         loop {
@@ -314,7 +327,7 @@ impl<'a> Climb<'a, '_> {
             Next::Refuse(Violation::new("/budget/seconds", message))
         };
         let steps = self.first_steps();
-        let mut modes = FIRST_MODES.min(self.resources.most_modes.unwrap_or(u32::MAX));
+        let mut modes = self.first_modes();
         let mut tried: Vec<Rung> = Vec::new();
         loop {
             match self.rung(modes, steps, tried.last()) {
@@ -341,7 +354,9 @@ impl<'a> Climb<'a, '_> {
             let climb = pilots + self.reduction_s(finest);
             let pays = rung.error_of_modes > rung.error_of_steps && finest > finer;
             let next = self.sweep_wall(rung.set_up_s, step_s, steps);
-            if !(pays && climb <= PILOT_SHARE * left && climb + next <= PLANNED_SHARE * left) {
+            let known = self.rung(finer, steps, Some(rung)).is_ok();
+            let fits = climb <= PILOT_SHARE * left && climb + next <= PLANNED_SHARE * left;
+            if !(pays && (known || fits)) {
                 break;
             }
             modes = finer;

@@ -143,8 +143,8 @@ pub fn error_estimate(request: &SweepRequest, points: &[Point], controls: &[Fine
     let message = match largest {
         None => "no control run was completed: the error of the amplitudes is not known".to_owned(),
         Some(_) => format!(
-            "relative error of the steady response: {SAFETY} times its difference from runs with twice the modes and steps at {} of \
-             the speeds; at the others the larger estimate of the nearest on either side",
+            "relative error of the steady response: {SAFETY} times its difference from finer runs (their settings are in `controls`) at \
+             {} of the speeds; at the others the larger estimate of the nearest on either side",
             controls.len()
         ),
     };

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
 use crate::analysis::auto_or::AutoOr;
-use crate::analysis::discretisation::Discretisation;
+use crate::analysis::discretisation::aligned_samples;
 use crate::analysis::error::AnalysisError;
 use crate::analysis::model::ReducedSector;
 use crate::analysis::monitor::Monitor;
@@ -48,7 +48,7 @@ impl Setting {
     /// At least `steps` per revolution, so many that the histories of all settings of `request` share their instants on a wheel
     /// of `sectors`.
     pub(super) fn aligned_steps(steps: u32, request: &SweepRequest, sectors: u32) -> u32 {
-        let aligned = Discretisation::at_least(1, request, sectors as usize).samples as u32;
+        let aligned = aligned_samples(request, sectors as usize) as u32;
         let most = MOST_STEPS / aligned * aligned;
         steps.checked_next_multiple_of(aligned).map_or(most, |steps| steps.min(most))
     }
@@ -67,7 +67,7 @@ pub struct TrialRequest {
 
 impl TrialRequest {
     /// `setting` at one speed of `request`, without what chooses settings.
-    pub(super) fn new(request: &SweepRequest, speed_rad_s: f64, setting: Setting) -> Self {
+    pub fn new(request: &SweepRequest, speed_rad_s: f64, setting: Setting) -> Self {
         let mut sweep = setting.on(request);
         sweep.speeds = Speeds::One(SpeedSet {
             from: None,

@@ -1,0 +1,91 @@
+//! Are budgets kept? `cargo bench --bench budget [-- SECONDS …]`: sweeps of the demo's impeller with a budget each, through the service
+//! on two workers and an empty data folder, planned beside spent wall time. Run it on an otherwise idle machine.
+
+use std::time::{Duration, Instant};
+
+use anyhow::{Context, bail};
+use reqwest::Client;
+use rubmap::app::App;
+use rubmap::config::Config;
+use rubmap::impeller::{ImpellerParameters, PaperCasing, generate};
+use serde_json::{Value, json};
+use tokio_util::sync::CancellationToken;
+
+fn main() -> anyhow::Result<()> {
+    let given: Vec<f64> = std::env::args().skip(1).filter_map(|argument| argument.parse().ok()).collect();
+    let budgets = if given.is_empty() { vec![30.0, 60.0, 120.0] } else { given };
+    let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build()?;
+    println!(
+        "{:>8}  {:>8}  {:>6}  {:>24}  {:>9}  {:>9}",
+        "budget s", "taken s", "ratio", "modes, steps/revolution", "estimated", "afterwards"
+    );
+    for seconds in budgets {
+        runtime.block_on(keep(seconds))?;
+    }
+    Ok(())
+}
+
+/// One sweep in a service of its own.
+async fn keep(seconds: f64) -> anyhow::Result<()> {
+    let folder = tempfile::tempdir()?;
+    let config = Config {
+        addr: ([127, 0, 0, 1], 0).into(),
+        data: folder.path().to_owned(),
+        workers: Some(2),
+        upload_bytes: 1 << 30,
+        expanded_bytes: None,
+        memory_bytes: None,
+    };
+    let app = App::build(config).await?;
+    let (base, stop) = (format!("http://{}", app.addr()), CancellationToken::new());
+    let service = tokio::spawn(app.run_until_stopped(stop.clone()));
+    let mut package = std::io::Cursor::new(Vec::new());
+    rubmap::package::write(&generate(&ImpellerParameters::default())?, &mut package)?;
+    let client = Client::new();
+    let upload = client.post(format!("{base}/v1/models")).header("content-type", "application/zip");
+    let model: Value = upload.body(package.into_inner()).send().await?.json().await?;
+
+    let begin = Instant::now();
+    let posted = client.post(format!("{base}/v1/sweeps")).json(&sweep(&model["id"], seconds)).send().await?;
+    let posted: Value = posted.json().await?;
+    let path = format!("{base}/v1/jobs/{}", posted["id"].as_str().with_context(|| posted.to_string())?);
+    let job = loop {
+        let job: Value = client.get(&path).send().await?.json().await?;
+        match job["status"].as_str() {
+            Some("accepted" | "running") => tokio::time::sleep(Duration::from_millis(50)).await,
+            Some("successful") => break job,
+            _ => bail!("{job}"),
+        }
+    };
+    let taken = begin.elapsed().as_secs_f64();
+    let map: Value = client.get(format!("{path}/interaction-map")).send().await?.json().await?;
+    let setting = &job["choice"]["setting"];
+    println!(
+        "{seconds:>8.0}  {taken:>8.1}  {:>6.2}  {:>24}  {:>9.1e}  {:>9.1e}",
+        taken / seconds,
+        format!("{}, {}", setting["modes_per_speed"], setting["steps_per_revolution"]),
+        job["choice"]["estimated_error"].as_f64().unwrap_or(f64::NAN),
+        map["errors"]["largest"].as_f64().unwrap_or(f64::NAN),
+    );
+    stop.cancel();
+    service.await??;
+    Ok(())
+}
+
+fn sweep(model: &Value, seconds: f64) -> Value {
+    let casing = PaperCasing::of(&ImpellerParameters::default());
+    json!({
+        "model": model,
+        "speeds": {"from": 12000, "to": 36000, "count": 60, "unit": "rpm"},
+        "scene": {
+            "centrifugal_stiffening": true,
+            "damping": {"modal_ratio": 0.005},
+            "casing": {
+                "clearance": {"leading": casing.leading_clearance, "trailing": casing.trailing_clearance},
+                "lobes": {"count": 2, "amplitude": casing.restriction, "width_rad": 0.35},
+            },
+            "contact": {},
+        },
+        "budget": {"seconds": seconds},
+    })
+}

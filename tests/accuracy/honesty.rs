@@ -1,0 +1,172 @@
+//! Random scenes on small wheels, held against references with sixteen times the steps and eight times the modes.
+//!
+//! A scene is drawn as users have them: lobes higher than the clearance, light to fair damping, speeds over the whole range. True
+//! errors and estimates are printed; what is asserted is the share of scenes for which they agree within the stated bounds.
+
+use rubmap::analysis::monitor::Unwatched;
+use rubmap::analysis::run::{
+    FinerRun, Next, Resources, Setting, TrialRequest, control_requests, error_estimate, next, run_speed,
+};
+use serde_json::json;
+
+use crate::wheel::Wheel;
+
+/// Scenes on each wheel.
+const SCENES: u64 = 12;
+
+/// True error over estimate that nine in ten scenes stay within: an estimate is rarely exceeded, and not absurdly large.
+const BOUNDS: std::ops::RangeInclusive<f64> = 0.02..=1.5;
+
+/// Reproducible numbers in [0, 1).
+struct Draw(u64);
+
+impl Draw {
+    fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    fn within(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
+
+    fn among<T: Copy>(&mut self, values: &[T]) -> T {
+        values[(self.unit() * values.len() as f64) as usize]
+    }
+}
+
+/// A sweep of one speed and the accuracy that is asked for.
+fn scene(draw: &mut Draw) -> (serde_json::Value, f64) {
+    let (leading, trailing) = (draw.within(0.2, 0.5), draw.within(0.15, 0.4));
+    let amplitude = leading.min(trailing) * draw.within(1.0, 2.0);
+    let request = json!({
+        "model": "",
+        "speeds": {"values": [draw.within(10_000.0, 36_000.0)], "unit": "rpm"},
+        "scene": {
+            "centrifugal_stiffening": true,
+            "damping": {"modal_ratio": 10f64.powf(draw.within(-2.5, -1.7))},
+            "casing": {
+                "clearance": {"leading": leading, "trailing": trailing},
+                "lobes": {"count": draw.among(&[1, 2, 2, 3, 4]), "amplitude": amplitude, "width_rad": draw.within(0.15, 0.4)},
+            },
+            "contact": {},
+        },
+        "integration": {"revolutions": 30, "ramp_revolutions": 1, "window_revolutions": 12},
+        "max_engine_order": 12,
+    });
+    (request, draw.among(&[0.2, 0.1, 0.05]))
+}
+
+/// What one scene gave.
+#[derive(Debug)]
+struct Outcome {
+    estimate: f64,
+    truth: f64,
+    /// (target, true error of what was chosen for it), or why none was.
+    target: Result<(f64, f64), String>,
+}
+
+/// The difference of a speed from the reference, as the service measures it.
+fn truth(wheel: &mut Wheel, request: &rubmap::analysis::request::SweepRequest) -> f64 {
+    let reduced = wheel.reduced(request.modes());
+    let result = run_speed(&reduced, request, 0, None, &Unwatched).unwrap();
+    let spectra = result.spectra.unwrap_or_else(|| panic!("{:?}", result.point.message));
+    let reference = Setting {
+        modes_per_speed: 8 * request.modes(),
+        scheme: rubmap::analysis::request::SchemeChoice::ExactModal,
+        kept_modes: rubmap::analysis::auto_or::AutoOr::Auto,
+        steps_per_revolution: 16 * result.point.steps_per_revolution,
+    };
+    let trial = wheel.run(&TrialRequest::new(request, result.point.speed_rad_s, reference));
+    let run = FinerRun { index: 0, setting: reference, spectra: &spectra, trial: &trial };
+    error_estimate(request, &[result.point], &[run]).controls[0].differences.unwrap().response()
+}
+
+fn outcome(wheel: &mut Wheel, draw: &mut Draw) -> Outcome {
+    let (body, target) = scene(draw);
+    let mut fixed = body.clone();
+    fixed["modes_per_speed"] = json!(20);
+    fixed["integration"]["scheme"] = json!("exact_modal");
+    fixed["integration"]["steps_per_revolution"] = json!(1920);
+    fixed["control_speeds"] = json!(1);
+    let request = wheel.resolved(fixed);
+    let reduced = wheel.reduced(20);
+    let result = run_speed(&reduced, &request, 0, None, &Unwatched).unwrap();
+    let sectors = wheel.facts.sectors;
+    let (index, setting, finer) =
+        control_requests(&request, sectors, std::slice::from_ref(&result.point), None).remove(0);
+    let trial = wheel.run(&finer);
+    let spectra = result.spectra.as_ref().unwrap();
+    let run = FinerRun { index, setting, spectra, trial: &trial };
+    let estimate = error_estimate(&request, &[result.point.clone()], &[run]).largest.unwrap();
+    let truth_of_fixed = truth(wheel, &request);
+
+    let mut asked = body;
+    asked["accuracy"] = json!({"target": target});
+    Outcome { estimate, truth: truth_of_fixed, target: reached(wheel, asked, target) }
+}
+
+/// What the pilot runs choose for a target, as the service goes about it.
+fn reached(wheel: &mut Wheel, asked: serde_json::Value, target: f64) -> Result<(f64, f64), String> {
+    let request = wheel.resolved(asked);
+    let resources = Resources { workers: 2, spent_s: 0.0, reductions: Vec::new(), most_modes: None };
+    let mut known: Vec<(TrialRequest, rubmap::analysis::run::Trial)> = Vec::new();
+    loop {
+        let find =
+            |wanted: &TrialRequest| known.iter().find(|(run, _)| run == wanted).map(|(_, trial)| trial);
+        match next(&request, wheel.facts.sectors, &resources, &find) {
+            Next::Run(runs) => {
+                for run in runs {
+                    let trial = wheel.run(&run);
+                    known.push((run, trial));
+                }
+            }
+            Next::Take(choice) => {
+                assert!(choice.estimated_error <= target);
+                return Ok((target, truth(wheel, &choice.setting.on(&request))));
+            }
+            Next::Refuse(violation) => return Err(violation.message),
+        }
+    }
+}
+
+#[test]
+fn estimates_are_honest_and_targets_are_met() {
+    let threads: Vec<_> = [3_usize, 5]
+        .into_iter()
+        .map(|sectors| {
+            std::thread::spawn(move || {
+                let (mut wheel, mut draw) = (Wheel::coarse(sectors), Draw(sectors as u64));
+                (0..SCENES).map(|_| outcome(&mut wheel, &mut draw)).collect::<Vec<_>>()
+            })
+        })
+        .collect();
+    let outcomes: Vec<Outcome> = threads.into_iter().flat_map(|thread| thread.join().unwrap()).collect();
+    let mut ratios: Vec<f64> = outcomes.iter().map(|outcome| outcome.truth / outcome.estimate).collect();
+    ratios.sort_by(f64::total_cmp);
+    for outcome in &outcomes {
+        println!("{outcome:?}");
+    }
+    let quantile = |q: f64| ratios[((ratios.len() - 1) as f64 * q).round() as usize];
+    println!(
+        "true error / estimate over {} scenes: least {:.3}, 10 % {:.3}, median {:.3}, 90 % {:.3}, most {:.3}",
+        ratios.len(),
+        quantile(0.0),
+        quantile(0.1),
+        quantile(0.5),
+        quantile(0.9),
+        quantile(1.0)
+    );
+    let honest = ratios.iter().filter(|ratio| BOUNDS.contains(ratio)).count();
+    assert!(10 * honest >= 9 * ratios.len(), "{honest} of {} within {BOUNDS:?}", ratios.len());
+
+    let chosen: Vec<&(f64, f64)> =
+        outcomes.iter().filter_map(|outcome| outcome.target.as_ref().ok()).collect();
+    let met = chosen.iter().filter(|(target, truth)| truth <= target).count();
+    println!(
+        "targets met in {met} of {} scenes, {} refused beforehand",
+        chosen.len(),
+        outcomes.len() - chosen.len()
+    );
+    assert!(10 * met >= 9 * chosen.len() && 4 * chosen.len() >= 3 * outcomes.len());
+}

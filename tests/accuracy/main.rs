@@ -1,0 +1,5 @@
+//! What accuracy costs in time: are orders as theory has them, estimates honest, targets met?
+
+mod honesty;
+mod orders;
+mod wheel;
