@@ -20,6 +20,7 @@ mod plan;
 mod record;
 pub mod request;
 mod resolve;
+mod response_curve;
 pub mod result;
 pub mod run;
 pub mod scene;

@@ -343,6 +343,15 @@ pub struct CriticalSpeed {
     pub index: u32,
     /// Whether it lies at an end of the range or beside a speed without a result, so that the true peak may be beyond.
     pub at_edge: bool,
+    /// How far the true peak may be from `speed_rad_s` because only the speeds of the sweep were computed, rad/s: the distance
+    /// to the farther one of the two neighbouring speeds. A speed without a result, like the end of the range, bounds
+    /// nothing: with `at_edge` this is the distance to the other neighbour, and the peak may be farther away on the open side.
+    pub speed_error_rad_s: f64,
+    /// Whether the speeds of the sweep resolve the peak: on both sides the response at the neighbouring speed is at least 90
+    /// % of the peak's, from an interval no more than three times as wide as the other; or the neighbouring speed is
+    /// within 5e-4 of the peak's, which is then known to that sharpness even where the response jumps (at the fold of a
+    /// backbone curve). Otherwise the true peak may be higher. Never with `at_edge`.
+    pub resolved: bool,
     /// Steady response: root mean square about the mean, in the model's unit of length.
     pub rms: f64,
     /// Half the peak-to-peak displacement there.
