@@ -1,6 +1,7 @@
 //! Jobs: what was asked for and how far it is.
 
 mod job;
+mod revise;
 mod take_up;
 
 use sqlx::Row;
