@@ -101,6 +101,7 @@ impl Scene {
                 count: None,
                 values: Some(speeds_rad_s),
                 unit: SpeedUnit::RadS,
+                added: false,
             }),
             scene: request::Scene {
                 centrifugal_stiffening: self.stiffening,
@@ -120,6 +121,7 @@ impl Scene {
             sensors: vec![sensor(0), sensor(last)],
             max_engine_order: 24,
             sweep: SweepDirection::Independent,
+            refine: false,
         }
     }
 

@@ -5,6 +5,7 @@ use utoipa::ToSchema;
 
 use super::end_state::EndState;
 use super::plan::{Estimate, Spent};
+use super::refine::Refinement;
 use super::request::{SchemeChoice, Sensor};
 use super::scene::Scene;
 use crate::dynamics::energy::{EffectWork, EnergyAudit};
@@ -263,6 +264,9 @@ pub struct InteractionMap {
     pub units: Units,
     /// Credentials, one per finished speed, in the order of the speeds.
     pub points: Vec<Point>,
+    /// What `refine` has added; absent without it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub refinement: Option<Refinement>,
     /// What the sweep was expected to cost; absent before its speeds are queued.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plan: Option<Estimate>,
@@ -388,6 +392,9 @@ pub struct CriticalSpeeds {
     pub casing_coincidences: Vec<Coincidence>,
     /// Speeds that gave no amplitude, by index.
     pub missing: Vec<u32>,
+    /// What `refine` has added; absent without it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub refinement: Option<Refinement>,
     /// What the sweep was expected to cost.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plan: Option<Estimate>,

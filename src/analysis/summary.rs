@@ -9,6 +9,7 @@ use super::error::AnalysisError;
 use super::model::ReducedSector;
 use super::monitor::Monitor;
 use super::plan::Spent;
+use super::refine::Refinement;
 use super::request::{Sensor, SweepRequest};
 use super::response_curve::ResponseCurve;
 use super::result::{
@@ -42,8 +43,11 @@ pub fn interaction_map(
     let mut amplitude = vec![None; speeds.len()];
     let mut points = Vec::with_capacity(finished.len());
     for (point, row) in finished {
-        amplitude[point.index as usize] = row;
-        points.push(point);
+        // Speeds that a refinement has added since the request was read wait for the next reader.
+        if let Some(place) = amplitude.get_mut(point.index as usize) {
+            *place = row;
+            points.push(point);
+        }
     }
     points.sort_by_key(|point| point.index);
     InteractionMap {
@@ -53,6 +57,7 @@ pub fn interaction_map(
         sensor: request.sensors[sensor],
         nodal_diameter,
         units: units.clone(),
+        refinement: Refinement::of(request, &points),
         plan: None,
         spent: Spent::on(&points),
         points,
@@ -78,6 +83,7 @@ pub fn critical_speeds(
     let prediction = predict(reduced, request, &curve.speeds_rad_s, monitor)?;
     let completed: BTreeSet<u32> = curve.points.iter().flatten().map(|point| point.index).collect();
     let missing: Vec<u32> = (0..speeds.len() as u32).filter(|index| !completed.contains(index)).collect();
+    let refinement = Refinement::of(request, points);
     let table = |(sensor, &of): (usize, &Sensor)| CriticalSpeeds {
         sensor: of,
         critical_speeds: response_peaks(&curve, sensor, &prediction.linear),
@@ -85,6 +91,7 @@ pub fn critical_speeds(
         driven_crossings: prediction.driven.clone(),
         casing_coincidences: prediction.coincidences.clone(),
         missing: missing.clone(),
+        refinement,
         plan: None,
         spent: Spent::on(points),
         units: reduced.units.clone(),

@@ -12,6 +12,7 @@ use super::plans::Calibrated;
 use super::pool::CpuPool;
 use super::progress::{News, Watch};
 use super::reductions::Reductions;
+use super::room::once_there_is_room;
 use crate::store::Store;
 use crate::store::jobs::{Failure, FailureCause, Job, JobId, JobRequest};
 use crate::store::queue::QueueFile;
@@ -119,6 +120,32 @@ impl Engine {
             return Ok(None);
         }
         Ok(Some(live))
+    }
+
+    /// Gives a running job another request with so many `speeds`, at once in the store and in memory: tasks that begin from
+    /// here on find it. What has begun goes on with the request it has, so both must mean the same for every speed that
+    /// may be under way. Harmless to repeat.
+    ///
+    /// # Errors
+    /// [`Halt::NotWanted`] if the job has ended, or has been given more speeds since.
+    pub(super) async fn revise(
+        &self,
+        job: &Live,
+        request: JobRequest,
+        speeds: u32,
+    ) -> Result<Arc<Live>, Halt> {
+        let write = || self.store.revise_request(job.id, &request, speeds);
+        if !once_there_is_room(&job.watch, write).await? {
+            return Err(Halt::NotWanted);
+        }
+        let chain = chain(&request);
+        let mut all = self.lock_live();
+        let current = all.get_mut(&job.id).filter(|current| current.speeds <= speeds);
+        let Some(current) = current else { return Err(Halt::NotWanted) };
+        let revised = Live { id: job.id, request, speeds, chain, watch: Arc::clone(&current.watch) };
+        *current = Arc::new(revised);
+        current.watch.expect_speeds(speeds);
+        Ok(Arc::clone(current))
     }
 
     /// Stops all computations of a job that has become final and takes its waiting tasks out of the queue.

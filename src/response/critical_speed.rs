@@ -127,16 +127,14 @@ impl Resolution {
             let high = side.value.is_some_and(|value| value >= RESOLVED_SHARE * peak.height);
             side.width <= sharp || high && side.width <= WIDEST_RATIO * other.width
         };
-        let enough = enough(&below, &above) && enough(&above, &below);
-        // Never much narrower on one side: see WIDEST_RATIO.
-        let halved = |side: &Side, other: &Side| side.width > sharp && 2.0 * side.width > other.width;
-        let coarse = [(&below, &above), (&above, &below)];
-        let coarse = coarse.into_iter().filter(|(side, other)| !enough && halved(side, other));
-        Self {
-            error,
-            resolved: enough && below.value.is_some() && above.value.is_some(),
-            coarse: coarse.map(|(side, _)| side.interval).collect(),
-        }
+        let sides = [(&below, &above), (&above, &below)];
+        // One that is much narrower than the other is not halved before the other is: see WIDEST_RATIO.
+        let coarse = sides
+            .into_iter()
+            .filter(|(side, other)| !enough(side, other) && other.width <= WIDEST_RATIO * side.width);
+        let coarse: Vec<_> = coarse.map(|(side, _)| side.interval).collect();
+        let known = below.value.is_some() && above.value.is_some();
+        Self { error, resolved: coarse.is_empty() && known, coarse }
     }
 }
 
@@ -217,7 +215,7 @@ mod tests {
         let sawtooth = |speed: f64| Some(if speed < 1000.0 { 0.001 * speed } else { 0.2 });
         let (at, found) = highest(&[950.0, 990.0, 1030.0], sawtooth);
         assert_eq!((at, found.resolved), (990.0, false));
-        assert_eq!(found.coarse, [(950.0, 990.0), (990.0, 1030.0)]);
+        assert_eq!(found.coarse, [(990.0, 1030.0)]);
         let (_, found) = highest(&[999.0, 999.8, 1000.2, 1001.0], sawtooth);
         assert!(found.resolved, "{found:?}");
         assert!((found.error - 0.8).abs() < 1e-9);

@@ -12,4 +12,5 @@ mod model;
 mod models;
 mod openapi;
 mod plans;
+mod refine;
 mod sweeps;

@@ -135,7 +135,7 @@ fn check_speeds(found: &mut Findings, speeds: &Speeds, facts: &ModelFacts, stiff
         Err(violations) => return found.0.extend(violations),
     };
     let highest = facts.speeds_rad_s.last().copied().unwrap_or(0.0);
-    for Part { pointer, speeds_rad_s } in &parts {
+    for Part { pointer, speeds_rad_s, .. } in &parts {
         found.require(
             campbell || speeds_rad_s.iter().all(|&omega| omega > 0.0),
             pointer,
