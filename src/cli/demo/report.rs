@@ -82,11 +82,11 @@ pub(super) fn critical_speeds(table: &CriticalSpeeds) -> String {
     );
     let _ = writeln!(
         out,
-        "    Ω    within     level  prominence   engine  nodal                nearest linear crossing     driven at that order"
+        "    Ω   within      level  prominence   engine  nodal                nearest linear crossing     driven at that order"
     );
     let _ = writeln!(
         out,
-        "   rpm      rpm  {:>8}  {:>9}    order  diam.  steady state  (i, j, n)    rpm     off         rpm     off",
+        "   rpm     rpm   {:>8}  {:>9}    order  diam.  steady state  (i, j, n)    rpm     off         rpm     off",
         format!("{unit} rms"),
         format!("{unit} rms")
     );
@@ -110,7 +110,7 @@ pub(super) fn critical_speeds(table: &CriticalSpeeds) -> String {
         out.push_str("  none\n");
     }
     if table.critical_speeds.iter().any(|speed| !speed.resolved) {
-        out.push_str("\n≥: the speeds do not resolve this peak, which may be higher between them, or beyond an end of the range");
+        out.push_str("\n≥: the speeds do not resolve this peak, which may be higher between them, or beyond an end of the range\n");
     }
     out.push_str("\noff: how far the peak lies above (+) or below (-) the prediction\n");
     out.push_str("\nWhat the lobes can drive in this range (linear, without contact)\n\n");
