@@ -101,6 +101,7 @@ impl Scene {
                 count: None,
                 values: Some(speeds_rad_s),
                 unit: SpeedUnit::RadS,
+                added: false,
             }),
             scene: request::Scene {
                 centrifugal_stiffening: self.stiffening,
@@ -123,6 +124,7 @@ impl Scene {
             accuracy: None,
             budget: None,
             control_speeds: None,
+            refine: false,
         }
     }
 

@@ -3,6 +3,7 @@
 //! - [`run::prepare`] reduces a sector (once per model and `modes_per_speed`);
 //! - [`run::check`], [`run::run_speed`] and [`run::modal_analysis`] compute on the reduced sector;
 //! - [`run::plan_sweep`] and [`run::plan_modal_analysis`] say beforehand what that will do and cost;
+//! - [`run::refine`] says which speeds a sweep lacks around its peaks;
 //! - [`run::interaction_map`] and [`run::critical_speeds`] assemble the finished speeds of a sweep.
 
 pub mod accuracy;
@@ -19,8 +20,10 @@ mod model;
 pub mod monitor;
 mod plan;
 mod record;
+mod refine;
 pub mod request;
 mod resolve;
+mod response_curve;
 pub mod result;
 pub mod run;
 pub mod scene;

@@ -38,7 +38,7 @@ pub struct SweepPlan {
     /// Real unknowns of the whole reduced wheel; as long as it is to be computed N(n_b + speeds·k), of which nearly
     /// dependent directions will be dropped.
     pub reduced_unknowns: u64,
-    /// Speeds to simulate.
+    /// Speeds to simulate, those of the request.
     pub speeds: u32,
     /// Threads that compute speeds side by side; one where each starts from the end of another.
     pub workers: u32,
@@ -107,7 +107,8 @@ pub struct CostRange {
     pub contact: f64,
 }
 
-/// Cost of all speeds of a sweep, from a calibration of this machine; without the reduction.
+/// Cost of all speeds of a sweep, from a calibration of this machine; without the reduction and without the speeds that
+/// `refine` adds.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Estimate {
     /// Steps over all speeds.

@@ -33,6 +33,12 @@ pub struct SweepRequest {
     /// Where each speed starts from.
     #[serde(default, skip_serializing_if = "SweepDirection::is_independent")]
     pub sweep: SweepDirection,
+    /// Whether speeds are added around critical speeds, of any sensor, until the response on both sides of every peak is
+    /// resolved: when all speeds are finished, the intervals beside a peak that is not `resolved` are halved, again and
+    /// again. At most as many speeds are added as were asked for, or 50 if those were fewer. They follow the others in
+    /// `speeds`, one list a round. An end of the range is not refined, and no sweep up or down.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub refine: bool,
     /// An accuracy to reach in place of the knobs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub accuracy: Option<Accuracy>,

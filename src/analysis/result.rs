@@ -6,6 +6,7 @@ use utoipa::ToSchema;
 use super::accuracy::control::ErrorEstimate;
 use super::end_state::EndState;
 use super::plan::{Estimate, Spent};
+use super::refine::Refinement;
 use super::request::{SchemeChoice, Sensor};
 use super::scene::Scene;
 use crate::dynamics::energy::{EffectWork, EnergyAudit};
@@ -267,6 +268,9 @@ pub struct InteractionMap {
     /// Estimated errors of the amplitudes, once the job is successful; absent without control runs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub errors: Option<ErrorEstimate>,
+    /// What `refine` has added; absent without it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub refinement: Option<Refinement>,
     /// What the sweep was expected to cost; absent before its speeds are queued.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plan: Option<Estimate>,
@@ -347,6 +351,15 @@ pub struct CriticalSpeed {
     pub index: u32,
     /// Whether it lies at an end of the range or beside a speed without a result, so that the true peak may be beyond.
     pub at_edge: bool,
+    /// How far the true peak may be from `speed_rad_s` because only the speeds of the sweep were computed, rad/s: the distance
+    /// to the farther one of the two neighbouring speeds. A speed without a result, like the end of the range, bounds
+    /// nothing: with `at_edge` this is the distance to the other neighbour, and the peak may be farther away on the open side.
+    pub speed_error_rad_s: f64,
+    /// Whether the speeds of the sweep resolve the peak: on both sides the response at the neighbouring speed is at least 90
+    /// % of the peak's, from an interval no more than three times as wide as the other; or the neighbouring speed is
+    /// within 5e-4 of the peak's, which is then known to that sharpness even where the response jumps (at the fold of a
+    /// backbone curve). Otherwise the true peak may be higher. Never with `at_edge`.
+    pub resolved: bool,
     /// Steady response: root mean square about the mean, in the model's unit of length.
     pub rms: f64,
     /// Half the peak-to-peak displacement there.
@@ -386,6 +399,9 @@ pub struct CriticalSpeeds {
     pub casing_coincidences: Vec<Coincidence>,
     /// Speeds that gave no amplitude, by index.
     pub missing: Vec<u32>,
+    /// What `refine` has added; absent without it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub refinement: Option<Refinement>,
     /// What the sweep was expected to cost.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plan: Option<Estimate>,

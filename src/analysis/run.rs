@@ -10,6 +10,7 @@ pub use super::calibration::Calibration;
 pub use super::modal::modal_analysis;
 pub use super::model::{ModelFacts, ReducedSector, prepare};
 pub use super::plan::{Estimate, ModalAnalysisPlan, SweepPlan, plan_modal_analysis, plan_sweep};
+pub use super::refine::{Refinement, refine};
 pub use super::resolve::{resolve_modal_analysis, resolve_sweep};
 pub use super::speed::run_speed;
 pub use super::stepping::check;

@@ -8,6 +8,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 use utoipa::ToSchema;
 
 use super::error::Violation;
+use super::scene::is_false;
 
 /// Rotational speeds: one range or list, or an array of them, whose union in the order given is taken. What one of them
 /// says is taken as it is; a speed that an earlier one has already (to 1e-9) is not computed again.
@@ -38,6 +39,9 @@ pub struct SpeedSet {
     pub values: Option<Vec<f64>>,
     /// Unit of the numbers above.
     pub unit: SpeedUnit,
+    /// Whether a round of `refine` added these speeds; set by the service.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub added: bool,
 }
 
 /// Unit of a rotational speed on the wire.
@@ -100,6 +104,8 @@ pub(super) struct Part {
     /// JSON pointer to the range or list.
     pub(super) pointer: String,
     pub(super) speeds_rad_s: Vec<f64>,
+    /// Whether a round of refinement added it.
+    pub(super) added: bool,
 }
 
 impl Speeds {
@@ -113,6 +119,38 @@ impl Speeds {
         let mut speeds = self.resolve()?;
         speeds.sort_by(f64::total_cmp);
         Ok(speeds)
+    }
+
+    /// Those of them that no refinement has added.
+    pub(super) fn asked(&self) -> Result<Vec<f64>, Vec<Violation>> {
+        Ok(self.parts()?.into_iter().filter(|part| !part.added).flat_map(|part| part.speeds_rad_s).collect())
+    }
+
+    /// The same and `speeds_rad_s` after them, as a list that a refinement has added: no speed changes its index.
+    pub(super) fn with_added(&self, speeds_rad_s: Vec<f64>) -> Self {
+        let mut sets = match self {
+            Self::One(set) => vec![set.clone()],
+            Self::Several(sets) => sets.clone(),
+        };
+        sets.push(SpeedSet {
+            from: None,
+            to: None,
+            count: None,
+            values: Some(speeds_rad_s),
+            unit: SpeedUnit::RadS,
+            added: true,
+        });
+        Self::Several(sets)
+    }
+
+    /// How many more speeds there may be.
+    pub(super) fn room(&self) -> usize {
+        let sets = match self {
+            Self::One(set) => std::slice::from_ref(set),
+            Self::Several(sets) => sets,
+        };
+        let given = |set: &SpeedSet| set.values.as_ref().map_or(set.count.unwrap_or(0) as usize, Vec::len);
+        MAX_SPEEDS.saturating_sub(sets.iter().map(given).sum())
     }
 
     /// The same, range by range.
@@ -184,7 +222,7 @@ impl SpeedSet {
                     format!("a speed lies between 0 and {HIGHEST_SPEED:e} rad/s, unlike {}", given[bad]);
                 at(&field, &message)
             }
-            None => Ok(Part { pointer, speeds_rad_s }),
+            None => Ok(Part { pointer, speeds_rad_s, added: self.added }),
         }
     }
 }
@@ -222,6 +260,24 @@ mod tests {
         // On the wire it stays as it was given.
         assert_eq!(speeds(serde_json::to_value(&joined).unwrap()), joined);
         assert!(serde_json::to_value(&joined).unwrap().is_array());
+    }
+
+    #[test]
+    fn added_speeds_change_no_index() {
+        for given in [
+            json!({"values": [5, 5, 7], "unit": "rad_s"}),
+            json!([{"values": [5, 5], "unit": "rad_s"}, {"from": 5, "to": 7, "count": 2, "unit": "rad_s"}]),
+        ] {
+            let asked = speeds(given);
+            let more = asked.with_added(vec![6.0]).with_added(vec![5.5, 6.5]);
+            assert_eq!(more.resolve().unwrap(), [5.0, 5.0, 7.0, 6.0, 5.5, 6.5]);
+            assert_eq!(more.asked().unwrap(), asked.resolve().unwrap());
+            assert_eq!(more.room(), asked.room() - 3);
+            assert_eq!(speeds(serde_json::to_value(&more).unwrap()), more);
+        }
+        let most = speeds(json!({"from": 1, "to": 2, "count": MAX_SPEEDS - 1, "unit": "rad_s"}));
+        assert_eq!((most.room(), most.with_added(vec![3.0]).room()), (1, 0));
+        assert!(most.with_added(vec![3.0]).resolve().is_ok());
     }
 
     #[test]

@@ -363,6 +363,8 @@ pub fn check(
     if (steps_per_revolution, kept_modes) == (AutoOr::Auto, AutoOr::Auto) {
         return Ok(());
     }
+    // What a refinement added lies between these, and fails by itself.
+    let speeds = request.speeds.asked().map_err(AnalysisError::Refused)?;
     let mut worst = (0, 0.0);
     for (index, &speed) in speeds.iter().enumerate() {
         monitor.progress(index as f64 / speeds.len() as f64, "stability limit of the time step");

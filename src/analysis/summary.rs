@@ -1,5 +1,6 @@
 //! What the speeds of a sweep say together: the interaction map and the critical speeds.
 
+use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 
 use super::accuracy::control::ErrorEstimate;
@@ -9,15 +10,16 @@ use super::error::AnalysisError;
 use super::model::ReducedSector;
 use super::monitor::Monitor;
 use super::plan::Spent;
+use super::refine::Refinement;
 use super::request::{Sensor, SweepRequest};
+use super::response_curve::ResponseCurve;
 use super::result::{
-    Coincidence, CriticalSpeed, CriticalSpeeds, Crossing, DrivenCrossing, InteractionMap, Point, PointStatus,
-    SpeedSpectra,
+    Coincidence, CriticalSpeed, CriticalSpeeds, Crossing, DrivenCrossing, InteractionMap, Point, SpeedSpectra,
 };
 use super::run::VERSION;
 use crate::dynamics::sector::Units;
 use crate::response::campbell::multiples;
-use crate::response::critical_speed::peaks;
+use crate::response::critical_speed::Resolution;
 use crate::response::spectra::engine_orders;
 
 /// The row that one speed contributes to the map of `sensor` (index into the request's sensors).
@@ -42,8 +44,11 @@ pub fn interaction_map(
     let mut amplitude = vec![None; speeds.len()];
     let mut points = Vec::with_capacity(finished.len());
     for (point, row) in finished {
-        amplitude[point.index as usize] = row;
-        points.push(point);
+        // Speeds that a refinement has added since the request was read wait for the next reader.
+        if let Some(place) = amplitude.get_mut(point.index as usize) {
+            *place = row;
+            points.push(point);
+        }
     }
     points.sort_by_key(|point| point.index);
     InteractionMap {
@@ -53,6 +58,7 @@ pub fn interaction_map(
         sensor: request.sensors[sensor],
         nodal_diameter,
         units: units.clone(),
+        refinement: Refinement::of(request, &points),
         plan: None,
         spent: Spent::on(&points),
         points,
@@ -66,9 +72,6 @@ pub fn interaction_map(
 const PREDICTED_FAMILIES: usize = 2;
 const PREDICTED_SUPERHARMONICS: [u32; 3] = [1, 2, 3];
 
-/// Peaks of the response that rise above their surroundings by less than this share of the largest are left out.
-const PROMINENT: f64 = 0.1;
-
 /// Critical speeds of a sweep, one table per sensor, beside the linear prediction; from the points of all speeds and their `errors`
 /// if they were estimated. The plan is for the caller to add.
 pub fn critical_speeds(
@@ -79,23 +82,19 @@ pub fn critical_speeds(
     monitor: &dyn Monitor,
 ) -> Result<Vec<CriticalSpeeds>, AnalysisError> {
     let speeds = request.speeds.resolve().map_err(AnalysisError::Refused)?;
-    let mut ascending: Vec<usize> = (0..speeds.len()).collect();
-    ascending.sort_by(|&a, &b| speeds[a].total_cmp(&speeds[b]));
-    let mut completed = vec![None; speeds.len()];
-    for point in points.iter().filter(|point| point.status == PointStatus::Completed) {
-        completed[point.index as usize] = Some(point);
-    }
-    let prediction = predict(reduced, request, ascending.iter().map(|&index| speeds[index]), monitor)?;
-    let ordered: Vec<Option<&Point>> = ascending.iter().map(|&index| completed[index]).collect();
-    let missing: Vec<u32> =
-        (0..).zip(&completed).filter(|(_, point)| point.is_none()).map(|(i, _)| i).collect();
+    let curve = ResponseCurve::of(&speeds, points);
+    let prediction = predict(reduced, request, &curve.speeds_rad_s, monitor)?;
+    let completed: BTreeSet<u32> = curve.points.iter().flatten().map(|point| point.index).collect();
+    let missing: Vec<u32> = (0..speeds.len() as u32).filter(|index| !completed.contains(index)).collect();
+    let refinement = Refinement::of(request, points);
     let table = |(sensor, &of): (usize, &Sensor)| CriticalSpeeds {
         sensor: of,
-        critical_speeds: response_peaks(&ordered, sensor, &prediction.linear, errors),
+        critical_speeds: response_peaks(&curve, sensor, &prediction.linear, errors),
         linear_crossings: prediction.linear.clone(),
         driven_crossings: prediction.driven.clone(),
         casing_coincidences: prediction.coincidences.clone(),
         missing: missing.clone(),
+        refinement,
         plan: None,
         spent: Spent::on(points),
         units: reduced.units.clone(),
@@ -108,15 +107,15 @@ pub fn critical_speeds(
 
 /// Prominent peaks of one sensor's level over ascending speeds, each with the nearest linear crossing.
 fn response_peaks(
-    ordered: &[Option<&Point>],
+    curve: &ResponseCurve,
     sensor: usize,
     linear: &[Crossing],
     errors: Option<&ErrorEstimate>,
 ) -> Vec<CriticalSpeed> {
-    let level = |point: &&Point| point.responses[sensor].rms;
-    let curve: Vec<Option<f64>> = ordered.iter().map(|point| point.as_ref().map(level)).collect();
-    let critical = peaks(&curve, PROMINENT).into_iter().filter_map(|peak| {
-        let point = ordered[peak.index]?;
+    let level = curve.level(sensor);
+    let critical = ResponseCurve::peaks(&level).into_iter().filter_map(|peak| {
+        let point = curve.points[peak.index]?;
+        let resolution = Resolution::of(&curve.speeds_rad_s, &level, &peak);
         let response = &point.responses[sensor];
         let distance = |crossing: &&Crossing| (crossing.speed_rad_s - point.speed_rad_s).abs();
         let nearest = linear.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).cloned();
@@ -124,6 +123,8 @@ fn response_peaks(
             speed_rad_s: point.speed_rad_s,
             index: point.index,
             at_edge: peak.at_edge,
+            speed_error_rad_s: resolution.error,
+            resolved: resolution.resolved,
             rms: response.rms,
             half_peak_to_peak: response.half_peak_to_peak,
             prominence: peak.prominence,
@@ -149,14 +150,14 @@ struct Prediction {
 fn predict(
     reduced: &ReducedSector,
     request: &SweepRequest,
-    ascending: impl Iterator<Item = f64>,
+    ascending: &[f64],
     monitor: &dyn Monitor,
 ) -> Result<Prediction, AnalysisError> {
     let scene = &request.scene;
     let effects = rotation(scene);
     let mut diagram = FrequencyDiagram::new(&reduced.wheel, effects, PREDICTED_FAMILIES);
     // Repeated speeds would bracket nothing.
-    let mut speeds: Vec<f64> = ascending.collect();
+    let mut speeds = ascending.to_vec();
     speeds.dedup();
     for (done, &speed) in speeds.iter().enumerate() {
         monitor.progress(done as f64 / speeds.len() as f64, "linear prediction");

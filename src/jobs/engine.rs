@@ -122,22 +122,41 @@ impl Engine {
         Ok(Some(live))
     }
 
-    /// Keeps the settings that were chosen for a job and goes on with them.
+    /// Gives a running job another request with so many `speeds`, at once in the store and in memory: tasks that begin from
+    /// here on find it. What has begun goes on with the request it has, so both must mean the same for every speed that
+    /// may be under way. Harmless to repeat.
+    ///
+    /// # Errors
+    /// [`Halt::NotWanted`] if the job has ended, or has been given more speeds since.
+    pub(super) async fn revise(
+        &self,
+        job: &Live,
+        request: JobRequest,
+        speeds: u32,
+    ) -> Result<Arc<Live>, Halt> {
+        let write = || self.store.revise_request(job.id, &request, speeds);
+        if !once_there_is_room(&job.watch, write).await? {
+            return Err(Halt::NotWanted);
+        }
+        let chain = chain(&request);
+        let mut all = self.lock_live();
+        let current = all.get_mut(&job.id).filter(|current| current.speeds <= speeds);
+        let Some(current) = current else { return Err(Halt::NotWanted) };
+        let revised = Live { id: job.id, request, speeds, chain, watch: Arc::clone(&current.watch) };
+        *current = Arc::new(revised);
+        current.watch.expect_speeds(speeds);
+        Ok(Arc::clone(current))
+    }
+
+    /// Keeps the settings that were chosen for a job and goes on with the request that has them.
     pub(super) async fn choose(
         &self,
         job: &Live,
         request: JobRequest,
         choice: Chosen,
     ) -> Result<Arc<Live>, Halt> {
-        once_there_is_room(&job.watch, || self.store.record_choice(job.id, &request, &choice)).await?;
-        let chain = job.chain.clone();
-        let live =
-            Arc::new(Live { id: job.id, request, speeds: job.speeds, chain, watch: Arc::clone(&job.watch) });
-        // Whoever dismissed it meanwhile has told the watch that both share.
-        if let Some(entry) = self.lock_live().get_mut(&job.id) {
-            *entry = Arc::clone(&live);
-        }
-        Ok(live)
+        once_there_is_room(&job.watch, || self.store.record_choice(job.id, &choice)).await?;
+        self.revise(job, request, job.speeds).await
     }
 
     /// Stops all computations of a job that has become final and takes its waiting tasks out of the queue.

@@ -5,15 +5,50 @@ use super::engine::{Engine, Live};
 use super::error::Halt;
 use super::progress::PhaseMonitor;
 use super::room::once_there_is_room;
+use crate::analysis::error::AnalysisError;
 use crate::analysis::request::SweepRequest;
+use crate::analysis::result::Point;
 use crate::analysis::run;
+use crate::store::jobs::JobRequest;
 use crate::store::results::Document;
 
-/// Computes the critical speeds of a sweep whose speeds are all finished and marks it successful.
+/// What to do with a sweep whose speeds are all finished: more speeds, where it asks for them around its peaks, or its
+/// critical speeds, with which it is successful.
 pub(super) async fn sweep(engine: &Engine, job: &Live, request: &SweepRequest) -> Result<(), Halt> {
+    let points = engine.store.points(job.id).await?;
+    if points.len() != job.speeds as usize {
+        // Somebody else saw the last of them finished too, and has gone on with more.
+        return Ok(());
+    }
+    if request.refine {
+        let (settings, finished) = (request.clone(), points.clone());
+        if let Some(refined) = engine.pool.run(move || run::refine(&settings, &finished)).await? {
+            return more_speeds(engine, job, refined).await;
+        }
+    }
+    conclude(engine, job, request, points).await
+}
+
+/// Goes on with a request that has more speeds. Who comes to the same speeds a second time changes nothing.
+async fn more_speeds(engine: &Engine, job: &Live, request: SweepRequest) -> Result<(), Halt> {
+    let speeds = request.speeds.resolve().map_err(AnalysisError::Refused)?.len() as u32;
+    let revised = engine.revise(job, JobRequest::Sweep(Box::new(request)), speeds).await?;
+    tracing::info!(job.id = %job.id, speeds, added = speeds - job.speeds, "refining");
+    let added: Vec<u32> = (job.speeds..revised.speeds).collect();
+    engine.queue.push_speeds(job.id, &added).await?;
+    engine.new_speeds.notify_one();
+    Ok(())
+}
+
+/// Computes the critical speeds of a sweep and marks it successful.
+async fn conclude(
+    engine: &Engine,
+    job: &Live,
+    request: &SweepRequest,
+    points: Vec<Point>,
+) -> Result<(), Halt> {
     let monitor = PhaseMonitor::uncounted(job.watch.clone());
     let reduced = engine.reductions.get(&request.model, request.modes(), monitor).await?;
-    let points = engine.store.points(job.id).await?;
     let errors = control::errors(engine, job, request, &points).await?;
     let (settings, estimate) = (request.clone(), errors.clone());
     let monitor = PhaseMonitor::uncounted(job.watch.clone());

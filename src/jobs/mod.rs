@@ -4,7 +4,8 @@
 //! POST ─ Jobs::submit ─→ jobs table ─→ queue `prepare` ─→ prepare: reduction, check
 //!                                                             │ one task per speed
 //!                                      queue `speeds`  ←──────┘
-//!                                             └─→ speed: run, commit its row ─→ the last one: finish
+//!                                      ↑      └─→ speed: run, commit its row ─→ the last one: finish
+//!                                      └─────────── more speeds, with `refine` ←──────────────┘
 //! ```
 //!
 //! A sweep up or down has one task out at a time: each speed queues the next once it is committed, with the state that the next

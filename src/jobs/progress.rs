@@ -84,6 +84,13 @@ impl Watch {
         self.report_speeds(&mut done);
     }
 
+    /// There are so many speeds now.
+    pub(super) fn expect_speeds(&self, speeds: u32) {
+        let mut done = self.done.lock().unwrap_or_else(PoisonError::into_inner);
+        done.speeds = done.speeds.max(speeds);
+        self.report_speeds(&mut done);
+    }
+
     fn report_speeds(&self, done: &mut Done) {
         let phase = format!("{} of {} speeds finished", done.finished, done.speeds);
         self.report(done, &phase, done.percent_of_sweep());
@@ -224,6 +231,21 @@ mod tests {
         note();
         // 10 % for the reduction, the rest by speeds; 100 is for the store to give.
         assert_eq!(percents, [5, 10, 21, 32, 32, 55, 99]);
+    }
+
+    #[test]
+    fn more_speeds_take_no_progress_back() {
+        let watch = watch(2);
+        watch.speeds_finished(2, None);
+        assert_eq!(told(&watch), Some((99, "2 of 2 speeds finished".to_owned())));
+        watch.expect_speeds(4);
+        assert_eq!(told(&watch), Some((99, "2 of 4 speeds finished".to_owned())));
+        SpeedMonitor::new(watch.clone(), 2).progress(0.5, "integrating");
+        assert_eq!(told(&watch), None);
+        // Somebody who is late.
+        watch.expect_speeds(3);
+        watch.speeds_finished(3, Some(2));
+        assert_eq!(told(&watch), Some((99, "3 of 4 speeds finished".to_owned())));
     }
 
     #[test]

@@ -332,6 +332,10 @@ fn key(map: &InteractionMap, critical: Option<&CriticalSpeeds>, campbell: Option
         let unsettled = critical.critical_speeds.iter().any(|speed| speed.settling == Verdict::NotSettled);
         let words = if unsettled { "critical speed (* not settled)" } else { "critical speed" };
         entries.push((dashes.set("stroke-width", "1.5"), words));
+        if critical.critical_speeds.iter().any(|speed| !speed.resolved) {
+            let dots = line((-8.0, 0.0), (8.0, 0.0)).set("stroke", "#d62728").set("stroke-width", "1.5");
+            entries.push((dots.set("stroke-dasharray", marks::UNRESOLVED), "peak not resolved"));
+        }
         entries.push((
             group().child(marks::diamond((0.0, 0.0), NATURAL, "black")),
             "crossing that the lobes drive",

@@ -8,6 +8,9 @@ use crate::analysis::result::{CriticalSpeed, Crossing, DrivenCrossing, Verdict, 
 /// Distance that keeps upright labels apart.
 const LABEL_SPACING: f64 = 15.0;
 
+/// Dashes of a critical speed whose peak is not resolved.
+pub(super) const UNRESOLVED: &str = "1.5 4";
+
 /// An open circle: the linear criterion's crossing.
 pub(super) fn linear((x, y): (f64, f64), stroke: &str, crossing: &Crossing) -> Element {
     let Crossing { nodal_diameter: i, family: j, superharmonic: n, .. } = crossing;
@@ -63,7 +66,8 @@ pub(super) fn diamond((x, y): (f64, f64), fill: &str, stroke: &str) -> Element {
         .set("stroke", stroke)
 }
 
-/// Dashed lines from `top` to `bottom` at the critical speeds, `x` in the drawing, each with its speed above.
+/// Dashed lines from `top` to `bottom` at the critical speeds, `x` in the drawing, each with its speed above; dotted where
+/// the speeds of the sweep do not resolve the peak.
 pub(super) fn critical(speeds: &[(f64, &CriticalSpeed)], right: f64, top: f64, bottom: f64) -> Vec<Element> {
     let places: Vec<_> = speeds.iter().map(|(x, _)| *x).collect();
     let labels = spread(&places, right);
@@ -76,13 +80,19 @@ pub(super) fn critical(speeds: &[(f64, &CriticalSpeed)], right: f64, top: f64, b
             order(speed.dominant_engine_order),
             if settled { "" } else { " *" }
         );
+        let (dashes, title) = if speed.resolved {
+            ("7 4", format!("{words}, known to {} rpm", significant(rpm(speed.speed_error_rad_s))))
+        } else {
+            let doubt = "not resolved by the speeds of the sweep, the peak may be higher";
+            (UNRESOLVED, format!("{words}: {doubt}"))
+        };
         out.push(
             line((*x, top), (*x, bottom))
                 .set("class", "critical-speed")
                 .set("stroke", "#d62728")
                 .set("stroke-width", "1.2")
-                .set("stroke-dasharray", "7 4")
-                .title(&words),
+                .set("stroke-dasharray", dashes)
+                .title(&title),
         );
         out.push(line((label_x, top - 12.0), (*x, top)).set("stroke", "#d62728"));
         out.push(

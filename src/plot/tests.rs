@@ -70,7 +70,7 @@ fn reduction() -> serde_json::Value {
 fn critical() -> CriticalSpeeds {
     let speed = |index: usize, settling: &str| {
         json!({"speed_rad_s": rad_s(SPEEDS_RPM[index]), "index": index, "rms": 0.2, "half_peak_to_peak": 0.3,
-            "at_edge": false, "prominence": 0.1, "dominant_engine_order": 2.0, "dominant_nodal_diameter": 2, "settling": settling})
+            "at_edge": false, "speed_error_rad_s": rad_s(1000.0), "resolved": settling == "periodic", "prominence": 0.1, "dominant_engine_order": 2.0, "dominant_nodal_diameter": 2, "settling": settling})
     };
     serde_json::from_value(json!({
         "sensor": sensor(), "critical_speeds": [speed(1, "periodic"), speed(3, "not_settled")],
@@ -156,6 +156,10 @@ fn critical_speeds_stand_at_their_speeds() {
         let texts: Vec<_> = drawing.descendants().filter_map(|node| node.text()).collect();
         assert!(texts.contains(&"11,000 rpm · EO 2"));
         assert!(texts.contains(&"13,000 rpm · EO 2 *"), "not settled is marked");
+        let dashes: Vec<_> =
+            of_class(&drawing, "critical-speed").map(|line| line.attribute("stroke-dasharray")).collect();
+        assert_ne!(dashes[0], dashes[1], "not resolved is dotted");
+        assert!(texts.contains(&"peak not resolved"));
     }
 }
 

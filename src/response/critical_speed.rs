@@ -1,4 +1,16 @@
-//! Critical speeds: peaks of the steady response over Ω (§9).
+//! Critical speeds: peaks of the steady response over Ω (§9), and whether the computed speeds resolve them.
+
+/// A peak is resolved if the response at the neighbouring speeds is at least this share of it. Evenly sampled, a linear
+/// resonance 1/√(1 + x²) is then seen at |x| < 0.18 half-bandwidths and within 1.5 % of its top.
+pub const RESOLVED_SHARE: f64 = 0.9;
+
+/// Speeds as close as this, relative to the peak's, resolve it whatever the response does between them. At the fold of a
+/// backbone curve the response of a wheel that touches its casing jumps: no grid makes the neighbour higher there.
+pub const SHARPNESS: f64 = 5e-4;
+
+/// How much wider one of the intervals beside a resolved peak may be than the other. In a wide one beside a narrow one a
+/// higher peak could hide whose flanks are what was sampled; up to this ratio a linear resonance is within 7 % of its top.
+const WIDEST_RATIO: f64 = 3.0;
 
 /// A local maximum of a sampled curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -77,9 +89,160 @@ fn prominence(values: &[f64], left: usize, right: usize) -> f64 {
     height - base
 }
 
+/// How well a sampled curve knows one of its peaks.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Resolution {
+    /// Distance from the peak's sample to the farther one of its two neighbours: the true peak is no farther away. A
+    /// neighbour without a value, or none at all, bounds nothing; then the other one's distance.
+    pub error: f64,
+    /// Whether the samples resolve the peak; never if one of the neighbours has no value.
+    pub resolved: bool,
+    /// The intervals beside it that have to be halved until they do; none beside the end of the curve, where the peak
+    /// may lie beyond.
+    pub coarse: Vec<(f64, f64)>,
+}
+
+/// What lies beside a peak on one side.
+struct Side {
+    /// From the end of the peak's flat top, which is usually one sample, to the next sample.
+    width: f64,
+    to: f64,
+    interval: (f64, f64),
+    value: Option<f64>,
+}
+
+impl Resolution {
+    /// Of a peak of `curve`, which has values at `speeds`, ascending; of equal speeds one counts.
+    pub fn of(speeds: &[f64], curve: &[Option<f64>], peak: &Peak) -> Self {
+        let below = side(speeds, curve, peak, &mut (0..peak.index).rev());
+        let above = side(speeds, curve, peak, &mut (peak.index + 1..speeds.len()));
+        let at = speeds[peak.index];
+        let known = [&below, &above].into_iter().flatten().filter(|side| side.value.is_some());
+        let error = known.map(|side| (side.to - at).abs()).fold(0.0, f64::max);
+        let (Some(below), Some(above)) = (below, above) else {
+            return Self { error, resolved: false, coarse: Vec::new() };
+        };
+        let sharp = SHARPNESS * at;
+        let enough = |side: &Side, other: &Side| {
+            let high = side.value.is_some_and(|value| value >= RESOLVED_SHARE * peak.height);
+            side.width <= sharp || high && side.width <= WIDEST_RATIO * other.width
+        };
+        let sides = [(&below, &above), (&above, &below)];
+        // One that is much narrower than the other is not halved before the other is: see WIDEST_RATIO.
+        let coarse = sides
+            .into_iter()
+            .filter(|(side, other)| !enough(side, other) && other.width <= WIDEST_RATIO * side.width);
+        let coarse: Vec<_> = coarse.map(|(side, _)| side.interval).collect();
+        let known = below.value.is_some() && above.value.is_some();
+        Self { error, resolved: coarse.is_empty() && known, coarse }
+    }
+}
+
+/// The first sample among `indices`, which lead away from the peak, that is not part of its top; none at the end.
+fn side(
+    speeds: &[f64],
+    curve: &[Option<f64>],
+    peak: &Peak,
+    indices: &mut dyn Iterator<Item = usize>,
+) -> Option<Side> {
+    let mut top = speeds[peak.index];
+    for index in indices {
+        let (to, value) = (speeds[index], curve[index]);
+        if value == Some(peak.height) {
+            top = to;
+        } else if to != top {
+            let interval = (to.min(top), to.max(top));
+            return Some(Side { width: interval.1 - interval.0, to, interval, value });
+        }
+    }
+    None
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// The highest peak of `response` over ascending speeds, with its speed.
+    fn highest(speeds: &[f64], response: impl Fn(f64) -> Option<f64>) -> (f64, Resolution) {
+        let curve: Vec<_> = speeds.iter().map(|&speed| response(speed)).collect();
+        let found = peaks(&curve, 0.0);
+        let peak = found.iter().max_by(|a, b| a.height.total_cmp(&b.height)).unwrap();
+        (speeds[peak.index], Resolution::of(speeds, &curve, peak))
+    }
+
+    /// A linear resonance at 1000 with a half-bandwidth of 10.
+    fn resonance(speed: f64) -> Option<f64> {
+        Some(1.0 / (1.0 + ((speed - 1000.0) / 10.0).powi(2)).sqrt())
+    }
+
+    fn grid(from: f64, step: f64, count: u32) -> Vec<f64> {
+        (0..count).map(|i| from + step * f64::from(i)).collect()
+    }
+
+    #[test]
+    fn a_resonance_is_resolved_by_a_fine_grid_only() {
+        for shift in [0.0, 0.3, 0.4, 0.9] {
+            let (at, coarse) = highest(&grid(900.0 + 20.0 * shift, 20.0, 10), resonance);
+            assert!(!coarse.resolved && coarse.error == 20.0 && (at - 1000.0).abs() <= 20.0, "{coarse:?}");
+            assert_eq!(coarse.coarse, [(at - 20.0, at), (at, at + 20.0)]);
+            let (at, fine) = highest(&grid(900.0 + 2.0 * shift, 2.0, 100), resonance);
+            assert!(fine.resolved && fine.coarse.is_empty(), "{fine:?}");
+            assert!((fine.error - 2.0).abs() < 1e-9 && (at - 1000.0).abs() <= fine.error, "{fine:?}");
+        }
+        // What the constant promises, for any even grid.
+        for step in grid(0.5, 0.01, 1000) {
+            for shift in grid(0.0, 0.05, 21) {
+                let (at, found) = highest(&grid(1000.0 - step * (20.0 + shift), step, 41), resonance);
+                let seen = resonance(at).unwrap();
+                assert!(!found.resolved || seen > 0.985 && (at - 1000.0).abs() < 1.8, "{step} {shift}");
+            }
+        }
+    }
+
+    #[test]
+    fn flanks_of_a_hidden_peak_are_not_taken_for_it() {
+        // As high at 900 as at 1100, and 1102 is hardly lower.
+        let (at, found) = highest(&[850.0, 900.0, 1099.0, 1101.0, 1103.0], resonance);
+        assert_eq!(at, 1099.0);
+        assert!(!found.resolved);
+        assert_eq!(found.coarse, [(900.0, 1099.0)], "halving the narrow one would help nobody");
+        assert_eq!(found.error, 199.0);
+    }
+
+    #[test]
+    fn a_jump_is_resolved_when_it_is_known_sharply() {
+        // The response climbs along a backbone and falls off its end at 1000.
+        let sawtooth = |speed: f64| Some(if speed < 1000.0 { 0.001 * speed } else { 0.2 });
+        let (at, found) = highest(&[950.0, 990.0, 1030.0], sawtooth);
+        assert_eq!((at, found.resolved), (990.0, false));
+        assert_eq!(found.coarse, [(990.0, 1030.0)]);
+        let (_, found) = highest(&[999.0, 999.8, 1000.2, 1001.0], sawtooth);
+        assert!(found.resolved, "{found:?}");
+        assert!((found.error - 0.8).abs() < 1e-9);
+    }
+
+    #[test]
+    fn what_lies_beyond_an_edge_is_not_known() {
+        let (at, found) = highest(&grid(1000.0, 1.0, 10), resonance);
+        assert_eq!((at, found), (1000.0, Resolution { error: 1.0, resolved: false, coarse: Vec::new() }));
+        // A missing speed bounds nothing, however close, but may be approached.
+        let gap = |missing: f64| move |speed: f64| resonance(speed).filter(|_| speed != missing);
+        let (at, found) = highest(&[990.0, 995.0, 1000.0, 1010.0], gap(1000.0));
+        assert_eq!((at, found.error, found.resolved), (995.0, 5.0, false));
+        assert_eq!(found.coarse, [(990.0, 995.0), (995.0, 1000.0)]);
+        let (_, found) = highest(&[999.3, 999.7, 1000.0, 1010.0], gap(1000.0));
+        assert!(!found.resolved && found.coarse.is_empty(), "{found:?}");
+    }
+
+    #[test]
+    fn equal_speeds_and_a_flat_top_count_once() {
+        let (_, found) = highest(&[998.0, 998.0, 1000.0, 1000.0, 1000.0, 1001.0, 1001.0], resonance);
+        assert_eq!((found.error, found.resolved), (2.0, true));
+        let flat = |speed: f64| Some(if (990.0..1010.0).contains(&speed) { 1.0 } else { 0.1 });
+        let (at, found) = highest(&grid(970.0, 10.0, 7), flat);
+        assert!((at, found.error, found.resolved) == (990.0, 20.0, false), "{at} {found:?}");
+        assert_eq!(found.coarse, [(980.0, 990.0), (1000.0, 1010.0)]);
+    }
 
     fn indices(curve: &[f64], share: f64) -> Vec<usize> {
         let curve: Vec<_> = curve.iter().map(|&v| Some(v)).collect();

@@ -19,15 +19,15 @@ use super::chains::{finished, first_of};
 use super::model::{self, files_in};
 
 /// `rubmap serve` as a child process.
-struct Program {
+pub(crate) struct Program {
     child: Child,
-    api: Api,
+    pub(crate) api: Api,
     /// What it has logged since it listens.
     log: Arc<Mutex<Vec<String>>>,
 }
 
 impl Program {
-    fn serve(data: &Path) -> Self {
+    pub(crate) fn serve(data: &Path) -> Self {
         let mut child = Command::new(env!("CARGO_BIN_EXE_rubmap"))
             .args(["serve", "--addr", "127.0.0.1:0", "--workers", "2", "--data"])
             .arg(data)
@@ -62,7 +62,7 @@ impl Program {
     }
 
     /// SIGKILL: no handler runs, nothing is flushed.
-    fn kill(mut self) {
+    pub(crate) fn kill(mut self) {
         self.child.kill().unwrap();
         self.child.wait().unwrap();
     }
@@ -76,7 +76,7 @@ impl Drop for Program {
 }
 
 /// Points by index; each carries its wall time, which no second computation would repeat.
-async fn points(api: &Api, id: &str) -> BTreeMap<u64, Value> {
+pub(crate) async fn points(api: &Api, id: &str) -> BTreeMap<u64, Value> {
     let map = api.get(&format!("/v1/jobs/{id}/interaction-map")).await.body;
     let points = map["points"].as_array().unwrap();
     points.iter().map(|point| (point["index"].as_u64().unwrap(), point.clone())).collect()

@@ -13,5 +13,6 @@ mod model;
 mod models;
 mod openapi;
 mod plans;
+mod refine;
 mod studies;
 mod sweeps;

@@ -9,11 +9,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use rubmap::analysis::auto_or::AutoOr;
 use rubmap::analysis::error::{AnalysisError, Violation};
 use rubmap::analysis::monitor::{Monitor, Unwatched};
-use rubmap::analysis::request::{Component, SchemeChoice, SweepRequest};
+use rubmap::analysis::request::{Component, SchemeChoice, SweepDirection, SweepRequest};
 use rubmap::analysis::result::{Point, PointStatus, SpeedResult};
 use rubmap::analysis::run::{
-    ModelFacts, ReducedSector, check, critical_speeds, interaction_map, map_row, prepare, resolve_sweep,
-    run_speed,
+    ModelFacts, ReducedSector, check, critical_speeds, interaction_map, map_row, prepare, refine,
+    resolve_sweep, run_speed,
 };
 use rubmap::analysis::scene::Symmetry;
 use rubmap::dynamics::casing::Restriction;
@@ -251,6 +251,14 @@ fn summaries_survive(request: &SweepRequest, results: &[SpeedResult]) {
     for table in critical_speeds(reduced, request, &points, None, &Unwatched).unwrap() {
         survives_json(&table);
     }
+    let independent = request.sweep == SweepDirection::Independent;
+    let Some(more) = refine(&SweepRequest { refine: independent, ..request.clone() }, &points) else {
+        return;
+    };
+    let (before, after) = (request.speeds.resolve().unwrap(), more.speeds.resolve().unwrap());
+    assert!(after.len() > before.len() && after.starts_with(&before), "{before:?} {after:?}");
+    assert_eq!(resolve_sweep(more.clone(), &model().facts).as_ref(), Ok(&more));
+    survives_json(&more);
 }
 
 /// What is written as JSON is read back unchanged; numbers that are none would come back as null.

@@ -122,6 +122,7 @@ impl StudyRequest {
             sensors: self.sensors.clone(),
             max_engine_order: self.max_engine_order,
             sweep: SweepDirection::Independent,
+            refine: false,
             accuracy: None,
             budget: None,
             control_speeds: None,

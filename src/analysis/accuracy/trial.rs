@@ -75,9 +75,11 @@ impl TrialRequest {
             count: None,
             values: Some(vec![speed_rad_s]),
             unit: SpeedUnit::RadS,
+            added: false,
         });
         (sweep.accuracy, sweep.budget, sweep.control_speeds) = (None, None, None);
         sweep.sweep = SweepDirection::Independent;
+        sweep.refine = false;
         Self { sweep, history_revolutions: 0, twin: false }
     }
 }

@@ -45,6 +45,12 @@ fn check_chain(found: &mut Findings, request: &SweepRequest) {
     if request.sweep == SweepDirection::Independent {
         return;
     }
+    found.require(
+        !request.refine,
+        "/refine",
+        "speeds that are added later have no place in a sweep up or down, where each starts from the end of its neighbour: \
+         leave refine away, or make the speeds independent",
+    );
     let scene = &request.scene;
     let turns = scene
         .orbit

@@ -145,6 +145,11 @@ fn check_knobs(found: &mut Findings, request: &SweepRequest) {
     ];
     check_choice(found, request.accuracy, request.budget, &fixed);
     found.require(
+        request.budget.is_none() || !request.refine,
+        "/refine",
+        "how many speeds are added is not known beforehand, and a budget cannot be kept: set this to false, or ask for an accuracy",
+    );
+    found.require(
         request.control_speeds.is_none_or(|speeds| speeds <= limits::CONTROL_SPEEDS),
         "/control_speeds",
         format!("at most {} speeds are simulated again", limits::CONTROL_SPEEDS),
@@ -202,7 +207,7 @@ fn check_speeds(found: &mut Findings, speeds: &Speeds, facts: &ModelFacts, stiff
         Err(violations) => return found.0.extend(violations),
     };
     let highest = facts.speeds_rad_s.last().copied().unwrap_or(0.0);
-    for Part { pointer, speeds_rad_s } in &parts {
+    for Part { pointer, speeds_rad_s, .. } in &parts {
         found.require(
             campbell || speeds_rad_s.iter().all(|&omega| omega > 0.0),
             pointer,

@@ -82,19 +82,21 @@ pub(super) fn critical_speeds(table: &CriticalSpeeds) -> String {
     );
     let _ = writeln!(
         out,
-        "    Ω       level  prominence   engine  nodal                nearest linear crossing     driven at that order"
+        "    Ω   within      level  prominence   engine  nodal                nearest linear crossing     driven at that order"
     );
     let _ = writeln!(
         out,
-        "   rpm   {:>8}  {:>9}    order  diam.  steady state  (i, j, n)    rpm     off         rpm     off",
+        "   rpm     rpm   {:>8}  {:>9}    order  diam.  steady state  (i, j, n)    rpm     off         rpm     off",
         format!("{unit} rms"),
         format!("{unit} rms")
     );
     for speed in &table.critical_speeds {
         let _ = writeln!(
             out,
-            "{:>6.0}   {:>8.4}   {:>8.4}   {:>6}  {:>5}  {:<12}  {}    {}",
+            "{:>6.0}   {:>5.0} {} {:>8.4}   {:>8.4}   {:>6}  {:>5}  {:<12}  {}    {}",
             rpm(speed.speed_rad_s),
+            rpm(speed.speed_error_rad_s),
+            if speed.resolved { ' ' } else { '≥' },
             speed.rms,
             speed.prominence,
             speed.dominant_engine_order,
@@ -106,6 +108,9 @@ pub(super) fn critical_speeds(table: &CriticalSpeeds) -> String {
     }
     if table.critical_speeds.is_empty() {
         out.push_str("  none\n");
+    }
+    if table.critical_speeds.iter().any(|speed| !speed.resolved) {
+        out.push_str("\n≥: the speeds do not resolve this peak, which may be higher between them, or beyond an end of the range\n");
     }
     out.push_str("\noff: how far the peak lies above (+) or below (-) the prediction\n");
     out.push_str("\nWhat the lobes can drive in this range (linear, without contact)\n\n");

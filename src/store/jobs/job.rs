@@ -174,7 +174,7 @@ pub struct Job {
     pub model: Option<String>,
     /// Facts of the model it computes from when it was accepted.
     pub facts: Option<ModelFacts>,
-    /// The whole request as resolved.
+    /// The whole request as resolved, and as revised since: see [`Store::revise_request`](crate::store::Store::revise_request).
     pub request: JobRequest,
     /// Percent of the work done.
     pub progress: u8,
@@ -182,7 +182,7 @@ pub struct Job {
     pub phase: String,
     /// Its speeds.
     pub speeds: SpeedCounts,
-    /// What a sweep was expected to cost when its speeds were queued.
+    /// What a sweep was expected to cost when its first speeds were queued.
     pub plan: Option<Estimate>,
     /// The settings that were chosen for it.
     pub choice: Option<Chosen>,
@@ -201,7 +201,7 @@ pub struct Job {
 /// Speeds of a job, counted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub struct SpeedCounts {
-    /// Asked for.
+    /// Asked for, and added by `refine` so far: grows while such a job runs.
     pub total: u32,
     /// With a result, whichever.
     pub finished: u32,

@@ -1,6 +1,7 @@
 //! Jobs: what was asked for and how far it is.
 
 mod job;
+mod revise;
 mod take_up;
 
 use sqlx::Row;
@@ -212,24 +213,13 @@ impl Store {
         Ok(())
     }
 
-    /// Keeps the settings that were chosen for a running job, and its request with them, in one transaction.
-    pub async fn record_choice(
-        &self,
-        id: JobId,
-        request: &JobRequest,
-        choice: &Chosen,
-    ) -> Result<(), StoreError> {
-        sqlx::query(
-            "update jobs set request = ?2, modes_per_speed = ?3, choice = ?4, updated_at = ?5
-             where id = ?1 and status = 'running'",
-        )
-        .bind(id.to_string())
-        .bind(request.to_json()?)
-        .bind(request.modes_per_speed())
-        .bind(serde_json::to_string(choice)?)
-        .bind(now())
-        .execute(&self.writer)
-        .await?;
+    /// Keeps the settings that were chosen for a job, and why.
+    pub async fn record_choice(&self, id: JobId, choice: &Chosen) -> Result<(), StoreError> {
+        sqlx::query("update jobs set choice = ? where id = ?")
+            .bind(serde_json::to_string(choice)?)
+            .bind(id.to_string())
+            .execute(&self.writer)
+            .await?;
         Ok(())
     }
 

@@ -1,0 +1,224 @@
+//! More speeds around the peaks that the speeds of a sweep do not resolve.
+
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+use super::request::SweepRequest;
+use super::response_curve::ResponseCurve;
+use super::result::Point;
+use super::speeds::Speeds;
+use crate::response::critical_speed::Resolution;
+
+/// A sweep gets at most as many added speeds as it had at first, or this many if those were fewer: a rough curve, such
+/// as that of a chaotic response, has new peaks at every scale.
+const LEAST_MOST_ADDED: usize = 50;
+
+/// What `refine` has added to a sweep.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+pub struct Refinement {
+    /// Speeds added.
+    pub added: u32,
+    /// Rounds in which they were.
+    pub rounds: u32,
+    /// Whether there is nothing left to add: every critical speed within the range is resolved, or as close to a speed
+    /// without a result as would resolve it. False while the job runs, and where as many speeds were added as may be.
+    pub complete: bool,
+}
+
+impl Refinement {
+    /// From the finished speeds, in any order; none if the sweep is not to be refined.
+    pub(super) fn of(request: &SweepRequest, points: &[Point]) -> Option<Self> {
+        if !request.refine {
+            return None;
+        }
+        let speeds = request.speeds.resolve().ok()?;
+        let rounds = match &request.speeds {
+            Speeds::One(set) => u32::from(set.added),
+            Speeds::Several(sets) => sets.iter().filter(|set| set.added).count() as u32,
+        };
+        Some(Self {
+            added: (speeds.len() - request.speeds.asked().ok()?.len()) as u32,
+            rounds,
+            complete: points.len() == speeds.len() && coarse_intervals(request, &speeds, points).is_empty(),
+        })
+    }
+}
+
+/// The request with one more round of speeds: the middles of the intervals beside the peaks, of any sensor, that are not
+/// resolved. None if there is nothing to add, or no more may be. `points` are those of all speeds, in any order, which
+/// makes no difference.
+pub fn refine(request: &SweepRequest, points: &[Point]) -> Option<SweepRequest> {
+    if !request.refine {
+        return None;
+    }
+    let speeds = request.speeds.resolve().ok()?;
+    let asked = request.speeds.asked().ok()?.len();
+    let most = (asked + asked.max(LEAST_MOST_ADDED)).saturating_sub(speeds.len());
+    let mut intervals = coarse_intervals(request, &speeds, points);
+    // Peaks that are known worst go first where not all can; the sort is stable.
+    intervals.sort_by(|a, b| (b.1 / b.0).total_cmp(&(a.1 / a.0)));
+    intervals.truncate(most.min(request.speeds.room()));
+    let mut middles: Vec<f64> = intervals.into_iter().map(|(from, to)| 0.5 * (from + to)).collect();
+    middles.sort_by(f64::total_cmp);
+    if middles.is_empty() {
+        return None;
+    }
+    let more = request.speeds.with_added(middles);
+    // There is no middle between numbers so small that they are next to each other.
+    let grown = more.resolve().ok()?.len() > speeds.len();
+    grown.then(|| SweepRequest { speeds: more, ..request.clone() })
+}
+
+/// Intervals between neighbouring speeds that are too wide for a peak of some sensor, ascending.
+fn coarse_intervals(request: &SweepRequest, speeds: &[f64], points: &[Point]) -> Vec<(f64, f64)> {
+    let curve = ResponseCurve::of(speeds, points);
+    let mut intervals = Vec::new();
+    for sensor in 0..request.sensors.len() {
+        let level = curve.level(sensor);
+        for peak in ResponseCurve::peaks(&level) {
+            intervals.extend(Resolution::of(&curve.speeds_rad_s, &level, &peak).coarse);
+        }
+    }
+    intervals.sort_by(|a, b| a.0.total_cmp(&b.0));
+    intervals.dedup();
+    intervals
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+    use crate::analysis::speeds::MAX_SPEEDS;
+
+    /// A sweep from 900 to 1100 rad/s with two sensors.
+    fn request(count: usize) -> SweepRequest {
+        let sensor = |contact_node: u32| json!({"contact_node": contact_node, "component": "radial"});
+        serde_json::from_value(json!({
+            "model": "m", "speeds": {"from": 900.0, "to": 1100.0, "count": count, "unit": "rad_s"}, "scene": {},
+            "sensors": [sensor(0), sensor(1)], "refine": true,
+        }))
+        .unwrap()
+    }
+
+    /// What a run would find where the sensors have these levels; a level that is no number is a run that failed.
+    fn points(request: &SweepRequest, levels: &dyn Fn(f64) -> [f64; 2]) -> Vec<Point> {
+        let point = |(index, speed): (usize, f64)| {
+            let levels = levels(speed);
+            let failed = levels.iter().any(|level| level.is_nan());
+            let response = |sensor: usize| {
+                json!({"sensor": request.sensors[sensor], "mean": 0.0, "rms": levels[sensor], "half_peak_to_peak": 1.0,
+                    "dominant_engine_order": 2.0, "dominant_nodal_diameter": 2})
+            };
+            serde_json::from_value(json!({
+                "index": index, "speed_rad_s": speed, "status": if failed { "failed" } else { "completed" },
+                "steps_per_revolution": 1, "smallest_stable_steps_per_revolution": 1, "steps": 1, "contact_share": 0.0,
+                "responses": if failed { Vec::new() } else { vec![response(0), response(1)] },
+                "wall_time_s": 0.0, "version": "0",
+            }))
+            .unwrap()
+        };
+        request.speeds.resolve().unwrap().into_iter().enumerate().map(point).collect()
+    }
+
+    /// The request when nothing is added any more, with what was.
+    fn refined(mut request: SweepRequest, levels: &dyn Fn(f64) -> [f64; 2]) -> (SweepRequest, Refinement) {
+        loop {
+            let found = points(&request, levels);
+            let Some(more) = refine(&request, &found) else {
+                return (request.clone(), Refinement::of(&request, &found).unwrap());
+            };
+            let (before, after) = (request.speeds.resolve().unwrap(), more.speeds.resolve().unwrap());
+            assert_eq!(before, after[..before.len()], "no speed changes its index");
+            assert!(after[before.len()..].windows(2).all(|pair| pair[0] < pair[1]));
+            assert!(after[before.len()..].iter().all(|speed| !before.contains(speed)));
+            request = more;
+        }
+    }
+
+    fn resonance(speed: f64, at: f64, half_bandwidth: f64) -> f64 {
+        1.0 / (1.0 + ((speed - at) / half_bandwidth).powi(2)).sqrt()
+    }
+
+    /// Distance of `speed` to the nearest one of a request.
+    fn nearest(request: &SweepRequest, speed: f64) -> f64 {
+        let speeds = request.speeds.resolve().unwrap();
+        speeds.into_iter().map(|other| (other - speed).abs()).fold(f64::INFINITY, f64::min)
+    }
+
+    #[test]
+    fn peaks_of_all_sensors_are_found() {
+        let levels = |speed| [resonance(speed, 953.0, 1.0), 7.0 * resonance(speed, 1041.0, 1.5)];
+        let (found, refinement) = refined(request(11), &levels);
+        assert!(refinement.complete, "{refinement:?}");
+        assert!((6..50).contains(&refinement.added) && refinement.rounds >= 3, "{refinement:?}");
+        // A tenth of the half-bandwidth off, a resonance is half a per cent lower: nothing is resolved far from its top.
+        assert!(nearest(&found, 953.0) < 0.35 && nearest(&found, 1041.0) < 0.5);
+        // Fine enough from the start.
+        let (_, refinement) = refined(request(500), &levels);
+        assert_eq!(refinement, Refinement { added: 0, rounds: 0, complete: true });
+    }
+
+    #[test]
+    fn a_fold_is_known_to_its_sharpness() {
+        let sawtooth = |speed: f64| if speed < 1013.7 { (speed - 900.0) / 113.7 } else { 0.1 };
+        let (found, refinement) = refined(request(8), &|speed| [sawtooth(speed), 1.0]);
+        assert!(refinement.complete && refinement.added <= 20, "{refinement:?}");
+        let speeds = found.speeds.ascending().unwrap();
+        let jump = speeds.partition_point(|&speed| speed < 1013.7);
+        assert!(speeds[jump] - speeds[jump - 1] <= 5e-4 * 1013.7);
+    }
+
+    #[test]
+    fn the_ends_of_the_range_are_left_alone_and_failures_are_approached() {
+        let (_, refinement) = refined(request(5), &|speed| [speed, 2000.0 - speed]);
+        assert_eq!(refinement, Refinement { added: 0, rounds: 0, complete: true });
+        // The response grows until runs fail.
+        let levels = |speed: f64| [if speed < 1033.3 { 1.0 / (1034.0 - speed) } else { f64::NAN }, 1.0];
+        let (found, refinement) = refined(request(5), &levels);
+        assert!(refinement.complete, "{refinement:?}");
+        let speeds = found.speeds.ascending().unwrap();
+        let first = speeds.partition_point(|&speed| speed < 1033.3);
+        assert!(speeds[first] - speeds[first - 1] <= 5e-4 * 1033.3);
+    }
+
+    #[test]
+    fn a_rough_curve_ends_at_the_most_that_may_be_added() {
+        let rough = |speed: f64| {
+            let bits = speed.to_bits().wrapping_mul(0x9e37_79b9_7f4a_7c15);
+            [(bits >> 40) as f64 / f64::from(1 << 24), 1.0]
+        };
+        for (count, added) in [(6, 50), (80, 80)] {
+            let (found, refinement) = refined(request(count), &rough);
+            assert_eq!((refinement.added, refinement.complete), (added, false));
+            assert_eq!(found.speeds.resolve().unwrap().len(), count + added as usize);
+        }
+        let range = json!({"from": 1.0, "to": 1e6, "count": MAX_SPEEDS - 3, "unit": "rad_s"});
+        let many = SweepRequest { speeds: serde_json::from_value(range).unwrap(), ..request(2) };
+        let (found, _) = refined(many, &rough);
+        assert_eq!(found.speeds.resolve().unwrap().len(), MAX_SPEEDS);
+    }
+
+    #[test]
+    fn numbers_without_a_middle_end_it() {
+        let least = f64::from_bits(1);
+        let speeds = json!({"values": [least, 2.0 * least, 3.0 * least], "unit": "rad_s"});
+        let tiny = SweepRequest { speeds: serde_json::from_value(speeds).unwrap(), ..request(2) };
+        let (_, refinement) = refined(tiny, &|speed| [if speed == 2.0 * least { 1.0 } else { 0.1 }, 1.0]);
+        assert_eq!(refinement, Refinement { added: 0, rounds: 0, complete: false });
+    }
+
+    #[test]
+    fn the_order_of_the_points_and_a_repetition_make_no_difference() {
+        let request = request(11);
+        let levels = |speed| [resonance(speed, 953.0, 1.0), resonance(speed, 1041.0, 1.5)];
+        let mut found = points(&request, &levels);
+        let more = refine(&request, &found).unwrap();
+        found.reverse();
+        assert_eq!(refine(&request, &found).unwrap(), more);
+        // What a job was refined to, asked for again, is refined no further than it would have been.
+        let (last, refinement) = refined(request, &levels);
+        assert_eq!(refined(last.clone(), &levels), (last, refinement));
+        assert_eq!(refine(&SweepRequest { refine: false, ..more }, &[]), None);
+    }
+}

@@ -1,0 +1,40 @@
+//! The response of a sweep over ascending speed, with its peaks.
+
+use super::result::{Point, PointStatus};
+use crate::response::critical_speed::{Peak, peaks};
+
+/// Peaks of the response that rise above their surroundings by less than this share of the largest are left out.
+const PROMINENT: f64 = 0.1;
+
+/// The speeds of a sweep in ascending order.
+pub(super) struct ResponseCurve<'a> {
+    pub(super) speeds_rad_s: Vec<f64>,
+    /// One for each speed, none where it did not complete.
+    pub(super) points: Vec<Option<&'a Point>>,
+}
+
+impl<'a> ResponseCurve<'a> {
+    /// Of `speeds_rad_s`, in the order of the request, and the finished ones of them, in any order.
+    pub(super) fn of(speeds_rad_s: &[f64], finished: &'a [Point]) -> Self {
+        let mut ascending: Vec<usize> = (0..speeds_rad_s.len()).collect();
+        ascending.sort_by(|&a, &b| speeds_rad_s[a].total_cmp(&speeds_rad_s[b]));
+        let mut completed = vec![None; speeds_rad_s.len()];
+        for point in finished.iter().filter(|point| point.status == PointStatus::Completed) {
+            completed[point.index as usize] = Some(point);
+        }
+        Self {
+            speeds_rad_s: ascending.iter().map(|&index| speeds_rad_s[index]).collect(),
+            points: ascending.iter().map(|&index| completed[index]).collect(),
+        }
+    }
+
+    /// Level of one sensor: root mean square about the mean.
+    pub(super) fn level(&self, sensor: usize) -> Vec<Option<f64>> {
+        self.points.iter().map(|point| point.map(|point| point.responses[sensor].rms)).collect()
+    }
+
+    /// Prominent peaks of such a level.
+    pub(super) fn peaks(level: &[Option<f64>]) -> Vec<Peak> {
+        peaks(level, PROMINENT)
+    }
+}

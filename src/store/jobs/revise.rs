@@ -1,0 +1,76 @@
+//! Another request for a job that is running.
+
+use super::{JobId, JobRequest};
+use crate::store::{Store, StoreError, now};
+
+impl Store {
+    /// Gives a running job another request of the same kind, with so many `speeds`. What is finished stays, so speeds keep
+    /// their indices. False if the job is not running any more, or has been given more speeds since: their number never
+    /// falls.
+    pub async fn revise_request(
+        &self,
+        id: JobId,
+        request: &JobRequest,
+        speeds: u32,
+    ) -> Result<bool, StoreError> {
+        let revised = sqlx::query(
+            "update jobs set request = ?3, modes_per_speed = ?4, speeds = ?5, updated_at = ?6
+             where id = ?1 and kind = ?2 and status = 'running' and speeds <= ?5",
+        )
+        .bind(id.to_string())
+        .bind(request.kind().as_str())
+        .bind(request.to_json()?)
+        .bind(request.modes_per_speed())
+        .bind(speeds)
+        .bind(now())
+        .execute(&self.writer)
+        .await?;
+        Ok(revised.rows_affected() == 1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+    use crate::store::status::JobStatus;
+
+    fn sweep(modes_per_speed: u32, speeds: u32) -> JobRequest {
+        let request = serde_json::from_value(json!({
+            "model": "m", "modes_per_speed": modes_per_speed, "scene": {},
+            "speeds": {"from": 1.0, "to": 2.0, "count": speeds, "unit": "hz"},
+        }));
+        JobRequest::Sweep(request.unwrap())
+    }
+
+    #[tokio::test]
+    async fn a_running_job_takes_another_request_and_no_fewer_speeds() {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::open(folder.path()).await.unwrap();
+        let job = JobId::new();
+        let insert = "insert into jobs (id, kind, model, modes_per_speed, facts, request, speeds, created_at, updated_at)
+            values (?, 'sweep', 'm', 20, '{}', ?, 4, 'a', 'a')";
+        sqlx::query(insert)
+            .bind(job.to_string())
+            .bind(sweep(20, 4).to_json().unwrap())
+            .execute(&store.writer)
+            .await
+            .unwrap();
+        let revise =
+            async |modes, speeds| store.revise_request(job, &sweep(modes, speeds), speeds).await.unwrap();
+        assert!(!revise(20, 6).await, "nobody has it in hand");
+        assert!(store.begin_job(job).await.unwrap());
+        // Twice is as once.
+        assert!(revise(30, 6).await && revise(30, 6).await);
+        assert!(!revise(20, 5).await, "it has six by now");
+        let kept: (String, u32, u32) = sqlx::query_as("select request, modes_per_speed, speeds from jobs")
+            .fetch_one(&store.readers)
+            .await
+            .unwrap();
+        assert_eq!(kept, (sweep(30, 6).to_json().unwrap(), 30, 6));
+        store.advance_job(job, JobStatus::Dismissed, None).await.unwrap();
+        assert!(!revise(30, 8).await, "it has ended");
+        assert!(!store.revise_request(JobId::new(), &sweep(30, 8), 8).await.unwrap());
+    }
+}
