@@ -366,6 +366,10 @@ pub struct CriticalSpeed {
     pub half_peak_to_peak: f64,
     /// Height above the higher of the two neighbouring valleys, in the same measure as `rms`.
     pub prominence: f64,
+    /// How far the error of the natural frequencies may have moved the peak, rad/s: the largest relative difference of the reduced
+    /// sector's ten lowest ones of any nodal diameter from the full sector's, times the speed.
+    #[serde(default)]
+    pub frequency_error_rad_s: f64,
     /// Estimated relative error of the steady response at this speed; absent without control runs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub amplitude_error: Option<f64>,
@@ -498,4 +502,12 @@ pub struct ReductionReport {
     pub wall_time_s: f64,
     /// Version of the code.
     pub version: String,
+}
+
+impl ReductionReport {
+    /// Largest relative difference of the ten lowest frequencies of any nodal diameter, at any speed, from the full sector's.
+    pub(super) fn largest_difference(&self) -> f64 {
+        let lines = self.full_model.iter().filter_map(|line| line.largest.as_ref());
+        lines.fold(0.0, |largest, difference| largest.max(difference.relative))
+    }
 }

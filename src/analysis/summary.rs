@@ -14,7 +14,8 @@ use super::refine::Refinement;
 use super::request::{Sensor, SweepRequest};
 use super::response_curve::ResponseCurve;
 use super::result::{
-    Coincidence, CriticalSpeed, CriticalSpeeds, Crossing, DrivenCrossing, InteractionMap, Point, SpeedSpectra,
+    Coincidence, CriticalSpeed, CriticalSpeeds, Crossing, DrivenCrossing, InteractionMap, Point,
+    ReductionReport, SpeedSpectra,
 };
 use super::run::VERSION;
 use crate::dynamics::sector::Units;
@@ -89,7 +90,7 @@ pub fn critical_speeds(
     let refinement = Refinement::of(request, points);
     let table = |(sensor, &of): (usize, &Sensor)| CriticalSpeeds {
         sensor: of,
-        critical_speeds: response_peaks(&curve, sensor, &prediction.linear, errors),
+        critical_speeds: response_peaks(&curve, sensor, &prediction.linear, errors, &reduced.report),
         linear_crossings: prediction.linear.clone(),
         driven_crossings: prediction.driven.clone(),
         casing_coincidences: prediction.coincidences.clone(),
@@ -111,6 +112,7 @@ fn response_peaks(
     sensor: usize,
     linear: &[Crossing],
     errors: Option<&ErrorEstimate>,
+    reduction: &ReductionReport,
 ) -> Vec<CriticalSpeed> {
     let level = curve.level(sensor);
     let critical = ResponseCurve::peaks(&level).into_iter().filter_map(|peak| {
@@ -128,6 +130,7 @@ fn response_peaks(
             rms: response.rms,
             half_peak_to_peak: response.half_peak_to_peak,
             prominence: peak.prominence,
+            frequency_error_rad_s: reduction.largest_difference() * point.speed_rad_s,
             amplitude_error: errors.and_then(|errors| errors.of(point.index)),
             dominant_engine_order: response.dominant_engine_order,
             dominant_nodal_diameter: response.dominant_nodal_diameter,

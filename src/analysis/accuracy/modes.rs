@@ -63,8 +63,7 @@ pub fn next_modes(
         let Some(report) = reports.iter().find(|report| report.modes_per_speed == modes) else {
             return NextModes::Reduce(modes);
         };
-        let error = report.full_model.iter().filter_map(|line| line.largest.as_ref()).map(|l| l.relative);
-        let error = error.fold(0.0, f64::max);
+        let error = report.largest_difference();
         let found = TriedModes { modes_per_speed: modes, error, wall_time_s: report.wall_time_s };
         let stalled = tried.last().is_some_and(|last: &TriedModes| {
             reports.iter().any(|r| r.modes_per_speed == last.modes_per_speed && r.unknowns == report.unknowns)

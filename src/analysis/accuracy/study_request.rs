@@ -275,5 +275,26 @@ pub fn resolve_study(mut request: StudyRequest, facts: &ModelFacts) -> Result<St
             "\"auto\" or numbers from 1 on, each once".to_owned(),
         );
     }
+    if found.is_empty() {
+        found = refused_settings(&request, facts);
+    }
     if found.is_empty() { Ok(request) } else { Err(found) }
+}
+
+/// What the scene does not allow of a grid that is sound in itself, or what would take too much memory; each field once.
+fn refused_settings(request: &StudyRequest, facts: &ModelFacts) -> Vec<Violation> {
+    let sweep = request.sweep();
+    let mut found: Vec<Violation> = Vec::new();
+    for setting in request.settings(facts.sectors).into_iter().chain([request.reference(facts.sectors)]) {
+        for mut violation in resolve_sweep(setting.on(&sweep), facts).err().unwrap_or_default() {
+            if violation.pointer == "/integration/steps_per_revolution" {
+                violation.pointer = "/grid/steps_per_revolution".to_owned();
+                violation.message = format!("{}: {}", setting.steps_per_revolution, violation.message);
+            }
+            if found.iter().all(|known| known.pointer != violation.pointer) {
+                found.push(violation);
+            }
+        }
+    }
+    found
 }
