@@ -252,6 +252,18 @@ pub enum SchemeChoice {
     MasslessBoundary,
 }
 
+impl SchemeChoice {
+    /// The word on the wire.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::CentralDifferences => "central_differences",
+            Self::ExactModal => "exact_modal",
+            Self::MasslessBoundary => "massless_boundary",
+        }
+    }
+}
+
 /// A displacement recorded during a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]

@@ -4,7 +4,9 @@ mod demo;
 pub mod generate;
 mod import;
 mod serve;
+mod session;
 mod signals;
+mod study;
 
 use std::process::ExitCode;
 
@@ -24,6 +26,8 @@ pub struct Cli {
 enum Command {
     /// Show it all on a generated impeller: upload, sweep, map, critical speeds.
     Demo(demo::DemoArgs),
+    /// Show what accuracy costs in time: errors of many settings against a finer one.
+    Study(study::StudyArgs),
     /// Run the HTTP service.
     Serve(Config),
     /// Make a model package from a few parameters.
@@ -37,7 +41,7 @@ impl Cli {
     /// What is logged unless `RUST_LOG` says otherwise: beside a progress bar only what went wrong.
     pub fn default_log(&self) -> &'static str {
         match self.command {
-            Command::Demo(_) => "warn",
+            Command::Demo(_) | Command::Study(_) => "warn",
             Command::Serve(_) | Command::Generate(_) | Command::Import(_) => "info,apalis_core=warn",
         }
     }
@@ -46,6 +50,7 @@ impl Cli {
     pub fn run(self) -> anyhow::Result<ExitCode> {
         match self.command {
             Command::Demo(args) => return demo::run(&args),
+            Command::Study(args) => return study::run(&args),
             Command::Serve(config) => serve::run(config)?,
             Command::Generate(args) => generate::generate(args)?,
             Command::Import(command) => import::import(command)?,

@@ -69,6 +69,15 @@ pub(super) fn logarithmic_ticks((low, high): (f64, f64)) -> Vec<(f64, String)> {
         .collect()
 }
 
+/// [`logarithmic_ticks`]; only the powers of ten where that makes more than `most`.
+pub(super) fn decades(range: (f64, f64), most: usize) -> Vec<(f64, String)> {
+    let mut ticks = logarithmic_ticks(range);
+    if ticks.len() > most {
+        ticks.retain(|(value, _)| (value.log10() - value.log10().round()).abs() < 1e-6);
+    }
+    ticks
+}
+
 /// A number with commas between thousands.
 pub(super) fn label(value: f64, decimals: usize) -> String {
     let text = format!("{:.decimals$}", value.abs());
@@ -118,6 +127,12 @@ mod tests {
             labels(&logarithmic_ticks((0.0021, 0.21))),
             ["0.005", "0.01", "0.02", "0.05", "0.1", "0.2"]
         );
+    }
+
+    #[test]
+    fn many_decades_have_their_powers_of_ten_only() {
+        assert_eq!(labels(&decades((2e-6, 0.3), 9)), ["1e-5", "0.0001", "0.001", "0.01", "0.1"]);
+        assert_eq!(decades((2e-6, 0.3), 99).len(), 16);
     }
 
     #[test]

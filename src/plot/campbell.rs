@@ -4,8 +4,9 @@ use super::axis::ticks;
 use super::cells::rpm;
 use super::colour::ordinal;
 use super::diagram::Diagram;
-use super::marks;
+use super::key::{Key, MARK_WIDTH};
 use super::svg::{Element, document, group, line, polyline, text};
+use super::{heading, marks};
 use crate::analysis::result::{Campbell, Wave};
 
 const WIDTH: f64 = 1180.0;
@@ -23,13 +24,9 @@ const DASHES: [&str; 4] = ["", "9 4", "2 3", "9 3 2 3"];
 pub fn campbell(campbell: &Campbell) -> String {
     let diagram = diagram(campbell);
     let y_ticks = ticks(diagram.y.values, 10.0);
-    let grid = y_ticks.iter().map(|(value, _)| {
-        let y = diagram.y.place(*value);
-        line((diagram.left, y), (diagram.right(), y)).set("stroke", "#efefef")
-    });
     let content = vec![
         heading(campbell),
-        group().children(grid),
+        diagram.grid(&[], &y_ticks),
         engine_orders(campbell, &diagram),
         natural_frequencies(campbell, &diagram),
         crossings(campbell, &diagram),
@@ -139,57 +136,39 @@ fn heading(campbell: &Campbell) -> Element {
         settings.lobes,
         campbell.version
     );
-    group()
-        .child(
-            text(CORNER.0, 28.0, "start", "Campbell diagram")
-                .set("font-size", "18")
-                .set("font-weight", "bold"),
-        )
-        .child(text(CORNER.0, 48.0, "start", &words).set("fill", "#555555"))
+    heading::heading(CORNER.0, "Campbell diagram", &[words]).0
 }
 
 fn legend(campbell: &Campbell, x: f64) -> Element {
     /// More nodal diameters than this are named at the ends only.
     const MOST: usize = 16;
     let (harmonics, families) = counts(campbell);
-    let mut y = CORNER.1 + 8.0;
-    let mut rows = group();
-    let mut row = |mark: Element, words: &str, rows: Element| {
-        let place = y;
-        y += 21.0;
-        rows.child(mark.set("transform", format!("translate({x} {place})"))).child(text(
-            x + 42.0,
-            place + 4.5,
-            "start",
-            words,
-        ))
-    };
+    let mut key = Key::new(x, CORNER.1 + 8.0);
     let stroke = |colour: String, dashes: &str| {
-        let stroke = line((0.0, 0.0), (32.0, 0.0)).set("stroke", colour).set("stroke-width", "1.8");
+        let stroke = line((0.0, 0.0), (MARK_WIDTH, 0.0)).set("stroke", colour).set("stroke-width", "1.8");
         stroke.set("stroke-dasharray", dashes)
     };
     for nodal_diameter in (0..harmonics).filter(|i| harmonics <= MOST || *i == 0 || i + 1 == harmonics) {
         let words = format!("nodal diameter {nodal_diameter}");
-        rows = row(stroke(ordinal(nodal_diameter, harmonics), ""), &words, rows);
+        key = key.row(stroke(ordinal(nodal_diameter, harmonics), ""), &words);
     }
     for (family, dashes) in DASHES.iter().enumerate().take(families) {
-        rows = row(stroke("#444444".to_owned(), dashes), &format!("family {}", family + 1), rows);
+        key = key.row(stroke("#444444".to_owned(), dashes), &format!("family {}", family + 1));
     }
     let directions = [("forward waves", Wave::Forward), ("backward waves", Wave::Backward)];
     for (words, wave) in directions.into_iter().filter(|_| campbell.waves.is_some()) {
-        let mark = line((0.0, 0.0), (32.0, 0.0)).set("stroke", "#444444");
+        let mark = line((0.0, 0.0), (MARK_WIDTH, 0.0)).set("stroke", "#444444");
         let mark = mark.set("stroke-width", stroke_width(Some(wave)));
-        rows = row(mark, words, rows);
+        key = key.row(mark, words);
     }
     let lobes = campbell.settings.lobes;
-    rows = row(stroke("#777777".to_owned(), ""), &format!("engine order {lobes}, {}, …", 2 * lobes), rows);
-    rows = row(stroke("#cccccc".to_owned(), ""), "other engine orders", rows);
-    rows = row(
+    key = key.row(stroke("#777777".to_owned(), ""), &format!("engine order {lobes}, {}, …", 2 * lobes));
+    key = key.row(stroke("#cccccc".to_owned(), ""), "other engine orders");
+    key = key.row(
         marks::diamond((16.0, 0.0), "#d62728", "white"),
         &format!("driven by lobes, k ≤ {HIGHEST_ORDER}"),
-        rows,
     );
     let ring = Element::new("circle").number("cx", 16.0).number("r", 4.5).set("fill", "none");
-    rows = row(ring.set("stroke", "black").set("stroke-width", "1.5"), "linear criterion", rows);
-    rows
+    key = key.row(ring.set("stroke", "black").set("stroke-width", "1.5"), "linear criterion");
+    key.draw()
 }

@@ -38,6 +38,9 @@ pub(super) fn ordinal(index: usize, count: usize) -> String {
     hex(polynomial(&VIRIDIS, 0.88 * index as f64 / (count - 1) as f64))
 }
 
+/// Colours of Okabe and Ito's palette that the colour-blind tell apart as well, those that show as lines on white.
+pub(super) const DISTINCT: [&str; 6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"];
+
 pub(super) fn hex([r, g, b]: [u8; 3]) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }

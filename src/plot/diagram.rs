@@ -16,14 +16,23 @@ pub(super) struct Diagram {
 
 impl Diagram {
     /// With linear axes.
-    pub(super) fn new(
+    pub(super) fn new(corner: (f64, f64), size: (f64, f64), x: (f64, f64), y: (f64, f64)) -> Self {
+        Self::with_scales(corner, size, |places| Scale::linear(x, places), |places| Scale::linear(y, places))
+    }
+
+    /// With logarithmic axes; all values must be positive.
+    pub(super) fn logarithmic(corner: (f64, f64), size: (f64, f64), x: (f64, f64), y: (f64, f64)) -> Self {
+        let scale = Scale::logarithmic;
+        Self::with_scales(corner, size, |places| scale(x, places), |places| scale(y, places))
+    }
+
+    fn with_scales(
         (left, top): (f64, f64),
         (width, height): (f64, f64),
-        x: (f64, f64),
-        y: (f64, f64),
+        x: impl Fn((f64, f64)) -> Scale,
+        y: impl Fn((f64, f64)) -> Scale,
     ) -> Self {
-        let (x, y) = (Scale::linear(x, (left, left + width)), Scale::linear(y, (top + height, top)));
-        Self { left, top, width, height, x, y }
+        Self { left, top, width, height, x: x((left, left + width)), y: y((top + height, top)) }
     }
 
     pub(super) fn right(&self) -> f64 {
@@ -43,7 +52,7 @@ impl Diagram {
         (self.x.contains(x) && self.y.contains(y)).then(|| self.point(x, y))
     }
 
-    /// The straight line between two points, cut off at the frame; nothing if it lies outside.
+    /// The straight line between two points of linear axes, cut off at the frame; nothing if it lies outside.
     pub(super) fn clipped(&self, from: (f64, f64), to: (f64, f64)) -> Option<[(f64, f64); 2]> {
         let mut span = (0.0, 1.0);
         let delta = (to.0 - from.0, to.1 - from.1);
@@ -65,6 +74,21 @@ impl Diagram {
     /// Background, to be drawn first.
     pub(super) fn background(&self, fill: &str) -> Element {
         rectangle(self.left, self.top, self.width, self.height).set("fill", fill)
+    }
+
+    /// Fine lines at ticks, to be drawn under the content.
+    pub(super) fn grid(&self, x: &[(f64, String)], y: &[(f64, String)]) -> Element {
+        let upright = x.iter().map(|(value, _)| self.x.place(*value));
+        let upright = upright.map(|x| line((x, self.top), (x, self.bottom())));
+        let level = y.iter().map(|(value, _)| self.y.place(*value));
+        let level = level.map(|y| line((self.left, y), (self.right(), y)));
+        group().set("stroke", "#efefef").children(upright).children(level)
+    }
+
+    /// Words in the middle instead of content.
+    pub(super) fn words(&self, words: &str) -> Element {
+        let (x, y) = (self.left + 0.5 * self.width, self.top + 0.5 * self.height);
+        text(x, y, "middle", words).set("class", "empty").set("font-size", "14")
     }
 
     /// The frame, to be drawn over the content.

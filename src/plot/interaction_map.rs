@@ -5,8 +5,7 @@ use super::cells::{Cell, cells, extent, rpm};
 use super::diagram::Diagram;
 use super::marks;
 use super::svg::{Element, INK, document, group, line, polyline, rectangle, text, upright};
-use super::{colour, heat, level, settling_strip};
-use crate::analysis::request::Component;
+use super::{colour, heading, heat, level, settling_strip};
 use crate::analysis::result::{Campbell, CriticalSpeed, CriticalSpeeds, InteractionMap, Verdict};
 
 const WIDTH: f64 = 1180.0;
@@ -280,18 +279,8 @@ fn hatching() -> Element {
 }
 
 fn title(map: &InteractionMap) -> String {
-    let sensor = &map.sensor;
-    let component = match sensor.component {
-        Component::Radial => "radial",
-        Component::Tangential => "tangential",
-        Component::Axial => "axial",
-        Component::Normal => "normal",
-    };
     let nodal_diameter = map.nodal_diameter.map(|i| format!(", nodal diameter {i} only")).unwrap_or_default();
-    format!(
-        "Interaction map: {component} displacement at contact node {} of sector {}{nodal_diameter}",
-        sensor.contact_node, sensor.sector
-    )
+    format!("Interaction map: {}{nodal_diameter}", heading::sensor(&map.sensor))
 }
 
 fn heading(map: &InteractionMap) -> Element {

@@ -9,11 +9,14 @@ mod campbell;
 mod cells;
 mod colour;
 mod diagram;
+mod heading;
 mod heat;
 mod histories;
 mod interaction_map;
+mod key;
 mod level;
 mod marks;
+mod scheme;
 mod settling_strip;
 mod svg;
 #[cfg(test)]

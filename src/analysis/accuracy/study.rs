@@ -128,6 +128,8 @@ pub struct HistoryLine {
     /// The setting.
     #[serde(flatten)]
     pub setting: Setting,
+    /// Whether it is the reference.
+    pub reference: bool,
     /// Real unknowns that are integrated.
     pub unknowns: u32,
     /// `[sensor][sample]`.
@@ -244,7 +246,7 @@ fn in_words(reference: &Tried, history_revolutions: u32) -> String {
 }
 
 /// Indices of the points (time, error) that no other one is as good as in both and better in one.
-fn front(points: &[Option<(f64, f64)>]) -> Vec<usize> {
+pub(crate) fn front(points: &[Option<(f64, f64)>]) -> Vec<usize> {
     let beaten = |(time, error): (f64, f64)| {
         points.iter().flatten().any(|&(t, e)| t <= time && e <= error && (t < time || e < error))
     };
@@ -299,16 +301,20 @@ fn history_lines(
         };
         request.grid.schemes.iter().find_map(of)
     };
-    let line = |tried: &Tried| HistoryLine {
+    let line = |(tried, reference): (&Tried, bool)| HistoryLine {
         setting: tried.setting,
+        reference,
         unknowns: tried.trial.unknowns,
         displacement: tried.trial.history.clone(),
     };
-    let shown = sizes.iter().filter_map(finest).chain(reference.completed().then_some(reference));
+    let samples = tried.iter().chain([reference]).map(|tried| tried.trial.samples_per_revolution);
+    let grid = sizes.iter().filter_map(finest).map(|tried| (tried, false));
+    let shown = grid.chain(reference.completed().then_some((reference, true)));
     Histories {
         speed_rad_s,
         sensors: request.sensors.clone(),
-        samples_per_revolution: reference.trial.samples_per_revolution,
+        // A run that was not made has none.
+        samples_per_revolution: samples.max().unwrap_or(0),
         lines: shown.map(line).collect(),
         units: units.clone(),
         version: VERSION.to_owned(),

@@ -4,7 +4,6 @@ use std::fmt::Write;
 
 use super::study::{StudyRun, WorkPrecision};
 use crate::analysis::auto_or::AutoOr;
-use crate::analysis::request::SchemeChoice;
 use crate::analysis::result::PointStatus;
 
 const HEADER: &str = "speed_rad_s,modes_per_speed,scheme,kept_modes,steps_per_revolution,unknowns,status,history_error,\
@@ -36,7 +35,7 @@ fn line(out: &mut String, speed_rad_s: f64, run: &StudyRun) {
         out,
         "{speed_rad_s},{},{},{kept},{},{},{},{},{},{},{},{},{:e},{:e},{:e},{},{:e},{}",
         run.setting.modes_per_speed,
-        scheme(run.setting.scheme),
+        run.setting.scheme.as_str(),
         run.setting.steps_per_revolution,
         run.unknowns,
         match run.status {
@@ -56,13 +55,4 @@ fn line(out: &mut String, speed_rad_s: f64, run: &StudyRun) {
         run.cost.spread,
         pareto.join(" "),
     );
-}
-
-fn scheme(scheme: SchemeChoice) -> &'static str {
-    match scheme {
-        SchemeChoice::Auto => "auto",
-        SchemeChoice::CentralDifferences => "central_differences",
-        SchemeChoice::ExactModal => "exact_modal",
-        SchemeChoice::MasslessBoundary => "massless_boundary",
-    }
 }

@@ -156,16 +156,25 @@ fn nearest_driven(speed: &CriticalSpeed, driven: &[DrivenCrossing]) -> String {
     }
 }
 
-/// Where everything is.
-pub(super) fn places(out: &Path, map: &str) -> String {
+/// Where everything is; with `study`, what a study adds.
+pub(super) fn places(out: &Path, map: &str, study: bool) -> String {
     let folder = out.display();
+    let (look, next) = if study {
+        let words = "what accuracy costs in time, when the study below is done";
+        (format!("\n          {folder}/work-precision-*.svg, histories.svg   {words}"), "")
+    } else {
+        (
+            String::new(),
+            "\nNext      rubmap demo --full   what accuracy costs in time: a study, which takes a while",
+        )
+    };
     format!(
         "Look at   {folder}/interaction-map.svg            amplitude over speed and engine order
           {folder}/interaction-map-frequency.svg  the same over speed and frequency
-          {folder}/campbell.svg                   natural frequencies over speed
+          {folder}/campbell.svg                   natural frequencies over speed{look}
 Read      {folder}/interaction-map.json, critical-speeds.json, campbell.json
 Ask       rubmap serve --data {folder}/data
           curl 'http://127.0.0.1:8080{map}?sensor=1'   the trailing edge
-Upload    {folder}/impeller.zip or a package of your own\n"
+Upload    {folder}/impeller.zip or a package of your own{next}\n"
     )
 }

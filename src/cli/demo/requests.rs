@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::impeller::{ImpellerParameters, PaperCasing};
+use crate::cli::session::impeller::scene;
 
 /// Natural frequencies from standstill to beyond the sweep.
 pub(super) fn modal_analysis(model: &str) -> Value {
@@ -16,22 +16,13 @@ pub(super) fn modal_analysis(model: &str) -> Value {
     })
 }
 
-/// A casing ovalised by more than the clearance, so that two lobes push every tip twice a revolution.
+/// The scene over the whole range of speeds.
 pub(super) fn sweep(model: &str, speeds: u32, revolutions: u32) -> Value {
-    let casing = PaperCasing::of(&ImpellerParameters::default());
     json!({
         "model": model,
         "modes_per_speed": 20,
         "speeds": {"from": 12000, "to": 36000, "count": speeds, "unit": "rpm"},
-        "scene": {
-            "centrifugal_stiffening": true,
-            "damping": {"modal_ratio": 0.005},
-            "casing": {
-                "clearance": {"leading": casing.leading_clearance, "trailing": casing.trailing_clearance},
-                "lobes": {"count": 2, "amplitude": casing.restriction, "width_rad": 0.35},
-            },
-            "contact": {},
-        },
+        "scene": scene(),
         "integration": {
             "steps_per_revolution": "auto",
             "revolutions": revolutions,

@@ -14,7 +14,7 @@ const INTERVAL: Duration = Duration::from_millis(150);
 const LINE_INTERVAL: Duration = Duration::from_secs(5);
 
 /// Follows a job to its end; an error if it did not end well.
-pub(super) async fn follow(client: &Client, job: &Job, name: &str) -> anyhow::Result<Job> {
+pub(in crate::cli) async fn follow(client: &Client, job: &Job, name: &str) -> anyhow::Result<Job> {
     let mut display = if std::io::stderr().is_terminal() { bar(name) } else { Display::plain(name) };
     loop {
         let job = client.job(&job.id).await?;

@@ -1,4 +1,4 @@
-//! The demo's side of the HTTP contract: nothing that curl could not do.
+//! The user's side of the HTTP contract: nothing that curl could not do.
 
 use std::path::Path;
 
@@ -11,42 +11,42 @@ use serde_json::Value;
 
 /// A client of one service.
 #[derive(Debug)]
-pub(super) struct Client {
+pub(in crate::cli) struct Client {
     base: String,
     http: reqwest::Client,
 }
 
 /// An uploaded model.
 #[derive(Debug)]
-pub(super) struct Model {
-    pub(super) id: String,
+pub(in crate::cli) struct Model {
+    pub(in crate::cli) id: String,
     /// Whether the service saw it for the first time.
-    pub(super) new: bool,
+    pub(in crate::cli) new: bool,
 }
 
 /// A job as the service shows it.
 #[derive(Debug, Deserialize)]
-pub(super) struct Job {
-    pub(super) id: String,
-    pub(super) status: JobStatus,
+pub(in crate::cli) struct Job {
+    pub(in crate::cli) id: String,
+    pub(in crate::cli) status: JobStatus,
     #[serde(default)]
-    pub(super) progress: u64,
+    pub(in crate::cli) progress: u64,
     #[serde(default)]
-    pub(super) phase: String,
+    pub(in crate::cli) phase: String,
     #[serde(default)]
-    pub(super) speeds: SpeedCounts,
+    pub(in crate::cli) speeds: SpeedCounts,
     error: Option<Problem>,
     links: Vec<Link>,
 }
 
 /// Speeds of a job.
 #[derive(Debug, Default, Deserialize)]
-pub(super) struct SpeedCounts {
-    pub(super) total: u32,
-    pub(super) finished: u32,
+pub(in crate::cli) struct SpeedCounts {
+    pub(in crate::cli) total: u32,
+    pub(in crate::cli) finished: u32,
 }
 
-/// What went wrong (RFC 9457), as far as the demo shows it.
+/// What went wrong (RFC 9457), as far as it is shown.
 #[derive(Debug, Deserialize)]
 struct Problem {
     detail: String,
@@ -70,13 +70,13 @@ struct Link {
 
 impl Job {
     /// Path of a result.
-    pub(super) fn link(&self, rel: &str) -> anyhow::Result<&str> {
+    pub(in crate::cli) fn link(&self, rel: &str) -> anyhow::Result<&str> {
         let link = self.links.iter().find(|link| link.rel == rel);
         link.map(|link| link.href.as_str()).with_context(|| format!("job {} links to no {rel}", self.id))
     }
 
     /// The job, if it ended well.
-    pub(super) fn successful(self) -> anyhow::Result<Self> {
+    pub(in crate::cli) fn successful(self) -> anyhow::Result<Self> {
         match (self.status, &self.error) {
             (JobStatus::Successful, _) => Ok(self),
             (_, Some(problem)) => bail!("job {}: {}", self.id, words(problem)),
@@ -86,12 +86,12 @@ impl Job {
 }
 
 impl Client {
-    pub(super) fn new(base: String) -> Self {
+    pub(in crate::cli) fn new(base: String) -> Self {
         Self { base, http: reqwest::Client::new() }
     }
 
     /// `POST /v1/models`.
-    pub(super) async fn upload(&self, package: &Path) -> anyhow::Result<Model> {
+    pub(in crate::cli) async fn upload(&self, package: &Path) -> anyhow::Result<Model> {
         #[derive(Deserialize)]
         struct Body {
             id: String,
@@ -106,24 +106,28 @@ impl Client {
     }
 
     /// Posts a job.
-    pub(super) async fn post_job(&self, path: &str, request: &Value) -> anyhow::Result<Job> {
+    pub(in crate::cli) async fn post_job(&self, path: &str, request: &Value) -> anyhow::Result<Job> {
         Ok(send(self.request(Method::POST, path).json(request)).await?.json().await?)
     }
 
     /// `GET /v1/jobs/{id}`.
-    pub(super) async fn job(&self, id: &str) -> anyhow::Result<Job> {
+    pub(in crate::cli) async fn job(&self, id: &str) -> anyhow::Result<Job> {
         Ok(send(self.request(Method::GET, &format!("/v1/jobs/{id}"))).await?.json().await?)
     }
 
     /// Downloads a result to a file, byte by byte as the service gave it, and reads it.
-    pub(super) async fn download<T: DeserializeOwned>(&self, path: &str, file: &Path) -> anyhow::Result<T> {
+    pub(in crate::cli) async fn download<T: DeserializeOwned>(
+        &self,
+        path: &str,
+        file: &Path,
+    ) -> anyhow::Result<T> {
         let body = send(self.request(Method::GET, path)).await?.bytes().await?;
         tokio::fs::write(file, &body).await.with_context(|| format!("cannot write {}", file.display()))?;
         serde_json::from_slice(&body).with_context(|| format!("cannot understand {path}"))
     }
 
     /// Cancels every job that has not ended.
-    pub(super) async fn cancel_unfinished_jobs(&self) -> anyhow::Result<()> {
+    pub(in crate::cli) async fn cancel_unfinished_jobs(&self) -> anyhow::Result<()> {
         #[derive(Deserialize)]
         struct Page {
             jobs: Vec<Job>,

@@ -1,0 +1,41 @@
+//! What there is to show: a generated impeller in the casing that the paper would give it.
+
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::{Path, PathBuf};
+
+use anyhow::Context;
+use serde_json::{Value, json};
+
+use crate::impeller::{ImpellerParameters, PaperCasing, generate};
+
+/// Makes the impeller and keeps its package in the out folder.
+pub(in crate::cli) fn make_package(out: &Path) -> anyhow::Result<PathBuf> {
+    let path = out.join("impeller.zip");
+    let package = generate(&ImpellerParameters::default())?;
+    let file = File::create(&path).with_context(|| format!("cannot create {}", path.display()))?;
+    crate::package::write(&package, BufWriter::new(file))
+        .with_context(|| format!("cannot write {}", path.display()))?;
+    println!(
+        "package   {}: {} sectors of {} DOF, {} contact nodes",
+        path.display(),
+        package.manifest.sectors,
+        package.dofs.len(),
+        package.manifest.contact.len()
+    );
+    Ok(path)
+}
+
+/// A casing ovalised by more than the clearance, so that two lobes push every tip twice a revolution.
+pub(in crate::cli) fn scene() -> Value {
+    let casing = PaperCasing::of(&ImpellerParameters::default());
+    json!({
+        "centrifugal_stiffening": true,
+        "damping": {"modal_ratio": 0.005},
+        "casing": {
+            "clearance": {"leading": casing.leading_clearance, "trailing": casing.trailing_clearance},
+            "lobes": {"count": 2, "amplitude": casing.restriction, "width_rad": 0.35},
+        },
+        "contact": {},
+    })
+}

@@ -1,0 +1,117 @@
+//! A service in this process, and a user who works with it over HTTP: what commands that show something have in common.
+
+pub(super) mod client;
+pub(super) mod impeller;
+pub(super) mod progress;
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Instant;
+
+use anyhow::{Context, bail};
+use tokio_util::sync::CancellationToken;
+
+use self::client::{Client, Model};
+use super::signals::stop_signal;
+use crate::app::App;
+use crate::config::Config;
+
+/// A folder to work in and since when.
+pub(super) struct Session {
+    out: PathBuf,
+    begin: Instant,
+}
+
+/// How a session without errors ends.
+enum Ending {
+    /// Everything was shown.
+    Played,
+    /// A signal stopped it.
+    Stopped,
+}
+
+impl Session {
+    /// In a folder, which is made if it is missing.
+    ///
+    /// # Errors
+    /// A folder that cannot be made.
+    pub(super) fn begin(out: &Path) -> anyhow::Result<Self> {
+        let begin = Instant::now();
+        std::fs::create_dir_all(out).with_context(|| format!("cannot make {}", out.display()))?;
+        Ok(Self { out: out.to_owned(), begin })
+    }
+
+    /// Runs the service on a free loopback port, with its data in the folder, while `play` is its user; 130, as shells say it, if
+    /// a signal stopped it.
+    ///
+    /// # Errors
+    /// A folder that cannot be used, and what `play` returns.
+    pub(super) fn run(
+        self,
+        workers: Option<u16>,
+        play: impl AsyncFnOnce(&Client) -> anyhow::Result<()>,
+    ) -> anyhow::Result<ExitCode> {
+        let config = Config {
+            addr: ([127, 0, 0, 1], 0).into(),
+            data: self.out.join("data"),
+            workers,
+            upload_bytes: 1 << 30,
+            expanded_bytes: None,
+            memory_bytes: None,
+        };
+        let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build()?;
+        match runtime.block_on(with_service(config, play))? {
+            Ending::Played => println!("\nDone in {:.0} s.", self.begin.elapsed().as_secs_f64()),
+            Ending::Stopped => {
+                eprintln!("\nStopped; its jobs are cancelled. What it left is in {}.", self.out.display());
+                return Ok(ExitCode::from(130));
+            }
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+/// Starts the service, plays the user, and stops the service whatever came of it.
+async fn with_service(
+    config: Config,
+    play: impl AsyncFnOnce(&Client) -> anyhow::Result<()>,
+) -> anyhow::Result<Ending> {
+    let stop_signal = stop_signal()?;
+    let (data, workers) = (config.data.clone(), config.worker_threads());
+    let app = App::build(config).await?;
+    let client = Client::new(format!("http://{}", app.addr()));
+    println!("service   http://{}, {workers} workers, data in {}", app.addr(), data.display());
+    let stop = CancellationToken::new();
+    let mut service = tokio::spawn(app.run_until_stopped(stop.clone()));
+    let played = async {
+        // A session that was killed leaves jobs that the service has resumed by now.
+        client.cancel_unfinished_jobs().await?;
+        play(&client).await
+    };
+    let outcome = tokio::select! {
+        outcome = played => outcome.map(|()| Ending::Played),
+        ended = &mut service => {
+            ended??;
+            bail!("the service ended before its user had everything");
+        }
+        () = stop_signal => {
+            // Otherwise the jobs would go on at the next start, which is right for a service and wrong here.
+            client.cancel_unfinished_jobs().await.map(|()| Ending::Stopped)
+        }
+    };
+    stop.cancel();
+    service.await??;
+    outcome
+}
+
+/// Uploads a package and says so.
+pub(super) async fn upload(client: &Client, package: &Path) -> anyhow::Result<Model> {
+    let model = client.upload(package).await?;
+    println!("model     {}{}", model.id, if model.new { "" } else { " (known from an earlier run)" });
+    Ok(model)
+}
+
+/// Writes a file.
+pub(super) fn save(path: &Path, text: &str) -> anyhow::Result<()> {
+    std::fs::write(path, text).with_context(|| format!("cannot write {}", path.display()))
+}

@@ -1,0 +1,89 @@
+//! `rubmap study`: what accuracy costs in time, over HTTP as any user would find out.
+
+mod report;
+pub(super) mod request;
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::Args;
+use serde_json::Value;
+
+use super::session::client::Client;
+use super::session::{Session, impeller, progress, save, upload};
+use crate::analysis::accuracy::errors::Quantity;
+use crate::analysis::run::{Histories, WorkPrecision};
+use crate::plot;
+
+/// What is studied and where the results are left.
+#[derive(Debug, Args)]
+pub(crate) struct StudyArgs {
+    /// Model package [default: the impeller of the demo]
+    #[arg(long)]
+    package: Option<PathBuf>,
+    /// JSON file with the body of POST /v1/studies, whose `model` may be left out [default: the demo's scene at 24,000 rpm
+    /// with the grid of the paper's five sizes]
+    #[arg(long)]
+    request: Option<PathBuf>,
+    /// Folder for results and drawings; made if missing. A second run reuses the reductions and runs that it shares with the
+    /// first, which stay in the folder `data` in it.
+    #[arg(long, default_value = "./rubmap-study")]
+    out: PathBuf,
+    /// Threads that compute [default: one per core]
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    workers: Option<u16>,
+}
+
+/// Runs the study; 130, as shells say it, if a signal stopped it.
+///
+/// # Errors
+/// A file or folder that cannot be used, or a step that the service refuses.
+pub(super) fn run(args: &StudyArgs) -> anyhow::Result<ExitCode> {
+    let body = args.request.as_deref().map_or_else(|| Ok(request::default()), request::read)?;
+    let session = Session::begin(&args.out)?;
+    let package = match &args.package {
+        Some(package) => package.clone(),
+        None => impeller::make_package(&args.out)?,
+    };
+    session.run(args.workers, async |client| {
+        let model = upload(client, &package).await?;
+        play(client, body, &model.id, &args.out).await
+    })
+}
+
+/// Posts a study of an uploaded model, waits for it, draws it and tells what it says.
+pub(super) async fn play(client: &Client, body: Value, model: &str, out: &Path) -> anyhow::Result<()> {
+    let body = request::of_model(body, model)?;
+    let job = client.post_job("/v1/studies", &body).await?;
+    let job = progress::follow(client, &job, "study").await?;
+
+    let found: WorkPrecision =
+        client.download(job.link("work-precision")?, &out.join("work-precision.json")).await?;
+    save(&out.join("work-precision.csv"), &found.csv())?;
+    for index in 0..found.speeds.len() {
+        let speed = name(&found, index);
+        for quantity in Quantity::ALL {
+            let file = format!("work-precision{speed}-{}.svg", quantity.as_str().replace('_', "-"));
+            save(&out.join(file), &plot::work_precision(&found, index, quantity))?;
+        }
+        let path = format!("{}?speed={index}", job.link("histories")?);
+        let histories: Histories =
+            client.download(&path, &out.join(format!("histories{speed}.json"))).await?;
+        save(&out.join(format!("histories{speed}.svg")), &plot::histories(&histories, 0))?;
+    }
+
+    if let Some(first) = found.speeds.first() {
+        print!("\n{}\n{}", report::front(first), report::orders(first));
+        print!("\n{}\n", first.message);
+        print!("\n{}", report::places(out, &name(&found, 0)));
+    }
+    Ok(())
+}
+
+/// What the names of a speed's files say of it: its index, as the service counts, and rpm; nothing if it is the only one.
+fn name(found: &WorkPrecision, index: usize) -> String {
+    match found.speeds.len() {
+        1 => String::new(),
+        _ => format!("-{index}-{:.0}rpm", report::rpm(found.speeds[index].speed_rad_s)),
+    }
+}
