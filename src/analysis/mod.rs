@@ -4,7 +4,9 @@
 //! - [`run::check`], [`run::run_speed`] and [`run::modal_analysis`] compute on the reduced sector;
 //! - [`run::plan_sweep`] and [`run::plan_modal_analysis`] say beforehand what that will do and cost;
 //! - [`run::refine`] says which speeds a sweep lacks around its peaks;
-//! - [`run::interaction_map`] and [`run::critical_speeds`] assemble the finished speeds of a sweep.
+//! - [`run::interaction_map`] and [`run::critical_speeds`] assemble the finished speeds of a sweep, [`run::refine`] asks for more;
+//! - [`run::run_trial`] runs one speed to be compared with others: for studies ([`run::work_precision`]), for the choice of settings
+//!   ([`run::next`], [`run::next_modes`]) and for the error of a finished sweep ([`run::error_estimate`]).
 
 pub mod accuracy;
 pub mod auto_or;
