@@ -243,7 +243,9 @@ impl<'a> Climb<'a, '_> {
             let error_of_modes = of_modes
                 .map(|e| estimate(e.amplitude, e.engine_orders).max(before / MOST_GAIN).min(f64::MAX));
             let error_of_steps = of_steps.map(|e| estimate(e.amplitude, e.engine_orders));
-            let spread = of_modes.and_then(|e| e.amplitude_spread).unwrap_or(0.0);
+            // A response that repeats with more modes is not known any less for not repeating with few.
+            let rough = [run, more_modes].iter().all(|trial| !trial.repeats());
+            let spread = of_modes.filter(|_| rough).and_then(|e| e.amplitude_spread).unwrap_or(0.0);
             if spread > rung.spread {
                 (rung.spread, rung.spread_at) = (spread, speed);
             }

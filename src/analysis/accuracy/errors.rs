@@ -3,9 +3,9 @@
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-use super::trial::{Trial, lines};
+use super::trial::{Trial, lines, repeats};
 use crate::analysis::request::SweepRequest;
-use crate::analysis::result::{Point, SpeedSpectra, Verdict};
+use crate::analysis::result::{Point, SpeedSpectra};
 
 /// Differences between a run and a finer one, relative to the finer one.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, ToSchema)]
@@ -104,12 +104,11 @@ impl<'a> Response<'a> {
     }
 
     fn of_point(point: &Point) -> Self {
-        let verdict = point.settling.as_ref().map(|settling| settling.verdict);
         Self {
             rms: point.responses.iter().map(|response| response.rms).collect(),
             lines: Vec::new(),
             levels: &[],
-            repeats: matches!(verdict, Some(Verdict::Periodic | Verdict::Subharmonic)),
+            repeats: repeats(point),
             impulse: point.contact_impulse.unwrap_or(0.0),
         }
     }

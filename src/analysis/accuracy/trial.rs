@@ -13,7 +13,7 @@ use crate::analysis::model::ReducedSector;
 use crate::analysis::monitor::Monitor;
 use crate::analysis::record::record_run;
 use crate::analysis::request::{SchemeChoice, SweepDirection, SweepRequest};
-use crate::analysis::result::{Point, SpeedSpectra};
+use crate::analysis::result::{Point, SpeedSpectra, Verdict};
 use crate::analysis::speed::{Start, empty_point, ready, simulate};
 use crate::analysis::speeds::{SpeedSet, SpeedUnit, Speeds};
 use crate::analysis::stepping::MOST_STEPS;
@@ -137,6 +137,19 @@ pub struct Trial {
     pub sensitivity: Option<Sensitivity>,
     /// What it cost.
     pub cost: Cost,
+}
+
+impl Trial {
+    /// Whether the steady response repeats.
+    pub(super) fn repeats(&self) -> bool {
+        repeats(&self.point)
+    }
+}
+
+/// Whether the steady response of a speed repeats.
+pub(super) fn repeats(point: &Point) -> bool {
+    let verdict = point.settling.as_ref().map(|settling| settling.verdict);
+    matches!(verdict, Some(Verdict::Periodic | Verdict::Subharmonic))
 }
 
 /// Parts of the window whose levels are compared.
