@@ -10,7 +10,7 @@
 //! ```text
 //! numerics ← dynamics ← response ← analysis ← store ← jobs ← http ← app ← main
 //!               ↑         (package and impeller build a SectorModel; http and jobs use them)
-//!                                    (plot draws results of analysis; the demo uses it)
+//!                                    (plot draws results of analysis; http and cli use it)
 //! ```
 //!
 //! What is absent, and stays absent:

@@ -14,7 +14,7 @@ use crate::analysis::run::Histories;
 const WIDTH: f64 = 1180.0;
 const HEIGHT: f64 = 640.0;
 const LEFT: f64 = 92.0;
-const PLOT_WIDTH: f64 = 820.0;
+const PLOT_WIDTH: f64 = 800.0;
 
 /// Lines of more points are thinned to what the drawing can show.
 const MOST_POINTS: usize = 4000;
@@ -28,7 +28,7 @@ const REFERENCE: &str = "8 5";
 /// Draws the displacements of the sensor of index `sensor` over revolutions, one line per size; the reference is dashed and black.
 pub fn histories(histories: &Histories, sensor: usize) -> String {
     let measured = histories.sensors.get(sensor).map_or_else(|| "displacement".to_owned(), in_words);
-    let title = format!("First revolutions: {measured} at {} rpm", label(rpm(histories.speed_rad_s), 0));
+    let title = format!("First revolutions: {measured}, {} rpm", label(rpm(histories.speed_rad_s), 0));
     let words = format!("each size at its finest time step · rubmap {}", histories.version);
     let (heading, bottom) = heading(LEFT, &title, &[words]);
     let curves: Vec<Curve> = histories.lines.iter().filter_map(|line| Curve::of(line, sensor)).collect();
@@ -122,12 +122,12 @@ fn thinned(points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
 }
 
 fn key(curves: &[Curve], diagram: &Diagram) -> Element {
-    let key = Key::new(diagram.right() + 30.0, diagram.top).heading("modes per speed and unknowns");
+    let key = Key::new(diagram.right() + 30.0, diagram.top).heading("modes per speed · unknowns");
     let row = |key: Key, (index, curve): (usize, &Curve)| {
         let stroke = line((0.0, 0.0), (MARK_WIDTH, 0.0));
-        let reference = if curve.line.reference { " (reference)" } else { "" };
         let words = format!(
-            "{} · {} unknowns{reference}",
+            "{}{} · {} unknowns",
+            if curve.line.reference { "reference: " } else { "" },
             curve.line.setting.modes_per_speed,
             label(curve.line.unknowns.into(), 0)
         );

@@ -382,6 +382,8 @@ fn a_study_without_completed_runs_says_why() {
     let drawing = Document::parse(&drawing).unwrap();
     let words = of_class(&drawing, "empty").next().unwrap().text().unwrap();
     assert!(words.contains("no run was completed (grew beyond <bounds>)"), "{words}");
+    let never = work_precision(&study(&RUNS, false), 0, Quantity::EngineOrders);
+    assert!(never.contains("does not repeat"));
     let absent = work_precision(&study(&RUNS, false), 7, Quantity::History);
     assert!(Document::parse(&absent).is_ok() && absent.contains("no speed of index 7"));
 }

@@ -33,7 +33,7 @@ pub fn work_precision(study: &WorkPrecision, speed: usize, quantity: Quantity) -
         let (heading, _) = heading(LEFT, &title, &[format!("the study has no speed of index {speed}")]);
         return svg::document(&title, WIDTH, HEIGHT, vec![heading]);
     };
-    let title = format!("{title} at {} rpm", label(rpm(at.speed_rad_s), 0));
+    let title = format!("{title}, {} rpm", label(rpm(at.speed_rad_s), 0));
     let (heading, bottom) = heading(LEFT, &title, &[at.message.clone(), origin(study, at)]);
     let view = View::new(study, at, quantity, bottom + 30.0);
     let mut content = vec![heading];
@@ -84,15 +84,15 @@ fn setting(setting: &Setting) -> String {
 struct Drawn<'a> {
     run: &'a StudyRun,
     error: f64,
-    /// Standard error of `error`, where it is shown.
+    /// Standard error of `error`, where there is one.
     spread: Option<f64>,
 }
 
 impl<'a> Drawn<'a> {
-    fn of(run: &'a StudyRun, quantity: Quantity, with_spread: bool) -> Option<Self> {
+    fn of(run: &'a StudyRun, quantity: Quantity) -> Option<Self> {
         let errors = run.errors.as_ref()?;
         let error = errors.of(quantity)?;
-        let spread = errors.amplitude_spread.filter(|_| with_spread);
+        let spread = errors.amplitude_spread.filter(|_| quantity == Quantity::Amplitude);
         (error > 0.0 && error.is_finite() && run.time_s > 0.0).then_some(Self { run, error, spread })
     }
 
@@ -116,8 +116,8 @@ struct View<'a> {
     study: &'a WorkPrecision,
     at: &'a SpeedStudy,
     quantity: Quantity,
-    /// Whether the spread of amplitudes is drawn.
-    spread: bool,
+    /// Whether bars show the spread.
+    bars: bool,
     runs: Vec<Drawn<'a>>,
     /// Modes per speed, ascending.
     sizes: Vec<u32>,
@@ -127,16 +127,16 @@ struct View<'a> {
 impl<'a> View<'a> {
     fn new(study: &'a WorkPrecision, at: &'a SpeedStudy, quantity: Quantity, top: f64) -> Self {
         let chaotic = at.sensitivity.is_some_and(|sensitivity| sensitivity.chaotic);
-        let spread = chaotic && quantity == Quantity::Amplitude;
-        let runs: Vec<Drawn> = at.runs.iter().filter_map(|run| Drawn::of(run, quantity, spread)).collect();
+        let bars = chaotic && quantity == Quantity::Amplitude;
+        let runs: Vec<Drawn> = at.runs.iter().filter_map(|run| Drawn::of(run, quantity)).collect();
         let mut sizes: Vec<u32> = at.runs.iter().map(|run| run.setting.modes_per_speed).collect();
         sizes.sort_unstable();
         sizes.dedup();
         let times = extent(runs.iter().map(|drawn| drawn.run.time_s));
-        let tops = runs.iter().filter_map(|drawn| Some(drawn.error + drawn.spread?));
+        let tops = runs.iter().filter_map(|drawn| Some(drawn.error + drawn.spread.filter(|_| bars)?));
         let errors = extent(runs.iter().map(|drawn| drawn.error).chain(tops));
         let diagram = Diagram::logarithmic((LEFT, top), (PLOT_WIDTH, HEIGHT - 90.0 - top), times, errors);
-        Self { study, at, quantity, spread, runs, sizes, diagram }
+        Self { study, at, quantity, bars, runs, sizes, diagram }
     }
 
     fn place(&self, drawn: &Drawn) -> (f64, f64) {
@@ -191,7 +191,7 @@ impl<'a> View<'a> {
 
     /// From the standard error below the mark to that above it, cut off at the frame.
     fn bar(&self, drawn: &Drawn) -> Option<Element> {
-        let (spread, x) = (drawn.spread?, self.place(drawn).0);
+        let (spread, x) = (drawn.spread.filter(|_| self.bars)?, self.place(drawn).0);
         let lowest = (drawn.error - spread).max(self.diagram.y.values.0);
         let (low, high) = (self.diagram.y.place(lowest), self.diagram.y.place(drawn.error + spread));
         let bar = line((x, low), (x, high)).set("class", "spread").set("stroke-width", "1.2");
@@ -246,11 +246,11 @@ impl<'a> View<'a> {
         let dashes = line((0.0, 0.0), (MARK_WIDTH, 0.0)).set("stroke", "#999999");
         let dashes = dashes.set("stroke-dasharray", "6 4");
         key = key.row(group().child(dashes).child(ring(middle, 4.0)), "Pareto front of all runs");
-        if self.spread {
+        if self.bars {
             let bar = line((middle.0, -8.0), (middle.0, 8.0)).set("stroke", INK).set("stroke-width", "1.2");
             key = key.row(bar, "± standard error (chaotic response)");
         }
-        key = key.heading("modes per speed and unknowns of the wheel");
+        key = key.heading("modes per speed · size of the wheel");
         for &size in &self.sizes {
             let reduction = self.study.reductions.iter().find(|found| found.modes_per_speed == size);
             let unknowns = reduction
@@ -270,7 +270,7 @@ impl<'a> View<'a> {
             match error {
                 _ if run.status != PointStatus::Completed => not_completed += 1,
                 Some(0.0) => exact += 1,
-                _ if Drawn::of(run, self.quantity, false).is_none() => without += 1,
+                _ if Drawn::of(run, self.quantity).is_none() => without += 1,
                 _ => {}
             }
         }
@@ -300,7 +300,14 @@ impl<'a> View<'a> {
             let first = self.at.runs.iter().find_map(|run| run.message.as_deref());
             return format!("Nothing to draw: no run was completed ({})", first.unwrap_or("no reason given"));
         }
-        "Nothing to draw: no run has an error of this quantity above 0".to_owned()
+        let error = |run: &StudyRun| run.errors.as_ref()?.of(self.quantity);
+        let why = match (self.at.runs.iter().any(|run| error(run).is_some()), self.quantity) {
+            (true, _) => "all errors are exactly 0",
+            (false, Quantity::EngineOrders) => "the response does not repeat and has no steady peaks",
+            (false, Quantity::Impulse) => "there is no contact",
+            (false, Quantity::History | Quantity::Amplitude) => "no run has this error",
+        };
+        format!("Nothing to draw: {why}")
     }
 }
 

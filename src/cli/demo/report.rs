@@ -165,7 +165,7 @@ pub(super) fn places(out: &Path, map: &str, study: bool) -> String {
     } else {
         (
             String::new(),
-            "\nNext      rubmap demo --full   what accuracy costs in time: a study, which takes a while",
+            "\nNext      rubmap demo --full   what accuracy costs in time: a study of some minutes",
         )
     };
     format!(
