@@ -87,7 +87,7 @@ pub(super) struct HistoriesQuery {
         },
         "grid": {
             "modes_per_speed": [1, 8, 20, 28, 42],
-            "steps_per_revolution": [1800, 3600, 7200, 14400, 28800],
+            "steps_per_revolution": [450, 900, 1800, 3600, 7200, 14400],
             "schemes": ["exact_modal", "massless_boundary", "central_differences"]
         },
         "history_revolutions": 3

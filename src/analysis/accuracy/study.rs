@@ -222,8 +222,12 @@ fn in_words(reference: &Tried, history_revolutions: u32) -> String {
         return format!("there is nothing to hold the runs against: {why}");
     };
     if !sensitivity.chaotic {
-        return "a tiny perturbation of the reference decays or stays small: all quantities can be compared"
-            .to_owned();
+        let peaks = if reference.trial.repeats() {
+            "all quantities can be compared"
+        } else {
+            "its response does not repeat, so that peaks at engine orders are not compared"
+        };
+        return format!("a tiny perturbation of the reference decays or stays small; {peaks}");
     }
     let rate = match sensitivity.rate_per_revolution {
         Some(rate) => format!(" by e^{rate:.2} a revolution"),

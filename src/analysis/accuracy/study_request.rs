@@ -68,7 +68,7 @@ impl Default for Grid {
     fn default() -> Self {
         Self {
             modes_per_speed: vec![1, 8, 20, 28, 42],
-            steps_per_revolution: vec![1800, 3600, 7200, 14_400, 28_800],
+            steps_per_revolution: vec![450, 900, 1800, 3600, 7200, 14_400],
             schemes: vec![
                 SchemeChoice::ExactModal,
                 SchemeChoice::MasslessBoundary,

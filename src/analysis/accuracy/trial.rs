@@ -1,5 +1,6 @@
 //! A trial: one speed at one setting, run to be compared with others, with its cost.
 
+use std::cell::Cell;
 use std::time::Duration;
 
 use cpu_time::ThreadTime;
@@ -188,17 +189,23 @@ pub fn run_trial(
     while repetitions.is_empty() || (spent < TIMED && repetitions.len() < MOST_REPETITIONS && first.is_some())
     {
         let clock = ThreadTime::now();
-        let marks = std::cell::RefCell::new(Vec::new());
+        let set_up = Cell::new(None);
         let marked = |fraction: f64| {
-            marks.borrow_mut().push((fraction, clock.elapsed()));
+            if set_up.get().is_none() {
+                set_up.set(Some(clock.elapsed()));
+            }
             watch(fraction)
         };
         let ran = ready(reduced, sweep, speed_rad_s).and_then(|(wheel, stepping)| {
             let run = simulate(&reduced.wheel, &wheel, sweep, &stepping, Start::Scene, &marked)?;
             Ok((wheel, stepping, run))
         });
-        spent += clock.elapsed();
-        repetitions.push(split(&marks.borrow(), clock.elapsed(), sweep.integration.revolutions));
+        let whole = clock.elapsed();
+        spent += whole;
+        // One that was never set up ran no revolution.
+        let set_up = set_up.get().unwrap_or(whole);
+        let revolutions = f64::from(sweep.integration.revolutions);
+        repetitions.push((set_up.as_secs_f64(), (whole - set_up).as_secs_f64() / revolutions));
         match ran {
             Err(message) => trial.point.message = Some(message),
             Ok(ran) => first = first.or(Some(ran)),
@@ -230,20 +237,6 @@ pub fn run_trial(
     Ok(trial)
 }
 
-/// Set-up and time of a revolution from when the loop called its watch, at which fractions of the run.
-fn split(marks: &[(f64, Duration)], whole: Duration, revolutions: u32) -> (f64, f64) {
-    let whole = whole.as_secs_f64();
-    let revolutions = f64::from(revolutions);
-    match (marks.first(), marks.last()) {
-        (Some((first, since)), Some((last, until))) if last > first => {
-            let run = (until.as_secs_f64() - since.as_secs_f64()) / (last - first);
-            ((whole - run).max(0.0), run / revolutions)
-        }
-        // Too short to be watched.
-        _ => (0.0, whole / revolutions),
-    }
-}
-
 /// Root mean squares about the mean of the window over its parts.
 fn levels(window: &[f64]) -> Vec<f64> {
     let mean = window.iter().sum::<f64>() / window.len() as f64;
@@ -262,15 +255,6 @@ pub(super) fn lines(spectra: &SpeedSpectra, request: &SweepRequest) -> Vec<Vec<f
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn time_is_split_at_the_first_watch() {
-        // Two seconds before the first step, then a second a revolution.
-        let at = |revolution: f64| (revolution / 10.0, Duration::from_secs_f64(2.0 + revolution));
-        let (set_up, revolution) = split(&[at(1.5), at(4.0), at(9.5)], Duration::from_secs_f64(12.0), 10);
-        assert!((set_up - 2.0).abs() < 1e-9 && (revolution - 1.0).abs() < 1e-9);
-        assert_eq!(split(&[at(5.0)], Duration::from_secs_f64(12.0), 10), (0.0, 1.2));
-    }
 
     #[test]
     fn medians_stand_for_repetitions() {

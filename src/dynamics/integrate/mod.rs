@@ -133,7 +133,8 @@ const DIVERGED_SHARE_OF_RADIUS: f64 = 0.1;
 pub const MAX_TABLE_VALUES: usize = 1 << 28;
 
 impl Simulation<'_> {
-    /// Runs the simulation. `watch` is called now and then with the share of work done; `false` stops the run.
+    /// Runs the simulation. `watch` is called once all is set up, with 0, and now and then with the share of work done; `false`
+    /// stops the run.
     ///
     /// # Panics
     /// If the sample count does not divide the step count, the window exceeds the run, or an initial mode is not integrated.
@@ -158,6 +159,8 @@ impl Simulation<'_> {
     fn dispatch(&self, arch: pulp::Arch, mut stepper: Stepper, watch: &dyn Fn(f64) -> bool) -> Run {
         assert!(self.steps_per_revolution.is_multiple_of(self.samples_per_revolution));
         assert!(self.window_revolutions <= self.revolutions);
+        // Who does not want the run says so again soon.
+        watch(0.0);
         arch.dispatch(Loop { simulation: self, stepper: &mut stepper, watch })
     }
 
