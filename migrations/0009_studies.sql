@@ -83,16 +83,18 @@ alter table new_documents rename to documents;
 
 -- Runs that are compared with others: of studies, of pilots, of controls. Kept for every later job that asks for the same, gone with
 -- their model.
-create table trials (
+create table if not exists trials (
     -- Digest of what was run, by which version of the program.
     key         text    not null primary key check (length(key) = 64),
     model       text    not null references models (id) on delete cascade,
+    -- Of the program; those of others are dropped when a service starts.
+    version     text    not null,
     -- What was found, as JSON.
     body        text    not null check (json_valid(body)),
     created_at  text    not null
 ) strict;
 
-create index trials_by_model on trials (model);
+create index if not exists trials_by_model on trials (model);
 
 commit;
 pragma foreign_keys = on;

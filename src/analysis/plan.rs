@@ -5,8 +5,9 @@ use std::time::Instant;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-use super::accuracy::choice::{Choice, pilot_speeds};
+use super::accuracy::choice::Choice;
 use super::accuracy::modes::ModesChoice;
+use super::accuracy::rung::pilot_speeds;
 use super::calibration::{Calibration, EffectSizes, StepSize};
 use super::diagram::FrequencyDiagram;
 use super::effect_list::{PlannedEffect, effects_of};

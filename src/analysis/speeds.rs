@@ -121,6 +121,14 @@ impl Speeds {
         Ok(speeds)
     }
 
+    /// Takes all of them as asked for: what one refinement added, another request may name.
+    pub(super) fn ask_for_all(&mut self) {
+        match self {
+            Self::One(set) => set.added = false,
+            Self::Several(sets) => sets.iter_mut().for_each(|set| set.added = false),
+        }
+    }
+
     /// Those of them that no refinement has added.
     pub(super) fn asked(&self) -> Result<Vec<f64>, Vec<Violation>> {
         Ok(self.parts()?.into_iter().filter(|part| !part.added).flat_map(|part| part.speeds_rad_s).collect())

@@ -1,7 +1,8 @@
 //! Settings that the service chooses for a job, once its pilot runs or reductions are there.
 
 use std::sync::Arc;
-use std::time::Instant;
+
+use chrono::{DateTime, Utc};
 
 use super::engine::{Engine, Live};
 use super::error::Halt;
@@ -11,9 +12,9 @@ use crate::analysis::auto_or::AutoOr;
 use crate::analysis::error::{AnalysisError, Violation};
 use crate::analysis::monitor::Monitor;
 use crate::analysis::request::{ModalAnalysisRequest, SweepRequest};
-use crate::analysis::run::{self, Choice, ModesChoice, Next, NextModes, Resources};
+use crate::analysis::run::{self, Choice, ModelFacts, ModesChoice, Next, NextModes, Resources};
 use crate::store::StoreError;
-use crate::store::jobs::{Chosen, Failure, FailureCause, JobRequest};
+use crate::store::jobs::{Chosen, FailureCause, JobRequest};
 
 /// The job with the settings that pilot runs choose for its sweep; as it is where nothing is to be chosen (any more).
 pub(super) async fn sweep(
@@ -24,14 +25,14 @@ pub(super) async fn sweep(
     if !request.unchosen() {
         return Ok(job);
     }
-    let begin = Instant::now();
-    let sectors = sectors(engine, &job).await?;
+    let (facts, begin) = begun(engine, &job).await?;
+    let sectors = facts.sectors;
     let (mut trials, mut most_modes) = (Trials::default(), None);
     let choice = loop {
-        let resources = resources(engine, &request.model, begin.elapsed().as_secs_f64(), most_modes).await?;
+        let resources = resources(engine, &request.model, seconds_since(begin), most_modes).await?;
         let runs = match run::next(request, sectors, &resources, &|trial| trials.get(trial)) {
             Next::Take(choice) => break *choice,
-            Next::Refuse(violation) => return Err(refused(violation)),
+            Next::Refuse(violation) => return Err(AnalysisError::Refused(vec![violation]).into()),
             Next::Run(runs) => runs,
         };
         let Some(first) = runs.first() else { return Err(Halt::NotWanted) };
@@ -51,7 +52,13 @@ pub(super) async fn sweep(
     tracing::info!(
         job.id = %job.id, setting = ?choice.setting, estimated_error = choice.estimated_error, "chose a setting"
     );
-    let chosen = JobRequest::Sweep(Box::new(choice.setting.on(request)));
+    let chosen = choice.setting.on(request);
+    // The knobs by themselves, as if they had been given: nobody has checked them yet.
+    let explicit = SweepRequest { accuracy: None, budget: None, ..chosen.clone() };
+    if let Err(violations) = run::resolve_sweep(explicit, &facts) {
+        return Err(AnalysisError::Refused(violations).into());
+    }
+    let chosen = JobRequest::Sweep(Box::new(chosen));
     engine.choose(&job, chosen, Chosen::Setting(choice)).await
 }
 
@@ -85,14 +92,14 @@ pub(super) async fn modal_analysis(
     if !request.unchosen() {
         return Ok(job);
     }
-    let begin = Instant::now();
+    let (_, begin) = begun(engine, &job).await?;
     let mut most_modes = None;
+    let mut reports = engine.store.reduction_reports(&request.model).await?;
     let choice = loop {
-        let resources = resources(engine, &request.model, begin.elapsed().as_secs_f64(), most_modes).await?;
-        let reports = engine.store.reduction_reports(&request.model).await?;
+        let resources = resources(engine, &request.model, seconds_since(begin), most_modes).await?;
         let modes = match run::next_modes(request, &resources, &reports) {
             NextModes::Take(choice) => break choice,
-            NextModes::Refuse(violation) => return Err(refused(violation)),
+            NextModes::Refuse(violation) => return Err(AnalysisError::Refused(vec![violation]).into()),
             NextModes::Reduce(modes) => modes,
         };
         let monitor = PhaseMonitor::uncounted(job.watch.clone());
@@ -100,7 +107,7 @@ pub(super) async fn modal_analysis(
             Err(Halt::Failed(failure)) if failure.cause == FailureCause::Memory => {
                 most_modes = Some(largest_below(modes, &resources).ok_or(Halt::Failed(failure))?);
             }
-            outcome => drop(outcome?),
+            outcome => reports.push(outcome?.report.clone()),
         }
     };
     let modes_per_speed = AutoOr::Fixed(choice.modes_per_speed);
@@ -122,10 +129,22 @@ pub(super) async fn stored_modes(
     })
 }
 
-/// Sectors of the model that `job` computes from.
-pub(super) async fn sectors(engine: &Engine, job: &Live) -> Result<u32, Halt> {
-    let facts = engine.store.job(job.id).await?.and_then(|job| job.facts);
-    facts.map(|facts| facts.sectors).ok_or(Halt::NotWanted)
+/// Facts of the model that `job` computes from, and when it began.
+async fn begun(engine: &Engine, job: &Live) -> Result<(ModelFacts, DateTime<Utc>), Halt> {
+    let stored = engine.store.job(job.id).await?.ok_or(Halt::NotWanted)?;
+    let begin = stored.started_at.as_deref().and_then(|time| DateTime::parse_from_rfc3339(time).ok());
+    let begin = begin.map_or_else(Utc::now, |time| time.with_timezone(&Utc));
+    Ok((stored.facts.ok_or(Halt::NotWanted)?, begin))
+}
+
+/// By the clock on the wall: what was spent before the service was stopped counts, and so does the pause.
+fn seconds_since(begin: DateTime<Utc>) -> f64 {
+    (Utc::now() - begin).as_seconds_f64().max(0.0)
+}
+
+/// Facts of the model that `job` computes from.
+pub(super) async fn facts(engine: &Engine, job: &Live) -> Result<ModelFacts, Halt> {
+    Ok(begun(engine, job).await?.0)
 }
 
 /// The largest reduction that is stored with fewer than `modes`.
@@ -142,9 +161,4 @@ async fn resources(
     let reports = engine.store.reduction_reports(model).await?;
     let reductions = reports.iter().map(|report| (report.modes_per_speed, report.wall_time_s)).collect();
     Ok(Resources { workers: engine.pool.threads(), spent_s, reductions, most_modes })
-}
-
-fn refused(violation: Violation) -> Halt {
-    let message = AnalysisError::Refused(vec![violation.clone()]).to_string();
-    Halt::Failed(Failure { cause: FailureCause::Refused, message, violations: vec![violation] })
 }

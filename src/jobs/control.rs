@@ -1,6 +1,6 @@
 //! Speeds of a finished sweep that are simulated again at a finer setting.
 
-use super::choice::sectors;
+use super::choice::facts;
 use super::engine::{Engine, Live};
 use super::error::Halt;
 use super::progress::PhaseMonitor;
@@ -21,7 +21,7 @@ pub(super) async fn errors(
     if request.controls() == 0 {
         return Ok(None);
     }
-    let sectors = sectors(engine, job).await?;
+    let sectors = facts(engine, job).await?.sectors;
     let mut trials = Trials::default();
     let mut controls = run::control_requests(request, sectors, points, None);
     let monitor = PhaseMonitor::uncounted(job.watch.clone());

@@ -1,5 +1,6 @@
 //! A convergence study: its reductions and runs, then what they say together.
 
+use super::choice::facts;
 use super::engine::{Engine, Live};
 use super::error::Halt;
 use super::finish;
@@ -11,7 +12,7 @@ use crate::store::results::Document;
 
 /// Computes and stores a study.
 pub(super) async fn run(engine: &Engine, job: &Live, request: &StudyRequest) -> Result<(), Halt> {
-    let Some(facts) = engine.store.job(job.id).await?.and_then(|job| job.facts) else { return Ok(()) };
+    let facts = facts(engine, job).await?;
     let requests = request.all_trials(facts.sectors);
     let total = requests.len();
     let monitor = PhaseMonitor::whole(job.watch.clone());

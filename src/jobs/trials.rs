@@ -49,7 +49,7 @@ impl Trials {
     ) -> Result<(), Halt> {
         let mut running = stream::iter(requests)
             .map(|request| obtain(engine, job, request))
-            .buffered(engine.pool.threads());
+            .buffer_unordered(engine.pool.threads());
         let mut count = 0;
         while let Some((key, trial)) = running.try_next().await? {
             self.0.insert(key, trial);

@@ -200,8 +200,10 @@ impl<'a> View<'a> {
 
     /// Through the runs of a scheme that no other run of it beats.
     fn scheme_line(&self, scheme: SchemeChoice) -> Element {
-        let place =
-            |drawn: &Drawn| (drawn.run.setting.scheme == scheme).then_some((drawn.run.time_s, drawn.error));
+        let place = |drawn: &Drawn| {
+            let here = drawn.run.setting.scheme == scheme;
+            Some((drawn.run.time_s, drawn.run.errors.as_ref().filter(|_| here)?.judged(self.quantity)?))
+        };
         let places: Vec<Option<(f64, f64)>> = self.runs.iter().map(place).collect();
         let mut own: Vec<&Drawn> = front(&places).into_iter().map(|index| &self.runs[index]).collect();
         own.sort_by(|a, b| a.run.time_s.total_cmp(&b.run.time_s));

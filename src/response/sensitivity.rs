@@ -33,7 +33,7 @@ const SEPARATED: f64 = 1e-2;
 /// Distances below this share of the response are round-off.
 const ROUND_OFF: f64 = 1e-12;
 
-/// A distance that has grown by this factor since the casing was there has grown.
+/// A distance that has grown by this factor since the first revolution has grown.
 const GROWN: f64 = 4.0;
 
 /// A rate this many standard errors above 0 is one.
@@ -49,24 +49,23 @@ pub fn judge(run: &[Vec<f64>], twin: &[Vec<f64>], samples_per_revolution: usize,
     };
     // About the mean: a tip may lean steadily on the casing.
     let means: Vec<f64> = run.iter().map(|line| line.iter().sum::<f64>() / line.len() as f64).collect();
-    let late = from.max(revolutions / 2).min(revolutions.saturating_sub(1));
-    let response = (late..revolutions)
-        .map(|r| of(&|s, j| run[s][j] - means[s], r))
-        .fold(0.0f64, f64::max)
-        .max(f64::MIN_POSITIVE);
+    let first = from.min(revolutions.saturating_sub(1));
+    let response = (first..revolutions).map(|r| of(&|s, j| run[s][j] - means[s], r)).fold(0.0f64, f64::max);
+    // Where nothing moves, nothing separates.
+    let scale = if response > 0.0 { response } else { f64::INFINITY };
     let distances: Vec<f64> =
-        (0..revolutions).map(|r| of(&|s, j| run[s][j] - twin[s][j], r) / response).collect();
+        (0..revolutions).map(|r| of(&|s, j| run[s][j] - twin[s][j], r) / scale).collect();
     let last = distances.last().copied().unwrap_or(0.0);
+    let grown = last > GROWN * distances.first().copied().unwrap_or(0.0).max(ROUND_OFF);
     // From here on to the end.
     let separated = distances.iter().rposition(|&d| d <= SEPARATED).map_or(0, |near| near + 1);
-    let separated = (separated < revolutions).then_some(separated);
+    let separated = (grown && separated < revolutions).then_some(separated);
     let small =
         distances.iter().enumerate().skip(from).take(separated.unwrap_or(revolutions).saturating_sub(from));
     let line: Vec<(f64, f64)> =
         small.filter(|&(_, &d)| d > ROUND_OFF && d <= SEPARATED).map(|(r, &d)| (r as f64, d.ln())).collect();
     let fit = rate(&line);
-    let first = distances.get(from).copied().unwrap_or(0.0).max(ROUND_OFF);
-    let grows = fit.is_some_and(|Rate { value, error }| value > CLEARLY * error) && last > GROWN * first;
+    let grows = grown && fit.is_some_and(|Rate { value, error }| value > CLEARLY * error);
     Sensitivity {
         chaotic: separated.is_some() || grows,
         rate_per_revolution: fit.map(|rate| rate.value),
@@ -114,5 +113,19 @@ mod tests {
         // The same run twice.
         let found = judge(&run, &run, SAMPLES, 2);
         assert!(!found.chaotic && found.rate_per_revolution.is_none() && found.last_distance == 0.0);
+    }
+
+    #[test]
+    fn what_decays_is_not_chaos() {
+        // Motion that decays, and a perturbation that decays more slowly: in the end it is all there is.
+        let decays = |rate: f64, amplitude: f64, t: f64| amplitude * (-rate * t).exp() * (TAU * t).sin();
+        let time = || (0..40 * SAMPLES).map(|j| j as f64 / SAMPLES as f64);
+        let run: Vec<f64> = time().map(|t| decays(1.5, 1.0, t)).collect();
+        let twin = run.iter().zip(time()).map(|(x, t)| x + decays(0.3, 1e-7, t)).collect();
+        assert!(!judge(&[run], &[twin], SAMPLES, 2).chaotic);
+        // Nothing moves but the perturbation.
+        let rest = vec![vec![0.0; 40 * SAMPLES]];
+        let found = judge(&rest, &[time().map(|t| decays(0.0, 1e-7, t)).collect()], SAMPLES, 2);
+        assert!(!found.chaotic && found.last_distance == 0.0, "{found:?}");
     }
 }

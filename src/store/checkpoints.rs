@@ -28,6 +28,17 @@ impl Store {
         CheckpointFolder { folder: self.checkpoint_root().join(folder_name(model, modes_per_speed)) }
     }
 
+    /// Number of parts of all reductions of `model` that this program can read.
+    pub(super) async fn parts_of_model(&self, model: &str) -> std::io::Result<u32> {
+        let mut parts = 0;
+        for folder in entries(&self.checkpoint_root()).await? {
+            if belongs(file_name(&folder), model) {
+                parts += CheckpointFolder { folder }.parts().await?;
+            }
+        }
+        Ok(parts)
+    }
+
     fn checkpoint_root(&self) -> PathBuf {
         self.folder.join("checkpoints")
     }
@@ -38,7 +49,7 @@ impl Store {
     pub(super) async fn remove_checkpoints(&self, model: &str, modes_per_speed: Option<u32>) {
         let unused = |name: &str| match modes_per_speed {
             Some(modes_per_speed) => name == folder_name(model, modes_per_speed),
-            None => name.strip_prefix(model).is_some_and(|rest| rest.starts_with('-')),
+            None => belongs(name, model),
         };
         if let Err(error) = remove_folders(&self.checkpoint_root(), unused).await {
             tracing::warn!(model.id = model, %error, "could not remove checkpoints");
@@ -119,6 +130,11 @@ impl Checkpoints for CheckpointFolder {
             }
         }
     }
+}
+
+/// Whether the folder `name` is of a reduction of `model`.
+fn belongs(name: &str, model: &str) -> bool {
+    name.strip_prefix(model).is_some_and(|rest| rest.starts_with('-'))
 }
 
 fn folder_name(model: &str, modes_per_speed: u32) -> String {

@@ -64,7 +64,7 @@ impl Store {
         Ok(())
     }
 
-    /// Removes files that an earlier service left behind and nobody will use. For a service that starts: what is being
+    /// Removes what an earlier service left behind and nobody will use. For a service that starts: what is being
     /// written now looks the same. What cannot be removed does no harm.
     pub async fn remove_leftovers(&self) {
         if let Err(error) = self.remove_stale_packages().await {
@@ -72,6 +72,9 @@ impl Store {
         }
         if let Err(error) = self.remove_stale_checkpoints().await {
             tracing::warn!(%error, "could not remove stale checkpoints");
+        }
+        if let Err(error) = self.remove_stale_trials().await {
+            tracing::warn!(%error, "could not remove the trials of another version");
         }
     }
 
@@ -99,13 +102,14 @@ mod tests {
     use super::results::Document;
     use super::*;
 
-    /// A data folder as the program made it when there were no generations of models, with one finished sweep.
-    async fn older_folder(job: JobId) -> tempfile::TempDir {
+    /// A data folder as the program made it with the migrations before `version`, with one finished sweep.
+    async fn older_folder(job: JobId, version: i64) -> tempfile::TempDir {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("rubmap.sqlite");
         let options = SqliteConnectOptions::new().filename(file).create_if_missing(true).foreign_keys(true);
         let pool = SqlitePool::connect_with(options).await.unwrap();
-        let older = sqlx::migrate!().iter().filter(|migration| migration.version < 4).cloned().collect();
+        let older =
+            sqlx::migrate!().iter().filter(|migration| migration.version < version).cloned().collect();
         Migrator::with_migrations(older).run(&pool).await.unwrap();
         sqlx::query(
             "insert into jobs (id, kind, status, model, modes_per_speed, facts, request, speeds, created_at,
@@ -141,10 +145,34 @@ mod tests {
         assert!(!wrong.is_disk_full(), "{wrong}");
     }
 
+    /// A service that dies between a script without a transaction and the note that it ran runs it again.
+    #[tokio::test]
+    async fn scripts_without_a_transaction_may_run_again() {
+        let job = JobId::new();
+        let folder = older_folder(job, 4).await;
+        for _ in 0..2 {
+            let store = Store::open(folder.path()).await.unwrap();
+            assert_eq!(store.finished_speeds(job).await.unwrap().len(), 1);
+            sqlx::query(
+                "delete from _sqlx_migrations where version = (select max(version) from _sqlx_migrations)",
+            )
+            .execute(&store.writer)
+            .await
+            .unwrap();
+            store.close().await;
+        }
+    }
+
     #[tokio::test]
     async fn results_of_older_versions_stay_when_the_table_of_jobs_is_made_anew() {
+        for version in [4, 9] {
+            stays(version).await;
+        }
+    }
+
+    async fn stays(version: i64) {
         let job = JobId::new();
-        let folder = older_folder(job).await;
+        let folder = older_folder(job, version).await;
         let store = Store::open(folder.path()).await.unwrap();
         assert_eq!(store.finished_speeds(job).await.unwrap().into_iter().collect::<Vec<_>>(), [7]);
         assert_eq!(store.document(job, Document::Campbell).await.unwrap().as_deref(), Some("[1]"));

@@ -36,12 +36,13 @@ impl Store {
     ) -> Result<(), StoreError> {
         let mut transaction = self.writer.begin().await?;
         sqlx::query(
-            "insert into trials (key, model, body, created_at)
-             select ?1, ?2, ?3, ?4 where exists (select 1 from models where id = ?2)
+            "insert into trials (key, model, version, body, created_at)
+             select ?1, ?2, ?3, ?4, ?5 where exists (select 1 from models where id = ?2)
              on conflict (key) do update set body = excluded.body, created_at = excluded.created_at",
         )
         .bind(key)
         .bind(model)
+        .bind(VERSION)
         .bind(serde_json::to_string(trial)?)
         .bind(now())
         .execute(&mut *transaction)
@@ -51,6 +52,12 @@ impl Store {
             .execute(&mut *transaction)
             .await?;
         transaction.commit().await?;
+        Ok(())
+    }
+
+    /// Drops the trials of other versions of the program.
+    pub(super) async fn remove_stale_trials(&self) -> Result<(), StoreError> {
+        sqlx::query("delete from trials where version <> ?").bind(VERSION).execute(&self.writer).await?;
         Ok(())
     }
 }

@@ -10,26 +10,27 @@
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-use super::errors::errors;
+use super::rung::{Pilot, Pilots, Rung, finer_modes, pilot_speeds};
 use super::trial::{Setting, Trial, TrialRequest};
-use crate::analysis::auto_or::AutoOr;
 use crate::analysis::error::Violation;
-use crate::analysis::request::{SchemeChoice, SweepRequest};
-use crate::analysis::resolve::limits;
-use crate::analysis::result::{PointStatus, Verdict};
-use crate::analysis::stepping::{MOST_STEPS, steps_for_contact};
+use crate::analysis::request::{SweepDirection, SweepRequest};
+use crate::analysis::stepping::MOST_STEPS;
 
 /// The setting that pilot runs chose, and why.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Choice {
     /// The setting.
     pub setting: Setting,
-    /// Estimated relative error of the steady response, the largest of the pilot speeds: of modes and steps together.
+    /// Estimated relative error of the steady response, the largest of the pilot speeds: the sum of the following parts.
     pub estimated_error: f64,
     /// Part of it that more modes would remove.
     pub error_of_modes: f64,
     /// Part of it that more steps would remove.
     pub error_of_steps: f64,
+    /// Part of it that only a longer window would remove: the standard error of levels that do not repeat.
+    pub spread: f64,
+    /// Pilot speeds that carry these estimates; at the others no run was completed.
+    pub estimated_at: u32,
     /// Expected wall time of all speeds and of those that are simulated again, s.
     pub expected_wall_time_s: f64,
     /// Why, in words.
@@ -38,28 +39,6 @@ pub struct Choice {
     pub pilot_speeds_rad_s: Vec<f64>,
     /// What they showed, setting by setting as they were tried.
     pub pilots: Vec<Pilot>,
-}
-
-/// Errors of one setting at one pilot speed.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
-pub struct Pilot {
-    /// Ω, rad/s.
-    pub speed_rad_s: f64,
-    /// Fixed-interface modes kept per stiffness speed and nodal diameter.
-    pub modes_per_speed: u32,
-    /// Time steps per revolution.
-    pub steps_per_revolution: u32,
-    /// Steady-state verdict; absent where the run was not completed.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub verdict: Option<Verdict>,
-    /// Estimated error that more modes would remove; absent where a run was not completed.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub error_of_modes: Option<f64>,
-    /// Estimated error that more steps would remove; absent where a run was not completed.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub error_of_steps: Option<f64>,
-    /// Computing time of this run, s.
-    pub time_s: f64,
 }
 
 /// What comes next.
@@ -78,7 +57,7 @@ pub enum Next {
 pub struct Resources {
     /// Threads that compute speeds side by side.
     pub workers: usize,
-    /// Wall time that the job has taken so far, s.
+    /// Wall time since the job began, s.
     pub spent_s: f64,
     /// `modes_per_speed` and wall time of the reductions that are stored, s.
     pub reductions: Vec<(u32, f64)>,
@@ -86,47 +65,14 @@ pub struct Resources {
     pub most_modes: Option<u32>,
 }
 
-/// The estimate of an error is this many times the difference from a level with twice the modes or steps. Of 24 random scenes
-/// against eight times the modes, and 40 against four times the steps, nine in ten differences were off by less.
-pub(super) const SAFETY: f64 = 2.5;
-
-/// A difference that falls by more than this factor from one level to the next is not believed to have fallen farther.
-const MOST_GAIN: f64 = 4.0;
-
-/// First rung of the modes; that of the steps is half of what `"auto"` gives contact.
-const FIRST_MODES: u32 = 20;
-
-/// Last rung of the steps, as a multiple of the first.
+/// Last rung of the steps, as a power of two times the first.
 const MOST_DOUBLINGS: u32 = 7;
 
-/// Most pilot speeds.
-const PILOT_SPEEDS: usize = 4;
-
 /// Share of what is left of a budget that runs are planned for.
-const PLANNED_SHARE: f64 = 0.9;
+pub(super) const PLANNED_SHARE: f64 = 0.9;
 
 /// Share of what is left of a budget that the next rung's pilot runs and reduction may take.
 const PILOT_SHARE: f64 = 0.3;
-
-/// Pilot speeds of a sweep, ascending: all, or evenly spread over the ascending speeds, both ends included.
-pub fn pilot_speeds(request: &SweepRequest) -> Vec<f64> {
-    spread(&request.speeds.ascending().unwrap_or_default(), PILOT_SPEEDS)
-}
-
-/// `count` of `values`, evenly spread, both ends included; all if there are no more.
-pub(super) fn spread<T: Copy>(values: &[T], count: usize) -> Vec<T> {
-    match (values.len(), count) {
-        (_, 0) => Vec::new(),
-        (n, count) if n <= count => values.to_vec(),
-        (_, 1) => vec![values[values.len() / 2]],
-        (n, count) => (0..count).map(|i| values[(i * (n - 1) + (count - 1) / 2) / (count - 1)]).collect(),
-    }
-}
-
-/// The next rung above `modes`, at most `most`.
-pub(super) fn finer_modes(modes: u32, most: Option<u32>) -> u32 {
-    (2 * modes).min(limits::MODES_PER_SPEED).min(most.unwrap_or(u32::MAX)).max(modes)
-}
 
 /// Chooses for a resolved sweep of a wheel of `sectors`; `trial` looks up a run that is known.
 pub fn next<'a>(
@@ -135,16 +81,9 @@ pub fn next<'a>(
     resources: &Resources,
     trial: &dyn Fn(&TrialRequest) -> Option<&'a Trial>,
 ) -> Next {
-    let climb = Climb { request, sectors, resources, trial, speeds: pilot_speeds(request) };
-    let (fewest, field) =
-        (climb.first_modes(), if request.accuracy.is_some() { "/accuracy" } else { "/budget" });
-    if finer_modes(fewest, resources.most_modes) <= fewest {
-        let message = format!(
-            "memory allows reductions of {fewest} modes per speed, and there is nothing finer to tell their error from: give the \
-             knobs yourself, or the service more memory"
-        );
-        return Next::Refuse(Violation::new(field, message));
-    }
+    let most_modes = resources.most_modes;
+    let pilots = Pilots { request, sectors, most_modes, speeds: pilot_speeds(request), trial };
+    let climb = Climb { request, resources, pilots };
     match (&request.accuracy, &request.budget) {
         (Some(accuracy), _) => climb.to_target(accuracy.target),
         (None, Some(budget)) => climb.within(budget.seconds),
@@ -155,265 +94,160 @@ pub fn next<'a>(
 /// A climb over settings.
 struct Climb<'a, 'b> {
     request: &'b SweepRequest,
-    sectors: u32,
     resources: &'b Resources,
-    trial: &'b dyn Fn(&TrialRequest) -> Option<&'a Trial>,
-    speeds: Vec<f64>,
+    pilots: Pilots<'a, 'b>,
 }
 
-/// A setting that was tried.
-#[derive(Debug, Clone)]
-struct Rung {
-    modes: u32,
-    steps: u32,
-    error_of_modes: f64,
-    error_of_steps: f64,
-    /// Spread of the level where a response does not repeat, and the speed where it is largest.
-    spread: f64,
-    spread_at: f64,
-    /// Mean times of a pilot run, s: set-up and of one step.
-    set_up_s: f64,
-    step_s: f64,
-    pilots: Vec<Pilot>,
-}
-
-impl Rung {
-    fn error(&self) -> f64 {
-        self.error_of_modes + self.error_of_steps
-    }
-}
-
-impl<'a> Climb<'a, '_> {
-    fn setting(&self, modes_per_speed: u32, steps_per_revolution: u32) -> Setting {
-        Setting {
-            modes_per_speed,
-            scheme: SchemeChoice::ExactModal,
-            kept_modes: AutoOr::Auto,
-            steps_per_revolution,
-        }
-    }
-
-    fn first_modes(&self) -> u32 {
-        FIRST_MODES.min(self.resources.most_modes.unwrap_or(u32::MAX))
-    }
-
-    fn first_steps(&self) -> u32 {
-        let (automatic, _) = steps_for_contact(self.request);
-        // No step may jump a rod of a coating.
-        let least = if self.request.scene.abradable.is_some() { automatic } else { 0.5 * automatic };
-        let least = least.max(f64::from(2 * self.request.max_engine_order + 1)).min(f64::from(MOST_STEPS));
-        Setting::aligned_steps(least.ceil() as u32, self.request, self.sectors)
-    }
-
-    /// What the runs at (k, S), (2k, S) and (k, 2S) show at every pilot speed; or the missing ones. `below` is the rung with half
-    /// the modes.
-    fn rung(&self, modes: u32, steps: u32, below: Option<&Rung>) -> Result<Rung, Vec<TrialRequest>> {
-        let settings = [
-            self.setting(modes, steps),
-            self.setting(finer_modes(modes, self.resources.most_modes), steps),
-            self.setting(modes, 2 * steps),
-        ];
-        let mut missing: Vec<TrialRequest> = Vec::new();
-        let mut rung = Rung {
-            modes,
-            steps,
-            error_of_modes: 0.0,
-            error_of_steps: 0.0,
-            spread: 0.0,
-            spread_at: 0.0,
-            set_up_s: 0.0,
-            step_s: 0.0,
-            pilots: Vec::new(),
-        };
-        for (index, &speed) in self.speeds.iter().enumerate() {
-            let requests = settings.map(|setting| TrialRequest::new(self.request, speed, setting));
-            let found = requests.each_ref().map(|request| (self.trial)(request));
-            let [Some(run), Some(more_modes), Some(more_steps)] = found else {
-                for (request, found) in requests.into_iter().zip(found) {
-                    if found.is_none() && !missing.contains(&request) {
-                        missing.push(request);
-                    }
-                }
-                continue;
-            };
-            let of_modes = errors(run, more_modes);
-            let of_steps = errors(run, more_steps);
-            let before = below.and_then(|below| below.pilots[index].error_of_modes).unwrap_or(0.0);
-            let estimate = |amplitude: f64, lines: Option<f64>| SAFETY * amplitude.max(lines.unwrap_or(0.0));
-            let error_of_modes = of_modes
-                .map(|e| estimate(e.amplitude, e.engine_orders).max(before / MOST_GAIN).min(f64::MAX));
-            let error_of_steps = of_steps.map(|e| estimate(e.amplitude, e.engine_orders));
-            // A response that repeats with more modes is not known any less for not repeating with few.
-            let rough = [run, more_modes].iter().all(|trial| !trial.repeats());
-            let spread = of_modes.filter(|_| rough).and_then(|e| e.amplitude_spread).unwrap_or(0.0);
-            if spread > rung.spread {
-                (rung.spread, rung.spread_at) = (spread, speed);
-            }
-            rung.error_of_modes = rung.error_of_modes.max(error_of_modes.unwrap_or(0.0));
-            rung.error_of_steps = rung.error_of_steps.max(error_of_steps.unwrap_or(0.0));
-            let share = 1.0 / self.speeds.len() as f64;
-            rung.set_up_s += share * run.cost.set_up_s;
-            rung.step_s += share * run.cost.per_revolution_s / f64::from(steps);
-            rung.pilots.push(Pilot {
-                speed_rad_s: speed,
-                modes_per_speed: modes,
-                steps_per_revolution: steps,
-                verdict: run.point.settling.as_ref().map(|settling| settling.verdict),
-                error_of_modes,
-                error_of_steps,
-                time_s: run.cost.of_run(self.request.integration.revolutions),
-            });
-        }
-        // Few modes first: what their reduction takes tells what the next one will.
-        let fewest = missing.iter().map(|request| request.sweep.modes()).min();
-        missing.retain(|request| Some(request.sweep.modes()) == fewest);
-        if missing.is_empty() { Ok(rung) } else { Err(missing) }
+impl Climb<'_, '_> {
+    fn finer(&self, modes: u32) -> Option<u32> {
+        finer_modes(modes, self.resources.most_modes)
     }
 
     /// The first setting on the way up that meets `target`.
     fn to_target(&self, target: f64) -> Next {
         let refuse = |message: String| Next::Refuse(Violation::new("/accuracy/target", message));
-        let (mut modes, mut steps) = (self.first_modes(), self.first_steps());
-        let most_steps = self.first_steps().saturating_mul(1 << MOST_DOUBLINGS).min(MOST_STEPS);
+        let (mut modes, first) = (self.pilots.first_modes(), self.pilots.first_steps());
+        let (mut steps, most_steps) = (first, u64::from(first) << MOST_DOUBLINGS);
         let mut tried: Vec<Rung> = Vec::new();
         loop {
+            let Some(finer) = self.finer(modes) else {
+                return refuse(self.nothing_finer(modes, tried.last()));
+            };
             let below = tried.iter().rev().find(|rung| rung.modes < modes);
-            let rung = match self.rung(modes, steps, below) {
+            let rung = match self.pilots.rung((modes, finer, steps), below) {
                 Ok(rung) => rung,
                 Err(missing) => return Next::Run(missing),
             };
-            if let Some(message) = self.nothing_completed(&rung) {
+            if let Some(message) = self.pilots.nothing_completed(&rung) {
                 return refuse(message);
             }
             if rung.spread > target {
-                return match self.sensitivity(&rung) {
+                return match self.pilots.sensitivity(&rung) {
                     Ok(words) => refuse(self.too_rough(&rung, target, &words)),
                     Err(missing) => Next::Run(vec![*missing]),
                 };
             }
             tried.push(rung.clone());
             if rung.error() <= target {
+                let (estimated, all) = (rung.estimated(), self.pilots.speeds.len());
+                let others = if estimated < all { "; no run was completed at the others" } else { "" };
                 let reason = format!(
-                    "the first setting on the way up whose estimated error at {} pilot speeds is below {target}",
-                    self.speeds.len()
+                    "the first setting on the way up whose estimated error at {estimated} of {all} pilot speeds is below \
+                     {target}{others}"
                 );
                 return Next::Take(Box::new(self.choice(&rung, steps, rung.error_of_steps, &tried, reason)));
             }
-            let finer = finer_modes(modes, self.resources.most_modes);
             if rung.error_of_modes >= rung.error_of_steps {
-                if finer_modes(finer, self.resources.most_modes) <= finer {
-                    return refuse(self.limit(
-                        &rung,
-                        target,
-                        &format!("{modes} modes per speed, with {finer} to compare"),
-                    ));
-                }
                 modes = finer;
-            } else {
-                if u64::from(steps) * 4 > u64::from(most_steps) {
-                    return refuse(self.limit(&rung, target, &format!("{steps} steps per revolution")));
-                }
+            } else if 4 * u64::from(steps) <= most_steps.min(u64::from(MOST_STEPS)) {
                 steps *= 2;
+            } else {
+                return refuse(
+                    self.limit(&rung, &format!("{target} is not reached at {steps} steps per revolution")),
+                );
             }
         }
     }
 
     /// The most accurate setting that all speeds can be run at in what is left of `seconds`.
     fn within(&self, seconds: f64) -> Next {
+        let refuse = |message: String| Next::Refuse(Violation::new("/budget/seconds", message));
         let left = seconds - self.resources.spent_s;
-        let too_short = |modes: u32, reduction: f64| {
-            let message = format!(
-                "the reduction with {modes} modes per speed, which pilot runs need, would take about {reduction:.0} s alone, and \
-                 {left:.0} s are left: give more, or the knobs"
-            );
-            Next::Refuse(Violation::new("/budget/seconds", message))
-        };
-        let steps = self.first_steps();
-        let mut modes = self.first_modes();
+        let steps = self.pilots.first_steps();
+        let mut modes = self.pilots.first_modes();
         let mut tried: Vec<Rung> = Vec::new();
-        loop {
-            match self.rung(modes, steps, tried.last()) {
+        while let Some(finer) = self.finer(modes) {
+            match self.pilots.rung((modes, finer, steps), tried.last()) {
                 Ok(rung) => tried.push(rung),
                 Err(missing) => {
                     let needed = missing.first().map_or(modes, |request| request.sweep.modes());
                     let reduction = self.reduction_s(needed);
-                    return if reduction <= PLANNED_SHARE * left {
-                        Next::Run(missing)
-                    } else {
-                        too_short(needed, reduction)
-                    };
+                    if reduction <= PLANNED_SHARE * left {
+                        return Next::Run(missing);
+                    }
+                    return refuse(format!(
+                        "the reduction with {needed} modes per speed, which pilot runs need, would take about {reduction:.0} s \
+                         alone, and {left:.0} s are left: give more, or the knobs"
+                    ));
                 }
             }
             let rung = &tried[tried.len() - 1];
-            if let Some(message) = self.nothing_completed(rung) {
+            if let Some(message) = self.pilots.nothing_completed(rung) {
                 return Next::Refuse(Violation::new("/budget", message));
             }
-            let finer = finer_modes(modes, self.resources.most_modes);
-            let finest = finer_modes(finer, self.resources.most_modes);
-            // The next rung costs two more pilot runs per speed, of twice the steps or modes, and the reduction for them.
-            let step_s = rung.step_s * f64::from(finer) / f64::from(modes);
-            let pilots = self.wall(4 * self.speeds.len(), rung.set_up_s + self.steps_of_run(steps) * step_s);
-            let climb = pilots + self.reduction_s(finest);
-            let pays = rung.error_of_modes > rung.error_of_steps && finest > finer;
-            let next = self.sweep_wall(rung.set_up_s, step_s, steps);
-            let known = self.rung(finer, steps, Some(rung)).is_ok();
-            let fits = climb <= PILOT_SHARE * left && climb + next <= PLANNED_SHARE * left;
-            if !(pays && (known || fits)) {
+            if rung.error_of_modes <= rung.error_of_steps || !self.pays_for_more(rung, finer, left) {
                 break;
             }
             modes = finer;
         }
-        let affordable = |rung: &Rung, steps: u32| {
-            self.sweep_wall(rung.set_up_s, rung.step_s, steps) <= PLANNED_SHARE * left
-        };
-        let options = tried.iter().filter(|rung| affordable(rung, steps)).map(|rung| {
-            // Steps beyond what the modes are worth buy nothing. First order, to be safe.
-            let mut taken = steps;
-            let of_steps = |taken: u32| rung.error_of_steps * f64::from(steps) / f64::from(taken);
-            while of_steps(taken) > 0.25 * rung.error_of_modes.max(f64::EPSILON)
-                && affordable(rung, 2 * taken)
-                && taken < steps << MOST_DOUBLINGS
-            {
-                taken *= 2;
-            }
-            (rung, taken, of_steps(taken))
-        });
-        let error = |option: &(&Rung, u32, f64)| option.0.error_of_modes.max(option.0.spread) + option.2;
+        let Some(cheapest) = tried.first() else { return refuse(self.nothing_finer(modes, None)) };
+        let options = tried.iter().filter(|rung| self.sweep_wall(rung, steps) <= PLANNED_SHARE * left);
+        let options = options.map(|rung| self.enough_steps(rung, left));
+        let error = |(rung, _, of_steps): &(&Rung, u32, f64)| rung.error_of_modes + rung.spread + of_steps;
         let Some((rung, taken, of_steps)) = options.min_by(|a, b| error(a).total_cmp(&error(b))) else {
-            let rung = &tried[0];
-            let least =
-                self.resources.spent_s + self.sweep_wall(rung.set_up_s, rung.step_s, steps) / PLANNED_SHARE;
-            return Next::Refuse(Violation::new(
-                "/budget/seconds",
-                format!(
-                    "the cheapest setting ({} modes per speed, {steps} steps per revolution) would take about {least:.0} s with \
-                     the pilot runs: give at least that, or ask for fewer speeds or revolutions",
-                    rung.modes
-                ),
+            let least = self.resources.spent_s + self.sweep_wall(cheapest, steps) / PLANNED_SHARE;
+            return refuse(format!(
+                "the cheapest setting ({} modes per speed, {steps} steps per revolution) would take about {least:.0} s with the \
+                 pilot runs: give at least that, or ask for fewer speeds or revolutions",
+                cheapest.modes
             ));
         };
+        if !error(&(rung, taken, of_steps)).is_finite() {
+            return refuse(self.limit(rung, "no error could be estimated of what fits"));
+        }
         let reason = format!(
-            "the smallest estimated error of what fits into {seconds} s, of which {:.0} s went into reductions and pilot runs",
+            "the smallest estimated error of what fits into {seconds} s, {:.0} s of which had passed when it was chosen",
             self.resources.spent_s
         );
         Next::Take(Box::new(self.choice(rung, taken, of_steps, &tried, reason)))
     }
 
+    /// Whether the next rung's pilot runs are known, or they and the sweep there fit into the `left` seconds.
+    fn pays_for_more(&self, rung: &Rung, finer: u32, left: f64) -> bool {
+        let Some(finest) = self.finer(finer) else { return false };
+        if self.pilots.rung((finer, finest, rung.steps), Some(rung)).is_ok() {
+            return true;
+        }
+        let dearer = Rung { step_s: rung.step_s * f64::from(finer) / f64::from(rung.modes), ..rung.clone() };
+        // At every pilot speed two more runs, of twice the steps and of twice the modes, and the reduction for those.
+        let runs = self.wall(4 * self.pilots.speeds.len(), self.run_s(&dearer, rung.steps));
+        let climb = runs + self.reduction_s(finest);
+        climb <= PILOT_SHARE * left && climb + self.sweep_wall(&dearer, rung.steps) <= PLANNED_SHARE * left
+    }
+
+    /// As many steps as `left` seconds pay for and the modes are worth, with their error: of first order, to be safe.
+    fn enough_steps<'r>(&self, rung: &'r Rung, left: f64) -> (&'r Rung, u32, f64) {
+        let of_steps = |taken: u32| rung.error_of_steps * f64::from(rung.steps) / f64::from(taken);
+        let worth = 0.25 * (rung.error_of_modes + rung.spread).max(f64::EPSILON);
+        let mut taken = rung.steps;
+        while of_steps(taken) > worth
+            && taken < rung.steps << MOST_DOUBLINGS
+            && 2 * taken <= MOST_STEPS
+            && self.sweep_wall(rung, 2 * taken) <= PLANNED_SHARE * left
+        {
+            taken *= 2;
+        }
+        (rung, taken, of_steps(taken))
+    }
+
     fn choice(&self, rung: &Rung, steps: u32, error_of_steps: f64, tried: &[Rung], reason: String) -> Choice {
         Choice {
-            setting: self.setting(rung.modes, steps),
-            estimated_error: (rung.error_of_modes + error_of_steps).max(rung.spread),
+            setting: self.pilots.setting(rung.modes, steps),
+            estimated_error: rung.error_of_modes + error_of_steps + rung.spread,
             error_of_modes: rung.error_of_modes,
             error_of_steps,
-            expected_wall_time_s: self.sweep_wall(rung.set_up_s, rung.step_s, steps),
+            spread: rung.spread,
+            estimated_at: rung.estimated() as u32,
+            expected_wall_time_s: self.sweep_wall(rung, steps),
             reason,
-            pilot_speeds_rad_s: self.speeds.clone(),
+            pilot_speeds_rad_s: self.pilots.speeds.clone(),
             pilots: tried.iter().flat_map(|rung| rung.pilots.clone()).collect(),
         }
     }
 
-    fn steps_of_run(&self, steps: u32) -> f64 {
-        f64::from(steps) * f64::from(self.request.integration.revolutions)
+    /// Computing time of a run at a rung's modes.
+    fn run_s(&self, rung: &Rung, steps: u32) -> f64 {
+        rung.set_up_s + rung.step_s * f64::from(steps) * f64::from(self.request.integration.revolutions)
     }
 
     /// Wall time of `runs` that take `seconds` each.
@@ -422,13 +256,14 @@ impl<'a> Climb<'a, '_> {
     }
 
     /// Wall time of all speeds and of those that are simulated again with twice the modes and steps.
-    fn sweep_wall(&self, set_up_s: f64, step_s: f64, steps: u32) -> f64 {
+    fn sweep_wall(&self, rung: &Rung, steps: u32) -> f64 {
         let speeds = self.request.speeds.resolve().map_or(0, |speeds| speeds.len());
-        let run = set_up_s + self.steps_of_run(steps) * step_s;
+        let run = self.run_s(rung, steps);
         let control = self.wall(self.request.controls().min(speeds), 4.0 * run);
         match self.request.sweep {
-            crate::analysis::request::SweepDirection::Independent => self.wall(speeds, run) + control,
-            _ => speeds as f64 * run + control,
+            SweepDirection::Independent => self.wall(speeds, run) + control,
+            // One after the other.
+            SweepDirection::Up | SweepDirection::Down => speeds as f64 * run + control,
         }
     }
 
@@ -442,38 +277,6 @@ impl<'a> Climb<'a, '_> {
         largest.map_or(0.0, |&(k, seconds)| seconds * (f64::from(modes) / f64::from(k)).max(1.0))
     }
 
-    fn nothing_completed(&self, rung: &Rung) -> Option<String> {
-        let completed =
-            rung.pilots.iter().any(|pilot| pilot.error_of_modes.is_some() && pilot.error_of_steps.is_some());
-        let run = |&speed: &f64| {
-            (self.trial)(&TrialRequest::new(self.request, speed, self.setting(rung.modes, rung.steps)))
-        };
-        let why = || {
-            let message = self.speeds.iter().filter_map(run).find_map(|trial| trial.point.message.clone());
-            message.unwrap_or_else(|| "runs with more modes or steps did not end".to_owned())
-        };
-        (!completed).then(|| {
-            format!("no pilot run was completed from which an error could be estimated: {}; give the knobs yourself", why())
-        })
-    }
-
-    /// What a tiny perturbation does where the level of the response varies most; or the missing run.
-    fn sensitivity(&self, rung: &Rung) -> Result<String, Box<TrialRequest>> {
-        let request = TrialRequest {
-            twin: true,
-            ..TrialRequest::new(self.request, rung.spread_at, self.setting(rung.modes, rung.steps))
-        };
-        let Some(trial) = (self.trial)(&request) else { return Err(Box::new(request)) };
-        let chaotic = |s: &&crate::response::sensitivity::Sensitivity| s.chaotic;
-        Ok(match (trial.sensitivity.as_ref().filter(chaotic), trial.point.status) {
-            (Some(sensitivity), PointStatus::Completed) => match sensitivity.rate_per_revolution {
-                Some(rate) => format!("is chaotic (a tiny perturbation grows by e^{rate:.2} a revolution)"),
-                None => "is chaotic (a tiny perturbation grows)".to_owned(),
-            },
-            _ => "does not repeat".to_owned(),
-        })
-    }
-
     fn too_rough(&self, rung: &Rung, target: f64, words: &str) -> String {
         let window = f64::from(self.request.integration.window_revolutions);
         let needed = window * (rung.spread / target).powi(2);
@@ -484,35 +287,25 @@ impl<'a> Climb<'a, '_> {
         )
     }
 
-    fn limit(&self, rung: &Rung, target: f64, limit: &str) -> String {
-        let worst =
-            |pilot: &&Pilot| pilot.error_of_modes.unwrap_or(0.0) + pilot.error_of_steps.unwrap_or(0.0);
-        let at =
-            rung.pilots.iter().max_by(|a, b| worst(a).total_cmp(&worst(b))).map_or(0.0, |p| p.speed_rad_s);
+    fn nothing_finer(&self, modes: u32, last: Option<&Rung>) -> String {
+        let end =
+            format!("{modes} modes per speed are the most that there is something finer to compare with");
+        match last {
+            Some(rung) => self.limit(rung, &end),
+            None => format!("{end}: give the knobs yourself, or the service more memory"),
+        }
+    }
+
+    fn limit(&self, rung: &Rung, end: &str) -> String {
+        let number =
+            |error: f64| if error.is_finite() { format!("{error:.1e}") } else { "unknown".to_owned() };
         format!(
-            "{target} is not reached at {limit}: at {at:.6} rad/s the estimated error is {:.1e} from the modes and {:.1e} from the \
-             steps; ask for a larger target, or give the knobs yourself",
-            rung.error_of_modes, rung.error_of_steps
+            "{end}: with {} modes and {} steps the estimated error is {} from the modes and {} from the steps; ask for a larger \
+             target, or give the knobs yourself",
+            rung.modes,
+            rung.steps,
+            number(rung.error_of_modes),
+            number(rung.error_of_steps)
         )
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn pilots_are_spread_evenly_from_end_to_end() {
-        let values: Vec<u32> = (0..120).collect();
-        assert_eq!(spread(&values, 4), [0, 40, 79, 119]);
-        assert_eq!(spread(&values[..3], 4), [0, 1, 2]);
-        assert_eq!(spread(&values[..5], 4), [0, 1, 3, 4]);
-        assert_eq!((spread(&values, 1), spread(&values, 0)), (vec![60], vec![]));
-    }
-
-    #[test]
-    fn modes_double_up_to_what_is_allowed() {
-        assert_eq!((finer_modes(20, None), finer_modes(320, None), finer_modes(500, None)), (40, 500, 500));
-        assert_eq!((finer_modes(40, Some(60)), finer_modes(60, Some(60))), (60, 60));
     }
 }

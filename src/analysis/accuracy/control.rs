@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-use super::choice::{SAFETY, finer_modes, spread};
 use super::errors::{Errors, Response};
+use super::rung::{SAFETY, estimate, evenly_spread, finer_modes};
 use super::trial::{Setting, Trial, TrialRequest};
 use crate::analysis::auto_or::AutoOr;
 use crate::analysis::request::{SchemeChoice, SweepRequest};
@@ -15,14 +15,14 @@ use crate::response::critical_speed::peaks;
 /// Estimated errors of the speeds of a sweep.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct ErrorEstimate {
-    /// The speeds that were simulated again: half of them at the highest peaks of the response, the others evenly spread.
+    /// The speeds that were simulated again: half of them at the most prominent peaks of the response, the others evenly spread.
     pub controls: Vec<Control>,
     /// One per completed speed, in the order of the request; empty where no control run gave an estimate.
     pub points: Vec<PointError>,
     /// The largest of them; absent where there are none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub largest: Option<f64>,
-    /// Whether all of them are within the accuracy that was asked for, if one was.
+    /// Whether all of them are within the accuracy that was asked for, if one was and the modes could be refined.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub target_met: Option<bool>,
     /// What these numbers are, in words.
@@ -94,11 +94,11 @@ pub fn control_requests(
     ascending.sort_by(|a, b| a.speed_rad_s.total_cmp(&b.speed_rad_s));
     let wanted = request.controls().min(ascending.len());
     let level = |point: &&Point| Some(point.responses.iter().map(|r| r.rms).fold(0.0, f64::max));
-    let mut highest = peaks(&ascending.iter().map(level).collect::<Vec<_>>(), 0.0);
-    highest.sort_by(|a, b| b.prominence.total_cmp(&a.prominence).then(a.index.cmp(&b.index)));
-    let mut chosen: Vec<usize> = highest.iter().take(wanted / 2).map(|peak| peak.index).collect();
+    let mut prominent = peaks(&ascending.iter().map(level).collect::<Vec<_>>(), 0.0);
+    prominent.sort_by(|a, b| b.prominence.total_cmp(&a.prominence).then(a.index.cmp(&b.index)));
+    let mut chosen: Vec<usize> = prominent.iter().take(wanted / 2).map(|peak| peak.index).collect();
     let others: Vec<usize> = (0..ascending.len()).filter(|index| !chosen.contains(index)).collect();
-    chosen.extend(spread(&others, wanted - chosen.len()));
+    chosen.extend(evenly_spread(&others, wanted - chosen.len()));
     chosen.sort_unstable();
     let finer = |index: usize| {
         let point = ascending[index];
@@ -108,11 +108,11 @@ pub fn control_requests(
     chosen.into_iter().map(finer).collect()
 }
 
-/// Twice the modes and twice the steps, by the exact propagator with mass.
+/// Twice the modes, as far as memory allows, and twice the steps, by the exact propagator with mass.
 fn finer_setting(request: &SweepRequest, sectors: u32, point: &Point, most_modes: Option<u32>) -> Setting {
     let steps = point.steps_per_revolution.saturating_mul(2).min(MOST_STEPS);
     Setting {
-        modes_per_speed: finer_modes(request.modes(), most_modes),
+        modes_per_speed: finer_modes(request.modes(), most_modes).unwrap_or(request.modes()),
         scheme: SchemeChoice::ExactModal,
         kept_modes: AutoOr::Auto,
         steps_per_revolution: Setting::aligned_steps(steps, request, sectors),
@@ -131,7 +131,7 @@ pub fn error_estimate(request: &SweepRequest, points: &[Point], controls: &[Fine
                 index: *index,
                 speed_rad_s: point.speed_rad_s,
                 setting: *setting,
-                estimated_error: differences.map(|differences| estimate(&differences)),
+                estimated_error: differences.map(|d| estimate(&d).max(d.amplitude_spread.unwrap_or(0.0))),
                 differences,
                 message: trial.point.message.clone(),
             })
@@ -139,22 +139,18 @@ pub fn error_estimate(request: &SweepRequest, points: &[Point], controls: &[Fine
         .collect();
     let points = point_errors(points, &controls);
     let largest = points.iter().map(|point| point.estimated_error).reduce(f64::max);
-    let target_met = request.accuracy.and_then(|accuracy| Some(largest? <= accuracy.target));
+    let with_modes = controls.iter().all(|control| control.setting.modes_per_speed > request.modes());
+    let target_met = request.accuracy.filter(|_| with_modes).and_then(|asked| Some(largest? <= asked.target));
+    let estimated = controls.iter().filter(|control| control.estimated_error.is_some()).count();
     let message = match largest {
         None => "no control run was completed: the error of the amplitudes is not known".to_owned(),
         Some(_) => format!(
-            "relative error of the steady response: {SAFETY} times its difference from finer runs (their settings are in `controls`) at \
-             {} of the speeds; at the others the larger estimate of the nearest on either side",
-            controls.len()
+            "relative error of the steady response{}: {SAFETY} times its difference from finer runs at {estimated} of the speeds, whose \
+             settings are in `controls`; at the others the larger estimate of the nearest on either side",
+            if with_modes { "" } else { " from the steps alone, since no finer reduction could be made" }
         ),
     };
     ErrorEstimate { controls, points, largest, target_met, message }
-}
-
-/// Differences of the response times the safety, but at least what its level is known to.
-fn estimate(differences: &Errors) -> f64 {
-    let response = differences.amplitude.max(differences.engine_orders.unwrap_or(0.0));
-    (SAFETY * response).max(differences.amplitude_spread.unwrap_or(0.0))
 }
 
 fn point_errors(points: &[Point], controls: &[Control]) -> Vec<PointError> {

@@ -69,6 +69,15 @@ impl Errors {
         }
     }
 
+    /// What a run is judged by on a Pareto front: the error of one quantity, but no less than chance lets it be known.
+    pub fn judged(&self, quantity: Quantity) -> Option<f64> {
+        let error = self.of(quantity)?;
+        Some(match quantity {
+            Quantity::Amplitude => error.max(self.amplitude_spread.unwrap_or(0.0)),
+            Quantity::History | Quantity::EngineOrders | Quantity::Impulse => error,
+        })
+    }
+
     /// Error of the steady response, which [`Accuracy`](crate::analysis::request::Accuracy) is about.
     pub fn response(&self) -> f64 {
         let amplitude = self.amplitude.max(self.amplitude_spread.unwrap_or(0.0));
@@ -124,10 +133,10 @@ impl<'a> Response<'a> {
             amplitude_spread: (!repeat).then(|| {
                 // Levels that were not kept vary as the finer ones do.
                 let levels = if self.levels.is_empty() { finer.levels } else { self.levels };
-                relative(spread(levels).hypot(spread(finer.levels)), largest)
+                relative(standard_error(levels).hypot(standard_error(finer.levels)), largest)
             }),
             engine_orders: repeat.then(|| self.error_of_lines(finer)),
-            impulse: (finer.impulse != 0.0)
+            impulse: (self.impulse != 0.0 || finer.impulse != 0.0)
                 .then(|| relative((self.impulse - finer.impulse).abs(), finer.impulse.abs())),
         }
     }
@@ -161,7 +170,7 @@ pub(super) fn history_error(trial: &Trial, finer: &Trial) -> Option<f64> {
 }
 
 /// Largest standard error of a sensor's level from those of the parts of the window.
-fn spread(levels: &[Vec<f64>]) -> f64 {
+fn standard_error(levels: &[Vec<f64>]) -> f64 {
     let error = |parts: &Vec<f64>| {
         let n = parts.len() as f64;
         let mean = parts.iter().sum::<f64>() / n;

@@ -2,14 +2,18 @@
 //!
 //! - [`trial`]: one run at one setting, with what is compared and what it cost;
 //! - [`errors`]: how far a run is from a finer one;
-//! - [`study`], [`study_request`]: a grid of settings against a reference (work and precision);
-//! - [`choice`]: the cheapest setting that meets a target, or the most accurate one that a budget pays for;
+//! - [`study`], [`study_request`]: a grid of settings against a reference (work and precision), `table` as CSV;
+//! - [`choice`], [`rung`]: the cheapest setting that meets a target, or the most accurate one that a budget pays for;
+//! - [`modes`]: the same for a modal analysis, from its reductions;
 //! - [`control`]: the error of a finished sweep, from some of its speeds at a finer setting.
 
 pub mod choice;
+#[cfg(test)]
+mod choice_tests;
 pub mod control;
 pub mod errors;
 pub mod modes;
+pub mod rung;
 pub mod study;
 pub mod study_request;
 mod table;

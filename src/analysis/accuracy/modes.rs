@@ -5,7 +5,8 @@
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-use super::choice::{Resources, finer_modes};
+use super::choice::{PLANNED_SHARE, Resources};
+use super::rung::finer_modes;
 use crate::analysis::error::Violation;
 use crate::analysis::request::ModalAnalysisRequest;
 use crate::analysis::result::ReductionReport;
@@ -48,9 +49,6 @@ pub enum NextModes {
 /// First rung.
 const FIRST_MODES: u32 = 10;
 
-/// Share of what is left of a budget that a reduction may take.
-const PLANNED_SHARE: f64 = 0.9;
-
 /// Chooses for a resolved modal analysis from the reductions known so far.
 pub fn next_modes(
     request: &ModalAnalysisRequest,
@@ -69,8 +67,7 @@ pub fn next_modes(
             reports.iter().any(|r| r.modes_per_speed == last.modes_per_speed && r.unknowns == report.unknowns)
         });
         tried.push(found);
-        let finer = finer_modes(modes, resources.most_modes);
-        let top = finer <= modes || stalled;
+        let finer = finer_modes(modes, resources.most_modes).filter(|_| !stalled);
         if let Some(accuracy) = request.accuracy {
             if error <= accuracy.target {
                 let reason = format!(
@@ -79,27 +76,32 @@ pub fn next_modes(
                 );
                 return NextModes::Take(ModesChoice { modes_per_speed: modes, error, reason, tried });
             }
-            if top {
+            if finer.is_none() {
                 return NextModes::Refuse(Violation::new(
                     "/accuracy/target",
                     format!(
                         "{} is not reached with {modes} modes per speed: the frequencies differ by {error:.1e} from the full \
-                         sector's",
+                         sector's, and there is nothing finer; ask for that",
                         accuracy.target
                     ),
                 ));
             }
         } else {
             let seconds = request.budget.map_or(0.0, |budget| budget.seconds);
-            let known = reports.iter().any(|report| report.modes_per_speed == finer);
+            let known = reports.iter().any(|report| Some(report.modes_per_speed) == finer);
             let expected = if known { 0.0 } else { 2.0 * report.wall_time_s };
-            if top || expected > PLANNED_SHARE * (seconds - resources.spent_s) {
-                let reason = format!(
-                    "as many modes as fit into {seconds} s; twice as many would take {expected:.0} s more"
-                );
+            if finer.is_none() || expected > PLANNED_SHARE * (seconds - resources.spent_s) {
+                let reason = match finer {
+                    Some(finer) => {
+                        format!(
+                            "the most modes that fit into {seconds} s; {finer} would take some {expected:.0} s more"
+                        )
+                    }
+                    None => "there is nothing finer".to_owned(),
+                };
                 return NextModes::Take(ModesChoice { modes_per_speed: modes, error, reason, tried });
             }
         }
-        modes = finer;
+        modes = finer.unwrap_or(modes);
     }
 }

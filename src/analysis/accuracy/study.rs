@@ -99,8 +99,8 @@ pub struct StepOrder {
     pub kept_modes: AutoOr,
     /// Steps per revolution, ascending.
     pub steps_per_revolution: Vec<u32>,
-    /// Difference from the next finer step, relative; the last one has none.
-    pub differences: Vec<f64>,
+    /// Difference from the next finer step, relative; null where there is nothing to compare, and none for the last.
+    pub differences: Vec<Option<f64>>,
     /// Order observed over each three successive steps; null where differences do not fall or are round-off.
     pub orders: Vec<Option<f64>>,
 }
@@ -198,9 +198,12 @@ fn speed_study(request: &StudyRequest, speed_rad_s: f64, reference: &Tried, trie
     let revolutions = request.integration.revolutions;
     let mut runs: Vec<StudyRun> =
         tried.iter().map(|tried| tried.run(Some(reference.trial), revolutions)).collect();
-    for quantity in Quantity::ALL {
+    // Trajectories that have separated differ by chance.
+    let separated = reference.trial.sensitivity.and_then(|found| found.separated_after_revolutions);
+    let comparable = separated.is_none_or(|revolution| revolution > request.history_revolutions);
+    for quantity in Quantity::ALL.into_iter().filter(|&q| q != Quantity::History || comparable) {
         let places: Vec<Option<(f64, f64)>> =
-            runs.iter().map(|run| Some((run.time_s, run.errors.as_ref()?.of(quantity)?))).collect();
+            runs.iter().map(|run| Some((run.time_s, run.errors.as_ref()?.judged(quantity)?))).collect();
         for index in front(&places) {
             runs[index].pareto.push(quantity);
         }
@@ -269,12 +272,11 @@ fn orders(tried: &[Tried]) -> Vec<StepOrder> {
         .map(|line| {
             let completed: Vec<&Tried> = line.iter().filter(|tried| tried.completed()).collect();
             let steps: Vec<u32> = completed.iter().map(|tried| tried.setting.steps_per_revolution).collect();
-            let differences: Vec<f64> = completed
-                .windows(2)
-                .map(|pair| history_error(pair[0].trial, pair[1].trial).unwrap_or(0.0))
-                .collect();
-            let order =
-                |(n, d): (&[u32], &[f64])| observed_order([n[0], n[1], n[2]].map(f64::from), [d[0], d[1]]);
+            let differences: Vec<Option<f64>> =
+                completed.windows(2).map(|pair| history_error(pair[0].trial, pair[1].trial)).collect();
+            let order = |(n, d): (&[u32], &[Option<f64>])| {
+                observed_order([n[0], n[1], n[2]].map(f64::from), [d[0]?, d[1]?])
+            };
             StepOrder {
                 modes_per_speed: line[0].setting.modes_per_speed,
                 scheme: line[0].setting.scheme,

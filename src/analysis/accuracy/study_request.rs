@@ -5,6 +5,7 @@ use utoipa::ToSchema;
 
 use super::trial::{Setting, TrialRequest};
 use crate::analysis::auto_or::AutoOr;
+use crate::analysis::discretisation::aligned_samples;
 use crate::analysis::error::Violation;
 use crate::analysis::model::ModelFacts;
 use crate::analysis::request::{Integration, SchemeChoice, Sensor, SweepDirection, SweepRequest};
@@ -101,6 +102,10 @@ impl Default for StudyIntegration {
 /// Most speeds of a study, and most entries of each list of its grid.
 const MOST_SPEEDS: usize = 8;
 const MOST_ENTRIES: usize = 12;
+
+/// Most runs of a study, and most displacements kept of all of them together (8 bytes each).
+const MOST_RUNS: usize = 2000;
+const MOST_KEPT: usize = 1 << 24;
 
 /// A level finer than the finest of a grid: so many times its steps and, where it has a single size, its modes.
 const FINER: u32 = 2;
@@ -285,6 +290,16 @@ pub fn resolve_study(mut request: StudyRequest, facts: &ModelFacts) -> Result<St
 fn refused_settings(request: &StudyRequest, facts: &ModelFacts) -> Vec<Violation> {
     let sweep = request.sweep();
     let mut found: Vec<Violation> = Vec::new();
+    let trials = request.all_trials(facts.sectors).len();
+    let samples = aligned_samples(&sweep, facts.sectors as usize);
+    let kept = trials * samples * request.history_revolutions as usize * request.sensors.len();
+    if trials > MOST_RUNS || kept > MOST_KEPT {
+        let message = format!(
+            "{trials} runs with {kept} displacements to be kept: a study has at most {MOST_RUNS} runs and {MOST_KEPT} displacements; \
+             take fewer settings, speeds or sensors, or compare fewer revolutions"
+        );
+        return vec![Violation::new("/grid", message)];
+    }
     for setting in request.settings(facts.sectors).into_iter().chain([request.reference(facts.sectors)]) {
         for mut violation in resolve_sweep(setting.on(&sweep), facts).err().unwrap_or_default() {
             if violation.pointer == "/integration/steps_per_revolution" {

@@ -33,7 +33,7 @@ fn line(out: &mut String, speed_rad_s: f64, run: &StudyRun) {
     // Writing to a string cannot fail.
     let _ = writeln!(
         out,
-        "{speed_rad_s},{},{},{kept},{},{},{},{},{},{},{},{},{:e},{:e},{:e},{},{:e},{}",
+        "{speed_rad_s},{},{},{kept},{},{},{},{},{},{},{},{},{:e},{:e},{:e},{},{},{}",
         run.setting.modes_per_speed,
         run.setting.scheme.as_str(),
         run.setting.steps_per_revolution,
@@ -52,7 +52,7 @@ fn line(out: &mut String, speed_rad_s: f64, run: &StudyRun) {
         run.cost.per_revolution_s,
         run.time_s,
         run.cost.repetitions,
-        run.cost.spread,
+        number(run.cost.spread),
         pareto.join(" "),
     );
 }

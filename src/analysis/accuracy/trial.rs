@@ -14,7 +14,7 @@ use crate::analysis::model::ReducedSector;
 use crate::analysis::monitor::Monitor;
 use crate::analysis::record::record_run;
 use crate::analysis::request::{SchemeChoice, SweepDirection, SweepRequest};
-use crate::analysis::result::{Point, SpeedSpectra, Verdict};
+use crate::analysis::result::{Point, PointStatus, SpeedSpectra, Verdict};
 use crate::analysis::speed::{Start, empty_point, ready, simulate};
 use crate::analysis::speeds::{SpeedSet, SpeedUnit, Speeds};
 use crate::analysis::stepping::MOST_STEPS;
@@ -94,8 +94,10 @@ pub struct Cost {
     pub per_revolution_s: f64,
     /// Repetitions; the medians are given.
     pub repetitions: u32,
-    /// Half the range of `per_revolution_s` over the repetitions, relative to its median.
-    pub spread: f64,
+    /// Half the range of `per_revolution_s` over the repetitions, relative to its median; absent where the run was long enough
+    /// to be timed once.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spread: Option<f64>,
 }
 
 impl Cost {
@@ -114,7 +116,7 @@ impl Cost {
         let set_up_s = median(|r| r.0, &mut repetitions);
         let per_revolution_s = median(|r| r.1, &mut repetitions);
         let range = repetitions[count - 1].1 - repetitions[0].1;
-        let spread = if per_revolution_s > 0.0 { 0.5 * range / per_revolution_s } else { 0.0 };
+        let spread = (count > 1 && per_revolution_s > 0.0).then(|| 0.5 * range / per_revolution_s);
         Self { set_up_s, per_revolution_s, repetitions: count as u32, spread }
     }
 }
@@ -141,6 +143,11 @@ pub struct Trial {
 }
 
 impl Trial {
+    /// Whether it was integrated to its end.
+    pub(super) fn is_completed(&self) -> bool {
+        self.point.status == PointStatus::Completed
+    }
+
     /// Whether the steady response repeats.
     pub(super) fn repeats(&self) -> bool {
         repeats(&self.point)
@@ -153,7 +160,7 @@ pub(super) fn repeats(point: &Point) -> bool {
     matches!(verdict, Some(Verdict::Periodic | Verdict::Subharmonic))
 }
 
-/// Parts of the window whose levels are compared.
+/// Fewest parts of the window whose levels are compared, if it has so many revolutions.
 const BLOCKS: usize = 5;
 
 /// A run is repeated until it has taken this long altogether,
@@ -201,6 +208,9 @@ pub fn run_trial(
             Ok((wheel, stepping, run))
         });
         let whole = clock.elapsed();
+        if monitor.is_cancelled() {
+            return Err(AnalysisError::Cancelled);
+        }
         spent += whole;
         // One that was never set up ran no revolution.
         let set_up = set_up.get().unwrap_or(whole);
@@ -221,7 +231,8 @@ pub fn run_trial(
         let kept = samples * request.history_revolutions.min(sweep.integration.revolutions) as usize;
         trial.history = history.displacement.iter().map(|line| line[..kept].to_vec()).collect();
         let window = samples * sweep.integration.window_revolutions as usize;
-        trial.levels = history.displacement.iter().map(|line| levels(&line[line.len() - window..])).collect();
+        trial.levels =
+            history.displacement.iter().map(|line| levels(&line[line.len() - window..], samples)).collect();
         trial.lines = lines(spectra, sweep);
         if request.twin {
             let twin = simulate(&reduced.wheel, &wheel, sweep, &stepping, Start::Perturbed, &watch);
@@ -237,12 +248,15 @@ pub fn run_trial(
     Ok(trial)
 }
 
-/// Root mean squares about the mean of the window over its parts.
-fn levels(window: &[f64]) -> Vec<f64> {
+/// Root mean squares about the mean of the window over its parts, each of the same number of whole revolutions (what is left over at
+/// the end is not counted).
+fn levels(window: &[f64], samples_per_revolution: usize) -> Vec<f64> {
+    let revolutions = window.len() / samples_per_revolution;
+    let part = samples_per_revolution * (revolutions / revolutions.clamp(1, BLOCKS));
     let mean = window.iter().sum::<f64>() / window.len() as f64;
     let level =
         |part: &[f64]| (part.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / part.len() as f64).sqrt();
-    window.chunks(window.len().div_ceil(BLOCKS)).map(level).collect()
+    window.chunks_exact(part.max(1)).map(level).collect()
 }
 
 /// `[sensor][engine order]`: amplitudes at the integer engine orders from 1 on.
@@ -260,16 +274,17 @@ mod tests {
     fn medians_stand_for_repetitions() {
         let cost = Cost::of(vec![(3.0, 1.0), (1.0, 1.2), (2.0, 0.8)]);
         assert_eq!((cost.set_up_s, cost.per_revolution_s, cost.repetitions), (2.0, 1.0, 3));
-        assert!((cost.spread - 0.2).abs() < 1e-12 && (cost.of_run(10) - 12.0).abs() < 1e-12);
+        assert!((cost.spread.unwrap() - 0.2).abs() < 1e-12 && (cost.of_run(10) - 12.0).abs() < 1e-12);
     }
 
     #[test]
-    fn levels_are_of_successive_parts() {
-        let steady: Vec<f64> =
-            (0..500).map(|j| 7.0 + 2.0 * (0.2 * std::f64::consts::PI * f64::from(j)).sin()).collect();
-        for level in levels(&steady) {
-            assert!((level - 2f64.sqrt()).abs() < 1e-9);
+    fn levels_are_of_whole_revolutions() {
+        let sine = |j: u32| 7.0 + 2.0 * (0.2 * std::f64::consts::PI * f64::from(j)).sin();
+        let steady: Vec<f64> = (0..120).map(sine).collect();
+        for (revolutions, parts) in [(1, 1), (2, 2), (4, 4), (5, 5), (9, 9), (12, 6)] {
+            let found = levels(&steady[..10 * revolutions], 10);
+            assert_eq!(found.len(), parts, "{revolutions}");
+            assert!(found.iter().all(|level| (level - 2f64.sqrt()).abs() < 1e-9));
         }
-        assert_eq!(levels(&steady).len(), BLOCKS);
     }
 }

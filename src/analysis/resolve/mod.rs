@@ -68,6 +68,7 @@ impl Findings {
 /// Checks a sweep request against its model and fills in the default sensors.
 pub fn resolve_sweep(mut request: SweepRequest, facts: &ModelFacts) -> Result<SweepRequest, Vec<Violation>> {
     let mut found = Findings::default();
+    request.speeds.ask_for_all();
     check_knobs(&mut found, &request);
     check_modes(&mut found, request.modes());
     check_speeds(&mut found, &request.speeds, facts, request.scene.centrifugal_stiffening, false);
@@ -144,6 +145,11 @@ fn check_knobs(found: &mut Findings, request: &SweepRequest) {
         ("/integration/steps_per_revolution", steps_per_revolution != AutoOr::Auto),
     ];
     check_choice(found, request.accuracy, request.budget, &fixed);
+    found.require(
+        !request.chooses() || request.integration.window_revolutions >= 2,
+        "/integration/window_revolutions",
+        "an error is told from chance by comparing parts of the window: at least two revolutions",
+    );
     found.require(
         request.budget.is_none() || !request.refine,
         "/refine",

@@ -16,7 +16,9 @@ impl Store {
         for (id, model, modes_per_speed) in dropped {
             let parts = match (model, modes_per_speed) {
                 (Some(model), Some(modes)) => self.checkpoints(&model, modes).parts().await?,
-                _ => 0,
+                // Of many reductions, or of one not chosen yet.
+                (Some(model), None) => self.parts_of_model(&model).await?,
+                (None, _) => 0,
             };
             sqlx::query(
                 "update jobs set crashes = case when ?1 > parts then 0 else crashes + 1 end, parts = ?1, in_hand = 0
