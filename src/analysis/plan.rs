@@ -56,7 +56,7 @@ pub struct SweepPlan {
     /// Speeds of the pilot runs that the job begins with, rad/s; absent where none are missing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pilot_speeds_rad_s: Option<Vec<f64>>,
-    /// The whole request as resolved, with the setting chosen.
+    /// The whole request as resolved, with the setting chosen in place of what was asked for.
     pub settings: SweepRequest,
     /// Version of the code.
     pub version: String,
@@ -163,7 +163,7 @@ pub struct ModalAnalysisPlan {
     /// The modes that the stored reductions choose for the accuracy asked for; absent until they do.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub choice: Option<ModesChoice>,
-    /// The whole request as resolved, with the modes chosen.
+    /// The whole request as resolved, with the modes chosen in place of what was asked for.
     pub settings: ModalAnalysisRequest,
     /// Version of the code.
     pub version: String,

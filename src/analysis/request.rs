@@ -85,7 +85,7 @@ impl SweepRequest {
 #[serde(deny_unknown_fields)]
 pub struct Accuracy {
     /// Relative error.
-    #[schema(exclusive_minimum = 0.0, exclusive_maximum = 1.0)]
+    #[schema(minimum = 1e-9, maximum = 0.5)]
     pub target: f64,
 }
 
@@ -95,7 +95,7 @@ pub struct Accuracy {
 pub struct Budget {
     /// Wall time of the whole job on an otherwise idle machine, s: reductions that are not stored, pilot runs, all speeds and
     /// those that are simulated again.
-    #[schema(exclusive_minimum = 0.0)]
+    #[schema(minimum = 1.0, maximum = 1e7)]
     pub seconds: f64,
 }
 

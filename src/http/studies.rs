@@ -32,6 +32,17 @@ pub(super) enum Format {
     Svg,
 }
 
+/// Form of a download of histories.
+#[derive(Debug, Clone, Copy, Default, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum HistoriesFormat {
+    /// All numbers.
+    #[default]
+    Json,
+    /// A drawing.
+    Svg,
+}
+
 /// What to download of a study.
 #[derive(Debug, Deserialize, IntoParams)]
 #[serde(deny_unknown_fields)]
@@ -57,7 +68,7 @@ pub(super) struct HistoriesQuery {
     /// `json` (default) for all sensors, `svg` for a drawing of one.
     #[serde(default)]
     #[param(inline)]
-    format: Format,
+    format: HistoriesFormat,
     /// Index of the speed in the request; default 0.
     #[serde(default)]
     speed: u32,
@@ -171,9 +182,8 @@ pub(super) async fn get_histories(
     }
     let body = document_body(&state, &job, Document::Histories(query.speed)).await?;
     match query.format {
-        Format::Json => Ok(answer("application/json", body)),
-        Format::Csv => Err(Problem::parameter("format", "histories come as json or svg".to_owned())),
-        Format::Svg => {
+        HistoriesFormat::Json => Ok(answer("application/json", body)),
+        HistoriesFormat::Svg => {
             let histories: Histories = parse(&body)?;
             Ok(answer("image/svg+xml", plot::histories(&histories, query.sensor as usize)))
         }

@@ -8,7 +8,6 @@ use super::engine::{Engine, Live};
 use super::error::Halt;
 use super::progress::PhaseMonitor;
 use super::trials::Trials;
-use crate::analysis::auto_or::AutoOr;
 use crate::analysis::error::{AnalysisError, Violation};
 use crate::analysis::monitor::Monitor;
 use crate::analysis::request::{ModalAnalysisRequest, SweepRequest};
@@ -52,12 +51,9 @@ pub(super) async fn sweep(
     tracing::info!(
         job.id = %job.id, setting = ?choice.setting, estimated_error = choice.estimated_error, "chose a setting"
     );
-    let chosen = choice.setting.on(request);
-    // The knobs by themselves, as if they had been given: nobody has checked them yet.
-    let explicit = SweepRequest { accuracy: None, budget: None, ..chosen.clone() };
-    if let Err(violations) = run::resolve_sweep(explicit, &facts) {
-        return Err(AnalysisError::Refused(violations).into());
-    }
+    let chosen = choice.explicit(request);
+    // Nobody has checked these knobs yet.
+    let chosen = run::resolve_sweep(chosen, &facts).map_err(AnalysisError::Refused)?;
     let chosen = JobRequest::Sweep(Box::new(chosen));
     engine.choose(&job, chosen, Chosen::Setting(choice)).await
 }
@@ -110,8 +106,7 @@ pub(super) async fn modal_analysis(
             outcome => reports.push(outcome?.report.clone()),
         }
     };
-    let modes_per_speed = AutoOr::Fixed(choice.modes_per_speed);
-    let chosen = JobRequest::ModalAnalysis(ModalAnalysisRequest { modes_per_speed, ..request.clone() });
+    let chosen = JobRequest::ModalAnalysis(choice.explicit(request));
     engine.choose(&job, chosen, Chosen::Modes(choice)).await
 }
 

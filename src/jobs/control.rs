@@ -9,7 +9,7 @@ use crate::analysis::monitor::Monitor;
 use crate::analysis::request::SweepRequest;
 use crate::analysis::result::Point;
 use crate::analysis::run::{self, ErrorEstimate, FinerRun};
-use crate::store::jobs::FailureCause;
+use crate::store::jobs::{Chosen, FailureCause};
 
 /// Estimated errors of all speeds, if any are to be simulated again.
 pub(super) async fn errors(
@@ -49,5 +49,10 @@ pub(super) async fn errors(
             Some(FinerRun { index: *index, setting: *setting, spectra, trial })
         })
         .collect();
-    Ok(Some(run::error_estimate(request, points, &finer)))
+    let choice = engine.store.job(job.id).await?.and_then(|job| job.choice);
+    let target = match choice {
+        Some(Chosen::Setting(choice)) => choice.accuracy.map(|accuracy| accuracy.target),
+        Some(Chosen::Modes(_)) | None => None,
+    };
+    Ok(Some(run::error_estimate(request, target, points, &finer)))
 }

@@ -7,7 +7,6 @@ use super::choice;
 use super::engine::Engine;
 use super::plans;
 use super::pool::Panicked;
-use crate::analysis::auto_or::AutoOr;
 use crate::analysis::error::Violation;
 use crate::analysis::request::{ModalAnalysisRequest, SweepRequest};
 use crate::analysis::run::{self, ModalAnalysisPlan, ReducedSector, SweepPlan};
@@ -115,7 +114,7 @@ impl Jobs {
         if request.unchosen() {
             let stored = choice::stored(&self.engine, &request, facts.sectors).await?;
             choice = stored.map_err(|violation| SubmitError::Refused(vec![violation]))?;
-            request = choice.as_ref().map_or(request.clone(), |choice| choice.setting.on(&request));
+            request = choice.as_ref().map_or(request.clone(), |choice| choice.explicit(&request));
         }
         let reduced = self.reduction(&request.model, request.unchosen(), request.modes()).await?;
         let plan = plans::sweep::<SubmitError>(&self.engine, request, facts, reduced).await?;
@@ -133,9 +132,7 @@ impl Jobs {
         if request.unchosen() {
             let stored = choice::stored_modes(&self.engine, &request).await?;
             choice = stored.map_err(|violation| SubmitError::Refused(vec![violation]))?;
-            if let Some(choice) = &choice {
-                request.modes_per_speed = AutoOr::Fixed(choice.modes_per_speed);
-            }
+            request = choice.as_ref().map_or(request.clone(), |choice| choice.explicit(&request));
         }
         let reduced = self.reduction(&request.model, request.unchosen(), request.modes()).await?;
         let plan = plans::modal_analysis(&self.engine, request, facts, reduced).await?;

@@ -56,7 +56,7 @@ impl Reductions {
         let guard = match flight.try_lock() {
             Ok(guard) => guard,
             Err(_) => {
-                monitor.progress(0.0, "waiting for the same reduction in another job");
+                monitor.progress(0.0, "waiting for a reduction that is being made");
                 flight.lock().await
             }
         };

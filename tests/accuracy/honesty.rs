@@ -79,7 +79,7 @@ fn truth(wheel: &mut Wheel, request: &rubmap::analysis::request::SweepRequest) -
     };
     let trial = wheel.run(&TrialRequest::new(request, result.point.speed_rad_s, reference));
     let run = FinerRun { index: 0, setting: reference, spectra: &spectra, trial: &trial };
-    error_estimate(request, &[result.point], &[run]).controls[0].differences.unwrap().response()
+    error_estimate(request, None, &[result.point], &[run]).controls[0].differences.unwrap().response()
 }
 
 fn outcome(wheel: &mut Wheel, draw: &mut Draw) -> Outcome {
@@ -98,7 +98,8 @@ fn outcome(wheel: &mut Wheel, draw: &mut Draw) -> Outcome {
     let trial = wheel.run(&finer);
     let spectra = result.spectra.as_ref().unwrap();
     let run = FinerRun { index, setting, spectra, trial: &trial };
-    let estimate = error_estimate(&request, std::slice::from_ref(&result.point), &[run]).largest.unwrap();
+    let estimate =
+        error_estimate(&request, None, std::slice::from_ref(&result.point), &[run]).largest.unwrap();
     let truth_of_fixed = truth(wheel, &request);
 
     let mut asked = body;

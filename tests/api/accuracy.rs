@@ -35,7 +35,8 @@ async fn a_target_is_planned_met_and_reported() {
         map["settings"]["integration"]["steps_per_revolution"],
         choice["setting"]["steps_per_revolution"]
     );
-    assert_eq!(map["settings"]["accuracy"], request["accuracy"]);
+    assert_eq!((&choice["accuracy"], &map["settings"]["accuracy"]), (&request["accuracy"], &Value::Null));
+    assert_eq!(map["settings"]["control_speeds"], 5);
     for point in map["points"].as_array().unwrap() {
         assert_eq!(point["steps_per_revolution"], choice["setting"]["steps_per_revolution"]);
     }
@@ -58,17 +59,16 @@ async fn a_target_is_planned_met_and_reported() {
         assert_eq!(critical["amplitude_error"], of["estimated_error"]);
     }
 
-    // The pilot runs are kept: the plan has the choice at once, and the same numbers come out of other knobs named.
+    // The pilot runs are kept: the plan has the choice at once, and the settings of the result give the same numbers.
     let plan = api.post("/v1/sweeps/plan", &request).await.body;
     assert_eq!(plan["choice"]["setting"], choice["setting"]);
     assert!(plan["estimate"].is_object() && plan["pilot_speeds_rad_s"].is_null());
-    let mut explicit = map["settings"].clone();
-    explicit.as_object_mut().unwrap().remove("accuracy");
-    let same = api.sweep(&explicit).await;
+    let same = api.sweep(&map["settings"]).await;
     assert_eq!(api.finish(&same).await["status"], "successful");
     let same = api.get(&format!("/v1/jobs/{same}/interaction-map")).await.body;
     assert_eq!(same["amplitude"], map["amplitude"]);
-    assert!(same["errors"].is_null(), "nobody asked");
+    assert_eq!(same["errors"]["points"], map["errors"]["points"]);
+    assert!(same["errors"]["target_met"].is_null(), "nobody asked");
     app.stop().await;
 }
 
@@ -135,7 +135,7 @@ async fn a_modal_analysis_takes_as_many_modes_as_its_accuracy_needs() {
     assert_eq!(
         plan["choice"],
         json!({
-            "modes_per_speed": job["choice"]["modes_per_speed"], "error": job["choice"]["error"],
+            "accuracy": {"target": 1e-6}, "modes_per_speed": job["choice"]["modes_per_speed"], "error": job["choice"]["error"],
             "reason": job["choice"]["reason"], "tried": job["choice"]["tried"],
         })
     );

@@ -13,12 +13,18 @@ use utoipa::ToSchema;
 use super::rung::{Pilot, Pilots, Rung, finer_modes, pilot_speeds};
 use super::trial::{Setting, Trial, TrialRequest};
 use crate::analysis::error::Violation;
-use crate::analysis::request::{SweepDirection, SweepRequest};
+use crate::analysis::request::{Accuracy, Budget, SweepDirection, SweepRequest};
 use crate::analysis::stepping::MOST_STEPS;
 
 /// The setting that pilot runs chose, and why.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Choice {
+    /// The accuracy that was asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub accuracy: Option<Accuracy>,
+    /// The budget that was given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub budget: Option<Budget>,
     /// The setting.
     pub setting: Setting,
     /// Estimated relative error of the steady response, the largest of the pilot speeds: the sum of the following parts.
@@ -39,6 +45,19 @@ pub struct Choice {
     pub pilot_speeds_rad_s: Vec<f64>,
     /// What they showed, setting by setting as they were tried.
     pub pilots: Vec<Pilot>,
+}
+
+impl Choice {
+    /// The request with the knobs that were chosen, as if they had been given.
+    #[must_use]
+    pub fn explicit(&self, request: &SweepRequest) -> SweepRequest {
+        SweepRequest {
+            accuracy: None,
+            budget: None,
+            control_speeds: Some(request.controls() as u32),
+            ..self.setting.on(request)
+        }
+    }
 }
 
 /// What comes next.
@@ -166,8 +185,9 @@ impl Climb<'_, '_> {
                         return Next::Run(missing);
                     }
                     return refuse(format!(
-                        "the reduction with {needed} modes per speed, which pilot runs need, would take about {reduction:.0} s \
-                         alone, and {left:.0} s are left: give more, or the knobs"
+                        "after {:.1} s the reduction with {needed} modes per speed, which pilot runs need, would take about \
+                         {reduction:.1} s more: give more than that, or the knobs",
+                        self.resources.spent_s
                     ));
                 }
             }
@@ -187,7 +207,7 @@ impl Climb<'_, '_> {
         let Some((rung, taken, of_steps)) = options.min_by(|a, b| error(a).total_cmp(&error(b))) else {
             let least = self.resources.spent_s + self.sweep_wall(cheapest, steps) / PLANNED_SHARE;
             return refuse(format!(
-                "the cheapest setting ({} modes per speed, {steps} steps per revolution) would take about {least:.0} s with the \
+                "the cheapest setting ({} modes per speed, {steps} steps per revolution) would take about {least:.1} s with the \
                  pilot runs: give at least that, or ask for fewer speeds or revolutions",
                 cheapest.modes
             ));
@@ -232,6 +252,8 @@ impl Climb<'_, '_> {
 
     fn choice(&self, rung: &Rung, steps: u32, error_of_steps: f64, tried: &[Rung], reason: String) -> Choice {
         Choice {
+            accuracy: self.request.accuracy,
+            budget: self.request.budget,
             setting: self.pilots.setting(rung.modes, steps),
             estimated_error: rung.error_of_modes + error_of_steps + rung.spread,
             error_of_modes: rung.error_of_modes,

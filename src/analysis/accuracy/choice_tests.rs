@@ -49,7 +49,7 @@ fn trial(request: &TrialRequest, response: Response) -> Trial {
     let lines = level.map(|level| vec![vec![level, 0.0]]).unwrap_or_default();
     Trial {
         point: serde_json::from_value(point).unwrap(),
-        unknowns: 1,
+        unknowns: request.sweep.modes(),
         lines,
         levels: vec![vec![1.0, 1.1, 0.9, 1.05, 0.95]],
         history: Vec::new(),

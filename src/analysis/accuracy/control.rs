@@ -17,12 +17,13 @@ use crate::response::critical_speed::peaks;
 pub struct ErrorEstimate {
     /// The speeds that were simulated again: half of them at the most prominent peaks of the response, the others evenly spread.
     pub controls: Vec<Control>,
-    /// One per completed speed, in the order of the request; empty where no control run gave an estimate.
+    /// One per completed speed, in the order of the request, unless a control run at or beside it ended early.
     pub points: Vec<PointError>,
     /// The largest of them; absent where there are none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub largest: Option<f64>,
-    /// Whether all of them are within the accuracy that was asked for, if one was and the modes could be refined.
+    /// Whether all completed speeds are known to be within the accuracy that was asked for, if one was; absent where the modes could
+    /// not be refined.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub target_met: Option<bool>,
     /// What these numbers are, in words.
@@ -119,8 +120,14 @@ fn finer_setting(request: &SweepRequest, sectors: u32, point: &Point, most_modes
     }
 }
 
-/// Estimated errors of all completed speeds from the finer runs of some, each given with the spectra of the speed itself.
-pub fn error_estimate(request: &SweepRequest, points: &[Point], controls: &[FinerRun<'_>]) -> ErrorEstimate {
+/// Estimated errors of all completed speeds from the finer runs of some, each given with the spectra of the speed itself, and
+/// whether they are within `target` if there is one.
+pub fn error_estimate(
+    request: &SweepRequest,
+    target: Option<f64>,
+    points: &[Point],
+    controls: &[FinerRun<'_>],
+) -> ErrorEstimate {
     let controls: Vec<Control> = controls
         .iter()
         .filter_map(|FinerRun { index, setting, spectra, trial }| {
@@ -137,16 +144,26 @@ pub fn error_estimate(request: &SweepRequest, points: &[Point], controls: &[Fine
             })
         })
         .collect();
+    let completed = points.iter().filter(|point| point.status == PointStatus::Completed).count();
     let points = point_errors(points, &controls);
     let largest = points.iter().map(|point| point.estimated_error).reduce(f64::max);
     let with_modes = controls.iter().all(|control| control.setting.modes_per_speed > request.modes());
-    let target_met = request.accuracy.filter(|_| with_modes).and_then(|asked| Some(largest? <= asked.target));
+    let all_known = points.len() == completed;
+    let within = |target: f64| all_known && largest.is_none_or(|largest| largest <= target);
+    let target_met = target.filter(|_| with_modes || !all_known).map(within);
     let estimated = controls.iter().filter(|control| control.estimated_error.is_some()).count();
+    let ended = match controls.len() - estimated {
+        0 => String::new(),
+        early => format!(
+            "; {early} more of them were not completed at the finer setting, although they were in the sweep: what they and the speeds \
+             beside them show is not known to be right"
+        ),
+    };
     let message = match largest {
-        None => "no control run was completed: the error of the amplitudes is not known".to_owned(),
+        None => format!("the error of the amplitudes is not known: no control run gave an estimate{ended}"),
         Some(_) => format!(
             "relative error of the steady response{}: {SAFETY} times its difference from finer runs at {estimated} of the speeds, whose \
-             settings are in `controls`; at the others the larger estimate of the nearest on either side",
+             settings are in `controls`; at the others the larger estimate of the nearest on either side{ended}",
             if with_modes { "" } else { " from the steps alone, since no finer reduction could be made" }
         ),
     };
@@ -154,22 +171,58 @@ pub fn error_estimate(request: &SweepRequest, points: &[Point], controls: &[Fine
 }
 
 fn point_errors(points: &[Point], controls: &[Control]) -> Vec<PointError> {
-    let known: Vec<(f64, u32, f64)> = controls
-        .iter()
-        .filter_map(|control| Some((control.speed_rad_s, control.index, control.estimated_error?)))
-        .collect();
     let of = |point: &Point| {
-        if let Some(&(_, _, estimated_error)) = known.iter().find(|(_, index, _)| *index == point.index) {
+        let error = |control: &Control| control.estimated_error;
+        if let Some(control) = controls.iter().find(|control| control.index == point.index) {
+            let estimated_error = error(control)?;
             return Some(PointError { index: point.index, estimated_error, controlled: true });
         }
-        let nearest = |side: &dyn Fn(f64) -> bool| {
-            let distance = |&&(speed, ..): &&(f64, u32, f64)| (speed - point.speed_rad_s).abs();
-            let here = known.iter().filter(|&&(speed, ..)| side(speed - point.speed_rad_s));
-            here.min_by(|a, b| distance(a).total_cmp(&distance(b))).map(|&(_, _, error)| error)
+        let nearest = |side: fn(f64) -> bool| {
+            let distance = |control: &&Control| (control.speed_rad_s - point.speed_rad_s).abs();
+            let here = controls.iter().filter(|control| side(control.speed_rad_s - point.speed_rad_s));
+            here.min_by(|a, b| distance(a).total_cmp(&distance(b)))
         };
-        let (below, above) = (nearest(&|d| d <= 0.0), nearest(&|d| d >= 0.0));
-        let estimated_error = below.into_iter().chain(above).reduce(f64::max)?;
+        // One that told nothing leaves its neighbourhood unknown.
+        let beside = [nearest(|d| d <= 0.0), nearest(|d| d >= 0.0)].into_iter().flatten();
+        let estimated_error = beside.map(error).reduce(|a, b| Some(a?.max(b?)))??;
         Some(PointError { index: point.index, estimated_error, controlled: false })
     };
     points.iter().filter(|point| point.status == PointStatus::Completed).filter_map(of).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    fn points(count: u32) -> Vec<Point> {
+        let point = |index: u32| {
+            json!({"index": index, "speed_rad_s": 100.0 + f64::from(index), "status": "completed", "responses": [],
+                "steps_per_revolution": 1, "smallest_stable_steps_per_revolution": 1, "steps": 1, "contact_share": 0.0,
+                "wall_time_s": 0.0, "version": "0"})
+        };
+        (0..count).map(|index| serde_json::from_value(point(index)).unwrap()).collect()
+    }
+
+    fn control(index: u32, estimated_error: Option<f64>) -> Control {
+        let setting = Setting {
+            modes_per_speed: 40,
+            scheme: SchemeChoice::ExactModal,
+            kept_modes: AutoOr::Auto,
+            steps_per_revolution: 1000,
+        };
+        let speed_rad_s = 100.0 + f64::from(index);
+        Control { index, speed_rad_s, setting, differences: None, estimated_error, message: None }
+    }
+
+    #[test]
+    fn errors_between_controls_are_the_larger_ones_and_unknown_beside_the_unknown() {
+        let controls = [control(1, Some(0.1)), control(4, Some(0.3)), control(7, None)];
+        let found = point_errors(&points(9), &controls);
+        let found: Vec<_> = found.iter().map(|p| (p.index, p.estimated_error, p.controlled)).collect();
+        let expected = [(0, 0.1, false), (1, 0.1, true), (2, 0.3, false), (3, 0.3, false), (4, 0.3, true)];
+        assert_eq!(found, expected, "5 to 8 lie beside a control run that ended early");
+        assert!(point_errors(&points(3), &[]).is_empty());
+    }
 }

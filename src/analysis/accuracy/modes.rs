@@ -7,13 +7,20 @@ use utoipa::ToSchema;
 
 use super::choice::{PLANNED_SHARE, Resources};
 use super::rung::finer_modes;
+use crate::analysis::auto_or::AutoOr;
 use crate::analysis::error::Violation;
-use crate::analysis::request::ModalAnalysisRequest;
+use crate::analysis::request::{Accuracy, Budget, ModalAnalysisRequest};
 use crate::analysis::result::ReductionReport;
 
 /// The modes that were chosen, and why.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct ModesChoice {
+    /// The accuracy that was asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub accuracy: Option<Accuracy>,
+    /// The budget that was given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub budget: Option<Budget>,
     /// k.
     pub modes_per_speed: u32,
     /// Largest relative difference of the ten lowest frequencies of any nodal diameter from the full sector's.
@@ -22,6 +29,19 @@ pub struct ModesChoice {
     pub reason: String,
     /// The reductions that were compared.
     pub tried: Vec<TriedModes>,
+}
+
+impl ModesChoice {
+    /// The request with the modes that were chosen, as if they had been given.
+    #[must_use]
+    pub fn explicit(&self, request: &ModalAnalysisRequest) -> ModalAnalysisRequest {
+        ModalAnalysisRequest {
+            modes_per_speed: AutoOr::Fixed(self.modes_per_speed),
+            accuracy: None,
+            budget: None,
+            ..request.clone()
+        }
+    }
 }
 
 /// A reduction that was compared.
@@ -55,6 +75,7 @@ pub fn next_modes(
     resources: &Resources,
     reports: &[ReductionReport],
 ) -> NextModes {
+    let ModalAnalysisRequest { accuracy, budget, .. } = *request;
     let mut modes = FIRST_MODES.min(resources.most_modes.unwrap_or(u32::MAX));
     let mut tried: Vec<TriedModes> = Vec::new();
     loop {
@@ -68,13 +89,18 @@ pub fn next_modes(
         });
         tried.push(found);
         let finer = finer_modes(modes, resources.most_modes).filter(|_| !stalled);
-        if let Some(accuracy) = request.accuracy {
-            if error <= accuracy.target {
-                let reason = format!(
-                    "the fewest modes whose frequencies are within {} of the full sector's",
-                    accuracy.target
-                );
-                return NextModes::Take(ModesChoice { modes_per_speed: modes, error, reason, tried });
+        if let Some(Accuracy { target }) = accuracy {
+            if error <= target {
+                let reason =
+                    format!("the fewest modes whose frequencies are within {} of the full sector's", target);
+                return NextModes::Take(ModesChoice {
+                    accuracy,
+                    budget,
+                    modes_per_speed: modes,
+                    error,
+                    reason,
+                    tried,
+                });
             }
             if finer.is_none() {
                 return NextModes::Refuse(Violation::new(
@@ -82,12 +108,12 @@ pub fn next_modes(
                     format!(
                         "{} is not reached with {modes} modes per speed: the frequencies differ by {error:.1e} from the full \
                          sector's, and there is nothing finer; ask for that",
-                        accuracy.target
+                        target
                     ),
                 ));
             }
         } else {
-            let seconds = request.budget.map_or(0.0, |budget| budget.seconds);
+            let seconds = budget.map_or(0.0, |budget| budget.seconds);
             let known = reports.iter().any(|report| Some(report.modes_per_speed) == finer);
             let expected = if known { 0.0 } else { 2.0 * report.wall_time_s };
             if finer.is_none() || expected > PLANNED_SHARE * (seconds - resources.spent_s) {
@@ -99,7 +125,14 @@ pub fn next_modes(
                     }
                     None => "there is nothing finer".to_owned(),
                 };
-                return NextModes::Take(ModesChoice { modes_per_speed: modes, error, reason, tried });
+                return NextModes::Take(ModesChoice {
+                    accuracy,
+                    budget,
+                    modes_per_speed: modes,
+                    error,
+                    reason,
+                    tried,
+                });
             }
         }
         modes = finer.unwrap_or(modes);

@@ -116,7 +116,10 @@ impl Rung {
             (false, false) => None,
             _ => Some(f64::INFINITY),
         };
-        let error_of_modes = error(more_modes).map(|error| error.max(before / MOST_GAIN));
+        // Where the sector has no more modes the two are the same.
+        let exhausted = run.unknowns == more_modes.unknowns;
+        let least = if exhausted { 0.0 } else { before / MOST_GAIN };
+        let error_of_modes = error(more_modes).map(|error| error.max(least));
         let error_of_steps = error(more_steps);
         // A response that repeats with more modes is not known any less for not repeating with few.
         if !run.repeats() && !more_modes.repeats() {

@@ -56,12 +56,16 @@ fn default_max_engine_order() -> u32 {
 #[serde(deny_unknown_fields, default)]
 pub struct Grid {
     /// Fixed-interface modes kept per stiffness speed and nodal diameter.
+    #[schema(min_items = 1, max_items = 12)]
     pub modes_per_speed: Vec<u32>,
     /// Time steps per revolution; each is rounded up so that all histories share their instants.
+    #[schema(min_items = 1, max_items = 12)]
     pub steps_per_revolution: Vec<u32>,
     /// Schemes, none of them `auto`.
+    #[schema(min_items = 1, max_items = 12)]
     pub schemes: Vec<SchemeChoice>,
     /// Modes per nodal diameter that `massless_boundary` integrates.
+    #[schema(min_items = 1, max_items = 12)]
     pub kept_modes: Vec<AutoOr>,
 }
 
@@ -182,7 +186,7 @@ impl StudyRequest {
             modes_per_speed: finer.min(limits::MODES_PER_SPEED),
             scheme: SchemeChoice::ExactModal,
             kept_modes: AutoOr::Auto,
-            steps_per_revolution: Setting::aligned_steps(steps.saturating_mul(FINER), &self.sweep(), sectors),
+            steps_per_revolution: FINER * Setting::aligned_steps(steps, &self.sweep(), sectors),
         }
     }
 
