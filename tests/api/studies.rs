@@ -3,6 +3,7 @@
 use serde_json::{Value, json};
 
 use super::app::{Api, TestApp, sweep_of};
+use super::kill::Program;
 use super::model;
 
 fn study_of(model: &str) -> Value {
@@ -167,4 +168,31 @@ async fn bad_grids_are_refused_at_once() {
         ["/sensors/0/contact_node"]
     );
     app.stop().await;
+}
+
+#[tokio::test]
+async fn a_killed_study_goes_on_with_the_runs_it_has() {
+    let data = tempfile::tempdir().unwrap();
+    let program = Program::serve(data.path());
+    let model = program.api.model(model::package(1.0)).await;
+    let mut request = study_of(&model);
+    request["integration"]["revolutions"] = json!(400);
+    let id = program.api.post("/v1/studies", &request).await.text("/id");
+    program.api.follow(&id, |job| job["progress"].as_u64() >= Some(20)).await;
+    program.kill();
+
+    let costs = async |api: &Api, id: &str| {
+        let found = api.get(&format!("/v1/jobs/{id}/work-precision")).await.body;
+        let runs = |speed: &Value| speed["runs"].as_array().unwrap().clone();
+        let runs: Vec<Value> = found["speeds"].as_array().unwrap().iter().flat_map(runs).collect();
+        runs.iter().map(|run| run["cost"].clone()).collect::<Vec<_>>()
+    };
+    let program = Program::serve(data.path());
+    assert!(program.api.job(&id).await.body["progress"].as_u64() >= Some(20), "progress is kept");
+    assert_eq!(program.api.finish(&id).await["status"], "successful");
+    let first = costs(&program.api, &id).await;
+    // Another job on the same scene computes nothing: times, which no second computation would repeat, are the same.
+    let again = program.api.post("/v1/studies", &request).await.text("/id");
+    assert_eq!(program.api.finish(&again).await["status"], "successful");
+    assert_eq!(costs(&program.api, &again).await, first);
 }
