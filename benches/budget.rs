@@ -13,7 +13,7 @@ use tokio_util::sync::CancellationToken;
 
 fn main() -> anyhow::Result<()> {
     let given: Vec<f64> = std::env::args().skip(1).filter_map(|argument| argument.parse().ok()).collect();
-    let budgets = if given.is_empty() { vec![30.0, 60.0, 120.0] } else { given };
+    let budgets = if given.is_empty() { vec![60.0, 120.0, 240.0] } else { given };
     let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build()?;
     println!(
         "{:>8}  {:>8}  {:>6}  {:>24}  {:>9}  {:>9}",
