@@ -91,7 +91,7 @@ const MOST_DOUBLINGS: u32 = 7;
 pub(super) const PLANNED_SHARE: f64 = 0.9;
 
 /// Share of what is left of a budget that the next rung's pilot runs and reduction may take.
-const PILOT_SHARE: f64 = 0.3;
+const PILOT_SHARE: f64 = 0.4;
 
 /// Chooses for a resolved sweep of a wheel of `sectors`; `trial` looks up a run that is known.
 pub fn next<'a>(
@@ -228,7 +228,7 @@ impl Climb<'_, '_> {
         if self.pilots.rung((finer, finest, rung.steps), Some(rung)).is_ok() {
             return true;
         }
-        let dearer = Rung { step_s: rung.step_s * f64::from(finer) / f64::from(rung.modes), ..rung.clone() };
+        let dearer = Rung { step_s: rung.finer_step_s, ..rung.clone() };
         // At every pilot speed two more runs, of twice the steps and of twice the modes, and the reduction for those.
         let runs = self.wall(4 * self.pilots.speeds.len(), self.run_s(&dearer, rung.steps));
         let climb = runs + self.reduction_s(finest);

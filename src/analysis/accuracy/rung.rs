@@ -92,9 +92,10 @@ pub(super) struct Rung {
     /// Standard error of the level where a response does not repeat, and the speed where it is largest.
     pub(super) spread: f64,
     pub(super) spread_at: f64,
-    /// Mean times of a pilot run, s: set-up and of one step.
+    /// Mean times of a pilot run, s: set-up, one step, and one step of the runs with more modes.
     pub(super) set_up_s: f64,
     pub(super) step_s: f64,
+    pub(super) finer_step_s: f64,
     pub(super) pilots: Vec<Pilot>,
 }
 
@@ -200,6 +201,7 @@ impl<'a> Pilots<'a, '_> {
             spread_at: 0.0,
             set_up_s: 0.0,
             step_s: 0.0,
+            finer_step_s: 0.0,
             pilots: Vec::new(),
         };
         for (index, &speed) in self.speeds.iter().enumerate() {
@@ -211,6 +213,7 @@ impl<'a> Pilots<'a, '_> {
                 let share = 1.0 / self.speeds.len() as f64;
                 rung.set_up_s += share * run.cost.set_up_s;
                 rung.step_s += share * run.cost.per_revolution_s / f64::from(steps);
+                rung.finer_step_s += share * more_modes.cost.per_revolution_s / f64::from(steps);
             } else {
                 missing.extend(found.into_iter().filter_map(Result::err).map(|request| *request));
             }
