@@ -17,8 +17,9 @@ use crate::analysis::request::{SchemeChoice, SweepDirection, SweepRequest};
 use crate::analysis::result::{Point, PointStatus, SpeedSpectra, Verdict};
 use crate::analysis::speed::{Start, empty_point, ready, simulate};
 use crate::analysis::speeds::{SpeedSet, SpeedUnit, Speeds};
-use crate::analysis::stepping::MOST_STEPS;
+use crate::analysis::stepping::{MOST_STEPS, Stepping};
 use crate::dynamics::integrate::{Outcome, Run};
+use crate::dynamics::modal_wheel::ModalWheel;
 use crate::response::sensitivity::{self, Sensitivity};
 
 /// The knobs that accuracy and time depend on.
@@ -214,8 +215,14 @@ pub fn run_trial(
         spent += whole;
         // One that was never set up ran no revolution.
         let set_up = set_up.get().unwrap_or(whole);
-        let revolutions = f64::from(sweep.integration.revolutions);
-        repetitions.push((set_up.as_secs_f64(), (whole - set_up).as_secs_f64() / revolutions));
+        // A run that diverged made fewer than were asked for.
+        let made = |(_, stepping, run): &(ModalWheel, Stepping, Run)| {
+            run.statistics.steps as f64 / stepping.discretisation.per_revolution as f64
+        };
+        let revolutions = ran.as_ref().map_or(0.0, made);
+        let running = (whole - set_up).as_secs_f64();
+        let per_revolution = if revolutions > 0.0 { running / revolutions } else { 0.0 };
+        repetitions.push((set_up.as_secs_f64(), per_revolution));
         match ran {
             Err(message) => trial.point.message = Some(message),
             Ok(ran) => first = first.or(Some(ran)),
