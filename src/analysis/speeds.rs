@@ -122,7 +122,7 @@ impl Speeds {
     }
 
     /// Takes all of them as asked for: what one refinement added, another request may name.
-    pub(super) fn ask_for_all(&mut self) {
+    pub fn ask_for_all(&mut self) {
         match self {
             Self::One(set) => set.added = false,
             Self::Several(sets) => sets.iter_mut().for_each(|set| set.added = false),

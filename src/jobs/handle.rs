@@ -70,8 +70,9 @@ impl Jobs {
         let engine = &self.engine;
         let refused = SubmitError::Refused;
         let (request, facts, speeds) = match request {
-            JobRequest::Sweep(request) => {
+            JobRequest::Sweep(mut request) => {
                 let facts = self.facts(&request.model).await?;
+                request.speeds.ask_for_all();
                 let request = run::resolve_sweep(*request, &facts).map_err(refused)?;
                 let speeds = request.speeds.resolve().map_err(refused)?.len();
                 (JobRequest::Sweep(Box::new(request)), Some(facts), speeds)
@@ -107,8 +108,9 @@ impl Jobs {
     }
 
     /// Checks a sweep against its model and says what it would do and cost. Starts nothing, not even its reduction.
-    pub async fn plan_sweep(&self, request: SweepRequest) -> Result<SweepPlan, SubmitError> {
+    pub async fn plan_sweep(&self, mut request: SweepRequest) -> Result<SweepPlan, SubmitError> {
         let facts = self.facts(&request.model).await?;
+        request.speeds.ask_for_all();
         let mut request = run::resolve_sweep(request, &facts).map_err(SubmitError::Refused)?;
         let mut choice = None;
         if request.unchosen() {

@@ -68,7 +68,6 @@ impl Findings {
 /// Checks a sweep request against its model and fills in the default sensors.
 pub fn resolve_sweep(mut request: SweepRequest, facts: &ModelFacts) -> Result<SweepRequest, Vec<Violation>> {
     let mut found = Findings::default();
-    request.speeds.ask_for_all();
     check_knobs(&mut found, &request);
     check_modes(&mut found, request.modes());
     check_speeds(&mut found, &request.speeds, facts, request.scene.centrifugal_stiffening, false);
