@@ -3,6 +3,7 @@
 //! A scene is drawn as users have them: lobes higher than the clearance, light to fair damping, speeds over the whole range. True
 //! errors and estimates are printed; what is asserted is the share of scenes for which they agree within the stated bounds.
 
+use rubmap::analysis::accuracy::errors::Quantity;
 use rubmap::analysis::monitor::Unwatched;
 use rubmap::analysis::run::{
     FinerRun, Next, Resources, Setting, TrialRequest, control_requests, error_estimate, next, run_speed,
@@ -79,7 +80,9 @@ fn truth(wheel: &mut Wheel, request: &rubmap::analysis::request::SweepRequest) -
     };
     let trial = wheel.run(&TrialRequest::new(request, result.point.speed_rad_s, reference));
     let run = FinerRun { index: 0, setting: reference, spectra: &spectra, trial: &trial };
-    error_estimate(request, None, &[result.point], &[run]).controls[0].differences.unwrap().response()
+    let differences = error_estimate(request, None, &[result.point], &[run]).controls[0].differences.unwrap();
+    let amplitude = differences.judged(Quantity::Amplitude).unwrap();
+    amplitude.max(differences.engine_orders.unwrap_or(0.0))
 }
 
 fn outcome(wheel: &mut Wheel, draw: &mut Draw) -> Outcome {

@@ -77,12 +77,6 @@ impl Errors {
             Quantity::History | Quantity::EngineOrders | Quantity::Impulse => error,
         })
     }
-
-    /// Error of the steady response, which [`Accuracy`](crate::analysis::request::Accuracy) is about.
-    pub fn response(&self) -> f64 {
-        let amplitude = self.amplitude.max(self.amplitude_spread.unwrap_or(0.0));
-        amplitude.max(self.engine_orders.unwrap_or(0.0))
-    }
 }
 
 /// The steady response of a completed run, as it is compared.
@@ -204,7 +198,6 @@ mod tests {
         let found = response(&[1.2, 4.0], &[&[0.0, 1.0], &[3.3, 4.4]], &[], true);
         assert!((found.amplitude - 0.05).abs() < 1e-12 && found.amplitude_spread.is_none());
         assert!((found.engine_orders.unwrap() - 0.1).abs() < 1e-12 && found.impulse == Some(0.0));
-        assert!((found.response() - 0.1).abs() < 1e-12);
     }
 
     #[test]
@@ -213,6 +206,6 @@ mod tests {
         let found = response(&[1.0, 4.0], &[&[0.0, 1.0], &[9.0, 9.0]], &levels, false);
         let expected = 2f64.sqrt() * (0.04f64 * 4.0 / 3.0 / 4.0).sqrt() / 4.0;
         assert!(found.engine_orders.is_none() && (found.amplitude_spread.unwrap() - expected).abs() < 1e-12);
-        assert_eq!(found.response(), found.amplitude_spread.unwrap());
+        assert_eq!(found.judged(Quantity::Amplitude), found.amplitude_spread);
     }
 }
