@@ -13,6 +13,7 @@ use crate::config::Config;
 use crate::http::{self, AppState};
 use crate::jobs::{Runner, Settings};
 use crate::store::{Store, StoreError};
+use crate::tokens::{Tokens, TokensError};
 
 /// How long requests may take to end once the service is told to stop.
 const LAST_REQUESTS: Duration = Duration::from_secs(5);
@@ -46,6 +47,14 @@ pub enum StartError {
         .0.display()
     )]
     InUse(PathBuf),
+    /// The file of tokens cannot be used.
+    #[error(transparent)]
+    Tokens(#[from] TokensError),
+    /// Others would reach it, and nothing tells them apart.
+    #[error(
+        "{0} can be reached from other machines: say with --tokens FILE who may use the service, or with --open that everybody may"
+    )]
+    Exposed(SocketAddr),
     /// The database cannot be used.
     #[error(transparent)]
     Store(#[from] StoreError),
@@ -66,6 +75,10 @@ impl App {
     /// Opens the data folder, binds the address and resumes unfinished jobs.
     pub async fn build(config: Config) -> Result<Self, StartError> {
         let lock = lock(&config.data)?;
+        let tokens = config.tokens.as_deref().map(Tokens::read).transpose()?;
+        if tokens.is_none() && !config.open && !config.addr.ip().is_loopback() {
+            return Err(StartError::Exposed(config.addr));
+        }
         let store = Store::open(&config.data).await?;
         store.remove_leftovers().await;
         let bind = |source| StartError::Bind { addr: config.addr, source };
@@ -73,7 +86,12 @@ impl App {
         let addr = listener.local_addr().map_err(bind)?;
         let memory_bytes = config.memory_limit();
         let package_limits = config.upload_limits(memory_bytes);
-        let settings = Settings { data: config.data.clone(), workers: config.worker_threads(), memory_bytes };
+        let settings = Settings {
+            workers: config.worker_threads(),
+            memory_bytes,
+            keep_days: config.keep_days,
+            limits: config.owner_limits(),
+        };
         tracing::info!(
             %addr, data = %config.data.display(), workers = settings.workers, memory_bytes,
             expanded_bytes = package_limits.expanded_bytes, "starting"
@@ -81,6 +99,8 @@ impl App {
         let runner = Runner::start(store.clone(), settings).await?;
         let state = AppState {
             store: store.clone(),
+            tokens,
+            limits: config.owner_limits(),
             jobs: runner.jobs(),
             upload_bytes: config.upload_bytes,
             package_limits,
@@ -112,7 +132,10 @@ impl App {
         };
         tracing::info!("stopping");
         runner.stop().await;
-        store.close().await;
+        // A lock that another program holds would keep it for longer than who stops the service waits.
+        if tokio::time::timeout(Duration::from_secs(1), store.close()).await.is_err() {
+            tracing::warn!("the database is in use; its log is folded in at the next start");
+        }
         tracing::info!("stopped");
         served
     }

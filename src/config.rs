@@ -8,6 +8,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::package::Limits;
+use crate::store::limits as owner;
 
 /// Settings of the service.
 #[derive(Debug, Clone, Args)]
@@ -32,6 +33,30 @@ pub struct Config {
     #[arg(long, env = "RUBMAP_EXPANDED_BYTES")]
     pub expanded_bytes: Option<u64>,
 
+    /// Days after which finished jobs are deleted with their results [default: never].
+    #[arg(long, env = "RUBMAP_KEEP_DAYS", value_parser = clap::value_parser!(u32).range(1..=36_500))]
+    pub keep_days: Option<u32>,
+
+    /// File of bearer tokens (`rubmap token new`); with it every request needs one, and sees what belongs to its owner.
+    #[arg(long, env = "RUBMAP_TOKENS")]
+    pub tokens: Option<PathBuf>,
+
+    /// Serve everybody who can reach an address that is not this machine's own, without tokens.
+    #[arg(long, env = "RUBMAP_OPEN")]
+    pub open: bool,
+
+    /// Speeds that one owner may have waiting [default: no limit].
+    #[arg(long, env = "RUBMAP_OWNER_SPEEDS")]
+    pub owner_speeds: Option<u64>,
+
+    /// Bytes of models and results that one owner may have stored [default: no limit].
+    #[arg(long, env = "RUBMAP_OWNER_BYTES")]
+    pub owner_bytes: Option<u64>,
+
+    /// Models that one owner may have [default: no limit].
+    #[arg(long, env = "RUBMAP_OWNER_MODELS")]
+    pub owner_models: Option<u64>,
+
     /// Memory that reductions and generations may take, in bytes [default: three quarters of what the machine or container leaves].
     #[arg(long, env = "RUBMAP_MEMORY_BYTES", value_parser = clap::value_parser!(u64).range(1 << 20..))]
     pub memory_bytes: Option<u64>,
@@ -50,6 +75,15 @@ impl Config {
     pub fn memory_limit(&self) -> Option<u64> {
         // A quarter is left to packages being read, speeds being run and the system.
         self.memory_bytes.or_else(|| memory::available_bytes().map(|available| available / 4 * 3))
+    }
+
+    /// What one owner may have.
+    pub fn owner_limits(&self) -> owner::Limits {
+        owner::Limits {
+            queued_speeds: self.owner_speeds,
+            stored_bytes: self.owner_bytes,
+            models: self.owner_models,
+        }
     }
 
     /// Limits for uploads, with `memory_limit` bytes for reductions.

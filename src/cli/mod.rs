@@ -3,10 +3,12 @@
 mod demo;
 pub mod generate;
 mod import;
+mod keeping;
 mod serve;
 mod session;
 mod signals;
 mod study;
+mod token;
 
 use std::process::ExitCode;
 
@@ -30,6 +32,13 @@ enum Command {
     Study(study::StudyArgs),
     /// Run the HTTP service.
     Serve(Config),
+    /// Copy a data folder, while a service works on it or not.
+    Backup(keeping::BackupArgs),
+    /// Read everything in a data folder and say what is not as it was written.
+    Check(keeping::CheckArgs),
+    /// Make bearer tokens for a service that is not for everybody.
+    #[command(subcommand)]
+    Token(token::TokenCommand),
     /// Make a model package from a few parameters.
     Generate(generate::GenerateArgs),
     /// Make a model package from the files of a finite-element program.
@@ -41,7 +50,11 @@ impl Cli {
     /// What is logged unless `RUST_LOG` says otherwise: beside a progress bar only what went wrong.
     pub fn default_log(&self) -> &'static str {
         match self.command {
-            Command::Demo(_) | Command::Study(_) => "warn",
+            Command::Demo(_)
+            | Command::Study(_)
+            | Command::Backup(_)
+            | Command::Check(_)
+            | Command::Token(_) => "warn",
             Command::Serve(_) | Command::Generate(_) | Command::Import(_) => "info,apalis_core=warn",
         }
     }
@@ -51,7 +64,10 @@ impl Cli {
         match self.command {
             Command::Demo(args) => return demo::run(&args),
             Command::Study(args) => return study::run(&args),
+            Command::Check(args) => return keeping::check(args),
             Command::Serve(config) => serve::run(config)?,
+            Command::Token(command) => token::token(command)?,
+            Command::Backup(args) => keeping::backup(args)?,
             Command::Generate(args) => generate::generate(args)?,
             Command::Import(command) => import::import(command)?,
         }

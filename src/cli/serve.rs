@@ -8,7 +8,8 @@ use super::signals::stop_signal;
 
 /// Runs the service until SIGTERM or SIGINT.
 pub(super) fn run(config: Config) -> anyhow::Result<()> {
-    tokio::runtime::Builder::new_multi_thread().enable_all().build()?.block_on(async {
+    let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build()?;
+    let served = runtime.block_on(async {
         let stop_signal = stop_signal()?;
         let app = App::build(config).await?;
         let stop = CancellationToken::new();
@@ -20,5 +21,8 @@ pub(super) fn run(config: Config) -> anyhow::Result<()> {
         tracing::info!("listening on http://{}", app.addr());
         app.run_until_stopped(stop).await?;
         Ok(())
-    })
+    });
+    // What still reads or writes a file on another thread is not waited for: all that is kept is kept.
+    runtime.shutdown_background();
+    served
 }

@@ -9,6 +9,7 @@ use sha2::{Digest, Sha256};
 use super::problem::{Kind, Problem};
 use crate::store::Store;
 use crate::store::idempotency::Answer;
+use crate::tokens::Principal;
 
 const HEADER: &str = "Idempotency-Key";
 
@@ -29,9 +30,14 @@ impl<S: Send + Sync> FromRequestParts<S> for IdempotencyKey {
 
 impl IdempotencyKey {
     /// The answer given before under this key; a problem if that was to another request.
-    pub(super) async fn replay(&self, store: &Store, fingerprint: &str) -> Result<Option<Response>, Problem> {
+    pub(super) async fn replay(
+        &self,
+        store: &Store,
+        whose: &Principal,
+        fingerprint: &str,
+    ) -> Result<Option<Response>, Problem> {
         let Some(key) = &self.0 else { return Ok(None) };
-        let Some(answer) = store.answer(key).await? else { return Ok(None) };
+        let Some(answer) = store.answer(&whose.owner, key).await? else { return Ok(None) };
         if answer.fingerprint != fingerprint {
             let detail = format!("{HEADER} {key:?} was used for another request; use a new key");
             return Err(Problem::new(Kind::KeyReused, detail));

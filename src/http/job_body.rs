@@ -30,6 +30,8 @@ pub(super) struct JobBody {
     /// Its speeds, counted; a `model_generation` has none.
     #[serde(skip_serializing_if = "Option::is_none")]
     speeds: Option<SpeedCounts>,
+    /// Bytes that its results take in the data folder.
+    stored_bytes: u64,
     /// When it was accepted (RFC 3339).
     created_at: String,
     /// When computing began.
@@ -85,6 +87,7 @@ impl From<Job> for JobBody {
             links: links(job.id, kind, job.model.as_deref()),
             model: job.model,
             speeds: (job.speeds.total > 0).then_some(job.speeds),
+            stored_bytes: job.stored_bytes,
             created_at: job.created_at,
             started_at: job.started_at,
             finished_at: job.finished_at,

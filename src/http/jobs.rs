@@ -1,7 +1,9 @@
-//! Jobs: list, follow, cancel.
+//! Jobs: list, follow, cancel, delete.
 
 use axum::Json;
 use axum::extract::State;
+use axum::http::StatusCode;
+use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
 
@@ -9,10 +11,12 @@ use super::AppState;
 use super::extract::{JobPath, Parameters, job_not_found};
 use super::job_body::{JobBody, JobDetail};
 use super::page;
-use super::problem::{Kind, Problem};
+use super::problem::Problem;
+use super::results::find;
 use crate::jobs::Cancellation;
-use crate::store::jobs::{JobFilter, JobId, JobKind};
+use crate::store::jobs::{JobDeletion, JobFilter, JobId, JobKind};
 use crate::store::status::JobStatus;
+use crate::tokens::Principal;
 
 /// Which jobs to list.
 #[derive(Debug, Deserialize, IntoParams)]
@@ -49,11 +53,13 @@ pub(super) struct JobList {
     ))]
 pub(super) async fn list_jobs(
     state: State<AppState>,
+    whose: Principal,
     Parameters(query): Parameters<JobQuery>,
 ) -> Result<Json<JobList>, Problem> {
     let limit = page::limit(query.limit)?;
     let before = page::cursor(query.cursor.as_deref(), JobId::parse)?;
-    let filter = JobFilter { status: query.status, kind: query.kind, before };
+    let owner = whose.only().map(ToOwned::to_owned);
+    let filter = JobFilter { owner, status: query.status, kind: query.kind, before };
     // One more than asked for tells whether there is another page.
     let mut jobs = state.store.jobs(filter, limit + 1).await?;
     let next = page::cut(&mut jobs, limit).map(|last| {
@@ -79,9 +85,10 @@ pub(super) async fn list_jobs(
     ))]
 pub(super) async fn get_job(
     state: State<AppState>,
+    whose: Principal,
     JobPath(id): JobPath,
 ) -> Result<Json<JobDetail>, Problem> {
-    let job = state.store.job(id).await?.ok_or_else(|| job_not_found(&id))?;
+    let job = find(&state, &whose, id).await?;
     let reduction = match (job.request.model(), job.request.modes_per_speed()) {
         (Some(model), Some(modes_per_speed)) => {
             let mut reports = state.store.reduction_reports(model).await?.into_iter();
@@ -93,28 +100,34 @@ pub(super) async fn get_job(
     Ok(Json(JobDetail { job: job.into(), choice, reduction }))
 }
 
-/// Cancel a job.
+/// Cancel a job that has not ended, or delete one that has.
 ///
-/// Computing stops within moments. Speeds that were finished stay readable. Cancelling a cancelled job changes nothing.
-#[utoipa::path(delete, path = "/v1/jobs/{id}", operation_id = "cancel_job", tag = "jobs",
+/// Computing stops within moments, and speeds that were finished stay readable (200 with the job). Of a job that has ended, cancelled
+/// ones included, everything is deleted and its room given back (204).
+#[utoipa::path(delete, path = "/v1/jobs/{id}", operation_id = "delete_job", tag = "jobs",
     params(("id" = String, Path, description = "Id of the job.")),
     responses(
-        (status = 200, description = "The job is dismissed.", body = JobDetail),
+        (status = 200, description = "The job had not ended; it is dismissed.", body = JobDetail),
+        (status = 204, description = "The job had ended; it is gone with its results."),
         (status = 404, description = "There is no such job.", body = Problem,
             content_type = "application/problem+json"),
-        (status = 409, description = "The job has ended already.", body = Problem,
-            content_type = "application/problem+json"),
     ))]
-pub(super) async fn cancel_job(
+pub(super) async fn delete_job(
     state: State<AppState>,
+    whose: Principal,
     JobPath(id): JobPath,
-) -> Result<Json<JobDetail>, Problem> {
+) -> Result<Response, Problem> {
+    find(&state, &whose, id).await?;
+    match state.jobs.delete(id).await? {
+        JobDeletion::Deleted => return Ok(StatusCode::NO_CONTENT.into_response()),
+        JobDeletion::Unknown => return Err(job_not_found(&id)),
+        JobDeletion::Unfinished => {}
+    }
     match state.jobs.cancel(id).await? {
-        Cancellation::Dismissed => get_job(state, JobPath(id)).await,
         Cancellation::Unknown => Err(job_not_found(&id)),
-        Cancellation::AlreadyFinal(status) => {
-            let detail = format!("the job is {} and cannot be cancelled any more", status.as_str());
-            Err(Problem::new(Kind::JobFinished, detail))
+        // Ended in between: then it is there to be read, or deleted by another request.
+        Cancellation::Dismissed | Cancellation::AlreadyFinal(_) => {
+            Ok(get_job(state, whose, JobPath(id)).await?.into_response())
         }
     }
 }

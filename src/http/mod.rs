@@ -9,6 +9,7 @@ mod modal_analyses;
 mod models;
 mod openapi;
 mod page;
+mod principal;
 pub mod problem;
 mod results;
 mod router;
@@ -21,6 +22,8 @@ use std::sync::Arc;
 use crate::jobs::Jobs;
 use crate::package;
 use crate::store::Store;
+use crate::store::limits::Limits;
+use crate::tokens::Tokens;
 
 pub use openapi::document;
 pub use router::router;
@@ -30,6 +33,10 @@ pub use router::router;
 pub struct AppState {
     /// What is remembered.
     pub store: Store,
+    /// Who may use the service; `None`: whoever reaches it.
+    pub tokens: Option<Tokens>,
+    /// What one owner may have.
+    pub limits: Limits,
     /// What is computed.
     pub jobs: Jobs,
     /// Largest upload, in bytes as sent.

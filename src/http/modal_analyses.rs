@@ -12,6 +12,7 @@ use super::submit::{self, Receipt};
 use crate::analysis::request::ModalAnalysisRequest;
 use crate::analysis::run::ModalAnalysisPlan;
 use crate::store::jobs::JobRequest;
+use crate::tokens::Principal;
 
 /// Compute natural frequencies over speed and the linear interaction criterion.
 #[utoipa::path(post, path = "/v1/modal-analyses", operation_id = "create_modal_analysis", tag = "jobs",
@@ -40,10 +41,11 @@ use crate::store::jobs::JobRequest;
     ))]
 pub(super) async fn create_modal_analysis(
     state: State<AppState>,
+    whose: Principal,
     key: IdempotencyKey,
     body: JsonBody<ModalAnalysisRequest>,
 ) -> Result<Response, Problem> {
-    submit::accept(&state, key, &body.fingerprint, JobRequest::ModalAnalysis(body.value)).await
+    submit::accept(&state, &whose, key, &body.fingerprint, JobRequest::ModalAnalysis(body.value)).await
 }
 
 /// Say what a modal analysis would do and cost, without starting anything.
@@ -64,7 +66,8 @@ pub(super) async fn create_modal_analysis(
     ))]
 pub(super) async fn plan_modal_analysis(
     state: State<AppState>,
+    whose: Principal,
     body: JsonBody<ModalAnalysisRequest>,
 ) -> Result<Json<ModalAnalysisPlan>, Problem> {
-    Ok(Json(state.jobs.plan_modal_analysis(body.value).await?))
+    Ok(Json(state.jobs.plan_modal_analysis(&whose, body.value).await?))
 }

@@ -25,6 +25,7 @@ use crate::impeller::{GenerationPlan, ImpellerRequest};
 use crate::jobs::generation_of;
 use crate::store::idempotency::Answer;
 use crate::store::models::{Deletion, StoredModel};
+use crate::tokens::Principal;
 
 const JSON: &str = "application/json";
 
@@ -130,13 +131,14 @@ impl From<StoredModel> for ModelBody {
     ))]
 pub(super) async fn create_model(
     state: State<AppState>,
+    whose: Principal,
     key: IdempotencyKey,
     request: Request,
 ) -> Result<Response, Problem> {
     expect_media_type(request.headers(), &["application/zip", "application/x-zip-compressed", JSON])?;
     if is_media_type(request.headers(), JSON) {
         let body = JsonBody::<ImpellerRequest>::from_request(request, &state).await?;
-        return submit::accept(&state, key, &body.fingerprint, generation_of(&body.value)?).await;
+        return submit::accept(&state, &whose, key, &body.fingerprint, generation_of(&body.value)?).await;
     }
     let declared = request
         .headers()
@@ -149,13 +151,15 @@ pub(super) async fn create_model(
     let digest = idempotency::start(request.uri().path());
     let (upload, digest) = receive(&state, request.into_body(), digest).await?;
     let fingerprint = idempotency::finish(digest);
-    if let Some(response) = key.replay(&state.store, &fingerprint).await? {
+    if let Some(response) = key.replay(&state.store, &whose, &fingerprint).await? {
         return Ok(response);
     }
     let (facts, id) = state.jobs.read_package(upload.to_path_buf(), state.package_limits.clone()).await??;
-    let (model, new) = state.store.insert_model(&id, &facts, &upload).await?;
+    let owner = (whose.owner.as_str(), state.limits);
+    let (model, new) = state.store.insert_model(owner, &id, &facts, &upload).await??;
     tracing::info!(model.id = id, name = facts.name, new, "received a model");
     let answer = Answer {
+        owner: whose.owner.clone(),
         key: String::new(),
         fingerprint: String::new(),
         status: if new { StatusCode::CREATED } else { StatusCode::OK }.as_u16(),
@@ -232,12 +236,13 @@ fn too_large(limit: u64) -> Problem {
     ))]
 pub(super) async fn list_models(
     state: State<AppState>,
+    whose: Principal,
     Parameters(query): Parameters<ModelQuery>,
 ) -> Result<Json<ModelList>, Problem> {
     let limit = page::limit(query.limit)?;
     let before = page::cursor(query.cursor.as_deref(), |cursor| cursor.parse().ok())?;
     // One more than asked for tells whether there is another page.
-    let mut models = state.store.models(before, limit + 1).await?;
+    let mut models = state.store.models(whose.only(), before, limit + 1).await?;
     let next =
         page::cut(&mut models, limit).map(|last| format!("/v1/models?limit={limit}&cursor={}", last.number));
     Ok(Json(ModelList { models: models.into_iter().map(ModelBody::from).collect(), next }))
@@ -253,9 +258,10 @@ pub(super) async fn list_models(
     ))]
 pub(super) async fn get_model(
     state: State<AppState>,
+    whose: Principal,
     id: Path<String>,
 ) -> Result<Json<ModelDetail>, Problem> {
-    let model = state.store.model(&id).await?.ok_or_else(|| model_not_found(&id))?;
+    let model = state.store.model(&id, whose.only()).await?.ok_or_else(|| model_not_found(&id))?;
     let reductions = state.store.reduction_reports(&id).await?;
     Ok(Json(ModelDetail { model: model.into(), reductions }))
 }
@@ -272,8 +278,12 @@ pub(super) async fn get_model(
         (status = 409, description = "Unfinished jobs need the model.", body = Problem,
             content_type = "application/problem+json"),
     ))]
-pub(super) async fn delete_model(state: State<AppState>, id: Path<String>) -> Result<StatusCode, Problem> {
-    match state.store.delete_model(&id).await? {
+pub(super) async fn delete_model(
+    state: State<AppState>,
+    whose: Principal,
+    id: Path<String>,
+) -> Result<StatusCode, Problem> {
+    match state.store.delete_model(&id, whose.only()).await? {
         Deletion::Deleted => {
             tracing::info!(model.id = id.as_str(), "deleted a model");
             Ok(StatusCode::NO_CONTENT)

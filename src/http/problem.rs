@@ -13,9 +13,17 @@ use crate::jobs::{Panicked, SubmitError};
 use crate::package::PackageError;
 use crate::store::StoreError;
 use crate::store::jobs::{Failure, FailureCause};
+use crate::store::limits::LimitReached;
 
 /// Media type of problems.
 pub const MEDIA_TYPE: &str = "application/problem+json";
+
+/// Seconds after which it may be worth to try again: somebody has to make room.
+const FULL_DISK_S: u32 = 60;
+/// The same where jobs have to end, or somebody has to delete something.
+const LIMIT_S: u32 = 60;
+/// The same where a lock or descriptors are to be had again by themselves.
+const BUSY_S: u32 = 5;
 
 /// What went wrong, for programs and people (RFC 9457).
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]
@@ -32,6 +40,9 @@ pub struct Problem {
     /// Path of the request.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub instance: Option<String>,
+    /// Seconds after which the same request may succeed, as in the `Retry-After` header.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub retry_after_s: Option<u32>,
     /// Everything that is wrong, one by one.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub errors: Vec<ProblemItem>,
@@ -80,6 +91,10 @@ kinds! {
     InvalidParameter = BAD_REQUEST, "invalid-parameter", "A parameter is not valid";
     /// The request cannot be read for another reason.
     BadRequest = BAD_REQUEST, "bad-request", "The request cannot be read";
+    /// No token, or none that is known.
+    Unauthorized = UNAUTHORIZED, "unauthorized", "The service wants a token";
+    /// The token does not allow it.
+    Forbidden = FORBIDDEN, "forbidden", "The token does not allow this";
     /// No such route.
     NotFound = NOT_FOUND, "not-found", "There is nothing here";
     /// No such model.
@@ -92,8 +107,6 @@ kinds! {
     MethodNotAllowed = METHOD_NOT_ALLOWED, "method-not-allowed", "The method is not allowed here";
     /// Unfinished jobs need the model.
     ModelInUse = CONFLICT, "model-in-use", "Unfinished jobs need the model";
-    /// The job has ended already.
-    JobFinished = CONFLICT, "job-finished", "The job has ended already";
     /// This kind of job has no such result.
     WrongJobKind = CONFLICT, "wrong-job-kind", "This kind of job has no such result";
     /// The result is still to come.
@@ -116,6 +129,10 @@ kinds! {
     InvalidModel = UNPROCESSABLE_ENTITY, "invalid-model", "The model cannot be computed";
     /// The job needs more memory than the service may take.
     OutOfMemory = INSUFFICIENT_STORAGE, "out-of-memory", "The job needs more memory than allowed";
+    /// The owner has too much already.
+    LimitReached = TOO_MANY_REQUESTS, "limit-reached", "A limit of yours is reached";
+    /// The disk of the data folder is full.
+    DiskFull = INSUFFICIENT_STORAGE, "disk-full", "There is no room for it on the disk";
     /// The idempotency key belongs to another request.
     KeyReused = UNPROCESSABLE_ENTITY, "idempotency-key-reused", "The idempotency key belongs to another request";
     /// A defect of the program.
@@ -134,6 +151,7 @@ impl Problem {
             status: status.as_u16(),
             detail: detail.into(),
             instance: None,
+            retry_after_s: None,
             errors: Vec::new(),
         }
     }
@@ -142,6 +160,13 @@ impl Problem {
     #[must_use]
     pub fn with(mut self, item: ProblemItem) -> Self {
         self.errors.push(item);
+        self
+    }
+
+    /// That may be gone after so many seconds.
+    #[must_use]
+    pub fn retry_after(mut self, seconds: u32) -> Self {
+        self.retry_after_s = Some(seconds);
         self
     }
 
@@ -190,6 +215,14 @@ impl From<Violation> for ProblemItem {
 impl From<StoreError> for Problem {
     fn from(error: StoreError) -> Self {
         tracing::error!(%error, "store failed");
+        if error.is_disk_full() {
+            let detail = "the disk of the data folder is full; nothing was kept of this request: send it again once there is room";
+            return Self::new(Kind::DiskFull, detail).retry_after(FULL_DISK_S);
+        }
+        if error.may_pass() {
+            let detail = "the data folder cannot be used for the moment (a lock, no descriptors left); send the request again";
+            return Self::new(Kind::Unavailable, detail).retry_after(BUSY_S);
+        }
         Self::new(Kind::Internal, "the data folder failed; the service's log says more")
     }
 }
@@ -215,6 +248,10 @@ impl From<Panicked> for Problem {
 
 impl From<Box<PackageError>> for Problem {
     fn from(error: Box<PackageError>) -> Self {
+        if let PackageError::Io { source } = *error {
+            // Says nothing about the package.
+            return source.into();
+        }
         let item = ProblemItem {
             file: error.file().map(ToOwned::to_owned),
             line: error.line(),
@@ -234,10 +271,17 @@ impl From<SubmitError> for Problem {
                 Self::violations(Kind::InvalidRequest, vec![Violation::new("/model", message)])
             }
             SubmitError::Refused(violations) => Self::violations(Kind::InvalidRequest, violations),
+            SubmitError::Limit(reached) => reached.into(),
             SubmitError::KeyTaken => Self::new(Kind::KeyReused, error.to_string()),
             SubmitError::Store(error) => error.into(),
             SubmitError::Defect(error) => error.into(),
         }
+    }
+}
+
+impl From<LimitReached> for Problem {
+    fn from(reached: LimitReached) -> Self {
+        Self::new(Kind::LimitReached, reached.to_string()).retry_after(LIMIT_S)
     }
 }
 
@@ -247,6 +291,7 @@ impl From<&Failure> for Problem {
             FailureCause::Refused => Kind::InvalidRequest,
             FailureCause::Model => Kind::InvalidModel,
             FailureCause::Memory => Kind::OutOfMemory,
+            FailureCause::Limit => Kind::LimitReached,
             FailureCause::Package | FailureCause::Defect | FailureCause::Storage => Kind::Internal,
         };
         let mut problem = Self::new(kind, failure.message.clone());
@@ -260,6 +305,9 @@ impl IntoResponse for Problem {
         let status = StatusCode::from_u16(self.status).unwrap_or(StatusCode::INTERNAL_SERVER_ERROR);
         let mut response = (status, Json(&self)).into_response();
         response.headers_mut().insert(header::CONTENT_TYPE, HeaderValue::from_static(MEDIA_TYPE));
+        if let Some(seconds) = self.retry_after_s {
+            response.headers_mut().insert(header::RETRY_AFTER, seconds.into());
+        }
         response.extensions_mut().insert(self);
         response
     }

@@ -19,6 +19,7 @@ use crate::dynamics::sector::Units;
 use crate::store::jobs::{Job, JobId, JobKind, JobRequest};
 use crate::store::results::Document;
 use crate::store::status::JobStatus;
+use crate::tokens::Principal;
 
 /// Which part of an interaction map to download.
 #[derive(Debug, Deserialize, IntoParams)]
@@ -73,10 +74,11 @@ pub(super) struct SpectraBody {
     ))]
 pub(super) async fn get_interaction_map(
     state: State<AppState>,
+    whose: Principal,
     JobPath(id): JobPath,
     Parameters(query): Parameters<MapQuery>,
 ) -> Result<Json<InteractionMap>, Problem> {
-    let job = find(&state, id).await?;
+    let job = find(&state, &whose, id).await?;
     let (request, facts) = sweep(&job)?;
     check_sensor(request, query.sensor)?;
     let largest = facts.sectors / 2;
@@ -109,10 +111,11 @@ pub(super) async fn get_interaction_map(
     ))]
 pub(super) async fn get_spectra(
     state: State<AppState>,
+    whose: Principal,
     path: Path<(String, String)>,
 ) -> Result<Json<SpectraBody>, Problem> {
     let id = JobId::parse(&path.0.0).ok_or_else(|| job_not_found(&path.0.0))?;
-    let job = find(&state, id).await?;
+    let job = find(&state, &whose, id).await?;
     let (_, facts) = sweep(&job)?;
     let total = job.speeds.total;
     let index = path.0.1.parse().ok().filter(|index| *index < total).ok_or_else(|| {
@@ -145,10 +148,11 @@ pub(super) async fn get_spectra(
     ))]
 pub(super) async fn get_critical_speeds(
     state: State<AppState>,
+    whose: Principal,
     JobPath(id): JobPath,
     Parameters(query): Parameters<SensorQuery>,
 ) -> Result<Response, Problem> {
-    let job = find(&state, id).await?;
+    let job = find(&state, &whose, id).await?;
     check_sensor(sweep(&job)?.0, query.sensor)?;
     document(&state, &job, Document::CriticalSpeeds(query.sensor)).await
 }
@@ -163,16 +167,22 @@ pub(super) async fn get_critical_speeds(
         (status = 409, description = "The job is not a modal analysis, not finished, or ended without this result.",
             body = Problem, content_type = "application/problem+json"),
     ))]
-pub(super) async fn get_campbell(state: State<AppState>, JobPath(id): JobPath) -> Result<Response, Problem> {
-    let job = find(&state, id).await?;
+pub(super) async fn get_campbell(
+    state: State<AppState>,
+    whose: Principal,
+    JobPath(id): JobPath,
+) -> Result<Response, Problem> {
+    let job = find(&state, &whose, id).await?;
     if !matches!(job.request, JobRequest::ModalAnalysis(_)) {
         return Err(wrong_kind(&job, JobKind::ModalAnalysis));
     }
     document(&state, &job, Document::Campbell).await
 }
 
-pub(super) async fn find(state: &AppState, id: JobId) -> Result<Job, Problem> {
-    state.store.job(id).await?.ok_or_else(|| job_not_found(&id))
+/// The job `id`, if who asks may see it: jobs of others are as if they were not there.
+pub(super) async fn find(state: &AppState, whose: &Principal, id: JobId) -> Result<Job, Problem> {
+    let job = state.store.job(id).await?.filter(|job| whose.sees(&job.owner));
+    job.ok_or_else(|| job_not_found(&id))
 }
 
 /// The request of a sweep and the facts of its model.

@@ -18,6 +18,7 @@ use crate::analysis::run::{Histories, StudyRequest, WorkPrecision};
 use crate::plot;
 use crate::store::jobs::{Job, JobKind, JobRequest};
 use crate::store::results::Document;
+use crate::tokens::Principal;
 
 /// Form of a download.
 #[derive(Debug, Clone, Copy, Default, Deserialize, ToSchema)]
@@ -118,10 +119,11 @@ pub(super) struct HistoriesQuery {
     ))]
 pub(super) async fn create_study(
     state: State<AppState>,
+    whose: Principal,
     key: IdempotencyKey,
     body: JsonBody<StudyRequest>,
 ) -> Result<Response, Problem> {
-    submit::accept(&state, key, &body.fingerprint, JobRequest::Study(Box::new(body.value))).await
+    submit::accept(&state, &whose, key, &body.fingerprint, JobRequest::Study(Box::new(body.value))).await
 }
 
 /// Download errors and times of a study.
@@ -139,10 +141,11 @@ pub(super) async fn create_study(
     ))]
 pub(super) async fn get_work_precision(
     state: State<AppState>,
+    whose: Principal,
     JobPath(id): JobPath,
     Parameters(query): Parameters<WorkPrecisionQuery>,
 ) -> Result<Response, Problem> {
-    let job = find(&state, id).await?;
+    let job = find(&state, &whose, id).await?;
     check_speed(&job, query.speed)?;
     let body = document_body(&state, &job, Document::WorkPrecision).await?;
     let document = || parse::<WorkPrecision>(&body);
@@ -171,10 +174,11 @@ pub(super) async fn get_work_precision(
     ))]
 pub(super) async fn get_histories(
     state: State<AppState>,
+    whose: Principal,
     JobPath(id): JobPath,
     Parameters(query): Parameters<HistoriesQuery>,
 ) -> Result<Response, Problem> {
-    let job = find(&state, id).await?;
+    let job = find(&state, &whose, id).await?;
     let request = check_speed(&job, query.speed)?;
     let sensors = request.sensors.len();
     if query.sensor as usize >= sensors {

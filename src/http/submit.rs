@@ -13,6 +13,7 @@ use crate::jobs::SubmitError;
 use crate::store::idempotency::Answer;
 use crate::store::jobs::{JobId, JobKind, JobRequest};
 use crate::store::status::JobStatus;
+use crate::tokens::Principal;
 
 /// A job just accepted.
 #[derive(Debug, Serialize, ToSchema)]
@@ -31,27 +32,29 @@ pub(super) struct Receipt {
 /// Accepts a job, or repeats the answer given before under its key.
 pub(super) async fn accept(
     state: &AppState,
+    whose: &Principal,
     key: IdempotencyKey,
     fingerprint: &str,
     request: JobRequest,
 ) -> Result<Response, Problem> {
-    if let Some(response) = key.replay(&state.store, fingerprint).await? {
+    if let Some(response) = key.replay(&state.store, whose, fingerprint).await? {
         return Ok(response);
     }
     let (id, kind) = (JobId::new(), request.kind());
     let links = links(id, kind, request.model());
     let receipt = Receipt { id: id.to_string(), kind, status: JobStatus::Accepted, links };
     let answer = Answer {
+        owner: whose.owner.clone(),
         key: String::new(),
         fingerprint: String::new(),
         status: StatusCode::ACCEPTED.as_u16(),
         location: format!("/v1/jobs/{id}"),
         body: serde_json::to_string(&receipt)?,
     };
-    match state.jobs.submit(id, request, key.answer(fingerprint, &answer).as_ref()).await {
+    match state.jobs.submit(whose, id, request, key.answer(fingerprint, &answer).as_ref()).await {
         Ok(()) => Ok(idempotency::respond(&answer)),
         Err(error @ SubmitError::KeyTaken) => {
-            key.replay(&state.store, fingerprint).await?.ok_or_else(|| error.into())
+            key.replay(&state.store, whose, fingerprint).await?.ok_or_else(|| error.into())
         }
         Err(error) => Err(error.into()),
     }

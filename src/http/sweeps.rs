@@ -12,6 +12,7 @@ use super::submit::{self, Receipt};
 use crate::analysis::request::SweepRequest;
 use crate::analysis::run::SweepPlan;
 use crate::store::jobs::JobRequest;
+use crate::tokens::Principal;
 
 /// Simulate contact over rotational speeds.
 ///
@@ -58,10 +59,11 @@ use crate::store::jobs::JobRequest;
     ))]
 pub(super) async fn create_sweep(
     state: State<AppState>,
+    whose: Principal,
     key: IdempotencyKey,
     body: JsonBody<SweepRequest>,
 ) -> Result<Response, Problem> {
-    submit::accept(&state, key, &body.fingerprint, JobRequest::Sweep(Box::new(body.value))).await
+    submit::accept(&state, &whose, key, &body.fingerprint, JobRequest::Sweep(Box::new(body.value))).await
 }
 
 /// Say what a sweep would do and cost, without starting anything.
@@ -84,7 +86,8 @@ pub(super) async fn create_sweep(
     ))]
 pub(super) async fn plan_sweep(
     state: State<AppState>,
+    whose: Principal,
     body: JsonBody<SweepRequest>,
 ) -> Result<Json<SweepPlan>, Problem> {
-    Ok(Json(state.jobs.plan_sweep(body.value).await?))
+    Ok(Json(state.jobs.plan_sweep(&whose, body.value).await?))
 }

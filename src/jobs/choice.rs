@@ -155,5 +155,5 @@ async fn resources(
 ) -> Result<Resources, StoreError> {
     let reports = engine.store.reduction_reports(model).await?;
     let reductions = reports.iter().map(|report| (report.modes_per_speed, report.wall_time_s)).collect();
-    Ok(Resources { workers: engine.pool.threads(), spent_s, reductions, most_modes })
+    Ok(Resources { workers: engine.computing.threads(), spent_s, reductions, most_modes })
 }

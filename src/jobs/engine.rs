@@ -3,28 +3,36 @@
 use std::collections::HashMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
 use tokio::sync::Notify;
 
-use super::error::Halt;
+use super::computing::Computing;
+use super::error::{self, Halt};
 use super::memory::Memory;
+use super::patience::{BETWEEN_ATTEMPTS, patiently};
 use super::plans::Calibrated;
 use super::pool::CpuPool;
-use super::progress::{News, Watch};
+use super::progress::{News, PhaseMonitor, Watch};
 use super::reductions::Reductions;
-use super::room::once_there_is_room;
-use crate::store::Store;
+use super::turns::Turns;
+use crate::analysis::monitor::Monitor;
 use crate::store::jobs::{Chosen, Failure, FailureCause, Job, JobId, JobRequest};
-use crate::store::queue::QueueFile;
+use crate::store::limits::Limits;
+use crate::store::queue::{Queue, RunSpeed};
 use crate::store::status::JobStatus;
+use crate::store::{Store, StoreError};
+
+/// How long a job waits for the package of its model to be put back.
+const MISSING_PACKAGE: Duration = Duration::from_secs(600);
 
 /// What all tasks share.
 #[derive(Debug)]
 pub(super) struct Engine {
     pub(super) store: Store,
-    pub(super) queue: QueueFile,
-    pub(super) pool: CpuPool,
-    /// Reads uploads, so that they do not wait behind speeds.
+    pub(super) queue: Queue,
+    pub(super) computing: Arc<Computing>,
+    /// Reads and writes packages, so that uploads do not wait behind speeds.
     pub(super) importer: CpuPool,
     /// Plans, which are wanted at once.
     pub(super) planner: CpuPool,
@@ -32,10 +40,20 @@ pub(super) struct Engine {
     pub(super) calibrated: Calibrated,
     /// What reductions and generations may take together.
     pub(super) memory: Arc<Memory>,
-    /// Rung when there is something new to prepare.
+    /// What one owner may have.
+    pub(super) limits: Limits,
+    /// Jobs to be prepared.
+    pub(super) preparations: Turns<()>,
+    /// Speeds to be run.
+    pub(super) speeds: Turns<u32>,
+    /// Rung when a task was added or has ended: perhaps one can be handed out.
+    pub(super) turn: Notify,
+    /// Rung when there is something new to prepare in the queue.
     pub(super) new_preparation: Arc<Notify>,
-    /// Rung when there are new speeds to run.
+    /// Rung when there are new speeds in the queue.
     pub(super) new_speeds: Arc<Notify>,
+    /// Rung when a job was deleted, whose room can be given back.
+    pub(super) deleted: Notify,
     /// Set when the service stops: computations end, their jobs stay as they are.
     pub(super) stopping: Arc<AtomicBool>,
     live: Mutex<HashMap<JobId, Arc<Live>>>,
@@ -47,6 +65,7 @@ pub(super) struct Engine {
 #[derive(Debug)]
 pub(super) struct Live {
     pub(super) id: JobId,
+    pub(super) owner: String,
     pub(super) request: JobRequest,
     pub(super) speeds: u32,
     /// Its speeds in the order in which each starts from the end of the one before; none where each is on its own.
@@ -76,20 +95,30 @@ fn chain(request: &JobRequest) -> Option<Vec<u32>> {
 impl Engine {
     pub(super) fn new(
         store: Store,
-        queue: QueueFile,
+        queue: Queue,
         (pool, importer, planner): (CpuPool, CpuPool, CpuPool),
         memory: Memory,
+        limits: Limits,
+        preparations: usize,
     ) -> Arc<Self> {
         let memory = Arc::new(memory);
+        let threads = pool.threads();
+        let computing = Arc::new(Computing::new(store.clone(), pool));
         Arc::new(Self {
-            reductions: Reductions::new(store.clone(), pool.clone(), Arc::clone(&memory)),
+            reductions: Reductions::new(store.clone(), Arc::clone(&computing), Arc::clone(&memory)),
             calibrated: Calibrated::new(store.clone()),
             memory,
+            limits,
             store,
             queue,
-            pool,
+            computing,
             importer,
             planner,
+            preparations: Turns::new(preparations),
+            // One for each thread to take as soon as it is done with another.
+            speeds: Turns::new(2 * threads),
+            turn: Notify::new(),
+            deleted: Notify::new(),
             new_preparation: Arc::default(),
             new_speeds: Arc::default(),
             stopping: Arc::default(),
@@ -106,13 +135,15 @@ impl Engine {
         if let Some(live) = self.lock_live().get(&id) {
             return Ok(Some(Arc::clone(live)));
         }
-        let Some(Job { request, status, speeds, .. }) = self.store.job(id).await? else { return Ok(None) };
+        let Some(Job { request, status, speeds, owner, .. }) = self.store.job(id).await? else {
+            return Ok(None);
+        };
         if status.is_final() {
             return Ok(None);
         }
         let watch = Watch::new(id, speeds.total, Arc::clone(&self.stopping), Arc::clone(&self.news));
         let chain = chain(&request);
-        let live = Live { id, request, speeds: speeds.total, chain, watch };
+        let live = Live { id, owner, request, speeds: speeds.total, chain, watch };
         let live = Arc::clone(self.lock_live().entry(id).or_insert_with(|| Arc::new(live)));
         // A dismissal between the two lines above found nobody to tell.
         if self.store.job(id).await?.is_none_or(|job| job.status.is_final()) {
@@ -135,14 +166,15 @@ impl Engine {
         speeds: u32,
     ) -> Result<Arc<Live>, Halt> {
         let write = || self.store.revise_request(job.id, &request, speeds);
-        if !once_there_is_room(&job.watch, write).await? {
+        if !patiently(&job.watch, write).await? {
             return Err(Halt::NotWanted);
         }
         let chain = chain(&request);
         let mut all = self.lock_live();
         let current = all.get_mut(&job.id).filter(|current| current.speeds <= speeds);
         let Some(current) = current else { return Err(Halt::NotWanted) };
-        let revised = Live { id: job.id, request, speeds, chain, watch: Arc::clone(&current.watch) };
+        let owner = job.owner.clone();
+        let revised = Live { id: job.id, owner, request, speeds, chain, watch: Arc::clone(&current.watch) };
         *current = Arc::new(revised);
         current.watch.expect_speeds(speeds);
         Ok(Arc::clone(current))
@@ -155,17 +187,41 @@ impl Engine {
         request: JobRequest,
         choice: Chosen,
     ) -> Result<Arc<Live>, Halt> {
-        once_there_is_room(&job.watch, || self.store.record_choice(job.id, &choice)).await?;
+        patiently(&job.watch, || self.store.record_choice(job.id, &choice)).await?;
         self.revise(job, request, job.speeds).await
     }
 
-    /// Stops all computations of a job that has become final and takes its waiting tasks out of the queue.
-    pub(super) async fn retire(&self, id: JobId) {
-        self.forget(id);
-        if let Err(error) = self.queue.withdraw_speeds(id).await {
-            // The tasks will find that their job is final.
-            tracing::warn!(job.id = %id, %error, "could not withdraw the speeds of a job");
+    /// Has a job prepared, when it is its turn.
+    pub(super) fn queue_preparation(&self, owner: &str, job: JobId) {
+        self.preparations.add(owner, job, [()]);
+        self.turn.notify_one();
+    }
+
+    /// Has speeds of a job run in this order, when it is their turn.
+    pub(super) fn queue_speeds(&self, job: &Live, speeds: impl IntoIterator<Item = u32>) {
+        self.speeds.add(&job.owner, job.id, speeds);
+        self.turn.notify_one();
+    }
+
+    /// Gives the queue the tasks whose turn it is.
+    pub(super) async fn hand_out(&self) -> Result<(), StoreError> {
+        while let Some((job, ())) = self.preparations.next() {
+            self.queue.push_preparation(job).await?;
+            self.new_preparation.notify_one();
         }
+        while let Some((job, speed)) = self.speeds.next() {
+            self.queue.push_speed(RunSpeed { job, speed }).await?;
+            self.new_speeds.notify_one();
+        }
+        Ok(())
+    }
+
+    /// Stops all computations of a job that has become final and drops its waiting tasks.
+    pub(super) fn retire(&self, id: JobId) {
+        self.preparations.withdraw(id);
+        self.speeds.withdraw(id);
+        self.computing.acquit(id);
+        self.forget(id);
     }
 
     /// Drops the job from memory and tells whoever still computes for it to stop.
@@ -175,32 +231,64 @@ impl Engine {
         }
     }
 
-    /// Records how a task of job `id` ended, if that matters.
-    pub(super) async fn settle(&self, id: JobId, outcome: Result<(), Halt>) {
-        let failure = match outcome {
-            Ok(()) | Err(Halt::NotWanted) => return,
-            Err(Halt::Failed(failure)) => failure,
-            Err(Halt::Store(error)) if self.stopping.load(Ordering::Relaxed) => {
-                // Connections end in any order now; the next start takes the job up again.
-                tracing::warn!(job.id = %id, %error, "store failed while stopping");
+    /// Works on a task of job `id` to its end, and records it if that matters. A task that the store lets down for a while
+    /// is begun again until it can: what it has finished it finds there.
+    pub(super) async fn attend<T>(&self, id: JobId, mut task: impl FnMut() -> T)
+    where
+        T: Future<Output = Result<(), Halt>>,
+    {
+        let begin = Instant::now();
+        let mut warned = false;
+        loop {
+            let outcome = match task().await {
+                Ok(()) | Err(Halt::NotWanted) => return,
+                Err(Halt::Failed(failure)) => Ok(failure),
+                Err(Halt::Store(error))
+                    if error.is_missing_package() && begin.elapsed() > MISSING_PACKAGE =>
+                {
+                    Ok(error::lost_package())
+                }
+                Err(Halt::Store(error)) if error.may_pass() => Err(error),
+                Err(Halt::Store(error)) => {
+                    tracing::error!(job.id = %id, %error, "the store failed");
+                    Ok(error::unreadable())
+                }
+            };
+            let outcome = match outcome {
+                Ok(failure) => self.fail(id, &failure).await,
+                Err(error) => Err(error),
+            };
+            let Err(error) = outcome else { return };
+            if self.stopping.load(Ordering::Relaxed) {
+                // The next start takes the job up again.
                 return;
             }
-            Err(Halt::Store(error)) => Failure {
-                cause: FailureCause::Storage,
-                message: format!("the data folder failed: {error}"),
-                violations: Vec::new(),
-            },
-        };
+            if !warned {
+                tracing::error!(job.id = %id, %error, "a job waits until the data folder works again");
+                warned = true;
+            }
+            self.tell(id, error::waiting_for(&error));
+            tokio::time::sleep(BETWEEN_ATTEMPTS).await;
+        }
+    }
+
+    /// Shows what a job waits for.
+    fn tell(&self, id: JobId, phase: &str) {
+        if let Some(live) = self.lock_live().get(&id) {
+            PhaseMonitor::uncounted(Arc::clone(&live.watch)).progress(0.0, phase);
+        }
+    }
+
+    /// Records that a job has failed.
+    pub(super) async fn fail(&self, id: JobId, failure: &Failure) -> Result<(), StoreError> {
         if failure.cause == FailureCause::Refused {
             tracing::info!(job.id = %id, "refused: {}", failure.message);
         } else {
             tracing::error!(job.id = %id, cause = ?failure.cause, "job failed: {}", failure.message);
         }
-        if let Err(error) = self.store.advance_job(id, JobStatus::Failed, Some(&failure)).await {
-            // It stays unfinished and is tried again at the next start.
-            tracing::error!(job.id = %id, %error, "could not record the failure of a job");
-        }
-        self.retire(id).await;
+        self.store.advance_job(id, JobStatus::Failed, Some(failure)).await?;
+        self.retire(id);
+        Ok(())
     }
 
     fn lock_live(&self) -> std::sync::MutexGuard<'_, HashMap<JobId, Arc<Live>>> {

@@ -6,6 +6,7 @@ use crate::impeller::ImpellerError;
 use crate::package::PackageError;
 use crate::store::StoreError;
 use crate::store::jobs::{Failure, FailureCause};
+use crate::store::limits::LimitReached;
 
 /// How to get more memory.
 const MORE_MEMORY: &str = "let the service take more (--memory-bytes or RUBMAP_MEMORY_BYTES, of which seven eighths go to \
@@ -23,6 +24,23 @@ pub(super) enum Halt {
 }
 
 impl Halt {
+    /// The stored package of a model cannot be read: for a while, or because it is not what it was.
+    pub(super) fn stored_package(error: PackageError) -> Self {
+        match error {
+            PackageError::Io { source } => Self::Store(StoreError::Package(source)),
+            error => {
+                let message = format!("the stored package cannot be read any more: {error}");
+                Self::Failed(Failure { cause: FailureCause::Package, message, violations: Vec::new() })
+            }
+        }
+    }
+
+    /// The owner of the job has too much already.
+    pub(super) fn limit(reached: LimitReached) -> Self {
+        let message = reached.to_string();
+        Self::Failed(Failure { cause: FailureCause::Limit, message, violations: Vec::new() })
+    }
+
     /// The generator made a package that the importer refuses.
     pub(super) fn generated_package(error: PackageError) -> Self {
         let message = format!("these parameters give no valid model: {error}");
@@ -40,15 +58,39 @@ impl Halt {
         );
         Self::Failed(Failure { cause: FailureCause::Memory, message, violations: Vec::new() })
     }
+}
 
-    /// The service died under the job too often.
-    pub(super) fn crashed(times: u32) -> Self {
-        let message = format!(
-            "the service ended {times} times while it computed this job, without finishing anything of it in between; \
-             most likely it ran out of memory: ask for less (modes_per_speed, mesh), or give the service more"
-        );
-        Self::Failed(Failure { cause: FailureCause::Defect, message, violations: Vec::new() })
+/// What a job waits for whose task the store has let down, in words.
+pub(super) fn waiting_for(error: &StoreError) -> &'static str {
+    if error.is_disk_full() {
+        "waiting for room on the disk of the data folder"
+    } else if error.is_missing_package() {
+        "waiting for the package of its model, which is not in the data folder: upload it again"
+    } else {
+        "waiting for the data folder, which cannot be used for the moment"
     }
+}
+
+/// The package of a job's model has been missing for too long.
+pub(super) fn lost_package() -> Failure {
+    let message = "the package of its model is not in the data folder any more; upload the model and send the job again";
+    Failure { cause: FailureCause::Package, message: message.to_owned(), violations: Vec::new() }
+}
+
+/// Something stored does not read back.
+pub(super) fn unreadable() -> Failure {
+    let message = "the data folder holds something that cannot be read; the service's log says more";
+    Failure { cause: FailureCause::Storage, message: message.to_owned(), violations: Vec::new() }
+}
+
+/// The service died under a job too often.
+pub(super) fn crashed(times: u32) -> Failure {
+    let message = format!(
+        "the service ended {times} times while it computed this job and nothing else that it ended under before, \
+         without finishing anything of it in between; why, the logs of the service and of the system say. If it was memory, \
+         ask for less (modes_per_speed, mesh) or give the service less of it (--memory-bytes)"
+    );
+    Failure { cause: FailureCause::Defect, message, violations: Vec::new() }
 }
 
 impl From<StoreError> for Halt {

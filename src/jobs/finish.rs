@@ -3,8 +3,8 @@
 use super::control;
 use super::engine::{Engine, Live};
 use super::error::Halt;
+use super::patience::patiently;
 use super::progress::PhaseMonitor;
-use super::room::once_there_is_room;
 use crate::analysis::error::AnalysisError;
 use crate::analysis::request::SweepRequest;
 use crate::analysis::result::Point;
@@ -22,7 +22,9 @@ pub(super) async fn sweep(engine: &Engine, job: &Live, request: &SweepRequest) -
     }
     if request.refine {
         let (settings, finished) = (request.clone(), points.clone());
-        if let Some(refined) = engine.pool.run(move || run::refine(&settings, &finished)).await? {
+        if let Some(refined) =
+            engine.computing.run(&job.watch, move || run::refine(&settings, &finished)).await?
+        {
             return more_speeds(engine, job, refined).await;
         }
     }
@@ -34,9 +36,8 @@ async fn more_speeds(engine: &Engine, job: &Live, request: SweepRequest) -> Resu
     let speeds = request.speeds.resolve().map_err(AnalysisError::Refused)?.len() as u32;
     let revised = engine.revise(job, JobRequest::Sweep(Box::new(request)), speeds).await?;
     tracing::info!(job.id = %job.id, speeds, added = speeds - job.speeds, "refining");
-    let added: Vec<u32> = (job.speeds..revised.speeds).collect();
-    engine.queue.push_speeds(job.id, &added).await?;
-    engine.new_speeds.notify_one();
+    let added = job.speeds..revised.speeds;
+    engine.queue_speeds(&revised, added);
     Ok(())
 }
 
@@ -53,7 +54,7 @@ async fn conclude(
     let (settings, estimate) = (request.clone(), errors.clone());
     let monitor = PhaseMonitor::uncounted(job.watch.clone());
     let compute = move || run::critical_speeds(&reduced, &settings, &points, estimate.as_ref(), &monitor);
-    let mut tables = engine.pool.run(compute).await??;
+    let mut tables = engine.computing.run(&job.watch, compute).await??;
     let plan = engine.store.job(job.id).await?.and_then(|job| job.plan);
     tables.iter_mut().for_each(|table| table.plan.clone_from(&plan));
     let mut documents = (0..)
@@ -74,7 +75,7 @@ pub(super) async fn complete(
     made: Option<&str>,
 ) -> Result<(), Halt> {
     let write = || engine.store.complete_job(job.id, documents, made);
-    if once_there_is_room(&job.watch, write).await? {
+    if patiently(&job.watch, write).await? {
         tracing::info!(job.id = %job.id, "successful");
     }
     engine.forget(job.id);

@@ -9,9 +9,9 @@ use tempfile::TempPath;
 use super::engine::{Engine, Live};
 use super::error::Halt;
 use super::finish;
+use super::patience::patiently;
 use super::pool::Panicked;
 use super::progress::PhaseMonitor;
-use super::room::once_there_is_room;
 use crate::analysis::monitor::Monitor;
 use crate::analysis::run::ModelFacts;
 use crate::impeller::{ImpellerParameters, generate, generation_bytes, impeller_sector};
@@ -30,8 +30,8 @@ pub(super) async fn run(engine: &Engine, job: &Live, parameters: &ImpellerParame
     wanted(0.0, "meshing")?;
     let asked = parameters.clone();
     let (nodes, needed_bytes) = engine
-        .pool
-        .run(move || {
+        .computing
+        .run(&job.watch, move || {
             impeller_sector(&asked).map(|sector| (sector.mesh.nodes.len(), generation_bytes(&sector)))
         })
         .await??;
@@ -48,12 +48,12 @@ pub(super) async fn run(engine: &Engine, job: &Live, parameters: &ImpellerParame
     }
     wanted(0.05, "assembling matrices, solving the centrifugal pre-stress")?;
     let asked = parameters.clone();
-    let package = engine.pool.run_parallel(move || generate(&asked)).await??;
+    let package = engine.computing.run_parallel(&job.watch, move || generate(&asked)).await??;
 
     wanted(0.5, "writing the package")?;
     let package = Arc::new(package);
     let write = || write(engine, Arc::clone(&package));
-    let upload = once_there_is_room(&job.watch, write).await??;
+    let upload = patiently(&job.watch, write).await??;
     drop(package);
 
     wanted(0.8, "checking the package")?;
@@ -61,11 +61,13 @@ pub(super) async fn run(engine: &Engine, job: &Live, parameters: &ImpellerParame
     let read = move || {
         package::read(&path, &Limits::default()).map(|read| (ModelFacts::of(&read.sector), read.digest))
     };
-    let (facts, id) = engine.pool.run_parallel(read).await?.map_err(Halt::generated_package)?;
+    let (facts, id) =
+        engine.computing.run_parallel(&job.watch, read).await?.map_err(Halt::generated_package)?;
 
     wanted(0.95, "keeping the model")?;
-    let keep = || engine.store.insert_model(&id, &facts, &upload);
-    let (_, new) = once_there_is_room(&job.watch, keep).await?;
+    let owner = (job.owner.as_str(), engine.limits);
+    let keep = || engine.store.insert_model(owner, &id, &facts, &upload);
+    let (_, new) = patiently(&job.watch, keep).await?.map_err(Halt::limit)?;
     tracing::info!(job.id = %job.id, model.id = id, name = facts.name, new, "generated a model");
     finish::complete(engine, job, &[], Some(&id)).await
 }
@@ -73,7 +75,7 @@ pub(super) async fn run(engine: &Engine, job: &Live, parameters: &ImpellerParame
 /// Writes `package` to a file beside the models; a broken attempt leaves none.
 async fn write(engine: &Engine, package: Arc<RawPackage>) -> Result<Result<TempPath, Panicked>, StoreError> {
     let (file, upload) = engine.store.new_upload()?.into_parts();
-    match engine.pool.run(move || write_to(file, &package)).await {
+    match engine.importer.run(move || write_to(file, &package)).await {
         Ok(written) => written.map(|()| Ok(upload)).map_err(StoreError::File),
         Err(panicked) => Ok(Err(panicked)),
     }

@@ -14,8 +14,10 @@ use crate::impeller::{GenerationPlan, ImpellerError, ImpellerParameters, Impelle
 use crate::package;
 use crate::store::StoreError;
 use crate::store::idempotency::Answer;
-use crate::store::jobs::{Insertion, JobId, JobRequest};
+use crate::store::jobs::{Insertion, JobDeletion, JobId, JobRequest};
+use crate::store::limits::LimitReached;
 use crate::store::status::JobStatus;
+use crate::tokens::Principal;
 
 /// A handle on the job runner.
 #[derive(Debug, Clone)]
@@ -32,6 +34,9 @@ pub enum SubmitError {
     /// It asks for something impossible; all violations at once.
     #[error("the request cannot be met")]
     Refused(Vec<Violation>),
+    /// Its owner has too much already.
+    #[error(transparent)]
+    Limit(LimitReached),
     /// Another request with the same idempotency key was accepted at the same moment.
     #[error("the idempotency key is in use")]
     KeyTaken,
@@ -59,10 +64,11 @@ impl Jobs {
         Self { engine }
     }
 
-    /// Checks a request against its model, keeps it as job `id` and queues it. `answer` is what its idempotency key
-    /// will repeat.
+    /// Checks a request of `whose` against its model, keeps it as job `id` and queues it. `answer` is what its idempotency
+    /// key will repeat.
     pub async fn submit(
         &self,
+        whose: &Principal,
         id: JobId,
         request: JobRequest,
         answer: Option<&Answer>,
@@ -71,20 +77,20 @@ impl Jobs {
         let refused = SubmitError::Refused;
         let (request, facts, speeds) = match request {
             JobRequest::Sweep(mut request) => {
-                let facts = self.facts(&request.model).await?;
+                let facts = self.facts(whose, &request.model).await?;
                 request.speeds.ask_for_all();
                 let request = run::resolve_sweep(*request, &facts).map_err(refused)?;
                 let speeds = request.speeds.resolve().map_err(refused)?.len();
                 (JobRequest::Sweep(Box::new(request)), Some(facts), speeds)
             }
             JobRequest::ModalAnalysis(request) => {
-                let facts = self.facts(&request.model).await?;
+                let facts = self.facts(whose, &request.model).await?;
                 let request = run::resolve_modal_analysis(request, &facts).map_err(refused)?;
                 let speeds = request.speeds.ascending().map_err(refused)?.len();
                 (JobRequest::ModalAnalysis(request), Some(facts), speeds)
             }
             JobRequest::Study(request) => {
-                let facts = self.facts(&request.model).await?;
+                let facts = self.facts(whose, &request.model).await?;
                 let request = run::resolve_study(*request, &facts).map_err(refused)?;
                 let speeds = request.speeds.resolve().map_err(refused)?.len();
                 (JobRequest::Study(Box::new(request)), Some(facts), speeds)
@@ -93,23 +99,27 @@ impl Jobs {
             generation @ JobRequest::ModelGeneration(_) => (generation, None, 0),
         };
         let model = request.model();
-        match engine.store.insert_job(id, &request, facts.as_ref(), speeds as u32, answer).await? {
+        let owner = (whose.owner.as_str(), engine.limits);
+        match engine.store.insert_job(id, owner, &request, facts.as_ref(), speeds as u32, answer).await? {
             Insertion::Accepted => {}
+            Insertion::Limit(reached) => return Err(SubmitError::Limit(reached)),
             Insertion::UnknownModel => {
                 return Err(SubmitError::UnknownModel(model.unwrap_or_default().to_owned()));
             }
             Insertion::KeyTaken => return Err(SubmitError::KeyTaken),
         }
         tracing::info!(job.id = %id, kind = request.kind().as_str(), model.id = model, speeds, "accepted");
-        // From here on the job is kept: should this fail, the next start queues it.
-        engine.queue.push_preparation(id).await?;
-        engine.new_preparation.notify_one();
+        engine.queue_preparation(&whose.owner, id);
         Ok(())
     }
 
     /// Checks a sweep against its model and says what it would do and cost. Starts nothing, not even its reduction.
-    pub async fn plan_sweep(&self, mut request: SweepRequest) -> Result<SweepPlan, SubmitError> {
-        let facts = self.facts(&request.model).await?;
+    pub async fn plan_sweep(
+        &self,
+        whose: &Principal,
+        mut request: SweepRequest,
+    ) -> Result<SweepPlan, SubmitError> {
+        let facts = self.facts(whose, &request.model).await?;
         request.speeds.ask_for_all();
         let mut request = run::resolve_sweep(request, &facts).map_err(SubmitError::Refused)?;
         let mut choice = None;
@@ -126,9 +136,10 @@ impl Jobs {
     /// The same for a modal analysis.
     pub async fn plan_modal_analysis(
         &self,
+        whose: &Principal,
         request: ModalAnalysisRequest,
     ) -> Result<ModalAnalysisPlan, SubmitError> {
-        let facts = self.facts(&request.model).await?;
+        let facts = self.facts(whose, &request.model).await?;
         let mut request = run::resolve_modal_analysis(request, &facts).map_err(SubmitError::Refused)?;
         let mut choice = None;
         if request.unchosen() {
@@ -161,11 +172,11 @@ impl Jobs {
         planned.map_err(|error| SubmitError::Refused(vec![violation(&error)]))
     }
 
-    async fn facts(&self, model: &str) -> Result<run::ModelFacts, SubmitError> {
+    async fn facts(&self, whose: &Principal, model: &str) -> Result<run::ModelFacts, SubmitError> {
         let model = self
             .engine
             .store
-            .model(model)
+            .model(model, whose.only())
             .await?
             .ok_or_else(|| SubmitError::UnknownModel(model.to_owned()))?;
         Ok(model.facts)
@@ -176,12 +187,22 @@ impl Jobs {
         match self.engine.store.advance_job(id, JobStatus::Dismissed, None).await? {
             None => Ok(Cancellation::Unknown),
             Some(JobStatus::Dismissed) => {
-                self.engine.retire(id).await;
+                self.engine.retire(id);
                 tracing::info!(job.id = %id, "dismissed");
                 Ok(Cancellation::Dismissed)
             }
             Some(status) => Ok(Cancellation::AlreadyFinal(status)),
         }
+    }
+
+    /// Deletes a finished job with its results, whose room is given back soon after.
+    pub async fn delete(&self, id: JobId) -> Result<JobDeletion, StoreError> {
+        let deletion = self.engine.store.delete_job(id).await?;
+        if deletion == JobDeletion::Deleted {
+            tracing::info!(job.id = %id, "deleted");
+            self.engine.deleted.notify_one();
+        }
+        Ok(deletion)
     }
 
     /// Reads and checks an uploaded package, on a thread of its own.

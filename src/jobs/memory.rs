@@ -1,31 +1,34 @@
-//! Memory, shared among the computations that take much of it.
+//! Memory, shared among all that takes much of it: reductions, generations, speeds, uploads, downloads.
 
 use tokio::sync::{Mutex, MutexGuard, Semaphore, SemaphorePermit};
 
-/// Parts into which memory is divided. Small models get one each; a large one gets all but one, so that small ones
-/// need not wait for it.
-const SHARES: u32 = 8;
+/// Bytes that are claimed together.
+const UNIT: u64 = 1 << 16;
+
+/// Parts into which memory is divided. The reductions of small models get one each; a large one gets all but one, so that
+/// small ones, speeds and uploads need not wait for it.
+const SHARES: u64 = 8;
 
 /// DOF of a sector up to which a model is small: its reduction ends within seconds and fits into a share, unless the
 /// service has very little memory.
 const SMALL_DOFS: u64 = 10_000;
 
-/// What reductions and generations may take together, however many run.
+/// What all computations may take together, however many run.
 #[derive(Debug)]
 pub(super) struct Memory {
     bytes: Option<u64>,
-    shares: Semaphore,
-    /// Held by the large computation that runs or is next: the others wait here, not for shares, where small ones would
+    units: Semaphore,
+    /// Held by the large computation that runs or is next: the others wait here, not for memory, where small ones would
     /// queue up behind them.
     turn: Mutex<()>,
 }
 
 /// A claim on memory, for as long as it is held.
 #[derive(Debug)]
-pub(super) struct Allowance<'a> {
+pub struct Allowance<'a> {
     /// Bytes that may be taken; `None` for no limit.
     pub(super) bytes: Option<u64>,
-    _shares: Option<SemaphorePermit<'a>>,
+    _units: Option<SemaphorePermit<'a>>,
     turn: Option<MutexGuard<'a, ()>>,
 }
 
@@ -41,28 +44,69 @@ impl Allowance<'_> {
     }
 }
 
+/// More than one computation can get.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct TooLarge {
+    /// Bytes that it needs.
+    pub(super) needed: u64,
+    /// Bytes that it can get.
+    pub(super) allowed: u64,
+}
+
 impl Memory {
     /// `bytes` to be shared; `None` for no limit.
     pub(super) fn new(bytes: Option<u64>) -> Self {
-        Self { bytes, shares: Semaphore::new(SHARES as usize), turn: Mutex::default() }
+        // Without a limit shares still bound how many reductions run at once.
+        let units = bytes.map_or(SHARES, |bytes| (bytes / UNIT).max(SHARES));
+        Self { bytes, units: Semaphore::new(units as usize), turn: Mutex::default() }
     }
 
-    /// Claims what a sector of `dofs` DOF should need, as soon as that is free.
+    /// Claims what the reduction of a sector of `dofs` DOF should need, as soon as that is free.
     pub(super) async fn claim(&self, dofs: u64) -> Allowance<'_> {
-        if dofs <= SMALL_DOFS { self.take(1, None).await } else { self.claim_most().await }
+        if dofs <= SMALL_DOFS { self.take_shares(1, None).await } else { self.claim_most().await }
     }
 
     /// Claims all that one computation can get.
     pub(super) async fn claim_most(&self) -> Allowance<'_> {
         let turn = self.turn.lock().await;
-        self.take(SHARES - 1, Some(turn)).await
+        self.take_shares(SHARES - 1, Some(turn)).await
     }
 
-    async fn take<'a>(&'a self, shares: u32, turn: Option<MutexGuard<'a, ()>>) -> Allowance<'a> {
+    /// Claims `bytes`, as soon as they are free.
+    pub(super) async fn hold(&self, bytes: u64) -> Result<Allowance<'_>, TooLarge> {
+        let Some(most) = self.most() else {
+            return Ok(Allowance { bytes: None, _units: None, turn: None });
+        };
+        if bytes > most {
+            return Err(TooLarge { needed: bytes, allowed: most });
+        }
+        Ok(self.take(bytes.div_ceil(UNIT), None).await)
+    }
+
+    /// Claims `bytes`, or all that one computation can get if that is less.
+    pub(super) async fn hold_up_to(&self, bytes: u64) -> Allowance<'_> {
+        let bytes = bytes.min(self.most().unwrap_or(0));
+        self.take(bytes.div_ceil(UNIT), None).await
+    }
+
+    /// Bytes that one computation can get; `None` for no limit.
+    pub(super) fn most(&self) -> Option<u64> {
+        self.bytes.map(|_| self.share() * (SHARES - 1) * UNIT)
+    }
+
+    /// Units of a share.
+    fn share(&self) -> u64 {
+        self.bytes.map_or(1, |bytes| (bytes / UNIT / SHARES).max(1))
+    }
+
+    async fn take_shares<'a>(&'a self, shares: u64, turn: Option<MutexGuard<'a, ()>>) -> Allowance<'a> {
+        self.take(shares * self.share(), turn).await
+    }
+
+    async fn take<'a>(&'a self, units: u64, turn: Option<MutexGuard<'a, ()>>) -> Allowance<'a> {
         // Refused only once the semaphore is closed, which nobody does.
-        let permit = self.shares.acquire_many(shares).await.ok();
-        let bytes = self.bytes.map(|bytes| bytes / u64::from(SHARES) * u64::from(shares));
-        Allowance { bytes, _shares: permit, turn }
+        let permit = self.units.acquire_many(u32::try_from(units).unwrap_or(u32::MAX)).await.ok();
+        Allowance { bytes: self.bytes.map(|_| units * UNIT), _units: permit, turn }
     }
 }
 
@@ -71,20 +115,22 @@ mod tests {
     use super::*;
     use futures::FutureExt;
 
+    const MIB: u64 = 1 << 20;
+
     #[tokio::test]
     async fn large_models_come_one_at_a_time_and_small_ones_pass_them() {
-        let memory = Memory::new(Some(8000));
+        let memory = Memory::new(Some(8 * MIB));
         let large = memory.claim(120_000).await;
-        assert_eq!(large.bytes, Some(7000));
+        assert_eq!(large.bytes, Some(7 * MIB));
         let mut second = Box::pin(memory.claim(120_000));
         assert!((&mut second).now_or_never().is_none());
         // A small one has a share, though two large ones came before it.
         let small = memory.claim(3000).await;
-        assert_eq!(small.bytes, Some(1000));
-        assert!(memory.claim(3000).now_or_never().is_none(), "no more than 8000 bytes together");
+        assert_eq!(small.bytes, Some(MIB));
+        assert!(memory.claim(3000).now_or_never().is_none(), "no more than 8 MiB together");
         drop(large);
         let second = second.await;
-        assert_eq!(second.bytes, Some(7000));
+        assert_eq!(second.bytes, Some(7 * MIB));
     }
 
     #[tokio::test]
@@ -99,5 +145,24 @@ mod tests {
         assert!(memory.claim_most().now_or_never().is_none());
         drop(held);
         assert!(memory.claim_most().now_or_never().is_some());
+    }
+
+    #[tokio::test]
+    async fn bytes_are_held_beside_shares_and_never_more_than_there_are() {
+        let memory = Memory::new(Some(8 * MIB));
+        let large = memory.claim_most().await;
+        let speed = memory.hold(MIB).await.unwrap();
+        assert!(memory.hold(1).now_or_never().is_none());
+        drop(large);
+        assert!(memory.hold(6 * MIB).now_or_never().is_some());
+        drop(speed);
+        assert_eq!(
+            memory.hold(7 * MIB + 1).await.unwrap_err(),
+            TooLarge { needed: 7 * MIB + 1, allowed: 7 * MIB }
+        );
+        assert_eq!(memory.hold_up_to(100 * MIB).await.bytes, Some(7 * MIB));
+        let boundless = Memory::new(None);
+        assert_eq!(boundless.hold(u64::MAX).await.unwrap().bytes, None);
+        assert_eq!(boundless.hold_up_to(u64::MAX).await.bytes, None);
     }
 }

@@ -20,6 +20,7 @@
 //! large ones only one runs at a time (`memory`), so that with two threads or more the other jobs go on.
 
 mod choice;
+mod computing;
 mod control;
 mod engine;
 mod error;
@@ -28,15 +29,16 @@ mod generation;
 mod handle;
 mod memory;
 mod modal_analysis;
+mod patience;
 mod plans;
 mod pool;
 mod prepare;
 mod progress;
 mod reductions;
-mod room;
 mod speed;
 mod study;
 mod trials;
+mod turns;
 mod workers;
 
 pub use handle::{Cancellation, Jobs, SubmitError, generation_of};

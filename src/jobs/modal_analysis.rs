@@ -14,6 +14,9 @@ pub(super) async fn run(engine: &Engine, job: &Live) -> Result<(), Halt> {
     let monitor = PhaseMonitor::reduction_of_modal_analysis(job.watch.clone());
     let reduced = engine.reductions.get(&request.model, request.modes(), monitor).await?;
     let (settings, monitor) = (request.clone(), PhaseMonitor::modal_analysis(job.watch.clone()));
-    let campbell = engine.pool.run(move || run::modal_analysis(&reduced, &settings, &monitor)).await??;
+    let campbell = engine
+        .computing
+        .run(&job.watch, move || run::modal_analysis(&reduced, &settings, &monitor))
+        .await??;
     finish::complete(engine, job, &[(Document::Campbell, serde_json::to_string(&campbell)?)], None).await
 }

@@ -6,8 +6,8 @@ use tokio::sync::OnceCell;
 
 use super::engine::{Engine, Live};
 use super::error::Halt;
+use super::patience::patiently;
 use super::pool::{CpuPool, Panicked};
-use super::room::once_there_is_room;
 use crate::analysis::request::{ModalAnalysisRequest, SweepRequest};
 use crate::analysis::run::{self, Calibration, ModalAnalysisPlan, ModelFacts, ReducedSector, SweepPlan};
 use crate::store::{Store, StoreError};
@@ -53,7 +53,7 @@ pub(super) async fn sweep<E: From<StoreError> + From<Panicked>>(
     reduced: Option<Arc<ReducedSector>>,
 ) -> Result<SweepPlan, E> {
     let calibration = engine.calibrated.get::<E>(&engine.planner).await?;
-    let workers = engine.pool.threads();
+    let workers = engine.computing.threads();
     let plan = move || run::plan_sweep(&request, &facts, reduced.as_deref(), &calibration, workers);
     Ok(engine.planner.run(plan).await?)
 }
@@ -79,7 +79,7 @@ pub(super) async fn keep(
     let (Some(facts), None) = (stored.facts, stored.plan) else { return Ok(()) };
     let plan = sweep::<Halt>(engine, request.clone(), facts, Some(reduced)).await?;
     if let Some(estimate) = plan.estimate {
-        once_there_is_room(&job.watch, || engine.store.record_plan(job.id, &estimate)).await?;
+        patiently(&job.watch, || engine.store.record_plan(job.id, &estimate)).await?;
     }
     Ok(())
 }

@@ -36,7 +36,7 @@ async fn prepare_sweep(engine: &Engine, job: &Live) -> Result<(), Halt> {
 
     let (checked, monitor) = (request.clone(), PhaseMonitor::uncounted(job.watch.clone()));
     let sector = Arc::clone(&reduced);
-    engine.pool.run(move || run::check(&sector, &checked, &monitor)).await??;
+    engine.computing.run(&job.watch, move || run::check(&sector, &checked, &monitor)).await??;
     plans::keep(engine, job, request, reduced).await?;
 
     let finished = engine.store.finished_speeds(job.id).await?;
@@ -51,7 +51,6 @@ async fn prepare_sweep(engine: &Engine, job: &Live) -> Result<(), Halt> {
     if missing.is_empty() {
         return finish::sweep(engine, job, request).await;
     }
-    engine.queue.push_speeds(job.id, &missing).await?;
-    engine.new_speeds.notify_one();
+    engine.queue_speeds(job, missing);
     Ok(())
 }

@@ -65,6 +65,11 @@ impl Watch {
         Arc::new(Self { job, dismissed: AtomicBool::new(false), stopping, done, news })
     }
 
+    /// The job.
+    pub(super) fn job(&self) -> JobId {
+        self.job
+    }
+
     /// Tells all computations of the job to stop.
     pub(super) fn dismiss(&self) {
         self.dismissed.store(true, Ordering::Relaxed);
@@ -146,7 +151,7 @@ impl PhaseMonitor {
     }
 
     /// The job it belongs to.
-    pub(super) fn watch(&self) -> &Watch {
+    pub(super) fn watch(&self) -> &Arc<Watch> {
         &self.watch
     }
 

@@ -3,16 +3,15 @@
 use std::collections::{HashMap, VecDeque};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use super::computing::Computing;
 use super::error::Halt;
 use super::memory::Memory;
-use super::pool::CpuPool;
+use super::patience::patiently;
 use super::progress::PhaseMonitor;
-use super::room::once_there_is_room;
 use crate::analysis::error::AnalysisError;
 use crate::analysis::monitor::Monitor;
 use crate::analysis::run::{self, ReducedSector};
 use crate::package::{self, Limits};
-use crate::store::jobs::{Failure, FailureCause};
 use crate::store::{Store, StoreError};
 
 /// Reduced sectors kept in memory: tens of megabytes each at most, and jobs come in runs on the same model.
@@ -25,7 +24,7 @@ type Key = (String, u32);
 #[derive(Debug)]
 pub(super) struct Reductions {
     store: Store,
-    pool: CpuPool,
+    computing: Arc<Computing>,
     memory: Arc<Memory>,
     /// Most recently used last.
     recent: Mutex<VecDeque<(Key, Arc<ReducedSector>)>>,
@@ -34,8 +33,8 @@ pub(super) struct Reductions {
 }
 
 impl Reductions {
-    pub(super) fn new(store: Store, pool: CpuPool, memory: Arc<Memory>) -> Self {
-        Self { store, pool, memory, recent: Mutex::default(), flights: Mutex::default() }
+    pub(super) fn new(store: Store, computing: Arc<Computing>, memory: Arc<Memory>) -> Self {
+        Self { store, computing, memory, recent: Mutex::default(), flights: Mutex::default() }
     }
 
     /// The reduction of `model`; computes and stores it if there is none.
@@ -97,7 +96,7 @@ impl Reductions {
             tracing::info!(model.id = model, modes_per_speed, "read the stored reduction");
             return Ok(self.remember(key, reduced));
         }
-        let dofs = self.store.model(model).await?.map_or(0, |model| model.facts.own_dofs.into());
+        let dofs = self.store.model(model, None).await?.map_or(0, |model| model.facts.own_dofs.into());
         monitor.progress(0.0, "waiting for memory that other jobs hold");
         let mut allowance = self.memory.claim(dofs).await;
         let mut outcome = self.reduce(key, &monitor, allowance.bytes).await?;
@@ -110,7 +109,7 @@ impl Reductions {
         drop(allowance);
         let reduced = outcome?;
         let write = || self.store.insert_reduction(model, modes_per_speed, &reduced);
-        once_there_is_room(monitor.watch(), write).await?;
+        patiently(monitor.watch(), write).await?;
         let wall_time_s = reduced.report.wall_time_s;
         tracing::info!(model.id = model, modes_per_speed, wall_time_s, "reduced");
         Ok(self.remember(key, reduced))
@@ -131,16 +130,14 @@ impl Reductions {
         tracing::info!(model.id = model, modes_per_speed, memory_bytes, "reducing");
         monitor.progress(0.0, "reading the package");
         let path = self.store.package_path(model);
+        let watch = Arc::clone(monitor.watch());
         let (checkpoints, monitor) = (self.store.checkpoints(model, modes_per_speed), monitor.clone());
         let compute = move || {
-            let package = package::read(&path, &Limits::default()).map_err(|error| {
-                let message = format!("the stored package cannot be read any more: {error}");
-                Halt::Failed(Failure { cause: FailureCause::Package, message, violations: Vec::new() })
-            })?;
+            let package = package::read(&path, &Limits::default()).map_err(Halt::stored_package)?;
             monitor.progress(0.0, "reducing");
             Ok(run::prepare(&package.sector, modes_per_speed, memory_bytes, &checkpoints, &monitor))
         };
-        self.pool.run_parallel(compute).await?
+        self.computing.run_parallel(&watch, compute).await?
     }
 
     fn recall(&self, key: &Key) -> Option<Arc<ReducedSector>> {

@@ -3,8 +3,8 @@
 use super::engine::Engine;
 use super::error::Halt;
 use super::finish;
+use super::patience::patiently;
 use super::progress::{PhaseMonitor, SpeedMonitor};
-use super::room::once_there_is_room;
 use crate::analysis::run;
 use crate::store::jobs::JobRequest;
 use crate::store::queue::RunSpeed;
@@ -26,9 +26,11 @@ pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) 
     };
     let (settings, monitor) = (request.clone(), SpeedMonitor::new(job.watch.clone(), speed));
     let compute = move || run::run_speed(&reduced, &settings, speed as usize, start.as_ref(), &monitor);
-    let result = engine.pool.run(compute).await??;
+    let result = engine.computing.run(&job.watch, compute).await??;
 
-    let finished = once_there_is_room(&job.watch, || engine.store.insert_speed(id, &result)).await?;
+    let kept = patiently(&job.watch, || engine.store.insert_speed(id, &result)).await?;
+    let Some(finished) = kept else { return Ok(()) };
+    engine.computing.acquit(id);
     job.watch.speeds_finished(finished, Some(speed));
     let point = &result.point;
     tracing::info!(
@@ -39,8 +41,7 @@ pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) 
     if finished == job.speeds {
         finish::sweep(engine, &job, request).await?;
     } else if let Some(next) = after {
-        engine.queue.push_speeds(id, &[next]).await?;
-        engine.new_speeds.notify_one();
+        engine.queue_speeds(&job, [next]);
     }
     Ok(())
 }

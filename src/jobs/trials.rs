@@ -6,8 +6,8 @@ use futures::{StreamExt, TryStreamExt, stream};
 
 use super::engine::{Engine, Live};
 use super::error::Halt;
+use super::patience::patiently;
 use super::progress::PhaseMonitor;
-use super::room::once_there_is_room;
 use crate::analysis::run::{self, Trial, TrialRequest};
 use crate::store::StoreError;
 use crate::store::trials::key;
@@ -49,7 +49,7 @@ impl Trials {
     ) -> Result<(), Halt> {
         let mut running = stream::iter(requests)
             .map(|request| obtain(engine, job, request))
-            .buffer_unordered(engine.pool.threads());
+            .buffer_unordered(engine.computing.threads());
         let mut count = 0;
         while let Some((key, trial)) = running.try_next().await? {
             self.0.insert(key, trial);
@@ -68,8 +68,10 @@ async fn obtain(engine: &Engine, job: &Live, request: TrialRequest) -> Result<(S
     let (model, modes) = (request.sweep.model.clone(), request.sweep.modes());
     let monitor = PhaseMonitor::uncounted(job.watch.clone());
     let reduced = engine.reductions.get(&model, modes, monitor.clone()).await?;
-    let trial = engine.pool.run(move || run::run_trial(&reduced, &request, &monitor)).await??;
-    once_there_is_room(&job.watch, || engine.store.insert_trial(job.id, &key, &model, &trial)).await?;
+    let trial =
+        engine.computing.run(&job.watch, move || run::run_trial(&reduced, &request, &monitor)).await??;
+    patiently(&job.watch, || engine.store.insert_trial(job.id, &key, &model, &trial)).await?;
+    engine.computing.acquit(job.id);
     tracing::debug!(job.id = %job.id, modes, steps = trial.point.steps, status = ?trial.point.status, "trial run");
     Ok((key, trial))
 }

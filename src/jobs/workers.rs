@@ -1,6 +1,6 @@
 //! The workers that take tasks from the queues, from start to stop.
 
-use std::path::PathBuf;
+use std::hash::Hash;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::task::{Context, Poll};
@@ -14,38 +14,47 @@ use tokio::sync::Notify;
 use tokio::task::JoinHandle;
 use tokio_util::sync::CancellationToken;
 
+use super::computing::MOST_CRASHES;
 use super::engine::Engine;
-use super::error::Halt;
 use super::handle::Jobs;
 use super::memory::Memory;
+use super::patience::BETWEEN_ATTEMPTS;
 use super::pool::CpuPool;
 use super::progress::{News, Report};
-use super::{prepare, speed};
-use crate::store::queue::{PrepareJob, QueueFile, RunSpeed};
+use super::turns::Turns;
+use super::{error, prepare, speed};
+use crate::store::jobs::{JobId, Unfinished};
+use crate::store::limits::Limits;
+use crate::store::queue::{PrepareJob, Queue, RunSpeed};
 use crate::store::{Store, StoreError};
 
 /// Preparations under way at once, beyond one per thread: those that wait for another job's reduction take no thread,
 /// and must not keep others from theirs.
 const WAITING_PREPARATIONS: usize = 16;
 
-/// Times the service may die under a job, with nothing of it finished in between, before the job is given up.
-const MOST_CRASHES: u32 = 5;
-
 /// How often a queue is asked for tasks without having been rung.
 const IDLE_POLL: Duration = Duration::from_millis(500);
+
+/// How long tasks may take to notice that the service stops: those that compute look many times a second.
+const LAST_TASKS: Duration = Duration::from_secs(2);
 
 /// Time between two writes of a job's progress. Each is a flush of the disk, and nobody looks more often.
 const BETWEEN_PROGRESS: Duration = Duration::from_secs(1);
 
+/// Time between two looks for jobs that have been kept long enough.
+const BETWEEN_CLEANINGS: Duration = Duration::from_secs(3600);
+
 /// How the runner is set up.
 #[derive(Debug, Clone)]
 pub struct Settings {
-    /// Folder for the queue's file.
-    pub data: PathBuf,
     /// Threads that compute.
     pub workers: usize,
     /// Memory that reductions and generations may take together; `None` for no limit.
     pub memory_bytes: Option<u64>,
+    /// Days after which finished jobs are deleted; `None` keeps them.
+    pub keep_days: Option<u32>,
+    /// What one owner may have.
+    pub limits: Limits,
 }
 
 /// The running workers.
@@ -54,39 +63,47 @@ pub struct Runner {
     engine: Arc<Engine>,
     stop: CancellationToken,
     workers: Vec<JoinHandle<()>>,
-    recorder: JoinHandle<()>,
+    helpers: Vec<JoinHandle<()>>,
 }
 
 impl Runner {
     /// Starts the workers and queues all unfinished jobs of the store. Only one runner may run on a data folder.
     pub async fn start(store: Store, settings: Settings) -> Result<Self, StoreError> {
-        let queue = QueueFile::create(&settings.data).await?;
+        let queue = Queue::create().await?;
         let pool = |name, threads| CpuPool::start(name, threads, settings.workers);
         let pools = (pool("compute", settings.workers)?, pool("import", 1)?, pool("plan", 1)?);
         let memory = Memory::new(settings.memory_bytes);
-        let engine = Engine::new(store.clone(), queue, pools, memory);
-        for (job, crashes) in store.take_up_jobs().await? {
-            if crashes >= MOST_CRASHES {
-                engine.settle(job, Err(Halt::crashed(crashes))).await;
+        let preparations = settings.workers + WAITING_PREPARATIONS;
+        let engine = Engine::new(store.clone(), queue, pools, memory, settings.limits, preparations);
+        if let Err(error) = store.count_crashes().await {
+            // Counted at the next start.
+            tracing::warn!(%error, "could not count what the last service ended under");
+        }
+        for Unfinished { id, owner, crashes } in store.unfinished_jobs().await? {
+            if crashes >= MOST_CRASHES && engine.fail(id, &error::crashed(crashes)).await.is_ok() {
                 continue;
             }
-            tracing::info!(job.id = %job, crashes, "resuming");
-            engine.queue.push_preparation(job).await?;
+            tracing::info!(job.id = %id, crashes, "resuming");
+            engine.computing.suspect(id, crashes);
+            engine.queue_preparation(&owner, id);
         }
         let stop = CancellationToken::new();
         let workers = vec![
             tokio::spawn(supervise("prepare", stop.clone(), {
                 let (engine, stop) = (Arc::clone(&engine), stop.clone());
-                let concurrency = settings.workers + WAITING_PREPARATIONS;
-                move |name| preparations(name, Arc::clone(&engine), concurrency, stop.clone())
+                move |name| prepare_jobs(name, Arc::clone(&engine), preparations, stop.clone())
             })),
             tokio::spawn(supervise("speeds", stop.clone(), {
                 let (engine, stop) = (Arc::clone(&engine), stop.clone());
-                move |name| speeds(name, Arc::clone(&engine), settings.workers, stop.clone())
+                move |name| run_speeds(name, Arc::clone(&engine), settings.workers, stop.clone())
             })),
         ];
-        let recorder = tokio::spawn(record_progress(store, Arc::clone(&engine.news)));
-        Ok(Self { engine, stop, workers, recorder })
+        let helpers = vec![
+            tokio::spawn(record_progress(store, Arc::clone(&engine.news))),
+            tokio::spawn(hand_out(Arc::clone(&engine))),
+            tokio::spawn(keep_house(Arc::clone(&engine), settings.keep_days)),
+        ];
+        Ok(Self { engine, stop, workers, helpers })
     }
 
     /// The handle for `http`.
@@ -98,29 +115,84 @@ impl Runner {
     pub async fn stop(self) {
         self.engine.stopping.store(true, Ordering::Relaxed);
         self.stop.cancel();
-        // At once: who stops the service may not have the patience for the last computations to notice.
-        if let Err(error) = self.engine.store.lay_down_jobs().await {
-            tracing::warn!(%error, "could not lay down the running jobs; the next start takes this for a crash");
-        }
-        for worker in self.workers {
-            if let Err(error) = worker.await {
-                tracing::error!(%error, "a worker ended badly");
+        let mut workers = self.workers;
+        let ended = async {
+            for worker in &mut workers {
+                if let Err(error) = worker.await {
+                    tracing::error!(%error, "a worker ended badly");
+                }
             }
+        };
+        if tokio::time::timeout(LAST_TASKS, ended).await.is_err() {
+            // They wait for something; what they have finished is kept.
+            workers.iter().for_each(JoinHandle::abort);
         }
-        self.recorder.abort();
+        self.engine.store.lay_down_jobs();
+        self.helpers.iter().for_each(JoinHandle::abort);
         self.engine.queue.close().await;
     }
 }
 
-fn preparations(
+/// Hands out tasks, one after the other ends.
+async fn hand_out(engine: Arc<Engine>) {
+    loop {
+        match engine.hand_out().await {
+            Ok(()) => engine.turn.notified().await,
+            Err(error) => {
+                tracing::error!(%error, "the queue failed");
+                tokio::time::sleep(BETWEEN_ATTEMPTS).await;
+            }
+        }
+    }
+}
+
+/// Deletes jobs that have been kept long enough, and gives the room of deleted ones back.
+async fn keep_house(engine: Arc<Engine>, keep_days: Option<u32>) {
+    let mut interval = tokio::time::interval(BETWEEN_CLEANINGS);
+    loop {
+        let cleaned = async {
+            if let Some(days) = keep_days {
+                let deleted = engine.store.delete_older_jobs(days).await?;
+                if deleted > 0 {
+                    tracing::info!(deleted, days, "deleted jobs that have been kept long enough");
+                }
+            }
+            engine.store.purge().await
+        };
+        if let Err(error) = cleaned.await {
+            tracing::warn!(%error, "could not clean up; trying again later");
+        }
+        tokio::select! {
+            () = engine.deleted.notified() => {}
+            _ = interval.tick() => {}
+        }
+    }
+}
+
+/// Makes place for the next task when this one has ended, however it did.
+struct Ended<'a, T: Copy + Eq + Hash> {
+    turns: &'a Turns<T>,
+    turn: &'a Notify,
+    job: JobId,
+    task: T,
+}
+
+impl<T: Copy + Eq + Hash> Drop for Ended<'_, T> {
+    fn drop(&mut self) {
+        self.turns.done(self.job, self.task);
+        self.turn.notify_one();
+    }
+}
+
+fn prepare_jobs(
     name: String,
     engine: Arc<Engine>,
     concurrency: usize,
     stop: CancellationToken,
 ) -> BoxFuture<'static, Result<(), WorkerError>> {
     async fn handle(task: PrepareJob, engine: Data<Arc<Engine>>) -> Result<(), BoxDynError> {
-        let outcome = prepare::prepare(&engine, task.job).await;
-        engine.settle(task.job, outcome).await;
+        let _ended = Ended { turns: &engine.preparations, turn: &engine.turn, job: task.job, task: () };
+        engine.attend(task.job, || prepare::prepare(&engine, task.job)).await;
         Ok(())
     }
     let backend = engine.queue.preparations().poll_with_strategy(Bell::new(&engine.new_preparation));
@@ -133,15 +205,15 @@ fn preparations(
         .boxed()
 }
 
-fn speeds(
+fn run_speeds(
     name: String,
     engine: Arc<Engine>,
     concurrency: usize,
     stop: CancellationToken,
 ) -> BoxFuture<'static, Result<(), WorkerError>> {
     async fn handle(task: RunSpeed, engine: Data<Arc<Engine>>) -> Result<(), BoxDynError> {
-        let outcome = speed::run(&engine, task).await;
-        engine.settle(task.job, outcome).await;
+        let _ended = Ended { turns: &engine.speeds, turn: &engine.turn, job: task.job, task: task.speed };
+        engine.attend(task.job, || speed::run(&engine, task)).await;
         Ok(())
     }
     let backend = engine.queue.speeds().poll_with_strategy(Bell::new(&engine.new_speeds));
@@ -186,6 +258,7 @@ async fn record_progress(store: Store, news: Arc<News>) {
         for (job, Report { percent, phase }) in news.take() {
             if let Err(error) = store.record_progress(job, percent, &phase).await {
                 tracing::warn!(job.id = %job, %error, "could not record progress");
+                break;
             }
         }
     }

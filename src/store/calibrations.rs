@@ -22,6 +22,7 @@ impl Store {
         processors: u32,
         measured: &Calibration,
     ) -> Result<(), StoreError> {
+        let mut write = self.write().await?;
         sqlx::query(
             "insert into calibrations (version, processors, body, created_at) values (?, ?, ?, ?)
              on conflict (version, processors) do update
@@ -31,8 +32,8 @@ impl Store {
         .bind(processors)
         .bind(serde_json::to_string(measured)?)
         .bind(now())
-        .execute(&self.writer)
+        .execute(&mut *write)
         .await?;
-        Ok(())
+        write.commit().await
     }
 }

@@ -1,5 +1,7 @@
 //! What can go wrong with remembering.
 
+use std::io::ErrorKind;
+
 /// A failure of the database, the disk or of something stored there.
 #[derive(Debug, thiserror::Error)]
 pub enum StoreError {
@@ -15,12 +17,18 @@ pub enum StoreError {
     /// A file beside the database could not be written or read.
     #[error("data folder: {0}")]
     File(#[from] std::io::Error),
+    /// The package of a model cannot be accessed.
+    #[error("package: {0}")]
+    Package(#[source] std::io::Error),
     /// A stored JSON document does not read back.
     #[error("stored JSON: {0}")]
     Json(#[from] serde_json::Error),
     /// A stored array does not read back.
     #[error("stored numbers: {0}")]
     Numbers(#[from] postcard::Error),
+    /// What was just written cannot be read by others.
+    #[error("the database took a row that its other connections do not see")]
+    Unseen,
     /// A column holds a value this program does not know.
     #[error("column {column} holds {value:?}, which this version of the program does not know")]
     Unknown {
@@ -31,18 +39,91 @@ pub enum StoreError {
     },
 }
 
-/// Primary result code of `SQLite` for a write that found no room.
-const SQLITE_FULL: &str = "13";
+/// Primary result codes of `SQLite` for what may succeed later: `BUSY`, `LOCKED`, `NOMEM`, `READONLY`, `IOERR`, `FULL`,
+/// `CANTOPEN` and `PROTOCOL`. The others are verdicts on the statement or on the file.
+const PASSING: [u32; 8] = [5, 6, 7, 8, 10, SQLITE_FULL, 14, 15];
+
+/// For a write that found no room.
+const SQLITE_FULL: u32 = 13;
 
 impl StoreError {
-    /// Whether it was refused for want of room on the disk, and may succeed later.
+    /// Whether it was refused for want of room on the disk.
     pub fn is_disk_full(&self) -> bool {
         match self {
-            Self::Database(sqlx::Error::Database(error)) => {
-                error.code().is_some_and(|code| code == SQLITE_FULL)
-            }
-            Self::File(error) => error.kind() == std::io::ErrorKind::StorageFull,
+            Self::Database(error) => result_code(error) == Some(SQLITE_FULL),
+            Self::File(error) => is_no_room(error),
             _ => false,
         }
+    }
+
+    /// Whether the package of a model is not where it was put.
+    pub fn is_missing_package(&self) -> bool {
+        matches!(self, Self::Package(error) if error.kind() == ErrorKind::NotFound)
+    }
+
+    /// Whether the same may succeed later without anybody changing a word of it: a full disk, a lock that somebody holds,
+    /// descriptors or memory that others have taken. No verdict on what was to be done.
+    pub fn may_pass(&self) -> bool {
+        match self {
+            Self::Database(sqlx::Error::Io(error)) | Self::File(error) => io_may_pass(error),
+            // One that is not there may be put back, or uploaded again.
+            Self::Package(error) => io_may_pass(error) || self.is_missing_package(),
+            // A connection that was lost is replaced.
+            Self::Database(
+                sqlx::Error::PoolTimedOut | sqlx::Error::PoolClosed | sqlx::Error::WorkerCrashed,
+            )
+            | Self::Queue(_)
+            | Self::Unseen => true,
+            Self::Database(error) => result_code(error).is_some_and(|code| PASSING.contains(&code)),
+            Self::Migration(_) | Self::Json(_) | Self::Numbers(_) | Self::Unknown { .. } => false,
+        }
+    }
+}
+
+/// Primary result code; sqlx tells the extended one, whose low byte it is.
+fn result_code(error: &sqlx::Error) -> Option<u32> {
+    let code: u32 = error.as_database_error()?.code()?.parse().ok()?;
+    Some(code & 0xff)
+}
+
+fn is_no_room(error: &std::io::Error) -> bool {
+    matches!(error.kind(), ErrorKind::StorageFull | ErrorKind::QuotaExceeded)
+}
+
+/// Whether an operation on a file may succeed later.
+fn io_may_pass(error: &std::io::Error) -> bool {
+    /// Those without a kind of their own: `EIO`, `ENFILE` and `EMFILE`, the same on all Unixes.
+    const NUMBERS: [i32; 3] = [5, 23, 24];
+    is_no_room(error)
+        || matches!(
+            error.kind(),
+            ErrorKind::WouldBlock
+                | ErrorKind::Interrupted
+                | ErrorKind::TimedOut
+                | ErrorKind::OutOfMemory
+                | ErrorKind::ResourceBusy
+                | ErrorKind::ReadOnlyFilesystem
+        )
+        || error.raw_os_error().is_some_and(|number| NUMBERS.contains(&number))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_others_hold_passes_and_what_is_wrong_does_not() {
+        let os = |number| StoreError::File(std::io::Error::from_raw_os_error(number));
+        // EIO, EAGAIN, ENOMEM, EBUSY, ENFILE, EMFILE, ENOSPC, EROFS, EDQUOT.
+        for number in [5, 11, 12, 16, 23, 24, 28, 30, 122] {
+            assert!(os(number).may_pass(), "{}", os(number));
+        }
+        // ENOENT, EACCES, EISDIR.
+        for number in [2, 13, 21] {
+            assert!(!os(number).may_pass(), "{}", os(number));
+        }
+        assert!(os(28).is_disk_full() && os(122).is_disk_full() && !os(24).is_disk_full());
+        assert!(StoreError::Database(sqlx::Error::PoolTimedOut).may_pass());
+        assert!(!StoreError::Database(sqlx::Error::RowNotFound).may_pass());
     }
 }

@@ -11,6 +11,8 @@ pub const KEPT_DAYS: i64 = 7;
 /// An answer with the request it belongs to.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Answer {
+    /// Whose the key is.
+    pub owner: String,
     /// The client's key.
     pub key: String,
     /// Digest of route and body of the request.
@@ -24,15 +26,18 @@ pub struct Answer {
 }
 
 impl Store {
-    /// The answer given under `key`.
-    pub async fn answer(&self, key: &str) -> Result<Option<Answer>, StoreError> {
-        let row = sqlx::query("select * from idempotency_keys where key = ? and created_at > ?")
-            .bind(key)
-            .bind(expiry())
-            .fetch_optional(&self.readers)
-            .await?;
+    /// The answer given under the `key` of `owner`.
+    pub async fn answer(&self, owner: &str, key: &str) -> Result<Option<Answer>, StoreError> {
+        let row =
+            sqlx::query("select * from idempotency_keys where owner = ? and key = ? and created_at > ?")
+                .bind(owner)
+                .bind(key)
+                .bind(expiry())
+                .fetch_optional(&self.readers)
+                .await?;
         row.map(|row| {
             Ok(Answer {
+                owner: row.try_get("owner")?,
                 key: row.try_get("key")?,
                 fingerprint: row.try_get("fingerprint")?,
                 status: row.try_get::<u16, _>("status")?,
@@ -45,7 +50,7 @@ impl Store {
 
     /// Keeps `answer` for repetition. False if its key was taken meanwhile.
     pub async fn insert_answer(&self, answer: &Answer) -> Result<bool, StoreError> {
-        let mut transaction = self.writer.begin().await?;
+        let mut transaction = self.write().await?;
         let inserted = insert(&mut transaction, answer).await?;
         transaction.commit().await?;
         Ok(inserted)
@@ -59,9 +64,10 @@ pub(super) async fn insert(connection: &mut SqliteConnection, answer: &Answer) -
         .execute(&mut *connection)
         .await?;
     let inserted = sqlx::query(
-        "insert into idempotency_keys (key, fingerprint, status, location, body, created_at)
-         values (?, ?, ?, ?, ?, ?) on conflict (key) do nothing",
+        "insert into idempotency_keys (owner, key, fingerprint, status, location, body, created_at)
+         values (?, ?, ?, ?, ?, ?, ?) on conflict (owner, key) do nothing",
     )
+    .bind(&answer.owner)
     .bind(&answer.key)
     .bind(&answer.fingerprint)
     .bind(answer.status)

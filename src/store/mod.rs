@@ -4,31 +4,43 @@
 //! One function per question; rows become domain types here. All writes go through one connection, so transactions
 //! never meet a busy database, and readers never wait for writers (WAL).
 
+mod backup;
 mod calibrations;
 pub mod checkpoints;
+pub mod computing;
 mod end_states;
 mod error;
 pub mod idempotency;
 pub mod jobs;
+pub mod limits;
 pub mod models;
 pub mod queue;
 pub mod reductions;
 pub mod results;
 pub mod status;
 pub mod trials;
+mod write;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
 use sqlx::sqlite::{
-    SqliteConnectOptions, SqliteJournalMode, SqlitePool, SqlitePoolOptions, SqliteSynchronous,
+    SqliteAutoVacuum, SqliteConnectOptions, SqliteJournalMode, SqlitePool, SqlitePoolOptions,
+    SqliteSynchronous,
 };
 
+pub use backup::{Backup, Findings, backup, check};
 pub use error::StoreError;
+
+/// Name of the database in its folder.
+const DATABASE: &str = "rubmap.sqlite";
 
 /// Connections for readers; more than the requests a database on one disk serves well at once.
 const READERS: u32 = 8;
+
+/// How long a statement waits for a lock that another program holds (a backup, `vacuum`), and a request for a connection.
+const PATIENCE: Duration = Duration::from_secs(5);
 
 /// The database of one data folder and the packages beside it.
 #[derive(Debug, Clone)]
@@ -36,6 +48,7 @@ pub struct Store {
     folder: PathBuf,
     readers: SqlitePool,
     writer: SqlitePool,
+    marks: computing::Marks,
     /// Held while a package file and its row come or go together.
     packages: Arc<tokio::sync::Mutex<()>>,
 }
@@ -45,17 +58,21 @@ impl Store {
     pub async fn open(folder: &Path) -> Result<Self, StoreError> {
         std::fs::create_dir_all(folder.join("models"))?;
         let options = SqliteConnectOptions::new()
-            .filename(folder.join("rubmap.sqlite"))
+            .filename(folder.join(DATABASE))
             .create_if_missing(true)
             .journal_mode(SqliteJournalMode::Wal)
             // A 202 is a promise and a speed may have cost minutes: both survive a power cut, at one flush each.
             .synchronous(SqliteSynchronous::Full)
             .foreign_keys(true)
-            .busy_timeout(Duration::from_secs(10));
-        let writer = SqlitePoolOptions::new().max_connections(1).connect_with(options.clone()).await?;
+            .auto_vacuum(SqliteAutoVacuum::Incremental)
+            .busy_timeout(PATIENCE);
+        let pool = || SqlitePoolOptions::new().acquire_timeout(2 * PATIENCE);
+        let writer = pool().max_connections(1).connect_with(options.clone()).await?;
         sqlx::migrate!().run(&writer).await?;
-        let readers = SqlitePoolOptions::new().max_connections(READERS).connect_with(options).await?;
-        Ok(Self { folder: folder.to_owned(), readers, writer, packages: Arc::default() })
+        make_shrinkable(&writer).await?;
+        let readers = pool().max_connections(READERS).connect_with(options).await?;
+        let marks = computing::Marks::new(folder)?;
+        Ok(Self { folder: folder.to_owned(), readers, writer, marks, packages: Arc::default() })
     }
 
     /// Whether the database answers.
@@ -83,6 +100,25 @@ impl Store {
         self.readers.close().await;
         self.writer.close().await;
     }
+}
+
+/// Where the package of `model` lies in a data folder.
+fn package_path(folder: &Path, model: &str) -> PathBuf {
+    folder.join("models").join(format!("{model}.zip"))
+}
+
+/// Makes a database anew, once, that an earlier version made such that it cannot give room back.
+async fn make_shrinkable(writer: &SqlitePool) -> Result<(), StoreError> {
+    const INCREMENTAL: i64 = 2;
+    let mode: i64 = sqlx::query_scalar("pragma auto_vacuum").fetch_one(writer).await?;
+    if mode == INCREMENTAL {
+        return Ok(());
+    }
+    tracing::info!("making the database anew, once, so that it can give room back");
+    if let Err(error) = sqlx::query("vacuum").execute(writer).await {
+        tracing::warn!(%error, "could not; deleted jobs leave their room to later ones");
+    }
+    Ok(())
 }
 
 /// Now, as every timestamp in the database: RFC 3339 in UTC with milliseconds, which sorts as text.
@@ -136,7 +172,7 @@ mod tests {
         let store = Store::open(folder.path()).await.unwrap();
         // SQLite refuses to grow beyond so many pages as it does on a full disk.
         sqlx::query("pragma max_page_count = 1").execute(&store.writer).await.unwrap();
-        let large = "insert into idempotency_keys values ('k', 'f', 200, 'l', json_quote(hex(zeroblob(100000))), 'a')";
+        let large = "insert into idempotency_keys values ('', 'k', 'f', 200, 'l', json_quote(hex(zeroblob(100000))), 'a')";
         let full = StoreError::from(sqlx::query(large).execute(&store.writer).await.unwrap_err());
         assert!(full.is_disk_full(), "{full}");
         let wrong = StoreError::from(

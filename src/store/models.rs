@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use sqlx::Row;
 use sqlx::sqlite::SqliteRow;
 
-use super::{Store, StoreError, now};
+use super::limits::{LimitReached, Limits};
+use super::{Store, StoreError, now, package_path};
 use crate::analysis::run::ModelFacts;
 
 /// What names of packages on their way in begin with.
@@ -46,29 +47,38 @@ impl Store {
 
     /// Where the package of `model` lies.
     pub fn package_path(&self, model: &str) -> PathBuf {
-        self.folder.join("models").join(format!("{model}.zip"))
+        package_path(&self.folder, model)
     }
 
-    /// Keeps the package at `upload`, a file from [`Self::new_upload`], as model `id`. Returns the model and whether it is
-    /// new.
+    /// Keeps the package at `upload`, a file from [`Self::new_upload`], as model `id` of `owner`, within `limits`. Returns the
+    /// model and whether it is new to the owner.
     ///
     /// The file comes first: a row promises that its package is there and complete. If the row then finds no room, the
     /// same call may be made again.
     pub async fn insert_model(
         &self,
+        (owner, limits): (&str, Limits),
         id: &str,
         facts: &ModelFacts,
         upload: &Path,
-    ) -> Result<(StoredModel, bool), StoreError> {
+    ) -> Result<Result<(StoredModel, bool), LimitReached>, StoreError> {
         let _packages = self.packages.lock().await;
-        if let Some(known) = self.model(id).await? {
-            return Ok((known, false));
+        let target = self.package_path(id);
+        if let Some(known) = self.model(id, Some(owner)).await?
+            // A package that got lost is there again with the next upload.
+            && tokio::fs::try_exists(&target).await?
+        {
+            return Ok(Ok((known, false)));
         }
-        let (upload, target) = (upload.to_owned(), self.package_path(id));
+        if let Err(reached) = limits.allow_model(&mut *self.readers.acquire().await?, owner).await? {
+            return Ok(Err(reached));
+        }
+        let upload = upload.to_owned();
         let size_bytes = tokio::task::spawn_blocking(move || keep_file(&upload, &target))
             .await
             .map_err(std::io::Error::other)??;
-        let created = sqlx::query(
+        let mut write = self.write().await?;
+        sqlx::query(
             "insert into models (id, name, facts, size_bytes, created_at) values (?, ?, ?, ?, ?)
              on conflict (id) do nothing",
         )
@@ -77,34 +87,55 @@ impl Store {
         .bind(serde_json::to_string(facts)?)
         .bind(i64::try_from(size_bytes).unwrap_or(i64::MAX))
         .bind(now())
-        .execute(&self.writer)
+        .execute(&mut *write)
         .await?;
-        let model = self.model(id).await?.ok_or(sqlx::Error::RowNotFound)?;
-        Ok((model, created.rows_affected() == 1))
-    }
-
-    /// The model `id`.
-    pub async fn model(&self, id: &str) -> Result<Option<StoredModel>, StoreError> {
-        sqlx::query("select rowid as number, * from models where id = ?")
-            .bind(id)
-            .fetch_optional(&self.readers)
-            .await?
-            .map(|row| read(&row))
-            .transpose()
-    }
-
-    /// Up to `limit` models, newest first; only older ones than that with number `before`.
-    pub async fn models(&self, before: Option<i64>, limit: u32) -> Result<Vec<StoredModel>, StoreError> {
-        sqlx::query(
-            "select rowid as number, * from models where ?1 is null or rowid < ?1 order by rowid desc limit ?2",
+        let owned = sqlx::query(
+            "insert into model_owners (model, owner, created_at) values (?, ?, ?) on conflict do nothing",
         )
-            .bind(before)
-            .bind(limit)
-            .fetch_all(&self.readers)
-            .await?
-            .iter()
-            .map(read)
-            .collect()
+        .bind(id)
+        .bind(owner)
+        .bind(now())
+        .execute(&mut *write)
+        .await?;
+        write.commit().await?;
+        let model = self.model(id, None).await?.ok_or(StoreError::Unseen)?;
+        Ok(Ok((model, owned.rows_affected() == 1)))
+    }
+
+    /// The model `id`, if `owner` has it; `None` asks for anybody's.
+    pub async fn model(&self, id: &str, owner: Option<&str>) -> Result<Option<StoredModel>, StoreError> {
+        sqlx::query(
+            "select rowid as number, * from models where id = ?1
+             and (?2 is null or exists (select 1 from model_owners where model = ?1 and owner = ?2))",
+        )
+        .bind(id)
+        .bind(owner)
+        .fetch_optional(&self.readers)
+        .await?
+        .map(|row| read(&row))
+        .transpose()
+    }
+
+    /// Up to `limit` models of `owner` (`None`: of all), newest first; only older ones than that with number `before`.
+    pub async fn models(
+        &self,
+        owner: Option<&str>,
+        before: Option<i64>,
+        limit: u32,
+    ) -> Result<Vec<StoredModel>, StoreError> {
+        sqlx::query(
+            "select rowid as number, * from models where (?1 is null or rowid < ?1)
+             and (?3 is null or exists (select 1 from model_owners where model = id and owner = ?3))
+             order by rowid desc limit ?2",
+        )
+        .bind(before)
+        .bind(limit)
+        .bind(owner)
+        .fetch_all(&self.readers)
+        .await?
+        .iter()
+        .map(read)
+        .collect()
     }
 
     /// Removes package files without a row: of uploads and deletions that broke off.
@@ -113,7 +144,7 @@ impl Store {
         while let Some(file) = files.next_entry().await? {
             let Ok(name) = file.file_name().into_string() else { continue };
             let stale = match name.strip_suffix(".zip") {
-                Some(id) => self.model(id).await?.is_none(),
+                Some(id) => self.model(id, None).await?.is_none(),
                 None => name.starts_with(UPLOAD_PREFIX),
             };
             if stale {
@@ -123,24 +154,40 @@ impl Store {
         Ok(())
     }
 
-    /// Deletes model `id` with its reductions, unless an unfinished job needs it.
-    pub async fn delete_model(&self, id: &str) -> Result<Deletion, StoreError> {
+    /// Takes model `id` from `owner` (`None`: from all), unless an unfinished job of theirs needs it. With its last owner it
+    /// is deleted, and its reductions with it.
+    pub async fn delete_model(&self, id: &str, owner: Option<&str>) -> Result<Deletion, StoreError> {
         let _packages = self.packages.lock().await;
-        let mut transaction = self.writer.begin().await?;
+        if self.model(id, owner).await?.is_none() {
+            return Ok(Deletion::Unknown);
+        }
+        let mut transaction = self.write().await?;
         let users: i64 = sqlx::query_scalar(
-            "select count(*) from jobs where model = ? and status in ('accepted', 'running')",
+            "select count(*) from jobs
+             where model = ?1 and status in ('accepted', 'running') and (?2 is null or owner = ?2)",
         )
         .bind(id)
+        .bind(owner)
         .fetch_one(&mut *transaction)
         .await?;
         if users > 0 {
+            transaction.rollback().await?;
             return Ok(Deletion::InUse(users.unsigned_abs()));
         }
-        let deleted =
-            sqlx::query("delete from models where id = ?").bind(id).execute(&mut *transaction).await?;
+        sqlx::query("delete from model_owners where model = ?1 and (?2 is null or owner = ?2)")
+            .bind(id)
+            .bind(owner)
+            .execute(&mut *transaction)
+            .await?;
+        let deleted = sqlx::query(
+            "delete from models where id = ?1 and not exists (select 1 from model_owners where model = ?1)",
+        )
+        .bind(id)
+        .execute(&mut *transaction)
+        .await?;
         transaction.commit().await?;
         if deleted.rows_affected() == 0 {
-            return Ok(Deletion::Unknown);
+            return Ok(Deletion::Deleted);
         }
         self.remove_checkpoints(id, None).await;
         match tokio::fs::remove_file(self.package_path(id)).await {
@@ -150,7 +197,7 @@ impl Store {
     }
 }
 
-fn read(row: &SqliteRow) -> Result<StoredModel, StoreError> {
+pub(super) fn read(row: &SqliteRow) -> Result<StoredModel, StoreError> {
     Ok(StoredModel {
         number: row.try_get("number")?,
         id: row.try_get("id")?,
@@ -197,10 +244,11 @@ mod tests {
         let id = "m".repeat(64);
         // SQLite refuses to grow beyond so many pages as it does on a full disk.
         sqlx::query("pragma max_page_count = 1").execute(&store.writer).await.unwrap();
-        assert!(store.insert_model(&id, &facts, &upload).await.unwrap_err().is_disk_full());
-        assert!(store.model(&id).await.unwrap().is_none());
+        let whose = ("", Limits::default());
+        assert!(store.insert_model(whose, &id, &facts, &upload).await.unwrap_err().is_disk_full());
+        assert!(store.model(&id, None).await.unwrap().is_none());
         sqlx::query("pragma max_page_count = 100000").execute(&store.writer).await.unwrap();
-        let (model, new) = store.insert_model(&id, &facts, &upload).await.unwrap();
+        let (model, new) = store.insert_model(whose, &id, &facts, &upload).await.unwrap().unwrap();
         drop(upload);
         assert_eq!((model.size_bytes, new), (7, true));
         assert_eq!(std::fs::read_to_string(store.package_path(&id)).unwrap(), "package");

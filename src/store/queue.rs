@@ -1,20 +1,15 @@
-//! The queue's tables, which belong to `apalis`, in a file of their own.
+//! The queue's tables, which belong to `apalis`, in memory.
 //!
-//! A file of their own because two migrators on one file trip over each other's `_sqlx_migrations`. On one machine the
-//! queue remembers nothing that [`super::jobs`] and [`super::results`] do not know better, so its file is made afresh at
-//! every start and filled from there: interrupted work is queued again at once, not after the minute that `apalis`
-//! needs to notice a dead worker, and nothing piles up. Handlers must not care how often or where they are called; that
-//! is what lets the same ones run on a queue that other machines share.
+//! On one machine the queue remembers nothing that [`super::jobs`] and [`super::results`] do not know better: it is filled
+//! from there at every start, and no full disk, lock or lack of descriptors can stop it. Handlers must not care how often or
+//! where they are called; that is what lets the same ones run on a queue that other machines share.
 
-use std::path::Path;
 use std::time::Duration;
 
 use apalis::prelude::{TaskBuilder, TaskId};
 use apalis_sqlite::{Config, SqliteStorage, queries};
 use serde::{Deserialize, Serialize};
-use sqlx::sqlite::{
-    SqliteConnectOptions, SqliteJournalMode, SqlitePool, SqlitePoolOptions, SqliteSynchronous,
-};
+use sqlx::sqlite::{SqliteConnectOptions, SqlitePool, SqlitePoolOptions};
 
 use super::StoreError;
 use super::jobs::JobId;
@@ -38,30 +33,24 @@ pub struct RunSpeed {
 const PREPARE: &str = "prepare";
 const SPEEDS: &str = "speeds";
 
-/// The queue's file.
+/// The queue.
 #[derive(Debug, Clone)]
-pub struct QueueFile {
+pub struct Queue {
     pool: SqlitePool,
 }
 
-impl QueueFile {
-    /// Makes an empty queue in `folder`. Only the one process that owns the folder may call this.
-    pub async fn create(folder: &Path) -> Result<Self, StoreError> {
-        for suffix in ["", "-wal", "-shm"] {
-            match std::fs::remove_file(folder.join(format!("queue.sqlite{suffix}"))) {
-                Err(error) if error.kind() != std::io::ErrorKind::NotFound => return Err(error.into()),
-                _ => {}
-            }
-        }
-        let options = SqliteConnectOptions::new()
-            .filename(folder.join("queue.sqlite"))
-            .create_if_missing(true)
-            .journal_mode(SqliteJournalMode::Wal)
-            // Lost with the process anyway.
-            .synchronous(SqliteSynchronous::Off)
-            .busy_timeout(Duration::from_secs(10));
-        // One connection: every statement of a queue is a write.
-        let pool = SqlitePoolOptions::new().max_connections(1).connect_with(options).await?;
+impl Queue {
+    /// Makes an empty queue.
+    pub async fn create() -> Result<Self, StoreError> {
+        let options = SqliteConnectOptions::new().in_memory(true);
+        // One connection, which is the database, and for ever.
+        let pool = SqlitePoolOptions::new()
+            .max_connections(1)
+            .min_connections(1)
+            .idle_timeout(None::<Duration>)
+            .max_lifetime(None::<Duration>)
+            .connect_with(options)
+            .await?;
         SqliteStorage::<()>::migrations().run(&pool).await?;
         Ok(Self { pool })
     }
@@ -84,42 +73,18 @@ impl QueueFile {
         Ok(())
     }
 
-    /// Queues speeds of a job, to run in the order given and after all queued before.
-    pub async fn push_speeds(&self, job: JobId, speeds: &[u32]) -> Result<(), StoreError> {
-        let tasks = speeds
-            .iter()
-            .map(|&speed| {
-                let args = serde_json::to_vec(&RunSpeed { job, speed })?;
-                // Tasks run in the order of these ids. The key keeps a repeated preparation from queueing twice, and
-                // finds the tasks of a job again.
-                let id = ulid::Ulid::from(uuid::Uuid::now_v7().as_u128());
-                let key = format!("{job}/{speed}");
-                Ok(TaskBuilder::new(args)
-                    .task_id(TaskId::from_string(id.to_string()))
-                    .idempotency_key(key)
-                    .build())
-            })
-            .collect::<Result<Vec<_>, serde_json::Error>>()?;
-        let mut transaction = self.pool.begin().await?;
-        queries::push_tasks(&mut *transaction, SPEEDS, &tasks).await?;
-        transaction.commit().await?;
+    /// Queues a speed of a job, to run after all queued before.
+    pub async fn push_speed(&self, task: RunSpeed) -> Result<(), StoreError> {
+        // Tasks run in the order of these ids.
+        let id = ulid::Ulid::from(uuid::Uuid::now_v7().as_u128());
+        let task =
+            TaskBuilder::new(serde_json::to_vec(&task)?).task_id(TaskId::from_string(id.to_string())).build();
+        let mut connection = self.pool.acquire().await?;
+        queries::push_tasks(&mut *connection, SPEEDS, &[task]).await?;
         Ok(())
     }
 
-    /// Takes the speeds of a job that no worker has begun out of the queue.
-    pub async fn withdraw_speeds(&self, job: JobId) -> Result<(), StoreError> {
-        sqlx::query(
-            "delete from Jobs where job_type = ?1 and status = 'Pending'
-             and idempotency_key >= ?2 || '/' and idempotency_key < ?2 || '0'",
-        )
-        .bind(SPEEDS)
-        .bind(job.to_string())
-        .execute(&self.pool)
-        .await?;
-        Ok(())
-    }
-
-    /// Closes the file.
+    /// Ends it: who still asks for tasks is refused.
     pub async fn close(&self) {
         self.pool.close().await;
     }

@@ -60,6 +60,7 @@ impl Store {
         modes_per_speed: u32,
         reduced: &ReducedSector,
     ) -> Result<(), StoreError> {
+        let mut write = self.write().await?;
         sqlx::query(
             "insert into reductions (model, modes_per_speed, layout, reduced, report, created_at)
              select ?1, ?2, ?3, ?4, ?5, ?6 where exists (select 1 from models where id = ?1)
@@ -73,8 +74,9 @@ impl Store {
         .bind(postcard::to_stdvec(reduced)?)
         .bind(serde_json::to_string(&reduced.report)?)
         .bind(now())
-        .execute(&self.writer)
+        .execute(&mut *write)
         .await?;
+        write.commit().await?;
         self.remove_checkpoints(model, Some(modes_per_speed)).await;
         Ok(())
     }

@@ -41,13 +41,17 @@ impl Document {
 impl Store {
     /// Keeps a finished speed in a transaction of its own, with its end state in place of the last one's, if the job still
     /// wants work. A speed that is there already stays as it is.
-    /// Returns how many speeds of the job are finished now.
-    pub async fn insert_speed(&self, job: JobId, result: &SpeedResult) -> Result<u32, StoreError> {
+    /// Returns how many speeds of the job are finished now; `None` if it was deleted.
+    pub async fn insert_speed(&self, job: JobId, result: &SpeedResult) -> Result<Option<u32>, StoreError> {
         let spectra = result.spectra.as_ref().map(postcard::to_stdvec).transpose()?;
         let wear = result.wear.as_ref().map(postcard::to_stdvec).transpose()?;
-        let mut transaction = self.writer.begin().await?;
+        let point = serde_json::to_string(&result.point)?;
+        let bytes = [Some(point.len()), spectra.as_ref().map(Vec::len), wear.as_ref().map(Vec::len)];
+        let bytes: usize = bytes.into_iter().flatten().sum();
+        let mut transaction = self.write().await?;
         let inserted = sqlx::query(
-            "insert into speed_results (job, speed, status, point, spectra, wear, created_at) values (?, ?, ?, ?, ?, ?, ?)
+            "insert into speed_results (job, speed, status, point, spectra, wear, created_at)
+             select ?1, ?2, ?3, ?4, ?5, ?6, ?7 where exists (select 1 from jobs where id = ?1 and deleted = 0)
              on conflict (job, speed) do nothing",
         )
         .bind(job.to_string())
@@ -57,7 +61,7 @@ impl Store {
             PointStatus::Diverged => "diverged",
             PointStatus::Failed => "failed",
         })
-        .bind(serde_json::to_string(&result.point)?)
+        .bind(point)
         .bind(spectra)
         .bind(wear)
         .bind(now())
@@ -65,14 +69,21 @@ impl Store {
         .await?;
         if inserted.rows_affected() == 1 {
             end_states::replace(&mut transaction, job, result).await?;
-        }
-        sqlx::query("update jobs set crashes = 0 where id = ? and crashes > 0")
+            sqlx::query(
+                "update jobs set crashes = 0, finished = finished + 1, diverged = diverged + ?2, failed = failed + ?3,
+                     stored_bytes = stored_bytes + ?4
+                 where id = ?1",
+            )
             .bind(job.to_string())
+            .bind(result.point.status == PointStatus::Diverged)
+            .bind(result.point.status == PointStatus::Failed)
+            .bind(bytes as i64)
             .execute(&mut *transaction)
             .await?;
-        let finished = sqlx::query_scalar("select count(*) from speed_results where job = ?")
+        }
+        let finished = sqlx::query_scalar("select finished from jobs where id = ? and deleted = 0")
             .bind(job.to_string())
-            .fetch_one(&mut *transaction)
+            .fetch_optional(&mut *transaction)
             .await?;
         transaction.commit().await?;
         Ok(finished)
@@ -149,7 +160,7 @@ impl Store {
     }
 }
 
-fn read(row: &SqliteRow) -> Result<SpeedResult, StoreError> {
+pub(super) fn read(row: &SqliteRow) -> Result<SpeedResult, StoreError> {
     let spectra: Option<&[u8]> = row.try_get("spectra")?;
     let spectra: Option<SpeedSpectra> = spectra.map(postcard::from_bytes).transpose()?;
     let wear: Option<&[u8]> = row.try_get("wear")?;

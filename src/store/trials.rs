@@ -34,7 +34,7 @@ impl Store {
         model: &str,
         trial: &Trial,
     ) -> Result<(), StoreError> {
-        let mut transaction = self.writer.begin().await?;
+        let mut transaction = self.write().await?;
         sqlx::query(
             "insert into trials (key, model, version, body, created_at)
              select ?1, ?2, ?3, ?4, ?5 where exists (select 1 from models where id = ?2)
@@ -51,13 +51,13 @@ impl Store {
             .bind(job.to_string())
             .execute(&mut *transaction)
             .await?;
-        transaction.commit().await?;
-        Ok(())
+        transaction.commit().await
     }
 
     /// Drops the trials of other versions of the program.
     pub(super) async fn remove_stale_trials(&self) -> Result<(), StoreError> {
-        sqlx::query("delete from trials where version <> ?").bind(VERSION).execute(&self.writer).await?;
-        Ok(())
+        let mut write = self.write().await?;
+        sqlx::query("delete from trials where version <> ?").bind(VERSION).execute(&mut *write).await?;
+        write.commit().await
     }
 }

@@ -12,7 +12,7 @@ use tokio::task::JoinHandle;
 use tokio_util::sync::CancellationToken;
 
 /// Longer than anything here takes on a loaded machine.
-const PATIENCE: Duration = Duration::from_secs(120);
+pub(crate) const PATIENCE: Duration = Duration::from_secs(120);
 
 /// A running service.
 pub(crate) struct TestApp {
@@ -69,6 +69,12 @@ pub(crate) fn config(data: &Path) -> Config {
         upload_bytes: 1 << 20,
         expanded_bytes: None,
         memory_bytes: None,
+        keep_days: None,
+        tokens: None,
+        open: false,
+        owner_speeds: None,
+        owner_bytes: None,
+        owner_models: None,
     }
 }
 

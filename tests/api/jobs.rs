@@ -1,7 +1,7 @@
 //! Jobs: listing, cancelling, sharing the workers, surviving a restart.
 
 use rubmap::store::Store;
-use rubmap::store::jobs::JobId;
+use rubmap::store::jobs::{JobId, Unfinished};
 
 use super::app::{TestApp, long_sweep_of, modal_analysis_of, sweep_of};
 use super::model;
@@ -23,7 +23,6 @@ async fn a_cancelled_job_stops_and_keeps_its_finished_speeds() {
 
     let cancelled = api.delete(&format!("/v1/jobs/{id}")).await;
     assert_eq!((cancelled.status.as_u16(), cancelled.text("/status")), (200, "dismissed".to_owned()));
-    assert_eq!(api.delete(&format!("/v1/jobs/{id}")).await.status, 200, "twice is as good as once");
 
     // … and after it was cancelled, and the workers are free for others.
     let other = api.sweep(&sweep_of(&model)).await;
@@ -33,6 +32,17 @@ async fn a_cancelled_job_stops_and_keeps_its_finished_speeds() {
     assert!(job["speeds"]["finished"].as_u64().unwrap() < 200);
     assert_eq!(api.get(&format!("/v1/jobs/{id}/spectra/0")).await.status, 200);
     api.get(&format!("/v1/jobs/{id}/spectra/199")).await.problem(404, "speed-not-found");
+
+    // Cancelled, it has ended, and is deleted as other jobs are that have.
+    assert!(job["stored_bytes"].as_u64() > Some(0), "{job}");
+    for id in [&id, &other] {
+        assert_eq!(api.delete(&format!("/v1/jobs/{id}")).await.status, 204);
+        for path in ["", "/interaction-map", "/spectra/0"] {
+            api.get(&format!("/v1/jobs/{id}{path}")).await.problem(404, "job-not-found");
+        }
+        api.delete(&format!("/v1/jobs/{id}")).await.problem(404, "job-not-found");
+    }
+    assert_eq!(api.get("/v1/jobs").await.body["jobs"].as_array().unwrap().len(), 0);
     app.stop().await;
 }
 
@@ -113,16 +123,22 @@ async fn a_job_that_takes_the_service_down_is_given_up() {
     // Being told to stop is no crash, however often.
     app.stop().await;
     let job = JobId::parse(&id).unwrap();
-    for crashes in 0..5 {
+    for crashes in 0..12 {
         let store = Store::open(data.path()).await.unwrap();
-        assert_eq!(store.take_up_jobs().await.unwrap(), [(job, crashes)]);
-        assert!(store.begin_job(job).await.unwrap());
-        // Here the process dies: nobody lays the job down.
+        let [Unfinished { crashes: counted, .. }] = store.unfinished_jobs().await.unwrap()[..] else {
+            panic!()
+        };
+        assert_eq!(counted, crashes);
+        // Here the process dies: nobody takes the mark away.
+        std::mem::forget(store.mark_computing(job));
+        store.close().await;
+        let store = Store::open(data.path()).await.unwrap();
+        store.count_crashes().await.unwrap();
         store.close().await;
     }
     let app = TestApp::start_on(data.path()).await;
     let job = app.api.job(&id).await.body;
     assert_eq!(job["status"], "failed", "{job}");
-    assert!(job["error"]["detail"].as_str().unwrap().contains("ended 5 times"), "{job}");
+    assert!(job["error"]["detail"].as_str().unwrap().contains("ended 12 times"), "{job}");
     app.stop().await;
 }

@@ -6,7 +6,7 @@ use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::sync::{Arc, Mutex};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use rubmap::app::{App, StartError};
 use rubmap::impeller::{ImpellerParameters, generate};
@@ -14,7 +14,7 @@ use rubmap::package;
 use rubmap::store::Store;
 use serde_json::{Value, json};
 
-use super::app::{Api, config, long_sweep_of, modal_analysis_of};
+use super::app::{Api, PATIENCE, config, long_sweep_of, modal_analysis_of};
 use super::chains::{finished, first_of};
 use super::model::{self, files_in};
 
@@ -59,6 +59,26 @@ impl Program {
     fn said(&self, message: &str, part: &str) -> bool {
         let part = format!("part=\"{part}\"");
         self.log.lock().unwrap().iter().any(|line| line.contains(message) && line.contains(&part))
+    }
+
+    /// Id of the process.
+    pub(crate) fn id(&self) -> u32 {
+        self.child.id()
+    }
+
+    /// SIGTERM: it ends well, and before anybody loses patience.
+    pub(crate) fn terminate(mut self) {
+        let told = Command::new("kill").arg("-TERM").arg(self.id().to_string()).status().unwrap();
+        assert!(told.success());
+        let begin = Instant::now();
+        loop {
+            if let Some(status) = self.child.try_wait().unwrap() {
+                assert!(status.success(), "a service told to stop ends well");
+                return;
+            }
+            assert!(begin.elapsed() < PATIENCE, "it does not end");
+            std::thread::sleep(Duration::from_millis(20));
+        }
     }
 
     /// SIGKILL: no handler runs, nothing is flushed.
@@ -243,13 +263,11 @@ async fn a_data_folder_has_one_service() {
 #[tokio::test]
 async fn sigterm_ends_the_service_and_not_its_jobs() {
     let data = tempfile::tempdir().unwrap();
-    let mut program = Program::serve(data.path());
+    let program = Program::serve(data.path());
     let model = program.api.model(model::package(1.0)).await;
     let id = program.api.sweep(&long_sweep_of(&model, 100)).await;
     program.api.follow(&id, |job| job["speeds"]["finished"].as_u64() >= Some(1)).await;
-    let killed = Command::new("kill").arg("-TERM").arg(program.child.id().to_string()).status().unwrap();
-    assert!(killed.success());
-    assert!(program.child.wait().unwrap().success(), "a service told to stop ends well");
+    program.terminate();
 
     let program = Program::serve(data.path());
     assert_eq!(program.api.job(&id).await.text("/status"), "running");

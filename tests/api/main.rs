@@ -5,6 +5,7 @@ mod app;
 mod chains;
 mod checkpoints;
 mod errors;
+mod faults;
 mod generation;
 mod idempotency;
 mod jobs;

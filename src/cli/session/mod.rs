@@ -58,6 +58,12 @@ impl Session {
             upload_bytes: 1 << 30,
             expanded_bytes: None,
             memory_bytes: None,
+            keep_days: None,
+            tokens: None,
+            open: false,
+            owner_speeds: None,
+            owner_bytes: None,
+            owner_models: None,
         };
         let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build()?;
         match runtime.block_on(with_service(config, play))? {

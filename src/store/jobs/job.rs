@@ -147,6 +147,8 @@ pub enum FailureCause {
     Package,
     /// It needs more memory than allowed.
     Memory,
+    /// Its owner has too much already.
+    Limit,
     /// A defect of this program: a computation panicked.
     Defect,
     /// The database or the disk failed.
@@ -168,6 +170,8 @@ pub enum Chosen {
 pub struct Job {
     /// Its id.
     pub id: JobId,
+    /// Whose it is; empty where the service knows no owners.
+    pub owner: String,
     /// How far it is.
     pub status: JobStatus,
     /// The model it computes from, or the one that a finished generation made.
@@ -182,6 +186,8 @@ pub struct Job {
     pub phase: String,
     /// Its speeds.
     pub speeds: SpeedCounts,
+    /// Bytes that its results take in the database.
+    pub stored_bytes: u64,
     /// What a sweep was expected to cost when its first speeds were queued.
     pub plan: Option<Estimate>,
     /// The settings that were chosen for it.

@@ -13,6 +13,7 @@ impl Store {
         request: &JobRequest,
         speeds: u32,
     ) -> Result<bool, StoreError> {
+        let mut write = self.write().await?;
         let revised = sqlx::query(
             "update jobs set request = ?3, modes_per_speed = ?4, speeds = ?5, updated_at = ?6
              where id = ?1 and kind = ?2 and status = 'running' and speeds <= ?5",
@@ -23,8 +24,9 @@ impl Store {
         .bind(request.modes_per_speed())
         .bind(speeds)
         .bind(now())
-        .execute(&self.writer)
+        .execute(&mut *write)
         .await?;
+        write.commit().await?;
         Ok(revised.rows_affected() == 1)
     }
 }

@@ -3,17 +3,35 @@
 use super::{JobId, read_id};
 use crate::store::{Store, StoreError};
 
+/// A job that still wants work.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Unfinished {
+    /// Its id.
+    pub id: JobId,
+    /// Whose it is.
+    pub owner: String,
+    /// Times the service died while something was being computed for it, since anything of it was last finished.
+    pub crashes: u32,
+}
+
 impl Store {
-    /// All jobs that still want work, oldest first, as a service that starts finds them: each with the number of times
-    /// the service died under it since anything of it was last finished, a speed or a part of its reduction. Counts one
-    /// more for those that were being computed.
-    pub async fn take_up_jobs(&self) -> Result<Vec<(JobId, u32)>, StoreError> {
-        let mut transaction = self.writer.begin().await?;
-        let dropped: Vec<(String, Option<String>, Option<u32>)> =
-            sqlx::query_as("select id, model, modes_per_speed from jobs where in_hand = 1")
-                .fetch_all(&mut *transaction)
-                .await?;
-        for (id, model, modes_per_speed) in dropped {
+    /// Counts one more death of the service for the jobs that something was being computed for when it last died; those
+    /// that only waited beside them are not to blame. A job of which something was finished before, a part of its
+    /// reduction, begins anew. For a service that starts.
+    pub async fn count_crashes(&self) -> Result<(), StoreError> {
+        let marked = self.marked()?;
+        if marked.is_empty() {
+            return Ok(());
+        }
+        let mut transaction = self.write().await?;
+        for id in marked {
+            let found: Option<(Option<String>, Option<u32>)> = sqlx::query_as(
+                "select model, modes_per_speed from jobs where id = ? and status in ('accepted', 'running')",
+            )
+            .bind(id.to_string())
+            .fetch_optional(&mut *transaction)
+            .await?;
+            let Some((model, modes_per_speed)) = found else { continue };
             let parts = match (model, modes_per_speed) {
                 (Some(model), Some(modes)) => self.checkpoints(&model, modes).parts().await?,
                 // Of many reductions, or of one not chosen yet.
@@ -21,27 +39,27 @@ impl Store {
                 (None, _) => 0,
             };
             sqlx::query(
-                "update jobs set crashes = case when ?1 > parts then 0 else crashes + 1 end, parts = ?1, in_hand = 0
-                 where id = ?2",
+                "update jobs set crashes = case when ?1 > parts then 0 else crashes + 1 end, parts = ?1 where id = ?2",
             )
             .bind(parts)
-            .bind(id)
+            .bind(id.to_string())
             .execute(&mut *transaction)
             .await?;
         }
-        let jobs: Vec<(String, u32)> = sqlx::query_as(
-            "select id, crashes from jobs where status in ('accepted', 'running') order by id",
-        )
-        .fetch_all(&mut *transaction)
-        .await?;
         transaction.commit().await?;
-        jobs.iter().map(|(id, crashes)| Ok((read_id(id)?, *crashes))).collect()
+        self.forget_marked()
     }
 
-    /// Lays down all jobs: the service ends because it was told to.
-    pub async fn lay_down_jobs(&self) -> Result<(), StoreError> {
-        sqlx::query("update jobs set in_hand = 0 where in_hand = 1").execute(&self.writer).await?;
-        Ok(())
+    /// All jobs that still want work, oldest first.
+    pub async fn unfinished_jobs(&self) -> Result<Vec<Unfinished>, StoreError> {
+        let jobs: Vec<(String, String, u32)> = sqlx::query_as(
+            "select id, owner, crashes from jobs where status in ('accepted', 'running') order by id",
+        )
+        .fetch_all(&self.readers)
+        .await?;
+        jobs.into_iter()
+            .map(|(id, owner, crashes)| Ok(Unfinished { id: read_id(&id)?, owner, crashes }))
+            .collect()
     }
 }
 
@@ -64,10 +82,11 @@ mod tests {
         .await
         .unwrap();
         let crash = async || {
-            sqlx::query("update jobs set in_hand = 1").execute(&store.writer).await.unwrap();
-            let jobs = store.take_up_jobs().await.unwrap();
-            assert_eq!(jobs[0].0, job);
-            jobs[0].1
+            std::mem::forget(store.mark_computing(job));
+            store.count_crashes().await.unwrap();
+            let jobs = store.unfinished_jobs().await.unwrap();
+            assert_eq!(jobs[0].id, job);
+            jobs[0].crashes
         };
         assert_eq!(crash().await, 1);
         assert_eq!(crash().await, 2);

@@ -1,4 +1,4 @@
-//! A full disk: what was computed waits until somebody makes room.
+//! A full disk, a locked database, no descriptors left: what was asked for or computed waits until that has passed.
 
 use std::time::Duration;
 
@@ -7,22 +7,23 @@ use super::progress::Watch;
 use crate::store::StoreError;
 
 /// Time between two attempts.
-const BETWEEN_ATTEMPTS: Duration = Duration::from_secs(2);
+pub(super) const BETWEEN_ATTEMPTS: Duration = Duration::from_secs(1);
 
-/// Writes a result, again and again while the disk is full, unless the job is not wanted any more.
-pub(super) async fn once_there_is_room<T, W>(watch: &Watch, mut write: impl FnMut() -> W) -> Result<T, Halt>
+/// Writes a result, again and again while the store cannot take it, unless the job is not wanted any more: what was
+/// computed is not computed again. What costs nothing to repeat is repeated with its whole task.
+pub(super) async fn patiently<T, W>(watch: &Watch, mut write: impl FnMut() -> W) -> Result<T, Halt>
 where
     W: Future<Output = Result<T, StoreError>>,
 {
     let mut warned = false;
     loop {
         match write().await {
-            Err(error) if error.is_disk_full() => {
+            Err(error) if error.may_pass() => {
                 if watch.is_cancelled() {
                     return Err(Halt::NotWanted);
                 }
                 if !warned {
-                    tracing::error!(%error, "the disk of the data folder is full; a result waits for room");
+                    tracing::error!(%error, "a result waits until the data folder takes it");
                     warned = true;
                 }
                 tokio::time::sleep(BETWEEN_ATTEMPTS).await;
@@ -45,14 +46,14 @@ mod tests {
     }
 
     #[tokio::test]
-    async fn a_result_outlasts_a_full_disk_and_no_other_failure() {
-        let mut failures = vec![ErrorKind::PermissionDenied, ErrorKind::StorageFull];
+    async fn a_result_outlasts_what_passes_and_nothing_else() {
+        let mut failures = vec![ErrorKind::PermissionDenied, ErrorKind::StorageFull, ErrorKind::ResourceBusy];
         let mut write = || {
             let failure = failures.pop();
             async move { failure.map_or(Ok(7), |kind| Err(StoreError::File(Error::from(kind)))) }
         };
-        assert!(matches!(once_there_is_room(&watch(), &mut write).await, Err(Halt::Store(_))));
-        assert!(matches!(once_there_is_room(&watch(), &mut write).await, Ok(7)));
+        assert!(matches!(patiently(&watch(), &mut write).await, Err(Halt::Store(_))));
+        assert!(matches!(patiently(&watch(), &mut write).await, Ok(7)));
     }
 
     #[tokio::test]
@@ -60,6 +61,6 @@ mod tests {
         let watch = watch();
         watch.dismiss();
         let full = || async { Err::<(), _>(StoreError::File(Error::from(ErrorKind::StorageFull))) };
-        assert!(matches!(once_there_is_room(&watch, full).await, Err(Halt::NotWanted)));
+        assert!(matches!(patiently(&watch, full).await, Err(Halt::NotWanted)));
     }
 }

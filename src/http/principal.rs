@@ -1,0 +1,56 @@
+//! Who sends a request: from its bearer token, where the service has tokens.
+
+use axum::extract::{FromRequestParts, Request, State};
+use axum::http::header::{AUTHORIZATION, WWW_AUTHENTICATE};
+use axum::http::request::Parts;
+use axum::http::{HeaderMap, HeaderValue, Method};
+use axum::middleware::Next;
+use axum::response::{IntoResponse, Response};
+
+use super::problem::{Kind, Problem};
+use crate::tokens::{Principal, Scope, Tokens};
+
+/// Paths that tell nothing about anybody, for those who watch over the process.
+const OPEN: [&str; 2] = ["/healthz", "/readyz"];
+
+/// Middleware before every handler: finds out who asks, and refuses who may not.
+pub(super) async fn authenticate(
+    tokens: State<Option<Tokens>>,
+    mut request: Request,
+    next: Next,
+) -> Response {
+    let principal = match tokens.0 {
+        None => Principal::anybody(),
+        Some(_) if OPEN.contains(&request.uri().path()) => Principal::anybody(),
+        Some(tokens) => match bearer(request.headers()).and_then(|token| tokens.principal(token)) {
+            Some(principal) => principal,
+            None => return unauthorized(),
+        },
+    };
+    if principal.scope == Scope::Read && ![Method::GET, Method::HEAD].contains(request.method()) {
+        let detail = "this token may only read; ask for one with the scope write";
+        return Problem::new(Kind::Forbidden, detail).into_response();
+    }
+    request.extensions_mut().insert(principal);
+    next.run(request).await
+}
+
+fn bearer(headers: &HeaderMap) -> Option<&str> {
+    let (scheme, token) = headers.get(AUTHORIZATION)?.to_str().ok()?.split_once(' ')?;
+    scheme.eq_ignore_ascii_case("bearer").then(|| token.trim())
+}
+
+fn unauthorized() -> Response {
+    let detail = "this service wants a token: send it as \"Authorization: Bearer …\"";
+    let mut response = Problem::new(Kind::Unauthorized, detail).into_response();
+    response.headers_mut().insert(WWW_AUTHENTICATE, HeaderValue::from_static("Bearer"));
+    response
+}
+
+impl<S: Send + Sync> FromRequestParts<S> for Principal {
+    type Rejection = Response;
+
+    async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Response> {
+        parts.extensions.get::<Self>().cloned().ok_or_else(unauthorized)
+    }
+}

@@ -1,0 +1,153 @@
+//! Whose turn it is: waiting tasks, handed out so that owners take turns, and of one owner its jobs.
+
+use std::collections::{HashSet, VecDeque};
+use std::hash::Hash;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use crate::store::jobs::JobId;
+
+/// Waiting tasks of all jobs, and which of them are out.
+///
+/// Few are out at once: what a queue has, it runs in order of arrival, and a job of one speed that came after ten
+/// thousand of another would wait for all of them there.
+#[derive(Debug)]
+pub(super) struct Turns<T> {
+    most: usize,
+    lines: Mutex<Lines<T>>,
+}
+
+#[derive(Debug)]
+struct Lines<T> {
+    /// One line an owner; the first is next.
+    owners: VecDeque<Line<T>>,
+    out: HashSet<(JobId, T)>,
+}
+
+/// The jobs of one owner that have tasks waiting; the first is next.
+#[derive(Debug)]
+struct Line<T> {
+    owner: String,
+    jobs: VecDeque<(JobId, VecDeque<T>)>,
+}
+
+impl<T: Copy + Eq + Hash> Turns<T> {
+    /// No more than `most` tasks are out at once.
+    pub(super) fn new(most: usize) -> Self {
+        Self { most, lines: Mutex::new(Lines { owners: VecDeque::new(), out: HashSet::new() }) }
+    }
+
+    /// Adds tasks of a job, to be handed out in this order. Those that wait or are out already are not added again.
+    pub(super) fn add(&self, owner: &str, job: JobId, tasks: impl IntoIterator<Item = T>) {
+        let Lines { owners, out } = &mut *self.lock();
+        let mut tasks: Vec<T> = tasks.into_iter().filter(|&task| !out.contains(&(job, task))).collect();
+        let line = match owners.iter().position(|line| line.owner == owner) {
+            Some(place) => &mut owners[place],
+            None => {
+                owners.push_back(Line { owner: owner.to_owned(), jobs: VecDeque::new() });
+                let last = owners.len() - 1;
+                &mut owners[last]
+            }
+        };
+        match line.jobs.iter_mut().find(|(known, _)| *known == job) {
+            Some((_, waiting)) => {
+                let known: HashSet<T> = waiting.iter().copied().collect();
+                tasks.retain(|task| !known.contains(task));
+                waiting.extend(tasks);
+            }
+            None => line.jobs.push_back((job, tasks.into())),
+        }
+        owners.retain_mut(|line| {
+            line.jobs.retain(|(_, waiting)| !waiting.is_empty());
+            !line.jobs.is_empty()
+        });
+    }
+
+    /// The next task; `None` while none waits or enough are out.
+    pub(super) fn next(&self) -> Option<(JobId, T)> {
+        let Lines { owners, out } = &mut *self.lock();
+        if out.len() >= self.most {
+            return None;
+        }
+        let mut line = owners.pop_front()?;
+        let (job, mut waiting) = line.jobs.pop_front()?;
+        let task = waiting.pop_front()?;
+        if !waiting.is_empty() {
+            line.jobs.push_back((job, waiting));
+        }
+        if !line.jobs.is_empty() {
+            owners.push_back(line);
+        }
+        out.insert((job, task));
+        Some((job, task))
+    }
+
+    /// A task that was out has ended.
+    pub(super) fn done(&self, job: JobId, task: T) {
+        self.lock().out.remove(&(job, task));
+    }
+
+    /// Drops the waiting tasks of a job.
+    pub(super) fn withdraw(&self, job: JobId) {
+        self.lock().owners.retain_mut(|line| {
+            line.jobs.retain(|(known, _)| *known != job);
+            !line.jobs.is_empty()
+        });
+    }
+
+    /// Tasks that wait, and tasks that are out.
+    pub(super) fn counts(&self) -> (usize, usize) {
+        let Lines { owners, out } = &*self.lock();
+        let waiting = owners.iter().flat_map(|line| &line.jobs).map(|(_, waiting)| waiting.len()).sum();
+        (waiting, out.len())
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Lines<T>> {
+        self.lines.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn owners_take_turns_and_so_do_their_jobs() {
+        let turns = Turns::new(100);
+        let [long, short, other] = [JobId::new(), JobId::new(), JobId::new()];
+        turns.add("a", long, 0..10_000);
+        turns.add("a", short, [0]);
+        turns.add("b", other, 0..2);
+        let next: Vec<_> = (0..6).map_while(|_| turns.next()).collect();
+        assert_eq!(next, [(long, 0), (other, 0), (short, 0), (other, 1), (long, 1), (long, 2)]);
+        assert_eq!(turns.counts(), (9997, 6));
+    }
+
+    #[test]
+    fn no_more_are_out_than_may_be_and_none_twice() {
+        let turns = Turns::new(2);
+        let job = JobId::new();
+        turns.add("", job, [5, 3, 5, 4]);
+        // A repeated preparation adds what is there already.
+        turns.add("", job, [3, 4, 5]);
+        assert_eq!((turns.next(), turns.next(), turns.next()), (Some((job, 5)), Some((job, 3)), None));
+        turns.add("", job, [3, 4, 5]);
+        assert_eq!(turns.counts(), (1, 2));
+        turns.done(job, 5);
+        assert_eq!((turns.next(), turns.next()), (Some((job, 4)), None));
+        turns.done(job, 3);
+        assert_eq!(turns.next(), None, "nothing waits");
+        // What has ended may come again.
+        turns.add("", job, [3]);
+        assert_eq!(turns.next(), Some((job, 3)));
+    }
+
+    #[test]
+    fn a_withdrawn_job_keeps_nobody_waiting() {
+        let turns = Turns::new(9);
+        let [gone, stays] = [JobId::new(), JobId::new()];
+        turns.add("a", gone, 0..5);
+        turns.add("b", stays, 0..1);
+        turns.withdraw(gone);
+        assert_eq!((turns.next(), turns.next()), (Some((stays, 0)), None));
+    }
+}

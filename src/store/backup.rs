@@ -1,0 +1,172 @@
+//! A copy of a data folder that is whole although a service works on it, and the check of a folder.
+
+use std::path::{Path, PathBuf};
+
+use futures::TryStreamExt;
+use sqlx::sqlite::{SqliteConnectOptions, SqliteConnection};
+use sqlx::{ConnectOptions, Connection, Row};
+
+use super::{DATABASE, PATIENCE, StoreError, jobs, models, package_path, results};
+use crate::package;
+
+/// What a backup holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Backup {
+    /// Models with their packages.
+    pub models: u64,
+    /// Jobs with their results.
+    pub jobs: u64,
+    /// Models that were deleted while they were being copied; they are not in the backup.
+    pub dropped: u64,
+}
+
+/// Copies the data folder `data` to `to`, which must not exist: the database as it is at one moment, and the packages of
+/// its models. A service may run on the folder. What can be computed again (parts of unfinished reductions) is left out.
+///
+/// # Errors
+/// Nothing is at `to` then.
+pub async fn backup(data: &Path, to: &Path) -> Result<Backup, StoreError> {
+    if to.try_exists()? {
+        return Err(
+            std::io::Error::new(std::io::ErrorKind::AlreadyExists, "the backup would overwrite it").into()
+        );
+    }
+    let around = match to.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    // Its name promises that it is whole.
+    let unfinished = tempfile::Builder::new().prefix("unfinished-backup-").tempdir_in(around)?;
+    std::fs::create_dir(unfinished.path().join("models"))?;
+    let mut source = connect(data).read_only(true).connect().await?;
+    let copy = unfinished.path().join(DATABASE);
+    sqlx::query("vacuum into ?").bind(copy.to_string_lossy()).execute(&mut source).await?;
+
+    let mut copied = connect(unfinished.path()).foreign_keys(true).connect().await?;
+    let ids: Vec<String> = sqlx::query_scalar("select id from models").fetch_all(&mut copied).await?;
+    let (mut models, mut dropped) = (0, 0);
+    for id in ids {
+        let (from, to) = (package_path(data, &id), package_path(unfinished.path(), &id));
+        let file = tokio::task::spawn_blocking(move || copy_file(&from, &to));
+        match file.await.map_err(std::io::Error::other)? {
+            Ok(()) => models += 1,
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+                let there: bool = sqlx::query_scalar("select exists (select 1 from models where id = ?)")
+                    .bind(&id)
+                    .fetch_one(&mut source)
+                    .await?;
+                if there {
+                    return Err(StoreError::Package(error));
+                }
+                sqlx::query("delete from models where id = ?").bind(&id).execute(&mut copied).await?;
+                dropped += 1;
+            }
+            Err(error) => return Err(error.into()),
+        }
+    }
+    let jobs: i64 =
+        sqlx::query_scalar("select count(*) from jobs where deleted = 0").fetch_one(&mut copied).await?;
+    copied.close().await?;
+    source.close().await?;
+    std::fs::File::open(&copy)?.sync_all()?;
+    std::fs::rename(unfinished.path(), to)?;
+    std::fs::File::open(around)?.sync_all()?;
+    // It has another name now.
+    let _ = unfinished.keep();
+    Ok(Backup { models, jobs: jobs.unsigned_abs(), dropped })
+}
+
+fn copy_file(from: &Path, to: &Path) -> std::io::Result<()> {
+    std::fs::copy(from, to)?;
+    std::fs::File::open(to)?.sync_all()
+}
+
+/// What a check of a data folder found.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Findings {
+    /// What is wrong, one by one; empty if all is well.
+    pub wrong: Vec<String>,
+    /// Models whose packages are what they were.
+    pub models: u64,
+    /// Jobs that read back.
+    pub jobs: u64,
+    /// Speeds whose results read back.
+    pub speeds: u64,
+}
+
+/// Reads everything in the data folder `data` and says what is not as it was written. Changes nothing; a service may run
+/// on the folder.
+pub async fn check(data: &Path) -> Result<Findings, StoreError> {
+    let mut found = Findings::default();
+    let mut database = connect(data).read_only(true).connect().await?;
+    let verdicts: Vec<String> = sqlx::query_scalar("pragma integrity_check").fetch_all(&mut database).await?;
+    found.wrong.extend(verdicts.into_iter().filter(|verdict| verdict != "ok"));
+    for row in sqlx::query("pragma foreign_key_check").fetch_all(&mut database).await? {
+        let (table, parent): (String, String) = (row.try_get(0)?, row.try_get(2)?);
+        found.wrong.push(format!("a row of {table} belongs to a row of {parent} that is not there"));
+    }
+    let known = sqlx::migrate!().iter().map(|migration| migration.version).max();
+    let version: Option<i64> =
+        sqlx::query_scalar("select max(version) from _sqlx_migrations").fetch_one(&mut database).await?;
+    if version != known {
+        let version = version.unwrap_or(0);
+        found.wrong.push(format!(
+            "the database has version {version}, this program knows {}: start the service once to bring it up to date, or \
+             take the program that wrote it",
+            known.unwrap_or(0)
+        ));
+        return Ok(found);
+    }
+    check_models(data, &mut database, &mut found).await?;
+    check_jobs(&mut database, &mut found).await?;
+    database.close().await?;
+    Ok(found)
+}
+
+async fn check_models(
+    data: &Path,
+    database: &mut SqliteConnection,
+    found: &mut Findings,
+) -> Result<(), StoreError> {
+    for row in sqlx::query("select rowid as number, * from models").fetch_all(&mut *database).await? {
+        let id: String = row.try_get("id")?;
+        if let Err(error) = models::read(&row) {
+            found.wrong.push(format!("model {id}: {error}"));
+        }
+        let path = package_path(data, &id);
+        let read = move || package::read(&path, &package::Limits::default()).map(|package| package.digest);
+        match tokio::task::spawn_blocking(read).await.map_err(std::io::Error::other)? {
+            Ok(digest) if digest == id => found.models += 1,
+            Ok(_) => found.wrong.push(format!("model {id}: its package has another content")),
+            Err(error) => found.wrong.push(format!("model {id}: {error}")),
+        }
+    }
+    Ok(())
+}
+
+async fn check_jobs(database: &mut SqliteConnection, found: &mut Findings) -> Result<(), StoreError> {
+    let mut rows = sqlx::query("select * from jobs where deleted = 0").fetch(&mut *database);
+    while let Some(row) = rows.try_next().await? {
+        match jobs::read(&row) {
+            Ok(_) => found.jobs += 1,
+            Err(error) => found.wrong.push(format!("job {}: {error}", row.try_get::<&str, _>("id")?)),
+        }
+    }
+    drop(rows);
+    let mut rows = sqlx::query("select job, speed, point, spectra, wear from speed_results").fetch(database);
+    while let Some(row) = rows.try_next().await? {
+        match results::read(&row) {
+            Ok(_) => found.speeds += 1,
+            Err(error) => {
+                let (job, speed): (&str, u32) = (row.try_get("job")?, row.try_get("speed")?);
+                found.wrong.push(format!("job {job}, speed {speed}: {error}"));
+            }
+        }
+    }
+    Ok(())
+}
+
+fn connect(folder: &Path) -> SqliteConnectOptions {
+    let file: PathBuf = folder.join(DATABASE);
+    SqliteConnectOptions::new().filename(file).busy_timeout(PATIENCE)
+}

@@ -1,0 +1,180 @@
+//! Deleting jobs, and giving their room back to the file system.
+
+use chrono::{TimeDelta, Utc};
+
+use super::{JobId, status_of};
+use crate::store::{Store, StoreError, timestamp};
+
+/// Speeds that one transaction deletes: others get to write in between.
+const SPEEDS_AT_ONCE: u32 = 64;
+
+/// Pages of the database given back at once.
+const PAGES_AT_ONCE: u32 = 1024;
+
+/// What became of a job that was to be deleted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum JobDeletion {
+    /// Nobody sees it any more; [`Store::purge`] gives its room back.
+    Deleted,
+    /// There is no such job.
+    Unknown,
+    /// It still wants work.
+    Unfinished,
+}
+
+impl Store {
+    /// Deletes a finished job with its results.
+    pub async fn delete_job(&self, id: JobId) -> Result<JobDeletion, StoreError> {
+        let mut write = self.write().await?;
+        let outcome = match status_of(&mut write, id).await? {
+            None => JobDeletion::Unknown,
+            Some(status) if !status.is_final() => JobDeletion::Unfinished,
+            Some(_) => JobDeletion::Deleted,
+        };
+        if outcome != JobDeletion::Deleted {
+            write.rollback().await?;
+            return Ok(outcome);
+        }
+        sqlx::query("update jobs set deleted = 1 where id = ?")
+            .bind(id.to_string())
+            .execute(&mut *write)
+            .await?;
+        write.commit().await?;
+        Ok(outcome)
+    }
+
+    /// Deletes the jobs that ended more than so many days ago. Returns how many.
+    pub async fn delete_older_jobs(&self, days: u32) -> Result<u64, StoreError> {
+        let mut write = self.write().await?;
+        let deleted = sqlx::query("update jobs set deleted = 1 where deleted = 0 and finished_at < ?")
+            .bind(timestamp(Utc::now() - TimeDelta::days(days.into())))
+            .execute(&mut *write)
+            .await?;
+        write.commit().await?;
+        Ok(deleted.rows_affected())
+    }
+
+    /// Removes the rows of deleted jobs, a few at a time, and gives their room back to the file system. Goes on where it
+    /// was if it is interrupted.
+    pub async fn purge(&self) -> Result<(), StoreError> {
+        let deleted: Vec<String> =
+            sqlx::query_scalar("select id from jobs where deleted = 1").fetch_all(&self.readers).await?;
+        for id in &deleted {
+            loop {
+                let mut write = self.write().await?;
+                let removed = sqlx::query(
+                    "delete from speed_results where job = ?1 and speed in
+                         (select speed from speed_results where job = ?1 limit ?2)",
+                )
+                .bind(id)
+                .bind(SPEEDS_AT_ONCE)
+                .execute(&mut *write)
+                .await?;
+                let last = removed.rows_affected() == 0;
+                if last {
+                    sqlx::query("delete from jobs where id = ?").bind(id).execute(&mut *write).await?;
+                }
+                write.commit().await?;
+                if last {
+                    break;
+                }
+            }
+        }
+        if deleted.is_empty() { Ok(()) } else { self.give_back().await }
+    }
+
+    /// Gives free pages back to the file system, and what the write-ahead log has grown to.
+    async fn give_back(&self) -> Result<(), StoreError> {
+        let mut writer = self.writer.acquire().await?;
+        loop {
+            let free: i64 = sqlx::query_scalar("pragma freelist_count").fetch_one(&mut *writer).await?;
+            if free == 0 {
+                break;
+            }
+            let some = format!("pragma incremental_vacuum({PAGES_AT_ONCE})");
+            sqlx::query(sqlx::AssertSqlSafe(some)).fetch_all(&mut *writer).await?;
+            let left: i64 = sqlx::query_scalar("pragma freelist_count").fetch_one(&mut *writer).await?;
+            if left >= free {
+                // Of a database made by an earlier version that could not be made anew.
+                break;
+            }
+        }
+        sqlx::query("pragma wal_checkpoint(truncate)").fetch_all(&mut *writer).await?;
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[tokio::test]
+    async fn a_deleted_job_gives_its_room_back() {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::open(folder.path()).await.unwrap();
+        let file = || folder.path().join("rubmap.sqlite").metadata().unwrap().len();
+        let [kept, gone] = [JobId::new(), JobId::new()];
+        for (id, status, finished) in
+            [(kept, "running", None), (gone, "successful", Some("2026-01-01T00:00:00.000Z"))]
+        {
+            sqlx::query(
+                "insert into jobs (id, kind, status, model, modes_per_speed, facts, request, speeds, created_at,
+                     finished_at, updated_at)
+                 values (?, 'sweep', ?, 'm', 20, '{}', '{}', 300, 'a', ?, 'a')",
+            )
+            .bind(id.to_string())
+            .bind(status)
+            .bind(finished)
+            .execute(&store.writer)
+            .await
+            .unwrap();
+        }
+        for speed in 0..300 {
+            sqlx::query(
+                "insert into speed_results (job, speed, status, point, spectra, created_at)
+                 values (?, ?, 'completed', '{}', zeroblob(10000), 'a')",
+            )
+            .bind(gone.to_string())
+            .bind(speed)
+            .execute(&store.writer)
+            .await
+            .unwrap();
+        }
+        store.give_back().await.unwrap();
+        let full = file();
+        assert!(full > 3_000_000, "{full}");
+        assert_eq!(store.delete_job(kept).await.unwrap(), JobDeletion::Unfinished);
+        assert_eq!(store.delete_job(JobId::new()).await.unwrap(), JobDeletion::Unknown);
+        assert_eq!(store.delete_job(gone).await.unwrap(), JobDeletion::Deleted);
+        assert!(store.job(gone).await.unwrap().is_none(), "nobody sees it any more");
+        assert_eq!(store.delete_job(gone).await.unwrap(), JobDeletion::Unknown);
+        store.purge().await.unwrap();
+        assert!(file() < 500_000, "{} of {full} bytes", file());
+        let left: i64 =
+            sqlx::query_scalar("select count(*) from jobs").fetch_one(&store.readers).await.unwrap();
+        assert_eq!(left, 1);
+        store.purge().await.unwrap();
+    }
+
+    #[tokio::test]
+    async fn jobs_are_deleted_by_their_age() {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::open(folder.path()).await.unwrap();
+        for (days, status) in [(0, "successful"), (2, "dismissed"), (9, "successful")] {
+            sqlx::query(
+                "insert into jobs (id, kind, status, model, modes_per_speed, facts, request, speeds, created_at,
+                     finished_at, updated_at)
+                 values (?, 'sweep', ?, 'm', 20, '{}', '{}', 1, 'a', ?, 'a')",
+            )
+            .bind(JobId::new().to_string())
+            .bind(status)
+            .bind(timestamp(Utc::now() - TimeDelta::days(days)))
+            .execute(&store.writer)
+            .await
+            .unwrap();
+        }
+        assert_eq!(store.delete_older_jobs(10).await.unwrap(), 0);
+        assert_eq!(store.delete_older_jobs(1).await.unwrap(), 2);
+        assert_eq!(store.delete_older_jobs(1).await.unwrap(), 0);
+    }
+}

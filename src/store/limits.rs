@@ -1,0 +1,101 @@
+//! What one owner may have in the store.
+
+use sqlx::SqliteConnection;
+
+use super::StoreError;
+
+/// Limits of one owner; `None` for no limit.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Limits {
+    /// Speeds of unfinished jobs that are still to be computed; a job without speeds counts as one.
+    pub queued_speeds: Option<u64>,
+    /// Bytes of results and packages.
+    pub stored_bytes: Option<u64>,
+    /// Models.
+    pub models: Option<u64>,
+}
+
+/// A limit that a request would exceed, or that is reached.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum LimitReached {
+    /// Too many speeds.
+    #[error("{queued} speeds of yours wait to be computed, {asked} more would exceed the limit of {limit}")]
+    QueuedSpeeds {
+        /// That wait.
+        queued: u64,
+        /// That are asked for.
+        asked: u64,
+        /// That may wait.
+        limit: u64,
+    },
+    /// Too many bytes.
+    #[error("your models and results take {stored} bytes, the limit is {limit}: delete jobs or models")]
+    StoredBytes {
+        /// That are stored.
+        stored: u64,
+        /// That may be.
+        limit: u64,
+    },
+    /// Too many models.
+    #[error("you have {models} models, the limit is {limit}: delete some")]
+    Models {
+        /// That are there.
+        models: u64,
+        /// That may be.
+        limit: u64,
+    },
+}
+
+impl Limits {
+    /// Whether `owner` may queue so many speeds more.
+    pub(super) async fn allow_speeds(
+        self,
+        connection: &mut SqliteConnection,
+        owner: &str,
+        asked: u64,
+    ) -> Result<Result<(), LimitReached>, StoreError> {
+        if let Some(limit) = self.queued_speeds {
+            let sql = "select coalesce(sum(max(speeds - finished, 1)), 0) from jobs
+                       where owner = ? and status in ('accepted', 'running')";
+            let queued = count(connection, sql, owner).await?;
+            if queued + asked > limit {
+                return Ok(Err(LimitReached::QueuedSpeeds { queued, asked, limit }));
+            }
+        }
+        self.allow_bytes(connection, owner).await
+    }
+
+    /// Whether `owner` may have one model more.
+    pub(super) async fn allow_model(
+        self,
+        connection: &mut SqliteConnection,
+        owner: &str,
+    ) -> Result<Result<(), LimitReached>, StoreError> {
+        if let Some(limit) = self.models {
+            let models =
+                count(connection, "select count(*) from model_owners where owner = ?", owner).await?;
+            if models >= limit {
+                return Ok(Err(LimitReached::Models { models, limit }));
+            }
+        }
+        self.allow_bytes(connection, owner).await
+    }
+
+    async fn allow_bytes(
+        self,
+        connection: &mut SqliteConnection,
+        owner: &str,
+    ) -> Result<Result<(), LimitReached>, StoreError> {
+        let Some(limit) = self.stored_bytes else { return Ok(Ok(())) };
+        let sql = "select (select coalesce(sum(stored_bytes), 0) from jobs where owner = ?1 and deleted = 0)
+                   + (select coalesce(sum(size_bytes), 0) from models
+                      where id in (select model from model_owners where owner = ?1))";
+        let stored = count(connection, sql, owner).await?;
+        Ok(if stored >= limit { Err(LimitReached::StoredBytes { stored, limit }) } else { Ok(()) })
+    }
+}
+
+async fn count(connection: &mut SqliteConnection, sql: &'static str, owner: &str) -> Result<u64, StoreError> {
+    let count: i64 = sqlx::query_scalar(sql).bind(owner).fetch_one(connection).await?;
+    Ok(count.unsigned_abs())
+}

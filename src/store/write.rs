@@ -1,0 +1,68 @@
+//! The one way to write: a transaction on the only connection that writes.
+
+use std::ops::{Deref, DerefMut};
+
+use sqlx::pool::PoolConnection;
+use sqlx::{Sqlite, SqliteConnection};
+
+use super::{Store, StoreError};
+
+/// A transaction that holds the lock for writing from its beginning.
+///
+/// Ended by [`Write::commit`] or [`Write::rollback`]. In every other case (an error, a request whose client is gone) the
+/// connection is closed and with it whatever it was in the middle of: after a full disk or an I/O error `SQLite` may have
+/// ended the transaction by itself or not, and a connection that is wrong about that takes all later writes with it.
+#[derive(Debug)]
+pub(super) struct Write {
+    connection: PoolConnection<Sqlite>,
+    ended: bool,
+}
+
+impl Store {
+    /// Begins to write, once nobody else does.
+    pub(super) async fn write(&self) -> Result<Write, StoreError> {
+        let mut write = Write { connection: self.writer.acquire().await?, ended: false };
+        sqlx::query("begin immediate").execute(&mut *write).await?;
+        Ok(write)
+    }
+}
+
+impl Write {
+    /// Keeps what was written.
+    pub(super) async fn commit(self) -> Result<(), StoreError> {
+        self.end("commit").await
+    }
+
+    /// Takes back what was written.
+    pub(super) async fn rollback(self) -> Result<(), StoreError> {
+        self.end("rollback").await
+    }
+
+    async fn end(mut self, how: &'static str) -> Result<(), StoreError> {
+        sqlx::query(how).execute(&mut *self).await?;
+        self.ended = true;
+        Ok(())
+    }
+}
+
+impl Deref for Write {
+    type Target = SqliteConnection;
+
+    fn deref(&self) -> &SqliteConnection {
+        &self.connection
+    }
+}
+
+impl DerefMut for Write {
+    fn deref_mut(&mut self) -> &mut SqliteConnection {
+        &mut self.connection
+    }
+}
+
+impl Drop for Write {
+    fn drop(&mut self) {
+        if !self.ended {
+            self.connection.close_on_drop();
+        }
+    }
+}
