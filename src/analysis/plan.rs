@@ -36,9 +36,9 @@ pub struct SweepPlan {
     pub contact_pairs: u64,
     /// Whether the reduction that the sweep rests on is there. While it is not, `points` and `estimate` are left out.
     pub reduction: ReductionState,
-    /// Real unknowns of the whole reduced wheel; as long as it is to be computed N(n_b + speeds·k), of which nearly
-    /// dependent directions will be dropped.
-    pub reduced_unknowns: u64,
+    /// The whole reduced wheel has at most so many real unknowns: its own number if the reduction is stored, otherwise N(n_b +
+    /// speeds·k), of which nearly dependent directions will be dropped.
+    pub reduced_unknowns_at_most: u64,
     /// Speeds to simulate, those of the request.
     pub speeds: u32,
     /// Threads that compute speeds side by side; one where each starts from the end of another.
@@ -114,7 +114,7 @@ pub struct CostRange {
 pub struct Estimate {
     /// Steps over all speeds.
     pub steps: u64,
-    /// Computing time summed over the speeds, s; compare `spent.wall_time_s`.
+    /// Computing time summed over the speeds, s; compare `spent.computing_time_s`.
     pub computing_time_s: CostRange,
     /// Time from the first to the last speed with all workers on this sweep, s.
     pub wall_time_s: CostRange,
@@ -127,8 +127,9 @@ pub struct Estimate {
 /// What was really spent on the finished speeds of a sweep.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Spent {
-    /// Wall time summed over the speeds, s.
-    pub wall_time_s: f64,
+    /// Computing time summed over the speeds, s; compare `plan.computing_time_s`. Speeds that ran side by side took less of the
+    /// clock on the wall.
+    pub computing_time_s: f64,
     /// Steps taken.
     pub steps: u64,
 }
@@ -136,7 +137,7 @@ pub struct Spent {
 impl Spent {
     pub(super) fn on<'a>(points: impl IntoIterator<Item = &'a Point>) -> Self {
         points.into_iter().fold(Self::default(), |sum, point| Self {
-            wall_time_s: sum.wall_time_s + point.wall_time_s,
+            computing_time_s: sum.computing_time_s + point.wall_time_s,
             steps: sum.steps + point.steps,
         })
     }
@@ -149,9 +150,9 @@ pub struct ModalAnalysisPlan {
     pub effects: Vec<PlannedEffect>,
     /// Whether the reduction that it rests on is there.
     pub reduction: ReductionState,
-    /// Real unknowns of the whole reduced wheel; as long as it is to be computed N(n_b + speeds·k), of which nearly
-    /// dependent directions will be dropped.
-    pub reduced_unknowns: u64,
+    /// The whole reduced wheel has at most so many real unknowns: its own number if the reduction is stored, otherwise N(n_b +
+    /// speeds·k), of which nearly dependent directions will be dropped.
+    pub reduced_unknowns_at_most: u64,
     /// Speeds of the diagram.
     pub speeds: u32,
     /// Eigenproblems solved at each of them, one a nodal diameter.
@@ -196,7 +197,7 @@ pub fn plan_sweep(
             None => 0,
         },
         reduction: state(reduced),
-        reduced_unknowns: reduced_unknowns(facts, reduced, request.modes()),
+        reduced_unknowns_at_most: reduced_unknowns(facts, reduced, request.modes()),
         speeds: speeds.len() as u32,
         workers: workers as u32,
         estimate: reduced.and_then(|reduced| estimate(&points, &speeds, workers, reduced_bytes(reduced))),
@@ -239,7 +240,7 @@ pub fn plan_modal_analysis(
     ModalAnalysisPlan {
         effects,
         reduction: state(reduced),
-        reduced_unknowns: reduced_unknowns(facts, reduced, request.modes()),
+        reduced_unknowns_at_most: reduced_unknowns(facts, reduced, request.modes()),
         speeds: speeds.len() as u32,
         nodal_diameters: harmonic_count(facts.sectors as usize) as u32,
         computing_time_s: reduced.and_then(one).map(|seconds| seconds * speeds.len() as f64),
