@@ -20,7 +20,7 @@ use super::result::{
 use super::run::VERSION;
 use crate::dynamics::sector::Units;
 use crate::response::campbell::multiples;
-use crate::response::critical_speed::Resolution;
+use crate::response::critical_speed::{Resolution, peaks};
 use crate::response::spectra::engine_orders;
 
 /// The row that one speed contributes to the map of `sensor` (index into the request's sensors).
@@ -90,12 +90,12 @@ pub fn critical_speeds(
     let refinement = Refinement::of(request, points);
     let table = |(sensor, &of): (usize, &Sensor)| CriticalSpeeds {
         sensor: of,
-        critical_speeds: response_peaks(&curve, sensor, &prediction.linear, errors, &reduced.report),
+        critical_speeds: response_peaks(request, &curve, sensor, &prediction.linear, errors, &reduced.report),
         linear_crossings: prediction.linear.clone(),
         driven_crossings: prediction.driven.clone(),
         casing_coincidences: prediction.coincidences.clone(),
         missing: missing.clone(),
-        refinement,
+        refinement: refinement.clone(),
         plan: None,
         spent: Spent::on(points),
         units: reduced.units.clone(),
@@ -115,7 +115,7 @@ fn response_peaks(
     reduction: &ReductionReport,
 ) -> Vec<CriticalSpeed> {
     let level = curve.level(sensor);
-    let critical = ResponseCurve::peaks(&level).into_iter().filter_map(|peak| {
+    let critical = peaks(&level, request.peak_prominence).into_iter().filter_map(|peak| {
         let point = curve.points[peak.index]?;
         let resolution = Resolution::of(&curve.speeds_rad_s, &level, &peak);
         let response = &point.responses[sensor];
@@ -126,6 +126,7 @@ fn response_peaks(
             index: point.index,
             at_edge: peak.at_edge,
             speed_error_rad_s: resolution.error,
+    request: &SweepRequest,
             resolved: resolution.resolved,
             rms: response.rms,
             half_peak_to_peak: response.half_peak_to_peak,

@@ -8,7 +8,9 @@ use crate::analysis::auto_or::AutoOr;
 use crate::analysis::discretisation::aligned_samples;
 use crate::analysis::error::Violation;
 use crate::analysis::model::ModelFacts;
-use crate::analysis::request::{Integration, SchemeChoice, Sensor, SweepDirection, SweepRequest};
+use crate::analysis::request::{
+    Integration, SchemeChoice, Sensor, SweepDirection, SweepRequest, default_peak_prominence,
+};
 use crate::analysis::resolve::{limits, resolve_sweep};
 use crate::analysis::scene::Scene;
 use crate::analysis::speeds::Speeds;
@@ -132,6 +134,7 @@ impl StudyRequest {
             max_engine_order: self.max_engine_order,
             sweep: SweepDirection::Independent,
             refine: false,
+            peak_prominence: default_peak_prominence(),
             accuracy: None,
             budget: None,
             control_speeds: None,

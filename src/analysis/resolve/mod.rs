@@ -76,6 +76,12 @@ pub fn resolve_sweep(mut request: SweepRequest, facts: &ModelFacts) -> Result<Sw
     check_ramp(&mut found, &request);
     effects::check_effects(&mut found, &request, facts);
     if request.sensors.is_empty() {
+    found.require(
+        (0.0..=1.0).contains(&request.peak_prominence),
+        "/peak_prominence",
+        "a share of the largest response, between 0 and 1",
+    );
+    check_steps(&mut found, &request);
         request.sensors = default_sensors(facts);
     }
     check_sensors(&mut found, &request.sensors, facts);
