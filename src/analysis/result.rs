@@ -42,10 +42,13 @@ pub struct SensorResponse {
     pub rms: f64,
     /// Half the peak-to-peak displacement over the window.
     pub half_peak_to_peak: f64,
-    /// Non-zero engine order of the largest spectral amplitude.
-    pub dominant_engine_order: f64,
-    /// Nodal diameter that carries the dominant engine order.
-    pub dominant_nodal_diameter: u32,
+    /// Non-zero engine order of the largest spectral amplitude; absent where no line stands above the round-off of the
+    /// displacements of all sensors, such as where nothing ever touches.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dominant_engine_order: Option<f64>,
+    /// Nodal diameter that carries the dominant engine order; absent without one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dominant_nodal_diameter: Option<u32>,
     /// Pairs of spectral lines k ± δ about integer engine orders, the strongest ones by ascending order; only where they
     /// stand clear of the floor of the spectrum.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -373,10 +376,12 @@ pub struct CriticalSpeed {
     /// Estimated relative error of the steady response at this speed; absent without control runs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub amplitude_error: Option<f64>,
-    /// Engine order of the largest spectral amplitude.
-    pub dominant_engine_order: f64,
-    /// Nodal diameter that carries it.
-    pub dominant_nodal_diameter: u32,
+    /// Engine order of the largest spectral amplitude; absent where no line up to `max_engine_order` stands above round-off.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dominant_engine_order: Option<f64>,
+    /// Nodal diameter that carries it; absent without one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dominant_nodal_diameter: Option<u32>,
     /// Steady-state verdict of that speed.
     pub settling: Verdict,
     /// Nearest prediction of the linear criterion.

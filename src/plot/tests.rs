@@ -130,6 +130,15 @@ fn split_waves_are_drawn_apart() {
     assert_eq!(count(&campbell(&waves()), "forward waves"), 1);
 }
 
+/// A critical speed without a dominant line has no engine order.
+#[test]
+fn a_critical_speed_without_a_line_is_labelled_without_one() {
+    let mut critical = critical();
+    critical.critical_speeds[0].dominant_engine_order = None;
+    let drawing = interaction_map(&map(), Some(&critical), None, VerticalAxis::EngineOrder);
+    assert!(drawing.contains("11,000 rpm · EO –"), "{drawing}");
+}
+
 fn of_class<'a>(drawing: &'a Document, class: &'a str) -> impl Iterator<Item = Node<'a, 'a>> {
     drawing.descendants().filter(move |node| node.attribute("class") == Some(class))
 }

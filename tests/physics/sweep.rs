@@ -5,7 +5,10 @@ use rubmap::analysis::error::AnalysisError;
 use rubmap::analysis::monitor::{Monitor, Unwatched};
 use rubmap::analysis::request::SweepRequest;
 use rubmap::analysis::result::{PointStatus, Verdict};
-use rubmap::analysis::run::{ModelFacts, ReducedSector, check, prepare, resolve_sweep, run_speed};
+use rubmap::analysis::run::{
+    ModelFacts, ReducedSector, check, critical_speeds, prepare, resolve_sweep, run_speed,
+};
+use rubmap::analysis::scene::Symmetry;
 use rubmap::dynamics::reduction::NoCheckpoints;
 use rubmap::dynamics::sector::SectorModel;
 
@@ -79,8 +82,41 @@ fn results_are_consistent() {
         // A periodic response has lines at whole engine orders only.
         let between = spectrum.amplitude.iter().enumerate().filter(|(bin, _)| bin % 4 != 0);
         assert!(between.map(|(_, a)| *a).fold(0.0, f64::max) < 0.05 * response.rms);
-        let bin = (response.dominant_engine_order * 4.0) as usize;
+        let bin = (response.dominant_engine_order.unwrap() * 4.0) as usize;
         assert!(spectrum.amplitude[1..].iter().all(|&a| a <= spectrum.amplitude[bin]));
+    }
+}
+
+/// What never moves, or moves by round-off only, has no dominant line; nor has what moves at higher orders than were asked for. A table
+/// of critical speeds says so.
+#[test]
+fn where_no_line_stands_out_none_is_named() {
+    let sector = wheel(WheelRecipe::default());
+    let reduced = reduced(&sector);
+    let speeds = [0.4 * TOP_SPEED, 0.5 * TOP_SPEED, 0.6 * TOP_SPEED];
+    let mut still = request(&sector, &speeds);
+    still.scene.casing.as_mut().unwrap().clearance.leading = Some(5.0);
+    still.scene.casing.as_mut().unwrap().clearance.trailing = Some(5.0);
+    // Two lobes drive even orders only; an exactly symmetric run has no round-off that grows.
+    let mut low = request(&sector, &speeds);
+    (low.max_engine_order, low.peak_prominence) = (1, 0.0);
+    low.scene.damping.as_mut().unwrap().modal_ratio = 0.4;
+    low.scene.symmetry = Symmetry::Exact;
+    (low.integration.revolutions, low.integration.window_revolutions) = (30, 2);
+    low.integration.steps_per_revolution = AutoOr::Fixed(4000);
+    for (request, moves) in [(&still, false), (&low, true)] {
+        let run = |index| run_speed(&reduced, request, index, None, &Unwatched).unwrap().point;
+        let points: Vec<_> = (0..3).map(run).collect();
+        for response in points.iter().flat_map(|point| &point.responses) {
+            assert_eq!(response.rms > 1e-6, moves, "{response:?}");
+            let dominant = (response.dominant_engine_order, response.dominant_nodal_diameter);
+            assert_eq!(dominant, (None, None), "{response:?}");
+        }
+        let tables = critical_speeds(&reduced, request, &points, None, &Unwatched).unwrap();
+        for table in &tables {
+            assert_eq!(table.critical_speeds.is_empty(), !moves);
+            assert!(table.critical_speeds.iter().all(|speed| speed.dominant_engine_order.is_none()));
+        }
     }
 }
 
