@@ -14,7 +14,7 @@ use super::refine::Refinement;
 use super::request::{Sensor, SweepRequest};
 use super::response_curve::ResponseCurve;
 use super::result::{
-    Coincidence, CriticalSpeed, CriticalSpeeds, Crossing, DrivenCrossing, InteractionMap, Point,
+    Coincidence, CriticalSpeed, CriticalSpeeds, Crossing, DrivenCrossing, InteractionMap, Point, PointStatus,
     ReductionReport, SpeedSpectra,
 };
 use super::run::VERSION;
@@ -70,6 +70,23 @@ pub fn interaction_map(
 }
 
 /// Families and superharmonic numbers of the linear prediction beside a sweep: those the paper looks at.
+/// How the speeds of a finished sweep ended, in words, if none of them was completed.
+pub fn nothing_completed(points: &[Point]) -> Option<String> {
+    if points.iter().any(|point| point.status == PointStatus::Completed) {
+        return None;
+    }
+    let diverged = points.iter().filter(|point| point.status == PointStatus::Diverged).count();
+    let first = points.iter().min_by_key(|point| point.index)?;
+    Some(format!(
+        "none of the {} speeds was completed: {diverged} diverged, {} could not be integrated; at {:.6} rad/s {}; the points of the \
+         interaction map say it of every speed",
+        points.len(),
+        points.len() - diverged,
+        first.speed_rad_s,
+        first.message.as_deref().unwrap_or("no reason is known")
+    ))
+}
+
 const PREDICTED_FAMILIES: usize = 2;
 const PREDICTED_SUPERHARMONICS: [u32; 3] = [1, 2, 3];
 
@@ -109,6 +126,7 @@ pub fn critical_speeds(
 /// Prominent peaks of one sensor's level over ascending speeds, each with the nearest linear crossing.
 fn response_peaks(
     curve: &ResponseCurve,
+    request: &SweepRequest,
     sensor: usize,
     linear: &[Crossing],
     errors: Option<&ErrorEstimate>,
@@ -126,7 +144,6 @@ fn response_peaks(
             index: point.index,
             at_edge: peak.at_edge,
             speed_error_rad_s: resolution.error,
-    request: &SweepRequest,
             resolved: resolution.resolved,
             rms: response.rms,
             half_peak_to_peak: response.half_peak_to_peak,

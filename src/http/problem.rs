@@ -114,6 +114,8 @@ kinds! {
     InvalidPackage = UNPROCESSABLE_ENTITY, "invalid-package", "The model package is not valid";
     /// The model cannot be computed.
     InvalidModel = UNPROCESSABLE_ENTITY, "invalid-model", "The model cannot be computed";
+    /// Every speed of the sweep diverged or failed.
+    NothingCompleted = UNPROCESSABLE_ENTITY, "nothing-completed", "No speed of the sweep was completed";
     /// The job needs more memory than the service may take.
     OutOfMemory = INSUFFICIENT_STORAGE, "out-of-memory", "The job needs more memory than allowed";
     /// The idempotency key belongs to another request.
@@ -247,6 +249,7 @@ impl From<&Failure> for Problem {
             FailureCause::Refused => Kind::InvalidRequest,
             FailureCause::Model => Kind::InvalidModel,
             FailureCause::Memory => Kind::OutOfMemory,
+            FailureCause::NothingCompleted => Kind::NothingCompleted,
             FailureCause::Package | FailureCause::Defect | FailureCause::Storage => Kind::Internal,
         };
         let mut problem = Self::new(kind, failure.message.clone());

@@ -147,6 +147,8 @@ pub enum FailureCause {
     Package,
     /// It needs more memory than allowed.
     Memory,
+    /// No speed of a sweep was integrated to its end.
+    NothingCompleted,
     /// A defect of this program: a computation panicked.
     Defect,
     /// The database or the disk failed.
