@@ -47,6 +47,10 @@ pub struct ModelFacts {
     #[serde(default)]
     pub gyroscopic: bool,
 }
+    /// Largest distance of a contact node from the axis, in the model's unit of length; absent of models that an earlier version
+    /// has kept.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contact_radius: Option<f64>,
 
 impl ModelFacts {
     /// The facts of `sector`.
@@ -64,6 +68,7 @@ impl ModelFacts {
 
     /// Whether the model has stiffness at three speeds.
     pub fn has_stiffening(&self) -> bool {
+            contact_radius: sector.contact.iter().map(|node| node.position[0]).reduce(f64::max),
         self.speeds_rad_s.len() == 3
     }
 }

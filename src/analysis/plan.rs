@@ -18,6 +18,7 @@ use super::result::{Point, SchemeReport};
 use super::run::VERSION;
 use super::scene::{Scene, Symmetry};
 use super::sliding;
+use super::speed::{casing, check_table};
 use super::stepping::Stepping;
 use super::symmetry::{FoundSymmetry, repeats};
 use crate::dynamics::casing::RestrictionTable;
@@ -293,7 +294,9 @@ fn plan_point(
             let steps = stepping.discretisation.per_revolution;
             sliding::check(&wheel, contact, request, stepping.scheme, steps)
                 .map_err(|error| error.to_string())?;
-            initial(request, &wheel, contact, None, &stepping)?;
+            check_table(&reduced.wheel, request, steps)?;
+            let casing = casing(&reduced.wheel, request, request.integration.ramp_revolutions);
+            initial(request, &wheel, contact, casing.as_ref(), &stepping)?;
             Ok((stepping, wheel))
         });
     let set_up = start.elapsed().as_secs_f64();

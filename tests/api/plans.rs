@@ -3,7 +3,7 @@
 use rubmap::store::Store;
 use serde_json::{Value, json};
 
-use super::app::{TestApp, modal_analysis_of, sweep_of};
+use super::app::{Api, TestApp, modal_analysis_of, sweep_of};
 use super::model;
 
 /// Names of the effects that are on.
@@ -94,12 +94,68 @@ async fn what_cannot_be_is_refused_or_said() {
     assert_eq!((&plan["nodal_diameters"], effects_on(&plan)), (&json!(3), Vec::new()));
     assert!(plan["computing_time_s"].as_f64() > Some(0.0));
 
-    // A step that only the reduced model shows to be unstable.
+    // What one speed only shows is said of that speed.
     let mut request = sweep_of(&model);
-    request["integration"]["scheme"] = "central_differences".into();
-    request["integration"]["steps_per_revolution"] = 20.into();
+    request["scene"]["initial"] = json!({"nodal_diameter": 0, "family": 1, "amplitude": 2.0});
     let plan = api.post("/v1/sweeps/plan", &request).await.body;
-    assert!(plan["points"][0]["message"].as_str().unwrap().contains("unstable"), "{plan}");
+    assert!(plan["points"][0]["message"].as_str().unwrap().contains("inside the casing"), "{plan}");
+    app.stop().await;
+}
+
+/// `change` made to a sweep is refused at `pointer`, by the plan and by the job in the same words.
+async fn refused_alike(api: &Api, model: &str, pointer: &str, change: impl Fn(&mut Value)) {
+    let mut request = sweep_of(model);
+    change(&mut request);
+    let planned = api.post("/v1/sweeps/plan", &request).await;
+    assert_eq!(planned.pointers(422, "invalid-request"), [pointer], "{}", planned.body);
+    let asked = api.post("/v1/sweeps", &request).await;
+    assert_eq!(asked.problem(422, "invalid-request"), planned.problem(422, "invalid-request"));
+}
+
+#[tokio::test]
+async fn a_plan_refuses_what_a_job_does() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(model::package(1.0)).await;
+    // Tips at a radius of 64.
+    let lobes = "/scene/casing/lobes";
+    refused_alike(api, &model, &format!("{lobes}/amplitude"), |request| {
+        request["scene"]["casing"]["lobes"]["amplitude"] = 500.0.into();
+    })
+    .await;
+    refused_alike(api, &model, &format!("{lobes}/width_rad"), |request| {
+        request["scene"]["casing"]["lobes"]["width_rad"] = 6.0.into();
+    })
+    .await;
+    refused_alike(api, &model, "/scene/casing/clearance/trailing", |request| {
+        request["scene"]["casing"]["clearance"]["trailing"] = 65.0.into();
+    })
+    .await;
+    refused_alike(api, &model, "/scene/orbit/radius", |request| {
+        request["scene"]["orbit"] = json!({"radius": 7.0});
+    })
+    .await;
+    refused_alike(api, &model, "/integration/steps_per_revolution", |request| {
+        request["scene"]["casing"]["lobes"]["width_rad"] = 2e-3.into();
+        request["integration"]["steps_per_revolution"] = 1000.into();
+    })
+    .await;
+    refused_alike(api, &model, "/peak_prominence", |request| request["peak_prominence"] = 1.5.into()).await;
+    assert_eq!(api.get("/v1/jobs").await.body["jobs"], json!([]), "nothing was queued");
+
+    // What only the reduction tells, at once when it is stored.
+    let id = api.post("/v1/modal-analyses", &modal_analysis_of(&model)).await.text("/id");
+    assert_eq!(api.finish(&id).await["status"], "successful");
+    refused_alike(api, &model, "/integration/steps_per_revolution", |request| {
+        request["integration"]["scheme"] = "central_differences".into();
+        request["integration"]["steps_per_revolution"] = 20.into();
+    })
+    .await;
+    refused_alike(api, &model, "/integration/kept_modes", |request| {
+        request["integration"]["scheme"] = "massless_boundary".into();
+        request["integration"]["kept_modes"] = 1000.into();
+    })
+    .await;
     app.stop().await;
 }
 

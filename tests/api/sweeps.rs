@@ -127,14 +127,14 @@ async fn what_only_the_reduced_model_can_tell_fails_the_job_with_a_pointer() {
     assert_eq!(job["error"]["type"], "urn:rubmap:problem:invalid-request");
     assert_eq!(job["error"]["errors"][0]["pointer"], "/integration/steps_per_revolution");
     assert_eq!(job["speeds"]["finished"], 0, "nothing runs before the check");
+    // Now that the reduction is stored, the same is said at once.
+    let again = api.post("/v1/sweeps", &request).await.problem(422, "invalid-request");
+    assert_eq!(Value::from(again), job["error"]["errors"]);
     api.get(&format!("/v1/jobs/{id}/critical-speeds")).await.problem(409, "result-unavailable");
     api.get(&format!("/v1/jobs/{id}/spectra/0")).await.problem(404, "speed-not-found");
     app.stop().await;
 }
 
-#[tokio::test]
-async fn the_reduction_is_computed_once() {
-    let data = tempfile::tempdir().unwrap();
 /// Speeds that all fail by themselves are no result.
 #[tokio::test]
 async fn a_sweep_without_a_completed_speed_has_failed() {
@@ -159,6 +159,9 @@ async fn a_sweep_without_a_completed_speed_has_failed() {
     app.stop().await;
 }
 
+#[tokio::test]
+async fn the_reduction_is_computed_once() {
+    let data = tempfile::tempdir().unwrap();
     let app = TestApp::start_on(data.path()).await;
     let model = app.api.model(model::package(1.0)).await;
     // Two jobs at once share it, and so does a third after a restart.
