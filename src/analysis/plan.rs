@@ -57,6 +57,9 @@ pub struct SweepPlan {
     /// Speeds of the pilot runs that the job begins with, rad/s; absent where none are missing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pilot_speeds_rad_s: Option<Vec<f64>>,
+    /// What its numbers will not be worth: a K(Ω) that cannot be trusted between the speeds at which the stiffness is given.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<String>,
     /// The whole request as resolved, with the setting chosen in place of what was asked for.
     pub settings: SweepRequest,
     /// Version of the code.
@@ -165,6 +168,9 @@ pub struct ModalAnalysisPlan {
     /// The modes that the stored reductions choose for the accuracy asked for; absent until they do.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub choice: Option<ModesChoice>,
+    /// What its numbers will not be worth: a K(Ω) that cannot be trusted between the speeds at which the stiffness is given.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<String>,
     /// The whole request as resolved, with the modes chosen in place of what was asked for.
     pub settings: ModalAnalysisRequest,
     /// Version of the code.
@@ -204,6 +210,7 @@ pub fn plan_sweep(
         estimate: reduced.and_then(|reduced| estimate(&points, &speeds, workers, reduced_bytes(reduced))),
         points,
         choice: None,
+        warnings: warnings(&request.scene, facts, reduced),
         pilot_speeds_rad_s: request.unchosen().then(|| pilot_speeds(request)),
         settings: request.clone(),
         version: VERSION.to_owned(),
@@ -246,9 +253,23 @@ pub fn plan_modal_analysis(
         nodal_diameters: harmonic_count(facts.sectors as usize) as u32,
         computing_time_s: reduced.and_then(one).map(|seconds| seconds * speeds.len() as f64),
         choice: None,
+        warnings: warnings(&scene, facts, reduced),
         settings: request.clone(),
         version: VERSION.to_owned(),
     }
+}
+
+/// About K(Ω), if `scene` uses it: what the reduction found, or, while there is none, what the matrices tell.
+fn warnings(scene: &Scene, facts: &ModelFacts, reduced: Option<&ReducedSector>) -> Vec<String> {
+    let found = reduced.map(|reduced| &reduced.report.stiffening);
+    let found = found.map(|found| (found.verdict, &found.message));
+    let preliminary = facts.stiffening.as_ref().map(|found| (found.verdict, &found.message));
+    let known = found.or(preliminary).filter(|_| scene.centrifugal_stiffening);
+    known
+        .filter(|(verdict, _)| verdict.warning().is_some())
+        .map(|(_, message)| message.clone())
+        .into_iter()
+        .collect()
 }
 
 fn state(reduced: Option<&ReducedSector>) -> ReductionState {

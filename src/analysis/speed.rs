@@ -32,7 +32,7 @@ pub fn run_speed(
 ) -> Result<SpeedResult, AnalysisError> {
     let clock = Instant::now();
     let speeds = request.speeds.resolve().map_err(AnalysisError::Refused)?;
-    let mut point = empty_point(index, speeds[index]);
+    let mut point = empty_point(reduced, request, index, speeds[index]);
     let (mut spectra, mut end_state, mut wear) = (None, None, None);
     let watch = |fraction: f64| {
         monitor.progress(fraction, "contact simulation");
@@ -105,12 +105,19 @@ fn from_the_start(ended: Option<String>) -> String {
     ended.map_or_else(|| started.to_owned(), |ended| format!("{started}; {ended}"))
 }
 
-pub(super) fn empty_point(index: usize, speed_rad_s: f64) -> Point {
+pub(super) fn empty_point(
+    reduced: &ReducedSector,
+    request: &SweepRequest,
+    index: usize,
+    speed_rad_s: f64,
+) -> Point {
+    let stiffening = request.scene.centrifugal_stiffening;
     Point {
         index: index as u32,
         speed_rad_s,
         status: PointStatus::Failed,
         message: None,
+        stiffening: stiffening.then_some(reduced.report.stiffening.verdict),
         settling: None,
         scheme: None,
         steps_per_revolution: 0,
@@ -185,13 +192,6 @@ pub(super) fn simulate(
     .run(watch))
 }
 
-/// The damping of a scene.
-pub(super) fn modal_damping(request: &SweepRequest) -> Option<ModalDamping> {
-    let damping = request.scene.damping.as_ref()?;
-    Some(ModalDamping { modal_ratio: damping.modal_ratio, family_ratios: damping.family_ratios.clone() })
-}
-
-/// The casing of a scene with contact; a casing that nothing touches does not exist for the integration.
 /// Whether the casing's heights can be tabulated; the error says what to change.
 pub(super) fn check_table(
     reduced: &ReducedWheel,
@@ -210,6 +210,13 @@ pub(super) fn check_table(
     ))
 }
 
+/// The damping of a scene.
+pub(super) fn modal_damping(request: &SweepRequest) -> Option<ModalDamping> {
+    let damping = request.scene.damping.as_ref()?;
+    Some(ModalDamping { modal_ratio: damping.modal_ratio, family_ratios: damping.family_ratios.clone() })
+}
+
+/// The casing of a scene with contact; a casing that nothing touches does not exist for the integration.
 pub(super) fn casing(
     reduced: &ReducedWheel,
     request: &SweepRequest,

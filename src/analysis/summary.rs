@@ -62,6 +62,7 @@ pub fn interaction_map(
         refinement: Refinement::of(request, &points),
         plan: None,
         spent: Spent::on(&points),
+        stiffening: points.iter().filter_map(|point| point.stiffening).max(),
         points,
         errors: None,
         settings: request.clone(),
@@ -69,7 +70,6 @@ pub fn interaction_map(
     }
 }
 
-/// Families and superharmonic numbers of the linear prediction beside a sweep: those the paper looks at.
 /// How the speeds of a finished sweep ended, in words, if none of them was completed.
 pub fn nothing_completed(points: &[Point]) -> Option<String> {
     if points.iter().any(|point| point.status == PointStatus::Completed) {
@@ -87,6 +87,7 @@ pub fn nothing_completed(points: &[Point]) -> Option<String> {
     ))
 }
 
+/// Families and superharmonic numbers of the linear prediction beside a sweep: those the paper looks at.
 const PREDICTED_FAMILIES: usize = 2;
 const PREDICTED_SUPERHARMONICS: [u32; 3] = [1, 2, 3];
 
@@ -125,8 +126,8 @@ pub fn critical_speeds(
 
 /// Prominent peaks of one sensor's level over ascending speeds, each with the nearest linear crossing.
 fn response_peaks(
-    curve: &ResponseCurve,
     request: &SweepRequest,
+    curve: &ResponseCurve,
     sensor: usize,
     linear: &[Crossing],
     errors: Option<&ErrorEstimate>,

@@ -192,6 +192,7 @@ mod tests {
             units: Units { length: unit(), force: unit(), time: unit(), mass: unit() },
             gyroscopic: false,
             contact_radius: None,
+            stiffening: None,
         };
         let upload = store.new_upload().unwrap().into_temp_path();
         std::fs::write(&upload, "package").unwrap();

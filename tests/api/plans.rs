@@ -159,6 +159,53 @@ async fn a_plan_refuses_what_a_job_does() {
     app.stop().await;
 }
 
+/// K(Ω) of a deformed geometry: whoever sees a number that rests on it sees what it is worth.
+#[tokio::test]
+async fn unsound_stiffening_is_said_wherever_its_numbers_are() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let sound = api.model(model::package(1.0)).await;
+    let plan = api.post("/v1/sweeps/plan", &sweep_of(&sound)).await.body;
+    assert!(plan.get("warnings").is_none(), "{plan}");
+
+    let model = api.model(model::deformed_package()).await;
+    let facts = api.get(&format!("/v1/models/{model}")).await;
+    assert_eq!(facts.body["stiffening"]["verdict"], "suspect");
+    assert!(facts.text("/stiffening/message").contains("Preliminary"));
+    let mut request = sweep_of(&model);
+    request["scene"]["centrifugal_stiffening"] = true.into();
+    let plan = api.post("/v1/sweeps/plan", &request).await;
+    assert!(plan.text("/warnings/0").contains("Preliminary"), "{}", plan.body);
+    let plan = api.post("/v1/modal-analyses/plan", &modal_analysis_of(&model)).await;
+    assert!(plan.text("/warnings/0").contains("Preliminary"), "{}", plan.body);
+
+    let id = api.sweep(&request).await;
+    let job = api.finish(&id).await;
+    assert_eq!(job["status"], "successful", "{job}");
+    let path = format!("/v1/jobs/{id}");
+    let map = api.get(&format!("{path}/interaction-map")).await.body;
+    assert_eq!(map["stiffening"], "unsound");
+    for point in map["points"].as_array().unwrap() {
+        assert_eq!(point["stiffening"], "unsound", "{point}");
+    }
+    let spectra = api.get(&format!("{path}/spectra/0")).await.body;
+    assert_eq!(spectra["point"]["stiffening"], "unsound");
+    let critical = api.get(&format!("{path}/critical-speeds")).await.body;
+    assert_eq!(critical["reduction"]["stiffening"]["verdict"], "unsound");
+    let plan = api.post("/v1/sweeps/plan", &request).await;
+    assert!(plan.text("/warnings/0").contains("not positive definite"), "{}", plan.body);
+
+    // At rest there is nothing to interpolate.
+    request["scene"]["centrifugal_stiffening"] = false.into();
+    let plan = api.post("/v1/sweeps/plan", &request).await.body;
+    assert!(plan.get("warnings").is_none(), "{plan}");
+    let id = api.sweep(&request).await;
+    api.finish(&id).await;
+    let map = api.get(&format!("/v1/jobs/{id}/interaction-map")).await.body;
+    assert!(map.get("stiffening").is_none() && map["points"][0].get("stiffening").is_none());
+    app.stop().await;
+}
+
 #[tokio::test]
 async fn a_machine_is_measured_once() {
     let data = tempfile::tempdir().unwrap();

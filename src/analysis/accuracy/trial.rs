@@ -182,7 +182,7 @@ pub fn run_trial(
     let sweep = &request.sweep;
     let speed_rad_s = sweep.speeds.resolve().map_err(AnalysisError::Refused)?[0];
     let mut trial = Trial {
-        point: empty_point(0, speed_rad_s),
+        point: empty_point(reduced, sweep, 0, speed_rad_s),
         unknowns: 0,
         lines: Vec::new(),
         levels: Vec::new(),

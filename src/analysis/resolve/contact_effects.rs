@@ -108,6 +108,7 @@ mod tests {
             units,
             gyroscopic: false,
             contact_radius: None,
+            stiffening: None,
         }
     }
 
