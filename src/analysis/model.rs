@@ -7,12 +7,13 @@ use serde::{Deserialize, Serialize};
 use super::error::AnalysisError;
 use super::monitor::Monitor;
 use super::result::{
-    FrequencyDifference, LargestDifference, ReductionReport, StiffeningReport, StiffeningVerdict,
+    FrequencyDifference, LargestDifference, PreliminaryStiffening, ReductionReport, StiffeningReport,
+    StiffeningVerdict,
 };
 use super::run::VERSION;
 use crate::dynamics::reduction::{
-    Checkpoints, Completeness, InterpolationCheck, InterpolationVerdict, ReducedWheel, ReductionError,
-    ReductionOptions, reduce,
+    Checkpoints, Completeness, InterpolationCheck, InterpolationVerdict, MatrixRatios, ReducedWheel,
+    ReductionError, ReductionOptions, reduce,
 };
 use crate::dynamics::sector::{SectorModel, Units};
 use crate::numerics::sector_fourier::is_single;
@@ -46,6 +47,14 @@ pub struct ModelFacts {
     /// Whether the package has a gyroscopic matrix, so that Coriolis forces can be simulated.
     #[serde(default)]
     pub gyroscopic: bool,
+    /// Largest distance of a contact node from the axis, in the model's unit of length; absent of models that an earlier version
+    /// has kept.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contact_radius: Option<f64>,
+    /// How far K(Ω) can be trusted, as far as the stiffness matrices tell by themselves; absent of models that an earlier version
+    /// has kept. The verdict is that of a reduction.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stiffening: Option<PreliminaryStiffening>,
 }
 
 impl ModelFacts {
@@ -59,6 +68,8 @@ impl ModelFacts {
             speeds_rad_s: sector.speeds_rad_s.clone(),
             units: sector.units.clone(),
             gyroscopic: sector.gyroscopic.is_some(),
+            contact_radius: sector.contact.iter().map(|node| node.position[0]).reduce(f64::max),
+            stiffening: Some(preliminary_stiffening(sector)),
         }
     }
 
@@ -152,17 +163,47 @@ fn frequency_differences(wheel: &ReducedWheel) -> Vec<FrequencyDifference> {
     speeds.into_iter().map(at).collect()
 }
 
+/// What to do about matrices of the deformed geometry.
+const EXPORT_ADVICE: &str = "Export K(Ω) = K_e + K_σ(Ω) − Ω²M_spin on the undeformed geometry instead (linear static pre-stress, no \
+                             geometrically non-linear step).";
+
+const NO_STIFFENING: &str = "One stiffness matrix: the model has no centrifugal stiffening.";
+
+fn preliminary_stiffening(sector: &SectorModel) -> PreliminaryStiffening {
+    let Some(ratios) = MatrixRatios::of(sector) else {
+        return PreliminaryStiffening {
+            verdict: StiffeningVerdict::Absent,
+            linear_ratio: 0.0,
+            quadratic_ratio: 0.0,
+            message: NO_STIFFENING.into(),
+        };
+    };
+    let MatrixRatios { linear: linear_ratio, quadratic: quadratic_ratio } = ratios;
+    let found = format!("(|Ω1⁴K2|/|K0| = {quadratic_ratio:.1e}, |Ω1²K1|/|K0| = {linear_ratio:.1e})");
+    let (verdict, message) = if ratios.are_linear() {
+        let message = format!(
+            "By its matrices K(Ω) is linear in Ω², as it must be on the undeformed geometry {found}. Preliminary: whether it is \
+             positive definite between the given speeds, the first reduction tells."
+        );
+        (StiffeningVerdict::Sound, message)
+    } else {
+        let message = format!(
+            "By its matrices K(Ω) is not linear in Ω² {found}: it was probably exported on the deformed geometry of a non-linear \
+             pre-stress step. Preliminary: how far results between the given speeds are off, and whether K(Ω) can be interpolated \
+             at all, the first reduction tells. {EXPORT_ADVICE}"
+        );
+        (StiffeningVerdict::Suspect, message)
+    };
+    PreliminaryStiffening { verdict, linear_ratio, quadratic_ratio, message }
+}
+
 fn stiffening_report(check: &InterpolationCheck, sector: &SectorModel) -> StiffeningReport {
     let InterpolationCheck { verdict, linear_ratio, quadratic_ratio, frequency_error } = *check;
     let highest = sector.speeds_rad_s.last().copied().unwrap_or(0.0);
     let percent = 100.0 * frequency_error;
-    let advice = "Export K(Ω) = K_e + K_σ(Ω) − Ω²M_spin on the undeformed geometry instead (linear static \
-                  pre-stress, no geometrically non-linear step).";
+    let advice = EXPORT_ADVICE;
     let (verdict, message) = match verdict {
-        InterpolationVerdict::Absent => (
-            StiffeningVerdict::Absent,
-            "One stiffness matrix: the model has no centrifugal stiffening.".into(),
-        ),
+        InterpolationVerdict::Absent => (StiffeningVerdict::Absent, NO_STIFFENING.into()),
         InterpolationVerdict::Sound => (
             StiffeningVerdict::Sound,
             format!(

@@ -18,6 +18,7 @@ use super::result::{Point, SchemeReport};
 use super::run::VERSION;
 use super::scene::{Scene, Symmetry};
 use super::sliding;
+use super::speed::{casing, check_table};
 use super::stepping::Stepping;
 use super::symmetry::{FoundSymmetry, repeats};
 use crate::dynamics::casing::RestrictionTable;
@@ -36,9 +37,9 @@ pub struct SweepPlan {
     pub contact_pairs: u64,
     /// Whether the reduction that the sweep rests on is there. While it is not, `points` and `estimate` are left out.
     pub reduction: ReductionState,
-    /// Real unknowns of the whole reduced wheel; as long as it is to be computed N(n_b + speeds·k), of which nearly
-    /// dependent directions will be dropped.
-    pub reduced_unknowns: u64,
+    /// The whole reduced wheel has at most so many real unknowns: its own number if the reduction is stored, otherwise N(n_b +
+    /// speeds·k), of which nearly dependent directions will be dropped.
+    pub reduced_unknowns_at_most: u64,
     /// Speeds to simulate, those of the request.
     pub speeds: u32,
     /// Threads that compute speeds side by side; one where each starts from the end of another.
@@ -56,6 +57,9 @@ pub struct SweepPlan {
     /// Speeds of the pilot runs that the job begins with, rad/s; absent where none are missing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pilot_speeds_rad_s: Option<Vec<f64>>,
+    /// What its numbers will not be worth: a K(Ω) that cannot be trusted between the speeds at which the stiffness is given.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<String>,
     /// The whole request as resolved, with the setting chosen in place of what was asked for.
     pub settings: SweepRequest,
     /// Version of the code.
@@ -114,7 +118,7 @@ pub struct CostRange {
 pub struct Estimate {
     /// Steps over all speeds.
     pub steps: u64,
-    /// Computing time summed over the speeds, s; compare `spent.wall_time_s`.
+    /// Computing time summed over the speeds, s; compare `spent.computing_time_s`.
     pub computing_time_s: CostRange,
     /// Time from the first to the last speed with all workers on this sweep, s.
     pub wall_time_s: CostRange,
@@ -127,8 +131,9 @@ pub struct Estimate {
 /// What was really spent on the finished speeds of a sweep.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Spent {
-    /// Wall time summed over the speeds, s.
-    pub wall_time_s: f64,
+    /// Computing time summed over the speeds, s; compare `plan.computing_time_s`. Speeds that ran side by side took less of the
+    /// clock on the wall.
+    pub computing_time_s: f64,
     /// Steps taken.
     pub steps: u64,
 }
@@ -136,7 +141,7 @@ pub struct Spent {
 impl Spent {
     pub(super) fn on<'a>(points: impl IntoIterator<Item = &'a Point>) -> Self {
         points.into_iter().fold(Self::default(), |sum, point| Self {
-            wall_time_s: sum.wall_time_s + point.wall_time_s,
+            computing_time_s: sum.computing_time_s + point.wall_time_s,
             steps: sum.steps + point.steps,
         })
     }
@@ -149,9 +154,9 @@ pub struct ModalAnalysisPlan {
     pub effects: Vec<PlannedEffect>,
     /// Whether the reduction that it rests on is there.
     pub reduction: ReductionState,
-    /// Real unknowns of the whole reduced wheel; as long as it is to be computed N(n_b + speeds·k), of which nearly
-    /// dependent directions will be dropped.
-    pub reduced_unknowns: u64,
+    /// The whole reduced wheel has at most so many real unknowns: its own number if the reduction is stored, otherwise N(n_b +
+    /// speeds·k), of which nearly dependent directions will be dropped.
+    pub reduced_unknowns_at_most: u64,
     /// Speeds of the diagram.
     pub speeds: u32,
     /// Eigenproblems solved at each of them, one a nodal diameter.
@@ -163,6 +168,9 @@ pub struct ModalAnalysisPlan {
     /// The modes that the stored reductions choose for the accuracy asked for; absent until they do.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub choice: Option<ModesChoice>,
+    /// What its numbers will not be worth: a K(Ω) that cannot be trusted between the speeds at which the stiffness is given.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<String>,
     /// The whole request as resolved, with the modes chosen in place of what was asked for.
     pub settings: ModalAnalysisRequest,
     /// Version of the code.
@@ -196,12 +204,13 @@ pub fn plan_sweep(
             None => 0,
         },
         reduction: state(reduced),
-        reduced_unknowns: reduced_unknowns(facts, reduced, request.modes()),
+        reduced_unknowns_at_most: reduced_unknowns(facts, reduced, request.modes()),
         speeds: speeds.len() as u32,
         workers: workers as u32,
         estimate: reduced.and_then(|reduced| estimate(&points, &speeds, workers, reduced_bytes(reduced))),
         points,
         choice: None,
+        warnings: warnings(&request.scene, facts, reduced),
         pilot_speeds_rad_s: request.unchosen().then(|| pilot_speeds(request)),
         settings: request.clone(),
         version: VERSION.to_owned(),
@@ -239,14 +248,28 @@ pub fn plan_modal_analysis(
     ModalAnalysisPlan {
         effects,
         reduction: state(reduced),
-        reduced_unknowns: reduced_unknowns(facts, reduced, request.modes()),
+        reduced_unknowns_at_most: reduced_unknowns(facts, reduced, request.modes()),
         speeds: speeds.len() as u32,
         nodal_diameters: harmonic_count(facts.sectors as usize) as u32,
         computing_time_s: reduced.and_then(one).map(|seconds| seconds * speeds.len() as f64),
         choice: None,
+        warnings: warnings(&scene, facts, reduced),
         settings: request.clone(),
         version: VERSION.to_owned(),
     }
+}
+
+/// About K(Ω), if `scene` uses it: what the reduction found, or, while there is none, what the matrices tell.
+fn warnings(scene: &Scene, facts: &ModelFacts, reduced: Option<&ReducedSector>) -> Vec<String> {
+    let found = reduced.map(|reduced| &reduced.report.stiffening);
+    let found = found.map(|found| (found.verdict, &found.message));
+    let preliminary = facts.stiffening.as_ref().map(|found| (found.verdict, &found.message));
+    let known = found.or(preliminary).filter(|_| scene.centrifugal_stiffening);
+    known
+        .filter(|(verdict, _)| verdict.warning().is_some())
+        .map(|(_, message)| message.clone())
+        .into_iter()
+        .collect()
 }
 
 fn state(reduced: Option<&ReducedSector>) -> ReductionState {
@@ -292,7 +315,9 @@ fn plan_point(
             let steps = stepping.discretisation.per_revolution;
             sliding::check(&wheel, contact, request, stepping.scheme, steps)
                 .map_err(|error| error.to_string())?;
-            initial(request, &wheel, contact, None, &stepping)?;
+            check_table(&reduced.wheel, request, steps)?;
+            let casing = casing(&reduced.wheel, request, request.integration.ramp_revolutions);
+            initial(request, &wheel, contact, casing.as_ref(), &stepping)?;
             Ok((stepping, wheel))
         });
     let set_up = start.elapsed().as_secs_f64();

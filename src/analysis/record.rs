@@ -140,12 +140,17 @@ fn of_the_wheel(part: Vec<Vec<f64>>, wheel: &ModalWheel) -> Vec<Vec<f64>> {
     whole
 }
 
+/// Lines below this share of the largest displacement are round-off: some thousand roundings of it.
+const ROUND_OFF: f64 = 1e-12;
+
 fn responses(
     history: &History,
     request: &SweepRequest,
     spectra: &SpeedSpectra,
     window_samples: usize,
 ) -> Vec<SensorResponse> {
+    let windows = history.displacement.iter().map(|whole| &whole[whole.len() - window_samples..]);
+    let round_off = ROUND_OFF * windows.flatten().fold(0.0f64, |most, x| most.max(x.abs()));
     let of = |(index, &sensor): (usize, &Sensor)| {
         let whole = &history.displacement[index];
         let window = &whole[whole.len() - window_samples..];
@@ -157,13 +162,14 @@ fn responses(
         let spectrum = &spectra.sensors[index];
         let bin = largest_bin(&spectrum.amplitude[1..]) + 1;
         let carried: Vec<f64> = spectrum.nodal_diameters.iter().map(|line| line[bin]).collect();
+        let stands_out = spectrum.amplitude[bin] > round_off;
         SensorResponse {
             sensor,
             mean,
             rms: variance.sqrt(),
             half_peak_to_peak: 0.5 * (high - low),
-            dominant_engine_order: spectra.engine_orders[bin],
-            dominant_nodal_diameter: largest_bin(&carried) as u32,
+            dominant_engine_order: stands_out.then(|| spectra.engine_orders[bin]),
+            dominant_nodal_diameter: stands_out.then(|| largest_bin(&carried) as u32),
             side_bands: side_bands(
                 window,
                 request.integration.window_revolutions as usize,

@@ -7,22 +7,47 @@ use super::request::SweepRequest;
 use super::response_curve::ResponseCurve;
 use super::result::Point;
 use super::speeds::Speeds;
-use crate::response::critical_speed::Resolution;
+use crate::response::critical_speed::{Resolution, peaks};
 
 /// A sweep gets at most as many added speeds as it had at first, or this many if those were fewer: a rough curve, such
 /// as that of a chaotic response, has new peaks at every scale.
 const LEAST_MOST_ADDED: usize = 50;
 
 /// What `refine` has added to a sweep.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 pub struct Refinement {
     /// Speeds added.
     pub added: u32,
     /// Rounds in which they were.
     pub rounds: u32,
-    /// Whether there is nothing left to add: every critical speed within the range is resolved, or as close to a speed
-    /// without a result as would resolve it. False while the job runs, and where as many speeds were added as may be.
+    /// Whether every critical speed, of any sensor, is resolved. False while the job runs.
     pub complete: bool,
+    /// The critical speeds that are not, sensor by sensor in ascending speed; left out while the job runs.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub unresolved: Vec<Unresolved>,
+}
+
+/// A critical speed that `refine` leaves unresolved.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct Unresolved {
+    /// Index of the sensor in the request.
+    pub sensor: u32,
+    /// Ω of the peak, rad/s.
+    pub speed_rad_s: f64,
+    /// Why.
+    pub reason: Unresolvable,
+}
+
+/// Why a critical speed stays unresolved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Unresolvable {
+    /// It lies at an end of the range, beyond which the response may rise further: ask for a wider range.
+    EndOfRange,
+    /// It lies beside a speed without a result, as close to it as would resolve a peak.
+    BesideMissing,
+    /// As many speeds were added as may be, or there is no number between the speeds.
+    TooCoarse,
 }
 
 impl Refinement {
@@ -36,10 +61,13 @@ impl Refinement {
             Speeds::One(set) => u32::from(set.added),
             Speeds::Several(sets) => sets.iter().filter(|set| set.added).count() as u32,
         };
+        let finished = points.len() == speeds.len();
+        let unresolved = if finished { unresolved(request, &speeds, points) } else { Vec::new() };
         Some(Self {
             added: (speeds.len() - request.speeds.asked().ok()?.len()) as u32,
             rounds,
-            complete: points.len() == speeds.len() && coarse_intervals(request, &speeds, points).is_empty(),
+            complete: finished && unresolved.is_empty(),
+            unresolved,
         })
     }
 }
@@ -69,19 +97,49 @@ pub fn refine(request: &SweepRequest, points: &[Point]) -> Option<SweepRequest> 
     grown.then(|| SweepRequest { speeds: more, ..request.clone() })
 }
 
-/// Intervals between neighbouring speeds that are too wide for a peak of some sensor, ascending.
-fn coarse_intervals(request: &SweepRequest, speeds: &[f64], points: &[Point]) -> Vec<(f64, f64)> {
+/// Critical speeds with the index of their sensor and how well they are known.
+fn resolutions(request: &SweepRequest, speeds: &[f64], points: &[Point]) -> Vec<(usize, f64, Resolution)> {
     let curve = ResponseCurve::of(speeds, points);
-    let mut intervals = Vec::new();
+    let mut found = Vec::new();
     for sensor in 0..request.sensors.len() {
         let level = curve.level(sensor);
-        for peak in ResponseCurve::peaks(&level) {
-            intervals.extend(Resolution::of(&curve.speeds_rad_s, &level, &peak).coarse);
+        for peak in peaks(&level, request.peak_prominence) {
+            let resolution = Resolution::of(&curve.speeds_rad_s, &level, &peak);
+            found.push((sensor, curve.speeds_rad_s[peak.index], resolution));
         }
     }
+    found
+}
+
+/// Intervals between neighbouring speeds that are too wide for a peak of some sensor, ascending.
+fn coarse_intervals(request: &SweepRequest, speeds: &[f64], points: &[Point]) -> Vec<(f64, f64)> {
+    let resolutions = resolutions(request, speeds, points).into_iter();
+    let mut intervals: Vec<_> = resolutions.flat_map(|(_, _, resolution)| resolution.coarse).collect();
     intervals.sort_by(|a, b| a.0.total_cmp(&b.0));
     intervals.dedup();
     intervals
+}
+
+/// The peaks that are not resolved.
+fn unresolved(request: &SweepRequest, speeds: &[f64], points: &[Point]) -> Vec<Unresolved> {
+    let why = |resolution: &Resolution| {
+        if resolution.at_end {
+            Unresolvable::EndOfRange
+        } else if resolution.coarse.is_empty() {
+            Unresolvable::BesideMissing
+        } else {
+            Unresolvable::TooCoarse
+        }
+    };
+    let resolutions = resolutions(request, speeds, points).into_iter();
+    let unresolved = resolutions.filter(|(_, _, resolution)| !resolution.resolved);
+    unresolved
+        .map(|(sensor, speed_rad_s, resolution)| Unresolved {
+            sensor: sensor as u32,
+            speed_rad_s,
+            reason: why(&resolution),
+        })
+        .collect()
 }
 
 #[cfg(test)]
@@ -156,7 +214,7 @@ mod tests {
         assert!(nearest(&found, 953.0) < 0.35 && nearest(&found, 1041.0) < 0.5);
         // Fine enough from the start.
         let (_, refinement) = refined(request(500), &levels);
-        assert_eq!(refinement, Refinement { added: 0, rounds: 0, complete: true });
+        assert_eq!(refinement, Refinement { added: 0, rounds: 0, complete: true, unresolved: Vec::new() });
     }
 
     #[test]
@@ -172,11 +230,16 @@ mod tests {
     #[test]
     fn the_ends_of_the_range_are_left_alone_and_failures_are_approached() {
         let (_, refinement) = refined(request(5), &|speed| [speed, 2000.0 - speed]);
-        assert_eq!(refinement, Refinement { added: 0, rounds: 0, complete: true });
+        let at_end =
+            |sensor, speed_rad_s| Unresolved { sensor, speed_rad_s, reason: Unresolvable::EndOfRange };
+        let unresolved = vec![at_end(0, 1100.0), at_end(1, 900.0)];
+        assert_eq!(refinement, Refinement { added: 0, rounds: 0, complete: false, unresolved });
         // The response grows until runs fail.
         let levels = |speed: f64| [if speed < 1033.3 { 1.0 / (1034.0 - speed) } else { f64::NAN }, 1.0];
         let (found, refinement) = refined(request(5), &levels);
-        assert!(refinement.complete, "{refinement:?}");
+        let reasons: Vec<_> = refinement.unresolved.iter().map(|peak| (peak.sensor, peak.reason)).collect();
+        assert_eq!(reasons, [(0, Unresolvable::BesideMissing)], "{refinement:?}");
+        assert!(!refinement.complete);
         let speeds = found.speeds.ascending().unwrap();
         let first = speeds.partition_point(|&speed| speed < 1033.3);
         assert!(speeds[first] - speeds[first - 1] <= 5e-4 * 1033.3);
@@ -191,6 +254,7 @@ mod tests {
         for (count, added) in [(6, 50), (80, 80)] {
             let (found, refinement) = refined(request(count), &rough);
             assert_eq!((refinement.added, refinement.complete), (added, false));
+            assert!(refinement.unresolved.iter().any(|peak| peak.reason == Unresolvable::TooCoarse));
             assert_eq!(found.speeds.resolve().unwrap().len(), count + added as usize);
         }
         let range = json!({"from": 1.0, "to": 1e6, "count": MAX_SPEEDS - 3, "unit": "rad_s"});
@@ -205,7 +269,17 @@ mod tests {
         let speeds = json!({"values": [least, 2.0 * least, 3.0 * least], "unit": "rad_s"});
         let tiny = SweepRequest { speeds: serde_json::from_value(speeds).unwrap(), ..request(2) };
         let (_, refinement) = refined(tiny, &|speed| [if speed == 2.0 * least { 1.0 } else { 0.1 }, 1.0]);
-        assert_eq!(refinement, Refinement { added: 0, rounds: 0, complete: false });
+        assert_eq!((refinement.added, refinement.rounds, refinement.complete), (0, 0, false));
+        assert_eq!(refinement.unresolved[0].reason, Unresolvable::TooCoarse);
+    }
+
+    #[test]
+    fn peaks_below_the_prominence_asked_for_are_left_alone() {
+        let levels = |speed| [resonance(speed, 953.0, 1.0) + 0.05 * resonance(speed, 1041.0, 3.0), 1.0];
+        let (most, _) = refined(request(81), &levels);
+        assert!(nearest(&most, 1041.0) > 0.5, "5 % of the largest is below the default");
+        let (all, _) = refined(SweepRequest { peak_prominence: 0.02, ..request(81) }, &levels);
+        assert!(nearest(&all, 1041.0) < 0.5);
     }
 
     #[test]

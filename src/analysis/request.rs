@@ -30,6 +30,11 @@ pub struct SweepRequest {
     /// Highest engine order of spectra and map.
     #[serde(default = "default_max_engine_order")]
     pub max_engine_order: u32,
+    /// Least prominence of a critical speed, as a share of the sensor's largest response at any speed: a peak that rises by less
+    /// above the higher one of the valleys beside it is neither listed nor refined. 0 for every peak.
+    #[serde(default = "default_peak_prominence")]
+    #[schema(minimum = 0, maximum = 1)]
+    pub peak_prominence: f64,
     /// Where each speed starts from.
     #[serde(default, skip_serializing_if = "SweepDirection::is_independent")]
     pub sweep: SweepDirection,
@@ -193,6 +198,11 @@ const DEFAULT_CONTROL_SPEEDS: usize = 5;
 
 fn default_max_engine_order() -> u32 {
     24
+}
+
+/// Tenths of the largest peak are what a designer looks at.
+pub(super) fn default_peak_prominence() -> f64 {
+    0.1
 }
 
 fn default_families() -> u32 {

@@ -1,10 +1,6 @@
-//! The response of a sweep over ascending speed, with its peaks.
+//! The response of a sweep over ascending speed.
 
 use super::result::{Point, PointStatus};
-use crate::response::critical_speed::{Peak, peaks};
-
-/// Peaks of the response that rise above their surroundings by less than this share of the largest are left out.
-const PROMINENT: f64 = 0.1;
 
 /// The speeds of a sweep in ascending order.
 pub(super) struct ResponseCurve<'a> {
@@ -31,10 +27,5 @@ impl<'a> ResponseCurve<'a> {
     /// Level of one sensor: root mean square about the mean.
     pub(super) fn level(&self, sensor: usize) -> Vec<Option<f64>> {
         self.points.iter().map(|point| point.map(|point| point.responses[sensor].rms)).collect()
-    }
-
-    /// Prominent peaks of such a level.
-    pub(super) fn peaks(level: &[Option<f64>]) -> Vec<Peak> {
-        peaks(level, PROMINENT)
     }
 }

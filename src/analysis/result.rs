@@ -42,10 +42,13 @@ pub struct SensorResponse {
     pub rms: f64,
     /// Half the peak-to-peak displacement over the window.
     pub half_peak_to_peak: f64,
-    /// Non-zero engine order of the largest spectral amplitude.
-    pub dominant_engine_order: f64,
-    /// Nodal diameter that carries the dominant engine order.
-    pub dominant_nodal_diameter: u32,
+    /// Non-zero engine order of the largest spectral amplitude; absent where no line stands above the round-off of the
+    /// displacements of all sensors, such as where nothing ever touches.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dominant_engine_order: Option<f64>,
+    /// Nodal diameter that carries the dominant engine order; absent without one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dominant_nodal_diameter: Option<u32>,
     /// Pairs of spectral lines k ± δ about integer engine orders, the strongest ones by ascending order; only where they
     /// stand clear of the floor of the spectrum.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -162,6 +165,10 @@ pub struct Point {
     /// Why, for `diverged` and `failed`; and whether a speed of a sweep up or down had to start from rest.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub message: Option<String>,
+    /// How far the K(Ω) that its numbers rest on can be trusted between the speeds at which the stiffness is given, as the
+    /// reduction found; absent where the scene has no centrifugal stiffening, and of speeds that an earlier version computed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stiffening: Option<StiffeningVerdict>,
     /// Steady-state verdict; absent without a complete run.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub settling: Option<Settling>,
@@ -265,6 +272,9 @@ pub struct InteractionMap {
     pub units: Units,
     /// Credentials, one per finished speed, in the order of the speeds.
     pub points: Vec<Point>,
+    /// The worst verdict on K(Ω) of `points`; absent where none has one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stiffening: Option<StiffeningVerdict>,
     /// Estimated errors of the amplitudes, once the job is successful; absent without control runs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub errors: Option<ErrorEstimate>,
@@ -373,10 +383,12 @@ pub struct CriticalSpeed {
     /// Estimated relative error of the steady response at this speed; absent without control runs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub amplitude_error: Option<f64>,
-    /// Engine order of the largest spectral amplitude.
-    pub dominant_engine_order: f64,
-    /// Nodal diameter that carries it.
-    pub dominant_nodal_diameter: u32,
+    /// Engine order of the largest spectral amplitude; absent where no line up to `max_engine_order` stands above round-off.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dominant_engine_order: Option<f64>,
+    /// Nodal diameter that carries it; absent without one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dominant_nodal_diameter: Option<u32>,
     /// Steady-state verdict of that speed.
     pub settling: Verdict,
     /// Nearest prediction of the linear criterion.
@@ -423,7 +435,7 @@ pub struct CriticalSpeeds {
 }
 
 /// How trustworthy K(Ω) = K0 + Ω²K1 + Ω⁴K2 is between the given speeds (METHOD §3).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum StiffeningVerdict {
     /// One stiffness matrix: no stiffening in the model.
@@ -434,6 +446,37 @@ pub enum StiffeningVerdict {
     Suspect,
     /// Interpolates badly: frequencies between the given speeds are not smooth or K(Ω) is indefinite.
     Unsound,
+}
+
+impl StiffeningVerdict {
+    /// What numbers that rest on K(Ω) are worth, where that is not what they seem.
+    pub(crate) fn warning(self) -> Option<&'static str> {
+        match self {
+            Self::Absent | Self::Sound => None,
+            Self::Suspect => Some(
+                "K(Ω) is suspect: between the speeds at which the stiffness is given, frequencies and amplitudes are off; the \
+                 reduction estimates by how much",
+            ),
+            Self::Unsound => Some(
+                "K(Ω) is unsound: between the speeds at which the stiffness is given, frequencies, critical speeds and amplitudes \
+                 are not to be relied on",
+            ),
+        }
+    }
+}
+
+/// What the stiffness matrices of a model tell about K(Ω) by themselves. Preliminary: how far frequencies between the given speeds
+/// are off, and with it the verdict, the first reduction finds.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
+pub struct PreliminaryStiffening {
+    /// `absent`, `sound` or `suspect`; what is suspect may prove to be unsound.
+    pub verdict: StiffeningVerdict,
+    /// ‖Ω1²K1‖/‖K0‖.
+    pub linear_ratio: f64,
+    /// ‖Ω1⁴K2‖/‖K0‖.
+    pub quadratic_ratio: f64,
+    /// The finding in words, with what to do.
+    pub message: String,
 }
 
 /// The check of the stiffness interpolation.

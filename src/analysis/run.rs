@@ -14,7 +14,7 @@ pub use super::refine::{Refinement, refine};
 pub use super::resolve::{resolve_modal_analysis, resolve_sweep};
 pub use super::speed::run_speed;
 pub use super::stepping::check;
-pub use super::summary::{critical_speeds, interaction_map, map_row};
+pub use super::summary::{critical_speeds, interaction_map, map_row, nothing_completed};
 
 /// Version of the code, stamped on every result.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -111,9 +111,9 @@ pub struct Clearance {
 pub struct Lobes {
     /// Number of lobes, at least 1.
     pub count: u32,
-    /// Height A of a lobe, in the model's unit of length.
+    /// Height A of a lobe, in the model's unit of length; at most a tenth of the radius at which the tips lie.
     pub amplitude: f64,
-    /// Half-width w in exp(−(φ/w)²), rad.
+    /// Half-width w in exp(−(φ/w)²), rad; at most half the distance between lobes, π/`count`.
     pub width_rad: f64,
     /// Angle of the first lobe from the package's x axis, rad.
     #[serde(default)]

@@ -32,7 +32,7 @@ pub fn run_speed(
 ) -> Result<SpeedResult, AnalysisError> {
     let clock = Instant::now();
     let speeds = request.speeds.resolve().map_err(AnalysisError::Refused)?;
-    let mut point = empty_point(index, speeds[index]);
+    let mut point = empty_point(reduced, request, index, speeds[index]);
     let (mut spectra, mut end_state, mut wear) = (None, None, None);
     let watch = |fraction: f64| {
         monitor.progress(fraction, "contact simulation");
@@ -105,12 +105,19 @@ fn from_the_start(ended: Option<String>) -> String {
     ended.map_or_else(|| started.to_owned(), |ended| format!("{started}; {ended}"))
 }
 
-pub(super) fn empty_point(index: usize, speed_rad_s: f64) -> Point {
+pub(super) fn empty_point(
+    reduced: &ReducedSector,
+    request: &SweepRequest,
+    index: usize,
+    speed_rad_s: f64,
+) -> Point {
+    let stiffening = request.scene.centrifugal_stiffening;
     Point {
         index: index as u32,
         speed_rad_s,
         status: PointStatus::Failed,
         message: None,
+        stiffening: stiffening.then_some(reduced.report.stiffening.verdict),
         settling: None,
         scheme: None,
         steps_per_revolution: 0,
@@ -153,17 +160,7 @@ pub(super) fn simulate(
         .map_err(|error| error.to_string())?;
     let damping = modal_damping(request);
     let casing = casing(reduced, request, ramp_revolutions);
-    if casing.as_ref().is_some_and(|casing| casing.restriction.is_some()) {
-        let stride = reduced.contact.len().next_multiple_of(8);
-        let size = RestrictionTable::size(steps.per_revolution, reduced.sectors, stride);
-        if size > MAX_TABLE_VALUES {
-            return Err(format!(
-                "the casing's table would take {size} values at {} steps per revolution: take fewer steps, a multiple of the \
-                 {} sectors, or wider lobes",
-                steps.per_revolution, reduced.sectors
-            ));
-        }
-    }
+    check_table(reduced, request, steps.per_revolution)?;
     let effects = SceneEffects::of(scene, &reduced.contact, wheel, ramp_revolutions)?;
     let initial = match start {
         Start::After(state) => state
@@ -195,6 +192,24 @@ pub(super) fn simulate(
     .run(watch))
 }
 
+/// Whether the casing's heights can be tabulated; the error says what to change.
+pub(super) fn check_table(
+    reduced: &ReducedWheel,
+    request: &SweepRequest,
+    steps_per_revolution: usize,
+) -> Result<(), String> {
+    let stride = reduced.contact.len().next_multiple_of(8);
+    let size = RestrictionTable::size(steps_per_revolution, reduced.sectors, stride);
+    if size <= MAX_TABLE_VALUES || request.scene.touched_lobes().is_none() {
+        return Ok(());
+    }
+    Err(format!(
+        "the casing's table would take {size} values at {steps_per_revolution} steps per revolution: take fewer steps, a multiple of \
+         the {} sectors, or wider lobes",
+        reduced.sectors
+    ))
+}
+
 /// The damping of a scene.
 pub(super) fn modal_damping(request: &SweepRequest) -> Option<ModalDamping> {
     let damping = request.scene.damping.as_ref()?;
@@ -202,7 +217,11 @@ pub(super) fn modal_damping(request: &SweepRequest) -> Option<ModalDamping> {
 }
 
 /// The casing of a scene with contact; a casing that nothing touches does not exist for the integration.
-fn casing(reduced: &ReducedWheel, request: &SweepRequest, ramp_revolutions: f64) -> Option<Casing> {
+pub(super) fn casing(
+    reduced: &ReducedWheel,
+    request: &SweepRequest,
+    ramp_revolutions: f64,
+) -> Option<Casing> {
     let casing = request.scene.casing.as_ref()?;
     request.scene.contact.as_ref()?;
     let positions: Vec<_> = reduced.contact.iter().map(|node| node.position).collect();

@@ -56,7 +56,7 @@ fn lobe_width(request: &SweepRequest) -> Option<f64> {
 }
 
 /// The smallest number of steps per revolution that sees the lobes of a scene.
-fn least_steps_for_lobes(request: &SweepRequest) -> f64 {
+pub(super) fn least_steps_for_lobes(request: &SweepRequest) -> f64 {
     lobe_width(request).map_or(0.0, |width| (LEAST_STEPS_PER_WIDTH * TAU / width).ceil())
 }
 
@@ -346,16 +346,18 @@ fn no_stable_step(scheme: Scheme) -> String {
     }
 }
 
-/// Checks what only the reduced sector can tell, before any speed runs: a fixed step or number of kept modes against the
-/// stability limit at every speed of the sweep, and the step against the width of the lobes. Speeds at which the model
-/// itself fails are left to their own run.
+/// Checks what only the reduced sector can tell, before any speed runs: that the wheel slides, and a fixed step or number of
+/// kept modes against the stability limit, at the slowest and at the fastest speed. The limit, ω_max/Ω, falls with speed as
+/// K/Ω² does where K is linear in Ω². Speeds between, and those at which the model itself fails, are left to their own runs.
 pub fn check(
     reduced: &ReducedSector,
     request: &SweepRequest,
     monitor: &dyn Monitor,
 ) -> Result<(), AnalysisError> {
-    let speeds = request.speeds.resolve().map_err(AnalysisError::Refused)?;
-    check_sliding(reduced, request, &speeds)?;
+    let speeds = request.speeds.ascending().map_err(AnalysisError::Refused)?;
+    let mut ends: Vec<f64> = speeds.first().into_iter().chain(speeds.last()).copied().collect();
+    ends.dedup();
+    check_sliding(reduced, request, &ends)?;
     if let Err(message) = coating(&request.scene, &reduced.wheel.contact, reduced.wheel.sectors) {
         return Err(AnalysisError::Refused(vec![Violation::new("/scene/abradable", message)]));
     }
@@ -363,11 +365,9 @@ pub fn check(
     if (steps_per_revolution, kept_modes) == (AutoOr::Auto, AutoOr::Auto) {
         return Ok(());
     }
-    // What a refinement added lies between these, and fails by itself.
-    let speeds = request.speeds.asked().map_err(AnalysisError::Refused)?;
     let mut worst = (0, 0.0);
-    for (index, &speed) in speeds.iter().enumerate() {
-        monitor.progress(index as f64 / speeds.len() as f64, "stability limit of the time step");
+    for (index, &speed) in ends.iter().enumerate() {
+        monitor.progress(index as f64 / ends.len() as f64, "stability limit of the time step");
         if monitor.is_cancelled() {
             return Err(AnalysisError::Cancelled);
         }
@@ -379,7 +379,7 @@ pub fn check(
     refuse(request, worst.0, worst.1)
 }
 
-/// Whether the wheel slides at the slowest and at the fastest speed; those between are left to their own runs.
+/// Whether the wheel slides at each of `speeds`.
 fn check_sliding(
     reduced: &ReducedSector,
     request: &SweepRequest,
@@ -388,9 +388,7 @@ fn check_sliding(
     if request.scene.friction.is_none() {
         return Ok(());
     }
-    let slowest = speeds.iter().copied().fold(f64::INFINITY, f64::min);
-    let fastest = speeds.iter().copied().fold(0.0, f64::max);
-    for speed in [slowest, fastest] {
+    for &speed in speeds {
         let contact = &reduced.wheel.contact;
         let Ok(wheel) = ModalWheel::at(&reduced.wheel, speed, rotation(&request.scene)) else { continue };
         let Ok(stepping) = Stepping::choose(&wheel, contact, request) else { continue };
@@ -449,26 +447,20 @@ fn refuse(request: &SweepRequest, stable: u64, speed: f64) -> Result<(), Analysi
         return refused(pointer, no_stable_step(Scheme::MasslessBoundary { kept_modes }));
     }
     let AutoOr::Fixed(steps) = request.integration.steps_per_revolution else { return Ok(()) };
-    let seen = least_steps_for_lobes(request) as u64;
-    let smallest = stable.max(seen);
-    if u64::from(steps) >= smallest {
+    if u64::from(steps) >= stable {
         return Ok(());
     }
-    let reason = if stable >= seen {
-        let bound = match request.integration.scheme {
-            SchemeChoice::MasslessBoundary => {
-                "massless_boundary needs h < 1/ω_c of the wheel with every contact held"
-            }
-            _ => "central differences need h < 2/ω_max of the reduced wheel",
-        };
-        format!(
-            "are unstable: {bound}, which at {speed:.6} rad/s is met from {stable} steps per revolution on"
-        )
-    } else {
-        format!("pass the lobes by, which are seen from {seen} steps per revolution on")
+    let bound = match request.integration.scheme {
+        SchemeChoice::MasslessBoundary => {
+            "massless_boundary needs h < 1/ω_c of the wheel with every contact held"
+        }
+        _ => "central differences need h < 2/ω_max of the reduced wheel",
     };
     refused(
         "/integration/steps_per_revolution",
-        format!("{steps} steps per revolution {reason}; give at least {smallest}, or \"auto\""),
+        format!(
+            "{steps} steps per revolution are unstable: {bound}, which at {speed:.6} rad/s is met from {stable} steps per revolution \
+             on; give at least {stable}, or \"auto\""
+        ),
     )
 }

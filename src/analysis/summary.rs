@@ -14,13 +14,13 @@ use super::refine::Refinement;
 use super::request::{Sensor, SweepRequest};
 use super::response_curve::ResponseCurve;
 use super::result::{
-    Coincidence, CriticalSpeed, CriticalSpeeds, Crossing, DrivenCrossing, InteractionMap, Point,
+    Coincidence, CriticalSpeed, CriticalSpeeds, Crossing, DrivenCrossing, InteractionMap, Point, PointStatus,
     ReductionReport, SpeedSpectra,
 };
 use super::run::VERSION;
 use crate::dynamics::sector::Units;
 use crate::response::campbell::multiples;
-use crate::response::critical_speed::Resolution;
+use crate::response::critical_speed::{Resolution, peaks};
 use crate::response::spectra::engine_orders;
 
 /// The row that one speed contributes to the map of `sensor` (index into the request's sensors).
@@ -62,11 +62,29 @@ pub fn interaction_map(
         refinement: Refinement::of(request, &points),
         plan: None,
         spent: Spent::on(&points),
+        stiffening: points.iter().filter_map(|point| point.stiffening).max(),
         points,
         errors: None,
         settings: request.clone(),
         version: VERSION.to_owned(),
     }
+}
+
+/// How the speeds of a finished sweep ended, in words, if none of them was completed.
+pub fn nothing_completed(points: &[Point]) -> Option<String> {
+    if points.iter().any(|point| point.status == PointStatus::Completed) {
+        return None;
+    }
+    let diverged = points.iter().filter(|point| point.status == PointStatus::Diverged).count();
+    let first = points.iter().min_by_key(|point| point.index)?;
+    Some(format!(
+        "none of the {} speeds was completed: {diverged} diverged, {} could not be integrated; at {:.6} rad/s {}; the points of the \
+         interaction map say it of every speed",
+        points.len(),
+        points.len() - diverged,
+        first.speed_rad_s,
+        first.message.as_deref().unwrap_or("no reason is known")
+    ))
 }
 
 /// Families and superharmonic numbers of the linear prediction beside a sweep: those the paper looks at.
@@ -90,12 +108,12 @@ pub fn critical_speeds(
     let refinement = Refinement::of(request, points);
     let table = |(sensor, &of): (usize, &Sensor)| CriticalSpeeds {
         sensor: of,
-        critical_speeds: response_peaks(&curve, sensor, &prediction.linear, errors, &reduced.report),
+        critical_speeds: response_peaks(request, &curve, sensor, &prediction.linear, errors, &reduced.report),
         linear_crossings: prediction.linear.clone(),
         driven_crossings: prediction.driven.clone(),
         casing_coincidences: prediction.coincidences.clone(),
         missing: missing.clone(),
-        refinement,
+        refinement: refinement.clone(),
         plan: None,
         spent: Spent::on(points),
         units: reduced.units.clone(),
@@ -108,6 +126,7 @@ pub fn critical_speeds(
 
 /// Prominent peaks of one sensor's level over ascending speeds, each with the nearest linear crossing.
 fn response_peaks(
+    request: &SweepRequest,
     curve: &ResponseCurve,
     sensor: usize,
     linear: &[Crossing],
@@ -115,7 +134,7 @@ fn response_peaks(
     reduction: &ReductionReport,
 ) -> Vec<CriticalSpeed> {
     let level = curve.level(sensor);
-    let critical = ResponseCurve::peaks(&level).into_iter().filter_map(|peak| {
+    let critical = peaks(&level, request.peak_prominence).into_iter().filter_map(|peak| {
         let point = curve.points[peak.index]?;
         let resolution = Resolution::of(&curve.speeds_rad_s, &level, &peak);
         let response = &point.responses[sensor];

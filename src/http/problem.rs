@@ -127,6 +127,8 @@ kinds! {
     InvalidPackage = UNPROCESSABLE_ENTITY, "invalid-package", "The model package is not valid";
     /// The model cannot be computed.
     InvalidModel = UNPROCESSABLE_ENTITY, "invalid-model", "The model cannot be computed";
+    /// Every speed of the sweep diverged or failed.
+    NothingCompleted = UNPROCESSABLE_ENTITY, "nothing-completed", "No speed of the sweep was completed";
     /// The job needs more memory than the service may take.
     OutOfMemory = INSUFFICIENT_STORAGE, "out-of-memory", "The job needs more memory than allowed";
     /// The owner has too much already.
@@ -292,6 +294,7 @@ impl From<&Failure> for Problem {
             FailureCause::Model => Kind::InvalidModel,
             FailureCause::Memory => Kind::OutOfMemory,
             FailureCause::Limit => Kind::LimitReached,
+            FailureCause::NothingCompleted => Kind::NothingCompleted,
             FailureCause::Package | FailureCause::Defect | FailureCause::Storage => Kind::Internal,
         };
         let mut problem = Self::new(kind, failure.message.clone());

@@ -135,6 +135,9 @@ pub(super) async fn get_spectra(
 }
 
 /// Download the critical speeds of a sweep beside the linear prediction.
+///
+/// They are said of all speeds together, once the job is successful. Of a job that is not finished, failed or was dismissed the
+/// interaction map has the speeds that are done.
 #[utoipa::path(get, path = "/v1/jobs/{id}/critical-speeds", operation_id = "get_critical_speeds", tag = "results",
     params(("id" = String, Path, description = "Id of a sweep."), SensorQuery),
     responses(
@@ -224,12 +227,19 @@ pub(super) async fn document_body(
     if let Some(body) = state.store.document(job.id, document).await? {
         return Ok(body);
     }
+    let instead = match document {
+        Document::CriticalSpeeds(_) => {
+            ": critical speeds are said of all speeds together; the interaction map has those that are done"
+        }
+        _ => "",
+    };
     Err(match job.status {
         JobStatus::Accepted | JobStatus::Running | JobStatus::Successful => {
-            Problem::new(Kind::ResultNotReady, format!("the job is at {} %", job.progress))
+            Problem::new(Kind::ResultNotReady, format!("the job is at {} %{instead}", job.progress))
         }
         JobStatus::Failed | JobStatus::Dismissed => {
-            Problem::new(Kind::ResultUnavailable, format!("the job is {}", job.status.as_str()))
+            let status = job.status.as_str();
+            Problem::new(Kind::ResultUnavailable, format!("the job is {status}{instead}"))
         }
     })
 }

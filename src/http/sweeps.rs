@@ -16,9 +16,10 @@ use crate::tokens::Principal;
 
 /// Simulate contact over rotational speeds.
 ///
-/// The request is checked against its model at once; all violations come in one answer. What only the reduced model
-/// can tell (fixed numbers of steps or kept modes against the stability limit, steps against the width of the lobes) fails
-/// the job before its first speed, with the same pointers.
+/// The request is checked against its model at once; all violations come in one answer. So is what only the reduced model
+/// can tell (fixed numbers of steps or kept modes against the stability limit, friction against what lets the tips slide), if the
+/// reduction is stored; if not, it fails the job before its first speed, with the same pointers. `POST /v1/sweeps/plan` refuses
+/// the same requests.
 #[utoipa::path(post, path = "/v1/sweeps", operation_id = "create_sweep", tag = "jobs",
     params(("Idempotency-Key" = Option<String>, Header,
         description = "Repeating the request with this key repeats its answer and starts nothing.")),

@@ -9,7 +9,7 @@ use crate::analysis::error::AnalysisError;
 use crate::analysis::request::SweepRequest;
 use crate::analysis::result::Point;
 use crate::analysis::run;
-use crate::store::jobs::JobRequest;
+use crate::store::jobs::{Failure, FailureCause, JobRequest};
 use crate::store::results::Document;
 
 /// What to do with a sweep whose speeds are all finished: more speeds, where it asks for them around its peaks, or its
@@ -41,13 +41,17 @@ async fn more_speeds(engine: &Engine, job: &Live, request: SweepRequest) -> Resu
     Ok(())
 }
 
-/// Computes the critical speeds of a sweep and marks it successful.
+/// Computes the critical speeds of a sweep and marks it successful; one that completed no speed has failed.
 async fn conclude(
     engine: &Engine,
     job: &Live,
     request: &SweepRequest,
     points: Vec<Point>,
 ) -> Result<(), Halt> {
+    if let Some(message) = run::nothing_completed(&points) {
+        let failure = Failure { cause: FailureCause::NothingCompleted, message, violations: Vec::new() };
+        return Err(Halt::Failed(failure));
+    }
     let monitor = PhaseMonitor::uncounted(job.watch.clone());
     let reduced = engine.reductions.get(&request.model, request.modes(), monitor).await?;
     let errors = control::errors(engine, job, request, &points).await?;

@@ -7,7 +7,8 @@ use super::choice;
 use super::engine::Engine;
 use super::plans;
 use super::pool::Panicked;
-use crate::analysis::error::Violation;
+use crate::analysis::error::{AnalysisError, Violation};
+use crate::analysis::monitor::Unwatched;
 use crate::analysis::request::{ModalAnalysisRequest, SweepRequest};
 use crate::analysis::run::{self, ModalAnalysisPlan, ReducedSector, SweepPlan};
 use crate::impeller::{GenerationPlan, ImpellerError, ImpellerParameters, ImpellerRequest, plan_generation};
@@ -80,6 +81,7 @@ impl Jobs {
                 let facts = self.facts(whose, &request.model).await?;
                 request.speeds.ask_for_all();
                 let request = run::resolve_sweep(*request, &facts).map_err(refused)?;
+                self.check(&request).await?;
                 let speeds = request.speeds.resolve().map_err(refused)?.len();
                 (JobRequest::Sweep(Box::new(request)), Some(facts), speeds)
             }
@@ -128,7 +130,7 @@ impl Jobs {
             choice = stored.map_err(|violation| SubmitError::Refused(vec![violation]))?;
             request = choice.as_ref().map_or(request.clone(), |choice| choice.explicit(&request));
         }
-        let reduced = self.reduction(&request.model, request.unchosen(), request.modes()).await?;
+        let reduced = self.check(&request).await?;
         let plan = plans::sweep::<SubmitError>(&self.engine, request, facts, reduced).await?;
         Ok(SweepPlan { choice, ..plan })
     }
@@ -150,6 +152,19 @@ impl Jobs {
         let reduced = self.reduction(&request.model, request.unchosen(), request.modes()).await?;
         let plan = plans::modal_analysis(&self.engine, request, facts, reduced).await?;
         Ok(ModalAnalysisPlan { choice, ..plan })
+    }
+
+    /// Checks what only the reduction of a resolved sweep can tell, if it is stored; returns it.
+    async fn check(&self, request: &SweepRequest) -> Result<Option<Arc<ReducedSector>>, SubmitError> {
+        let reduced = self.reduction(&request.model, request.unchosen(), request.modes()).await?;
+        if let Some(reduced) = reduced.clone() {
+            let request = request.clone();
+            let check = move || run::check(&reduced, &request, &Unwatched);
+            if let Err(AnalysisError::Refused(violations)) = self.engine.planner.run(check).await? {
+                return Err(SubmitError::Refused(violations));
+            }
+        }
+        Ok(reduced)
     }
 
     /// The reduction that a plan can rest on: none while its modes are not chosen.

@@ -11,8 +11,8 @@ use crate::analysis::result::{Campbell, Wave};
 
 const WIDTH: f64 = 1180.0;
 const HEIGHT: f64 = 780.0;
-const CORNER: (f64, f64) = (84.0, 72.0);
-const SIZE: (f64, f64) = (850.0, 620.0);
+const CORNER: (f64, f64) = (84.0, 86.0);
+const SIZE: (f64, f64) = (850.0, 606.0);
 
 /// Engine orders beyond this crowd the corner of slow speeds; their rays and what they drive are left out.
 const HIGHEST_ORDER: u32 = 30;
@@ -136,7 +136,9 @@ fn heading(campbell: &Campbell) -> Element {
         settings.lobes,
         campbell.version
     );
-    heading::heading(CORNER.0, "Campbell diagram", &[words]).0
+    let warning = campbell.reduction.stiffening.verdict.warning().map(str::to_owned);
+    let paragraphs: Vec<String> = [words].into_iter().chain(warning).collect();
+    heading::heading(CORNER.0, "Campbell diagram", &paragraphs).0
 }
 
 fn legend(campbell: &Campbell, x: f64) -> Element {

@@ -6,7 +6,9 @@ use super::diagram::Diagram;
 use super::marks;
 use super::svg::{Element, INK, document, group, line, polyline, rectangle, text, upright};
 use super::{colour, heading, heat, level, settling_strip};
-use crate::analysis::result::{Campbell, CriticalSpeed, CriticalSpeeds, InteractionMap, Verdict};
+use crate::analysis::result::{
+    Campbell, CriticalSpeed, CriticalSpeeds, InteractionMap, StiffeningVerdict, Verdict,
+};
 
 const WIDTH: f64 = 1180.0;
 const HEIGHT: f64 = 985.0;
@@ -21,6 +23,9 @@ const MAP_HEIGHT: f64 = 490.0;
 
 /// Amplitudes below this share of the loudest are shown as quiet.
 const QUIETEST: f64 = 1e-3;
+
+/// Colour of what the numbers are not worth.
+const WARNING: &str = "#b01f20";
 
 /// Colour of natural frequencies and what lies on them.
 const NATURAL: &str = "#7fd6ff";
@@ -301,11 +306,13 @@ fn heading(map: &InteractionMap) -> Element {
     if settings.scene.contact.is_none() {
         words.push("no contact".to_owned());
     }
+    let warning = map.stiffening.and_then(StiffeningVerdict::warning);
     let model: String = settings.model.chars().take(12).collect();
     let origin = format!("model {model} · rubmap {}", map.version);
     group()
         .child(text(LEFT, 30.0, "start", &title(map)).set("font-size", "18").set("font-weight", "bold"))
         .child(text(LEFT, 51.0, "start", &words.join(" · ")).set("fill", "#555555"))
+        .children(warning.map(|words| text(LEFT, 68.0, "start", words).set("fill", WARNING)))
         .child(
             text(WIDTH - 16.0, HEIGHT - 10.0, "end", &origin).set("fill", "#999999").set("font-size", "10"),
         )

@@ -77,7 +77,7 @@ pub(super) fn critical(speeds: &[(f64, &CriticalSpeed)], right: f64, top: f64, b
         let words = format!(
             "{} rpm · EO {}{}",
             label(rpm(speed.speed_rad_s), 0),
-            order(speed.dominant_engine_order),
+            speed.dominant_engine_order.map_or_else(|| "–".to_owned(), order),
             if settled { "" } else { " *" }
         );
         let (dashes, title) = if speed.resolved {

@@ -130,6 +130,32 @@ fn split_waves_are_drawn_apart() {
     assert_eq!(count(&campbell(&waves()), "forward waves"), 1);
 }
 
+/// A K(Ω) that cannot be trusted is said above the drawing, and only then.
+#[test]
+fn unsound_stiffening_stands_above_the_drawing() {
+    let drawings = |verdict: &str| {
+        let (mut map, mut modes) = (map(), modes());
+        let verdict = serde_json::from_value(json!(verdict)).unwrap();
+        map.stiffening = Some(verdict);
+        modes.reduction.stiffening.verdict = verdict;
+        [interaction_map(&map, None, None, VerticalAxis::EngineOrder), campbell(&modes)]
+    };
+    for (verdict, warned) in [("absent", false), ("sound", false), ("suspect", true), ("unsound", true)] {
+        for drawing in drawings(verdict) {
+            assert_eq!(drawing.contains(&format!("K(Ω) is {verdict}")), warned, "{verdict}");
+        }
+    }
+}
+
+/// A critical speed without a dominant line has no engine order.
+#[test]
+fn a_critical_speed_without_a_line_is_labelled_without_one() {
+    let mut critical = critical();
+    critical.critical_speeds[0].dominant_engine_order = None;
+    let drawing = interaction_map(&map(), Some(&critical), None, VerticalAxis::EngineOrder);
+    assert!(drawing.contains("11,000 rpm · EO –"), "{drawing}");
+}
+
 fn of_class<'a>(drawing: &'a Document, class: &'a str) -> impl Iterator<Item = Node<'a, 'a>> {
     drawing.descendants().filter(move |node| node.attribute("class") == Some(class))
 }

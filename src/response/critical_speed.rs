@@ -97,6 +97,8 @@ pub struct Resolution {
     pub error: f64,
     /// Whether the samples resolve the peak; never if one of the neighbours has no value.
     pub resolved: bool,
+    /// Whether the curve ends beside it.
+    pub at_end: bool,
     /// The intervals beside it that have to be halved until they do; none beside the end of the curve, where the peak
     /// may lie beyond.
     pub coarse: Vec<(f64, f64)>,
@@ -120,7 +122,7 @@ impl Resolution {
         let known = [&below, &above].into_iter().flatten().filter(|side| side.value.is_some());
         let error = known.map(|side| (side.to - at).abs()).fold(0.0, f64::max);
         let (Some(below), Some(above)) = (below, above) else {
-            return Self { error, resolved: false, coarse: Vec::new() };
+            return Self { error, resolved: false, at_end: true, coarse: Vec::new() };
         };
         let sharp = SHARPNESS * at;
         let enough = |side: &Side, other: &Side| {
@@ -134,7 +136,7 @@ impl Resolution {
             .filter(|(side, other)| !enough(side, other) && other.width <= WIDEST_RATIO * side.width);
         let coarse: Vec<_> = coarse.map(|(side, _)| side.interval).collect();
         let known = below.value.is_some() && above.value.is_some();
-        Self { error, resolved: coarse.is_empty() && known, coarse }
+        Self { error, resolved: coarse.is_empty() && known, at_end: false, coarse }
     }
 }
 
@@ -224,7 +226,10 @@ mod tests {
     #[test]
     fn what_lies_beyond_an_edge_is_not_known() {
         let (at, found) = highest(&grid(1000.0, 1.0, 10), resonance);
-        assert_eq!((at, found), (1000.0, Resolution { error: 1.0, resolved: false, coarse: Vec::new() }));
+        assert_eq!(
+            (at, found),
+            (1000.0, Resolution { error: 1.0, resolved: false, at_end: true, coarse: Vec::new() })
+        );
         // A missing speed bounds nothing, however close, but may be approached.
         let gap = |missing: f64| move |speed: f64| resonance(speed).filter(|_| speed != missing);
         let (at, found) = highest(&[990.0, 995.0, 1000.0, 1010.0], gap(1000.0));

@@ -238,6 +238,8 @@ mod tests {
             speeds_rad_s: vec![0.0],
             units: Units { length: unit(), force: unit(), time: unit(), mass: unit() },
             gyroscopic: false,
+            contact_radius: None,
+            stiffening: None,
         };
         let upload = store.new_upload().unwrap().into_temp_path();
         std::fs::write(&upload, "package").unwrap();

@@ -13,9 +13,9 @@ pub enum JobStatus {
     Accepted,
     /// Being computed.
     Running,
-    /// Finished; each speed says how it ended.
+    /// Finished; each speed says how it ended, and at least one was completed.
     Successful,
-    /// Could not be computed; `error` says why.
+    /// Could not be computed, or none of its speeds was completed; `error` says why. Speeds finished before stay readable.
     Failed,
     /// Cancelled by the user; speeds finished before stay readable.
     Dismissed,

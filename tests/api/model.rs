@@ -28,6 +28,20 @@ pub(crate) fn package_stored(scale: f64) -> Vec<u8> {
     zip(&files(scale), 0)
 }
 
+/// The package with stiffness at three speeds through which no sound K(Ω) leads: a hundredth of that at rest at 500 rad/s, all of it
+/// at 1000.
+pub(crate) fn deformed_package() -> Vec<u8> {
+    let mut files = files(1.0);
+    let mut manifest: Value = serde_json::from_str(&files[0].1).unwrap();
+    manifest["speeds_rad_s"] = json!([0.0, 500.0, 1000.0]);
+    manifest["stiffness"] = json!(["k0.mtx", "k1.mtx", "k2.mtx"]);
+    files[0].1 = manifest.to_string();
+    for (name, scale) in [("k1.mtx", 0.01), ("k2.mtx", 1.0)] {
+        files.push((name, self::files(scale).pop().unwrap().1));
+    }
+    zip(&files, 6)
+}
+
 /// The package with `spoil` applied to its `sector.json`.
 pub(crate) fn spoilt_package(spoil: impl FnOnce(&mut Value)) -> Vec<u8> {
     let mut files = files(1.0);

@@ -68,16 +68,21 @@ async fn every_peak_inside_the_range_ends_up_resolved() {
         assert_eq!(job["speeds"]["finished"], speeds.len());
         assert!(added > 0);
         let lists = fine["settings"]["speeds"].as_array().unwrap();
-        let refinement = json!({"added": added, "rounds": lists.len() - 1, "complete": true});
-        assert_eq!(fine["refinement"], refinement);
+        let refinement = &fine["refinement"];
+        assert_eq!((&refinement["added"], &refinement["rounds"]), (&json!(added), &json!(lists.len() - 1)));
+        let mut unresolved = Vec::new();
         for sensor in 0..2 {
             let table = table(api, &id, sensor).await;
-            assert_eq!(table["refinement"], refinement);
+            assert_eq!(&table["refinement"], refinement);
             let peaks = table["critical_speeds"].as_array().unwrap();
             assert!(!peaks.is_empty());
             for peak in peaks {
                 assert_eq!(peak["resolved"], inside(&peak), "{peak}");
                 let speed = peak["speed_rad_s"].as_f64().unwrap();
+                if peak["resolved"] == false {
+                    unresolved
+                        .push(json!({"sensor": sensor, "speed_rad_s": speed, "reason": "end_of_range"}));
+                }
                 let error = peak["speed_error_rad_s"].as_f64().unwrap();
                 assert_eq!(Some(speed), speeds[peak["index"].as_u64().unwrap() as usize].as_f64());
                 // Nothing was computed closer to the peak than its error says, on one side at least.
@@ -86,6 +91,9 @@ async fn every_peak_inside_the_range_ends_up_resolved() {
                 assert!(error >= closest && (error < 600.0 / 8.0 || peak["at_edge"] == true), "{peak}");
             }
         }
+        // Complete is what leaves no peak unresolved.
+        assert_eq!(refinement["complete"], unresolved.is_empty());
+        assert_eq!(refinement.get("unresolved").cloned().unwrap_or(json!([])), Value::from(unresolved));
 
         // The same as asked for by name.
         let mut explicit = request.clone();

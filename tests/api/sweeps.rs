@@ -1,6 +1,6 @@
 //! The main job: upload, sweep, poll, results.
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::app::{Api, TestApp, modal_analysis_of, sweep_of};
 use super::model;
@@ -19,7 +19,7 @@ async fn from_package_to_interaction_map() {
     let job = api.finish(&id).await;
     assert_eq!(job["status"], "successful", "{job}");
     assert_eq!(job["progress"], 100);
-    assert_eq!(job["speeds"], serde_json::json!({"total": 6, "finished": 6, "diverged": 0, "failed": 0}));
+    assert_eq!(job["speeds"], json!({"total": 6, "finished": 6, "diverged": 0, "failed": 0}));
     assert!(job["created_at"].as_str() <= job["started_at"].as_str());
     assert!(job["started_at"].as_str() <= job["finished_at"].as_str());
 
@@ -127,8 +127,35 @@ async fn what_only_the_reduced_model_can_tell_fails_the_job_with_a_pointer() {
     assert_eq!(job["error"]["type"], "urn:rubmap:problem:invalid-request");
     assert_eq!(job["error"]["errors"][0]["pointer"], "/integration/steps_per_revolution");
     assert_eq!(job["speeds"]["finished"], 0, "nothing runs before the check");
+    // Now that the reduction is stored, the same is said at once.
+    let again = api.post("/v1/sweeps", &request).await.problem(422, "invalid-request");
+    assert_eq!(Value::from(again), job["error"]["errors"]);
     api.get(&format!("/v1/jobs/{id}/critical-speeds")).await.problem(409, "result-unavailable");
     api.get(&format!("/v1/jobs/{id}/spectra/0")).await.problem(404, "speed-not-found");
+    app.stop().await;
+}
+
+/// Speeds that all fail by themselves are no result.
+#[tokio::test]
+async fn a_sweep_without_a_completed_speed_has_failed() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(model::package(1.0)).await;
+    let mut request = sweep_of(&model);
+    request["scene"]["initial"] = json!({"nodal_diameter": 0, "family": 99, "amplitude": 0.01});
+    let id = api.sweep(&request).await;
+    let job = api.finish(&id).await;
+    assert_eq!((&job["status"], &job["speeds"]["failed"]), (&json!("failed"), &json!(6)), "{job}");
+    assert_eq!(job["error"]["type"], "urn:rubmap:problem:nothing-completed");
+    let detail = job["error"]["detail"].as_str().unwrap();
+    assert!(detail.starts_with("none of the 6 speeds was completed: 0 diverged, 6 could not"), "{detail}");
+    assert!(detail.contains("at 300.000000 rad/s nodal diameter 0 of the reduced wheel has"), "{detail}");
+    // What is finished stays readable; what is said of all speeds together is not there, and says where to look.
+    let map = api.get(&format!("/v1/jobs/{id}/interaction-map")).await;
+    assert_eq!((map.status.as_u16(), map.body["points"].as_array().unwrap().len()), (200, 6));
+    let critical = api.get(&format!("/v1/jobs/{id}/critical-speeds")).await;
+    critical.problem(409, "result-unavailable");
+    assert!(critical.text("/detail").contains("the interaction map has those that are done"));
     app.stop().await;
 }
 
@@ -158,7 +185,7 @@ async fn the_reduction_is_computed_once() {
     let job = app.api.job(&third).await;
     assert_eq!(job.body["reduction"], reductions[0]);
     let detail = app.api.get(&format!("/v1/models/{model}")).await;
-    assert_eq!(detail.body["reductions"], serde_json::json!([reductions[0]]));
+    assert_eq!(detail.body["reductions"], json!([reductions[0]]));
     assert!(detail.text("/reductions/0/stiffening/message").contains("no centrifugal stiffening"));
     app.stop().await;
 }

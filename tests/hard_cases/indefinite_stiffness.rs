@@ -5,8 +5,8 @@
 //! and map and critical speeds are made of those.
 
 use rubmap::analysis::monitor::Unwatched;
-use rubmap::analysis::result::PointStatus;
-use rubmap::analysis::run::{critical_speeds, interaction_map, map_row, run_speed};
+use rubmap::analysis::result::{PointStatus, StiffeningVerdict};
+use rubmap::analysis::run::{ModelFacts, critical_speeds, interaction_map, map_row, run_speed};
 use rubmap::dynamics::sector::SectorModel;
 use serde_json::json;
 
@@ -35,6 +35,16 @@ fn a_speed_at_which_the_stiffness_is_indefinite_fails_alone() {
         "{}",
         reduced.report.stiffening.message
     );
+    // Its matrices alone say as much as they can: K = f K0, f = 1 − c x + c x² with x = (Ω/Ω1)².
+    let c = 0.99 * 16.0 / 3.0;
+    let preliminary = ModelFacts::of(&sector).stiffening.unwrap();
+    assert_eq!(preliminary.verdict, StiffeningVerdict::Suspect);
+    let found = &reduced.report.stiffening;
+    assert_eq!(
+        (preliminary.linear_ratio, preliminary.quadratic_ratio),
+        (found.linear_ratio, found.quadratic_ratio)
+    );
+    assert!((found.linear_ratio - c).abs() < 1e-12 && (found.quadratic_ratio - c).abs() < 1e-12, "{found:?}");
     for scheme in SCHEMES {
         let request = sweep(&sector, scheme, &[0.1 * TOP_SPEED, 0.7 * TOP_SPEED, TOP_SPEED], json!({}));
         let results: Vec<_> =
@@ -52,6 +62,8 @@ fn a_speed_at_which_the_stiffness_is_indefinite_fails_alone() {
         let map = interaction_map(&request, &reduced.units, rows.collect(), 0, None);
         assert!(map.amplitude[0].is_some() && map.amplitude[1].is_none() && map.amplitude[2].is_some());
         assert_eq!(map.points.len(), 3);
+        assert!(map.points.iter().all(|point| point.stiffening == Some(StiffeningVerdict::Unsound)));
+        assert_eq!(map.stiffening, Some(StiffeningVerdict::Unsound));
         assert_survives_json(&map);
         let points: Vec<_> = results.into_iter().map(|result| result.point).collect();
         let critical = critical_speeds(&reduced, &request, &points, None, &Unwatched).unwrap();

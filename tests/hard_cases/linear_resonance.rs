@@ -55,8 +55,8 @@ fn with_damping_the_response_settles_and_names_the_resonance() {
             let settling = at.settling.as_ref().unwrap();
             assert_eq!((settling.verdict, settling.ratio), (Verdict::Periodic, Some(1)), "{at:?}");
             let response = &at.responses[0];
-            assert_eq!(response.dominant_engine_order, ORDER);
-            assert_eq!(response.dominant_nodal_diameter, NODAL_DIAMETER as u32);
+            assert_eq!(response.dominant_engine_order, Some(ORDER));
+            assert_eq!(response.dominant_nodal_diameter, Some(NODAL_DIAMETER as u32));
             assert!(response.rms > 1.05 * below.responses[0].rms, "{at:?} {below:?}");
         }
     }

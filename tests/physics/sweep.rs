@@ -5,7 +5,10 @@ use rubmap::analysis::error::AnalysisError;
 use rubmap::analysis::monitor::{Monitor, Unwatched};
 use rubmap::analysis::request::SweepRequest;
 use rubmap::analysis::result::{PointStatus, Verdict};
-use rubmap::analysis::run::{ModelFacts, ReducedSector, check, prepare, resolve_sweep, run_speed};
+use rubmap::analysis::run::{
+    ModelFacts, ReducedSector, check, critical_speeds, prepare, resolve_sweep, run_speed,
+};
+use rubmap::analysis::scene::Symmetry;
 use rubmap::dynamics::reduction::NoCheckpoints;
 use rubmap::dynamics::sector::SectorModel;
 
@@ -79,8 +82,41 @@ fn results_are_consistent() {
         // A periodic response has lines at whole engine orders only.
         let between = spectrum.amplitude.iter().enumerate().filter(|(bin, _)| bin % 4 != 0);
         assert!(between.map(|(_, a)| *a).fold(0.0, f64::max) < 0.05 * response.rms);
-        let bin = (response.dominant_engine_order * 4.0) as usize;
+        let bin = (response.dominant_engine_order.unwrap() * 4.0) as usize;
         assert!(spectrum.amplitude[1..].iter().all(|&a| a <= spectrum.amplitude[bin]));
+    }
+}
+
+/// What never moves, or moves by round-off only, has no dominant line; nor has what moves at higher orders than were asked for. A table
+/// of critical speeds says so.
+#[test]
+fn where_no_line_stands_out_none_is_named() {
+    let sector = wheel(WheelRecipe::default());
+    let reduced = reduced(&sector);
+    let speeds = [0.4 * TOP_SPEED, 0.5 * TOP_SPEED, 0.6 * TOP_SPEED];
+    let mut still = request(&sector, &speeds);
+    still.scene.casing.as_mut().unwrap().clearance.leading = Some(5.0);
+    still.scene.casing.as_mut().unwrap().clearance.trailing = Some(5.0);
+    // Two lobes drive even orders only; an exactly symmetric run has no round-off that grows.
+    let mut low = request(&sector, &speeds);
+    (low.max_engine_order, low.peak_prominence) = (1, 0.0);
+    low.scene.damping.as_mut().unwrap().modal_ratio = 0.4;
+    low.scene.symmetry = Symmetry::Exact;
+    (low.integration.revolutions, low.integration.window_revolutions) = (30, 2);
+    low.integration.steps_per_revolution = AutoOr::Fixed(4000);
+    for (request, moves) in [(&still, false), (&low, true)] {
+        let run = |index| run_speed(&reduced, request, index, None, &Unwatched).unwrap().point;
+        let points: Vec<_> = (0..3).map(run).collect();
+        for response in points.iter().flat_map(|point| &point.responses) {
+            assert_eq!(response.rms > 1e-6, moves, "{response:?}");
+            let dominant = (response.dominant_engine_order, response.dominant_nodal_diameter);
+            assert_eq!(dominant, (None, None), "{response:?}");
+        }
+        let tables = critical_speeds(&reduced, request, &points, None, &Unwatched).unwrap();
+        for table in &tables {
+            assert_eq!(table.critical_speeds.is_empty(), !moves);
+            assert!(table.critical_speeds.iter().all(|speed| speed.dominant_engine_order.is_none()));
+        }
     }
 }
 
@@ -105,6 +141,48 @@ fn cancellation_is_seen_inside_every_verb() {
     assert!(matches!(check(&reduced, &request, &Impatient), Err(AnalysisError::Cancelled)));
 }
 
+/// Lengths up to what lets a run end without divergence, no more; of a model whose facts do not say where its tips are, any.
+#[test]
+fn lengths_are_held_against_the_wheel() {
+    let sector = wheel(WheelRecipe::default());
+    let facts = ModelFacts::of(&sector);
+    let radius = 70.0;
+    assert_eq!(facts.contact_radius, Some(radius));
+    let set = |request: &mut SweepRequest, field: &str, value: f64| {
+        let casing = request.scene.casing.as_mut().unwrap();
+        match field {
+            "/scene/casing/clearance/leading" => casing.clearance.leading = Some(value),
+            "/scene/casing/lobes/amplitude" => casing.lobes.as_mut().unwrap().amplitude = value,
+            "/scene/casing/lobes/width_rad" => casing.lobes.as_mut().unwrap().width_rad = value,
+            "/scene/orbit/radius" => {
+                request.scene.orbit = serde_json::from_value(serde_json::json!({"radius": value})).unwrap();
+            }
+            _ => {
+                let initial = serde_json::json!({"nodal_diameter": 1, "family": 1, "amplitude": value});
+                request.scene.initial = serde_json::from_value(initial).unwrap();
+            }
+        }
+    };
+    let most = [
+        ("/scene/casing/clearance/leading", radius, true),
+        ("/scene/casing/lobes/amplitude", 0.1 * radius, true),
+        ("/scene/casing/lobes/width_rad", std::f64::consts::PI / 2.0, false),
+        ("/scene/orbit/radius", 0.1 * radius, true),
+        ("/scene/initial/amplitude", 0.1 * radius, true),
+    ];
+    for (field, most, of_the_wheel) in most {
+        let mut request = request(&sector, &[0.5 * TOP_SPEED]);
+        set(&mut request, field, most);
+        resolve_sweep(request.clone(), &facts).unwrap();
+        set(&mut request, field, 1.001 * most);
+        let violations = resolve_sweep(request.clone(), &facts).unwrap_err();
+        let pointers: Vec<_> = violations.iter().map(|violation| violation.pointer.as_str()).collect();
+        assert_eq!(pointers, [field], "{violations:?}");
+        let older = ModelFacts { contact_radius: None, ..facts.clone() };
+        assert_eq!(resolve_sweep(request, &older).is_ok(), of_the_wheel, "{field}");
+    }
+}
+
 /// A step that is wider than a lobe would pass it by, with numbers that look fine: refused when given, avoided when
 /// chosen.
 #[test]
@@ -115,9 +193,8 @@ fn narrow_lobes_are_not_stepped_over() {
     let lobes = request.scene.casing.as_mut().unwrap().lobes.as_mut().unwrap();
     lobes.width_rad = 2e-3;
     request.integration.steps_per_revolution = AutoOr::Fixed(1000);
-    let Err(AnalysisError::Refused(violations)) = check(&reduced, &request, &Unwatched) else {
-        panic!("1000 steps pass lobes of 0.002 rad by");
-    };
+    let violations = resolve_sweep(request.clone(), &ModelFacts::of(&sector)).unwrap_err();
+    assert_eq!(violations[0].pointer, "/integration/steps_per_revolution");
     assert!(violations[0].message.contains("at least 6284"), "{violations:?}");
     request.integration.steps_per_revolution = AutoOr::Auto;
     request.integration.revolutions = 6;

@@ -8,7 +8,7 @@ use super::study_request::StudyRequest;
 use super::trial::{Cost, Setting, Trial, TrialRequest};
 use crate::analysis::auto_or::AutoOr;
 use crate::analysis::request::{SchemeChoice, Sensor};
-use crate::analysis::result::{PointStatus, ReductionReport, Verdict};
+use crate::analysis::result::{PointStatus, ReductionReport, StiffeningVerdict, Verdict};
 use crate::analysis::run::VERSION;
 use crate::dynamics::sector::Units;
 use crate::numerics::convergence::observed_order;
@@ -36,6 +36,9 @@ pub struct StudyReduction {
     pub wheel_unknowns: u32,
     /// Wall time when it was computed, s.
     pub wall_time_s: f64,
+    /// How far K(Ω) can be trusted between the given speeds; absent of a study that an earlier version made.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stiffening: Option<StiffeningVerdict>,
 }
 
 /// One speed of a study.
@@ -188,6 +191,7 @@ pub fn work_precision<'a>(
             modes_per_speed: report.modes_per_speed,
             wheel_unknowns: report.wheel_unknowns,
             wall_time_s: report.wall_time_s,
+            stiffening: Some(report.stiffening.verdict),
         })
         .collect();
     let settings = request.clone();

@@ -13,7 +13,7 @@ use crate::analysis::error::AnalysisError;
 use crate::analysis::model::ReducedSector;
 use crate::analysis::monitor::Monitor;
 use crate::analysis::record::record_run;
-use crate::analysis::request::{SchemeChoice, SweepDirection, SweepRequest};
+use crate::analysis::request::{SchemeChoice, SweepDirection, SweepRequest, default_peak_prominence};
 use crate::analysis::result::{Point, PointStatus, SpeedSpectra, Verdict};
 use crate::analysis::speed::{Start, empty_point, ready, simulate};
 use crate::analysis::speeds::{SpeedSet, SpeedUnit, Speeds};
@@ -81,7 +81,7 @@ impl TrialRequest {
         });
         (sweep.accuracy, sweep.budget, sweep.control_speeds) = (None, None, None);
         sweep.sweep = SweepDirection::Independent;
-        sweep.refine = false;
+        (sweep.refine, sweep.peak_prominence) = (false, default_peak_prominence());
         Self { sweep, history_revolutions: 0, twin: false }
     }
 }
@@ -182,7 +182,7 @@ pub fn run_trial(
     let sweep = &request.sweep;
     let speed_rad_s = sweep.speeds.resolve().map_err(AnalysisError::Refused)?[0];
     let mut trial = Trial {
-        point: empty_point(0, speed_rad_s),
+        point: empty_point(reduced, sweep, 0, speed_rad_s),
         unknowns: 0,
         lines: Vec::new(),
         levels: Vec::new(),

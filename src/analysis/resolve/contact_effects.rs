@@ -107,6 +107,8 @@ mod tests {
             speeds_rad_s: vec![0.0],
             units,
             gyroscopic: false,
+            contact_radius: None,
+            stiffening: None,
         }
     }
 

@@ -1,7 +1,7 @@
 //! Checks of the effects that a scene names, and of which go together.
 
 use super::contact_effects::{check_abradable, check_friction};
-use super::{Findings, limits};
+use super::{Findings, check_reach, limits};
 use crate::analysis::effects::flexible_casing;
 use crate::analysis::model::ModelFacts;
 use crate::analysis::request::{SchemeChoice, SweepDirection, SweepRequest};
@@ -31,7 +31,7 @@ pub(super) fn check_effects(found: &mut Findings, request: &SweepRequest, facts:
         check_excitation(found, excitation, index, request.max_engine_order, facts);
     }
     if let Some(orbit) = &scene.orbit {
-        check_orbit(found, orbit);
+        check_orbit(found, orbit, facts);
     }
     if let Some(initial) = &scene.initial {
         check_initial(found, initial, facts);
@@ -246,12 +246,13 @@ fn check_excitation(
     );
 }
 
-fn check_orbit(found: &mut Findings, orbit: &Orbit) {
+fn check_orbit(found: &mut Findings, orbit: &Orbit, facts: &ModelFacts) {
     found.require(
         orbit.radius == 0.0 || limits::LENGTH.contains(&orbit.radius),
         "/scene/orbit/radius",
         format!("the radius is 0 or a length in {:?}", limits::LENGTH),
     );
+    check_reach(found, orbit.radius, "/scene/orbit/radius", facts);
     found.require(
         orbit.whirl_ratio.abs() <= limits::WHIRL_RATIO,
         "/scene/orbit/whirl_ratio",
@@ -281,6 +282,7 @@ fn check_initial(found: &mut Findings, initial: &Initial, facts: &ModelFacts) {
         &format!("{AT}/amplitude"),
         format!("an amplitude is a length in {:?}", limits::LENGTH),
     );
+    check_reach(found, initial.amplitude, &format!("{AT}/amplitude"), facts);
     let single = initial.nodal_diameter == 0 || 2 * initial.nodal_diameter == facts.sectors;
     found.require(
         initial.wave == InitialWave::Standing || !single,

@@ -3,6 +3,8 @@
 mod contact_effects;
 mod effects;
 
+use std::f64::consts::PI;
+
 use crate::analysis::auto_or::AutoOr;
 use crate::analysis::discretisation::most_samples;
 use crate::analysis::error::Violation;
@@ -13,8 +15,9 @@ use crate::analysis::request::{
 };
 use crate::analysis::scene::{Casing, Clearance, Damping, Lobes, Scene};
 use crate::analysis::speeds::{Part, Speeds};
-use crate::analysis::stepping::MOST_STEPS;
+use crate::analysis::stepping::{MOST_STEPS, least_steps_for_lobes};
 use crate::dynamics::casing::Restriction;
+use crate::dynamics::integrate::DIVERGED_SHARE_OF_RADIUS;
 
 /// Bounds that keep a request's memory and time within reason.
 pub(super) mod limits {
@@ -39,7 +42,7 @@ pub(super) mod limits {
     pub(super) const RODS: u32 = 1 << 20;
     /// Lengths and stresses other than 0, in any unit: far from where squares overflow or motion counts as decayed to nothing.
     pub(super) const LENGTH: std::ops::RangeInclusive<f64> = 1e-30..=1e30;
-    pub(super) const LOBE_WIDTH_RAD: std::ops::RangeInclusive<f64> = 1e-4..=100.0;
+    pub(super) const LEAST_LOBE_WIDTH_RAD: f64 = 1e-4;
     pub(super) const PHASE_RAD: f64 = 1000.0;
     pub(super) const CASING_WAVES: u32 = 50;
     pub(super) const SPREAD: f64 = 0.1;
@@ -73,6 +76,12 @@ pub fn resolve_sweep(mut request: SweepRequest, facts: &ModelFacts) -> Result<Sw
     check_speeds(&mut found, &request.speeds, facts, request.scene.centrifugal_stiffening, false);
     check_scene(&mut found, &request.scene, facts);
     check_integration(&mut found, &request.integration, request.max_engine_order);
+    found.require(
+        (0.0..=1.0).contains(&request.peak_prominence),
+        "/peak_prominence",
+        "a share of the largest response, between 0 and 1",
+    );
+    check_steps(&mut found, &request);
     check_ramp(&mut found, &request);
     effects::check_effects(&mut found, &request, facts);
     if request.sensors.is_empty() {
@@ -276,13 +285,32 @@ fn check_coriolis(found: &mut Findings, coriolis: bool, pointer: &str, facts: &M
     );
 }
 
+/// Lobes, an orbit or an initial state that would move a tip so far that the run ends as diverged.
+fn check_reach(found: &mut Findings, length: f64, pointer: &str, facts: &ModelFacts) {
+    let Some(radius) = facts.contact_radius.filter(|radius| *radius > 0.0) else { return };
+    let reach = DIVERGED_SHARE_OF_RADIUS * radius;
+    found.require(
+        !limits::LENGTH.contains(&length) || length <= reach,
+        pointer,
+        format!(
+            "{length} is out of proportion to this wheel, whose tips lie at a radius of up to {radius}: a tip that moves by more than \
+             a tenth of that, {reach}, ends a run as diverged; check the number and its unit"
+        ),
+    );
+}
+
 fn check_casing(found: &mut Findings, casing: &Casing, facts: &ModelFacts) {
     let valid = |length: f64| length == 0.0 || limits::LENGTH.contains(&length);
-    let message = format!("a clearance is 0 or a length in {:?}", limits::LENGTH);
+    let radius = facts.contact_radius.filter(|radius| *radius > 0.0).unwrap_or(f64::INFINITY);
+    let fits = |length: f64| valid(length) && length <= radius;
+    let message = format!(
+        "a clearance is 0 or a length in {:?}, no larger than the radius at which the tips lie",
+        limits::LENGTH
+    );
     match &casing.clearance {
         Clearance { leading: Some(leading), trailing: Some(trailing), values: None } => {
-            found.require(valid(*leading), "/scene/casing/clearance/leading", &message);
-            found.require(valid(*trailing), "/scene/casing/clearance/trailing", &message);
+            found.require(fits(*leading), "/scene/casing/clearance/leading", &message);
+            found.require(fits(*trailing), "/scene/casing/clearance/trailing", &message);
         }
         Clearance { leading: None, trailing: None, values: Some(values) } => {
             found.require(
@@ -291,7 +319,7 @@ fn check_casing(found: &mut Findings, casing: &Casing, facts: &ModelFacts) {
                 format!("the model has {} contact nodes, not {}", facts.contact_nodes, values.len()),
             );
             for (index, &value) in values.iter().enumerate() {
-                found.require(valid(value), &format!("/scene/casing/clearance/values/{index}"), &message);
+                found.require(fits(value), &format!("/scene/casing/clearance/values/{index}"), &message);
             }
         }
         _ => found.require(
@@ -307,10 +335,15 @@ fn check_casing(found: &mut Findings, casing: &Casing, facts: &ModelFacts) {
             "/scene/casing/lobes/amplitude",
             format!("a lobe's height is 0 or a length in {:?}", limits::LENGTH),
         );
+        check_reach(found, lobes.amplitude, "/scene/casing/lobes/amplitude", facts);
+        let (count, least) = (lobes.count.max(1), limits::LEAST_LOBE_WIDTH_RAD);
         found.require(
-            limits::LOBE_WIDTH_RAD.contains(&lobes.width_rad),
+            (least..=PI / f64::from(count)).contains(&lobes.width_rad),
             "/scene/casing/lobes/width_rad",
-            format!("a lobe's half-width lies in {:?} rad", limits::LOBE_WIDTH_RAD),
+            format!(
+                "the half-width of a lobe is at least {least} rad and at most half the distance between {count} lobes, π/{count} rad: \
+                 wider ones run into a casing that is narrower all around"
+            ),
         );
         found.require(
             lobes.phase_rad.abs() <= limits::PHASE_RAD,
@@ -388,6 +421,24 @@ fn check_integration(found: &mut Findings, integration: &Integration, max_engine
         (1..=limits::ENGINE_ORDER).contains(&max_engine_order),
         "/max_engine_order",
         format!("between 1 and {}", limits::ENGINE_ORDER),
+    );
+}
+
+/// Steps wider than a lobe would pass it by, with numbers that look fine.
+fn check_steps(found: &mut Findings, request: &SweepRequest) {
+    let AutoOr::Fixed(steps) = request.integration.steps_per_revolution else { return };
+    let wide = |lobes: &Lobes| lobes.width_rad >= limits::LEAST_LOBE_WIDTH_RAD;
+    if !request.scene.touched_lobes().is_some_and(wide) {
+        return;
+    }
+    let seen = least_steps_for_lobes(request);
+    found.require(
+        f64::from(steps) >= seen,
+        "/integration/steps_per_revolution",
+        format!(
+            "{steps} steps per revolution pass the lobes by, which are seen from {seen} steps per revolution on; give at least \
+             {seen}, or \"auto\""
+        ),
     );
 }
 

@@ -99,8 +99,8 @@ pub(super) fn critical_speeds(table: &CriticalSpeeds) -> String {
             if speed.resolved { ' ' } else { '≥' },
             speed.rms,
             speed.prominence,
-            speed.dominant_engine_order,
-            speed.dominant_nodal_diameter,
+            or_none(speed.dominant_engine_order),
+            or_none(speed.dominant_nodal_diameter),
             verdict(speed.settling),
             nearest_linear(speed),
             nearest_driven(speed, &table.driven_crossings),
@@ -129,6 +129,10 @@ pub(super) fn critical_speeds(table: &CriticalSpeeds) -> String {
     out
 }
 
+fn or_none<T: ToString>(value: Option<T>) -> String {
+    value.map_or_else(|| "-".to_owned(), |value| value.to_string())
+}
+
 fn nearest_linear(speed: &CriticalSpeed) -> String {
     let Some(crossing) = &speed.nearest_crossing else { return format!("{:<26}", "none in range") };
     format!(
@@ -144,7 +148,7 @@ fn nearest_linear(speed: &CriticalSpeed) -> String {
 /// The nearest of the driven crossings with the peak's own engine order.
 fn nearest_driven(speed: &CriticalSpeed, driven: &[DrivenCrossing]) -> String {
     let same =
-        driven.iter().filter(|crossing| f64::from(crossing.engine_order) == speed.dominant_engine_order);
+        driven.iter().filter(|crossing| speed.dominant_engine_order == Some(crossing.engine_order.into()));
     let distance = |crossing: &&DrivenCrossing| (crossing.speed_rad_s - speed.speed_rad_s).abs();
     match same.min_by(|a, b| distance(a).total_cmp(&distance(b))) {
         Some(crossing) => format!(

@@ -22,7 +22,7 @@ pub(crate) struct StudyArgs {
     #[arg(long)]
     package: Option<PathBuf>,
     /// JSON file with the body of POST /v1/studies, whose `model` may be left out [default: the demo's scene at 24,000 rpm
-    /// with the grid of the paper's five sizes]
+    /// with the grid of the paper's five numbers of modes]
     #[arg(long)]
     request: Option<PathBuf>,
     /// Folder for results and drawings; made if missing. A second run reuses the reductions and runs that it shares with the

@@ -127,7 +127,7 @@ pub struct Run {
 
 /// Displacements beyond this share of the largest contact radius end a run as diverged: linear structural theory is
 /// void long before.
-const DIVERGED_SHARE_OF_RADIUS: f64 = 0.1;
+pub(crate) const DIVERGED_SHARE_OF_RADIUS: f64 = 0.1;
 
 /// A restriction table larger than this many values (2 GiB) is refused.
 pub const MAX_TABLE_VALUES: usize = 1 << 28;

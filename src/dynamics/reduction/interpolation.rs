@@ -4,7 +4,6 @@
 //! of a geometrically non-linear step sit on the deformed geometry; every stiff entry moves with the deformation, K2
 //! does not vanish, and the interpolant is right at the three speeds and wrong between them.
 
-use faer::sparse::SparseColMat;
 use serde::{Deserialize, Serialize};
 
 use super::ReducedHarmonic;
@@ -50,7 +49,7 @@ pub(super) fn check(
     sector: &SectorModel,
     harmonics: &[ReducedHarmonic],
 ) -> Result<InterpolationCheck, ModelError> {
-    let [_, a, b] = *sector.speeds_rad_s else {
+    let ([_, a, b], Some(ratios)) = (&*sector.speeds_rad_s, MatrixRatios::of(sector)) else {
         return Ok(InterpolationCheck {
             verdict: InterpolationVerdict::Absent,
             linear_ratio: 0.0,
@@ -58,12 +57,12 @@ pub(super) fn check(
             frequency_error: 0.0,
         });
     };
-    let (linear_ratio, quadratic_ratio) = entry_ratios(sector, a * a, b * b);
+    let MatrixRatios { linear: linear_ratio, quadratic: quadratic_ratio } = ratios;
     let mut frequency_error: f64 = 0.0;
     for harmonic in harmonics {
-        frequency_error = frequency_error.max(lowest_frequency_deviation(harmonic, a, b)?);
+        frequency_error = frequency_error.max(lowest_frequency_deviation(harmonic, *a, *b)?);
     }
-    let verdict = if quadratic_ratio <= QUADRATIC_LIMIT && frequency_error.is_finite() {
+    let verdict = if ratios.are_linear() && frequency_error.is_finite() {
         // Linear in Ω²: the interpolant is right everywhere, and a lowest frequency that is no smooth curve has
         // modes that cross.
         frequency_error = frequency_error.min(quadratic_ratio);
@@ -76,22 +75,44 @@ pub(super) fn check(
     Ok(InterpolationCheck { verdict, linear_ratio, quadratic_ratio, frequency_error })
 }
 
-/// (‖Ω1²K1‖, ‖Ω1⁴K2‖)/‖K0‖ with xa, xb the squares of the middle and the last speed.
-fn entry_ratios(sector: &SectorModel, xa: f64, xb: f64) -> (f64, f64) {
-    let largest = |matrix: &SparseColMat<usize, f64>| matrix.val().iter().fold(0.0f64, |m, v| m.max(v.abs()));
-    let [k0, ka, kb] = [0, 1, 2].map(|i| &sector.stiffness[i].own);
-    let scaled = |matrix: &SparseColMat<usize, f64>, factor: f64| {
-        let mut matrix = matrix.clone();
-        matrix.val_mut().iter_mut().for_each(|v| *v *= factor);
-        matrix
-    };
-    // Divided differences, as in the fit, scaled to Ω1² K1 and Ω1⁴ K2.
-    let slope_a = scaled(&(ka - k0), xb / xa);
-    let slope_b = kb - k0;
-    let quadratic = scaled(&(&slope_b - &slope_a), xb / (xb - xa));
-    let linear = &slope_a - &scaled(&quadratic, xa / xb);
-    let scale = largest(k0);
-    (largest(&linear) / scale, largest(&quadratic) / scale)
+/// What the three stiffness matrices of a sector tell about K(Ω) by themselves (largest entries of the sector's own block).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MatrixRatios {
+    /// ‖Ω1²K1‖/‖K0‖.
+    pub linear: f64,
+    /// ‖Ω1⁴K2‖/‖K0‖.
+    pub quadratic: f64,
+}
+
+impl MatrixRatios {
+    /// Of a sector with stiffness at three speeds; entry by entry, so that nothing is held beside the matrices.
+    pub fn of(sector: &SectorModel) -> Option<Self> {
+        let ([_, a, b], [k0, ka, kb]) = (&*sector.speeds_rad_s, &*sector.stiffness) else { return None };
+        let matrices = [&k0.own, &ka.own, &kb.own];
+        let (xa, xb) = (a * a, b * b);
+        let (mut scale, mut linear, mut quadratic) = (0.0f64, 0.0f64, 0.0f64);
+        for column in 0..k0.own.ncols() {
+            let mut left = matrices
+                .map(|matrix| matrix.row_idx_of_col(column).zip(matrix.val_of_col(column)).peekable());
+            while let Some(row) = left.iter_mut().filter_map(|rest| rest.peek().map(|entry| entry.0)).min() {
+                let [at_rest, at_a, at_b] = left
+                    .each_mut()
+                    .map(|rest| rest.next_if(|entry| entry.0 == row).map_or(0.0, |entry| *entry.1));
+                // Divided differences, as in the fit, scaled to Ω1² K1 and Ω1⁴ K2.
+                let slope_a = (at_a - at_rest) * (xb / xa);
+                let curved = ((at_b - at_rest) - slope_a) * (xb / (xb - xa));
+                scale = scale.max(at_rest.abs());
+                linear = linear.max((slope_a - curved * (xa / xb)).abs());
+                quadratic = quadratic.max(curved.abs());
+            }
+        }
+        Some(Self { linear: linear / scale, quadratic: quadratic / scale })
+    }
+
+    /// Whether K is linear in Ω², to the round-off of matrices as they are written.
+    pub fn are_linear(self) -> bool {
+        self.quadratic <= QUADRATIC_LIMIT
+    }
 }
 
 /// |f − f_smooth|/f at ¼ and ¾ of the last speed, where f_smooth² is the parabola in Ω² through the lowest

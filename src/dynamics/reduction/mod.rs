@@ -40,7 +40,7 @@ use untied::UntiedSector;
 pub use checkpoints::{Checkpoints, NoCheckpoints};
 pub use comparison::FrequencyComparison;
 pub use count::{Completeness, ModeCount};
-pub use interpolation::{InterpolationCheck, InterpolationVerdict};
+pub use interpolation::{InterpolationCheck, InterpolationVerdict, MatrixRatios};
 
 /// Settings of the reduction.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -149,6 +149,8 @@ pub enum FailureCause {
     Memory,
     /// Its owner has too much already.
     Limit,
+    /// No speed of a sweep was integrated to its end.
+    NothingCompleted,
     /// A defect of this program: a computation panicked.
     Defect,
     /// The database or the disk failed.
