@@ -9,7 +9,7 @@ use super::scene::Symmetry;
 use super::stepping::Stepping;
 use super::symmetry::repeats;
 use crate::dynamics::contact::coating::WornCoating;
-use crate::dynamics::integrate::{Divergence, History, Outcome, Run};
+use crate::dynamics::integrate::{Divergence, History, Outcome, Run, TipDisplacement};
 use crate::dynamics::modal_wheel::ModalWheel;
 use crate::numerics::complementarity::ComplementarityError;
 use crate::numerics::sector_fourier::{SectorFourier, harmonic_count};
@@ -90,22 +90,21 @@ fn wear(coating: &WornCoating) -> WearReport {
 }
 
 fn describe(divergence: &Divergence) -> String {
-    let Divergence { revolutions, displacement, contact_node, sector, energy_growth } = *divergence;
+    let Divergence { revolutions, tip, energy_growth } = *divergence;
     let growth = match energy_growth.filter(|growth| growth.is_finite()) {
         Some(growth) => {
             format!("; the energy was {growth:.3e} times that at the end of the last whole revolution")
         }
         None => String::new(),
     };
-    if displacement.is_finite() {
-        format!(
+    match tip.filter(|tip| tip.displacement.is_finite()) {
+        Some(TipDisplacement { displacement, contact_node, sector, component }) => format!(
             "the response grew without bound: after {revolutions:.3} revolutions contact node {contact_node} of sector \
-             {sector} had moved by {displacement:.3e}, more than a tenth of the wheel's radius{growth}"
-        )
-    } else {
-        format!(
+             {sector} had moved {component} by {displacement:.3e}, more than a tenth of the wheel's radius{growth}"
+        ),
+        None => format!(
             "the response grew without bound: numbers overflowed after {revolutions:.3} revolutions{growth}"
-        )
+        ),
     }
 }
 

@@ -7,6 +7,9 @@ pub(crate) mod aligned;
 pub mod block_lanczos;
 pub mod complementarity;
 pub mod convergence;
+#[cfg(test)]
+#[path = "../../tests/properties/fixed.rs"]
+mod fixed;
 pub mod hermitian;
 pub mod matrix_serde;
 pub mod multifrontal;

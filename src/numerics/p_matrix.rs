@@ -68,6 +68,7 @@ fn eliminated(a: MatRef<'_, f64>) -> Mat<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numerics::fixed::fixed;
     use proptest::prelude::*;
 
     /// The smallest principal minor, by determinants.
@@ -81,6 +82,8 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(fixed(256))]
+
         #[test]
         fn agrees_with_determinants(
             n in 1usize..6,

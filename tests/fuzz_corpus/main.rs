@@ -1,5 +1,9 @@
 //! The fuzz target `sweep` (see `fuzz/`) without a fuzzer: over its stored corpus, and over requests drawn from a grammar.
 
+#[path = "../properties/campaign.rs"]
+mod campaign;
+#[path = "../properties/fixed.rs"]
+mod fixed;
 #[path = "../physics/fixtures.rs"]
 #[expect(dead_code, reason = "shared with tests that need more of it")]
 mod fixtures;
@@ -10,6 +14,8 @@ use std::path::Path;
 
 use proptest::prelude::*;
 
+use campaign::campaign;
+use fixed::fixed;
 use sweep::{End, run};
 
 fn corpus() -> Vec<(String, Vec<u8>)> {
@@ -45,8 +51,31 @@ fn the_corpus_ends_as_its_names_say() {
     }
 }
 
+/// Bytes that are mostly text, and shown as such.
+struct Body(Vec<u8>);
+
+impl std::fmt::Debug for Body {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}", self.0.escape_ascii())
+    }
+}
+
+/// Stored bodies with a few bytes changed.
+fn damaged() -> impl Strategy<Value = Body> {
+    let changes = prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..4);
+    (prop::sample::select(corpus()), changes).prop_map(|((_, mut body), changes)| {
+        for (place, byte) in changes {
+            if !body.is_empty() {
+                let place = place.index(body.len());
+                body[place] = byte;
+            }
+        }
+        Body(body)
+    })
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(3000))]
+    #![proptest_config(fixed(3000))]
 
     /// Requests of valid, extreme and wrong parts.
     #[test]
@@ -54,18 +83,27 @@ proptest! {
         run(body.as_bytes());
     }
 
-    /// Stored bodies with a few bytes changed.
     #[test]
-    fn damaged_bodies(
-        (_, mut body) in prop::sample::select(corpus()),
-        changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..4),
-    ) {
-        for (place, byte) in changes {
-            if !body.is_empty() {
-                let place = place.index(body.len());
-                body[place] = byte;
-            }
-        }
+    fn damaged_bodies(Body(body) in damaged()) {
         run(&body);
     }
+}
+
+/// Both without an end: `cargo test --release campaign -- --ignored --nocapture`.
+#[test]
+#[ignore = "a campaign: runs for as long as one likes"]
+fn campaign_of_requests() {
+    campaign("requests from the grammar", grammar::request(), |body| {
+        run(body.as_bytes());
+        Ok(())
+    });
+}
+
+#[test]
+#[ignore = "a campaign: runs for as long as one likes"]
+fn campaign_of_damaged_bodies() {
+    campaign("damaged bodies", damaged(), |Body(body)| {
+        run(&body);
+        Ok(())
+    });
 }

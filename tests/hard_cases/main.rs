@@ -2,8 +2,12 @@
 //! the table of them.
 
 mod all_nodes_close;
+#[path = "../properties/campaign.rs"]
+mod campaign;
 mod denormals;
 mod double_eigenvalues;
+#[path = "../properties/fixed.rs"]
+mod fixed;
 #[path = "../physics/fixtures.rs"]
 #[allow(dead_code, reason = "shared with the physics tests, which use all of it")]
 mod fixtures;

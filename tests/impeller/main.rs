@@ -3,11 +3,15 @@
 mod annulus;
 mod beam;
 mod calculix;
+#[path = "../properties/campaign.rs"]
+mod campaign;
 mod conformity;
 mod disk;
 mod disk_mesh;
 mod eigen;
 mod element;
+#[path = "../properties/fixed.rs"]
+mod fixed;
 mod gyroscopic;
 mod impeller_a;
 mod impeller_mesh;

@@ -1,9 +1,12 @@
 //! Wheels of random proportions: meshed, or refused by name.
 
 use proptest::prelude::*;
+use proptest::test_runner::TestCaseResult;
 use rubmap::impeller::{ImpellerError, ImpellerParameters, MeshDensities, Splitter, impeller_sector};
 
+use crate::campaign::campaign;
 use crate::conformity::{check_conforming, check_cyclic, volume};
+use crate::fixed::fixed;
 use crate::impeller_mesh::{ORDERS, densities};
 
 fn counts() -> impl Strategy<Value = MeshDensities> {
@@ -53,22 +56,33 @@ fn any_wheel() -> impl Strategy<Value = ImpellerParameters> {
     )
 }
 
-proptest! {
-    #![proptest_config(ProptestConfig { cases: 400, ..ProptestConfig::default() })]
+/// Either a conforming mesh with positive Jacobians whose faces fit, or a refusal that names a field or an element.
+fn is_meshed_or_refused(p: &ImpellerParameters) -> TestCaseResult {
+    match impeller_sector(p) {
+        Ok(sector) => {
+            check_conforming(&sector.mesh, 1e-3 * p.root_thickness.min(p.bore_radius));
+            check_cyclic(&sector, p.outlet_radius);
+            prop_assert!(volume(&sector.mesh) > 0.0);
+            prop_assert_eq!(sector.contact.len(), p.contact_nodes);
+        }
+        Err(ImpellerError::Parameter { .. } | ImpellerError::Jacobian { .. }) => {}
+        Err(other) => prop_assert!(false, "{}", other),
+    }
+    Ok(())
+}
 
-    /// Either a conforming mesh with positive Jacobians whose faces fit, or a refusal that names a field or an element.
+#[test]
+#[ignore = "a campaign: runs for as long as one likes"]
+fn campaign_of_meshed_wheels() {
+    campaign("random wheels to be meshed", any_wheel(), |p| is_meshed_or_refused(&p));
+}
+
+proptest! {
+    #![proptest_config(fixed(400))]
+
     #[test]
     fn any_wheel_is_meshed_or_refused_by_name(p in any_wheel()) {
-        match impeller_sector(&p) {
-            Ok(sector) => {
-                check_conforming(&sector.mesh, 1e-3 * p.root_thickness.min(p.bore_radius));
-                check_cyclic(&sector, p.outlet_radius);
-                prop_assert!(volume(&sector.mesh) > 0.0);
-                prop_assert_eq!(sector.contact.len(), p.contact_nodes);
-            }
-            Err(ImpellerError::Parameter { .. } | ImpellerError::Jacobian { .. }) => {}
-            Err(other) => prop_assert!(false, "{}", other),
-        }
+        is_meshed_or_refused(&p)?;
     }
 
     /// Values no wheel can have are refused too, without a panic.

@@ -8,6 +8,7 @@ use rubmap::package::PackageError;
 use rubmap::package::error::ArchiveProblem;
 use zip::CompressionMethod::{Deflated, Stored};
 
+use crate::fixed::fixed;
 use crate::sample::{Files, import, import_within};
 
 fn problem(bytes: &[u8], limits: &Limits) -> (Option<String>, ArchiveProblem) {
@@ -118,7 +119,7 @@ fn files_that_are_not_zips_say_so() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(300))]
+    #![proptest_config(fixed(300))]
 
     #[test]
     fn garbage_never_panics(bytes in proptest::collection::vec(any::<u8>(), 0..2000)) {

@@ -5,6 +5,8 @@ mod calculix;
 mod calculix_deck;
 mod damaged;
 mod equivalent;
+#[path = "../properties/fixed.rs"]
+mod fixed;
 mod gyroscopic;
 mod npz;
 mod sample;

@@ -12,6 +12,7 @@ use rubmap::dynamics::sector::{CyclicMatrix, SectorModel};
 use rubmap::package;
 use rubmap::package::raw::{Frame, RawMatrix, RawPackage};
 
+use crate::fixed::fixed;
 use crate::sample::{Numbers, Shape, package as sample, turn, unit, with_gyroscopic};
 
 type Vector = [f64; 3];
@@ -175,7 +176,7 @@ fn directions() -> impl Strategy<Value = Vector> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(200))]
+    #![proptest_config(fixed(200))]
 
     #[test]
     fn the_wheel_has_the_energy_of_its_sectors(

@@ -12,6 +12,7 @@ use rubmap::dynamics::schemes::central_differences::smallest_stable_steps;
 use rubmap::numerics::sector_fourier::SectorFourier;
 use rubmap::response::spectra::nodal_diameter_amplitudes;
 
+use crate::fixed::fixed;
 use crate::fixtures::{TOP_SPEED, WheelRecipe, wheel};
 
 struct Scene {
@@ -74,7 +75,7 @@ fn completed(run: &Run) -> &History {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(40))]
+    #![proptest_config(fixed(40))]
 
     /// Random wheels (1 to 12 sectors, 1 to 4 contact nodes, random springs), lobes, damping from none to heavy,
     /// steps from 1.02 of the stability limit up: every step's contact solution is complementary and the energy

@@ -3,6 +3,8 @@
 mod coriolis;
 mod cyclic_structure;
 mod dense_agreement;
+#[path = "../properties/fixed.rs"]
+mod fixed;
 mod fixtures;
 mod impeller_a;
 mod invariants;

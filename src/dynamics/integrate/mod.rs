@@ -1,5 +1,6 @@
 //! Time integration with contact (Eqs 8–10): what a run is given and what it returns. The loop is in `stepper`.
 
+mod bounds;
 #[cfg(test)]
 mod digests;
 mod obstacle;
@@ -12,6 +13,7 @@ use std::f64::consts::TAU;
 
 use pulp::{Simd, WithSimd};
 
+pub use self::bounds::{TipComponent, TipDisplacement};
 use self::stepper::Stepper;
 use super::casing::Casing;
 #[cfg(test)]
@@ -84,12 +86,8 @@ pub struct History {
 pub struct Divergence {
     /// Revolutions integrated until it was found.
     pub revolutions: f64,
-    /// Largest outward displacement at a contact node then, length; not finite if numbers overflowed.
-    pub displacement: f64,
-    /// Its contact node.
-    pub contact_node: usize,
-    /// Its sector.
-    pub sector: usize,
+    /// The tip that had moved most then; none where nothing can be touched, and numbers overflowed.
+    pub tip: Option<TipDisplacement>,
     /// Mechanical energy then over that at the end of the last whole revolution; none in the first.
     pub energy_growth: Option<f64>,
 }
@@ -99,7 +97,8 @@ pub struct Divergence {
 pub enum Outcome {
     /// All revolutions were integrated.
     Completed(History),
-    /// A tip moved by more than a tenth of the wheel's radius, or a number overflowed.
+    /// A tip that a casing may touch moved by more than a tenth of the wheel's radius in any component, or a number
+    /// overflowed. Without a casing the response is linear, and may be of any size.
     Diverged(Divergence),
     /// The contact problem of a step could not be solved.
     ContactFailed {
@@ -164,7 +163,7 @@ impl Simulation<'_> {
         arch.dispatch(Loop { simulation: self, stepper: &mut stepper, watch })
     }
 
-    /// Normal displacement of a tip beyond which a run ends as diverged; without bound where all tips lie on the axis.
+    /// Displacement of a tip beyond which a run ends as diverged; without bound where all tips lie on the axis.
     fn reach(&self) -> f64 {
         let radius = self.contact_nodes.iter().fold(0.0f64, |r, node| r.max(node.position[0]));
         if radius > 0.0 { DIVERGED_SHARE_OF_RADIUS * radius } else { f64::INFINITY }

@@ -45,8 +45,6 @@ pub(super) struct Obstacle {
     step_s: f64,
     /// Normal displacements of the integrated modes, `[Fourier column][node]`.
     pub(super) harmonic: Vec<f64>,
-    /// nᵀu that the gaps were read from: `[sector][node]`.
-    normal: Vec<f64>,
     predicted_gap: Vec<f64>,
     /// Contact nodes with a force on any sector.
     pub(super) loaded: Vec<usize>,
@@ -95,7 +93,6 @@ impl Obstacle {
             casing: casing.clone(),
             step_s: simulation.step_s(),
             harmonic: vec![0.0; size],
-            normal: vec![0.0; size],
             predicted_gap: vec![0.0; size],
             loaded: Vec::with_capacity(stride),
             is_loaded: vec![false; stride],
@@ -130,7 +127,6 @@ impl Obstacle {
         let harmonic = S::as_simd_f64s(&self.harmonic).0;
         for sector in 0..fourier.sectors() {
             let range = sector * stride..(sector + 1) * stride;
-            let normal = &mut S::as_mut_simd_f64s(&mut self.normal[range.clone()]).0[..vectors];
             let gap = &mut S::as_mut_simd_f64s(&mut self.predicted_gap[range.clone()]).0[..vectors];
             let restricted = match &self.restriction {
                 Some(table) => table.at(step, sector),
@@ -147,7 +143,6 @@ impl Obstacle {
                 if EFFECTS {
                     free = simd.add_f64s(free, shift[v]);
                 }
-                normal[v] = u;
                 gap[v] = simd.sub_f64s(free, u);
                 smallest = simd.min_f64s(smallest, gap[v]);
             }
@@ -273,20 +268,6 @@ impl Obstacle {
             }
         }
         self.loaded.clear();
-    }
-
-    /// Largest normal displacement and its place; the first that is no number, if any.
-    pub(super) fn largest_displacement(&self) -> (usize, f64) {
-        let mut largest = (0, 0.0f64);
-        for (place, &u) in self.normal.iter().enumerate() {
-            if !u.is_finite() {
-                return (place, u);
-            }
-            if u.abs() > largest.1.abs() {
-                largest = (place, u);
-            }
-        }
-        (largest.0, largest.1.abs())
     }
 }
 

@@ -12,6 +12,8 @@ use super::Simulation;
 #[derive(Debug)]
 pub(super) struct ResidualDisplacement {
     harmonics: Vec<Harmonic>,
+    /// No unit force in Fourier coordinates moves any row of any sector by more.
+    largest: f64,
 }
 
 #[derive(Debug)]
@@ -25,7 +27,7 @@ struct Harmonic {
 
 impl ResidualDisplacement {
     pub(super) fn new(simulation: &Simulation<'_>, rows: &[Direction]) -> Self {
-        let mut harmonics = Vec::new();
+        let mut harmonics: Vec<Harmonic> = Vec::new();
         if let (Scheme::MasslessBoundary { kept_modes }, Some(_)) = (simulation.scheme, simulation.casing) {
             let applied = match simulation.effects.friction {
                 Some(friction) => friction.directions.to_vec(),
@@ -38,7 +40,19 @@ impl ResidualDisplacement {
                 column += if modes.single { 1 } else { 2 };
             }
         }
-        Self { harmonics }
+        let entries = harmonics.iter().flat_map(|harmonic| harmonic.flexibility.col_iter());
+        let largest = entries.flat_map(|column| column.iter()).fold(0.0f64, |m, f| m.max(f.norm()));
+        // Real and imaginary part move both columns of a pair, each read with a weight of at most √(2/N).
+        Self { harmonics, largest: 2.0 * largest * (2.0 / simulation.wheel.sectors as f64).sqrt() }
+    }
+
+    /// What `force` moves no row by more than.
+    pub(super) fn bound(&self, force: &[f64]) -> f64 {
+        if self.harmonics.is_empty() {
+            0.0
+        } else {
+            self.largest * force.iter().map(|f| f.abs()).sum::<f64>()
+        }
     }
 
     /// Adds to `out[column][row]` (rows padded to `stride`) what `force[column][node]` (nodes padded to `force_stride`)

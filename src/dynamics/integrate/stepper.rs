@@ -18,6 +18,7 @@ use super::super::oscillators::driven::Drive;
 use super::super::oscillators::{Loads, Oscillators};
 use super::super::schemes::Scheme;
 use super::super::statistics::RunStatistics;
+use super::bounds::Bounds;
 use super::obstacle::Obstacle;
 use super::recorder::Recorder;
 use super::surroundings::applied;
@@ -49,6 +50,8 @@ pub(super) struct Stepper {
     /// What else than contact moves the wheel.
     drive: Option<Drive>,
     obstacle: Option<Obstacle>,
+    /// Of a wheel that may touch something.
+    bounds: Option<Bounds>,
     recorder: Recorder,
     statistics: RunStatistics,
     energy: EnergyAudit,
@@ -71,6 +74,7 @@ impl Stepper {
         );
         let obstacle =
             simulation.casing.map(|casing| Obstacle::new(simulation, casing, &oscillators, &fourier));
+        let bounds = simulation.casing.map(|_| Bounds::new(simulation, &oscillators));
         let step = simulation.step_s();
         let mut drive = Drive::new(wheel, &simulation.effects, &oscillators, &fourier, step);
         if let Some(drive) = &mut drive {
@@ -79,7 +83,17 @@ impl Stepper {
         let recorder = Recorder::new(simulation, &fourier);
         let energy = EnergyAudit::starting_at(oscillators.energy());
         let statistics = RunStatistics::default();
-        Self { fourier, oscillators, drive, obstacle, recorder, statistics, energy, last_energy: None }
+        Self {
+            fourier,
+            oscillators,
+            drive,
+            obstacle,
+            bounds,
+            recorder,
+            statistics,
+            energy,
+            last_energy: None,
+        }
     }
 
     #[cfg(test)]
@@ -134,7 +148,7 @@ impl Stepper {
     ) -> Result<(), Outcome> {
         let steps = simulation.steps_per_revolution;
         let sampling = steps / simulation.samples_per_revolution;
-        let (reach, massless) = (simulation.reach(), is_massless(simulation));
+        let massless = is_massless(simulation);
         let window_start = simulation.revolutions - simulation.window_revolutions;
         for revolution in 0..simulation.revolutions {
             for step in 1..=steps {
@@ -174,7 +188,7 @@ impl Stepper {
                     let energy = self.mechanical_energy();
                     self.energy.check(energy);
                     self.record(simd, revolution >= window_start);
-                    self.check_bounds(energy, reach, revolutions)?;
+                    self.check_bounds(energy, revolutions)?;
                 }
             }
             self.last_energy = Some(self.mechanical_energy());
@@ -311,17 +325,18 @@ impl Stepper {
     }
 
     #[inline(never)]
-    fn check_bounds(&self, energy: f64, reach: f64, revolutions: f64) -> Result<(), Outcome> {
-        let (place, displacement) = self.obstacle.as_ref().map_or((0, 0.0), Obstacle::largest_displacement);
-        if energy.is_finite() && displacement <= reach {
+    fn check_bounds(&mut self, energy: f64, revolutions: f64) -> Result<(), Outcome> {
+        let force = self.obstacle.as_ref().map_or(&[][..], |obstacle| obstacle.force.as_slice());
+        let tip = match &mut self.bounds {
+            Some(bounds) => bounds.exceeded(&self.oscillators, &self.fourier, energy, force),
+            None => None,
+        };
+        if energy.is_finite() && tip.is_none() {
             return Ok(());
         }
-        let stride = self.obstacle.as_ref().map_or(1, |obstacle| obstacle.rows.stride);
         Err(Outcome::Diverged(Divergence {
             revolutions,
-            displacement,
-            contact_node: place % stride,
-            sector: place / stride,
+            tip,
             energy_growth: self.last_energy.map(|last| energy / last),
         }))
     }

@@ -441,6 +441,14 @@ impl Oscillators {
         self.coefficients.receptance[self.segments[harmonic].modes + family]
     }
 
+    /// Largest z² of a mode per 2E: 1/(ω²(1 − ω²B/4)); infinite where its energy bounds no displacement.
+    pub(crate) fn largest_square(&self, harmonic: usize, family: usize) -> f64 {
+        let mode = self.segments[harmonic].modes + family;
+        let (stiffness, inertia) = (self.coefficients.stiffness[mode], self.coefficients.inertia[mode]);
+        let bounded = stiffness - 0.25 * stiffness * stiffness / inertia;
+        if bounded > 0.0 { 1.0 / bounded } else { f64::INFINITY }
+    }
+
     /// Brings to rest what has decayed below any meaning, before its numbers become denormal.
     #[inline(always)]
     pub(crate) fn quench(&mut self) {

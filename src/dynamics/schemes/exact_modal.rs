@@ -39,8 +39,15 @@ pub(super) fn touched_mode_step(omega: f64, zeta: f64, h: f64) -> ModeStep {
     }
 }
 
-/// From the free motion backwards to −h.
+/// ζωh beyond which a mode forgets its past within a step, to round-off: e^{−36} = 2e-16. Traced backwards it would be
+/// larger by as much, and its energy beyond all numbers.
+const FORGETS: f64 = 36.0;
+
+/// From the free motion backwards to −h; 0, as if held until now, for a mode that forgets it.
 pub(super) fn first_increment(omega: f64, zeta: f64, h: f64, displacement: f64, velocity: f64) -> f64 {
+    if zeta * omega * h > FORGETS {
+        return 0.0;
+    }
     let (lag, sine) = backwards(omega, zeta, h);
     let swing = velocity + zeta * omega * displacement;
     displacement * lag + (zeta * omega * h).exp() * swing * sine
@@ -49,8 +56,11 @@ pub(super) fn first_increment(omega: f64, zeta: f64, h: f64, displacement: f64, 
 /// Least |sin θ| that tells a velocity from an increment.
 const TELLS: f64 = 1e-3;
 
-/// ż of the same; 0 for a mode whose increments do not depend on it, ωh being near a multiple of π.
+/// ż of the same; 0 for a mode whose increments do not depend on it: ωh is near a multiple of π, or its past forgotten.
 pub(super) fn velocity(omega: f64, zeta: f64, h: f64, displacement: f64, increment: f64) -> f64 {
+    if zeta * omega * h > FORGETS {
+        return 0.0;
+    }
     let (lag, sine) = backwards(omega, zeta, h);
     if (sine * omega).abs() < TELLS && omega * h > TELLS {
         return 0.0;

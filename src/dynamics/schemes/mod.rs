@@ -149,4 +149,14 @@ mod tests {
             }
         }
     }
+
+    /// Traced backwards by a step these would be 1e113 times as large, and no number at all.
+    #[test]
+    fn a_mode_that_forgets_its_past_within_a_step_starts_as_if_held() {
+        for h in [13.0, 130.0] {
+            let (omega, zeta) = (1000.0, 0.02);
+            assert_eq!(Scheme::ExactModal.first_increment(omega, zeta, h, 0.7, -20.0), 0.0);
+            assert_eq!(Scheme::ExactModal.velocity(omega, zeta, h, 0.7, 0.1, false), 0.0);
+        }
+    }
 }

@@ -5,6 +5,7 @@ use super::branches::BranchSolver;
 use super::factor::{Cholesky, Factor, Lu};
 use super::law::BilinearLaw;
 use super::{ComplementarityError, ContactOperator};
+use crate::numerics::fixed::fixed;
 
 struct Dense(Vec<Vec<f64>>);
 
@@ -92,6 +93,8 @@ fn check<F: Factor>(w: &Dense, qs: &[f64], tolerance: f64) -> Result<(), TestCas
 }
 
 proptest! {
+    #![proptest_config(fixed(256))]
+
     /// From well conditioned to nearly singular, q of both signs.
     #[test]
     fn symmetric_problems_agree_with_enumeration(
@@ -235,6 +238,8 @@ fn laws() -> impl Strategy<Value = Vec<BilinearLaw>> {
 }
 
 proptest! {
+    #![proptest_config(fixed(256))]
+
     #[test]
     fn yielding_obstacles_agree_with_enumeration(
         n in 1usize..5,
