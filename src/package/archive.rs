@@ -13,6 +13,8 @@ use zip::result::ZipError;
 
 use super::Limits;
 use super::error::{ArchiveProblem, PackageError};
+use super::quote::quoted;
+use super::raw::LONGEST_NAME;
 
 /// A zip archive whose directory has been checked: no two files of one name, none outside the package.
 #[derive(Debug)]
@@ -40,7 +42,7 @@ impl Archive {
         }
         if zip.has_duplicate_names() {
             return Err(PackageError::archive(
-                repeated_name(path, zip.central_directory_start()),
+                repeated_name(path, zip.central_directory_start()).map(|name| quoted(&name)),
                 ArchiveProblem::Repeated,
             ));
         }
@@ -48,8 +50,12 @@ impl Archive {
         for (index, name) in zip.file_names().enumerate() {
             let name = name.map_err(|error| not_a_zip(&error))?;
             let Some(inside) = inside(&name) else {
-                return Err(PackageError::archive(name.into_owned(), ArchiveProblem::UnsafePath));
+                return Err(PackageError::archive(quoted(&name), ArchiveProblem::UnsafePath));
             };
+            if inside.chars().nth(LONGEST_NAME).is_some() {
+                let problem = ArchiveProblem::NameTooLong { limit: LONGEST_NAME };
+                return Err(PackageError::archive(quoted(&inside), problem));
+            }
             let is_folder = name.ends_with('/');
             if !is_folder && files.insert(inside.clone(), index).is_some() {
                 return Err(PackageError::archive(inside, ArchiveProblem::Repeated));

@@ -7,6 +7,7 @@ use std::io::Read;
 use super::Limits;
 use super::error::MatrixProblem;
 use super::lines::{Fault, Lines};
+use super::quote::quoted;
 use super::raw::RawMatrix;
 use super::symmetric::{self, Entry, Mirror};
 
@@ -95,7 +96,7 @@ fn read_entries<S: Read>(
             if is_blank_or_comment(line) {
                 continue;
             }
-            let text = String::from_utf8_lossy(line).chars().take(60).collect();
+            let text = quoted(&String::from_utf8_lossy(line));
             return at(lines.number(), MatrixProblem::BadEntry { text });
         };
         found += 1;
@@ -157,7 +158,7 @@ fn parse_banner(line: &[u8], mirror: Mirror) -> Result<Triangles, MatrixProblem>
         if accepted.contains(&word) {
             return Ok(word.to_owned());
         }
-        let word = word.chars().take(40).collect();
+        let word = quoted(word);
         Err(MatrixProblem::UnsupportedHeader { what, word, one_triangle })
     };
     word("object", &["matrix"])?;

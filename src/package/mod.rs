@@ -22,10 +22,11 @@ mod matrix_market;
 mod npy;
 mod npz;
 mod partition;
+pub(crate) mod quote;
 pub mod raw;
 mod symmetric;
 mod tables;
-mod units;
+pub(crate) mod units;
 mod writer;
 mod zip_package;
 

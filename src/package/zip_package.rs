@@ -11,6 +11,7 @@ use super::error::{
     ArchiveProblem, MANIFEST_FILE, ManifestProblem, MatrixProblem, PackageError, TableProblem,
 };
 use super::lines::Fault;
+use super::quote::quoted;
 use super::raw::{Manifest, MatrixFormat, RawMatrix, RawPackage};
 use super::symmetric::Mirror;
 use super::tables::Table;
@@ -77,7 +78,7 @@ impl Files {
         let mut resolve = |field: String, name: &str, role: &'static str| {
             let problem = |problem| Err(PackageError::manifest(field.clone(), problem));
             let Some(inside) = inside(name).filter(|inside| !inside.is_empty()) else {
-                return problem(ManifestProblem::BadFileName { name: name.to_owned() });
+                return problem(ManifestProblem::BadFileName { name: quoted(name) });
             };
             let Some(stored) = archive.stored_name(&inside) else {
                 return problem(missing(archive, &inside));
@@ -110,9 +111,8 @@ impl Files {
 }
 
 fn missing(archive: &Archive, file: &str) -> ManifestProblem {
-    let found_in =
-        archive.names().find_map(|name| name.strip_suffix(file)?.strip_suffix('/').map(str::to_owned));
-    ManifestProblem::FileMissing { file: file.to_owned(), found_in }
+    let found_in = archive.names().find_map(|name| name.strip_suffix(file)?.strip_suffix('/'));
+    ManifestProblem::FileMissing { file: quoted(file), found_in: found_in.map(|folder| quoted(&folder)) }
 }
 
 fn read_manifest(archive: &Archive, limits: &Limits) -> Result<Manifest, PackageError> {

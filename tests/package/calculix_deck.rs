@@ -156,6 +156,15 @@ fn bad_files_are_refused_with_their_place_and_what_to_do() {
             "the deck defines no node set BLADE; it has ALL, HIGH, LOW, NALL, TIPNODES",
         ),
         (
+            |f, m| {
+                let sets: String = (0..30).map(|k| format!("*NSET, NSET=S{k:02}\n1,\n")).collect();
+                let deck = std::fs::read_to_string(f.join("deck.inp")).expect("readable");
+                put(f, "deck.inp", format!("{deck}{sets}*NSET, NSET={}\n1,\n", "A".repeat(1000)));
+                m.contact_set = "BLADE".into();
+            },
+            "…, ALL, HIGH, LOW, NALL, S00, S01, S02, S03, S04, S05, S06, S07, S08, S09, S10, S11, S12, S13, S14, 16 more",
+        ),
+        (
             |_, m| m.high_set = Some("ALL".into()),
             "the low face has 2 nodes and the high face 6; mesh the two faces alike (periodic)",
         ),

@@ -26,11 +26,15 @@ pub use error::{CalculixError, LineProblem, ModelProblem, NoCopy};
 pub use spin::SpinFinding;
 
 use super::frame::{AxisFrame, apply};
+use super::quote::quoted;
 use super::raw::{Axis, Frame, Manifest, ManifestContact, RawMatrix, RawNode, RawPackage};
 use crate::dynamics::sector::Units;
 use deck::Deck;
 use faces::{check_ties, faces, pair};
 use matrices::DofList;
+
+/// Node sets that an error lists.
+const MOST_NAMED: usize = 20;
 
 /// What to import, from where.
 #[derive(Debug, Clone)]
@@ -208,7 +212,10 @@ fn axis(model: &CalculixModel, deck: &Deck) -> Axis {
 fn set<'a>(deck: &'a Deck, name: &str) -> Result<&'a [u64], ModelProblem> {
     match deck.sets.get(&deck::normal(name)) {
         None => {
-            let names: Vec<&str> = deck.sets.keys().map(String::as_str).collect();
+            let mut names: Vec<String> = deck.sets.keys().take(MOST_NAMED).map(|name| quoted(name)).collect();
+            if deck.sets.len() > names.len() {
+                names.push(format!("{} more", deck.sets.len() - names.len()));
+            }
             let known = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
             Err(ModelProblem::NoSuchSet { set: name.to_owned(), known })
         }
