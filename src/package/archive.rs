@@ -16,12 +16,16 @@ use super::error::{ArchiveProblem, PackageError};
 use super::quote::quoted;
 use super::raw::LONGEST_NAME;
 
+/// Bytes that even a small archive may expand to.
+const ALWAYS_EXPANDED: u64 = 64 << 20;
+
 /// A zip archive whose directory has been checked: no two files of one name, none outside the package.
 #[derive(Debug)]
 pub(super) struct Archive {
     path: PathBuf,
     /// Entry index of each file, by its name without `./`.
     files: BTreeMap<String, usize>,
+    /// Bytes that may leave decompressors.
     limit_bytes: u64,
     /// Bytes that have left a decompressor so far, over all files and threads.
     expanded: AtomicU64,
@@ -61,8 +65,10 @@ impl Archive {
                 return Err(PackageError::archive(inside, ArchiveProblem::Repeated));
             }
         }
-        let path = path.to_owned();
-        Ok(Self { path, files, limit_bytes: limits.expanded_bytes, expanded: AtomicU64::new(0) })
+        let size = std::fs::metadata(path)?.len();
+        let in_proportion = ALWAYS_EXPANDED.saturating_add(limits.expansion.saturating_mul(size));
+        let limit_bytes = limits.expanded_bytes.min(in_proportion);
+        Ok(Self { path: path.to_owned(), files, limit_bytes, expanded: AtomicU64::new(0) })
     }
 
     /// Names of all files, sorted.
@@ -95,8 +101,10 @@ impl Archive {
         })
     }
 
+    /// Reads one stored file, gunzipped if its name ends in `.gz`, as far as `read` goes.
+    ///
     /// Every call opens the archive anew, so that threads can read different files at the same time.
-    fn inflate<T>(
+    pub(super) fn inflate<T>(
         &self,
         name: &str,
         read: impl FnOnce(&mut dyn Read) -> Result<T, PackageError>,

@@ -34,9 +34,11 @@ pub enum ArchiveProblem {
         limit: usize,
     },
     /// Inflating went past the limit.
-    #[error("the archive expands beyond the limit of {limit_bytes} bytes while this file is read")]
+    #[error(
+        "the archive expands beyond the limit of {limit_bytes} bytes for an archive of its size while this file is read"
+    )]
     TooLarge {
-        /// Configured limit.
+        /// What is allowed, by configuration and by the archive's size.
         limit_bytes: u64,
     },
     /// Password protection.
