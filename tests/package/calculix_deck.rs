@@ -95,6 +95,27 @@ fn a_deck_and_its_matrices_become_the_package_they_say() {
     assert_eq!(pairs, [[1, 5], [2, 6]]);
 }
 
+/// A blade on a rigid disk has no neighbour, and so no faces.
+#[test]
+fn a_single_sector_needs_no_faces() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let expected = by_hand(folder.path());
+    let alone =
+        CalculixModel { sectors: Some(1), low_set: None, high_set: None, ..hand_model(folder.path()) };
+    let (found, _) = calculix::import(&alone).expect("imported");
+    assert_eq!((found.manifest.sectors, found.manifest.cyclic.len()), (1, 0));
+    assert_eq!((&found.dofs, &found.mass), (&expected.dofs, &expected.mass));
+    let sector = package::to_sector(found).expect("passes the checks of every package");
+    assert_eq!(sector.own_dofs(), expected.dofs.len());
+    // Whoever names one face means both.
+    let half = CalculixModel { low_set: Some("LOW".into()), ..alone.clone() };
+    let refused = calculix::import(&half).expect_err("no high face").to_string();
+    assert!(refused.contains("which nodes are the high cyclic face?"), "{refused}");
+    let wheel = CalculixModel { whole_wheel: true, ..alone };
+    let refused = calculix::import(&wheel).expect_err("nothing to cut").to_string();
+    assert!(refused.ends_with("or import a wheel of one sector without --wheel"), "{refused}");
+}
+
 /// What to spoil, and the end of the message it must be refused with (the start is a file of a temporary folder).
 type Spoil = (fn(&Path, &mut CalculixModel), &'static str);
 

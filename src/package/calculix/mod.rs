@@ -51,7 +51,7 @@ pub struct CalculixModel {
     pub sectors: Option<usize>,
     /// Axis of rotation; from `*CYCLIC SYMMETRY MODEL` if absent, else the z axis.
     pub axis: Option<Axis>,
-    /// Node set of the low face; from the cyclic tie if absent.
+    /// Node set of the low face; from the cyclic tie if absent. A single sector (N = 1) needs no faces.
     pub low_set: Option<String>,
     /// Node set of the high face; from the cyclic tie if absent. Not needed of a whole wheel.
     pub high_set: Option<String>,
@@ -109,7 +109,7 @@ pub fn import(model: &CalculixModel) -> Result<(RawPackage, ImportSummary), Calc
     require_coordinates(&positions, rest.dofs.iter().map(|dof| dof.node), &rest.path.display().to_string())?;
     let contact_set = set(&deck, &model.contact_set)?;
     require_coordinates(&positions, contact_set.iter().copied(), &model.contact_set)?;
-    let (low, high) = faces(model, &deck)?;
+    let (low, high) = faces(model, &deck, sectors)?;
     require_coordinates(&positions, low.iter().chain(&high).copied(), "the cyclic faces")?;
     let tolerance = places::tolerance(rest.dofs.iter().map(|dof| positions[&dof.node]));
     let mut files = vec![extended(&model.rest, ".mas"), extended(&model.rest, ".sti")];
