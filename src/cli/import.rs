@@ -40,7 +40,8 @@ pub(super) struct CalculixArgs {
     /// MODEL, or 0,0,0,0,0,1]
     #[arg(long, value_parser = axis, allow_hyphen_values = true)]
     axis: Option<Axis>,
-    /// Node set of the low cyclic face [default: from the cyclic *TIE]
+    /// Node set of the low cyclic face [default: from the cyclic *TIE; with
+    /// --sectors 1 no faces are needed]
     #[arg(long)]
     low_set: Option<String>,
     /// Node set of the high cyclic face, the low one turned by +2π/N [default: from the cyclic *TIE]

@@ -8,6 +8,7 @@ use utoipa::{PartialSchema, ToSchema};
 use super::error::ImpellerError;
 use super::parameters::ImpellerParameters;
 use super::preset::Preset;
+use crate::package::quote::{bounded_message, quoted};
 
 /// As `{"preset": "paper", "sectors": 13, "mesh": {"disk": 6}}`: fields of [`ImpellerParameters`] beside the name of the
 /// preset that gives all others. Without a name: `small`.
@@ -16,7 +17,7 @@ pub struct ImpellerRequest {
     /// Where everything comes from that is not given.
     #[serde(default)]
     pub preset: Preset,
-    /// What is given, objects in objects field by field.
+    /// What is given, objects in objects field by field, but `units` as a whole.
     #[serde(flatten)]
     pub overrides: Map<String, Value>,
 }
@@ -25,15 +26,21 @@ impl ImpellerRequest {
     /// The preset's parameters with the given ones in their place, all in their ranges.
     ///
     /// # Errors
-    /// [`ImpellerError::Field`] for a field that is unknown or of the wrong type, [`ImpellerError::Parameter`] for one
-    /// out of range.
+    /// [`ImpellerError::Field`] for a field that is unknown, lacking or of the wrong type, [`ImpellerError::Parameter`] for
+    /// one out of range.
     pub fn resolve(&self) -> Result<ImpellerParameters, ImpellerError> {
-        let refuse = |field: String, detail: String| Err(ImpellerError::Field { field, detail });
+        let refuse = |field: String, detail: String| {
+            Err(ImpellerError::Field { field: quoted(&field), detail: bounded_message(&detail) })
+        };
         let mut merged = match serde_json::to_value(self.preset.parameters()) {
             Ok(value) => value,
             Err(error) => return refuse("preset".to_owned(), error.to_string()),
         };
         for (key, value) in &self.overrides {
+            // Units fit each other only as a whole.
+            if key == "units" {
+                merged[key] = Value::Null;
+            }
             merge(&mut merged[key], value, key)?;
         }
         match serde_path_to_error::deserialize::<_, ImpellerParameters>(merged) {
@@ -51,7 +58,7 @@ fn merge(value: &mut Value, given: &Value, path: &str) -> Result<(), ImpellerErr
         }),
         // No field is a list, but serde would take one for an object with its fields in order.
         (_, Value::Array(_)) => Err(ImpellerError::Field {
-            field: path.to_owned(),
+            field: quoted(path),
             detail: "expected no list here, but a value or an object with named fields".to_owned(),
         }),
         (value, given) => {

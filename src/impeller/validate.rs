@@ -3,6 +3,8 @@
 use super::blocks::node_count;
 use super::error::ImpellerError;
 use super::parameters::{ImpellerParameters, MeshDensities};
+use crate::package::quote::quoted;
+use crate::package::units;
 
 /// Most degrees of freedom of a sector, clamped ones included: the pre-stress alone then fills tens of gigabytes.
 const MOST_DOF: f64 = 2e6;
@@ -11,16 +13,20 @@ impl ImpellerParameters {
     /// Refuses parameters from which no impeller can be built.
     ///
     /// # Errors
-    /// [`ImpellerError::Parameter`] names the first field at fault.
+    /// [`ImpellerError::Parameter`] or [`ImpellerError::Field`] names the first field at fault.
     pub fn validate(&self) -> Result<(), ImpellerError> {
         if self.units.time != "s" {
             let requirement = "must be `s`, since speeds are in rad/s";
             return Err(ImpellerError::Parameter {
                 field: "units.time",
-                value: self.units.time.clone(),
+                value: quoted(&self.units.time),
                 requirement,
             });
         }
+        units::check(&self.units).map_err(|(field, problem)| ImpellerError::Field {
+            field: field.trim_start_matches('/').replace('/', "."),
+            detail: problem.to_string(),
+        })?;
         at_least("sectors", self.sectors, 3, "must be at least 3")?;
         positive("bore_radius", self.bore_radius)?;
         let rule = "must be greater than `bore_radius`";

@@ -13,6 +13,11 @@ use zip::result::ZipError;
 
 use super::Limits;
 use super::error::{ArchiveProblem, PackageError};
+use super::quote::quoted;
+use super::raw::LONGEST_NAME;
+
+/// Bytes that even a small archive may expand to.
+const ALWAYS_EXPANDED: u64 = 64 << 20;
 
 /// A zip archive whose directory has been checked: no two files of one name, none outside the package.
 #[derive(Debug)]
@@ -20,6 +25,7 @@ pub(super) struct Archive {
     path: PathBuf,
     /// Entry index of each file, by its name without `./`.
     files: BTreeMap<String, usize>,
+    /// Bytes that may leave decompressors.
     limit_bytes: u64,
     /// Bytes that have left a decompressor so far, over all files and threads.
     expanded: AtomicU64,
@@ -40,7 +46,7 @@ impl Archive {
         }
         if zip.has_duplicate_names() {
             return Err(PackageError::archive(
-                repeated_name(path, zip.central_directory_start()),
+                repeated_name(path, zip.central_directory_start()).map(|name| quoted(&name)),
                 ArchiveProblem::Repeated,
             ));
         }
@@ -48,15 +54,21 @@ impl Archive {
         for (index, name) in zip.file_names().enumerate() {
             let name = name.map_err(|error| not_a_zip(&error))?;
             let Some(inside) = inside(&name) else {
-                return Err(PackageError::archive(name.into_owned(), ArchiveProblem::UnsafePath));
+                return Err(PackageError::archive(quoted(&name), ArchiveProblem::UnsafePath));
             };
+            if inside.chars().nth(LONGEST_NAME).is_some() {
+                let problem = ArchiveProblem::NameTooLong { limit: LONGEST_NAME };
+                return Err(PackageError::archive(quoted(&inside), problem));
+            }
             let is_folder = name.ends_with('/');
             if !is_folder && files.insert(inside.clone(), index).is_some() {
                 return Err(PackageError::archive(inside, ArchiveProblem::Repeated));
             }
         }
-        let path = path.to_owned();
-        Ok(Self { path, files, limit_bytes: limits.expanded_bytes, expanded: AtomicU64::new(0) })
+        let size = std::fs::metadata(path)?.len();
+        let in_proportion = ALWAYS_EXPANDED.saturating_add(limits.expansion.saturating_mul(size));
+        let limit_bytes = limits.expanded_bytes.min(in_proportion);
+        Ok(Self { path: path.to_owned(), files, limit_bytes, expanded: AtomicU64::new(0) })
     }
 
     /// Names of all files, sorted.
@@ -89,8 +101,10 @@ impl Archive {
         })
     }
 
+    /// Reads one stored file, gunzipped if its name ends in `.gz`, as far as `read` goes.
+    ///
     /// Every call opens the archive anew, so that threads can read different files at the same time.
-    fn inflate<T>(
+    pub(super) fn inflate<T>(
         &self,
         name: &str,
         read: impl FnOnce(&mut dyn Read) -> Result<T, PackageError>,

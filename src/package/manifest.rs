@@ -1,6 +1,7 @@
 //! Reading `sector.json`, with the field of every error as a JSON pointer.
 
 use super::error::{ManifestProblem, PackageError};
+use super::quote::{bounded_message, quoted};
 use super::raw::Manifest;
 
 /// Parses the manifest's text.
@@ -29,7 +30,11 @@ fn syntax(field: String, error: &serde_json::Error) -> PackageError {
         .replace("expected f64", "expected a number");
     PackageError::manifest(
         field,
-        ManifestProblem::Syntax { message, line: error.line(), column: error.column() },
+        ManifestProblem::Syntax {
+            message: bounded_message(&message),
+            line: error.line(),
+            column: error.column(),
+        },
     )
 }
 
@@ -47,7 +52,9 @@ fn pointer(path: &serde_path_to_error::Path) -> String {
     for segment in path {
         match segment {
             Segment::Seq { index } => pointer += &format!("/{index}"),
-            Segment::Map { key } => pointer += &format!("/{}", key.replace('~', "~0").replace('/', "~1")),
+            Segment::Map { key } => {
+                pointer += &format!("/{}", quoted(key).replace('~', "~0").replace('/', "~1"))
+            }
             Segment::Enum { .. } | Segment::Unknown => {}
         }
     }

@@ -7,6 +7,7 @@ use std::io::Read;
 use super::Limits;
 use super::error::MatrixProblem;
 use super::lines::{Fault, Lines};
+use super::quote::quoted;
 use super::raw::RawMatrix;
 use super::symmetric::{self, Entry, Mirror};
 
@@ -29,22 +30,31 @@ pub(super) fn read<S: Read>(
     })
 }
 
-/// Lines of the first two entries at (`row`, `column`), or at either mirror image; positions count from 1.
-pub(super) fn lines_of<S: Read>(
+/// Where an entry stands.
+pub(super) struct Place {
+    pub(super) line: u64,
+    /// Whether it is the mirror image of the position asked for.
+    pub(super) mirrored: bool,
+}
+
+/// The first two entries at (`row`, `column`), or at either mirror image; positions count from 1.
+pub(super) fn places_of<S: Read>(
     source: S,
     mirror: Mirror,
     row: u64,
     column: u64,
     or_mirrored: bool,
-) -> Result<Vec<u64>, MatrixFault> {
+) -> Result<Vec<Place>, MatrixFault> {
     let mut lines = Lines::new(source);
     read_header(&mut lines, mirror)?;
     let mut found = Vec::new();
-    while let (Some(line), true) = (lines.next(too_long)?, found.len() < 2) {
-        let here = parse_entry(line)
-            .is_some_and(|(r, c, _)| (r, c) == (row, column) || (or_mirrored && (c, r) == (row, column)));
-        if here {
-            found.push(lines.number());
+    while found.len() < 2
+        && let Some(line) = lines.next(too_long)?
+    {
+        let Some((r, c, _)) = parse_entry(line) else { continue };
+        let mirrored = (r, c) != (row, column);
+        if !mirrored || (or_mirrored && (c, r) == (row, column)) {
+            found.push(Place { line: lines.number(), mirrored });
         }
     }
     Ok(found)
@@ -89,13 +99,18 @@ fn read_entries<S: Read>(
     let mut lower = Vec::with_capacity(header.entries.min(TRUSTED_ENTRIES) as usize);
     let mut upper = Vec::new();
     let size = dofs as u64;
+    let positions = match header.triangles {
+        Triangles::One => size * (size + 1) / 2,
+        Triangles::Both => size * size,
+    };
     let mut found = 0_u64;
+    let mut previous = None;
     while let Some(line) = lines.next(too_long)? {
         let Some((row, column, value)) = parse_entry(line) else {
             if is_blank_or_comment(line) {
                 continue;
             }
-            let text = String::from_utf8_lossy(line).chars().take(60).collect();
+            let text = quoted(&String::from_utf8_lossy(line));
             return at(lines.number(), MatrixProblem::BadEntry { text });
         };
         found += 1;
@@ -111,10 +126,29 @@ fn read_entries<S: Read>(
         // In range of `size`, which the row limit keeps within u32.
         let (r, c) = ((row - 1) as u32, (column - 1) as u32);
         let entry = mirror.folded(r, c, value);
+        let same = |(before_r, before_c, _): (u32, u32, u64)| match header.triangles {
+            Triangles::One => (before_r.max(before_c), before_r.min(before_c)) == (entry.0, entry.1),
+            Triangles::Both => (before_r, before_c) == (r, c),
+        };
+        // A row written over and over is seen here, before it fills the memory.
+        if let Some((before_r, before_c, first_line)) = previous.filter(|&before| same(before)) {
+            let (row, column) = match header.triangles {
+                Triangles::One => (row.max(column), row.min(column)),
+                Triangles::Both => (row, column),
+            };
+            let mirrored = (before_r, before_c) != (r, c);
+            let problem = MatrixProblem::Repeated { row, column, first_line: Some(first_line), mirrored };
+            return at(lines.number(), problem);
+        }
+        previous = Some((r, c, lines.number()));
         if r >= c || header.triangles == Triangles::One {
             lower.push(entry);
         } else {
             upper.push(entry);
+        }
+        // One of more entries than there are positions is repeated: sorting what is read finds it.
+        if found > positions {
+            return Ok((header, lower, upper));
         }
     }
     if found < header.entries {
@@ -157,7 +191,7 @@ fn parse_banner(line: &[u8], mirror: Mirror) -> Result<Triangles, MatrixProblem>
         if accepted.contains(&word) {
             return Ok(word.to_owned());
         }
-        let word = word.chars().take(40).collect();
+        let word = quoted(word);
         Err(MatrixProblem::UnsupportedHeader { what, word, one_triangle })
     };
     word("object", &["matrix"])?;

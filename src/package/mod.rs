@@ -22,10 +22,11 @@ mod matrix_market;
 mod npy;
 mod npz;
 mod partition;
+pub(crate) mod quote;
 pub mod raw;
 mod symmetric;
 mod tables;
-mod units;
+pub(crate) mod units;
 mod writer;
 mod zip_package;
 
@@ -43,6 +44,9 @@ use raw::RawPackage;
 pub struct Limits {
     /// Bytes that may leave decompressors, zip and gzip alike, over all files (default 16 GiB).
     pub expanded_bytes: u64,
+    /// Bytes that may leave decompressors for each byte of the upload, beyond the first 64 MiB (default 100; matrices as
+    /// text deflate to a third, tables to a tenth): what an upload costs is in proportion to its size.
+    pub expansion: u64,
     /// Entries of the archive, folders included (default 100; a package needs at most 8 files).
     pub entries: usize,
     /// Bytes of `sector.json`, which is held as text (default 64 MiB).
@@ -57,6 +61,7 @@ impl Default for Limits {
     fn default() -> Self {
         Self {
             expanded_bytes: 16 << 30,
+            expansion: 100,
             entries: 100,
             manifest_bytes: 64 << 20,
             table_rows: 10_000_000,

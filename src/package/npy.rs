@@ -6,6 +6,7 @@
 use std::io::{self, Read};
 
 use super::error::NpzProblem;
+use super::quote::quoted;
 
 /// numpy's own limit for headers it does not trust.
 const LONGEST_HEADER: usize = 10_000;
@@ -81,7 +82,7 @@ impl<'a> Npy<'a> {
     /// What is wrong with a shape other than `expected`.
     pub(super) fn shape_problem(&self, expected: impl Into<String>) -> NpzProblem {
         let sizes: Vec<String> = self.shape.iter().map(u64::to_string).collect();
-        let found = format!("({})", sizes.join(", "));
+        let found = quoted(&format!("({})", sizes.join(", ")));
         NpzProblem::Shape { array: self.name, found, expected: expected.into() }
     }
 
@@ -136,7 +137,7 @@ impl<'a> Npy<'a> {
     }
 
     fn type_problem(&self, expected: &'static str) -> NpzProblem {
-        let found = self.descr.chars().take(40).collect();
+        let found = quoted(&self.descr);
         NpzProblem::Type { array: self.name, found, expected }
     }
 

@@ -4,11 +4,14 @@ use serde::{Deserialize, Serialize};
 
 use crate::dynamics::sector::Units;
 
+/// Most characters of the model's name, and of a file's.
+pub(super) const LONGEST_NAME: usize = 200;
+
 /// `sector.json`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Manifest {
-    /// Free text.
+    /// Free text of at most 200 characters.
     pub name: String,
     /// Number of identical sectors N ≥ 1.
     pub sectors: usize,

@@ -4,6 +4,7 @@ use std::io::Read;
 
 use super::error::TableProblem;
 use super::lines::{Fault, Lines};
+use super::quote::quoted;
 use super::raw::{RawDof, RawNode};
 
 type TableFault = Fault<TableProblem>;
@@ -31,7 +32,7 @@ pub(super) fn read_dofs(source: impl Read, limit: usize) -> Result<Table<RawDof>
             "1" => Ok(RawDof { node, component: 1 }),
             "2" => Ok(RawDof { node, component: 2 }),
             "3" => Ok(RawDof { node, component: 3 }),
-            other => Err(TableProblem::BadComponent { text: shortened(other) }),
+            other => Err(TableProblem::BadComponent { text: quoted(other) }),
         }
     })
 }
@@ -106,16 +107,12 @@ fn unquoted(field: &str) -> &str {
 }
 
 fn node_id(text: &str) -> Result<u64, TableProblem> {
-    text.parse().map_err(|_| TableProblem::BadId { text: shortened(text) })
+    text.parse().map_err(|_| TableProblem::BadId { text: quoted(text) })
 }
 
 fn number(column: &'static str, text: &str) -> Result<f64, TableProblem> {
     let value = text.parse().ok().filter(|value: &f64| value.is_finite());
-    value.ok_or_else(|| TableProblem::BadNumber { column, text: shortened(text) })
-}
-
-fn shortened(text: &str) -> String {
-    text.chars().take(40).collect()
+    value.ok_or_else(|| TableProblem::BadNumber { column, text: quoted(text) })
 }
 
 #[cfg(test)]

@@ -7,6 +7,9 @@ use super::error::ManifestProblem;
 /// Two factors of the same unit system may differ by this much: pounds and slugs are quoted with few digits.
 const TOLERANCE: f64 = 1e-3;
 
+/// Most characters of a unit's name.
+const LONGEST_NAME: usize = 40;
+
 const INCH: f64 = 0.0254;
 const FOOT: f64 = 0.3048;
 const POUND: f64 = 0.453_592_37;
@@ -91,13 +94,16 @@ pub(super) fn count_time_in_seconds(sector: &mut SectorModel) {
 ///
 /// A name it does not know is accepted: a package may use any consistent system, and only what is known to be
 /// wrong is refused, which includes known names of another quantity. On failure: the field and the problem.
-pub(super) fn check(units: &Units) -> Result<(), (&'static str, ManifestProblem)> {
+pub(crate) fn check(units: &Units) -> Result<(), (&'static str, ManifestProblem)> {
     let given = [&units.length, &units.force, &units.time, &units.mass];
     let fields = ["/units/length", "/units/force", "/units/time", "/units/mass"];
     let mut sizes = [None; 4];
     for (k, (quantity, names)) in QUANTITIES.iter().enumerate() {
         if given[k].trim().is_empty() {
             return Err((fields[k], ManifestProblem::UnitUnnamed));
+        }
+        if given[k].chars().nth(LONGEST_NAME).is_some() {
+            return Err((fields[k], ManifestProblem::TextTooLong { limit: LONGEST_NAME }));
         }
         sizes[k] = size(names, given[k]);
         let other = QUANTITIES.iter().any(|(_, names)| size(names, given[k]).is_some());

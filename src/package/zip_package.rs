@@ -11,6 +11,7 @@ use super::error::{
     ArchiveProblem, MANIFEST_FILE, ManifestProblem, MatrixProblem, PackageError, TableProblem,
 };
 use super::lines::Fault;
+use super::quote::quoted;
 use super::raw::{Manifest, MatrixFormat, RawMatrix, RawPackage};
 use super::symmetric::Mirror;
 use super::tables::Table;
@@ -25,6 +26,11 @@ pub(super) fn load(path: &Path, limits: &Limits) -> Result<Content, PackageError
     let files = Files::resolve(&archive, &manifest)?;
     let nodes = read_table(&archive, &files.nodes, |source| tables::read_nodes(source, limits.table_rows))?;
     let dofs = read_table(&archive, &files.dofs, |source| tables::read_dofs(source, limits.table_rows))?;
+    let lines = SourceLines { nodes: nodes.value.lines, dofs: dofs.value.lines };
+    // Before the matrices, which are the long work, are read.
+    let index = check::tables::node_index(&manifest.nodes, &nodes.value.rows, &lines)?;
+    check::tables::rows(&manifest.dofs, &dofs.value.rows, &lines, &index)?;
+    drop(index);
     let rows = dofs.value.rows.len();
     let matrix_files: Vec<(&String, Mirror)> = std::iter::once(&files.mass)
         .chain(&files.stiffness)
@@ -56,7 +62,7 @@ pub(super) fn load(path: &Path, limits: &Limits) -> Result<Content, PackageError
             stiffness: stiffness.into_iter().map(|matrix| matrix.value).collect(),
             gyroscopic: gyroscopic.map(|matrix| matrix.value),
         },
-        lines: SourceLines { nodes: nodes.value.lines, dofs: dofs.value.lines },
+        lines,
         digest,
     })
 }
@@ -77,7 +83,7 @@ impl Files {
         let mut resolve = |field: String, name: &str, role: &'static str| {
             let problem = |problem| Err(PackageError::manifest(field.clone(), problem));
             let Some(inside) = inside(name).filter(|inside| !inside.is_empty()) else {
-                return problem(ManifestProblem::BadFileName { name: name.to_owned() });
+                return problem(ManifestProblem::BadFileName { name: quoted(name) });
             };
             let Some(stored) = archive.stored_name(&inside) else {
                 return problem(missing(archive, &inside));
@@ -110,9 +116,8 @@ impl Files {
 }
 
 fn missing(archive: &Archive, file: &str) -> ManifestProblem {
-    let found_in =
-        archive.names().find_map(|name| name.strip_suffix(file)?.strip_suffix('/').map(str::to_owned));
-    ManifestProblem::FileMissing { file: file.to_owned(), found_in }
+    let found_in = archive.names().find_map(|name| name.strip_suffix(file)?.strip_suffix('/'));
+    ManifestProblem::FileMissing { file: quoted(file), found_in: found_in.map(|folder| quoted(&folder)) }
 }
 
 fn read_manifest(archive: &Archive, limits: &Limits) -> Result<Manifest, PackageError> {
@@ -173,7 +178,7 @@ fn read_matrix(
     })
 }
 
-/// Reads the file once more to say on which lines the entries stand that do not go together.
+/// Reads the file once more, as far as needed, to say on which lines the entries stand that do not go together.
 fn located(
     path: &Path,
     file: &str,
@@ -181,36 +186,29 @@ fn located(
     limits: &Limits,
     problem: MatrixProblem,
 ) -> (Option<u64>, MatrixProblem) {
-    let lines = |row, column, or_mirrored| {
+    let places = |row, column, or_mirrored| {
         // A fresh archive, because this pass must not count against the expansion limit again.
-        let archive = Archive::open(path, limits).ok()?;
-        let read = archive.read(file, |source| {
-            matrix_market::lines_of(source, mirror, row, column, or_mirrored).map_err(|_| {
-                PackageError::archive(
-                    file.to_owned(),
-                    ArchiveProblem::Damaged { reason: "second pass".to_owned() },
-                )
+        let archive = Archive::open(path, limits)?;
+        archive.inflate(file, |source| {
+            matrix_market::places_of(source, mirror, row, column, or_mirrored).map_err(|_| {
+                let problem = ArchiveProblem::Damaged { reason: "second pass".to_owned() };
+                PackageError::archive(file.to_owned(), problem)
             })
-        });
-        read.ok().map(|read| read.value)
+        })
     };
     match problem {
         MatrixProblem::Repeated { row, column, mirrored, .. } => {
-            let found = lines(row, column, mirrored).unwrap_or_default();
-            let problem = MatrixProblem::Repeated {
-                row,
-                column,
-                first_line: found.first().copied(),
-                mirrored: mirrored && lines(row, column, false).is_none_or(|same| same.len() < 2) && {
-                    lines(column, row, false).is_none_or(|same| same.len() < 2)
-                },
-            };
-            (found.get(1).copied(), problem)
+            let found = places(row, column, mirrored).unwrap_or_default();
+            let line = |k: usize| found.get(k).map(|place| place.line);
+            let alike = found.windows(2).any(|pair| pair[0].mirrored == pair[1].mirrored);
+            let mirrored = mirrored && !alike;
+            (line(1), MatrixProblem::Repeated { row, column, first_line: line(0), mirrored })
         }
         MatrixProblem::NotSymmetric { skew, row, column, value, mirrored, count, .. } => {
-            let line = |row, column| lines(row, column, false).and_then(|found| found.first().copied());
-            let (line, mirrored_line) = (line(row, column), line(column, row));
-            let place = line.or(mirrored_line);
+            let found = places(row, column, true).unwrap_or_default();
+            let line_of =
+                |mirrored| found.iter().find(|place| place.mirrored == mirrored).map(|place| place.line);
+            let (line, mirrored_line) = (line_of(false), line_of(true));
             let problem = MatrixProblem::NotSymmetric {
                 skew,
                 row,
@@ -221,10 +219,11 @@ fn located(
                 mirrored_line,
                 count,
             };
-            (place, problem)
+            (line.or(mirrored_line), problem)
         }
         MatrixProblem::SkewDiagonal { row, .. } => {
-            (lines(row, row, false).and_then(|found| found.first().copied()), problem)
+            let found = places(row, row, false).unwrap_or_default();
+            (found.first().map(|place| place.line), problem)
         }
         problem => (None, problem),
     }

@@ -119,9 +119,29 @@ async fn bad_parameters_are_refused_at_once() {
         (json!({"wings": 2}), "invalid-request", "/wings"),
         (json!({"mesh": [1, 1, 1, 1, 1]}), "invalid-request", "/mesh"),
         (json!({"preset": "enormous"}), "invalid-request", "/preset"),
+        (json!({"units": {"length": "mm", "force": "N", "time": "s"}}), "invalid-request", "/units"),
+        (json!({"units": ["mm", "N", "s", "t"]}), "invalid-request", "/units"),
+        (
+            json!({"units": {"length": "m", "force": "N", "time": "s", "mass": "t"}}),
+            "invalid-request",
+            "/units",
+        ),
+        (
+            json!({"units": {"length": "l".repeat(41), "force": "N", "time": "s", "mass": "t"}}),
+            "invalid-request",
+            "/units/length",
+        ),
     ] {
+        // What a plan accepts can be made.
+        for path in ["/v1/models", "/v1/models/plan"] {
+            let answer = api.post(path, &parameters).await;
+            assert_eq!(answer.pointers(422, kind), [pointer], "{path}: {}", answer.body);
+        }
+    }
+    for parameters in [json!({"q".repeat(1 << 16): 1}), json!({"sectors": "q".repeat(1 << 16)})] {
         let answer = api.post("/v1/models", &parameters).await;
-        assert_eq!(answer.pointers(422, kind), [pointer], "{}", answer.body);
+        assert_eq!(answer.status, 422);
+        assert!(answer.body.to_string().len() < 4096, "{}", answer.body.to_string().len());
     }
     let broken = api.request("POST", "/v1/models").header("content-type", "application/json").body("{");
     Answer::of(broken.send().await.unwrap()).await.problem(400, "malformed-json");

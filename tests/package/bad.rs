@@ -196,6 +196,64 @@ fn manifest() {
     ]);
 }
 
+/// A name of so many letters.
+fn long(letters: usize) -> String {
+    "é".repeat(letters)
+}
+
+#[test]
+fn texts_are_bounded() {
+    let mut files = Files::good();
+    files.json(|j| j["name"] = json!(long(200)));
+    files.json(|j| j["units"]["force"] = json!(long(40)));
+    assert!(files.import().is_ok());
+    check(&[
+        case(
+            |f| f.json(|j| j["name"] = json!(long(201))),
+            "sector.json, /name: the text has more than 200 characters",
+            (JSON, None, Some("/name")),
+        ),
+        case(
+            |f| f.json(|j| j["units"]["force"] = json!(long(41))),
+            "sector.json, /units/force: the text has more than 40 characters",
+            (JSON, None, Some("/units/force")),
+        ),
+    ]);
+}
+
+#[test]
+fn errors_repeat_no_more_than_a_line_of_what_was_written() {
+    let long = || "q".repeat(30_000);
+    let spoilt: [&dyn Fn(&mut Files); 14] = [
+        &|f| f.json(|j| j[long()] = json!(1)),
+        &|f| f.json(|j| j["frame"] = json!(long())),
+        &|f| f.json(|j| j["sectors"] = json!(long())),
+        &|f| f.json(|j| j["units"]["time"] = json!(long())),
+        &|f| f.json(|j| j["mass"] = json!(long())),
+        &|f| f.json(|j| j["mass"] = json!(format!("../{}", long()))),
+        &|f| f.json(|j| j["speeds_rad_s"] = json!(vec![0; 30_000])),
+        &|f| f.put(&long(), "surplus"),
+        &|f| f.put(&format!("/{}", long()), "outside"),
+        &|f| {
+            let dofs = f.0.remove("dofs.csv").unwrap_or_default();
+            f.put(&format!("{}/dofs.csv", long()), dofs);
+        },
+        &|f| f.line("nodes.csv", 2, &format!("2,{},0,0", long())),
+        &|f| f.line("dofs.csv", 2, &format!("1,{}", long())),
+        &|f| f.line("k0.mtx", 1, &format!("%%MatrixMarket matrix {}", long())),
+        &|f| f.line("k0.mtx", 9, &long()),
+    ];
+    for (k, spoil) in spoilt.iter().enumerate() {
+        let mut files = Files::good();
+        spoil(&mut files);
+        let error = files.import().expect_err("refused");
+        let text = error.to_string();
+        assert!(text.chars().count() < 500, "case {k}: {} characters", text.chars().count());
+        let place = error.file().map_or(0, str::len) + error.field().map_or(0, str::len);
+        assert!(place < 200, "case {k}: {place} bytes of file and field");
+    }
+}
+
 #[test]
 fn tables() {
     check(&[

@@ -95,6 +95,27 @@ fn a_deck_and_its_matrices_become_the_package_they_say() {
     assert_eq!(pairs, [[1, 5], [2, 6]]);
 }
 
+/// A blade on a rigid disk has no neighbour, and so no faces.
+#[test]
+fn a_single_sector_needs_no_faces() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let expected = by_hand(folder.path());
+    let alone =
+        CalculixModel { sectors: Some(1), low_set: None, high_set: None, ..hand_model(folder.path()) };
+    let (found, _) = calculix::import(&alone).expect("imported");
+    assert_eq!((found.manifest.sectors, found.manifest.cyclic.len()), (1, 0));
+    assert_eq!((&found.dofs, &found.mass), (&expected.dofs, &expected.mass));
+    let sector = package::to_sector(found).expect("passes the checks of every package");
+    assert_eq!(sector.own_dofs(), expected.dofs.len());
+    // Whoever names one face means both.
+    let half = CalculixModel { low_set: Some("LOW".into()), ..alone.clone() };
+    let refused = calculix::import(&half).expect_err("no high face").to_string();
+    assert!(refused.contains("which nodes are the high cyclic face?"), "{refused}");
+    let wheel = CalculixModel { whole_wheel: true, ..alone };
+    let refused = calculix::import(&wheel).expect_err("nothing to cut").to_string();
+    assert!(refused.ends_with("or import a wheel of one sector without --wheel"), "{refused}");
+}
+
 /// What to spoil, and the end of the message it must be refused with (the start is a file of a temporary folder).
 type Spoil = (fn(&Path, &mut CalculixModel), &'static str);
 
@@ -154,6 +175,15 @@ fn bad_files_are_refused_with_their_place_and_what_to_do() {
         (
             |_, m| m.contact_set = "BLADE".into(),
             "the deck defines no node set BLADE; it has ALL, HIGH, LOW, NALL, TIPNODES",
+        ),
+        (
+            |f, m| {
+                let sets: String = (0..30).map(|k| format!("*NSET, NSET=S{k:02}\n1,\n")).collect();
+                let deck = std::fs::read_to_string(f.join("deck.inp")).expect("readable");
+                put(f, "deck.inp", format!("{deck}{sets}*NSET, NSET={}\n1,\n", "A".repeat(1000)));
+                m.contact_set = "BLADE".into();
+            },
+            "…, ALL, HIGH, LOW, NALL, S00, S01, S02, S03, S04, S05, S06, S07, S08, S09, S10, S11, S12, S13, S14, 16 more",
         ),
         (
             |_, m| m.high_set = Some("ALL".into()),

@@ -59,6 +59,76 @@ fn a_gzip_bomb_is_cut_off_while_it_expands() {
     assert_eq!(problem(&files.zip(Deflated), &limits), refused);
 }
 
+/// Text that deflates a thousandfold, such as one line written over and over, must not cost a thousand times what a model of
+/// the upload's size does.
+#[test]
+fn an_upload_may_expand_in_proportion_to_its_size() {
+    let mut files = Files::good();
+    let good = files.text("nodes.csv");
+    files.put("nodes.csv", [good.as_bytes(), &vec![b'\n'; 80 << 20]].concat());
+    let bytes = files.zip(Deflated);
+    let limit_bytes = (64 << 20) + 100 * bytes.len() as u64;
+    assert!(limit_bytes < 80 << 20, "{limit_bytes}");
+    let refused = (Some("nodes.csv".into()), ArchiveProblem::TooLarge { limit_bytes });
+    assert_eq!(problem(&bytes, &Limits::default()), refused);
+    let good = Files::good().zip(Deflated);
+    assert!(
+        import_within(&good, &Limits { expansion: 0, ..Limits::default() }).is_ok(),
+        "small ones may always"
+    );
+}
+
+/// Reading stops where a repetition is certain: what follows, here no entry at all, is not looked at.
+#[test]
+fn repeated_rows_are_refused_before_the_rest_is_read() {
+    let header = "%%MatrixMarket matrix coordinate real";
+    let refused = |files: &Files| files.import().expect_err("refused").to_string();
+    let one_row = |symmetry: &str, row: &str| {
+        let mut files = Files::good();
+        let rows = format!("{row}\n").repeat(1000);
+        files.put("k0.mtx", format!("{header} {symmetry}\n18 18 1001\n1 1 1\n{rows}not an entry\n"));
+        refused(&files)
+    };
+    for symmetry in ["symmetric", "general"] {
+        assert_eq!(
+            one_row(symmetry, "6 1 2.5"),
+            "k0.mtx, line 5: entry (6, 1) is given twice (first on line 4); assemble the matrix so that every entry \
+             appears once"
+        );
+    }
+    // No row follows itself, but more are announced than a matrix of 18 rows has places for.
+    let mut files = Files::good();
+    let rows = "2 1 1\n2 2 1\n3 1 1\n".repeat(100);
+    files.put("k0.mtx", format!("{header} symmetric\n18 18 302\n1 1 1\n{rows}not an entry\n"));
+    assert_eq!(
+        refused(&files),
+        "k0.mtx, line 7: entry (2, 1) is given twice (first on line 4); assemble the matrix so that every entry appears once"
+    );
+    // Tables before matrices.
+    for (table, message) in [
+        ("nodes.csv", "nodes.csv, line 4: node 3 is already defined on line 3"),
+        ("dofs.csv", "dofs.csv, line 4: component 3 of node 1 is already row 3 (line 3)"),
+    ] {
+        let mut files = Files::good();
+        let third = files.text(table).lines().nth(2).expect("three rows").to_owned();
+        files.line(table, 3, &format!("{third}\n").repeat(1000));
+        files.put("m.mtx", "not a matrix");
+        assert_eq!(refused(&files), message);
+    }
+}
+
+/// Of entries above and below the diagonal, those that are named decide what is said about them.
+#[test]
+fn two_mentions_in_one_triangle_are_no_mirror_images() {
+    let mut files = Files::good();
+    let rows = "2 1 1\n3 1 1\n2 1 1\n3 3 1\n1 2 1";
+    files.put("k0.mtx", format!("%%MatrixMarket matrix coordinate real symmetric\n18 18 5\n{rows}\n"));
+    assert_eq!(
+        files.import().expect_err("refused").to_string(),
+        "k0.mtx, line 5: entry (2, 1) is given twice (first on line 3); assemble the matrix so that every entry appears once"
+    );
+}
+
 #[test]
 fn other_limits_hold() {
     let bytes = Files::good().zip(Deflated);

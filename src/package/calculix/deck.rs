@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 
 use super::error::{CalculixError, LineProblem};
 use super::text::{self, TextLines};
+use crate::package::quote::quoted;
 
 /// Deepest nesting of `*INCLUDE`.
 const DEEPEST_INCLUDE: usize = 20;
@@ -106,7 +107,7 @@ impl Deck {
     }
 
     fn start(&mut self, card: &Card) -> Result<Block, LineProblem> {
-        let unsupported = |reason| Err(LineProblem::Card { card: card.keyword.clone(), reason });
+        let unsupported = |reason| Err(LineProblem::Card { card: quoted(&card.keyword), reason });
         Ok(match &card.keyword[..] {
             "*NODE" => Block::Nodes { set: card.value("NSET") },
             "*NSET" => {
@@ -126,9 +127,10 @@ impl Deck {
             }
             "*CYCLICSYMMETRYMODEL" => {
                 let text = card.value("N").unwrap_or_default();
-                let sectors = text
-                    .parse()
-                    .map_err(|_| LineProblem::NotA { text, expected: "a number of sectors (N=)" })?;
+                let sectors = text.parse().map_err(|_| LineProblem::NotA {
+                    text: quoted(&text),
+                    expected: "a number of sectors (N=)",
+                })?;
                 Block::Axis { sectors, tie: card.value("TIE").unwrap_or_default(), numbers: Vec::new() }
             }
             "*TRANSFORM" => {
@@ -212,7 +214,7 @@ impl Deck {
                 found.push(text::node(word)?);
             } else {
                 let set = normal(word);
-                found.extend(sets.get(&set).ok_or(LineProblem::UnknownSet { set })?);
+                found.extend(sets.get(&set).ok_or_else(|| LineProblem::UnknownSet { set: quoted(&set) })?);
             }
         }
         Ok(found)

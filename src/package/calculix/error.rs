@@ -244,7 +244,8 @@ pub enum ModelProblem {
     },
     /// A whole wheel of one or two sectors.
     #[error(
-        "a wheel of {sectors} sectors cannot be cut (a sector would be its neighbour's neighbour on both sides); export one sector with its ties inactive"
+        "a wheel of {sectors} sectors cannot be cut (a sector would be its neighbour's neighbour on both sides); export one sector with its ties \
+         inactive, or import a wheel of one sector without --wheel"
     )]
     WheelTooSmall {
         /// N.

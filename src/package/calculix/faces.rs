@@ -10,9 +10,17 @@ use super::places::Places;
 use super::{CalculixModel, set};
 use crate::package::frame::AxisFrame;
 
-/// Nodes of the low and of the high face; the latter empty for a whole wheel or a single blade.
-pub(super) fn faces(model: &CalculixModel, deck: &Deck) -> Result<(Vec<u64>, Vec<u64>), ModelProblem> {
+/// Nodes of the low and of the high face; the latter empty for a whole wheel, both for a single blade whose faces
+/// nothing names: one sector has no neighbour.
+pub(super) fn faces(
+    model: &CalculixModel,
+    deck: &Deck,
+    sectors: usize,
+) -> Result<(Vec<u64>, Vec<u64>), ModelProblem> {
     let tied = deck.tied_faces();
+    if sectors == 1 && tied.is_none() && model.low_set.is_none() && model.high_set.is_none() {
+        return Ok((Vec::new(), Vec::new()));
+    }
     let face = |name: &Option<String>, tied: Option<&[u64]>, face, option| match (name, tied) {
         (Some(name), _) => set(deck, name).map(<[u64]>::to_vec),
         (None, Some(nodes)) => Ok(nodes.to_vec()),

@@ -10,6 +10,7 @@ use super::error::{CalculixError, LineProblem, ModelProblem};
 use super::text::TextLines;
 use crate::package::error::MatrixProblem;
 use crate::package::matrix_market::parse_entry;
+use crate::package::quote::quoted;
 use crate::package::raw::{RawDof, RawMatrix};
 use crate::package::symmetric::{self, Mirror};
 
@@ -35,7 +36,7 @@ impl DofList {
                 Some(RawDof { node: node.parse().ok()?, component })
             });
             let Some(dof) = dof else {
-                let text = word.chars().take(40).collect();
+                let text = quoted(word);
                 return Err(lines.fault(LineProblem::NotA {
                     text,
                     expected: "a DOF (node.direction, direction 1 to 3)",
@@ -88,7 +89,7 @@ pub(super) fn read(
             if line.trim_ascii().is_empty() {
                 continue;
             }
-            let text = String::from_utf8_lossy(line).chars().take(60).collect();
+            let text = quoted(&String::from_utf8_lossy(line));
             return Err(lines.fault(LineProblem::NotA { text, expected: "a matrix entry: row column value" }));
         };
         if row.wrapping_sub(1) >= size as u64 || column.wrapping_sub(1) >= size as u64 {

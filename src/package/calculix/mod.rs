@@ -26,11 +26,15 @@ pub use error::{CalculixError, LineProblem, ModelProblem, NoCopy};
 pub use spin::SpinFinding;
 
 use super::frame::{AxisFrame, apply};
+use super::quote::quoted;
 use super::raw::{Axis, Frame, Manifest, ManifestContact, RawMatrix, RawNode, RawPackage};
 use crate::dynamics::sector::Units;
 use deck::Deck;
 use faces::{check_ties, faces, pair};
 use matrices::DofList;
+
+/// Node sets that an error lists.
+const MOST_NAMED: usize = 20;
 
 /// What to import, from where.
 #[derive(Debug, Clone)]
@@ -47,7 +51,7 @@ pub struct CalculixModel {
     pub sectors: Option<usize>,
     /// Axis of rotation; from `*CYCLIC SYMMETRY MODEL` if absent, else the z axis.
     pub axis: Option<Axis>,
-    /// Node set of the low face; from the cyclic tie if absent.
+    /// Node set of the low face; from the cyclic tie if absent. A single sector (N = 1) needs no faces.
     pub low_set: Option<String>,
     /// Node set of the high face; from the cyclic tie if absent. Not needed of a whole wheel.
     pub high_set: Option<String>,
@@ -105,7 +109,7 @@ pub fn import(model: &CalculixModel) -> Result<(RawPackage, ImportSummary), Calc
     require_coordinates(&positions, rest.dofs.iter().map(|dof| dof.node), &rest.path.display().to_string())?;
     let contact_set = set(&deck, &model.contact_set)?;
     require_coordinates(&positions, contact_set.iter().copied(), &model.contact_set)?;
-    let (low, high) = faces(model, &deck)?;
+    let (low, high) = faces(model, &deck, sectors)?;
     require_coordinates(&positions, low.iter().chain(&high).copied(), "the cyclic faces")?;
     let tolerance = places::tolerance(rest.dofs.iter().map(|dof| positions[&dof.node]));
     let mut files = vec![extended(&model.rest, ".mas"), extended(&model.rest, ".sti")];
@@ -208,7 +212,10 @@ fn axis(model: &CalculixModel, deck: &Deck) -> Axis {
 fn set<'a>(deck: &'a Deck, name: &str) -> Result<&'a [u64], ModelProblem> {
     match deck.sets.get(&deck::normal(name)) {
         None => {
-            let names: Vec<&str> = deck.sets.keys().map(String::as_str).collect();
+            let mut names: Vec<String> = deck.sets.keys().take(MOST_NAMED).map(|name| quoted(name)).collect();
+            if deck.sets.len() > names.len() {
+                names.push(format!("{} more", deck.sets.len() - names.len()));
+            }
             let known = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
             Err(ModelProblem::NoSuchSet { set: name.to_owned(), known })
         }

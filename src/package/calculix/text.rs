@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use super::deck::open;
 use super::error::{CalculixError, LineProblem};
 use crate::package::lines::{Fault, Lines};
+use crate::package::quote::quoted;
 
 /// A text file line by line, its name and line number at hand for errors.
 pub(super) struct TextLines {
@@ -41,7 +42,7 @@ impl TextLines {
 
 /// A node number.
 pub(super) fn node(word: &str) -> Result<u64, LineProblem> {
-    word.parse().map_err(|_| LineProblem::NotA { text: short(word), expected: "a node number" })
+    word.parse().map_err(|_| LineProblem::NotA { text: quoted(word), expected: "a node number" })
 }
 
 /// A finite real number, in Fortran's spellings too: `1.5D+3`, `1.5+3`.
@@ -55,11 +56,7 @@ pub(super) fn real(word: &str, expected: &'static str) -> Result<f64, LineProble
         format!("{}e{}", &word[..sign], &word[sign..]).parse().ok()
     };
     let number: Option<f64> = word.parse().ok().or_else(fortran);
-    number.filter(|x| x.is_finite()).ok_or(LineProblem::NotA { text: short(word), expected })
-}
-
-fn short(word: &str) -> String {
-    word.chars().take(40).collect()
+    number.filter(|x| x.is_finite()).ok_or(LineProblem::NotA { text: quoted(word), expected })
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ mod cyclic;
 pub(super) mod mass;
 mod matrices;
 pub(super) mod statement;
-mod tables;
+pub(super) mod tables;
 
 use super::content::SourceLines;
 use super::error::PackageError;
@@ -43,8 +43,9 @@ pub(super) struct Layout {
 /// Checks `package` and sorts its matrices (by column, then row) if they are not.
 pub(super) fn check(package: &mut RawPackage, lines: &SourceLines) -> Result<Layout, PackageError> {
     let frame = statement::check(&package.manifest)?;
-    let index = tables::node_index(package, lines)?;
-    let (node_of_row, rows_of_node) = tables::rows(package, lines, &index)?;
+    let names = &package.manifest;
+    let index = tables::node_index(&names.nodes, &package.nodes, lines)?;
+    let (node_of_row, rows_of_node) = tables::rows(&names.dofs, &package.dofs, lines, &index)?;
     matrices::check(package)?;
     let (high_of, low_of) = cyclic::check(package, &frame, &index, &rows_of_node)?;
     let (contact, normals) = contact::check(package, &index, &rows_of_node, &high_of, &low_of)?;

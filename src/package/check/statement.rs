@@ -2,7 +2,7 @@
 
 use crate::package::error::{ManifestProblem, PackageError};
 use crate::package::frame::AxisFrame;
-use crate::package::raw::Manifest;
+use crate::package::raw::{LONGEST_NAME, Manifest};
 use crate::package::units;
 
 /// Wheels with more sectors are typing errors; the sector Fourier basis grows with the square.
@@ -11,11 +11,14 @@ const MOST_SECTORS: usize = 1000;
 /// More contact nodes along one chord than any blade needs; the reduced matrices grow with the square.
 const MOST_CONTACT_NODES: usize = 200;
 
-/// Checks counts, units, axis and speeds; returns the axis.
+/// Checks name, counts, units, axis and speeds; returns the axis.
 ///
 /// Three speeds need not be equally spaced: the polynomial of METHOD §3 passes through any three.
 pub(in crate::package) fn check(manifest: &Manifest) -> Result<AxisFrame, PackageError> {
     let wrong = |field: &str, problem| Err(PackageError::manifest(field, problem));
+    if manifest.name.chars().nth(LONGEST_NAME).is_some() {
+        return wrong("/name", ManifestProblem::TextTooLong { limit: LONGEST_NAME });
+    }
     if manifest.sectors == 0 {
         return wrong("/sectors", ManifestProblem::NoSectors);
     }
@@ -39,6 +42,9 @@ pub(in crate::package) fn check(manifest: &Manifest) -> Result<AxisFrame, Packag
         return wrong("/axis/direction", ManifestProblem::AxisWithoutDirection);
     };
     let speeds = &manifest.speeds_rad_s;
+    if !matches!(speeds.len(), 1 | 3) {
+        return wrong("/speeds_rad_s", ManifestProblem::SpeedCount { count: speeds.len() });
+    }
     for (k, speed) in speeds.iter().enumerate() {
         let field = format!("/speeds_rad_s/{k}");
         let previous = k.checked_sub(1).map(|before| speeds[before]);
@@ -54,9 +60,6 @@ pub(in crate::package) fn check(manifest: &Manifest) -> Result<AxisFrame, Packag
             }
             _ => {}
         }
-    }
-    if !matches!(speeds.len(), 1 | 3) {
-        return wrong("/speeds_rad_s", ManifestProblem::SpeedCount { count: speeds.len() });
     }
     if manifest.stiffness.len() != speeds.len() {
         let problem =

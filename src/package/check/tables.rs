@@ -5,20 +5,24 @@ use std::collections::HashMap;
 use super::NONE;
 use crate::package::content::SourceLines;
 use crate::package::error::{PackageError, TableProblem};
-use crate::package::raw::RawPackage;
+use crate::package::raw::{RawDof, RawNode};
 
 /// Place of each node id in the node table.
-pub(super) type NodeIndex = HashMap<u64, u32>;
+pub(in crate::package) type NodeIndex = HashMap<u64, u32>;
 
-pub(super) fn node_index(package: &RawPackage, lines: &SourceLines) -> Result<NodeIndex, PackageError> {
-    let file = &package.manifest.nodes;
+/// Indexes the rows of the node table in `file`.
+pub(in crate::package) fn node_index(
+    file: &str,
+    nodes: &[RawNode],
+    lines: &SourceLines,
+) -> Result<NodeIndex, PackageError> {
     let wrong =
-        |row, problem| Err(PackageError::Table { file: file.clone(), line: lines.of_node(row), problem });
-    if package.nodes.is_empty() {
+        |row, problem| Err(PackageError::Table { file: file.to_owned(), line: lines.of_node(row), problem });
+    if nodes.is_empty() {
         return wrong(0, TableProblem::Empty);
     }
-    let mut index = NodeIndex::with_capacity(package.nodes.len());
-    for (row, node) in package.nodes.iter().enumerate() {
+    let mut index = NodeIndex::with_capacity(nodes.len());
+    for (row, node) in nodes.iter().enumerate() {
         for (column, value) in ["x", "y", "z"].into_iter().zip(node.position) {
             if !value.is_finite() {
                 return wrong(row, TableProblem::BadNumber { column, text: value.to_string() });
@@ -32,21 +36,21 @@ pub(super) fn node_index(package: &RawPackage, lines: &SourceLines) -> Result<No
     Ok(index)
 }
 
-/// The node of each row, and the rows of each node's components.
-pub(super) fn rows(
-    package: &RawPackage,
+/// The node of each row of the DOF table in `file`, and the rows of each node's components.
+pub(in crate::package) fn rows(
+    file: &str,
+    dofs: &[RawDof],
     lines: &SourceLines,
     index: &NodeIndex,
 ) -> Result<(Vec<u32>, Vec<[u32; 3]>), PackageError> {
-    let file = &package.manifest.dofs;
     let wrong =
-        |row, problem| Err(PackageError::Table { file: file.clone(), line: lines.of_dof(row), problem });
-    if package.dofs.is_empty() {
+        |row, problem| Err(PackageError::Table { file: file.to_owned(), line: lines.of_dof(row), problem });
+    if dofs.is_empty() {
         return wrong(0, TableProblem::Empty);
     }
-    let mut node_of_row = Vec::with_capacity(package.dofs.len());
-    let mut rows_of_node = vec![[NONE; 3]; package.nodes.len()];
-    for (row, dof) in package.dofs.iter().enumerate() {
+    let mut node_of_row = Vec::with_capacity(dofs.len());
+    let mut rows_of_node = vec![[NONE; 3]; index.len()];
+    for (row, dof) in dofs.iter().enumerate() {
         let Some(&node) = index.get(&dof.node) else {
             return wrong(row, TableProblem::UnknownNode { node: dof.node });
         };

@@ -16,6 +16,12 @@ pub enum ArchiveProblem {
         "the archive holds a file with an absolute or parent path; paths inside a package must stay inside it"
     )]
     UnsafePath,
+    /// A name longer than any.
+    #[error("the name of this file has more than {limit} characters")]
+    NameTooLong {
+        /// Characters allowed.
+        limit: usize,
+    },
     /// Two entries of the same name.
     #[error("the archive holds this file more than once, so it is unclear which one counts; keep one")]
     Repeated,
@@ -28,9 +34,11 @@ pub enum ArchiveProblem {
         limit: usize,
     },
     /// Inflating went past the limit.
-    #[error("the archive expands beyond the limit of {limit_bytes} bytes while this file is read")]
+    #[error(
+        "the archive expands beyond the limit of {limit_bytes} bytes for an archive of its size while this file is read"
+    )]
     TooLarge {
-        /// Configured limit.
+        /// What is allowed, by configuration and by the archive's size.
         limit_bytes: u64,
     },
     /// Password protection.

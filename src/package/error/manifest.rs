@@ -41,6 +41,12 @@ pub enum ManifestProblem {
         /// How many are allowed.
         limit: usize,
     },
+    /// A text longer than any name.
+    #[error("the text has more than {limit} characters")]
+    TextTooLong {
+        /// Characters allowed.
+        limit: usize,
+    },
     /// Empty unit name.
     #[error("the unit has no name")]
     UnitUnnamed,

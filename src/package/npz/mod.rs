@@ -17,6 +17,7 @@ use super::Limits;
 use super::archive::{Archive, Hashed, storage};
 use super::error::{MatrixProblem, NpzProblem, PackageError};
 use super::npy::{Npy, NpyFault};
+use super::quote::quoted;
 use super::raw::RawMatrix;
 use super::symmetric::{self, Entry, Mirror};
 
@@ -39,13 +40,13 @@ pub(super) fn read(
     let names: &[&str] = match &format[..] {
         "csr" | "csc" => &["format", "shape", "data", "indices", "indptr"],
         "coo" => &["format", "shape", "data", "row", "col"],
-        _ => return Err(wrong(NpzProblem::Format { format: format.chars().take(40).collect() })),
+        _ => return Err(wrong(NpzProblem::Format { format: quoted(&format) })),
     };
     // `_is_array` tells scipy which of its two classes to make; the matrix is the same.
     let known =
         |entry: &str| entry.strip_suffix(".npy").is_some_and(|n| n == "_is_array" || names.contains(&n));
     if let Some(array) = arrays.names().into_iter().find(|entry| !known(entry)) {
-        return Err(wrong(NpzProblem::Surplus { array, format }));
+        return Err(wrong(NpzProblem::Surplus { array: quoted(&array), format }));
     }
     let (rows, columns) = arrays.shape()?;
     if rows != columns {
