@@ -10,13 +10,16 @@ use tokio::net::TcpListener;
 use tokio_util::sync::CancellationToken;
 
 use crate::config::Config;
-use crate::http::{self, AppState};
+use crate::http::{self, AppState, LargeAnswers};
 use crate::jobs::{Runner, Settings};
 use crate::store::{Store, StoreError};
 use crate::tokens::{Tokens, TokensError};
 
 /// How long requests may take to end once the service is told to stop.
 const LAST_REQUESTS: Duration = Duration::from_secs(5);
+
+/// Large answers that are made at once.
+const LARGE_ANSWERS: usize = 4;
 
 /// The service, bound to its address, with its workers running.
 #[derive(Debug)]
@@ -99,6 +102,7 @@ impl App {
         let runner = Runner::start(store.clone(), settings).await?;
         let state = AppState {
             store: store.clone(),
+            answers: LargeAnswers::new(LARGE_ANSWERS),
             tokens,
             limits: config.owner_limits(),
             jobs: runner.jobs(),

@@ -8,6 +8,7 @@ use utoipa::ToSchema;
 use super::accuracy::choice::Choice;
 use super::accuracy::modes::ModesChoice;
 use super::accuracy::rung::pilot_speeds;
+use super::accuracy::trial::TrialRequest;
 use super::calibration::{Calibration, EffectSizes, StepSize};
 use super::diagram::FrequencyDiagram;
 use super::effect_list::{PlannedEffect, effects_of};
@@ -126,6 +127,9 @@ pub struct Estimate {
     pub workers: u32,
     /// Memory of the speeds that run side by side, and of the reduced wheel.
     pub memory_bytes: u64,
+    /// Memory that one speed holds while it runs; 0 in plans of earlier versions.
+    #[serde(default)]
+    pub speed_memory_bytes: u64,
 }
 
 /// What was really spent on the finished speeds of a sweep.
@@ -307,19 +311,16 @@ fn plan_point(
     speed_rad_s: f64,
 ) -> PlannedPoint {
     let start = Instant::now();
-    let chosen = wheel_of(&request.scene, &reduced.wheel, speed_rad_s)
-        .map_err(|error| error.to_string())
-        .and_then(|wheel| {
-            let contact = &reduced.wheel.contact;
-            let stepping = Stepping::choose(&wheel, contact, request)?;
-            let steps = stepping.discretisation.per_revolution;
-            sliding::check(&wheel, contact, request, stepping.scheme, steps)
-                .map_err(|error| error.to_string())?;
-            check_table(&reduced.wheel, request, steps)?;
-            let casing = casing(&reduced.wheel, request, request.integration.ramp_revolutions);
-            initial(request, &wheel, contact, casing.as_ref(), &stepping)?;
-            Ok((stepping, wheel))
-        });
+    let chosen = stepping_at(reduced, request, speed_rad_s).and_then(|(stepping, wheel)| {
+        let contact = &reduced.wheel.contact;
+        let steps = stepping.discretisation.per_revolution;
+        sliding::check(&wheel, contact, request, stepping.scheme, steps)
+            .map_err(|error| error.to_string())?;
+        check_table(&reduced.wheel, request, steps)?;
+        let casing = casing(&reduced.wheel, request, request.integration.ramp_revolutions);
+        initial(request, &wheel, contact, casing.as_ref(), &stepping)?;
+        Ok((stepping, wheel))
+    });
     let set_up = start.elapsed().as_secs_f64();
     let planned = PlannedPoint {
         index: index as u32,
@@ -338,7 +339,7 @@ fn plan_point(
     };
     let unknowns = stepping.scheme.integrated_unknowns(&wheel);
     let steps = stepping.discretisation.per_revolution as u64 * u64::from(request.integration.revolutions);
-    let nodes = if request.scene.contact.is_some() { reduced.wheel.contact.len() } else { 0 };
+    let nodes = touching(reduced, request);
     let size = StepSize { sectors: wheel.sectors, nodes, unknowns };
     let effects = EffectSizes::of(&request.scene, &wheel, stepping.scheme, nodes);
     let (free, contact) = calibration.step_seconds(size, effects);
@@ -356,8 +357,36 @@ fn plan_point(
     }
 }
 
-/// What a speed holds while it runs: its modes with what their eigenproblems took, the casing's table, the histories and
-/// what turns one of them into a spectrum.
+/// The wheel at a speed, and how time is stepped there.
+fn stepping_at(
+    reduced: &ReducedSector,
+    request: &SweepRequest,
+    speed_rad_s: f64,
+) -> Result<(Stepping, ModalWheel), String> {
+    let wheel = wheel_of(&request.scene, &reduced.wheel, speed_rad_s).map_err(|error| error.to_string())?;
+    let stepping = Stepping::choose(&wheel, &reduced.wheel.contact, request)?;
+    Ok((stepping, wheel))
+}
+
+/// Contact nodes of a sector that may touch.
+fn touching(reduced: &ReducedSector, request: &SweepRequest) -> usize {
+    if request.scene.contact.is_some() { reduced.wheel.contact.len() } else { 0 }
+}
+
+/// Memory that a trial holds while it runs, in bytes; 0 where its speed cannot be integrated.
+pub fn trial_memory(reduced: &ReducedSector, request: &TrialRequest) -> u64 {
+    let sweep = &request.sweep;
+    let Some(&speed_rad_s) = sweep.speeds.resolve().ok().as_deref().and_then(<[f64]>::first) else {
+        return 0;
+    };
+    let Ok((stepping, wheel)) = stepping_at(reduced, sweep, speed_rad_s) else { return 0 };
+    // A twin has a history of its own.
+    let runs = 1 + u64::from(request.twin);
+    runs * running_bytes(&wheel, sweep, &stepping, touching(reduced, sweep))
+}
+
+/// What a speed holds while it runs: its modes with what their eigenproblems took, the casing's table, the histories,
+/// what turns one of them into a spectrum, and the spectra, as they are and on their way into the database.
 fn running_bytes(wheel: &ModalWheel, request: &SweepRequest, stepping: &Stepping, nodes: usize) -> u64 {
     const REAL: usize = size_of::<f64>();
     const COMPLEX: usize = 2 * REAL;
@@ -374,7 +403,9 @@ fn running_bytes(wheel: &ModalWheel, request: &SweepRequest, stepping: &Stepping
     let rows = 2 * REAL * (nodes + request.sensors.len()) * sizes.sum::<usize>();
     let history = REAL * steps.samples * request.sensors.len() * (revolutions + wheel.sectors * window);
     let spectrum = 4 * COMPLEX * steps.samples * window;
-    (eigen + shapes + table + rows + history + spectrum) as u64
+    let bins = request.max_engine_order as usize * window + 1;
+    let spectra = 3 * REAL * request.sensors.len() * (1 + wheel.harmonics.len()) * bins;
+    (eigen + shapes + table + rows + history + spectrum + spectra) as u64
 }
 
 /// Mass and stiffness of every nodal diameter.
@@ -410,6 +441,7 @@ fn estimate(planned: &[PlannedPoint], speeds: &[f64], workers: usize, kept_bytes
         },
         workers: together as u32,
         memory_bytes: kept_bytes + together as u64 * largest,
+        speed_memory_bytes: largest,
     })
 }
 

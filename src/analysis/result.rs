@@ -262,6 +262,7 @@ pub struct InteractionMap {
     /// Engine orders of the columns.
     pub engine_orders: Vec<f64>,
     /// `[speed][engine order]`; a row is null where that speed has no result.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub amplitude: Vec<Option<Vec<f64>>>,
     /// What was recorded.
     pub sensor: Sensor,

@@ -9,7 +9,9 @@ pub use super::accuracy::trial::{Setting, Trial, TrialRequest, run_trial};
 pub use super::calibration::Calibration;
 pub use super::modal::modal_analysis;
 pub use super::model::{ModelFacts, ReducedSector, prepare};
-pub use super::plan::{Estimate, ModalAnalysisPlan, SweepPlan, plan_modal_analysis, plan_sweep};
+pub use super::plan::{
+    Estimate, ModalAnalysisPlan, SweepPlan, plan_modal_analysis, plan_sweep, trial_memory,
+};
 pub use super::refine::{Refinement, refine};
 pub use super::resolve::{resolve_modal_analysis, resolve_sweep};
 pub use super::speed::run_speed;

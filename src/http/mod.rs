@@ -13,6 +13,7 @@ mod principal;
 pub mod problem;
 mod results;
 mod router;
+mod stream;
 mod studies;
 mod submit;
 mod sweeps;
@@ -27,12 +28,15 @@ use crate::tokens::Tokens;
 
 pub use openapi::document;
 pub use router::router;
+pub use stream::LargeAnswers;
 
 /// What handlers work with.
 #[derive(Debug, Clone)]
 pub struct AppState {
     /// What is remembered.
     pub store: Store,
+    /// Bounds what large answers take.
+    pub answers: LargeAnswers,
     /// Who may use the service; `None`: whoever reaches it.
     pub tokens: Option<Tokens>,
     /// What one owner may have.

@@ -1,15 +1,15 @@
 //! Results of jobs.
 
-use axum::Json;
 use axum::extract::{Path, State};
 use axum::http::header;
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
+use tokio::runtime::Handle;
 use utoipa::{IntoParams, ToSchema};
 
-use super::AppState;
 use super::extract::{JobPath, Parameters, job_not_found};
 use super::problem::{Kind, Problem};
+use super::{AppState, stream};
 use crate::analysis::request::SweepRequest;
 use crate::analysis::result::{
     Campbell, CriticalSpeeds, InteractionMap, Point, SpeedResult, SpeedSpectra, WearMap,
@@ -20,6 +20,9 @@ use crate::store::jobs::{Job, JobId, JobKind, JobRequest};
 use crate::store::results::Document;
 use crate::store::status::JobStatus;
 use crate::tokens::Principal;
+
+/// Memory of spectra that are being read, over what they take in the store.
+const ROW_MEMORY: u64 = 2;
 
 /// Which part of an interaction map to download.
 #[derive(Debug, Deserialize, IntoParams)]
@@ -77,7 +80,7 @@ pub(super) async fn get_interaction_map(
     whose: Principal,
     JobPath(id): JobPath,
     Parameters(query): Parameters<MapQuery>,
-) -> Result<Json<InteractionMap>, Problem> {
+) -> Result<Response, Problem> {
     let job = find(&state, &whose, id).await?;
     let (request, facts) = sweep(&job)?;
     check_sensor(request, query.sensor)?;
@@ -88,12 +91,33 @@ pub(super) async fn get_interaction_map(
     }
     let MapQuery { sensor, nodal_diameter } = query;
     let sensor = sensor as usize;
-    let row = |spectra: &SpeedSpectra| run::map_row(spectra, sensor, nodal_diameter).map(<[f64]>::to_vec);
-    let finished = state.store.map_rows(id, row).await?;
-    let map = run::interaction_map(request, &facts.units, finished, sensor, nodal_diameter);
+    let leave = state.answers.leave(&state.jobs, ROW_MEMORY * state.store.largest_spectra(id).await?).await;
     let errors = state.store.document(id, Document::Errors).await?;
     let errors = errors.map(|errors| serde_json::from_str(&errors)).transpose()?;
-    Ok(Json(InteractionMap { plan: job.plan.clone(), errors, ..map }))
+    let (store, runtime) = (state.store.clone(), Handle::current());
+    let map = stream::blocking(move || {
+        let (request, facts) = sweep(&job)?;
+        let points = runtime.block_on(store.points(id))?.into_iter().map(|point| (point, None)).collect();
+        let map = run::interaction_map(request, &facts.units, points, sensor, nodal_diameter);
+        Ok::<_, Problem>(InteractionMap { plan: job.plan.clone(), errors, amplitude: Vec::new(), ..map })
+    });
+    let map = map.await??;
+    let (store, runtime) = (state.store.clone(), Handle::current());
+    Ok(stream::json(leave, move || {
+        let row =
+            move |spectra: &SpeedSpectra| run::map_row(spectra, sensor, nodal_diameter).map(<[f64]>::to_vec);
+        let item = move |index| runtime.block_on(store.map_row(id, index, row));
+        MapInPieces { amplitude: stream::Read { items: map.speeds_rad_s.len() as u32, item }, map }
+    }))
+}
+
+/// A map whose rows are read from the store while they are sent: all of them may be larger than memory.
+#[derive(Serialize)]
+struct MapInPieces<R> {
+    amplitude: R,
+    /// Without rows.
+    #[serde(flatten)]
+    map: InteractionMap,
 }
 
 /// Download the spectra of one speed.
@@ -113,7 +137,7 @@ pub(super) async fn get_spectra(
     state: State<AppState>,
     whose: Principal,
     path: Path<(String, String)>,
-) -> Result<Json<SpectraBody>, Problem> {
+) -> Result<Response, Problem> {
     let id = JobId::parse(&path.0.0).ok_or_else(|| job_not_found(&path.0.0))?;
     let job = find(&state, &whose, id).await?;
     let (_, facts) = sweep(&job)?;
@@ -121,10 +145,13 @@ pub(super) async fn get_spectra(
     let index = path.0.1.parse().ok().filter(|index| *index < total).ok_or_else(|| {
         Problem::new(Kind::SpeedNotFound, format!("the job has {total} speeds, counted from 0"))
     })?;
-    match state.store.speed_result(id, index).await? {
+    let leave = state.answers.leave(&state.jobs, ROW_MEMORY * state.store.largest_spectra(id).await?).await;
+    let (store, runtime) = (state.store.clone(), Handle::current());
+    match stream::blocking(move || runtime.block_on(store.speed_result(id, index))).await?? {
         Some(result) => {
             let SpeedResult { point, spectra, wear, .. } = result;
-            Ok(Json(SpectraBody { point, units: facts.units.clone(), spectra, wear }))
+            let units = facts.units.clone();
+            Ok(stream::json(leave, move || SpectraBody { point, units, spectra, wear }))
         }
         None if job.status.is_final() => Err(Problem::new(
             Kind::SpeedNotFound,

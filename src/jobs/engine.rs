@@ -1,7 +1,7 @@
 //! What all tasks share.
 
 use std::collections::HashMap;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -38,7 +38,7 @@ pub(super) struct Engine {
     pub(super) planner: CpuPool,
     pub(super) reductions: Reductions,
     pub(super) calibrated: Calibrated,
-    /// What reductions and generations may take together.
+    /// What all computations may take together.
     pub(super) memory: Arc<Memory>,
     /// What one owner may have.
     pub(super) limits: Limits,
@@ -70,6 +70,8 @@ pub(super) struct Live {
     pub(super) speeds: u32,
     /// Its speeds in the order in which each starts from the end of the one before; none where each is on its own.
     pub(super) chain: Option<Vec<u32>>,
+    /// Memory that a speed holds while it runs, once that is planned.
+    pub(super) speed_bytes: AtomicU64,
     pub(super) watch: Arc<Watch>,
 }
 
@@ -135,7 +137,7 @@ impl Engine {
         if let Some(live) = self.lock_live().get(&id) {
             return Ok(Some(Arc::clone(live)));
         }
-        let Some(Job { request, status, speeds, owner, .. }) = self.store.job(id).await? else {
+        let Some(Job { request, status, speeds, owner, plan, .. }) = self.store.job(id).await? else {
             return Ok(None);
         };
         if status.is_final() {
@@ -143,7 +145,8 @@ impl Engine {
         }
         let watch = Watch::new(id, speeds.total, Arc::clone(&self.stopping), Arc::clone(&self.news));
         let chain = chain(&request);
-        let live = Live { id, owner, request, speeds: speeds.total, chain, watch };
+        let speed_bytes = AtomicU64::new(plan.map_or(0, |plan| plan.speed_memory_bytes));
+        let live = Live { id, owner, request, speeds: speeds.total, chain, speed_bytes, watch };
         let live = Arc::clone(self.lock_live().entry(id).or_insert_with(|| Arc::new(live)));
         // A dismissal between the two lines above found nobody to tell.
         if self.store.job(id).await?.is_none_or(|job| job.status.is_final()) {
@@ -174,7 +177,9 @@ impl Engine {
         let current = all.get_mut(&job.id).filter(|current| current.speeds <= speeds);
         let Some(current) = current else { return Err(Halt::NotWanted) };
         let owner = job.owner.clone();
-        let revised = Live { id: job.id, owner, request, speeds, chain, watch: Arc::clone(&current.watch) };
+        let speed_bytes = AtomicU64::new(current.speed_bytes.load(Ordering::Relaxed));
+        let watch = Arc::clone(&current.watch);
+        let revised = Live { id: job.id, owner, request, speeds, chain, speed_bytes, watch };
         *current = Arc::new(revised);
         current.watch.expect_speeds(speeds);
         Ok(Arc::clone(current))

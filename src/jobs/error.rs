@@ -1,5 +1,6 @@
 //! Why a task of a job ended early.
 
+use super::memory::TooLarge;
 use super::pool::Panicked;
 use crate::analysis::error::AnalysisError;
 use crate::impeller::ImpellerError;
@@ -33,6 +34,18 @@ impl Halt {
                 Self::Failed(Failure { cause: FailureCause::Package, message, violations: Vec::new() })
             }
         }
+    }
+
+    /// One speed of the job needs more memory than there is for all.
+    pub(super) fn speed_memory(TooLarge { needed, allowed }: TooLarge) -> Self {
+        let mib = |bytes: u64| bytes as f64 / f64::from(1 << 20);
+        let message = format!(
+            "a speed of this job needs about {:.1} MiB of memory while it runs and may take {:.1} MiB: ask for fewer sensors, \
+             revolutions or engine orders, {MORE_MEMORY}",
+            mib(needed),
+            mib(allowed)
+        );
+        Self::Failed(Failure { cause: FailureCause::Memory, message, violations: Vec::new() })
     }
 
     /// The owner of the job has too much already.

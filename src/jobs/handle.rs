@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::choice;
 use super::engine::Engine;
+use super::memory::Allowance;
 use super::plans;
 use super::pool::Panicked;
 use crate::analysis::error::{AnalysisError, Violation};
@@ -19,6 +20,9 @@ use crate::store::jobs::{Insertion, JobDeletion, JobId, JobRequest};
 use crate::store::limits::LimitReached;
 use crate::store::status::JobStatus;
 use crate::tokens::Principal;
+
+/// Memory that reading a package takes, over the size of its zip.
+const EXPANSION: u64 = 12;
 
 /// A handle on the job runner.
 #[derive(Debug, Clone)]
@@ -220,12 +224,20 @@ impl Jobs {
         Ok(deletion)
     }
 
+    /// Memory for an answer that takes so many bytes while it is made, as soon as it is free.
+    pub async fn answer_memory(&self, bytes: u64) -> Allowance {
+        self.engine.memory.hold_up_to(bytes).await
+    }
+
     /// Reads and checks an uploaded package, on a thread of its own.
     pub async fn read_package(
         &self,
         path: PathBuf,
         limits: package::Limits,
     ) -> Result<Result<(run::ModelFacts, String), Box<package::PackageError>>, Panicked> {
+        // What it will be once expanded is not known yet; texts of numbers shrink to a fifth or less.
+        let bytes = path.metadata().map_or(0, |file| file.len().saturating_mul(EXPANSION));
+        let _memory = self.engine.memory.hold_up_to(bytes).await;
         let read = move || {
             package::read(&path, &limits)
                 .map(|imported| (run::ModelFacts::of(&imported.sector), imported.digest))

@@ -1,6 +1,8 @@
 //! Memory, shared among all that takes much of it: reductions, generations, speeds, uploads, downloads.
 
-use tokio::sync::{Mutex, MutexGuard, Semaphore, SemaphorePermit};
+use std::sync::Arc;
+
+use tokio::sync::{Mutex, OwnedMutexGuard, OwnedSemaphorePermit, Semaphore};
 
 /// Bytes that are claimed together.
 const UNIT: u64 = 1 << 16;
@@ -17,22 +19,22 @@ const SMALL_DOFS: u64 = 10_000;
 #[derive(Debug)]
 pub(super) struct Memory {
     bytes: Option<u64>,
-    units: Semaphore,
+    units: Arc<Semaphore>,
     /// Held by the large computation that runs or is next: the others wait here, not for memory, where small ones would
     /// queue up behind them.
-    turn: Mutex<()>,
+    turn: Arc<Mutex<()>>,
 }
 
 /// A claim on memory, for as long as it is held.
 #[derive(Debug)]
-pub struct Allowance<'a> {
+pub struct Allowance {
     /// Bytes that may be taken; `None` for no limit.
     pub(super) bytes: Option<u64>,
-    _units: Option<SemaphorePermit<'a>>,
-    turn: Option<MutexGuard<'a, ()>>,
+    _units: Option<OwnedSemaphorePermit>,
+    turn: Option<OwnedMutexGuard<()>>,
 }
 
-impl Allowance<'_> {
+impl Allowance {
     /// Whether so many bytes may be taken.
     pub(super) fn allows(&self, bytes: u64) -> bool {
         self.bytes.is_none_or(|allowed| bytes <= allowed)
@@ -58,22 +60,22 @@ impl Memory {
     pub(super) fn new(bytes: Option<u64>) -> Self {
         // Without a limit shares still bound how many reductions run at once.
         let units = bytes.map_or(SHARES, |bytes| (bytes / UNIT).max(SHARES));
-        Self { bytes, units: Semaphore::new(units as usize), turn: Mutex::default() }
+        Self { bytes, units: Arc::new(Semaphore::new(units as usize)), turn: Arc::default() }
     }
 
     /// Claims what the reduction of a sector of `dofs` DOF should need, as soon as that is free.
-    pub(super) async fn claim(&self, dofs: u64) -> Allowance<'_> {
+    pub(super) async fn claim(&self, dofs: u64) -> Allowance {
         if dofs <= SMALL_DOFS { self.take_shares(1, None).await } else { self.claim_most().await }
     }
 
     /// Claims all that one computation can get.
-    pub(super) async fn claim_most(&self) -> Allowance<'_> {
-        let turn = self.turn.lock().await;
+    pub(super) async fn claim_most(&self) -> Allowance {
+        let turn = Arc::clone(&self.turn).lock_owned().await;
         self.take_shares(SHARES - 1, Some(turn)).await
     }
 
     /// Claims `bytes`, as soon as they are free.
-    pub(super) async fn hold(&self, bytes: u64) -> Result<Allowance<'_>, TooLarge> {
+    pub(super) async fn hold(&self, bytes: u64) -> Result<Allowance, TooLarge> {
         let Some(most) = self.most() else {
             return Ok(Allowance { bytes: None, _units: None, turn: None });
         };
@@ -84,7 +86,7 @@ impl Memory {
     }
 
     /// Claims `bytes`, or all that one computation can get if that is less.
-    pub(super) async fn hold_up_to(&self, bytes: u64) -> Allowance<'_> {
+    pub(super) async fn hold_up_to(&self, bytes: u64) -> Allowance {
         let bytes = bytes.min(self.most().unwrap_or(0));
         self.take(bytes.div_ceil(UNIT), None).await
     }
@@ -99,14 +101,15 @@ impl Memory {
         self.bytes.map_or(1, |bytes| (bytes / UNIT / SHARES).max(1))
     }
 
-    async fn take_shares<'a>(&'a self, shares: u64, turn: Option<MutexGuard<'a, ()>>) -> Allowance<'a> {
+    async fn take_shares(&self, shares: u64, turn: Option<OwnedMutexGuard<()>>) -> Allowance {
         self.take(shares * self.share(), turn).await
     }
 
-    async fn take<'a>(&'a self, units: u64, turn: Option<MutexGuard<'a, ()>>) -> Allowance<'a> {
+    async fn take(&self, units: u64, turn: Option<OwnedMutexGuard<()>>) -> Allowance {
         // Refused only once the semaphore is closed, which nobody does.
-        let permit = self.units.acquire_many(u32::try_from(units).unwrap_or(u32::MAX)).await.ok();
-        Allowance { bytes: self.bytes.map(|_| units * UNIT), _units: permit, turn }
+        let units = u32::try_from(units).unwrap_or(u32::MAX);
+        let permit = Arc::clone(&self.units).acquire_many_owned(units).await.ok();
+        Allowance { bytes: self.bytes.map(|_| u64::from(units) * UNIT), _units: permit, turn }
     }
 }
 

@@ -42,5 +42,6 @@ mod turns;
 mod workers;
 
 pub use handle::{Cancellation, Jobs, SubmitError, generation_of};
+pub use memory::Allowance;
 pub use pool::Panicked;
 pub use workers::{Runner, Settings};

@@ -1,6 +1,7 @@
 //! Plans of jobs: what they will do and cost on this machine.
 
 use std::sync::Arc;
+use std::sync::atomic::Ordering;
 
 use tokio::sync::OnceCell;
 
@@ -68,7 +69,8 @@ pub(super) async fn modal_analysis(
     engine.planner.run(move || run::plan_modal_analysis(&request, &facts, reduced.as_deref())).await
 }
 
-/// Keeps the estimate of a sweep whose reduction is there, unless one was kept before.
+/// Keeps the estimate of a sweep whose reduction is there, unless one was kept before. Refuses a sweep whose speeds take more
+/// memory than there is.
 pub(super) async fn keep(
     engine: &Engine,
     job: &Live,
@@ -76,10 +78,17 @@ pub(super) async fn keep(
     reduced: Arc<ReducedSector>,
 ) -> Result<(), Halt> {
     let Some(stored) = engine.store.job(job.id).await? else { return Ok(()) };
-    let (Some(facts), None) = (stored.facts, stored.plan) else { return Ok(()) };
-    let plan = sweep::<Halt>(engine, request.clone(), facts, Some(reduced)).await?;
-    if let Some(estimate) = plan.estimate {
-        patiently(&job.watch, || engine.store.record_plan(job.id, &estimate)).await?;
-    }
-    Ok(())
+    let estimate = match (stored.facts, stored.plan) {
+        (_, Some(kept)) => kept,
+        (None, None) => return Ok(()),
+        (Some(facts), None) => {
+            let plan = sweep::<Halt>(engine, request.clone(), facts, Some(reduced)).await?;
+            let Some(estimate) = plan.estimate else { return Ok(()) };
+            patiently(&job.watch, || engine.store.record_plan(job.id, &estimate)).await?;
+            estimate
+        }
+    };
+    job.speed_bytes.store(estimate.speed_memory_bytes, Ordering::Relaxed);
+    // Before the first speed, not with it.
+    engine.memory.hold(estimate.speed_memory_bytes).await.map(drop).map_err(Halt::speed_memory)
 }

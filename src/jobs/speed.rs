@@ -1,5 +1,7 @@
 //! The unit of work: one speed of one job.
 
+use std::sync::atomic::Ordering;
+
 use super::engine::Engine;
 use super::error::Halt;
 use super::finish;
@@ -24,6 +26,8 @@ pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) 
         Some(before) => engine.store.end_state(id, before).await?,
         None => None,
     };
+    let bytes = job.speed_bytes.load(Ordering::Relaxed);
+    let _memory = engine.memory.hold(bytes).await.map_err(Halt::speed_memory)?;
     let (settings, monitor) = (request.clone(), SpeedMonitor::new(job.watch.clone(), speed));
     let compute = move || run::run_speed(&reduced, &settings, speed as usize, start.as_ref(), &monitor);
     let result = engine.computing.run(&job.watch, compute).await??;

@@ -1,6 +1,7 @@
 //! Runs that a job compares: each from the store, or run and kept.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use futures::{StreamExt, TryStreamExt, stream};
 
@@ -68,6 +69,9 @@ async fn obtain(engine: &Engine, job: &Live, request: TrialRequest) -> Result<(S
     let (model, modes) = (request.sweep.model.clone(), request.sweep.modes());
     let monitor = PhaseMonitor::uncounted(job.watch.clone());
     let reduced = engine.reductions.get(&model, modes, monitor.clone()).await?;
+    let asked = (Arc::clone(&reduced), request.clone());
+    let bytes = engine.computing.run(&job.watch, move || run::trial_memory(&asked.0, &asked.1)).await?;
+    let _memory = engine.memory.hold(bytes).await.map_err(Halt::speed_memory)?;
     let trial =
         engine.computing.run(&job.watch, move || run::run_trial(&reduced, &request, &monitor)).await??;
     patiently(&job.watch, || engine.store.insert_trial(job.id, &key, &model, &trial)).await?;

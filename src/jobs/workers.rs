@@ -71,7 +71,7 @@ impl Runner {
     pub async fn start(store: Store, settings: Settings) -> Result<Self, StoreError> {
         let queue = Queue::create().await?;
         let pool = |name, threads| CpuPool::start(name, threads, settings.workers);
-        let pools = (pool("compute", settings.workers)?, pool("import", 1)?, pool("plan", 1)?);
+        let pools = (pool("compute", settings.workers)?, pool("import", settings.workers)?, pool("plan", 1)?);
         let memory = Memory::new(settings.memory_bytes);
         let preparations = settings.workers + WAITING_PREPARATIONS;
         let engine = Engine::new(store.clone(), queue, pools, memory, settings.limits, preparations);

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeSet;
 
-use futures::TryStreamExt;
 use sqlx::Row;
 use sqlx::sqlite::SqliteRow;
 
@@ -117,24 +116,31 @@ impl Store {
         Ok(points.iter().map(|point| serde_json::from_str(point)).collect::<Result<_, _>>()?)
     }
 
-    /// The same, each with what `row` takes of its spectra. Speeds are read one at a time: the spectra of all together
-    /// may be larger than memory.
-    pub async fn map_rows(
+    /// What `row` takes of the spectra of speed `index` of a job; `None` where it has none.
+    pub async fn map_row(
         &self,
         job: JobId,
+        index: u32,
         row: impl Fn(&SpeedSpectra) -> Option<Vec<f64>>,
-    ) -> Result<Vec<(Point, Option<Vec<f64>>)>, StoreError> {
-        let mut speeds = sqlx::query(
-            "select point, spectra, null as wear from speed_results where job = ? order by speed",
-        )
-        .bind(job.to_string())
-        .fetch(&self.readers);
-        let mut rows = Vec::new();
-        while let Some(speed) = speeds.try_next().await? {
-            let SpeedResult { point, spectra, .. } = read(&speed)?;
-            rows.push((point, spectra.as_ref().and_then(&row)));
-        }
-        Ok(rows)
+    ) -> Result<Option<Vec<f64>>, StoreError> {
+        let spectra: Option<Option<Vec<u8>>> =
+            sqlx::query_scalar("select spectra from speed_results where job = ? and speed = ?")
+                .bind(job.to_string())
+                .bind(index)
+                .fetch_optional(&self.readers)
+                .await?;
+        let Some(spectra) = spectra.flatten() else { return Ok(None) };
+        Ok(row(&postcard::from_bytes(&spectra)?))
+    }
+
+    /// Bytes that the spectra of one speed of a job take, at most.
+    pub async fn largest_spectra(&self, job: JobId) -> Result<u64, StoreError> {
+        let bytes: i64 =
+            sqlx::query_scalar("select coalesce(max(length(spectra)), 0) from speed_results where job = ?")
+                .bind(job.to_string())
+                .fetch_one(&self.readers)
+                .await?;
+        Ok(bytes.unsigned_abs())
     }
 
     /// Speed `index` of a job, if it is finished.

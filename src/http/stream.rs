@@ -1,0 +1,129 @@
+//! Large answers: written on a thread of their own, in pieces, while they are sent.
+
+use std::io::{self, Write};
+use std::sync::Arc;
+
+use axum::body::{Body, Bytes};
+use axum::http::header;
+use axum::response::{IntoResponse, Response};
+use futures::stream;
+use serde::Serialize;
+use serde::ser::Error;
+use tokio::sync::mpsc::{Receiver, Sender, channel};
+use tokio::sync::{OwnedSemaphorePermit, Semaphore};
+
+use super::problem::{Kind, Problem};
+use crate::jobs::{Allowance, Jobs};
+use crate::store::StoreError;
+
+/// Bytes of a piece.
+const PIECE: usize = 1 << 16;
+
+/// Pieces that wait for the client.
+const WAITING: usize = 4;
+
+/// Bounds how many large answers are made at once, and the memory they take.
+#[derive(Debug, Clone)]
+pub struct LargeAnswers {
+    turns: Arc<Semaphore>,
+}
+
+/// Leave to make a large answer, for as long as it is made.
+#[derive(Debug)]
+pub(super) struct Leave {
+    _turn: Option<OwnedSemaphorePermit>,
+    _memory: Allowance,
+}
+
+impl LargeAnswers {
+    /// No more than `most` at once.
+    pub fn new(most: usize) -> Self {
+        Self { turns: Arc::new(Semaphore::new(most)) }
+    }
+
+    /// Waits until an answer may be made that takes `bytes` of memory meanwhile.
+    pub(super) async fn leave(&self, jobs: &Jobs, bytes: u64) -> Leave {
+        // Refused only once the semaphore is closed, which nobody does.
+        let turn = Arc::clone(&self.turns).acquire_owned().await.ok();
+        Leave { _turn: turn, _memory: jobs.answer_memory(bytes).await }
+    }
+}
+
+/// What `read` gives, read on a thread that may wait and compute.
+pub(super) async fn blocking<T, F>(read: F) -> Result<T, Problem>
+where
+    T: Send + 'static,
+    F: FnOnce() -> T + Send + 'static,
+{
+    tokio::task::spawn_blocking(read)
+        .await
+        .map_err(|_| Problem::new(Kind::Internal, "a defect of the program; the service's log says more"))
+}
+
+/// An answer in JSON, of what `value` makes on a thread that may wait and compute. What fails once the answer has begun
+/// breaks it off, so that nobody takes it for whole.
+pub(super) fn json<T: Serialize>(leave: Leave, value: impl FnOnce() -> T + Send + 'static) -> Response {
+    let (sender, receiver) = channel(WAITING);
+    tokio::task::spawn_blocking(move || {
+        let _leave = leave;
+        let mut pieces = Pieces { sender, piece: Vec::with_capacity(PIECE) };
+        let written = serde_json::to_writer(&mut pieces, &value()).map_err(io::Error::from);
+        if let Err(error) = written.and_then(|()| pieces.flush())
+            && error.kind() != io::ErrorKind::BrokenPipe
+        {
+            tracing::error!(%error, "an answer broke off");
+            // Nobody waits for it any more, perhaps.
+            let _ = pieces.sender.blocking_send(Err(error));
+        }
+    });
+    ([(header::CONTENT_TYPE, "application/json")], Body::from_stream(pieces_of(receiver))).into_response()
+}
+
+fn pieces_of(receiver: Receiver<io::Result<Bytes>>) -> impl stream::Stream<Item = io::Result<Bytes>> {
+    stream::unfold(receiver, |mut receiver| async move { Some((receiver.recv().await?, receiver)) })
+}
+
+/// Sends what is written, piece by piece, and waits for the client to take them.
+struct Pieces {
+    sender: Sender<io::Result<Bytes>>,
+    piece: Vec<u8>,
+}
+
+impl Write for Pieces {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.piece.extend_from_slice(bytes);
+        if self.piece.len() >= PIECE {
+            self.flush()?;
+        }
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        if self.piece.is_empty() {
+            return Ok(());
+        }
+        let piece = std::mem::replace(&mut self.piece, Vec::with_capacity(PIECE));
+        let gone = |_| io::Error::new(io::ErrorKind::BrokenPipe, "the client is gone");
+        self.sender.blocking_send(Ok(piece.into())).map_err(gone)
+    }
+}
+
+/// A sequence whose items are read as they are written.
+pub(super) struct Read<F> {
+    /// Number of items.
+    pub(super) items: u32,
+    /// Reads the item of this index.
+    pub(super) item: F,
+}
+
+impl<T: Serialize, F: Fn(u32) -> Result<T, StoreError>> Serialize for Read<F> {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        use serde::ser::SerializeSeq;
+
+        let mut sequence = serializer.serialize_seq(Some(self.items as usize))?;
+        for index in 0..self.items {
+            sequence.serialize_element(&(self.item)(index).map_err(S::Error::custom)?)?;
+        }
+        sequence.end()
+    }
+}
