@@ -2,11 +2,8 @@
 
 use std::collections::BTreeMap;
 use std::io::Cursor;
-use std::io::{BufRead, BufReader};
 use std::path::Path;
-use std::process::{Child, Command, Stdio};
-use std::sync::{Arc, Mutex};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use rubmap::app::{App, StartError};
 use rubmap::impeller::{ImpellerParameters, generate};
@@ -14,86 +11,10 @@ use rubmap::package;
 use rubmap::store::Store;
 use serde_json::{Value, json};
 
-use super::app::{Api, PATIENCE, config, long_sweep_of, modal_analysis_of};
+use super::app::{Api, config, long_sweep_of, modal_analysis_of};
 use super::chains::{finished, first_of};
 use super::model::{self, files_in};
-
-/// `rubmap serve` as a child process.
-pub(crate) struct Program {
-    child: Child,
-    pub(crate) api: Api,
-    /// What it has logged since it listens.
-    log: Arc<Mutex<Vec<String>>>,
-}
-
-impl Program {
-    pub(crate) fn serve(data: &Path) -> Self {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_rubmap"))
-            .args(["serve", "--addr", "127.0.0.1:0", "--workers", "2", "--data"])
-            .arg(data)
-            .env("RUST_LOG", "info")
-            .env("NO_COLOR", "1")
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
-        let mut log = BufReader::new(child.stderr.take().unwrap());
-        let mut line = String::new();
-        let base = loop {
-            line.clear();
-            assert_ne!(log.read_line(&mut line).unwrap(), 0, "the program ended before it listened");
-            if let Some(at) = line.find("http://") {
-                break line[at..].trim().to_owned();
-            }
-        };
-        let lines = Arc::<Mutex<Vec<String>>>::default();
-        let kept = Arc::clone(&lines);
-        std::thread::spawn(move || {
-            for line in log.lines().map_while(Result::ok) {
-                kept.lock().unwrap().push(line);
-            }
-        });
-        Self { child, api: Api::new(&base), log: lines }
-    }
-
-    /// Whether it logged `message` about `part` of a reduction.
-    fn said(&self, message: &str, part: &str) -> bool {
-        let part = format!("part=\"{part}\"");
-        self.log.lock().unwrap().iter().any(|line| line.contains(message) && line.contains(&part))
-    }
-
-    /// Id of the process.
-    pub(crate) fn id(&self) -> u32 {
-        self.child.id()
-    }
-
-    /// SIGTERM: it ends well, and before anybody loses patience.
-    pub(crate) fn terminate(mut self) {
-        let told = Command::new("kill").arg("-TERM").arg(self.id().to_string()).status().unwrap();
-        assert!(told.success());
-        let begin = Instant::now();
-        loop {
-            if let Some(status) = self.child.try_wait().unwrap() {
-                assert!(status.success(), "a service told to stop ends well");
-                return;
-            }
-            assert!(begin.elapsed() < PATIENCE, "it does not end");
-            std::thread::sleep(Duration::from_millis(20));
-        }
-    }
-
-    /// SIGKILL: no handler runs, nothing is flushed.
-    pub(crate) fn kill(mut self) {
-        self.child.kill().unwrap();
-        self.child.wait().unwrap();
-    }
-}
-
-impl Drop for Program {
-    fn drop(&mut self) {
-        let _ = self.child.kill();
-        let _ = self.child.wait();
-    }
-}
+use super::program::Program;
 
 /// Points by index; each carries its wall time, which no second computation would repeat.
 pub(crate) async fn points(api: &Api, id: &str) -> BTreeMap<u64, Value> {

@@ -14,6 +14,8 @@ mod model;
 mod models;
 mod openapi;
 mod plans;
+mod program;
 mod refine;
+mod small_disk;
 mod studies;
 mod sweeps;

@@ -3,8 +3,9 @@
 use serde_json::{Value, json};
 
 use super::app::{Api, TestApp, sweep_of};
-use super::kill::{Program, points};
+use super::kill::points;
 use super::model;
+use super::program::Program;
 
 /// Speeds of the coarse sweep.
 const COARSE: usize = 9;

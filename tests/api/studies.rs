@@ -3,8 +3,8 @@
 use serde_json::{Value, json};
 
 use super::app::{Api, TestApp, sweep_of};
-use super::kill::Program;
 use super::model;
+use super::program::Program;
 
 fn study_of(model: &str) -> Value {
     let sweep = sweep_of(model);

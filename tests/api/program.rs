@@ -1,0 +1,97 @@
+//! The real program as a child process.
+
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+
+use super::app::{Api, PATIENCE};
+
+/// `rubmap serve` as a child process.
+pub(crate) struct Program {
+    child: Child,
+    pub(crate) api: Api,
+    /// What it has logged since it listens.
+    log: Arc<Mutex<Vec<String>>>,
+}
+
+impl Program {
+    pub(crate) fn serve(data: &Path) -> Self {
+        Self::serve_with(data, &[])
+    }
+
+    /// With further arguments.
+    pub(crate) fn serve_with(data: &Path, arguments: &[&str]) -> Self {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_rubmap"))
+            .args(["serve", "--addr", "127.0.0.1:0", "--workers", "2", "--data"])
+            .arg(data)
+            .args(arguments)
+            .env("RUST_LOG", "info")
+            .env("NO_COLOR", "1")
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut log = BufReader::new(child.stderr.take().unwrap());
+        let mut line = String::new();
+        let base = loop {
+            line.clear();
+            assert_ne!(log.read_line(&mut line).unwrap(), 0, "the program ended before it listened");
+            if let Some(at) = line.find("http://") {
+                break line[at..].trim().to_owned();
+            }
+        };
+        let lines = Arc::<Mutex<Vec<String>>>::default();
+        let kept = Arc::clone(&lines);
+        std::thread::spawn(move || {
+            for line in log.lines().map_while(Result::ok) {
+                kept.lock().unwrap().push(line);
+            }
+        });
+        Self { child, api: Api::new(&base), log: lines }
+    }
+
+    /// Whether it logged `message` about `part` of a reduction.
+    pub(crate) fn said(&self, message: &str, part: &str) -> bool {
+        let part = format!("part=\"{part}\"");
+        self.log.lock().unwrap().iter().any(|line| line.contains(message) && line.contains(&part))
+    }
+
+    /// Id of the process.
+    pub(crate) fn id(&self) -> u32 {
+        self.child.id()
+    }
+
+    /// Sends a signal, by its name.
+    pub(crate) fn signal(&self, name: &str) {
+        let sent = Command::new("kill").arg(format!("-{name}")).arg(self.id().to_string()).status().unwrap();
+        assert!(sent.success());
+    }
+
+    /// SIGTERM: it ends well, and before anybody loses patience.
+    pub(crate) fn terminate(mut self) {
+        self.signal("TERM");
+        let begin = Instant::now();
+        loop {
+            if let Some(status) = self.child.try_wait().unwrap() {
+                assert!(status.success(), "a service told to stop ends well");
+                return;
+            }
+            assert!(begin.elapsed() < PATIENCE, "it does not end");
+            std::thread::sleep(Duration::from_millis(20));
+        }
+    }
+
+    /// SIGKILL: no handler runs, nothing is flushed.
+    pub(crate) fn kill(mut self) {
+        self.child.kill().unwrap();
+        self.child.wait().unwrap();
+    }
+}
+
+impl Drop for Program {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
