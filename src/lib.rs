@@ -34,3 +34,4 @@ pub mod package;
 pub mod plot;
 pub mod response;
 pub mod store;
+pub mod version;
