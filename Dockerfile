@@ -8,6 +8,8 @@ RUN mkdir -p src benches && echo 'fn main() {}' > src/main.rs && touch src/lib.r
     && sed -i '/^\[\[bench\]\]/,$d' Cargo.toml \
     && cargo build --release --locked && rm -r src benches
 COPY . .
+# The image is built without the history: `--build-arg RUBMAP_COMMIT=$(git rev-parse HEAD)` tells what it is built from.
+ARG RUBMAP_COMMIT
 # Files copied keep their times; the program must look newer than its stand-in.
 RUN touch build.rs src/main.rs src/lib.rs && cargo build --release --locked
 

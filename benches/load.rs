@@ -22,7 +22,10 @@ const LISTED: usize = 10_000;
 fn main() -> anyhow::Result<()> {
     let given: Vec<usize> = std::env::args().skip(1).filter_map(|argument| argument.parse().ok()).collect();
     let (clients, seconds) = (given.first().copied().unwrap_or(200), given.get(1).copied().unwrap_or(30));
-    tokio::runtime::Builder::new_multi_thread().enable_all().build()?.block_on(measure(clients, seconds as u64))
+    tokio::runtime::Builder::new_multi_thread()
+        .enable_all()
+        .build()?
+        .block_on(measure(clients, seconds as u64))
 }
 
 async fn measure(clients: usize, seconds: u64) -> anyhow::Result<()> {
@@ -65,14 +68,15 @@ async fn measure(clients: usize, seconds: u64) -> anyhow::Result<()> {
     );
     list(&client, &base, &model).await?;
     stop.cancel();
-    service.await??;
+    service.await?;
     Ok(())
 }
 
 /// Two sweeps side by side, from the first post to the end of both.
 async fn sweeps(client: &Client, base: &str, model: &str, speeds: u32) -> anyhow::Result<Duration> {
     let begin = Instant::now();
-    let ids = [post(client, base, &sweep(model, speeds)).await?, post(client, base, &sweep(model, speeds)).await?];
+    let ids =
+        [post(client, base, &sweep(model, speeds)).await?, post(client, base, &sweep(model, speeds)).await?];
     for id in ids {
         loop {
             let job: Value = client.get(format!("{base}/v1/jobs/{id}")).send().await?.json().await?;
@@ -122,7 +126,8 @@ async fn load(
     let pause = Duration::from_secs_f64(clients as f64 / RATE);
     let tasks: Vec<_> = (0..clients)
         .map(|index| {
-            let (client, base, id, request) = (client.clone(), base.to_owned(), Arc::clone(&id), Arc::clone(&request));
+            let (client, base, id, request) =
+                (client.clone(), base.to_owned(), Arc::clone(&id), Arc::clone(&request));
             tokio::spawn(async move {
                 let (mut latencies, mut errors) = (Vec::new(), 0);
                 tokio::time::sleep(pause.mul_f64(index as f64 / clients as f64)).await;

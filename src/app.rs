@@ -10,13 +10,12 @@ use tokio::net::TcpListener;
 use tokio_util::sync::CancellationToken;
 
 use crate::config::Config;
-use crate::http::{self, AppState, LargeAnswers};
+use crate::http::server::{self, descriptors};
+use crate::http::{self, AppState, LargeAnswers, Transport};
 use crate::jobs::{Runner, Settings};
 use crate::store::{Store, StoreError};
 use crate::tokens::{Tokens, TokensError};
-
-/// How long requests may take to end once the service is told to stop.
-const LAST_REQUESTS: Duration = Duration::from_secs(5);
+use crate::version;
 
 /// Large answers that are made at once.
 const LARGE_ANSWERS: usize = 4;
@@ -69,6 +68,16 @@ pub enum StartError {
         /// Why.
         source: std::io::Error,
     },
+    /// There are too few open files to serve anybody.
+    #[error(
+        "the system allows this process {limit} open files, of which storage and computations need {}; raise the limit, \
+         for example with `ulimit -n 1024`",
+        descriptors::RESERVE
+    )]
+    OpenFiles {
+        /// The limit.
+        limit: u64,
+    },
     /// The contract does not serialise: a defect.
     #[error("the OpenAPI document: {0}")]
     Contract(#[from] serde_json::Error),
@@ -77,6 +86,9 @@ pub enum StartError {
 impl App {
     /// Opens the data folder, binds the address and resumes unfinished jobs.
     pub async fn build(config: Config) -> Result<Self, StartError> {
+        let limit = descriptors::raise_limit();
+        let connections = descriptors::connections(config.transport.connections, limit)
+            .ok_or(StartError::OpenFiles { limit: limit.unwrap_or_default() })?;
         let lock = lock(&config.data)?;
         let tokens = config.tokens.as_deref().map(Tokens::read).transpose()?;
         if tokens.is_none() && !config.open && !config.addr.ip().is_loopback() {
@@ -97,7 +109,7 @@ impl App {
         };
         tracing::info!(
             %addr, data = %config.data.display(), workers = settings.workers, memory_bytes,
-            expanded_bytes = package_limits.expanded_bytes, "starting"
+            expanded_bytes = package_limits.expanded_bytes, connections, commit = version::COMMIT, "starting"
         );
         let runner = Runner::start(store.clone(), settings).await?;
         let state = AppState {
@@ -109,6 +121,7 @@ impl App {
             upload_bytes: config.upload_bytes,
             package_limits,
             memory_bytes,
+            transport: Arc::new(Transport::new(config.transport, addr.ip(), connections)),
             openapi: Arc::from(http::document().to_json()?),
         };
         Ok(Self { listener, addr, state, store, runner, _lock: lock })
@@ -121,19 +134,10 @@ impl App {
 
     /// Serves until `stop`; then ends requests, interrupts computations, which resume at the next start, and closes
     /// the data folder.
-    pub async fn run_until_stopped(self, stop: CancellationToken) -> std::io::Result<()> {
+    pub async fn run_until_stopped(self, stop: CancellationToken) {
         let Self { listener, state, store, runner, _lock, .. } = self;
-        let server = axum::serve(listener, http::router(state))
-            .with_graceful_shutdown(stop.clone().cancelled_owned())
-            .into_future();
-        let overdue = async {
-            stop.cancelled().await;
-            tokio::time::sleep(LAST_REQUESTS).await;
-        };
-        let served = tokio::select! {
-            served = server => served,
-            () = overdue => Ok(()),
-        };
+        let transport = Arc::clone(&state.transport);
+        server::serve(listener, http::router(state), &transport.limits, &transport.connections, stop).await;
         tracing::info!("stopping");
         runner.stop().await;
         // A lock that another program holds would keep it for longer than who stops the service waits.
@@ -141,7 +145,6 @@ impl App {
             tracing::warn!("the database is in use; its log is folded in at the next start");
         }
         tracing::info!("stopped");
-        served
     }
 }
 

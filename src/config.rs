@@ -1,14 +1,20 @@
 //! Settings of the service, from the command line or the environment.
 
 mod memory;
+mod transport;
 
 use std::net::SocketAddr;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
 use crate::package::Limits;
 use crate::store::limits as owner;
+
+pub use transport::TransportConfig;
+
+/// Largest package accepted unless told otherwise, in bytes as sent.
+const UPLOAD_BYTES: u64 = 2 << 30;
 
 /// Settings of the service.
 #[derive(Debug, Clone, Args)]
@@ -26,7 +32,7 @@ pub struct Config {
     pub workers: Option<u16>,
 
     /// Largest model package accepted, in bytes as sent.
-    #[arg(long, env = "RUBMAP_UPLOAD_BYTES", default_value_t = 2 << 30)]
+    #[arg(long, env = "RUBMAP_UPLOAD_BYTES", default_value_t = UPLOAD_BYTES)]
     pub upload_bytes: u64,
 
     /// Largest model package accepted, in bytes once expanded [default: what fits into memory beside a reduction].
@@ -60,9 +66,32 @@ pub struct Config {
     /// Memory that reductions and generations may take, in bytes [default: three quarters of what the machine or container leaves].
     #[arg(long, env = "RUBMAP_MEMORY_BYTES", value_parser = clap::value_parser!(u64).range(1 << 20..))]
     pub memory_bytes: Option<u64>,
+
+    /// How the service meets its clients.
+    #[command(flatten)]
+    pub transport: TransportConfig,
 }
 
 impl Config {
+    /// All defaults, for this machine alone: the data folder `data`, any free port of the loopback address.
+    pub fn local(data: &Path) -> Self {
+        Self {
+            addr: ([127, 0, 0, 1], 0).into(),
+            data: data.to_owned(),
+            workers: None,
+            upload_bytes: UPLOAD_BYTES,
+            expanded_bytes: None,
+            keep_days: None,
+            tokens: None,
+            open: false,
+            owner_speeds: None,
+            owner_bytes: None,
+            owner_models: None,
+            memory_bytes: None,
+            transport: TransportConfig::default(),
+        }
+    }
+
     /// Threads that compute.
     pub fn worker_threads(&self) -> usize {
         match self.workers {

@@ -35,3 +35,4 @@ pub mod plot;
 pub mod response;
 pub mod store;
 pub mod tokens;
+pub mod version;

@@ -18,7 +18,7 @@ use crate::config::Config;
 
 /// At which speeds do the blade tips of a centrifugal impeller interact dangerously with their casing?
 #[derive(Debug, Parser)]
-#[command(name = "rubmap", version)]
+#[command(name = "rubmap", version = crate::version::LINE)]
 pub struct Cli {
     #[command(subcommand)]
     command: Command,

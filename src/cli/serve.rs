@@ -19,7 +19,7 @@ pub(super) fn run(config: Config) -> anyhow::Result<()> {
             told.cancel();
         });
         tracing::info!("listening on http://{}", app.addr());
-        app.run_until_stopped(stop).await?;
+        app.run_until_stopped(stop).await;
         Ok(())
     });
     // What still reads or writes a file on another thread is not waited for: all that is kept is kept.

@@ -16,6 +16,7 @@ use super::pool::CpuPool;
 use super::progress::{News, PhaseMonitor, Watch};
 use super::reductions::Reductions;
 use super::turns::Turns;
+use super::work::Counters;
 use crate::analysis::monitor::Monitor;
 use crate::store::jobs::{Chosen, Failure, FailureCause, Job, JobId, JobRequest};
 use crate::store::limits::Limits;
@@ -40,6 +41,7 @@ pub(super) struct Engine {
     pub(super) calibrated: Calibrated,
     /// What all computations may take together.
     pub(super) memory: Arc<Memory>,
+    pub(super) counters: Counters,
     /// What one owner may have.
     pub(super) limits: Limits,
     /// Jobs to be prepared.
@@ -121,6 +123,7 @@ impl Engine {
             speeds: Turns::new(2 * threads),
             turn: Notify::new(),
             deleted: Notify::new(),
+            counters: Counters::default(),
             new_preparation: Arc::default(),
             new_speeds: Arc::default(),
             stopping: Arc::default(),

@@ -27,7 +27,7 @@ const EXPANSION: u64 = 12;
 /// A handle on the job runner.
 #[derive(Debug, Clone)]
 pub struct Jobs {
-    engine: Arc<Engine>,
+    pub(super) engine: Arc<Engine>,
 }
 
 /// Why a job was not accepted.

@@ -63,6 +63,12 @@ impl Memory {
         Self { bytes, units: Arc::new(Semaphore::new(units as usize)), turn: Arc::default() }
     }
 
+    /// What is claimed now, in bytes; 0 without a limit.
+    pub(super) fn claimed_bytes(&self) -> u64 {
+        let all = self.bytes.map_or(0, |bytes| (bytes / UNIT).max(SHARES));
+        all.saturating_sub(self.units.available_permits() as u64) * UNIT
+    }
+
     /// Claims what the reduction of a sector of `dofs` DOF should need, as soon as that is free.
     pub(super) async fn claim(&self, dofs: u64) -> Allowance {
         if dofs <= SMALL_DOFS { self.take_shares(1, None).await } else { self.claim_most().await }

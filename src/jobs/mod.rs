@@ -39,9 +39,11 @@ mod speed;
 mod study;
 mod trials;
 mod turns;
+mod work;
 mod workers;
 
 pub use handle::{Cancellation, Jobs, SubmitError, generation_of};
 pub use memory::Allowance;
 pub use pool::Panicked;
+pub use work::{QUEUES, Work};
 pub use workers::{Runner, Settings};

@@ -30,13 +30,17 @@ pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) 
     let _memory = engine.memory.hold(bytes).await.map_err(Halt::speed_memory)?;
     let (settings, monitor) = (request.clone(), SpeedMonitor::new(job.watch.clone(), speed));
     let compute = move || run::run_speed(&reduced, &settings, speed as usize, start.as_ref(), &monitor);
-    let result = engine.computing.run(&job.watch, compute).await??;
+    let result = {
+        let _running = engine.counters.speed_begins();
+        engine.computing.run(&job.watch, compute).await??
+    };
 
     let kept = patiently(&job.watch, || engine.store.insert_speed(id, &result)).await?;
     let Some(finished) = kept else { return Ok(()) };
     engine.computing.acquit(id);
     job.watch.speeds_finished(finished, Some(speed));
     let point = &result.point;
+    engine.counters.speed_finished(point.steps);
     tracing::info!(
         job.id = %id, speed, speed_rad_s = point.speed_rad_s, status = ?point.status,
         steps = point.steps, wall_time_s = point.wall_time_s,

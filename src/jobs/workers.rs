@@ -89,11 +89,11 @@ impl Runner {
         }
         let stop = CancellationToken::new();
         let workers = vec![
-            tokio::spawn(supervise("prepare", stop.clone(), {
+            tokio::spawn(supervise("prepare", Arc::clone(&engine), stop.clone(), {
                 let (engine, stop) = (Arc::clone(&engine), stop.clone());
                 move |name| prepare_jobs(name, Arc::clone(&engine), preparations, stop.clone())
             })),
-            tokio::spawn(supervise("speeds", stop.clone(), {
+            tokio::spawn(supervise("speeds", Arc::clone(&engine), stop.clone(), {
                 let (engine, stop) = (Arc::clone(&engine), stop.clone());
                 move |name| run_speeds(name, Arc::clone(&engine), settings.workers, stop.clone())
             })),
@@ -233,12 +233,14 @@ async fn stopped(stop: CancellationToken) -> Result<(), WorkerError> {
 
 /// Keeps a worker of `queue` going: one that its backend lets down is replaced, under a name not used before, because
 /// `apalis` refuses a name that was seen alive a moment ago.
-async fn supervise<F>(queue: &'static str, stop: CancellationToken, worker: F)
+async fn supervise<F>(queue: &'static str, engine: Arc<Engine>, stop: CancellationToken, worker: F)
 where
     F: Fn(String) -> BoxFuture<'static, Result<(), WorkerError>>,
 {
     for generation in 0.. {
+        engine.counters.workers.fetch_add(1, Ordering::Relaxed);
         let ended = worker(format!("{queue}-{generation}")).await;
+        engine.counters.workers.fetch_sub(1, Ordering::Relaxed);
         if stop.is_cancelled() {
             break;
         }

@@ -15,6 +15,7 @@ pub mod jobs;
 pub mod limits;
 pub mod models;
 pub mod queue;
+mod readiness;
 pub mod reductions;
 pub mod results;
 pub mod status;
@@ -32,6 +33,7 @@ use sqlx::sqlite::{
 
 pub use backup::{Backup, Findings, backup, check};
 pub use error::StoreError;
+pub use readiness::Backlog;
 
 /// Name of the database in its folder.
 const DATABASE: &str = "rubmap.sqlite";
@@ -73,12 +75,6 @@ impl Store {
         let readers = pool().max_connections(READERS).connect_with(options).await?;
         let marks = computing::Marks::new(folder)?;
         Ok(Self { folder: folder.to_owned(), readers, writer, marks, packages: Arc::default() })
-    }
-
-    /// Whether the database answers.
-    pub async fn ping(&self) -> Result<(), StoreError> {
-        sqlx::query("select 1").execute(&self.readers).await?;
-        Ok(())
     }
 
     /// Removes what an earlier service left behind and nobody will use. For a service that starts: what is being

@@ -18,7 +18,7 @@ pub(crate) const PATIENCE: Duration = Duration::from_secs(120);
 pub(crate) struct TestApp {
     pub(crate) api: Api,
     stop: CancellationToken,
-    service: JoinHandle<std::io::Result<()>>,
+    service: JoinHandle<()>,
     data: PathBuf,
     /// Removed with the app that made it.
     _folder: Option<TempDir>,
@@ -53,7 +53,7 @@ impl TestApp {
 
     pub(crate) async fn stop(self) {
         self.stop.cancel();
-        self.service.await.unwrap().unwrap();
+        self.service.await.unwrap();
     }
 
     pub(crate) fn data(&self) -> &Path {
@@ -62,20 +62,7 @@ impl TestApp {
 }
 
 pub(crate) fn config(data: &Path) -> Config {
-    Config {
-        addr: "127.0.0.1:0".parse().unwrap(),
-        data: data.to_owned(),
-        workers: Some(2),
-        upload_bytes: 1 << 20,
-        expanded_bytes: None,
-        memory_bytes: None,
-        keep_days: None,
-        tokens: None,
-        open: false,
-        owner_speeds: None,
-        owner_bytes: None,
-        owner_models: None,
-    }
+    Config { workers: Some(2), upload_bytes: 1 << 20, ..Config::local(data) }
 }
 
 /// A client of the service.
@@ -93,6 +80,10 @@ impl Api {
     /// Host and port.
     pub(crate) fn address(&self) -> &str {
         self.base.trim_start_matches("http://")
+    }
+
+    pub(crate) fn base(&self) -> &str {
+        &self.base
     }
 
     pub(crate) fn request(&self, method: &str, path: &str) -> reqwest::RequestBuilder {

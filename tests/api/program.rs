@@ -18,15 +18,14 @@ pub(crate) struct Program {
 
 impl Program {
     pub(crate) fn serve(data: &Path) -> Self {
-        Self::serve_with(data, &[])
+        Self::run(Command::new(env!("CARGO_BIN_EXE_rubmap")), data)
     }
 
-    /// With further arguments.
-    pub(crate) fn serve_with(data: &Path, arguments: &[&str]) -> Self {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_rubmap"))
+    /// By a command that runs the program with the arguments it gets.
+    pub(crate) fn run(mut command: Command, data: &Path) -> Self {
+        let mut child = command
             .args(["serve", "--addr", "127.0.0.1:0", "--workers", "2", "--data"])
             .arg(data)
-            .args(arguments)
             .env("RUST_LOG", "info")
             .env("NO_COLOR", "1")
             .stderr(Stdio::piped())

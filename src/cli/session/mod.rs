@@ -51,20 +51,7 @@ impl Session {
         workers: Option<u16>,
         play: impl AsyncFnOnce(&Client) -> anyhow::Result<()>,
     ) -> anyhow::Result<ExitCode> {
-        let config = Config {
-            addr: ([127, 0, 0, 1], 0).into(),
-            data: self.out.join("data"),
-            workers,
-            upload_bytes: 1 << 30,
-            expanded_bytes: None,
-            memory_bytes: None,
-            keep_days: None,
-            tokens: None,
-            open: false,
-            owner_speeds: None,
-            owner_bytes: None,
-            owner_models: None,
-        };
+        let config = Config { workers, ..Config::local(&self.out.join("data")) };
         let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build()?;
         match runtime.block_on(with_service(config, play))? {
             Ending::Played => println!("\nDone in {:.0} s.", self.begin.elapsed().as_secs_f64()),
@@ -97,7 +84,7 @@ async fn with_service(
     let outcome = tokio::select! {
         outcome = played => outcome.map(|()| Ending::Played),
         ended = &mut service => {
-            ended??;
+            ended?;
             bail!("the service ended before its user had everything");
         }
         () = stop_signal => {
@@ -106,7 +93,7 @@ async fn with_service(
         }
     };
     stop.cancel();
-    service.await??;
+    service.await?;
     outcome
 }
 

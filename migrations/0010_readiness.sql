@@ -1,0 +1,5 @@
+-- One row that is written anew whenever somebody asks whether the service is ready, and read back by another connection.
+create table if not exists readiness (
+    id      integer not null primary key check (id = 1),
+    at      text    not null
+) strict;
