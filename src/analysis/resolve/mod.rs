@@ -49,6 +49,11 @@ pub(super) mod limits {
     pub(super) const CASING_OMEGA: std::ops::RangeInclusive<f64> = 1e-3..=1e9;
 }
 
+/// A range in words.
+fn between(range: &std::ops::RangeInclusive<f64>) -> String {
+    format!("between {:?} and {:?}", range.start(), range.end())
+}
+
 /// Collects violations.
 #[derive(Default)]
 struct Findings(Vec<Violation>);
@@ -278,7 +283,7 @@ fn check_coriolis(found: &mut Findings, coriolis: bool, pointer: &str, facts: &M
 
 fn check_casing(found: &mut Findings, casing: &Casing, facts: &ModelFacts) {
     let valid = |length: f64| length == 0.0 || limits::LENGTH.contains(&length);
-    let message = format!("a clearance is 0 or a length in {:?}", limits::LENGTH);
+    let message = format!("a clearance is 0 or a length {}", between(&limits::LENGTH));
     match &casing.clearance {
         Clearance { leading: Some(leading), trailing: Some(trailing), values: None } => {
             found.require(valid(*leading), "/scene/casing/clearance/leading", &message);
@@ -305,12 +310,12 @@ fn check_casing(found: &mut Findings, casing: &Casing, facts: &ModelFacts) {
         found.require(
             valid(lobes.amplitude),
             "/scene/casing/lobes/amplitude",
-            format!("a lobe's height is 0 or a length in {:?}", limits::LENGTH),
+            format!("a lobe's height is 0 or a length {}", between(&limits::LENGTH)),
         );
         found.require(
             limits::LOBE_WIDTH_RAD.contains(&lobes.width_rad),
             "/scene/casing/lobes/width_rad",
-            format!("a lobe's half-width lies in {:?} rad", limits::LOBE_WIDTH_RAD),
+            format!("a lobe's half-width lies {} rad", between(&limits::LOBE_WIDTH_RAD)),
         );
         found.require(
             lobes.phase_rad.abs() <= limits::PHASE_RAD,
