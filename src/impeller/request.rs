@@ -34,6 +34,10 @@ impl ImpellerRequest {
             Err(error) => return refuse("preset".to_owned(), error.to_string()),
         };
         for (key, value) in &self.overrides {
+            // Units are consistent together or not at all, so they are given together.
+            if key == "units" {
+                merged[key] = Value::Null;
+            }
             merge(&mut merged[key], value, key)?;
         }
         match serde_path_to_error::deserialize::<_, ImpellerParameters>(merged) {
