@@ -16,7 +16,6 @@ use crate::store::status::JobStatus;
 
 /// Which jobs to list.
 #[derive(Debug, Deserialize, IntoParams)]
-#[serde(deny_unknown_fields)]
 #[into_params(parameter_in = Query)]
 pub(super) struct JobQuery {
     /// Only jobs with this status.

@@ -1,5 +1,6 @@
 //! The service as the world sees it. The only place that knows status codes; it computes nothing.
 
+mod contract;
 mod extract;
 mod health;
 mod idempotency;

@@ -1,14 +1,14 @@
 //! Results of jobs.
 
 use axum::Json;
-use axum::extract::{Path, State};
+use axum::extract::State;
 use axum::http::header;
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
 
 use super::AppState;
-use super::extract::{JobPath, Parameters, job_not_found};
+use super::extract::{JobPath, Parameters, SpeedPath, job_not_found};
 use super::problem::{Kind, Problem};
 use crate::analysis::request::SweepRequest;
 use crate::analysis::result::{
@@ -22,7 +22,6 @@ use crate::store::status::JobStatus;
 
 /// Which part of an interaction map to download.
 #[derive(Debug, Deserialize, IntoParams)]
-#[serde(deny_unknown_fields)]
 #[into_params(parameter_in = Query)]
 pub(super) struct MapQuery {
     /// Index of the sensor in the request; default 0.
@@ -34,7 +33,6 @@ pub(super) struct MapQuery {
 
 /// Which table of critical speeds to download.
 #[derive(Debug, Deserialize, IntoParams)]
-#[serde(deny_unknown_fields)]
 #[into_params(parameter_in = Query)]
 pub(super) struct SensorQuery {
     /// Index of the sensor in the request; default 0.
@@ -109,13 +107,12 @@ pub(super) async fn get_interaction_map(
     ))]
 pub(super) async fn get_spectra(
     state: State<AppState>,
-    path: Path<(String, String)>,
+    SpeedPath(id, index): SpeedPath,
 ) -> Result<Json<SpectraBody>, Problem> {
-    let id = JobId::parse(&path.0.0).ok_or_else(|| job_not_found(&path.0.0))?;
     let job = find(&state, id).await?;
     let (_, facts) = sweep(&job)?;
     let total = job.speeds.total;
-    let index = path.0.1.parse().ok().filter(|index| *index < total).ok_or_else(|| {
+    let index = index.filter(|index| *index < total).ok_or_else(|| {
         Problem::new(Kind::SpeedNotFound, format!("the job has {total} speeds, counted from 0"))
     })?;
     match state.store.speed_result(id, index).await? {

@@ -11,7 +11,9 @@ use utoipa::OpenApi;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
-use super::{AppState, health, jobs, modal_analyses, models, openapi, problem, results, studies, sweeps};
+use super::{
+    AppState, contract, health, jobs, modal_analyses, models, openapi, problem, results, studies, sweeps,
+};
 
 /// The routes with their descriptions.
 pub(super) fn routes() -> OpenApiRouter<AppState> {
@@ -43,7 +45,8 @@ pub fn router(state: AppState) -> Router {
         .layer(TraceLayer::new_for_http())
         .layer(CompressionLayer::new())
         .layer(middleware::from_fn(problem::complete))
-        .layer(CatchPanicLayer::custom(problem::panicked));
+        .layer(CatchPanicLayer::custom(problem::panicked))
+        .layer(middleware::from_fn(contract::refuse_unknown_parameters));
     let (router, _) = routes().split_for_parts();
     // `complete` turns the bare statuses of axum's own fallbacks into problems.
     router.fallback(|| async { StatusCode::NOT_FOUND }).layer(layers).with_state(state)

@@ -115,8 +115,9 @@ async fn bad_parameters_are_refused_at_once() {
         (json!({"sectors": -1}), "invalid-request", "/sectors"),
         (json!({"outlet_radius": "wide"}), "invalid-request", "/outlet_radius"),
         (json!({"mesh": {"disk": 0}}), "invalid-request", "/mesh/disk"),
-        (json!({"mesh": {"disc": 3}}), "invalid-request", "/mesh/disc"),
-        (json!({"wings": 2}), "invalid-request", "/wings"),
+        (json!({"mesh": {"disc": 3}}), "unknown-field", "/mesh/disc"),
+        (json!({"wings": 2}), "unknown-field", "/wings"),
+        (json!({"units": {"length": "mm", "force": "N", "time": "s"}}), "invalid-request", "/units/mass"),
         (json!({"mesh": [1, 1, 1, 1, 1]}), "invalid-request", "/mesh"),
         (json!({"preset": "enormous"}), "invalid-request", "/preset"),
     ] {

@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod app;
+mod bodies;
 mod chains;
 mod checkpoints;
 mod errors;
@@ -12,6 +13,7 @@ mod kill;
 mod model;
 mod models;
 mod openapi;
+mod parameters;
 mod plans;
 mod refine;
 mod studies;
