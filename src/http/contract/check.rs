@@ -2,6 +2,8 @@
 //! at its RFC 6901 pointer. Nothing of the document is kept, and only what has a place in the shape is descended into, so
 //! that neither size nor depth of what is wrong costs anything.
 
+use std::fmt::Write as _;
+
 use serde::de::{DeserializeSeed, Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
 
 use super::super::problem::{EXCERPT, MOST_ITEMS, excerpt};
@@ -67,9 +69,13 @@ impl Reader {
     /// Does something one step further down.
     fn within<T>(&mut self, step: impl std::fmt::Display, work: impl FnOnce(&mut Self) -> T) -> T {
         let above = self.pointer.len();
-        let step = step.to_string().replace('~', "~0").replace('/', "~1");
-        self.pointer.push('/');
-        self.pointer.push_str(&step);
+        // Writing to a String cannot fail.
+        let _ = write!(self.pointer, "/{step}");
+        let own = above + 1;
+        if self.pointer[own..].contains(['~', '/']) {
+            let escaped = self.pointer[own..].replace('~', "~0").replace('/', "~1");
+            self.pointer.replace_range(own.., &escaped);
+        }
         let done = work(self);
         self.pointer.truncate(above);
         done
