@@ -3,6 +3,8 @@
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use utoipa::ToSchema;
 
+use super::stepping::MOST_STEPS;
+
 /// A whole number, or `"auto"`.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum AutoOr {
@@ -66,7 +68,7 @@ impl utoipa::PartialSchema for AutoOr {
         OneOfBuilder::new()
             .description(Some("A whole number, or `auto` for one that the program chooses."))
             .item(ObjectBuilder::new().schema_type(Type::String).enum_values(Some(["auto"])))
-            .item(ObjectBuilder::new().schema_type(Type::Integer).minimum(Some(1)))
+            .item(ObjectBuilder::new().schema_type(Type::Integer).minimum(Some(1)).maximum(Some(MOST_STEPS)))
             .into()
     }
 }

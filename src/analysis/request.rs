@@ -12,6 +12,7 @@ use super::speeds::Speeds;
 #[serde(deny_unknown_fields)]
 pub struct SweepRequest {
     /// Id of an uploaded model.
+    #[schema(max_length = 64)]
     pub model: String,
     /// Fixed-interface modes kept per stiffness speed and nodal diameter: the accuracy dial k. `"auto"` is what `accuracy` or
     /// `budget` chooses, without them 20.
@@ -26,9 +27,11 @@ pub struct SweepRequest {
     pub integration: Integration,
     /// Where the response is recorded; default: radial at the first and the last contact node of sector 0.
     #[serde(default)]
+    #[schema(max_items = 64)]
     pub sensors: Vec<Sensor>,
     /// Highest engine order of spectra and map.
     #[serde(default = "default_max_engine_order")]
+    #[schema(minimum = 1, maximum = 1000)]
     pub max_engine_order: u32,
     /// Least prominence of a critical speed, as a share of the sensor's largest response at any speed: a peak that rises by less
     /// above the higher one of the valleys beside it is neither listed nor refined. 0 for every peak.
@@ -142,6 +145,7 @@ impl SweepDirection {
 #[serde(deny_unknown_fields)]
 pub struct ModalAnalysisRequest {
     /// Id of an uploaded model.
+    #[schema(max_length = 64)]
     pub model: String,
     /// Fixed-interface modes kept per stiffness speed and nodal diameter. `"auto"` is what `accuracy` or `budget` chooses, without
     /// them 20.
@@ -149,15 +153,19 @@ pub struct ModalAnalysisRequest {
     pub modes_per_speed: AutoOr,
     /// Modal families (frequencies per nodal diameter) to report.
     #[serde(default = "default_families")]
+    #[schema(minimum = 1, maximum = 100)]
     pub families: u32,
     /// Superharmonic numbers n of the linear criterion f = i·n·Ω/2π.
     #[serde(default = "default_superharmonics")]
+    #[schema(max_items = 16)]
     pub superharmonics: Vec<u32>,
     /// Lobe count of the casing that can drive the wheel.
     #[serde(default = "default_lobes")]
+    #[schema(minimum = 1, maximum = 100)]
     pub lobes: u32,
     /// Highest engine order of the driven crossings.
     #[serde(default = "default_max_engine_order")]
+    #[schema(minimum = 1, maximum = 1000)]
     pub max_engine_order: u32,
     /// Coriolis forces through the package's gyroscopic matrix: the frequencies of waves that travel with and against the
     /// rotation, which then cross engine orders in their place.
@@ -228,10 +236,13 @@ pub struct Integration {
     /// Time steps per revolution, or `"auto"` for a safe number at each speed.
     pub steps_per_revolution: AutoOr,
     /// Revolutions to simulate.
+    #[schema(minimum = 1, maximum = 100_000)]
     pub revolutions: u32,
     /// Revolutions over which the restriction grows from zero to its full height.
+    #[schema(minimum = 0)]
     pub ramp_revolutions: f64,
     /// Revolutions at the end of the run that spectra are computed from.
+    #[schema(minimum = 1, maximum = 100_000)]
     pub window_revolutions: u32,
 }
 

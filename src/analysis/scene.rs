@@ -75,6 +75,7 @@ pub struct Damping {
     pub modal_ratio: f64,
     /// Ratios of the first modal families, the same in every nodal diameter.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schema(max_items = 100)]
     pub family_ratios: Vec<f64>,
 }
 
@@ -102,6 +103,7 @@ pub struct Clearance {
     pub trailing: Option<f64>,
     /// One value per contact node.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(max_items = 8192)]
     pub values: Option<Vec<f64>>,
 }
 
@@ -110,6 +112,7 @@ pub struct Clearance {
 #[serde(deny_unknown_fields)]
 pub struct Lobes {
     /// Number of lobes, at least 1.
+    #[schema(minimum = 1, maximum = 100)]
     pub count: u32,
     /// Height A of a lobe, in the model's unit of length; at most a tenth of the radius at which the tips lie.
     pub amplitude: f64,
@@ -164,6 +167,7 @@ pub struct Abradable {
     /// proportional to it. 2000 of them are 0.3 mm wide at a radius of 100 mm; choose the number that makes a rod as wide as your
     /// tips are thick.
     #[serde(default = "default_rods_around")]
+    #[schema(minimum = 4)]
     pub rods_around: u32,
 }
 
@@ -180,6 +184,7 @@ pub struct FlexibleCasing {
     pub ring: Option<Ring>,
     /// Modes as given; else give `ring`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(min_items = 1, max_items = 50)]
     pub modes: Option<Vec<CasingMode>>,
     /// Modal damping ratio of every casing mode, in [0, 1); 1 % by default, that of a bolted steel structure.
     #[serde(default = "default_casing_damping")]
@@ -208,6 +213,7 @@ pub struct Ring {
     /// Highest nodal diameter n, at most 50. Waves of more than n_max periods count as rigid; 8 reaches what a handful of lobes
     /// and blades excites.
     #[serde(default = "default_n_max")]
+    #[schema(maximum = 50)]
     pub n_max: u32,
 }
 
@@ -220,6 +226,7 @@ fn default_n_max() -> u32 {
 #[serde(deny_unknown_fields)]
 pub struct CasingMode {
     /// Nodal diameter n.
+    #[schema(maximum = 50)]
     pub nodal_diameter: u32,
     /// Natural frequency, Hz.
     pub frequency_hz: f64,
@@ -249,8 +256,10 @@ pub struct Mistuning {
 #[serde(deny_unknown_fields)]
 pub struct EngineOrderExcitation {
     /// Engine order k, 1 to the request's `max_engine_order`.
+    #[schema(minimum = 1, maximum = 1000)]
     pub order: u32,
     /// Contact nodes, counted from the leading edge from 0; each gets the whole amplitude.
+    #[schema(min_items = 1, max_items = 8192)]
     pub contact_nodes: Vec<u32>,
     /// Direction of the force.
     pub component: Component,
@@ -284,6 +293,7 @@ pub struct Initial {
     /// Nodal diameter i.
     pub nodal_diameter: u32,
     /// Modal family within it, counted from 1.
+    #[schema(minimum = 1, maximum = 100)]
     pub family: u32,
     /// Largest displacement component of any contact node, length; within the clearances, for blades that stood inside the
     /// casing would be thrown out of it at once.

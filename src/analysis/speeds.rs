@@ -33,9 +33,11 @@ pub struct SpeedSet {
     pub to: Option<f64>,
     /// Number of speeds in the range, both ends included.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(minimum = 1, maximum = 10_000)]
     pub count: Option<u32>,
     /// Explicit speeds.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schema(min_items = 1, max_items = 10_000)]
     pub values: Option<Vec<f64>>,
     /// Unit of the numbers above.
     pub unit: SpeedUnit,

@@ -8,12 +8,16 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct Units {
     /// Unit of length, for example `mm`.
+    #[schema(max_length = 200)]
     pub length: String,
     /// Unit of force, for example `N`.
+    #[schema(max_length = 200)]
     pub force: String,
     /// Unit of time, for example `s`.
+    #[schema(max_length = 200)]
     pub time: String,
     /// Unit of mass, for example `t`.
+    #[schema(max_length = 200)]
     pub mass: String,
 }
 

@@ -1,18 +1,16 @@
 //! Reading requests: what axum's extractors refuse becomes a problem like all others.
 
 use axum::body::Bytes;
-use axum::extract::rejection::{BytesRejection, QueryRejection};
+use axum::extract::rejection::BytesRejection;
 use axum::extract::{FromRequest, FromRequestParts, Path, Query, Request};
 use axum::http::request::Parts;
 use axum::http::{HeaderMap, StatusCode, header};
-use serde::Serialize;
 use serde::de::DeserializeOwned;
-use serde_json::Value;
-use serde_path_to_error::Segment;
+use utoipa::ToSchema;
 
+use super::contract::{Contract, Findings, check};
 use super::idempotency;
-use super::problem::{Kind, Problem, ProblemItem};
-use crate::analysis::error::Violation;
+use super::problem::{Kind, Problem, ProblemItem, excerpt};
 use crate::store::jobs::JobId;
 
 /// A JSON body.
@@ -22,7 +20,7 @@ pub(super) struct JsonBody<T> {
     pub(super) fingerprint: String,
 }
 
-impl<T: DeserializeOwned + Serialize, S: Send + Sync> FromRequest<S> for JsonBody<T> {
+impl<T: DeserializeOwned + ToSchema, S: Send + Sync> FromRequest<S> for JsonBody<T> {
     type Rejection = Problem;
 
     async fn from_request(request: Request, state: &S) -> Result<Self, Problem> {
@@ -48,19 +46,24 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequestParts<S> for Parameters<T> 
     type Rejection = Problem;
 
     async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Problem> {
-        match Query::<T>::from_request_parts(parts, state).await {
-            Ok(Query(value)) => Ok(Self(value)),
-            Err(QueryRejection::FailedToDeserializeQueryString(error)) => {
-                let text = std::error::Error::source(&error).map_or(error.body_text(), ToString::to_string);
-                // "name: what is wrong", or only what is wrong where the name itself is not known.
-                let (name, detail) = match text.split_once(": ") {
-                    Some((name, detail)) => (name, detail),
-                    None => (between_backquotes(&text).unwrap_or("query"), text.as_str()),
-                };
-                Err(Problem::parameter(name, detail))
-            }
-            Err(other) => Err(Problem::new(Kind::InvalidParameter, other.body_text())),
-        }
+        // What the contract does not admit does not come so far.
+        let query = Query::from_request_parts(parts, state).await;
+        let Query(value) = query.map_err(|error| Problem::new(Kind::InvalidParameter, error.body_text()))?;
+        Ok(Self(value))
+    }
+}
+
+/// The id of a model in the path.
+pub(super) struct ModelPath(pub(super) String);
+
+impl<S: Send + Sync> FromRequestParts<S> for ModelPath {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Problem> {
+        let Path(id) = Path::from_request_parts(parts, state)
+            .await
+            .map_err(|rejection| Problem::new(Kind::ModelNotFound, rejection.body_text()))?;
+        Ok(Self(id))
     }
 }
 
@@ -71,11 +74,31 @@ impl<S: Send + Sync> FromRequestParts<S> for JobPath {
     type Rejection = Problem;
 
     async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Problem> {
-        let Path(text) = Path::<String>::from_request_parts(parts, state)
+        let Path(id) = Path::<String>::from_request_parts(parts, state)
             .await
             .map_err(|rejection| Problem::new(Kind::JobNotFound, rejection.body_text()))?;
-        JobId::parse(&text).map(Self).ok_or_else(|| job_not_found(&text))
+        Ok(Self(parse_job_id(&id)?))
     }
+}
+
+/// The id of a job and the index of a speed in the path. What is no index is the index of no speed.
+pub(super) struct SpeedPath(pub(super) JobId, pub(super) Option<u32>);
+
+impl<S: Send + Sync> FromRequestParts<S> for SpeedPath {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Problem> {
+        let path = Path::<(String, String)>::from_request_parts(parts, state).await;
+        let Path((id, index)) = path.map_err(|rejection| {
+            let text = rejection.body_text();
+            Problem::new(if text.contains("index") { Kind::SpeedNotFound } else { Kind::JobNotFound }, text)
+        })?;
+        Ok(Self(parse_job_id(&id)?, index.parse().ok()))
+    }
+}
+
+fn parse_job_id(text: &str) -> Result<JobId, Problem> {
+    JobId::parse(text).ok_or_else(|| job_not_found(&excerpt(text)))
 }
 
 /// The problem of a job that is not there.
@@ -110,143 +133,30 @@ fn media_type(headers: &HeaderMap) -> &str {
     declared.split(';').next().unwrap_or_default().trim()
 }
 
-/// Reads one JSON document; says where it goes wrong: by line and column if it is not JSON, by pointer if it is.
-fn read_json<T: DeserializeOwned + Serialize>(body: &[u8]) -> Result<T, Problem> {
-    let mut deserializer = serde_json::Deserializer::from_slice(body);
-    let value = serde_path_to_error::deserialize(&mut deserializer).map_err(|error| {
-        let pointer = pointer_to(error.path());
-        json_problem(error.inner(), pointer)
+/// Reads one JSON document; says what is wrong with it: by line and column if it is not JSON, by pointer if it is.
+fn read_json<T: DeserializeOwned + ToSchema>(body: &[u8]) -> Result<T, Problem> {
+    let shape = Contract::get().body(&T::name()).ok_or_else(|| {
+        tracing::error!(body = %T::name(), "the contract does not have this body");
+        Problem::new(Kind::Internal, "a defect of the program; the service's log says more")
     })?;
-    deserializer.end().map_err(|error| json_problem(&error, String::new()))?;
-    match array_for_object(&serde_json::from_slice(body)?, &serde_json::to_value(&value)?) {
-        None => Ok(value),
-        Some(pointer) => {
-            let violation = Violation::new(pointer, "expected an object with named fields, not an array");
-            Err(Problem::violations(Kind::InvalidRequest, vec![violation]))
-        }
+    let Findings { first, total, unknown_fields } = check(shape, body).map_err(|error| malformed(&error))?;
+    if total > 0 {
+        let kind = if unknown_fields == total { Kind::UnknownField } else { Kind::InvalidRequest };
+        return Err(Problem::first_violations(kind, total, first));
     }
+    // What fails here is in the contract but not in the type: the place is all that can be said of it.
+    serde_json::from_slice(body).map_err(|error| Problem::new(Kind::InvalidRequest, error.to_string()))
 }
 
-/// Pointer to the first array in `given` that was read as an object: serde takes fields by position too, the contract
-/// does not.
-fn array_for_object(given: &Value, read: &Value) -> Option<String> {
-    match (given, read) {
-        (Value::Array(_), Value::Object(_)) => Some(String::new()),
-        (Value::Object(given), Value::Object(read)) => given.iter().find_map(|(key, given)| {
-            let below = array_for_object(given, read.get(key)?)?;
-            Some(format!("/{}{below}", escape(key)))
-        }),
-        (Value::Array(given), Value::Array(read)) => {
-            given.iter().zip(read).enumerate().find_map(|(index, (given, read))| {
-                Some(format!("/{index}{}", array_for_object(given, read)?))
-            })
-        }
-        _ => None,
-    }
-}
-
-fn json_problem(error: &serde_json::Error, mut pointer: String) -> Problem {
-    let full = error.to_string();
+fn malformed(error: &serde_json::Error) -> Problem {
+    let (line, column) = (error.line(), error.column());
     // serde_json appends " at line 1 column 2"; the item has these as numbers.
-    let message = full.rsplit_once(" at line ").map_or(full.as_str(), |(message, _)| message).to_owned();
-    let mut item = ProblemItem {
-        line: Some(error.line() as u64),
-        column: Some(error.column() as u64),
-        detail: message.clone(),
+    let full = error.to_string();
+    let message = full.rsplit_once(" at line ").map_or(full.as_str(), |(message, _)| message);
+    Problem::new(Kind::MalformedJson, format!("{message} (line {line}, column {column})")).with(ProblemItem {
+        line: Some(line as u64),
+        column: Some(column as u64),
+        detail: message.to_owned(),
         ..ProblemItem::default()
-    };
-    if !error.is_data() {
-        let detail = format!("{message} (line {}, column {})", error.line(), error.column());
-        return Problem::new(Kind::MalformedJson, detail).with(item);
-    }
-    let kind = if message.starts_with("unknown field") { Kind::UnknownField } else { Kind::InvalidRequest };
-    // Of a field that is too much or missing, serde knows the parent and names the child in words.
-    if (message.starts_with("unknown field") || message.starts_with("missing field"))
-        && let Some(name) = between_backquotes(&message)
-    {
-        let child = format!("/{}", escape(name));
-        if !pointer.ends_with(&child) {
-            pointer.push_str(&child);
-        }
-    }
-    let detail = if pointer.is_empty() { message } else { format!("{pointer}: {message}") };
-    item.pointer = Some(pointer);
-    Problem::new(kind, detail).with(item)
-}
-
-fn pointer_to(path: &serde_path_to_error::Path) -> String {
-    path.iter()
-        .filter_map(|segment| match segment {
-            Segment::Seq { index } => Some(format!("/{index}")),
-            Segment::Map { key } => Some(format!("/{}", escape(key))),
-            // Names of variants are no part of the document.
-            Segment::Enum { .. } | Segment::Unknown => None,
-        })
-        .collect()
-}
-
-/// RFC 6901.
-fn escape(key: &str) -> String {
-    key.replace('~', "~0").replace('/', "~1")
-}
-
-fn between_backquotes(text: &str) -> Option<&str> {
-    text.split('`').nth(1)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::analysis::request::SweepRequest;
-
-    fn refused(body: &str) -> Problem {
-        read_json::<SweepRequest>(body.as_bytes()).unwrap_err()
-    }
-
-    fn pointer(problem: &Problem) -> &str {
-        problem.errors[0].pointer.as_deref().unwrap()
-    }
-
-    #[test]
-    fn an_unknown_field_is_pointed_at_wherever_it_is() {
-        let problem = refused(r#"{"model": "a", "colour": "red"}"#);
-        assert_eq!(problem.r#type, "urn:rubmap:problem:unknown-field");
-        assert_eq!(pointer(&problem), "/colour");
-
-        let problem = refused(
-            r#"{"model": "a", "speeds": {"values": [1], "unit": "hz"},
-                "scene": {"casing": {"clearance": {"leeding": 0.3}}}}"#,
-        );
-        assert_eq!(pointer(&problem), "/scene/casing/clearance/leeding");
-    }
-
-    #[test]
-    fn fields_by_position_are_refused() {
-        let problem = refused(r#"{"model": "a", "speeds": {"values": [1], "unit": "hz"}, "scene": []}"#);
-        assert_eq!(pointer(&problem), "/scene");
-        let problem = refused(r#"{"model": "a", "speeds": [null, null, null, [1], "hz"], "scene": {}}"#);
-        assert_eq!(pointer(&problem), "/speeds/0");
-        let problem = refused(r#"{"model": "a", "speeds": [[null, null, null, [1], "hz"]], "scene": {}}"#);
-        assert_eq!(pointer(&problem), "/speeds/0");
-    }
-
-    #[test]
-    fn a_missing_field_and_a_wrong_type_are_pointed_at() {
-        let problem = refused(r#"{"model": "a", "speeds": {"values": [1]}, "scene": {}}"#);
-        assert_eq!(pointer(&problem), "/speeds/unit");
-        let problem = refused(r#"{"model": "a", "speeds": {"values": [1, "fast"], "unit": "hz"}}"#);
-        assert_eq!(problem.r#type, "urn:rubmap:problem:invalid-request");
-        assert_eq!(pointer(&problem), "/speeds/values/1");
-        let problem = refused(r#"{"model": "a", "speeds": [{"values": [1, "fast"], "unit": "hz"}]}"#);
-        assert_eq!(pointer(&problem), "/speeds/0/values/1");
-        assert_eq!(pointer(&refused(r#"{"model": "a", "speeds": 7}"#)), "/speeds");
-    }
-
-    #[test]
-    fn what_is_not_json_is_located_by_line_and_column() {
-        let problem = refused("{\n  \"model\": oops\n}");
-        assert_eq!(problem.status, 400);
-        assert_eq!((problem.errors[0].line, problem.errors[0].column), (Some(2), Some(12)));
-        assert_eq!(refused("").status, 400);
-    }
+    })
 }

@@ -20,7 +20,6 @@ use crate::tokens::Principal;
 
 /// Which jobs to list.
 #[derive(Debug, Deserialize, IntoParams)]
-#[serde(deny_unknown_fields)]
 #[into_params(parameter_in = Query)]
 pub(super) struct JobQuery {
     /// Only jobs with this status.

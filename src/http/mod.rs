@@ -2,6 +2,7 @@
 
 mod access;
 mod body;
+mod contract;
 mod extract;
 mod health;
 mod host;

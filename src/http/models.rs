@@ -2,7 +2,7 @@
 
 use axum::Json;
 use axum::body::Body;
-use axum::extract::{FromRequest, Path, Request, State};
+use axum::extract::{FromRequest, Request, State};
 use axum::http::{StatusCode, header};
 use axum::response::Response;
 use futures::StreamExt;
@@ -11,10 +11,10 @@ use tokio::io::{AsyncWriteExt, BufWriter};
 use utoipa::{IntoParams, ToSchema};
 
 use super::AppState;
-use super::extract::{JsonBody, Parameters, expect_media_type, is_media_type};
+use super::extract::{JsonBody, ModelPath, Parameters, expect_media_type, is_media_type};
 use super::idempotency::{self, IdempotencyKey};
 use super::page;
-use super::problem::{Kind, Problem};
+use super::problem::{Kind, Problem, excerpt};
 use super::submit::{self, Receipt};
 use crate::analysis::result::ReductionReport;
 use crate::analysis::run::ModelFacts;
@@ -55,7 +55,6 @@ pub(super) struct ModelDetail {
 
 /// Which models to list.
 #[derive(Debug, Deserialize, IntoParams)]
-#[serde(deny_unknown_fields)]
 #[into_params(parameter_in = Query)]
 pub(super) struct ModelQuery {
     /// Models per page, 1 to 500; default 50.
@@ -249,7 +248,7 @@ pub(super) async fn list_models(
 pub(super) async fn get_model(
     state: State<AppState>,
     whose: Principal,
-    id: Path<String>,
+    ModelPath(id): ModelPath,
 ) -> Result<Json<ModelDetail>, Problem> {
     let model = state.store.model(&id, whose.only()).await?.ok_or_else(|| model_not_found(&id))?;
     let reductions = state.store.reduction_reports(&id).await?;
@@ -271,11 +270,11 @@ pub(super) async fn get_model(
 pub(super) async fn delete_model(
     state: State<AppState>,
     whose: Principal,
-    id: Path<String>,
+    ModelPath(id): ModelPath,
 ) -> Result<StatusCode, Problem> {
     match state.store.delete_model(&id, whose.only()).await? {
         Deletion::Deleted => {
-            tracing::info!(model.id = id.as_str(), "deleted a model");
+            tracing::info!(model.id = id, "deleted a model");
             Ok(StatusCode::NO_CONTENT)
         }
         Deletion::Unknown => Err(model_not_found(&id)),
@@ -287,5 +286,5 @@ pub(super) async fn delete_model(
 }
 
 fn model_not_found(id: &str) -> Problem {
-    Problem::new(Kind::ModelNotFound, format!("there is no model {id:?}"))
+    Problem::new(Kind::ModelNotFound, format!("there is no model {:?}", excerpt(id)))
 }

@@ -1,11 +1,15 @@
 //! The contract, generated from the routes themselves.
 
+use std::collections::BTreeMap;
+
 use axum::extract::State;
 use axum::http::header;
-use axum::response::{IntoResponse, Response};
+use axum::response::IntoResponse;
 use utoipa::OpenApi;
+use utoipa::openapi::{ContentBuilder, Ref, RefOr, Response, ResponseBuilder};
 
 use super::AppState;
+use super::problem::MEDIA_TYPE;
 use super::router::routes;
 
 /// All that the document says beside its paths.
@@ -35,12 +39,32 @@ pub(super) struct Contract;
 
 /// The `OpenAPI` document of the service.
 pub fn document() -> utoipa::openapi::OpenApi {
-    routes().into_openapi()
+    let mut document = routes().into_openapi();
+    for path in document.paths.paths.values_mut() {
+        let operations = [&mut path.get, &mut path.post, &mut path.put, &mut path.patch, &mut path.delete];
+        for operation in operations.into_iter().flatten() {
+            add_common_answers(&mut operation.responses.responses);
+        }
+    }
+    document
+}
+
+/// What every route may answer, unless it says so itself.
+fn add_common_answers(responses: &mut BTreeMap<String, RefOr<Response>>) {
+    for (status, description) in [
+        ("400", "A parameter is not valid."),
+        ("500", "A defect, or the data folder failed: the service's log says more."),
+    ] {
+        responses.entry(status.to_owned()).or_insert_with(|| {
+            let content = ContentBuilder::new().schema(Some(Ref::from_schema_name("Problem"))).build();
+            ResponseBuilder::new().description(description).content(MEDIA_TYPE, content).build().into()
+        });
+    }
 }
 
 /// Read this document.
 #[utoipa::path(get, path = "/openapi.json", operation_id = "get_openapi", tag = "service",
     responses((status = 200, description = "The OpenAPI 3.1 document.", body = Object)))]
-pub(super) async fn get_openapi(state: State<AppState>) -> Response {
-    ([(header::CONTENT_TYPE, "application/json")], state.openapi.to_string()).into_response()
+pub(super) async fn get_openapi(state: State<AppState>) -> impl IntoResponse {
+    ([(header::CONTENT_TYPE, "application/json")], state.openapi.to_string())
 }

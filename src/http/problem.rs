@@ -24,6 +24,14 @@ const FULL_DISK_S: u32 = 60;
 const LIMIT_S: u32 = 60;
 /// The same where a lock or descriptors are to be had again by themselves.
 const BUSY_S: u32 = 5;
+/// Most items in `errors`; of more, the last one says how many.
+pub(super) const MOST_ITEMS: usize = 20;
+
+/// Most characters that are shown of a value.
+pub(super) const EXCERPT: usize = 60;
+
+/// Most characters of a text in a problem, whoever wrote it.
+const LONGEST_TEXT: usize = 2000;
 
 /// What went wrong, for programs and people (RFC 9457).
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, ToSchema)]
@@ -43,7 +51,8 @@ pub struct Problem {
     /// Seconds after which the same request may succeed, as in the `Retry-After` header.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub retry_after_s: Option<u32>,
-    /// Everything that is wrong, one by one.
+    /// Everything that is wrong, one by one; of more than twenty things the first, and how many more there are.
+    #[schema(max_items = 20)]
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub errors: Vec<ProblemItem>,
 }
@@ -153,17 +162,30 @@ impl Problem {
             r#type,
             title,
             status: status.as_u16(),
-            detail: detail.into(),
+            detail: cut(detail.into(), LONGEST_TEXT),
             instance: None,
             retry_after_s: None,
             errors: Vec::new(),
         }
     }
 
-    /// With one more thing that is wrong.
+    /// With the thing that is wrong.
     #[must_use]
-    pub fn with(mut self, item: ProblemItem) -> Self {
-        self.errors.push(item);
+    pub fn with(self, item: ProblemItem) -> Self {
+        self.with_first_of(1, vec![item])
+    }
+
+    /// With the first `items` of `total` things that are wrong.
+    fn with_first_of(mut self, total: usize, mut items: Vec<ProblemItem>) -> Self {
+        if total > MOST_ITEMS {
+            items.truncate(MOST_ITEMS - 1);
+            let detail = format!("and {} more", total - items.len());
+            items.push(ProblemItem { detail, ..ProblemItem::default() });
+        }
+        for item in &mut items {
+            item.detail = cut(std::mem::take(&mut item.detail), LONGEST_TEXT);
+        }
+        self.errors = items;
         self
     }
 
@@ -186,10 +208,19 @@ impl Problem {
 
     /// A request with these violations.
     pub fn violations(kind: Kind, violations: Vec<Violation>) -> Self {
-        let detail = violations.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ");
-        let mut problem = Self::new(kind, detail);
-        problem.errors = violations.into_iter().map(ProblemItem::from).collect();
-        problem
+        Self::first_violations(kind, violations.len(), violations)
+    }
+
+    /// A request with `total` violations, of which `first` are the first.
+    pub(super) fn first_violations(kind: Kind, total: usize, first: Vec<Violation>) -> Self {
+        let items = first.into_iter().take(MOST_ITEMS).map(ProblemItem::from).collect();
+        let problem = Self::new(kind, "").with_first_of(total, items);
+        let texts = problem.errors.iter().map(|item| match item.pointer.as_deref() {
+            Some(pointer) if !pointer.is_empty() => format!("{pointer}: {}", item.detail),
+            _ => item.detail.clone(),
+        });
+        let detail = cut(texts.collect::<Vec<_>>().join("; "), LONGEST_TEXT);
+        Self { detail, ..problem }
     }
 
     /// The problem that an error answer without a body stands for.
@@ -208,6 +239,20 @@ impl Problem {
         };
         Self { status: status.as_u16(), ..Self::new(kind, detail) }
     }
+}
+
+/// A value as it is shown in a message.
+pub(super) fn excerpt(text: &str) -> String {
+    cut(text.chars().take(EXCERPT + 1).collect(), EXCERPT)
+}
+
+/// The first `most` characters of a text.
+fn cut(mut text: String, most: usize) -> String {
+    if let Some((end, _)) = text.char_indices().nth(most) {
+        text.truncate(end);
+        text.push('…');
+    }
+    text
 }
 
 impl From<Violation> for ProblemItem {
@@ -299,9 +344,8 @@ impl From<&Failure> for Problem {
             FailureCause::NothingCompleted => Kind::NothingCompleted,
             FailureCause::Package | FailureCause::Defect | FailureCause::Storage => Kind::Internal,
         };
-        let mut problem = Self::new(kind, failure.message.clone());
-        problem.errors = failure.violations.iter().cloned().map(ProblemItem::from).collect();
-        problem
+        let first = failure.violations.iter().take(MOST_ITEMS).cloned().map(ProblemItem::from).collect();
+        Self::new(kind, failure.message.clone()).with_first_of(failure.violations.len(), first)
     }
 }
 

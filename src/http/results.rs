@@ -1,13 +1,13 @@
 //! Results of jobs.
 
-use axum::extract::{Path, State};
+use axum::extract::State;
 use axum::http::header;
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
 use tokio::runtime::Handle;
 use utoipa::{IntoParams, ToSchema};
 
-use super::extract::{JobPath, Parameters, job_not_found};
+use super::extract::{JobPath, Parameters, SpeedPath, job_not_found};
 use super::problem::{Kind, Problem};
 use super::{AppState, stream};
 use crate::analysis::request::SweepRequest;
@@ -26,7 +26,6 @@ const ROW_MEMORY: u64 = 2;
 
 /// Which part of an interaction map to download.
 #[derive(Debug, Deserialize, IntoParams)]
-#[serde(deny_unknown_fields)]
 #[into_params(parameter_in = Query)]
 pub(super) struct MapQuery {
     /// Index of the sensor in the request; default 0.
@@ -38,7 +37,6 @@ pub(super) struct MapQuery {
 
 /// Which table of critical speeds to download.
 #[derive(Debug, Deserialize, IntoParams)]
-#[serde(deny_unknown_fields)]
 #[into_params(parameter_in = Query)]
 pub(super) struct SensorQuery {
     /// Index of the sensor in the request; default 0.
@@ -136,13 +134,12 @@ struct MapInPieces<R> {
 pub(super) async fn get_spectra(
     state: State<AppState>,
     whose: Principal,
-    path: Path<(String, String)>,
+    SpeedPath(id, index): SpeedPath,
 ) -> Result<Response, Problem> {
-    let id = JobId::parse(&path.0.0).ok_or_else(|| job_not_found(&path.0.0))?;
     let job = find(&state, &whose, id).await?;
     let (_, facts) = sweep(&job)?;
     let total = job.speeds.total;
-    let index = path.0.1.parse().ok().filter(|index| *index < total).ok_or_else(|| {
+    let index = index.filter(|index| *index < total).ok_or_else(|| {
         Problem::new(Kind::SpeedNotFound, format!("the job has {total} speeds, counted from 0"))
     })?;
     let leave = state.answers.leave(&state.jobs, ROW_MEMORY * state.store.largest_spectra(id).await?).await;

@@ -13,8 +13,8 @@ use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
 use super::{
-    AppState, access, body, health, host, jobs, metrics, modal_analyses, models, openapi, principal, problem,
-    results, studies, sweeps, version,
+    AppState, access, body, contract, health, host, jobs, metrics, modal_analyses, models, openapi, principal,
+    problem, results, studies, sweeps, version,
 };
 
 /// The routes with their descriptions.
@@ -61,7 +61,8 @@ pub fn router(state: AppState) -> Router {
         // Answers what browsers ask in advance, which carries no credentials.
         .option_layer(cors(&state.transport.cors_origins))
         .layer(middleware::from_fn_with_state(state.tokens.clone(), principal::authenticate))
-        .layer(middleware::from_fn_with_state(state.clone(), body::keep_coming));
+        .layer(middleware::from_fn_with_state(state.clone(), body::keep_coming))
+        .layer(middleware::from_fn(contract::refuse_unknown_parameters));
     let (router, _) = routes().split_for_parts();
     router.fallback(|| async { StatusCode::NOT_FOUND }).layer(layers).with_state(state)
 }

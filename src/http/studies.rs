@@ -46,7 +46,6 @@ pub(super) enum HistoriesFormat {
 
 /// What to download of a study.
 #[derive(Debug, Deserialize, IntoParams)]
-#[serde(deny_unknown_fields)]
 #[into_params(parameter_in = Query)]
 pub(super) struct WorkPrecisionQuery {
     /// `json` (default) or `csv` for all speeds and quantities, `svg` for a drawing of one.
@@ -63,7 +62,6 @@ pub(super) struct WorkPrecisionQuery {
 
 /// Which histories of a study to download.
 #[derive(Debug, Deserialize, IntoParams)]
-#[serde(deny_unknown_fields)]
 #[into_params(parameter_in = Query)]
 pub(super) struct HistoriesQuery {
     /// `json` (default) for all sensors, `svg` for a drawing of one.

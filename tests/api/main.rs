@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod app;
+mod bodies;
 mod chains;
 mod checkpoints;
 mod errors;
@@ -14,6 +15,7 @@ mod metrics;
 mod model;
 mod models;
 mod openapi;
+mod parameters;
 mod plans;
 mod program;
 mod refine;

@@ -21,6 +21,7 @@ use crate::analysis::stepping::MOST_STEPS;
 #[serde(deny_unknown_fields)]
 pub struct StudyRequest {
     /// Id of an uploaded model.
+    #[schema(max_length = 64)]
     pub model: String,
     /// One to eight speeds.
     pub speeds: Speeds,
@@ -34,13 +35,15 @@ pub struct StudyRequest {
     pub integration: StudyIntegration,
     /// Revolutions from the start over which displacements are compared, before chaos separates trajectories.
     #[serde(default = "default_history_revolutions")]
-    #[schema(minimum = 1)]
+    #[schema(minimum = 1, maximum = 100_000)]
     pub history_revolutions: u32,
     /// Where the response is recorded; default: radial at the first and the last contact node of sector 0.
     #[serde(default)]
+    #[schema(max_items = 64)]
     pub sensors: Vec<Sensor>,
     /// Highest engine order that is compared.
     #[serde(default = "default_max_engine_order")]
+    #[schema(minimum = 1, maximum = 1000)]
     pub max_engine_order: u32,
 }
 
@@ -93,10 +96,13 @@ impl Default for Grid {
 #[serde(deny_unknown_fields, default)]
 pub struct StudyIntegration {
     /// Revolutions to simulate.
+    #[schema(minimum = 1, maximum = 100_000)]
     pub revolutions: u32,
     /// Revolutions over which the restriction grows from zero to its full height.
+    #[schema(minimum = 0)]
     pub ramp_revolutions: f64,
     /// Revolutions at the end of the run that spectra are computed from.
+    #[schema(minimum = 1, maximum = 100_000)]
     pub window_revolutions: u32,
 }
 

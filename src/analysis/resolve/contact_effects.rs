@@ -1,6 +1,6 @@
 //! Friction and abradable coating of a request.
 
-use super::{Findings, limits};
+use super::{Findings, between, limits};
 use crate::analysis::auto_or::AutoOr;
 use crate::analysis::model::ModelFacts;
 use crate::analysis::request::Integration;
@@ -58,12 +58,12 @@ fn check_material(found: &mut Findings, abradable: &Abradable) {
     found.require(
         valid(modulus),
         "/scene/abradable/modulus",
-        format!("Young's modulus of the coating lies in {range:?}"),
+        format!("Young's modulus of the coating lies {}", between(&range)),
     );
     found.require(
         valid(thickness),
         "/scene/abradable/thickness",
-        format!("the coating's thickness is a length in {range:?}"),
+        format!("the coating's thickness is a length {}", between(&range)),
     );
     if !valid(modulus) {
         return;

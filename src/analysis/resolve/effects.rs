@@ -1,7 +1,7 @@
 //! Checks of the effects that a scene names, and of which go together.
 
 use super::contact_effects::{check_abradable, check_friction};
-use super::{Findings, check_reach, limits};
+use super::{Findings, between, check_reach, limits};
 use crate::analysis::effects::flexible_casing;
 use crate::analysis::model::ModelFacts;
 use crate::analysis::request::{SchemeChoice, SweepDirection, SweepRequest};
@@ -113,7 +113,7 @@ fn check_flexible_casing(found: &mut Findings, casing: &FlexibleCasing, request:
             found.require(
                 limits::LENGTH.contains(&value),
                 &format!("{AT}/ring/{field}"),
-                format!("this lies in {:?}, unlike {value}", limits::LENGTH),
+                format!("this lies {}, unlike {value}", between(&limits::LENGTH)),
             );
         }
         found.require(
@@ -127,12 +127,12 @@ fn check_flexible_casing(found: &mut Findings, casing: &FlexibleCasing, request:
         found.require(
             limits::LENGTH.contains(frequency_hz),
             &format!("{AT}/modes/{index}/frequency_hz"),
-            format!("a natural frequency lies in {:?}", limits::LENGTH),
+            format!("a natural frequency lies {}", between(&limits::LENGTH)),
         );
         found.require(
             limits::LENGTH.contains(modal_mass),
             &format!("{AT}/modes/{index}/modal_mass"),
-            format!("a modal mass lies in {:?}", limits::LENGTH),
+            format!("a modal mass lies {}", between(&limits::LENGTH)),
         );
         found.require(
             *nodal_diameter <= limits::CASING_WAVES,
@@ -146,8 +146,8 @@ fn check_flexible_casing(found: &mut Findings, casing: &FlexibleCasing, request:
             flexible_casing(casing).waves.iter().all(|wave| limits::CASING_OMEGA.contains(&wave.omega)),
             AT,
             format!(
-                "natural frequencies of a casing lie in {:?} rad/s: check its numbers and units",
-                limits::CASING_OMEGA
+                "natural frequencies of a casing lie {} rad/s: check its numbers and units",
+                between(&limits::CASING_OMEGA)
             ),
         );
     }
@@ -250,7 +250,7 @@ fn check_orbit(found: &mut Findings, orbit: &Orbit, facts: &ModelFacts) {
     found.require(
         orbit.radius == 0.0 || limits::LENGTH.contains(&orbit.radius),
         "/scene/orbit/radius",
-        format!("the radius is 0 or a length in {:?}", limits::LENGTH),
+        format!("the radius is 0 or a length {}", between(&limits::LENGTH)),
     );
     check_reach(found, orbit.radius, "/scene/orbit/radius", facts);
     found.require(
@@ -280,7 +280,7 @@ fn check_initial(found: &mut Findings, initial: &Initial, facts: &ModelFacts) {
     found.require(
         limits::LENGTH.contains(&initial.amplitude),
         &format!("{AT}/amplitude"),
-        format!("an amplitude is a length in {:?}", limits::LENGTH),
+        format!("an amplitude is a length {}", between(&limits::LENGTH)),
     );
     check_reach(found, initial.amplitude, &format!("{AT}/amplitude"), facts);
     let single = initial.nodal_diameter == 0 || 2 * initial.nodal_diameter == facts.sectors;

@@ -52,6 +52,11 @@ pub(super) mod limits {
     pub(super) const CASING_OMEGA: std::ops::RangeInclusive<f64> = 1e-3..=1e9;
 }
 
+/// A range in words.
+fn between(range: &std::ops::RangeInclusive<f64>) -> String {
+    format!("between {:?} and {:?}", range.start(), range.end())
+}
+
 /// Collects violations.
 #[derive(Default)]
 struct Findings(Vec<Violation>);
@@ -304,8 +309,8 @@ fn check_casing(found: &mut Findings, casing: &Casing, facts: &ModelFacts) {
     let radius = facts.contact_radius.filter(|radius| *radius > 0.0).unwrap_or(f64::INFINITY);
     let fits = |length: f64| valid(length) && length <= radius;
     let message = format!(
-        "a clearance is 0 or a length in {:?}, no larger than the radius at which the tips lie",
-        limits::LENGTH
+        "a clearance is 0 or a length {}, no larger than the radius at which the tips lie",
+        between(&limits::LENGTH)
     );
     match &casing.clearance {
         Clearance { leading: Some(leading), trailing: Some(trailing), values: None } => {
@@ -333,7 +338,7 @@ fn check_casing(found: &mut Findings, casing: &Casing, facts: &ModelFacts) {
         found.require(
             valid(lobes.amplitude),
             "/scene/casing/lobes/amplitude",
-            format!("a lobe's height is 0 or a length in {:?}", limits::LENGTH),
+            format!("a lobe's height is 0 or a length {}", between(&limits::LENGTH)),
         );
         check_reach(found, lobes.amplitude, "/scene/casing/lobes/amplitude", facts);
         let (count, least) = (lobes.count.max(1), limits::LEAST_LOBE_WIDTH_RAD);
