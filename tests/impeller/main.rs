@@ -15,4 +15,5 @@ mod plate;
 mod presets;
 mod random_wheels;
 mod sector;
+mod singular_mass;
 mod wheel;
