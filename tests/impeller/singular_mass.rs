@@ -122,6 +122,34 @@ fn directions_without_mass_at_round_off_are_carried() {
     }
 }
 
+/// All there are, where more are asked for than have mass. So many show it if contact nodes have a motion without.
+#[test]
+fn modes_are_those_with_mass() {
+    let every = ReductionOptions::new(1000);
+    let mut package = disk(MESHES[0], |_| 1.0, 7.5e-12);
+    let sector = to_sector(package.clone()).expect("a mass that carries modes");
+    let refused = reduce(&sector, &every, &NoCheckpoints, &|_, _| true).expect_err("a massless boundary");
+    assert!(refused.to_string().contains("ask for fewer `modes_per_speed`"), "{refused}");
+
+    let at_contact =
+        |row: u32| package.manifest.contact.iter().any(|c| c.node == package.dofs[row as usize].node);
+    for (row, column, value) in &mut package.mass.entries {
+        if row == column && at_contact(*row) {
+            *value *= 1.5;
+        }
+    }
+    let wheel = reduced(&package, 1000);
+    for (harmonic, compared) in wheel.harmonics.iter().zip(&wheel.comparison) {
+        let certificate = &harmonic.certificates[0];
+        let (modes, internal) = (certificate.eigenvalues.len(), sector.own_dofs() - wheel.contact_dofs());
+        let off = compared.largest_difference();
+        println!("nodal diameter {}: {modes} modes of {internal} DOF, {off:?}", harmonic.harmonic);
+        assert!(modes < internal && certificate.completeness == Completeness::Whole, "{certificate:?}");
+        // Nothing is left out but what has no mass.
+        assert!(off.is_some_and(|(off, _)| off < 1e-7), "{off:?}");
+    }
+}
+
 fn refused(package: RawPackage) -> String {
     let error = to_sector(package).expect_err("refused");
     assert!(matches!(error, PackageError::Matrix { .. }), "{error}");
