@@ -30,8 +30,8 @@ pub enum ModelError {
     },
     /// The mass is negative for some motion, by more than round-off.
     #[error(
-        "the mass is negative for a motion of nodal diameter {nodal_diameter} that DOF {dof} takes part in: is the density \
-         positive everywhere?"
+        "the mass is negative, by more than round-off, for a motion of nodal diameter {nodal_diameter} that DOF {dof} takes \
+         part in (counted from 0 in the DOF table without its rows of the high face): is the density positive everywhere?"
     )]
     NegativeMass {
         /// Nodal diameter i.
