@@ -28,9 +28,29 @@ pub enum ModelError {
         /// How many.
         modes: usize,
     },
-    /// The reduced or full mass is not positive definite.
+    /// The mass is negative for some motion, by more than round-off.
     #[error(
-        "the mass of nodal diameter {nodal_diameter} is not positive definite: is the density positive everywhere?"
+        "the mass is negative, by more than round-off, for a motion of nodal diameter {nodal_diameter} that DOF {dof} takes \
+         part in (counted from 0 in the DOF table without its rows of the high face): is the density positive everywhere?"
+    )]
+    NegativeMass {
+        /// Nodal diameter i.
+        nodal_diameter: usize,
+        /// Own DOF of the sector, from 0.
+        dof: usize,
+    },
+    /// More modes were asked for than there are.
+    #[error(
+        "nodal diameter {nodal_diameter} has fewer modes with mass than `modes_per_speed` asks for; ask for fewer"
+    )]
+    ModesWithoutMass {
+        /// Nodal diameter i.
+        nodal_diameter: usize,
+    },
+    /// The reduced mass is not positive definite.
+    #[error(
+        "the reduced mass of nodal diameter {nodal_diameter} is not positive definite: the contact nodes have a motion \
+         without mass among so many modes; ask for fewer `modes_per_speed`, or integrate the elements' mass in full"
     )]
     MassNotPositiveDefinite {
         /// Nodal diameter i.

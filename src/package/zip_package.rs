@@ -117,7 +117,7 @@ impl Files {
 
 fn missing(archive: &Archive, file: &str) -> ManifestProblem {
     let found_in = archive.names().find_map(|name| name.strip_suffix(file)?.strip_suffix('/'));
-    ManifestProblem::FileMissing { file: quoted(file), found_in: found_in.map(|folder| quoted(&folder)) }
+    ManifestProblem::FileMissing { file: quoted(file), found_in: found_in.map(quoted) }
 }
 
 fn read_manifest(archive: &Archive, limits: &Limits) -> Result<Manifest, PackageError> {

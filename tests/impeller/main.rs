@@ -19,4 +19,5 @@ mod plate;
 mod presets;
 mod random_wheels;
 mod sector;
+mod singular_mass;
 mod wheel;

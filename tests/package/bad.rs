@@ -462,7 +462,7 @@ fn mass() {
         ),
         case(
             |f| f.line("m.mtx", 4, "2 1 1e-7"),
-            "m.mtx: the mass of the assembled wheel is not positive definite: the entry 1.0079560902217548e-7 between node 1 (row 2) and node 1 (row 1) is larger than their diagonals allow",
+            "m.mtx: the mass of the assembled wheel is negative for some motion: the entry 1.0079560902217548e-7 between node 1 (row 2) and node 1 (row 1) is larger than their diagonals allow",
             (M, None, None),
         ),
         // Every pair is sound, three together are not: 20 on the diagonal, −15 between three DOF of node 3.
@@ -476,7 +476,7 @@ fn mass() {
                     f.put("m.mtx", format!("{}-1.5e-8{}", &text[..at], &text[end..]));
                 }
             },
-            "m.mtx: the mass of the assembled wheel is not positive definite (nodal diameter 0); is the density positive everywhere, and is this the mass matrix?",
+            "m.mtx: the mass of the assembled wheel is negative, by more than round-off, for a motion that node 3 (row 9) takes part in (nodal diameter 0): is the density positive everywhere, is this the mass matrix, and is it written with twelve digits or more?",
             (M, None, None),
         ),
     ]);

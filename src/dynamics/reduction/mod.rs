@@ -16,6 +16,7 @@ mod checkpoints;
 mod comparison;
 mod count;
 mod interpolation;
+pub(crate) mod mass;
 mod memory;
 mod modes;
 mod sector_factor;
@@ -33,7 +34,7 @@ use super::sector::{ContactNode, SectorModel};
 use crate::numerics::matrix_serde;
 use crate::numerics::sector_fourier::harmonic_count;
 use basis::Basis;
-use sector_factor::SectorFactor;
+use mass::NegativeMass;
 use speed::{SpeedPart, Work};
 use untied::UntiedSector;
 
@@ -172,7 +173,11 @@ pub fn reduce(
     if let Some(allowed_bytes) = options.memory_bytes.filter(|&allowed| needed_bytes > allowed) {
         return Err(ReductionError::Memory { needed_bytes, allowed_bytes });
     }
-    check_mass(sector, harmonics)?;
+    // Modes see only the low end of the spectrum; a negative mass may hide at the other.
+    mass::check_mass(sector, f64::INFINITY).map_err(|negative| {
+        let NegativeMass { nodal_diameter, dof } = negative;
+        ModelError::NegativeMass { nodal_diameter, dof }
+    })?;
     let mass = untied.assemble(&[(1.0, &sector.mass)]);
     let work = Work { sector, untied: &untied, mass: &mass, modes_per_speed, harmonics, checkpoints };
 
@@ -202,22 +207,6 @@ pub fn reduce(
         harmonics,
         interpolation,
         comparison,
-    })
-}
-
-/// Refuses a mass that is not positive definite. Modes see only the low end of the spectrum; an indefinite mass may
-/// hide at the other.
-fn check_mass(sector: &SectorModel, harmonics: usize) -> Result<(), ModelError> {
-    let untied = UntiedSector::new(sector, &[&sector.mass]);
-    let mass = untied.assemble(&[(1.0, &sector.mass)]);
-    let indefinite = |nodal_diameter| ModelError::MassNotPositiveDefinite { nodal_diameter };
-    let factor = SectorFactor::new(&untied, &mass).map_err(|_| indefinite(0))?;
-    if factor.surely_definite(&mass) {
-        return Ok(());
-    }
-    (0..harmonics).try_for_each(|h| match factor.tie(&mass, h) {
-        Ok(tied) if tied.free => Ok(()),
-        _ => Err(indefinite(h)),
     })
 }
 

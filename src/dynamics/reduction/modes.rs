@@ -40,7 +40,7 @@ impl Modes {
 /// What is asked of a search.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Wanted {
-    /// Modes of each nodal diameter; all of them where there are fewer.
+    /// Modes of each nodal diameter; all of them where there are fewer, or fewer with mass.
     pub(super) count: usize,
     /// Vectors advanced together; also the multiplicity of an eigenvalue found without luck.
     pub(super) block: usize,
@@ -59,7 +59,7 @@ pub(super) struct Wanted {
 pub(super) enum ModeError {
     /// The tolerance was not reached.
     NotConverged { harmonic: usize, residual: f64, block_steps: usize },
-    /// A mode without mass: M is singular on more of the space than the modes asked for leave out.
+    /// A mode without mass: fewer have it than the modes asked for.
     Massless { harmonic: usize },
     /// A dense decomposition inside the iteration failed.
     DenseFailed { harmonic: usize },
@@ -198,7 +198,7 @@ impl Pencil<'_> {
         Ok((Modes { values, residuals, vectors, beyond }, worst))
     }
 
-    /// The dense solution, on M x = θ K x like the iteration: the lowest modes are then accurate to round-off even
+    /// The dense solution, `count` modes or as many as have mass, on M x = θ K x like the iteration: the lowest modes are then accurate to round-off even
     /// where M is nearly singular.
     fn dense(&self, tie: &Tie, rows: usize, count: usize, tolerance: f64) -> Result<Modes, ModeError> {
         let harmonic = tie.harmonic;
@@ -206,9 +206,13 @@ impl Pencil<'_> {
         let pairs = generalised_eigenpairs(m.as_ref(), k.as_ref())
             .map_err(|_| ModeError::DenseFailed { harmonic })?;
         let theta = |m: usize| pairs.values[rows - 1 - m];
-        if (0..count).any(|m| theta(m).is_nan() || theta(m) <= 0.0) {
+        // Below, θ is round-off: directions without mass.
+        let massless = rows as f64 * f64::EPSILON * theta(0);
+        let carrying = (0..rows).take_while(|&m| theta(m) > massless).count();
+        if carrying == 0 {
             return Err(ModeError::Massless { harmonic });
         }
+        let count = count.min(carrying);
         let values: Vec<f64> = (0..count).map(|m| 1.0 / theta(m)).collect();
         let vectors =
             Mat::from_fn(rows, count, |i, m| pairs.vectors[(i, rows - 1 - m)] * (1.0 / theta(m).sqrt()));
@@ -216,8 +220,7 @@ impl Pencil<'_> {
         if residual > tolerance {
             return Err(ModeError::NotConverged { harmonic, residual, block_steps: 0 });
         }
-        let beyond =
-            (count..rows).map(theta).take_while(|&theta| theta > 0.0).map(|theta| 1.0 / theta).collect();
+        let beyond = (count..carrying).map(|m| 1.0 / theta(m)).collect();
         Ok(Modes { values, residuals, vectors, beyond })
     }
 

@@ -74,14 +74,15 @@ impl<'a> SectorFactor<'a> {
         untied: &'a UntiedSector,
         stiffness: &SparseColMat<usize, f64>,
     ) -> Result<Self, NotPositiveDefinite> {
-        let factor =
-            PartialFactor::new(&untied.analysis, &[(1.0, stiffness)]).map_err(|_| NotPositiveDefinite)?;
+        let factor = PartialFactor::new(&untied.analysis, &[(1.0, stiffness)])
+            .map_err(|breakdown| NotPositiveDefinite { row: breakdown.row })?;
         let diagonal = |row: usize| {
             let column = stiffness.row_idx_of_col(row).zip(stiffness.val_of_col(row));
             column.filter(|&(i, _)| i == row).map(|(_, value)| value).sum::<f64>()
         };
-        if factor.pivots().iter().enumerate().any(|(row, &d)| d <= SINGULAR * diagonal(row)) {
-            return Err(NotPositiveDefinite);
+        let mut pivots = factor.pivots().iter().enumerate();
+        if let Some((row, _)) = pivots.find(|&(row, &d)| d <= SINGULAR * diagonal(row)) {
+            return Err(NotPositiveDefinite { row });
         }
         let scale = factor.pivots().iter().map(|d| 1.0 / d.sqrt()).collect();
         Ok(Self { untied, factor, scale })

@@ -149,7 +149,7 @@ impl Work<'_> {
         phase(0.8, "full sector")?;
         // Fixing the contact DOF raises every frequency: a ceiling for those of the full sector.
         let ceilings: Vec<Vec<f64>> = harmonics.iter().map(|part| part.modes.ceilings()).collect();
-        let free: Vec<&TiedFactor> = tied.iter().filter(|tied| tied.free).collect();
+        let free: Vec<&TiedFactor> = tied.iter().filter(|tied| tied.free.is_ok()).collect();
         let going = |done: f64| phase(0.8 + 0.2 * done, "full sector").is_ok();
         let (full, full_block) = self
             .full_frequencies(&pencil, &free, Some(&ceilings), BLOCK, &going)
@@ -168,7 +168,11 @@ impl Work<'_> {
         block: usize,
         completeness: &mut [Option<Completeness>],
     ) -> Result<Vec<usize>, usize> {
-        let whole = |h: usize| harmonics[h].modes.values.len() == self.untied.internal();
+        // Fewer than asked for: no others have mass.
+        let whole = |h: usize| {
+            let found = harmonics[h].modes.values.len();
+            found == self.untied.internal() || found < self.modes_per_speed
+        };
         open.iter().filter(|&&h| whole(h)).for_each(|&h| completeness[h] = Some(Completeness::Whole));
         let counted: Vec<usize> = open.iter().copied().filter(|&h| !whole(h)).collect();
         let found: Vec<_> = counted.iter().map(|&h| (self.untied.tie(h), &harmonics[h].modes)).collect();
@@ -202,7 +206,7 @@ impl Work<'_> {
             return Ok(vec![None; self.harmonics]);
         };
         let tied = self.tie(&factor, &stiffness);
-        let free: Vec<&TiedFactor> = tied.iter().flatten().filter(|tied| tied.free).collect();
+        let free: Vec<&TiedFactor> = tied.iter().flatten().filter(|tied| tied.free.is_ok()).collect();
         let pencil = Pencil { untied: self.untied, stiffness: &stiffness, mass: self.mass, factor: &factor };
         let (full, _) = self
             .full_frequencies(&pencil, &free, None, block, &|done| phase(done).is_ok())
@@ -320,9 +324,7 @@ fn mode_error(error: ModeError, speed_rad_s: f64) -> ReductionError {
             iterations: block_steps,
         }
         .into(),
-        ModeError::Massless { harmonic } => {
-            ModelError::MassNotPositiveDefinite { nodal_diameter: harmonic }.into()
-        }
+        ModeError::Massless { harmonic } => ModelError::ModesWithoutMass { nodal_diameter: harmonic }.into(),
         ModeError::DenseFailed { harmonic } => {
             ModelError::DecompositionFailed { nodal_diameter: harmonic, speed_rad_s }.into()
         }

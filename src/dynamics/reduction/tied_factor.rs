@@ -1,7 +1,7 @@
 //! What one nodal diameter adds to the sector's real factor: the dense factor of its tied boundary.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::cholesky::llt::factor::{cholesky_in_place, cholesky_in_place_scratch};
+use faer::linalg::cholesky::llt::factor::{LltError, cholesky_in_place, cholesky_in_place_scratch};
 use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
 use faer::prelude::ReborrowMut;
 use faer::sparse::SparseColMat;
@@ -11,9 +11,12 @@ use faer::{Mat, MatMut, Par, c64};
 use super::untied::{Tie, UntiedSector};
 use crate::numerics::multifrontal::PartialFactor;
 
-/// Why a stiffness has no factor.
+/// Why a matrix has no factor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct NotPositiveDefinite;
+pub(super) struct NotPositiveDefinite {
+    /// Tied row at which elimination found it out.
+    pub(super) row: usize,
+}
 
 /// L_S of one nodal diameter: low face first, contact DOF last.
 pub(super) struct TiedFactor {
@@ -23,7 +26,7 @@ pub(super) struct TiedFactor {
     /// Lower triangle, (face + contact)².
     lower: Mat<c64>,
     /// Whether the contact DOF may be free: the stiffness is positive definite with them too.
-    pub(super) free: bool,
+    pub(super) free: Result<(), NotPositiveDefinite>,
 }
 
 impl TiedFactor {
@@ -36,8 +39,10 @@ impl TiedFactor {
     ) -> Result<Self, NotPositiveDefinite> {
         let mut lower = tied_schur(untied, factor, &[(1.0, stiffness)], &tie);
         let f = untied.face();
+        let below =
+            |first: usize| move |failed: NotPositiveDefinite| NotPositiveDefinite { row: first + failed.row };
         let (mut face, _, mut coupling, mut contact) = lower.as_mut().split_at_mut(f, f);
-        cholesky(face.rb_mut(), &tie)?;
+        cholesky(face.rb_mut(), &tie).map_err(below(untied.interior()))?;
         // L_bf = S_bf L_ff⁻ᴴ
         solve_lower_triangular_in_place(
             face.as_ref().conjugate(),
@@ -46,7 +51,7 @@ impl TiedFactor {
         );
         let update = &coupling * coupling.as_ref().adjoint();
         contact -= &update;
-        let free = cholesky(contact.rb_mut(), &tie).is_ok();
+        let free = cholesky(contact.rb_mut(), &tie).map_err(below(untied.internal()));
         Ok(Self { face: f, tie, lower, free })
     }
 
@@ -114,7 +119,7 @@ pub(super) fn tied_schur(
     schur
 }
 
-/// Lower Cholesky factor in place; in real arithmetic, four times cheaper, where the nodal diameter is real.
+/// Lower Cholesky factor in place, rows of errors counted from its first; in real arithmetic, four times cheaper, where the nodal diameter is real.
 pub(super) fn cholesky(mut matrix: MatMut<'_, c64>, tie: &Tie) -> Result<(), NotPositiveDefinite> {
     if UntiedSector::width(tie, 1) == 2 {
         return cholesky_of(matrix);
@@ -140,5 +145,5 @@ fn cholesky_of<T: ComplexField>(matrix: MatMut<'_, T>) -> Result<(), NotPositive
         faer::prelude::default(),
     )
     .map(|_| ())
-    .map_err(|_| NotPositiveDefinite)
+    .map_err(|LltError::NonPositivePivot { index }| NotPositiveDefinite { row: index })
 }

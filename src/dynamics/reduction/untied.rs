@@ -146,6 +146,15 @@ impl UntiedSector {
         low.chain(high).chain(contact).chain(shared).collect()
     }
 
+    /// The own DOF of a tied row.
+    pub(super) fn dof_of(&self, tied: usize) -> usize {
+        let row = if tied < self.internal() { tied } else { tied + self.face };
+        self.place
+            .iter()
+            .position(|&place| place == row)
+            .unwrap_or_else(|| unreachable!("every row has a DOF"))
+    }
+
     /// Whether boundary row `row` (see [`boundary`](Self::boundary)) is a copy on the high face.
     pub(super) fn is_high(&self, row: usize) -> bool {
         (self.face..2 * self.face).contains(&row) || row >= 2 * self.face + self.contact

@@ -100,6 +100,11 @@ impl Analysis {
         Self { size, eliminated, fronts, roots, subtrees, top }
     }
 
+    /// Multiplications of the elimination.
+    pub fn work(&self) -> f64 {
+        self.fronts.iter().map(Front::work).sum()
+    }
+
     /// Numbers in L and L_F.
     pub fn factor_entries(&self) -> usize {
         self.fronts.iter().map(|front| front.pivots * (front.pivots + front.rows.len())).sum()

@@ -1,25 +1,18 @@
-//! The mass of the assembled wheel must be positive definite.
+//! The mass of the assembled wheel must be able to carry modes: positive on the diagonal, and nowhere negative by more
+//! than round-off.
 //!
 //! Three looks, from cheap to conclusive: the diagonal and the 2 × 2 minors of Y0 (a principal submatrix of the
-//! wheel's mass) name the node to blame; then sparse Cholesky factorisations of all harmonic matrices M̂(i), which
-//! together are the wheel. The last is done up to [`LARGEST_FACTORISED`] DOF; beyond, the reduction factors the mass itself.
+//! wheel's mass) name the entries to blame; then the elimination that a reduction begins with. The last is done as long as it
+//! is quick; beyond, the reduction itself refuses.
 
-use std::f64::consts::TAU;
+use faer::sparse::SparseColMat;
 
-use faer::Side;
-use faer::c64;
-use faer::sparse::linalg::LltError;
-use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
-use faer::sparse::{SparseColMat, Triplet};
-
-use crate::dynamics::sector::{CyclicMatrix, SectorModel};
+use crate::dynamics::reduction::mass::{NegativeMass, ROUND_OFF, check_mass};
+use crate::dynamics::sector::SectorModel;
 use crate::package::error::{MatrixProblem, PackageError};
 
-/// Own DOF above which no factorisation is made here.
-const LARGEST_FACTORISED: usize = 20_000;
-
-/// Smallest eigenvalue accepted of a mass scaled to a unit diagonal: below, it is singular within rounding.
-const SMALLEST_EIGENVALUE: f64 = 1e-12;
+/// Multiplications that an upload may wait for: some seconds.
+const MOST_WORK: f64 = 1e11;
 
 /// Checks `sector.mass`; `rows` and `nodes` name the package row and node id of each own DOF.
 pub(in crate::package) fn check(
@@ -38,7 +31,7 @@ pub(in crate::package) fn check(
     }
     for triplet in sector.mass.own.triplet_iter().filter(|entry| entry.row > entry.col) {
         let (i, j, value) = (triplet.row, triplet.col, *triplet.val);
-        if value.abs() >= diagonal[i].sqrt() * diagonal[j].sqrt() {
+        if value.abs() > (1.0 + ROUND_OFF) * diagonal[i].sqrt() * diagonal[j].sqrt() {
             return wrong(MatrixProblem::MassMinor {
                 node: nodes[i],
                 row: row_number(i),
@@ -48,12 +41,10 @@ pub(in crate::package) fn check(
             });
         }
     }
-    if sector.own_dofs() <= LARGEST_FACTORISED
-        && let Some(nodal_diameter) = first_indefinite(&sector.mass, &diagonal, sector.sectors)
-    {
-        return wrong(MatrixProblem::MassIndefinite { nodal_diameter });
-    }
-    Ok(())
+    check_mass(sector, MOST_WORK).map_err(|NegativeMass { nodal_diameter, dof }| {
+        let (node, row) = (nodes[dof], row_number(dof));
+        PackageError::matrix(file, MatrixProblem::MassNegative { nodal_diameter, node, row })
+    })
 }
 
 fn diagonal(matrix: &SparseColMat<usize, f64>) -> Vec<f64> {
@@ -62,46 +53,4 @@ fn diagonal(matrix: &SparseColMat<usize, f64>) -> Vec<f64> {
         diagonal[entry.row] = *entry.val;
     }
     diagonal
-}
-
-/// The first nodal diameter whose M̂(i) is not positive definite.
-///
-/// Factorises D^{-1/2} M̂ D^{-1/2} less a little identity, so that units and mesh grading do not matter and a singular
-/// matrix does not pass by rounding. Without coupling all harmonics are the same matrix.
-fn first_indefinite(mass: &CyclicMatrix, diagonal: &[f64], sectors: usize) -> Option<usize> {
-    let scale: Vec<f64> = diagonal.iter().map(|value| value.sqrt().recip()).collect();
-    let last = if mass.next.val().is_empty() { 0 } else { sectors / 2 };
-    let mut symbolic = None;
-    (0..=last).find(|&nodal_diameter| {
-        let angle = TAU * nodal_diameter as f64 / sectors as f64;
-        let lower = scaled_harmonic(mass, &scale, c64::cis(angle));
-        // The pattern is the same for all harmonics.
-        let ordered = match symbolic.take() {
-            Some(ordered) => Ok(ordered),
-            None => SymbolicLlt::try_new(lower.symbolic(), Side::Lower),
-        };
-        let factor = ordered.map_err(LltError::from).and_then(|ordered| {
-            symbolic = Some(ordered.clone());
-            Llt::try_new_with_symbolic(ordered, lower.as_ref(), Side::Lower)
-        });
-        factor.is_err()
-    })
-}
-
-/// Lower triangle of S (Y0 + Y1 p + Y1ᵀ p̄) S − ε I, with S = diag(`scale`) and p = `phase`.
-fn scaled_harmonic(mass: &CyclicMatrix, scale: &[f64], phase: c64) -> SparseColMat<usize, c64> {
-    let own = mass.own.triplet_iter().map(|entry| (entry.row, entry.col, c64::new(*entry.val, 0.0)));
-    let next = mass.next.triplet_iter().flat_map(|entry| {
-        let forward = phase * *entry.val;
-        [(entry.row, entry.col, forward), (entry.col, entry.row, forward.conj())]
-    });
-    let lower = own.chain(next).filter(|(row, column, _)| row >= column);
-    let scaled =
-        lower.map(|(row, column, value)| Triplet::new(row, column, value * (scale[row] * scale[column])));
-    let shift = (0..scale.len()).map(|dof| Triplet::new(dof, dof, c64::new(-SMALLEST_EIGENVALUE, 0.0)));
-    let entries: Vec<_> = scaled.chain(shift).collect();
-    match SparseColMat::try_new_from_triplets(scale.len(), scale.len(), &entries) {
-        Ok(matrix) => matrix,
-        Err(_) => unreachable!("rows and columns of a square matrix are in range"),
-    }
 }

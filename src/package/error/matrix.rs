@@ -142,7 +142,7 @@ pub enum MatrixProblem {
         /// Its value.
         value: f64,
     },
-    /// A mass that cannot be positive definite: diagonal.
+    /// A mass that cannot carry modes: diagonal.
     #[error(
         "the mass of the assembled wheel is {value:e} on the diagonal of node {node} (row {row}), not positive; give every \
          DOF mass or condense massless ones out"
@@ -155,9 +155,9 @@ pub enum MatrixProblem {
         /// Assembled diagonal value.
         value: f64,
     },
-    /// A mass that cannot be positive definite: 2 × 2 minor.
+    /// A mass that is negative: 2 × 2 minor.
     #[error(
-        "the mass of the assembled wheel is not positive definite: the entry {value:e} between node {node} (row {row}) \
+        "the mass of the assembled wheel is negative for some motion: the entry {value:e} between node {node} (row {row}) \
          and node {other_node} (row {other_row}) is larger than their diagonals allow"
     )]
     MassMinor {
@@ -172,14 +172,19 @@ pub enum MatrixProblem {
         /// Entry.
         value: f64,
     },
-    /// A mass whose factorisation fails.
+    /// A mass that is negative for some motion.
     #[error(
-        "the mass of the assembled wheel is not positive definite (nodal diameter {nodal_diameter}); is the density \
-         positive everywhere, and is this the mass matrix?"
+        "the mass of the assembled wheel is negative, by more than round-off, for a motion that node {node} (row {row}) \
+         takes part in (nodal diameter {nodal_diameter}): is the density positive everywhere, is this the mass matrix, and \
+         is it written with twelve digits or more?"
     )]
-    MassIndefinite {
-        /// Nodal diameter.
+    MassNegative {
+        /// Nodal diameter of the motion.
         nodal_diameter: usize,
+        /// Id of the node at which elimination found it out.
+        node: u64,
+        /// Its row of the DOF table.
+        row: usize,
     },
     /// Arrays of a `.npz` file.
     #[error(transparent)]
