@@ -286,7 +286,7 @@ fn study(runs: &[Run], chaotic: bool) -> WorkPrecision {
     serde_json::from_value(json!({
         "speeds": [{
             "speed_rad_s": rad_s(24_000.0), "reference": run((20, "exact_modal", 7200, 99.0, Some(0.0), false)),
-            "sensitivity": {"chaotic": chaotic, "last_distance": 0.1},
+            "sensitivity": {"growth": if chaotic { "chaotic" } else { "stable" }, "last_distance": 0.1},
             "message": "what is < to be said",
             "runs": runs.iter().map(|&of| run(of)).collect::<Vec<_>>(), "orders": [],
         }],

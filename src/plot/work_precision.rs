@@ -13,6 +13,7 @@ use crate::analysis::auto_or::AutoOr;
 use crate::analysis::request::SchemeChoice;
 use crate::analysis::result::PointStatus;
 use crate::analysis::run::{Setting, WorkPrecision};
+use crate::response::sensitivity::Growth;
 
 const WIDTH: f64 = 1180.0;
 const HEIGHT: f64 = 800.0;
@@ -126,7 +127,7 @@ struct View<'a> {
 
 impl<'a> View<'a> {
     fn new(study: &'a WorkPrecision, at: &'a SpeedStudy, quantity: Quantity, top: f64) -> Self {
-        let chaotic = at.sensitivity.is_some_and(|sensitivity| sensitivity.chaotic);
+        let chaotic = at.sensitivity.is_some_and(|sensitivity| sensitivity.growth == Growth::Chaotic);
         let bars = chaotic && quantity == Quantity::Amplitude;
         let runs: Vec<Drawn> = at.runs.iter().filter_map(|run| Drawn::of(run, quantity)).collect();
         let mut sizes: Vec<u32> = at.runs.iter().map(|run| run.setting.modes_per_speed).collect();

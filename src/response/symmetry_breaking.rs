@@ -6,7 +6,7 @@
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-use super::growth::{Rate, rate};
+use super::growth::{CLEARLY, Rate, rate};
 
 /// What became of a tiny asymmetry.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
@@ -39,9 +39,6 @@ const ROUND_OFF: f64 = 1e-24;
 
 /// Energies that have grown by this factor have grown.
 const GROWN: f64 = 4.0;
-
-/// A rate this many standard errors above 0 is one.
-const CLEARLY: f64 = 3.0;
 
 /// Judges `energies[revolution][nodal diameter]` from revolution `from` on (when the casing is fully grown) for a scene that
 /// repeats `repeats` times. Where no symmetric response is there to be small against, all revolutions count.

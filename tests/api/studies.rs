@@ -56,7 +56,7 @@ async fn a_study_tells_errors_and_times_of_every_setting() {
         assert_eq!((&reference["scheme"], &reference["modes_per_speed"]), (&json!("exact_modal"), &json!(4)));
         // Samples: at least 512, a multiple of four sectors and two lobes.
         assert_eq!(reference["steps_per_revolution"], 5120);
-        assert!(speed["sensitivity"]["chaotic"].is_boolean() && speed["message"].is_string());
+        assert!(speed["sensitivity"]["growth"].is_string() && speed["message"].is_string());
         for run in runs {
             assert_eq!(run["status"], "completed", "{run}");
             for quantity in ["history", "amplitude", "impulse"] {

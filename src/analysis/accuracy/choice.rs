@@ -140,19 +140,25 @@ impl Climb<'_, '_> {
             if let Some(message) = self.pilots.nothing_completed(&rung) {
                 return refuse(message);
             }
+            // Chaos leaves the level to chance. What beats has a level; a window that is no multiple of the beat shows it higher
+            // or lower, whatever the setting.
+            let mut beats = None;
             if rung.spread > target {
-                return match self.pilots.sensitivity(&rung) {
-                    Ok(words) => refuse(self.too_rough(&rung, target, &words)),
-                    Err(missing) => Next::Run(vec![*missing]),
-                };
+                match self.pilots.sensitivity(&rung) {
+                    Ok(found) if found.chaotic => return refuse(self.too_rough(&rung, target, &found.words)),
+                    Ok(found) => beats = Some(self.known_to(&rung, &found.words)),
+                    Err(missing) => return Next::Run(vec![*missing]),
+                }
             }
             tried.push(rung.clone());
-            if rung.error() <= target {
+            let counted = if beats.is_some() { 0.0 } else { rung.spread };
+            if rung.error_of_setting() + counted <= target {
                 let (estimated, all) = (rung.estimated(), self.pilots.speeds.len());
                 let others = if estimated < all { "; no run was completed at the others" } else { "" };
                 let reason = format!(
                     "the first setting on the way up whose estimated error at {estimated} of {all} pilot speeds is below \
-                     {target}{others}"
+                     {target}{others}{}",
+                    beats.map_or(String::new(), |beats| format!("; {beats}, which is not counted"))
                 );
                 return Next::Take(Box::new(self.choice(&rung, steps, rung.error_of_steps, &tried, reason)));
             }
@@ -302,10 +308,15 @@ impl Climb<'_, '_> {
     fn too_rough(&self, rung: &Rung, target: f64, words: &str) -> String {
         let window = f64::from(self.request.integration.window_revolutions);
         let needed = window * (rung.spread / target).powi(2);
-        let Rung { spread, spread_at, .. } = rung;
+        let known = self.known_to(rung, words);
+        format!("{known}: ask for that, or for a window of some {needed:.0} revolutions")
+    }
+
+    fn known_to(&self, rung: &Rung, words: &str) -> String {
+        let (Rung { spread, spread_at, .. }, window) = (rung, self.request.integration.window_revolutions);
         format!(
             "at {spread_at:.6} rad/s the response {words}; over a window of {window} revolutions its level is known to \
-             {spread:.1e} only, whatever the modes and steps: ask for that, or for a window of some {needed:.0} revolutions"
+             {spread:.1e} only, whatever the modes and steps"
         )
     }
 

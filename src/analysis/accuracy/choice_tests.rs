@@ -8,6 +8,7 @@ use super::choice::{Choice, Next, Resources, next};
 use super::trial::{Cost, Trial, TrialRequest};
 use crate::analysis::auto_or::AutoOr;
 use crate::analysis::request::SweepRequest;
+use crate::response::sensitivity::{Growth, Sensitivity};
 
 /// What a run at (k, S) and a speed shows: its level, or none if it diverges, and whether it repeats.
 type Response<'a> = &'a dyn Fn(f64, f64, f64) -> (Option<f64>, bool);
@@ -29,7 +30,7 @@ fn resources() -> Resources {
 /// Seconds of a step for each mode.
 const STEP_S: f64 = 1e-7;
 
-fn trial(request: &TrialRequest, response: Response) -> Trial {
+fn trial(request: &TrialRequest, response: Response, growth: Growth) -> Trial {
     let speed = request.sweep.speeds.resolve().unwrap()[0];
     let AutoOr::Fixed(steps) = request.sweep.integration.steps_per_revolution else {
         panic!("no fixed step")
@@ -54,7 +55,14 @@ fn trial(request: &TrialRequest, response: Response) -> Trial {
         levels: vec![vec![1.0, 1.1, 0.9, 1.05, 0.95]],
         history: Vec::new(),
         samples_per_revolution: 0,
-        sensitivity: None,
+        sensitivity: request.twin.then_some(Sensitivity {
+            growth,
+            rate_per_revolution: Some(0.125),
+            rate_error: Some(0.002),
+            rate_from_revolution: Some(17),
+            separated_after_revolutions: None,
+            last_distance: 1e-3,
+        }),
         cost: Cost {
             set_up_s: 0.0,
             per_revolution_s: STEP_S * modes * f64::from(steps),
@@ -66,6 +74,16 @@ fn trial(request: &TrialRequest, response: Response) -> Trial {
 
 /// Lets the pilots run until there is a choice or a refusal; with the number of runs.
 fn choose(
+    request: &SweepRequest,
+    resources: &Resources,
+    response: Response,
+) -> (Result<Choice, String>, usize) {
+    choose_of(Growth::Chaotic, request, resources, response)
+}
+
+/// The same where a tiny perturbation of any run behaves like `growth`.
+fn choose_of(
+    growth: Growth,
     request: &SweepRequest,
     resources: &Resources,
     response: Response,
@@ -82,7 +100,7 @@ fn choose(
                 rounds.set(rounds.get() + 1);
                 assert!(!runs.is_empty() && rounds.get() < 100);
                 for run in runs {
-                    let found: &'static Trial = Box::leak(Box::new(trial(&run, response)));
+                    let found: &'static Trial = Box::leak(Box::new(trial(&run, response, growth)));
                     known.borrow_mut().push((run, found));
                 }
             }
@@ -148,17 +166,35 @@ fn little_memory_is_no_accuracy() {
 }
 
 #[test]
-fn a_rough_response_is_refused_at_its_spread_and_no_later() {
+fn a_chaotic_response_is_refused_at_its_spread_and_no_later() {
     let level = |modes: f64, steps: f64, _: f64| (Some(1.0 + 0.02 * (modes * steps).sin()), false);
     let target = |target: f64| request(json!({"accuracy": {"target": target}}));
     // Standard error of the difference of two levels: √2 · 0.0791/√5 = 0.05.
     let (refused, runs) = choose(&target(0.03), &resources(), &level);
     let message = refused.unwrap_err();
-    assert!(message.contains("does not repeat") && message.contains("e-2 only"), "{message}");
+    let said =
+        "is chaotic (a tiny perturbation grows by e^(0.125 ± 0.002) a revolution from revolution 17 on)";
+    assert!(message.contains(said) && message.contains("e-2 only"), "{message}");
     assert!(runs <= 3 * 4 + 1, "{runs}");
     let (choice, runs) = choose(&target(0.06), &resources(), &level);
     assert!((choice.unwrap().spread - 0.05).abs() < 1e-3);
     assert_eq!(runs, 3 * 4, "chance is not refined");
+}
+
+#[test]
+fn what_beats_is_not_refused() {
+    let level = |modes: f64, steps: f64, _: f64| (Some(1.0 + 0.02 * (modes * steps).sin()), false);
+    let request = request(json!({"accuracy": {"target": 0.03}}));
+    for (growth, word) in [
+        (Growth::QuasiPeriodic, "is quasi-periodic"),
+        (Growth::Undecided, "too short to say whether it is chaotic"),
+        (Growth::Stable, "forgets a tiny perturbation"),
+    ] {
+        let choice = choose_of(growth, &request, &resources(), &level).0.unwrap();
+        // Said, and in the estimate.
+        assert!(choice.reason.contains(word) && choice.reason.contains("e-2 only"), "{}", choice.reason);
+        assert!(choice.spread > 0.03 && choice.estimated_error >= choice.spread, "{choice:?}");
+    }
 }
 
 #[test]

@@ -10,6 +10,7 @@ use crate::analysis::request::{SchemeChoice, SweepRequest};
 use crate::analysis::resolve::limits;
 use crate::analysis::result::Verdict;
 use crate::analysis::stepping::{MOST_STEPS, steps_for_contact};
+use crate::response::sensitivity::Growth;
 
 /// The estimate of an error is this many times the difference from a level with twice the modes or steps. Of 24 random scenes
 /// against eight times the modes, and 40 against four times the steps (others than those of `tests/accuracy`), the true error was
@@ -100,8 +101,9 @@ pub(super) struct Rung {
 }
 
 impl Rung {
-    pub(super) fn error(&self) -> f64 {
-        self.error_of_modes + self.error_of_steps + self.spread
+    /// What a finer setting would remove.
+    pub(super) fn error_of_setting(&self) -> f64 {
+        self.error_of_modes + self.error_of_steps
     }
 
     /// Pilot speeds that carry an estimate.
@@ -237,19 +239,30 @@ impl<'a> Pilots<'a, '_> {
         ))
     }
 
-    /// What a tiny perturbation does where the level of the response varies most; or the missing run.
-    pub(super) fn sensitivity(&self, rung: &Rung) -> Result<String, Box<TrialRequest>> {
+    /// What a tiny perturbation says of the response whose level varies most; or the missing run.
+    pub(super) fn sensitivity(&self, rung: &Rung) -> Result<Roughness, Box<TrialRequest>> {
         let setting = self.setting(rung.modes, rung.steps);
         let request = TrialRequest { twin: true, ..TrialRequest::new(self.request, rung.spread_at, setting) };
         let Some(trial) = (self.trial)(&request) else { return Err(Box::new(request)) };
-        Ok(match trial.sensitivity.filter(|sensitivity| sensitivity.chaotic) {
-            Some(sensitivity) => match sensitivity.rate_per_revolution {
-                Some(rate) => format!("is chaotic (a tiny perturbation grows by e^{rate:.2} a revolution)"),
-                None => "is chaotic (a tiny perturbation grows)".to_owned(),
-            },
-            None => "does not repeat".to_owned(),
-        })
+        let growth = trial.sensitivity.map_or(Growth::Undecided, |sensitivity| sensitivity.growth);
+        let what = match growth {
+            Growth::Chaotic => "is chaotic",
+            Growth::QuasiPeriodic => "is quasi-periodic",
+            Growth::Stable => "does not repeat, though it forgets a tiny perturbation",
+            Growth::Undecided => "does not repeat, and the run is too short to say whether it is chaotic",
+        };
+        let rate = trial.sensitivity.and_then(|sensitivity| sensitivity.rate_in_words());
+        let rate = rate.map_or(String::new(), |rate| format!(" (a tiny perturbation grows by {rate})"));
+        Ok(Roughness { chaotic: growth == Growth::Chaotic, words: format!("{what}{rate}") })
     }
+}
+
+/// Why the level of a response varies.
+pub(super) struct Roughness {
+    /// By chance, which no setting removes.
+    pub(super) chaotic: bool,
+    /// What the response is, with the growth rate of a tiny perturbation.
+    pub(super) words: String,
 }
 
 #[cfg(test)]

@@ -12,7 +12,7 @@ use crate::analysis::result::{PointStatus, ReductionReport, Verdict};
 use crate::analysis::run::VERSION;
 use crate::dynamics::sector::Units;
 use crate::numerics::convergence::observed_order;
-use crate::response::sensitivity::Sensitivity;
+use crate::response::sensitivity::{Growth, Sensitivity};
 
 /// Errors of every setting of a study against its reference, and what each costs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
@@ -224,16 +224,8 @@ fn in_words(reference: &Tried, history_revolutions: u32) -> String {
         let why = point.message.as_deref().unwrap_or("its perturbed twin did not end");
         return format!("there is nothing to hold the runs against: {why}");
     };
-    if !sensitivity.chaotic {
-        let peaks = if reference.trial.repeats() {
-            "all quantities can be compared"
-        } else {
-            "its response does not repeat, so that peaks at engine orders are not compared"
-        };
-        return format!("a tiny perturbation of the reference decays or stays small; {peaks}");
-    }
-    let rate = match sensitivity.rate_per_revolution {
-        Some(rate) => format!(" by e^{rate:.2} a revolution"),
+    let rate = match sensitivity.rate_in_words() {
+        Some(rate) => format!(" by {rate}"),
         None => String::new(),
     };
     let apart = match sensitivity.separated_after_revolutions {
@@ -246,10 +238,28 @@ fn in_words(reference: &Tried, history_revolutions: u32) -> String {
         Some(revolution) => format!("; trajectories have separated after {revolution} revolutions"),
         None => String::new(),
     };
-    format!(
-        "chaotic: a tiny perturbation of the reference grows{rate}{apart}. Later on only statistics are compared: amplitudes \
-         with their spread over the window"
-    )
+    let repeats = reference.trial.repeats();
+    match sensitivity.growth {
+        Growth::Chaotic => format!(
+            "chaotic: a tiny perturbation of the reference grows{rate}{apart}. Later on only statistics are compared: \
+             amplitudes with their spread over the window"
+        ),
+        Growth::QuasiPeriodic => format!(
+            "quasi-periodic: a tiny perturbation of the reference neither grows nor decays; its rate is {}. Peaks at engine orders \
+             are not compared",
+            sensitivity.rate_in_words().unwrap_or_default()
+        ),
+        Growth::Stable if repeats => {
+            "a tiny perturbation of the reference decays or stays small; all quantities can be compared".to_owned()
+        }
+        Growth::Stable => "a tiny perturbation of the reference decays; its response does not repeat, so that peaks at engine \
+                           orders are not compared"
+            .to_owned(),
+        Growth::Undecided => format!(
+            "the reference is too short to say whether it is chaotic: a tiny perturbation grows{rate}{apart}{}",
+            if repeats { "" } else { ". Peaks at engine orders are not compared" }
+        ),
+    }
 }
 
 /// Indices of the points (time, error) that no other one is as good as in both and better in one.

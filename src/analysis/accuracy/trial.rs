@@ -245,8 +245,10 @@ pub fn run_trial(
             let twin = simulate(&reduced.wheel, &wheel, sweep, &stepping, Start::Perturbed, &watch);
             if let Ok(Run { outcome: Outcome::Completed(twin), .. }) = twin {
                 let from = sweep.integration.ramp_revolutions.ceil() as usize;
+                let (run, twin) = (&history.displacement, &twin.displacement);
+                let settling = trial.point.settling.as_ref();
                 trial.sensitivity =
-                    Some(sensitivity::judge(&history.displacement, &twin.displacement, samples, from));
+                    settling.map(|settling| sensitivity::judge(run, twin, samples, from, settling.verdict));
             } else if monitor.is_cancelled() {
                 return Err(AnalysisError::Cancelled);
             }
