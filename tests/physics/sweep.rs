@@ -182,7 +182,14 @@ fn lengths_are_held_against_the_wheel() {
         let violations = resolve_sweep(request.clone(), &facts).unwrap_err();
         let pointers: Vec<_> = violations.iter().map(|violation| violation.pointer.as_str()).collect();
         assert_eq!(pointers, [field], "{violations:?}");
-        let older = ModelFacts { contact_radius: None, ..facts.clone() };
+        // As a version kept them that knew neither.
+        let mut older = serde_json::to_value(&facts).unwrap();
+        older
+            .as_object_mut()
+            .unwrap()
+            .retain(|name, _| !["contact_radius", "stiffening"].contains(&name.as_str()));
+        let older: ModelFacts = serde_json::from_value(older).unwrap();
+        assert_eq!((older.contact_radius, &older.stiffening), (None, &None));
         assert_eq!(resolve_sweep(request, &older).is_ok(), of_the_wheel, "{field}");
     }
     // Without contact the response is linear and may be of any size.
