@@ -120,6 +120,7 @@ impl Scene {
             },
             sensors: vec![sensor(0), sensor(last)],
             max_engine_order: 24,
+            peak_prominence: 0.1,
             sweep: SweepDirection::Independent,
             accuracy: None,
             budget: None,

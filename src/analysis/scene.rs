@@ -116,7 +116,7 @@ pub struct Lobes {
     pub count: u32,
     /// Height A of a lobe, in the model's unit of length; at most a tenth of the radius at which the tips lie.
     pub amplitude: f64,
-    /// Half-width w in exp(−(φ/w)²), rad; at most half the distance between lobes, π/`count`.
+    /// Half-width w in exp(−(φ/w)²), rad; at most √2π/`count`, from where there is no valley between two lobes.
     pub width_rad: f64,
     /// Angle of the first lobe from the package's x axis, rad.
     #[serde(default)]

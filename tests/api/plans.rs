@@ -148,7 +148,7 @@ async fn a_plan_refuses_what_a_job_does() {
     assert_eq!(api.finish(&id).await["status"], "successful");
     refused_alike(api, &model, "/integration/steps_per_revolution", |request| {
         request["integration"]["scheme"] = "central_differences".into();
-        request["integration"]["steps_per_revolution"] = 20.into();
+        request["integration"]["steps_per_revolution"] = 40.into();
     })
     .await;
     refused_alike(api, &model, "/integration/kept_modes", |request| {

@@ -120,7 +120,7 @@ async fn what_only_the_reduced_model_can_tell_fails_the_job_with_a_pointer() {
     let model = api.model(model::package(1.0)).await;
     let mut request = sweep_of(&model);
     request["integration"]["scheme"] = "central_differences".into();
-    request["integration"]["steps_per_revolution"] = 20.into();
+    request["integration"]["steps_per_revolution"] = 40.into();
     let id = api.sweep(&request).await;
     let job = api.finish(&id).await;
     assert_eq!(job["status"], "failed", "{job}");

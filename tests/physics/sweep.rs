@@ -166,7 +166,11 @@ fn lengths_are_held_against_the_wheel() {
     let most = [
         ("/scene/casing/clearance/leading", radius, true),
         ("/scene/casing/lobes/amplitude", 0.1 * radius, true),
-        ("/scene/casing/lobes/width_rad", std::f64::consts::PI / 2.0, false),
+        (
+            "/scene/casing/lobes/width_rad",
+            std::f64::consts::SQRT_2 * std::f64::consts::PI / 2.0 * (1.0 - 1e-15),
+            false,
+        ),
         ("/scene/orbit/radius", 0.1 * radius, true),
         ("/scene/initial/amplitude", 0.1 * radius, true),
     ];
@@ -178,9 +182,21 @@ fn lengths_are_held_against_the_wheel() {
         let violations = resolve_sweep(request.clone(), &facts).unwrap_err();
         let pointers: Vec<_> = violations.iter().map(|violation| violation.pointer.as_str()).collect();
         assert_eq!(pointers, [field], "{violations:?}");
-        let older = ModelFacts { contact_radius: None, ..facts.clone() };
+        // As a version kept them that knew neither.
+        let mut older = serde_json::to_value(&facts).unwrap();
+        older
+            .as_object_mut()
+            .unwrap()
+            .retain(|name, _| !["contact_radius", "stiffening"].contains(&name.as_str()));
+        let older: ModelFacts = serde_json::from_value(older).unwrap();
+        assert_eq!((older.contact_radius, &older.stiffening), (None, &None));
         assert_eq!(resolve_sweep(request, &older).is_ok(), of_the_wheel, "{field}");
     }
+    // Without contact the response is linear and may be of any size.
+    let mut free = request(&sector, &[0.5 * TOP_SPEED]);
+    set(&mut free, "/scene/initial/amplitude", radius);
+    free.scene.contact = None;
+    resolve_sweep(free, &facts).unwrap();
 }
 
 /// A step that is wider than a lobe would pass it by, with numbers that look fine: refused when given, avoided when

@@ -3,7 +3,7 @@
 mod contact_effects;
 mod effects;
 
-use std::f64::consts::PI;
+use std::f64::consts::TAU;
 
 use crate::analysis::auto_or::AutoOr;
 use crate::analysis::discretisation::most_samples;
@@ -43,6 +43,8 @@ pub(super) mod limits {
     /// Lengths and stresses other than 0, in any unit: far from where squares overflow or motion counts as decayed to nothing.
     pub(super) const LENGTH: std::ops::RangeInclusive<f64> = 1e-30..=1e30;
     pub(super) const LEAST_LOBE_WIDTH_RAD: f64 = 1e-4;
+    /// Two equal Gaussians exp(−(φ/w)²) have a valley between them up to this ratio of w to their distance.
+    pub(super) const LOBE_WIDTH_OVER_DISTANCE: f64 = std::f64::consts::FRAC_1_SQRT_2;
     pub(super) const PHASE_RAD: f64 = 1000.0;
     pub(super) const CASING_WAVES: u32 = 50;
     pub(super) const SPREAD: f64 = 0.1;
@@ -341,13 +343,15 @@ fn check_casing(found: &mut Findings, casing: &Casing, facts: &ModelFacts) {
             format!("a lobe's height is 0 or a length {}", between(&limits::LENGTH)),
         );
         check_reach(found, lobes.amplitude, "/scene/casing/lobes/amplitude", facts);
-        let (count, least) = (lobes.count.max(1), limits::LEAST_LOBE_WIDTH_RAD);
+        let least = limits::LEAST_LOBE_WIDTH_RAD;
+        let most = limits::LOBE_WIDTH_OVER_DISTANCE * TAU / f64::from(lobes.count.max(1));
         found.require(
-            (least..=PI / f64::from(count)).contains(&lobes.width_rad),
+            (least..=most).contains(&lobes.width_rad),
             "/scene/casing/lobes/width_rad",
             format!(
-                "the half-width of a lobe is at least {least} rad and at most half the distance between {count} lobes, π/{count} rad: \
-                 wider ones run into a casing that is narrower all around"
+                "the half-width of a lobe is at least {least} rad and of {} lobes at most {most:.6} rad: between wider ones there is no \
+                 valley",
+                lobes.count
             ),
         );
         found.require(
