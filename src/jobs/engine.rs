@@ -13,6 +13,7 @@ use super::pool::CpuPool;
 use super::progress::{News, Watch};
 use super::reductions::Reductions;
 use super::room::once_there_is_room;
+use super::work::Counters;
 use crate::store::Store;
 use crate::store::jobs::{Chosen, Failure, FailureCause, Job, JobId, JobRequest};
 use crate::store::queue::QueueFile;
@@ -32,6 +33,7 @@ pub(super) struct Engine {
     pub(super) calibrated: Calibrated,
     /// What reductions and generations may take together.
     pub(super) memory: Arc<Memory>,
+    pub(super) counters: Counters,
     /// Rung when there is something new to prepare.
     pub(super) new_preparation: Arc<Notify>,
     /// Rung when there are new speeds to run.
@@ -90,6 +92,7 @@ impl Engine {
             pool,
             importer,
             planner,
+            counters: Counters::default(),
             new_preparation: Arc::default(),
             new_speeds: Arc::default(),
             stopping: Arc::default(),

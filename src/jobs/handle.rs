@@ -20,7 +20,7 @@ use crate::store::status::JobStatus;
 /// A handle on the job runner.
 #[derive(Debug, Clone)]
 pub struct Jobs {
-    engine: Arc<Engine>,
+    pub(super) engine: Arc<Engine>,
 }
 
 /// Why a job was not accepted.

@@ -47,6 +47,12 @@ impl Memory {
         Self { bytes, shares: Semaphore::new(SHARES as usize), turn: Mutex::default() }
     }
 
+    /// What is claimed now, in bytes; 0 without a limit.
+    pub(super) fn claimed_bytes(&self) -> u64 {
+        let free = self.shares.available_permits() as u64;
+        self.bytes.unwrap_or(0) / u64::from(SHARES) * u64::from(SHARES).saturating_sub(free)
+    }
+
     /// Claims what a sector of `dofs` DOF should need, as soon as that is free.
     pub(super) async fn claim(&self, dofs: u64) -> Allowance<'_> {
         if dofs <= SMALL_DOFS { self.take(1, None).await } else { self.claim_most().await }

@@ -37,8 +37,10 @@ mod room;
 mod speed;
 mod study;
 mod trials;
+mod work;
 mod workers;
 
 pub use handle::{Cancellation, Jobs, SubmitError, generation_of};
 pub use pool::Panicked;
+pub use work::{QUEUES, Work};
 pub use workers::{Runner, Settings};

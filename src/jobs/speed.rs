@@ -26,11 +26,15 @@ pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) 
     };
     let (settings, monitor) = (request.clone(), SpeedMonitor::new(job.watch.clone(), speed));
     let compute = move || run::run_speed(&reduced, &settings, speed as usize, start.as_ref(), &monitor);
-    let result = engine.pool.run(compute).await??;
+    let result = {
+        let _running = engine.counters.speed_begins();
+        engine.pool.run(compute).await??
+    };
 
     let finished = once_there_is_room(&job.watch, || engine.store.insert_speed(id, &result)).await?;
     job.watch.speeds_finished(finished, Some(speed));
     let point = &result.point;
+    engine.counters.speed_finished(point.steps);
     tracing::info!(
         job.id = %id, speed, speed_rad_s = point.speed_rad_s, status = ?point.status,
         steps = point.steps, wall_time_s = point.wall_time_s,

@@ -75,12 +75,12 @@ impl Runner {
         }
         let stop = CancellationToken::new();
         let workers = vec![
-            tokio::spawn(supervise("prepare", stop.clone(), {
+            tokio::spawn(supervise("prepare", Arc::clone(&engine), stop.clone(), {
                 let (engine, stop) = (Arc::clone(&engine), stop.clone());
                 let concurrency = settings.workers + WAITING_PREPARATIONS;
                 move |name| preparations(name, Arc::clone(&engine), concurrency, stop.clone())
             })),
-            tokio::spawn(supervise("speeds", stop.clone(), {
+            tokio::spawn(supervise("speeds", Arc::clone(&engine), stop.clone(), {
                 let (engine, stop) = (Arc::clone(&engine), stop.clone());
                 move |name| speeds(name, Arc::clone(&engine), settings.workers, stop.clone())
             })),
@@ -161,12 +161,14 @@ async fn stopped(stop: CancellationToken) -> Result<(), WorkerError> {
 
 /// Keeps a worker of `queue` going: one that its backend lets down is replaced, under a name not used before, because
 /// `apalis` refuses a name that was seen alive a moment ago.
-async fn supervise<F>(queue: &'static str, stop: CancellationToken, worker: F)
+async fn supervise<F>(queue: &'static str, engine: Arc<Engine>, stop: CancellationToken, worker: F)
 where
     F: Fn(String) -> BoxFuture<'static, Result<(), WorkerError>>,
 {
     for generation in 0.. {
+        engine.counters.workers.fetch_add(1, Ordering::Relaxed);
         let ended = worker(format!("{queue}-{generation}")).await;
+        engine.counters.workers.fetch_sub(1, Ordering::Relaxed);
         if stop.is_cancelled() {
             break;
         }

@@ -21,6 +21,9 @@ pub enum StoreError {
     /// A stored array does not read back.
     #[error("stored numbers: {0}")]
     Numbers(#[from] postcard::Error),
+    /// What one connection wrote, another does not see.
+    #[error("what was written is not there for other connections")]
+    NotSeen,
     /// A column holds a value this program does not know.
     #[error("column {column} holds {value:?}, which this version of the program does not know")]
     Unknown {

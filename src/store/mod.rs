@@ -12,6 +12,7 @@ pub mod idempotency;
 pub mod jobs;
 pub mod models;
 pub mod queue;
+mod readiness;
 pub mod reductions;
 pub mod results;
 pub mod status;
@@ -26,6 +27,7 @@ use sqlx::sqlite::{
 };
 
 pub use error::StoreError;
+pub use readiness::Backlog;
 
 /// Connections for readers; more than the requests a database on one disk serves well at once.
 const READERS: u32 = 8;

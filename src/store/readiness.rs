@@ -1,0 +1,83 @@
+//! Whether what is written can be read, how much room there is, and how much work is waiting.
+
+use super::{Store, StoreError};
+
+/// Work that is waiting.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Backlog {
+    /// Jobs that wait for their turn.
+    pub jobs_accepted: u64,
+    /// Jobs under way.
+    pub jobs_running: u64,
+    /// Speeds of the sweeps among these that are not finished.
+    pub speeds_unfinished: u64,
+}
+
+impl Store {
+    /// Writes a row as every other is written, and reads it back as every other is read: through another connection, which sees
+    /// only what is committed.
+    pub async fn probe(&self) -> Result<(), StoreError> {
+        let written = uuid::Uuid::now_v7().to_string();
+        sqlx::query("insert or replace into readiness (id, mark) values (1, ?)")
+            .bind(&written)
+            .execute(&self.writer)
+            .await?;
+        let read: Option<String> = sqlx::query_scalar("select mark from readiness where id = 1")
+            .fetch_optional(&self.readers)
+            .await?;
+        if read.as_ref() == Some(&written) { Ok(()) } else { Err(StoreError::NotSeen) }
+    }
+
+    /// Room on the disk of the data folder for this process, in bytes.
+    pub fn free_bytes(&self) -> Result<u64, StoreError> {
+        let disk = rustix::fs::statvfs(&self.folder).map_err(std::io::Error::from)?;
+        Ok(disk.f_bavail.saturating_mul(disk.f_frsize))
+    }
+
+    /// Work that is waiting.
+    pub async fn backlog(&self) -> Result<Backlog, StoreError> {
+        let (jobs_accepted, jobs_running, speeds_unfinished) = sqlx::query_as::<_, (i64, i64, i64)>(
+            "select count(*) filter (where status = 'accepted'), count(*) filter (where status = 'running'),
+                 coalesce(sum(speeds - (select count(*) from speed_results where job = jobs.id))
+                     filter (where kind = 'sweep'), 0)
+             from jobs where status in ('accepted', 'running')",
+        )
+        .fetch_one(&self.readers)
+        .await?;
+        // Counts.
+        Ok(Backlog {
+            jobs_accepted: jobs_accepted.cast_unsigned(),
+            jobs_running: jobs_running.cast_unsigned(),
+            speeds_unfinished: speeds_unfinished.cast_unsigned(),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[tokio::test]
+    async fn a_write_that_others_do_not_see_is_none() {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::open(folder.path()).await.unwrap();
+        store.probe().await.unwrap();
+        store.probe().await.unwrap();
+        // What a failed commit may leave behind: a writer within a transaction that nobody ends.
+        sqlx::query("begin").execute(&store.writer).await.unwrap();
+        let unseen = store.probe().await.unwrap_err();
+        assert!(matches!(unseen, StoreError::NotSeen), "{unseen}");
+        sqlx::query("commit").execute(&store.writer).await.unwrap();
+        store.probe().await.unwrap();
+    }
+
+    #[tokio::test]
+    async fn there_is_room_in_a_folder_and_none_in_none() {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::open(folder.path()).await.unwrap();
+        assert!(store.free_bytes().unwrap() > 0);
+        store.close().await;
+        drop(folder);
+        assert!(store.free_bytes().is_err());
+    }
+}
