@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, bail};
 use reqwest::Client;
 use rubmap::app::App;
-use rubmap::config::Config;
+use rubmap::config::{Config, TransportConfig};
 use rubmap::impeller::{ImpellerParameters, PaperCasing, generate};
 use serde_json::{Value, json};
 use tokio_util::sync::CancellationToken;
@@ -35,6 +35,7 @@ async fn keep(seconds: f64) -> anyhow::Result<()> {
         upload_bytes: 1 << 30,
         expanded_bytes: None,
         memory_bytes: None,
+        transport: TransportConfig::default(),
     };
     let app = App::build(config).await?;
     let (base, stop) = (format!("http://{}", app.addr()), CancellationToken::new());
@@ -68,7 +69,7 @@ async fn keep(seconds: f64) -> anyhow::Result<()> {
         map["errors"]["largest"].as_f64().unwrap_or(f64::NAN),
     );
     stop.cancel();
-    service.await??;
+    service.await?;
     Ok(())
 }
 

@@ -4,18 +4,16 @@ use std::fs::{File, TryLockError};
 use std::net::SocketAddr;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::Duration;
 
 use tokio::net::TcpListener;
 use tokio_util::sync::CancellationToken;
 
 use crate::config::Config;
-use crate::http::{self, AppState};
+use crate::http::server::{self, descriptors};
+use crate::http::{self, AppState, Transport};
 use crate::jobs::{Runner, Settings};
 use crate::store::{Store, StoreError};
-
-/// How long requests may take to end once the service is told to stop.
-const LAST_REQUESTS: Duration = Duration::from_secs(5);
+use crate::version;
 
 /// The service, bound to its address, with its workers running.
 #[derive(Debug)]
@@ -57,6 +55,16 @@ pub enum StartError {
         /// Why.
         source: std::io::Error,
     },
+    /// There are too few open files to serve anybody.
+    #[error(
+        "the system allows this process {limit} open files, of which storage and computations need {}; raise the limit, \
+         for example with `ulimit -n 1024`",
+        descriptors::RESERVE
+    )]
+    OpenFiles {
+        /// The limit.
+        limit: u64,
+    },
     /// The contract does not serialise: a defect.
     #[error("the OpenAPI document: {0}")]
     Contract(#[from] serde_json::Error),
@@ -65,6 +73,9 @@ pub enum StartError {
 impl App {
     /// Opens the data folder, binds the address and resumes unfinished jobs.
     pub async fn build(config: Config) -> Result<Self, StartError> {
+        let limit = descriptors::raise_limit();
+        let connections = descriptors::connections(config.transport.connections, limit)
+            .ok_or(StartError::OpenFiles { limit: limit.unwrap_or_default() })?;
         let lock = lock(&config.data)?;
         let store = Store::open(&config.data).await?;
         store.remove_leftovers().await;
@@ -76,7 +87,7 @@ impl App {
         let settings = Settings { data: config.data.clone(), workers: config.worker_threads(), memory_bytes };
         tracing::info!(
             %addr, data = %config.data.display(), workers = settings.workers, memory_bytes,
-            expanded_bytes = package_limits.expanded_bytes, "starting"
+            expanded_bytes = package_limits.expanded_bytes, connections, commit = version::COMMIT, "starting"
         );
         let runner = Runner::start(store.clone(), settings).await?;
         let state = AppState {
@@ -85,6 +96,7 @@ impl App {
             upload_bytes: config.upload_bytes,
             package_limits,
             memory_bytes,
+            transport: Arc::new(Transport::new(config.transport, addr.ip(), connections)),
             openapi: Arc::from(http::document().to_json()?),
         };
         Ok(Self { listener, addr, state, store, runner, _lock: lock })
@@ -97,24 +109,14 @@ impl App {
 
     /// Serves until `stop`; then ends requests, interrupts computations, which resume at the next start, and closes
     /// the data folder.
-    pub async fn run_until_stopped(self, stop: CancellationToken) -> std::io::Result<()> {
+    pub async fn run_until_stopped(self, stop: CancellationToken) {
         let Self { listener, state, store, runner, _lock, .. } = self;
-        let server = axum::serve(listener, http::router(state))
-            .with_graceful_shutdown(stop.clone().cancelled_owned())
-            .into_future();
-        let overdue = async {
-            stop.cancelled().await;
-            tokio::time::sleep(LAST_REQUESTS).await;
-        };
-        let served = tokio::select! {
-            served = server => served,
-            () = overdue => Ok(()),
-        };
+        let transport = Arc::clone(&state.transport);
+        server::serve(listener, http::router(state), &transport.limits, &transport.connections, stop).await;
         tracing::info!("stopping");
         runner.stop().await;
         store.close().await;
         tracing::info!("stopped");
-        served
     }
 }
 

@@ -1,6 +1,7 @@
 //! Settings of the service, from the command line or the environment.
 
 mod memory;
+mod transport;
 
 use std::net::SocketAddr;
 use std::path::PathBuf;
@@ -8,6 +9,8 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::package::Limits;
+
+pub use transport::TransportConfig;
 
 /// Settings of the service.
 #[derive(Debug, Clone, Args)]
@@ -35,6 +38,10 @@ pub struct Config {
     /// Memory that reductions and generations may take, in bytes [default: three quarters of what the machine or container leaves].
     #[arg(long, env = "RUBMAP_MEMORY_BYTES", value_parser = clap::value_parser!(u64).range(1 << 20..))]
     pub memory_bytes: Option<u64>,
+
+    /// How the service meets its clients.
+    #[command(flatten)]
+    pub transport: TransportConfig,
 }
 
 impl Config {

@@ -18,7 +18,7 @@ pub(super) fn run(config: Config) -> anyhow::Result<()> {
             told.cancel();
         });
         tracing::info!("listening on http://{}", app.addr());
-        app.run_until_stopped(stop).await?;
+        app.run_until_stopped(stop).await;
         Ok(())
     })
 }

@@ -1,12 +1,26 @@
 //! Whether the service lives, and whether it can work.
 
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
 use axum::Json;
 use axum::extract::State;
 use serde::Serialize;
+use tokio::sync::Mutex;
+use tokio::time::timeout;
 use utoipa::ToSchema;
 
 use super::AppState;
-use super::problem::{Kind, Problem};
+use super::problem::{Kind, Problem, ProblemItem};
+use super::server::descriptors;
+use crate::jobs::QUEUES;
+use crate::store::{Store, StoreError};
+
+/// How long is waited for the database and the disk.
+pub(super) const PATIENCE: Duration = Duration::from_secs(2);
+
+/// How long a look at the database counts: each is a write and a flush, and anybody may ask.
+const COUNTS: Duration = Duration::from_secs(1);
 
 /// A sign of life.
 #[derive(Debug, Serialize, ToSchema)]
@@ -21,9 +35,34 @@ pub(super) struct Health {
     memory_bytes: Option<u64>,
 }
 
+/// What was looked at to tell whether the service can work.
+#[derive(Debug, Serialize, ToSchema)]
+pub(super) struct Readiness {
+    #[serde(flatten)]
+    health: Health,
+    /// All that is needed to work.
+    checks: Vec<Check>,
+}
+
+/// One thing that is needed to work.
+#[derive(Debug, Serialize, ToSchema)]
+pub(super) struct Check {
+    /// `database`, `disk`, `files` or `workers`.
+    #[schema(example = "disk")]
+    name: &'static str,
+    #[serde(skip)]
+    fine: bool,
+    /// What was found.
+    #[schema(example = "7516192768 bytes are free, at least 67108864 are wanted")]
+    detail: String,
+    /// The figure, where there is one: seconds, bytes, files or queues.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    value: Option<f64>,
+}
+
 impl Health {
     fn of(state: &AppState) -> Self {
-        Self { status: "ok", version: env!("CARGO_PKG_VERSION"), memory_bytes: state.memory_bytes }
+        Self { status: "ok", version: crate::version::VERSION, memory_bytes: state.memory_bytes }
     }
 }
 
@@ -35,16 +74,129 @@ pub(super) async fn get_health(state: State<AppState>) -> Json<Health> {
 }
 
 /// Tell whether the service can work.
+///
+/// A row is written to the database and read back, the disk has room, the process has files left, and the queues are being
+/// worked on.
 #[utoipa::path(get, path = "/readyz", operation_id = "get_readiness", tag = "service",
     responses(
-        (status = 200, description = "The database answers.", body = Health),
-        (status = 503, description = "The database does not answer.", body = Problem,
+        (status = 200, description = "It can.", body = Readiness),
+        (status = 503, description = "It cannot: `errors` has every check that failed.", body = Problem,
             content_type = "application/problem+json"),
     ))]
-pub(super) async fn get_readiness(state: State<AppState>) -> Result<Json<Health>, Problem> {
-    state.store.ping().await.map_err(|error| {
-        tracing::error!(%error, "not ready");
-        Problem::new(Kind::Unavailable, "the database does not answer")
-    })?;
-    Ok(Json(Health::of(&state)))
+pub(super) async fn get_readiness(state: State<AppState>) -> Result<Json<Readiness>, Problem> {
+    let checks = vec![database(&state).await, disk(&state).await, files(), workers(&state)];
+    if checks.iter().all(|check| check.fine) {
+        return Ok(Json(Readiness { health: Health::of(&state), checks }));
+    }
+    let failed: Vec<_> = checks.into_iter().filter(|check| !check.fine).map(Check::into_words).collect();
+    tracing::error!(failed = failed.join("; "), "not ready");
+    let mut problem = Problem::new(Kind::Unavailable, failed.join("; "));
+    problem.errors =
+        failed.into_iter().map(|detail| ProblemItem { detail, ..ProblemItem::default() }).collect();
+    Err(problem)
+}
+
+impl Check {
+    fn new(name: &'static str, fine: bool, detail: impl Into<String>, value: Option<f64>) -> Self {
+        Self { name, fine, detail: detail.into(), value }
+    }
+
+    fn into_words(self) -> String {
+        format!("{}: {}", self.name, self.detail)
+    }
+}
+
+/// The latest look at the database. Locked while somebody looks.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Probed(Arc<Mutex<Option<Look>>>);
+
+/// One look at the database.
+#[derive(Debug)]
+struct Look {
+    ended: Instant,
+    /// How long it took, or what went wrong.
+    outcome: Result<Duration, String>,
+}
+
+impl Look {
+    async fn at(store: &Store) -> Self {
+        let begin = Instant::now();
+        let outcome = store.probe().await.map_err(|error| error.to_string());
+        Self { ended: Instant::now(), outcome: outcome.map(|()| begin.elapsed()) }
+    }
+}
+
+impl Probed {
+    /// Looks, unless somebody just did. In a task of its own: a write that nobody waits for any more still comes to its end.
+    async fn look(&self, store: &Store) -> Result<Duration, String> {
+        let (latest, store) = (Arc::clone(&self.0), store.clone());
+        let looking = async {
+            let mut latest = latest.lock_owned().await;
+            let look = tokio::spawn(async move {
+                let recent = latest.take().filter(|look| look.ended.elapsed() < COUNTS);
+                let look = match recent {
+                    Some(look) => look,
+                    None => Look::at(&store).await,
+                };
+                latest.insert(look).outcome.clone()
+            });
+            look.await.map_err(|error| error.to_string())?
+        };
+        let late = |_| format!("no row could be written and read back within {} s", PATIENCE.as_secs());
+        timeout(PATIENCE, looking).await.map_err(late)?
+    }
+}
+
+async fn database(state: &AppState) -> Check {
+    match state.transport.probed.look(&state.store).await {
+        Ok(took) => {
+            let seconds = took.as_secs_f64();
+            Check::new("database", true, "a row was written and read back", Some(seconds))
+        }
+        Err(detail) => Check::new("database", false, detail, None),
+    }
+}
+
+/// Room on the disk of the data folder.
+pub(super) async fn free_bytes(state: &AppState) -> Result<u64, String> {
+    let store = state.store.clone();
+    let asked = tokio::task::spawn_blocking(move || store.free_bytes());
+    let late = |_| format!("the disk did not answer within {} s", PATIENCE.as_secs());
+    let answered: Result<u64, StoreError> =
+        timeout(PATIENCE, asked).await.map_err(late)?.map_err(|error| error.to_string())?;
+    answered.map_err(|error| error.to_string())
+}
+
+async fn disk(state: &AppState) -> Check {
+    let wanted = state.transport.min_free_bytes;
+    match free_bytes(state).await {
+        Ok(free) => {
+            let detail = format!("{free} bytes are free, at least {wanted} are wanted");
+            Check::new("disk", free >= wanted, detail, Some(free as f64))
+        }
+        Err(detail) => Check::new("disk", false, detail, None),
+    }
+}
+
+fn files() -> Check {
+    let Some(limit) = descriptors::limit() else {
+        return Check::new("files", true, "the system sets no limit of open files", None);
+    };
+    match descriptors::open() {
+        Some(open) => {
+            let free = limit.saturating_sub(open);
+            let wanted = descriptors::RESERVE / 4;
+            let detail = format!("{open} of {limit} files are open, at least {wanted} shall be left");
+            Check::new("files", free >= wanted, detail, Some(free as f64))
+        }
+        None => {
+            Check::new("files", false, "open files cannot be counted, perhaps because none is left", None)
+        }
+    }
+}
+
+fn workers(state: &AppState) -> Check {
+    let workers = state.jobs.work().workers;
+    let detail = format!("{workers} of {QUEUES} queues are being worked on");
+    Check::new("workers", workers == QUEUES, detail, Some(f64::from(workers)))
 }

@@ -1,10 +1,14 @@
 //! The service as the world sees it. The only place that knows status codes; it computes nothing.
 
+mod access;
+mod body;
 mod extract;
 mod health;
+mod host;
 mod idempotency;
 mod job_body;
 mod jobs;
+mod metrics;
 mod modal_analyses;
 mod models;
 mod openapi;
@@ -12,9 +16,12 @@ mod page;
 pub mod problem;
 mod results;
 mod router;
+pub mod server;
 mod studies;
 mod submit;
 mod sweeps;
+mod transport;
+mod version;
 
 use std::sync::Arc;
 
@@ -24,6 +31,7 @@ use crate::store::Store;
 
 pub use openapi::document;
 pub use router::router;
+pub use transport::Transport;
 
 /// What handlers work with.
 #[derive(Debug, Clone)]
@@ -38,6 +46,8 @@ pub struct AppState {
     pub package_limits: package::Limits,
     /// Memory that reductions may take together; `None` where nothing is known about it.
     pub memory_bytes: Option<u64>,
+    /// What connections and requests are subject to and counted by.
+    pub transport: Arc<Transport>,
     /// The contract, as JSON.
     pub openapi: Arc<str>,
 }

@@ -1,7 +1,5 @@
 //! Models: upload, list, read, delete.
 
-use std::time::Duration;
-
 use axum::Json;
 use axum::body::Body;
 use axum::extract::{FromRequest, Path, Request, State};
@@ -10,7 +8,6 @@ use axum::response::Response;
 use futures::StreamExt;
 use serde::{Deserialize, Serialize};
 use tokio::io::{AsyncWriteExt, BufWriter};
-use tokio::time::timeout;
 use utoipa::{IntoParams, ToSchema};
 
 use super::AppState;
@@ -30,9 +27,6 @@ const JSON: &str = "application/json";
 
 /// Bytes of an upload that are written at once.
 const PIECE: usize = 1 << 20;
-
-/// Longest pause within an upload, after which its file is given up.
-const STALLED: Duration = Duration::from_secs(120);
 
 /// A model.
 #[derive(Debug, Serialize, ToSchema)]
@@ -201,11 +195,7 @@ async fn receive(
     let mut file = BufWriter::with_capacity(PIECE, tokio::fs::File::from_std(file));
     let mut received = 0;
     let mut pieces = body.into_data_stream();
-    let stalled = |_| {
-        let detail = format!("nothing of the upload came for {} s; send it again", STALLED.as_secs());
-        Problem::new(Kind::UploadStalled, detail)
-    };
-    while let Some(piece) = timeout(STALLED, pieces.next()).await.map_err(stalled)? {
+    while let Some(piece) = pieces.next().await {
         let piece = piece
             .map_err(|error| Problem::new(Kind::BadRequest, format!("the upload broke off: {error}")))?;
         received += piece.len() as u64;

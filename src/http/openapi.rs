@@ -19,7 +19,10 @@ use super::router::routes;
             Every error is a problem (RFC 9457) whose `errors` point at the offending fields. Timestamps are RFC 3339 \
             in UTC. Lengths, forces, times and masses are in the units of the model's package.\n\n\
             A POST may carry an `Idempotency-Key`: for seven days, repeating it with the same body repeats the first \
-            answer, and using the key for another request is refused with 422.",
+            answer, and using the key for another request is refused with 422.\n\n\
+            Whatever the path, a request is refused with 400 if it does not name exactly one `Host`, with 421 if that is none of \
+            the service's, and with 408 if its body stops coming. Every answer has an `X-Request-Id`, which is the client's \
+            own if it sent one of 1 to 64 visible ASCII characters, and under which the service's log has the request.",
     ),
     tags(
         (name = "models", description = "Impeller sectors."),

@@ -101,7 +101,9 @@ kinds! {
     /// The result will never come.
     ResultUnavailable = CONFLICT, "result-unavailable", "The job ended without this result";
     /// The client stopped sending.
-    UploadStalled = REQUEST_TIMEOUT, "upload-stalled", "The upload stopped coming";
+    UploadStalled = REQUEST_TIMEOUT, "upload-stalled", "The body stopped coming";
+    /// The request is meant for another host.
+    Misdirected = MISDIRECTED_REQUEST, "misdirected-request", "The request is meant for another host";
     /// The body is larger than allowed.
     PayloadTooLarge = PAYLOAD_TOO_LARGE, "payload-too-large", "The body is too large";
     /// The body is of the wrong type.

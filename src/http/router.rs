@@ -1,17 +1,21 @@
 //! All routes.
 
 use axum::Router;
-use axum::http::StatusCode;
+use axum::http::{HeaderName, HeaderValue, Method, StatusCode, header};
 use axum::middleware;
 use tower::ServiceBuilder;
 use tower_http::catch_panic::CatchPanicLayer;
 use tower_http::compression::CompressionLayer;
-use tower_http::trace::TraceLayer;
+use tower_http::cors::{AllowOrigin, CorsLayer};
+use tower_http::set_header::SetResponseHeaderLayer;
 use utoipa::OpenApi;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
-use super::{AppState, health, jobs, modal_analyses, models, openapi, problem, results, studies, sweeps};
+use super::{
+    AppState, access, body, health, host, jobs, metrics, modal_analyses, models, openapi, problem, results,
+    studies, sweeps, version,
+};
 
 /// The routes with their descriptions.
 pub(super) fn routes() -> OpenApiRouter<AppState> {
@@ -34,17 +38,41 @@ pub(super) fn routes() -> OpenApiRouter<AppState> {
         .routes(routes!(studies::get_histories))
         .routes(routes!(health::get_health))
         .routes(routes!(health::get_readiness))
+        .routes(routes!(metrics::get_metrics))
+        .routes(routes!(version::get_version))
         .routes(routes!(openapi::get_openapi))
 }
 
-/// The service.
+/// The service. From outside to inside: what holds for every answer, what may refuse a request before its route sees it, and the
+/// routes.
 pub fn router(state: AppState) -> Router {
+    let sniffing = SetResponseHeaderLayer::overriding(
+        header::X_CONTENT_TYPE_OPTIONS,
+        HeaderValue::from_static("nosniff"),
+    );
     let layers = ServiceBuilder::new()
-        .layer(TraceLayer::new_for_http())
+        .layer(middleware::from_fn_with_state(state.clone(), access::follow))
+        .layer(sniffing)
         .layer(CompressionLayer::new())
+        // Turns the bare statuses of axum's own fallbacks into problems, too.
         .layer(middleware::from_fn(problem::complete))
-        .layer(CatchPanicLayer::custom(problem::panicked));
+        .layer(CatchPanicLayer::custom(problem::panicked))
+        .layer(middleware::from_fn_with_state(state.clone(), host::check))
+        // Answers what browsers ask in advance, which carries no credentials.
+        .option_layer(cors(&state.transport.cors_origins))
+        // Who asks, and what they may do, belongs here.
+        .layer(middleware::from_fn_with_state(state.clone(), body::keep_coming));
     let (router, _) = routes().split_for_parts();
-    // `complete` turns the bare statuses of axum's own fallbacks into problems.
     router.fallback(|| async { StatusCode::NOT_FOUND }).layer(layers).with_state(state)
+}
+
+/// What pages from `origins`, if there are any, may do: all that other clients may.
+fn cors(origins: &[HeaderValue]) -> Option<CorsLayer> {
+    let idempotency_key = HeaderName::from_static("idempotency-key");
+    let layer = CorsLayer::new()
+        .allow_origin(AllowOrigin::list(origins.iter().cloned()))
+        .allow_methods([Method::GET, Method::POST, Method::DELETE])
+        .allow_headers([header::AUTHORIZATION, header::CONTENT_TYPE, idempotency_key, access::REQUEST_ID])
+        .expose_headers([header::LOCATION, header::RETRY_AFTER, access::REQUEST_ID]);
+    (!origins.is_empty()).then_some(layer)
 }

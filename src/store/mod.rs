@@ -60,12 +60,6 @@ impl Store {
         Ok(Self { folder: folder.to_owned(), readers, writer, packages: Arc::default() })
     }
 
-    /// Whether the database answers.
-    pub async fn ping(&self) -> Result<(), StoreError> {
-        sqlx::query("select 1").execute(&self.readers).await?;
-        Ok(())
-    }
-
     /// Removes what an earlier service left behind and nobody will use. For a service that starts: what is being
     /// written now looks the same. What cannot be removed does no harm.
     pub async fn remove_leftovers(&self) {

@@ -5,20 +5,20 @@ use std::time::{Duration, Instant};
 
 use reqwest::{Client, Response, StatusCode};
 use rubmap::app::App;
-use rubmap::config::Config;
+use rubmap::config::{Config, TransportConfig};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 use tokio::task::JoinHandle;
 use tokio_util::sync::CancellationToken;
 
 /// Longer than anything here takes on a loaded machine.
-const PATIENCE: Duration = Duration::from_secs(120);
+pub(crate) const PATIENCE: Duration = Duration::from_secs(120);
 
 /// A running service.
 pub(crate) struct TestApp {
     pub(crate) api: Api,
     stop: CancellationToken,
-    service: JoinHandle<std::io::Result<()>>,
+    service: JoinHandle<()>,
     data: PathBuf,
     /// Removed with the app that made it.
     _folder: Option<TempDir>,
@@ -53,7 +53,7 @@ impl TestApp {
 
     pub(crate) async fn stop(self) {
         self.stop.cancel();
-        self.service.await.unwrap().unwrap();
+        self.service.await.unwrap();
     }
 
     pub(crate) fn data(&self) -> &Path {
@@ -69,6 +69,7 @@ pub(crate) fn config(data: &Path) -> Config {
         upload_bytes: 1 << 20,
         expanded_bytes: None,
         memory_bytes: None,
+        transport: TransportConfig::default(),
     }
 }
 
@@ -82,6 +83,10 @@ pub(crate) struct Api {
 impl Api {
     pub(crate) fn new(base: &str) -> Self {
         Self { base: base.to_owned(), client: Client::new() }
+    }
+
+    pub(crate) fn base(&self) -> &str {
+        &self.base
     }
 
     pub(crate) fn request(&self, method: &str, path: &str) -> reqwest::RequestBuilder {

@@ -28,7 +28,12 @@ pub(crate) struct Program {
 
 impl Program {
     pub(crate) fn serve(data: &Path) -> Self {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_rubmap"))
+        Self::run(Command::new(env!("CARGO_BIN_EXE_rubmap")), data)
+    }
+
+    /// By a command that runs the program with the arguments it gets.
+    pub(crate) fn run(mut command: Command, data: &Path) -> Self {
+        let mut child = command
             .args(["serve", "--addr", "127.0.0.1:0", "--workers", "2", "--data"])
             .arg(data)
             .env("RUST_LOG", "info")

@@ -14,7 +14,7 @@ use tokio_util::sync::CancellationToken;
 use self::client::{Client, Model};
 use super::signals::stop_signal;
 use crate::app::App;
-use crate::config::Config;
+use crate::config::{Config, TransportConfig};
 
 /// A folder to work in and since when.
 pub(super) struct Session {
@@ -58,6 +58,7 @@ impl Session {
             upload_bytes: 1 << 30,
             expanded_bytes: None,
             memory_bytes: None,
+            transport: TransportConfig::default(),
         };
         let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build()?;
         match runtime.block_on(with_service(config, play))? {
@@ -91,7 +92,7 @@ async fn with_service(
     let outcome = tokio::select! {
         outcome = played => outcome.map(|()| Ending::Played),
         ended = &mut service => {
-            ended??;
+            ended?;
             bail!("the service ended before its user had everything");
         }
         () = stop_signal => {
@@ -100,7 +101,7 @@ async fn with_service(
         }
     };
     stop.cancel();
-    service.await??;
+    service.await?;
     outcome
 }
 

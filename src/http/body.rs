@@ -1,0 +1,119 @@
+//! Bodies of requests must keep coming.
+
+use std::pin::Pin;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::task::{Context, Poll};
+use std::time::Duration;
+
+use axum::body::{Body, Bytes};
+use axum::extract::{Request, State};
+use axum::middleware::Next;
+use axum::response::{IntoResponse, Response};
+use hyper::body::{Frame, SizeHint};
+use tokio::time::{Instant, Sleep, sleep_until};
+
+use super::AppState;
+use super::problem::{Kind, Problem};
+
+/// Bytes for which a client may keep the service waiting as long as it may.
+const PIECE: u64 = 64 << 10;
+
+/// Middleware: a body whose next 64 KiB keep the service waiting for too long is given up.
+pub(super) async fn keep_coming(state: State<AppState>, request: Request, next: Next) -> Response {
+    let patience = state.transport.limits.stall;
+    let stalled = Arc::new(AtomicBool::new(false));
+    let told = Arc::clone(&stalled);
+    let response = next.run(request.map(|body| Body::new(Patient::new(body, patience, told)))).await;
+    if !stalled.load(Ordering::Relaxed) {
+        return response;
+    }
+    // Whatever the handler made of a body that broke off.
+    let detail = format!(
+        "the next {} KiB of the body, or its end, did not come within {} s; send the request again",
+        PIECE >> 10,
+        patience.as_secs()
+    );
+    Problem::new(Kind::UploadStalled, detail).into_response()
+}
+
+/// A body that is waited for so long and no longer. Time in which nobody asks for more of it does not count.
+struct Patient {
+    body: Body,
+    patience: Duration,
+    /// Left of it for this piece.
+    left: Duration,
+    /// Come of this piece.
+    came: u64,
+    /// Since when it is waited for, and until when.
+    waiting: Option<(Instant, Pin<Box<Sleep>>)>,
+    stalled: Arc<AtomicBool>,
+}
+
+impl Patient {
+    fn new(body: Body, patience: Duration, stalled: Arc<AtomicBool>) -> Self {
+        Self { body, patience, left: patience, came: 0, waiting: None, stalled }
+    }
+
+    fn comes(&mut self, bytes: usize) {
+        if let Some((since, _)) = self.waiting.take() {
+            self.left = self.left.saturating_sub(since.elapsed());
+        }
+        self.came += bytes as u64;
+        if self.came >= PIECE {
+            (self.came, self.left) = (0, self.patience);
+        }
+    }
+}
+
+impl hyper::body::Body for Patient {
+    type Data = Bytes;
+    type Error = axum::Error;
+
+    fn poll_frame(
+        mut self: Pin<&mut Self>,
+        context: &mut Context<'_>,
+    ) -> Poll<Option<Result<Frame<Bytes>, axum::Error>>> {
+        let frame = Pin::new(&mut self.body).poll_frame(context);
+        if let Poll::Ready(frame) = frame {
+            if let Some(Ok(frame)) = &frame {
+                self.comes(frame.data_ref().map_or(0, Bytes::len));
+            }
+            return Poll::Ready(frame);
+        }
+        let left = self.left;
+        let (_, end) = self.waiting.get_or_insert_with(|| {
+            let now = Instant::now();
+            (now, Box::pin(sleep_until(now + left)))
+        });
+        if end.as_mut().poll(context).is_pending() {
+            return Poll::Pending;
+        }
+        self.stalled.store(true, Ordering::Relaxed);
+        Poll::Ready(Some(Err(axum::Error::new(std::io::Error::from(std::io::ErrorKind::TimedOut)))))
+    }
+
+    fn is_end_stream(&self) -> bool {
+        self.body.is_end_stream()
+    }
+
+    fn size_hint(&self) -> SizeHint {
+        self.body.size_hint()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn patience_is_for_a_piece_and_not_for_a_byte() {
+        let patience = Duration::from_secs(30);
+        let mut body = Patient::new(Body::empty(), patience, Arc::default());
+        body.left = Duration::from_secs(1);
+        body.comes(PIECE as usize - 1);
+        assert_eq!(body.left, Duration::from_secs(1), "a trickle wins no time");
+        body.comes(1);
+        assert_eq!((body.left, body.came), (patience, 0));
+    }
+}

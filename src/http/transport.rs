@@ -1,0 +1,57 @@
+//! What connections and requests are subject to and counted by, whatever their route.
+
+use std::net::IpAddr;
+use std::time::Duration;
+
+use axum::http::HeaderValue;
+
+use super::health::Probed;
+use super::host::Hosts;
+use super::metrics::Metrics;
+use super::server::{Figures, Limits};
+use crate::config::TransportConfig;
+
+/// What connections and requests are subject to and counted by.
+#[derive(Debug)]
+pub struct Transport {
+    /// Of connections.
+    pub limits: Limits,
+    /// What became of connections.
+    pub connections: Figures,
+    pub(super) hosts: Hosts,
+    pub(super) cors_origins: Vec<HeaderValue>,
+    pub(super) metrics: Metrics,
+    /// The latest look at the database.
+    pub(super) probed: Probed,
+    /// Room on the disk below which the service is not ready, in bytes.
+    pub(super) min_free_bytes: u64,
+}
+
+impl Transport {
+    /// Of a service that listens on `bound` and has files for so many `connections`.
+    pub fn new(config: TransportConfig, bound: IpAddr, connections: usize) -> Self {
+        let TransportConfig {
+            head_seconds,
+            idle_seconds,
+            stall_seconds,
+            hosts,
+            cors_origins,
+            min_free_bytes,
+            ..
+        } = config;
+        Self {
+            limits: Limits {
+                connections,
+                head: Duration::from_secs(head_seconds),
+                idle: Duration::from_secs(idle_seconds),
+                stall: Duration::from_secs(stall_seconds),
+            },
+            connections: Figures::default(),
+            hosts: Hosts::new(bound, hosts),
+            cors_origins,
+            metrics: Metrics::default(),
+            probed: Probed::default(),
+            min_free_bytes,
+        }
+    }
+}
