@@ -28,15 +28,7 @@ fn main() -> anyhow::Result<()> {
 /// One sweep in a service of its own.
 async fn keep(seconds: f64) -> anyhow::Result<()> {
     let folder = tempfile::tempdir()?;
-    let config = Config {
-        addr: ([127, 0, 0, 1], 0).into(),
-        data: folder.path().to_owned(),
-        workers: Some(2),
-        upload_bytes: 1 << 30,
-        expanded_bytes: None,
-        memory_bytes: None,
-        transport: TransportConfig::default(),
-    };
+    let config = Config { workers: Some(2), ..Config::local(folder.path()) };
     let app = App::build(config).await?;
     let (base, stop) = (format!("http://{}", app.addr()), CancellationToken::new());
     let service = tokio::spawn(app.run_until_stopped(stop.clone()));

@@ -53,6 +53,15 @@ pub fn document() -> utoipa::openapi::OpenApi {
 fn add_common_answers(responses: &mut BTreeMap<String, RefOr<Response>>) {
     for (status, description) in [
         ("400", "A parameter is not valid."),
+        ("401", "The service wants a token, and the request has none that it knows."),
+        ("403", "The token may only read."),
+        ("421", "The service does not go by the name in the Host header."),
+        (
+            "429",
+            "The owner has too many models, bytes or waiting speeds; Retry-After says when to try again.",
+        ),
+        ("503", "The data folder cannot be used for the moment; Retry-After says when to try again."),
+        ("507", "The disk of the data folder is full; Retry-After says when to try again."),
         ("500", "A defect, or the data folder failed: the service's log says more."),
     ] {
         responses.entry(status.to_owned()).or_insert_with(|| {

@@ -13,8 +13,8 @@ use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
 use super::{
-    AppState, access, body, contract, health, host, jobs, metrics, modal_analyses, models, openapi, principal,
-    problem, results, studies, sweeps, version,
+    AppState, access, body, contract, health, host, jobs, metrics, modal_analyses, models, openapi,
+    principal, problem, results, studies, sweeps, version,
 };
 
 /// The routes with their descriptions.

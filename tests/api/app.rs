@@ -77,11 +77,6 @@ impl Api {
         Self { base: base.to_owned(), client: Client::new() }
     }
 
-    /// Host and port.
-    pub(crate) fn address(&self) -> &str {
-        self.base.trim_start_matches("http://")
-    }
-
     pub(crate) fn base(&self) -> &str {
         &self.base
     }

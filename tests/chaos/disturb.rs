@@ -92,7 +92,7 @@ impl<'a> Disturbances<'a> {
                 }
             }
             7 => {
-                let address = program.api.address().to_owned();
+                let address = program.api.base().trim_start_matches("http://").to_owned();
                 for _ in 0..random.below(100) {
                     if let Ok(mut stream) = TcpStream::connect(&address) {
                         let _ =
