@@ -1,4 +1,5 @@
-# The service in a small image. Build: docker build -t rubmap . Run: docker run -p 8080:8080 -v rubmap:/data rubmap
+# The service in a small image. Build: docker build -t rubmap . Run, for this machine alone:
+# docker run -p 127.0.0.1:8080:8080 -e RUBMAP_OPEN=true -v rubmap:/data rubmap
 
 FROM rust:1.95-slim-trixie AS build
 WORKDIR /src
@@ -19,6 +20,7 @@ RUN useradd --system --uid 10001 --home-dir /data rubmap && install -d -o rubmap
 USER rubmap
 VOLUME /data
 EXPOSE 8080
+# Whoever reaches the port may use the service only with -e RUBMAP_TOKENS=FILE (docs/operations.md), or with -e RUBMAP_OPEN=true.
 ENV RUBMAP_ADDR=0.0.0.0:8080 RUBMAP_DATA=/data
 # The slim image has no curl, but its bash speaks TCP.
 HEALTHCHECK --interval=30s --timeout=5s --start-period=10s CMD ["bash", "-c", \

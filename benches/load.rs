@@ -145,10 +145,11 @@ async fn load(
                     } else {
                         client.get(format!("{base}/v1/jobs/{id}")).send().await
                     };
-                    match sent {
-                        Ok(answer) if answer.status().is_success() && answer.bytes().await.is_ok() => {}
-                        _ => errors += 1,
-                    }
+                    let whole = match sent.and_then(reqwest::Response::error_for_status) {
+                        Ok(answer) => answer.bytes().await.is_ok(),
+                        Err(_) => false,
+                    };
+                    errors += usize::from(!whole);
                     latencies.push(asked.elapsed());
                 }
                 (latencies, errors)
