@@ -25,6 +25,10 @@ fn parts(y: &Mat<c64>, n_b: usize) -> [Mat<c64>; 2] {
     [y.submatrix(0, 0, n_b, n_b).to_owned(), coupling * coupling.adjoint()]
 }
 
+/// The joint basis keeps directions with singular values down to 1e-5, in which errors of the modes are 1e5 times as large. (4 sectors
+/// of 12 nodes: 1.0e-8 on one machine, less on others.)
+const MAGNIFIED: f64 = 1e-7;
+
 fn agree(sector: &SectorModel, modes: usize, solver: Solver, name: &str) -> ReducedWheel {
     let options = ReductionOptions::new(modes);
     let reduced = reduce(sector, &options, &NoCheckpoints, &|_, _| true).unwrap();
@@ -37,7 +41,7 @@ fn agree(sector: &SectorModel, modes: usize, solver: Solver, name: &str) -> Redu
             .iter()
             .zip(transpose(parts(&fast.mass, n_b), parts(&plain.mass, n_b)))
         {
-            close(&found, &expected, 1e-8, &format!("{name}, {part}"));
+            close(&found, &expected, MAGNIFIED, &format!("{name}, {part}"));
         }
         for (index, (&speed, expected)) in sector.speeds_rad_s.iter().zip(&plain.stiffness).enumerate() {
             let found = fast.stiffness.at(speed, true);
@@ -45,7 +49,7 @@ fn agree(sector: &SectorModel, modes: usize, solver: Solver, name: &str) -> Redu
             for (part, [found, expected]) in ["contact stiffness", "stiffness coupling"].iter().zip(pairs) {
                 // At rest the static modes leave the coupling zero but for round-off, so it is compared at speed.
                 if index > 0 || *part == "contact stiffness" {
-                    close(&found, &expected, 1e-7, &format!("{name}, {part} at {speed}"));
+                    close(&found, &expected, MAGNIFIED, &format!("{name}, {part} at {speed}"));
                 }
             }
             let [found, expected] = [(&found, &fast.mass), (expected, &plain.mass)]
