@@ -141,7 +141,7 @@ impl App {
         tracing::info!("stopping");
         runner.stop().await;
         // A lock that another program holds would keep it for longer than who stops the service waits.
-        if tokio::time::timeout(Duration::from_secs(1), store.close()).await.is_err() {
+        if tokio::time::timeout(Duration::from_millis(500), store.close()).await.is_err() {
             tracing::warn!("the database is in use; its log is folded in at the next start");
         }
         tracing::info!("stopped");

@@ -1,5 +1,7 @@
 //! Results of jobs.
 
+use std::collections::BTreeSet;
+
 use axum::extract::State;
 use axum::http::header;
 use axum::response::{IntoResponse, Response};
@@ -104,7 +106,12 @@ pub(super) async fn get_interaction_map(
     Ok(stream::json(leave, move || {
         let row =
             move |spectra: &SpeedSpectra| run::map_row(spectra, sensor, nodal_diameter).map(<[f64]>::to_vec);
-        let item = move |index| runtime.block_on(store.map_row(id, index, row));
+        // Speeds finished since the points were read are for the next reader.
+        let finished: BTreeSet<u32> = map.points.iter().map(|point| point.index).collect();
+        let item = move |index| match finished.contains(&index) {
+            true => runtime.block_on(store.map_row(id, index, row)),
+            false => Ok(None),
+        };
         MapInPieces { amplitude: stream::Read { items: map.speeds_rad_s.len() as u32, item }, map }
     }))
 }

@@ -87,6 +87,14 @@ impl Live {
     }
 }
 
+/// Pushes a task until the queue takes it, which it does at once unless memory is short.
+async fn until_taken<P: Future<Output = Result<(), StoreError>>>(push: impl Fn() -> P) {
+    while let Err(error) = push().await {
+        tracing::error!(%error, "the queue failed");
+        tokio::time::sleep(BETWEEN_ATTEMPTS).await;
+    }
+}
+
 /// The chain of a sweep up or down.
 fn chain(request: &JobRequest) -> Option<Vec<u32>> {
     match request {
@@ -212,16 +220,15 @@ impl Engine {
     }
 
     /// Gives the queue the tasks whose turn it is.
-    pub(super) async fn hand_out(&self) -> Result<(), StoreError> {
+    pub(super) async fn hand_out(&self) {
         while let Some((job, ())) = self.preparations.next() {
-            self.queue.push_preparation(job).await?;
+            until_taken(|| self.queue.push_preparation(job)).await;
             self.new_preparation.notify_one();
         }
         while let Some((job, speed)) = self.speeds.next() {
-            self.queue.push_speed(RunSpeed { job, speed }).await?;
+            until_taken(|| self.queue.push_speed(RunSpeed { job, speed })).await;
             self.new_speeds.notify_one();
         }
-        Ok(())
     }
 
     /// Stops all computations of a job that has become final and drops its waiting tasks.

@@ -18,7 +18,6 @@ use super::computing::MOST_CRASHES;
 use super::engine::Engine;
 use super::handle::Jobs;
 use super::memory::Memory;
-use super::patience::BETWEEN_ATTEMPTS;
 use super::pool::CpuPool;
 use super::progress::{News, Report};
 use super::turns::Turns;
@@ -36,7 +35,7 @@ const WAITING_PREPARATIONS: usize = 16;
 const IDLE_POLL: Duration = Duration::from_millis(500);
 
 /// How long tasks may take to notice that the service stops: those that compute look many times a second.
-const LAST_TASKS: Duration = Duration::from_secs(2);
+const LAST_TASKS: Duration = Duration::from_secs(1);
 
 /// Time between two writes of a job's progress. Each is a flush of the disk, and nobody looks more often.
 const BETWEEN_PROGRESS: Duration = Duration::from_secs(1);
@@ -136,13 +135,8 @@ impl Runner {
 /// Hands out tasks, one after the other ends.
 async fn hand_out(engine: Arc<Engine>) {
     loop {
-        match engine.hand_out().await {
-            Ok(()) => engine.turn.notified().await,
-            Err(error) => {
-                tracing::error!(%error, "the queue failed");
-                tokio::time::sleep(BETWEEN_ATTEMPTS).await;
-            }
-        }
+        engine.hand_out().await;
+        engine.turn.notified().await;
     }
 }
 

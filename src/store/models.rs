@@ -154,7 +154,8 @@ impl Store {
         Ok(())
     }
 
-    /// Takes model `id` from `owner` (`None`: from all), unless an unfinished job of theirs needs it. With its last owner it
+    /// Takes model `id` from `owner` (`None`: from all), unless an unfinished job of theirs needs it, or of anybody when there
+    /// is no other owner. With its last owner it
     /// is deleted, and its reductions with it.
     pub async fn delete_model(&self, id: &str, owner: Option<&str>) -> Result<Deletion, StoreError> {
         let _packages = self.packages.lock().await;
@@ -164,7 +165,9 @@ impl Store {
         let mut transaction = self.write().await?;
         let users: i64 = sqlx::query_scalar(
             "select count(*) from jobs
-             where model = ?1 and status in ('accepted', 'running') and (?2 is null or owner = ?2)",
+             where model = ?1 and status in ('accepted', 'running')
+                 and (?2 is null or owner = ?2
+                      or not exists (select 1 from model_owners where model = ?1 and owner <> ?2))",
         )
         .bind(id)
         .bind(owner)

@@ -80,6 +80,10 @@ impl Queue {
         let task =
             TaskBuilder::new(serde_json::to_vec(&task)?).task_id(TaskId::from_string(id.to_string())).build();
         let mut connection = self.pool.acquire().await?;
+        // Those that have ended are kept by nobody else's wish.
+        sqlx::query("delete from Jobs where status in ('Done', 'Failed', 'Killed')")
+            .execute(&mut *connection)
+            .await?;
         queries::push_tasks(&mut *connection, SPEEDS, &[task]).await?;
         Ok(())
     }

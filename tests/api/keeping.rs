@@ -48,7 +48,11 @@ async fn a_backup_of_a_running_service_is_whole() {
     program.terminate();
 
     // Damage is found: a package with another content, and a result that does not read.
-    std::fs::copy(folder.path().join("data/models").join(format!("{model}.zip")), folder.path().join("whole")).unwrap();
+    std::fs::copy(
+        folder.path().join("data/models").join(format!("{model}.zip")),
+        folder.path().join("whole"),
+    )
+    .unwrap();
     std::fs::write(copy.join("models").join(format!("{model}.zip")), model::package(2.0)).unwrap();
     let checked = rubmap(&["check"], &copy);
     assert!(!checked.status.success());

@@ -38,7 +38,8 @@ impl Holder<'_> {
 
     async fn upload(&self, package: Vec<u8>) -> Answer {
         let request = self.api.request("POST", "/v1/models").bearer_auth(&self.token);
-        Answer::of(request.header("content-type", "application/zip").body(package).send().await.unwrap()).await
+        Answer::of(request.header("content-type", "application/zip").body(package).send().await.unwrap())
+            .await
     }
 
     async fn finish(&self, id: &str) -> Value {
@@ -84,7 +85,15 @@ async fn what_belongs_to_one_owner_is_not_there_for_another() {
         assert_eq!(bob.post(path, &sweep_of(&model)).await.pointers(422, "invalid-request"), ["/model"]);
     }
     let id = alice.post("/v1/modal-analyses", &modal_analysis_of(&model)).await.text("/id");
-    for path in ["", "/campbell", "/interaction-map", "/spectra/0", "/critical-speeds", "/work-precision", "/histories"] {
+    for path in [
+        "",
+        "/campbell",
+        "/interaction-map",
+        "/spectra/0",
+        "/critical-speeds",
+        "/work-precision",
+        "/histories",
+    ] {
         bob.get(&format!("/v1/jobs/{id}{path}")).await.problem(404, "job-not-found");
     }
     bob.delete(&format!("/v1/jobs/{id}")).await.problem(404, "job-not-found");
@@ -121,7 +130,8 @@ async fn keys_of_one_owner_are_not_those_of_another() {
         let model = holder.upload(model::package(1.0)).await.text("/id");
         for _ in 0..2 {
             let request = app.api.request("POST", "/v1/sweeps").bearer_auth(token);
-            let sent = request.header("idempotency-key", "mine").json(&sweep_of(&model)).send().await.unwrap();
+            let sent =
+                request.header("idempotency-key", "mine").json(&sweep_of(&model)).send().await.unwrap();
             ids.push(Answer::of(sent).await.text("/id"));
         }
     }
