@@ -1,5 +1,5 @@
 //! What clients feel, and what sweeps feel of clients: `cargo bench --bench load [-- CLIENTS SECONDS]`. Clients poll jobs, list them and
-//! post small ones, 200 requests a second together, beside two sweeps on two workers; the same sweeps alone before it, in the same run.
+//! ask for plans, 200 requests a second together, beside two sweeps on two workers; the same sweeps alone before it, in the same run.
 //! Then a listing of 10,000 jobs in pages. Run it on an otherwise idle machine.
 
 use std::sync::Arc;
@@ -122,7 +122,8 @@ async fn load(
     time: Duration,
 ) -> anyhow::Result<(Vec<Duration>, usize)> {
     let request = Arc::new(sweep(model, 1));
-    let id = Arc::new(post(client, base, &request).await?);
+    let listed: Value = client.get(format!("{base}/v1/jobs?limit=1")).send().await?.json().await?;
+    let id = Arc::new(listed["jobs"][0]["id"].as_str().context("no job")?.to_owned());
     let pause = Duration::from_secs_f64(clients as f64 / RATE);
     let tasks: Vec<_> = (0..clients)
         .map(|index| {
@@ -136,7 +137,7 @@ async fn load(
                 while begin.elapsed() < time {
                     beat.tick().await;
                     let asked = Instant::now();
-                    // One in fifty posts, one in ten lists; the others poll.
+                    // One in fifty asks for a plan, one in ten lists; the others poll.
                     let turn = latencies.len() + index;
                     let sent = if turn.is_multiple_of(50) {
                         client.post(format!("{base}/v1/sweeps/plan")).json(&*request).send().await

@@ -63,7 +63,7 @@ pub struct Config {
     #[arg(long, env = "RUBMAP_OWNER_MODELS")]
     pub owner_models: Option<u64>,
 
-    /// Memory that reductions and generations may take, in bytes [default: three quarters of what the machine or container leaves].
+    /// Memory that computations, uploads and large downloads may take together, in bytes [default: three quarters of what the machine or container leaves].
     #[arg(long, env = "RUBMAP_MEMORY_BYTES", value_parser = clap::value_parser!(u64).range(1 << 20..))]
     pub memory_bytes: Option<u64>,
 
@@ -100,9 +100,9 @@ impl Config {
         }
     }
 
-    /// Memory that reductions and generations may take; `None` where nothing is known about it.
+    /// Memory that computations, uploads and large downloads may take together; `None` where nothing is known about it.
     pub fn memory_limit(&self) -> Option<u64> {
-        // A quarter is left to packages being read, speeds being run and the system.
+        // A quarter is left to the program itself, its caches and the system.
         self.memory_bytes.or_else(|| memory::available_bytes().map(|available| available / 4 * 3))
     }
 

@@ -4,7 +4,7 @@
 //! bytes, so that a plain hash is as good as a slow one, and to find a token by its hash tells nobody anything about it.
 
 use std::collections::HashMap;
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant, SystemTime};
@@ -124,6 +124,10 @@ impl Tokens {
                         tracing::info!(tokens = known.len(), "read the file of tokens again");
                         (state.changed, state.known) = (changed, known);
                     }
+                    Err(TokensError::File { source, .. }) if source.kind() == ErrorKind::NotFound => {
+                        tracing::error!("the file of tokens is gone: nobody has access");
+                        state.known.clear();
+                    }
                     // Half-written, perhaps.
                     Err(error) => tracing::error!(%error, "the tokens stay those that were read before"),
                 }
@@ -152,7 +156,10 @@ fn append(path: &Path, line: &str) -> std::io::Result<()> {
     options.append(true).create(true);
     #[cfg(unix)]
     std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
+    // The last line of a file written by hand may have no end.
+    let ended = std::fs::read(path).map_or(true, |text| text.last().is_none_or(|last| *last == b'\n'));
     let mut file = options.open(path)?;
+    file.write_all(if ended { b"" } else { b"\n" })?;
     file.write_all(line.as_bytes())?;
     file.sync_all()
 }
@@ -250,6 +257,13 @@ mod tests {
         std::fs::write(&path, "# nobody\n").unwrap();
         look_again();
         assert!(tokens.principal(&token).is_none());
+        std::fs::write(&path, "# no end").unwrap();
+        let token = new_token(&path, "alice", Scope::Read).unwrap();
+        look_again();
+        assert!(tokens.principal(&token).is_some());
+        std::fs::remove_file(&path).unwrap();
+        look_again();
+        assert!(tokens.principal(&token).is_none(), "without the file nobody has access");
     }
 
     #[test]

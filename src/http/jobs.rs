@@ -87,7 +87,9 @@ pub(super) async fn get_job(
     whose: Principal,
     JobPath(id): JobPath,
 ) -> Result<Json<JobDetail>, Problem> {
-    let job = find(&state, &whose, id).await?;
+    let mut job = find(&state, &whose, id).await?;
+    // What is stored is a second old, or older where the store takes nothing.
+    job.phase = state.jobs.phase(id).unwrap_or(job.phase);
     let reduction = match (job.request.model(), job.request.modes_per_speed()) {
         (Some(model), Some(modes_per_speed)) => {
             let mut reports = state.store.reduction_reports(model).await?.into_iter();

@@ -66,14 +66,12 @@ pub(super) fn json<T: Serialize>(leave: Leave, value: impl FnOnce() -> T + Send 
     let (sender, receiver) = channel(WAITING);
     tokio::task::spawn_blocking(move || {
         let _leave = leave;
-        let mut pieces = Pieces { sender, piece: Vec::with_capacity(PIECE) };
+        let mut pieces = Pieces { sender, piece: Vec::with_capacity(PIECE), whole: false };
         let written = serde_json::to_writer(&mut pieces, &value()).map_err(io::Error::from);
-        if let Err(error) = written.and_then(|()| pieces.flush())
-            && error.kind() != io::ErrorKind::BrokenPipe
-        {
-            tracing::error!(%error, "an answer broke off");
-            // Nobody waits for it any more, perhaps.
-            let _ = pieces.sender.blocking_send(Err(error));
+        match written.and_then(|()| pieces.flush()) {
+            Ok(()) => pieces.whole = true,
+            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => {}
+            Err(error) => tracing::error!(%error, "an answer broke off"),
         }
     });
     ([(header::CONTENT_TYPE, "application/json")], Body::from_stream(pieces_of(receiver))).into_response()
@@ -87,6 +85,18 @@ fn pieces_of(receiver: Receiver<io::Result<Bytes>>) -> impl stream::Stream<Item 
 struct Pieces {
     sender: Sender<io::Result<Bytes>>,
     piece: Vec<u8>,
+    /// Whether all of it was sent.
+    whole: bool,
+}
+
+impl Drop for Pieces {
+    /// What is not whole, after an error or a panic, must not look so.
+    fn drop(&mut self) {
+        if !self.whole {
+            // Nobody waits for it any more, perhaps.
+            let _ = self.sender.blocking_send(Err(io::Error::other("the answer broke off")));
+        }
+    }
 }
 
 impl Write for Pieces {

@@ -6,12 +6,10 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use tokio::sync::OwnedMutexGuard;
-use tokio::time::Instant;
 
 use super::error::Halt;
 use super::pool::CpuPool;
-use super::progress::{PhaseMonitor, Watch};
-use crate::analysis::monitor::Monitor;
+use super::progress::Watch;
 use crate::store::Store;
 use crate::store::jobs::JobId;
 
@@ -30,7 +28,6 @@ const LONGEST_PAUSE: Duration = Duration::from_secs(60);
 pub(super) struct Computing {
     store: Store,
     pool: CpuPool,
-    started: Instant,
     /// Jobs that something was being computed for when the service died, and how often.
     crashes: Mutex<HashMap<JobId, u32>>,
     /// Held by the suspect that computes.
@@ -39,8 +36,7 @@ pub(super) struct Computing {
 
 impl Computing {
     pub(super) fn new(store: Store, pool: CpuPool) -> Self {
-        let started = Instant::now();
-        Self { store, pool, started, crashes: Mutex::default(), suspects: Arc::default() }
+        Self { store, pool, crashes: Mutex::default(), suspects: Arc::default() }
     }
 
     /// Threads that compute.
@@ -87,19 +83,11 @@ impl Computing {
         self.lock().remove(&job);
     }
 
-    /// Lets the job of `watch` compute. Of suspects one computes at a time, so that the next death tells which of them it is;
-    /// and the more often a job was there, the longer after the start it waits its turn. A machine that is killed all the
-    /// time, for reasons of its own, then gets on with the others, and does not even come to what would be blamed for it.
+    /// Lets the job of `watch` compute. Of suspects one computes at a time, so that the next death tells which of them it is.
     async fn admit(&self, watch: &Arc<Watch>) -> Result<Option<OwnedMutexGuard<()>>, Halt> {
         let crashes = self.lock().get(&watch.job()).copied().unwrap_or(0);
         let mut alone = None;
         if crashes >= SUSPICIOUS {
-            let phase = format!("waiting: the service ended {crashes} times while it computed this");
-            PhaseMonitor::uncounted(Arc::clone(watch)).progress(0.0, &phase);
-            let begin = self.started + pause(crashes);
-            while Instant::now() < begin && !watch.is_cancelled() {
-                tokio::time::sleep(Duration::from_millis(100)).await;
-            }
             alone = Some(Arc::clone(&self.suspects).lock_owned().await);
         }
         if watch.is_cancelled() { Err(Halt::NotWanted) } else { Ok(alone) }
@@ -110,8 +98,13 @@ impl Computing {
     }
 }
 
-/// How long after the start a suspect waits: a second, and twice as long each time.
-fn pause(crashes: u32) -> Duration {
+/// How long after a start a job waits that the service died under so often: a suspect a second, and twice as long each time. A
+/// machine that is killed all the time, for reasons of its own, gets on with the others meanwhile, and does not even come to
+/// what would be blamed for it.
+pub(super) fn pause(crashes: u32) -> Duration {
+    if crashes < SUSPICIOUS {
+        return Duration::ZERO;
+    }
     let doublings = crashes.saturating_sub(SUSPICIOUS).min(10);
     Duration::from_secs(1 << doublings).min(LONGEST_PAUSE)
 }
@@ -127,7 +120,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let store = Store::open(folder.path()).await.unwrap();
         let pool = CpuPool::start("test", 1, 1).unwrap();
-        let computing = Computing { started: Instant::now() - LONGEST_PAUSE, ..Computing::new(store, pool) };
+        let computing = Computing::new(store, pool);
         let watch = |job| Watch::new(job, 1, Arc::default(), Arc::default());
         let [one, two, innocent] = [(); 3].map(|()| watch(JobId::new()));
         for (watch, crashes) in [(&one, SUSPICIOUS), (&two, MOST_CRASHES), (&innocent, SUSPICIOUS - 1)] {
@@ -174,7 +167,7 @@ mod tests {
 
     #[test]
     fn the_pause_doubles_and_ends() {
-        let pauses = [3, 4, 8, 9, MOST_CRASHES].map(|crashes| pause(crashes).as_secs());
-        assert_eq!(pauses, [1, 2, 32, 60, 60]);
+        let pauses = [0, 2, 3, 4, 8, 9, MOST_CRASHES].map(|crashes| pause(crashes).as_secs());
+        assert_eq!(pauses, [0, 0, 1, 2, 32, 60, 60]);
     }
 }

@@ -126,9 +126,9 @@ impl Engine {
             computing,
             importer,
             planner,
-            preparations: Turns::new(preparations),
+            preparations: Turns::new(4 * preparations, preparations),
             // One for each thread to take as soon as it is done with another.
-            speeds: Turns::new(2 * threads),
+            speeds: Turns::new(2 * threads, 2 * threads),
             turn: Notify::new(),
             deleted: Notify::new(),
             counters: Counters::default(),
@@ -252,14 +252,15 @@ impl Engine {
     where
         T: Future<Output = Result<(), Halt>>,
     {
-        let begin = Instant::now();
+        let mut missing_since = None;
         let mut warned = false;
         loop {
             let outcome = match task().await {
                 Ok(()) | Err(Halt::NotWanted) => return,
                 Err(Halt::Failed(failure)) => Ok(failure),
                 Err(Halt::Store(error))
-                    if error.is_missing_package() && begin.elapsed() > MISSING_PACKAGE =>
+                    if error.is_missing_package()
+                        && missing_since.get_or_insert_with(Instant::now).elapsed() > MISSING_PACKAGE =>
                 {
                     Ok(error::lost_package())
                 }
@@ -285,6 +286,12 @@ impl Engine {
             self.tell(id, error::waiting_for(&error));
             tokio::time::sleep(BETWEEN_ATTEMPTS).await;
         }
+    }
+
+    /// What a job does or waits for now, if it has said so.
+    pub(super) fn phase(&self, id: JobId) -> Option<String> {
+        let live = self.lock_live().get(&id).cloned()?;
+        live.watch.phase()
     }
 
     /// Shows what a job waits for.

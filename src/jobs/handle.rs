@@ -104,19 +104,28 @@ impl Jobs {
             // Resolved by `generation_of`.
             generation @ JobRequest::ModelGeneration(_) => (generation, None, 0),
         };
-        let model = request.model();
-        let owner = (whose.owner.as_str(), engine.limits);
-        match engine.store.insert_job(id, owner, &request, facts.as_ref(), speeds as u32, answer).await? {
-            Insertion::Accepted => {}
-            Insertion::Limit(reached) => return Err(SubmitError::Limit(reached)),
-            Insertion::UnknownModel => {
-                return Err(SubmitError::UnknownModel(model.unwrap_or_default().to_owned()));
+        let model = request.model().unwrap_or_default().to_owned();
+        tracing::info!(job.id = %id, kind = request.kind().as_str(), model.id = model, speeds, "submitted");
+        let (engine, owner) = (Arc::clone(engine), whose.owner.clone());
+        let answer = answer.cloned();
+        // To its end, whatever becomes of the client: a job that is kept is queued.
+        let kept = tokio::spawn(async move {
+            let whose = (owner.as_str(), engine.limits);
+            let speeds = speeds as u32;
+            let kept =
+                engine.store.insert_job(id, whose, &request, facts.as_ref(), speeds, answer.as_ref()).await;
+            // Also where nobody knows whether it was kept: a job that is not there harms nobody.
+            if matches!(kept, Ok(Insertion::Accepted) | Err(_)) {
+                engine.queue_preparation(&owner, id);
             }
-            Insertion::KeyTaken => return Err(SubmitError::KeyTaken),
+            kept
+        });
+        match kept.await.map_err(|_| Panicked { message: "a job was being kept".to_owned() })?? {
+            Insertion::Accepted => Ok(()),
+            Insertion::Limit(reached) => Err(SubmitError::Limit(reached)),
+            Insertion::UnknownModel => Err(SubmitError::UnknownModel(model)),
+            Insertion::KeyTaken => Err(SubmitError::KeyTaken),
         }
-        tracing::info!(job.id = %id, kind = request.kind().as_str(), model.id = model, speeds, "accepted");
-        engine.queue_preparation(&whose.owner, id);
-        Ok(())
     }
 
     /// Checks a sweep against its model and says what it would do and cost. Starts nothing, not even its reduction.
@@ -222,6 +231,11 @@ impl Jobs {
             self.engine.deleted.notify_one();
         }
         Ok(deletion)
+    }
+
+    /// What a job does or waits for now, in words; `None` if nothing is known beyond what is stored.
+    pub fn phase(&self, id: JobId) -> Option<String> {
+        self.engine.phase(id)
     }
 
     /// Memory for an answer that takes so many bytes while it is made, as soon as it is free.

@@ -31,6 +31,11 @@ impl News {
         std::mem::take(&mut *self.latest.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
+    /// Takes back what could not be written down, unless there is something newer.
+    pub(super) fn put_back(&self, job: JobId, report: Report) {
+        self.latest.lock().unwrap_or_else(PoisonError::into_inner).entry(job).or_insert(report);
+    }
+
     fn put(&self, job: JobId, report: Report) {
         self.latest.lock().unwrap_or_else(PoisonError::into_inner).insert(job, report);
     }
@@ -68,6 +73,12 @@ impl Watch {
     /// The job.
     pub(super) fn job(&self) -> JobId {
         self.job
+    }
+
+    /// The latest phase; `None` before the first.
+    pub(super) fn phase(&self) -> Option<String> {
+        let done = self.done.lock().unwrap_or_else(PoisonError::into_inner);
+        Some(done.phase.clone()).filter(|phase| !phase.is_empty())
     }
 
     /// Tells all computations of the job to stop.

@@ -108,8 +108,10 @@ impl Reductions {
         }
         drop(allowance);
         let reduced = outcome?;
-        let write = || self.store.insert_reduction(model, modes_per_speed, &reduced);
+        let job = monitor.watch().job();
+        let write = || self.store.insert_reduction(job, model, modes_per_speed, &reduced);
         patiently(monitor.watch(), write).await?;
+        self.computing.acquit(job);
         let wall_time_s = reduced.report.wall_time_s;
         tracing::info!(model.id = model, modes_per_speed, wall_time_s, "reduced");
         Ok(self.remember(key, reduced))

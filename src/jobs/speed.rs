@@ -2,11 +2,12 @@
 
 use std::sync::atomic::Ordering;
 
-use super::engine::Engine;
+use super::engine::{Engine, Live};
 use super::error::Halt;
 use super::finish;
 use super::patience::patiently;
 use super::progress::{PhaseMonitor, SpeedMonitor};
+use crate::analysis::request::SweepRequest;
 use crate::analysis::run;
 use crate::store::jobs::JobRequest;
 use crate::store::queue::RunSpeed;
@@ -16,12 +17,14 @@ pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) 
     let Some(job) = engine.live(id).await? else { return Ok(()) };
     let JobRequest::Sweep(request) = &job.request else { return Ok(()) };
     if engine.store.is_speed_finished(id, speed).await? {
-        return Ok(());
+        // What follows it may have been let down by the store the first time.
+        let finished = engine.store.finished_speeds(id).await?.len();
+        return go_on(engine, &job, request, speed, finished as u32).await;
     }
     let monitor = PhaseMonitor::uncounted(job.watch.clone());
     let reduced = engine.reductions.get(&request.model, request.modes(), monitor).await?;
 
-    let (before, after) = job.neighbours(speed);
+    let (before, _) = job.neighbours(speed);
     let start = match before {
         Some(before) => engine.store.end_state(id, before).await?,
         None => None,
@@ -46,10 +49,22 @@ pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) 
         steps = point.steps, wall_time_s = point.wall_time_s,
         "finished speed {finished}/{}", job.speeds
     );
+    go_on(engine, &job, request, speed, finished).await
+}
+
+/// What follows a finished speed: the end of the job, if all are `finished` with it, or the next one of a chain. Harmless to
+/// repeat.
+async fn go_on(
+    engine: &Engine,
+    job: &Live,
+    request: &SweepRequest,
+    speed: u32,
+    finished: u32,
+) -> Result<(), Halt> {
     if finished == job.speeds {
-        finish::sweep(engine, &job, request).await?;
-    } else if let Some(next) = after {
-        engine.queue_speeds(&job, [next]);
+        finish::sweep(engine, job, request).await?;
+    } else if let (_, Some(next)) = job.neighbours(speed) {
+        engine.queue_speeds(job, [next]);
     }
     Ok(())
 }

@@ -1,6 +1,6 @@
 //! Whose turn it is: waiting tasks, handed out so that owners take turns, and of one owner its jobs.
 
-use std::collections::{HashSet, VecDeque};
+use std::collections::{HashMap, HashSet, VecDeque};
 use std::hash::Hash;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -13,6 +13,7 @@ use crate::store::jobs::JobId;
 #[derive(Debug)]
 pub(super) struct Turns<T> {
     most: usize,
+    most_of_one: usize,
     lines: Mutex<Lines<T>>,
 }
 
@@ -20,7 +21,8 @@ pub(super) struct Turns<T> {
 struct Lines<T> {
     /// One line an owner; the first is next.
     owners: VecDeque<Line<T>>,
-    out: HashSet<(JobId, T)>,
+    /// Tasks that are out, with their owners.
+    out: HashMap<(JobId, T), String>,
 }
 
 /// The jobs of one owner that have tasks waiting; the first is next.
@@ -31,15 +33,21 @@ struct Line<T> {
 }
 
 impl<T: Copy + Eq + Hash> Turns<T> {
-    /// No more than `most` tasks are out at once.
-    pub(super) fn new(most: usize) -> Self {
-        Self { most, lines: Mutex::new(Lines { owners: VecDeque::new(), out: HashSet::new() }) }
+    /// No more than `most` tasks are out at once, and of one owner no more than `most_of_one`.
+    pub(super) fn new(most: usize, most_of_one: usize) -> Self {
+        let lines = Lines { owners: VecDeque::new(), out: HashMap::new() };
+        Self { most, most_of_one, lines: Mutex::new(lines) }
+    }
+
+    /// Tasks that may be out at once.
+    pub(super) fn most(&self) -> usize {
+        self.most
     }
 
     /// Adds tasks of a job, to be handed out in this order. Those that wait or are out already are not added again.
     pub(super) fn add(&self, owner: &str, job: JobId, tasks: impl IntoIterator<Item = T>) {
         let Lines { owners, out } = &mut *self.lock();
-        let mut tasks: Vec<T> = tasks.into_iter().filter(|&task| !out.contains(&(job, task))).collect();
+        let mut tasks: Vec<T> = tasks.into_iter().filter(|&task| !out.contains_key(&(job, task))).collect();
         let line = match owners.iter().position(|line| line.owner == owner) {
             Some(place) => &mut owners[place],
             None => {
@@ -68,16 +76,19 @@ impl<T: Copy + Eq + Hash> Turns<T> {
         if out.len() >= self.most {
             return None;
         }
-        let mut line = owners.pop_front()?;
+        let may =
+            |line: &Line<T>| out.values().filter(|owner| **owner == line.owner).count() < self.most_of_one;
+        let place = owners.iter().position(may)?;
+        let mut line = owners.remove(place)?;
         let (job, mut waiting) = line.jobs.pop_front()?;
         let task = waiting.pop_front()?;
         if !waiting.is_empty() {
             line.jobs.push_back((job, waiting));
         }
+        out.insert((job, task), line.owner.clone());
         if !line.jobs.is_empty() {
             owners.push_back(line);
         }
-        out.insert((job, task));
         Some((job, task))
     }
 
@@ -105,7 +116,7 @@ mod tests {
 
     #[test]
     fn owners_take_turns_and_so_do_their_jobs() {
-        let turns = Turns::new(100);
+        let turns = Turns::new(100, 100);
         let [long, short, other] = [JobId::new(), JobId::new(), JobId::new()];
         turns.add("a", long, 0..10_000);
         turns.add("a", short, [0]);
@@ -116,7 +127,7 @@ mod tests {
 
     #[test]
     fn no_more_are_out_than_may_be_and_none_twice() {
-        let turns = Turns::new(2);
+        let turns = Turns::new(2, 2);
         let job = JobId::new();
         turns.add("", job, [5, 3, 5, 4]);
         // A repeated preparation adds what is there already.
@@ -133,8 +144,20 @@ mod tests {
     }
 
     #[test]
+    fn one_owner_leaves_room_for_others() {
+        let turns = Turns::new(4, 2);
+        let [many, one] = [JobId::new(), JobId::new()];
+        turns.add("a", many, 0..9);
+        assert_eq!((turns.next(), turns.next(), turns.next()), (Some((many, 0)), Some((many, 1)), None));
+        turns.add("b", one, [7]);
+        assert_eq!((turns.next(), turns.next()), (Some((one, 7)), None));
+        turns.done(many, 0);
+        assert_eq!(turns.next(), Some((many, 2)));
+    }
+
+    #[test]
     fn a_withdrawn_job_keeps_nobody_waiting() {
-        let turns = Turns::new(9);
+        let turns = Turns::new(9, 9);
         let [gone, stays] = [JobId::new(), JobId::new()];
         turns.add("a", gone, 0..5);
         turns.add("b", stays, 0..1);

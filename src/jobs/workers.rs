@@ -14,12 +14,12 @@ use tokio::sync::Notify;
 use tokio::task::JoinHandle;
 use tokio_util::sync::CancellationToken;
 
-use super::computing::MOST_CRASHES;
+use super::computing::{MOST_CRASHES, pause};
 use super::engine::Engine;
 use super::handle::Jobs;
 use super::memory::Memory;
 use super::pool::CpuPool;
-use super::progress::{News, Report};
+use super::progress::News;
 use super::turns::Turns;
 use super::{error, prepare, speed};
 use crate::store::jobs::{JobId, Unfinished};
@@ -27,8 +27,8 @@ use crate::store::limits::Limits;
 use crate::store::queue::{PrepareJob, Queue, RunSpeed};
 use crate::store::{Store, StoreError};
 
-/// Preparations under way at once, beyond one per thread: those that wait for another job's reduction take no thread,
-/// and must not keep others from theirs.
+/// Preparations of one owner under way at once, beyond one per thread: those that wait for another job's reduction take no
+/// thread, and must not keep others from theirs. All owners together have four times as many.
 const WAITING_PREPARATIONS: usize = 16;
 
 /// How often a queue is asked for tasks without having been rung.
@@ -40,6 +40,9 @@ const LAST_TASKS: Duration = Duration::from_secs(1);
 /// Time between two writes of a job's progress. Each is a flush of the disk, and nobody looks more often.
 const BETWEEN_PROGRESS: Duration = Duration::from_secs(1);
 
+/// Time after which a cleaning that failed is tried again.
+const NEXT_CLEANING: Duration = Duration::from_secs(60);
+
 /// Time between two looks for jobs that have been kept long enough.
 const BETWEEN_CLEANINGS: Duration = Duration::from_secs(3600);
 
@@ -48,7 +51,7 @@ const BETWEEN_CLEANINGS: Duration = Duration::from_secs(3600);
 pub struct Settings {
     /// Threads that compute.
     pub workers: usize,
-    /// Memory that reductions and generations may take together; `None` for no limit.
+    /// Memory that computations, uploads and large downloads may take together; `None` for no limit.
     pub memory_bytes: Option<u64>,
     /// Days after which finished jobs are deleted; `None` keeps them.
     pub keep_days: Option<u32>,
@@ -73,7 +76,9 @@ impl Runner {
         let pools = (pool("compute", settings.workers)?, pool("import", settings.workers)?, pool("plan", 1)?);
         let memory = Memory::new(settings.memory_bytes);
         let preparations = settings.workers + WAITING_PREPARATIONS;
+
         let engine = Engine::new(store.clone(), queue, pools, memory, settings.limits, preparations);
+        let all_preparations = engine.preparations.most();
         if let Err(error) = store.count_crashes().await {
             // Counted at the next start.
             tracing::warn!(%error, "could not count what the last service ended under");
@@ -84,13 +89,22 @@ impl Runner {
             }
             tracing::info!(job.id = %id, crashes, "resuming");
             engine.computing.suspect(id, crashes);
-            engine.queue_preparation(&owner, id);
+            let pause = pause(crashes);
+            if pause.is_zero() {
+                engine.queue_preparation(&owner, id);
+            } else {
+                let engine = Arc::clone(&engine);
+                tokio::spawn(async move {
+                    tokio::time::sleep(pause).await;
+                    engine.queue_preparation(&owner, id);
+                });
+            }
         }
         let stop = CancellationToken::new();
         let workers = vec![
             tokio::spawn(supervise("prepare", Arc::clone(&engine), stop.clone(), {
                 let (engine, stop) = (Arc::clone(&engine), stop.clone());
-                move |name| prepare_jobs(name, Arc::clone(&engine), preparations, stop.clone())
+                move |name| prepare_jobs(name, Arc::clone(&engine), all_preparations, stop.clone())
             })),
             tokio::spawn(supervise("speeds", Arc::clone(&engine), stop.clone(), {
                 let (engine, stop) = (Arc::clone(&engine), stop.clone());
@@ -155,6 +169,8 @@ async fn keep_house(engine: Arc<Engine>, keep_days: Option<u32>) {
         };
         if let Err(error) = cleaned.await {
             tracing::warn!(%error, "could not clean up; trying again later");
+            tokio::time::sleep(NEXT_CLEANING).await;
+            continue;
         }
         tokio::select! {
             () = engine.deleted.notified() => {}
@@ -251,10 +267,15 @@ async fn record_progress(store: Store, news: Arc<News>) {
     let mut interval = tokio::time::interval(BETWEEN_PROGRESS);
     loop {
         interval.tick().await;
-        for (job, Report { percent, phase }) in news.take() {
-            if let Err(error) = store.record_progress(job, percent, &phase).await {
+        let mut lets_down = false;
+        for (job, report) in news.take() {
+            if !lets_down && let Err(error) = store.record_progress(job, report.percent, &report.phase).await
+            {
                 tracing::warn!(job.id = %job, %error, "could not record progress");
-                break;
+                lets_down = true;
+            }
+            if lets_down {
+                news.put_back(job, report);
             }
         }
     }

@@ -68,7 +68,9 @@ pub async fn backup(data: &Path, to: &Path) -> Result<Backup, StoreError> {
         sqlx::query_scalar("select count(*) from jobs where deleted = 0").fetch_one(&mut copied).await?;
     copied.close().await?;
     source.close().await?;
-    std::fs::File::open(&copy)?.sync_all()?;
+    for written in [copy, unfinished.path().join("models"), unfinished.path().to_owned()] {
+        std::fs::File::open(written)?.sync_all()?;
+    }
     std::fs::rename(unfinished.path(), to)?;
     std::fs::File::open(around)?.sync_all()?;
     // It has another name now.
@@ -138,7 +140,16 @@ async fn check_models(
         match tokio::task::spawn_blocking(read).await.map_err(std::io::Error::other)? {
             Ok(digest) if digest == id => found.models += 1,
             Ok(_) => found.wrong.push(format!("model {id}: its package has another content")),
-            Err(error) => found.wrong.push(format!("model {id}: {error}")),
+            Err(error) => {
+                let there: bool = sqlx::query_scalar("select exists (select 1 from models where id = ?)")
+                    .bind(&id)
+                    .fetch_one(&mut *database)
+                    .await?;
+                // A service may have deleted it meanwhile.
+                if there {
+                    found.wrong.push(format!("model {id}: {error}"));
+                }
+            }
         }
     }
     Ok(())

@@ -64,13 +64,12 @@ impl Store {
     ) -> Result<Result<(StoredModel, bool), LimitReached>, StoreError> {
         let _packages = self.packages.lock().await;
         let target = self.package_path(id);
-        if let Some(known) = self.model(id, Some(owner)).await?
+        if let Some(known) = self.model(id, Some(owner)).await? {
             // A package that got lost is there again with the next upload.
-            && tokio::fs::try_exists(&target).await?
-        {
-            return Ok(Ok((known, false)));
-        }
-        if let Err(reached) = limits.allow_model(&mut *self.readers.acquire().await?, owner).await? {
+            if tokio::fs::try_exists(&target).await? {
+                return Ok(Ok((known, false)));
+            }
+        } else if let Err(reached) = limits.allow_model(&mut *self.readers.acquire().await?, owner).await? {
             return Ok(Err(reached));
         }
         let upload = upload.to_owned();

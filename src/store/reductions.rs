@@ -1,5 +1,6 @@
 //! Reduced sectors, one per (model, `modes_per_speed`).
 
+use super::jobs::JobId;
 use super::{Store, StoreError, now};
 use crate::analysis::result::ReductionReport;
 use crate::analysis::run::ReducedSector;
@@ -53,9 +54,10 @@ impl Store {
             .await?)
     }
 
-    /// Keeps the reduction of `model` and drops its checkpoints. A model deleted meanwhile keeps nothing.
+    /// Keeps the reduction of `model` that `job` made, and drops its checkpoints. A model deleted meanwhile keeps nothing.
     pub async fn insert_reduction(
         &self,
+        job: JobId,
         model: &str,
         modes_per_speed: u32,
         reduced: &ReducedSector,
@@ -76,6 +78,10 @@ impl Store {
         .bind(now())
         .execute(&mut *write)
         .await?;
+        sqlx::query("update jobs set crashes = 0 where id = ? and crashes > 0")
+            .bind(job.to_string())
+            .execute(&mut *write)
+            .await?;
         write.commit().await?;
         self.remove_checkpoints(model, Some(modes_per_speed)).await;
         Ok(())

@@ -38,7 +38,7 @@ impl Document {
 }
 
 impl Store {
-    /// Keeps a finished speed in a transaction of its own, with its end state in place of the last one's, if the job still
+    /// Keeps a finished speed in a transaction of its own, with its end state in place of the last one's if the job still
     /// wants work. A speed that is there already stays as it is.
     /// Returns how many speeds of the job are finished now; `None` if it was deleted.
     pub async fn insert_speed(&self, job: JobId, result: &SpeedResult) -> Result<Option<u32>, StoreError> {
@@ -116,20 +116,23 @@ impl Store {
         Ok(points.iter().map(|point| serde_json::from_str(point)).collect::<Result<_, _>>()?)
     }
 
-    /// What `row` takes of the spectra of speed `index` of a job; `None` where it has none.
+    /// What `row` takes of the spectra of the finished speed `index` of a job; `None` where it has none.
+    ///
+    /// # Errors
+    /// Also if the speed is not there (any more).
     pub async fn map_row(
         &self,
         job: JobId,
         index: u32,
         row: impl Fn(&SpeedSpectra) -> Option<Vec<f64>>,
     ) -> Result<Option<Vec<f64>>, StoreError> {
-        let spectra: Option<Option<Vec<u8>>> =
+        let spectra: Option<Vec<u8>> =
             sqlx::query_scalar("select spectra from speed_results where job = ? and speed = ?")
                 .bind(job.to_string())
                 .bind(index)
-                .fetch_optional(&self.readers)
+                .fetch_one(&self.readers)
                 .await?;
-        let Some(spectra) = spectra.flatten() else { return Ok(None) };
+        let Some(spectra) = spectra else { return Ok(None) };
         Ok(row(&postcard::from_bytes(&spectra)?))
     }
 

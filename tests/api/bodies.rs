@@ -47,7 +47,7 @@ async fn all_structural_errors_come_at_once_in_words() {
         (
             "/colour",
             "this field does not exist here; those here are accuracy, budget, control_speeds, integration, \
-          max_engine_order, model, modes_per_speed, refine, scene, sensors, speeds, sweep",
+          max_engine_order, model, modes_per_speed, peak_prominence, refine, scene, sensors, speeds, sweep",
         ),
         ("/refine", "expected true or false, not the text \"yes\""),
         ("/max_engine_order", "expected a whole number from 1 to 1000, not 5000000000"),

@@ -120,7 +120,6 @@ async fn bad_parameters_are_refused_at_once() {
         (json!({"units": {"length": "mm", "force": "N", "time": "s"}}), "invalid-request", "/units/mass"),
         (json!({"mesh": [1, 1, 1, 1, 1]}), "invalid-request", "/mesh"),
         (json!({"preset": "enormous"}), "invalid-request", "/preset"),
-        (json!({"units": {"length": "mm", "force": "N", "time": "s"}}), "invalid-request", "/units"),
         (json!({"units": ["mm", "N", "s", "t"]}), "invalid-request", "/units"),
         (
             json!({"units": {"length": "m", "force": "N", "time": "s", "mass": "t"}}),

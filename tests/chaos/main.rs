@@ -77,6 +77,16 @@ async fn whatever_was_accepted_ends_as_if_nothing_had_happened() {
         assert_eq!(job["status"], "successful", "{kind:?}: {job}");
         assert_eq!(result_of(api, *kind, &job).await, undisturbed[kind], "{kind:?} {id}");
     }
+    // Those whose 202 the client never got have been accepted as well.
+    let mut path = Some("/v1/jobs?limit=500".to_owned());
+    while let Some(page) = path {
+        let page = api.get(&page).await.body;
+        for job in page["jobs"].as_array().unwrap() {
+            let job = wait_for(api, job["id"].as_str().unwrap(), ended).await;
+            assert_eq!(job["status"], "successful", "{job}");
+        }
+        path = page["next"].as_str().map(ToOwned::to_owned);
+    }
     program.terminate();
 
     let checked =

@@ -83,23 +83,28 @@ impl Store {
         if deleted.is_empty() { Ok(()) } else { self.give_back().await }
     }
 
-    /// Gives free pages back to the file system, and what the write-ahead log has grown to.
+    /// Gives free pages back to the file system, some at a time, and what the write-ahead log has grown to.
     async fn give_back(&self) -> Result<(), StoreError> {
-        let mut writer = self.writer.acquire().await?;
+        let mut before = i64::MAX;
         loop {
-            let free: i64 = sqlx::query_scalar("pragma freelist_count").fetch_one(&mut *writer).await?;
-            if free == 0 {
+            let free: i64 = sqlx::query_scalar("pragma freelist_count").fetch_one(&self.readers).await?;
+            // A database of an earlier version that could not be made anew keeps them.
+            if free == 0 || free >= before {
                 break;
             }
-            let some = format!("pragma incremental_vacuum({PAGES_AT_ONCE})");
-            sqlx::query(sqlx::AssertSqlSafe(some)).fetch_all(&mut *writer).await?;
-            let left: i64 = sqlx::query_scalar("pragma freelist_count").fetch_one(&mut *writer).await?;
-            if left >= free {
-                // Of a database made by an earlier version that could not be made anew.
-                break;
-            }
+            before = free;
+            self.pragma(format!("pragma incremental_vacuum({PAGES_AT_ONCE})")).await?;
         }
-        sqlx::query("pragma wal_checkpoint(truncate)").fetch_all(&mut *writer).await?;
+        self.pragma("pragma wal_checkpoint(truncate)".to_owned()).await
+    }
+
+    /// A statement that writes and wants no transaction around it.
+    async fn pragma(&self, statement: String) -> Result<(), StoreError> {
+        let mut writer = self.writer.acquire().await?;
+        if let Err(error) = sqlx::query(sqlx::AssertSqlSafe(statement)).fetch_all(&mut *writer).await {
+            writer.close_on_drop();
+            return Err(error.into());
+        }
         Ok(())
     }
 }
