@@ -17,6 +17,9 @@ use crate::store::{Store, StoreError};
 use crate::tokens::{Tokens, TokensError};
 use crate::version;
 
+/// Time between two attempts to open the store.
+const BETWEEN_ATTEMPTS: Duration = Duration::from_secs(1);
+
 /// Large answers that are made at once.
 const LARGE_ANSWERS: usize = 4;
 
@@ -94,7 +97,7 @@ impl App {
         if tokens.is_none() && !config.open && !config.addr.ip().is_loopback() {
             return Err(StartError::Exposed(config.addr));
         }
-        let store = Store::open(&config.data).await?;
+        let store = open_store(&config.data).await?;
         store.remove_leftovers().await;
         let bind = |source| StartError::Bind { addr: config.addr, source };
         let listener = TcpListener::bind(config.addr).await.map_err(bind)?;
@@ -145,6 +148,24 @@ impl App {
             tracing::warn!("the database is in use; its log is folded in at the next start");
         }
         tracing::info!("stopped");
+    }
+}
+
+/// Opens the store, again and again while the disk is full or another program has the database: who starts the service may
+/// not come back to it.
+async fn open_store(folder: &Path) -> Result<Store, StoreError> {
+    let mut warned = false;
+    loop {
+        match Store::open(folder).await {
+            Err(error) if error.may_pass() => {
+                if !warned {
+                    tracing::error!(%error, "the service starts as soon as the data folder can be used");
+                    warned = true;
+                }
+                tokio::time::sleep(BETWEEN_ATTEMPTS).await;
+            }
+            opened => return opened,
+        }
     }
 }
 

@@ -1,5 +1,7 @@
 //! `rubmap serve`: the HTTP service until a signal ends it.
 
+use std::pin::pin;
+
 use crate::app::App;
 use crate::config::Config;
 use tokio_util::sync::CancellationToken;
@@ -10,16 +12,18 @@ use super::signals::stop_signal;
 pub(super) fn run(config: Config) -> anyhow::Result<()> {
     let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build()?;
     let served = runtime.block_on(async {
-        let stop_signal = stop_signal()?;
-        let app = App::build(config).await?;
+        let mut stop_signal = pin!(stop_signal()?);
+        let app = tokio::select! {
+            app = App::build(config) => app?,
+            () = &mut stop_signal => return Ok(()),
+        };
         let stop = CancellationToken::new();
-        let told = stop.clone();
-        tokio::spawn(async move {
-            stop_signal.await;
-            told.cancel();
-        });
         tracing::info!("listening on http://{}", app.addr());
-        app.run_until_stopped(stop).await;
+        let told = async {
+            stop_signal.await;
+            stop.cancel();
+        };
+        tokio::join!(app.run_until_stopped(stop.clone()), told);
         Ok(())
     });
     // What still reads or writes a file on another thread is not waited for: all that is kept is kept.

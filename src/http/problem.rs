@@ -330,7 +330,12 @@ impl From<SubmitError> for Problem {
 
 impl From<LimitReached> for Problem {
     fn from(reached: LimitReached) -> Self {
-        Self::new(Kind::LimitReached, reached.to_string()).retry_after(LIMIT_S)
+        let problem = Self::new(Kind::LimitReached, reached.to_string());
+        match reached {
+            // No waiting helps.
+            LimitReached::QueuedSpeeds { asked, limit, .. } if asked > limit => problem,
+            _ => problem.retry_after(LIMIT_S),
+        }
     }
 }
 

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use axum::body::{Body, Bytes};
 use axum::http::header;
 use axum::response::{IntoResponse, Response};
-use futures::stream;
+use futures::{StreamExt, stream};
 use serde::Serialize;
 use serde::ser::Error;
 use tokio::sync::mpsc::{Receiver, Sender, channel};
@@ -78,7 +78,8 @@ pub(super) fn json<T: Serialize>(leave: Leave, value: impl FnOnce() -> T + Send 
 }
 
 fn pieces_of(receiver: Receiver<io::Result<Bytes>>) -> impl stream::Stream<Item = io::Result<Bytes>> {
-    stream::unfold(receiver, |mut receiver| async move { Some((receiver.recv().await?, receiver)) })
+    // Compression asks once more after the end.
+    stream::unfold(receiver, |mut receiver| async move { Some((receiver.recv().await?, receiver)) }).fuse()
 }
 
 /// Sends what is written, piece by piece, and waits for the client to take them.

@@ -47,7 +47,9 @@ impl<T: Copy + Eq + Hash> Turns<T> {
     /// Adds tasks of a job, to be handed out in this order. Those that wait or are out already are not added again.
     pub(super) fn add(&self, owner: &str, job: JobId, tasks: impl IntoIterator<Item = T>) {
         let Lines { owners, out } = &mut *self.lock();
-        let mut tasks: Vec<T> = tasks.into_iter().filter(|&task| !out.contains_key(&(job, task))).collect();
+        let mut known = HashSet::new();
+        let new = |task: &T| !out.contains_key(&(job, *task)) && known.insert(*task);
+        let mut tasks: Vec<T> = tasks.into_iter().filter(new).collect();
         let line = match owners.iter().position(|line| line.owner == owner) {
             Some(place) => &mut owners[place],
             None => {

@@ -2,6 +2,8 @@
 
 use std::io::ErrorKind;
 
+use sqlx::migrate::MigrateError;
+
 /// A failure of the database, the disk or of something stored there.
 #[derive(Debug, thiserror::Error)]
 pub enum StoreError {
@@ -74,7 +76,10 @@ impl StoreError {
             )
             | Self::Queue(_)
             | Self::Unseen => true,
-            Self::Database(error) => result_code(error).is_some_and(|code| PASSING.contains(&code)),
+            Self::Database(error)
+            | Self::Migration(MigrateError::Execute(error) | MigrateError::ExecuteMigration(error, _)) => {
+                result_code(error).is_some_and(|code| PASSING.contains(&code))
+            }
             Self::Migration(_) | Self::Json(_) | Self::Numbers(_) | Self::Unknown { .. } => false,
         }
     }

@@ -180,17 +180,19 @@ mod tests {
     /// A service that dies between a script without a transaction and the note that it ran runs it again.
     #[tokio::test]
     async fn scripts_without_a_transaction_may_run_again() {
-        let job = JobId::new();
-        let folder = older_folder(job, 4).await;
-        for _ in 0..2 {
+        for version in [4, 9] {
+            let job = JobId::new();
+            let folder = older_folder(job, version + 1).await;
+            let options = SqliteConnectOptions::new().filename(folder.path().join(DATABASE));
+            let pool = SqlitePool::connect_with(options).await.unwrap();
+            sqlx::query("delete from _sqlx_migrations where version = ?")
+                .bind(version)
+                .execute(&pool)
+                .await
+                .unwrap();
+            pool.close().await;
             let store = Store::open(folder.path()).await.unwrap();
             assert_eq!(store.finished_speeds(job).await.unwrap().len(), 1);
-            sqlx::query(
-                "delete from _sqlx_migrations where version = (select max(version) from _sqlx_migrations)",
-            )
-            .execute(&store.writer)
-            .await
-            .unwrap();
             store.close().await;
         }
     }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Stdio};
 use std::time::Duration;
 
 use rubmap::store::Store;
@@ -67,7 +67,19 @@ async fn a_full_disk_loses_nothing_that_was_accepted() {
         assert!(["accepted", "running", "successful"].contains(&status.as_str()), "{status} on a full disk");
     }
 
+    // A service that starts on a full disk waits, and ends when it is told to.
+    program.kill();
+    let mut waiting = Command::new(env!("CARGO_BIN_EXE_rubmap"));
+    waiting.args(["serve", "--addr", "127.0.0.1:0", "--data"]).arg(disk.data());
+    let mut waiting = waiting.stderr(Stdio::null()).spawn().unwrap();
+    tokio::time::sleep(Duration::from_secs(2)).await;
+    assert!(waiting.try_wait().unwrap().is_none(), "it gave up");
+    Command::new("kill").arg("-TERM").arg(waiting.id().to_string()).status().unwrap();
+    assert!(waiting.wait().unwrap().success());
+
     disk.make_room();
+    let program = Program::serve(&disk.data());
+    let api = &program.api;
     // At the first try: nothing is left of the failures.
     accepted.push(api.sweep(&quick_sweep_of(&model)).await);
     api.model(model::package(1.5)).await;

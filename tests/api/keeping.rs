@@ -1,5 +1,6 @@
 //! Backup of a running service, restore, check; and memory kept within its budget.
 
+use std::io::Read;
 use std::path::Path;
 use std::process::{Command, Output};
 
@@ -133,4 +134,25 @@ async fn large_speeds_and_downloads_stay_within_the_budget() {
     // The program itself, its caches and what the allocator keeps come on top.
     let peak = peak_bytes(&program);
     assert!(peak < BUDGET + (256 << 20), "{peak} bytes");
+}
+
+/// Browsers, and most clients in scripts, ask for compressed answers.
+#[tokio::test]
+async fn compressed_downloads_are_whole() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(model::package(1.0)).await;
+    let id = api.sweep(&sweep_of(&model)).await;
+    api.finish(&id).await;
+    for path in ["interaction-map", "spectra/0", "critical-speeds"] {
+        let path = format!("/v1/jobs/{id}/{path}");
+        let plain = api.request("GET", &path).send().await.unwrap().bytes().await.unwrap();
+        let answer = api.request("GET", &path).header("accept-encoding", "gzip").send().await.unwrap();
+        assert_eq!(answer.headers()["content-encoding"], "gzip", "{path}");
+        let compressed = answer.bytes().await.unwrap();
+        let mut expanded = Vec::new();
+        flate2::read::GzDecoder::new(&compressed[..]).read_to_end(&mut expanded).unwrap();
+        assert_eq!(expanded, plain, "{path}");
+    }
+    app.stop().await;
 }
