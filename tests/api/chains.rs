@@ -47,7 +47,8 @@ async fn speeds_follow_each_other_downwards() {
             break;
         }
         let job = api.job(&id).await;
-        assert!(["accepted", "running"].contains(&job.text("/status").as_str()), "{}", job.body);
+        // It may have ended since.
+        assert!(!["failed", "dismissed"].contains(&job.text("/status").as_str()), "{}", job.body);
     }
     assert!(seen.len() > 3, "too fast to be followed: {seen:?}");
     let job = api.finish(&id).await;

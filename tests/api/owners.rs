@@ -5,7 +5,7 @@ use rubmap::app::{App, StartError};
 use rubmap::tokens::{Scope, new_token};
 use serde_json::Value;
 
-use super::app::{Answer, Api, TestApp, config, modal_analysis_of, sweep_of};
+use super::app::{Answer, Api, TestApp, config, long_sweep_of, modal_analysis_of, sweep_of};
 use super::model;
 
 /// A client with a token.
@@ -154,10 +154,16 @@ async fn limits_are_said_with_when_to_try_again() {
     let mut request = sweep_of(&model);
     request["speeds"]["count"] = 11.into();
     let refused = api.request("POST", "/v1/sweeps").json(&request).send().await.unwrap();
-    assert!(refused.headers().contains_key("retry-after"));
+    assert!(!refused.headers().contains_key("retry-after"), "no waiting helps");
     let refused = Answer::of(refused).await;
     refused.problem(429, "limit-reached");
     assert!(refused.text("/detail").contains("limit of 10"), "{}", refused.body);
+    let long = api.sweep(&long_sweep_of(&model, 9)).await;
+    request["speeds"]["count"] = 10.into();
+    let refused = api.request("POST", "/v1/sweeps").json(&request).send().await.unwrap();
+    assert_eq!(refused.status(), 429);
+    assert!(refused.headers().contains_key("retry-after"));
+    api.delete(&format!("/v1/jobs/{long}")).await;
     request["speeds"]["count"] = 10.into();
     let id = api.sweep(&request).await;
     assert_eq!(api.finish(&id).await["status"], "successful");
