@@ -28,7 +28,7 @@ pub struct TransportConfig {
     #[arg(long = "host", env = "RUBMAP_HOSTS", value_name = "NAME", value_delimiter = ',', value_parser = host_name)]
     pub hosts: Vec<String>,
 
-    /// Origin of web pages that may use the service, such as https://tools.example; may be repeated [default: none].
+    /// Origin (scheme and host) of web pages that may use the service; may be repeated [default: none].
     #[arg(long = "cors-origin", env = "RUBMAP_CORS_ORIGINS", value_name = "ORIGIN", value_delimiter = ',', value_parser = origin)]
     pub cors_origins: Vec<HeaderValue>,
 
