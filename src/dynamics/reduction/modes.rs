@@ -198,8 +198,8 @@ impl Pencil<'_> {
         Ok((Modes { values, residuals, vectors, beyond }, worst))
     }
 
-    /// The dense solution, `count` modes or as many as have mass, on M x = θ K x like the iteration: the lowest modes are then accurate to round-off even
-    /// where M is nearly singular.
+    /// The dense solution, `count` modes or as many as have mass, on M x = θ K x like the iteration: the lowest modes are
+    /// then accurate to round-off even where M is nearly singular.
     fn dense(&self, tie: &Tie, rows: usize, count: usize, tolerance: f64) -> Result<Modes, ModeError> {
         let harmonic = tie.harmonic;
         let [m, k] = [self.mass, self.stiffness].map(|matrix| self.untied.tied_dense(matrix, tie, rows));
@@ -207,9 +207,9 @@ impl Pencil<'_> {
             .map_err(|_| ModeError::DenseFailed { harmonic })?;
         let theta = |m: usize| pairs.values[rows - 1 - m];
         // Below, θ is round-off: directions without mass.
-        let massless = rows as f64 * f64::EPSILON * theta(0);
+        let massless = if rows == 0 { 0.0 } else { rows as f64 * f64::EPSILON * theta(0) };
         let carrying = (0..rows).take_while(|&m| theta(m) > massless).count();
-        if carrying == 0 {
+        if carrying < count.min(1) {
             return Err(ModeError::Massless { harmonic });
         }
         let count = count.min(carrying);
