@@ -121,7 +121,7 @@ async fn load(
     clients: usize,
     time: Duration,
 ) -> anyhow::Result<(Vec<Duration>, usize)> {
-    let request = Arc::new(sweep(model, 1));
+    let request = Arc::new(sweep(model, 2));
     let listed: Value = client.get(format!("{base}/v1/jobs?limit=1")).send().await?.json().await?;
     let id = Arc::new(listed["jobs"][0]["id"].as_str().context("no job")?.to_owned());
     let pause = Duration::from_secs_f64(clients as f64 / RATE);
@@ -168,7 +168,7 @@ async fn load(
 
 /// Ten thousand jobs, cancelled as they come, and all their pages.
 async fn list(client: &Client, base: &str, model: &str) -> anyhow::Result<()> {
-    let request = sweep(model, 1);
+    let request = sweep(model, 2);
     for _ in 0..LISTED {
         let id = post(client, base, &request).await?;
         client.delete(format!("{base}/v1/jobs/{id}")).send().await?.error_for_status()?;
