@@ -50,8 +50,8 @@ impl Computing {
         T: Send + 'static,
         F: FnOnce() -> T + Send + 'static,
     {
-        let _alone = self.admit(watch).await?;
-        Ok(self.pool.run(self.marked(watch, compute)).await?)
+        let alone = self.admit(watch).await?;
+        Ok(self.pool.run(self.marked(watch, alone, compute)).await?)
     }
 
     /// The same for work that is parallel in itself.
@@ -60,14 +60,21 @@ impl Computing {
         T: Send + 'static,
         F: FnOnce() -> T + Send + 'static,
     {
-        let _alone = self.admit(watch).await?;
-        Ok(self.pool.run_parallel(self.marked(watch, compute)).await?)
+        let alone = self.admit(watch).await?;
+        Ok(self.pool.run_parallel(self.marked(watch, alone, compute)).await?)
     }
 
-    /// `compute` with a mark from its beginning to its end: what waits for a thread is not marked.
-    fn marked<T, F: FnOnce() -> T>(&self, watch: &Watch, compute: F) -> impl FnOnce() -> T + use<T, F> {
+    /// `compute` with a mark from its beginning to its end: what waits for a thread is not marked. What it holds it holds to
+    /// its end as well, whether or not somebody still waits for it.
+    fn marked<T, F: FnOnce() -> T>(
+        &self,
+        watch: &Watch,
+        alone: Option<OwnedMutexGuard<()>>,
+        compute: F,
+    ) -> impl FnOnce() -> T + use<T, F> {
         let (store, job) = (self.store.clone(), watch.job());
         move || {
+            let _alone = alone;
             let _mark = store.mark_computing(job);
             compute()
         }

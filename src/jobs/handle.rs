@@ -251,8 +251,9 @@ impl Jobs {
     ) -> Result<Result<(run::ModelFacts, String), Box<package::PackageError>>, Panicked> {
         // What it will be once expanded is not known yet; texts of numbers shrink to a fifth or less.
         let bytes = path.metadata().map_or(0, |file| file.len().saturating_mul(EXPANSION));
-        let _memory = self.engine.memory.hold_up_to(bytes).await;
+        let memory = self.engine.memory.hold_up_to(bytes).await;
         let read = move || {
+            let _memory = memory;
             package::read(&path, &limits)
                 .map(|imported| (run::ModelFacts::of(&imported.sector), imported.digest))
                 .map_err(Box::new)

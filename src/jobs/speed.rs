@@ -30,13 +30,18 @@ pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) 
         None => None,
     };
     let bytes = job.speed_bytes.load(Ordering::Relaxed);
-    let _memory = engine.memory.hold(bytes).await.map_err(Halt::speed_memory)?;
+    let memory = engine.memory.hold(bytes).await.map_err(Halt::speed_memory)?;
     let (settings, monitor) = (request.clone(), SpeedMonitor::new(job.watch.clone(), speed));
-    let compute = move || run::run_speed(&reduced, &settings, speed as usize, start.as_ref(), &monitor);
-    let result = {
-        let _running = engine.counters.speed_begins();
-        engine.computing.run(&job.watch, compute).await??
+    let compute = move || {
+        let result = run::run_speed(&reduced, &settings, speed as usize, start.as_ref(), &monitor);
+        (result, memory)
     };
+    // Held until the result is in the store, where it is copied once more.
+    let (result, _memory) = {
+        let _running = engine.counters.speed_begins();
+        engine.computing.run(&job.watch, compute).await?
+    };
+    let result = result?;
 
     let kept = patiently(&job.watch, || engine.store.insert_speed(id, &result)).await?;
     let Some(finished) = kept else { return Ok(()) };

@@ -71,9 +71,12 @@ async fn obtain(engine: &Engine, job: &Live, request: TrialRequest) -> Result<(S
     let reduced = engine.reductions.get(&model, modes, monitor.clone()).await?;
     let asked = (Arc::clone(&reduced), request.clone());
     let bytes = engine.computing.run(&job.watch, move || run::trial_memory(&asked.0, &asked.1)).await?;
-    let _memory = engine.memory.hold(bytes).await.map_err(Halt::speed_memory)?;
-    let trial =
-        engine.computing.run(&job.watch, move || run::run_trial(&reduced, &request, &monitor)).await??;
+    let memory = engine.memory.hold(bytes).await.map_err(Halt::speed_memory)?;
+    let compute = move || {
+        let _memory = memory;
+        run::run_trial(&reduced, &request, &monitor)
+    };
+    let trial = engine.computing.run(&job.watch, compute).await??;
     patiently(&job.watch, || engine.store.insert_trial(job.id, &key, &model, &trial)).await?;
     engine.computing.acquit(job.id);
     tracing::debug!(job.id = %job.id, modes, steps = trial.point.steps, status = ?trial.point.status, "trial run");

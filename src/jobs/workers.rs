@@ -76,7 +76,6 @@ impl Runner {
         let pools = (pool("compute", settings.workers)?, pool("import", settings.workers)?, pool("plan", 1)?);
         let memory = Memory::new(settings.memory_bytes);
         let preparations = settings.workers + WAITING_PREPARATIONS;
-
         let engine = Engine::new(store.clone(), queue, pools, memory, settings.limits, preparations);
         let all_preparations = engine.preparations.most();
         if let Err(error) = store.count_crashes().await {
