@@ -181,6 +181,12 @@ impl Store {
             .bind(owner)
             .execute(&mut *transaction)
             .await?;
+        // Nobody is to be told again that it is there.
+        sqlx::query("delete from idempotency_keys where location = '/v1/models/' || ?1 and (?2 is null or owner = ?2)")
+            .bind(id)
+            .bind(owner)
+            .execute(&mut *transaction)
+            .await?;
         let deleted = sqlx::query(
             "delete from models where id = ?1 and not exists (select 1 from model_owners where model = ?1)",
         )

@@ -33,6 +33,12 @@ async fn a_repeated_post_gets_its_first_answer_again() {
     assert_ne!(post(api, "two", &request).await.text("/id"), first.text("/id"));
     assert_eq!(api.get("/v1/jobs").await.body["jobs"].as_array().unwrap().len(), 2);
     post(api, "", &request).await.problem(400, "invalid-parameter");
+
+    // Of a job that is deleted nobody is told again that it is accepted.
+    assert_eq!(api.delete(&format!("/v1/jobs/{}", first.text("/id"))).await.status, 204);
+    let anew = post(api, "one", &request).await;
+    assert_eq!(anew.status, 202, "{}", anew.body);
+    assert_eq!(api.finish(&anew.text("/id")).await["status"], "successful");
     app.stop().await;
 }
 

@@ -1,6 +1,7 @@
 //! Deleting jobs, and giving their room back to the file system.
 
 use chrono::{TimeDelta, Utc};
+use sqlx::SqliteConnection;
 
 use super::{JobId, status_of};
 use crate::store::{Store, StoreError, timestamp};
@@ -39,6 +40,7 @@ impl Store {
             .bind(id.to_string())
             .execute(&mut *write)
             .await?;
+        forget_answers(&mut write).await?;
         write.commit().await?;
         Ok(outcome)
     }
@@ -50,6 +52,7 @@ impl Store {
             .bind(timestamp(Utc::now() - TimeDelta::days(days.into())))
             .execute(&mut *write)
             .await?;
+        forget_answers(&mut write).await?;
         write.commit().await?;
         Ok(deleted.rows_affected())
     }
@@ -107,6 +110,16 @@ impl Store {
         }
         Ok(())
     }
+}
+
+/// Nobody is to be told again that a deleted job is accepted: its idempotency key is free.
+async fn forget_answers(connection: &mut SqliteConnection) -> Result<(), StoreError> {
+    sqlx::query(
+        "delete from idempotency_keys where location in (select '/v1/jobs/' || id from jobs where deleted = 1)",
+    )
+    .execute(connection)
+    .await?;
+    Ok(())
 }
 
 #[cfg(test)]
