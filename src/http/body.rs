@@ -14,10 +14,8 @@ use hyper::body::{Frame, SizeHint};
 use tokio::time::{Instant, Sleep, sleep_until};
 
 use super::AppState;
+use super::pace::{PIECE, Pace};
 use super::problem::{Kind, Problem};
-
-/// Bytes for which a client may keep the service waiting as long as it may.
-const PIECE: u64 = 64 << 10;
 
 /// Middleware: a body whose next 64 KiB keep the service waiting for too long is given up.
 pub(super) async fn keep_coming(state: State<AppState>, request: Request, next: Next) -> Response {
@@ -41,10 +39,7 @@ pub(super) async fn keep_coming(state: State<AppState>, request: Request, next: 
 struct Patient {
     body: Body,
     patience: Duration,
-    /// Left of it for this piece.
-    left: Duration,
-    /// Come of this piece.
-    came: u64,
+    pace: Pace,
     /// Since when it is waited for, and until when.
     waiting: Option<(Instant, Pin<Box<Sleep>>)>,
     stalled: Arc<AtomicBool>,
@@ -52,17 +47,12 @@ struct Patient {
 
 impl Patient {
     fn new(body: Body, patience: Duration, stalled: Arc<AtomicBool>) -> Self {
-        Self { body, patience, left: patience, came: 0, waiting: None, stalled }
+        Self { body, patience, pace: Pace::default(), waiting: None, stalled }
     }
 
     fn comes(&mut self, bytes: usize) {
-        if let Some((since, _)) = self.waiting.take() {
-            self.left = self.left.saturating_sub(since.elapsed());
-        }
-        self.came += bytes as u64;
-        if self.came >= PIECE {
-            (self.came, self.left) = (0, self.patience);
-        }
+        let waited = self.waiting.take().map_or(Duration::ZERO, |(since, _)| since.elapsed());
+        self.pace.moves(bytes as u64, waited);
     }
 }
 
@@ -81,7 +71,7 @@ impl hyper::body::Body for Patient {
             }
             return Poll::Ready(frame);
         }
-        let left = self.left;
+        let left = self.patience.saturating_sub(self.pace.waited());
         let (_, end) = self.waiting.get_or_insert_with(|| {
             let now = Instant::now();
             (now, Box::pin(sleep_until(now + left)))
@@ -99,21 +89,5 @@ impl hyper::body::Body for Patient {
 
     fn size_hint(&self) -> SizeHint {
         self.body.size_hint()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn patience_is_for_a_piece_and_not_for_a_byte() {
-        let patience = Duration::from_secs(30);
-        let mut body = Patient::new(Body::empty(), patience, Arc::default());
-        body.left = Duration::from_secs(1);
-        body.comes(PIECE as usize - 1);
-        assert_eq!(body.left, Duration::from_secs(1), "a trickle wins no time");
-        body.comes(1);
-        assert_eq!((body.left, body.came), (patience, 0));
     }
 }

@@ -13,6 +13,7 @@ mod metrics;
 mod modal_analyses;
 mod models;
 mod openapi;
+mod pace;
 mod page;
 mod principal;
 pub mod problem;

@@ -4,11 +4,12 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use super::Limits;
+use crate::http::pace::Pace;
 
 /// How long a client is waited for, even if others want its place: an honest one sends its request at once.
 const PATIENCE_FOR_HEADS: Duration = Duration::from_secs(1);
 
-/// The same within a body or an answer, where a poor line may pause.
+/// The same for 64 KiB of a body or an answer, where a poor line may pause.
 const PATIENCE_WITHIN: Duration = Duration::from_secs(5);
 
 /// What one connection waits for, and since when.
@@ -22,6 +23,10 @@ struct State {
     since: Instant,
     /// Since when the system takes nothing more of what is written, because the client reads nothing.
     blocked: Option<Instant>,
+    /// Of the body of this request.
+    body: Pace,
+    /// Of what is written.
+    answer: Pace,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -53,7 +58,13 @@ pub(super) type Dispensability = (bool, Duration);
 impl Activity {
     /// Of a new connection.
     pub(super) fn new() -> Self {
-        Self(Mutex::new(State { phase: Phase::Head, since: Instant::now(), blocked: None }))
+        Self(Mutex::new(State {
+            phase: Phase::Head,
+            since: Instant::now(),
+            blocked: None,
+            body: Pace::default(),
+            answer: Pace::default(),
+        }))
     }
 
     /// Something has come.
@@ -66,7 +77,9 @@ impl Activity {
 
     /// The head of a request is complete.
     pub(super) fn request(&self) {
-        self.lock().enter(Phase::Work);
+        let mut state = self.lock();
+        state.enter(Phase::Work);
+        (state.body, state.answer) = (Pace::default(), Pace::default());
     }
 
     /// More of the body is needed and has not come.
@@ -77,9 +90,12 @@ impl Activity {
         }
     }
 
-    /// More of the body is there.
-    pub(super) fn body_came(&self) {
-        self.lock().enter(Phase::Work);
+    /// So many bytes more of the body are there.
+    pub(super) fn body_came(&self, bytes: u64) {
+        let mut state = self.lock();
+        let waited = if state.phase == Phase::Body { state.since.elapsed() } else { Duration::ZERO };
+        state.body.moves(bytes, waited);
+        state.enter(Phase::Work);
     }
 
     /// The answer is complete, though the system may not have taken all of it.
@@ -87,15 +103,16 @@ impl Activity {
         self.lock().enter(Phase::Rest);
     }
 
-    /// The system takes nothing more for now.
+    /// The system takes no more of the answer until the client reads.
     pub(super) fn blocked(&self) {
         self.lock().blocked.get_or_insert_with(Instant::now);
     }
 
-    /// The system took a piece.
-    pub(super) fn written(&self) {
+    /// The system took so many bytes.
+    pub(super) fn written(&self, bytes: u64) {
         let mut state = self.lock();
-        state.blocked = None;
+        let waited = state.blocked.take().map_or(Duration::ZERO, |since| since.elapsed());
+        state.answer.moves(bytes, waited);
         if state.phase == Phase::Rest {
             state.since = Instant::now();
         }
@@ -110,11 +127,11 @@ impl Activity {
     /// Which limit it has passed, if any. Bodies are looked after where they are read, so that their requests are answered.
     pub(super) fn overdue(&self, now: Instant, limits: &Limits) -> Option<Overdue> {
         let state = self.lock();
-        let passed = |since: Instant, limit| now.saturating_duration_since(since) > limit;
+        let waited = state.waited(now);
         match (state.blocked, state.phase) {
-            (Some(blocked), _) => passed(blocked, limits.stall).then_some(Overdue::Answer),
-            (None, Phase::Head) => passed(state.since, limits.head).then_some(Overdue::Head),
-            (None, Phase::Rest) => passed(state.since, limits.idle).then_some(Overdue::Rest),
+            (Some(_), _) => (waited > limits.stall).then_some(Overdue::Answer),
+            (None, Phase::Head) => (waited > limits.head).then_some(Overdue::Head),
+            (None, Phase::Rest) => (waited > limits.idle).then_some(Overdue::Rest),
             (None, Phase::Body | Phase::Work) => None,
         }
     }
@@ -123,13 +140,12 @@ impl Activity {
     /// the one that has waited longest.
     pub(super) fn dispensability(&self, now: Instant) -> Option<Dispensability> {
         let state = self.lock();
-        let (since, patience) = match (state.blocked, state.phase) {
-            (Some(blocked), _) => (blocked, PATIENCE_WITHIN),
-            (None, Phase::Rest | Phase::Head) => (state.since, PATIENCE_FOR_HEADS),
-            (None, Phase::Body) => (state.since, PATIENCE_WITHIN),
+        let patience = match (state.blocked, state.phase) {
+            (Some(_), _) | (None, Phase::Body) => PATIENCE_WITHIN,
+            (None, Phase::Rest | Phase::Head) => PATIENCE_FOR_HEADS,
             (None, Phase::Work) => return None,
         };
-        let waited = now.saturating_duration_since(since);
+        let waited = state.waited(now);
         let at_rest = state.phase == Phase::Rest && state.blocked.is_none();
         (waited > patience).then_some((at_rest, waited))
     }
@@ -140,6 +156,15 @@ impl Activity {
 }
 
 impl State {
+    /// For how long the client has kept the service waiting: since the phase began, or for this piece of a body or an answer.
+    fn waited(&self, now: Instant) -> Duration {
+        match (self.blocked, self.phase) {
+            (Some(blocked), _) => self.answer.waited() + now.saturating_duration_since(blocked),
+            (None, Phase::Body) => self.body.waited() + now.saturating_duration_since(self.since),
+            (None, _) => now.saturating_duration_since(self.since),
+        }
+    }
+
     fn enter(&mut self, phase: Phase) {
         (self.phase, self.since) = (phase, Instant::now());
     }
@@ -148,6 +173,7 @@ impl State {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::http::pace::PIECE;
 
     const LIMITS: Limits = Limits {
         connections: 1,
@@ -169,7 +195,7 @@ mod tests {
         assert_eq!(activity.overdue(after(1000), &LIMITS), None, "the service may take its time");
         activity.body_expected();
         assert_eq!(activity.overdue(after(1000), &LIMITS), None, "bodies are looked after elsewhere");
-        activity.body_came();
+        activity.body_came(1);
         activity.answered();
         assert_eq!(activity.overdue(after(29), &LIMITS), None);
         assert_eq!(activity.overdue(after(31), &LIMITS), Some(Overdue::Rest));
@@ -187,7 +213,7 @@ mod tests {
         activity.answered();
         assert_eq!(activity.overdue(after(21), &LIMITS), Some(Overdue::Answer));
         assert!(!activity.is_free());
-        activity.written();
+        activity.written(1);
         assert_eq!(activity.overdue(after(21), &LIMITS), None);
         assert!(activity.is_free());
     }
@@ -206,5 +232,22 @@ mod tests {
         assert_eq!(sending.dispensability(after(2)), None);
         assert!(sending.dispensability(after(6)).is_some());
         assert_eq!(working.dispensability(after(1000)), None);
+    }
+
+    #[test]
+    fn a_trickle_is_as_lazy_as_silence() {
+        let (trickling, sending) = (Activity::new(), Activity::new());
+        for activity in [&trickling, &sending] {
+            activity.request();
+            activity.body_expected();
+            let mut state = activity.lock();
+            state.since = Instant::now().checked_sub(Duration::from_secs(4)).unwrap();
+        }
+        trickling.body_came(1);
+        sending.body_came(PIECE);
+        trickling.body_expected();
+        sending.body_expected();
+        assert!(trickling.dispensability(after(2)).is_some());
+        assert_eq!(sending.dispensability(after(2)), None);
     }
 }

@@ -88,9 +88,12 @@ impl hyper::body::Body for Awaited {
         context: &mut Context<'_>,
     ) -> Poll<Option<Result<Frame<Bytes>, hyper::Error>>> {
         let frame = Pin::new(&mut self.body).poll_frame(context);
-        match frame {
+        match &frame {
             Poll::Pending => self.activity.body_expected(),
-            Poll::Ready(_) => self.activity.body_came(),
+            Poll::Ready(frame) => {
+                let bytes = frame.iter().flatten().filter_map(Frame::data_ref).map(Bytes::len).sum::<usize>();
+                self.activity.body_came(bytes as u64);
+            }
         }
         frame
     }

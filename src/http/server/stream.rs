@@ -24,7 +24,7 @@ impl ClientStream {
 
     fn tell(&self, written: Poll<Result<usize>>) -> Poll<Result<usize>> {
         match &written {
-            Poll::Ready(Ok(_)) => self.activity.written(),
+            Poll::Ready(Ok(bytes)) => self.activity.written(*bytes as u64),
             Poll::Pending => self.activity.blocked(),
             Poll::Ready(Err(_)) => {}
         }
