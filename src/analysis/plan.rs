@@ -404,7 +404,7 @@ fn running_bytes(wheel: &ModalWheel, request: &SweepRequest, stepping: &Stepping
     let history = REAL * steps.samples * request.sensors.len() * (revolutions + wheel.sectors * window);
     let spectrum = 4 * COMPLEX * steps.samples * window;
     let bins = request.max_engine_order as usize * window + 1;
-    let spectra = 3 * REAL * request.sensors.len() * (1 + wheel.harmonics.len()) * bins;
+    let spectra = 4 * REAL * request.sensors.len() * (1 + wheel.harmonics.len()) * bins;
     (eigen + shapes + table + rows + history + spectrum + spectra) as u64
 }
 

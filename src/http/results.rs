@@ -3,15 +3,16 @@
 use std::collections::BTreeSet;
 
 use axum::extract::State;
-use axum::http::header;
-use axum::response::{IntoResponse, Response};
+use axum::response::Response;
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use tokio::runtime::Handle;
 use utoipa::{IntoParams, ToSchema};
 
+use super::AppState;
 use super::extract::{JobPath, Parameters, SpeedPath, job_not_found};
 use super::problem::{Kind, Problem};
-use super::{AppState, stream};
+use super::stream::{self, Leave};
 use crate::analysis::request::SweepRequest;
 use crate::analysis::result::{
     Campbell, CriticalSpeeds, InteractionMap, Point, SpeedResult, SpeedSpectra, WearMap,
@@ -25,6 +26,9 @@ use crate::tokens::Principal;
 
 /// Memory of spectra that are being read, over what they take in the store.
 const ROW_MEMORY: u64 = 2;
+
+/// Memory of a document that is drawn, over its text: the text, its numbers and the drawing.
+const DRAWN_MEMORY: u64 = 4;
 
 /// Which part of an interaction map to download.
 #[derive(Debug, Deserialize, IntoParams)]
@@ -244,19 +248,40 @@ pub(super) fn wrong_kind(job: &Job, wanted: JobKind) -> Problem {
 }
 
 /// A document as it was stored.
-async fn document(state: &AppState, job: &Job, document: Document) -> Result<Response, Problem> {
-    let body = document_body(state, job, document).await?;
-    Ok(([(header::CONTENT_TYPE, "application/json")], body).into_response())
+pub(super) async fn document(state: &AppState, job: &Job, document: Document) -> Result<Response, Problem> {
+    let leave = leave_for(state, job, document, 1).await?;
+    let body = read(state, job.id, document);
+    Ok(stream::text(leave, "application/json", stream::blocking(body).await??))
 }
 
-/// The JSON text of a document.
-pub(super) async fn document_body(
+/// A document in another form, which `draw` gives it.
+pub(super) async fn drawn<T: DeserializeOwned>(
     state: &AppState,
     job: &Job,
     document: Document,
-) -> Result<String, Problem> {
-    if let Some(body) = state.store.document(job.id, document).await? {
-        return Ok(body);
+    content_type: &'static str,
+    draw: impl FnOnce(&T) -> String + Send + 'static,
+) -> Result<Response, Problem> {
+    let leave = leave_for(state, job, document, DRAWN_MEMORY).await?;
+    let body = read(state, job.id, document);
+    let drawing = stream::blocking(move || Ok::<_, Problem>(draw(&serde_json::from_str(&body()?)?)));
+    Ok(stream::text(leave, content_type, drawing.await??))
+}
+
+/// What reads the text of a document, on a thread that may wait.
+fn read(
+    state: &AppState,
+    job: JobId,
+    document: Document,
+) -> impl FnOnce() -> Result<String, Problem> + Send + 'static {
+    let (store, runtime) = (state.store.clone(), Handle::current());
+    move || runtime.block_on(store.document(job, document))?.ok_or_else(|| job_not_found(&job))
+}
+
+/// Leave to answer with a document that takes `times` its text in memory; the reason if there is none.
+async fn leave_for(state: &AppState, job: &Job, document: Document, times: u64) -> Result<Leave, Problem> {
+    if let Some(bytes) = state.store.document_bytes(job.id, document).await? {
+        return Ok(state.answers.leave(&state.jobs, times * bytes).await);
     }
     let instead = match document {
         Document::CriticalSpeeds(_) => {

@@ -60,21 +60,34 @@ where
         .map_err(|_| Problem::new(Kind::Internal, "a defect of the program; the service's log says more"))
 }
 
-/// An answer in JSON, of what `value` makes on a thread that may wait and compute. What fails once the answer has begun
-/// breaks it off, so that nobody takes it for whole.
+/// An answer in JSON, of what `value` makes on a thread that may wait and compute.
 pub(super) fn json<T: Serialize>(leave: Leave, value: impl FnOnce() -> T + Send + 'static) -> Response {
+    written(leave, "application/json", move |pieces| Ok(serde_json::to_writer(pieces, &value())?))
+}
+
+/// An answer that is there as a whole.
+pub(super) fn text(leave: Leave, content_type: &'static str, body: String) -> Response {
+    written(leave, content_type, move |pieces| pieces.write_all(body.as_bytes()))
+}
+
+/// An answer that `write` writes on a thread that may wait and compute. What fails once the answer has begun breaks it
+/// off, so that nobody takes it for whole.
+fn written(
+    leave: Leave,
+    content_type: &'static str,
+    write: impl FnOnce(&mut Pieces) -> io::Result<()> + Send + 'static,
+) -> Response {
     let (sender, receiver) = channel(WAITING);
     tokio::task::spawn_blocking(move || {
         let _leave = leave;
         let mut pieces = Pieces { sender, piece: Vec::with_capacity(PIECE), whole: false };
-        let written = serde_json::to_writer(&mut pieces, &value()).map_err(io::Error::from);
-        match written.and_then(|()| pieces.flush()) {
+        match write(&mut pieces).and_then(|()| pieces.flush()) {
             Ok(()) => pieces.whole = true,
             Err(error) if error.kind() == io::ErrorKind::BrokenPipe => {}
             Err(error) => tracing::error!(%error, "an answer broke off"),
         }
     });
-    ([(header::CONTENT_TYPE, "application/json")], Body::from_stream(pieces_of(receiver))).into_response()
+    ([(header::CONTENT_TYPE, content_type)], Body::from_stream(pieces_of(receiver))).into_response()
 }
 
 fn pieces_of(receiver: Receiver<io::Result<Bytes>>) -> impl stream::Stream<Item = io::Result<Bytes>> {
@@ -102,11 +115,12 @@ impl Drop for Pieces {
 
 impl Write for Pieces {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.piece.extend_from_slice(bytes);
-        if self.piece.len() >= PIECE {
+        let taken = bytes.len().min(PIECE - self.piece.len());
+        self.piece.extend_from_slice(&bytes[..taken]);
+        if self.piece.len() == PIECE {
             self.flush()?;
         }
-        Ok(bytes.len())
+        Ok(taken)
     }
 
     fn flush(&mut self) -> io::Result<()> {

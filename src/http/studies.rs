@@ -1,17 +1,15 @@
 //! Convergence studies: what accuracy costs in time.
 
 use axum::extract::State;
-use axum::http::header;
-use axum::response::{IntoResponse, Response};
+use axum::response::Response;
 use serde::Deserialize;
-use serde::de::DeserializeOwned;
 use utoipa::{IntoParams, ToSchema};
 
 use super::AppState;
 use super::extract::{JobPath, JsonBody, Parameters};
 use super::idempotency::IdempotencyKey;
 use super::problem::Problem;
-use super::results::{document_body, find, wrong_kind};
+use super::results::{self, find, wrong_kind};
 use super::submit::{self, Receipt};
 use crate::analysis::accuracy::errors::Quantity;
 use crate::analysis::run::{Histories, StudyRequest, WorkPrecision};
@@ -145,16 +143,18 @@ pub(super) async fn get_work_precision(
 ) -> Result<Response, Problem> {
     let job = find(&state, &whose, id).await?;
     check_speed(&job, query.speed)?;
-    let body = document_body(&state, &job, Document::WorkPrecision).await?;
-    let document = || parse::<WorkPrecision>(&body);
-    Ok(match query.format {
-        Format::Json => answer("application/json", body),
-        Format::Csv => answer("text/csv; charset=utf-8", document()?.csv()),
+    let (document, speed) = (Document::WorkPrecision, query.speed as usize);
+    match query.format {
+        Format::Json => results::document(&state, &job, document).await,
+        Format::Csv => {
+            results::drawn(&state, &job, document, "text/csv; charset=utf-8", WorkPrecision::csv).await
+        }
         Format::Svg => {
             let quantity = query.quantity.unwrap_or(Quantity::Amplitude);
-            answer("image/svg+xml", plot::work_precision(&document()?, query.speed as usize, quantity))
+            let draw = move |document: &WorkPrecision| plot::work_precision(document, speed, quantity);
+            results::drawn(&state, &job, document, "image/svg+xml", draw).await
         }
-    })
+    }
 }
 
 /// Download the displacements of the first revolutions, one line per size.
@@ -182,12 +182,12 @@ pub(super) async fn get_histories(
     if query.sensor as usize >= sensors {
         return Err(Problem::parameter("sensor", format!("the job has {sensors} sensors, counted from 0")));
     }
-    let body = document_body(&state, &job, Document::Histories(query.speed)).await?;
+    let (document, sensor) = (Document::Histories(query.speed), query.sensor as usize);
     match query.format {
-        HistoriesFormat::Json => Ok(answer("application/json", body)),
+        HistoriesFormat::Json => results::document(&state, &job, document).await,
         HistoriesFormat::Svg => {
-            let histories: Histories = parse(&body)?;
-            Ok(answer("image/svg+xml", plot::histories(&histories, query.sensor as usize)))
+            let draw = move |histories: &Histories| plot::histories(histories, sensor);
+            results::drawn(&state, &job, document, "image/svg+xml", draw).await
         }
     }
 }
@@ -200,12 +200,4 @@ fn check_speed(job: &Job, speed: u32) -> Result<&StudyRequest, Problem> {
         return Err(Problem::parameter("speed", format!("the job has {total} speeds, counted from 0")));
     }
     Ok(request)
-}
-
-fn parse<T: DeserializeOwned>(body: &str) -> Result<T, Problem> {
-    Ok(serde_json::from_str(body)?)
-}
-
-fn answer(content_type: &'static str, body: String) -> Response {
-    ([(header::CONTENT_TYPE, content_type)], body).into_response()
 }

@@ -11,6 +11,7 @@ use crate::analysis::request::SweepRequest;
 use crate::analysis::run;
 use crate::store::jobs::JobRequest;
 use crate::store::queue::RunSpeed;
+use crate::store::results::PackedSpeed;
 
 /// Computes a speed and commits it; the one that finds itself last finishes the job.
 pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) -> Result<(), Halt> {
@@ -33,21 +34,21 @@ pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) 
     let memory = engine.memory.hold(bytes).await.map_err(Halt::speed_memory)?;
     let (settings, monitor) = (request.clone(), SpeedMonitor::new(job.watch.clone(), speed));
     let compute = move || {
-        let result = run::run_speed(&reduced, &settings, speed as usize, start.as_ref(), &monitor);
-        (result, memory)
+        let result = run::run_speed(&reduced, &settings, speed as usize, start.as_ref(), &monitor)?;
+        let packed = PackedSpeed::of(&result)?;
+        Ok::<_, Halt>((result.point, packed, memory))
     };
-    // Held until the result is in the store, where it is copied once more.
-    let (result, _memory) = {
+    // Memory is held until the result is in the store.
+    let computed = {
         let _running = engine.counters.speed_begins();
         engine.computing.run(&job.watch, compute).await?
     };
-    let result = result?;
+    let (point, packed, _memory) = computed?;
 
-    let kept = patiently(&job.watch, || engine.store.insert_speed(id, &result)).await?;
+    let kept = patiently(&job.watch, || engine.store.insert_speed(id, &packed)).await?;
     let Some(finished) = kept else { return Ok(()) };
     engine.computing.acquit(id);
     job.watch.speeds_finished(finished, Some(speed));
-    let point = &result.point;
     engine.counters.speed_finished(point.steps);
     tracing::info!(
         job.id = %id, speed, speed_rad_s = point.speed_rad_s, status = ?point.status,

@@ -6,7 +6,7 @@ use futures::TryStreamExt;
 use sqlx::sqlite::{SqliteConnectOptions, SqliteConnection};
 use sqlx::{ConnectOptions, Connection, Row};
 
-use super::{DATABASE, PATIENCE, StoreError, jobs, models, package_path, results};
+use super::{DATABASE, PATIENCE, StoreError, end_states, jobs, models, package_path, results};
 use crate::package;
 
 /// What a backup holds.
@@ -130,7 +130,10 @@ async fn check_models(
     database: &mut SqliteConnection,
     found: &mut Findings,
 ) -> Result<(), StoreError> {
-    for row in sqlx::query("select rowid as number, * from models").fetch_all(&mut *database).await? {
+    for row in sqlx::query("select rowid as number, *, created_at as since from models")
+        .fetch_all(&mut *database)
+        .await?
+    {
         let id: String = row.try_get("id")?;
         if let Err(error) = models::read(&row) {
             found.wrong.push(format!("model {id}: {error}"));
@@ -164,7 +167,8 @@ async fn check_jobs(database: &mut SqliteConnection, found: &mut Findings) -> Re
         }
     }
     drop(rows);
-    let mut rows = sqlx::query("select job, speed, point, spectra, wear from speed_results").fetch(database);
+    let mut rows = sqlx::query("select job, speed, point, spectra, unpacked_bytes, wear from speed_results")
+        .fetch(&mut *database);
     while let Some(row) = rows.try_next().await? {
         match results::read(&row) {
             Ok(_) => found.speeds += 1,
@@ -172,6 +176,15 @@ async fn check_jobs(database: &mut SqliteConnection, found: &mut Findings) -> Re
                 let (job, speed): (&str, u32) = (row.try_get("job")?, row.try_get("speed")?);
                 found.wrong.push(format!("job {job}, speed {speed}: {error}"));
             }
+        }
+    }
+    drop(rows);
+    // What does not read of reductions and trials is computed again; where a chain of speeds goes on cannot be.
+    let mut rows =
+        sqlx::query_as::<_, (String, Vec<u8>)>("select job, state from end_states").fetch(database);
+    while let Some((job, state)) = rows.try_next().await? {
+        if let Err(error) = end_states::read(&state) {
+            found.wrong.push(format!("job {job}, where its chain of speeds goes on: {error}"));
         }
     }
     Ok(())

@@ -5,7 +5,6 @@ use sqlx::SqliteConnection;
 use super::jobs::JobId;
 use super::{Store, StoreError};
 use crate::analysis::end_state::EndState;
-use crate::analysis::result::SpeedResult;
 
 impl Store {
     /// Where the wheel was at the end of speed `index` of a job, if that was finished last and left a state.
@@ -16,25 +15,31 @@ impl Store {
                 .bind(index)
                 .fetch_optional(&self.readers)
                 .await?;
-        Ok(state.map(|state| postcard::from_bytes(&state)).transpose()?)
+        state.map(|state| read(&state)).transpose()
     }
+}
+
+/// Reads a stored state.
+pub(super) fn read(state: &[u8]) -> Result<EndState, StoreError> {
+    Ok(postcard::from_bytes(state)?)
 }
 
 /// Keeps the end state of a speed that has just been finished in place of the one before; if it left none, there is none.
 pub(super) async fn replace(
     connection: &mut SqliteConnection,
     job: JobId,
-    result: &SpeedResult,
+    speed: u32,
+    state: Option<&[u8]>,
 ) -> Result<(), StoreError> {
     drop_of(connection, job).await?;
-    let Some(state) = &result.end_state else { return Ok(()) };
+    let Some(state) = state else { return Ok(()) };
     sqlx::query(
         "insert into end_states (job, speed, state)
          select ?1, ?2, ?3 where exists (select 1 from jobs where id = ?1 and status in ('accepted', 'running'))",
     )
     .bind(job.to_string())
-    .bind(result.point.index)
-    .bind(postcard::to_stdvec(state)?)
+    .bind(speed)
+    .bind(state)
     .execute(connection)
     .await?;
     Ok(())
@@ -51,6 +56,8 @@ mod tests {
     use serde_json::json;
 
     use super::*;
+    use crate::analysis::result::SpeedResult;
+    use crate::store::results::PackedSpeed;
     use crate::store::status::JobStatus;
 
     /// A finished speed that ended at `state`.
@@ -81,6 +88,10 @@ mod tests {
         job
     }
 
+    async fn keep(store: &Store, job: JobId, result: &SpeedResult) {
+        store.insert_speed(job, &PackedSpeed::of(result).unwrap()).await.unwrap();
+    }
+
     #[tokio::test]
     async fn the_state_of_the_last_speed_is_kept_until_the_job_is_final() {
         let folder = tempfile::tempdir().unwrap();
@@ -88,25 +99,25 @@ mod tests {
         let (job, other) = (running_job(&store).await, running_job(&store).await);
         let state = async |index| store.end_state(job, index).await.unwrap();
         let first = result(4, Some(1.0));
-        store.insert_speed(job, &first).await.unwrap();
-        store.insert_speed(other, &result(4, Some(7.0))).await.unwrap();
+        keep(&store, job, &first).await;
+        keep(&store, other, &result(4, Some(7.0))).await;
         assert_eq!(state(4).await, first.end_state, "to the bit");
         assert_eq!(state(3).await, None);
         // Of a speed that is there already nothing changes.
-        store.insert_speed(job, &result(4, Some(2.0))).await.unwrap();
+        keep(&store, job, &result(4, Some(2.0))).await;
         assert_eq!(state(4).await, first.end_state);
         let second = result(3, Some(3.0));
-        store.insert_speed(job, &second).await.unwrap();
+        keep(&store, job, &second).await;
         assert_eq!((state(4).await, state(3).await), (None, second.end_state));
         // A speed that diverged leaves nothing to the next.
-        store.insert_speed(job, &result(2, None)).await.unwrap();
+        keep(&store, job, &result(2, None)).await;
         assert_eq!((state(3).await, state(2).await), (None, None));
 
-        store.insert_speed(job, &result(1, Some(4.0))).await.unwrap();
+        keep(&store, job, &result(1, Some(4.0))).await;
         store.advance_job(job, JobStatus::Dismissed, None).await.unwrap();
         assert_eq!(state(1).await, None);
         // What was still being computed then comes too late.
-        store.insert_speed(job, &result(0, Some(5.0))).await.unwrap();
+        keep(&store, job, &result(0, Some(5.0))).await;
         assert_eq!(state(0).await, None);
         assert!(store.end_state(other, 4).await.unwrap().is_some());
         assert!(store.complete_job(other, &[], None).await.unwrap());

@@ -28,6 +28,9 @@ pub enum StoreError {
     /// A stored array does not read back.
     #[error("stored numbers: {0}")]
     Numbers(#[from] postcard::Error),
+    /// Packed spectra that are not whole.
+    #[error("stored spectra are damaged")]
+    Spectra,
     /// What was just written cannot be read by others.
     #[error("the database took a row that its other connections do not see")]
     Unseen,
@@ -80,7 +83,9 @@ impl StoreError {
             | Self::Migration(MigrateError::Execute(error) | MigrateError::ExecuteMigration(error, _)) => {
                 result_code(error).is_some_and(|code| PASSING.contains(&code))
             }
-            Self::Migration(_) | Self::Json(_) | Self::Numbers(_) | Self::Unknown { .. } => false,
+            Self::Migration(_) | Self::Json(_) | Self::Numbers(_) | Self::Spectra | Self::Unknown { .. } => {
+                false
+            }
         }
     }
 }

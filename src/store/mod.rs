@@ -14,6 +14,7 @@ pub mod idempotency;
 pub mod jobs;
 pub mod limits;
 pub mod models;
+mod packed;
 pub mod queue;
 mod readiness;
 pub mod reductions;

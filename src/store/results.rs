@@ -6,7 +6,7 @@ use sqlx::Row;
 use sqlx::sqlite::SqliteRow;
 
 use super::jobs::JobId;
-use super::{Store, StoreError, end_states, now};
+use super::{Store, StoreError, end_states, now, packed};
 use crate::analysis::result::{Point, PointStatus, SpeedResult, SpeedSpectra, WearMap};
 
 /// A document computed at the end of a job.
@@ -37,46 +37,74 @@ impl Document {
     }
 }
 
+/// A finished speed as it is stored.
+#[derive(Debug)]
+pub struct PackedSpeed {
+    index: u32,
+    status: PointStatus,
+    point: String,
+    /// With the bytes that they take unpacked.
+    spectra: Option<(Vec<u8>, u64)>,
+    wear: Option<Vec<u8>>,
+    end_state: Option<Vec<u8>>,
+}
+
+impl PackedSpeed {
+    /// Packs `result`, which takes a while where there are many sensors.
+    pub fn of(result: &SpeedResult) -> Result<Self, StoreError> {
+        Ok(Self {
+            index: result.point.index,
+            status: result.point.status,
+            point: serde_json::to_string(&result.point)?,
+            spectra: result.spectra.as_ref().map(packed::pack).transpose()?,
+            wear: result.wear.as_ref().map(postcard::to_stdvec).transpose()?,
+            end_state: result.end_state.as_ref().map(postcard::to_stdvec).transpose()?,
+        })
+    }
+
+    /// Bytes that are kept until the job is deleted.
+    fn bytes(&self) -> usize {
+        let spectra = self.spectra.as_ref().map_or(0, |(bytes, _)| bytes.len());
+        self.point.len() + spectra + self.wear.as_ref().map_or(0, Vec::len)
+    }
+}
+
 impl Store {
     /// Keeps a finished speed in a transaction of its own, with its end state in place of the last one's if the job still
     /// wants work. A speed that is there already stays as it is.
     /// Returns how many speeds of the job are finished now; `None` if it was deleted.
-    pub async fn insert_speed(&self, job: JobId, result: &SpeedResult) -> Result<Option<u32>, StoreError> {
-        let spectra = result.spectra.as_ref().map(postcard::to_stdvec).transpose()?;
-        let wear = result.wear.as_ref().map(postcard::to_stdvec).transpose()?;
-        let point = serde_json::to_string(&result.point)?;
-        let bytes = [Some(point.len()), spectra.as_ref().map(Vec::len), wear.as_ref().map(Vec::len)];
-        let bytes: usize = bytes.into_iter().flatten().sum();
+    pub async fn insert_speed(&self, job: JobId, speed: &PackedSpeed) -> Result<Option<u32>, StoreError> {
         let mut transaction = self.write().await?;
         let inserted = sqlx::query(
-            "insert into speed_results (job, speed, status, point, spectra, wear, created_at)
-             select ?1, ?2, ?3, ?4, ?5, ?6, ?7 where exists (select 1 from jobs where id = ?1 and deleted = 0)
+            "insert into speed_results (job, speed, status, point, spectra, unpacked_bytes, wear, created_at)
+             select ?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8 where exists (select 1 from jobs where id = ?1 and deleted = 0)
              on conflict (job, speed) do nothing",
         )
         .bind(job.to_string())
-        .bind(result.point.index)
-        .bind(match result.point.status {
+        .bind(speed.index)
+        .bind(match speed.status {
             PointStatus::Completed => "completed",
             PointStatus::Diverged => "diverged",
             PointStatus::Failed => "failed",
         })
-        .bind(point)
-        .bind(spectra)
-        .bind(wear)
+        .bind(&speed.point)
+        .bind(speed.spectra.as_ref().map(|(bytes, _)| bytes))
+        .bind(speed.spectra.as_ref().map(|(_, unpacked)| *unpacked as i64))
+        .bind(&speed.wear)
         .bind(now())
         .execute(&mut *transaction)
         .await?;
         if inserted.rows_affected() == 1 {
-            end_states::replace(&mut transaction, job, result).await?;
+            end_states::replace(&mut transaction, job, speed.index, speed.end_state.as_deref()).await?;
             sqlx::query(
                 "update jobs set crashes = 0, finished = finished + 1, diverged = diverged + ?2, failed = failed + ?3,
                      stored_bytes = stored_bytes + ?4
                  where id = ?1",
             )
             .bind(job.to_string())
-            .bind(result.point.status == PointStatus::Diverged)
-            .bind(result.point.status == PointStatus::Failed)
-            .bind(bytes as i64)
+            .bind(speed.status == PointStatus::Diverged)
+            .bind(speed.status == PointStatus::Failed)
+            .bind(speed.bytes() as i64)
             .execute(&mut *transaction)
             .await?;
         }
@@ -126,35 +154,51 @@ impl Store {
         index: u32,
         row: impl Fn(&SpeedSpectra) -> Option<Vec<f64>>,
     ) -> Result<Option<Vec<f64>>, StoreError> {
-        let spectra: Option<Vec<u8>> =
-            sqlx::query_scalar("select spectra from speed_results where job = ? and speed = ?")
+        let found =
+            sqlx::query("select spectra, unpacked_bytes from speed_results where job = ? and speed = ?")
                 .bind(job.to_string())
                 .bind(index)
                 .fetch_one(&self.readers)
                 .await?;
-        let Some(spectra) = spectra else { return Ok(None) };
-        Ok(row(&postcard::from_bytes(&spectra)?))
+        Ok(spectra(&found)?.and_then(|spectra| row(&spectra)))
     }
 
-    /// Bytes that the spectra of one speed of a job take, at most.
+    /// Bytes that the spectra of one speed of a job take unpacked, at most.
     pub async fn largest_spectra(&self, job: JobId) -> Result<u64, StoreError> {
-        let bytes: i64 =
-            sqlx::query_scalar("select coalesce(max(length(spectra)), 0) from speed_results where job = ?")
-                .bind(job.to_string())
-                .fetch_one(&self.readers)
-                .await?;
+        let bytes: i64 = sqlx::query_scalar(
+            "select coalesce(max(coalesce(unpacked_bytes, length(spectra))), 0) from speed_results where job = ?",
+        )
+        .bind(job.to_string())
+        .fetch_one(&self.readers)
+        .await?;
         Ok(bytes.unsigned_abs())
     }
 
     /// Speed `index` of a job, if it is finished.
     pub async fn speed_result(&self, job: JobId, index: u32) -> Result<Option<SpeedResult>, StoreError> {
-        sqlx::query("select point, spectra, wear from speed_results where job = ? and speed = ?")
-            .bind(job.to_string())
-            .bind(index)
-            .fetch_optional(&self.readers)
-            .await?
-            .map(|row| read(&row))
-            .transpose()
+        sqlx::query(
+            "select point, spectra, unpacked_bytes, wear from speed_results where job = ? and speed = ?",
+        )
+        .bind(job.to_string())
+        .bind(index)
+        .fetch_optional(&self.readers)
+        .await?
+        .map(|row| read(&row))
+        .transpose()
+    }
+
+    /// Bytes of the text of a document, if it is there.
+    pub async fn document_bytes(&self, job: JobId, document: Document) -> Result<Option<u64>, StoreError> {
+        let (name, part) = document.columns();
+        let bytes: Option<i64> = sqlx::query_scalar(
+            "select octet_length(body) from documents where job = ? and name = ? and part = ?",
+        )
+        .bind(job.to_string())
+        .bind(name)
+        .bind(part)
+        .fetch_optional(&self.readers)
+        .await?;
+        Ok(bytes.map(i64::unsigned_abs))
     }
 
     /// A document of a finished job, as JSON text.
@@ -170,9 +214,15 @@ impl Store {
 }
 
 pub(super) fn read(row: &SqliteRow) -> Result<SpeedResult, StoreError> {
-    let spectra: Option<&[u8]> = row.try_get("spectra")?;
-    let spectra: Option<SpeedSpectra> = spectra.map(postcard::from_bytes).transpose()?;
     let wear: Option<&[u8]> = row.try_get("wear")?;
     let wear: Option<WearMap> = wear.map(postcard::from_bytes).transpose()?;
-    Ok(SpeedResult { point: serde_json::from_str(row.try_get("point")?)?, spectra, wear, end_state: None })
+    let point = serde_json::from_str(row.try_get("point")?)?;
+    Ok(SpeedResult { point, spectra: spectra(row)?, wear, end_state: None })
+}
+
+fn spectra(row: &SqliteRow) -> Result<Option<SpeedSpectra>, StoreError> {
+    let Some(bytes) = row.try_get::<Option<&[u8]>, _>("spectra")? else { return Ok(None) };
+    // Earlier versions did not pack them.
+    let packed = row.try_get::<Option<i64>, _>("unpacked_bytes")?.is_some();
+    Ok(Some(if packed { packed::unpack(bytes)? } else { postcard::from_bytes(bytes)? }))
 }
