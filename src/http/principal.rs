@@ -36,7 +36,10 @@ pub(super) async fn authenticate(
 }
 
 fn bearer(headers: &HeaderMap) -> Option<&str> {
-    let (scheme, token) = headers.get(AUTHORIZATION)?.to_str().ok()?.split_once(' ')?;
+    let mut said = headers.get_all(AUTHORIZATION).iter();
+    // Of two, a gateway may have looked at the other one.
+    let (Some(said), None) = (said.next(), said.next()) else { return None };
+    let (scheme, token) = said.to_str().ok()?.split_once(' ')?;
     scheme.eq_ignore_ascii_case("bearer").then(|| token.trim())
 }
 

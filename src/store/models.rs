@@ -97,14 +97,16 @@ impl Store {
         .execute(&mut *write)
         .await?;
         write.commit().await?;
-        let model = self.model(id, None).await?.ok_or(StoreError::Unseen)?;
+        let model = self.model(id, Some(owner)).await?.ok_or(StoreError::Unseen)?;
         Ok(Ok((model, owned.rows_affected() == 1)))
     }
 
     /// The model `id`, if `owner` has it; `None` asks for anybody's.
     pub async fn model(&self, id: &str, owner: Option<&str>) -> Result<Option<StoredModel>, StoreError> {
         sqlx::query(
-            "select rowid as number, * from models where id = ?1
+            "select rowid as number, *, coalesce(
+                 (select created_at from model_owners where model = id and owner = ?2), created_at) as since
+             from models where id = ?1
              and (?2 is null or exists (select 1 from model_owners where model = ?1 and owner = ?2))",
         )
         .bind(id)
@@ -123,7 +125,9 @@ impl Store {
         limit: u32,
     ) -> Result<Vec<StoredModel>, StoreError> {
         sqlx::query(
-            "select rowid as number, * from models where (?1 is null or rowid < ?1)
+            "select rowid as number, *, coalesce(
+                 (select created_at from model_owners where model = id and owner = ?3), created_at) as since
+             from models where (?1 is null or rowid < ?1)
              and (?3 is null or exists (select 1 from model_owners where model = id and owner = ?3))
              order by rowid desc limit ?2",
         )
@@ -154,8 +158,7 @@ impl Store {
     }
 
     /// Takes model `id` from `owner` (`None`: from all), unless an unfinished job of theirs needs it, or of anybody when there
-    /// is no other owner. With its last owner it
-    /// is deleted, and its reductions with it.
+    /// is no other owner. With its last owner it is deleted, and its reductions with it.
     pub async fn delete_model(&self, id: &str, owner: Option<&str>) -> Result<Deletion, StoreError> {
         let _packages = self.packages.lock().await;
         if self.model(id, owner).await?.is_none() {
@@ -211,7 +214,7 @@ pub(super) fn read(row: &SqliteRow) -> Result<StoredModel, StoreError> {
         id: row.try_get("id")?,
         facts: serde_json::from_str(row.try_get("facts")?)?,
         size_bytes: row.try_get::<i64, _>("size_bytes")?.unsigned_abs(),
-        created_at: row.try_get("created_at")?,
+        created_at: row.try_get("since")?,
     })
 }
 

@@ -72,12 +72,15 @@ async fn what_belongs_to_one_owner_is_not_there_for_another() {
     let refused = api.get("/v1/jobs").await;
     refused.problem(401, "unauthorized");
     holder("rubmap_nobody".to_owned()).get("/v1/models").await.problem(401, "unauthorized");
+    let two = api.request("GET", "/v1/models").bearer_auth(&alice.token).bearer_auth(&bob.token);
+    Answer::of(two.send().await.unwrap()).await.problem(401, "unauthorized");
     assert_eq!(api.get("/healthz").await.status, 200);
     for path in ["/metrics", "/openapi.json", "/v1/version"] {
         assert_eq!(api.request("GET", path).send().await.unwrap().status(), 401, "{path}");
     }
 
-    let model = alice.upload(model::package(1.0)).await.text("/id");
+    let model = alice.upload(model::package(1.0)).await;
+    let (model, uploaded) = (model.text("/id"), model.text("/created_at"));
     bob.get(&format!("/v1/models/{model}")).await.problem(404, "model-not-found");
     bob.delete(&format!("/v1/models/{model}")).await.problem(404, "model-not-found");
     assert_eq!(bob.get("/v1/models").await.body["models"].as_array().unwrap().len(), 0);
@@ -108,6 +111,7 @@ async fn what_belongs_to_one_owner_is_not_there_for_another() {
     // The same content, uploaded by both, is there until both have deleted it.
     let theirs = bob.upload(model::package(1.0)).await;
     assert_eq!((theirs.status.as_u16(), theirs.text("/id")), (201, model.clone()));
+    assert!(theirs.text("/created_at") > uploaded, "not when alice uploaded it");
     assert_eq!(alice.delete(&format!("/v1/models/{model}")).await.status, 204);
     alice.get(&format!("/v1/models/{model}")).await.problem(404, "model-not-found");
     assert_eq!(bob.get(&format!("/v1/models/{model}")).await.status, 200);
