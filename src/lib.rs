@@ -21,18 +21,17 @@
 //! - Only [`store`] contains SQL; only [`http`] contains status codes; `http` never computes.
 //! - The step loop allocates nothing and contains no dense product over the whole wheel.
 
-pub mod analysis;
 pub mod app;
 pub mod cli;
 pub mod config;
-pub mod dynamics;
 pub mod http;
-pub mod impeller;
 pub mod jobs;
-pub mod numerics;
-pub mod package;
-pub mod plot;
-pub mod response;
 pub mod store;
 pub mod tokens;
 pub mod version;
+
+pub use rubmap_analysis as analysis;
+pub use rubmap_model::{impeller, package};
+pub use rubmap_numerics as numerics;
+pub use rubmap_plot as plot;
+pub use rubmap_wheel::{dynamics, response};

@@ -1,0 +1,230 @@
+//! The error of a finished sweep, from some of its speeds simulated again at a finer setting.
+
+use serde::{Deserialize, Serialize};
+
+use super::errors::{Errors, Response};
+use super::rung::{SAFETY, estimate, evenly_spread, finer_modes};
+use super::trial::{Setting, Trial, TrialRequest};
+use crate::auto_or::AutoOr;
+use crate::request::{SchemeChoice, SweepRequest};
+use crate::result::{Point, PointStatus, SpeedSpectra};
+use crate::stepping::MOST_STEPS;
+use rubmap_wheel::response::critical_speed::peaks;
+
+/// Estimated errors of the speeds of a sweep.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct ErrorEstimate {
+    /// The speeds that were simulated again: half of them at the most prominent peaks of the response, the others evenly spread.
+    pub controls: Vec<Control>,
+    /// One per completed speed, in the order of the request, unless a control run at or beside it ended early.
+    pub points: Vec<PointError>,
+    /// The largest of them; absent where there are none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub largest: Option<f64>,
+    /// Whether all completed speeds are known to be within the accuracy that was asked for, if one was; absent where the modes could
+    /// not be refined.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub target_met: Option<bool>,
+    /// What these numbers are, in words.
+    pub message: String,
+}
+
+impl ErrorEstimate {
+    /// The estimated error of speed `index`, if there is one.
+    pub fn of(&self, index: u32) -> Option<f64> {
+        self.points.iter().find(|point| point.index == index).map(|point| point.estimated_error)
+    }
+}
+
+/// A speed that was simulated again.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct Control {
+    /// Index of the speed in the request.
+    pub index: u32,
+    /// Ω, rad/s.
+    pub speed_rad_s: f64,
+    /// The finer setting.
+    pub setting: Setting,
+    /// Differences between the two; absent where the finer run was not completed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub differences: Option<Errors>,
+    /// Estimated relative error of the steady response.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub estimated_error: Option<f64>,
+    /// Why the finer run was not completed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub message: Option<String>,
+}
+
+/// Estimated error of one speed.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct PointError {
+    /// Index of the speed in the request.
+    pub index: u32,
+    /// Relative error of the steady response.
+    pub estimated_error: f64,
+    /// Whether this speed was simulated again itself; otherwise the number is the larger one of the nearest that were on either
+    /// side.
+    pub controlled: bool,
+}
+
+/// A speed of a sweep and its finer run.
+#[derive(Debug, Clone, Copy)]
+pub struct FinerRun<'a> {
+    /// Index of the speed in the request.
+    pub index: u32,
+    /// The finer setting.
+    pub setting: Setting,
+    /// Spectra of the speed in the sweep.
+    pub spectra: &'a SpeedSpectra,
+    /// The finer run.
+    pub trial: &'a Trial,
+}
+
+/// The speeds of a finished sweep that are simulated again, by index, with what is run; from the points of all speeds. `most_modes`
+/// is the largest reduction that memory allows, if that is known.
+pub fn control_requests(
+    request: &SweepRequest,
+    sectors: u32,
+    points: &[Point],
+    most_modes: Option<u32>,
+) -> Vec<(u32, Setting, TrialRequest)> {
+    let mut ascending: Vec<&Point> =
+        points.iter().filter(|point| point.status == PointStatus::Completed).collect();
+    ascending.sort_by(|a, b| a.speed_rad_s.total_cmp(&b.speed_rad_s));
+    let wanted = request.controls().min(ascending.len());
+    let level = |point: &&Point| Some(point.responses.iter().map(|r| r.rms).fold(0.0, f64::max));
+    let mut prominent = peaks(&ascending.iter().map(level).collect::<Vec<_>>(), 0.0);
+    prominent.sort_by(|a, b| b.prominence.total_cmp(&a.prominence).then(a.index.cmp(&b.index)));
+    let mut chosen: Vec<usize> = prominent.iter().take(wanted / 2).map(|peak| peak.index).collect();
+    let others: Vec<usize> = (0..ascending.len()).filter(|index| !chosen.contains(index)).collect();
+    chosen.extend(evenly_spread(&others, wanted - chosen.len()));
+    chosen.sort_unstable();
+    let finer = |index: usize| {
+        let point = ascending[index];
+        let setting = finer_setting(request, sectors, point, most_modes);
+        (point.index, setting, TrialRequest::new(request, point.speed_rad_s, setting))
+    };
+    chosen.into_iter().map(finer).collect()
+}
+
+/// Twice the modes, as far as memory allows, and twice the steps, by the exact propagator with mass.
+fn finer_setting(request: &SweepRequest, sectors: u32, point: &Point, most_modes: Option<u32>) -> Setting {
+    let steps = point.steps_per_revolution.saturating_mul(2).min(MOST_STEPS);
+    Setting {
+        modes_per_speed: finer_modes(request.modes(), most_modes).unwrap_or(request.modes()),
+        scheme: SchemeChoice::ExactModal,
+        kept_modes: AutoOr::Auto,
+        steps_per_revolution: Setting::aligned_steps(steps, request, sectors),
+    }
+}
+
+/// Estimated errors of all completed speeds from the finer runs of some, each given with the spectra of the speed itself, and
+/// whether they are within `target` if there is one.
+pub fn error_estimate(
+    request: &SweepRequest,
+    target: Option<f64>,
+    points: &[Point],
+    controls: &[FinerRun<'_>],
+) -> ErrorEstimate {
+    let controls: Vec<Control> = controls
+        .iter()
+        .filter_map(|FinerRun { index, setting, spectra, trial }| {
+            let point = points.iter().find(|point| point.index == *index)?;
+            let differences = Response::of_trial(trial)
+                .map(|finer| Response::of_speed(point, spectra, request).errors(&finer));
+            Some(Control {
+                index: *index,
+                speed_rad_s: point.speed_rad_s,
+                setting: *setting,
+                estimated_error: differences.map(|d| estimate(&d).max(d.amplitude_spread.unwrap_or(0.0))),
+                differences,
+                message: trial.point.message.clone(),
+            })
+        })
+        .collect();
+    let completed = points.iter().filter(|point| point.status == PointStatus::Completed).count();
+    let points = point_errors(points, &controls);
+    let largest = points.iter().map(|point| point.estimated_error).reduce(f64::max);
+    let with_modes = controls.iter().all(|control| control.setting.modes_per_speed > request.modes());
+    let all_known = points.len() == completed;
+    let within = |target: f64| all_known && largest.is_none_or(|largest| largest <= target);
+    let target_met = target.filter(|_| with_modes || !all_known).map(within);
+    let estimated = controls.iter().filter(|control| control.estimated_error.is_some()).count();
+    let ended = match controls.len() - estimated {
+        0 => String::new(),
+        early => format!(
+            "; {early} more of them were not completed at the finer setting, although they were in the sweep: what they and the speeds \
+             beside them show is not known to be right"
+        ),
+    };
+    let message = match largest {
+        None => format!("the error of the amplitudes is not known: no control run gave an estimate{ended}"),
+        Some(_) => format!(
+            "relative error of the steady response{}: {SAFETY} times its difference from finer runs at {estimated} of the speeds, whose \
+             settings are in `controls`; at the others the larger estimate of the nearest on either side{ended}",
+            if with_modes { "" } else { " from the steps alone, since no finer reduction could be made" }
+        ),
+    };
+    ErrorEstimate { controls, points, largest, target_met, message }
+}
+
+fn point_errors(points: &[Point], controls: &[Control]) -> Vec<PointError> {
+    let of = |point: &Point| {
+        let error = |control: &Control| control.estimated_error;
+        if let Some(control) = controls.iter().find(|control| control.index == point.index) {
+            let estimated_error = error(control)?;
+            return Some(PointError { index: point.index, estimated_error, controlled: true });
+        }
+        let nearest = |side: fn(f64) -> bool| {
+            let distance = |control: &&Control| (control.speed_rad_s - point.speed_rad_s).abs();
+            let here = controls.iter().filter(|control| side(control.speed_rad_s - point.speed_rad_s));
+            here.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+        };
+        // One that told nothing leaves its neighbourhood unknown.
+        let beside = [nearest(|d| d <= 0.0), nearest(|d| d >= 0.0)].into_iter().flatten();
+        let estimated_error = beside.map(error).reduce(|a, b| Some(a?.max(b?)))??;
+        Some(PointError { index: point.index, estimated_error, controlled: false })
+    };
+    points.iter().filter(|point| point.status == PointStatus::Completed).filter_map(of).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    fn points(count: u32) -> Vec<Point> {
+        let point = |index: u32| {
+            json!({"index": index, "speed_rad_s": 100.0 + f64::from(index), "status": "completed", "responses": [],
+                "steps_per_revolution": 1, "smallest_stable_steps_per_revolution": 1, "steps": 1, "contact_share": 0.0,
+                "wall_time_s": 0.0, "version": "0"})
+        };
+        (0..count).map(|index| serde_json::from_value(point(index)).unwrap()).collect()
+    }
+
+    fn control(index: u32, estimated_error: Option<f64>) -> Control {
+        let setting = Setting {
+            modes_per_speed: 40,
+            scheme: SchemeChoice::ExactModal,
+            kept_modes: AutoOr::Auto,
+            steps_per_revolution: 1000,
+        };
+        let speed_rad_s = 100.0 + f64::from(index);
+        Control { index, speed_rad_s, setting, differences: None, estimated_error, message: None }
+    }
+
+    #[test]
+    fn errors_between_controls_are_the_larger_ones_and_unknown_beside_the_unknown() {
+        let controls = [control(1, Some(0.1)), control(4, Some(0.3)), control(7, None)];
+        let found = point_errors(&points(9), &controls);
+        let found: Vec<_> = found.iter().map(|p| (p.index, p.estimated_error, p.controlled)).collect();
+        let expected = [(0, 0.1, false), (1, 0.1, true), (2, 0.3, false), (3, 0.3, false), (4, 0.3, true)];
+        assert_eq!(found, expected, "5 to 8 lie beside a control run that ended early");
+        assert!(point_errors(&points(3), &[]).is_empty());
+    }
+}

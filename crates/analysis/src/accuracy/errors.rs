@@ -1,0 +1,212 @@
+//! How far a run is from a finer one.
+
+use serde::{Deserialize, Serialize};
+
+use super::trial::{Trial, lines, repeats};
+use crate::request::SweepRequest;
+use crate::result::{Point, SpeedSpectra};
+
+/// Differences between a run and a finer one, relative to the finer one.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct Errors {
+    /// Displacement over the first revolutions: root mean square of the difference over that of the displacement, all sensors
+    /// together. Absent where no history was kept.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub history: Option<f64>,
+    /// Steady amplitude: the largest difference of a sensor's root mean square over the window, relative to the largest
+    /// sensor's.
+    pub amplitude: f64,
+    /// Standard error of `amplitude` where the response does not repeat: its level varies from part to part of the window.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub amplitude_spread: Option<f64>,
+    /// Peaks at integer engine orders: the largest root sum of squares over a sensor's differences, relative to the largest
+    /// sensor's peaks. Absent where a response does not repeat.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub engine_orders: Option<f64>,
+    /// Contact impulse over the whole run. Absent where there is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub impulse: Option<f64>,
+}
+
+/// A quantity of interest.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Quantity {
+    /// Displacement over the first revolutions.
+    History,
+    /// Steady amplitude.
+    Amplitude,
+    /// Peaks at integer engine orders.
+    EngineOrders,
+    /// Contact impulse.
+    Impulse,
+}
+
+impl Quantity {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::History, Self::Amplitude, Self::EngineOrders, Self::Impulse];
+
+    /// The word on the wire.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::History => "history",
+            Self::Amplitude => "amplitude",
+            Self::EngineOrders => "engine_orders",
+            Self::Impulse => "impulse",
+        }
+    }
+}
+
+impl Errors {
+    /// The error of one quantity, if it is there.
+    pub fn of(&self, quantity: Quantity) -> Option<f64> {
+        match quantity {
+            Quantity::History => self.history,
+            Quantity::Amplitude => Some(self.amplitude),
+            Quantity::EngineOrders => self.engine_orders,
+            Quantity::Impulse => self.impulse,
+        }
+    }
+
+    /// What a run is judged by on a Pareto front: the error of one quantity, but no less than chance lets it be known.
+    pub fn judged(&self, quantity: Quantity) -> Option<f64> {
+        let error = self.of(quantity)?;
+        Some(match quantity {
+            Quantity::Amplitude => error.max(self.amplitude_spread.unwrap_or(0.0)),
+            Quantity::History | Quantity::EngineOrders | Quantity::Impulse => error,
+        })
+    }
+}
+
+/// The steady response of a completed run, as it is compared.
+pub(super) struct Response<'a> {
+    /// `[sensor]`.
+    pub(super) rms: Vec<f64>,
+    /// `[sensor][engine order]`.
+    pub(super) lines: Vec<Vec<f64>>,
+    /// `[sensor][block]`; empty where they were not kept.
+    pub(super) levels: &'a [Vec<f64>],
+    pub(super) repeats: bool,
+    pub(super) impulse: f64,
+}
+
+impl<'a> Response<'a> {
+    /// Of a trial, if it was completed.
+    pub(super) fn of_trial(trial: &'a Trial) -> Option<Self> {
+        (!trial.lines.is_empty()).then(|| Self {
+            lines: trial.lines.clone(),
+            levels: &trial.levels,
+            ..Self::of_point(&trial.point)
+        })
+    }
+
+    /// Of a speed of a sweep.
+    pub(super) fn of_speed(point: &Point, spectra: &SpeedSpectra, request: &SweepRequest) -> Self {
+        Self { lines: lines(spectra, request), ..Self::of_point(point) }
+    }
+
+    fn of_point(point: &Point) -> Self {
+        Self {
+            rms: point.responses.iter().map(|response| response.rms).collect(),
+            lines: Vec::new(),
+            levels: &[],
+            repeats: repeats(point),
+            impulse: point.contact_impulse.unwrap_or(0.0),
+        }
+    }
+
+    /// Differences from a finer response.
+    pub(super) fn errors(&self, finer: &Response) -> Errors {
+        let largest = finer.rms.iter().copied().fold(0.0, f64::max);
+        let differences = self.rms.iter().zip(&finer.rms).map(|(a, b)| (a - b).abs());
+        let repeat = self.repeats && finer.repeats;
+        Errors {
+            history: None,
+            amplitude: relative(differences.fold(0.0, f64::max), largest),
+            amplitude_spread: (!repeat).then(|| {
+                // Levels that were not kept vary as the finer ones do.
+                let levels = if self.levels.is_empty() { finer.levels } else { self.levels };
+                relative(standard_error(levels).hypot(standard_error(finer.levels)), largest)
+            }),
+            engine_orders: repeat.then(|| self.error_of_lines(finer)),
+            impulse: (self.impulse != 0.0 || finer.impulse != 0.0)
+                .then(|| relative((self.impulse - finer.impulse).abs(), finer.impulse.abs())),
+        }
+    }
+
+    fn error_of_lines(&self, finer: &Response) -> f64 {
+        let norm = |squares: &mut dyn Iterator<Item = f64>| squares.sum::<f64>().sqrt();
+        let largest =
+            finer.lines.iter().map(|line| norm(&mut line.iter().map(|a| a * a))).fold(0.0, f64::max);
+        let sensors = self.lines.iter().zip(&finer.lines);
+        let error = sensors.map(|(a, b)| norm(&mut a.iter().zip(b).map(|(a, b)| (a - b).powi(2))));
+        relative(error.fold(0.0, f64::max), largest)
+    }
+}
+
+/// Differences of a trial from a finer one; none unless both were completed.
+pub fn errors(trial: &Trial, finer: &Trial) -> Option<Errors> {
+    let steady = Response::of_trial(trial)?.errors(&Response::of_trial(finer)?);
+    Some(Errors { history: history_error(trial, finer), ..steady })
+}
+
+/// ‖x − y‖/‖y‖ over the first revolutions, all sensors together; none without histories at the same instants.
+pub(super) fn history_error(trial: &Trial, finer: &Trial) -> Option<f64> {
+    let lengths = |trial: &Trial| trial.history.iter().map(Vec::len).collect::<Vec<_>>();
+    if trial.history.first()?.is_empty() || lengths(trial) != lengths(finer) {
+        return None;
+    }
+    let pairs = || trial.history.iter().flatten().zip(finer.history.iter().flatten());
+    let difference: f64 = pairs().map(|(x, y)| (x - y).powi(2)).sum();
+    let size: f64 = pairs().map(|(_, y)| y * y).sum();
+    Some(relative(difference.sqrt(), size.sqrt()))
+}
+
+/// Largest standard error of a sensor's level from those of the parts of the window.
+fn standard_error(levels: &[Vec<f64>]) -> f64 {
+    let error = |parts: &Vec<f64>| {
+        let n = parts.len() as f64;
+        let mean = parts.iter().sum::<f64>() / n;
+        let variance = parts.iter().map(|level| (level - mean).powi(2)).sum::<f64>() / (n - 1.0);
+        (variance / n).sqrt()
+    };
+    levels.iter().filter(|parts| parts.len() > 1).map(error).fold(0.0, f64::max)
+}
+
+/// `difference` relative to `size`; all of it where there should be nothing.
+fn relative(difference: f64, size: f64) -> f64 {
+    match (difference == 0.0, size == 0.0) {
+        (true, _) => 0.0,
+        (false, true) => 1.0,
+        (false, false) => difference / size,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn response(rms: &[f64], lines: &[&[f64]], levels: &[Vec<f64>], repeats: bool) -> Errors {
+        let of = |rms: Vec<f64>, lines: Vec<Vec<f64>>| Response { rms, lines, levels, repeats, impulse: 2.0 };
+        let run = of(rms.to_vec(), lines.iter().map(|line| line.to_vec()).collect());
+        run.errors(&of(vec![1.0, 4.0], vec![vec![0.0, 1.0], vec![3.0, 4.0]]))
+    }
+
+    #[test]
+    fn differences_are_relative_to_the_largest_sensor() {
+        let found = response(&[1.2, 4.0], &[&[0.0, 1.0], &[3.3, 4.4]], &[], true);
+        assert!((found.amplitude - 0.05).abs() < 1e-12 && found.amplitude_spread.is_none());
+        assert!((found.engine_orders.unwrap() - 0.1).abs() < 1e-12 && found.impulse == Some(0.0));
+    }
+
+    #[test]
+    fn a_response_that_never_repeats_is_known_to_the_spread_of_its_level() {
+        let levels = [vec![1.0; 4], vec![3.8, 4.2, 3.8, 4.2]];
+        let found = response(&[1.0, 4.0], &[&[0.0, 1.0], &[9.0, 9.0]], &levels, false);
+        let expected = 2f64.sqrt() * (0.04f64 * 4.0 / 3.0 / 4.0).sqrt() / 4.0;
+        assert!(found.engine_orders.is_none() && (found.amplitude_spread.unwrap() - expected).abs() < 1e-12);
+        assert_eq!(found.judged(Quantity::Amplitude), found.amplitude_spread);
+    }
+}

@@ -1,0 +1,301 @@
+//! Pilot runs at a setting and the finer ones beside it: what error they show.
+
+use serde::{Deserialize, Serialize};
+
+use super::errors::{Errors, errors};
+use super::trial::{Setting, Trial, TrialRequest};
+use crate::auto_or::AutoOr;
+use crate::request::{SchemeChoice, SweepRequest};
+use crate::resolve::limits;
+use crate::result::Verdict;
+use crate::stepping::{MOST_STEPS, steps_for_contact};
+use rubmap_wheel::response::sensitivity::Growth;
+
+/// The estimate of an error is this many times the difference from a level with twice the modes or steps. Of 24 random scenes
+/// against eight times the modes, and 40 against four times the steps (others than those of `tests/accuracy`), the true error was
+/// below that in nine of ten.
+pub(super) const SAFETY: f64 = 2.5;
+
+/// A difference that falls by more than this factor from one level to the next is not believed to have fallen farther.
+const MOST_GAIN: f64 = 4.0;
+
+/// First rung of the modes; that of the steps is half of what `"auto"` gives contact.
+const FIRST_MODES: u32 = 20;
+
+/// Most pilot speeds.
+const PILOT_SPEEDS: usize = 4;
+
+/// A level with fewer than this many times the modes is no finer one: the difference would say little of the error.
+const LEAST_FINER: f64 = 1.5;
+
+/// Errors of one setting at one pilot speed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct Pilot {
+    /// Ω, rad/s.
+    pub speed_rad_s: f64,
+    /// Fixed-interface modes kept per stiffness speed and nodal diameter.
+    pub modes_per_speed: u32,
+    /// Time steps per revolution.
+    pub steps_per_revolution: u32,
+    /// Steady-state verdict; absent where the run was not completed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub verdict: Option<Verdict>,
+    /// Estimated error that more modes would remove; absent where it could not be told because a run was not completed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub error_of_modes: Option<f64>,
+    /// The same for more steps.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub error_of_steps: Option<f64>,
+    /// Computing time of this run, s.
+    pub time_s: f64,
+}
+
+/// `count` of `values`, evenly spread, both ends included; all if there are no more.
+pub(super) fn evenly_spread<T: Copy>(values: &[T], count: usize) -> Vec<T> {
+    match (values.len(), count) {
+        (_, 0) => Vec::new(),
+        (n, count) if n <= count => values.to_vec(),
+        (_, 1) => vec![values[values.len() / 2]],
+        (n, count) => (0..count).map(|i| values[(i * (n - 1) + (count - 1) / 2) / (count - 1)]).collect(),
+    }
+}
+
+/// Pilot speeds of a sweep, ascending: all, or evenly spread over the ascending speeds, both ends included.
+pub fn pilot_speeds(request: &SweepRequest) -> Vec<f64> {
+    let mut speeds = request.speeds.ascending().unwrap_or_default();
+    speeds.dedup();
+    evenly_spread(&speeds, PILOT_SPEEDS)
+}
+
+/// The next rung above `modes`, twice as many if memory (`most`) and the limit of requests allow; none if what they allow is
+/// hardly finer.
+pub(super) fn finer_modes(modes: u32, most: Option<u32>) -> Option<u32> {
+    let finer = (2 * modes).min(limits::MODES_PER_SPEED).min(most.unwrap_or(u32::MAX));
+    (f64::from(finer) >= LEAST_FINER * f64::from(modes)).then_some(finer)
+}
+
+/// Estimated error from the difference to a finer run. Of responses that do not repeat, levels differ by chance: what lies within
+/// the standard error of the difference tells nothing and is not multiplied.
+pub(super) fn estimate(difference: &Errors) -> f64 {
+    let amplitude = (difference.amplitude - difference.amplitude_spread.unwrap_or(0.0)).max(0.0);
+    SAFETY * amplitude.max(difference.engine_orders.unwrap_or(0.0))
+}
+
+/// A setting that was tried: the largest errors of the pilot speeds.
+#[derive(Debug, Clone)]
+pub(super) struct Rung {
+    pub(super) modes: u32,
+    pub(super) steps: u32,
+    /// Infinite where a run of a pair was completed and the other was not.
+    pub(super) error_of_modes: f64,
+    pub(super) error_of_steps: f64,
+    /// Standard error of the level where a response does not repeat, and the speed where it is largest.
+    pub(super) spread: f64,
+    pub(super) spread_at: f64,
+    /// Mean times of a pilot run, s: set-up, one step, and one step of the runs with more modes.
+    pub(super) set_up_s: f64,
+    pub(super) step_s: f64,
+    pub(super) finer_step_s: f64,
+    pub(super) pilots: Vec<Pilot>,
+}
+
+impl Rung {
+    /// What a finer setting would remove.
+    pub(super) fn error_of_setting(&self) -> f64 {
+        self.error_of_modes + self.error_of_steps
+    }
+
+    /// Pilot speeds that carry an estimate.
+    pub(super) fn estimated(&self) -> usize {
+        self.pilots.iter().filter(|pilot| pilot.error_of_modes.is_some()).count()
+    }
+
+    /// Adds a pilot speed: the run, and those with more modes and more steps. `before` is the error of fewer modes.
+    fn add(&mut self, speed: f64, [run, more_modes, more_steps]: [&Trial; 3], before: f64, time_s: f64) {
+        let error = |finer: &Trial| match (run.is_completed(), finer.is_completed()) {
+            (true, true) => errors(run, finer).as_ref().map(estimate),
+            // A speed that ends early at any setting has no response whose error could be told.
+            (false, false) => None,
+            _ => Some(f64::INFINITY),
+        };
+        // Where the sector has no more modes the two are the same.
+        let exhausted = run.unknowns == more_modes.unknowns;
+        let least = if exhausted { 0.0 } else { before / MOST_GAIN };
+        let error_of_modes = error(more_modes).map(|error| error.max(least));
+        let error_of_steps = error(more_steps);
+        // A response that repeats with more modes is not known any less for not repeating with few.
+        if !run.repeats() && !more_modes.repeats() {
+            let spread = errors(run, more_modes).and_then(|e| e.amplitude_spread).unwrap_or(0.0);
+            if spread > self.spread {
+                (self.spread, self.spread_at) = (spread, speed);
+            }
+        }
+        self.error_of_modes = self.error_of_modes.max(error_of_modes.unwrap_or(0.0));
+        self.error_of_steps = self.error_of_steps.max(error_of_steps.unwrap_or(0.0));
+        let finite = |error: Option<f64>| error.filter(|error| error.is_finite());
+        self.pilots.push(Pilot {
+            speed_rad_s: speed,
+            modes_per_speed: self.modes,
+            steps_per_revolution: self.steps,
+            verdict: run.point.settling.as_ref().map(|settling| settling.verdict),
+            error_of_modes: finite(error_of_modes),
+            error_of_steps: finite(error_of_steps),
+            time_s,
+        });
+    }
+}
+
+/// The pilot runs of a sweep.
+pub(super) struct Pilots<'a, 'b> {
+    pub(super) request: &'b SweepRequest,
+    pub(super) sectors: u32,
+    /// Most modes that memory allows, if that is known.
+    pub(super) most_modes: Option<u32>,
+    pub(super) speeds: Vec<f64>,
+    /// Looks up a run that is known.
+    pub(super) trial: &'b dyn Fn(&TrialRequest) -> Option<&'a Trial>,
+}
+
+impl<'a> Pilots<'a, '_> {
+    pub(super) fn setting(&self, modes_per_speed: u32, steps_per_revolution: u32) -> Setting {
+        Setting {
+            modes_per_speed,
+            scheme: SchemeChoice::ExactModal,
+            kept_modes: AutoOr::Auto,
+            steps_per_revolution,
+        }
+    }
+
+    pub(super) fn first_modes(&self) -> u32 {
+        FIRST_MODES.min(self.most_modes.unwrap_or(u32::MAX))
+    }
+
+    pub(super) fn first_steps(&self) -> u32 {
+        let (automatic, _) = steps_for_contact(self.request);
+        // No step may jump a rod of a coating.
+        let least = if self.request.scene.abradable.is_some() { automatic } else { 0.5 * automatic };
+        let least = least.max(f64::from(2 * self.request.max_engine_order + 1)).min(f64::from(MOST_STEPS));
+        Setting::aligned_steps(least.ceil() as u32, self.request, self.sectors)
+    }
+
+    fn find(&self, speed: f64, setting: Setting) -> Result<&'a Trial, Box<TrialRequest>> {
+        let request = TrialRequest::new(self.request, speed, setting);
+        (self.trial)(&request).ok_or_else(|| Box::new(request))
+    }
+
+    /// What the runs at (k, S), (`finer`, S) and (k, 2S) show at every pilot speed; or the missing ones. `below` is a rung with
+    /// fewer modes.
+    pub(super) fn rung(
+        &self,
+        (modes, finer, steps): (u32, u32, u32),
+        below: Option<&Rung>,
+    ) -> Result<Rung, Vec<TrialRequest>> {
+        let settings =
+            [self.setting(modes, steps), self.setting(finer, steps), self.setting(modes, 2 * steps)];
+        let mut missing: Vec<TrialRequest> = Vec::new();
+        let mut rung = Rung {
+            modes,
+            steps,
+            error_of_modes: 0.0,
+            error_of_steps: 0.0,
+            spread: 0.0,
+            spread_at: 0.0,
+            set_up_s: 0.0,
+            step_s: 0.0,
+            finer_step_s: 0.0,
+            pilots: Vec::new(),
+        };
+        for (index, &speed) in self.speeds.iter().enumerate() {
+            let found = settings.map(|setting| self.find(speed, setting));
+            if let [Ok(run), Ok(more_modes), Ok(more_steps)] = found {
+                let before = below.and_then(|below| below.pilots[index].error_of_modes).unwrap_or(0.0);
+                let time_s = run.cost.of_run(self.request.integration.revolutions);
+                rung.add(speed, [run, more_modes, more_steps], before, time_s);
+                let share = 1.0 / self.speeds.len() as f64;
+                rung.set_up_s += share * run.cost.set_up_s;
+                rung.step_s += share * run.cost.per_revolution_s / f64::from(steps);
+                rung.finer_step_s += share * more_modes.cost.per_revolution_s / f64::from(steps);
+            } else {
+                missing.extend(found.into_iter().filter_map(Result::err).map(|request| *request));
+            }
+        }
+        // Few modes first: what their reduction takes tells what the next one will.
+        let fewest = missing.iter().map(|request| request.sweep.modes()).min();
+        missing.retain(|request| Some(request.sweep.modes()) == fewest);
+        if missing.is_empty() { Ok(rung) } else { Err(missing) }
+    }
+
+    /// Why no pilot speed carries an estimate, if none does.
+    pub(super) fn nothing_completed(&self, rung: &Rung) -> Option<String> {
+        if rung.estimated() > 0 || rung.error_of_modes.is_infinite() || rung.error_of_steps.is_infinite() {
+            return None;
+        }
+        let run = |&speed: &f64| self.find(speed, self.setting(rung.modes, rung.steps)).ok();
+        let message = self.speeds.iter().filter_map(run).find_map(|trial| trial.point.message.clone());
+        let why = message.unwrap_or_else(|| "none was completed".to_owned());
+        Some(format!(
+            "no pilot run gives an error to be estimated: {why}; change that, or give the knobs yourself"
+        ))
+    }
+
+    /// What a tiny perturbation says of the response whose level varies most; or the missing run.
+    pub(super) fn sensitivity(&self, rung: &Rung) -> Result<Roughness, Box<TrialRequest>> {
+        let setting = self.setting(rung.modes, rung.steps);
+        let request = TrialRequest { twin: true, ..TrialRequest::new(self.request, rung.spread_at, setting) };
+        let Some(trial) = (self.trial)(&request) else { return Err(Box::new(request)) };
+        let growth = trial.sensitivity.map_or(Growth::Undecided, |sensitivity| sensitivity.growth);
+        let what = match growth {
+            Growth::Chaotic => "is chaotic",
+            Growth::QuasiPeriodic => "is quasi-periodic",
+            Growth::Stable => "does not repeat, though it forgets a tiny perturbation",
+            Growth::Undecided => "does not repeat, and the run is too short to say whether it is chaotic",
+        };
+        let rate = trial.sensitivity.and_then(|sensitivity| sensitivity.rate_in_words());
+        let rate = rate.map_or(String::new(), |rate| format!(" (a tiny perturbation grows by {rate})"));
+        Ok(Roughness { chaotic: growth == Growth::Chaotic, words: format!("{what}{rate}") })
+    }
+}
+
+/// Why the level of a response varies.
+pub(super) struct Roughness {
+    /// By chance, which no setting removes.
+    pub(super) chaotic: bool,
+    /// What the response is, with the growth rate of a tiny perturbation.
+    pub(super) words: String,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pilots_are_spread_evenly_from_end_to_end() {
+        let values: Vec<u32> = (0..120).collect();
+        assert_eq!(evenly_spread(&values, 4), [0, 40, 79, 119]);
+        assert_eq!(evenly_spread(&values[..3], 4), [0, 1, 2]);
+        assert_eq!(evenly_spread(&values[..5], 4), [0, 1, 3, 4]);
+        assert_eq!((evenly_spread(&values, 1), evenly_spread(&values, 0)), (vec![60], vec![]));
+    }
+
+    #[test]
+    fn a_rung_is_half_as_fine_again_at_least() {
+        let finer = |modes, most| finer_modes(modes, most);
+        assert_eq!((finer(20, None), finer(320, None), finer(400, None)), (Some(40), Some(500), None));
+        assert_eq!((finer(40, Some(60)), finer(60, Some(60)), finer(20, Some(21))), (Some(60), None, None));
+    }
+
+    #[test]
+    fn chance_is_not_taken_for_an_error() {
+        let difference = |amplitude, spread| Errors {
+            history: None,
+            amplitude,
+            amplitude_spread: spread,
+            engine_orders: None,
+            impulse: None,
+        };
+        assert_eq!(estimate(&difference(0.02, Some(0.03))), 0.0);
+        assert!((estimate(&difference(0.05, Some(0.03))) - 2.5 * 0.02).abs() < 1e-12);
+        assert!((estimate(&difference(0.05, None)) - 2.5 * 0.05).abs() < 1e-12);
+    }
+}

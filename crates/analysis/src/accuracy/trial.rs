@@ -1,0 +1,300 @@
+//! A trial: one speed at one setting, run to be compared with others, with its cost.
+
+use std::cell::Cell;
+use std::time::Duration;
+
+use cpu_time::ThreadTime;
+use serde::{Deserialize, Serialize};
+
+use crate::auto_or::AutoOr;
+use crate::discretisation::aligned_samples;
+use crate::error::AnalysisError;
+use crate::model::ReducedSector;
+use crate::monitor::Monitor;
+use crate::record::record_run;
+use crate::request::{SchemeChoice, SweepDirection, SweepRequest, default_peak_prominence};
+use crate::result::{Point, PointStatus, SpeedSpectra, Verdict};
+use crate::speed::{Start, empty_point, ready, simulate};
+use crate::speeds::{SpeedSet, SpeedUnit, Speeds};
+use crate::stepping::{MOST_STEPS, Stepping};
+use rubmap_wheel::dynamics::integrate::{Outcome, Run};
+use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
+use rubmap_wheel::response::sensitivity::{self, Sensitivity};
+
+/// The knobs that accuracy and time depend on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct Setting {
+    /// Fixed-interface modes kept per stiffness speed and nodal diameter.
+    pub modes_per_speed: u32,
+    /// How time is stepped.
+    pub scheme: SchemeChoice,
+    /// Modes per nodal diameter that `massless_boundary` integrates.
+    pub kept_modes: AutoOr,
+    /// Time steps per revolution.
+    pub steps_per_revolution: u32,
+}
+
+impl Setting {
+    /// `request` with these knobs.
+    #[must_use]
+    pub fn on(self, request: &SweepRequest) -> SweepRequest {
+        let mut request = request.clone();
+        request.modes_per_speed = AutoOr::Fixed(self.modes_per_speed);
+        request.integration.scheme = self.scheme;
+        request.integration.kept_modes = self.kept_modes;
+        request.integration.steps_per_revolution = AutoOr::Fixed(self.steps_per_revolution);
+        request
+    }
+
+    /// At least `steps` per revolution, so many that the histories of all settings of `request` share their instants on a wheel
+    /// of `sectors`.
+    pub(super) fn aligned_steps(steps: u32, request: &SweepRequest, sectors: u32) -> u32 {
+        let aligned = aligned_samples(request, sectors as usize) as u32;
+        let most = MOST_STEPS / aligned * aligned;
+        steps.checked_next_multiple_of(aligned).map_or(most, |steps| steps.min(most))
+    }
+}
+
+/// What a trial runs. Two equal ones give the same numbers but for times.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct TrialRequest {
+    /// A resolved sweep of one speed with every knob fixed.
+    pub sweep: SweepRequest,
+    /// Revolutions from the start whose displacements are kept; 0 for none.
+    pub history_revolutions: u32,
+    /// Whether a twin that starts from a perturbed state runs beside it.
+    pub twin: bool,
+}
+
+impl TrialRequest {
+    /// `setting` at one speed of `request`, without what chooses settings.
+    pub fn new(request: &SweepRequest, speed_rad_s: f64, setting: Setting) -> Self {
+        let mut sweep = setting.on(request);
+        sweep.speeds = Speeds::One(SpeedSet {
+            from: None,
+            to: None,
+            count: None,
+            values: Some(vec![speed_rad_s]),
+            unit: SpeedUnit::RadS,
+            added: false,
+        });
+        (sweep.accuracy, sweep.budget, sweep.control_speeds) = (None, None, None);
+        sweep.sweep = SweepDirection::Independent;
+        (sweep.refine, sweep.peak_prominence) = (false, default_peak_prominence());
+        Self { sweep, history_revolutions: 0, twin: false }
+    }
+}
+
+/// What a run costs in time of its thread, from some repetitions.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct Cost {
+    /// Before the first step, s: eigenproblems at the speed, tables of contact and casing. Without the reduction.
+    pub set_up_s: f64,
+    /// One revolution, s.
+    pub per_revolution_s: f64,
+    /// Repetitions; the medians are given.
+    pub repetitions: u32,
+    /// Half the range of `per_revolution_s` over the repetitions, relative to its median; absent where the run was long enough
+    /// to be timed once.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spread: Option<f64>,
+}
+
+impl Cost {
+    /// Of a run of `revolutions`, s.
+    pub fn of_run(&self, revolutions: u32) -> f64 {
+        self.set_up_s + f64::from(revolutions) * self.per_revolution_s
+    }
+
+    /// From (set-up, per revolution) of every repetition.
+    fn of(mut repetitions: Vec<(f64, f64)>) -> Self {
+        let count = repetitions.len();
+        let median = |of: fn(&(f64, f64)) -> f64, repetitions: &mut Vec<(f64, f64)>| {
+            repetitions.sort_by(|a, b| of(a).total_cmp(&of(b)));
+            of(&repetitions[count / 2])
+        };
+        let set_up_s = median(|r| r.0, &mut repetitions);
+        let per_revolution_s = median(|r| r.1, &mut repetitions);
+        let range = repetitions[count - 1].1 - repetitions[0].1;
+        let spread = (count > 1 && per_revolution_s > 0.0).then(|| 0.5 * range / per_revolution_s);
+        Self { set_up_s, per_revolution_s, repetitions: count as u32, spread }
+    }
+}
+
+/// What a trial found.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Trial {
+    /// As a sweep would report it.
+    pub point: Point,
+    /// Real unknowns that are integrated.
+    pub unknowns: u32,
+    /// `[sensor][engine order]`: amplitudes at the integer engine orders from 1 on, of a completed run.
+    pub lines: Vec<Vec<f64>>,
+    /// `[sensor][block]`: root mean squares over successive parts of the window, of a completed run.
+    pub levels: Vec<Vec<f64>>,
+    /// `[sensor][sample]`: displacement over the first revolutions.
+    pub history: Vec<Vec<f64>>,
+    /// Samples of a revolution of `history`.
+    pub samples_per_revolution: u32,
+    /// Whether trajectories can be compared; of a completed trial with a twin.
+    pub sensitivity: Option<Sensitivity>,
+    /// What it cost.
+    pub cost: Cost,
+}
+
+impl Trial {
+    /// Whether it was integrated to its end.
+    pub(super) fn is_completed(&self) -> bool {
+        self.point.status == PointStatus::Completed
+    }
+
+    /// Whether the steady response repeats.
+    pub(super) fn repeats(&self) -> bool {
+        repeats(&self.point)
+    }
+}
+
+/// Whether the steady response of a speed repeats.
+pub(super) fn repeats(point: &Point) -> bool {
+    let verdict = point.settling.as_ref().map(|settling| settling.verdict);
+    matches!(verdict, Some(Verdict::Periodic | Verdict::Subharmonic))
+}
+
+/// Fewest parts of the window whose levels are compared, if it has so many revolutions.
+const BLOCKS: usize = 5;
+
+/// A run is repeated until it has taken this long altogether,
+const TIMED: Duration = Duration::from_millis(300);
+/// or this often.
+const MOST_REPETITIONS: usize = 5;
+
+/// Runs a trial on the calling thread. Deterministic but for times. A run that diverges or cannot be made is a result, with the
+/// status and message of its point.
+///
+/// # Errors
+/// Cancellation, and a request that was never resolved.
+pub fn run_trial(
+    reduced: &ReducedSector,
+    request: &TrialRequest,
+    monitor: &dyn Monitor,
+) -> Result<Trial, AnalysisError> {
+    let sweep = &request.sweep;
+    let speed_rad_s = sweep.speeds.resolve().map_err(AnalysisError::Refused)?[0];
+    let mut trial = Trial {
+        point: empty_point(reduced, sweep, 0, speed_rad_s),
+        unknowns: 0,
+        lines: Vec::new(),
+        levels: Vec::new(),
+        history: Vec::new(),
+        samples_per_revolution: 0,
+        sensitivity: None,
+        cost: Cost::default(),
+    };
+    let watch = |_: f64| !monitor.is_cancelled();
+    let (mut repetitions, mut spent) = (Vec::new(), Duration::ZERO);
+    let mut first = None;
+    while repetitions.is_empty() || (spent < TIMED && repetitions.len() < MOST_REPETITIONS && first.is_some())
+    {
+        let clock = ThreadTime::now();
+        let set_up = Cell::new(None);
+        let marked = |fraction: f64| {
+            if set_up.get().is_none() {
+                set_up.set(Some(clock.elapsed()));
+            }
+            watch(fraction)
+        };
+        let ran = ready(reduced, sweep, speed_rad_s).and_then(|(wheel, stepping)| {
+            let run = simulate(&reduced.wheel, &wheel, sweep, &stepping, Start::Scene, &marked)?;
+            Ok((wheel, stepping, run))
+        });
+        let whole = clock.elapsed();
+        if monitor.is_cancelled() {
+            return Err(AnalysisError::Cancelled);
+        }
+        spent += whole;
+        // One that was never set up ran no revolution.
+        let set_up = set_up.get().unwrap_or(whole);
+        // A run that diverged made fewer than were asked for.
+        let made = |(_, stepping, run): &(ModalWheel, Stepping, Run)| {
+            run.statistics.steps as f64 / stepping.discretisation.per_revolution as f64
+        };
+        let revolutions = ran.as_ref().map_or(0.0, made);
+        let running = (whole - set_up).as_secs_f64();
+        let per_revolution = if revolutions > 0.0 { running / revolutions } else { 0.0 };
+        repetitions.push((set_up.as_secs_f64(), per_revolution));
+        match ran {
+            Err(message) => trial.point.message = Some(message),
+            Ok(ran) => first = first.or(Some(ran)),
+        }
+    }
+    trial.cost = Cost::of(repetitions);
+    let Some((wheel, stepping, run)) = first else { return Ok(trial) };
+    trial.unknowns = stepping.scheme.integrated_unknowns(&wheel) as u32;
+    let samples = stepping.discretisation.samples;
+    trial.samples_per_revolution = samples as u32;
+    let spectra = record_run(&mut trial.point, &run, sweep, &wheel, &stepping)?;
+    if let (Outcome::Completed(history), Some(spectra)) = (&run.outcome, &spectra) {
+        let kept = samples * request.history_revolutions.min(sweep.integration.revolutions) as usize;
+        trial.history = history.displacement.iter().map(|line| line[..kept].to_vec()).collect();
+        let window = samples * sweep.integration.window_revolutions as usize;
+        trial.levels =
+            history.displacement.iter().map(|line| levels(&line[line.len() - window..], samples)).collect();
+        trial.lines = lines(spectra, sweep);
+        if request.twin {
+            let twin = simulate(&reduced.wheel, &wheel, sweep, &stepping, Start::Perturbed, &watch);
+            if let Ok(Run { outcome: Outcome::Completed(twin), .. }) = twin {
+                let from = sweep.integration.ramp_revolutions.ceil() as usize;
+                let (run, twin) = (&history.displacement, &twin.displacement);
+                let settling = trial.point.settling.as_ref();
+                trial.sensitivity =
+                    settling.map(|settling| sensitivity::judge(run, twin, samples, from, settling.verdict));
+            } else if monitor.is_cancelled() {
+                return Err(AnalysisError::Cancelled);
+            }
+        }
+    }
+    Ok(trial)
+}
+
+/// Root mean squares about the mean of the window over its parts, each of the same number of whole revolutions (what is left over at
+/// the end is not counted).
+fn levels(window: &[f64], samples_per_revolution: usize) -> Vec<f64> {
+    let revolutions = window.len() / samples_per_revolution;
+    let part = samples_per_revolution * (revolutions / revolutions.clamp(1, BLOCKS));
+    let mean = window.iter().sum::<f64>() / window.len() as f64;
+    let level =
+        |part: &[f64]| (part.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / part.len() as f64).sqrt();
+    window.chunks_exact(part.max(1)).map(level).collect()
+}
+
+/// `[sensor][engine order]`: amplitudes at the integer engine orders from 1 on.
+pub(super) fn lines(spectra: &SpeedSpectra, request: &SweepRequest) -> Vec<Vec<f64>> {
+    let window = request.integration.window_revolutions as usize;
+    let orders = |amplitude: &[f64]| amplitude.iter().skip(window).step_by(window).copied().collect();
+    spectra.sensors.iter().map(|sensor| orders(&sensor.amplitude)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn medians_stand_for_repetitions() {
+        let cost = Cost::of(vec![(3.0, 1.0), (1.0, 1.2), (2.0, 0.8)]);
+        assert_eq!((cost.set_up_s, cost.per_revolution_s, cost.repetitions), (2.0, 1.0, 3));
+        assert!((cost.spread.unwrap() - 0.2).abs() < 1e-12 && (cost.of_run(10) - 12.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn levels_are_of_whole_revolutions() {
+        let sine = |j: u32| 7.0 + 2.0 * (0.2 * std::f64::consts::PI * f64::from(j)).sin();
+        let steady: Vec<f64> = (0..120).map(sine).collect();
+        for (revolutions, parts) in [(1, 1), (2, 2), (4, 4), (5, 5), (9, 9), (12, 6)] {
+            let found = levels(&steady[..10 * revolutions], 10);
+            assert_eq!(found.len(), parts, "{revolutions}");
+            assert!(found.iter().all(|level| (level - 2f64.sqrt()).abs() < 1e-9));
+        }
+    }
+}

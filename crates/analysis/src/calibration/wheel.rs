@@ -1,0 +1,207 @@
+//! A synthetic wheel that is run to see what its steps cost.
+
+use std::f64::consts::TAU;
+use std::time::Instant;
+
+use faer::{Mat, c64};
+
+use rubmap_numerics::sector_fourier::{harmonic_count, is_single};
+use rubmap_wheel::dynamics::casing::{Casing, Restriction};
+use rubmap_wheel::dynamics::effects::Effects;
+use rubmap_wheel::dynamics::integrate::{SensorRow, Simulation};
+use rubmap_wheel::dynamics::modal_wheel::{ModalHarmonic, ModalWheel};
+use rubmap_wheel::dynamics::oscillators::{Direction, ModalDamping};
+use rubmap_wheel::dynamics::schemes::Scheme;
+use rubmap_wheel::dynamics::sector::ContactNode;
+use rubmap_wheel::dynamics::statistics::RunStatistics;
+
+/// Clearances over the height of the lobes.
+const OUT_OF_REACH: f64 = 100.0;
+const WITHIN_REACH: f64 = 0.6;
+
+/// Ω, rad/s.
+pub(super) const SPEED: f64 = 1000.0;
+pub(super) const STEPS: usize = 480;
+const SAMPLES: usize = 60;
+/// One revolution that has the set-up to itself, and another one. As short as that, some of them are not interrupted by the
+/// other work of a machine.
+const REVOLUTIONS: [usize; 2] = [1, 2];
+const ROUNDS: usize = 5;
+
+/// A wheel of no particular shape.
+#[derive(Clone)]
+pub(super) struct Wheel {
+    modal: ModalWheel,
+    contact_nodes: Vec<ContactNode>,
+}
+
+impl Wheel {
+    pub(super) fn new(sectors: usize, nodes: usize, modes: usize) -> Self {
+        let harmonic = |harmonic| ModalHarmonic {
+            harmonic,
+            single: is_single(harmonic, sectors),
+            omega: (0..modes).map(|m| SPEED * (2.3 + 0.2 * harmonic as f64 + 1.5 * m as f64)).collect(),
+            contact: Mat::from_fn(3 * nodes, modes, |dof, m| {
+                let phase = 0.7 * ((dof + 1) * (m + 1)) as f64;
+                c64::new(phase.cos(), if is_single(harmonic, sectors) { 0.0 } else { 0.3 * phase.sin() })
+            }),
+            gyroscopic: None,
+        };
+        let modal = ModalWheel {
+            speed_rad_s: SPEED,
+            sectors,
+            repeats: 1,
+            harmonics: (0..harmonic_count(sectors)).map(harmonic).collect(),
+        };
+        let node = |k: usize| ContactNode {
+            id: k as u64,
+            position: [1000.0, 0.0, k as f64],
+            normal: [1.0, 0.0, 0.0],
+            dofs: [3 * k, 3 * k + 1, 3 * k + 2],
+        };
+        Self { modal, contact_nodes: (0..nodes).map(node).collect() }
+    }
+
+    /// The same with Coriolis forces of no particular kind.
+    pub(super) fn turning(mut self) -> Self {
+        for harmonic in &mut self.modal.harmonics {
+            let modes = harmonic.omega.len();
+            // Skew-symmetric.
+            harmonic.gyroscopic = Some(Mat::from_fn(modes, modes, |i, j| {
+                let size = 0.1 * ((i + 1) * (j + 1)) as f64;
+                c64::from(size.sin() * (i as f64 - j as f64).signum() * f64::from(u8::from(i != j)))
+            }));
+        }
+        self
+    }
+
+    pub(super) fn modal(&self) -> &ModalWheel {
+        &self.modal
+    }
+
+    pub(super) fn contact_nodes(&self) -> &[ContactNode] {
+        &self.contact_nodes
+    }
+
+    pub(super) fn unknowns(&self) -> usize {
+        self.modal.unknowns()
+    }
+
+    /// Seconds of a run, and what it counted.
+    fn run(&self, clearance: Option<f64>, effects: Effects<'_>, revolutions: usize) -> (f64, RunStatistics) {
+        let casing = clearance.map(|clearance| Casing {
+            clearance: vec![clearance; self.contact_nodes.len()],
+            restriction: Some(Restriction {
+                count: 2,
+                amplitude: 1.0,
+                width_rad: 0.7 * TAU / self.modal.sectors as f64,
+                phase_rad: 0.0,
+            }),
+            ramp_revolutions: 0.5,
+        });
+        let damping = ModalDamping { modal_ratio: 0.05, family_ratios: Vec::new() };
+        let sensors =
+            [SensorRow { direction: Direction { node: 0, components: [1.0, 0.0, 0.0] }, sector: 0 }];
+        let simulation = Simulation {
+            wheel: &self.modal,
+            contact_nodes: &self.contact_nodes,
+            damping: Some(&damping),
+            casing: casing.as_ref(),
+            effects,
+            initial: &[],
+            scheme: Scheme::ExactModal,
+            sensors: &sensors,
+            steps_per_revolution: STEPS,
+            samples_per_revolution: SAMPLES,
+            revolutions,
+            window_revolutions: 1,
+        };
+        let start = Instant::now();
+        let run = simulation.run(&|_| true);
+        (start.elapsed().as_secs_f64(), run.statistics)
+    }
+}
+
+/// What is run to see what a step costs.
+#[derive(Clone, Copy)]
+pub(super) struct Case<'a> {
+    pub(super) wheel: &'a Wheel,
+    pub(super) effects: Effects<'a>,
+}
+
+impl<'a> Case<'a> {
+    pub(super) fn of(wheel: &'a Wheel, effects: Effects<'a>) -> Self {
+        Self { wheel, effects }
+    }
+}
+
+/// Seconds of a step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct StepSeconds {
+    /// With nothing around the wheel.
+    pub(super) without: f64,
+    /// In front of two lobes that always face a blade, out of reach.
+    pub(super) free: f64,
+    /// The same within reach, as if every step had a contact.
+    pub(super) contact: f64,
+}
+
+/// Runs all cases in turns, so that other work of the machine meets them alike, and takes each at its best.
+pub(super) fn measure<const N: usize>(cases: [Case<'_>; N]) -> [StepSeconds; N] {
+    const CLEARANCES: [Option<f64>; 3] = [None, Some(OUT_OF_REACH), Some(WITHIN_REACH)];
+    let mut best = [[Best::default(); CLEARANCES.len()]; N];
+    for _ in 0..ROUNDS {
+        for (case, best) in cases.iter().zip(&mut best) {
+            for (&clearance, best) in CLEARANCES.iter().zip(best) {
+                for (revolutions, (seconds, statistics)) in
+                    REVOLUTIONS.into_iter().zip(best.seconds.iter_mut().zip(&mut best.statistics))
+                {
+                    let (time, counted) = case.wheel.run(clearance, case.effects, revolutions);
+                    (*seconds, *statistics) = (seconds.min(time), counted);
+                }
+            }
+        }
+    }
+    best.map(|[without, free, contact]| {
+        let ((without, _), (free, _), (touching, share)) = (without.step(), free.step(), contact.step());
+        StepSeconds { without, free, contact: free + (touching - free).max(0.0) / share.max(0.1) }
+    })
+}
+
+/// The fastest run of each length, and what it counted.
+#[derive(Clone, Copy)]
+struct Best {
+    seconds: [f64; 2],
+    statistics: [RunStatistics; 2],
+}
+
+impl Default for Best {
+    fn default() -> Self {
+        Self { seconds: [f64::INFINITY; 2], statistics: [RunStatistics::default(); 2] }
+    }
+}
+
+impl Best {
+    /// Seconds of a step beyond the set-up, and the share of steps with contact.
+    fn step(&self) -> (f64, f64) {
+        let ([set_up, whole], [first, all]) = (self.seconds, self.statistics);
+        let steps = (all.steps - first.steps).max(1) as f64;
+        let share = (all.contact_steps - first.contact_steps) as f64 / steps;
+        // Interrupted throughout: then with the set-up.
+        let beyond = if whole > set_up { (whole - set_up) / steps } else { whole / all.steps.max(1) as f64 };
+        (beyond.max(1e-9), share)
+    }
+}
+
+#[cfg(test)]
+impl Wheel {
+    /// Contact in most steps, none out of reach, and both to the end of the run.
+    pub(super) fn assert_rubbing(&self, effects: Effects<'_>, what: &str) {
+        for (clearance, least, most) in [(OUT_OF_REACH, 0.0, 0.0), (WITHIN_REACH, 0.3, 1.0)] {
+            let (_, statistics) = self.run(Some(clearance), effects, 3);
+            let share = statistics.contact_share();
+            assert_eq!(statistics.steps, 3 * STEPS as u64, "{what}: it did not run to the end");
+            assert!((least..=most).contains(&share), "{what}: {share} of the steps touch");
+        }
+    }
+}

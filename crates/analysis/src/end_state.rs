@@ -1,0 +1,82 @@
+//! Where the wheel is when a run ends: what the next speed of a sweep up or down starts from.
+//!
+//! Mode shapes change with the speed, so the state is kept in the coordinates of the reduction, which do not:
+//!
+//! ```text
+//! q = Φ z,  q̇ = Φ ż        at the end of one speed
+//! z = Φᴴ M q,  ż = Φᴴ M q̇   at the start of the next
+//! ```
+//!
+//! Exact where every mode is integrated; a boundary without mass hands on the modes it keeps. A run ends after a whole number
+//! of revolutions, so the next one begins at the same angle of the casing.
+
+use faer::{Mat, c64};
+use serde::{Deserialize, Serialize};
+
+use rubmap_wheel::dynamics::error::ModelError;
+use rubmap_wheel::dynamics::initial::InitialMode;
+use rubmap_wheel::dynamics::modal_wheel::{ModalWheel, mode_shapes};
+use rubmap_wheel::dynamics::reduction::ReducedWheel;
+use rubmap_wheel::dynamics::schemes::Scheme;
+
+/// The wheel at the end of a run: for every nodal diameter that is simulated q, then q̇, each as real and imaginary parts.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct EndState(pub Vec<f64>);
+
+impl EndState {
+    /// From all modes that were integrated on `wheel`.
+    pub(super) fn new(
+        modes: &[InitialMode],
+        wheel: &ModalWheel,
+        reduced: &ReducedWheel,
+        stiffening: bool,
+    ) -> Result<Self, ModelError> {
+        let mut numbers = Vec::new();
+        for (index, harmonic) in wheel.harmonics.iter().enumerate() {
+            let shapes = mode_shapes(reduced, harmonic.harmonic, wheel.speed_rad_s, stiffening)?;
+            for part in [|mode: &InitialMode| mode.displacement, |mode: &InitialMode| mode.velocity] {
+                let mut q = vec![c64::ZERO; shapes.nrows()];
+                for mode in modes.iter().filter(|mode| mode.harmonic == index) {
+                    for (row, q) in q.iter_mut().enumerate() {
+                        *q += shapes[(row, mode.family)] * part(mode);
+                    }
+                }
+                numbers.extend(q.iter().flat_map(|q| [q.re, q.im]));
+            }
+        }
+        Ok(Self(numbers))
+    }
+
+    /// As modes of `wheel`, those that `scheme` integrates; none if the state is of another reduction.
+    pub(super) fn modes(
+        &self,
+        wheel: &ModalWheel,
+        reduced: &ReducedWheel,
+        stiffening: bool,
+        scheme: Scheme,
+    ) -> Result<Option<Vec<InitialMode>>, ModelError> {
+        let sizes = wheel.harmonics.iter().map(|harmonic| harmonic.omega.len());
+        if self.0.len() != sizes.map(|size| 4 * size).sum::<usize>() {
+            return Ok(None);
+        }
+        let (mut modes, mut rest) = (Vec::new(), self.0.as_slice());
+        for (index, harmonic) in wheel.harmonics.iter().enumerate() {
+            let size = harmonic.omega.len();
+            let shapes = mode_shapes(reduced, harmonic.harmonic, wheel.speed_rad_s, stiffening)?;
+            let mut modal = || {
+                let (q, after) = rest.split_at(2 * size);
+                rest = after;
+                let q = Mat::from_fn(size, 1, |row, _| c64::new(q[2 * row], q[2 * row + 1]));
+                shapes.adjoint() * (&reduced.harmonics[harmonic.harmonic].mass * q)
+            };
+            let (displacement, velocity) = (modal(), modal());
+            modes.extend((0..scheme.integrated_modes(size)).map(|family| InitialMode {
+                harmonic: index,
+                family,
+                displacement: displacement[(family, 0)],
+                velocity: velocity[(family, 0)],
+            }));
+        }
+        Ok(Some(modes))
+    }
+}

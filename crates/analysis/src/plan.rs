@@ -1,0 +1,508 @@
+//! What a job will do and cost, before it runs.
+
+use std::time::Instant;
+
+use serde::{Deserialize, Serialize};
+
+use super::accuracy::choice::Choice;
+use super::accuracy::modes::ModesChoice;
+use super::accuracy::rung::pilot_speeds;
+use super::accuracy::trial::TrialRequest;
+use super::calibration::{Calibration, EffectSizes, StepSize};
+use super::diagram::FrequencyDiagram;
+use super::effect_list::{PlannedEffect, effects_of};
+use super::effects::{initial, wheel_of};
+use super::model::{ModelFacts, ReducedSector};
+use super::request::{ModalAnalysisRequest, SweepDirection, SweepRequest};
+use super::result::{Point, SchemeReport};
+use super::run::VERSION;
+use super::scene::{Scene, Symmetry};
+use super::sliding;
+use super::speed::{casing, check_table};
+use super::stepping::Stepping;
+use super::symmetry::{FoundSymmetry, repeats};
+use rubmap_numerics::sector_fourier::harmonic_count;
+use rubmap_wheel::dynamics::casing::RestrictionTable;
+use rubmap_wheel::dynamics::modal_wheel::{ModalWheel, RotationEffects};
+
+/// What a sweep will do and cost.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct SweepPlan {
+    /// Every effect a scene may name, on or off.
+    pub effects: Vec<PlannedEffect>,
+    /// Symmetry of the scene.
+    pub symmetry: FoundSymmetry,
+    /// Pairs of contact node and casing: all contact nodes of all simulated sectors where the scene has contact, otherwise none. A
+    /// node whose clearance is too large ever to be closed counts too; it costs its gap in every step.
+    pub contact_pairs: u64,
+    /// Whether the reduction that the sweep rests on is there. While it is not, `points` and `estimate` are left out.
+    pub reduction: ReductionState,
+    /// The whole reduced wheel has at most so many real unknowns: its own number if the reduction is stored, otherwise N(n_b +
+    /// speeds·k), of which nearly dependent directions will be dropped.
+    pub reduced_unknowns_at_most: u64,
+    /// Speeds to simulate, those of the request.
+    pub speeds: u32,
+    /// Threads that compute speeds side by side; one where each starts from the end of another.
+    pub workers: u32,
+    /// Every speed if there are no more than three, otherwise the slowest, the middle and the fastest one; of wheels with
+    /// large eigenproblems the slowest alone, which usually takes most steps.
+    pub points: Vec<PlannedPoint>,
+    /// Cost of all speeds together; absent where none of `points` can be integrated.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub estimate: Option<Estimate>,
+    /// The setting that pilot runs of earlier jobs choose for the accuracy or the budget asked for; `points` and `estimate` are for it.
+    /// A budget has them for nothing; a job that still has to run them has less of it left.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub choice: Option<Choice>,
+    /// Speeds of the pilot runs that the job begins with, rad/s; absent where none are missing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pilot_speeds_rad_s: Option<Vec<f64>>,
+    /// What its numbers will not be worth: a K(Ω) that cannot be trusted between the speeds at which the stiffness is given.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<String>,
+    /// The whole request as resolved, with the setting chosen in place of what was asked for.
+    pub settings: SweepRequest,
+    /// Version of the code.
+    pub version: String,
+}
+
+/// Whether a reduction is there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub enum ReductionState {
+    /// Computed before, and kept.
+    #[serde(rename = "stored")]
+    Stored,
+    /// The first task of the job.
+    #[serde(rename = "to be computed")]
+    ToBeComputed,
+}
+
+/// What one speed of a sweep will do and cost.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct PlannedPoint {
+    /// Index of the speed in the request.
+    pub index: u32,
+    /// Ω in rad/s.
+    pub speed_rad_s: f64,
+    /// Why this speed cannot be integrated; then all below is absent or 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub message: Option<String>,
+    /// Real unknowns that are integrated.
+    pub integrated_unknowns: u32,
+    /// Scheme and step, and the reason that set them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scheme: Option<SchemeReport>,
+    /// Steps per revolution.
+    pub steps_per_revolution: u32,
+    /// Steps of the whole run.
+    pub steps: u64,
+    /// Computing time of this speed, s.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub computing_time_s: Option<CostRange>,
+    /// Memory that this speed holds while it runs.
+    pub memory_bytes: u64,
+}
+
+/// A cost that depends on how much contact there will be.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct CostRange {
+    /// If nothing ever touches.
+    pub free: f64,
+    /// If something touches in every step.
+    pub contact: f64,
+}
+
+/// Cost of all speeds of a sweep, from a calibration of this machine; without the reduction and without the speeds that
+/// `refine` adds.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct Estimate {
+    /// Steps over all speeds.
+    pub steps: u64,
+    /// Computing time summed over the speeds, s; compare `spent.computing_time_s`.
+    pub computing_time_s: CostRange,
+    /// Time from the first to the last speed with all workers on this sweep, s.
+    pub wall_time_s: CostRange,
+    /// Threads that compute speeds side by side.
+    pub workers: u32,
+    /// Memory of the speeds that run side by side, and of the reduced wheel.
+    pub memory_bytes: u64,
+    /// Memory that one speed holds while it runs; 0 in plans of earlier versions.
+    #[serde(default)]
+    pub speed_memory_bytes: u64,
+}
+
+/// What was really spent on the finished speeds of a sweep.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct Spent {
+    /// Computing time summed over the speeds, s; compare `plan.computing_time_s`. Speeds that ran side by side took less of the
+    /// clock on the wall.
+    pub computing_time_s: f64,
+    /// Steps taken.
+    pub steps: u64,
+}
+
+impl Spent {
+    pub(super) fn on<'a>(points: impl IntoIterator<Item = &'a Point>) -> Self {
+        points.into_iter().fold(Self::default(), |sum, point| Self {
+            computing_time_s: sum.computing_time_s + point.wall_time_s,
+            steps: sum.steps + point.steps,
+        })
+    }
+}
+
+/// What a modal analysis will do and cost.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct ModalAnalysisPlan {
+    /// The effects that natural frequencies can have.
+    pub effects: Vec<PlannedEffect>,
+    /// Whether the reduction that it rests on is there.
+    pub reduction: ReductionState,
+    /// The whole reduced wheel has at most so many real unknowns: its own number if the reduction is stored, otherwise N(n_b +
+    /// speeds·k), of which nearly dependent directions will be dropped.
+    pub reduced_unknowns_at_most: u64,
+    /// Speeds of the diagram.
+    pub speeds: u32,
+    /// Eigenproblems solved at each of them, one a nodal diameter.
+    pub nodal_diameters: u32,
+    /// Computing time of the frequencies, s, from those of one speed; crossings cost a few more. Absent while the reduction is
+    /// to be computed or where that speed has none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub computing_time_s: Option<f64>,
+    /// The modes that the stored reductions choose for the accuracy asked for; absent until they do.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub choice: Option<ModesChoice>,
+    /// What its numbers will not be worth: a K(Ω) that cannot be trusted between the speeds at which the stiffness is given.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<String>,
+    /// The whole request as resolved, with the modes chosen in place of what was asked for.
+    pub settings: ModalAnalysisRequest,
+    /// Version of the code.
+    pub version: String,
+}
+
+/// Plans a resolved sweep on `workers` threads; without `reduced`, what can be said without it. The choice is for the caller to
+/// add.
+pub fn plan_sweep(
+    request: &SweepRequest,
+    facts: &ModelFacts,
+    reduced: Option<&ReducedSector>,
+    calibration: &Calibration,
+    workers: usize,
+) -> SweepPlan {
+    let speeds = request.speeds.resolve().unwrap_or_default();
+    // One speed after the other.
+    let workers = if request.sweep == SweepDirection::Independent { workers } else { 1 };
+    let points: Vec<PlannedPoint> = match reduced {
+        Some(reduced) => representatives(&speeds, &reduced.report.unknowns)
+            .into_iter()
+            .map(|index| plan_point(reduced, request, calibration, index, speeds[index]))
+            .collect(),
+        None => Vec::new(),
+    };
+    SweepPlan {
+        effects: effects_of(&request.scene),
+        symmetry: FoundSymmetry::of(&request.scene, facts.sectors),
+        contact_pairs: match request.scene.contact {
+            Some(_) => u64::from(sectors_simulated(&request.scene, facts)) * u64::from(facts.contact_nodes),
+            None => 0,
+        },
+        reduction: state(reduced),
+        reduced_unknowns_at_most: reduced_unknowns(facts, reduced, request.modes()),
+        speeds: speeds.len() as u32,
+        workers: workers as u32,
+        estimate: reduced.and_then(|reduced| estimate(&points, &speeds, workers, reduced_bytes(reduced))),
+        points,
+        choice: None,
+        warnings: warnings(&request.scene, facts, reduced),
+        pilot_speeds_rad_s: request.unchosen().then(|| pilot_speeds(request)),
+        settings: request.clone(),
+        version: VERSION.to_owned(),
+    }
+}
+
+fn sectors_simulated(scene: &Scene, facts: &ModelFacts) -> u32 {
+    match scene.symmetry {
+        Symmetry::Exact => facts.sectors / repeats(scene, facts.sectors),
+        Symmetry::Full | Symmetry::Probe => facts.sectors,
+    }
+}
+
+/// Plans a resolved modal analysis; without `reduced`, what can be said without it. The choice is for the caller to add.
+pub fn plan_modal_analysis(
+    request: &ModalAnalysisRequest,
+    facts: &ModelFacts,
+    reduced: Option<&ReducedSector>,
+) -> ModalAnalysisPlan {
+    let speeds = request.speeds.ascending().unwrap_or_default();
+    let one = |reduced: &ReducedSector| {
+        let effects = RotationEffects { stiffening: true, coriolis: request.coriolis };
+        let mut diagram = FrequencyDiagram::new(&reduced.wheel, effects, request.families as usize);
+        let start = Instant::now();
+        diagram.push(speeds[speeds.len() / 2]).ok()?;
+        Some(start.elapsed().as_secs_f64())
+    };
+    let scene = Scene {
+        centrifugal_stiffening: facts.has_stiffening(),
+        coriolis: request.coriolis,
+        ..Scene::default()
+    };
+    let mut effects = effects_of(&scene);
+    effects.retain(|effect| ["centrifugal_stiffening", "coriolis"].contains(&effect.name.as_str()));
+    ModalAnalysisPlan {
+        effects,
+        reduction: state(reduced),
+        reduced_unknowns_at_most: reduced_unknowns(facts, reduced, request.modes()),
+        speeds: speeds.len() as u32,
+        nodal_diameters: harmonic_count(facts.sectors as usize) as u32,
+        computing_time_s: reduced.and_then(one).map(|seconds| seconds * speeds.len() as f64),
+        choice: None,
+        warnings: warnings(&scene, facts, reduced),
+        settings: request.clone(),
+        version: VERSION.to_owned(),
+    }
+}
+
+/// About K(Ω), if `scene` uses it: what the reduction found, or, while there is none, what the matrices tell.
+fn warnings(scene: &Scene, facts: &ModelFacts, reduced: Option<&ReducedSector>) -> Vec<String> {
+    let found = reduced.map(|reduced| &reduced.report.stiffening);
+    let found = found.map(|found| (found.verdict, &found.message));
+    let preliminary = facts.stiffening.as_ref().map(|found| (found.verdict, &found.message));
+    let known = found.or(preliminary).filter(|_| scene.centrifugal_stiffening);
+    known
+        .filter(|(verdict, _)| verdict.warning().is_some())
+        .map(|(_, message)| message.clone())
+        .into_iter()
+        .collect()
+}
+
+fn state(reduced: Option<&ReducedSector>) -> ReductionState {
+    if reduced.is_some() { ReductionState::Stored } else { ReductionState::ToBeComputed }
+}
+
+fn reduced_unknowns(facts: &ModelFacts, reduced: Option<&ReducedSector>, modes_per_speed: u32) -> u64 {
+    let modes = facts.speeds_rad_s.len() as u64 * u64::from(modes_per_speed);
+    let expected = || u64::from(facts.sectors) * (3 * u64::from(facts.contact_nodes) + modes);
+    reduced.map_or_else(expected, |reduced| reduced.report.wheel_unknowns.into())
+}
+
+/// Cubed unknowns over all nodal diameters that a plan solves three times: about a second.
+const EIGEN_WORK: f64 = 1e8;
+
+/// Indices of all speeds or of the slowest, the middle and the fastest one, in ascending speed; of the slowest alone where its
+/// eigenproblems of `unknowns` take long.
+fn representatives(speeds: &[f64], unknowns: &[u32]) -> Vec<usize> {
+    let mut ascending: Vec<usize> = (0..speeds.len()).collect();
+    ascending.sort_by(|&a, &b| speeds[a].total_cmp(&speeds[b]));
+    if unknowns.iter().map(|&n| f64::from(n).powi(3)).sum::<f64>() > EIGEN_WORK {
+        ascending.truncate(1);
+    }
+    if ascending.len() <= 3 {
+        return ascending;
+    }
+    [0, ascending.len() / 2, ascending.len() - 1].map(|place| ascending[place]).to_vec()
+}
+
+fn plan_point(
+    reduced: &ReducedSector,
+    request: &SweepRequest,
+    calibration: &Calibration,
+    index: usize,
+    speed_rad_s: f64,
+) -> PlannedPoint {
+    let start = Instant::now();
+    let chosen = stepping_at(reduced, request, speed_rad_s).and_then(|(stepping, wheel)| {
+        let contact = &reduced.wheel.contact;
+        let steps = stepping.discretisation.per_revolution;
+        sliding::check(&wheel, contact, request, stepping.scheme, steps)
+            .map_err(|error| error.to_string())?;
+        check_table(&reduced.wheel, request, steps)?;
+        let casing = casing(&reduced.wheel, request, request.integration.ramp_revolutions);
+        initial(request, &wheel, contact, casing.as_ref(), &stepping)?;
+        Ok((stepping, wheel))
+    });
+    let set_up = start.elapsed().as_secs_f64();
+    let planned = PlannedPoint {
+        index: index as u32,
+        speed_rad_s,
+        message: None,
+        integrated_unknowns: 0,
+        scheme: None,
+        steps_per_revolution: 0,
+        steps: 0,
+        computing_time_s: None,
+        memory_bytes: 0,
+    };
+    let (stepping, wheel) = match chosen {
+        Ok(chosen) => chosen,
+        Err(message) => return PlannedPoint { message: Some(message), ..planned },
+    };
+    let unknowns = stepping.scheme.integrated_unknowns(&wheel);
+    let steps = stepping.discretisation.per_revolution as u64 * u64::from(request.integration.revolutions);
+    let nodes = touching(reduced, request);
+    let size = StepSize { sectors: wheel.sectors, nodes, unknowns };
+    let effects = EffectSizes::of(&request.scene, &wheel, stepping.scheme, nodes);
+    let (free, contact) = calibration.step_seconds(size, effects);
+    PlannedPoint {
+        integrated_unknowns: unknowns as u32,
+        steps_per_revolution: stepping.discretisation.per_revolution as u32,
+        steps,
+        computing_time_s: Some(CostRange {
+            free: set_up + steps as f64 * free,
+            contact: set_up + steps as f64 * contact,
+        }),
+        memory_bytes: running_bytes(&wheel, request, &stepping, nodes),
+        scheme: Some(stepping.report),
+        ..planned
+    }
+}
+
+/// The wheel at a speed, and how time is stepped there.
+fn stepping_at(
+    reduced: &ReducedSector,
+    request: &SweepRequest,
+    speed_rad_s: f64,
+) -> Result<(Stepping, ModalWheel), String> {
+    let wheel = wheel_of(&request.scene, &reduced.wheel, speed_rad_s).map_err(|error| error.to_string())?;
+    let stepping = Stepping::choose(&wheel, &reduced.wheel.contact, request)?;
+    Ok((stepping, wheel))
+}
+
+/// Contact nodes of a sector that may touch.
+fn touching(reduced: &ReducedSector, request: &SweepRequest) -> usize {
+    if request.scene.contact.is_some() { reduced.wheel.contact.len() } else { 0 }
+}
+
+/// Memory that a trial holds while it runs, in bytes; 0 where its speed cannot be integrated.
+pub fn trial_memory(reduced: &ReducedSector, request: &TrialRequest) -> u64 {
+    let sweep = &request.sweep;
+    let Some(&speed_rad_s) = sweep.speeds.resolve().ok().as_deref().and_then(<[f64]>::first) else {
+        return 0;
+    };
+    let Ok((stepping, wheel)) = stepping_at(reduced, sweep, speed_rad_s) else { return 0 };
+    // A twin has a history of its own.
+    let runs = 1 + u64::from(request.twin);
+    runs * running_bytes(&wheel, sweep, &stepping, touching(reduced, sweep))
+}
+
+/// What a speed holds while it runs: its modes with what their eigenproblems took, the casing's table, the histories,
+/// what turns one of them into a spectrum, and the spectra, as they are and on their way into the database.
+fn running_bytes(wheel: &ModalWheel, request: &SweepRequest, stepping: &Stepping, nodes: usize) -> u64 {
+    const REAL: usize = size_of::<f64>();
+    const COMPLEX: usize = 2 * REAL;
+    let steps = &stepping.discretisation;
+    let (revolutions, window) =
+        (request.integration.revolutions as usize, request.integration.window_revolutions as usize);
+    let sizes = wheel.harmonics.iter().map(|h| h.omega.len());
+    let eigen = COMPLEX * 6 * sizes.clone().max().unwrap_or(0).pow(2);
+    let shapes: usize = wheel.harmonics.iter().map(|h| COMPLEX * h.contact.nrows() * h.contact.ncols()).sum();
+    let stride = nodes.next_multiple_of(8);
+    let lobes = nodes > 0 && request.scene.casing.as_ref().is_some_and(|casing| casing.lobes.is_some());
+    let table =
+        if lobes { REAL * RestrictionTable::size(steps.per_revolution, wheel.around(), stride) } else { 0 };
+    let rows = 2 * REAL * (nodes + request.sensors.len()) * sizes.sum::<usize>();
+    let history = REAL * steps.samples * request.sensors.len() * (revolutions + wheel.sectors * window);
+    let spectrum = 4 * COMPLEX * steps.samples * window;
+    let bins = request.max_engine_order as usize * window + 1;
+    let spectra = 4 * REAL * request.sensors.len() * (1 + wheel.harmonics.len()) * bins;
+    (eigen + shapes + table + rows + history + spectrum + spectra) as u64
+}
+
+/// Mass and stiffness of every nodal diameter.
+fn reduced_bytes(reduced: &ReducedSector) -> u64 {
+    let matrices = 1 + reduced.wheel.speeds_rad_s.len() as u64;
+    reduced.report.unknowns.iter().map(|&n| 16 * matrices * u64::from(n).pow(2)).sum()
+}
+
+/// The cost of all `speeds` from that of the `planned` ones, in ascending speed.
+fn estimate(planned: &[PlannedPoint], speeds: &[f64], workers: usize, kept_bytes: u64) -> Option<Estimate> {
+    let known: Vec<(f64, f64, CostRange)> = planned
+        .iter()
+        .filter_map(|point| Some((point.speed_rad_s, point.steps as f64, point.computing_time_s?)))
+        .collect();
+    known.first()?;
+    let (mut steps, mut sum, mut longest) = (0.0, CostRange::default(), CostRange::default());
+    for &speed in speeds {
+        let of = |value: fn(&(f64, f64, CostRange)) -> f64| interpolate(&known, speed, value);
+        let (free, contact) = (of(|point| point.2.free), of(|point| point.2.contact));
+        steps += of(|point| point.1);
+        sum = CostRange { free: sum.free + free, contact: sum.contact + contact };
+        longest = CostRange { free: longest.free.max(free), contact: longest.contact.max(contact) };
+    }
+    let together = workers.clamp(1, speeds.len());
+    let side_by_side = |sum: f64, longest: f64| longest.max(sum / together as f64);
+    let largest = planned.iter().map(|point| point.memory_bytes).max().unwrap_or(0);
+    Some(Estimate {
+        steps: steps.round() as u64,
+        computing_time_s: sum,
+        wall_time_s: CostRange {
+            free: side_by_side(sum.free, longest.free),
+            contact: side_by_side(sum.contact, longest.contact),
+        },
+        workers: together as u32,
+        memory_bytes: kept_bytes + together as u64 * largest,
+        speed_memory_bytes: largest,
+    })
+}
+
+/// `value` at `speed`, linear in 1/Ω between the `known` ones, as steps per revolution are that resolve a frequency;
+/// constant beyond them.
+fn interpolate<P: Copy>(known: &[(f64, f64, P)], speed: f64, value: fn(&(f64, f64, P)) -> f64) -> f64 {
+    let above = known.partition_point(|point| point.0 < speed);
+    match (above.checked_sub(1).map(|below| &known[below]), known.get(above)) {
+        (Some(below), Some(above)) => {
+            let span = 1.0 / below.0 - 1.0 / above.0;
+            // Neighbouring numbers may have the same reciprocal.
+            let share = if span > 0.0 { (1.0 / below.0 - 1.0 / speed) / span } else { 0.0 };
+            value(below) + share * (value(above) - value(below))
+        }
+        (Some(end), None) | (None, Some(end)) => value(end),
+        (None, None) => 0.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slowest_middle_and_fastest_stand_for_many() {
+        assert_eq!(representatives(&[3.0, 1.0], &[90; 6]), [1, 0]);
+        assert_eq!(representatives(&[5.0, 1.0, 4.0, 2.0, 3.0], &[90; 6]), [1, 4, 0]);
+        assert_eq!(representatives(&[5.0, 1.0], &[1500; 6]), [1]);
+    }
+
+    #[test]
+    fn costs_between_planned_speeds_follow_the_steps() {
+        let point = |index, speed_rad_s: f64, steps: u64| PlannedPoint {
+            index,
+            speed_rad_s,
+            message: None,
+            integrated_unknowns: 10,
+            scheme: None,
+            steps_per_revolution: steps as u32,
+            steps,
+            computing_time_s: Some(CostRange { free: steps as f64, contact: 2.0 * steps as f64 }),
+            memory_bytes: 100 * steps,
+        };
+        // A fixed frequency resolved: S ∝ 1/Ω.
+        let planned = [point(0, 1.0, 1200), point(2, 3.0, 400), point(4, 6.0, 200)];
+        let found = estimate(&planned, &[1.0, 2.0, 3.0, 4.0, 6.0], 2, 7).unwrap();
+        assert_eq!(found.steps, 1200 + 600 + 400 + 300 + 200);
+        assert!((found.computing_time_s.contact - 2.0 * 2700.0).abs() < 1e-9);
+        assert!((found.wall_time_s.free - 1350.0).abs() < 1e-9);
+        assert_eq!(found.memory_bytes, 7 + 2 * 120_000);
+        // More workers than speeds do not help, and the longest speed is the least.
+        let found = estimate(&planned, &[1.0, 6.0], 8, 0).unwrap();
+        assert_eq!((found.workers, found.wall_time_s.free), (2, 1200.0));
+        // Speeds that cannot be integrated cost nothing that could be told.
+        let failed = PlannedPoint { computing_time_s: None, ..point(0, 1.0, 0) };
+        assert_eq!(estimate(&[failed], &[1.0], 1, 0), None);
+    }
+}

@@ -1,0 +1,190 @@
+//! What a run says: credentials, spectra and steady response of one speed.
+
+use super::error::AnalysisError;
+use super::request::{Sensor, SweepRequest};
+use super::result::{
+    EnergyReport, Point, PointStatus, SensorResponse, SensorSpectrum, SideBands, SpeedSpectra, WearReport,
+};
+use super::scene::Symmetry;
+use super::stepping::Stepping;
+use super::symmetry::repeats;
+use rubmap_numerics::complementarity::ComplementarityError;
+use rubmap_numerics::sector_fourier::{SectorFourier, harmonic_count};
+use rubmap_numerics::spectrum::amplitudes;
+use rubmap_wheel::dynamics::contact::coating::WornCoating;
+use rubmap_wheel::dynamics::integrate::{Divergence, History, Outcome, Run, TipDisplacement};
+use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
+use rubmap_wheel::response::settling::judge;
+use rubmap_wheel::response::side_bands::side_bands;
+use rubmap_wheel::response::spectra::{engine_orders, nodal_diameter_amplitudes};
+use rubmap_wheel::response::symmetry_breaking;
+
+/// Writes a run's credentials into `point`; returns its spectra if it is complete. A scene that repeats was run on one part
+/// of the wheel: what adds up over the wheel is multiplied here.
+pub(super) fn record_run(
+    point: &mut Point,
+    run: &Run,
+    request: &SweepRequest,
+    wheel: &ModalWheel,
+    stepping: &Stepping,
+) -> Result<Option<SpeedSpectra>, AnalysisError> {
+    let parts = wheel.repeats as f64;
+    let steps = &stepping.discretisation;
+    point.smallest_stable_steps_per_revolution = stepping.smallest as u32;
+    point.steps_per_revolution = steps.per_revolution as u32;
+    point.scheme = Some(stepping.report.clone());
+    point.steps = run.statistics.steps;
+    point.contact_share = run.statistics.contact_share();
+    // A run that overflowed has sums that are no numbers; JSON has no word for them.
+    let finite = |value: f64| value.is_finite().then_some(value);
+    point.contact_impulse = finite(parts * run.statistics.contact_impulse);
+    point.largest_penetration = finite(run.statistics.largest_penetration);
+    point.smallest_multiplier = run.statistics.smallest_multiplier.and_then(finite);
+    point.wear = run.coating.as_ref().map(wear);
+    point.casing_amplitude = run.statistics.casing_amplitude.and_then(finite);
+    point.energy_residual = finite(run.energy.residual());
+    point.energy = EnergyReport::of(&run.energy, &request.scene, parts);
+    point.largest_energy = finite(parts * run.energy.largest_energy());
+    match &run.outcome {
+        Outcome::Cancelled => Err(AnalysisError::Cancelled),
+        Outcome::Diverged(divergence) => {
+            point.status = PointStatus::Diverged;
+            point.message = Some(describe(divergence));
+            Ok(None)
+        }
+        Outcome::ContactFailed { revolutions, error } => {
+            let advice = match (error, &request.scene.friction) {
+                (ComplementarityError::NotPMatrix { .. }, Some(_)) => {
+                    ": tips jam together with this friction; lower /scene/friction/coefficient"
+                }
+                _ => "",
+            };
+            point.message = Some(format!("after {revolutions:.4} revolutions {error}{advice}"));
+            Ok(None)
+        }
+        Outcome::Completed(history) => {
+            point.status = PointStatus::Completed;
+            let spectra = spectra(history, request, wheel);
+            let window = request.integration.window_revolutions as usize;
+            point.responses = responses(history, request, &spectra, window * steps.samples);
+            let lobes = request.scene.touched_lobes().map(|lobes| lobes.count);
+            let settling = judge(&history.displacement, steps.samples, window, lobes);
+            point.settling = Some(settling.beside(strongest_side_bands(&point.responses)));
+            if request.scene.symmetry == Symmetry::Probe {
+                let grown = request.integration.ramp_revolutions.ceil() as usize;
+                let repeats = repeats(&request.scene, wheel.sectors as u32) as usize;
+                point.symmetry_breaking = Some(symmetry_breaking::judge(&history.energies, repeats, grown));
+            }
+            Ok(Some(spectra))
+        }
+    }
+}
+
+fn wear(coating: &WornCoating) -> WearReport {
+    WearReport {
+        removed_volume: coating.removed_volume(),
+        deepest: coating.worn_depths().into_iter().flatten().fold(0.0, f64::max),
+        plastic_work: coating.plastic_work(),
+        reached_metal: coating.reached_metal(),
+    }
+}
+
+fn describe(divergence: &Divergence) -> String {
+    let Divergence { revolutions, tip, energy_growth } = *divergence;
+    let growth = match energy_growth.filter(|growth| growth.is_finite()) {
+        Some(growth) => {
+            format!("; the energy was {growth:.3e} times that at the end of the last whole revolution")
+        }
+        None => String::new(),
+    };
+    match tip.filter(|tip| tip.displacement.is_finite()) {
+        Some(TipDisplacement { displacement, contact_node, sector, component }) => format!(
+            "the response grew without bound: after {revolutions:.3} revolutions contact node {contact_node} of sector \
+             {sector} had moved {component} by {displacement:.3e}, more than a tenth of the wheel's radius{growth}"
+        ),
+        None => format!(
+            "the response grew without bound: numbers overflowed after {revolutions:.3} revolutions{growth}"
+        ),
+    }
+}
+
+fn spectra(history: &History, request: &SweepRequest, wheel: &ModalWheel) -> SpeedSpectra {
+    let engine_orders = engine_orders(request.integration.window_revolutions, request.max_engine_order);
+    let bins = engine_orders.len();
+    let fourier = SectorFourier::new(wheel.sectors);
+    let sensors = request.sensors.iter().enumerate().map(|(index, &sensor)| {
+        let columns = &history.harmonics[index];
+        let whole = &history.displacement[index];
+        let window = &whole[whole.len() - columns[0].len()..];
+        SensorSpectrum {
+            sensor,
+            amplitude: amplitudes(window, bins),
+            nodal_diameters: of_the_wheel(nodal_diameter_amplitudes(columns, &fourier, bins), wheel),
+        }
+    });
+    SpeedSpectra { sensors: sensors.collect(), engine_orders }
+}
+
+/// Amplitudes per nodal diameter of the whole wheel from those of one of its parts: the others are at rest.
+fn of_the_wheel(part: Vec<Vec<f64>>, wheel: &ModalWheel) -> Vec<Vec<f64>> {
+    if wheel.repeats == 1 {
+        return part;
+    }
+    let bins = part.first().map_or(0, Vec::len);
+    let mut whole = vec![vec![0.0; bins]; harmonic_count(wheel.around())];
+    let scale = (wheel.repeats as f64).sqrt();
+    for (index, line) in part.into_iter().enumerate() {
+        whole[index * wheel.repeats] = line.into_iter().map(|amplitude| scale * amplitude).collect();
+    }
+    whole
+}
+
+/// Lines below this share of the largest displacement are round-off: some thousand roundings of it.
+const ROUND_OFF: f64 = 1e-12;
+
+fn responses(
+    history: &History,
+    request: &SweepRequest,
+    spectra: &SpeedSpectra,
+    window_samples: usize,
+) -> Vec<SensorResponse> {
+    let windows = history.displacement.iter().map(|whole| &whole[whole.len() - window_samples..]);
+    let round_off = ROUND_OFF * windows.flatten().fold(0.0f64, |most, x| most.max(x.abs()));
+    let of = |(index, &sensor): (usize, &Sensor)| {
+        let whole = &history.displacement[index];
+        let window = &whole[whole.len() - window_samples..];
+        let mean = window.iter().sum::<f64>() / window.len() as f64;
+        let variance = window.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / window.len() as f64;
+        let (low, high) = window
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &x| (low.min(x), high.max(x)));
+        let spectrum = &spectra.sensors[index];
+        let bin = largest_bin(&spectrum.amplitude[1..]) + 1;
+        let carried: Vec<f64> = spectrum.nodal_diameters.iter().map(|line| line[bin]).collect();
+        let stands_out = spectrum.amplitude[bin] > round_off;
+        SensorResponse {
+            sensor,
+            mean,
+            rms: variance.sqrt(),
+            half_peak_to_peak: 0.5 * (high - low),
+            dominant_engine_order: stands_out.then(|| spectra.engine_orders[bin]),
+            dominant_nodal_diameter: stands_out.then(|| largest_bin(&carried) as u32),
+            side_bands: side_bands(
+                window,
+                request.integration.window_revolutions as usize,
+                request.max_engine_order as usize,
+            ),
+        }
+    };
+    request.sensors.iter().enumerate().map(of).collect()
+}
+
+/// The strongest pair at the sensor with the largest response.
+fn strongest_side_bands(responses: &[SensorResponse]) -> Option<&SideBands> {
+    let loudest = responses.iter().max_by(|a, b| a.rms.total_cmp(&b.rms))?;
+    loudest.side_bands.iter().max_by(|a, b| a.weaker().total_cmp(&b.weaker()))
+}
+
+fn largest_bin(values: &[f64]) -> usize {
+    values.iter().enumerate().fold(0, |best, (i, v)| if *v > values[best] { i } else { best })
+}

@@ -1,0 +1,300 @@
+//! More speeds around the peaks that the speeds of a sweep do not resolve.
+
+use serde::{Deserialize, Serialize};
+
+use super::request::SweepRequest;
+use super::response_curve::ResponseCurve;
+use super::result::Point;
+use super::speeds::Speeds;
+use rubmap_wheel::response::critical_speed::{Resolution, peaks};
+
+/// A sweep gets at most as many added speeds as it had at first, or this many if those were fewer: a rough curve, such
+/// as that of a chaotic response, has new peaks at every scale.
+const LEAST_MOST_ADDED: usize = 50;
+
+/// What `refine` has added to a sweep.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct Refinement {
+    /// Speeds added.
+    pub added: u32,
+    /// Rounds in which they were.
+    pub rounds: u32,
+    /// Whether every critical speed, of any sensor, is resolved. False while the job runs.
+    pub complete: bool,
+    /// The critical speeds that are not, sensor by sensor in ascending speed; left out while the job runs.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub unresolved: Vec<Unresolved>,
+}
+
+/// A critical speed that `refine` leaves unresolved.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct Unresolved {
+    /// Index of the sensor in the request.
+    pub sensor: u32,
+    /// Ω of the peak, rad/s.
+    pub speed_rad_s: f64,
+    /// Why.
+    pub reason: Unresolvable,
+}
+
+/// Why a critical speed stays unresolved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Unresolvable {
+    /// It lies at an end of the range, beyond which the response may rise further: ask for a wider range.
+    EndOfRange,
+    /// It lies beside a speed without a result, as close to it as would resolve a peak.
+    BesideMissing,
+    /// As many speeds were added as may be, or there is no number between the speeds.
+    TooCoarse,
+}
+
+impl Refinement {
+    /// From the finished speeds, in any order; none if the sweep is not to be refined.
+    pub(super) fn of(request: &SweepRequest, points: &[Point]) -> Option<Self> {
+        if !request.refine {
+            return None;
+        }
+        let speeds = request.speeds.resolve().ok()?;
+        let rounds = match &request.speeds {
+            Speeds::One(set) => u32::from(set.added),
+            Speeds::Several(sets) => sets.iter().filter(|set| set.added).count() as u32,
+        };
+        let finished = points.len() == speeds.len();
+        let unresolved = if finished { unresolved(request, &speeds, points) } else { Vec::new() };
+        Some(Self {
+            added: (speeds.len() - request.speeds.asked().ok()?.len()) as u32,
+            rounds,
+            complete: finished && unresolved.is_empty(),
+            unresolved,
+        })
+    }
+}
+
+/// The request with one more round of speeds: the middles of the intervals beside the peaks, of any sensor, that are not
+/// resolved. None if there is nothing to add, or no more may be. `points` are those of all speeds, in any order, which
+/// makes no difference.
+pub fn refine(request: &SweepRequest, points: &[Point]) -> Option<SweepRequest> {
+    if !request.refine {
+        return None;
+    }
+    let speeds = request.speeds.resolve().ok()?;
+    let asked = request.speeds.asked().ok()?.len();
+    let most = (asked + asked.max(LEAST_MOST_ADDED)).saturating_sub(speeds.len());
+    let mut intervals = coarse_intervals(request, &speeds, points);
+    // Peaks that are known worst go first where not all can; the sort is stable.
+    intervals.sort_by(|a, b| (b.1 / b.0).total_cmp(&(a.1 / a.0)));
+    intervals.truncate(most.min(request.speeds.room()));
+    let mut middles: Vec<f64> = intervals.into_iter().map(|(from, to)| 0.5 * (from + to)).collect();
+    middles.sort_by(f64::total_cmp);
+    if middles.is_empty() {
+        return None;
+    }
+    let more = request.speeds.with_added(middles);
+    // There is no middle between numbers so small that they are next to each other.
+    let grown = more.resolve().ok()?.len() > speeds.len();
+    grown.then(|| SweepRequest { speeds: more, ..request.clone() })
+}
+
+/// Critical speeds with the index of their sensor and how well they are known.
+fn resolutions(request: &SweepRequest, speeds: &[f64], points: &[Point]) -> Vec<(usize, f64, Resolution)> {
+    let curve = ResponseCurve::of(speeds, points);
+    let mut found = Vec::new();
+    for sensor in 0..request.sensors.len() {
+        let level = curve.level(sensor);
+        for peak in peaks(&level, request.peak_prominence) {
+            let resolution = Resolution::of(&curve.speeds_rad_s, &level, &peak);
+            found.push((sensor, curve.speeds_rad_s[peak.index], resolution));
+        }
+    }
+    found
+}
+
+/// Intervals between neighbouring speeds that are too wide for a peak of some sensor, ascending.
+fn coarse_intervals(request: &SweepRequest, speeds: &[f64], points: &[Point]) -> Vec<(f64, f64)> {
+    let resolutions = resolutions(request, speeds, points).into_iter();
+    let mut intervals: Vec<_> = resolutions.flat_map(|(_, _, resolution)| resolution.coarse).collect();
+    intervals.sort_by(|a, b| a.0.total_cmp(&b.0));
+    intervals.dedup();
+    intervals
+}
+
+/// The peaks that are not resolved.
+fn unresolved(request: &SweepRequest, speeds: &[f64], points: &[Point]) -> Vec<Unresolved> {
+    let why = |resolution: &Resolution| {
+        if resolution.at_end {
+            Unresolvable::EndOfRange
+        } else if resolution.coarse.is_empty() {
+            Unresolvable::BesideMissing
+        } else {
+            Unresolvable::TooCoarse
+        }
+    };
+    let resolutions = resolutions(request, speeds, points).into_iter();
+    let unresolved = resolutions.filter(|(_, _, resolution)| !resolution.resolved);
+    unresolved
+        .map(|(sensor, speed_rad_s, resolution)| Unresolved {
+            sensor: sensor as u32,
+            speed_rad_s,
+            reason: why(&resolution),
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+    use crate::speeds::MAX_SPEEDS;
+
+    /// A sweep from 900 to 1100 rad/s with two sensors.
+    fn request(count: usize) -> SweepRequest {
+        let sensor = |contact_node: u32| json!({"contact_node": contact_node, "component": "radial"});
+        serde_json::from_value(json!({
+            "model": "m", "speeds": {"from": 900.0, "to": 1100.0, "count": count, "unit": "rad_s"}, "scene": {},
+            "sensors": [sensor(0), sensor(1)], "refine": true,
+        }))
+        .unwrap()
+    }
+
+    /// What a run would find where the sensors have these levels; a level that is no number is a run that failed.
+    fn points(request: &SweepRequest, levels: &dyn Fn(f64) -> [f64; 2]) -> Vec<Point> {
+        let point = |(index, speed): (usize, f64)| {
+            let levels = levels(speed);
+            let failed = levels.iter().any(|level| level.is_nan());
+            let response = |sensor: usize| {
+                json!({"sensor": request.sensors[sensor], "mean": 0.0, "rms": levels[sensor], "half_peak_to_peak": 1.0,
+                    "dominant_engine_order": 2.0, "dominant_nodal_diameter": 2})
+            };
+            serde_json::from_value(json!({
+                "index": index, "speed_rad_s": speed, "status": if failed { "failed" } else { "completed" },
+                "steps_per_revolution": 1, "smallest_stable_steps_per_revolution": 1, "steps": 1, "contact_share": 0.0,
+                "responses": if failed { Vec::new() } else { vec![response(0), response(1)] },
+                "wall_time_s": 0.0, "version": "0",
+            }))
+            .unwrap()
+        };
+        request.speeds.resolve().unwrap().into_iter().enumerate().map(point).collect()
+    }
+
+    /// The request when nothing is added any more, with what was.
+    fn refined(mut request: SweepRequest, levels: &dyn Fn(f64) -> [f64; 2]) -> (SweepRequest, Refinement) {
+        loop {
+            let found = points(&request, levels);
+            let Some(more) = refine(&request, &found) else {
+                return (request.clone(), Refinement::of(&request, &found).unwrap());
+            };
+            let (before, after) = (request.speeds.resolve().unwrap(), more.speeds.resolve().unwrap());
+            assert_eq!(before, after[..before.len()], "no speed changes its index");
+            assert!(after[before.len()..].windows(2).all(|pair| pair[0] < pair[1]));
+            assert!(after[before.len()..].iter().all(|speed| !before.contains(speed)));
+            request = more;
+        }
+    }
+
+    fn resonance(speed: f64, at: f64, half_bandwidth: f64) -> f64 {
+        1.0 / (1.0 + ((speed - at) / half_bandwidth).powi(2)).sqrt()
+    }
+
+    /// Distance of `speed` to the nearest one of a request.
+    fn nearest(request: &SweepRequest, speed: f64) -> f64 {
+        let speeds = request.speeds.resolve().unwrap();
+        speeds.into_iter().map(|other| (other - speed).abs()).fold(f64::INFINITY, f64::min)
+    }
+
+    #[test]
+    fn peaks_of_all_sensors_are_found() {
+        let levels = |speed| [resonance(speed, 953.0, 1.0), 7.0 * resonance(speed, 1041.0, 1.5)];
+        let (found, refinement) = refined(request(11), &levels);
+        assert!(refinement.complete, "{refinement:?}");
+        assert!((6..50).contains(&refinement.added) && refinement.rounds >= 3, "{refinement:?}");
+        // A tenth of the half-bandwidth off, a resonance is half a per cent lower: nothing is resolved far from its top.
+        assert!(nearest(&found, 953.0) < 0.35 && nearest(&found, 1041.0) < 0.5);
+        // Fine enough from the start.
+        let (_, refinement) = refined(request(500), &levels);
+        assert_eq!(refinement, Refinement { added: 0, rounds: 0, complete: true, unresolved: Vec::new() });
+    }
+
+    #[test]
+    fn a_fold_is_known_to_its_sharpness() {
+        let sawtooth = |speed: f64| if speed < 1013.7 { (speed - 900.0) / 113.7 } else { 0.1 };
+        let (found, refinement) = refined(request(8), &|speed| [sawtooth(speed), 1.0]);
+        assert!(refinement.complete && refinement.added <= 20, "{refinement:?}");
+        let speeds = found.speeds.ascending().unwrap();
+        let jump = speeds.partition_point(|&speed| speed < 1013.7);
+        assert!(speeds[jump] - speeds[jump - 1] <= 5e-4 * 1013.7);
+    }
+
+    #[test]
+    fn the_ends_of_the_range_are_left_alone_and_failures_are_approached() {
+        let (_, refinement) = refined(request(5), &|speed| [speed, 2000.0 - speed]);
+        let at_end =
+            |sensor, speed_rad_s| Unresolved { sensor, speed_rad_s, reason: Unresolvable::EndOfRange };
+        let unresolved = vec![at_end(0, 1100.0), at_end(1, 900.0)];
+        assert_eq!(refinement, Refinement { added: 0, rounds: 0, complete: false, unresolved });
+        // The response grows until runs fail.
+        let levels = |speed: f64| [if speed < 1033.3 { 1.0 / (1034.0 - speed) } else { f64::NAN }, 1.0];
+        let (found, refinement) = refined(request(5), &levels);
+        let reasons: Vec<_> = refinement.unresolved.iter().map(|peak| (peak.sensor, peak.reason)).collect();
+        assert_eq!(reasons, [(0, Unresolvable::BesideMissing)], "{refinement:?}");
+        assert!(!refinement.complete);
+        let speeds = found.speeds.ascending().unwrap();
+        let first = speeds.partition_point(|&speed| speed < 1033.3);
+        assert!(speeds[first] - speeds[first - 1] <= 5e-4 * 1033.3);
+    }
+
+    #[test]
+    fn a_rough_curve_ends_at_the_most_that_may_be_added() {
+        let rough = |speed: f64| {
+            let bits = speed.to_bits().wrapping_mul(0x9e37_79b9_7f4a_7c15);
+            [(bits >> 40) as f64 / f64::from(1 << 24), 1.0]
+        };
+        for (count, added) in [(6, 50), (80, 80)] {
+            let (found, refinement) = refined(request(count), &rough);
+            assert_eq!((refinement.added, refinement.complete), (added, false));
+            assert!(refinement.unresolved.iter().any(|peak| peak.reason == Unresolvable::TooCoarse));
+            assert_eq!(found.speeds.resolve().unwrap().len(), count + added as usize);
+        }
+        let range = json!({"from": 1.0, "to": 1e6, "count": MAX_SPEEDS - 3, "unit": "rad_s"});
+        let many = SweepRequest { speeds: serde_json::from_value(range).unwrap(), ..request(2) };
+        let (found, _) = refined(many, &rough);
+        assert_eq!(found.speeds.resolve().unwrap().len(), MAX_SPEEDS);
+    }
+
+    #[test]
+    fn numbers_without_a_middle_end_it() {
+        let least = f64::from_bits(1);
+        let speeds = json!({"values": [least, 2.0 * least, 3.0 * least], "unit": "rad_s"});
+        let tiny = SweepRequest { speeds: serde_json::from_value(speeds).unwrap(), ..request(2) };
+        let (_, refinement) = refined(tiny, &|speed| [if speed == 2.0 * least { 1.0 } else { 0.1 }, 1.0]);
+        assert_eq!((refinement.added, refinement.rounds, refinement.complete), (0, 0, false));
+        assert_eq!(refinement.unresolved[0].reason, Unresolvable::TooCoarse);
+    }
+
+    #[test]
+    fn peaks_below_the_prominence_asked_for_are_left_alone() {
+        let levels = |speed| [resonance(speed, 953.0, 1.0) + 0.05 * resonance(speed, 1041.0, 3.0), 1.0];
+        let (most, _) = refined(request(81), &levels);
+        assert!(nearest(&most, 1041.0) > 0.5, "5 % of the largest is below the default");
+        let (all, _) = refined(SweepRequest { peak_prominence: 0.02, ..request(81) }, &levels);
+        assert!(nearest(&all, 1041.0) < 0.5);
+    }
+
+    #[test]
+    fn the_order_of_the_points_and_a_repetition_make_no_difference() {
+        let request = request(11);
+        let levels = |speed| [resonance(speed, 953.0, 1.0), resonance(speed, 1041.0, 1.5)];
+        let mut found = points(&request, &levels);
+        let more = refine(&request, &found).unwrap();
+        found.reverse();
+        assert_eq!(refine(&request, &found).unwrap(), more);
+        // What a job was refined to, asked for again, is refined no further than it would have been.
+        let (last, refinement) = refined(request, &levels);
+        assert_eq!(refined(last.clone(), &levels), (last, refinement));
+        assert_eq!(refine(&SweepRequest { refine: false, ..more }, &[]), None);
+    }
+}

@@ -1,0 +1,537 @@
+//! Checks a request against its model and fills in defaults: all violations at once, each at its JSON pointer.
+
+mod contact_effects;
+mod effects;
+
+use std::f64::consts::TAU;
+
+use crate::auto_or::AutoOr;
+use crate::discretisation::most_samples;
+use crate::error::Violation;
+use crate::model::ModelFacts;
+use crate::request::{
+    Accuracy, Budget, Component, Integration, ModalAnalysisRequest, SchemeChoice, Sensor, SweepDirection,
+    SweepRequest,
+};
+use crate::scene::{Casing, Clearance, Damping, Lobes, Scene};
+use crate::speeds::{Part, Speeds};
+use crate::stepping::{MOST_STEPS, least_steps_for_lobes};
+use rubmap_wheel::dynamics::casing::Restriction;
+use rubmap_wheel::dynamics::integrate::DIVERGED_SHARE_OF_RADIUS;
+
+/// Bounds that keep a request's memory and time within reason.
+pub(super) mod limits {
+    pub(crate) const MODES_PER_SPEED: u32 = 500;
+    pub(super) const CONTROL_SPEEDS: u32 = 100;
+    pub(super) const TARGET: std::ops::RangeInclusive<f64> = 1e-9..=0.5;
+    pub(super) const BUDGET_S: std::ops::RangeInclusive<f64> = 1.0..=1e7;
+    pub(super) const REVOLUTIONS: u32 = 100_000;
+    pub(super) const ENGINE_ORDER: u32 = 1_000;
+    pub(super) const SENSORS: usize = 64;
+    /// Recorded numbers of one speed, 8 bytes each.
+    pub(super) const RECORDED: usize = 1 << 27;
+    pub(super) const LOBES: u32 = 100;
+    pub(super) const FAMILIES: u32 = 100;
+    pub(super) const SUPERHARMONIC: u32 = 100;
+    pub(super) const SUPERHARMONICS: usize = 16;
+    /// Values of W, the contact operator: sectors times the square of contact nodes.
+    pub(super) const DELASSUS: usize = 1 << 26;
+    /// Shortest ramp of lobes that stand inside the blade.
+    pub(super) const RAMP_REVOLUTIONS: f64 = 0.05;
+    /// Rods of a coating, all rows together: the wear map of a result has a number for each.
+    pub(super) const RODS: u32 = 1 << 20;
+    /// Lengths and stresses other than 0, in any unit: far from where squares overflow or motion counts as decayed to nothing.
+    pub(super) const LENGTH: std::ops::RangeInclusive<f64> = 1e-30..=1e30;
+    pub(super) const LEAST_LOBE_WIDTH_RAD: f64 = 1e-4;
+    /// Two equal Gaussians exp(−(φ/w)²) have a valley between them up to this ratio of w to their distance.
+    pub(super) const LOBE_WIDTH_OVER_DISTANCE: f64 = std::f64::consts::FRAC_1_SQRT_2;
+    pub(super) const PHASE_RAD: f64 = 1000.0;
+    pub(super) const CASING_WAVES: u32 = 50;
+    pub(super) const SPREAD: f64 = 0.1;
+    pub(super) const FORCE: f64 = 1e30;
+    /// The whirl is prescribed and its inertia left out: that of a shaft's own slow whirl.
+    pub(super) const WHIRL_RATIO: f64 = 2.0;
+    pub(super) const CASING_OMEGA: std::ops::RangeInclusive<f64> = 1e-3..=1e9;
+}
+
+/// A range in words.
+fn between(range: &std::ops::RangeInclusive<f64>) -> String {
+    format!("between {:?} and {:?}", range.start(), range.end())
+}
+
+/// Collects violations.
+#[derive(Default)]
+struct Findings(Vec<Violation>);
+
+impl Findings {
+    fn require(&mut self, holds: bool, pointer: &str, message: impl Into<String>) {
+        if !holds {
+            self.0.push(Violation::new(pointer, message));
+        }
+    }
+
+    fn finish<T>(self, value: T) -> Result<T, Vec<Violation>> {
+        if self.0.is_empty() { Ok(value) } else { Err(self.0) }
+    }
+}
+
+/// Checks a sweep request against its model and fills in the default sensors.
+pub fn resolve_sweep(mut request: SweepRequest, facts: &ModelFacts) -> Result<SweepRequest, Vec<Violation>> {
+    let mut found = Findings::default();
+    check_knobs(&mut found, &request);
+    check_modes(&mut found, request.modes());
+    check_speeds(&mut found, &request.speeds, facts, request.scene.centrifugal_stiffening, false);
+    check_scene(&mut found, &request.scene, facts);
+    check_integration(&mut found, &request.integration, request.max_engine_order);
+    found.require(
+        (0.0..=1.0).contains(&request.peak_prominence),
+        "/peak_prominence",
+        "a share of the largest response, between 0 and 1",
+    );
+    check_steps(&mut found, &request);
+    check_ramp(&mut found, &request);
+    effects::check_effects(&mut found, &request, facts);
+    if request.sensors.is_empty() {
+        request.sensors = default_sensors(facts);
+    }
+    check_sensors(&mut found, &request.sensors, facts);
+    if found.0.is_empty() {
+        check_memory(&mut found, &request, facts);
+    }
+    if !request.chooses() {
+        request.modes_per_speed = AutoOr::Fixed(request.modes());
+    }
+    found.finish(request)
+}
+
+/// Checks a modal-analysis request against its model.
+pub fn resolve_modal_analysis(
+    mut request: ModalAnalysisRequest,
+    facts: &ModelFacts,
+) -> Result<ModalAnalysisRequest, Vec<Violation>> {
+    let mut found = Findings::default();
+    let fixed = request.modes_per_speed != AutoOr::Auto;
+    check_choice(&mut found, request.accuracy, request.budget, &[("/modes_per_speed", fixed)]);
+    check_modes(&mut found, request.modes());
+    check_speeds(&mut found, &request.speeds, facts, facts.has_stiffening(), true);
+    let families = 1..=limits::FAMILIES;
+    found.require(
+        families.contains(&request.families),
+        "/families",
+        format!("ask for 1 to {} modal families", limits::FAMILIES),
+    );
+    found.require(
+        request.superharmonics.len() <= limits::SUPERHARMONICS,
+        "/superharmonics",
+        format!("at most {} superharmonic numbers", limits::SUPERHARMONICS),
+    );
+    found.require(
+        (1..=limits::ENGINE_ORDER).contains(&request.max_engine_order),
+        "/max_engine_order",
+        format!("between 1 and {}", limits::ENGINE_ORDER),
+    );
+    for (index, n) in request.superharmonics.iter().enumerate().take(limits::SUPERHARMONICS) {
+        found.require(
+            (1..=limits::SUPERHARMONIC).contains(n),
+            &format!("/superharmonics/{index}"),
+            format!("a superharmonic number lies between 1 and {}", limits::SUPERHARMONIC),
+        );
+        found.require(
+            !request.superharmonics[..index].contains(n),
+            &format!("/superharmonics/{index}"),
+            format!("{n} is in the list already"),
+        );
+    }
+    check_lobe_count(&mut found, request.lobes, "/lobes");
+    check_coriolis(&mut found, request.coriolis, "/coriolis", facts);
+    if !request.chooses() {
+        request.modes_per_speed = AutoOr::Fixed(request.modes());
+    }
+    found.finish(request)
+}
+
+/// The knobs of a sweep are either given or chosen.
+fn check_knobs(found: &mut Findings, request: &SweepRequest) {
+    let Integration { scheme, kept_modes, steps_per_revolution, .. } = request.integration;
+    let fixed = [
+        ("/modes_per_speed", request.modes_per_speed != AutoOr::Auto),
+        ("/integration/scheme", scheme != SchemeChoice::Auto),
+        ("/integration/kept_modes", kept_modes != AutoOr::Auto),
+        ("/integration/steps_per_revolution", steps_per_revolution != AutoOr::Auto),
+    ];
+    check_choice(found, request.accuracy, request.budget, &fixed);
+    found.require(
+        !request.chooses() || request.integration.window_revolutions >= 2,
+        "/integration/window_revolutions",
+        "an error is told from chance by comparing parts of the window: at least two revolutions",
+    );
+    found.require(
+        request.budget.is_none() || !request.refine,
+        "/refine",
+        "how many speeds are added is not known beforehand, and a budget cannot be kept: set this to false, or ask for an accuracy",
+    );
+    found.require(
+        request.control_speeds.is_none_or(|speeds| speeds <= limits::CONTROL_SPEEDS),
+        "/control_speeds",
+        format!("at most {} speeds are simulated again", limits::CONTROL_SPEEDS),
+    );
+    found.require(
+        request.controls() == 0 || request.sweep == SweepDirection::Independent,
+        "/control_speeds",
+        "a speed of a sweep up or down depends on all before it and cannot be simulated again alone: set this to 0",
+    );
+}
+
+/// Either a target or a budget, and none of the knobs (JSON pointer, whether it is given) that it chooses.
+fn check_choice(
+    found: &mut Findings,
+    accuracy: Option<Accuracy>,
+    budget: Option<Budget>,
+    knobs: &[(&str, bool)],
+) {
+    if let Some(Accuracy { target }) = accuracy {
+        found.require(
+            limits::TARGET.contains(&target),
+            "/accuracy/target",
+            format!("a relative error between {:e} and {}", limits::TARGET.start(), limits::TARGET.end()),
+        );
+    }
+    if let Some(Budget { seconds }) = budget {
+        found.require(
+            limits::BUDGET_S.contains(&seconds),
+            "/budget/seconds",
+            format!("a time between {} and {:e} s", limits::BUDGET_S.start(), limits::BUDGET_S.end()),
+        );
+    }
+    found.require(accuracy.is_none() || budget.is_none(), "/budget", "give either an accuracy or a budget");
+    for (pointer, given) in knobs {
+        let chosen = if accuracy.is_some() { "accuracy" } else { "budget" };
+        found.require(
+            !given || (accuracy.is_none() && budget.is_none()),
+            pointer,
+            format!("this is chosen for the {chosen} asked for: leave one of the two away"),
+        );
+    }
+}
+
+fn check_modes(found: &mut Findings, modes_per_speed: u32) {
+    found.require(
+        (1..=limits::MODES_PER_SPEED).contains(&modes_per_speed),
+        "/modes_per_speed",
+        format!("between 1 and {} fixed-interface modes are kept per speed", limits::MODES_PER_SPEED),
+    );
+}
+
+fn check_speeds(found: &mut Findings, speeds: &Speeds, facts: &ModelFacts, stiffening: bool, campbell: bool) {
+    let parts = match speeds.parts() {
+        Ok(parts) => parts,
+        Err(violations) => return found.0.extend(violations),
+    };
+    let highest = facts.speeds_rad_s.last().copied().unwrap_or(0.0);
+    for Part { pointer, speeds_rad_s, .. } in &parts {
+        found.require(
+            campbell || speeds_rad_s.iter().all(|&omega| omega > 0.0),
+            pointer,
+            "a contact simulation needs a speed above 0: its clock is the revolution",
+        );
+        found.require(
+            !campbell || speeds_rad_s.windows(2).all(|pair| pair[0] < pair[1]),
+            pointer,
+            "the speeds of a Campbell diagram ascend",
+        );
+        // A speed given in rpm may differ from the model's rad/s in the last digits.
+        found.require(
+            !(stiffening && facts.has_stiffening())
+                || speeds_rad_s.iter().all(|&omega| omega <= highest * (1.0 + 1e-6)),
+            pointer,
+            format!(
+                "the model's stiffness is given up to {highest} rad/s; K(Ω) is not extrapolated: stay below, or \
+                 export the stiffness at a higher speed"
+            ),
+        );
+    }
+}
+
+fn check_scene(found: &mut Findings, scene: &Scene, facts: &ModelFacts) {
+    found.require(
+        !scene.centrifugal_stiffening || facts.has_stiffening(),
+        "/scene/centrifugal_stiffening",
+        "the model has a single stiffness matrix, so there is no stiffening to simulate: set this to false, or \
+         upload a package with the stiffness at three speeds",
+    );
+    if let Some(Damping { modal_ratio, family_ratios }) = &scene.damping {
+        let valid = |ratio: f64| (0.0..1.0).contains(&ratio);
+        let message = "a damping ratio lies in [0, 1)";
+        found.require(valid(*modal_ratio), "/scene/damping/modal_ratio", message);
+        found.require(
+            family_ratios.len() <= limits::FAMILIES as usize,
+            "/scene/damping/family_ratios",
+            format!("at most {} modal families", limits::FAMILIES),
+        );
+        for (index, &ratio) in family_ratios.iter().enumerate().take(limits::FAMILIES as usize) {
+            found.require(valid(ratio), &format!("/scene/damping/family_ratios/{index}"), message);
+        }
+    }
+    found.require(
+        scene.contact.is_none() || scene.casing.is_some(),
+        "/scene/contact",
+        "contact needs a casing to touch: add /scene/casing",
+    );
+    if let Some(casing) = &scene.casing {
+        check_casing(found, casing, facts);
+    }
+    check_coriolis(found, scene.coriolis, "/scene/coriolis", facts);
+}
+
+fn check_coriolis(found: &mut Findings, coriolis: bool, pointer: &str, facts: &ModelFacts) {
+    found.require(
+        !coriolis || facts.gyroscopic,
+        pointer,
+        "the model has no gyroscopic matrix, so there are no Coriolis forces to simulate: set this to false, or upload a \
+         package with the entry `gyroscopic`",
+    );
+}
+
+/// Lobes, an orbit or an initial state that would move a tip so far that the run ends as diverged.
+fn check_reach(found: &mut Findings, length: f64, pointer: &str, facts: &ModelFacts) {
+    let Some(radius) = facts.contact_radius.filter(|radius| *radius > 0.0) else { return };
+    let reach = DIVERGED_SHARE_OF_RADIUS * radius;
+    found.require(
+        !limits::LENGTH.contains(&length) || length <= reach,
+        pointer,
+        format!(
+            "{length} is out of proportion to this wheel, whose tips lie at a radius of up to {radius}: a tip that moves by more than \
+             a tenth of that, {reach}, ends a run as diverged; check the number and its unit"
+        ),
+    );
+}
+
+fn check_casing(found: &mut Findings, casing: &Casing, facts: &ModelFacts) {
+    let valid = |length: f64| length == 0.0 || limits::LENGTH.contains(&length);
+    let radius = facts.contact_radius.filter(|radius| *radius > 0.0).unwrap_or(f64::INFINITY);
+    let fits = |length: f64| valid(length) && length <= radius;
+    let message = format!(
+        "a clearance is 0 or a length {}, no larger than the radius at which the tips lie",
+        between(&limits::LENGTH)
+    );
+    match &casing.clearance {
+        Clearance { leading: Some(leading), trailing: Some(trailing), values: None } => {
+            found.require(fits(*leading), "/scene/casing/clearance/leading", &message);
+            found.require(fits(*trailing), "/scene/casing/clearance/trailing", &message);
+        }
+        Clearance { leading: None, trailing: None, values: Some(values) } => {
+            found.require(
+                values.len() == facts.contact_nodes as usize,
+                "/scene/casing/clearance/values",
+                format!("the model has {} contact nodes, not {}", facts.contact_nodes, values.len()),
+            );
+            for (index, &value) in values.iter().enumerate() {
+                found.require(fits(value), &format!("/scene/casing/clearance/values/{index}"), &message);
+            }
+        }
+        _ => found.require(
+            false,
+            "/scene/casing/clearance",
+            "give either `leading` and `trailing`, or `values` with one clearance per contact node",
+        ),
+    }
+    if let Some(lobes) = &casing.lobes {
+        check_lobe_count(found, lobes.count, "/scene/casing/lobes/count");
+        found.require(
+            valid(lobes.amplitude),
+            "/scene/casing/lobes/amplitude",
+            format!("a lobe's height is 0 or a length {}", between(&limits::LENGTH)),
+        );
+        check_reach(found, lobes.amplitude, "/scene/casing/lobes/amplitude", facts);
+        let least = limits::LEAST_LOBE_WIDTH_RAD;
+        let most = limits::LOBE_WIDTH_OVER_DISTANCE * TAU / f64::from(lobes.count.max(1));
+        found.require(
+            (least..=most).contains(&lobes.width_rad),
+            "/scene/casing/lobes/width_rad",
+            format!(
+                "the half-width of a lobe is at least {least} rad and of {} lobes at most {most:.6} rad: between wider ones there is no \
+                 valley",
+                lobes.count
+            ),
+        );
+        found.require(
+            lobes.phase_rad.abs() <= limits::PHASE_RAD,
+            "/scene/casing/lobes/phase_rad",
+            format!("the phase is an angle of at most {} rad", limits::PHASE_RAD),
+        );
+    }
+}
+
+fn check_lobe_count(found: &mut Findings, count: u32, pointer: &str) {
+    found.require(
+        (1..=limits::LOBES).contains(&count),
+        pointer,
+        format!("a casing has 1 to {} lobes", limits::LOBES),
+    );
+}
+
+fn check_integration(found: &mut Findings, integration: &Integration, max_engine_order: u32) {
+    let Integration {
+        scheme,
+        kept_modes,
+        steps_per_revolution,
+        revolutions,
+        ramp_revolutions,
+        window_revolutions,
+    } = *integration;
+    if let AutoOr::Fixed(kept) = kept_modes {
+        found.require(
+            scheme == SchemeChoice::MasslessBoundary,
+            "/integration/kept_modes",
+            "only the scheme massless_boundary leaves modes out: name it, or leave kept_modes away",
+        );
+        found.require(
+            kept >= 1,
+            "/integration/kept_modes",
+            "at least one mode per nodal diameter is integrated",
+        );
+    }
+    if let AutoOr::Fixed(steps) = steps_per_revolution {
+        found.require(
+            (1..=MOST_STEPS).contains(&steps),
+            "/integration/steps_per_revolution",
+            format!("between 1 and {MOST_STEPS} steps"),
+        );
+        found.require(
+            u64::from(steps) > 2 * u64::from(max_engine_order),
+            "/integration/steps_per_revolution",
+            format!("engine order {max_engine_order} needs more than twice as many steps per revolution"),
+        );
+    }
+    found.require(
+        (1..=limits::REVOLUTIONS).contains(&revolutions),
+        "/integration/revolutions",
+        format!("between 1 and {} revolutions", limits::REVOLUTIONS),
+    );
+    found.require(
+        (1..=revolutions).contains(&window_revolutions),
+        "/integration/window_revolutions",
+        format!("the window is part of the run: between 1 and {revolutions} revolutions"),
+    );
+    found.require(
+        ramp_revolutions.is_finite() && ramp_revolutions >= 0.0,
+        "/integration/ramp_revolutions",
+        "a ramp lasts a finite number of revolutions ≥ 0",
+    );
+    found.require(
+        f64::from(revolutions) >= ramp_revolutions + f64::from(window_revolutions),
+        "/integration/window_revolutions",
+        format!(
+            "the window would begin before the restriction is fully grown: {ramp_revolutions} revolutions of ramp \
+             and {window_revolutions} of window need more than {revolutions}"
+        ),
+    );
+    found.require(
+        (1..=limits::ENGINE_ORDER).contains(&max_engine_order),
+        "/max_engine_order",
+        format!("between 1 and {}", limits::ENGINE_ORDER),
+    );
+}
+
+/// Steps wider than a lobe would pass it by, with numbers that look fine.
+fn check_steps(found: &mut Findings, request: &SweepRequest) {
+    let AutoOr::Fixed(steps) = request.integration.steps_per_revolution else { return };
+    let wide = |lobes: &Lobes| lobes.width_rad >= limits::LEAST_LOBE_WIDTH_RAD;
+    if !request.scene.touched_lobes().is_some_and(wide) {
+        return;
+    }
+    let seen = least_steps_for_lobes(request);
+    found.require(
+        f64::from(steps) >= seen,
+        "/integration/steps_per_revolution",
+        format!(
+            "{steps} steps per revolution pass the lobes by, which are seen from {seen} steps per revolution on; give at least \
+             {seen}, or \"auto\""
+        ),
+    );
+}
+
+/// The displacement over the whole run and the Fourier coordinates of all sectors over the window are held in memory.
+fn check_memory(found: &mut Findings, request: &SweepRequest, facts: &ModelFacts) {
+    let sectors = facts.sectors as usize;
+    let Integration { revolutions, window_revolutions, .. } = request.integration;
+    let per_sensor = revolutions as usize + window_revolutions as usize * sectors;
+    let nodes = facts.contact_nodes as usize;
+    found.require(
+        sectors * nodes * nodes <= limits::DELASSUS,
+        "/model",
+        format!(
+            "{sectors} sectors with {nodes} contact nodes each are more than contact can be solved for: keep sectors × \
+             nodes² below {}",
+            limits::DELASSUS
+        ),
+    );
+    let recorded =
+        most_samples(request, sectors).saturating_mul(per_sensor).saturating_mul(request.sensors.len());
+    found.require(
+        recorded <= limits::RECORDED,
+        "/integration/revolutions",
+        format!(
+            "{} sensors over {revolutions} revolutions with a window of {window_revolutions} would record {recorded} \
+             numbers at every speed, more than {}: shorten the run or the window, ask for fewer sensors or lower \
+             engine orders, or choose steps_per_revolution with small divisors",
+            request.sensors.len(),
+            limits::RECORDED
+        ),
+    );
+}
+
+/// Without a ramp a restriction inside the blade would hit it as a step: forces scale as 1/h, nothing converges.
+fn check_ramp(found: &mut Findings, request: &SweepRequest) {
+    let Scene { casing: Some(casing), contact: Some(_), .. } = &request.scene else { return };
+    let restriction = match &casing.lobes {
+        Some(lobes) if lobes.count > limits::LOBES => return,
+        Some(lobes) => {
+            let Lobes { count, amplitude, width_rad, phase_rad } = *lobes;
+            Restriction { count, amplitude, width_rad, phase_rad }.highest()
+        }
+        None => 0.0,
+    };
+    let orbit = request.scene.orbit.as_ref().map_or(0.0, |orbit| orbit.radius);
+    let clearance = &casing.clearance;
+    let given = clearance.values.iter().flatten().chain(&clearance.leading).chain(&clearance.trailing);
+    let smallest = given.copied().fold(f64::INFINITY, f64::min);
+    let highest = restriction + orbit;
+    found.require(
+        request.integration.ramp_revolutions >= limits::RAMP_REVOLUTIONS || highest <= smallest,
+        "/integration/ramp_revolutions",
+        format!(
+            "lobes and orbit of up to {highest} reach inside the blade at rest (smallest clearance {smallest}): let them \
+             grow over at least {} revolutions",
+            limits::RAMP_REVOLUTIONS
+        ),
+    );
+}
+
+fn default_sensors(facts: &ModelFacts) -> Vec<Sensor> {
+    let at = |contact_node| Sensor { contact_node, sector: 0, component: Component::Radial };
+    match facts.contact_nodes {
+        0 | 1 => vec![at(0)],
+        nodes => vec![at(0), at(nodes - 1)],
+    }
+}
+
+fn check_sensors(found: &mut Findings, sensors: &[Sensor], facts: &ModelFacts) {
+    found.require(
+        sensors.len() <= limits::SENSORS,
+        "/sensors",
+        format!("at most {} sensors in one sweep", limits::SENSORS),
+    );
+    for (index, sensor) in sensors.iter().enumerate() {
+        found.require(
+            sensor.contact_node < facts.contact_nodes,
+            &format!("/sensors/{index}/contact_node"),
+            format!("the model has contact nodes 0 to {}", facts.contact_nodes.saturating_sub(1)),
+        );
+        found.require(
+            sensor.sector < facts.sectors,
+            &format!("/sensors/{index}/sector"),
+            format!("the wheel has sectors 0 to {}", facts.sectors.saturating_sub(1)),
+        );
+    }
+}

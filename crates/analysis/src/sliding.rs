@@ -1,0 +1,40 @@
+//! Whether a wheel can slide along its casing with the friction asked for.
+
+use std::f64::consts::TAU;
+
+use super::request::SweepRequest;
+use super::speed::modal_damping;
+use rubmap_wheel::dynamics::contact::flexibility::{flexibility, outward_normals, ridge};
+use rubmap_wheel::dynamics::contact::friction::{FrictionError, SlidingFlexibility};
+use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
+use rubmap_wheel::dynamics::schemes::Scheme;
+use rubmap_wheel::dynamics::schemes::massless_boundary::residual_flexibility;
+use rubmap_wheel::dynamics::sector::ContactNode;
+
+/// Checks the contact operator of a scheme and its step (METHOD §7) before it runs, an elastic casing's and Coriolis forces' share apart, which only help or
+/// are small; a scene without friction passes.
+pub(super) fn check(
+    wheel: &ModalWheel,
+    contact_nodes: &[ContactNode],
+    request: &SweepRequest,
+    scheme: Scheme,
+    steps_per_revolution: usize,
+) -> Result<(), FrictionError> {
+    let Some(friction) = &request.scene.friction else { return Ok(()) };
+    let step = TAU / (wheel.speed_rad_s * steps_per_revolution as f64);
+    let damping = modal_damping(request);
+    let normals = outward_normals(contact_nodes);
+    let blocks = |from: &[_]| match scheme {
+        Scheme::MasslessBoundary { kept_modes } => residual_flexibility(wheel, kept_modes, &normals, from),
+        Scheme::CentralDifferences | Scheme::ExactModal => {
+            flexibility(wheel, &normals, from, |harmonic, mode| {
+                let omega = wheel.harmonics[harmonic].omega[mode];
+                let zeta = damping.as_ref().map_or(0.0, |damping| damping.ratio(mode));
+                scheme.mode_step(omega, zeta, step, true).receptance
+            })
+        }
+    };
+    let flexibility = SlidingFlexibility::new(contact_nodes, blocks)?;
+    let ridge = ridge(&flexibility.normal, wheel.sectors);
+    flexibility.check(wheel.sectors, ridge, friction.coefficient)
+}

@@ -1,0 +1,246 @@
+//! One speed of a sweep: from the reduced sector to spectra with credentials.
+
+use std::time::Instant;
+
+use super::effects::{SceneEffects, direction, initial, perturbed, wheel_of};
+use super::end_state::EndState;
+use super::error::AnalysisError;
+use super::model::ReducedSector;
+use super::monitor::Monitor;
+use super::record::record_run;
+use super::request::{Sensor, SweepDirection, SweepRequest};
+use super::result::{Point, PointStatus, SpeedResult, WearMap};
+use super::run::VERSION;
+use super::sliding;
+use super::stepping::Stepping;
+use rubmap_wheel::dynamics::casing::{Casing, Restriction, RestrictionTable, clearance_along_chord};
+use rubmap_wheel::dynamics::integrate::{MAX_TABLE_VALUES, Outcome, Run, SensorRow, Simulation};
+use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
+use rubmap_wheel::dynamics::oscillators::ModalDamping;
+use rubmap_wheel::dynamics::reduction::ReducedWheel;
+
+/// Simulates speed `index` of a sweep, from `start` if it is given: the end of the neighbouring speed of a sweep up or down.
+/// Deterministic; runs on the calling thread. A speed that diverges or cannot be
+/// evaluated is a result (with its status), not an error; the only errors are cancellation and a request that was
+/// never resolved.
+pub fn run_speed(
+    reduced: &ReducedSector,
+    request: &SweepRequest,
+    index: usize,
+    start: Option<&EndState>,
+    monitor: &dyn Monitor,
+) -> Result<SpeedResult, AnalysisError> {
+    let clock = Instant::now();
+    let speeds = request.speeds.resolve().map_err(AnalysisError::Refused)?;
+    let mut point = empty_point(reduced, request, index, speeds[index]);
+    let (mut spectra, mut end_state, mut wear) = (None, None, None);
+    let watch = |fraction: f64| {
+        monitor.progress(fraction, "contact simulation");
+        !monitor.is_cancelled()
+    };
+    let from = start.map_or(Start::Scene, Start::After);
+    let ran = ready(reduced, request, point.speed_rad_s).and_then(|(wheel, stepping)| {
+        let run = simulate(&reduced.wheel, &wheel, request, &stepping, from, &watch)?;
+        Ok((wheel, stepping, run))
+    });
+    match ran {
+        Err(message) => point.message = Some(message),
+        Ok((wheel, stepping, run)) => {
+            spectra = record_run(&mut point, &run, request, &wheel, &stepping)?;
+            end_state = end_state_of(&run, &reduced.wheel, &wheel, request);
+            wear = run.coating.map(|coating| WearMap { depths: coating.worn_depths() });
+        }
+    }
+    if start.is_none() && follows_another(request, &speeds, index) {
+        point.message = Some(from_the_start(point.message.take()));
+    }
+    point.wall_time_s = clock.elapsed().as_secs_f64();
+    Ok(SpeedResult { point, spectra, wear, end_state })
+}
+
+/// The wheel of a scene at a speed, and how it is stepped; or why it cannot be.
+pub(super) fn ready(
+    reduced: &ReducedSector,
+    request: &SweepRequest,
+    speed_rad_s: f64,
+) -> Result<(ModalWheel, Stepping), String> {
+    let wheel = wheel_of(&request.scene, &reduced.wheel, speed_rad_s).map_err(|error| error.to_string())?;
+    let stepping = Stepping::choose(&wheel, &reduced.wheel.contact, request)?;
+    Ok((wheel, stepping))
+}
+
+/// What a run starts from.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Start<'a> {
+    /// Rest, or what the scene says.
+    Scene,
+    /// The same, but for a tiny perturbation of every nodal diameter.
+    Perturbed,
+    /// The end of the neighbouring speed.
+    After(&'a EndState),
+}
+
+/// What the next speed of a chain starts from, if the sweep is one and this speed was integrated to its end.
+fn end_state_of(
+    run: &Run,
+    reduced: &ReducedWheel,
+    wheel: &ModalWheel,
+    request: &SweepRequest,
+) -> Option<EndState> {
+    let Outcome::Completed(history) = &run.outcome else { return None };
+    if request.sweep == SweepDirection::Independent {
+        return None;
+    }
+    EndState::new(&history.end, wheel, reduced, request.scene.centrifugal_stiffening).ok()
+}
+
+/// Whether speed `index` should start from the end of another one.
+fn follows_another(request: &SweepRequest, speeds: &[f64], index: usize) -> bool {
+    let chain = request.sweep.chain(speeds);
+    chain.is_some_and(|chain| chain.first() != Some(&(index as u32)))
+}
+
+fn from_the_start(ended: Option<String>) -> String {
+    let started = "started as the first speed does, since the neighbouring speed left no state to start from";
+    ended.map_or_else(|| started.to_owned(), |ended| format!("{started}; {ended}"))
+}
+
+pub(super) fn empty_point(
+    reduced: &ReducedSector,
+    request: &SweepRequest,
+    index: usize,
+    speed_rad_s: f64,
+) -> Point {
+    let stiffening = request.scene.centrifugal_stiffening;
+    Point {
+        index: index as u32,
+        speed_rad_s,
+        status: PointStatus::Failed,
+        message: None,
+        stiffening: stiffening.then_some(reduced.report.stiffening.verdict),
+        settling: None,
+        scheme: None,
+        steps_per_revolution: 0,
+        smallest_stable_steps_per_revolution: 0,
+        steps: 0,
+        contact_share: 0.0,
+        contact_impulse: None,
+        largest_penetration: None,
+        smallest_multiplier: None,
+        energy_residual: None,
+        energy: None,
+        largest_energy: None,
+        casing_amplitude: None,
+        wear: None,
+        symmetry_breaking: None,
+        responses: Vec::new(),
+        wall_time_s: 0.0,
+        version: VERSION.to_owned(),
+    }
+}
+
+/// Runs a scene on `wheel`; or says why it cannot be.
+pub(super) fn simulate(
+    reduced: &ReducedWheel,
+    wheel: &ModalWheel,
+    request: &SweepRequest,
+    stepping: &Stepping,
+    start: Start<'_>,
+    watch: &dyn Fn(f64) -> bool,
+) -> Result<Run, String> {
+    let scene = &request.scene;
+    let Stepping { scheme, discretisation: steps, .. } = stepping;
+    let scheme = *scheme;
+    // A wheel that comes from another speed is in contact with a casing that is there.
+    let ramp_revolutions = match start {
+        Start::After(_) => 0.0,
+        Start::Scene | Start::Perturbed => request.integration.ramp_revolutions,
+    };
+    sliding::check(wheel, &reduced.contact, request, scheme, steps.per_revolution)
+        .map_err(|error| error.to_string())?;
+    let damping = modal_damping(request);
+    let casing = casing(reduced, request, ramp_revolutions);
+    check_table(reduced, request, steps.per_revolution)?;
+    let effects = SceneEffects::of(scene, &reduced.contact, wheel, ramp_revolutions)?;
+    let initial = match start {
+        Start::After(state) => state
+            .modes(wheel, reduced, scene.centrifugal_stiffening, scheme)
+            .map_err(|error| error.to_string())?
+            .ok_or("the neighbouring speed ended in a state of another reduction: run the sweep again")?,
+        Start::Scene => initial(request, wheel, &reduced.contact, casing.as_ref(), stepping)?,
+        Start::Perturbed => perturbed(
+            initial(request, wheel, &reduced.contact, casing.as_ref(), stepping)?,
+            wheel,
+            casing.as_ref(),
+        ),
+    };
+    let sensors: Vec<_> = request.sensors.iter().map(|sensor| sensor_row(reduced, wheel, sensor)).collect();
+    Ok(Simulation {
+        wheel,
+        contact_nodes: &reduced.contact,
+        damping: damping.as_ref(),
+        casing: casing.as_ref(),
+        effects: effects.borrow(),
+        initial: &initial,
+        scheme,
+        sensors: &sensors,
+        steps_per_revolution: steps.per_revolution,
+        samples_per_revolution: steps.samples,
+        revolutions: request.integration.revolutions as usize,
+        window_revolutions: request.integration.window_revolutions as usize,
+    }
+    .run(watch))
+}
+
+/// Whether the casing's heights can be tabulated; the error says what to change.
+pub(super) fn check_table(
+    reduced: &ReducedWheel,
+    request: &SweepRequest,
+    steps_per_revolution: usize,
+) -> Result<(), String> {
+    let stride = reduced.contact.len().next_multiple_of(8);
+    let size = RestrictionTable::size(steps_per_revolution, reduced.sectors, stride);
+    if size <= MAX_TABLE_VALUES || request.scene.touched_lobes().is_none() {
+        return Ok(());
+    }
+    Err(format!(
+        "the casing's table would take {size} values at {steps_per_revolution} steps per revolution: take fewer steps, a multiple of \
+         the {} sectors, or wider lobes",
+        reduced.sectors
+    ))
+}
+
+/// The damping of a scene.
+pub(super) fn modal_damping(request: &SweepRequest) -> Option<ModalDamping> {
+    let damping = request.scene.damping.as_ref()?;
+    Some(ModalDamping { modal_ratio: damping.modal_ratio, family_ratios: damping.family_ratios.clone() })
+}
+
+/// The casing of a scene with contact; a casing that nothing touches does not exist for the integration.
+pub(super) fn casing(
+    reduced: &ReducedWheel,
+    request: &SweepRequest,
+    ramp_revolutions: f64,
+) -> Option<Casing> {
+    let casing = request.scene.casing.as_ref()?;
+    request.scene.contact.as_ref()?;
+    let positions: Vec<_> = reduced.contact.iter().map(|node| node.position).collect();
+    let given = &casing.clearance;
+    let clearance = given.values.clone().unwrap_or_else(|| {
+        clearance_along_chord(given.leading.unwrap_or(0.0), given.trailing.unwrap_or(0.0), &positions)
+    });
+    let restriction = casing.lobes.as_ref().map(|lobes| Restriction {
+        count: lobes.count,
+        amplitude: lobes.amplitude,
+        width_rad: lobes.width_rad,
+        phase_rad: lobes.phase_rad,
+    });
+    Some(Casing { clearance, restriction, ramp_revolutions })
+}
+
+fn sensor_row(reduced: &ReducedWheel, wheel: &ModalWheel, sensor: &Sensor) -> SensorRow {
+    SensorRow {
+        direction: direction(&reduced.contact, sensor.contact_node, sensor.component),
+        sector: sensor.sector as usize % wheel.sectors,
+    }
+}

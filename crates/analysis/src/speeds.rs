@@ -1,0 +1,309 @@
+//! Rotational speeds as a user gives them: a range, a list, or several of them, such as refinement windows.
+
+use std::collections::BTreeSet;
+
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{MapAccess, SeqAccess};
+use serde::{Deserialize, Deserializer, Serialize};
+
+use super::error::Violation;
+use super::scene::is_false;
+
+/// Rotational speeds: one range or list, or an array of them, whose union in the order given is taken. What one of them
+/// says is taken as it is; a speed that an earlier one has already (to 1e-9) is not computed again.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(untagged)]
+pub enum Speeds {
+    /// One range or list.
+    One(SpeedSet),
+    /// Several.
+    Several(Vec<SpeedSet>),
+}
+
+/// Rotational speeds: evenly spaced `from`–`to` with `count`, or a list of `values`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(deny_unknown_fields)]
+pub struct SpeedSet {
+    /// First speed of the range.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub from: Option<f64>,
+    /// Last speed of the range.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub to: Option<f64>,
+    /// Number of speeds in the range, both ends included.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 10_000))]
+    pub count: Option<u32>,
+    /// Explicit speeds.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schema(min_items = 1, max_items = 10_000))]
+    pub values: Option<Vec<f64>>,
+    /// Unit of the numbers above.
+    pub unit: SpeedUnit,
+    /// Whether a round of `refine` added these speeds; set by the service.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub added: bool,
+}
+
+/// Unit of a rotational speed on the wire.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum SpeedUnit {
+    /// Radians per second.
+    RadS,
+    /// Revolutions per minute.
+    Rpm,
+    /// Revolutions per second.
+    Hz,
+}
+
+impl SpeedUnit {
+    fn rad_s(self) -> f64 {
+        use std::f64::consts::TAU;
+        match self {
+            Self::RadS => 1.0,
+            Self::Rpm => TAU / 60.0,
+            Self::Hz => TAU,
+        }
+    }
+}
+
+/// Speeds beyond this, in rad/s, are typing errors.
+pub const HIGHEST_SPEED: f64 = 1e7;
+
+/// Largest number of speeds in one job.
+pub const MAX_SPEEDS: usize = 10_000;
+
+/// Speeds of two ranges that differ by no more than this, relatively, are one.
+const SAME: f64 = 1e-9;
+
+// By hand, so that errors keep their path: an untagged enum only says that nothing matched.
+impl<'de> Deserialize<'de> for Speeds {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Visitor;
+        impl<'de> serde::de::Visitor<'de> for Visitor {
+            type Value = Speeds;
+
+            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str("a range or list of speeds, or an array of them")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Self::Value, A::Error> {
+                SpeedSet::deserialize(MapAccessDeserializer::new(map)).map(Speeds::One)
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<Self::Value, A::Error> {
+                Vec::deserialize(SeqAccessDeserializer::new(seq)).map(Speeds::Several)
+            }
+        }
+        deserializer.deserialize_any(Visitor)
+    }
+}
+
+/// The speeds of one range or list that no earlier one has.
+pub(super) struct Part {
+    /// JSON pointer to the range or list.
+    pub(super) pointer: String,
+    pub(super) speeds_rad_s: Vec<f64>,
+    /// Whether a round of refinement added it.
+    pub(super) added: bool,
+}
+
+impl Speeds {
+    /// The speeds in rad/s, in the order given.
+    pub fn resolve(&self) -> Result<Vec<f64>, Vec<Violation>> {
+        Ok(self.parts()?.into_iter().flat_map(|part| part.speeds_rad_s).collect())
+    }
+
+    /// The same in ascending order.
+    pub fn ascending(&self) -> Result<Vec<f64>, Vec<Violation>> {
+        let mut speeds = self.resolve()?;
+        speeds.sort_by(f64::total_cmp);
+        Ok(speeds)
+    }
+
+    /// Takes all of them as asked for: what one refinement added, another request may name.
+    pub fn ask_for_all(&mut self) {
+        match self {
+            Self::One(set) => set.added = false,
+            Self::Several(sets) => sets.iter_mut().for_each(|set| set.added = false),
+        }
+    }
+
+    /// Those of them that no refinement has added.
+    pub(super) fn asked(&self) -> Result<Vec<f64>, Vec<Violation>> {
+        Ok(self.parts()?.into_iter().filter(|part| !part.added).flat_map(|part| part.speeds_rad_s).collect())
+    }
+
+    /// The same and `speeds_rad_s` after them, as a list that a refinement has added: no speed changes its index.
+    pub(super) fn with_added(&self, speeds_rad_s: Vec<f64>) -> Self {
+        let mut sets = match self {
+            Self::One(set) => vec![set.clone()],
+            Self::Several(sets) => sets.clone(),
+        };
+        sets.push(SpeedSet {
+            from: None,
+            to: None,
+            count: None,
+            values: Some(speeds_rad_s),
+            unit: SpeedUnit::RadS,
+            added: true,
+        });
+        Self::Several(sets)
+    }
+
+    /// How many more speeds there may be.
+    pub(super) fn room(&self) -> usize {
+        let sets = match self {
+            Self::One(set) => std::slice::from_ref(set),
+            Self::Several(sets) => sets,
+        };
+        let given = |set: &SpeedSet| set.values.as_ref().map_or(set.count.unwrap_or(0) as usize, Vec::len);
+        MAX_SPEEDS.saturating_sub(sets.iter().map(given).sum())
+    }
+
+    /// The same, range by range.
+    pub(super) fn parts(&self) -> Result<Vec<Part>, Vec<Violation>> {
+        let sets = match self {
+            Self::One(set) => {
+                return Ok(vec![set.part("/speeds".to_owned(), MAX_SPEEDS).map_err(|v| vec![v])?]);
+            }
+            Self::Several(sets) if sets.is_empty() => {
+                return Err(vec![Violation::new("/speeds", "at least one speed is needed")]);
+            }
+            Self::Several(sets) => sets,
+        };
+        let (mut parts, mut violations) = (Vec::new(), Vec::new());
+        let mut room = MAX_SPEEDS;
+        // As bits, which ascend as the numbers do where none is negative.
+        let mut earlier = BTreeSet::new();
+        for (index, set) in sets.iter().enumerate() {
+            let mut part = match set.part(format!("/speeds/{index}"), room) {
+                Ok(part) => part,
+                Err(violation) => {
+                    violations.push(violation);
+                    continue;
+                }
+            };
+            room -= part.speeds_rad_s.len();
+            let near = |speed: f64| (speed * (1.0 - SAME)).to_bits()..=(speed * (1.0 + SAME)).to_bits();
+            part.speeds_rad_s.retain(|&speed| earlier.range(near(speed)).next().is_none());
+            earlier.extend(part.speeds_rad_s.iter().map(|speed| speed.to_bits()));
+            parts.push(part);
+        }
+        if violations.is_empty() { Ok(parts) } else { Err(violations) }
+    }
+}
+
+impl SpeedSet {
+    /// All its speeds, of which there may be `room`.
+    fn part(&self, pointer: String, room: usize) -> Result<Part, Violation> {
+        let at = |field: &str, message: &str| Err(Violation::new(format!("{pointer}{field}"), message));
+        let too_many = format!("at most {MAX_SPEEDS} speeds in one job, all ranges and lists together");
+        let given = match (&self.values, self.from, self.to, self.count) {
+            (Some(values), None, None, None) => values.clone(),
+            (None, Some(from), Some(to), Some(count)) => match count {
+                0 => return at("/count", "at least one speed is needed"),
+                1 if from != to => {
+                    return at("/count", "one speed cannot span from and to; give count ≥ 2");
+                }
+                _ if count as usize > room => return at("/count", &too_many),
+                1 => vec![from],
+                _ => {
+                    let last = f64::from(count - 1);
+                    (0..count).map(|i| from + (to - from) * (f64::from(i) / last)).collect()
+                }
+            },
+            _ => return at("", "give either `from`, `to` and `count`, or `values`"),
+        };
+        if given.is_empty() {
+            return at("/values", "at least one speed is needed");
+        }
+        if given.len() > room {
+            return at("/values", &too_many);
+        }
+        // Adding 0 makes −0 a 0.
+        let speeds_rad_s: Vec<f64> = given.iter().map(|v| v * self.unit.rad_s() + 0.0).collect();
+        match speeds_rad_s.iter().position(|speed| !(0.0..=HIGHEST_SPEED).contains(speed)) {
+            Some(bad) => {
+                let field = if self.values.is_some() { format!("/values/{bad}") } else { String::new() };
+                let message =
+                    format!("a speed lies between 0 and {HIGHEST_SPEED:e} rad/s, unlike {}", given[bad]);
+                at(&field, &message)
+            }
+            None => Ok(Part { pointer, speeds_rad_s, added: self.added }),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::{Value, json};
+
+    fn speeds(given: Value) -> Speeds {
+        serde_json::from_value(given).unwrap()
+    }
+
+    fn pointers(given: Value) -> Vec<String> {
+        speeds(given).resolve().unwrap_err().into_iter().map(|violation| violation.pointer).collect()
+    }
+
+    #[test]
+    fn windows_are_joined_in_the_order_given_and_share_their_ends() {
+        let given = json!([
+            {"from": 100, "to": 200, "count": 3, "unit": "rad_s"},
+            // 200 rad/s, an end point of both, in other words.
+            {"from": 200.0 * 60.0 / std::f64::consts::TAU, "to": 300.0 * 60.0 / std::f64::consts::TAU, "count": 2, "unit": "rpm"},
+            {"values": [120, 150, 120, 0], "unit": "rad_s"},
+        ]);
+        let joined = speeds(given.clone());
+        let expected = [100.0, 150.0, 200.0, 300.0, 120.0, 120.0, 0.0];
+        for (speed, expected) in joined.resolve().unwrap().iter().zip(expected) {
+            assert!((speed - expected).abs() < 1e-10, "{speed} {expected}");
+        }
+        assert_eq!(joined.resolve().unwrap().len(), expected.len());
+        assert!(joined.ascending().unwrap().is_sorted());
+        // A list by itself is what it says: equal speeds are computed twice.
+        assert_eq!(speeds(json!({"values": [5, 5], "unit": "hz"})).resolve().unwrap().len(), 2);
+        // On the wire it stays as it was given.
+        assert_eq!(speeds(serde_json::to_value(&joined).unwrap()), joined);
+        assert!(serde_json::to_value(&joined).unwrap().is_array());
+    }
+
+    #[test]
+    fn added_speeds_change_no_index() {
+        for given in [
+            json!({"values": [5, 5, 7], "unit": "rad_s"}),
+            json!([{"values": [5, 5], "unit": "rad_s"}, {"from": 5, "to": 7, "count": 2, "unit": "rad_s"}]),
+        ] {
+            let asked = speeds(given);
+            let more = asked.with_added(vec![6.0]).with_added(vec![5.5, 6.5]);
+            assert_eq!(more.resolve().unwrap(), [5.0, 5.0, 7.0, 6.0, 5.5, 6.5]);
+            assert_eq!(more.asked().unwrap(), asked.resolve().unwrap());
+            assert_eq!(more.room(), asked.room() - 3);
+            assert_eq!(speeds(serde_json::to_value(&more).unwrap()), more);
+        }
+        let most = speeds(json!({"from": 1, "to": 2, "count": MAX_SPEEDS - 1, "unit": "rad_s"}));
+        assert_eq!((most.room(), most.with_added(vec![3.0]).room()), (1, 0));
+        assert!(most.with_added(vec![3.0]).resolve().is_ok());
+    }
+
+    #[test]
+    fn violations_point_into_the_array() {
+        let range = |count: u32| json!({"from": 1, "to": 2, "count": count, "unit": "hz"});
+        assert_eq!(pointers(json!([])), ["/speeds"]);
+        assert_eq!(pointers(json!([range(0), range(2), range(1)])), ["/speeds/0/count", "/speeds/2/count"]);
+        assert_eq!(pointers(json!([{"values": [1, -1], "unit": "hz"}])), ["/speeds/0/values/1"]);
+        assert_eq!(pointers(json!([range(3), {"from": 1, "unit": "hz"}])), ["/speeds/1"]);
+        // Together, whether or not they repeat each other.
+        assert_eq!(pointers(json!([range(6_000), range(4_001)])), ["/speeds/1/count"]);
+        assert!(speeds(json!([range(6_000), range(4_000)])).resolve().is_ok());
+        let most = MAX_SPEEDS as u32;
+        assert_eq!(pointers(json!([range(most), {"values": [1], "unit": "hz"}])), ["/speeds/1/values"]);
+        assert_eq!(pointers(range(most + 1)), ["/speeds/count"]);
+    }
+}

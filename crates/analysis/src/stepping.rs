@@ -1,0 +1,466 @@
+//! Which scheme steps a speed, with how many steps per revolution, and why.
+
+use std::f64::consts::TAU;
+
+use super::auto_or::AutoOr;
+use super::discretisation::Discretisation;
+use super::effects::{coating, flexible_casing, rotation};
+use super::error::{AnalysisError, Violation};
+use super::model::ReducedSector;
+use super::monitor::Monitor;
+use super::request::{Integration, SchemeChoice, SweepRequest};
+use super::result::SchemeReport;
+use super::sliding;
+use rubmap_wheel::dynamics::error::ModelError;
+use rubmap_wheel::dynamics::modal_wheel::{ModalWheel, RotationEffects, natural_frequencies};
+use rubmap_wheel::dynamics::schemes::{Scheme, central_differences, exact_modal, massless_boundary};
+use rubmap_wheel::dynamics::sector::ContactNode;
+
+/// How one speed is stepped.
+pub(super) struct Stepping {
+    pub(super) scheme: Scheme,
+    /// Smallest stable number of steps per revolution.
+    pub(super) smallest: u64,
+    pub(super) discretisation: Discretisation,
+    pub(super) report: SchemeReport,
+}
+
+/// `"auto"` never steps over more than a tenth of a degree of contact: it begins and ends within a step.
+const LEAST_AUTO_STEPS: f64 = 3600.0;
+
+/// `"auto"` takes this many steps over the half-width of a lobe.
+const AUTO_STEPS_PER_WIDTH: f64 = 10.0;
+
+/// `"auto"` takes this many steps over a period of the highest engine order of the forces: their amplitude is then right to
+/// two parts in a thousand.
+const AUTO_STEPS_PER_PERIOD: f64 = 40.0;
+
+/// Fewer steps over the half-width of a lobe would pass it by.
+const LEAST_STEPS_PER_WIDTH: f64 = 2.0;
+
+/// The scheme `auto` resolves every mode as long as that takes no more than this many times the steps that contact needs.
+const PRICE_OF_STIFFNESS: f64 = 10.0;
+
+/// A boundary without mass integrates the modes up to this many times the highest frequency asked for, if it can.
+const REACH: f64 = 2.0;
+
+/// Most steps per revolution, given or chosen.
+pub(super) const MOST_STEPS: u32 = 10_000_000;
+
+/// `"auto"` stays this far below a stability limit.
+const SAFETY: f64 = 0.8;
+
+/// Half-width of the lobes that a scene's blades may touch, rad.
+fn lobe_width(request: &SweepRequest) -> Option<f64> {
+    request.scene.touched_lobes().map(|lobes| lobes.width_rad)
+}
+
+/// The smallest number of steps per revolution that sees the lobes of a scene.
+pub(super) fn least_steps_for_lobes(request: &SweepRequest) -> f64 {
+    lobe_width(request).map_or(0.0, |width| (LEAST_STEPS_PER_WIDTH * TAU / width).ceil())
+}
+
+/// Steps per revolution that `"auto"` gives contact, and why.
+pub(super) fn steps_for_contact(request: &SweepRequest) -> (f64, &'static str) {
+    let lobes = lobe_width(request).map_or(0.0, |width| (AUTO_STEPS_PER_WIDTH * TAU / width).ceil());
+    let rods = request.scene.abradable.as_ref().map_or(0.0, |coating| f64::from(coating.rods_around));
+    let order = request.scene.engine_order_excitation.iter().map(|force| force.order).max().unwrap_or(0);
+    let forces = AUTO_STEPS_PER_PERIOD * f64::from(order);
+    if forces > lobes.max(rods).max(LEAST_AUTO_STEPS) {
+        return (forces, "forty steps fall on a period of the fastest force");
+    }
+    if rods > lobes.max(LEAST_AUTO_STEPS) {
+        (rods, "no step jumps a rod of the coating")
+    } else if lobes > LEAST_AUTO_STEPS {
+        (lobes, "ten steps fall on the half-width of a lobe")
+    } else {
+        (LEAST_AUTO_STEPS, "contact begins and ends within a tenth of a degree")
+    }
+}
+
+/// Steps per revolution at `speed_rad_s` from which on no mode follows statically under `exact_modal`.
+fn resolving_steps(wheel: &ModalWheel, speed_rad_s: f64) -> f64 {
+    (TAU * wheel.largest_frequency() / (speed_rad_s * exact_modal::FOLLOWS)).ceil()
+}
+
+/// Whether something else than contact acts on the modes, so that a step is no longer exact.
+fn is_driven(request: &SweepRequest) -> bool {
+    let scene = &request.scene;
+    scene.coriolis || scene.mistuning.is_some() || !scene.engine_order_excitation.is_empty()
+}
+
+/// [`Scheme::smallest_stable_steps`] of the wheel and, if it is elastic, its casing.
+fn smallest_stable_steps(
+    scheme: Scheme,
+    wheel: &ModalWheel,
+    contact_nodes: &[ContactNode],
+    request: &SweepRequest,
+) -> u64 {
+    let smallest = scheme.smallest_stable_steps(wheel, contact_nodes);
+    match scheme {
+        Scheme::CentralDifferences => smallest.max(casing_limit(request, wheel.speed_rad_s)),
+        _ => smallest,
+    }
+}
+
+/// Smallest stable number of steps for the waves of an elastic casing by central differences; 1 if it is rigid.
+fn casing_limit(request: &SweepRequest, speed_rad_s: f64) -> u64 {
+    let Some(casing) = &request.scene.flexible_casing else { return 1 };
+    let highest = flexible_casing(casing).waves.iter().fold(0.0f64, |most, wave| most.max(wave.omega));
+    central_differences::smallest_stable_steps(highest, speed_rad_s)
+}
+
+/// Contact nodes that may touch in this scene.
+fn touching<'a>(contact_nodes: &'a [ContactNode], request: &SweepRequest) -> &'a [ContactNode] {
+    if request.scene.contact.is_some() { contact_nodes } else { &[] }
+}
+
+/// A scheme with the steps it wants.
+struct Wish {
+    scheme: Scheme,
+    least_steps: f64,
+    why_scheme: String,
+    why_steps: String,
+}
+
+/// A speed with what its scheme depends on.
+struct Scope<'a> {
+    wheel: &'a ModalWheel,
+    /// Empty if nothing may touch.
+    contact_nodes: &'a [ContactNode],
+    request: &'a SweepRequest,
+    /// Steps per revolution given by the request.
+    given: Option<u32>,
+}
+
+impl Stepping {
+    /// Resolves scheme and step for `wheel`; the error says what to change.
+    pub(super) fn choose(
+        wheel: &ModalWheel,
+        contact_nodes: &[ContactNode],
+        request: &SweepRequest,
+    ) -> Result<Self, String> {
+        let Integration { scheme, kept_modes, steps_per_revolution, .. } = request.integration;
+        let given = match steps_per_revolution {
+            AutoOr::Auto => None,
+            AutoOr::Fixed(steps) => Some(steps),
+        };
+        let scope = Scope { wheel, contact_nodes: touching(contact_nodes, request), request, given };
+        let wish = match (scheme, kept_modes) {
+            (SchemeChoice::Auto, _) => scope.automatic(),
+            (SchemeChoice::CentralDifferences, _) => scope.bounded(Scheme::CentralDifferences),
+            (SchemeChoice::ExactModal, _) => scope.exact(),
+            (SchemeChoice::MasslessBoundary, AutoOr::Fixed(kept)) => {
+                scope.bounded(Scheme::MasslessBoundary { kept_modes: kept as usize })
+            }
+            (SchemeChoice::MasslessBoundary, AutoOr::Auto) => scope.massless()?,
+        };
+        scope.grant(wish)
+    }
+}
+
+impl Scope<'_> {
+    /// Resolves every mode if that price is bearable at the slowest speed, so that a sweep keeps to one scheme; otherwise
+    /// lets the boundary go without mass.
+    fn automatic(&self) -> Wish {
+        let speeds = self.request.speeds.resolve().unwrap_or_default();
+        let slowest = speeds.into_iter().fold(self.wheel.speed_rad_s, f64::min);
+        let stiffest = resolving_steps(self.wheel, slowest);
+        let affordable = self.given.map_or(PRICE_OF_STIFFNESS * steps_for_contact(self.request).0, f64::from);
+        let mut wish = self.exact();
+        let massive_casing = self.request.scene.flexible_casing.is_some();
+        if self.contact_nodes.is_empty() || massive_casing || stiffest <= affordable {
+            let resolving = resolving_steps(self.wheel, self.wheel.speed_rad_s);
+            let pays = stiffest <= affordable && !self.contact_nodes.is_empty();
+            if pays && resolving > wish.least_steps {
+                wish.least_steps = resolving;
+                wish.why_steps = "the step resolves the stiffest mode".to_owned();
+            }
+            return wish;
+        }
+        let price = format!(
+            "resolving the stiffest mode at the slowest speed would take {stiffest:.0} steps per revolution"
+        );
+        match self.massless() {
+            Ok(massless) => Wish { why_scheme: format!("{price}; {}", massless.why_scheme), ..massless },
+            Err(_) => Wish { why_scheme: format!("{price}; {}", wish.why_scheme), ..wish },
+        }
+    }
+
+    /// A scheme with a stability limit.
+    fn bounded(&self, scheme: Scheme) -> Wish {
+        let (contact, why) = steps_for_contact(self.request);
+        let smallest = self.smallest_stable_steps(scheme);
+        let limit = (smallest as f64 / SAFETY).ceil();
+        let why_scheme = "as requested".to_owned();
+        if limit > contact {
+            let why_steps = format!("the step is {} of the stability limit", SAFETY);
+            Wish { scheme, least_steps: limit, why_scheme, why_steps }
+        } else {
+            Wish { scheme, least_steps: contact, why_scheme, why_steps: set_so_that(why) }
+        }
+    }
+
+    /// Every mode by its exact propagator.
+    fn exact(&self) -> Wish {
+        let why_scheme = if is_driven(self.request) {
+            "every mode is advanced exactly but for the forces on it, which are of second order".to_owned()
+        } else {
+            "every mode is advanced exactly".to_owned()
+        };
+        let scheme = Scheme::ExactModal;
+        if self.contact_nodes.is_empty() && !is_driven(self.request) {
+            let why_steps = "nothing touches, so that any step is exact".to_owned();
+            return Wish { scheme, least_steps: 1.0, why_scheme, why_steps };
+        }
+        let (contact, why) = steps_for_contact(self.request);
+        let why = if self.contact_nodes.is_empty() { "its forces are resolved" } else { why };
+        Wish { scheme, least_steps: contact, why_scheme, why_steps: set_so_that(why) }
+    }
+
+    /// A boundary without mass, with as many modes as the step for contact carries, but enough for the engine orders
+    /// asked for.
+    fn massless(&self) -> Result<Wish, String> {
+        let carried = |steps: f64| {
+            massless_boundary::most_kept_modes(self.wheel, self.contact_nodes, (SAFETY * steps) as u64)
+        };
+        let none = |steps: f64| {
+            format!(
+                "{steps} steps per revolution carry no mode of a boundary without mass: take more, or another scheme"
+            )
+        };
+        let (contact, why) = steps_for_contact(self.request);
+        let steps = self.given.map_or(contact, f64::from);
+        let kept = carried(steps);
+        let wanted = self.modes_reaching(REACH * self.highest_frequency());
+        if let (Some(kept_modes), true) = (kept, self.given.is_some() || kept >= Some(wanted)) {
+            return Ok(Wish {
+                scheme: Scheme::MasslessBoundary { kept_modes },
+                least_steps: steps,
+                why_scheme: "as many modes are kept as the step carries".to_owned(),
+                why_steps: set_so_that(why),
+            });
+        }
+        if self.given.is_some() {
+            return Err(none(steps));
+        }
+        let most = carried(f64::from(MOST_STEPS)).ok_or_else(|| none(f64::from(MOST_STEPS)))?;
+        let scheme = Scheme::MasslessBoundary { kept_modes: wanted.min(most) };
+        let why_scheme = format!("modes are kept up to {REACH} times the highest engine order");
+        Ok(Wish { why_scheme, ..self.bounded(scheme) })
+    }
+
+    fn smallest_stable_steps(&self, scheme: Scheme) -> u64 {
+        smallest_stable_steps(scheme, self.wheel, self.contact_nodes, self.request)
+    }
+
+    /// Of the highest engine order asked for, rad/s.
+    fn highest_frequency(&self) -> f64 {
+        f64::from(self.request.max_engine_order) * self.wheel.speed_rad_s
+    }
+
+    /// Modes per nodal diameter up to `omega` in every one of them.
+    fn modes_reaching(&self, omega: f64) -> usize {
+        let below = self.wheel.harmonics.iter().map(|h| h.omega.partition_point(|&mode| mode < omega) + 1);
+        below.max().unwrap_or(1)
+    }
+
+    /// Steps and report of a wish, if it can be had.
+    fn grant(&self, wish: Wish) -> Result<Stepping, String> {
+        let smallest = self.smallest_stable_steps(wish.scheme);
+        if smallest == u64::MAX {
+            return Err(no_stable_step(wish.scheme));
+        }
+        let (discretisation, why_steps) = match self.given {
+            Some(steps) if u64::from(steps) < smallest => {
+                return Err(format!(
+                    "{steps} steps per revolution are unstable at this speed; at least {smallest} are needed"
+                ));
+            }
+            Some(steps) => {
+                let close = f64::from(steps) * SAFETY < smallest as f64;
+                let limit = format!(", closer to the limit of {smallest} than \"auto\" would go");
+                let why =
+                    format!("{steps} steps per revolution as requested{}", if close { &limit } else { "" });
+                (Discretisation::exactly(steps as usize, self.request, self.wheel.around()), why)
+            }
+            None if wish.least_steps > f64::from(MOST_STEPS) => {
+                return Err(format!(
+                    "this speed would need {:.1e} steps per revolution, more than {MOST_STEPS}: it is too slow for the \
+                     highest frequency of the reduced wheel, or the lobes are too narrow",
+                    wish.least_steps
+                ));
+            }
+            None => {
+                let steps = wish.least_steps as usize;
+                (Discretisation::at_least(steps, self.request, self.wheel.around()), wish.why_steps)
+            }
+        };
+        let reason = format!("{}; {why_steps}", wish.why_scheme);
+        let report = self.report(wish.scheme, &discretisation, reason);
+        Ok(Stepping { scheme: wish.scheme, smallest, discretisation, report })
+    }
+
+    fn report(&self, scheme: Scheme, discretisation: &Discretisation, mut reason: String) -> SchemeReport {
+        let (name, kept_modes) = match scheme {
+            Scheme::CentralDifferences => (SchemeChoice::CentralDifferences, None),
+            Scheme::ExactModal => (SchemeChoice::ExactModal, None),
+            Scheme::MasslessBoundary { kept_modes } => {
+                (SchemeChoice::MasslessBoundary, Some(kept_modes as u32))
+            }
+        };
+        let step_s = TAU / (self.wheel.speed_rad_s * discretisation.per_revolution as f64);
+        let follows = match scheme {
+            Scheme::ExactModal if !self.contact_nodes.is_empty() => exact_modal::FOLLOWS / step_s,
+            _ => f64::INFINITY,
+        };
+        let (mut following, mut reach) = (0, f64::INFINITY);
+        for harmonic in &self.wheel.harmonics {
+            let integrated = &harmonic.omega[..scheme.integrated_modes(harmonic.omega.len())];
+            let resolved = integrated.partition_point(|&omega| omega <= follows);
+            let pair = if harmonic.single { 1 } else { 2 };
+            following += pair * (integrated.len() - resolved);
+            reach = reach.min(resolved.checked_sub(1).map_or(0.0, |last| integrated[last]));
+        }
+        if reach < self.highest_frequency() {
+            let order = reach / self.wheel.speed_rad_s;
+            reason.push_str(&format!("; beyond engine order {order:.1} the response is static"));
+        }
+        SchemeReport { name, reason, kept_modes, following_modes: following as u32, reach_hz: reach / TAU }
+    }
+}
+
+fn set_so_that(why: &str) -> String {
+    format!("the step is set so that {why}")
+}
+
+fn no_stable_step(scheme: Scheme) -> String {
+    match scheme {
+        Scheme::MasslessBoundary { kept_modes } => format!(
+            "with {kept_modes} modes per nodal diameter kept, those left out give the boundary no flexibility: keep fewer, \
+             leave kept_modes away, or reduce with more modes_per_speed"
+        ),
+        Scheme::CentralDifferences | Scheme::ExactModal => {
+            "no number of steps per revolution is stable: the speed is too slow".to_owned()
+        }
+    }
+}
+
+/// Checks what only the reduced sector can tell, before any speed runs: that the wheel slides, and a fixed step or number of
+/// kept modes against the stability limit, at the slowest and at the fastest speed. The limit, ω_max/Ω, falls with speed as
+/// K/Ω² does where K is linear in Ω². Speeds between, and those at which the model itself fails, are left to their own runs.
+pub fn check(
+    reduced: &ReducedSector,
+    request: &SweepRequest,
+    monitor: &dyn Monitor,
+) -> Result<(), AnalysisError> {
+    let speeds = request.speeds.ascending().map_err(AnalysisError::Refused)?;
+    let mut ends: Vec<f64> = speeds.first().into_iter().chain(speeds.last()).copied().collect();
+    ends.dedup();
+    check_sliding(reduced, request, &ends)?;
+    if let Err(message) = coating(&request.scene, &reduced.wheel.contact, reduced.wheel.sectors) {
+        return Err(AnalysisError::Refused(vec![Violation::new("/scene/abradable", message)]));
+    }
+    let Integration { steps_per_revolution, kept_modes, .. } = request.integration;
+    if (steps_per_revolution, kept_modes) == (AutoOr::Auto, AutoOr::Auto) {
+        return Ok(());
+    }
+    let mut worst = (0, 0.0);
+    for (index, &speed) in ends.iter().enumerate() {
+        monitor.progress(index as f64 / ends.len() as f64, "stability limit of the time step");
+        if monitor.is_cancelled() {
+            return Err(AnalysisError::Cancelled);
+        }
+        let Ok(smallest) = limit_of_request(reduced, request, speed) else { continue };
+        if smallest > worst.0 {
+            worst = (smallest, speed);
+        }
+    }
+    refuse(request, worst.0, worst.1)
+}
+
+/// Whether the wheel slides at each of `speeds`.
+fn check_sliding(
+    reduced: &ReducedSector,
+    request: &SweepRequest,
+    speeds: &[f64],
+) -> Result<(), AnalysisError> {
+    if request.scene.friction.is_none() {
+        return Ok(());
+    }
+    for &speed in speeds {
+        let contact = &reduced.wheel.contact;
+        let Ok(wheel) = ModalWheel::at(&reduced.wheel, speed, rotation(&request.scene)) else { continue };
+        let Ok(stepping) = Stepping::choose(&wheel, contact, request) else { continue };
+        let steps = stepping.discretisation.per_revolution;
+        if let Err(error) = sliding::check(&wheel, contact, request, stepping.scheme, steps) {
+            let message = format!("at {speed:.6} rad/s {error}");
+            let violation = Violation::new("/scene/friction/coefficient", message);
+            return Err(AnalysisError::Refused(vec![violation]));
+        }
+    }
+    Ok(())
+}
+
+/// The stability limit of what a request fixes, at one speed; 1 where nothing it fixes has one.
+fn limit_of_request(
+    reduced: &ReducedSector,
+    request: &SweepRequest,
+    speed_rad_s: f64,
+) -> Result<u64, ModelError> {
+    let stiffening = request.scene.centrifugal_stiffening;
+    match (request.integration.scheme, request.integration.kept_modes) {
+        (SchemeChoice::CentralDifferences, _) => {
+            let mut largest = 0.0f64;
+            for harmonic in &reduced.wheel.harmonics {
+                let omega = natural_frequencies(harmonic, speed_rad_s, stiffening)?;
+                largest = largest.max(omega.last().copied().unwrap_or(0.0));
+            }
+            let limit = central_differences::smallest_stable_steps(largest, speed_rad_s);
+            Ok(limit.max(casing_limit(request, speed_rad_s)))
+        }
+        (SchemeChoice::MasslessBoundary, kept_modes) => {
+            let effects = RotationEffects::stiffening(stiffening);
+            let wheel = ModalWheel::at(&reduced.wheel, speed_rad_s, effects)?;
+            let limit = |kept_modes| {
+                let scheme = Scheme::MasslessBoundary { kept_modes };
+                scheme.smallest_stable_steps(&wheel, touching(&reduced.wheel.contact, request))
+            };
+            Ok(match kept_modes {
+                AutoOr::Fixed(kept) => limit(kept as usize),
+                // As `"auto"` keeps at least one mode, at its own distance from the limit.
+                AutoOr::Auto => (limit(1) as f64 / SAFETY).ceil() as u64,
+            })
+        }
+        _ => Ok(1),
+    }
+}
+
+fn refuse(request: &SweepRequest, stable: u64, speed: f64) -> Result<(), AnalysisError> {
+    let refused =
+        |pointer: &str, message: String| Err(AnalysisError::Refused(vec![Violation::new(pointer, message)]));
+    if let (u64::MAX, SchemeChoice::MasslessBoundary) = (stable, request.integration.scheme) {
+        let (pointer, kept_modes) = match request.integration.kept_modes {
+            AutoOr::Fixed(kept) => ("/integration/kept_modes", kept as usize),
+            AutoOr::Auto => ("/integration/scheme", 1),
+        };
+        return refused(pointer, no_stable_step(Scheme::MasslessBoundary { kept_modes }));
+    }
+    let AutoOr::Fixed(steps) = request.integration.steps_per_revolution else { return Ok(()) };
+    if u64::from(steps) >= stable {
+        return Ok(());
+    }
+    let bound = match request.integration.scheme {
+        SchemeChoice::MasslessBoundary => {
+            "massless_boundary needs h < 1/ω_c of the wheel with every contact held"
+        }
+        _ => "central differences need h < 2/ω_max of the reduced wheel",
+    };
+    refused(
+        "/integration/steps_per_revolution",
+        format!(
+            "{steps} steps per revolution are unstable: {bound}, which at {speed:.6} rad/s is met from {stable} steps per revolution \
+             on; give at least {stable}, or \"auto\""
+        ),
+    )
+}

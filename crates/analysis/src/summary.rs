@@ -1,0 +1,206 @@
+//! What the speeds of a sweep say together: the interaction map and the critical speeds.
+
+use std::collections::BTreeSet;
+use std::f64::consts::TAU;
+
+use super::accuracy::control::ErrorEstimate;
+use super::diagram::FrequencyDiagram;
+use super::effects::{flexible_casing, rotation};
+use super::error::AnalysisError;
+use super::model::ReducedSector;
+use super::monitor::Monitor;
+use super::plan::Spent;
+use super::refine::Refinement;
+use super::request::{Sensor, SweepRequest};
+use super::response_curve::ResponseCurve;
+use super::result::{
+    Coincidence, CriticalSpeed, CriticalSpeeds, Crossing, DrivenCrossing, InteractionMap, Point, PointStatus,
+    ReductionReport, SpeedSpectra,
+};
+use super::run::VERSION;
+use rubmap_wheel::dynamics::sector::Units;
+use rubmap_wheel::response::campbell::multiples;
+use rubmap_wheel::response::critical_speed::{Resolution, peaks};
+use rubmap_wheel::response::spectra::engine_orders;
+
+/// The row that one speed contributes to the map of `sensor` (index into the request's sensors).
+pub fn map_row(spectra: &SpeedSpectra, sensor: usize, nodal_diameter: Option<u32>) -> Option<&[f64]> {
+    let spectrum = spectra.sensors.get(sensor)?;
+    match nodal_diameter {
+        None => Some(&spectrum.amplitude),
+        Some(i) => spectrum.nodal_diameters.get(i as usize).map(Vec::as_slice),
+    }
+}
+
+/// The interaction map of `sensor` from the speeds finished so far, in any order, each with its [`map_row`]; the plan is for
+/// the caller to add.
+pub fn interaction_map(
+    request: &SweepRequest,
+    units: &Units,
+    finished: Vec<(Point, Option<Vec<f64>>)>,
+    sensor: usize,
+    nodal_diameter: Option<u32>,
+) -> InteractionMap {
+    let speeds = request.speeds.resolve().unwrap_or_default();
+    let mut amplitude = vec![None; speeds.len()];
+    let mut points = Vec::with_capacity(finished.len());
+    for (point, row) in finished {
+        // Speeds that a refinement has added since the request was read wait for the next reader.
+        if let Some(place) = amplitude.get_mut(point.index as usize) {
+            *place = row;
+            points.push(point);
+        }
+    }
+    points.sort_by_key(|point| point.index);
+    InteractionMap {
+        speeds_rad_s: speeds,
+        engine_orders: engine_orders(request.integration.window_revolutions, request.max_engine_order),
+        amplitude,
+        sensor: request.sensors[sensor],
+        nodal_diameter,
+        units: units.clone(),
+        refinement: Refinement::of(request, &points),
+        plan: None,
+        spent: Spent::on(&points),
+        stiffening: points.iter().filter_map(|point| point.stiffening).max(),
+        points,
+        errors: None,
+        settings: request.clone(),
+        version: VERSION.to_owned(),
+    }
+}
+
+/// How the speeds of a finished sweep ended, in words, if none of them was completed.
+pub fn nothing_completed(points: &[Point]) -> Option<String> {
+    if points.iter().any(|point| point.status == PointStatus::Completed) {
+        return None;
+    }
+    let diverged = points.iter().filter(|point| point.status == PointStatus::Diverged).count();
+    let first = points.iter().min_by_key(|point| point.index)?;
+    Some(format!(
+        "none of the {} speeds was completed: {diverged} diverged, {} could not be integrated; at {:.6} rad/s {}; the points of the \
+         interaction map say it of every speed",
+        points.len(),
+        points.len() - diverged,
+        first.speed_rad_s,
+        first.message.as_deref().unwrap_or("no reason is known")
+    ))
+}
+
+/// Families and superharmonic numbers of the linear prediction beside a sweep: those the paper looks at.
+const PREDICTED_FAMILIES: usize = 2;
+const PREDICTED_SUPERHARMONICS: [u32; 3] = [1, 2, 3];
+
+/// Critical speeds of a sweep, one table per sensor, beside the linear prediction; from the points of all speeds and their `errors`
+/// if they were estimated. The plan is for the caller to add.
+pub fn critical_speeds(
+    reduced: &ReducedSector,
+    request: &SweepRequest,
+    points: &[Point],
+    errors: Option<&ErrorEstimate>,
+    monitor: &dyn Monitor,
+) -> Result<Vec<CriticalSpeeds>, AnalysisError> {
+    let speeds = request.speeds.resolve().map_err(AnalysisError::Refused)?;
+    let curve = ResponseCurve::of(&speeds, points);
+    let prediction = predict(reduced, request, &curve.speeds_rad_s, monitor)?;
+    let completed: BTreeSet<u32> = curve.points.iter().flatten().map(|point| point.index).collect();
+    let missing: Vec<u32> = (0..speeds.len() as u32).filter(|index| !completed.contains(index)).collect();
+    let refinement = Refinement::of(request, points);
+    let table = |(sensor, &of): (usize, &Sensor)| CriticalSpeeds {
+        sensor: of,
+        critical_speeds: response_peaks(request, &curve, sensor, &prediction.linear, errors, &reduced.report),
+        linear_crossings: prediction.linear.clone(),
+        driven_crossings: prediction.driven.clone(),
+        casing_coincidences: prediction.coincidences.clone(),
+        missing: missing.clone(),
+        refinement: refinement.clone(),
+        plan: None,
+        spent: Spent::on(points),
+        units: reduced.units.clone(),
+        settings: request.clone(),
+        reduction: reduced.report.clone(),
+        version: VERSION.to_owned(),
+    };
+    Ok(request.sensors.iter().enumerate().map(table).collect())
+}
+
+/// Prominent peaks of one sensor's level over ascending speeds, each with the nearest linear crossing.
+fn response_peaks(
+    request: &SweepRequest,
+    curve: &ResponseCurve,
+    sensor: usize,
+    linear: &[Crossing],
+    errors: Option<&ErrorEstimate>,
+    reduction: &ReductionReport,
+) -> Vec<CriticalSpeed> {
+    let level = curve.level(sensor);
+    let critical = peaks(&level, request.peak_prominence).into_iter().filter_map(|peak| {
+        let point = curve.points[peak.index]?;
+        let resolution = Resolution::of(&curve.speeds_rad_s, &level, &peak);
+        let response = &point.responses[sensor];
+        let distance = |crossing: &&Crossing| (crossing.speed_rad_s - point.speed_rad_s).abs();
+        let nearest = linear.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).cloned();
+        Some(CriticalSpeed {
+            speed_rad_s: point.speed_rad_s,
+            index: point.index,
+            at_edge: peak.at_edge,
+            speed_error_rad_s: resolution.error,
+            resolved: resolution.resolved,
+            rms: response.rms,
+            half_peak_to_peak: response.half_peak_to_peak,
+            prominence: peak.prominence,
+            frequency_error_rad_s: reduction.largest_difference() * point.speed_rad_s,
+            amplitude_error: errors.and_then(|errors| errors.of(point.index)),
+            dominant_engine_order: response.dominant_engine_order,
+            dominant_nodal_diameter: response.dominant_nodal_diameter,
+            settling: point.settling.as_ref()?.verdict,
+            distance_rad_s: nearest.as_ref().map(|crossing| point.speed_rad_s - crossing.speed_rad_s),
+            nearest_crossing: nearest,
+        })
+    });
+    critical.collect()
+}
+
+/// What linear theory expects over the range of a sweep.
+struct Prediction {
+    linear: Vec<Crossing>,
+    driven: Vec<DrivenCrossing>,
+    coincidences: Vec<Coincidence>,
+}
+
+/// Crossings and coincidences over the range of a sweep.
+fn predict(
+    reduced: &ReducedSector,
+    request: &SweepRequest,
+    ascending: &[f64],
+    monitor: &dyn Monitor,
+) -> Result<Prediction, AnalysisError> {
+    let scene = &request.scene;
+    let effects = rotation(scene);
+    let mut diagram = FrequencyDiagram::new(&reduced.wheel, effects, PREDICTED_FAMILIES);
+    // Repeated speeds would bracket nothing.
+    let mut speeds = ascending.to_vec();
+    speeds.dedup();
+    for (done, &speed) in speeds.iter().enumerate() {
+        monitor.progress(done as f64 / speeds.len() as f64, "linear prediction");
+        if monitor.is_cancelled() {
+            return Err(AnalysisError::Cancelled);
+        }
+        // A speed at which the model fails predicts nothing.
+        let _ = diagram.push(speed);
+    }
+    let lobes = scene.casing.as_ref().and_then(|casing| casing.lobes.as_ref()).map_or(0, |l| l.count);
+    let mut orders = multiples(lobes, request.max_engine_order);
+    orders.extend(scene.engine_order_excitation.iter().map(|force| force.order));
+    orders.sort_unstable();
+    orders.dedup();
+    let casing = scene.flexible_casing.as_ref().map(|casing| {
+        flexible_casing(casing).waves.iter().map(|wave| (wave.nodal_diameter, wave.omega / TAU)).collect()
+    });
+    let casing: Vec<(u32, f64)> = casing.unwrap_or_default();
+    Ok(Prediction {
+        linear: diagram.crossings(&PREDICTED_SUPERHARMONICS),
+        driven: diagram.driven_crossings(&orders),
+        coincidences: diagram.coincidences(&casing),
+    })
+}

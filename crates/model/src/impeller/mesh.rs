@@ -1,0 +1,161 @@
+//! A hexahedral mesh of one sector and what ties it to the rest of the wheel.
+
+use serde::{Deserialize, Serialize};
+
+use super::element::{Hex8, Hex20, Hexahedron};
+use super::error::ImpellerError;
+
+/// Nodes and hexahedra, in Cartesian coordinates; z is the axis of rotation.
+#[derive(Debug, Clone, Default)]
+pub struct HexMesh {
+    /// Cartesian positions.
+    pub nodes: Vec<[f64; 3]>,
+    /// Hexahedra of one order.
+    pub elements: Elements,
+}
+
+/// Node indices per element. Corners first: the face ζ = −1 counter-clockwise seen from inside, then the face ζ =
+/// +1, as in CalculiX's C3D8 and C3D20.
+#[derive(Debug, Clone)]
+pub enum Elements {
+    /// 8-node hexahedra.
+    Linear(Vec<[usize; 8]>),
+    /// 20-node serendipity hexahedra: the mid-edge nodes follow the corners in the order of [`EDGES`].
+    Quadratic(Vec<[usize; 20]>),
+}
+
+/// The corners at both ends of each edge, in the order of the mid-edge nodes (C3D20): around the face ζ = −1,
+/// around the face ζ = +1, then along ζ.
+pub const EDGES: [[usize; 2]; 12] =
+    [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4], [0, 4], [1, 5], [2, 6], [3, 7]];
+
+impl Default for Elements {
+    fn default() -> Self {
+        Self::Linear(Vec::new())
+    }
+}
+
+impl Elements {
+    /// Number of elements.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Linear(elements) => elements.len(),
+            Self::Quadratic(elements) => elements.len(),
+        }
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// All nodes of an element, corners first: 8 or 20.
+    pub fn nodes_of(&self, element: usize) -> &[usize] {
+        match self {
+            Self::Linear(elements) => &elements[element],
+            Self::Quadratic(elements) => &elements[element],
+        }
+    }
+}
+
+/// The displacement functions of a mesh's hexahedra.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum ElementOrder {
+    /// 8-node hexahedra with incompatible modes: for coarse meshes.
+    #[default]
+    Linear,
+    /// 20-node serendipity hexahedra.
+    Quadratic,
+}
+
+impl ElementOrder {
+    /// The half-index in the middle of so many elements; if that is no node, the corner before it.
+    pub(super) fn middle(self, elements: usize) -> usize {
+        match self {
+            Self::Linear => elements / 2 * 2,
+            Self::Quadratic => elements,
+        }
+    }
+
+    /// Whether a point of the grid of half-indices is a node: corners, and middles of edges if quadratic.
+    pub(super) fn has_node(self, half: [usize; 3]) -> bool {
+        let odd = half.iter().filter(|h| *h % 2 == 1).count();
+        match self {
+            Self::Linear => odd == 0,
+            Self::Quadratic => odd <= 1,
+        }
+    }
+}
+
+/// A tip node that may touch the casing.
+#[derive(Debug, Clone, Copy)]
+pub struct TipNode {
+    /// Node index.
+    pub node: usize,
+    /// Outward unit normal in (r, θ, z) components at the node.
+    pub normal: [f64; 3],
+}
+
+/// The mesh of one sector with its supports, its cyclic faces and its contact nodes.
+#[derive(Debug, Clone)]
+pub struct SectorMesh {
+    /// Number N of sectors in the wheel.
+    pub sectors: usize,
+    /// Nodes and elements.
+    pub mesh: HexMesh,
+    /// Per node, which of its (r, θ, z) displacements are clamped.
+    pub clamped: Vec<[bool; 3]>,
+    /// Pairs (low node, high node); the high node is the low node turned by +2π/N.
+    pub cyclic: Vec<(usize, usize)>,
+    /// Contact nodes from leading to trailing edge.
+    pub contact: Vec<TipNode>,
+}
+
+impl HexMesh {
+    /// Corner positions of an element.
+    pub fn corners(&self, element: usize) -> [[f64; 3]; 8] {
+        let nodes = self.elements.nodes_of(element);
+        std::array::from_fn(|corner| self.nodes[nodes[corner]])
+    }
+
+    /// Angle θ of a node about the z axis; 0 on the axis.
+    pub fn angle(&self, node: usize) -> f64 {
+        let [x, y, _] = self.nodes[node];
+        y.atan2(x)
+    }
+
+    /// Positions of an element's nodes.
+    pub fn positions<const N: usize>(&self, nodes: &[usize; N]) -> [[f64; 3]; N] {
+        nodes.map(|node| self.nodes[node])
+    }
+
+    /// Refuses a mesh with an element whose Jacobian determinant is not positive at its corners and at every point
+    /// of integration.
+    ///
+    /// # Errors
+    /// [`ImpellerError::Jacobian`] names the first such element.
+    pub fn check_jacobians(&self) -> Result<(), ImpellerError> {
+        match &self.elements {
+            Elements::Linear(elements) => self.check::<Hex8, 8>(elements),
+            Elements::Quadratic(elements) => self.check::<Hex20, 20>(elements),
+        }
+    }
+
+    fn check<E: Hexahedron<N>, const N: usize>(&self, elements: &[[usize; N]]) -> Result<(), ImpellerError> {
+        for (element, nodes) in elements.iter().enumerate() {
+            let determinant = E::from(self.positions(nodes)).smallest_jacobian();
+            if !(determinant > 0.0 && determinant.is_finite()) {
+                let mean = |d: usize| self.corners(element).iter().map(|x| x[d] / 8.0).sum::<f64>();
+                return Err(ImpellerError::Jacobian {
+                    element: element + 1,
+                    radius: mean(0).hypot(mean(1)),
+                    axial: mean(2),
+                    determinant,
+                });
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,93 @@
+//! A parameter set as users write it: a preset's name and what differs from it.
+
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+
+use super::error::ImpellerError;
+use super::parameters::ImpellerParameters;
+use super::preset::Preset;
+use crate::package::quote::{bounded_message, quoted};
+
+/// As `{"preset": "paper", "sectors": 13, "mesh": {"disk": 6}}`: fields of [`ImpellerParameters`] beside the name of the
+/// preset that gives all others. Without a name: `small`.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct ImpellerRequest {
+    /// Where everything comes from that is not given.
+    #[serde(default)]
+    pub preset: Preset,
+    /// What is given, objects in objects field by field, but `units` as a whole.
+    #[serde(flatten)]
+    pub overrides: Map<String, Value>,
+}
+
+impl ImpellerRequest {
+    /// The preset's parameters with the given ones in their place, all in their ranges.
+    ///
+    /// # Errors
+    /// [`ImpellerError::Field`] for a field that is unknown, lacking or of the wrong type, [`ImpellerError::Parameter`] for
+    /// one out of range.
+    pub fn resolve(&self) -> Result<ImpellerParameters, ImpellerError> {
+        let refuse = |field: String, detail: String| {
+            Err(ImpellerError::Field { field: quoted(&field), detail: bounded_message(&detail) })
+        };
+        let mut merged = match serde_json::to_value(self.preset.parameters()) {
+            Ok(value) => value,
+            Err(error) => return refuse("preset".to_owned(), error.to_string()),
+        };
+        for (key, value) in &self.overrides {
+            // Units fit each other only as a whole.
+            if key == "units" {
+                merged[key] = Value::Null;
+            }
+            merge(&mut merged[key], value, key)?;
+        }
+        match serde_path_to_error::deserialize::<_, ImpellerParameters>(merged) {
+            Ok(parameters) => parameters.validate().map(|()| parameters),
+            Err(error) => refuse(error.path().to_string(), error.inner().to_string()),
+        }
+    }
+}
+
+/// Puts `given` in the place of `value`; an object takes the place of another field by field.
+fn merge(value: &mut Value, given: &Value, path: &str) -> Result<(), ImpellerError> {
+    match (value, given) {
+        (Value::Object(fields), Value::Object(given)) => given.iter().try_for_each(|(key, given)| {
+            merge(fields.entry(key.as_str()).or_insert(Value::Null), given, &format!("{path}.{key}"))
+        }),
+        // No field is a list, but serde would take one for an object with its fields in order.
+        (_, Value::Array(_)) => Err(ImpellerError::Field {
+            field: quoted(path),
+            detail: "expected no list here, but a value or an object with named fields".to_owned(),
+        }),
+        (value, given) => {
+            *value = given.clone();
+            Ok(())
+        }
+    }
+}
+
+#[cfg(feature = "schema")]
+mod schema {
+    use utoipa::openapi::{RefOr, Schema};
+    use utoipa::{PartialSchema, ToSchema};
+
+    use super::{ImpellerParameters, ImpellerRequest, Preset};
+
+    impl ToSchema for ImpellerRequest {
+        fn schemas(schemas: &mut Vec<(String, RefOr<Schema>)>) {
+            ImpellerParameters::schemas(schemas);
+            schemas.push((Preset::name().into_owned(), Preset::schema()));
+        }
+    }
+
+    impl PartialSchema for ImpellerRequest {
+        /// The schema of [`ImpellerParameters`] with the preset's name.
+        fn schema() -> RefOr<Schema> {
+            let mut schema = ImpellerParameters::schema();
+            if let RefOr::T(Schema::Object(object)) = &mut schema {
+                object.properties.insert("preset".to_owned(), Preset::schema());
+            }
+            schema
+        }
+    }
+}

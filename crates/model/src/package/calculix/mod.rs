@@ -1,0 +1,250 @@
+//! From CalculiX to a package: the mesh of an `.inp` deck and the matrices of `*FREQUENCY, SOLVER=MATRIXSTORAGE`.
+//!
+//! ```text
+//! deck.inp ─▶ nodes, sets, tie ──┐
+//! job.dof, .sti, .mas ─▶ rows ───┴▶ faces paired, contact ordered ─▶ RawPackage ─▶ the checks of every package
+//! ```
+//!
+//! Two routes: the matrices of one sector whose cyclic ties were inactive, or those of a whole wheel, of which one sector
+//! is cut (`wheel`). Components are Cartesian, as CalculiX writes them.
+
+mod contact;
+mod deck;
+mod error;
+mod faces;
+mod matrices;
+mod places;
+mod spin;
+mod text;
+mod wheel;
+
+use std::collections::{HashMap, HashSet};
+use std::path::{Path, PathBuf};
+
+pub use contact::ContactPoint;
+pub use error::{CalculixError, LineProblem, ModelProblem, NoCopy};
+pub use spin::SpinFinding;
+
+use super::frame::{AxisFrame, apply};
+use super::quote::quoted;
+use super::raw::{Axis, Frame, Manifest, ManifestContact, RawMatrix, RawNode, RawPackage};
+use deck::Deck;
+use faces::{check_ties, faces, pair};
+use matrices::DofList;
+use rubmap_wheel::dynamics::sector::Units;
+
+/// Node sets that an error lists.
+const MOST_NAMED: usize = 20;
+
+/// What to import, from where.
+#[derive(Debug, Clone)]
+pub struct CalculixModel {
+    /// The deck that has the mesh and its node sets.
+    pub deck: PathBuf,
+    /// Job whose `.dof`, `.mas` and `.sti` are those at rest: their path without extension.
+    pub rest: PathBuf,
+    /// Speeds in rad/s, ascending, and the jobs whose `.dof` and `.sti` are those at speed.
+    pub at_speed: Vec<(f64, PathBuf)>,
+    /// Whether the matrices are those of the whole wheel instead of one sector.
+    pub whole_wheel: bool,
+    /// N; from `*CYCLIC SYMMETRY MODEL` if absent.
+    pub sectors: Option<usize>,
+    /// Axis of rotation; from `*CYCLIC SYMMETRY MODEL` if absent, else the z axis.
+    pub axis: Option<Axis>,
+    /// Node set of the low face; from the cyclic tie if absent. A single sector (N = 1) needs no faces.
+    pub low_set: Option<String>,
+    /// Node set of the high face; from the cyclic tie if absent. Not needed of a whole wheel.
+    pub high_set: Option<String>,
+    /// Node set along the blade tip.
+    pub contact_set: String,
+    /// Use this many nodes of the contact set, evenly spaced; all if absent.
+    pub contact_count: Option<usize>,
+    /// Keep the order in which the deck lists the contact set, instead of that along the chord.
+    pub contact_as_listed: bool,
+    /// Where normals come from.
+    pub normals: Normals,
+    /// Consistent units of the deck.
+    pub units: Units,
+    /// Name of the model.
+    pub name: String,
+}
+
+/// Where the contact nodes' normals come from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Normals {
+    /// The meridional curve through the contact nodes themselves.
+    ContactNodes,
+    /// The casing's meridional curve, lines `r,z`.
+    Meridian(PathBuf),
+    /// Lines `node,nx,ny,nz`, Cartesian.
+    Table(PathBuf),
+}
+
+/// What an import found out, for the user to compare with what they know.
+#[derive(Debug, Clone)]
+pub struct ImportSummary {
+    /// Whether low and high face were given the other way round.
+    pub faces_swapped: bool,
+    /// Contact nodes in their order.
+    pub contact: Vec<ContactPoint>,
+    /// Of a whole wheel: how much its sectors differ, relative to the largest force, at worst over all matrices.
+    pub sectors_differ: Option<f64>,
+    /// What each stiffness at speed is.
+    pub spin: Vec<(f64, SpinFinding)>,
+}
+
+/// Reads the files and makes a package of them, which passes [`to_sector`](super::to_sector).
+///
+/// # Errors
+///
+/// The first problem found, with its file and line where it has one.
+pub fn import(model: &CalculixModel) -> Result<(RawPackage, ImportSummary), CalculixError> {
+    let deck = Deck::read(&model.deck)?;
+    let sectors = model.sectors.or_else(|| deck.cyclic.as_ref().map(|cyclic| cyclic.sectors));
+    let sectors = sectors.filter(|&sectors| sectors > 0).ok_or(ModelProblem::SectorsUnknown)?;
+    let axis = axis(model, &deck);
+    let frame = AxisFrame::new(&axis).ok_or(ModelProblem::AxisWithoutDirection)?;
+    let rest = DofList::read(&extended(&model.rest, ".dof"))?;
+    let positions: HashMap<u64, [f64; 3]> = deck.nodes.iter().map(|(node, at)| (*node, *at)).collect();
+    require_coordinates(&positions, rest.dofs.iter().map(|dof| dof.node), &rest.path.display().to_string())?;
+    let contact_set = set(&deck, &model.contact_set)?;
+    require_coordinates(&positions, contact_set.iter().copied(), &model.contact_set)?;
+    let (low, high) = faces(model, &deck, sectors)?;
+    require_coordinates(&positions, low.iter().chain(&high).copied(), "the cyclic faces")?;
+    let tolerance = places::tolerance(rest.dofs.iter().map(|dof| positions[&dof.node]));
+    let mut files = vec![extended(&model.rest, ".mas"), extended(&model.rest, ".sti")];
+    files.extend(model.at_speed.iter().map(|(_, job)| extended(job, ".sti")));
+    let mut read = vec![matrices::read(&files[0], &rest, None)?, matrices::read(&files[1], &rest, None)?];
+    for ((_, job), file) in model.at_speed.iter().zip(&files[2..]) {
+        let dofs = DofList::read(&extended(job, ".dof"))?;
+        let places = dofs.places_in(&rest)?;
+        read.push(matrices::read(file, &dofs, Some(&places))?);
+    }
+    require_whole(&files, &read)?;
+    let mut matrices: Vec<RawMatrix> = read.into_iter().map(|(matrix, _)| matrix).collect();
+    let mut summary =
+        ImportSummary { faces_swapped: false, contact: Vec::new(), sectors_differ: None, spin: Vec::new() };
+    let (pairs, dofs, contact_nodes) = if model.whole_wheel {
+        let cut = wheel::cut(&rest, &matrices[1], &positions, &low, sectors, &frame, tolerance)?;
+        let mut worst: f64 = 0.0;
+        for (matrix, file) in matrices.iter_mut().zip(&files) {
+            let (sector, difference) = cut.sector(file, matrix)?;
+            (*matrix, worst) = (sector, worst.max(difference));
+        }
+        summary.sectors_differ = Some(worst);
+        let contact: Vec<u64> = contact_set.iter().copied().filter(|node| cut.own.contains(node)).collect();
+        if contact.is_empty() {
+            return Err(ModelProblem::ContactElsewhere { set: model.contact_set.clone() }.into());
+        }
+        (cut.pairs, cut.dofs, contact)
+    } else {
+        let (pairs, swapped) = pair(&low, &high, &positions, &frame, sectors, tolerance)?;
+        summary.faces_swapped = swapped;
+        check_ties(&pairs, &rest)?;
+        (pairs, rest.dofs, contact_set.to_vec())
+    };
+    let in_sector: HashSet<u64> =
+        dofs.iter().map(|dof| dof.node).chain(pairs.iter().flatten().copied()).collect();
+    let nodes: Vec<RawNode> = (deck.nodes.iter())
+        .filter(|(node, _)| !model.whole_wheel || in_sector.contains(node))
+        .map(|(id, position)| RawNode { id: *id, position: *position })
+        .collect();
+    let mut contact: Vec<(u64, [f64; 3])> =
+        contact_nodes.iter().map(|node| (*node, positions[node])).collect();
+    if !model.contact_as_listed {
+        contact = contact::in_chord_order(&contact, &frame)?;
+    }
+    if let Some(count) = model.contact_count {
+        contact = contact::spread(contact, count);
+    }
+    let all: Vec<[f64; 3]> = nodes.iter().map(|node| node.position).collect();
+    summary.contact = contact::with_normals(&contact, &model.normals, &frame, &all)?;
+    let on_face: HashSet<u64> = pairs.iter().flatten().copied().collect();
+    let [_, _, direction] = frame.cylindrical(0.0);
+    for ((speed, _), at_speed) in model.at_speed.iter().zip(&matrices[2..]) {
+        let given = [&matrices[1], at_speed, &matrices[0]];
+        let inner = |node| !on_face.contains(&node);
+        let finding = spin::check(*speed, given, &dofs, &positions, (axis.origin, direction), inner);
+        summary.spin.push((*speed, finding));
+    }
+    let stiffness = matrices.split_off(1);
+    let Some(mass) = matrices.pop() else { unreachable!("the mass is read first") };
+    let manifest = Manifest {
+        name: model.name.clone(),
+        sectors,
+        units: model.units.clone(),
+        axis,
+        speeds_rad_s: std::iter::once(0.0).chain(model.at_speed.iter().map(|(speed, _)| *speed)).collect(),
+        frame: Frame::Cartesian,
+        mass: "m.npz".to_owned(),
+        stiffness: (0..stiffness.len()).map(|k| format!("k{k}.npz")).collect(),
+        gyroscopic: None,
+        nodes: "nodes.csv".to_owned(),
+        dofs: "dofs.csv".to_owned(),
+        cyclic: pairs,
+        contact: summary.contact.iter().map(|point| manifest_contact(point, &frame)).collect(),
+    };
+    Ok((RawPackage { manifest, nodes, dofs, mass, stiffness, gyroscopic: None }, summary))
+}
+
+fn manifest_contact(point: &ContactPoint, frame: &AxisFrame) -> ManifestContact {
+    let local = frame.cylindrical(point.position[1]);
+    let transposed = std::array::from_fn(|i| std::array::from_fn(|k| local[k][i]));
+    ManifestContact { node: point.node, normal: apply(&transposed, point.normal) }
+}
+
+/// `job` with `.sti` and the like appended; a job may have dots in its name.
+fn extended(job: &Path, extension: &str) -> PathBuf {
+    let mut name = job.as_os_str().to_owned();
+    name.push(extension);
+    name.into()
+}
+
+fn axis(model: &CalculixModel, deck: &Deck) -> Axis {
+    let stated = || {
+        let [origin, end] = deck.cyclic.as_ref()?.axis;
+        Some(Axis { origin, direction: std::array::from_fn(|k| end[k] - origin[k]) })
+    };
+    let z = || Axis { origin: [0.0; 3], direction: [0.0, 0.0, 1.0] };
+    model.axis.clone().or_else(stated).unwrap_or_else(z)
+}
+
+fn set<'a>(deck: &'a Deck, name: &str) -> Result<&'a [u64], ModelProblem> {
+    match deck.sets.get(&deck::normal(name)) {
+        None => {
+            let mut names: Vec<String> = deck.sets.keys().take(MOST_NAMED).map(|name| quoted(name)).collect();
+            if deck.sets.len() > names.len() {
+                names.push(format!("{} more", deck.sets.len() - names.len()));
+            }
+            let known = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
+            Err(ModelProblem::NoSuchSet { set: name.to_owned(), known })
+        }
+        Some(nodes) if nodes.is_empty() => Err(ModelProblem::EmptySet { set: name.to_owned() }),
+        Some(nodes) => Ok(nodes),
+    }
+}
+
+/// CalculiX writes every matrix of a mesh with the same entries: a file with fewer is cut short.
+fn require_whole(files: &[PathBuf], read: &[(RawMatrix, u64)]) -> Result<(), ModelProblem> {
+    let held = || files.iter().zip(read.iter().map(|&(_, held)| held));
+    let (Some((short, fewest)), Some((long, most))) =
+        (held().min_by_key(|&(_, held)| held), held().max_by_key(|&(_, held)| held))
+    else {
+        return Ok(());
+    };
+    if fewest == most {
+        return Ok(());
+    }
+    Err(ModelProblem::CutShort { file: short.clone(), entries: fewest, other: long.clone(), more: most })
+}
+
+fn require_coordinates(
+    positions: &HashMap<u64, [f64; 3]>,
+    mut nodes: impl Iterator<Item = u64>,
+    place: &str,
+) -> Result<(), ModelProblem> {
+    match nodes.find(|node| !positions.contains_key(node)) {
+        None => Ok(()),
+        Some(node) => Err(ModelProblem::NoCoordinates { node, place: place.to_owned() }),
+    }
+}

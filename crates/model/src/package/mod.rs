@@ -1,0 +1,123 @@
+//! The model package of PACKAGE.md: read, check, rotate to cylindrical components; and write.
+//!
+//! ```text
+//! file ── importer ──▶ Content ── check ──▶ Layout ── frame, partition ──▶ SectorModel
+//!         zip_package  (RawPackage,          (which row is what)
+//!                       lines, digest)
+//! ```
+//!
+//! The files of other programs become packages at the door: an importer is a function from them to a `RawPackage`
+//! ([`calculix`]), and [`write()`] makes a file of it. Everything after it is shared.
+
+mod archive;
+pub mod calculix;
+mod check;
+mod content;
+mod digest;
+pub mod error;
+mod frame;
+mod lines;
+mod manifest;
+mod matrix_market;
+mod npy;
+mod npz;
+mod partition;
+pub(crate) mod quote;
+pub mod raw;
+mod symmetric;
+mod tables;
+pub(crate) mod units;
+mod writer;
+mod zip_package;
+
+use std::path::Path;
+
+pub use error::PackageError;
+pub use writer::write;
+
+use content::{Content, SourceLines};
+use raw::RawPackage;
+use rubmap_wheel::dynamics::sector::SectorModel;
+
+/// What an upload may cost before anything is known about it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Limits {
+    /// Bytes that may leave decompressors, zip and gzip alike, over all files (default 16 GiB).
+    pub expanded_bytes: u64,
+    /// Bytes that may leave decompressors for each byte of the upload, beyond the first 64 MiB (default 100; matrices as
+    /// text deflate to a third, tables to a tenth): what an upload costs is in proportion to its size.
+    pub expansion: u64,
+    /// Entries of the archive, folders included (default 100; a package needs at most 8 files).
+    pub entries: usize,
+    /// Bytes of `sector.json`, which is held as text (default 64 MiB).
+    pub manifest_bytes: u64,
+    /// Lines of the node table, and of the DOF table (default 10 million).
+    pub table_rows: usize,
+    /// Entries of one matrix, at about 16 bytes of memory each while reading (default 200 million).
+    pub matrix_entries: usize,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self {
+            expanded_bytes: 16 << 30,
+            expansion: 100,
+            entries: 100,
+            manifest_bytes: 64 << 20,
+            table_rows: 10_000_000,
+            matrix_entries: 200_000_000,
+        }
+    }
+}
+
+/// A package that passed every check.
+#[derive(Debug, Clone)]
+pub struct Imported {
+    /// The sector, in cylindrical components, high face eliminated.
+    pub sector: SectorModel,
+    /// Content address: 64 lowercase hexadecimal digits.
+    ///
+    /// SHA-256 over what `sector.json` states and the decompressed bytes of the other files; the same files zipped
+    /// again, in other order or compression, with matrices gzipped or not, have the same address. The same matrices
+    /// as Matrix Market and as `.npz` are different bytes, and have different ones.
+    pub digest: String,
+}
+
+/// Reads, checks and converts the package at `path`.
+///
+/// # Errors
+///
+/// The first problem found, in the order: archive, `sector.json`, tables, matrices, what they say together.
+pub fn read(path: &Path, limits: &Limits) -> Result<Imported, PackageError> {
+    let Content { package, lines, digest } = zip_package::load(path, limits)?;
+    Ok(Imported { sector: convert(package, &lines)?, digest })
+}
+
+/// Reads the package at `path` as its files state it: the inverse of [`write()`]. Matrices come sorted by column, then
+/// row.
+///
+/// # Errors
+///
+/// Those of [`read`], except what only a look at the whole finds: cyclic symmetry, contact, mass, units.
+pub fn read_raw(path: &Path, limits: &Limits) -> Result<RawPackage, PackageError> {
+    zip_package::load(path, limits).map(|content| content.package)
+}
+
+/// Checks and converts a package that was made in memory, by the same rules as [`read`].
+///
+/// # Errors
+///
+/// The first problem found; table lines in it are those that [`write()`] would give.
+pub fn to_sector(package: RawPackage) -> Result<SectorModel, PackageError> {
+    convert(package, &SourceLines::default())
+}
+
+fn convert(mut package: RawPackage, lines: &SourceLines) -> Result<SectorModel, PackageError> {
+    let layout = check::check(&mut package, lines)?;
+    let names = package.manifest.clone();
+    let row_names: Vec<u64> = layout.own_rows.iter().map(|&row| package.dofs[row as usize].node).collect();
+    let mut sector = partition::build(package, &layout);
+    check::mass::check(&sector, &names.mass, &layout.own_rows, &row_names)?;
+    units::count_time_in_seconds(&mut sector);
+    Ok(sector)
+}

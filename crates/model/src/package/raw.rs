@@ -1,0 +1,152 @@
+//! A package's content as its files state it, before any check: what readers produce and writers consume.
+
+use serde::{Deserialize, Serialize};
+
+use rubmap_wheel::dynamics::sector::Units;
+
+/// Most characters of the model's name, and of a file's.
+pub(super) const LONGEST_NAME: usize = 200;
+
+/// `sector.json`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Manifest {
+    /// Free text of at most 200 characters.
+    pub name: String,
+    /// Number of identical sectors N ≥ 1.
+    pub sectors: usize,
+    /// Consistent units.
+    pub units: Units,
+    /// Axis of rotation.
+    pub axis: Axis,
+    /// Speeds of the stiffness matrices, ascending from 0: one or three.
+    pub speeds_rad_s: Vec<f64>,
+    /// Frame of DOF components and contact normals.
+    pub frame: Frame,
+    /// File name of the mass matrix.
+    pub mass: String,
+    /// File names of the stiffness matrices, one per speed.
+    pub stiffness: Vec<String>,
+    /// File name of the gyroscopic matrix, if the package has one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gyroscopic: Option<String>,
+    /// File name of the node table.
+    pub nodes: String,
+    /// File name of the DOF table.
+    pub dofs: String,
+    /// Pairs `[low node, high node]`.
+    pub cyclic: Vec<[u64; 2]>,
+    /// Contact nodes from leading to trailing edge.
+    pub contact: Vec<ManifestContact>,
+}
+
+impl Manifest {
+    /// Renames the matrix files, so that [`write`](super::write()) stores them in `format`.
+    pub fn store_matrices_as(&mut self, format: MatrixFormat) {
+        for name in std::iter::once(&mut self.mass).chain(&mut self.stiffness).chain(&mut self.gyroscopic) {
+            let plain = name.strip_suffix(".gz").unwrap_or(name);
+            let stem = plain.strip_suffix(MatrixFormat::of(plain).extension()).unwrap_or(plain);
+            *name = format!("{stem}{}", format.extension());
+        }
+    }
+}
+
+/// How a matrix is stored; the extension of its file says which.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+pub enum MatrixFormat {
+    /// Matrix Market text: readable everywhere, large.
+    Mtx,
+    /// Arrays as `scipy.sparse.save_npz` writes them: compact, exact, fast.
+    Npz,
+}
+
+impl MatrixFormat {
+    /// The format of a file of this name: `.npz` or `.npz.gz`, otherwise Matrix Market.
+    pub(super) fn of(name: &str) -> Self {
+        let plain = name.strip_suffix(".gz").unwrap_or(name);
+        if plain.ends_with(Self::Npz.extension()) { Self::Npz } else { Self::Mtx }
+    }
+
+    fn extension(self) -> &'static str {
+        match self {
+            Self::Mtx => ".mtx",
+            Self::Npz => ".npz",
+        }
+    }
+}
+
+/// Axis of rotation; rotation is positive about `direction`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Axis {
+    /// A point on the axis.
+    pub origin: [f64; 3],
+    /// Its direction, of any length.
+    pub direction: [f64; 3],
+}
+
+/// Frame of DOF components and contact normals.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Frame {
+    /// Global x, y, z.
+    Cartesian,
+    /// r, θ, z of each node about the axis.
+    Cylindrical,
+}
+
+/// One contact node of `sector.json`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ManifestContact {
+    /// Node id.
+    pub node: u64,
+    /// Outward unit normal in the package's frame.
+    pub normal: [f64; 3],
+}
+
+/// One line of the node table.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RawNode {
+    /// Node id.
+    pub id: u64,
+    /// Cartesian position.
+    pub position: [f64; 3],
+}
+
+/// One line of the DOF table: the unknown of one matrix row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RawDof {
+    /// Node id.
+    pub node: u64,
+    /// Component 1, 2 or 3 in the package's frame.
+    pub component: u8,
+}
+
+/// Entries of a symmetric or skew-symmetric matrix: the lower triangle (of a skew-symmetric one without its diagonal,
+/// which is zero), 0-based, each position once.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RawMatrix {
+    /// Rows (= columns).
+    pub size: usize,
+    /// `(row, column, value)` with row ≥ column.
+    pub entries: Vec<(u32, u32, f64)>,
+}
+
+/// Everything a package holds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RawPackage {
+    /// `sector.json`.
+    pub manifest: Manifest,
+    /// Node table.
+    pub nodes: Vec<RawNode>,
+    /// DOF table, in matrix row order.
+    pub dofs: Vec<RawDof>,
+    /// Mass matrix.
+    pub mass: RawMatrix,
+    /// Stiffness matrices, in the order of the speeds.
+    pub stiffness: Vec<RawMatrix>,
+    /// Gyroscopic matrix G per unit speed, skew-symmetric.
+    pub gyroscopic: Option<RawMatrix>,
+}

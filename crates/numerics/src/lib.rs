@@ -1,0 +1,22 @@
+//! Linear algebra and transforms; nothing here has heard of a rotor.
+//!
+//! faer is built without its thread pool: every call runs on the calling thread, so results do not depend on how
+//! many threads a machine has.
+
+pub mod aligned;
+pub mod block_lanczos;
+pub mod complementarity;
+pub mod convergence;
+#[cfg(test)]
+#[path = "../../../tests/properties/fixed.rs"]
+mod fixed;
+pub mod hermitian;
+pub mod matrix_serde;
+pub mod multifrontal;
+pub mod nested_dissection;
+pub mod orthonormal;
+pub mod p_matrix;
+pub mod sector_fourier;
+pub mod sparse_cholesky;
+pub mod sparse_product;
+pub mod spectrum;

@@ -1,0 +1,57 @@
+//! What stands above a diagram.
+
+use super::svg::{Element, group, text};
+use rubmap_analysis::request::{Component, Sensor};
+
+const LINE_HEIGHT: f64 = 17.0;
+
+/// Characters of a line of words: at 13 units hardly more fit into the width of a drawing.
+const COLUMNS: usize = 165;
+
+/// A title and paragraphs, which break into as many lines as they need, with the height at which they end.
+pub(super) fn heading(left: f64, title: &str, paragraphs: &[String]) -> (Element, f64) {
+    let title = text(left, 28.0, "start", title).set("font-size", "18").set("font-weight", "bold");
+    let lines: Vec<String> = paragraphs.iter().flat_map(|words| broken(words, COLUMNS)).collect();
+    let height = |line: usize| 48.0 + LINE_HEIGHT * line as f64;
+    let row = |(i, line): (usize, &String)| text(left, height(i), "start", line).set("fill", "#555555");
+    let bottom = height(lines.len().saturating_sub(1));
+    (group().child(title).children(lines.iter().enumerate().map(row)), bottom)
+}
+
+/// A sensor in words.
+pub(super) fn sensor(sensor: &Sensor) -> String {
+    let component = match sensor.component {
+        Component::Radial => "radial",
+        Component::Tangential => "tangential",
+        Component::Axial => "axial",
+        Component::Normal => "normal",
+    };
+    format!("{component} displacement at contact node {} of sector {}", sensor.contact_node, sensor.sector)
+}
+
+/// Lines of at most `columns` characters, unless a single word has more.
+fn broken(words: &str, columns: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in words.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= columns => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_break_between_words() {
+        assert_eq!(broken("a tiny  perturbation grows", 8), ["a tiny", "perturbation", "grows"]);
+        assert_eq!(broken("Ω is 2 π", 8), ["Ω is 2 π"]);
+        assert!(broken(" ", 8).is_empty());
+    }
+}

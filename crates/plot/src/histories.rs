@@ -1,0 +1,137 @@
+//! Displacements over the first revolutions, one line per size: the paper's Figs 6 and 7.
+
+use super::axis::{label, ticks};
+use super::cells::rpm;
+use super::colour::DISTINCT;
+use super::diagram::Diagram;
+use super::heading::{heading, sensor as in_words};
+use super::key::{Key, MARK_WIDTH};
+use super::scheme;
+use super::svg::{self, Element, group, line, polyline};
+use rubmap_analysis::accuracy::study::HistoryLine;
+use rubmap_analysis::run::Histories;
+
+const WIDTH: f64 = 1180.0;
+const HEIGHT: f64 = 640.0;
+const LEFT: f64 = 92.0;
+const PLOT_WIDTH: f64 = 800.0;
+
+/// Lines of more points are thinned to what the drawing can show.
+const MOST_POINTS: usize = 4000;
+
+/// Line styles of the sizes beyond the colours, and of those beyond that.
+const DASHES: [&str; 3] = ["", "7 3", "2 3"];
+
+/// Dashes of the reference.
+const REFERENCE: &str = "8 5";
+
+/// Draws the displacements of the sensor of index `sensor` over revolutions, one line per size; the reference is dashed and black.
+pub fn histories(histories: &Histories, sensor: usize) -> String {
+    let measured = histories.sensors.get(sensor).map_or_else(|| "displacement".to_owned(), in_words);
+    let title = format!("First revolutions: {measured}, {} rpm", label(rpm(histories.speed_rad_s), 0));
+    let words = format!("each size at its finest time step · rubmap {}", histories.version);
+    let (heading, bottom) = heading(LEFT, &title, &[words]);
+    let curves: Vec<Curve> = histories.lines.iter().filter_map(|line| Curve::of(line, sensor)).collect();
+    let diagram = diagram(&curves, histories.samples_per_revolution, bottom + 24.0);
+    let mut content = vec![heading];
+    if curves.is_empty() {
+        content.extend([diagram.frame(), diagram.words("Nothing to draw: no run was completed")]);
+        return svg::document(&title, WIDTH, HEIGHT, content);
+    }
+    let (x, y) = (ticks(diagram.x.values, 8.0), ticks(diagram.y.values, 8.0));
+    content.push(diagram.grid(&x, &y));
+    content.extend(curves.iter().enumerate().map(|(index, curve)| {
+        let step = 1.0 / f64::from(histories.samples_per_revolution.max(1));
+        let place = |(j, value): (usize, &f64)| diagram.point((j + 1) as f64 * step, *value);
+        let points: Vec<(f64, f64)> = curve.displacement.iter().enumerate().map(place).collect();
+        let path = polyline(thinned(points).into_iter().map(Some)).set("class", "history");
+        curve.styled(path, index).set("stroke-linejoin", "round").title(&curve.title())
+    }));
+    content.extend([
+        diagram.frame(),
+        diagram.x_axis(&x, "revolutions"),
+        diagram.y_axis(&y, &format!("displacement, {}", histories.units.length), 66.0),
+        key(&curves, &diagram),
+    ]);
+    svg::document(&title, WIDTH, HEIGHT, content)
+}
+
+/// The line of one size at one sensor.
+struct Curve<'a> {
+    line: &'a HistoryLine,
+    displacement: &'a [f64],
+}
+
+impl<'a> Curve<'a> {
+    fn of(line: &'a HistoryLine, sensor: usize) -> Option<Self> {
+        let displacement = line.displacement.get(sensor).filter(|samples| !samples.is_empty())?;
+        Some(Self { line, displacement })
+    }
+
+    fn title(&self) -> String {
+        let setting = &self.line.setting;
+        format!(
+            "{}{} modes per speed, {} unknowns, {}, {} steps a revolution",
+            if self.line.reference { "reference: " } else { "" },
+            setting.modes_per_speed,
+            label(self.line.unknowns.into(), 0),
+            scheme::words(setting.scheme),
+            label(setting.steps_per_revolution.into(), 0)
+        )
+    }
+
+    /// `stroke` as the line of this place has it.
+    fn styled(&self, stroke: Element, index: usize) -> Element {
+        if self.line.reference {
+            let stroke = stroke.set("stroke", "black").set("stroke-width", "1.6");
+            return stroke.set("stroke-dasharray", REFERENCE);
+        }
+        let dashes = DASHES[(index / DISTINCT.len()).min(DASHES.len() - 1)];
+        let stroke = stroke.set("stroke", DISTINCT[index % DISTINCT.len()]).set("stroke-width", "1.6");
+        stroke.set("stroke-dasharray", dashes)
+    }
+}
+
+fn diagram(curves: &[Curve], samples_per_revolution: u32, top: f64) -> Diagram {
+    let samples = curves.iter().map(|curve| curve.displacement.len()).max().unwrap_or(1);
+    let revolutions = samples as f64 / f64::from(samples_per_revolution.max(1));
+    let values = curves.iter().flat_map(|curve| curve.displacement.iter().copied());
+    let (low, high) = values.fold((0f64, 0f64), |(low, high), value| (low.min(value), high.max(value)));
+    // A tip that never moves still has an axis.
+    let room = if low < high { 0.05 * (high - low) } else { 1.0 };
+    let size = (PLOT_WIDTH, HEIGHT - 70.0 - top);
+    Diagram::new((LEFT, top), size, (0.0, revolutions), (low - room, high + room))
+}
+
+/// Of more than [`MOST_POINTS`], the lowest and the highest of every column one unit wide.
+fn thinned(points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
+    if points.len() <= MOST_POINTS {
+        return points;
+    }
+    let extremes = |column: &[(f64, f64)]| {
+        let height = |(_, point): &(usize, &(f64, f64))| point.1;
+        let places = || column.iter().enumerate();
+        let low = places().min_by(|a, b| height(a).total_cmp(&height(b)));
+        let high = places().max_by(|a, b| height(a).total_cmp(&height(b)));
+        let mut kept: Vec<usize> = low.into_iter().chain(high).map(|(index, _)| index).collect();
+        kept.sort_unstable();
+        kept.dedup();
+        kept.into_iter().map(|index| column[index]).collect::<Vec<_>>()
+    };
+    points.chunk_by(|a, b| a.0.floor() == b.0.floor()).flat_map(extremes).collect()
+}
+
+fn key(curves: &[Curve], diagram: &Diagram) -> Element {
+    let key = Key::new(diagram.right() + 30.0, diagram.top).heading("modes per speed · unknowns");
+    let row = |key: Key, (index, curve): (usize, &Curve)| {
+        let stroke = line((0.0, 0.0), (MARK_WIDTH, 0.0));
+        let words = format!(
+            "{}{} · {} unknowns",
+            if curve.line.reference { "reference: " } else { "" },
+            curve.line.setting.modes_per_speed,
+            label(curve.line.unknowns.into(), 0)
+        );
+        key.row(group().child(curve.styled(stroke, index)), &words)
+    };
+    curves.iter().enumerate().fold(key, row).draw()
+}

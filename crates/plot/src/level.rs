@@ -1,0 +1,55 @@
+//! The level of the response over speed, above the map.
+
+use super::axis::{significant, ticks};
+use super::cells::{Cell, extent};
+use super::diagram::Diagram;
+use super::svg::{Element, group, line, polyline};
+use rubmap_analysis::result::InteractionMap;
+
+const COLOUR: &str = "#1f4e79";
+
+/// Root mean square of the map's sensor about its mean, at the speed with this index.
+pub(super) fn rms(map: &InteractionMap, index: usize) -> Option<f64> {
+    let point = map.points.iter().find(|point| point.index as usize == index)?;
+    let response = point.responses.iter().find(|response| response.sensor == map.sensor)?;
+    response.rms.is_finite().then_some(response.rms)
+}
+
+/// The empty diagram of the level.
+pub(super) fn diagram(map: &InteractionMap, cells: &[Cell], corner: (f64, f64), size: (f64, f64)) -> Diagram {
+    let highest = cells.iter().filter_map(|cell| rms(map, cell.index)).fold(0.0, f64::max);
+    let top = if highest > 0.0 { 1.12 * highest } else { 1.0 };
+    Diagram::new(corner, size, extent(cells), (0.0, top))
+}
+
+/// The curve with its axis.
+pub(super) fn draw(map: &InteractionMap, cells: &[Cell], diagram: &Diagram) -> Element {
+    let ticks = ticks(diagram.y.values, 4.0);
+    let grid = ticks.iter().skip(1).map(|(value, _)| {
+        let y = diagram.y.place(*value);
+        line((diagram.left, y), (diagram.right(), y)).set("stroke", "#e4e4e4")
+    });
+    let points: Vec<_> = cells
+        .iter()
+        .map(|cell| (cell, rms(map, cell.index).map(|rms| (diagram.point(cell.rpm, rms), rms))))
+        .collect();
+    let curve = polyline(points.iter().map(|(_, point)| point.map(|(place, _)| place)))
+        .set("stroke", COLOUR)
+        .set("stroke-width", "1.6")
+        .set("stroke-linejoin", "round");
+    // Dots that touch say nothing more than the curve.
+    let radius = (0.25 * diagram.width / points.len().max(1) as f64).clamp(0.8, 2.6);
+    let dots = points.iter().filter_map(|(cell, point)| {
+        let ((x, y), rms) = (*point)?;
+        let dot =
+            Element::new("circle").number("cx", x).number("cy", y).number("r", radius).set("fill", COLOUR);
+        let unit = &map.units.length;
+        Some(dot.title(&format!("{:.0} rpm: {} {unit} rms", cell.rpm, significant(rms))))
+    });
+    group()
+        .child(diagram.background("white"))
+        .children(grid)
+        .child(curve)
+        .children(dots)
+        .child(diagram.y_axis(&ticks, &format!("level, {} rms", map.units.length), 58.0))
+}

@@ -1,0 +1,139 @@
+//! Marks: critical speeds, linear and driven crossings.
+
+use super::axis::{label, significant};
+use super::cells::rpm;
+use super::svg::{Element, line, upright};
+use rubmap_analysis::result::{CriticalSpeed, Crossing, DrivenCrossing, Verdict, Wave};
+
+/// Distance that keeps upright labels apart.
+const LABEL_SPACING: f64 = 15.0;
+
+/// Dashes of a critical speed whose peak is not resolved.
+pub(super) const UNRESOLVED: &str = "1.5 4";
+
+/// An open circle: the linear criterion's crossing.
+pub(super) fn linear((x, y): (f64, f64), stroke: &str, crossing: &Crossing) -> Element {
+    let Crossing { nodal_diameter: i, family: j, superharmonic: n, .. } = crossing;
+    Element::new("circle")
+        .number("cx", x)
+        .number("cy", y)
+        .number("r", 4.5)
+        .set("fill", "none")
+        .set("stroke", stroke)
+        .set("stroke-width", "1.5")
+        .title(&format!(
+            "linear criterion (i, j, n) = ({i}, {j}, {n}): {} rpm, {} Hz",
+            label(rpm(crossing.speed_rad_s), 0),
+            significant(crossing.frequency_hz)
+        ))
+}
+
+/// A filled diamond: a crossing that the lobes can drive.
+pub(super) fn driven((x, y): (f64, f64), fill: &str, stroke: &str, crossing: &DrivenCrossing) -> Element {
+    let DrivenCrossing { nodal_diameter, family, engine_order: k, wave, .. } = *crossing;
+    diamond((x, y), fill, stroke).title(&format!(
+        "driven: engine order {k}, {}: {} rpm, {} Hz",
+        mode(nodal_diameter, family, wave),
+        label(rpm(crossing.speed_rad_s), 0),
+        significant(crossing.frequency_hz)
+    ))
+}
+
+/// A mode in words.
+pub(super) fn mode(nodal_diameter: u32, family: u32, wave: Option<Wave>) -> String {
+    let direction = match wave {
+        None => "",
+        Some(Wave::Forward) => ", forward wave",
+        Some(Wave::Backward) => ", backward wave",
+    };
+    format!("nodal diameter {nodal_diameter}, family {family}{direction}")
+}
+
+/// A diamond.
+pub(super) fn diamond((x, y): (f64, f64), fill: &str, stroke: &str) -> Element {
+    Element::new("path")
+        .set(
+            "d",
+            format!(
+                "M{:.2} {y:.2}L{x:.2} {:.2}L{:.2} {y:.2}L{x:.2} {:.2}Z",
+                x - 5.0,
+                y - 6.0,
+                x + 5.0,
+                y + 6.0
+            ),
+        )
+        .set("fill", fill)
+        .set("stroke", stroke)
+}
+
+/// Dashed lines from `top` to `bottom` at the critical speeds, `x` in the drawing, each with its speed above; dotted where
+/// the speeds of the sweep do not resolve the peak.
+pub(super) fn critical(speeds: &[(f64, &CriticalSpeed)], right: f64, top: f64, bottom: f64) -> Vec<Element> {
+    let places: Vec<_> = speeds.iter().map(|(x, _)| *x).collect();
+    let labels = spread(&places, right);
+    let mut out = Vec::new();
+    for ((x, speed), label_x) in speeds.iter().zip(labels) {
+        let settled = speed.settling != Verdict::NotSettled;
+        let words = format!(
+            "{} rpm · EO {}{}",
+            label(rpm(speed.speed_rad_s), 0),
+            speed.dominant_engine_order.map_or_else(|| "–".to_owned(), order),
+            if settled { "" } else { " *" }
+        );
+        let (dashes, title) = if speed.resolved {
+            ("7 4", format!("{words}, known to {} rpm", significant(rpm(speed.speed_error_rad_s))))
+        } else {
+            let doubt = "not resolved by the speeds of the sweep, the peak may be higher";
+            (UNRESOLVED, format!("{words}: {doubt}"))
+        };
+        out.push(
+            line((*x, top), (*x, bottom))
+                .set("class", "critical-speed")
+                .set("stroke", "#d62728")
+                .set("stroke-width", "1.2")
+                .set("stroke-dasharray", dashes)
+                .title(&title),
+        );
+        out.push(line((label_x, top - 12.0), (*x, top)).set("stroke", "#d62728"));
+        out.push(
+            upright(label_x + 4.5, top - 16.0, "start", &words).set("fill", "#b01f20").set("font-size", "12"),
+        );
+    }
+    out
+}
+
+/// An engine order without needless decimals.
+pub(super) fn order(value: f64) -> String {
+    if (value - value.round()).abs() < 1e-6 { label(value, 0) } else { label(value, 2) }
+}
+
+/// Moves ascending places apart, none beyond `right` as long as there is room.
+fn spread(places: &[f64], right: f64) -> Vec<f64> {
+    let mut out = places.to_vec();
+    for i in 1..out.len() {
+        out[i] = out[i].max(out[i - 1] + LABEL_SPACING);
+    }
+    let mut limit = right;
+    for place in out.iter_mut().rev() {
+        *place = place.min(limit);
+        limit = *place - LABEL_SPACING;
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_keep_their_distance() {
+        let places = spread(&[10.0, 12.0, 14.0, 90.0, 99.0], 100.0);
+        assert_eq!(places, [10.0, 25.0, 40.0, 85.0, 100.0]);
+        assert!(spread(&[], 1.0).is_empty());
+    }
+
+    #[test]
+    fn engine_orders_read_well() {
+        assert_eq!([8.0, 7.95, 0.5].map(order), ["8", "7.95", "0.50"]);
+    }
+}

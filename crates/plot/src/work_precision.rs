@@ -1,0 +1,337 @@
+//! Error over computing time of every setting of a study.
+
+use super::axis::{decades, label, significant};
+use super::cells::rpm;
+use super::diagram::Diagram;
+use super::heading::heading;
+use super::key::{Key, MARK_WIDTH};
+use super::scheme;
+use super::svg::{self, Element, INK, group, line, polyline, text};
+use rubmap_analysis::accuracy::errors::Quantity;
+use rubmap_analysis::accuracy::study::{SpeedStudy, StudyRun, front};
+use rubmap_analysis::auto_or::AutoOr;
+use rubmap_analysis::request::SchemeChoice;
+use rubmap_analysis::result::PointStatus;
+use rubmap_analysis::run::{Setting, WorkPrecision};
+use rubmap_wheel::response::sensitivity::Growth;
+
+const WIDTH: f64 = 1180.0;
+const HEIGHT: f64 = 800.0;
+const LEFT: f64 = 92.0;
+const PLOT_WIDTH: f64 = 790.0;
+
+/// Radii of the marks of the smallest and of the largest size.
+const RADII: (f64, f64) = (3.6, 8.0);
+
+/// Draws the errors of one quantity over computing time at the speed of index `speed`, both on logarithmic axes.
+///
+/// Every completed run is a mark: colour and shape say the scheme, its size the modes kept. A line joins those runs of a scheme
+/// that no other run of it beats in time and error; rings and a step line are the Pareto front of all. Where trajectories are
+/// chaotic, bars show the standard error of the amplitude. What has no place on logarithmic axes is counted below.
+pub fn work_precision(study: &WorkPrecision, speed: usize, quantity: Quantity) -> String {
+    let title = format!("Work and precision: {}", words(quantity, study));
+    let Some(at) = study.speeds.get(speed) else {
+        let (heading, _) = heading(LEFT, &title, &[format!("the study has no speed of index {speed}")]);
+        return svg::document(&title, WIDTH, HEIGHT, vec![heading]);
+    };
+    let title = format!("{title}, {} rpm", label(rpm(at.speed_rad_s), 0));
+    let (heading, bottom) = heading(LEFT, &title, &[at.message.clone(), origin(study, at)]);
+    let view = View::new(study, at, quantity, bottom + 30.0);
+    let mut content = vec![heading];
+    content.extend(view.draw());
+    svg::document(&title, WIDTH, HEIGHT, content)
+}
+
+/// A quantity in words.
+fn words(quantity: Quantity, study: &WorkPrecision) -> String {
+    match quantity {
+        Quantity::History => {
+            format!("displacement over the first {} revolutions", study.settings.history_revolutions)
+        }
+        Quantity::Amplitude => "steady amplitude".to_owned(),
+        Quantity::EngineOrders => "peaks at integer engine orders".to_owned(),
+        Quantity::Impulse => "contact impulse".to_owned(),
+    }
+}
+
+/// What the runs are held against, and where they come from.
+fn origin(study: &WorkPrecision, at: &SpeedStudy) -> String {
+    let reference = &at.reference;
+    let model: String = study.settings.model.chars().take(12).collect();
+    format!(
+        "reference: {}, {} unknowns, {} s · {} revolutions · model {model} · rubmap {}",
+        setting(&reference.setting),
+        label(reference.unknowns.into(), 0),
+        significant(reference.time_s),
+        study.settings.integration.revolutions,
+        study.version
+    )
+}
+
+fn setting(setting: &Setting) -> String {
+    let kept = match setting.kept_modes {
+        AutoOr::Fixed(kept) => format!(" with {kept} kept modes"),
+        AutoOr::Auto => String::new(),
+    };
+    format!(
+        "{} modes per speed, {}{kept}, {} steps a revolution",
+        setting.modes_per_speed,
+        scheme::words(setting.scheme),
+        label(setting.steps_per_revolution.into(), 0)
+    )
+}
+
+/// A run that can be drawn.
+struct Drawn<'a> {
+    run: &'a StudyRun,
+    error: f64,
+    /// Standard error of `error`, where there is one.
+    spread: Option<f64>,
+}
+
+impl<'a> Drawn<'a> {
+    fn of(run: &'a StudyRun, quantity: Quantity) -> Option<Self> {
+        let errors = run.errors.as_ref()?;
+        let error = errors.of(quantity)?;
+        let spread = errors.amplitude_spread.filter(|_| quantity == Quantity::Amplitude);
+        (error > 0.0 && error.is_finite() && run.time_s > 0.0).then_some(Self { run, error, spread })
+    }
+
+    fn title(&self) -> String {
+        let run = self.run;
+        let spread = self.spread.map(|spread| format!(" ± {}", significant(spread))).unwrap_or_default();
+        format!(
+            "{} ({} unknowns integrated): error {}{spread}; set-up {} s, {} ms a revolution, {} s in all",
+            setting(&run.setting),
+            label(run.unknowns.into(), 0),
+            significant(self.error),
+            significant(run.cost.set_up_s),
+            significant(1e3 * run.cost.per_revolution_s),
+            significant(run.time_s)
+        )
+    }
+}
+
+/// The diagram of one quantity at one speed.
+struct View<'a> {
+    study: &'a WorkPrecision,
+    at: &'a SpeedStudy,
+    quantity: Quantity,
+    /// Whether bars show the spread.
+    bars: bool,
+    runs: Vec<Drawn<'a>>,
+    /// Modes per speed, ascending.
+    sizes: Vec<u32>,
+    diagram: Diagram,
+}
+
+impl<'a> View<'a> {
+    fn new(study: &'a WorkPrecision, at: &'a SpeedStudy, quantity: Quantity, top: f64) -> Self {
+        let chaotic = at.sensitivity.is_some_and(|sensitivity| sensitivity.growth == Growth::Chaotic);
+        let bars = chaotic && quantity == Quantity::Amplitude;
+        let runs: Vec<Drawn> = at.runs.iter().filter_map(|run| Drawn::of(run, quantity)).collect();
+        let mut sizes: Vec<u32> = at.runs.iter().map(|run| run.setting.modes_per_speed).collect();
+        sizes.sort_unstable();
+        sizes.dedup();
+        let times = extent(runs.iter().map(|drawn| drawn.run.time_s));
+        let tops = runs.iter().filter_map(|drawn| Some(drawn.error + drawn.spread.filter(|_| bars)?));
+        let errors = extent(runs.iter().map(|drawn| drawn.error).chain(tops));
+        let diagram = Diagram::logarithmic((LEFT, top), (PLOT_WIDTH, HEIGHT - 90.0 - top), times, errors);
+        Self { study, at, quantity, bars, runs, sizes, diagram }
+    }
+
+    fn place(&self, drawn: &Drawn) -> (f64, f64) {
+        self.diagram.point(drawn.run.time_s, drawn.error)
+    }
+
+    fn draw(&self) -> Vec<Element> {
+        let diagram = &self.diagram;
+        let note = text(LEFT, HEIGHT - 16.0, "start", &self.left_out());
+        let note = note.set("class", "left-out").set("font-size", "12").set("fill", "#555555");
+        if self.runs.is_empty() {
+            return vec![diagram.frame(), diagram.words(&self.reason()), note];
+        }
+        let (x, y) = (decades(diagram.x.values, 14), decades(diagram.y.values, 20));
+        let mut content = vec![diagram.grid(&x, &y), self.front_line()];
+        content.extend(self.schemes().map(|scheme| self.scheme_line(scheme)));
+        content.extend(self.runs.iter().filter_map(|drawn| self.bar(drawn)));
+        // Small marks over large ones.
+        for &size in self.sizes.iter().rev() {
+            let here = self.runs.iter().filter(|drawn| drawn.run.setting.modes_per_speed == size);
+            content.extend(here.map(|drawn| self.mark(drawn)));
+        }
+        content.extend(self.front().into_iter().map(|drawn| self.ring(drawn)));
+        content.extend([
+            diagram.frame(),
+            diagram.x_axis(&x, "CPU time of the whole run with set-up, without reduction, s"),
+            diagram.y_axis(&y, &format!("relative error: {}", words(self.quantity, self.study)), 64.0),
+            self.key(),
+            note,
+        ]);
+        content
+    }
+
+    /// Schemes that are in the drawing.
+    fn schemes(&self) -> impl Iterator<Item = SchemeChoice> {
+        let drawn = |scheme: &SchemeChoice| self.runs.iter().any(|drawn| drawn.run.setting.scheme == *scheme);
+        self.study.settings.grid.schemes.iter().copied().filter(drawn)
+    }
+
+    fn radius(&self, modes_per_speed: u32) -> f64 {
+        let rank = self.sizes.iter().position(|&size| size == modes_per_speed).unwrap_or(0);
+        let steps = self.sizes.len().saturating_sub(1).max(1);
+        RADII.0 + (RADII.1 - RADII.0) * rank as f64 / steps as f64
+    }
+
+    fn mark(&self, drawn: &Drawn) -> Element {
+        let Setting { scheme, modes_per_speed, .. } = drawn.run.setting;
+        scheme::mark(scheme, self.place(drawn), self.radius(modes_per_speed))
+            .set("class", "run")
+            .title(&drawn.title())
+    }
+
+    /// From the standard error below the mark to that above it, cut off at the frame.
+    fn bar(&self, drawn: &Drawn) -> Option<Element> {
+        let (spread, x) = (drawn.spread.filter(|_| self.bars)?, self.place(drawn).0);
+        let lowest = (drawn.error - spread).max(self.diagram.y.values.0);
+        let (low, high) = (self.diagram.y.place(lowest), self.diagram.y.place(drawn.error + spread));
+        let bar = line((x, low), (x, high)).set("class", "spread").set("stroke-width", "1.2");
+        Some(bar.set("stroke", scheme::colour(drawn.run.setting.scheme)).set("stroke-opacity", "0.7"))
+    }
+
+    /// Through the runs of a scheme that no other run of it beats.
+    fn scheme_line(&self, scheme: SchemeChoice) -> Element {
+        let place = |drawn: &Drawn| {
+            let here = drawn.run.setting.scheme == scheme;
+            Some((drawn.run.time_s, drawn.run.errors.as_ref().filter(|_| here)?.judged(self.quantity)?))
+        };
+        let places: Vec<Option<(f64, f64)>> = self.runs.iter().map(place).collect();
+        let mut own: Vec<&Drawn> = front(&places).into_iter().map(|index| &self.runs[index]).collect();
+        own.sort_by(|a, b| a.run.time_s.total_cmp(&b.run.time_s));
+        polyline(own.into_iter().map(|drawn| Some(self.place(drawn))))
+            .set("class", "scheme")
+            .set("stroke", scheme::colour(scheme))
+            .set("stroke-width", "1.8")
+    }
+
+    /// The Pareto front of all runs, in ascending time.
+    fn front(&self) -> Vec<&Drawn<'a>> {
+        let on = |drawn: &&Drawn| drawn.run.pareto.contains(&self.quantity);
+        let mut front: Vec<_> = self.runs.iter().filter(on).collect();
+        front.sort_by(|a, b| a.run.time_s.total_cmp(&b.run.time_s));
+        front
+    }
+
+    fn ring(&self, drawn: &Drawn) -> Element {
+        let (x, y) = self.place(drawn);
+        ring((x, y), self.radius(drawn.run.setting.modes_per_speed)).title(&drawn.title())
+    }
+
+    /// What can be had for a time: from the top down to the first of the front, and on to the right.
+    fn front_line(&self) -> Element {
+        let (mut corners, mut height) = (Vec::new(), self.diagram.top);
+        for (x, y) in self.front().into_iter().map(|drawn| self.place(drawn)) {
+            corners.extend([Some((x, height)), Some((x, y))]);
+            height = y;
+        }
+        corners.push(Some((self.diagram.right(), height)));
+        polyline(corners).set("class", "front-line").set("stroke", "#999999").set("stroke-dasharray", "6 4")
+    }
+
+    fn key(&self) -> Element {
+        let middle = (0.5 * MARK_WIDTH, 0.0);
+        let mut key = Key::new(self.diagram.right() + 30.0, self.diagram.top + 8.0);
+        for scheme in self.schemes() {
+            let stroke = line((0.0, 0.0), (MARK_WIDTH, 0.0)).set("stroke", scheme::colour(scheme));
+            let row = group().child(stroke.set("stroke-width", "1.8"));
+            key = key.row(row.child(scheme::mark(scheme, middle, 5.5)), &scheme::words(scheme));
+        }
+        let dashes = line((0.0, 0.0), (MARK_WIDTH, 0.0)).set("stroke", "#999999");
+        let dashes = dashes.set("stroke-dasharray", "6 4");
+        key = key.row(group().child(dashes).child(ring(middle, 4.0)), "Pareto front of all runs");
+        if self.bars {
+            let bar = line((middle.0, -8.0), (middle.0, 8.0)).set("stroke", INK).set("stroke-width", "1.2");
+            key = key.row(bar, "± standard error (chaotic response)");
+        }
+        key = key.heading("modes per speed · size of the wheel");
+        for &size in &self.sizes {
+            let reduction = self.study.reductions.iter().find(|found| found.modes_per_speed == size);
+            let unknowns = reduction
+                .map(|found| format!(" · {} unknowns", label(found.wheel_unknowns.into(), 0)))
+                .unwrap_or_default();
+            let mark = Element::new("circle").number("cx", middle.0).number("r", self.radius(size));
+            key = key.row(mark.set("fill", "#888888"), &format!("{size}{unknowns}"));
+        }
+        key.draw()
+    }
+
+    /// Which runs are not drawn.
+    fn left_out(&self) -> String {
+        let (mut not_completed, mut exact, mut without) = (0, 0, 0);
+        for run in &self.at.runs {
+            let error = run.errors.as_ref().and_then(|errors| errors.of(self.quantity));
+            match error {
+                _ if run.status != PointStatus::Completed => not_completed += 1,
+                Some(0.0) => exact += 1,
+                _ if Drawn::of(run, self.quantity).is_none() => without += 1,
+                _ => {}
+            }
+        }
+        let parts = [
+            (not_completed, "not completed"),
+            (exact, "with an error of exactly 0"),
+            (without, "without this error"),
+        ];
+        let parts: Vec<String> = parts
+            .iter()
+            .filter(|(count, _)| *count > 0)
+            .map(|(count, words)| format!("{count} {words}"))
+            .collect();
+        match parts.is_empty() {
+            true => String::new(),
+            false => format!("Left out of {} runs: {}", self.at.runs.len(), parts.join(", ")),
+        }
+    }
+
+    /// Why nothing is drawn.
+    fn reason(&self) -> String {
+        let completed = |run: &&StudyRun| run.status == PointStatus::Completed;
+        if self.at.reference.status != PointStatus::Completed {
+            return "Nothing to draw: the reference was not completed".to_owned();
+        }
+        if self.at.runs.iter().filter(completed).count() == 0 {
+            let first = self.at.runs.iter().find_map(|run| run.message.as_deref());
+            return format!("Nothing to draw: no run was completed ({})", first.unwrap_or("no reason given"));
+        }
+        let error = |run: &StudyRun| run.errors.as_ref()?.of(self.quantity);
+        let why = match (self.at.runs.iter().any(|run| error(run).is_some()), self.quantity) {
+            (true, _) => "all errors are exactly 0",
+            (false, Quantity::EngineOrders) => "the response does not repeat and has no steady peaks",
+            (false, Quantity::Impulse) => "there is no contact",
+            (false, Quantity::History | Quantity::Amplitude) => "no run has this error",
+        };
+        format!("Nothing to draw: {why}")
+    }
+}
+
+fn ring((x, y): (f64, f64), radius: f64) -> Element {
+    Element::new("circle")
+        .set("class", "front")
+        .number("cx", x)
+        .number("cy", y)
+        .number("r", radius + 3.5)
+        .set("fill", "none")
+        .set("stroke", INK)
+        .set("stroke-width", "1.5")
+}
+
+/// Ends of a logarithmic axis for positive values: some room about them, and a decade at least.
+fn extent(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    let (low, high) =
+        values.fold((f64::INFINITY, 0f64), |(low, high), value| (low.min(value), high.max(value)));
+    if high == 0.0 {
+        return (0.1, 10.0);
+    }
+    let room = f64::max(1.5, (10.0 * low / high).sqrt());
+    (low / room, high * room)
+}

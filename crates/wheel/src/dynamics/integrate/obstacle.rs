@@ -1,0 +1,319 @@
+//! Contact between the blades and the casing, within a step.
+
+use pulp::Simd;
+
+use super::super::casing::{Casing, RestrictionTable};
+use super::super::contact::coating::{Coating, WornCoating};
+use super::super::contact::delassus::Delassus;
+use super::super::contact::flexibility::{flexibility, outward_normals, ridge};
+use super::super::effects::Effects;
+use super::super::energy::EffectWork;
+use super::super::flexible_casing::CasingMotion;
+use super::super::oscillators::rows::Rows;
+use super::super::oscillators::{LANES, Oscillators};
+use super::super::schemes::Scheme;
+use super::super::schemes::massless_boundary::residual_flexibility;
+use super::super::statistics::RunStatistics;
+use super::Simulation;
+use super::residual::ResidualDisplacement;
+use super::surroundings::{Law, Surroundings};
+use rubmap_numerics::complementarity::ComplementarityError;
+use rubmap_numerics::complementarity::active_set::ActiveSetSolver;
+use rubmap_numerics::sector_fourier::SectorFourier;
+
+/// Penetration that the ridge of a singular W may leave, relative to clearance and restriction. Nodes that W cannot tell
+/// apart but that agree keep to a thousandth of it; where they contradict each other no forces help.
+const LEFT: f64 = 1e-6;
+
+#[derive(Debug)]
+pub(super) struct Obstacle {
+    pub(super) rows: Rows,
+    delassus: Delassus,
+    solver: ActiveSetSolver,
+    /// None for a scene without effects.
+    pub(super) surroundings: Option<Surroundings>,
+    residual: ResidualDisplacement,
+    casing: Casing,
+    pub(super) restriction: Option<RestrictionTable>,
+    /// p = 0 of a circular casing.
+    unrestricted: Vec<f64>,
+    /// c_k, padded with +∞.
+    clearance: Vec<f64>,
+    tolerance: f64,
+    /// Most penetration that may be left where W is singular.
+    most_left: f64,
+    step_s: f64,
+    /// Normal displacements of the integrated modes, `[Fourier column][node]`.
+    pub(super) harmonic: Vec<f64>,
+    predicted_gap: Vec<f64>,
+    /// Contact nodes with a force on any sector.
+    pub(super) loaded: Vec<usize>,
+    is_loaded: Vec<bool>,
+    /// Along what [`applied`](super::surroundings::applied) says, `[Fourier column][node]`.
+    pub(super) force: Vec<f64>,
+}
+
+impl Obstacle {
+    pub(super) fn new(
+        simulation: &Simulation<'_>,
+        casing: &Casing,
+        oscillators: &Oscillators,
+        fourier: &SectorFourier,
+    ) -> Self {
+        let (wheel, scheme, nodes) = (simulation.wheel, simulation.scheme, simulation.contact_nodes);
+        let normals = outward_normals(nodes);
+        let rows = Rows::new(wheel, &normals, |modes| scheme.integrated_modes(modes));
+        let (stride, sectors) = (rows.stride, fourier.sectors());
+        let angles: Vec<_> = nodes.iter().map(|node| node.position[1]).collect();
+        let restriction = casing.restriction.map(|restriction| {
+            let profile = |angle| restriction.height(angle);
+            let around = wheel.around();
+            RestrictionTable::new(profile, &angles, simulation.steps_per_revolution, around, stride)
+        });
+        let mut clearance = casing.clearance.clone();
+        clearance.resize(stride, f64::INFINITY);
+        let surroundings = Surroundings::new(simulation, stride);
+        let delassus = delassus(simulation, oscillators, fourier, stride, surroundings.as_ref());
+        let size = sectors * stride;
+        let Effects { coating, orbit, .. } = simulation.effects;
+        let length = casing.length_scale(simulation.reach())
+            + coating.map_or(0.0, Coating::thickness)
+            + orbit.map_or(0.0, |orbit| orbit.radius);
+        Self {
+            delassus,
+            surroundings,
+            solver: ActiveSetSolver::new(size),
+            residual: ResidualDisplacement::new(simulation, &normals),
+            restriction,
+            unrestricted: vec![0.0; stride],
+            clearance,
+            // Gaps are differences of lengths of this scale. A casing far out of reach of some node must not loosen it.
+            tolerance: 1e-14 * length,
+            most_left: LEFT * if length > 0.0 { length } else { simulation.reach() },
+            casing: casing.clone(),
+            step_s: simulation.step_s(),
+            harmonic: vec![0.0; size],
+            predicted_gap: vec![0.0; size],
+            loaded: Vec::with_capacity(stride),
+            is_loaded: vec![false; stride],
+            force: vec![0.0; size],
+            rows,
+        }
+    }
+
+    /// Normal displacements of all sectors from their Fourier coordinates, and g_p = c − p − nᵀu, whose smallest value
+    /// is returned.
+    #[inline(always)]
+    pub(super) fn predict_gaps<S: Simd, const EFFECTS: bool>(
+        &mut self,
+        simd: S,
+        fourier: &SectorFourier,
+        step: usize,
+        revolutions: f64,
+    ) -> f64 {
+        let mut smallest = simd.splat_f64s(f64::INFINITY);
+        let stride = self.rows.stride;
+        let vectors = stride / S::F64_LANES;
+        let growth = self.casing.growth(revolutions);
+        let shift = match &mut self.surroundings {
+            Some(surroundings) if EFFECTS => {
+                surroundings.move_to(revolutions, growth);
+                surroundings.shift.as_slice()
+            }
+            _ => &[],
+        };
+        let growth = simd.splat_f64s(growth);
+        let clearance = &S::as_simd_f64s(&self.clearance).0[..vectors];
+        let harmonic = S::as_simd_f64s(&self.harmonic).0;
+        for sector in 0..fourier.sectors() {
+            let range = sector * stride..(sector + 1) * stride;
+            let gap = &mut S::as_mut_simd_f64s(&mut self.predicted_gap[range.clone()]).0[..vectors];
+            let restricted = match &self.restriction {
+                Some(table) => table.at(step, sector),
+                None => &self.unrestricted,
+            };
+            let restricted = &S::as_simd_f64s(restricted).0[..vectors];
+            let shift = if EFFECTS { &S::as_simd_f64s(&shift[range.clone()]).0[..vectors] } else { &[] };
+            for v in 0..vectors {
+                let mut u = simd.splat_f64s(0.0);
+                for (&f, column) in fourier.row(sector).iter().zip(harmonic.chunks_exact(vectors)) {
+                    u = simd.mul_add_e_f64s(simd.splat_f64s(f), column[v], u);
+                }
+                let mut free = simd.negate_mul_add_e_f64s(growth, restricted[v], clearance[v]);
+                if EFFECTS {
+                    free = simd.add_f64s(free, shift[v]);
+                }
+                gap[v] = simd.sub_f64s(free, u);
+                smallest = simd.min_f64s(smallest, gap[v]);
+            }
+        }
+        simd.reduce_min_f64s(smallest)
+    }
+
+    /// The casing in motion, if it is elastic.
+    pub(super) fn flexible_casing(&mut self) -> Option<&mut CasingMotion> {
+        self.surroundings.as_mut()?.casing.as_mut()
+    }
+
+    /// The coating as it is now, if there is one.
+    pub(super) fn worn_coating(&self) -> Option<&WornCoating> {
+        match &self.surroundings.as_ref()?.law {
+            Law::Coated(_, coating) => Some(coating),
+            Law::Plain | Law::General(_) => None,
+        }
+    }
+
+    /// Contact forces of the predicted gaps (Eqs 9, 10) and what they add to the statistics.
+    #[inline(always)]
+    pub(super) fn solve<const EFFECTS: bool>(
+        &mut self,
+        fourier: &SectorFourier,
+        step: usize,
+        statistics: &mut RunStatistics,
+        work: &mut EffectWork,
+    ) -> Result<(), ComplementarityError> {
+        let (law, sliding, mut casing) = match &mut self.surroundings {
+            Some(s) if EFFECTS => (&mut s.law, s.sliding.as_ref(), s.casing.as_mut()),
+            _ => (&mut Law::Plain, None, None),
+        };
+        let mut allowed = 0.0;
+        let (active, lambda, gap, pivots) = match law {
+            Law::General(solver) => {
+                solver.solve(&self.delassus, &self.predicted_gap, self.tolerance)?;
+                (solver.active(), solver.lambda(), solver.gap(), solver.statistics())
+            }
+            Law::Coated(solver, coating) => {
+                let law = |index: usize| {
+                    let (sector, row) = self.delassus.place(index);
+                    coating.law(coating.rod(step, sector, row), row)
+                };
+                solver.solve(&self.delassus, law, &self.predicted_gap, self.tolerance)?;
+                for &index in solver.active() {
+                    let (sector, row) = self.delassus.place(index);
+                    let rod = coating.rod(step, sector, row);
+                    coating.press(rod, row, -solver.gap()[index]);
+                }
+                allowed = coating.unworn().thickness();
+                (solver.active(), solver.lambda(), solver.gap(), solver.statistics())
+            }
+            Law::Plain => {
+                let solver = &mut self.solver;
+                solver.solve(&self.delassus, &self.predicted_gap, self.tolerance)?;
+                (solver.active(), solver.lambda(), solver.gap(), solver.statistics())
+            }
+        };
+        let deepest = (-lowest(gap) - allowed).max(0.0);
+        statistics.largest_penetration = statistics.largest_penetration.max(deepest);
+        // A run that explodes leaves round-off of its own size; that is for the bounds to find.
+        if deepest > self.most_left && deepest > LEFT * -lowest(&self.predicted_gap) {
+            return Err(ComplementarityError::Infeasible { penetration: deepest });
+        }
+        statistics.pivots = pivots;
+        let stride = self.rows.stride;
+        let mut impulse = 0.0;
+        for (&index, &lambda) in active.iter().zip(lambda) {
+            let (sector, row) = self.delassus.place(index);
+            if !self.is_loaded[row] {
+                self.is_loaded[row] = true;
+                self.loaded.push(row);
+            }
+            for (column, &f) in fourier.row(sector).iter().enumerate() {
+                self.force[column * stride + row] -= f * lambda;
+            }
+            if let Some(sliding) = sliding {
+                work.friction_heat += sliding.heat[row] * lambda;
+            }
+            if let Some(casing) = &mut casing {
+                casing.press(index, lambda);
+            }
+            impulse += lambda * self.step_s;
+            let smallest = statistics.smallest_multiplier.map_or(lambda, |least| least.min(lambda));
+            statistics.smallest_multiplier = Some(smallest);
+        }
+        if impulse > 0.0 {
+            statistics.contact_steps += 1;
+            statistics.contact_impulse += impulse;
+        }
+        Ok(())
+    }
+
+    /// Largest penetration of the state as it is, at the instant of the last gaps.
+    #[inline(always)]
+    pub(super) fn penetration<S: Simd, const EFFECTS: bool>(
+        &mut self,
+        simd: S,
+        oscillators: &Oscillators,
+        fourier: &SectorFourier,
+        step: usize,
+        revolutions: f64,
+    ) -> f64 {
+        oscillators.project(simd, &self.rows, &mut self.harmonic);
+        self.residual.add(&self.force, self.rows.stride, &mut self.harmonic, self.rows.stride);
+        let allowed = match &self.surroundings {
+            Some(Surroundings { law: Law::Coated(_, coating), .. }) if EFFECTS => {
+                coating.unworn().thickness()
+            }
+            _ => 0.0,
+        };
+        (-self.predict_gaps::<S, EFFECTS>(simd, fourier, step, revolutions) - allowed).max(0.0)
+    }
+
+    /// No forces, until the next solution.
+    #[inline(always)]
+    pub(super) fn clear_forces(&mut self, fourier: &SectorFourier) {
+        for &row in &self.loaded {
+            self.is_loaded[row] = false;
+            for column in 0..fourier.sectors() {
+                self.force[column * self.rows.stride + row] = 0.0;
+            }
+        }
+        self.loaded.clear();
+    }
+}
+
+/// W of the scheme, with what the effects make of it.
+fn delassus(
+    simulation: &Simulation<'_>,
+    oscillators: &Oscillators,
+    fourier: &SectorFourier,
+    stride: usize,
+    surroundings: Option<&Surroundings>,
+) -> Delassus {
+    let Simulation { wheel, scheme, .. } = *simulation;
+    let normals = outward_normals(simulation.contact_nodes);
+    let blocks = |from: &[_], turned: bool| match scheme {
+        Scheme::CentralDifferences | Scheme::ExactModal if turned => {
+            oscillators.turned_flexibility(wheel, simulation.step_s(), &normals, from)
+        }
+        Scheme::CentralDifferences | Scheme::ExactModal => {
+            flexibility(wheel, &normals, from, |harmonic, mode| oscillators.receptance(harmonic, mode))
+        }
+        Scheme::MasslessBoundary { kept_modes } => residual_flexibility(wheel, kept_modes, &normals, from),
+    };
+    let plain = blocks(&normals, false);
+    let ridge = ridge(&plain, wheel.sectors);
+    let turned = wheel.harmonics.iter().any(|harmonic| harmonic.gyroscopic.is_some());
+    let mut delassus = match simulation.effects.friction {
+        None if !turned => Delassus::new(&plain, ridge, stride, fourier),
+        friction => {
+            let from = friction.map_or(normals.as_slice(), |friction| friction.directions);
+            Delassus::new(&blocks(from, turned), ridge, stride, fourier)
+        }
+    };
+    if let Some(casing) = surroundings.and_then(|surroundings| surroundings.casing.as_ref()) {
+        delassus.add(|distance, to, from| casing.operator(distance, to, from));
+    }
+    delassus
+}
+
+/// The smallest of 0 and `values`, whose number is a multiple of the lanes; lane by lane, so that it vectorises.
+#[inline(always)]
+fn lowest(values: &[f64]) -> f64 {
+    let mut lanes = [0.0f64; LANES];
+    for chunk in values.chunks_exact(LANES) {
+        for (low, &value) in lanes.iter_mut().zip(chunk) {
+            *low = if value < *low { value } else { *low };
+        }
+    }
+    lanes.iter().fold(0.0, |low, &value| low.min(value))
+}

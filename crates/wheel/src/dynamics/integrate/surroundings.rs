@@ -1,0 +1,104 @@
+//! What the effects of a scene add to contact.
+
+use super::super::contact::coating::WornCoating;
+use super::super::flexible_casing::CasingMotion;
+use super::super::orbit::OrbitShift;
+use super::super::oscillators::rows::Rows;
+use super::Simulation;
+use rubmap_numerics::complementarity::active_set::ActiveSetSolver;
+use rubmap_numerics::complementarity::branches::BranchSolver;
+use rubmap_numerics::complementarity::factor::Lu;
+
+/// Each is absent unless the scene names it.
+#[derive(Debug)]
+pub(super) struct Surroundings {
+    pub(super) sliding: Option<Sliding>,
+    pub(super) law: Law,
+    pub(super) casing: Option<CasingMotion>,
+    orbit: Option<OrbitShift>,
+    /// What is added to the gaps, `[sector][node]`.
+    pub(super) shift: Vec<f64>,
+}
+
+/// What a tip meets, where it is not a rigid wall on a symmetric operator.
+#[derive(Debug)]
+pub(super) enum Law {
+    /// That.
+    Plain,
+    /// A rigid wall, on an operator that is not symmetric.
+    General(ActiveSetSolver<Lu>),
+    /// A coating with metal behind it.
+    Coated(Box<BranchSolver<Lu>>, Box<WornCoating>),
+}
+
+/// Friction at the contact nodes.
+#[derive(Debug)]
+pub(super) struct Sliding {
+    /// n + μt, along which forces act.
+    pub(super) rows: Rows,
+    /// μ t_θ rΩ h of every node: heat per unit of λ in a step.
+    pub(super) heat: Vec<f64>,
+}
+
+/// What contact forces act along: the normals, `rows`, but for friction.
+#[inline(always)]
+pub(super) fn applied<'a>(surroundings: Option<&'a Surroundings>, rows: &'a Rows) -> &'a Rows {
+    match surroundings {
+        Some(Surroundings { sliding: Some(sliding), .. }) => &sliding.rows,
+        _ => rows,
+    }
+}
+
+impl Surroundings {
+    /// None for a scene without effects on contact. Gaps are padded to `stride` nodes a sector.
+    pub(super) fn new(simulation: &Simulation<'_>, stride: usize) -> Option<Self> {
+        let Simulation { wheel, effects, contact_nodes, scheme, .. } = *simulation;
+        let sliding = effects.friction.map(|friction| Sliding {
+            rows: Rows::new(wheel, friction.directions, |modes| scheme.integrated_modes(modes)),
+            heat: (contact_nodes.iter().zip(friction.directions))
+                .map(|(node, direction)| {
+                    let forward = direction.components[1] - node.normal[1];
+                    forward * node.position[0] * wheel.speed_rad_s * simulation.step_s()
+                })
+                .collect(),
+        });
+        let coriolis = wheel.harmonics.iter().any(|harmonic| harmonic.gyroscopic.is_some());
+        if !effects.any() && !coriolis {
+            return None;
+        }
+        let size = wheel.sectors * stride;
+        let around = (wheel.sectors, wheel.around());
+        Some(Self {
+            law: match effects.coating {
+                Some(coating) => Law::Coated(
+                    Box::new(BranchSolver::new(size)),
+                    Box::new(WornCoating::new(
+                        coating.clone(),
+                        contact_nodes,
+                        wheel.sectors,
+                        simulation.steps_per_revolution,
+                    )),
+                ),
+                None if sliding.is_some() || coriolis => Law::General(ActiveSetSolver::new(size)),
+                None => Law::Plain,
+            },
+            sliding,
+            casing: effects.flexible_casing.map(|casing| {
+                CasingMotion::new(casing, scheme, simulation.step_s(), contact_nodes, around, stride)
+            }),
+            orbit: effects.orbit.map(|orbit| OrbitShift::new(orbit, contact_nodes, around, stride)),
+            shift: vec![0.0; size],
+        })
+    }
+
+    /// What the effects add to the gaps after `revolutions`.
+    pub(super) fn move_to(&mut self, revolutions: f64, growth: f64) {
+        self.shift.fill(0.0);
+        if let Some(orbit) = &self.orbit {
+            orbit.add(revolutions, growth, &mut self.shift);
+        }
+        if let Some(casing) = &mut self.casing {
+            casing.add(revolutions, &mut self.shift);
+        }
+    }
+}

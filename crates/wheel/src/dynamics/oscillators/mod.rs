@@ -1,0 +1,540 @@
+//! The modal oscillators of the whole wheel: Eq. 8 made element-wise, and its projection on chosen DOF.
+//!
+//! Kernels work on SIMD lanes; modes of every nodal diameter are padded to whole vectors with oscillators that
+//! stay at rest. A pair keeps the real and the imaginary part of z as two consecutive segments that share their
+//! coefficients. The modes of one nodal diameter are forced, advanced and projected one after the other, while its mode
+//! shapes are in the first-level cache.
+
+pub(crate) mod driven;
+mod product;
+pub(crate) mod rows;
+
+use faer::c64;
+use pulp::Simd;
+
+use self::product::{LoadPair, LoadSingle, ProjectPair, ProjectSingle};
+pub use self::rows::Direction;
+use self::rows::Rows;
+use super::initial::InitialMode;
+use super::modal_wheel::ModalWheel;
+use super::schemes::{ModeStep, Scheme};
+use rubmap_numerics::aligned::Aligned;
+
+/// Doubles per padded group: the widest vector in use (AVX-512).
+pub(crate) const LANES: usize = 8;
+
+pub(crate) fn padded(count: usize) -> usize {
+    count.next_multiple_of(LANES)
+}
+
+/// Modal damping of the reduced wheel (§6).
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModalDamping {
+    /// ζ of every mode not listed below.
+    pub modal_ratio: f64,
+    /// ζ of the first modal families, the same in every nodal diameter.
+    pub family_ratios: Vec<f64>,
+}
+
+impl ModalDamping {
+    /// ζ of modal family `family`, counted from 0.
+    pub fn ratio(&self, family: usize) -> f64 {
+        self.family_ratios.get(family).copied().unwrap_or(self.modal_ratio)
+    }
+}
+
+/// Where the modes of one nodal diameter live.
+#[derive(Debug, Clone, Copy)]
+struct Segment {
+    single: bool,
+    /// Modes.
+    integrated: usize,
+    /// Modes, padded.
+    length: usize,
+    /// Start in the coefficient arrays.
+    modes: usize,
+    /// Start in the state arrays (the imaginary part of a pair follows after `length`).
+    state: usize,
+    /// Fourier column of the real part (the imaginary part is the next).
+    column: usize,
+}
+
+impl Segment {
+    /// Starts of its real and, for a pair, imaginary part in the state arrays.
+    fn parts(self) -> impl Iterator<Item = usize> {
+        (0..if self.single { 1 } else { 2 }).map(move |part| self.state + part * self.length)
+    }
+}
+
+/// Modal coordinates of the wheel under one of the [schemes](super::schemes), in increments d = z − z⁻, which lose no
+/// digits to differences at small steps.
+#[derive(Debug, Clone)]
+pub(crate) struct Oscillators {
+    segments: Vec<Segment>,
+    coefficients: Coefficients,
+    state: State,
+}
+
+/// One number a mode, the same for both parts of a pair.
+#[derive(Debug, Clone)]
+struct Coefficients {
+    /// Share of the increment that survives a step.
+    keep: Aligned,
+    /// ω²·receptance
+    pull: Aligned,
+    /// Displacement per unit force within a step.
+    receptance: Aligned,
+    /// c/(2B): energy lost in a step is Σ loss·(z⁺ − z⁻)².
+    loss: Aligned,
+    /// 1/B
+    inertia: Aligned,
+    /// ω²
+    stiffness: Aligned,
+}
+
+/// What a step changes.
+#[derive(Debug, Clone)]
+struct State {
+    /// z
+    z: Aligned,
+    /// d = z − z⁻
+    d: Aligned,
+    /// z⁺ − z⁻ of a step whose exchange is not counted yet, otherwise 0; empty without contact.
+    swing: Aligned,
+    /// φᴴf of the loads on one nodal diameter; empty without contact.
+    force: Aligned,
+}
+
+/// Forces on rows, in Fourier coordinates.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Loads<'a> {
+    /// Rows with a force on any sector.
+    pub(crate) rows: &'a [usize],
+    /// `[column][row]`, rows padded to their stride.
+    pub(crate) force: &'a [f64],
+}
+
+/// What the energy gains and loses (see [`super::schemes`]).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Exchange {
+    /// Work of the loads, Σ f (z⁺ − z⁻)/2.
+    pub(crate) work: f64,
+    /// Σ c (z⁺ − z⁻)²/(2B).
+    pub(crate) loss: f64,
+}
+
+/// [`Exchange`] in lanes, twice the work.
+struct Sums<S: Simd> {
+    twice_work: S::f64s,
+    loss: S::f64s,
+}
+
+impl<S: Simd> Sums<S> {
+    #[inline(always)]
+    fn new(simd: S) -> Self {
+        Self { twice_work: simd.splat_f64s(0.0), loss: simd.splat_f64s(0.0) }
+    }
+
+    /// Adds a step's exchange: its force, z⁺ − z⁻ and loss coefficient.
+    #[inline(always)]
+    fn add<const DISSIPATES: bool>(&mut self, simd: S, force: S::f64s, swing: S::f64s, loss: S::f64s) {
+        self.twice_work = simd.mul_add_e_f64s(force, swing, self.twice_work);
+        self.add_loss::<DISSIPATES>(simd, swing, loss);
+    }
+
+    /// [`Self::add`] without a force.
+    #[inline(always)]
+    fn add_loss<const DISSIPATES: bool>(&mut self, simd: S, swing: S::f64s, loss: S::f64s) {
+        if DISSIPATES {
+            self.loss = simd.mul_add_e_f64s(loss, simd.mul_f64s(swing, swing), self.loss);
+        }
+    }
+
+    #[inline(always)]
+    fn total(self, simd: S) -> Exchange {
+        Exchange { work: 0.5 * simd.reduce_sum_f64s(self.twice_work), loss: simd.reduce_sum_f64s(self.loss) }
+    }
+}
+
+impl Oscillators {
+    /// In the state `initial` (rest where it has nothing), steps of `step` seconds, of a wheel that may touch the casing or
+    /// not.
+    pub(crate) fn new(
+        wheel: &ModalWheel,
+        scheme: Scheme,
+        step: f64,
+        damping: Option<&ModalDamping>,
+        touching: bool,
+        initial: &[InitialMode],
+    ) -> Self {
+        let mut segments = Vec::with_capacity(wheel.harmonics.len());
+        let (mut modes, mut state, mut column) = (0, 0, 0);
+        for harmonic in &wheel.harmonics {
+            let integrated = scheme.integrated_modes(harmonic.omega.len());
+            let length = padded(integrated);
+            let parts = if harmonic.single { 1 } else { 2 };
+            segments.push(Segment { single: harmonic.single, integrated, length, modes, state, column });
+            modes += length;
+            state += parts * length;
+            column += parts;
+        }
+        let mut of = Coefficients::zeros(modes);
+        for (harmonic, segment) in wheel.harmonics.iter().zip(&segments) {
+            for family in 0..segment.length {
+                let omega = if family < segment.integrated { harmonic.omega[family] } else { 0.0 };
+                let zeta = damping.map_or(0.0, |damping| damping.ratio(family));
+                of.set(segment.modes + family, omega, scheme.mode_step(omega, zeta, step, touching));
+            }
+        }
+        let contact = if touching { state } else { 0 };
+        let longest = segments.iter().map(|segment| segment.length).max().unwrap_or(0);
+        let state = State {
+            z: Aligned::zeros(state),
+            d: Aligned::zeros(state),
+            swing: Aligned::zeros(contact),
+            force: Aligned::zeros(if touching { 2 * longest } else { 0 }),
+        };
+        let mut this = Self { segments, coefficients: of, state };
+        for mode in initial {
+            let zeta = damping.map_or(0.0, |damping| damping.ratio(mode.family));
+            this.start(mode, |z, v| {
+                let omega = wheel.harmonics[mode.harmonic].omega[mode.family];
+                scheme.first_increment(omega, zeta, step, z, v)
+            });
+        }
+        this
+    }
+
+    fn start(&mut self, mode: &InitialMode, first_increment: impl Fn(f64, f64) -> f64) {
+        let segment = self.segments[mode.harmonic];
+        assert!(mode.family < segment.integrated, "an initial mode is one that is integrated");
+        let values = [(mode.displacement.re, mode.velocity.re), (mode.displacement.im, mode.velocity.im)];
+        for (start, (z, v)) in segment.parts().zip(values) {
+            self.state.z[start + mode.family] = z;
+            self.state.d[start + mode.family] = first_increment(z, v);
+        }
+    }
+
+    /// Whether any mode loses energy.
+    pub(crate) fn dissipates(&self) -> bool {
+        self.coefficients.loss.iter().any(|&loss| loss > 0.0)
+    }
+
+    /// One free step of every mode.
+    #[inline(always)]
+    pub(crate) fn advance<S: Simd, const DISSIPATES: bool>(&mut self, simd: S) -> Exchange {
+        let mut sums = Sums::new(simd);
+        for &segment in &self.segments {
+            let of = self.coefficients.of::<S>(segment);
+            for start in segment.parts() {
+                let Part { z, d, .. } = self.state.part::<S>(segment, start, false);
+                for m in 0..of.keep.len() {
+                    let next = simd.negate_mul_add_e_f64s(of.pull[m], z[m], simd.mul_f64s(of.keep[m], d[m]));
+                    sums.add_loss::<DISSIPATES>(simd, simd.add_f64s(next, d[m]), of.loss[m]);
+                    d[m] = next;
+                    z[m] = simd.add_f64s(z[m], next);
+                }
+            }
+        }
+        sums.total(simd)
+    }
+
+    /// Completes the last step by `loads` on the rows `applied` (Eq. 10), takes the next one free of them (Eq. 8), and reads
+    /// `rows` in Fourier coordinates, `out[column][row]`. Returns the exchange of the completed step.
+    #[inline(always)]
+    pub(crate) fn complete_and_predict<S: Simd, const DISSIPATES: bool>(
+        &mut self,
+        simd: S,
+        rows: &Rows,
+        (applied, loads): (&Rows, Loads<'_>),
+        out: &mut [f64],
+    ) -> Exchange {
+        if loads.rows.is_empty() {
+            self.complete_and_predict_loaded::<S, DISSIPATES, false>(simd, rows, (applied, loads), out)
+        } else {
+            self.complete_and_predict_loaded::<S, DISSIPATES, true>(simd, rows, (applied, loads), out)
+        }
+    }
+
+    #[inline(always)]
+    fn complete_and_predict_loaded<S: Simd, const DISSIPATES: bool, const LOADED: bool>(
+        &mut self,
+        simd: S,
+        rows: &Rows,
+        (applied, loads): (&Rows, Loads<'_>),
+        out: &mut [f64],
+    ) -> Exchange {
+        let mut sums = Sums::new(simd);
+        for index in 0..self.segments.len() {
+            if LOADED {
+                self.load_segment(simd, index, applied, loads);
+            }
+            let segment = self.segments[index];
+            let of = self.coefficients.of::<S>(segment);
+            for start in segment.parts() {
+                let Part { z, d, swing, force } = self.state.part::<S>(segment, start, true);
+                for m in 0..of.keep.len() {
+                    let (mut z_now, mut d_now) = (z[m], d[m]);
+                    if LOADED {
+                        let moved = simd.mul_f64s(of.receptance[m], force[m]);
+                        sums.add::<DISSIPATES>(simd, force[m], simd.add_f64s(swing[m], moved), of.loss[m]);
+                        z_now = simd.add_f64s(z_now, moved);
+                        d_now = simd.add_f64s(d_now, moved);
+                    } else {
+                        sums.add_loss::<DISSIPATES>(simd, swing[m], of.loss[m]);
+                    }
+                    let next =
+                        simd.negate_mul_add_e_f64s(of.pull[m], z_now, simd.mul_f64s(of.keep[m], d_now));
+                    swing[m] = simd.add_f64s(next, d_now);
+                    d[m] = next;
+                    z[m] = simd.add_f64s(z_now, next);
+                }
+            }
+            self.project_segment(simd, index, rows, out);
+        }
+        sums.total(simd)
+    }
+
+    /// Completes the last step by `loads` on `rows` and returns its exchange.
+    #[inline(always)]
+    pub(crate) fn complete<S: Simd, const DISSIPATES: bool>(
+        &mut self,
+        simd: S,
+        rows: &Rows,
+        loads: Loads<'_>,
+    ) -> Exchange {
+        let mut sums = Sums::new(simd);
+        for index in 0..self.segments.len() {
+            self.load_segment(simd, index, rows, loads);
+            let segment = self.segments[index];
+            let of = self.coefficients.of::<S>(segment);
+            for start in segment.parts() {
+                let Part { z, d, swing, force } = self.state.part::<S>(segment, start, true);
+                for m in 0..of.keep.len() {
+                    let moved = simd.mul_f64s(of.receptance[m], force[m]);
+                    sums.add::<DISSIPATES>(simd, force[m], simd.add_f64s(swing[m], moved), of.loss[m]);
+                    z[m] = simd.add_f64s(z[m], moved);
+                    d[m] = simd.add_f64s(d[m], moved);
+                    swing[m] = simd.splat_f64s(0.0);
+                }
+            }
+        }
+        sums.total(simd)
+    }
+
+    /// One step of every mode under `loads` on the rows `applied`, which act from its start, and the values of `rows` at its
+    /// end in Fourier coordinates, `out[column][row]`.
+    #[inline(always)]
+    pub(crate) fn advance_loaded<S: Simd, const DISSIPATES: bool>(
+        &mut self,
+        simd: S,
+        rows: &Rows,
+        (applied, loads): (&Rows, Loads<'_>),
+        out: &mut [f64],
+    ) -> Exchange {
+        let mut sums = Sums::new(simd);
+        for index in 0..self.segments.len() {
+            self.load_segment(simd, index, applied, loads);
+            let segment = self.segments[index];
+            let of = self.coefficients.of::<S>(segment);
+            for start in segment.parts() {
+                let Part { z, d, force, .. } = self.state.part::<S>(segment, start, true);
+                for m in 0..of.keep.len() {
+                    let free = simd.negate_mul_add_e_f64s(of.pull[m], z[m], simd.mul_f64s(of.keep[m], d[m]));
+                    let next = simd.mul_add_e_f64s(of.receptance[m], force[m], free);
+                    sums.add::<DISSIPATES>(simd, force[m], simd.add_f64s(next, d[m]), of.loss[m]);
+                    d[m] = next;
+                    z[m] = simd.add_f64s(z[m], next);
+                }
+            }
+            self.project_segment(simd, index, rows, out);
+        }
+        sums.total(simd)
+    }
+
+    /// Values of `rows` in Fourier coordinates: `out[column][row]`, rows padded to `rows.stride`.
+    #[inline(always)]
+    pub(crate) fn project<S: Simd>(&self, simd: S, rows: &Rows, out: &mut [f64]) {
+        for index in 0..self.segments.len() {
+            self.project_segment(simd, index, rows, out);
+        }
+    }
+
+    #[inline(always)]
+    fn project_segment<S: Simd>(&self, simd: S, index: usize, rows: &Rows, out: &mut [f64]) {
+        let Segment { single, length, state, column, .. } = self.segments[index];
+        let block = &rows.blocks[index];
+        let out = &mut out[column * rows.stride..];
+        let re = &self.state.z[state..][..length];
+        if single {
+            simd.vectorize(ProjectSingle { block, z: re, out: &mut out[..rows.count] });
+        } else {
+            let im = &self.state.z[state + length..][..length];
+            let (out_re, out_im) = out.split_at_mut(rows.stride);
+            let (out_re, out_im) = (&mut out_re[..rows.count], &mut out_im[..rows.count]);
+            simd.vectorize(ProjectPair { block, re, im, out_re, out_im });
+        }
+    }
+
+    /// φᴴ f̂ of one nodal diameter, its modal forces.
+    #[inline(always)]
+    fn load_segment<S: Simd>(&mut self, simd: S, index: usize, rows: &Rows, loads: Loads<'_>) {
+        let Segment { single, length, column, .. } = self.segments[index];
+        let block = &rows.blocks[index];
+        let force = &loads.force[column * rows.stride..];
+        if single {
+            let out = &mut self.state.force[..length];
+            simd.vectorize(LoadSingle { block, loaded: loads.rows, force, out });
+        } else {
+            let (force_re, force_im) = force.split_at(rows.stride);
+            let (re, im) = self.state.force[..2 * length].split_at_mut(length);
+            simd.vectorize(LoadPair { block, loaded: loads.rows, force_re, force_im, re, im });
+        }
+    }
+
+    /// E of the last step in the discrete identity (see [`super::schemes`]).
+    pub(crate) fn energy(&self) -> f64 {
+        0.5 * self.segments.iter().fold(0.0, |twice, segment| self.add_twice_energy(segment, twice))
+    }
+
+    /// The same of every nodal diameter.
+    pub(crate) fn energies(&self) -> impl Iterator<Item = f64> {
+        self.segments.iter().map(|segment| 0.5 * self.add_twice_energy(segment, 0.0))
+    }
+
+    fn add_twice_energy(&self, segment: &Segment, mut twice: f64) -> f64 {
+        let Coefficients { inertia, stiffness, .. } = &self.coefficients;
+        for start in segment.parts() {
+            for m in 0..segment.length {
+                let (z, d) = (self.state.z[start + m], self.state.d[start + m]);
+                let mode = segment.modes + m;
+                twice += inertia[mode] * d * d + stiffness[mode] * (z - d) * z;
+            }
+        }
+        twice
+    }
+
+    /// z and ż of every mode, `velocity(harmonic, family, z, d)` being the scheme's.
+    pub(crate) fn modal_state(&self, velocity: impl Fn(usize, usize, f64, f64) -> f64) -> Vec<InitialMode> {
+        let mut modes = Vec::new();
+        for (harmonic, segment) in self.segments.iter().enumerate() {
+            for family in 0..segment.integrated {
+                let part = |start: usize| {
+                    let (z, d) = (self.state.z[start + family], self.state.d[start + family]);
+                    (z, velocity(harmonic, family, z, d))
+                };
+                let re = part(segment.state);
+                let im = if segment.single { (0.0, 0.0) } else { part(segment.state + segment.length) };
+                modes.push(InitialMode {
+                    harmonic,
+                    family,
+                    displacement: c64::new(re.0, im.0),
+                    velocity: c64::new(re.1, im.1),
+                });
+            }
+        }
+        modes
+    }
+
+    /// Displacement per unit force of mode `family` of nodal diameter `harmonic` within a step.
+    pub(crate) fn receptance(&self, harmonic: usize, family: usize) -> f64 {
+        self.coefficients.receptance[self.segments[harmonic].modes + family]
+    }
+
+    /// Largest z² of a mode per 2E: 1/(ω²(1 − ω²B/4)); infinite where its energy bounds no displacement.
+    pub(crate) fn largest_square(&self, harmonic: usize, family: usize) -> f64 {
+        let mode = self.segments[harmonic].modes + family;
+        let (stiffness, inertia) = (self.coefficients.stiffness[mode], self.coefficients.inertia[mode]);
+        let bounded = stiffness - 0.25 * stiffness * stiffness / inertia;
+        if bounded > 0.0 { 1.0 / bounded } else { f64::INFINITY }
+    }
+
+    /// Brings to rest what has decayed below any meaning, before its numbers become denormal.
+    #[inline(always)]
+    pub(crate) fn quench(&mut self) {
+        for values in [&mut self.state.z, &mut self.state.d, &mut self.state.swing] {
+            for value in values.iter_mut() {
+                *value = if value.abs() < VANISHED { 0.0 } else { *value };
+            }
+        }
+    }
+}
+
+/// Modal displacements below this are nothing in any unit, and their squares are still normal numbers. Between two calls
+/// of [`Oscillators::quench`] no mode that moves shrinks by as much again; one that follows statically is at its zero, or
+/// round-off of it, within a step.
+pub(crate) const VANISHED: f64 = 1e-100;
+
+/// [`Coefficients`] of one nodal diameter, as vectors.
+struct Slices<'a, S: Simd> {
+    keep: &'a [S::f64s],
+    pull: &'a [S::f64s],
+    receptance: &'a [S::f64s],
+    loss: &'a [S::f64s],
+}
+
+impl Coefficients {
+    fn zeros(modes: usize) -> Self {
+        let zeros = || Aligned::zeros(modes);
+        Self {
+            keep: zeros(),
+            pull: zeros(),
+            receptance: zeros(),
+            loss: zeros(),
+            inertia: zeros(),
+            stiffness: zeros(),
+        }
+    }
+
+    fn set(&mut self, mode: usize, omega: f64, step: ModeStep) {
+        self.keep[mode] = step.keep;
+        self.pull[mode] = omega * omega * step.receptance;
+        self.receptance[mode] = step.receptance;
+        self.loss[mode] = 0.5 * step.dissipation() * step.inertia();
+        self.inertia[mode] = step.inertia();
+        self.stiffness[mode] = omega * omega;
+    }
+
+    #[inline(always)]
+    fn of<S: Simd>(&self, segment: Segment) -> Slices<'_, S> {
+        let range = segment.modes..segment.modes + segment.length;
+        let keep = S::as_simd_f64s(&self.keep[range.clone()]).0;
+        // Cut to one length, so that no index needs a check.
+        Slices {
+            keep,
+            pull: &S::as_simd_f64s(&self.pull[range.clone()]).0[..keep.len()],
+            receptance: &S::as_simd_f64s(&self.receptance[range.clone()]).0[..keep.len()],
+            loss: &S::as_simd_f64s(&self.loss[range]).0[..keep.len()],
+        }
+    }
+}
+
+/// One part (real or imaginary) of one nodal diameter's state, as vectors.
+struct Part<'a, S: Simd> {
+    z: &'a mut [S::f64s],
+    d: &'a mut [S::f64s],
+    swing: &'a mut [S::f64s],
+    force: &'a [S::f64s],
+}
+
+impl State {
+    /// The part of `segment` at `start`; `swing` and `force` are empty unless `touching`.
+    #[inline(always)]
+    fn part<S: Simd>(&mut self, segment: Segment, start: usize, touching: bool) -> Part<'_, S> {
+        let range = start..start + segment.length;
+        let (swing, force) = if touching {
+            (range.clone(), start - segment.state..start - segment.state + segment.length)
+        } else {
+            (0..0, 0..0)
+        };
+        let z = S::as_mut_simd_f64s(&mut self.z[range.clone()]).0;
+        let vectors = z.len();
+        let touched = if touching { vectors } else { 0 };
+        Part {
+            d: &mut S::as_mut_simd_f64s(&mut self.d[range]).0[..vectors],
+            swing: &mut S::as_mut_simd_f64s(&mut self.swing[swing]).0[..touched],
+            force: &S::as_simd_f64s(&self.force[force]).0[..touched],
+            z,
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! Scalar displacements of contact nodes, as rows over the modal coordinates.
+
+use faer::{Mat, MatRef, c64};
+use pulp::Simd;
+
+use super::super::modal_wheel::ModalWheel;
+use super::padded;
+use rubmap_numerics::aligned::Aligned;
+
+/// A displacement direction at a contact node in (r, θ, z) components.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Direction {
+    /// Contact node, from the leading edge.
+    pub node: usize,
+    /// Components of the direction.
+    pub components: [f64; 3],
+}
+
+impl Direction {
+    /// dᵀφ of mode `mode`, φ given at the contact DOF (`n_b × modes`).
+    pub fn of(&self, contact: MatRef<'_, c64>, mode: usize) -> c64 {
+        (0..3).map(|c| contact[(3 * self.node + c, mode)] * self.components[c]).sum()
+    }
+}
+
+/// Scalar displacements to be read or loaded: one row a contact normal or a sensor, for every nodal diameter.
+#[derive(Debug, Clone)]
+pub(crate) struct Rows {
+    /// Number of rows.
+    pub(crate) count: usize,
+    /// Rows padded to whole vectors.
+    pub(crate) stride: usize,
+    pub(super) blocks: Vec<RowBlock>,
+}
+
+/// dᵀφ_m of each row direction d, real and imaginary parts.
+#[derive(Debug, Clone)]
+pub(super) struct RowBlock {
+    pub(super) re: Matrix,
+    pub(super) im: Matrix,
+}
+
+/// Row-major `[row][mode]`, modes padded to `length`.
+#[derive(Debug, Clone)]
+pub(super) struct Matrix {
+    length: usize,
+    values: Aligned,
+}
+
+impl Matrix {
+    fn zeros(rows: usize, length: usize) -> Self {
+        Self { length, values: Aligned::zeros(rows * length) }
+    }
+
+    /// The rows of `group`, each cut to `vectors` vectors so that no index needs a check.
+    #[inline(always)]
+    pub(super) fn rows<S: Simd, const R: usize>(&self, group: [usize; R], vectors: usize) -> [&[S::f64s]; R] {
+        let mut rows: [&[S::f64s]; R] = [&[]; R];
+        for (slice, row) in rows.iter_mut().zip(group) {
+            *slice = &S::as_simd_f64s(&self.values[row * self.length..][..self.length]).0[..vectors];
+        }
+        rows
+    }
+}
+
+impl RowBlock {
+    /// `matrix` itself, its columns padded to `length`.
+    pub(super) fn padded(matrix: MatRef<'_, c64>, length: usize) -> Self {
+        let zeros = || Matrix::zeros(matrix.nrows(), length);
+        let mut block = Self { re: zeros(), im: zeros() };
+        for row in 0..matrix.nrows() {
+            for column in 0..matrix.ncols() {
+                block.re.values[row * length + column] = matrix[(row, column)].re;
+                block.im.values[row * length + column] = matrix[(row, column)].im;
+            }
+        }
+        block
+    }
+}
+
+impl Rows {
+    /// Rows over the first `integrated(modes)` of the modes of every nodal diameter.
+    pub(crate) fn new(
+        wheel: &ModalWheel,
+        directions: &[Direction],
+        integrated: impl Fn(usize) -> usize,
+    ) -> Self {
+        let blocks = wheel
+            .harmonics
+            .iter()
+            .map(|h| row_block(&h.contact, directions, integrated(h.omega.len())))
+            .collect();
+        Self { count: directions.len(), stride: padded(directions.len()), blocks }
+    }
+}
+
+fn row_block(contact: &Mat<c64>, directions: &[Direction], modes: usize) -> RowBlock {
+    let shape = |row: usize, m: usize| directions[row].of(contact.as_ref(), m);
+    RowBlock::padded(Mat::from_fn(directions.len(), modes, shape).as_ref(), padded(modes))
+}

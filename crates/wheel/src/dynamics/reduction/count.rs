@@ -1,0 +1,230 @@
+//! Proof that no mode was missed: eigenvalues below a shift, counted by Sylvester's law of inertia.
+//!
+//! The negative eigenvalues of K̂(i) − σM̂(i) are those of its eliminated interior and those of the Schur complement of
+//! the face (Haynsworth). One real factor of K − σM serves every nodal diameter whose modes leave a gap at σ.
+
+use faer::sparse::SparseColMat;
+use faer::traits::ComplexField;
+use faer::traits::ext::ComplexFieldExt;
+use faer::{Mat, MatRef, Side};
+use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
+use serde::{Deserialize, Serialize};
+
+use super::modes::{LOCATED, Modes};
+use super::tied_factor::tied_schur;
+use super::untied::{Tie, UntiedSector};
+use rubmap_numerics::multifrontal::PartialFactor;
+
+/// Eigenvalues below a shift.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct ModeCount {
+    /// σ, (rad/s)².
+    pub shift: f64,
+    /// How many lie below it, by inertia; as many were found.
+    pub below: usize,
+}
+
+/// Whether the modes kept are known to be the lowest, none missed.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub enum Completeness {
+    /// They are all the modes there are.
+    Whole,
+    /// As many eigenvalues lie below a shift as were found.
+    Counted(ModeCount),
+    /// No shift could be found at which inertia tells.
+    Unproven,
+}
+
+/// What a count says about one nodal diameter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Verdict {
+    Complete(ModeCount),
+    /// The count differs from what was found.
+    Missed,
+    Uncountable,
+}
+
+/// Smallest relative distance of a shift from a wanted eigenvalue; from one that is only located, twice what its
+/// place is known to.
+const MARGIN: f64 = 1e-6;
+/// Factorisations that may break down or grow before the rest stays uncounted.
+const MOST_FAILURES: usize = 3;
+
+/// Counts the eigenvalues of every nodal diameter in `found` below a shift that lies above its modes, with fixed
+/// contact DOF.
+pub(super) fn count_modes(
+    untied: &UntiedSector,
+    stiffness: &SparseColMat<usize, f64>,
+    mass: &SparseColMat<usize, f64>,
+    found: &[(Tie, &Modes)],
+) -> Vec<Verdict> {
+    let ladders: Vec<Ladder> = found.iter().map(|(_, modes)| Ladder::new(modes)).collect();
+    let mut verdicts: Vec<Option<Verdict>> = vec![None; found.len()];
+    let mut failed: Vec<f64> = Vec::new();
+    while failed.len() < MOST_FAILURES {
+        let waiting: Vec<usize> = (0..found.len()).filter(|&i| verdicts[i].is_none()).collect();
+        let Some(shift) = best_shift(&ladders, &waiting, &failed) else { break };
+        let terms = [(1.0, stiffness), (-shift, mass)];
+        let served: Vec<(usize, usize)> =
+            waiting.iter().filter_map(|&i| ladders[i].below(shift).map(|below| (i, below))).collect();
+        let Some(factor) = PartialFactor::new(&untied.analysis, &terms).ok().filter(|factor| {
+            // Round-off moves an eigenvalue by xᴴEx, ‖E‖ a few times ε times the growth.
+            let error = 16.0 * f64::EPSILON * factor.growth();
+            served.iter().all(|&(i, _)| error * largest_square(found[i].1) < ladders[i].distance(shift))
+        }) else {
+            failed.push(shift);
+            continue;
+        };
+        let counted: Vec<(usize, Verdict)> = served
+            .par_iter()
+            .map(|&(i, expected)| {
+                let below = factor.negative_pivots() + negative_on_face(untied, &factor, &terms, &found[i].0);
+                let complete = below == expected;
+                (i, if complete { Verdict::Complete(ModeCount { shift, below }) } else { Verdict::Missed })
+            })
+            .collect();
+        counted.into_iter().for_each(|(i, verdict)| verdicts[i] = Some(verdict));
+    }
+    verdicts.into_iter().map(|verdict| verdict.unwrap_or(Verdict::Uncountable)).collect()
+}
+
+/// Negative eigenvalues of the face's Schur complement.
+fn negative_on_face(
+    untied: &UntiedSector,
+    factor: &PartialFactor<'_>,
+    terms: &[(f64, &SparseColMat<usize, f64>)],
+    tie: &Tie,
+) -> usize {
+    let schur = tied_schur(untied, factor, terms, tie);
+    let face = schur.submatrix(0, 0, untied.face(), untied.face());
+    if UntiedSector::width(tie, 1) == 1 {
+        let real = Mat::from_fn(face.nrows(), face.ncols(), |i, j| face[(i, j)].re);
+        negative_eigenvalues(real.as_ref())
+    } else {
+        negative_eigenvalues(face)
+    }
+}
+
+/// Largest ‖x‖² of the mass-normalised modes.
+fn largest_square(modes: &Modes) -> f64 {
+    modes.vectors.col_iter().map(|x| x.squared_norm_l2()).fold(0.0, f64::max)
+}
+
+/// The eigenvalues known of one nodal diameter.
+struct Ladder {
+    /// Ascending, all that are located.
+    values: Vec<f64>,
+    /// How many of them must lie below a shift.
+    wanted: usize,
+}
+
+impl Ladder {
+    fn new(modes: &Modes) -> Self {
+        let values = modes.values.iter().chain(&modes.beyond).copied().collect();
+        Self { values, wanted: modes.values.len() }
+    }
+
+    /// Known eigenvalues below `shift`, if it lies clear of them, above the wanted ones and below the last.
+    fn below(&self, shift: f64) -> Option<usize> {
+        let below = self.values.partition_point(|&value| value < shift);
+        let clear = |index: usize| {
+            let margin = if index < self.wanted { MARGIN } else { 2.0 * LOCATED };
+            self.values.get(index).is_some_and(|value| (value - shift).abs() > margin * shift)
+        };
+        (below >= self.wanted && below > 0 && clear(below - 1) && clear(below)).then_some(below)
+    }
+
+    /// From `shift` to the nearest known eigenvalue.
+    fn distance(&self, shift: f64) -> f64 {
+        self.values.iter().map(|value| (value - shift).abs()).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Middles of the gaps a shift may lie in.
+    fn shifts(&self) -> impl Iterator<Item = f64> + '_ {
+        self.values[self.wanted.max(1) - 1..].windows(2).map(|pair| 0.5 * (pair[0] + pair[1]))
+    }
+}
+
+/// The shift that serves most of the ladders that wait, none of `failed`; of those, the one farthest from all their
+/// eigenvalues.
+fn best_shift(ladders: &[Ladder], waiting: &[usize], failed: &[f64]) -> Option<f64> {
+    let candidates =
+        waiting.iter().flat_map(|&i| ladders[i].shifts()).filter(|shift| !failed.contains(shift));
+    let rated = candidates.map(|shift| {
+        let served: Vec<&Ladder> =
+            waiting.iter().map(|&i| &ladders[i]).filter(|ladder| ladder.below(shift).is_some()).collect();
+        let nearest = served.iter().map(|ladder| ladder.distance(shift)).fold(f64::INFINITY, f64::min);
+        (served.len(), nearest / shift, shift)
+    });
+    rated
+        .filter(|&(served, _, _)| served > 0)
+        .max_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(b.2.total_cmp(&a.2)))
+        .map(|(_, _, shift)| shift)
+}
+
+/// Negative eigenvalues of a Hermitian matrix, from the blocks of its Bunch–Kaufman factor.
+fn negative_eigenvalues<T: ComplexField<Real = f64>>(matrix: MatRef<'_, T>) -> usize {
+    let factor = matrix.lblt(Side::Lower);
+    let (diagonal, below) = (factor.B_diag().column_vector(), factor.B_subdiag().column_vector());
+    let mut negative = 0;
+    let mut i = 0;
+    while i < matrix.nrows() {
+        let (a, coupling) = (diagonal[i].real(), below[i].abs());
+        if coupling == 0.0 {
+            negative += usize::from(a < 0.0);
+            i += 1;
+        } else {
+            let b = diagonal[i + 1].real();
+            negative += if a * b < coupling * coupling {
+                1
+            } else if a < 0.0 {
+                2
+            } else {
+                0
+            };
+            i += 2;
+        }
+    }
+    negative
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use faer::c64;
+
+    #[test]
+    fn inertia_of_an_indefinite_matrix() {
+        // U diag(λ) Uᴴ with known signs; zero diagonal entries force 2 × 2 blocks.
+        let n = 12;
+        let start =
+            Mat::from_fn(n, n, |i, j| c64::new(((i * 3 + j * j) as f64).sin(), ((i + 5 * j) as f64).cos()));
+        let u = start.qr().compute_thin_Q();
+        for negative in 0..=n {
+            let scaled = Mat::from_fn(n, n, |i, j| {
+                u[(i, j)] * (j as f64 + 1.0) * if j < negative { -1.0 } else { 1.0 }
+            });
+            assert_eq!(negative_eigenvalues((scaled * u.adjoint()).as_ref()), negative);
+        }
+        let swap =
+            Mat::from_fn(4, 4, |i, j| c64::new(0.0, if i + j == 3 { i as f64 - j as f64 } else { 0.0 }));
+        assert_eq!(negative_eigenvalues(swap.as_ref()), 2);
+    }
+
+    #[test]
+    fn one_shift_serves_all_it_can() {
+        let ladder = |values: &[f64], wanted| Ladder { values: values.to_vec(), wanted };
+        let ladders =
+            [ladder(&[1.0, 2.0, 4.0, 7.0], 2), ladder(&[1.5, 3.9, 8.0], 1), ladder(&[10.0, 20.0, 30.0], 2)];
+        let shift = best_shift(&ladders, &[0, 1, 2], &[]).unwrap();
+        assert!(
+            shift > 2.0
+                && shift < 8.0
+                && ladders[0].below(shift).is_some()
+                && ladders[1].below(shift).is_some()
+        );
+        assert_eq!(best_shift(&ladders, &[2], &[]), Some(25.0));
+        assert_eq!(best_shift(&ladders, &[2], &[25.0]), None);
+        assert_eq!(best_shift(&[ladder(&[1.0, 2.0], 2)], &[0], &[]), None);
+    }
+}

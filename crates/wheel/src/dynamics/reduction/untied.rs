@@ -1,0 +1,254 @@
+//! The sector with its faces untied: one set of real matrices for every nodal diameter (§2).
+//!
+//! Rows are the interior in elimination order, the low face, the high face, the contact DOF (and the high copies of
+//! those of them that lie on the low face). A nodal diameter ties the high face to the low one, u_H = e^{jiα} u_L; its
+//! vectors hold interior, low face and contact DOF:
+//!
+//! ```text
+//! untied  [ I | L | H | b ]        tied  [ I | L | b ],  u_H = e^{jiα} u_L        Ŷ(i) = Tᴴ Y T
+//! ```
+
+use std::f64::consts::TAU;
+
+use faer::sparse::SparseColMat;
+use faer::{Mat, MatMut, MatRef, c64};
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
+
+use super::assembly::interior_order;
+use crate::dynamics::sector::{CyclicMatrix, SectorModel};
+use rubmap_numerics::multifrontal::{Analysis, postorder};
+
+use rubmap_numerics::sector_fourier::is_single;
+use rubmap_numerics::sparse_product::row_product;
+
+/// How one nodal diameter ties the faces.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Tie {
+    /// Nodal diameter i.
+    pub(super) harmonic: usize,
+    /// e^{jiα}
+    phase: c64,
+    /// Whether everything about it is real.
+    single: bool,
+}
+
+/// Numbering of the untied rows, and what a factorisation of them looks like.
+#[derive(Debug)]
+pub(super) struct UntiedSector {
+    sectors: usize,
+    /// Rows of the interior.
+    interior: usize,
+    /// Rows of one face.
+    face: usize,
+    /// Contact DOF.
+    contact: usize,
+    /// Contact DOF that lie on the low face: their high copies come last.
+    shared: Vec<usize>,
+    /// Untied row of each own DOF.
+    pub(super) place: Vec<usize>,
+    /// Row on the high face of each low-face DOF; its own row elsewhere.
+    pub(super) high: Vec<usize>,
+    /// Elimination of the interior, for every matrix of the sector.
+    pub(super) analysis: Analysis,
+}
+
+impl UntiedSector {
+    /// Numbers and analyses the sector for `matrices` and their combinations.
+    pub(super) fn new(sector: &SectorModel, matrices: &[&CyclicMatrix]) -> Self {
+        let own = sector.own_dofs();
+        let contact: Vec<usize> = sector.contact.iter().flat_map(|node| node.dofs).collect();
+        let mut on_low = vec![false; own];
+        for matrix in matrices {
+            for (column, on_low) in on_low.iter_mut().enumerate() {
+                *on_low |= !matrix.next.row_idx_of_col_raw(column).is_empty();
+            }
+        }
+        let mut inside: Vec<bool> = on_low.iter().map(|low| !low).collect();
+        contact.iter().for_each(|&dof| inside[dof] = false);
+        let interior: Vec<usize> = interior_order(sector, matrices, &inside);
+        let shared: Vec<usize> = (0..contact.len()).filter(|&k| on_low[contact[k]]).collect();
+        contact.iter().for_each(|&dof| on_low[dof] = false);
+        let low: Vec<usize> = (0..own).filter(|&dof| on_low[dof]).collect();
+        let mut untied = Self {
+            sectors: sector.sectors,
+            interior: interior.len(),
+            face: low.len(),
+            contact: contact.len(),
+            shared,
+            place: vec![usize::MAX; own],
+            high: Vec::new(),
+            analysis: Analysis::default(),
+        };
+        let rows = interior.iter().chain(&low);
+        rows.enumerate().for_each(|(row, &dof)| untied.place[dof] = row);
+        let first_contact = interior.len() + 2 * low.len();
+        contact.iter().enumerate().for_each(|(k, &dof)| untied.place[dof] = first_contact + k);
+        untied.high = untied.place.clone();
+        low.iter().for_each(|&dof| untied.high[dof] += low.len());
+        let after = first_contact + contact.len();
+        untied.shared.iter().enumerate().for_each(|(row, &k)| untied.high[contact[k]] = after + row);
+
+        let pattern = untied.pattern(matrices);
+        let order = postorder(pattern.as_ref(), 0..untied.interior);
+        let mut new_row = vec![0; order.len()];
+        order.iter().enumerate().for_each(|(new, &old)| new_row[old] = new);
+        untied.place.iter_mut().chain(&mut untied.high).for_each(|row| *row = new_row[*row]);
+        untied.analysis = Analysis::new(untied.pattern(matrices).as_ref(), untied.interior);
+        untied
+    }
+
+    /// Rows of untied matrices.
+    pub(super) fn size(&self) -> usize {
+        self.interior + 2 * self.face + self.contact + self.shared.len()
+    }
+
+    /// Rows of the interior.
+    pub(super) fn interior(&self) -> usize {
+        self.interior
+    }
+
+    /// Rows of one face.
+    pub(super) fn face(&self) -> usize {
+        self.face
+    }
+
+    /// Contact DOF n_b.
+    pub(super) fn contact(&self) -> usize {
+        self.contact
+    }
+
+    /// Internal rows of tied vectors n_i: interior and low face.
+    pub(super) fn internal(&self) -> usize {
+        self.interior + self.face
+    }
+
+    /// The tie of nodal diameter `harmonic`.
+    pub(super) fn tie(&self, harmonic: usize) -> Tie {
+        let angle = TAU * harmonic as f64 / self.sectors as f64;
+        let single = is_single(harmonic, self.sectors);
+        // Exactly real where the nodal diameter is.
+        let phase = match harmonic {
+            0 => c64::new(1.0, 0.0),
+            _ if single => c64::new(-1.0, 0.0),
+            _ => c64::new(angle.cos(), angle.sin()),
+        };
+        Tie { harmonic, phase, single }
+    }
+
+    /// Tied row and factor of every boundary row (low face, high face, contact), u_F = T u: rows count from the
+    /// first face row.
+    pub(super) fn boundary(&self, tie: &Tie) -> Vec<(usize, c64)> {
+        let one = c64::new(1.0, 0.0);
+        let low = (0..self.face).map(|row| (row, one));
+        let high = (0..self.face).map(|row| (row, tie.phase));
+        let contact = (0..self.contact).map(|row| (self.face + row, one));
+        let shared = self.shared.iter().map(|&row| (self.face + row, tie.phase));
+        low.chain(high).chain(contact).chain(shared).collect()
+    }
+
+    /// The own DOF of a tied row.
+    pub(super) fn dof_of(&self, tied: usize) -> usize {
+        let row = if tied < self.internal() { tied } else { tied + self.face };
+        self.place
+            .iter()
+            .position(|&place| place == row)
+            .unwrap_or_else(|| unreachable!("every row has a DOF"))
+    }
+
+    /// Whether boundary row `row` (see [`boundary`](Self::boundary)) is a copy on the high face.
+    pub(super) fn is_high(&self, row: usize) -> bool {
+        (self.face..2 * self.face).contains(&row) || row >= 2 * self.face + self.contact
+    }
+
+    /// Real vectors that stand for `columns` tied ones.
+    pub(super) fn width(tie: &Tie, columns: usize) -> usize {
+        if tie.single { columns } else { 2 * columns }
+    }
+
+    /// Writes T x for tied vectors `x` into the rows of `into` (`width × size`): real parts, then imaginary parts.
+    /// Contact rows missing in `x` are zero.
+    pub(super) fn expand(&self, tie: &Tie, x: MatRef<'_, c64>, mut into: MatMut<'_, f64>) {
+        let count = x.ncols();
+        let boundary = self.boundary(tie);
+        for q in 0..count {
+            let column = x.col(q);
+            let mut put = |row: usize, value: c64| {
+                into[(q, row)] = value.re;
+                if !tie.single {
+                    into[(count + q, row)] = value.im;
+                }
+            };
+            (0..self.interior).for_each(|row| put(row, column[row]));
+            for (row, &(tied, factor)) in boundary.iter().enumerate() {
+                let tied = self.interior + tied;
+                let value = if tied < x.nrows() { column[tied] * factor } else { c64::new(0.0, 0.0) };
+                put(self.interior + row, value);
+            }
+        }
+    }
+
+    /// Tᴴ y of untied vectors in the rows of `y`, the first `rows` of the tied ones.
+    pub(super) fn fold(&self, tie: &Tie, y: MatRef<'_, f64>, rows: usize) -> Mat<c64> {
+        let count = if tie.single { y.nrows() } else { y.nrows() / 2 };
+        let get =
+            |row: usize, q: usize| c64::new(y[(q, row)], if tie.single { 0.0 } else { y[(count + q, row)] });
+        let mut folded =
+            Mat::from_fn(
+                rows,
+                count,
+                |row, q| {
+                    if row < self.interior { get(row, q) } else { c64::new(0.0, 0.0) }
+                },
+            );
+        for (row, (tied, factor)) in self.boundary(tie).into_iter().enumerate() {
+            let tied = self.interior + tied;
+            if tied < rows {
+                (0..count).for_each(|q| folded[(tied, q)] += get(self.interior + row, q) * factor.conj());
+            }
+        }
+        folded
+    }
+
+    /// Ŷ(i) x for tied vectors `x`, with `matrix` the untied Yᵀ, which is Y for all but the gyroscopic matrix; as many rows
+    /// as `x` has. Columns in parallel.
+    pub(super) fn product(
+        &self,
+        matrix: &SparseColMat<usize, f64>,
+        tie: &Tie,
+        x: MatRef<'_, c64>,
+    ) -> Mat<c64> {
+        const COLUMNS: usize = 8;
+        let parts: Vec<Mat<c64>> = (0..x.ncols().div_ceil(COLUMNS))
+            .into_par_iter()
+            .map(|part| {
+                let first = part * COLUMNS;
+                let columns = x.subcols(first, COLUMNS.min(x.ncols() - first));
+                let mut panel = Mat::zeros(Self::width(tie, columns.ncols()), self.size());
+                self.expand(tie, columns, panel.as_mut());
+                self.fold(tie, row_product(matrix, panel.as_ref()).as_ref(), x.nrows())
+            })
+            .collect();
+        let mut product = Mat::zeros(x.nrows(), x.ncols());
+        for (part, columns) in parts.iter().enumerate() {
+            product.subcols_mut(part * COLUMNS, columns.ncols()).copy_from(columns);
+        }
+        product
+    }
+
+    /// The first `rows` rows and columns of Ŷ(i), with `matrix` the untied Y.
+    pub(super) fn tied_dense(&self, matrix: &SparseColMat<usize, f64>, tie: &Tie, rows: usize) -> Mat<c64> {
+        let boundary = self.boundary(tie);
+        let place = |row: usize| match row.checked_sub(self.interior) {
+            None => (row, c64::new(1.0, 0.0)),
+            Some(row) => (self.interior + boundary[row].0, boundary[row].1),
+        };
+        let mut dense = Mat::zeros(rows, rows);
+        for entry in matrix.triplet_iter() {
+            let ((row, left), (column, right)) = (place(entry.row), place(entry.col));
+            if row < rows && column < rows {
+                dense[(row, column)] += left.conj() * right * *entry.val;
+            }
+        }
+        dense
+    }
+}
