@@ -1,7 +1,7 @@
 //! Time to accuracy: what every scheme takes to a given relative error of a history, beside the literal dense scheme.
 
-use rubmap::analysis::auto_or::AutoOr;
 use rubmap::analysis::request::SchemeChoice;
+use rubmap::analysis::request::auto_or::AutoOr;
 use rubmap::dynamics::schemes::Scheme;
 
 use crate::history::{REVOLUTIONS, SAMPLES, error, history, sampled, sensors};

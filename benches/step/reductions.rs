@@ -1,8 +1,8 @@
 //! What accuracy means: the distance between the histories of a coarse and a fine reduction, beside what each costs, and
 //! the fine one with a boundary without mass.
 
-use rubmap::analysis::auto_or::AutoOr;
 use rubmap::analysis::request::SchemeChoice;
+use rubmap::analysis::request::auto_or::AutoOr;
 use rubmap::dynamics::schemes::Scheme;
 
 use crate::history::{REVOLUTIONS, error, history, sampled};

@@ -1,12 +1,12 @@
 //! The default impeller in front of a casing with two lobes, as the service would integrate it.
 
-use rubmap::analysis::auto_or::AutoOr;
 use rubmap::analysis::monitor::Unwatched;
+use rubmap::analysis::request::auto_or::AutoOr;
+use rubmap::analysis::request::scene as request;
+use rubmap::analysis::request::speeds::{SpeedSet, SpeedUnit, Speeds};
 use rubmap::analysis::request::{Component, Integration, SchemeChoice, Sensor, SweepDirection, SweepRequest};
 use rubmap::analysis::result::PointStatus;
 use rubmap::analysis::run::{ReducedSector, prepare, run_speed};
-use rubmap::analysis::scene as request;
-use rubmap::analysis::speeds::{SpeedSet, SpeedUnit, Speeds};
 use rubmap::dynamics::casing::{Casing, Restriction};
 use rubmap::dynamics::effects::Effects;
 use rubmap::dynamics::integrate::{SensorRow, Simulation};

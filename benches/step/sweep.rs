@@ -2,8 +2,8 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use rubmap::analysis::auto_or::AutoOr;
 use rubmap::analysis::monitor::Unwatched;
+use rubmap::analysis::request::auto_or::AutoOr;
 use rubmap::analysis::request::{SchemeChoice, SweepRequest};
 use rubmap::analysis::result::{PointStatus, SpeedResult};
 use rubmap::analysis::run::{ReducedSector, run_speed};

@@ -11,7 +11,7 @@ use super::idempotency::IdempotencyKey;
 use super::problem::Problem;
 use super::results::{self, find, wrong_kind};
 use super::submit::{self, Receipt};
-use crate::analysis::accuracy::errors::Quantity;
+use crate::analysis::result::Quantity;
 use crate::analysis::run::{Histories, StudyRequest, WorkPrecision};
 use crate::plot;
 use crate::store::jobs::{Job, JobKind, JobRequest};

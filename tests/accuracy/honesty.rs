@@ -3,8 +3,8 @@
 //! A scene is drawn as users have them: lobes higher than the clearance, light to fair damping, speeds over the whole range. True
 //! errors and estimates are printed; what is asserted is the share of scenes for which they agree within the stated bounds.
 
-use rubmap::analysis::accuracy::errors::Quantity;
 use rubmap::analysis::monitor::Unwatched;
+use rubmap::analysis::result::Quantity;
 use rubmap::analysis::run::{
     FinerRun, Next, Resources, Setting, TrialRequest, control_requests, error_estimate, next, run_speed,
 };
@@ -75,7 +75,7 @@ fn truth(wheel: &mut Wheel, request: &rubmap::analysis::request::SweepRequest) -
     let reference = Setting {
         modes_per_speed: 8 * request.modes(),
         scheme: rubmap::analysis::request::SchemeChoice::ExactModal,
-        kept_modes: rubmap::analysis::auto_or::AutoOr::Auto,
+        kept_modes: rubmap::analysis::request::auto_or::AutoOr::Auto,
         steps_per_revolution: 16 * result.point.steps_per_revolution,
     };
     let trial = wheel.run(&TrialRequest::new(request, result.point.speed_rad_s, reference));

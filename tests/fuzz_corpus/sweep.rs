@@ -8,16 +8,16 @@ use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use faer::c64;
-use rubmap::analysis::auto_or::AutoOr;
 use rubmap::analysis::error::{AnalysisError, Violation};
 use rubmap::analysis::monitor::{Monitor, Unwatched};
+use rubmap::analysis::request::auto_or::AutoOr;
+use rubmap::analysis::request::scene::Symmetry;
 use rubmap::analysis::request::{Component, SchemeChoice, SweepDirection, SweepRequest};
 use rubmap::analysis::result::{Point, PointStatus, SpeedResult};
 use rubmap::analysis::run::{
     ModelFacts, ReducedSector, check, critical_speeds, interaction_map, map_row, prepare, refine,
     resolve_sweep, run_speed,
 };
-use rubmap::analysis::scene::Symmetry;
 use rubmap::dynamics::casing::Restriction;
 use rubmap::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use rubmap::dynamics::reduction::NoCheckpoints;

@@ -7,10 +7,10 @@
 use std::f64::consts::PI;
 
 use faer::c64;
-use rubmap::analysis::auto_or::AutoOr;
 use rubmap::analysis::error::AnalysisError;
 use rubmap::analysis::monitor::Unwatched;
 use rubmap::analysis::request::SweepRequest;
+use rubmap::analysis::request::auto_or::AutoOr;
 use rubmap::analysis::run::{ReducedSector, check};
 use rubmap::dynamics::initial::InitialMode;
 use rubmap::dynamics::integrate::Outcome;

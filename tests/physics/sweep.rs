@@ -1,14 +1,14 @@
 //! A sweep through the door: the stability limit, results with their credentials.
 
-use rubmap::analysis::auto_or::AutoOr;
 use rubmap::analysis::error::AnalysisError;
 use rubmap::analysis::monitor::{Monitor, Unwatched};
 use rubmap::analysis::request::SweepRequest;
+use rubmap::analysis::request::auto_or::AutoOr;
+use rubmap::analysis::request::scene::Symmetry;
 use rubmap::analysis::result::{PointStatus, Verdict};
 use rubmap::analysis::run::{
     ModelFacts, ReducedSector, check, critical_speeds, prepare, resolve_sweep, run_speed,
 };
-use rubmap::analysis::scene::Symmetry;
 use rubmap::dynamics::reduction::NoCheckpoints;
 use rubmap::dynamics::sector::SectorModel;
 

@@ -2,14 +2,14 @@
 
 use std::f64::consts::TAU;
 
-use super::result::{Coincidence, Crossing, DrivenCrossing, WaveTables};
+use crate::result::WaveTables;
 use rubmap_numerics::sector_fourier::harmonic_count;
 use rubmap_wheel::dynamics::error::ModelError;
 use rubmap_wheel::dynamics::modal_wheel::{RotationEffects, natural_frequencies};
 use rubmap_wheel::dynamics::reduction::ReducedWheel;
 use rubmap_wheel::dynamics::waves::wave_frequencies;
-use rubmap_wheel::response::campbell::{crossings, driven_crossings};
-use rubmap_wheel::response::coincidence::coincidences;
+use rubmap_wheel::response::campbell::{Crossing, DrivenCrossing, crossings, driven_crossings};
+use rubmap_wheel::response::coincidence::{Coincidence, coincidences};
 use rubmap_wheel::response::waves::{Branch, Frequencies, Table, Wave, Waves};
 
 /// Frequencies of the first families over ascending speeds.

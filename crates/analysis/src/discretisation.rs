@@ -1,8 +1,7 @@
 //! Time steps and recorded samples of a revolution.
 
-use super::auto_or::AutoOr;
-use super::request::SweepRequest;
-use super::symmetry::gcd;
+use crate::request::{AutoOr, SweepRequest};
+use crate::symmetry::gcd;
 
 /// Steps and samples of a revolution.
 pub(super) struct Discretisation {

@@ -1,8 +1,7 @@
 //! The effects of a scene by name, on and off, and what each adds.
 
-use serde::{Deserialize, Serialize};
-
-use super::scene::{Scene, Symmetry};
+use crate::request::{Scene, Symmetry};
+use crate::result::PlannedEffect;
 
 /// An effect that a scene may name.
 struct Effect {
@@ -82,19 +81,6 @@ const EFFECTS: [Effect; 14] = [
     },
     Effect { name: "probe", is_on: |scene| scene.probe.is_some(), adds: "size and seed of that asymmetry" },
 ];
-
-/// An effect of a scene, named or not.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-pub struct PlannedEffect {
-    /// Field of the scene.
-    pub name: String,
-    /// Whether the scene names it.
-    pub on: bool,
-    /// What it adds; absent where it is off, as is its cost.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub adds: Option<String>,
-}
 
 /// Every effect there is, on or off in `scene`.
 pub(super) fn effects_of(scene: &Scene) -> Vec<PlannedEffect> {

@@ -9,18 +9,20 @@
 //!   ([`run::next`], [`run::next_modes`]) and for the error of a finished sweep ([`run::error_estimate`]).
 
 pub mod accuracy;
-pub mod auto_or;
 mod calibration;
+mod check;
 mod diagram;
 mod discretisation;
 mod effect_list;
 mod effects;
 pub mod end_state;
 pub mod error;
+mod initial;
 mod modal;
 mod model;
 pub mod monitor;
 mod plan;
+mod prepare;
 mod record;
 mod refine;
 pub mod request;
@@ -28,10 +30,10 @@ mod resolve;
 mod response_curve;
 pub mod result;
 pub mod run;
-pub mod scene;
 mod sliding;
 mod speed;
-pub mod speeds;
 mod stepping;
+mod stiffening;
 mod summary;
 mod symmetry;
+pub mod version;

@@ -2,13 +2,13 @@
 
 use std::time::Instant;
 
-use super::diagram::FrequencyDiagram;
-use super::error::AnalysisError;
-use super::model::ReducedSector;
-use super::monitor::Monitor;
-use super::request::ModalAnalysisRequest;
-use super::result::{AbsoluteFrequencies, Campbell};
-use super::run::VERSION;
+use crate::diagram::FrequencyDiagram;
+use crate::error::AnalysisError;
+use crate::model::ReducedSector;
+use crate::monitor::Monitor;
+use crate::request::ModalAnalysisRequest;
+use crate::result::{AbsoluteFrequencies, Campbell};
+use crate::version::VERSION;
 use rubmap_wheel::dynamics::modal_wheel::RotationEffects;
 use rubmap_wheel::response::campbell::{absolute_frequency, multiples};
 

@@ -2,190 +2,27 @@
 
 use std::time::Instant;
 
-use serde::{Deserialize, Serialize};
-
-use super::accuracy::choice::Choice;
-use super::accuracy::modes::ModesChoice;
-use super::accuracy::rung::pilot_speeds;
-use super::accuracy::trial::TrialRequest;
-use super::calibration::{Calibration, EffectSizes, StepSize};
-use super::diagram::FrequencyDiagram;
-use super::effect_list::{PlannedEffect, effects_of};
-use super::effects::{initial, wheel_of};
-use super::model::{ModelFacts, ReducedSector};
-use super::request::{ModalAnalysisRequest, SweepDirection, SweepRequest};
-use super::result::{Point, SchemeReport};
-use super::run::VERSION;
-use super::scene::{Scene, Symmetry};
 use super::sliding;
-use super::speed::{casing, check_table};
-use super::stepping::Stepping;
-use super::symmetry::{FoundSymmetry, repeats};
+use super::symmetry::repeats;
+use crate::accuracy::rung::pilot_speeds;
+use crate::calibration::Calibration;
+use crate::calibration::effects::EffectSizes;
+use crate::calibration::size::StepSize;
+use crate::diagram::FrequencyDiagram;
+use crate::effect_list::effects_of;
+use crate::effects::wheel_of;
+use crate::initial::initial;
+use crate::model::{ModelFacts, ReducedSector};
+use crate::request::{ModalAnalysisRequest, Scene, SweepDirection, SweepRequest, Symmetry, TrialRequest};
+use crate::result::{
+    CostRange, Estimate, FoundSymmetry, ModalAnalysisPlan, PlannedPoint, ReductionState, SweepPlan,
+};
+use crate::speed::{casing, check_table};
+use crate::stepping::Stepping;
+use crate::version::VERSION;
 use rubmap_numerics::sector_fourier::harmonic_count;
 use rubmap_wheel::dynamics::casing::RestrictionTable;
 use rubmap_wheel::dynamics::modal_wheel::{ModalWheel, RotationEffects};
-
-/// What a sweep will do and cost.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-pub struct SweepPlan {
-    /// Every effect a scene may name, on or off.
-    pub effects: Vec<PlannedEffect>,
-    /// Symmetry of the scene.
-    pub symmetry: FoundSymmetry,
-    /// Pairs of contact node and casing: all contact nodes of all simulated sectors where the scene has contact, otherwise none. A
-    /// node whose clearance is too large ever to be closed counts too; it costs its gap in every step.
-    pub contact_pairs: u64,
-    /// Whether the reduction that the sweep rests on is there. While it is not, `points` and `estimate` are left out.
-    pub reduction: ReductionState,
-    /// The whole reduced wheel has at most so many real unknowns: its own number if the reduction is stored, otherwise N(n_b +
-    /// speeds·k), of which nearly dependent directions will be dropped.
-    pub reduced_unknowns_at_most: u64,
-    /// Speeds to simulate, those of the request.
-    pub speeds: u32,
-    /// Threads that compute speeds side by side; one where each starts from the end of another.
-    pub workers: u32,
-    /// Every speed if there are no more than three, otherwise the slowest, the middle and the fastest one; of wheels with
-    /// large eigenproblems the slowest alone, which usually takes most steps.
-    pub points: Vec<PlannedPoint>,
-    /// Cost of all speeds together; absent where none of `points` can be integrated.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub estimate: Option<Estimate>,
-    /// The setting that pilot runs of earlier jobs choose for the accuracy or the budget asked for; `points` and `estimate` are for it.
-    /// A budget has them for nothing; a job that still has to run them has less of it left.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub choice: Option<Choice>,
-    /// Speeds of the pilot runs that the job begins with, rad/s; absent where none are missing.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub pilot_speeds_rad_s: Option<Vec<f64>>,
-    /// What its numbers will not be worth: a K(Ω) that cannot be trusted between the speeds at which the stiffness is given.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub warnings: Vec<String>,
-    /// The whole request as resolved, with the setting chosen in place of what was asked for.
-    pub settings: SweepRequest,
-    /// Version of the code.
-    pub version: String,
-}
-
-/// Whether a reduction is there.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-pub enum ReductionState {
-    /// Computed before, and kept.
-    #[serde(rename = "stored")]
-    Stored,
-    /// The first task of the job.
-    #[serde(rename = "to be computed")]
-    ToBeComputed,
-}
-
-/// What one speed of a sweep will do and cost.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-pub struct PlannedPoint {
-    /// Index of the speed in the request.
-    pub index: u32,
-    /// Ω in rad/s.
-    pub speed_rad_s: f64,
-    /// Why this speed cannot be integrated; then all below is absent or 0.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub message: Option<String>,
-    /// Real unknowns that are integrated.
-    pub integrated_unknowns: u32,
-    /// Scheme and step, and the reason that set them.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub scheme: Option<SchemeReport>,
-    /// Steps per revolution.
-    pub steps_per_revolution: u32,
-    /// Steps of the whole run.
-    pub steps: u64,
-    /// Computing time of this speed, s.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub computing_time_s: Option<CostRange>,
-    /// Memory that this speed holds while it runs.
-    pub memory_bytes: u64,
-}
-
-/// A cost that depends on how much contact there will be.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-pub struct CostRange {
-    /// If nothing ever touches.
-    pub free: f64,
-    /// If something touches in every step.
-    pub contact: f64,
-}
-
-/// Cost of all speeds of a sweep, from a calibration of this machine; without the reduction and without the speeds that
-/// `refine` adds.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-pub struct Estimate {
-    /// Steps over all speeds.
-    pub steps: u64,
-    /// Computing time summed over the speeds, s; compare `spent.computing_time_s`.
-    pub computing_time_s: CostRange,
-    /// Time from the first to the last speed with all workers on this sweep, s.
-    pub wall_time_s: CostRange,
-    /// Threads that compute speeds side by side.
-    pub workers: u32,
-    /// Memory of the speeds that run side by side, and of the reduced wheel.
-    pub memory_bytes: u64,
-    /// Memory that one speed holds while it runs; 0 in plans of earlier versions.
-    #[serde(default)]
-    pub speed_memory_bytes: u64,
-}
-
-/// What was really spent on the finished speeds of a sweep.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-pub struct Spent {
-    /// Computing time summed over the speeds, s; compare `plan.computing_time_s`. Speeds that ran side by side took less of the
-    /// clock on the wall.
-    pub computing_time_s: f64,
-    /// Steps taken.
-    pub steps: u64,
-}
-
-impl Spent {
-    pub(super) fn on<'a>(points: impl IntoIterator<Item = &'a Point>) -> Self {
-        points.into_iter().fold(Self::default(), |sum, point| Self {
-            computing_time_s: sum.computing_time_s + point.wall_time_s,
-            steps: sum.steps + point.steps,
-        })
-    }
-}
-
-/// What a modal analysis will do and cost.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-pub struct ModalAnalysisPlan {
-    /// The effects that natural frequencies can have.
-    pub effects: Vec<PlannedEffect>,
-    /// Whether the reduction that it rests on is there.
-    pub reduction: ReductionState,
-    /// The whole reduced wheel has at most so many real unknowns: its own number if the reduction is stored, otherwise N(n_b +
-    /// speeds·k), of which nearly dependent directions will be dropped.
-    pub reduced_unknowns_at_most: u64,
-    /// Speeds of the diagram.
-    pub speeds: u32,
-    /// Eigenproblems solved at each of them, one a nodal diameter.
-    pub nodal_diameters: u32,
-    /// Computing time of the frequencies, s, from those of one speed; crossings cost a few more. Absent while the reduction is
-    /// to be computed or where that speed has none.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub computing_time_s: Option<f64>,
-    /// The modes that the stored reductions choose for the accuracy asked for; absent until they do.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub choice: Option<ModesChoice>,
-    /// What its numbers will not be worth: a K(Ω) that cannot be trusted between the speeds at which the stiffness is given.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub warnings: Vec<String>,
-    /// The whole request as resolved, with the modes chosen in place of what was asked for.
-    pub settings: ModalAnalysisRequest,
-    /// Version of the code.
-    pub version: String,
-}
 
 /// Plans a resolved sweep on `workers` threads; without `reduced`, what can be said without it. The choice is for the caller to
 /// add.

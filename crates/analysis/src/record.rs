@@ -1,13 +1,12 @@
 //! What a run says: credentials, spectra and steady response of one speed.
 
-use super::error::AnalysisError;
-use super::request::{Sensor, SweepRequest};
-use super::result::{
-    EnergyReport, Point, PointStatus, SensorResponse, SensorSpectrum, SideBands, SpeedSpectra, WearReport,
-};
-use super::scene::Symmetry;
-use super::stepping::Stepping;
 use super::symmetry::repeats;
+use crate::error::AnalysisError;
+use crate::request::{Sensor, SweepRequest, Symmetry};
+use crate::result::{
+    EnergyReport, Point, PointStatus, SensorResponse, SensorSpectrum, SpeedSpectra, WearReport,
+};
+use crate::stepping::Stepping;
 use rubmap_numerics::complementarity::ComplementarityError;
 use rubmap_numerics::sector_fourier::{SectorFourier, harmonic_count};
 use rubmap_numerics::spectrum::amplitudes;
@@ -15,7 +14,7 @@ use rubmap_wheel::dynamics::contact::coating::WornCoating;
 use rubmap_wheel::dynamics::integrate::{Divergence, History, Outcome, Run, TipDisplacement};
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
 use rubmap_wheel::response::settling::judge;
-use rubmap_wheel::response::side_bands::side_bands;
+use rubmap_wheel::response::side_bands::{SideBands, side_bands};
 use rubmap_wheel::response::spectra::{engine_orders, nodal_diameter_amplitudes};
 use rubmap_wheel::response::symmetry_breaking;
 

@@ -1,6 +1,6 @@
 //! The response of a sweep over ascending speed.
 
-use super::result::{Point, PointStatus};
+use crate::result::{Point, PointStatus};
 
 /// The speeds of a sweep in ascending order.
 pub(super) struct ResponseCurve<'a> {

@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use super::request::SweepRequest;
-use super::speed::modal_damping;
+use crate::effects::modal_damping;
+use crate::request::SweepRequest;
 use rubmap_wheel::dynamics::contact::flexibility::{flexibility, outward_normals, ridge};
 use rubmap_wheel::dynamics::contact::friction::{FrictionError, SlidingFlexibility};
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;

@@ -2,21 +2,21 @@
 
 use std::time::Instant;
 
-use super::effects::{SceneEffects, direction, initial, perturbed, wheel_of};
-use super::end_state::EndState;
-use super::error::AnalysisError;
-use super::model::ReducedSector;
-use super::monitor::Monitor;
-use super::record::record_run;
-use super::request::{Sensor, SweepDirection, SweepRequest};
-use super::result::{Point, PointStatus, SpeedResult, WearMap};
-use super::run::VERSION;
 use super::sliding;
-use super::stepping::Stepping;
+use crate::effects::{SceneEffects, direction, modal_damping, wheel_of};
+use crate::end_state::EndState;
+use crate::error::AnalysisError;
+use crate::initial::{initial, perturbed};
+use crate::model::ReducedSector;
+use crate::monitor::Monitor;
+use crate::record::record_run;
+use crate::request::{Sensor, SweepDirection, SweepRequest};
+use crate::result::{Point, PointStatus, SpeedResult, WearMap};
+use crate::stepping::Stepping;
+use crate::version::VERSION;
 use rubmap_wheel::dynamics::casing::{Casing, Restriction, RestrictionTable, clearance_along_chord};
 use rubmap_wheel::dynamics::integrate::{MAX_TABLE_VALUES, Outcome, Run, SensorRow, Simulation};
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
-use rubmap_wheel::dynamics::oscillators::ModalDamping;
 use rubmap_wheel::dynamics::reduction::ReducedWheel;
 
 /// Simulates speed `index` of a sweep, from `start` if it is given: the end of the neighbouring speed of a sweep up or down.
@@ -208,12 +208,6 @@ pub(super) fn check_table(
          the {} sectors, or wider lobes",
         reduced.sectors
     ))
-}
-
-/// The damping of a scene.
-pub(super) fn modal_damping(request: &SweepRequest) -> Option<ModalDamping> {
-    let damping = request.scene.damping.as_ref()?;
-    Some(ModalDamping { modal_ratio: damping.modal_ratio, family_ratios: damping.family_ratios.clone() })
 }
 
 /// The casing of a scene with contact; a casing that nothing touches does not exist for the integration.

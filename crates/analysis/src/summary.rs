@@ -3,21 +3,18 @@
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 
-use super::accuracy::control::ErrorEstimate;
-use super::diagram::FrequencyDiagram;
-use super::effects::{flexible_casing, rotation};
-use super::error::AnalysisError;
-use super::model::ReducedSector;
-use super::monitor::Monitor;
-use super::plan::Spent;
-use super::refine::Refinement;
-use super::request::{Sensor, SweepRequest};
-use super::response_curve::ResponseCurve;
-use super::result::{
-    Coincidence, CriticalSpeed, CriticalSpeeds, Crossing, DrivenCrossing, InteractionMap, Point, PointStatus,
-    ReductionReport, SpeedSpectra,
+use crate::diagram::FrequencyDiagram;
+use crate::effects::{flexible_casing, rotation};
+use crate::error::AnalysisError;
+use crate::model::ReducedSector;
+use crate::monitor::Monitor;
+use crate::request::{Sensor, SweepRequest};
+use crate::response_curve::ResponseCurve;
+use crate::result::{
+    Coincidence, CriticalSpeed, CriticalSpeeds, Crossing, DrivenCrossing, ErrorEstimate, InteractionMap,
+    Point, PointStatus, ReductionReport, Refinement, SpeedSpectra, Spent,
 };
-use super::run::VERSION;
+use crate::version::VERSION;
 use rubmap_wheel::dynamics::sector::Units;
 use rubmap_wheel::response::campbell::multiples;
 use rubmap_wheel::response::critical_speed::{Resolution, peaks};

@@ -6,9 +6,9 @@ use super::colour::DISTINCT;
 use super::diagram::Diagram;
 use super::heading::{heading, sensor as in_words};
 use super::key::{Key, MARK_WIDTH};
-use super::scheme;
-use super::svg::{self, Element, group, line, polyline};
-use rubmap_analysis::accuracy::study::HistoryLine;
+use super::svg::{Element, group, line, polyline};
+use super::{scheme, svg};
+use rubmap_analysis::result::HistoryLine;
 use rubmap_analysis::run::Histories;
 
 const WIDTH: f64 = 1180.0;

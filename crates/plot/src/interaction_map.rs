@@ -3,9 +3,8 @@
 use super::axis::{Scale, logarithmic_ticks, ticks};
 use super::cells::{Cell, cells, extent, rpm};
 use super::diagram::Diagram;
-use super::marks;
 use super::svg::{Element, INK, document, group, line, polyline, rectangle, text, upright};
-use super::{colour, heading, heat, level, settling_strip};
+use super::{colour, heading, heat, level, marks, settling_strip};
 use rubmap_analysis::result::{
     Campbell, CriticalSpeed, CriticalSpeeds, InteractionMap, StiffeningVerdict, Verdict,
 };

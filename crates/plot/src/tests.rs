@@ -6,8 +6,7 @@ use roxmltree::{Document, Node};
 use serde_json::{Value, json};
 
 use super::{VerticalAxis, campbell, histories, interaction_map, work_precision};
-use rubmap_analysis::accuracy::errors::Quantity;
-use rubmap_analysis::result::{Campbell, CriticalSpeeds, InteractionMap, WaveTables};
+use rubmap_analysis::result::{Campbell, CriticalSpeeds, InteractionMap, Quantity, WaveTables};
 use rubmap_analysis::run::{Histories, WorkPrecision};
 
 fn rad_s(rpm: f64) -> f64 {

@@ -5,13 +5,11 @@ use super::cells::rpm;
 use super::diagram::Diagram;
 use super::heading::heading;
 use super::key::{Key, MARK_WIDTH};
-use super::scheme;
-use super::svg::{self, Element, INK, group, line, polyline, text};
-use rubmap_analysis::accuracy::errors::Quantity;
-use rubmap_analysis::accuracy::study::{SpeedStudy, StudyRun, front};
-use rubmap_analysis::auto_or::AutoOr;
+use super::svg::{Element, INK, group, line, polyline, text};
+use super::{scheme, svg};
 use rubmap_analysis::request::SchemeChoice;
-use rubmap_analysis::result::PointStatus;
+use rubmap_analysis::request::auto_or::AutoOr;
+use rubmap_analysis::result::{PointStatus, Quantity, SpeedStudy, StudyRun, front};
 use rubmap_analysis::run::{Setting, WorkPrecision};
 use rubmap_wheel::response::sensitivity::Growth;
 

@@ -11,7 +11,7 @@ use serde_json::Value;
 
 use super::session::client::Client;
 use super::session::{Session, impeller, progress, save, upload};
-use crate::analysis::accuracy::errors::Quantity;
+use crate::analysis::result::Quantity;
 use crate::analysis::run::{Histories, WorkPrecision};
 use crate::plot;
 

@@ -4,10 +4,10 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 use std::path::Path;
 
-use crate::analysis::accuracy::errors::Quantity;
-use crate::analysis::accuracy::study::{SpeedStudy, StudyRun};
-use crate::analysis::auto_or::AutoOr;
 use crate::analysis::request::SchemeChoice;
+use crate::analysis::request::auto_or::AutoOr;
+use crate::analysis::result::Quantity;
+use crate::analysis::result::{SpeedStudy, StudyRun};
 
 pub(super) fn rpm(speed_rad_s: f64) -> f64 {
     speed_rad_s * 60.0 / TAU

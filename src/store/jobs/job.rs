@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 use uuid::Uuid;
 
-use crate::analysis::auto_or::AutoOr;
 use crate::analysis::error::Violation;
+use crate::analysis::request::auto_or::AutoOr;
 use crate::analysis::request::{ModalAnalysisRequest, SweepRequest};
 use crate::analysis::run::{Choice, Estimate, ModelFacts, ModesChoice, StudyRequest};
 use crate::impeller::ImpellerParameters;

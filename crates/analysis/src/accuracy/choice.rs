@@ -7,58 +7,11 @@
 //!
 //! [`next`] is a pure function of the runs known so far: it names the runs it misses, and ends with a choice or a refusal.
 
-use serde::{Deserialize, Serialize};
-
-use super::rung::{Pilot, Pilots, Rung, finer_modes, pilot_speeds};
-use super::trial::{Setting, Trial, TrialRequest};
+use crate::accuracy::rung::{Pilots, Rung, finer_modes, pilot_speeds};
 use crate::error::Violation;
-use crate::request::{Accuracy, Budget, SweepDirection, SweepRequest};
-use crate::stepping::MOST_STEPS;
-
-/// The setting that pilot runs chose, and why.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-pub struct Choice {
-    /// The accuracy that was asked for.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub accuracy: Option<Accuracy>,
-    /// The budget that was given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub budget: Option<Budget>,
-    /// The setting.
-    pub setting: Setting,
-    /// Estimated relative error of the steady response, the largest of the pilot speeds: the sum of the following parts.
-    pub estimated_error: f64,
-    /// Part of it that more modes would remove.
-    pub error_of_modes: f64,
-    /// Part of it that more steps would remove.
-    pub error_of_steps: f64,
-    /// Part of it that only a longer window would remove: the standard error of levels that do not repeat.
-    pub spread: f64,
-    /// Pilot speeds that carry these estimates; at the others no run was completed.
-    pub estimated_at: u32,
-    /// Expected wall time of all speeds and of those that are simulated again, s.
-    pub expected_wall_time_s: f64,
-    /// Why, in words.
-    pub reason: String,
-    /// Speeds of the pilot runs, rad/s.
-    pub pilot_speeds_rad_s: Vec<f64>,
-    /// What they showed, setting by setting as they were tried.
-    pub pilots: Vec<Pilot>,
-}
-
-impl Choice {
-    /// The request with the knobs that were chosen, as if they had been given.
-    #[must_use]
-    pub fn explicit(&self, request: &SweepRequest) -> SweepRequest {
-        SweepRequest {
-            accuracy: None,
-            budget: None,
-            control_speeds: Some(request.controls() as u32),
-            ..self.setting.on(request)
-        }
-    }
-}
+use crate::request::auto_or::MOST_STEPS;
+use crate::request::{SweepDirection, SweepRequest, TrialRequest};
+use crate::result::{Choice, Trial};
 
 /// What comes next.
 #[derive(Debug, Clone, PartialEq)]

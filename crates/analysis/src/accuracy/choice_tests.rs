@@ -4,10 +4,9 @@ use std::cell::Cell;
 
 use serde_json::json;
 
-use super::choice::{Choice, Next, Resources, next};
-use super::trial::{Cost, Trial, TrialRequest};
-use crate::auto_or::AutoOr;
-use crate::request::SweepRequest;
+use crate::accuracy::choice::{Next, Resources, next};
+use crate::request::{AutoOr, SweepRequest, TrialRequest};
+use crate::result::{Choice, Cost, Trial};
 use rubmap_wheel::response::sensitivity::{Growth, Sensitivity};
 
 /// What a run at (k, S) and a speed shows: its level, or none if it diverges, and whether it repeats.

@@ -1,75 +1,11 @@
 //! The error of a finished sweep, from some of its speeds simulated again at a finer setting.
 
-use serde::{Deserialize, Serialize};
-
-use super::errors::{Errors, Response};
-use super::rung::{SAFETY, estimate, evenly_spread, finer_modes};
-use super::trial::{Setting, Trial, TrialRequest};
-use crate::auto_or::AutoOr;
-use crate::request::{SchemeChoice, SweepRequest};
-use crate::result::{Point, PointStatus, SpeedSpectra};
-use crate::stepping::MOST_STEPS;
+use crate::accuracy::errors::Response;
+use crate::accuracy::rung::{SAFETY, estimate, evenly_spread, finer_modes};
+use crate::request::auto_or::MOST_STEPS;
+use crate::request::{AutoOr, SchemeChoice, Setting, SweepRequest, TrialRequest};
+use crate::result::{Control, ErrorEstimate, Point, PointError, PointStatus, SpeedSpectra, Trial};
 use rubmap_wheel::response::critical_speed::peaks;
-
-/// Estimated errors of the speeds of a sweep.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-pub struct ErrorEstimate {
-    /// The speeds that were simulated again: half of them at the most prominent peaks of the response, the others evenly spread.
-    pub controls: Vec<Control>,
-    /// One per completed speed, in the order of the request, unless a control run at or beside it ended early.
-    pub points: Vec<PointError>,
-    /// The largest of them; absent where there are none.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub largest: Option<f64>,
-    /// Whether all completed speeds are known to be within the accuracy that was asked for, if one was; absent where the modes could
-    /// not be refined.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub target_met: Option<bool>,
-    /// What these numbers are, in words.
-    pub message: String,
-}
-
-impl ErrorEstimate {
-    /// The estimated error of speed `index`, if there is one.
-    pub fn of(&self, index: u32) -> Option<f64> {
-        self.points.iter().find(|point| point.index == index).map(|point| point.estimated_error)
-    }
-}
-
-/// A speed that was simulated again.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-pub struct Control {
-    /// Index of the speed in the request.
-    pub index: u32,
-    /// Ω, rad/s.
-    pub speed_rad_s: f64,
-    /// The finer setting.
-    pub setting: Setting,
-    /// Differences between the two; absent where the finer run was not completed.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub differences: Option<Errors>,
-    /// Estimated relative error of the steady response.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub estimated_error: Option<f64>,
-    /// Why the finer run was not completed.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub message: Option<String>,
-}
-
-/// Estimated error of one speed.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-pub struct PointError {
-    /// Index of the speed in the request.
-    pub index: u32,
-    /// Relative error of the steady response.
-    pub estimated_error: f64,
-    /// Whether this speed was simulated again itself; otherwise the number is the larger one of the nearest that were on either
-    /// side.
-    pub controlled: bool,
-}
 
 /// A speed of a sweep and its finer run.
 #[derive(Debug, Clone, Copy)]

@@ -1,84 +1,9 @@
 //! How far a run is from a finer one.
 
-use serde::{Deserialize, Serialize};
-
-use super::trial::{Trial, lines, repeats};
+use crate::accuracy::trial::lines;
 use crate::request::SweepRequest;
-use crate::result::{Point, SpeedSpectra};
-
-/// Differences between a run and a finer one, relative to the finer one.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-pub struct Errors {
-    /// Displacement over the first revolutions: root mean square of the difference over that of the displacement, all sensors
-    /// together. Absent where no history was kept.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub history: Option<f64>,
-    /// Steady amplitude: the largest difference of a sensor's root mean square over the window, relative to the largest
-    /// sensor's.
-    pub amplitude: f64,
-    /// Standard error of `amplitude` where the response does not repeat: its level varies from part to part of the window.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub amplitude_spread: Option<f64>,
-    /// Peaks at integer engine orders: the largest root sum of squares over a sensor's differences, relative to the largest
-    /// sensor's peaks. Absent where a response does not repeat.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub engine_orders: Option<f64>,
-    /// Contact impulse over the whole run. Absent where there is none.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub impulse: Option<f64>,
-}
-
-/// A quantity of interest.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-#[serde(rename_all = "snake_case")]
-pub enum Quantity {
-    /// Displacement over the first revolutions.
-    History,
-    /// Steady amplitude.
-    Amplitude,
-    /// Peaks at integer engine orders.
-    EngineOrders,
-    /// Contact impulse.
-    Impulse,
-}
-
-impl Quantity {
-    /// All of them.
-    pub const ALL: [Self; 4] = [Self::History, Self::Amplitude, Self::EngineOrders, Self::Impulse];
-
-    /// The word on the wire.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::History => "history",
-            Self::Amplitude => "amplitude",
-            Self::EngineOrders => "engine_orders",
-            Self::Impulse => "impulse",
-        }
-    }
-}
-
-impl Errors {
-    /// The error of one quantity, if it is there.
-    pub fn of(&self, quantity: Quantity) -> Option<f64> {
-        match quantity {
-            Quantity::History => self.history,
-            Quantity::Amplitude => Some(self.amplitude),
-            Quantity::EngineOrders => self.engine_orders,
-            Quantity::Impulse => self.impulse,
-        }
-    }
-
-    /// What a run is judged by on a Pareto front: the error of one quantity, but no less than chance lets it be known.
-    pub fn judged(&self, quantity: Quantity) -> Option<f64> {
-        let error = self.of(quantity)?;
-        Some(match quantity {
-            Quantity::Amplitude => error.max(self.amplitude_spread.unwrap_or(0.0)),
-            Quantity::History | Quantity::EngineOrders | Quantity::Impulse => error,
-        })
-    }
-}
+use crate::result::trial::repeats;
+use crate::result::{Errors, Point, SpeedSpectra, Trial};
 
 /// The steady response of a completed run, as it is compared.
 pub(super) struct Response<'a> {
@@ -187,6 +112,7 @@ fn relative(difference: f64, size: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::result::Quantity;
 
     fn response(rms: &[f64], lines: &[&[f64]], levels: &[Vec<f64>], repeats: bool) -> Errors {
         let of = |rms: Vec<f64>, lines: Vec<Vec<f64>>| Response { rms, lines, levels, repeats, impulse: 2.0 };

@@ -2,59 +2,11 @@
 //!
 //! Nothing is estimated here: every reduction holds its ten lowest frequencies of each nodal diameter against the full sector's.
 
-use serde::{Deserialize, Serialize};
-
-use super::choice::{PLANNED_SHARE, Resources};
-use super::rung::finer_modes;
-use crate::auto_or::AutoOr;
+use crate::accuracy::choice::{PLANNED_SHARE, Resources};
+use crate::accuracy::rung::finer_modes;
 use crate::error::Violation;
-use crate::request::{Accuracy, Budget, ModalAnalysisRequest};
-use crate::result::ReductionReport;
-
-/// The modes that were chosen, and why.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-pub struct ModesChoice {
-    /// The accuracy that was asked for.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub accuracy: Option<Accuracy>,
-    /// The budget that was given.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub budget: Option<Budget>,
-    /// k.
-    pub modes_per_speed: u32,
-    /// Largest relative difference of the ten lowest frequencies of any nodal diameter from the full sector's.
-    pub error: f64,
-    /// Why, in words.
-    pub reason: String,
-    /// The reductions that were compared.
-    pub tried: Vec<TriedModes>,
-}
-
-impl ModesChoice {
-    /// The request with the modes that were chosen, as if they had been given.
-    #[must_use]
-    pub fn explicit(&self, request: &ModalAnalysisRequest) -> ModalAnalysisRequest {
-        ModalAnalysisRequest {
-            modes_per_speed: AutoOr::Fixed(self.modes_per_speed),
-            accuracy: None,
-            budget: None,
-            ..request.clone()
-        }
-    }
-}
-
-/// A reduction that was compared.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-pub struct TriedModes {
-    /// k.
-    pub modes_per_speed: u32,
-    /// Its error.
-    pub error: f64,
-    /// What it took, s.
-    pub wall_time_s: f64,
-}
+use crate::request::{Accuracy, ModalAnalysisRequest};
+use crate::result::{ModesChoice, ReductionReport, TriedModes};
 
 /// What comes next.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,14 +1,11 @@
 //! Pilot runs at a setting and the finer ones beside it: what error they show.
 
-use serde::{Deserialize, Serialize};
-
-use super::errors::{Errors, errors};
-use super::trial::{Setting, Trial, TrialRequest};
-use crate::auto_or::AutoOr;
-use crate::request::{SchemeChoice, SweepRequest};
+use crate::accuracy::errors::errors;
+use crate::request::auto_or::MOST_STEPS;
+use crate::request::{AutoOr, SchemeChoice, Setting, SweepRequest, TrialRequest};
 use crate::resolve::limits;
-use crate::result::Verdict;
-use crate::stepping::{MOST_STEPS, steps_for_contact};
+use crate::result::{Errors, Pilot, Trial};
+use crate::stepping::steps_for_contact;
 use rubmap_wheel::response::sensitivity::Growth;
 
 /// The estimate of an error is this many times the difference from a level with twice the modes or steps. Of 24 random scenes
@@ -27,29 +24,6 @@ const PILOT_SPEEDS: usize = 4;
 
 /// A level with fewer than this many times the modes is no finer one: the difference would say little of the error.
 const LEAST_FINER: f64 = 1.5;
-
-/// Errors of one setting at one pilot speed.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-pub struct Pilot {
-    /// Ω, rad/s.
-    pub speed_rad_s: f64,
-    /// Fixed-interface modes kept per stiffness speed and nodal diameter.
-    pub modes_per_speed: u32,
-    /// Time steps per revolution.
-    pub steps_per_revolution: u32,
-    /// Steady-state verdict; absent where the run was not completed.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub verdict: Option<Verdict>,
-    /// Estimated error that more modes would remove; absent where it could not be told because a run was not completed.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub error_of_modes: Option<f64>,
-    /// The same for more steps.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub error_of_steps: Option<f64>,
-    /// Computing time of this run, s.
-    pub time_s: f64,
-}
 
 /// `count` of `values`, evenly spread, both ends included; all if there are no more.
 pub(super) fn evenly_spread<T: Copy>(values: &[T], count: usize) -> Vec<T> {

@@ -1,149 +1,15 @@
 //! What a convergence study says: errors, times, observed orders and the Pareto front (work and precision), and histories.
 
-use serde::{Deserialize, Serialize};
-
-use super::errors::{Errors, Quantity, errors, history_error};
-use super::study_request::StudyRequest;
-use super::trial::{Cost, Setting, Trial, TrialRequest};
-use crate::auto_or::AutoOr;
-use crate::request::{SchemeChoice, Sensor};
-use crate::result::{PointStatus, ReductionReport, StiffeningVerdict, Verdict};
-use crate::run::VERSION;
+use crate::accuracy::errors::{errors, history_error};
+use crate::request::{SchemeChoice, Setting, StudyRequest, TrialRequest};
+use crate::result::{
+    Histories, HistoryLine, PointStatus, Quantity, ReductionReport, SpeedStudy, StepOrder, StudyReduction,
+    StudyRun, Trial, WorkPrecision, front,
+};
+use crate::version::VERSION;
 use rubmap_numerics::convergence::observed_order;
 use rubmap_wheel::dynamics::sector::Units;
-use rubmap_wheel::response::sensitivity::{Growth, Sensitivity};
-
-/// Errors of every setting of a study against its reference, and what each costs.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-pub struct WorkPrecision {
-    /// One per speed.
-    pub speeds: Vec<SpeedStudy>,
-    /// The reductions it rests on, by `modes_per_speed`.
-    pub reductions: Vec<StudyReduction>,
-    /// The whole request as resolved.
-    pub settings: StudyRequest,
-    /// Version of the code.
-    pub version: String,
-}
-
-/// A reduction that a study rests on.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-pub struct StudyReduction {
-    /// k.
-    pub modes_per_speed: u32,
-    /// Real unknowns of the whole reduced wheel.
-    pub wheel_unknowns: u32,
-    /// Wall time when it was computed, s.
-    pub wall_time_s: f64,
-    /// How far K(Ω) can be trusted between the given speeds; absent of a study that an earlier version made.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub stiffening: Option<StiffeningVerdict>,
-}
-
-/// One speed of a study.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-pub struct SpeedStudy {
-    /// Ω in rad/s.
-    pub speed_rad_s: f64,
-    /// What all runs are held against; it has no errors.
-    pub reference: StudyRun,
-    /// Whether trajectories can be compared: the growth of a tiny perturbation of the reference. Absent if it failed.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub sensitivity: Option<Sensitivity>,
-    /// How to read the errors, in words.
-    pub message: String,
-    /// One per setting.
-    pub runs: Vec<StudyRun>,
-    /// Observed orders in the time step, one per size and scheme.
-    pub orders: Vec<StepOrder>,
-}
-
-/// A setting of a study: its errors and its cost.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-pub struct StudyRun {
-    /// The setting.
-    #[serde(flatten)]
-    pub setting: Setting,
-    /// Real unknowns that are integrated; 0 if nothing was.
-    pub unknowns: u32,
-    /// How the run ended.
-    pub status: PointStatus,
-    /// Why, unless it was completed.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub message: Option<String>,
-    /// Steady-state verdict of a completed run.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub verdict: Option<Verdict>,
-    /// Largest violation of the energy identity, relative to the largest energy seen.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub energy_residual: Option<f64>,
-    /// Differences from the reference; absent unless both were completed.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub errors: Option<Errors>,
-    /// CPU time.
-    pub cost: Cost,
-    /// CPU time of the whole run, s: `set_up_s` and all revolutions.
-    pub time_s: f64,
-    /// Quantities for which no other run has a smaller error in less time.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub pareto: Vec<Quantity>,
-}
-
-/// Observed order in the time step of one size and scheme, from the displacement over the first revolutions.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-pub struct StepOrder {
-    /// Fixed-interface modes kept per stiffness speed and nodal diameter.
-    pub modes_per_speed: u32,
-    /// The scheme.
-    pub scheme: SchemeChoice,
-    /// Modes that `massless_boundary` was asked to integrate; with `auto` their number grows with the steps, and the order is
-    /// that of both together.
-    pub kept_modes: AutoOr,
-    /// Steps per revolution, ascending.
-    pub steps_per_revolution: Vec<u32>,
-    /// Difference from the next finer step, relative; null where there is nothing to compare, and none for the last.
-    pub differences: Vec<Option<f64>>,
-    /// Order observed over each three successive steps; null where differences do not fall or are round-off.
-    pub orders: Vec<Option<f64>>,
-}
-
-/// Displacements over the first revolutions, one line per size: the paper's Figs 6 and 7.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-pub struct Histories {
-    /// Ω in rad/s.
-    pub speed_rad_s: f64,
-    /// What is recorded.
-    pub sensors: Vec<Sensor>,
-    /// Samples of a revolution; the first is one sampling interval after the start.
-    pub samples_per_revolution: u32,
-    /// In ascending size, the reference last.
-    pub lines: Vec<HistoryLine>,
-    /// Units of the model.
-    pub units: Units,
-    /// Version of the code.
-    pub version: String,
-}
-
-/// The displacements of one size at the finest step of the grid's first scheme that completed.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-pub struct HistoryLine {
-    /// The setting.
-    #[serde(flatten)]
-    pub setting: Setting,
-    /// Whether it is the reference.
-    pub reference: bool,
-    /// Real unknowns that are integrated.
-    pub unknowns: u32,
-    /// `[sensor][sample]`.
-    pub displacement: Vec<Vec<f64>>,
-}
+use rubmap_wheel::response::sensitivity::Growth;
 
 /// A trial of a study with its setting.
 struct Tried<'a> {
@@ -270,16 +136,6 @@ fn in_words(reference: &Tried, history_revolutions: u32) -> String {
             if repeats { "" } else { ". Peaks at engine orders are not compared" }
         ),
     }
-}
-
-/// Indices of the points (time, error) that no other one is as good as in both and better in one.
-pub fn front(points: &[Option<(f64, f64)>]) -> Vec<usize> {
-    let beaten = |(time, error): (f64, f64)| {
-        points.iter().flatten().any(|&(t, e)| t <= time && e <= error && (t < time || e < error))
-    };
-    let on =
-        |(index, point): (usize, &Option<(f64, f64)>)| point.filter(|&point| !beaten(point)).map(|_| index);
-    points.iter().enumerate().filter_map(on).collect()
 }
 
 /// Trials of the same size and scheme, ascending in steps.

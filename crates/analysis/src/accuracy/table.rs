@@ -2,9 +2,8 @@
 
 use std::fmt::Write;
 
-use super::study::{StudyRun, WorkPrecision};
-use crate::auto_or::AutoOr;
-use crate::result::PointStatus;
+use crate::request::AutoOr;
+use crate::result::{PointStatus, StudyRun, WorkPrecision};
 
 const HEADER: &str = "speed_rad_s,modes_per_speed,scheme,kept_modes,steps_per_revolution,unknowns,status,history_error,\
 amplitude_error,amplitude_spread,engine_orders_error,impulse_error,set_up_s,per_revolution_s,time_s,repetitions,spread,pareto\n";

@@ -4,36 +4,20 @@ use std::cell::Cell;
 use std::time::Duration;
 
 use cpu_time::ThreadTime;
-use serde::{Deserialize, Serialize};
 
-use crate::auto_or::AutoOr;
 use crate::discretisation::aligned_samples;
 use crate::error::AnalysisError;
 use crate::model::ReducedSector;
 use crate::monitor::Monitor;
 use crate::record::record_run;
-use crate::request::{SchemeChoice, SweepDirection, SweepRequest, default_peak_prominence};
-use crate::result::{Point, PointStatus, SpeedSpectra, Verdict};
+use crate::request::auto_or::MOST_STEPS;
+use crate::request::{AutoOr, Setting, SweepRequest, TrialRequest};
+use crate::result::{Cost, SpeedSpectra, Trial};
 use crate::speed::{Start, empty_point, ready, simulate};
-use crate::speeds::{SpeedSet, SpeedUnit, Speeds};
-use crate::stepping::{MOST_STEPS, Stepping};
+use crate::stepping::Stepping;
 use rubmap_wheel::dynamics::integrate::{Outcome, Run};
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
-use rubmap_wheel::response::sensitivity::{self, Sensitivity};
-
-/// The knobs that accuracy and time depend on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-pub struct Setting {
-    /// Fixed-interface modes kept per stiffness speed and nodal diameter.
-    pub modes_per_speed: u32,
-    /// How time is stepped.
-    pub scheme: SchemeChoice,
-    /// Modes per nodal diameter that `massless_boundary` integrates.
-    pub kept_modes: AutoOr,
-    /// Time steps per revolution.
-    pub steps_per_revolution: u32,
-}
+use rubmap_wheel::response::sensitivity;
 
 impl Setting {
     /// `request` with these knobs.
@@ -54,112 +38,6 @@ impl Setting {
         let most = MOST_STEPS / aligned * aligned;
         steps.checked_next_multiple_of(aligned).map_or(most, |steps| steps.min(most))
     }
-}
-
-/// What a trial runs. Two equal ones give the same numbers but for times.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct TrialRequest {
-    /// A resolved sweep of one speed with every knob fixed.
-    pub sweep: SweepRequest,
-    /// Revolutions from the start whose displacements are kept; 0 for none.
-    pub history_revolutions: u32,
-    /// Whether a twin that starts from a perturbed state runs beside it.
-    pub twin: bool,
-}
-
-impl TrialRequest {
-    /// `setting` at one speed of `request`, without what chooses settings.
-    pub fn new(request: &SweepRequest, speed_rad_s: f64, setting: Setting) -> Self {
-        let mut sweep = setting.on(request);
-        sweep.speeds = Speeds::One(SpeedSet {
-            from: None,
-            to: None,
-            count: None,
-            values: Some(vec![speed_rad_s]),
-            unit: SpeedUnit::RadS,
-            added: false,
-        });
-        (sweep.accuracy, sweep.budget, sweep.control_speeds) = (None, None, None);
-        sweep.sweep = SweepDirection::Independent;
-        (sweep.refine, sweep.peak_prominence) = (false, default_peak_prominence());
-        Self { sweep, history_revolutions: 0, twin: false }
-    }
-}
-
-/// What a run costs in time of its thread, from some repetitions.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-pub struct Cost {
-    /// Before the first step, s: eigenproblems at the speed, tables of contact and casing. Without the reduction.
-    pub set_up_s: f64,
-    /// One revolution, s.
-    pub per_revolution_s: f64,
-    /// Repetitions; the medians are given.
-    pub repetitions: u32,
-    /// Half the range of `per_revolution_s` over the repetitions, relative to its median; absent where the run was long enough
-    /// to be timed once.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub spread: Option<f64>,
-}
-
-impl Cost {
-    /// Of a run of `revolutions`, s.
-    pub fn of_run(&self, revolutions: u32) -> f64 {
-        self.set_up_s + f64::from(revolutions) * self.per_revolution_s
-    }
-
-    /// From (set-up, per revolution) of every repetition.
-    fn of(mut repetitions: Vec<(f64, f64)>) -> Self {
-        let count = repetitions.len();
-        let median = |of: fn(&(f64, f64)) -> f64, repetitions: &mut Vec<(f64, f64)>| {
-            repetitions.sort_by(|a, b| of(a).total_cmp(&of(b)));
-            of(&repetitions[count / 2])
-        };
-        let set_up_s = median(|r| r.0, &mut repetitions);
-        let per_revolution_s = median(|r| r.1, &mut repetitions);
-        let range = repetitions[count - 1].1 - repetitions[0].1;
-        let spread = (count > 1 && per_revolution_s > 0.0).then(|| 0.5 * range / per_revolution_s);
-        Self { set_up_s, per_revolution_s, repetitions: count as u32, spread }
-    }
-}
-
-/// What a trial found.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Trial {
-    /// As a sweep would report it.
-    pub point: Point,
-    /// Real unknowns that are integrated.
-    pub unknowns: u32,
-    /// `[sensor][engine order]`: amplitudes at the integer engine orders from 1 on, of a completed run.
-    pub lines: Vec<Vec<f64>>,
-    /// `[sensor][block]`: root mean squares over successive parts of the window, of a completed run.
-    pub levels: Vec<Vec<f64>>,
-    /// `[sensor][sample]`: displacement over the first revolutions.
-    pub history: Vec<Vec<f64>>,
-    /// Samples of a revolution of `history`.
-    pub samples_per_revolution: u32,
-    /// Whether trajectories can be compared; of a completed trial with a twin.
-    pub sensitivity: Option<Sensitivity>,
-    /// What it cost.
-    pub cost: Cost,
-}
-
-impl Trial {
-    /// Whether it was integrated to its end.
-    pub(super) fn is_completed(&self) -> bool {
-        self.point.status == PointStatus::Completed
-    }
-
-    /// Whether the steady response repeats.
-    pub(super) fn repeats(&self) -> bool {
-        repeats(&self.point)
-    }
-}
-
-/// Whether the steady response of a speed repeats.
-pub(super) fn repeats(point: &Point) -> bool {
-    let verdict = point.settling.as_ref().map(|settling| settling.verdict);
-    matches!(verdict, Some(Verdict::Periodic | Verdict::Subharmonic))
 }
 
 /// Fewest parts of the window whose levels are compared, if it has so many revolutions.

@@ -2,10 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::StepSize;
-use super::wheel::{Case, SPEED, STEPS, StepSeconds, Wheel, measure};
+use super::wheel::STEPS;
+use crate::calibration::size::StepSize;
+use crate::calibration::wheel::{Case, SPEED, StepSeconds, Wheel, measure};
 use crate::effects::flexible_casing;
-use crate::scene::Scene;
+use crate::request::Scene;
 use rubmap_wheel::dynamics::contact::coating::{Coating, CoatingMaterial};
 use rubmap_wheel::dynamics::contact::friction::sliding_directions;
 use rubmap_wheel::dynamics::effects::{Effects, Friction};

@@ -1,15 +1,16 @@
 //! What a time step costs on this machine: the real step loop on a few synthetic wheels, some tenths of a second.
 
-mod effects;
-mod wheel;
-
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
-use self::effects::EffectCosts;
-pub(super) use self::effects::EffectSizes;
-use self::wheel::{Case, StepSeconds, Wheel};
+use crate::calibration::effects::{EffectCosts, EffectSizes};
+use crate::calibration::size::StepSize;
+use crate::calibration::wheel::{Case, StepSeconds, Wheel};
 use rubmap_wheel::dynamics::effects::Effects;
+
+pub(crate) mod effects;
+pub(super) mod size;
+mod wheel;
 
 /// What a time step costs on one machine; measured once and kept.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -30,28 +31,6 @@ struct StepCost {
     fixed: f64,
     per_product: f64,
     per_transform: f64,
-}
-
-/// What the cost of a step depends on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct StepSize {
-    pub(super) sectors: usize,
-    /// Contact nodes of a sector; 0 where nothing can touch.
-    pub(super) nodes: usize,
-    /// Real unknowns that are integrated.
-    pub(super) unknowns: usize,
-}
-
-impl StepSize {
-    /// Reading an unknown's own recursion takes about as long as its mode shape at two nodes.
-    fn products(self) -> f64 {
-        (self.unknowns * (self.nodes + 2)) as f64
-    }
-
-    /// Normal displacements of all sectors from their Fourier coordinates.
-    fn transforms(self) -> f64 {
-        (self.sectors * self.sectors * self.nodes.next_multiple_of(8)) as f64
-    }
 }
 
 impl StepCost {

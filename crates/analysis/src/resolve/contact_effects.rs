@@ -1,10 +1,8 @@
 //! Friction and abradable coating of a request.
 
 use super::{Findings, between, limits};
-use crate::auto_or::AutoOr;
 use crate::model::ModelFacts;
-use crate::request::Integration;
-use crate::scene::{Abradable, Friction};
+use crate::request::{Abradable, AutoOr, Friction, Integration};
 use rubmap_wheel::dynamics::contact::coating::{LEAST_HARDENING, RODS_PER_SECTOR};
 
 /// What can be said of friction before a wheel is reduced; whether it jams is found out at every speed.

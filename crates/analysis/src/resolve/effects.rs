@@ -1,14 +1,13 @@
 //! Checks of the effects that a scene names, and of which go together.
 
-use super::contact_effects::{check_abradable, check_friction};
 use super::{Findings, between, check_reach, limits};
 use crate::effects::flexible_casing;
 use crate::model::ModelFacts;
-use crate::request::{SchemeChoice, SweepDirection, SweepRequest};
-use crate::scene::{
+use crate::request::{
     CasingMode, EngineOrderExcitation, FlexibleCasing, Initial, InitialWave, Mistuning, Orbit, Probe, Ring,
-    Scene, Symmetry,
+    Scene, SchemeChoice, SweepDirection, SweepRequest, Symmetry,
 };
+use crate::resolve::contact_effects::{check_abradable, check_friction};
 use crate::symmetry::repeats;
 use rubmap_wheel::dynamics::mistuning::LARGEST_DEVIATION;
 

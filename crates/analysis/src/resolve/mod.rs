@@ -1,23 +1,21 @@
 //! Checks a request against its model and fills in defaults: all violations at once, each at its JSON pointer.
 
-mod contact_effects;
-mod effects;
-
-use std::f64::consts::TAU;
-
-use crate::auto_or::AutoOr;
 use crate::discretisation::most_samples;
 use crate::error::Violation;
 use crate::model::ModelFacts;
+use crate::request::auto_or::MOST_STEPS;
 use crate::request::{
-    Accuracy, Budget, Component, Integration, ModalAnalysisRequest, SchemeChoice, Sensor, SweepDirection,
-    SweepRequest,
+    Accuracy, AutoOr, Budget, Casing, Clearance, Component, Damping, Integration, Lobes,
+    ModalAnalysisRequest, Part, Scene, SchemeChoice, Sensor, Speeds, SweepDirection, SweepRequest,
 };
-use crate::scene::{Casing, Clearance, Damping, Lobes, Scene};
-use crate::speeds::{Part, Speeds};
-use crate::stepping::{MOST_STEPS, least_steps_for_lobes};
+use crate::stepping::least_steps_for_lobes;
 use rubmap_wheel::dynamics::casing::Restriction;
 use rubmap_wheel::dynamics::integrate::DIVERGED_SHARE_OF_RADIUS;
+use std::f64::consts::TAU;
+
+mod contact_effects;
+mod effects;
+pub(crate) mod study;
 
 /// Bounds that keep a request's memory and time within reason.
 pub(super) mod limits {

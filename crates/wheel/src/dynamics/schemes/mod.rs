@@ -103,14 +103,7 @@ impl Scheme {
     }
 
     /// d = z(0) − z(−h) of the free motion with z(0) = `displacement` and ż(0) = `velocity`.
-    pub fn first_increment(
-        self,
-        omega: f64,
-        zeta: f64,
-        h: f64,
-        displacement: f64,
-        velocity: f64,
-    ) -> f64 {
+    pub fn first_increment(self, omega: f64, zeta: f64, h: f64, displacement: f64, velocity: f64) -> f64 {
         match self {
             Self::CentralDifferences => {
                 central_differences::first_increment(omega, zeta, h, displacement, velocity)

@@ -6,8 +6,8 @@ use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{MapAccess, SeqAccess};
 use serde::{Deserialize, Deserializer, Serialize};
 
-use super::error::Violation;
-use super::scene::is_false;
+use crate::error::Violation;
+use crate::request::omit::is_false;
 
 /// Rotational speeds: one range or list, or an array of them, whose union in the order given is taken. What one of them
 /// says is taken as it is; a speed that an earlier one has already (to 1e-9) is not computed again.
@@ -104,12 +104,12 @@ impl<'de> Deserialize<'de> for Speeds {
 }
 
 /// The speeds of one range or list that no earlier one has.
-pub(super) struct Part {
+pub(crate) struct Part {
     /// JSON pointer to the range or list.
-    pub(super) pointer: String,
-    pub(super) speeds_rad_s: Vec<f64>,
+    pub(crate) pointer: String,
+    pub(crate) speeds_rad_s: Vec<f64>,
     /// Whether a round of refinement added it.
-    pub(super) added: bool,
+    pub(crate) added: bool,
 }
 
 impl Speeds {
@@ -134,12 +134,12 @@ impl Speeds {
     }
 
     /// Those of them that no refinement has added.
-    pub(super) fn asked(&self) -> Result<Vec<f64>, Vec<Violation>> {
+    pub(crate) fn asked(&self) -> Result<Vec<f64>, Vec<Violation>> {
         Ok(self.parts()?.into_iter().filter(|part| !part.added).flat_map(|part| part.speeds_rad_s).collect())
     }
 
     /// The same and `speeds_rad_s` after them, as a list that a refinement has added: no speed changes its index.
-    pub(super) fn with_added(&self, speeds_rad_s: Vec<f64>) -> Self {
+    pub(crate) fn with_added(&self, speeds_rad_s: Vec<f64>) -> Self {
         let mut sets = match self {
             Self::One(set) => vec![set.clone()],
             Self::Several(sets) => sets.clone(),
@@ -156,7 +156,7 @@ impl Speeds {
     }
 
     /// How many more speeds there may be.
-    pub(super) fn room(&self) -> usize {
+    pub(crate) fn room(&self) -> usize {
         let sets = match self {
             Self::One(set) => std::slice::from_ref(set),
             Self::Several(sets) => sets,
@@ -166,7 +166,7 @@ impl Speeds {
     }
 
     /// The same, range by range.
-    pub(super) fn parts(&self) -> Result<Vec<Part>, Vec<Violation>> {
+    pub(crate) fn parts(&self) -> Result<Vec<Part>, Vec<Violation>> {
         let sets = match self {
             Self::One(set) => {
                 return Ok(vec![set.part("/speeds".to_owned(), MAX_SPEEDS).map_err(|v| vec![v])?]);

@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::request::Component;
+use crate::request::omit::is_false;
+use crate::request::sensor::Component;
 
 /// Effects of one simulation.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -56,15 +57,10 @@ pub struct Scene {
 
 impl Scene {
     /// Lobes that pass the blades and may be touched.
-    pub(super) fn touched_lobes(&self) -> Option<&Lobes> {
+    pub(crate) fn touched_lobes(&self) -> Option<&Lobes> {
         self.contact.as_ref()?;
         self.casing.as_ref()?.lobes.as_ref()
     }
-}
-
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde wants a reference")]
-pub(super) fn is_false(value: &bool) -> bool {
-    !value
 }
 
 /// Modal damping of the reduced wheel.

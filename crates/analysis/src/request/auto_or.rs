@@ -2,6 +2,9 @@
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+/// Most steps per revolution, given or chosen.
+pub(crate) const MOST_STEPS: u32 = 10_000_000;
+
 /// A whole number, or `"auto"`.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum AutoOr {
@@ -14,7 +17,7 @@ pub enum AutoOr {
 
 impl AutoOr {
     /// The number, or `chosen` if the program may choose.
-    pub(super) fn or(self, chosen: u32) -> u32 {
+    pub(crate) fn or(self, chosen: u32) -> u32 {
         match self {
             Self::Auto => chosen,
             Self::Fixed(number) => number,
@@ -63,8 +66,7 @@ impl<'de> Deserialize<'de> for AutoOr {
 mod schema {
     use utoipa::{PartialSchema, ToSchema};
 
-    use super::AutoOr;
-    use crate::stepping::MOST_STEPS;
+    use super::{AutoOr, MOST_STEPS};
 
     impl PartialSchema for AutoOr {
         fn schema() -> utoipa::openapi::RefOr<utoipa::openapi::schema::Schema> {

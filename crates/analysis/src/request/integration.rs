@@ -1,0 +1,67 @@
+//! How a speed is integrated.
+
+use serde::{Deserialize, Serialize};
+
+use crate::request::auto_or::AutoOr;
+
+/// Settings of the time integration.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(deny_unknown_fields, default)]
+pub struct Integration {
+    /// How time is stepped.
+    pub scheme: SchemeChoice,
+    /// Modes per nodal diameter that `massless_boundary` integrates, or `"auto"` for as many as the step carries.
+    pub kept_modes: AutoOr,
+    /// Time steps per revolution, or `"auto"` for a safe number at each speed.
+    pub steps_per_revolution: AutoOr,
+    /// Revolutions to simulate.
+    #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 100_000))]
+    pub revolutions: u32,
+    /// Revolutions over which the restriction grows from zero to its full height.
+    #[cfg_attr(feature = "schema", schema(minimum = 0))]
+    pub ramp_revolutions: f64,
+    /// Revolutions at the end of the run that spectra are computed from.
+    #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 100_000))]
+    pub window_revolutions: u32,
+}
+
+impl Default for Integration {
+    fn default() -> Self {
+        Self {
+            scheme: SchemeChoice::Auto,
+            kept_modes: AutoOr::Auto,
+            steps_per_revolution: AutoOr::Auto,
+            revolutions: 50,
+            ramp_revolutions: 1.0,
+            window_revolutions: 20,
+        }
+    }
+}
+
+/// How time is stepped.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum SchemeChoice {
+    /// Chosen at each speed, with the step; the result says what and why.
+    Auto,
+    /// The paper's central differences (Eqs 8–10); the stiffest mode bounds the step.
+    CentralDifferences,
+    /// The exact propagator of every mode; the contact sets the step.
+    ExactModal,
+    /// The lowest modes carry the mass, the boundary follows statically; nothing is lost at a closing.
+    MasslessBoundary,
+}
+
+impl SchemeChoice {
+    /// The word on the wire.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::CentralDifferences => "central_differences",
+            Self::ExactModal => "exact_modal",
+            Self::MasslessBoundary => "massless_boundary",
+        }
+    }
+}

@@ -1,0 +1,24 @@
+//! What users ask for, as it comes over the wire.
+
+pub mod accuracy;
+pub mod auto_or;
+pub mod integration;
+pub mod modal_analysis;
+mod omit;
+pub mod scene;
+pub mod sensor;
+pub mod speeds;
+pub mod study;
+pub mod sweep;
+pub mod trial;
+
+pub use accuracy::{Accuracy, Budget};
+pub use auto_or::AutoOr;
+pub use integration::{Integration, SchemeChoice};
+pub use modal_analysis::ModalAnalysisRequest;
+pub use scene::*;
+pub use sensor::{Component, Sensor};
+pub use speeds::*;
+pub use study::{Grid, StudyIntegration, StudyRequest};
+pub use sweep::*;
+pub use trial::{Setting, TrialRequest};

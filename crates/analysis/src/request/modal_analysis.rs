@@ -1,0 +1,80 @@
+//! What a modal analysis asks for.
+
+use serde::{Deserialize, Serialize};
+
+use crate::request::accuracy::{Accuracy, Budget};
+use crate::request::auto_or::AutoOr;
+use crate::request::omit::is_false;
+use crate::request::speeds::Speeds;
+use crate::request::sweep::{DEFAULT_MODES_PER_SPEED, default_max_engine_order};
+
+/// Natural frequencies over speed and the linear interaction criterion.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(deny_unknown_fields)]
+pub struct ModalAnalysisRequest {
+    /// Id of an uploaded model.
+    #[cfg_attr(feature = "schema", schema(max_length = 64))]
+    pub model: String,
+    /// Fixed-interface modes kept per stiffness speed and nodal diameter. `"auto"` is what `accuracy` or `budget` chooses, without
+    /// them 20.
+    #[serde(default)]
+    pub modes_per_speed: AutoOr,
+    /// Modal families (frequencies per nodal diameter) to report.
+    #[serde(default = "default_families")]
+    #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 100))]
+    pub families: u32,
+    /// Superharmonic numbers n of the linear criterion f = i·n·Ω/2π.
+    #[serde(default = "default_superharmonics")]
+    #[cfg_attr(feature = "schema", schema(max_items = 16))]
+    pub superharmonics: Vec<u32>,
+    /// Lobe count of the casing that can drive the wheel.
+    #[serde(default = "default_lobes")]
+    #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 100))]
+    pub lobes: u32,
+    /// Highest engine order of the driven crossings.
+    #[serde(default = "default_max_engine_order")]
+    #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 1000))]
+    pub max_engine_order: u32,
+    /// Coriolis forces through the package's gyroscopic matrix: the frequencies of waves that travel with and against the
+    /// rotation, which then cross engine orders in their place.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub coriolis: bool,
+    /// Speeds of the Campbell diagram: every range and list ascends, several are merged.
+    pub speeds: Speeds,
+    /// An accuracy to reach in place of `modes_per_speed`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub accuracy: Option<Accuracy>,
+    /// A time to keep in place of `modes_per_speed`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub budget: Option<Budget>,
+}
+
+impl ModalAnalysisRequest {
+    /// k of a resolved request.
+    pub fn modes(&self) -> u32 {
+        self.modes_per_speed.or(DEFAULT_MODES_PER_SPEED)
+    }
+
+    /// Whether the reductions themselves choose `modes_per_speed`.
+    pub(crate) fn chooses(&self) -> bool {
+        self.accuracy.is_some() || self.budget.is_some()
+    }
+
+    /// Whether they have still to do so.
+    pub fn unchosen(&self) -> bool {
+        self.chooses() && self.modes_per_speed == AutoOr::Auto
+    }
+}
+
+fn default_families() -> u32 {
+    2
+}
+
+fn default_superharmonics() -> Vec<u32> {
+    vec![1, 2, 3]
+}
+
+fn default_lobes() -> u32 {
+    2
+}

@@ -1,0 +1,119 @@
+//! The settings that were chosen for an accuracy or a budget, and why.
+
+use serde::{Deserialize, Serialize};
+
+use crate::request::{Accuracy, AutoOr, Budget, ModalAnalysisRequest, Setting, SweepRequest};
+use rubmap_wheel::response::settling::Verdict;
+
+/// The setting that pilot runs chose, and why.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct Choice {
+    /// The accuracy that was asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub accuracy: Option<Accuracy>,
+    /// The budget that was given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub budget: Option<Budget>,
+    /// The setting.
+    pub setting: Setting,
+    /// Estimated relative error of the steady response, the largest of the pilot speeds: the sum of the following parts.
+    pub estimated_error: f64,
+    /// Part of it that more modes would remove.
+    pub error_of_modes: f64,
+    /// Part of it that more steps would remove.
+    pub error_of_steps: f64,
+    /// Part of it that only a longer window would remove: the standard error of levels that do not repeat.
+    pub spread: f64,
+    /// Pilot speeds that carry these estimates; at the others no run was completed.
+    pub estimated_at: u32,
+    /// Expected wall time of all speeds and of those that are simulated again, s.
+    pub expected_wall_time_s: f64,
+    /// Why, in words.
+    pub reason: String,
+    /// Speeds of the pilot runs, rad/s.
+    pub pilot_speeds_rad_s: Vec<f64>,
+    /// What they showed, setting by setting as they were tried.
+    pub pilots: Vec<Pilot>,
+}
+
+impl Choice {
+    /// The request with the knobs that were chosen, as if they had been given.
+    #[must_use]
+    pub fn explicit(&self, request: &SweepRequest) -> SweepRequest {
+        SweepRequest {
+            accuracy: None,
+            budget: None,
+            control_speeds: Some(request.controls() as u32),
+            ..self.setting.on(request)
+        }
+    }
+}
+
+/// Errors of one setting at one pilot speed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct Pilot {
+    /// Ω, rad/s.
+    pub speed_rad_s: f64,
+    /// Fixed-interface modes kept per stiffness speed and nodal diameter.
+    pub modes_per_speed: u32,
+    /// Time steps per revolution.
+    pub steps_per_revolution: u32,
+    /// Steady-state verdict; absent where the run was not completed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub verdict: Option<Verdict>,
+    /// Estimated error that more modes would remove; absent where it could not be told because a run was not completed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub error_of_modes: Option<f64>,
+    /// The same for more steps.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub error_of_steps: Option<f64>,
+    /// Computing time of this run, s.
+    pub time_s: f64,
+}
+
+/// The modes that were chosen, and why.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct ModesChoice {
+    /// The accuracy that was asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub accuracy: Option<Accuracy>,
+    /// The budget that was given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub budget: Option<Budget>,
+    /// k.
+    pub modes_per_speed: u32,
+    /// Largest relative difference of the ten lowest frequencies of any nodal diameter from the full sector's.
+    pub error: f64,
+    /// Why, in words.
+    pub reason: String,
+    /// The reductions that were compared.
+    pub tried: Vec<TriedModes>,
+}
+
+impl ModesChoice {
+    /// The request with the modes that were chosen, as if they had been given.
+    #[must_use]
+    pub fn explicit(&self, request: &ModalAnalysisRequest) -> ModalAnalysisRequest {
+        ModalAnalysisRequest {
+            modes_per_speed: AutoOr::Fixed(self.modes_per_speed),
+            accuracy: None,
+            budget: None,
+            ..request.clone()
+        }
+    }
+}
+
+/// A reduction that was compared.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct TriedModes {
+    /// k.
+    pub modes_per_speed: u32,
+    /// Its error.
+    pub error: f64,
+    /// What it took, s.
+    pub wall_time_s: f64,
+}

@@ -1,0 +1,139 @@
+//! How far runs are from finer ones.
+
+use serde::{Deserialize, Serialize};
+
+use crate::request::Setting;
+
+/// Differences between a run and a finer one, relative to the finer one.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct Errors {
+    /// Displacement over the first revolutions: root mean square of the difference over that of the displacement, all sensors
+    /// together. Absent where no history was kept.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub history: Option<f64>,
+    /// Steady amplitude: the largest difference of a sensor's root mean square over the window, relative to the largest
+    /// sensor's.
+    pub amplitude: f64,
+    /// Standard error of `amplitude` where the response does not repeat: its level varies from part to part of the window.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub amplitude_spread: Option<f64>,
+    /// Peaks at integer engine orders: the largest root sum of squares over a sensor's differences, relative to the largest
+    /// sensor's peaks. Absent where a response does not repeat.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub engine_orders: Option<f64>,
+    /// Contact impulse over the whole run. Absent where there is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub impulse: Option<f64>,
+}
+
+impl Errors {
+    /// The error of one quantity, if it is there.
+    pub fn of(&self, quantity: Quantity) -> Option<f64> {
+        match quantity {
+            Quantity::History => self.history,
+            Quantity::Amplitude => Some(self.amplitude),
+            Quantity::EngineOrders => self.engine_orders,
+            Quantity::Impulse => self.impulse,
+        }
+    }
+
+    /// What a run is judged by on a Pareto front: the error of one quantity, but no less than chance lets it be known.
+    pub fn judged(&self, quantity: Quantity) -> Option<f64> {
+        let error = self.of(quantity)?;
+        Some(match quantity {
+            Quantity::Amplitude => error.max(self.amplitude_spread.unwrap_or(0.0)),
+            Quantity::History | Quantity::EngineOrders | Quantity::Impulse => error,
+        })
+    }
+}
+
+/// A quantity of interest.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Quantity {
+    /// Displacement over the first revolutions.
+    History,
+    /// Steady amplitude.
+    Amplitude,
+    /// Peaks at integer engine orders.
+    EngineOrders,
+    /// Contact impulse.
+    Impulse,
+}
+
+impl Quantity {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::History, Self::Amplitude, Self::EngineOrders, Self::Impulse];
+
+    /// The word on the wire.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::History => "history",
+            Self::Amplitude => "amplitude",
+            Self::EngineOrders => "engine_orders",
+            Self::Impulse => "impulse",
+        }
+    }
+}
+
+/// Estimated errors of the speeds of a sweep.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct ErrorEstimate {
+    /// The speeds that were simulated again: half of them at the most prominent peaks of the response, the others evenly spread.
+    pub controls: Vec<Control>,
+    /// One per completed speed, in the order of the request, unless a control run at or beside it ended early.
+    pub points: Vec<PointError>,
+    /// The largest of them; absent where there are none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub largest: Option<f64>,
+    /// Whether all completed speeds are known to be within the accuracy that was asked for, if one was; absent where the modes could
+    /// not be refined.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub target_met: Option<bool>,
+    /// What these numbers are, in words.
+    pub message: String,
+}
+
+impl ErrorEstimate {
+    /// The estimated error of speed `index`, if there is one.
+    pub fn of(&self, index: u32) -> Option<f64> {
+        self.points.iter().find(|point| point.index == index).map(|point| point.estimated_error)
+    }
+}
+
+/// A speed that was simulated again.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct Control {
+    /// Index of the speed in the request.
+    pub index: u32,
+    /// Ω, rad/s.
+    pub speed_rad_s: f64,
+    /// The finer setting.
+    pub setting: Setting,
+    /// Differences between the two; absent where the finer run was not completed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub differences: Option<Errors>,
+    /// Estimated relative error of the steady response.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub estimated_error: Option<f64>,
+    /// Why the finer run was not completed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub message: Option<String>,
+}
+
+/// Estimated error of one speed.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct PointError {
+    /// Index of the speed in the request.
+    pub index: u32,
+    /// Relative error of the steady response.
+    pub estimated_error: f64,
+    /// Whether this speed was simulated again itself; otherwise the number is the larger one of the nearest that were on either
+    /// side.
+    pub controlled: bool,
+}

@@ -1,0 +1,255 @@
+//! One speed of a sweep: credentials, summary, spectra.
+
+use serde::{Deserialize, Serialize};
+
+use crate::end_state::EndState;
+use crate::request::{Scene, SchemeChoice, Sensor};
+use crate::result::reduction::StiffeningVerdict;
+use rubmap_wheel::dynamics::energy::{EffectWork, EnergyAudit};
+use rubmap_wheel::response::settling::Settling;
+use rubmap_wheel::response::side_bands::SideBands;
+use rubmap_wheel::response::symmetry_breaking::SymmetryBreaking;
+
+/// How one speed of a sweep ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum PointStatus {
+    /// Integrated to the end; its numbers are valid within the credentials.
+    Completed,
+    /// Stopped because the response grew beyond any physical bound; no amplitudes.
+    Diverged,
+    /// Could not be integrated at this speed; `message` says why; no amplitudes.
+    Failed,
+}
+
+/// Steady response of one sensor in one number each.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct SensorResponse {
+    /// The sensor.
+    pub sensor: Sensor,
+    /// Mean displacement over the window.
+    pub mean: f64,
+    /// Root mean square of the displacement about its mean over the window.
+    pub rms: f64,
+    /// Half the peak-to-peak displacement over the window.
+    pub half_peak_to_peak: f64,
+    /// Non-zero engine order of the largest spectral amplitude; absent where no line stands above the round-off of the
+    /// displacements of all sensors, such as where nothing ever touches.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dominant_engine_order: Option<f64>,
+    /// Nodal diameter that carries the dominant engine order; absent without one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dominant_nodal_diameter: Option<u32>,
+    /// Pairs of spectral lines k ± δ about integer engine orders, the strongest ones by ascending order; only where they
+    /// stand clear of the floor of the spectrum.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub side_bands: Vec<SideBands>,
+}
+
+/// The scheme of a run, and why it was taken.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct SchemeReport {
+    /// The scheme; never `auto`.
+    pub name: SchemeChoice,
+    /// Why this scheme and this step.
+    pub reason: String,
+    /// Modes integrated per nodal diameter (fewer where a nodal diameter has fewer); absent if all are.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kept_modes: Option<u32>,
+    /// Modes over all nodal diameters (a pair counts twice) that follow statically because a step does not resolve them.
+    pub following_modes: u32,
+    /// Frequency up to which modes of every nodal diameter are integrated, Hz.
+    pub reach_hz: f64,
+}
+
+/// Both sides of the energy identity over the whole run, in force·length; effects that the scene does not name are absent.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct EnergyReport {
+    /// Mechanical energy at the start, of wheel and elastic casing.
+    pub initial: f64,
+    /// The same at the end: `initial` and all works less all losses.
+    #[serde(rename = "final")]
+    pub last: f64,
+    /// Work of the contact forces on the wheel.
+    pub contact_work: f64,
+    /// Lost to modal damping, and to modes that follow statically.
+    pub damping_loss: f64,
+    /// Work of the forces at engine orders.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub excitation_work: Option<f64>,
+    /// Minus the change of the energy that the stiffness deviations store.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mistuning_work: Option<f64>,
+    /// Work of the contact forces on the elastic casing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub casing_work: Option<f64>,
+    /// Lost in the casing's damping.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub casing_loss: Option<f64>,
+    /// Heat of friction, supplied by the shaft; its work on the vibration is part of the work of contact.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub friction_heat: Option<f64>,
+}
+
+impl EnergyReport {
+    /// Of a run on one of the `parts` of a wheel; none if a number is not finite.
+    pub(crate) fn of(audit: &EnergyAudit, scene: &Scene, parts: f64) -> Option<Self> {
+        let effects = audit.effects();
+        let named = |effect: bool, value: f64| effect.then_some(parts * value);
+        let (initial, last) = audit.ends();
+        let EffectWork { excitation, mistuning, casing, casing_loss, friction_heat } = effects;
+        let all = [
+            initial,
+            last,
+            audit.work(),
+            audit.loss(),
+            excitation,
+            mistuning,
+            casing,
+            casing_loss,
+            friction_heat,
+        ];
+        all.iter().all(|value| value.is_finite()).then(|| Self {
+            initial: parts * initial,
+            last: parts * last,
+            contact_work: parts * audit.work(),
+            damping_loss: parts * audit.loss(),
+            excitation_work: named(!scene.engine_order_excitation.is_empty(), effects.excitation),
+            mistuning_work: named(scene.mistuning.is_some(), effects.mistuning),
+            casing_work: named(scene.flexible_casing.is_some(), effects.casing),
+            casing_loss: named(scene.flexible_casing.is_some(), effects.casing_loss),
+            friction_heat: named(scene.friction.is_some(), effects.friction_heat),
+        })
+    }
+}
+
+/// What the blades wore off an abradable coating.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct WearReport {
+    /// Volume removed, length³.
+    pub removed_volume: f64,
+    /// Deepest wear, length.
+    pub deepest: f64,
+    /// Work that went into plastic strain, force·length.
+    pub plastic_work: f64,
+    /// Whether a tip met the metal behind the coating.
+    pub reached_metal: bool,
+}
+
+/// How deep the blades wore an abradable coating.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct WearMap {
+    /// `[rod][contact node]`, length: rods in the direction of rotation from the package's x axis, contact nodes from the
+    /// leading edge.
+    pub depths: Vec<Vec<f64>>,
+}
+
+/// One speed of a sweep with its credentials.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct Point {
+    /// Index of the speed in the request.
+    pub index: u32,
+    /// Ω in rad/s.
+    pub speed_rad_s: f64,
+    /// How the run ended.
+    pub status: PointStatus,
+    /// Why, for `diverged` and `failed`; and whether a speed of a sweep up or down had to start from rest.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub message: Option<String>,
+    /// How far the K(Ω) that its numbers rest on can be trusted between the speeds at which the stiffness is given, as the
+    /// reduction found; absent where the scene has no centrifugal stiffening, and of speeds that an earlier version computed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stiffening: Option<StiffeningVerdict>,
+    /// Steady-state verdict; absent without a complete run.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub settling: Option<Settling>,
+    /// How time was stepped; absent where nothing was integrated.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scheme: Option<SchemeReport>,
+    /// Steps per revolution used; 0 if none was taken.
+    pub steps_per_revolution: u32,
+    /// Smallest stable number of steps per revolution at this speed; 1 for a scheme without a limit.
+    pub smallest_stable_steps_per_revolution: u32,
+    /// Steps taken.
+    pub steps: u64,
+    /// Share of the steps with a contact force.
+    pub contact_share: f64,
+    /// Sum over contact nodes and steps of λ·h, in force·time of the model's units. This and the next numbers are absent
+    /// where nothing was integrated or the run overflowed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contact_impulse: Option<f64>,
+    /// Largest penetration left after a step's contact solution, and of the state itself at every sample, in the model's
+    /// unit of length.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub largest_penetration: Option<f64>,
+    /// Smallest multiplier λ of an active node, in the model's unit of force; absent without contact.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub smallest_multiplier: Option<f64>,
+    /// Largest violation of the energy identity, relative to the largest energy seen (§8).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub energy_residual: Option<f64>,
+    /// Where that energy came from and went; absent where nothing was integrated or the run overflowed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub energy: Option<EnergyReport>,
+    /// Largest mechanical energy seen, in force·length.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub largest_energy: Option<f64>,
+    /// Largest radial amplitude of any wave of an elastic casing, in the model's unit of length.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub casing_amplitude: Option<f64>,
+    /// Wear of an abradable coating at the end of the run.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wear: Option<WearReport>,
+    /// What became of a tiny asymmetry; with `symmetry: probe`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub symmetry_breaking: Option<SymmetryBreaking>,
+    /// Steady response per sensor; empty unless `completed`.
+    pub responses: Vec<SensorResponse>,
+    /// Wall time of this speed, s.
+    pub wall_time_s: f64,
+    /// Version of the code that computed it.
+    pub version: String,
+}
+
+/// Spectra of one sensor at one speed, over the engine orders of [`SpeedSpectra`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct SensorSpectrum {
+    /// The sensor.
+    pub sensor: Sensor,
+    /// Single-sided physical amplitude per engine order, in the model's unit of length.
+    pub amplitude: Vec<f64>,
+    /// `[nodal diameter][engine order]`: amplitude of the wheel's component in that nodal diameter, in the real
+    /// orthonormal Fourier basis over the sectors (cosine and sine joined by root sum of squares).
+    pub nodal_diameters: Vec<Vec<f64>>,
+}
+
+/// Spectra of all sensors at one speed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct SpeedSpectra {
+    /// Engine orders of the bins: multiples of 1/`window_revolutions` from 0 to `max_engine_order`.
+    pub engine_orders: Vec<f64>,
+    /// One per sensor, in the order of the request.
+    pub sensors: Vec<SensorSpectrum>,
+}
+
+/// All that one speed of a sweep produces.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SpeedResult {
+    /// Credentials and summary.
+    pub point: Point,
+    /// Absent unless `point.status` is `completed`.
+    pub spectra: Option<SpeedSpectra>,
+    /// Where the wheel was at the end of a completed run of a sweep up or down, otherwise absent.
+    pub end_state: Option<EndState>,
+    /// Of an abradable coating.
+    pub wear: Option<WearMap>,
+}
