@@ -1,79 +1,263 @@
-//! What must not be there, is not there: the invariants at the top of `lib.rs`, as far as a search can tell.
+//! The shape of the house: which crate knows what, and no two files that need each other.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// Files of a module that contain one of `words`.
-fn offenders(module: &str, words: &[&str]) -> Vec<PathBuf> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let mut waiting = vec![root.join(module)];
+use syn::visit::Visit;
+use syn::{ItemMod, ItemUse, UseTree};
+
+/// Crates of the workspace and those of its own that each may use: arrows point one way.
+const CRATES: [(&str, &[&str]); 6] = [
+    ("crates/numerics", &[]),
+    ("crates/wheel", &["numerics"]),
+    ("crates/model", &["numerics", "wheel"]),
+    ("crates/analysis", &["numerics", "wheel"]),
+    ("crates/plot", &["analysis", "wheel"]),
+    (".", &["analysis", "model", "numerics", "plot", "wheel"]),
+];
+
+/// What nothing below the service knows: HTTP, SQL, async, dates.
+const OF_THE_SERVICE: [&str; 8] = ["axum", "hyper", "sqlx", "apalis", "tokio", "tower", "chrono", "reqwest"];
+
+fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn rust_files(folder: &Path) -> Vec<PathBuf> {
+    let mut waiting = vec![folder.to_owned()];
     let mut found = Vec::new();
     while let Some(path) = waiting.pop() {
         if path.is_dir() {
             waiting.extend(std::fs::read_dir(path).unwrap().map(|entry| entry.unwrap().path()));
-        } else if words.iter().any(|word| std::fs::read_to_string(&path).unwrap().contains(word)) {
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
             found.push(path);
         }
     }
+    found.sort();
     found
 }
 
+/// Path of a module from the root of its crate.
+type Module = Vec<String>;
+
+/// Module of a file under `folder`.
+fn module_of(folder: &Path, file: &Path) -> Module {
+    let path = file.strip_prefix(folder).unwrap().with_extension("");
+    let mut module: Module = path.iter().map(|part| part.to_str().unwrap().to_owned()).collect();
+    if module.last().is_some_and(|last| ["mod", "lib", "main"].contains(&last.as_str())) {
+        module.pop();
+    }
+    module
+}
+
+/// The paths a file names, from the root of its crate where they begin with `crate`, `self` or `super`.
+struct Named {
+    /// The module that is being read: the file's, or one inside it.
+    module: Module,
+    found: Vec<Vec<String>>,
+    /// Of other crates.
+    others: BTreeSet<String>,
+}
+
+impl Named {
+    fn name(&mut self, path: Vec<String>) {
+        let mut module = self.module.clone();
+        let mut parts = path.into_iter().peekable();
+        match parts.peek().map(String::as_str) {
+            Some("crate") => {
+                parts.next();
+                module.clear();
+            }
+            Some("self") => {
+                parts.next();
+            }
+            Some("super") => {
+                while parts.next_if(|part| part == "super").is_some() {
+                    module.pop();
+                }
+            }
+            Some(first) => {
+                // A module beside the declarations of this file, or another crate.
+                self.others.insert(first.to_owned());
+            }
+            None => return,
+        }
+        module.extend(parts);
+        self.found.push(module);
+    }
+
+    fn tree(&mut self, before: &mut Vec<String>, tree: &UseTree) {
+        match tree {
+            UseTree::Path(path) => {
+                before.push(path.ident.to_string());
+                self.tree(before, &path.tree);
+                before.pop();
+            }
+            UseTree::Group(group) => group.items.iter().for_each(|item| self.tree(before, item)),
+            UseTree::Name(name) => self.leaf(before, &name.ident),
+            UseTree::Rename(rename) => self.leaf(before, &rename.ident),
+            UseTree::Glob(_) => self.name(before.clone()),
+        }
+    }
+
+    fn leaf(&mut self, before: &[String], name: &syn::Ident) {
+        self.name([before, &[name.to_string()]].concat());
+    }
+}
+
+impl<'ast> Visit<'ast> for Named {
+    fn visit_item_use(&mut self, item: &'ast ItemUse) {
+        self.tree(&mut Vec::new(), &item.tree);
+    }
+
+    fn visit_item_mod(&mut self, item: &'ast ItemMod) {
+        // Tests look at what they like.
+        if item.attrs.iter().any(|attribute| attribute.path().is_ident("cfg")) && item.ident == "tests" {
+            return;
+        }
+        self.module.push(item.ident.to_string());
+        syn::visit::visit_item_mod(self, item);
+        self.module.pop();
+    }
+
+    fn visit_path(&mut self, path: &'ast syn::Path) {
+        let parts: Vec<String> = path.segments.iter().map(|segment| segment.ident.to_string()).collect();
+        if parts.len() > 1 {
+            self.name(parts);
+        }
+        syn::visit::visit_path(self, path);
+    }
+}
+
+/// Which files of a crate need which, and the other crates they name.
+fn arrows(folder: &Path) -> (BTreeMap<Module, BTreeSet<Module>>, BTreeSet<String>) {
+    let files: BTreeMap<Module, PathBuf> =
+        rust_files(folder).into_iter().map(|file| (module_of(folder, &file), file)).collect();
+    let mut arrows = BTreeMap::new();
+    let mut others = BTreeSet::new();
+    for (module, file) in &files {
+        let syntax = syn::parse_file(&std::fs::read_to_string(file).unwrap()).unwrap();
+        let mut named = Named { module: module.clone(), found: Vec::new(), others: BTreeSet::new() };
+        named.visit_file(&syntax);
+        others.append(&mut named.others);
+        let needed = named.found.iter().filter_map(|path| {
+            let file = (0..=path.len()).rev().find(|&length| files.contains_key(&path[..length]));
+            file.map(|length| path[..length].to_vec())
+        });
+        arrows.insert(module.clone(), needed.filter(|needed| needed != module).collect());
+    }
+    (arrows, others)
+}
+
+/// The files that can be reached from `from`.
+fn reached(arrows: &BTreeMap<Module, BTreeSet<Module>>, from: &Module) -> BTreeSet<Module> {
+    let mut waiting = vec![from];
+    let mut reached = BTreeSet::new();
+    while let Some(module) = waiting.pop() {
+        for next in &arrows[module] {
+            if reached.insert(next.clone()) {
+                waiting.push(next);
+            }
+        }
+    }
+    reached
+}
+
 #[test]
-fn physics_knows_no_service() {
-    for module in ["numerics", "dynamics", "response", "analysis", "impeller", "package"] {
-        let service = ["axum", "sqlx", "tokio", "async fn", "std::env::", "chrono::", "apalis", "SystemTime"];
-        assert_eq!(offenders(module, &service), [""; 0].map(PathBuf::from), "{module}");
+fn no_file_needs_itself_in_the_end() {
+    for (name, _) in CRATES {
+        let (arrows, _) = arrows(&root().join(name).join("src"));
+        let circular: Vec<String> = arrows
+            .keys()
+            .filter(|module| reached(&arrows, module).contains(*module))
+            .map(|module| module.join("::"))
+            .collect();
+        assert_eq!(circular, [""; 0], "{name}");
     }
 }
 
 #[test]
-fn arrows_point_one_way() {
-    for (module, later) in [
-        (
-            "numerics",
-            &["crate::dynamics", "crate::response", "crate::analysis", "crate::package", "crate::impeller"][..],
-        ),
-        ("dynamics", &["crate::response", "crate::analysis", "crate::package", "crate::impeller"]),
-        ("response", &["crate::analysis", "crate::package", "crate::impeller"]),
-        (
-            "package",
-            &[
-                "crate::response",
-                "crate::analysis",
-                "crate::impeller",
-                "crate::store",
-                "crate::jobs",
-                "crate::http",
-            ],
-        ),
-        ("impeller", &["crate::response", "crate::analysis", "crate::store", "crate::jobs", "crate::http"]),
-        ("analysis", &["crate::store", "crate::jobs", "crate::http", "crate::package", "crate::impeller"]),
-        ("store", &["crate::jobs", "crate::http"]),
-        ("jobs", &["crate::http"]),
-        ("http", &["crate::app"]),
+fn a_circle_is_found_however_it_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    let circular = || {
+        let (arrows, _) = arrows(folder.path());
+        arrows.keys().filter(|module| reached(&arrows, module).contains(*module)).count()
+    };
+    write("lib.rs", "mod a; mod b; mod c;");
+    write("c.rs", "pub fn three() {}");
+    write("b.rs", "use crate::c::three; pub fn two() { three() }");
+    for need in [
+        "use crate::{b::two as dos, c};",
+        "pub use super::b::*;",
+        "pub fn one() { crate::b::two() }",
+        "mod inside { use super::super::b::two; }",
     ] {
-        assert_eq!(offenders(module, later), [""; 0].map(PathBuf::from), "{module}");
+        write("a.rs", need);
+        assert_eq!(circular(), 0, "{need}");
+        write("b.rs", "pub use crate::{c::three, a}; pub fn two() {}");
+        assert_eq!(circular(), 2, "{need}");
+        write("b.rs", "#[cfg(test)] mod tests { use crate::a; } pub fn two() {}");
+        assert_eq!(circular(), 0, "{need}");
+    }
+}
+
+#[test]
+fn crates_know_only_those_below_them() {
+    for (name, below) in CRATES {
+        let manifest = std::fs::read_to_string(root().join(name).join("Cargo.toml")).unwrap();
+        let dependencies = manifest.split("\n[dependencies]\n").nth(1).unwrap().split("\n[").next().unwrap();
+        let names = || dependencies.lines().filter_map(|line| line.split(['.', ' ', '=']).next());
+        let ours: Vec<&str> = names().filter_map(|name| name.strip_prefix("rubmap-")).collect();
+        assert_eq!(ours, below, "{name}");
+        if name != "." {
+            let service: Vec<&str> = names().filter(|name| OF_THE_SERVICE.contains(name)).collect();
+            assert_eq!(service, [""; 0], "{name}");
+        }
+    }
+}
+
+/// Files under `folders` that contain one of `words`.
+fn offenders(folders: &[&str], words: &[&str]) -> Vec<PathBuf> {
+    let files = folders.iter().flat_map(|folder| {
+        let path = root().join(folder);
+        if path.is_dir() { rust_files(&path) } else { vec![path] }
+    });
+    files
+        .filter(|file| {
+            let text = std::fs::read_to_string(file).unwrap();
+            words.iter().any(|word| text.contains(word))
+        })
+        .collect()
+}
+
+#[test]
+fn physics_asks_neither_the_environment_nor_the_date() {
+    assert_eq!(offenders(&["crates"], &["std::env::", "SystemTime", "async fn"]), [""; 0].map(PathBuf::from));
+}
+
+#[test]
+fn the_service_has_floors() {
+    for (floor, later) in [
+        ("src/store", &["crate::jobs", "crate::http", "crate::app", "crate::cli"][..]),
+        ("src/jobs", &["crate::http", "crate::app", "crate::cli"]),
+        ("src/http", &["crate::app", "crate::cli"]),
+    ] {
+        assert_eq!(offenders(&[floor], later), [""; 0].map(PathBuf::from), "{floor}");
     }
 }
 
 #[test]
 fn only_the_store_has_sql_and_only_http_has_status_codes() {
-    for module in ["jobs", "http", "app.rs", "config.rs", "cli", "main.rs"] {
-        assert_eq!(offenders(module, &["sqlx"]), [""; 0].map(PathBuf::from), "{module}");
-    }
-    for module in ["store", "jobs", "app.rs", "config.rs"] {
-        assert_eq!(offenders(module, &["StatusCode"]), [""; 0].map(PathBuf::from), "{module}");
-    }
+    let above = ["src/jobs", "src/http", "src/app.rs", "src/config.rs", "src/cli", "src/main.rs"];
+    assert_eq!(offenders(&above, &["sqlx"]), [""; 0].map(PathBuf::from));
+    let below = ["src/store", "src/jobs", "src/app.rs", "src/config.rs"];
+    assert_eq!(offenders(&below, &["StatusCode"]), [""; 0].map(PathBuf::from));
 }
 
 #[test]
 fn http_computes_nothing() {
-    let verbs = [
-        "run::prepare",
-        "run::check",
-        "run::run_speed",
-        "run::modal_analysis",
-        "run::critical_speeds",
-        "run::plan",
-    ];
-    assert_eq!(offenders("http", &verbs), [""; 0].map(PathBuf::from));
+    let verbs = ["prepare", "check", "run_speed", "modal_analysis", "critical_speeds", "plan"];
+    let verbs = verbs.map(|verb| format!("run::{verb}"));
+    assert_eq!(offenders(&["src/http"], &verbs.each_ref().map(String::as_str)), [""; 0].map(PathBuf::from));
 }

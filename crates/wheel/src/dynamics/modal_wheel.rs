@@ -14,7 +14,7 @@
 use faer::{Mat, c64};
 
 use super::error::ModelError;
-use super::reduction::{ReducedHarmonic, ReducedWheel};
+use super::reduction::reduced::{ReducedHarmonic, ReducedWheel};
 use rubmap_numerics::hermitian::{EigenError, Eigenpairs, generalised_eigenpairs, generalised_eigenvalues};
 use rubmap_numerics::sector_fourier::is_single;
 

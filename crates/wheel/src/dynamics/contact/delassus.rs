@@ -2,7 +2,7 @@
 
 use faer::{Mat, c64};
 
-use super::super::oscillators::LANES;
+use super::super::oscillators::lanes::LANES;
 use rubmap_numerics::aligned::Aligned;
 use rubmap_numerics::complementarity::{ContactOperator, any_below};
 use rubmap_numerics::sector_fourier::{SectorFourier, is_single};

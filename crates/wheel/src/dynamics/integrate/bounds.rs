@@ -13,8 +13,8 @@ use std::fmt;
 
 use super::super::oscillators::rows::Rows;
 use super::super::oscillators::{Direction, Oscillators};
-use super::Simulation;
 use super::residual::ResidualDisplacement;
+use super::simulation::Simulation;
 use rubmap_numerics::sector_fourier::SectorFourier;
 
 /// Component of a displacement at a contact node.

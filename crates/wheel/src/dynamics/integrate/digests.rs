@@ -11,7 +11,8 @@ use super::super::modal_wheel::{ModalHarmonic, ModalWheel};
 use super::super::oscillators::{Direction, ModalDamping};
 use super::super::schemes::Scheme;
 use super::super::sector::ContactNode;
-use super::{Outcome, SensorRow, Simulation};
+use super::run::Outcome;
+use super::simulation::{SensorRow, Simulation};
 
 const SECTORS: usize = 5;
 const NODES: usize = 3;

@@ -6,7 +6,8 @@ use super::super::initial::InitialMode;
 use super::super::oscillators::Oscillators;
 use super::super::oscillators::rows::Rows;
 use super::residual::ResidualDisplacement;
-use super::{History, Simulation};
+use super::run::History;
+use super::simulation::Simulation;
 use rubmap_numerics::sector_fourier::SectorFourier;
 
 #[derive(Debug)]

@@ -6,7 +6,7 @@ use super::super::contact::flexibility::outward_normals;
 use super::super::oscillators::Direction;
 use super::super::schemes::Scheme;
 use super::super::schemes::massless_boundary::residual_flexibility;
-use super::Simulation;
+use super::simulation::Simulation;
 
 /// F f of some rows; nothing if the scheme integrates every mode.
 #[derive(Debug)]

@@ -21,8 +21,9 @@ use super::super::statistics::RunStatistics;
 use super::bounds::Bounds;
 use super::obstacle::Obstacle;
 use super::recorder::Recorder;
+use super::run::{Divergence, Outcome, Run};
+use super::simulation::Simulation;
 use super::surroundings::applied;
-use super::{Divergence, Outcome, Run, Simulation};
 use rubmap_numerics::sector_fourier::SectorFourier;
 
 /// Steps between two looks at progress and cancellation: some tens of milliseconds.

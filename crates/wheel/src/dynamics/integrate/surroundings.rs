@@ -4,7 +4,7 @@ use super::super::contact::coating::WornCoating;
 use super::super::flexible_casing::CasingMotion;
 use super::super::orbit::OrbitShift;
 use super::super::oscillators::rows::Rows;
-use super::Simulation;
+use super::simulation::Simulation;
 use rubmap_numerics::complementarity::active_set::ActiveSetSolver;
 use rubmap_numerics::complementarity::branches::BranchSolver;
 use rubmap_numerics::complementarity::factor::Lu;

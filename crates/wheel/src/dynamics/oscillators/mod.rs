@@ -6,12 +6,14 @@
 //! shapes are in the first-level cache.
 
 pub(crate) mod driven;
+pub(crate) mod lanes;
 mod product;
 pub(crate) mod rows;
 
 use faer::c64;
 use pulp::Simd;
 
+use self::lanes::padded;
 use self::product::{LoadPair, LoadSingle, ProjectPair, ProjectSingle};
 pub use self::rows::Direction;
 use self::rows::Rows;
@@ -19,13 +21,6 @@ use super::initial::InitialMode;
 use super::modal_wheel::ModalWheel;
 use super::schemes::{ModeStep, Scheme};
 use rubmap_numerics::aligned::Aligned;
-
-/// Doubles per padded group: the widest vector in use (AVX-512).
-pub(crate) const LANES: usize = 8;
-
-pub(crate) fn padded(count: usize) -> usize {
-    count.next_multiple_of(LANES)
-}
 
 /// Modal damping of the reduced wheel (§6).
 #[derive(Debug, Clone, PartialEq)]

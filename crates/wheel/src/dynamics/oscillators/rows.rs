@@ -4,7 +4,7 @@ use faer::{Mat, MatRef, c64};
 use pulp::Simd;
 
 use super::super::modal_wheel::ModalWheel;
-use super::padded;
+use super::lanes::padded;
 use rubmap_numerics::aligned::Aligned;
 
 /// A displacement direction at a contact node in (r, θ, z) components.

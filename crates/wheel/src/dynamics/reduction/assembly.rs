@@ -4,8 +4,7 @@ use faer::sparse::{SparseColMat, SymbolicSparseColMat};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 use super::untied::UntiedSector;
-use crate::dynamics::sector::{CyclicMatrix, SectorModel};
-use rubmap_numerics::nested_dissection::dissection;
+use crate::dynamics::sector::CyclicMatrix;
 
 impl UntiedSector {
     /// Σ factor · matrix over `terms`, all symmetric, untied, both triangles.
@@ -107,27 +106,4 @@ fn same_pattern(a: &CyclicMatrix, b: &CyclicMatrix) -> bool {
         a.symbolic().col_ptr() == b.symbolic().col_ptr() && a.symbolic().row_idx() == b.symbolic().row_idx()
     };
     same(&a.own, &b.own) && same(&a.next, &b.next)
-}
-
-/// Own DOF inside the sector in nested-dissection order.
-pub(super) fn interior_order(
-    sector: &SectorModel,
-    matrices: &[&CyclicMatrix],
-    inside: &[bool],
-) -> Vec<usize> {
-    let node = &sector.node_of_dof;
-    let nodes = node.iter().max().map_or(0, |last| last + 1);
-    let mut members = vec![Vec::new(); nodes];
-    (0..inside.len()).filter(|&dof| inside[dof]).for_each(|dof| members[node[dof]].push(dof));
-    let mut number = vec![usize::MAX; nodes];
-    let kept: Vec<usize> = (0..nodes).filter(|&n| !members[n].is_empty()).collect();
-    kept.iter().enumerate().for_each(|(index, &n)| number[n] = index);
-    let edges = matrices.iter().flat_map(|matrix| matrix.own.triplet_iter()).filter_map(|entry| {
-        let between = inside[entry.row] && inside[entry.col];
-        between.then(|| (number[node[entry.row]], number[node[entry.col]]))
-    });
-    dissection(kept.len(), edges)
-        .into_iter()
-        .flat_map(|index| std::mem::take(&mut members[kept[index]]))
-        .collect()
 }

@@ -1,33 +1,9 @@
 //! The reduced model's frequencies beside the full sector's.
 
-use serde::{Deserialize, Serialize};
-
-use super::ReducedHarmonic;
+use super::findings::FrequencyComparison;
+use super::reduced::ReducedHarmonic;
 use super::speed::FullFrequencies;
 use crate::dynamics::modal_wheel::natural_frequencies;
-
-/// Lowest frequencies of one nodal diameter at one speed, full and reduced.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct FrequencyComparison {
-    /// Nodal diameter i.
-    pub harmonic: usize,
-    /// Ω, rad/s.
-    pub speed_rad_s: f64,
-    /// Of the full sector, rad/s, ascending; empty where its K(Ω) is not positive definite.
-    pub full: Vec<f64>,
-    /// Of the reduced one, as many where it has them.
-    pub reduced: Vec<f64>,
-}
-
-impl FrequencyComparison {
-    /// Largest relative difference and its mode, counted from 0.
-    pub fn largest_difference(&self) -> Option<(f64, usize)> {
-        let pairs = self.full.iter().zip(&self.reduced).enumerate();
-        pairs
-            .map(|(mode, (full, reduced))| ((reduced / full - 1.0).abs(), mode))
-            .max_by(|a, b| a.0.total_cmp(&b.0))
-    }
-}
 
 /// Compares every nodal diameter at `speed_rad_s`.
 pub(super) fn compare(

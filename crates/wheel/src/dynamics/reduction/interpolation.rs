@@ -4,40 +4,11 @@
 //! of a geometrically non-linear step sit on the deformed geometry; every stiff entry moves with the deformation, K2
 //! does not vanish, and the interpolant is right at the three speeds and wrong between them.
 
-use serde::{Deserialize, Serialize};
-
-use super::ReducedHarmonic;
+use super::findings::{InterpolationCheck, InterpolationVerdict};
+use super::reduced::ReducedHarmonic;
 use crate::dynamics::error::ModelError;
 use crate::dynamics::sector::SectorModel;
 use rubmap_numerics::hermitian::{EigenError, generalised_eigenvalues};
-
-/// The verdict on K(Ω).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum InterpolationVerdict {
-    /// One stiffness matrix: nothing to interpolate.
-    Absent,
-    /// Linear in Ω², as on the undeformed geometry.
-    Sound,
-    /// K2 does not vanish: a sign of deformed-geometry stiffness; usable with the stated error.
-    Suspect,
-    /// K(Ω) is indefinite, or the lowest frequencies are not smooth, between the given speeds.
-    Unsound,
-}
-
-/// What was found about K(Ω).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct InterpolationCheck {
-    /// The verdict.
-    pub verdict: InterpolationVerdict,
-    /// ‖Ω1²K1‖/‖K0‖ (largest entries of the sector's own block).
-    pub linear_ratio: f64,
-    /// ‖Ω1⁴K2‖/‖K0‖ (largest entries).
-    pub quadratic_ratio: f64,
-    /// Largest relative deviation, at ¼ and ¾ Ω1, of the lowest frequency of any nodal diameter from the smooth curve
-    /// through its values at the given speeds: an estimate of the interpolation error. Infinite where K(Ω) is
-    /// indefinite there.
-    pub frequency_error: f64,
-}
 
 /// K2 entries above this fraction of K0's cannot be the round-off of matrices written with six digits or more.
 const QUADRATIC_LIMIT: f64 = 1e-5;

@@ -15,137 +15,37 @@ mod basis;
 mod checkpoints;
 mod comparison;
 mod count;
+mod findings;
 mod interpolation;
 pub mod mass;
 mod memory;
 mod modes;
+mod options;
+mod ordering;
+pub(super) mod reduced;
 mod sector_factor;
 mod speed;
 mod tied_factor;
 mod untied;
 
 use faer::{Mat, c64};
-use serde::{Deserialize, Serialize};
 
 use super::centrifugal::StiffnessPolynomial;
 use super::error::ModelError;
 use super::modal_wheel::natural_frequencies;
-use super::sector::{ContactNode, SectorModel};
+use super::sector::SectorModel;
 use basis::Basis;
 use mass::NegativeMass;
-use rubmap_numerics::matrix_serde;
 use rubmap_numerics::sector_fourier::harmonic_count;
 use speed::{SpeedPart, Work};
 use untied::UntiedSector;
 
 pub use checkpoints::{Checkpoints, NoCheckpoints};
-pub use comparison::FrequencyComparison;
 pub use count::{Completeness, ModeCount};
-pub use interpolation::{InterpolationCheck, InterpolationVerdict, MatrixRatios};
-
-/// Settings of the reduction.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ReductionOptions {
-    /// Fixed-interface modes per given speed and nodal diameter: the accuracy dial k. All of them where a sector has
-    /// fewer internal DOF.
-    pub modes_per_speed: usize,
-    /// Directions of the joint basis with a singular value below this fraction of the largest are dropped. 1e-5:
-    /// smaller values keep nearly dependent directions, which only become the stiffest modes of the wheel and
-    /// shrink the stable step (1560 unknowns: 1.9 times at 1e-8).
-    pub basis_tolerance: f64,
-    /// Bytes the reduction may use; it refuses to start where it needs more.
-    pub memory_bytes: Option<u64>,
-}
-
-impl ReductionOptions {
-    /// `modes_per_speed` modes with the default tolerance and no limit on memory.
-    pub fn new(modes_per_speed: usize) -> Self {
-        Self { modes_per_speed, basis_tolerance: 1e-5, memory_bytes: None }
-    }
-}
-
-/// Reduced matrices of one nodal diameter: contact DOF first (r, θ, z per node), then modal coordinates.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-pub struct ReducedHarmonic {
-    /// Nodal diameter i.
-    pub harmonic: usize,
-    /// M_r, Hermitian.
-    #[serde(with = "matrix_serde")]
-    pub mass: Mat<c64>,
-    /// K_r(Ω).
-    pub stiffness: StiffnessPolynomial,
-    /// G_r per unit speed, skew-Hermitian; absent if the sector has none.
-    #[serde(with = "matrix_serde::option")]
-    pub gyroscopic: Option<Mat<c64>>,
-    /// Its fixed-interface modes at each given speed, with the proof that they are the lowest ones.
-    pub certificates: Vec<ModeCertificate>,
-}
-
-/// Fixed-interface modes of one nodal diameter at one given speed.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct ModeCertificate {
-    /// Speed of the stiffness, rad/s.
-    pub speed_rad_s: f64,
-    /// Eigenvalues λ = ω², ascending, (rad/s)².
-    pub eigenvalues: Vec<f64>,
-    /// ‖Kx − λMx‖/‖Kx‖ of each.
-    pub residuals: Vec<f64>,
-    /// Whether they are known to be the lowest.
-    pub completeness: Completeness,
-}
-
-impl ReducedHarmonic {
-    /// Largest ‖Kx − λMx‖/‖Kx‖ of its fixed-interface modes.
-    pub fn largest_mode_residual(&self) -> f64 {
-        self.certificates.iter().flat_map(|certificate| &certificate.residuals).fold(0.0, |m, &r| m.max(r))
-    }
-}
-
-/// The reduced wheel at every speed: all that simulations need of a sector.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-pub struct ReducedWheel {
-    /// N.
-    pub sectors: usize,
-    /// Contact nodes from leading to trailing edge.
-    pub contact: Vec<ContactNode>,
-    /// Speeds of the stiffness matrices, rad/s.
-    pub speeds_rad_s: Vec<f64>,
-    /// One per nodal diameter 0 … ⌊N/2⌋.
-    pub harmonics: Vec<ReducedHarmonic>,
-    /// How far K(Ω) can be trusted between the given speeds.
-    pub interpolation: InterpolationCheck,
-    /// The lowest frequencies beside the full sector's, at the given speeds and between them.
-    pub comparison: Vec<FrequencyComparison>,
-}
-
-impl ReducedWheel {
-    /// Number of contact DOF n_b of a sector.
-    pub fn contact_dofs(&self) -> usize {
-        3 * self.contact.len()
-    }
-}
-
-/// Why a reduction ended without a result.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum ReductionError {
-    /// The model cannot be reduced.
-    #[error(transparent)]
-    Model(#[from] ModelError),
-    /// It would not fit into the memory allowed.
-    #[error("the reduction needs some {needed_bytes} bytes of memory, and {allowed_bytes} are allowed")]
-    Memory {
-        /// Estimate.
-        needed_bytes: u64,
-        /// From the options.
-        allowed_bytes: u64,
-    },
-    /// The caller asked to stop.
-    #[error("cancelled")]
-    Cancelled,
-}
-
-/// Watches a reduction: called with the share of work done and what comes next; `false` stops it.
-pub type Watch<'a> = &'a (dyn Fn(f64, &str) -> bool + 'a);
+pub use findings::{FrequencyComparison, InterpolationCheck, InterpolationVerdict};
+pub use interpolation::MatrixRatios;
+pub use options::{ReductionError, ReductionOptions, Watch};
+pub use reduced::{ModeCertificate, ReducedHarmonic, ReducedWheel};
 
 /// Reduces `sector`.
 ///

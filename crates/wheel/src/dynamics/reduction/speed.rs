@@ -8,12 +8,13 @@ use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
+use super::checkpoints::Checkpoints;
 use super::count::{Completeness, Verdict, count_modes};
 use super::modes::{ModeError, Modes, Pencil, Wanted};
+use super::options::{ReductionError, Watch};
 use super::sector_factor::SectorFactor;
 use super::tied_factor::TiedFactor;
 use super::untied::UntiedSector;
-use super::{Checkpoints, ReductionError, Watch};
 use crate::dynamics::centrifugal::stiffness_terms;
 use crate::dynamics::error::ModelError;
 use crate::dynamics::sector::SectorModel;

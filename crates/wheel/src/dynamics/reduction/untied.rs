@@ -14,7 +14,7 @@ use faer::sparse::SparseColMat;
 use faer::{Mat, MatMut, MatRef, c64};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
-use super::assembly::interior_order;
+use super::ordering::interior_order;
 use crate::dynamics::sector::{CyclicMatrix, SectorModel};
 use rubmap_numerics::multifrontal::{Analysis, postorder};
 

@@ -1,8 +1,8 @@
 //! The state of a coating: what the blades have worn off so far.
 
 use super::super::super::sector::ContactNode;
+use super::fresh::{Coating, CoatingMaterial};
 use super::rods::RodPlaces;
-use super::{Coating, CoatingMaterial};
 use rubmap_numerics::complementarity::law::BilinearLaw;
 
 /// A tip is on the metal from this share of the thickness: what contact solutions are accurate to, with much to spare.

@@ -1,0 +1,68 @@
+//! How a run ended, and what it left.
+
+use super::bounds::TipDisplacement;
+use crate::dynamics::contact::coating::WornCoating;
+use crate::dynamics::energy::EnergyAudit;
+use crate::dynamics::initial::InitialMode;
+use crate::dynamics::statistics::RunStatistics;
+use rubmap_numerics::complementarity::ComplementarityError;
+
+/// What a simulation recorded.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct History {
+    /// `[sensor][sample]`: displacement at the sensor's sector, over the whole run.
+    pub displacement: Vec<Vec<f64>>,
+    /// `[sensor][Fourier column][sample]`: coordinates of all sectors in the real orthonormal Fourier basis, over the
+    /// window.
+    pub harmonics: Vec<Vec<Vec<f64>>>,
+    /// `[revolution][nodal diameter]`: mechanical energy at its end, if asked for.
+    pub energies: Vec<Vec<f64>>,
+    /// All modes at the end of the run.
+    pub end: Vec<InitialMode>,
+}
+
+/// A response that left the bounds of the theory.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Divergence {
+    /// Revolutions integrated until it was found.
+    pub revolutions: f64,
+    /// The tip that had moved most then; none where nothing can be touched, and numbers overflowed.
+    pub tip: Option<TipDisplacement>,
+    /// Mechanical energy then over that at the end of the last whole revolution; none in the first.
+    pub energy_growth: Option<f64>,
+}
+
+/// How a simulation ended.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Outcome {
+    /// All revolutions were integrated.
+    Completed(History),
+    /// A tip that a casing may touch moved by more than a tenth of the wheel's radius in any component, or a number
+    /// overflowed. Without a casing the response is linear, and may be of any size.
+    Diverged(Divergence),
+    /// The contact problem of a step could not be solved.
+    ContactFailed {
+        /// Revolutions integrated until then.
+        revolutions: f64,
+        /// Why.
+        error: ComplementarityError,
+    },
+    /// The caller asked to stop.
+    Cancelled,
+}
+
+/// Outcome with its credentials.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Run {
+    /// How it ended.
+    pub outcome: Outcome,
+    /// What was counted.
+    pub statistics: RunStatistics,
+    /// The energy identity.
+    pub energy: EnergyAudit,
+    /// The coating at the end, if there is one.
+    pub coating: Option<WornCoating>,
+}
+
+/// A restriction table larger than this many values (2 GiB) is refused.
+pub const MAX_TABLE_VALUES: usize = 1 << 28;

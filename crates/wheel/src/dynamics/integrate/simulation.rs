@@ -1,0 +1,65 @@
+//! What is integrated, and what is recorded of it.
+
+use std::f64::consts::TAU;
+
+use crate::dynamics::casing::Casing;
+use crate::dynamics::effects::Effects;
+use crate::dynamics::initial::InitialMode;
+use crate::dynamics::modal_wheel::ModalWheel;
+use crate::dynamics::oscillators::{Direction, ModalDamping};
+use crate::dynamics::schemes::Scheme;
+use crate::dynamics::sector::ContactNode;
+
+/// One simulation of the wheel at its speed.
+#[derive(Debug, Clone, Copy)]
+pub struct Simulation<'a> {
+    /// The wheel in modal coordinates.
+    pub wheel: &'a ModalWheel,
+    /// Contact nodes from leading to trailing edge.
+    pub contact_nodes: &'a [ContactNode],
+    /// Modal damping; absent: none.
+    pub damping: Option<&'a ModalDamping>,
+    /// Casing that the blades may touch; absent: none.
+    pub casing: Option<&'a Casing>,
+    /// Effects beyond damping and a rigid casing.
+    pub effects: Effects<'a>,
+    /// Modes that move at the start; empty: from rest.
+    pub initial: &'a [InitialMode],
+    /// Recorded displacements.
+    pub sensors: &'a [SensorRow],
+    /// How time is stepped.
+    pub scheme: Scheme,
+    /// Steps S per revolution, at least the scheme's smallest stable number.
+    pub steps_per_revolution: usize,
+    /// Recorded samples per revolution, a divisor of S.
+    pub samples_per_revolution: usize,
+    /// Revolutions to simulate.
+    pub revolutions: usize,
+    /// Revolutions at the end for which nodal-diameter coordinates are recorded.
+    pub window_revolutions: usize,
+}
+
+/// A recorded displacement.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SensorRow {
+    /// Where and along what.
+    pub direction: Direction,
+    /// At which sector.
+    pub sector: usize,
+}
+
+impl Simulation<'_> {
+    /// Displacement of a tip beyond which a run ends as diverged; without bound where all tips lie on the axis.
+    pub(super) fn reach(&self) -> f64 {
+        let radius = self.contact_nodes.iter().fold(0.0f64, |r, node| r.max(node.position[0]));
+        if radius > 0.0 { DIVERGED_SHARE_OF_RADIUS * radius } else { f64::INFINITY }
+    }
+
+    pub(super) fn step_s(&self) -> f64 {
+        TAU / (self.wheel.speed_rad_s * self.steps_per_revolution as f64)
+    }
+}
+
+/// Displacements beyond this share of the largest contact radius end a run as diverged: linear structural theory is
+/// void long before.
+pub const DIVERGED_SHARE_OF_RADIUS: f64 = 0.1;

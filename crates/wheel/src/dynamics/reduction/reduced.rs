@@ -1,0 +1,71 @@
+//! A reduced wheel: what all simulations of a model start from.
+
+use faer::{Mat, c64};
+use serde::{Deserialize, Serialize};
+
+use super::count::Completeness;
+use super::findings::{FrequencyComparison, InterpolationCheck};
+use crate::dynamics::centrifugal::StiffnessPolynomial;
+use crate::dynamics::sector::ContactNode;
+use rubmap_numerics::matrix_serde;
+
+/// Reduced matrices of one nodal diameter: contact DOF first (r, θ, z per node), then modal coordinates.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct ReducedHarmonic {
+    /// Nodal diameter i.
+    pub harmonic: usize,
+    /// M_r, Hermitian.
+    #[serde(with = "matrix_serde")]
+    pub mass: Mat<c64>,
+    /// K_r(Ω).
+    pub stiffness: StiffnessPolynomial,
+    /// G_r per unit speed, skew-Hermitian; absent if the sector has none.
+    #[serde(with = "matrix_serde::option")]
+    pub gyroscopic: Option<Mat<c64>>,
+    /// Its fixed-interface modes at each given speed, with the proof that they are the lowest ones.
+    pub certificates: Vec<ModeCertificate>,
+}
+
+/// Fixed-interface modes of one nodal diameter at one given speed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ModeCertificate {
+    /// Speed of the stiffness, rad/s.
+    pub speed_rad_s: f64,
+    /// Eigenvalues λ = ω², ascending, (rad/s)².
+    pub eigenvalues: Vec<f64>,
+    /// ‖Kx − λMx‖/‖Kx‖ of each.
+    pub residuals: Vec<f64>,
+    /// Whether they are known to be the lowest.
+    pub completeness: Completeness,
+}
+
+impl ReducedHarmonic {
+    /// Largest ‖Kx − λMx‖/‖Kx‖ of its fixed-interface modes.
+    pub fn largest_mode_residual(&self) -> f64 {
+        self.certificates.iter().flat_map(|certificate| &certificate.residuals).fold(0.0, |m, &r| m.max(r))
+    }
+}
+
+/// The reduced wheel at every speed: all that simulations need of a sector.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct ReducedWheel {
+    /// N.
+    pub sectors: usize,
+    /// Contact nodes from leading to trailing edge.
+    pub contact: Vec<ContactNode>,
+    /// Speeds of the stiffness matrices, rad/s.
+    pub speeds_rad_s: Vec<f64>,
+    /// One per nodal diameter 0 … ⌊N/2⌋.
+    pub harmonics: Vec<ReducedHarmonic>,
+    /// How far K(Ω) can be trusted between the given speeds.
+    pub interpolation: InterpolationCheck,
+    /// The lowest frequencies beside the full sector's, at the given speeds and between them.
+    pub comparison: Vec<FrequencyComparison>,
+}
+
+impl ReducedWheel {
+    /// Number of contact DOF n_b of a sector.
+    pub fn contact_dofs(&self) -> usize {
+        3 * self.contact.len()
+    }
+}
