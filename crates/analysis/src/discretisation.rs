@@ -1,7 +1,8 @@
 //! Time steps and recorded samples of a revolution.
 
+use num_integer::gcd;
+
 use crate::request::{AutoOr, SweepRequest};
-use crate::symmetry::gcd;
 
 /// Steps and samples of a revolution.
 pub(super) struct Discretisation {

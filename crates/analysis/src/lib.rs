@@ -36,4 +36,3 @@ mod stepping;
 mod stiffening;
 mod summary;
 mod symmetry;
-pub mod version;

@@ -8,9 +8,9 @@ use crate::model::ReducedSector;
 use crate::monitor::Monitor;
 use crate::request::ModalAnalysisRequest;
 use crate::result::{AbsoluteFrequencies, Campbell};
-use crate::version::VERSION;
 use rubmap_wheel::dynamics::modal_wheel::RotationEffects;
 use rubmap_wheel::response::campbell::{absolute_frequency, multiples};
+use rubmap_wheel::revision::VERSION;
 
 /// Natural frequencies over speed and the linear criterion.
 pub fn modal_analysis(

@@ -19,10 +19,10 @@ use crate::result::{
 };
 use crate::speed::{casing, check_table};
 use crate::stepping::Stepping;
-use crate::version::VERSION;
 use rubmap_numerics::sector_fourier::harmonic_count;
 use rubmap_wheel::dynamics::casing::RestrictionTable;
 use rubmap_wheel::dynamics::modal_wheel::{ModalWheel, RotationEffects};
+use rubmap_wheel::revision::VERSION;
 
 /// Plans a resolved sweep on `workers` threads; without `reduced`, what can be said without it. The choice is for the caller to
 /// add.

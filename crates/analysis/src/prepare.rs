@@ -7,12 +7,12 @@ use crate::model::ReducedSector;
 use crate::monitor::Monitor;
 use crate::result::{FrequencyDifference, LargestDifference, ReductionReport};
 use crate::stiffening::stiffening_report;
-use crate::version::VERSION;
 use rubmap_numerics::sector_fourier::is_single;
 use rubmap_wheel::dynamics::reduction::{
     Checkpoints, Completeness, ReducedWheel, ReductionError, ReductionOptions, reduce,
 };
 use rubmap_wheel::dynamics::sector::SectorModel;
+use rubmap_wheel::revision::VERSION;
 
 /// Reduces a sector (METHOD §2–§4). Deterministic. Takes at most `memory_bytes`, if given; goes on from `checkpoints`.
 pub fn prepare(

@@ -21,4 +21,4 @@ pub use crate::result::{
 };
 pub use crate::speed::run_speed;
 pub use crate::summary::{critical_speeds, interaction_map, map_row, nothing_completed};
-pub use crate::version::VERSION;
+pub use rubmap_wheel::revision::{REVISION, VERSION};

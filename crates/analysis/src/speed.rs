@@ -13,11 +13,11 @@ use crate::record::record_run;
 use crate::request::{Sensor, SweepDirection, SweepRequest};
 use crate::result::{Point, PointStatus, SpeedResult, WearMap};
 use crate::stepping::Stepping;
-use crate::version::VERSION;
 use rubmap_wheel::dynamics::casing::{Casing, Restriction, RestrictionTable, clearance_along_chord};
 use rubmap_wheel::dynamics::integrate::{MAX_TABLE_VALUES, Outcome, Run, SensorRow, Simulation};
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
 use rubmap_wheel::dynamics::reduction::ReducedWheel;
+use rubmap_wheel::revision::VERSION;
 
 /// Simulates speed `index` of a sweep, from `start` if it is given: the end of the neighbouring speed of a sweep up or down.
 /// Deterministic; runs on the calling thread. A speed that diverges or cannot be

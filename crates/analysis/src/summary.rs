@@ -14,11 +14,11 @@ use crate::result::{
     Coincidence, CriticalSpeed, CriticalSpeeds, Crossing, DrivenCrossing, ErrorEstimate, InteractionMap,
     Point, PointStatus, ReductionReport, Refinement, SpeedSpectra, Spent,
 };
-use crate::version::VERSION;
 use rubmap_wheel::dynamics::sector::Units;
 use rubmap_wheel::response::campbell::multiples;
 use rubmap_wheel::response::critical_speed::{Resolution, peaks};
 use rubmap_wheel::response::spectra::engine_orders;
+use rubmap_wheel::revision::VERSION;
 
 /// The row that one speed contributes to the map of `sensor` (index into the request's sensors).
 pub fn map_row(spectra: &SpeedSpectra, sensor: usize, nodal_diameter: Option<u32>) -> Option<&[f64]> {

@@ -1,5 +1,7 @@
 //! The rotational symmetry of a scene.
 
+use num_integer::gcd;
+
 use crate::request::Scene;
 use crate::result::FoundSymmetry;
 use rubmap_numerics::sector_fourier::harmonic_count;
@@ -23,11 +25,6 @@ pub(super) fn repeats(scene: &Scene, sectors: u32) -> u32 {
     let once = [scene.orbit.is_some(), scene.mistuning.is_some()];
     let once = once.into_iter().filter(|present| *present).map(|_| 1);
     excitation.chain(initial).chain(once).chain([lobes]).fold(sectors, gcd)
-}
-
-/// Greatest common divisor; 0 leaves the other as it is.
-pub(super) fn gcd(a: u32, b: u32) -> u32 {
-    if b == 0 { a } else { gcd(b, a % b) }
 }
 
 #[cfg(test)]

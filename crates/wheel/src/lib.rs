@@ -4,3 +4,4 @@
 
 pub mod dynamics;
 pub mod response;
+pub mod revision;

@@ -6,10 +6,10 @@ use crate::result::{
     Histories, HistoryLine, PointStatus, Quantity, ReductionReport, SpeedStudy, StepOrder, StudyReduction,
     StudyRun, Trial, WorkPrecision, front,
 };
-use crate::version::VERSION;
 use rubmap_numerics::convergence::observed_order;
 use rubmap_wheel::dynamics::sector::Units;
 use rubmap_wheel::response::sensitivity::Growth;
+use rubmap_wheel::revision::VERSION;
 
 /// A trial of a study with its setting.
 struct Tried<'a> {

@@ -2,6 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
+use num_integer::gcd;
+
 /// Equal Gaussian lobes in the fixed frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Restriction {
@@ -140,10 +142,6 @@ impl RestrictionTable {
         }
         &self.values[start + row * self.stride..][..self.stride]
     }
-}
-
-fn gcd(a: usize, b: usize) -> usize {
-    if b == 0 { a } else { gcd(b, a % b) }
 }
 
 #[cfg(test)]

@@ -17,6 +17,8 @@
 //! The force acts at the middle instant of a step, so that its work is −ΔV_δ, with V_δ of two successive instants.
 
 use faer::c64;
+use rand_xoshiro::SplitMix64;
+use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
 use super::modal_wheel::ModalWheel;
 use rubmap_numerics::sector_fourier::SectorFourier;
@@ -144,15 +146,8 @@ pub fn normal_deviations(spread: f64, seed: u64, sectors: usize) -> Vec<f64> {
 
 /// Normally distributed numbers of variance 1, the same for the same seed in every version (SplitMix64, Box–Muller).
 pub fn normal_numbers(seed: u64) -> impl Iterator<Item = f64> {
-    let mut state = seed;
-    let mut uniform = move || {
-        state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut x = state;
-        x = (x ^ (x >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        x ^= x >> 31;
-        // In (0, 1].
-        ((x >> 11) + 1) as f64 / (1u64 << 53) as f64
-    };
+    let mut generator = SplitMix64::seed_from_u64(seed);
+    // In (0, 1].
+    let mut uniform = move || ((generator.next_u64() >> 11) + 1) as f64 / (1u64 << 53) as f64;
     std::iter::repeat_with(move || (-2.0 * uniform().ln()).sqrt() * (std::f64::consts::TAU * uniform()).cos())
 }

@@ -1,0 +1,18 @@
+//! Which numbers a computation gives.
+
+/// Revision of the numerics: raised with every change after which the same request gives other numbers. What is stored
+/// under another one is computed again.
+pub const REVISION: u32 = 1;
+
+/// Version of the code with the revision of its numerics, stamped on every result.
+pub const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), "+numerics.1");
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_version_says_the_revision() {
+        assert_eq!(VERSION, format!("{}+numerics.{REVISION}", env!("CARGO_PKG_VERSION")));
+    }
+}
