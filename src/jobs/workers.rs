@@ -139,7 +139,7 @@ impl Runner {
             // They wait for something; what they have finished is kept.
             workers.iter().for_each(JoinHandle::abort);
         }
-        self.engine.store.lay_down_jobs();
+        self.engine.store.stop_marking();
         self.helpers.iter().for_each(JoinHandle::abort);
         self.engine.queue.close().await;
     }
