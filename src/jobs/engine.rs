@@ -7,16 +7,16 @@ use std::time::{Duration, Instant};
 
 use tokio::sync::Notify;
 
+use super::calibration::Calibrated;
 use super::computing::Computing;
+use super::counters::Counters;
 use super::error::{self, Halt};
 use super::memory::Memory;
 use super::patience::{BETWEEN_ATTEMPTS, patiently};
-use super::plans::Calibrated;
 use super::pool::CpuPool;
 use super::progress::{News, PhaseMonitor, Watch};
 use super::reductions::Reductions;
 use super::turns::Turns;
-use super::work::Counters;
 use crate::analysis::monitor::Monitor;
 use crate::store::jobs::{Chosen, Failure, FailureCause, Job, JobId, JobRequest};
 use crate::store::limits::Limits;
