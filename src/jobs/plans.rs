@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 use super::engine::{Engine, Live};
-use super::error::Halt;
+use super::error::Interruption;
 use super::patience::patiently;
 use super::pool::Panicked;
 use crate::analysis::request::{ModalAnalysisRequest, SweepRequest};
@@ -41,13 +41,13 @@ pub(super) async fn keep(
     job: &Live,
     request: &SweepRequest,
     reduced: Arc<ReducedSector>,
-) -> Result<(), Halt> {
+) -> Result<(), Interruption> {
     let Some(stored) = engine.store.job(job.id).await? else { return Ok(()) };
     let estimate = match (stored.facts, stored.plan) {
         (_, Some(kept)) => kept,
         (None, None) => return Ok(()),
         (Some(facts), None) => {
-            let plan = sweep::<Halt>(engine, request.clone(), facts, Some(reduced)).await?;
+            let plan = sweep::<Interruption>(engine, request.clone(), facts, Some(reduced)).await?;
             let Some(estimate) = plan.estimate else { return Ok(()) };
             patiently(&job.watch, || engine.store.record_plan(job.id, &estimate)).await?;
             estimate
@@ -55,5 +55,5 @@ pub(super) async fn keep(
     };
     job.speed_bytes.store(estimate.speed_memory_bytes, Ordering::Relaxed);
     // Before the first speed, not with it.
-    engine.memory.hold(estimate.speed_memory_bytes).await.map(drop).map_err(Halt::speed_memory)
+    engine.memory.hold(estimate.speed_memory_bytes).await.map(drop).map_err(Interruption::speed_memory)
 }
