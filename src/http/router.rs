@@ -12,14 +12,15 @@ use utoipa::OpenApi;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
+use super::state::AppState;
 use super::{
-    AppState, access, body, contract, health, host, jobs, metrics, modal_analyses, models, openapi,
-    principal, problem, results, studies, sweeps, version,
+    access, body, contract, health, host, jobs, metrics, modal_analyses, models, openapi, principal, problem,
+    results, studies, sweeps, version,
 };
 
 /// The routes with their descriptions.
 pub(super) fn routes() -> OpenApiRouter<AppState> {
-    OpenApiRouter::with_openapi(openapi::Contract::openapi())
+    OpenApiRouter::with_openapi(openapi::ApiDoc::openapi())
         .routes(routes!(models::create_model, models::list_models))
         .routes(routes!(models::plan_model_generation))
         .routes(routes!(models::get_model, models::delete_model))

@@ -6,12 +6,12 @@ use axum::middleware::Next;
 use axum::response::Response;
 
 use super::super::problem::{Kind, Problem, excerpt};
+use super::published::{Contract, Parameter};
 use super::shape::{Scalar, Shape};
-use super::{Contract, Parameter};
 
 /// Middleware around all routes: holds the query string against the contract. A path that the contract does not have takes
 /// no parameters.
-pub(in crate::http) async fn refuse_unknown_parameters(
+pub(crate) async fn refuse_unknown_parameters(
     path: Option<MatchedPath>,
     request: Request,
     next: Next,
