@@ -32,6 +32,7 @@ mod sweeps;
 mod transport;
 mod version;
 
+pub use contract::Contract;
 pub use document::document;
 pub use router::router;
 pub use state::AppState;

@@ -1,5 +1,7 @@
 //! All routes.
 
+use std::sync::Arc;
+
 use axum::Router;
 use axum::http::{HeaderName, HeaderValue, Method, StatusCode, header};
 use axum::middleware;
@@ -63,7 +65,10 @@ pub fn router(state: AppState) -> Router {
         .option_layer(cors(&state.transport.cors_origins))
         .layer(middleware::from_fn_with_state(state.tokens.clone(), principal::authenticate))
         .layer(middleware::from_fn_with_state(state.clone(), body::keep_coming))
-        .layer(middleware::from_fn(contract::refuse_unknown_parameters));
+        .layer(middleware::from_fn_with_state(
+            Arc::clone(&state.contract),
+            contract::refuse_unknown_parameters,
+        ));
     let (router, _) = routes().split_for_parts();
     router.fallback(|| async { StatusCode::NOT_FOUND }).layer(layers).with_state(state)
 }

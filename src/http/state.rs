@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::contract::Contract;
 use super::stream::LargeAnswers;
 use super::transport::Transport;
 use crate::jobs::Jobs;
@@ -33,4 +34,6 @@ pub struct AppState {
     pub transport: Arc<Transport>,
     /// The contract, as JSON.
     pub openapi: Arc<str>,
+    /// The contract, as requests are held against it.
+    pub contract: Arc<Contract>,
 }

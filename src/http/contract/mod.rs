@@ -7,5 +7,5 @@ mod query;
 mod shape;
 
 pub(super) use check::{Findings, check};
-pub(super) use published::Contract;
+pub use published::Contract;
 pub(super) use query::refuse_unknown_parameters;

@@ -1,16 +1,14 @@
 //! What the published contract says of bodies and parameters.
 
 use std::collections::BTreeMap;
-use std::sync::OnceLock;
 
 use serde_json::Value;
 
 use super::shape::Shape;
-use crate::http::document::document;
 
 /// What requests may be.
 #[derive(Debug)]
-pub(crate) struct Contract {
+pub struct Contract {
     /// JSON bodies by the name of their schema.
     bodies: BTreeMap<String, Shape>,
     /// Query parameters by path and method.
@@ -25,14 +23,8 @@ pub(super) struct Parameter {
 }
 
 impl Contract {
-    /// The contract of this service.
-    pub(crate) fn get() -> &'static Self {
-        static CONTRACT: OnceLock<Contract> = OnceLock::new();
-        CONTRACT.get_or_init(|| Self::of(&serde_json::json!(document())))
-    }
-
     /// What an `OpenAPI` document says.
-    fn of(document: &Value) -> Self {
+    pub fn of(document: &Value) -> Self {
         let schemas = &document["components"]["schemas"];
         let mut contract = Self { bodies: BTreeMap::new(), parameters: BTreeMap::new() };
         for (path, methods) in document["paths"].as_object().into_iter().flatten() {
