@@ -11,7 +11,7 @@ use tokio_util::sync::CancellationToken;
 
 use crate::config::Config;
 use crate::http::server::{self, descriptors};
-use crate::http::{self, AppState, LargeAnswers, Transport};
+use crate::http::{self, AppState, Contract, LargeAnswers, Transport};
 use crate::jobs::{Runner, Settings};
 use crate::store::{Store, StoreError};
 use crate::tokens::{Tokens, TokensError};
@@ -115,6 +115,7 @@ impl App {
             expanded_bytes = package_limits.expanded_bytes, connections, commit = version::COMMIT, "starting"
         );
         let runner = Runner::start(store.clone(), settings).await?;
+        let document = http::document();
         let state = AppState {
             store: store.clone(),
             answers: LargeAnswers::new(LARGE_ANSWERS),
@@ -125,7 +126,8 @@ impl App {
             package_limits,
             memory_bytes,
             transport: Arc::new(Transport::new(config.transport, addr.ip(), connections)),
-            openapi: Arc::from(http::document().to_json()?),
+            openapi: Arc::from(document.to_json()?),
+            contract: Arc::new(Contract::of(&serde_json::to_value(&document)?)),
         };
         Ok(Self { listener, addr, state, store, runner, _lock: lock })
     }

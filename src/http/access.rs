@@ -14,7 +14,8 @@ use axum::response::Response;
 use hyper::body::{Body as _, Frame, SizeHint};
 use tracing::{Instrument, Span};
 
-use super::{AppState, Transport};
+use super::state::AppState;
+use super::transport::Transport;
 
 /// Header with the id of a request, in the request and in its answer.
 pub(super) const REQUEST_ID: HeaderName = HeaderName::from_static("x-request-id");

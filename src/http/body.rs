@@ -13,9 +13,9 @@ use axum::response::{IntoResponse, Response};
 use hyper::body::{Frame, SizeHint};
 use tokio::time::{Instant, Sleep, sleep_until};
 
-use super::AppState;
 use super::pace::{PIECE, Pace};
 use super::problem::{Kind, Problem};
+use super::state::AppState;
 
 /// Middleware: a body whose next 64 KiB keep the service waiting for too long is given up.
 pub(super) async fn keep_coming(state: State<AppState>, request: Request, next: Next) -> Response {

@@ -11,6 +11,7 @@ use utoipa::ToSchema;
 use super::contract::{Contract, Findings, check};
 use super::idempotency;
 use super::problem::{Kind, Problem, ProblemItem, excerpt};
+use super::state::AppState;
 use crate::store::jobs::JobId;
 
 /// A JSON body.
@@ -20,10 +21,10 @@ pub(super) struct JsonBody<T> {
     pub(super) fingerprint: String,
 }
 
-impl<T: DeserializeOwned + ToSchema, S: Send + Sync> FromRequest<S> for JsonBody<T> {
+impl<T: DeserializeOwned + ToSchema> FromRequest<AppState> for JsonBody<T> {
     type Rejection = Problem;
 
-    async fn from_request(request: Request, state: &S) -> Result<Self, Problem> {
+    async fn from_request(request: Request, state: &AppState) -> Result<Self, Problem> {
         expect_media_type(request.headers(), &["application/json"])?;
         let path = request.uri().path().to_owned();
         let body = Bytes::from_request(request, state).await.map_err(|rejection| match rejection {
@@ -34,7 +35,7 @@ impl<T: DeserializeOwned + ToSchema, S: Send + Sync> FromRequest<S> for JsonBody
             }
             other => Problem::new(Kind::BadRequest, other.body_text()),
         })?;
-        let value = read_json(&body)?;
+        let value = read_json(&state.contract, &body)?;
         Ok(Self { value, fingerprint: idempotency::fingerprint(&path, &body) })
     }
 }
@@ -134,8 +135,8 @@ fn media_type(headers: &HeaderMap) -> &str {
 }
 
 /// Reads one JSON document; says what is wrong with it: by line and column if it is not JSON, by pointer if it is.
-fn read_json<T: DeserializeOwned + ToSchema>(body: &[u8]) -> Result<T, Problem> {
-    let shape = Contract::get().body(&T::name()).ok_or_else(|| {
+fn read_json<T: DeserializeOwned + ToSchema>(contract: &Contract, body: &[u8]) -> Result<T, Problem> {
+    let shape = contract.body(&T::name()).ok_or_else(|| {
         tracing::error!(body = %T::name(), "the contract does not have this body");
         Problem::new(Kind::Internal, "a defect of the program; the service's log says more")
     })?;

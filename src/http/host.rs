@@ -3,44 +3,18 @@
 //! A web page that a user visits can make the name it came from mean 127.0.0.1 (DNS rebinding) and then talk to the service as if it
 //! were its own; the only sign is that name in `Host`.
 
-use std::net::IpAddr;
-
 use axum::extract::{Request, State};
 use axum::http::uri::Authority;
 use axum::http::{HeaderMap, Version, header};
 use axum::middleware::Next;
 use axum::response::Response;
 
-use super::AppState;
+use super::hosts::Hosts;
 use super::problem::{Kind, Problem};
+use super::state::AppState;
 
 /// Longest name of a host (RFC 1035).
 const LONGEST: usize = 253;
-
-/// For which hosts the service answers.
-#[derive(Debug)]
-pub(super) struct Hosts {
-    bound: IpAddr,
-    names: Vec<String>,
-}
-
-impl Hosts {
-    pub(super) fn new(bound: IpAddr, names: Vec<String>) -> Self {
-        Self { bound, names }
-    }
-
-    /// Whether requests for `host` are answered: for all of them if the service can be reached from elsewhere and nobody said under
-    /// which names.
-    fn include(&self, host: &str) -> bool {
-        if self.names.is_empty() && !self.bound.is_loopback() {
-            return true;
-        }
-        let address = host.trim_start_matches('[').trim_end_matches(']').parse::<IpAddr>();
-        address.is_ok_and(|address| address.is_loopback() || address == self.bound)
-            || host.eq_ignore_ascii_case("localhost")
-            || self.names.iter().any(|name| name.eq_ignore_ascii_case(host))
-    }
-}
 
 /// Middleware: refuses requests that do not say which host they are meant for, or name another.
 pub(super) async fn check(state: State<AppState>, request: Request, next: Next) -> Result<Response, Problem> {
@@ -85,39 +59,4 @@ fn refuse_others(hosts: &Hosts, authority: &Authority) -> Result<(), Problem> {
         "this service does not answer for the host {host:?}; if it is reached under that name, start it with --host {host}"
     );
     Err(Problem::new(Kind::Misdirected, detail))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn hosts(bound: &str, names: &[&str]) -> Hosts {
-        Hosts::new(bound.parse().unwrap(), names.iter().map(ToString::to_string).collect())
-    }
-
-    #[test]
-    fn a_loopback_service_answers_for_this_machine_only() {
-        let local = hosts("127.0.0.1", &[]);
-        for host in ["localhost", "LocalHost", "127.0.0.1", "127.1.2.3", "[::1]"] {
-            assert!(local.include(host), "{host}");
-        }
-        for host in ["evil.example", "localhost.evil.example", "10.0.0.5", "127.0.0.1.evil.example", ""] {
-            assert!(!local.include(host), "{host}");
-        }
-    }
-
-    #[test]
-    fn names_are_added_to_this_machine_s() {
-        let named = hosts("127.0.0.1", &["Rubmap.example"]);
-        assert!(named.include("rubmap.example") && named.include("localhost"));
-        assert!(!named.include("evil.example"));
-    }
-
-    #[test]
-    fn a_service_for_others_answers_for_any_host_unless_told() {
-        assert!(hosts("0.0.0.0", &[]).include("anything.example"));
-        let told = hosts("10.0.0.5", &["rubmap.example"]);
-        assert!(told.include("rubmap.example") && told.include("10.0.0.5") && told.include("127.0.0.1"));
-        assert!(!told.include("anything.example") && !told.include("10.0.0.6"));
-    }
 }

@@ -7,12 +7,12 @@ use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
 
-use super::AppState;
 use super::extract::{JobPath, Parameters, job_not_found};
 use super::job_body::{JobBody, JobDetail};
 use super::page;
 use super::problem::Problem;
 use super::results::find;
+use super::state::AppState;
 use crate::jobs::Cancellation;
 use crate::store::jobs::{JobDeletion, JobFilter, JobId, JobKind};
 use crate::store::status::JobStatus;

@@ -2,88 +2,25 @@
 
 use std::fmt::Debug;
 use std::sync::atomic::Ordering;
-use std::time::{Duration, Instant};
 
 use axum::extract::State;
 use axum::http::header;
 use axum::response::{IntoResponse, Response};
-use prometheus_client::encoding::{EncodeLabelSet, EncodeMetric, text};
+use prometheus_client::encoding::{EncodeMetric, text};
 use prometheus_client::metrics::TypedMetric;
-use prometheus_client::metrics::counter::{ConstCounter, Counter};
-use prometheus_client::metrics::family::Family;
+use prometheus_client::metrics::counter::ConstCounter;
 use prometheus_client::metrics::gauge::ConstGauge;
-use prometheus_client::metrics::histogram::{Histogram, exponential_buckets};
-use prometheus_client::metrics::info::Info;
 use prometheus_client::registry::Registry;
 use tokio::time::timeout;
 
 use super::problem::{Kind, Problem};
+use super::request_metrics::PREFIX;
 use super::server::descriptors;
-use super::{AppState, health};
-use crate::version;
+use super::state::AppState;
+use super::{health, probe};
 
 /// Media type of the answer.
 const MEDIA_TYPE: &str = "application/openmetrics-text; version=1.0.0; charset=utf-8";
-
-/// Prefix of all names.
-const PREFIX: &str = "rubmap";
-
-#[derive(Debug, Clone, PartialEq, Eq, Hash, EncodeLabelSet)]
-struct Answered {
-    method: &'static str,
-    /// Template of the route; `none` for paths without one.
-    route: String,
-    /// `none` if the client was gone before there was one.
-    status: String,
-}
-
-#[derive(Debug, Clone, PartialEq, Eq, Hash, EncodeLabelSet)]
-struct Asked {
-    method: &'static str,
-    route: String,
-}
-
-/// What is counted as it happens.
-#[derive(Debug)]
-pub(super) struct Metrics {
-    registry: Registry,
-    requests: Family<Answered, Counter>,
-    seconds: Family<Asked, Histogram, fn() -> Histogram>,
-    begin: Instant,
-}
-
-impl Default for Metrics {
-    fn default() -> Self {
-        let requests = Family::<Answered, Counter>::default();
-        // From 1 ms to 32 s, doubling.
-        let histogram: fn() -> Histogram = || Histogram::new(exponential_buckets(0.001, 2.0, 16));
-        let seconds = Family::<Asked, Histogram, fn() -> Histogram>::new_with_constructor(histogram);
-        let mut registry = Registry::with_prefix(PREFIX);
-        registry.register(
-            "http_requests",
-            "Requests answered, by method, route and status",
-            requests.clone(),
-        );
-        registry.register(
-            "http_request_duration_seconds",
-            "Time from the head of a request to the end of its answer",
-            seconds.clone(),
-        );
-        let build =
-            [("version", version::VERSION), ("commit", version::COMMIT), ("profile", version::PROFILE)];
-        registry.register("build", "What the program was built from", Info::new(build.to_vec()));
-        Self { registry, requests, seconds, begin: Instant::now() }
-    }
-}
-
-impl Metrics {
-    /// A request was answered, or its client is gone.
-    pub(super) fn request(&self, method: &'static str, route: &str, status: Option<u16>, took: Duration) {
-        let status = status.map_or_else(|| "none".to_owned(), |status| status.to_string());
-        self.requests.get_or_create(&Answered { method, route: route.to_owned(), status }).inc();
-        self.seconds.get_or_create(&Asked { method, route: route.to_owned() }).observe(took.as_secs_f64());
-    }
-}
 
 /// Numbers as they are now.
 struct Snapshot(Registry);
@@ -171,7 +108,7 @@ async fn snapshot(state: &AppState) -> Snapshot {
     if let Some(budget) = state.memory_bytes {
         now.gauge("memory_budget_bytes", "Memory that computations may claim together", budget);
     }
-    match timeout(health::PATIENCE, state.store.backlog()).await {
+    match timeout(probe::PATIENCE, state.store.backlog()).await {
         Ok(Ok(backlog)) => {
             now.gauge("jobs_accepted", "Jobs that wait for their turn", backlog.jobs_accepted);
             now.gauge("jobs_running", "Jobs under way", backlog.jobs_running);
@@ -182,7 +119,7 @@ async fn snapshot(state: &AppState) -> Snapshot {
             );
         }
         Ok(Err(error)) => tracing::warn!(%error, "no numbers of the queue"),
-        Err(_) => tracing::warn!("no numbers of the queue within {} s", health::PATIENCE.as_secs()),
+        Err(_) => tracing::warn!("no numbers of the queue within {} s", probe::PATIENCE.as_secs()),
     }
     now
 }

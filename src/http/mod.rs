@@ -3,9 +3,11 @@
 mod access;
 mod body;
 mod contract;
+mod document;
 mod extract;
 mod health;
 mod host;
+mod hosts;
 mod idempotency;
 mod job_body;
 mod jobs;
@@ -16,10 +18,13 @@ mod openapi;
 mod pace;
 mod page;
 mod principal;
+mod probe;
 pub mod problem;
+mod request_metrics;
 mod results;
 mod router;
 pub mod server;
+mod state;
 mod stream;
 mod studies;
 mod submit;
@@ -27,40 +32,9 @@ mod sweeps;
 mod transport;
 mod version;
 
-use std::sync::Arc;
-
-use crate::jobs::Jobs;
-use crate::package;
-use crate::store::Store;
-use crate::store::limits::Limits;
-use crate::tokens::Tokens;
-
-pub use openapi::document;
+pub use contract::Contract;
+pub use document::document;
 pub use router::router;
+pub use state::AppState;
 pub use stream::LargeAnswers;
 pub use transport::Transport;
-
-/// What handlers work with.
-#[derive(Debug, Clone)]
-pub struct AppState {
-    /// What is remembered.
-    pub store: Store,
-    /// Bounds what large answers take.
-    pub answers: LargeAnswers,
-    /// Who may use the service; `None`: whoever reaches it.
-    pub tokens: Option<Tokens>,
-    /// What one owner may have.
-    pub limits: Limits,
-    /// What is computed.
-    pub jobs: Jobs,
-    /// Largest upload, in bytes as sent.
-    pub upload_bytes: u64,
-    /// Limits while reading an uploaded package.
-    pub package_limits: package::Limits,
-    /// Memory that reductions may take together; `None` where nothing is known about it.
-    pub memory_bytes: Option<u64>,
-    /// What connections and requests are subject to and counted by.
-    pub transport: Arc<Transport>,
-    /// The contract, as JSON.
-    pub openapi: Arc<str>,
-}

@@ -4,10 +4,10 @@ use axum::Json;
 use axum::extract::State;
 use axum::response::Response;
 
-use super::AppState;
 use super::extract::JsonBody;
 use super::idempotency::IdempotencyKey;
 use super::problem::Problem;
+use super::state::AppState;
 use super::submit::{self, Receipt};
 use crate::analysis::request::ModalAnalysisRequest;
 use crate::analysis::run::ModalAnalysisPlan;

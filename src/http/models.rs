@@ -10,11 +10,11 @@ use serde::{Deserialize, Serialize};
 use tokio::io::{AsyncWriteExt, BufWriter};
 use utoipa::{IntoParams, ToSchema};
 
-use super::AppState;
 use super::extract::{JsonBody, ModelPath, Parameters, expect_media_type, is_media_type};
 use super::idempotency::{self, IdempotencyKey};
 use super::page;
 use super::problem::{Kind, Problem, excerpt};
+use super::state::AppState;
 use super::submit::{self, Receipt};
 use crate::analysis::result::ReductionReport;
 use crate::analysis::run::ModelFacts;

@@ -9,9 +9,9 @@ use serde::{Deserialize, Serialize};
 use tokio::runtime::Handle;
 use utoipa::{IntoParams, ToSchema};
 
-use super::AppState;
 use super::extract::{JobPath, Parameters, SpeedPath, job_not_found};
 use super::problem::{Kind, Problem};
+use super::state::AppState;
 use super::stream::{self, Leave};
 use crate::analysis::request::SweepRequest;
 use crate::analysis::result::{

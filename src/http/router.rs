@@ -1,5 +1,7 @@
 //! All routes.
 
+use std::sync::Arc;
+
 use axum::Router;
 use axum::http::{HeaderName, HeaderValue, Method, StatusCode, header};
 use axum::middleware;
@@ -12,14 +14,15 @@ use utoipa::OpenApi;
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
+use super::state::AppState;
 use super::{
-    AppState, access, body, contract, health, host, jobs, metrics, modal_analyses, models, openapi,
-    principal, problem, results, studies, sweeps, version,
+    access, body, contract, health, host, jobs, metrics, modal_analyses, models, openapi, principal, problem,
+    results, studies, sweeps, version,
 };
 
 /// The routes with their descriptions.
 pub(super) fn routes() -> OpenApiRouter<AppState> {
-    OpenApiRouter::with_openapi(openapi::Contract::openapi())
+    OpenApiRouter::with_openapi(openapi::ApiDoc::openapi())
         .routes(routes!(models::create_model, models::list_models))
         .routes(routes!(models::plan_model_generation))
         .routes(routes!(models::get_model, models::delete_model))
@@ -62,7 +65,10 @@ pub fn router(state: AppState) -> Router {
         .option_layer(cors(&state.transport.cors_origins))
         .layer(middleware::from_fn_with_state(state.tokens.clone(), principal::authenticate))
         .layer(middleware::from_fn_with_state(state.clone(), body::keep_coming))
-        .layer(middleware::from_fn(contract::refuse_unknown_parameters));
+        .layer(middleware::from_fn_with_state(
+            Arc::clone(&state.contract),
+            contract::refuse_unknown_parameters,
+        ));
     let (router, _) = routes().split_for_parts();
     router.fallback(|| async { StatusCode::NOT_FOUND }).layer(layers).with_state(state)
 }

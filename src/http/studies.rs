@@ -5,11 +5,11 @@ use axum::response::Response;
 use serde::Deserialize;
 use utoipa::{IntoParams, ToSchema};
 
-use super::AppState;
 use super::extract::{JobPath, JsonBody, Parameters};
 use super::idempotency::IdempotencyKey;
 use super::problem::Problem;
 use super::results::{self, find, wrong_kind};
+use super::state::AppState;
 use super::submit::{self, Receipt};
 use crate::analysis::result::Quantity;
 use crate::analysis::run::{Histories, StudyRequest, WorkPrecision};

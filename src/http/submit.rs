@@ -5,10 +5,10 @@ use axum::response::Response;
 use serde::Serialize;
 use utoipa::ToSchema;
 
-use super::AppState;
 use super::idempotency::{self, IdempotencyKey};
 use super::job_body::{Link, links};
 use super::problem::Problem;
+use super::state::AppState;
 use crate::jobs::SubmitError;
 use crate::store::idempotency::Answer;
 use crate::store::jobs::{JobId, JobKind, JobRequest};

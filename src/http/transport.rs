@@ -5,9 +5,9 @@ use std::time::Duration;
 
 use axum::http::HeaderValue;
 
-use super::health::Probed;
-use super::host::Hosts;
-use super::metrics::Metrics;
+use super::hosts::Hosts;
+use super::probe::Probed;
+use super::request_metrics::Metrics;
 use super::server::{Figures, Limits};
 use crate::config::TransportConfig;
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use chrono::{DateTime, Utc};
 
 use super::engine::{Engine, Live};
-use super::error::Halt;
+use super::error::Interruption;
 use super::progress::PhaseMonitor;
 use super::trials::Trials;
 use crate::analysis::error::{AnalysisError, Violation};
@@ -20,7 +20,7 @@ pub(super) async fn sweep(
     engine: &Engine,
     job: Arc<Live>,
     request: &SweepRequest,
-) -> Result<Arc<Live>, Halt> {
+) -> Result<Arc<Live>, Interruption> {
     if !request.unchosen() {
         return Ok(job);
     }
@@ -34,7 +34,7 @@ pub(super) async fn sweep(
             Next::Refuse(violation) => return Err(AnalysisError::Refused(vec![violation]).into()),
             Next::Run(runs) => runs,
         };
-        let Some(first) = runs.first() else { return Err(Halt::NotWanted) };
+        let Some(first) = runs.first() else { return Err(Interruption::NotWanted) };
         let (modes, total) = (first.sweep.modes(), runs.len());
         let monitor = PhaseMonitor::uncounted(job.watch.clone());
         let tell = |done| {
@@ -42,8 +42,8 @@ pub(super) async fn sweep(
         };
         tell(0);
         match trials.obtain(engine, &job, runs, tell).await {
-            Err(Halt::Failed(failure)) if failure.cause == FailureCause::Memory => {
-                most_modes = Some(largest_below(modes, &resources).ok_or(Halt::Failed(failure))?);
+            Err(Interruption::Failed(failure)) if failure.cause == FailureCause::Memory => {
+                most_modes = Some(largest_below(modes, &resources).ok_or(Interruption::Failed(failure))?);
             }
             outcome => outcome?,
         }
@@ -84,7 +84,7 @@ pub(super) async fn modal_analysis(
     engine: &Engine,
     job: Arc<Live>,
     request: &ModalAnalysisRequest,
-) -> Result<Arc<Live>, Halt> {
+) -> Result<Arc<Live>, Interruption> {
     if !request.unchosen() {
         return Ok(job);
     }
@@ -100,8 +100,8 @@ pub(super) async fn modal_analysis(
         };
         let monitor = PhaseMonitor::uncounted(job.watch.clone());
         match engine.reductions.get(&request.model, modes, monitor).await {
-            Err(Halt::Failed(failure)) if failure.cause == FailureCause::Memory => {
-                most_modes = Some(largest_below(modes, &resources).ok_or(Halt::Failed(failure))?);
+            Err(Interruption::Failed(failure)) if failure.cause == FailureCause::Memory => {
+                most_modes = Some(largest_below(modes, &resources).ok_or(Interruption::Failed(failure))?);
             }
             outcome => reports.push(outcome?.report.clone()),
         }
@@ -125,11 +125,11 @@ pub(super) async fn stored_modes(
 }
 
 /// Facts of the model that `job` computes from, and when it began.
-async fn begun(engine: &Engine, job: &Live) -> Result<(ModelFacts, DateTime<Utc>), Halt> {
-    let stored = engine.store.job(job.id).await?.ok_or(Halt::NotWanted)?;
+async fn begun(engine: &Engine, job: &Live) -> Result<(ModelFacts, DateTime<Utc>), Interruption> {
+    let stored = engine.store.job(job.id).await?.ok_or(Interruption::NotWanted)?;
     let begin = stored.started_at.as_deref().and_then(|time| DateTime::parse_from_rfc3339(time).ok());
     let begin = begin.map_or_else(Utc::now, |time| time.with_timezone(&Utc));
-    Ok((stored.facts.ok_or(Halt::NotWanted)?, begin))
+    Ok((stored.facts.ok_or(Interruption::NotWanted)?, begin))
 }
 
 /// By the clock on the wall: what was spent before the service was stopped counts, and so does the pause.
@@ -138,7 +138,7 @@ fn seconds_since(begin: DateTime<Utc>) -> f64 {
 }
 
 /// Facts of the model that `job` computes from.
-pub(super) async fn facts(engine: &Engine, job: &Live) -> Result<ModelFacts, Halt> {
+pub(super) async fn facts(engine: &Engine, job: &Live) -> Result<ModelFacts, Interruption> {
     Ok(begun(engine, job).await?.0)
 }
 

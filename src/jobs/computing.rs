@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use tokio::sync::OwnedMutexGuard;
 
-use super::error::Halt;
+use super::error::Interruption;
 use super::pool::CpuPool;
 use super::progress::Watch;
 use crate::store::Store;
@@ -45,7 +45,7 @@ impl Computing {
     }
 
     /// Computes on one thread for the job of `watch`.
-    pub(super) async fn run<T, F>(&self, watch: &Arc<Watch>, compute: F) -> Result<T, Halt>
+    pub(super) async fn run<T, F>(&self, watch: &Arc<Watch>, compute: F) -> Result<T, Interruption>
     where
         T: Send + 'static,
         F: FnOnce() -> T + Send + 'static,
@@ -55,7 +55,7 @@ impl Computing {
     }
 
     /// The same for work that is parallel in itself.
-    pub(super) async fn run_parallel<T, F>(&self, watch: &Arc<Watch>, compute: F) -> Result<T, Halt>
+    pub(super) async fn run_parallel<T, F>(&self, watch: &Arc<Watch>, compute: F) -> Result<T, Interruption>
     where
         T: Send + 'static,
         F: FnOnce() -> T + Send + 'static,
@@ -91,13 +91,13 @@ impl Computing {
     }
 
     /// Lets the job of `watch` compute. Of suspects one computes at a time, so that the next death tells which of them it is.
-    async fn admit(&self, watch: &Arc<Watch>) -> Result<Option<OwnedMutexGuard<()>>, Halt> {
+    async fn admit(&self, watch: &Arc<Watch>) -> Result<Option<OwnedMutexGuard<()>>, Interruption> {
         let crashes = self.lock().get(&watch.job()).copied().unwrap_or(0);
         let mut alone = None;
         if crashes >= SUSPICIOUS {
             alone = Some(Arc::clone(&self.suspects).lock_owned().await);
         }
-        if watch.is_cancelled() { Err(Halt::NotWanted) } else { Ok(alone) }
+        if watch.is_cancelled() { Err(Interruption::NotWanted) } else { Ok(alone) }
     }
 
     fn lock(&self) -> std::sync::MutexGuard<'_, HashMap<JobId, u32>> {
@@ -141,7 +141,7 @@ mod tests {
         computing.acquit(two.job());
         assert!(matches!(computing.admit(&two).now_or_never(), Some(Ok(None))));
         two.dismiss();
-        assert!(matches!(computing.run(&two, || ()).await, Err(Halt::NotWanted)));
+        assert!(matches!(computing.run(&two, || ()).await, Err(Interruption::NotWanted)));
     }
 
     #[tokio::test]

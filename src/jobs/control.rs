@@ -2,7 +2,7 @@
 
 use super::choice::facts;
 use super::engine::{Engine, Live};
-use super::error::Halt;
+use super::error::Interruption;
 use super::progress::PhaseMonitor;
 use super::trials::Trials;
 use crate::analysis::monitor::Monitor;
@@ -17,7 +17,7 @@ pub(super) async fn errors(
     job: &Live,
     request: &SweepRequest,
     points: &[Point],
-) -> Result<Option<ErrorEstimate>, Halt> {
+) -> Result<Option<ErrorEstimate>, Interruption> {
     if request.controls() == 0 {
         return Ok(None);
     }
@@ -30,7 +30,7 @@ pub(super) async fn errors(
     tell(0);
     let requests = |controls: &[(u32, _, run::TrialRequest)]| controls.iter().map(|c| c.2.clone()).collect();
     match trials.obtain(engine, job, requests(&controls), tell).await {
-        Err(Halt::Failed(failure)) if failure.cause == FailureCause::Memory => {
+        Err(Interruption::Failed(failure)) if failure.cause == FailureCause::Memory => {
             // No memory for more modes: then more steps alone, and the settings say so.
             controls = run::control_requests(request, sectors, points, Some(request.modes()));
             trials.obtain(engine, job, requests(&controls), tell).await?;

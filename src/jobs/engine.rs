@@ -7,16 +7,16 @@ use std::time::{Duration, Instant};
 
 use tokio::sync::Notify;
 
+use super::calibration::Calibrated;
 use super::computing::Computing;
-use super::error::{self, Halt};
+use super::counters::Counters;
+use super::error::{self, Interruption};
 use super::memory::Memory;
 use super::patience::{BETWEEN_ATTEMPTS, patiently};
-use super::plans::Calibrated;
 use super::pool::CpuPool;
-use super::progress::{News, PhaseMonitor, Watch};
+use super::progress::{PendingReports, PhaseMonitor, Watch};
 use super::reductions::Reductions;
 use super::turns::Turns;
-use super::work::Counters;
 use crate::analysis::monitor::Monitor;
 use crate::store::jobs::{Chosen, Failure, FailureCause, Job, JobId, JobRequest};
 use crate::store::limits::Limits;
@@ -48,19 +48,19 @@ pub(super) struct Engine {
     pub(super) preparations: Turns<()>,
     /// Speeds to be run.
     pub(super) speeds: Turns<u32>,
-    /// Rung when a task was added or has ended: perhaps one can be handed out.
+    /// Notified when a task was added or has ended: perhaps one can be handed out.
     pub(super) turn: Notify,
-    /// Rung when there is something new to prepare in the queue.
+    /// Notified when there is something new to prepare in the queue.
     pub(super) new_preparation: Arc<Notify>,
-    /// Rung when there are new speeds in the queue.
+    /// Notified when there are new speeds in the queue.
     pub(super) new_speeds: Arc<Notify>,
-    /// Rung when a job was deleted, whose room can be given back.
+    /// Notified when a job was deleted, whose room can be given back.
     pub(super) deleted: Notify,
     /// Set when the service stops: computations end, their jobs stay as they are.
     pub(super) stopping: Arc<AtomicBool>,
     live: Mutex<HashMap<JobId, Arc<Live>>>,
     /// Progress of all jobs, to be written down.
-    pub(super) news: Arc<News>,
+    pub(super) reports: Arc<PendingReports>,
 }
 
 /// An unfinished job in memory.
@@ -136,14 +136,14 @@ impl Engine {
             new_speeds: Arc::default(),
             stopping: Arc::default(),
             live: Mutex::default(),
-            news: Arc::default(),
+            reports: Arc::default(),
         })
     }
 
     /// The job, if it still wants work.
-    pub(super) async fn live(&self, id: JobId) -> Result<Option<Arc<Live>>, Halt> {
+    pub(super) async fn live(&self, id: JobId) -> Result<Option<Arc<Live>>, Interruption> {
         if self.stopping.load(Ordering::Relaxed) {
-            return Err(Halt::NotWanted);
+            return Err(Interruption::NotWanted);
         }
         if let Some(live) = self.lock_live().get(&id) {
             return Ok(Some(Arc::clone(live)));
@@ -154,7 +154,7 @@ impl Engine {
         if status.is_final() {
             return Ok(None);
         }
-        let watch = Watch::new(id, speeds.total, Arc::clone(&self.stopping), Arc::clone(&self.news));
+        let watch = Watch::new(id, speeds.total, Arc::clone(&self.stopping), Arc::clone(&self.reports));
         let chain = chain(&request);
         let speed_bytes = AtomicU64::new(plan.map_or(0, |plan| plan.speed_memory_bytes));
         let live = Live { id, owner, request, speeds: speeds.total, chain, speed_bytes, watch };
@@ -172,21 +172,21 @@ impl Engine {
     /// may be under way. Harmless to repeat.
     ///
     /// # Errors
-    /// [`Halt::NotWanted`] if the job has ended, or has been given more speeds since.
+    /// [`Interruption::NotWanted`] if the job has ended, or has been given more speeds since.
     pub(super) async fn revise(
         &self,
         job: &Live,
         request: JobRequest,
         speeds: u32,
-    ) -> Result<Arc<Live>, Halt> {
+    ) -> Result<Arc<Live>, Interruption> {
         let write = || self.store.revise_request(job.id, &request, speeds);
         if !patiently(&job.watch, write).await? {
-            return Err(Halt::NotWanted);
+            return Err(Interruption::NotWanted);
         }
         let chain = chain(&request);
         let mut all = self.lock_live();
         let current = all.get_mut(&job.id).filter(|current| current.speeds <= speeds);
-        let Some(current) = current else { return Err(Halt::NotWanted) };
+        let Some(current) = current else { return Err(Interruption::NotWanted) };
         let owner = job.owner.clone();
         let speed_bytes = AtomicU64::new(current.speed_bytes.load(Ordering::Relaxed));
         let watch = Arc::clone(&current.watch);
@@ -202,7 +202,7 @@ impl Engine {
         job: &Live,
         request: JobRequest,
         choice: Chosen,
-    ) -> Result<Arc<Live>, Halt> {
+    ) -> Result<Arc<Live>, Interruption> {
         patiently(&job.watch, || self.store.record_choice(job.id, &choice)).await?;
         self.revise(job, request, job.speeds).await
     }
@@ -250,22 +250,22 @@ impl Engine {
     /// is begun again until it can: what it has finished it finds there.
     pub(super) async fn attend<T>(&self, id: JobId, mut task: impl FnMut() -> T)
     where
-        T: Future<Output = Result<(), Halt>>,
+        T: Future<Output = Result<(), Interruption>>,
     {
         let mut missing_since = None;
         let mut warned = false;
         loop {
             let outcome = match task().await {
-                Ok(()) | Err(Halt::NotWanted) => return,
-                Err(Halt::Failed(failure)) => Ok(failure),
-                Err(Halt::Store(error))
+                Ok(()) | Err(Interruption::NotWanted) => return,
+                Err(Interruption::Failed(failure)) => Ok(failure),
+                Err(Interruption::Store(error))
                     if error.is_missing_package()
                         && missing_since.get_or_insert_with(Instant::now).elapsed() > MISSING_PACKAGE =>
                 {
                     Ok(error::lost_package())
                 }
-                Err(Halt::Store(error)) if error.may_pass() => Err(error),
-                Err(Halt::Store(error)) => {
+                Err(Interruption::Store(error)) if error.may_pass() => Err(error),
+                Err(Interruption::Store(error)) => {
                     tracing::error!(job.id = %id, %error, "the store failed");
                     Ok(error::unreadable())
                 }

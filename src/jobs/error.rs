@@ -15,7 +15,7 @@ const MORE_MEMORY: &str = "let the service take more (--memory-bytes or RUBMAP_M
 
 /// Why a task of a job ended early.
 #[derive(Debug)]
-pub(super) enum Halt {
+pub(super) enum Interruption {
     /// The job was dismissed, or the service is stopping: nothing to record.
     NotWanted,
     /// The job cannot be computed.
@@ -24,7 +24,7 @@ pub(super) enum Halt {
     Store(StoreError),
 }
 
-impl Halt {
+impl Interruption {
     /// The stored package of a model cannot be read: for a while, or because it is not what it was.
     pub(super) fn stored_package(error: PackageError) -> Self {
         match error {
@@ -106,26 +106,26 @@ pub(super) fn crashed(times: u32) -> Failure {
     Failure { cause: FailureCause::Defect, message, violations: Vec::new() }
 }
 
-impl From<StoreError> for Halt {
+impl From<StoreError> for Interruption {
     fn from(error: StoreError) -> Self {
         Self::Store(error)
     }
 }
 
-impl From<serde_json::Error> for Halt {
+impl From<serde_json::Error> for Interruption {
     fn from(error: serde_json::Error) -> Self {
         Self::Store(error.into())
     }
 }
 
-impl From<Panicked> for Halt {
+impl From<Panicked> for Interruption {
     fn from(panicked: Panicked) -> Self {
         let message = format!("{panicked}. This is a defect of the program; please report it with the model");
         Self::Failed(Failure { cause: FailureCause::Defect, message, violations: Vec::new() })
     }
 }
 
-impl From<AnalysisError> for Halt {
+impl From<AnalysisError> for Interruption {
     fn from(error: AnalysisError) -> Self {
         let message = error.to_string();
         match error {
@@ -144,7 +144,7 @@ impl From<AnalysisError> for Halt {
     }
 }
 
-impl From<ImpellerError> for Halt {
+impl From<ImpellerError> for Interruption {
     fn from(error: ImpellerError) -> Self {
         let message = error.to_string();
         let cause = match error {

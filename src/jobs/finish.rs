@@ -2,7 +2,7 @@
 
 use super::control;
 use super::engine::{Engine, Live};
-use super::error::Halt;
+use super::error::Interruption;
 use super::patience::patiently;
 use super::progress::PhaseMonitor;
 use crate::analysis::error::AnalysisError;
@@ -14,7 +14,7 @@ use crate::store::results::Document;
 
 /// What to do with a sweep whose speeds are all finished: more speeds, where it asks for them around its peaks, or its
 /// critical speeds, with which it is successful.
-pub(super) async fn sweep(engine: &Engine, job: &Live, request: &SweepRequest) -> Result<(), Halt> {
+pub(super) async fn sweep(engine: &Engine, job: &Live, request: &SweepRequest) -> Result<(), Interruption> {
     let points = engine.store.points(job.id).await?;
     if points.len() != job.speeds as usize {
         // Somebody else saw the last of them finished too, and has gone on with more.
@@ -32,7 +32,7 @@ pub(super) async fn sweep(engine: &Engine, job: &Live, request: &SweepRequest) -
 }
 
 /// Goes on with a request that has more speeds. Who comes to the same speeds a second time changes nothing.
-async fn more_speeds(engine: &Engine, job: &Live, request: SweepRequest) -> Result<(), Halt> {
+async fn more_speeds(engine: &Engine, job: &Live, request: SweepRequest) -> Result<(), Interruption> {
     let speeds = request.speeds.resolve().map_err(AnalysisError::Refused)?.len() as u32;
     let revised = engine.revise(job, JobRequest::Sweep(Box::new(request)), speeds).await?;
     tracing::info!(job.id = %job.id, speeds, added = speeds - job.speeds, "refining");
@@ -47,10 +47,10 @@ async fn conclude(
     job: &Live,
     request: &SweepRequest,
     points: Vec<Point>,
-) -> Result<(), Halt> {
+) -> Result<(), Interruption> {
     if let Some(message) = run::nothing_completed(&points) {
         let failure = Failure { cause: FailureCause::NothingCompleted, message, violations: Vec::new() };
-        return Err(Halt::Failed(failure));
+        return Err(Interruption::Failed(failure));
     }
     let monitor = PhaseMonitor::uncounted(job.watch.clone());
     let reduced = engine.reductions.get(&request.model, request.modes(), monitor).await?;
@@ -77,7 +77,7 @@ pub(super) async fn complete(
     job: &Live,
     documents: &[(Document, String)],
     made: Option<&str>,
-) -> Result<(), Halt> {
+) -> Result<(), Interruption> {
     let write = || engine.store.complete_job(job.id, documents, made);
     if patiently(&job.watch, write).await? {
         tracing::info!(job.id = %job.id, "successful");

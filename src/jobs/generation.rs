@@ -7,7 +7,7 @@ use std::sync::Arc;
 use tempfile::TempPath;
 
 use super::engine::{Engine, Live};
-use super::error::Halt;
+use super::error::Interruption;
 use super::finish;
 use super::patience::patiently;
 use super::pool::Panicked;
@@ -20,11 +20,15 @@ use crate::package::{self, Limits, PackageError};
 use crate::store::StoreError;
 
 /// Generates the package, reads it back as if it had been uploaded, and keeps it as a model.
-pub(super) async fn run(engine: &Engine, job: &Live, parameters: &ImpellerParameters) -> Result<(), Halt> {
+pub(super) async fn run(
+    engine: &Engine,
+    job: &Live,
+    parameters: &ImpellerParameters,
+) -> Result<(), Interruption> {
     let monitor = PhaseMonitor::whole(job.watch.clone());
     let wanted = |fraction: f64, phase: &str| {
         monitor.progress(fraction, phase);
-        if monitor.is_cancelled() { Err(Halt::NotWanted) } else { Ok(()) }
+        if monitor.is_cancelled() { Err(Interruption::NotWanted) } else { Ok(()) }
     };
 
     wanted(0.0, "meshing")?;
@@ -44,7 +48,7 @@ pub(super) async fn run(engine: &Engine, job: &Live, parameters: &ImpellerParame
         allowance = engine.memory.claim_most().await;
     }
     if let Some(allowed) = allowance.bytes.filter(|_| !allowance.allows(needed_bytes)) {
-        return Err(Halt::generation_memory(needed_bytes, allowed));
+        return Err(Interruption::generation_memory(needed_bytes, allowed));
     }
     wanted(0.05, "assembling matrices, solving the centrifugal pre-stress")?;
     let asked = parameters.clone();
@@ -62,12 +66,12 @@ pub(super) async fn run(engine: &Engine, job: &Live, parameters: &ImpellerParame
         package::read(&path, &Limits::default()).map(|read| (ModelFacts::of(&read.sector), read.digest))
     };
     let (facts, id) =
-        engine.computing.run_parallel(&job.watch, read).await?.map_err(Halt::generated_package)?;
+        engine.computing.run_parallel(&job.watch, read).await?.map_err(Interruption::generated_package)?;
 
     wanted(0.95, "keeping the model")?;
     let owner = (job.owner.as_str(), engine.limits);
     let keep = || engine.store.insert_model(owner, &id, &facts, &upload);
-    let (_, new) = patiently(&job.watch, keep).await?.map_err(Halt::limit)?;
+    let (_, new) = patiently(&job.watch, keep).await?.map_err(Interruption::limit)?;
     tracing::info!(job.id = %job.id, model.id = id, name = facts.name, new, "generated a model");
     finish::complete(engine, job, &[], Some(&id)).await
 }

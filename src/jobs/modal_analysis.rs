@@ -1,7 +1,7 @@
 //! A modal analysis: one task from beginning to end.
 
 use super::engine::{Engine, Live};
-use super::error::Halt;
+use super::error::Interruption;
 use super::finish;
 use super::progress::PhaseMonitor;
 use crate::analysis::run;
@@ -9,7 +9,7 @@ use crate::store::jobs::JobRequest;
 use crate::store::results::Document;
 
 /// Computes and stores the Campbell diagram.
-pub(super) async fn run(engine: &Engine, job: &Live) -> Result<(), Halt> {
+pub(super) async fn run(engine: &Engine, job: &Live) -> Result<(), Interruption> {
     let JobRequest::ModalAnalysis(request) = &job.request else { return Ok(()) };
     let monitor = PhaseMonitor::reduction_of_modal_analysis(job.watch.clone());
     let reduced = engine.reductions.get(&request.model, request.modes(), monitor).await?;

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use super::error::Halt;
+use super::error::Interruption;
 use super::progress::Watch;
 use crate::store::StoreError;
 
@@ -11,7 +11,7 @@ pub(super) const BETWEEN_ATTEMPTS: Duration = Duration::from_secs(1);
 
 /// Writes a result, again and again while the store cannot take it, unless the job is not wanted any more: what was
 /// computed is not computed again. What costs nothing to repeat is repeated with its whole task.
-pub(super) async fn patiently<T, W>(watch: &Watch, mut write: impl FnMut() -> W) -> Result<T, Halt>
+pub(super) async fn patiently<T, W>(watch: &Watch, mut write: impl FnMut() -> W) -> Result<T, Interruption>
 where
     W: Future<Output = Result<T, StoreError>>,
 {
@@ -20,7 +20,7 @@ where
         match write().await {
             Err(error) if error.may_pass() => {
                 if watch.is_cancelled() {
-                    return Err(Halt::NotWanted);
+                    return Err(Interruption::NotWanted);
                 }
                 if !warned {
                     tracing::error!(%error, "a result waits until the data folder takes it");
@@ -52,7 +52,7 @@ mod tests {
             let failure = failures.pop();
             async move { failure.map_or(Ok(7), |kind| Err(StoreError::File(Error::from(kind)))) }
         };
-        assert!(matches!(patiently(&watch(), &mut write).await, Err(Halt::Store(_))));
+        assert!(matches!(patiently(&watch(), &mut write).await, Err(Interruption::Store(_))));
         assert!(matches!(patiently(&watch(), &mut write).await, Ok(7)));
     }
 
@@ -61,6 +61,6 @@ mod tests {
         let watch = watch();
         watch.dismiss();
         let full = || async { Err::<(), _>(StoreError::File(Error::from(ErrorKind::StorageFull))) };
-        assert!(matches!(patiently(&watch, full).await, Err(Halt::NotWanted)));
+        assert!(matches!(patiently(&watch, full).await, Err(Interruption::NotWanted)));
     }
 }

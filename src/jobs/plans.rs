@@ -3,48 +3,13 @@
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
-use tokio::sync::OnceCell;
-
 use super::engine::{Engine, Live};
-use super::error::Halt;
+use super::error::Interruption;
 use super::patience::patiently;
-use super::pool::{CpuPool, Panicked};
+use super::pool::Panicked;
 use crate::analysis::request::{ModalAnalysisRequest, SweepRequest};
-use crate::analysis::run::{self, Calibration, ModalAnalysisPlan, ModelFacts, ReducedSector, SweepPlan};
-use crate::store::{Store, StoreError};
-
-/// What steps cost on this machine: from the store, or measured at first use.
-#[derive(Debug)]
-pub(super) struct Calibrated {
-    store: Store,
-    known: OnceCell<Arc<Calibration>>,
-}
-
-impl Calibrated {
-    pub(super) fn new(store: Store) -> Self {
-        Self { store, known: OnceCell::new() }
-    }
-
-    /// Measures on a thread of `pool`, if need be.
-    async fn get<E: From<StoreError> + From<Panicked>>(&self, pool: &CpuPool) -> Result<Arc<Calibration>, E> {
-        let known = self
-            .known
-            .get_or_try_init(|| async {
-                let processors = std::thread::available_parallelism().map_or(1, |n| n.get() as u32);
-                if let Some(kept) = self.store.calibration(processors).await? {
-                    return Ok::<_, E>(Arc::new(kept));
-                }
-                let measured = pool.run(Calibration::measure).await?;
-                tracing::info!(processors, ?measured, "measured what a step costs");
-                if let Err(error) = self.store.insert_calibration(processors, &measured).await {
-                    tracing::warn!(%error, "could not keep what a step costs; the next start measures again");
-                }
-                Ok(Arc::new(measured))
-            })
-            .await?;
-        Ok(Arc::clone(known))
-    }
-}
+use crate::analysis::run::{self, ModalAnalysisPlan, ModelFacts, ReducedSector, SweepPlan};
+use crate::store::StoreError;
 
 /// Plans a resolved sweep.
 pub(super) async fn sweep<E: From<StoreError> + From<Panicked>>(
@@ -76,13 +41,13 @@ pub(super) async fn keep(
     job: &Live,
     request: &SweepRequest,
     reduced: Arc<ReducedSector>,
-) -> Result<(), Halt> {
+) -> Result<(), Interruption> {
     let Some(stored) = engine.store.job(job.id).await? else { return Ok(()) };
     let estimate = match (stored.facts, stored.plan) {
         (_, Some(kept)) => kept,
         (None, None) => return Ok(()),
         (Some(facts), None) => {
-            let plan = sweep::<Halt>(engine, request.clone(), facts, Some(reduced)).await?;
+            let plan = sweep::<Interruption>(engine, request.clone(), facts, Some(reduced)).await?;
             let Some(estimate) = plan.estimate else { return Ok(()) };
             patiently(&job.watch, || engine.store.record_plan(job.id, &estimate)).await?;
             estimate
@@ -90,5 +55,5 @@ pub(super) async fn keep(
     };
     job.speed_bytes.store(estimate.speed_memory_bytes, Ordering::Relaxed);
     // Before the first speed, not with it.
-    engine.memory.hold(estimate.speed_memory_bytes).await.map(drop).map_err(Halt::speed_memory)
+    engine.memory.hold(estimate.speed_memory_bytes).await.map(drop).map_err(Interruption::speed_memory)
 }

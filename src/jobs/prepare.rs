@@ -3,14 +3,14 @@
 use std::sync::Arc;
 
 use super::engine::{Engine, Live};
-use super::error::Halt;
+use super::error::Interruption;
 use super::progress::PhaseMonitor;
 use super::{choice, finish, generation, modal_analysis, plans, study};
 use crate::analysis::run;
 use crate::store::jobs::{JobId, JobRequest};
 
 /// Prepares job `id`. Harmless to repeat: what is stored is not computed again.
-pub(super) async fn prepare(engine: &Engine, id: JobId) -> Result<(), Halt> {
+pub(super) async fn prepare(engine: &Engine, id: JobId) -> Result<(), Interruption> {
     let Some(job) = engine.live(id).await? else { return Ok(()) };
     if !engine.store.begin_job(id).await? {
         return Ok(());
@@ -29,7 +29,7 @@ pub(super) async fn prepare(engine: &Engine, id: JobId) -> Result<(), Halt> {
     }
 }
 
-async fn prepare_sweep(engine: &Engine, job: &Live) -> Result<(), Halt> {
+async fn prepare_sweep(engine: &Engine, job: &Live) -> Result<(), Interruption> {
     let JobRequest::Sweep(request) = &job.request else { return Ok(()) };
     let monitor = PhaseMonitor::reduction_of_sweep(job.watch.clone());
     let reduced = engine.reductions.get(&request.model, request.modes(), monitor).await?;

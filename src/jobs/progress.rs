@@ -21,11 +21,11 @@ pub(super) struct Report {
 
 /// The latest about each job, until somebody takes it to the store.
 #[derive(Debug, Default)]
-pub(super) struct News {
+pub(super) struct PendingReports {
     latest: Mutex<HashMap<JobId, Report>>,
 }
 
-impl News {
+impl PendingReports {
     /// Takes what is new.
     pub(super) fn take(&self) -> HashMap<JobId, Report> {
         std::mem::take(&mut *self.latest.lock().unwrap_or_else(PoisonError::into_inner))
@@ -48,7 +48,7 @@ pub(super) struct Watch {
     dismissed: AtomicBool,
     stopping: Arc<AtomicBool>,
     done: Mutex<Done>,
-    news: Arc<News>,
+    reports: Arc<PendingReports>,
 }
 
 /// How much of a job is done.
@@ -65,9 +65,14 @@ struct Done {
 }
 
 impl Watch {
-    pub(super) fn new(job: JobId, speeds: u32, stopping: Arc<AtomicBool>, news: Arc<News>) -> Arc<Self> {
+    pub(super) fn new(
+        job: JobId,
+        speeds: u32,
+        stopping: Arc<AtomicBool>,
+        reports: Arc<PendingReports>,
+    ) -> Arc<Self> {
         let done = Mutex::new(Done { speeds, ..Done::default() });
-        Arc::new(Self { job, dismissed: AtomicBool::new(false), stopping, done, news })
+        Arc::new(Self { job, dismissed: AtomicBool::new(false), stopping, done, reports })
     }
 
     /// The job.
@@ -118,7 +123,7 @@ impl Watch {
         if percent > done.percent || phase != done.phase {
             done.percent = percent;
             phase.clone_into(&mut done.phase);
-            self.news.put(self.job, Report { percent, phase: phase.to_owned() });
+            self.reports.put(self.job, Report { percent, phase: phase.to_owned() });
         }
     }
 }
@@ -220,7 +225,7 @@ mod tests {
 
     /// What there is to tell; `None` if nothing is new.
     fn told(watch: &Watch) -> Option<(u8, String)> {
-        watch.news.take().remove(&watch.job).map(|report| (report.percent, report.phase))
+        watch.reports.take().remove(&watch.job).map(|report| (report.percent, report.phase))
     }
 
     #[test]

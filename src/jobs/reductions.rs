@@ -4,7 +4,7 @@ use std::collections::{HashMap, VecDeque};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::computing::Computing;
-use super::error::Halt;
+use super::error::Interruption;
 use super::memory::Memory;
 use super::patience::patiently;
 use super::progress::PhaseMonitor;
@@ -43,7 +43,7 @@ impl Reductions {
         model: &str,
         modes_per_speed: u32,
         monitor: PhaseMonitor,
-    ) -> Result<Arc<ReducedSector>, Halt> {
+    ) -> Result<Arc<ReducedSector>, Interruption> {
         let key = (model.to_owned(), modes_per_speed);
         if let Some(reduced) = self.recall(&key) {
             return Ok(reduced);
@@ -84,12 +84,12 @@ impl Reductions {
     }
 
     /// With the flight's lock held.
-    async fn obtain(&self, key: &Key, monitor: PhaseMonitor) -> Result<Arc<ReducedSector>, Halt> {
+    async fn obtain(&self, key: &Key, monitor: PhaseMonitor) -> Result<Arc<ReducedSector>, Interruption> {
         if let Some(reduced) = self.recall(key) {
             return Ok(reduced);
         }
         if monitor.is_cancelled() {
-            return Err(Halt::NotWanted);
+            return Err(Interruption::NotWanted);
         }
         let (model, modes_per_speed) = (key.0.as_str(), key.1);
         if let Some(reduced) = self.store.reduction(model, modes_per_speed).await? {
@@ -124,9 +124,9 @@ impl Reductions {
         key: &Key,
         monitor: &PhaseMonitor,
         memory_bytes: Option<u64>,
-    ) -> Result<Result<ReducedSector, AnalysisError>, Halt> {
+    ) -> Result<Result<ReducedSector, AnalysisError>, Interruption> {
         if monitor.is_cancelled() {
-            return Err(Halt::NotWanted);
+            return Err(Interruption::NotWanted);
         }
         let (model, modes_per_speed) = (key.0.as_str(), key.1);
         tracing::info!(model.id = model, modes_per_speed, memory_bytes, "reducing");
@@ -135,7 +135,7 @@ impl Reductions {
         let watch = Arc::clone(monitor.watch());
         let (checkpoints, monitor) = (self.store.checkpoints(model, modes_per_speed), monitor.clone());
         let compute = move || {
-            let package = package::read(&path, &Limits::default()).map_err(Halt::stored_package)?;
+            let package = package::read(&path, &Limits::default()).map_err(Interruption::stored_package)?;
             monitor.progress(0.0, "reducing");
             Ok(run::prepare(&package.sector, modes_per_speed, memory_bytes, &checkpoints, &monitor))
         };

@@ -3,7 +3,7 @@
 use std::sync::atomic::Ordering;
 
 use super::engine::{Engine, Live};
-use super::error::Halt;
+use super::error::Interruption;
 use super::finish;
 use super::patience::patiently;
 use super::progress::{PhaseMonitor, SpeedMonitor};
@@ -14,7 +14,7 @@ use crate::store::queue::RunSpeed;
 use crate::store::results::PackedSpeed;
 
 /// Computes a speed and commits it; the one that finds itself last finishes the job.
-pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) -> Result<(), Halt> {
+pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) -> Result<(), Interruption> {
     let Some(job) = engine.live(id).await? else { return Ok(()) };
     let JobRequest::Sweep(request) = &job.request else { return Ok(()) };
     if engine.store.is_speed_finished(id, speed).await? {
@@ -31,12 +31,12 @@ pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) 
         None => None,
     };
     let bytes = job.speed_bytes.load(Ordering::Relaxed);
-    let memory = engine.memory.hold(bytes).await.map_err(Halt::speed_memory)?;
+    let memory = engine.memory.hold(bytes).await.map_err(Interruption::speed_memory)?;
     let (settings, monitor) = (request.clone(), SpeedMonitor::new(job.watch.clone(), speed));
     let compute = move || {
         let result = run::run_speed(&reduced, &settings, speed as usize, start.as_ref(), &monitor)?;
         let packed = PackedSpeed::of(&result)?;
-        Ok::<_, Halt>((result.point, packed, memory))
+        Ok::<_, Interruption>((result.point, packed, memory))
     };
     // Memory is held until the result is in the store.
     let computed = {
@@ -66,7 +66,7 @@ async fn go_on(
     request: &SweepRequest,
     speed: u32,
     finished: u32,
-) -> Result<(), Halt> {
+) -> Result<(), Interruption> {
     if finished == job.speeds {
         finish::sweep(engine, job, request).await?;
     } else if let (_, Some(next)) = job.neighbours(speed) {

@@ -2,7 +2,7 @@
 
 use super::choice::facts;
 use super::engine::{Engine, Live};
-use super::error::Halt;
+use super::error::Interruption;
 use super::finish;
 use super::progress::PhaseMonitor;
 use super::trials::Trials;
@@ -11,7 +11,7 @@ use crate::analysis::run::{self, StudyRequest};
 use crate::store::results::Document;
 
 /// Computes and stores a study.
-pub(super) async fn run(engine: &Engine, job: &Live, request: &StudyRequest) -> Result<(), Halt> {
+pub(super) async fn run(engine: &Engine, job: &Live, request: &StudyRequest) -> Result<(), Interruption> {
     let facts = facts(engine, job).await?;
     let requests = request.all_trials(facts.sectors);
     let total = requests.len();
@@ -30,7 +30,7 @@ pub(super) async fn run(engine: &Engine, job: &Live, request: &StudyRequest) -> 
     let Some((document, histories)) =
         run::work_precision(request, (facts.sectors, &facts.units), &reports, &find)
     else {
-        return Err(Halt::NotWanted);
+        return Err(Interruption::NotWanted);
     };
     let mut documents = vec![(Document::WorkPrecision, serde_json::to_string(&document)?)];
     for (speed, histories) in (0..).zip(&histories) {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use futures::{StreamExt, TryStreamExt, stream};
 
 use super::engine::{Engine, Live};
-use super::error::Halt;
+use super::error::Interruption;
 use super::patience::patiently;
 use super::progress::PhaseMonitor;
 use crate::analysis::run::{self, Trial, TrialRequest};
@@ -47,7 +47,7 @@ impl Trials {
         job: &Live,
         requests: Vec<TrialRequest>,
         done: impl Fn(usize),
-    ) -> Result<(), Halt> {
+    ) -> Result<(), Interruption> {
         let mut running = stream::iter(requests)
             .map(|request| obtain(engine, job, request))
             .buffer_unordered(engine.computing.threads());
@@ -61,7 +61,7 @@ impl Trials {
     }
 }
 
-async fn obtain(engine: &Engine, job: &Live, request: TrialRequest) -> Result<(String, Trial), Halt> {
+async fn obtain(engine: &Engine, job: &Live, request: TrialRequest) -> Result<(String, Trial), Interruption> {
     let key = key(&request)?;
     if let Some(trial) = engine.store.trial(&key).await? {
         return Ok((key, trial));
@@ -71,7 +71,7 @@ async fn obtain(engine: &Engine, job: &Live, request: TrialRequest) -> Result<(S
     let reduced = engine.reductions.get(&model, modes, monitor.clone()).await?;
     let asked = (Arc::clone(&reduced), request.clone());
     let bytes = engine.computing.run(&job.watch, move || run::trial_memory(&asked.0, &asked.1)).await?;
-    let memory = engine.memory.hold(bytes).await.map_err(Halt::speed_memory)?;
+    let memory = engine.memory.hold(bytes).await.map_err(Interruption::speed_memory)?;
     let compute = move || {
         let _memory = memory;
         run::run_trial(&reduced, &request, &monitor)

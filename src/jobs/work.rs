@@ -1,6 +1,6 @@
 //! The work of this process in numbers.
 
-use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
+use std::sync::atomic::Ordering;
 
 use super::handle::Jobs;
 
@@ -20,37 +20,6 @@ pub struct Work {
     pub steps: u64,
     /// Memory claimed by computations, in bytes; 0 without a budget.
     pub memory_claimed_bytes: u64,
-}
-
-/// What is counted as it happens.
-#[derive(Debug, Default)]
-pub(super) struct Counters {
-    pub(super) workers: AtomicU32,
-    speeds_running: AtomicU64,
-    speeds_finished: AtomicU64,
-    steps: AtomicU64,
-}
-
-/// A speed that is being computed, for as long as this is held.
-#[derive(Debug)]
-pub(super) struct RunningSpeed<'a>(&'a Counters);
-
-impl Counters {
-    pub(super) fn speed_begins(&self) -> RunningSpeed<'_> {
-        self.speeds_running.fetch_add(1, Ordering::Relaxed);
-        RunningSpeed(self)
-    }
-
-    pub(super) fn speed_finished(&self, steps: u64) {
-        self.speeds_finished.fetch_add(1, Ordering::Relaxed);
-        self.steps.fetch_add(steps, Ordering::Relaxed);
-    }
-}
-
-impl Drop for RunningSpeed<'_> {
-    fn drop(&mut self) {
-        self.0.speeds_running.fetch_sub(1, Ordering::Relaxed);
-    }
 }
 
 impl Jobs {

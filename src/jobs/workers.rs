@@ -19,7 +19,7 @@ use super::engine::Engine;
 use super::handle::Jobs;
 use super::memory::Memory;
 use super::pool::CpuPool;
-use super::progress::News;
+use super::progress::PendingReports;
 use super::turns::Turns;
 use super::{error, prepare, speed};
 use crate::store::jobs::{JobId, Unfinished};
@@ -31,7 +31,7 @@ use crate::store::{Store, StoreError};
 /// thread, and must not keep others from theirs. All owners together have four times as many.
 const WAITING_PREPARATIONS: usize = 16;
 
-/// How often a queue is asked for tasks without having been rung.
+/// How often a queue is asked for tasks without having been notified.
 const IDLE_POLL: Duration = Duration::from_millis(500);
 
 /// How long tasks may take to notice that the service stops: those that compute look many times a second.
@@ -111,7 +111,7 @@ impl Runner {
             })),
         ];
         let helpers = vec![
-            tokio::spawn(record_progress(store, Arc::clone(&engine.news))),
+            tokio::spawn(record_progress(store, Arc::clone(&engine.reports))),
             tokio::spawn(hand_out(Arc::clone(&engine))),
             tokio::spawn(keep_house(Arc::clone(&engine), settings.keep_days)),
         ];
@@ -139,7 +139,7 @@ impl Runner {
             // They wait for something; what they have finished is kept.
             workers.iter().for_each(JoinHandle::abort);
         }
-        self.engine.store.lay_down_jobs();
+        self.engine.store.stop_marking();
         self.helpers.iter().for_each(JoinHandle::abort);
         self.engine.queue.close().await;
     }
@@ -204,7 +204,8 @@ fn prepare_jobs(
         engine.attend(task.job, || prepare::prepare(&engine, task.job)).await;
         Ok(())
     }
-    let backend = engine.queue.preparations().poll_with_strategy(Bell::new(&engine.new_preparation));
+    let backend =
+        engine.queue.preparations().poll_with_strategy(NotifyStrategy::new(&engine.new_preparation));
     WorkerBuilder::new(name)
         .backend(backend)
         .concurrency(concurrency)
@@ -225,7 +226,7 @@ fn run_speeds(
         engine.attend(task.job, || speed::run(&engine, task)).await;
         Ok(())
     }
-    let backend = engine.queue.speeds().poll_with_strategy(Bell::new(&engine.new_speeds));
+    let backend = engine.queue.speeds().poll_with_strategy(NotifyStrategy::new(&engine.new_speeds));
     WorkerBuilder::new(name)
         .backend(backend)
         .concurrency(concurrency)
@@ -262,45 +263,45 @@ where
 }
 
 /// Writes the latest progress to the store, now and then.
-async fn record_progress(store: Store, news: Arc<News>) {
+async fn record_progress(store: Store, reports: Arc<PendingReports>) {
     let mut interval = tokio::time::interval(BETWEEN_PROGRESS);
     loop {
         interval.tick().await;
         let mut lets_down = false;
-        for (job, report) in news.take() {
+        for (job, report) in reports.take() {
             if !lets_down && let Err(error) = store.record_progress(job, report.percent, &report.phase).await
             {
                 tracing::warn!(job.id = %job, %error, "could not record progress");
                 lets_down = true;
             }
             if lets_down {
-                news.put_back(job, report);
+                reports.put_back(job, report);
             }
         }
     }
 }
 
-/// Wakes a worker when its bell rings, and now and then without: a ring that arrives while the worker is asking the
-/// queue would otherwise be lost.
-struct Bell {
-    ring: std::pin::Pin<Box<dyn futures::Stream<Item = ()> + Send + Sync>>,
+/// Wakes a worker when it is notified, and now and then without: a notification that arrives while the worker is asking
+/// the queue would otherwise be lost.
+struct NotifyStrategy {
+    notifications: std::pin::Pin<Box<dyn futures::Stream<Item = ()> + Send + Sync>>,
     interval: tokio::time::Interval,
 }
 
-impl Bell {
+impl NotifyStrategy {
     fn new(notify: &Arc<Notify>) -> Self {
-        let ring = futures::stream::unfold(Arc::clone(notify), |notify| async move {
+        let notifications = futures::stream::unfold(Arc::clone(notify), |notify| async move {
             notify.notified().await;
             Some(((), notify))
         });
-        Self { ring: Box::pin(ring), interval: tokio::time::interval(IDLE_POLL) }
+        Self { notifications: Box::pin(notifications), interval: tokio::time::interval(IDLE_POLL) }
     }
 }
 
-impl PollStrategy for Bell {
+impl PollStrategy for NotifyStrategy {
     /// Only arranges to be woken: the worker asks its queue whenever it is polled.
     fn poll_drive(&mut self, cx: &mut Context<'_>, _: &PollSnapshot) -> Poll<Option<()>> {
-        while self.ring.as_mut().poll_next(cx).is_ready() {}
+        while self.notifications.as_mut().poll_next(cx).is_ready() {}
         while self.interval.poll_tick(cx).is_ready() {}
         Poll::Pending
     }

@@ -6,7 +6,10 @@ use futures::TryStreamExt;
 use sqlx::sqlite::{SqliteConnectOptions, SqliteConnection};
 use sqlx::{ConnectOptions, Connection, Row};
 
-use super::{DATABASE, PATIENCE, StoreError, end_states, jobs, models, package_path, results};
+use super::error::StoreError;
+use super::handle::{DATABASE, PATIENCE};
+use super::models::package_path;
+use super::{end_states, jobs, models, results};
 use crate::package;
 
 /// What a backup holds.

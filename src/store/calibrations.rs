@@ -1,6 +1,8 @@
 //! What time steps cost on this machine.
 
-use super::{Store, StoreError, now};
+use super::error::StoreError;
+use super::handle::Store;
+use super::time::now;
 use crate::analysis::run::{Calibration, VERSION};
 
 impl Store {

@@ -9,7 +9,9 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
-use super::{Store, StoreError, reductions};
+use super::error::StoreError;
+use super::handle::Store;
+use super::reductions;
 use crate::analysis::run::VERSION;
 use crate::dynamics::reduction::Checkpoints;
 

@@ -2,8 +2,9 @@
 
 use sqlx::SqliteConnection;
 
-use super::jobs::JobId;
-use super::{Store, StoreError};
+use super::error::StoreError;
+use super::handle::Store;
+use super::jobs::job::JobId;
 use crate::analysis::end_state::EndState;
 
 impl Store {

@@ -3,7 +3,9 @@
 use sqlx::Row;
 use sqlx::SqliteConnection;
 
-use super::{Store, StoreError, now, timestamp};
+use super::error::StoreError;
+use super::handle::Store;
+use super::time::{now, timestamp};
 
 /// Days after which a key may be used for something else.
 pub const KEPT_DAYS: i64 = 7;

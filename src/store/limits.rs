@@ -2,7 +2,7 @@
 
 use sqlx::SqliteConnection;
 
-use super::StoreError;
+use super::error::StoreError;
 
 /// Limits of one owner; `None` for no limit.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -21,27 +21,27 @@ pub enum LimitReached {
     /// Too many speeds.
     #[error("{queued} speeds of yours wait to be computed, {asked} more would exceed the limit of {limit}")]
     QueuedSpeeds {
-        /// That wait.
+        /// Speeds that wait already.
         queued: u64,
-        /// That are asked for.
+        /// Speeds of the new job.
         asked: u64,
-        /// That may wait.
+        /// Most speeds that may wait.
         limit: u64,
     },
     /// Too many bytes.
     #[error("your models and results take {stored} bytes, the limit is {limit}: delete jobs or models")]
     StoredBytes {
-        /// That are stored.
+        /// Bytes stored.
         stored: u64,
-        /// That may be.
+        /// Most bytes.
         limit: u64,
     },
     /// Too many models.
     #[error("you have {models} models, the limit is {limit}: delete some")]
     Models {
-        /// That are there.
+        /// Models there are.
         models: u64,
-        /// That may be.
+        /// Most models.
         limit: u64,
     },
 }

@@ -7,12 +7,15 @@
 mod backup;
 mod calibrations;
 pub mod checkpoints;
-pub mod computing;
+mod computing;
 mod end_states;
 mod error;
+mod handle;
 pub mod idempotency;
 pub mod jobs;
+mod leftovers;
 pub mod limits;
+pub mod marks;
 pub mod models;
 mod packed;
 pub mod queue;
@@ -20,208 +23,11 @@ mod readiness;
 pub mod reductions;
 pub mod results;
 pub mod status;
+mod time;
 pub mod trials;
 mod write;
 
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::time::Duration;
-
-use sqlx::sqlite::{
-    SqliteAutoVacuum, SqliteConnectOptions, SqliteJournalMode, SqlitePool, SqlitePoolOptions,
-    SqliteSynchronous,
-};
-
 pub use backup::{Backup, Findings, backup, check};
 pub use error::StoreError;
+pub use handle::Store;
 pub use readiness::Backlog;
-
-/// Name of the database in its folder.
-const DATABASE: &str = "rubmap.sqlite";
-
-/// Connections for readers; more than the requests a database on one disk serves well at once.
-const READERS: u32 = 8;
-
-/// How long a statement waits for a lock that another program holds (a backup, `vacuum`), and a request for a connection.
-const PATIENCE: Duration = Duration::from_secs(5);
-
-/// The database of one data folder and the packages beside it.
-#[derive(Debug, Clone)]
-pub struct Store {
-    folder: PathBuf,
-    readers: SqlitePool,
-    writer: SqlitePool,
-    marks: computing::Marks,
-    /// Held while a package file and its row come or go together.
-    packages: Arc<tokio::sync::Mutex<()>>,
-}
-
-impl Store {
-    /// Opens the store in `folder`, which must exist, and brings its tables up to date.
-    pub async fn open(folder: &Path) -> Result<Self, StoreError> {
-        std::fs::create_dir_all(folder.join("models"))?;
-        let options = SqliteConnectOptions::new()
-            .filename(folder.join(DATABASE))
-            .create_if_missing(true)
-            .journal_mode(SqliteJournalMode::Wal)
-            // A 202 is a promise and a speed may have cost minutes: both survive a power cut, at one flush each.
-            .synchronous(SqliteSynchronous::Full)
-            .foreign_keys(true)
-            .auto_vacuum(SqliteAutoVacuum::Incremental)
-            .busy_timeout(PATIENCE);
-        let pool = || SqlitePoolOptions::new().acquire_timeout(2 * PATIENCE);
-        let writer = pool().max_connections(1).connect_with(options.clone()).await?;
-        sqlx::migrate!().run(&writer).await?;
-        make_shrinkable(&writer).await?;
-        let readers = pool().max_connections(READERS).connect_with(options).await?;
-        let marks = computing::Marks::new(folder)?;
-        Ok(Self { folder: folder.to_owned(), readers, writer, marks, packages: Arc::default() })
-    }
-
-    /// Removes what an earlier service left behind and nobody will use. For a service that starts: what is being
-    /// written now looks the same. What cannot be removed does no harm.
-    pub async fn remove_leftovers(&self) {
-        if let Err(error) = self.remove_stale_packages().await {
-            tracing::warn!(%error, "could not remove the packages of broken uploads");
-        }
-        if let Err(error) = self.remove_stale_checkpoints().await {
-            tracing::warn!(%error, "could not remove stale checkpoints");
-        }
-        if let Err(error) = self.remove_stale_trials().await {
-            tracing::warn!(%error, "could not remove the trials of another version");
-        }
-    }
-
-    /// Closes all connections, which folds the write-ahead log into the database.
-    pub async fn close(&self) {
-        self.readers.close().await;
-        self.writer.close().await;
-    }
-}
-
-/// Where the package of `model` lies in a data folder.
-fn package_path(folder: &Path, model: &str) -> PathBuf {
-    folder.join("models").join(format!("{model}.zip"))
-}
-
-/// Makes a database anew, once, that an earlier version made such that it cannot give room back.
-async fn make_shrinkable(writer: &SqlitePool) -> Result<(), StoreError> {
-    const INCREMENTAL: i64 = 2;
-    let mode: i64 = sqlx::query_scalar("pragma auto_vacuum").fetch_one(writer).await?;
-    if mode == INCREMENTAL {
-        return Ok(());
-    }
-    tracing::info!("making the database anew, once, so that it can give room back");
-    if let Err(error) = sqlx::query("vacuum").execute(writer).await {
-        tracing::warn!(%error, "could not; deleted jobs leave their room to later ones");
-    }
-    Ok(())
-}
-
-/// Now, as every timestamp in the database: RFC 3339 in UTC with milliseconds, which sorts as text.
-fn now() -> String {
-    timestamp(chrono::Utc::now())
-}
-
-fn timestamp(time: chrono::DateTime<chrono::Utc>) -> String {
-    time.to_rfc3339_opts(chrono::SecondsFormat::Millis, true)
-}
-
-#[cfg(test)]
-mod tests {
-    use sqlx::migrate::Migrator;
-
-    use super::jobs::JobId;
-    use super::results::Document;
-    use super::*;
-
-    /// A data folder as the program made it with the migrations before `version`, with one finished sweep.
-    async fn older_folder(job: JobId, version: i64) -> tempfile::TempDir {
-        let folder = tempfile::tempdir().unwrap();
-        let file = folder.path().join("rubmap.sqlite");
-        let options = SqliteConnectOptions::new().filename(file).create_if_missing(true).foreign_keys(true);
-        let pool = SqlitePool::connect_with(options).await.unwrap();
-        let older =
-            sqlx::migrate!().iter().filter(|migration| migration.version < version).cloned().collect();
-        Migrator::with_migrations(older).run(&pool).await.unwrap();
-        sqlx::query(
-            "insert into jobs (id, kind, status, model, modes_per_speed, facts, request, speeds, created_at,
-                 finished_at, updated_at)
-             values (?, 'sweep', 'successful', 'm', 20, '{}', '{}', 1, 'a', 'b', 'c')",
-        )
-        .bind(job.to_string())
-        .execute(&pool)
-        .await
-        .unwrap();
-        for result in [
-            "insert into speed_results (job, speed, status, point, created_at) values (?, 7, 'failed', '{}', 'a')",
-            "insert into documents (job, name, part, body, created_at) values (?, 'campbell', 0, '[1]', 'a')",
-        ] {
-            sqlx::query(result).bind(job.to_string()).execute(&pool).await.unwrap();
-        }
-        pool.close().await;
-        folder
-    }
-
-    #[tokio::test]
-    async fn a_full_disk_is_told_from_other_failures() {
-        let folder = tempfile::tempdir().unwrap();
-        let store = Store::open(folder.path()).await.unwrap();
-        // SQLite refuses to grow beyond so many pages as it does on a full disk.
-        sqlx::query("pragma max_page_count = 1").execute(&store.writer).await.unwrap();
-        let large = "insert into idempotency_keys values ('', 'k', 'f', 200, 'l', json_quote(hex(zeroblob(100000))), 'a')";
-        let full = StoreError::from(sqlx::query(large).execute(&store.writer).await.unwrap_err());
-        assert!(full.is_disk_full(), "{full}");
-        let wrong = StoreError::from(
-            sqlx::query("insert into jobs (id) values (1)").execute(&store.writer).await.unwrap_err(),
-        );
-        assert!(!wrong.is_disk_full(), "{wrong}");
-    }
-
-    /// A service that dies between a script without a transaction and the note that it ran runs it again.
-    #[tokio::test]
-    async fn scripts_without_a_transaction_may_run_again() {
-        for version in [4, 9] {
-            let job = JobId::new();
-            let folder = older_folder(job, version + 1).await;
-            let options = SqliteConnectOptions::new().filename(folder.path().join(DATABASE));
-            let pool = SqlitePool::connect_with(options).await.unwrap();
-            sqlx::query("delete from _sqlx_migrations where version = ?")
-                .bind(version)
-                .execute(&pool)
-                .await
-                .unwrap();
-            pool.close().await;
-            let store = Store::open(folder.path()).await.unwrap();
-            assert_eq!(store.finished_speeds(job).await.unwrap().len(), 1);
-            store.close().await;
-        }
-    }
-
-    #[tokio::test]
-    async fn results_of_older_versions_stay_when_the_table_of_jobs_is_made_anew() {
-        for version in [4, 9] {
-            stays(version).await;
-        }
-    }
-
-    async fn stays(version: i64) {
-        let job = JobId::new();
-        let folder = older_folder(job, version).await;
-        let store = Store::open(folder.path()).await.unwrap();
-        assert_eq!(store.finished_speeds(job).await.unwrap().into_iter().collect::<Vec<_>>(), [7]);
-        assert_eq!(store.document(job, Document::Campbell).await.unwrap().as_deref(), Some("[1]"));
-        let kept: (String, i64) = sqlx::query_as("select updated_at, modes_per_speed from jobs")
-            .fetch_one(&store.readers)
-            .await
-            .unwrap();
-        assert_eq!(kept, ("c".to_owned(), 20));
-
-        // References are checked as before, towards the new table.
-        let lost =
-            "insert into documents (job, name, part, body, created_at) values ('x', 'campbell', 0, '1', 'a')";
-        assert!(sqlx::query(lost).execute(&store.writer).await.is_err());
-        sqlx::query("delete from jobs").execute(&store.writer).await.unwrap();
-        assert!(store.finished_speeds(job).await.unwrap().is_empty());
-    }
-}

@@ -5,8 +5,10 @@ use std::path::{Path, PathBuf};
 use sqlx::Row;
 use sqlx::sqlite::SqliteRow;
 
+use super::error::StoreError;
+use super::handle::Store;
 use super::limits::{LimitReached, Limits};
-use super::{Store, StoreError, now, package_path};
+use super::time::now;
 use crate::analysis::run::ModelFacts;
 
 /// What names of packages on their way in begin with.
@@ -216,6 +218,11 @@ pub(super) fn read(row: &SqliteRow) -> Result<StoredModel, StoreError> {
         size_bytes: row.try_get::<i64, _>("size_bytes")?.unsigned_abs(),
         created_at: row.try_get("since")?,
     })
+}
+
+/// Where the package of `model` lies in a data folder.
+pub(super) fn package_path(folder: &Path, model: &str) -> PathBuf {
+    folder.join("models").join(format!("{model}.zip"))
 }
 
 /// Flushes the upload to the disk and gives it its final name, in this order, unless an earlier attempt did. Returns its

@@ -10,7 +10,7 @@ use flate2::read::DeflateDecoder;
 use flate2::write::DeflateEncoder;
 use serde::{Deserialize, Serialize};
 
-use super::StoreError;
+use super::error::StoreError;
 use crate::analysis::request::Sensor;
 use crate::analysis::result::{SensorSpectrum, SpeedSpectra};
 

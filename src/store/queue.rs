@@ -11,8 +11,8 @@ use apalis_sqlite::{Config, SqliteStorage, queries};
 use serde::{Deserialize, Serialize};
 use sqlx::sqlite::{SqliteConnectOptions, SqlitePool, SqlitePoolOptions};
 
-use super::StoreError;
-use super::jobs::JobId;
+use super::error::StoreError;
+use super::jobs::job::JobId;
 
 /// Bring a job to the point where its speeds can be computed (or, for a modal analysis, to its end).
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]

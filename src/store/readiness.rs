@@ -1,6 +1,7 @@
 //! Whether what is written can be read, how much room there is, and how much work is waiting.
 
-use super::{Store, StoreError};
+use super::error::StoreError;
+use super::handle::Store;
 
 /// Work that is waiting.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]

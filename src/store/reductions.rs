@@ -1,7 +1,9 @@
 //! Reduced sectors, one per (model, `modes_per_speed`).
 
-use super::jobs::JobId;
-use super::{Store, StoreError, now};
+use super::error::StoreError;
+use super::handle::Store;
+use super::jobs::job::JobId;
+use super::time::now;
 use crate::analysis::result::ReductionReport;
 use crate::analysis::run::ReducedSector;
 

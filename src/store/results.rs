@@ -5,8 +5,11 @@ use std::collections::BTreeSet;
 use sqlx::Row;
 use sqlx::sqlite::SqliteRow;
 
-use super::jobs::JobId;
-use super::{Store, StoreError, end_states, now, packed};
+use super::error::StoreError;
+use super::handle::Store;
+use super::jobs::job::JobId;
+use super::time::now;
+use super::{end_states, packed};
 use crate::analysis::result::{Point, PointStatus, SpeedResult, SpeedSpectra, WearMap};
 
 /// A document computed at the end of a job.

@@ -2,8 +2,10 @@
 
 use sha2::{Digest, Sha256};
 
-use super::jobs::JobId;
-use super::{Store, StoreError, now};
+use super::error::StoreError;
+use super::handle::Store;
+use super::jobs::job::JobId;
+use super::time::now;
 use crate::analysis::run::{Trial, TrialRequest, VERSION};
 
 /// Digest of what is run, by which version of the program.

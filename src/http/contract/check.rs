@@ -15,20 +15,20 @@ const ALIKE: f64 = 0.75;
 
 /// What is wrong with a document.
 #[derive(Debug, Default)]
-pub(in crate::http) struct Findings {
+pub(crate) struct Findings {
     /// The first of all violations, as many as are shown.
-    pub(in crate::http) first: Vec<Violation>,
+    pub(crate) first: Vec<Violation>,
     /// How many there are.
-    pub(in crate::http) total: usize,
+    pub(crate) total: usize,
     /// How many of them are fields that do not exist.
-    pub(in crate::http) unknown_fields: usize,
+    pub(crate) unknown_fields: usize,
 }
 
 /// Holds `body` against `shape`.
 ///
 /// # Errors
 /// If it is not JSON.
-pub(in crate::http) fn check(shape: &Shape, body: &[u8]) -> serde_json::Result<Findings> {
+pub(crate) fn check(shape: &Shape, body: &[u8]) -> serde_json::Result<Findings> {
     let mut reader = Reader { pointer: String::new(), found: Findings::default() };
     let mut deserializer = serde_json::Deserializer::from_slice(body);
     Place { shape, reader: &mut reader }.deserialize(&mut deserializer)?;

@@ -2,66 +2,10 @@
 //! parameters of their route. What the document says is what is checked, so that neither can be forgotten.
 
 mod check;
+mod published;
 mod query;
 mod shape;
 
-use std::collections::BTreeMap;
-use std::sync::OnceLock;
-
-use serde_json::Value;
-
 pub(super) use check::{Findings, check};
+pub use published::Contract;
 pub(super) use query::refuse_unknown_parameters;
-use shape::Shape;
-
-/// What requests may be.
-#[derive(Debug)]
-pub(super) struct Contract {
-    /// JSON bodies by the name of their schema.
-    bodies: BTreeMap<String, Shape>,
-    /// Query parameters by path and method.
-    parameters: BTreeMap<String, BTreeMap<String, Vec<Parameter>>>,
-}
-
-/// A parameter of a query string.
-#[derive(Debug)]
-struct Parameter {
-    name: String,
-    shape: Shape,
-}
-
-impl Contract {
-    /// That of this service.
-    pub(super) fn get() -> &'static Self {
-        static CONTRACT: OnceLock<Contract> = OnceLock::new();
-        CONTRACT.get_or_init(|| Self::of(&serde_json::json!(super::document())))
-    }
-
-    /// What an `OpenAPI` document says.
-    fn of(document: &Value) -> Self {
-        let schemas = &document["components"]["schemas"];
-        let mut contract = Self { bodies: BTreeMap::new(), parameters: BTreeMap::new() };
-        for (path, methods) in document["paths"].as_object().into_iter().flatten() {
-            for (method, operation) in methods.as_object().into_iter().flatten() {
-                let body = &operation["requestBody"]["content"]["application/json"]["schema"];
-                if let Some(name) = body["$ref"].as_str().and_then(|path| path.rsplit('/').next()) {
-                    contract.bodies.entry(name.to_owned()).or_insert_with(|| Shape::of(body, schemas));
-                }
-                let parameters = operation["parameters"].as_array().into_iter().flatten();
-                let parameters = parameters.filter(|parameter| parameter["in"] == "query");
-                let parameters = parameters.map(|parameter| Parameter {
-                    name: parameter["name"].as_str().unwrap_or_default().to_owned(),
-                    shape: Shape::of(&parameter["schema"], schemas),
-                });
-                let methods = contract.parameters.entry(path.clone()).or_default();
-                methods.insert(method.to_uppercase(), parameters.collect());
-            }
-        }
-        contract
-    }
-
-    /// The JSON body whose schema has this name.
-    pub(super) fn body(&self, name: &str) -> Option<&Shape> {
-        self.bodies.get(name)
-    }
-}

@@ -1,23 +1,26 @@
 //! Query strings: a parameter that its route does not know, or cannot take, is refused, and never ignored.
 
-use axum::extract::{MatchedPath, Query, Request};
+use std::sync::Arc;
+
+use axum::extract::{MatchedPath, Query, Request, State};
 use axum::http::{Method, Uri};
 use axum::middleware::Next;
 use axum::response::Response;
 
 use super::super::problem::{Kind, Problem, excerpt};
+use super::published::{Contract, Parameter};
 use super::shape::{Scalar, Shape};
-use super::{Contract, Parameter};
 
 /// Middleware around all routes: holds the query string against the contract. A path that the contract does not have takes
 /// no parameters.
-pub(in crate::http) async fn refuse_unknown_parameters(
+pub(crate) async fn refuse_unknown_parameters(
+    contract: State<Arc<Contract>>,
     path: Option<MatchedPath>,
     request: Request,
     next: Next,
 ) -> Result<Response, Problem> {
     if let Some(path) = path {
-        let methods = Contract::get().parameters.get(path.as_str());
+        let methods = contract.parameters.get(path.as_str());
         // A method that a path does not have is another problem.
         let method = if request.method() == Method::HEAD { &Method::GET } else { request.method() };
         match methods.map(|methods| methods.get(method.as_str())) {

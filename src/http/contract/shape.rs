@@ -4,7 +4,7 @@ use serde_json::Value;
 
 /// What a value must be.
 #[derive(Debug, Clone, PartialEq)]
-pub(in crate::http) enum Shape {
+pub(crate) enum Shape {
     /// `null`.
     Null,
     /// `true` or `false`.
@@ -27,7 +27,7 @@ pub(in crate::http) enum Shape {
 
 /// A field of an object.
 #[derive(Debug, Clone, PartialEq)]
-pub(in crate::http) struct Field {
+pub(crate) struct Field {
     pub(super) name: String,
     pub(super) required: bool,
     pub(super) shape: Shape,
@@ -35,7 +35,7 @@ pub(in crate::http) struct Field {
 
 /// Bounds of a number.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(in crate::http) struct Bounds {
+pub(crate) struct Bounds {
     least: Option<f64>,
     most: Option<f64>,
     above: Option<f64>,

@@ -3,7 +3,7 @@
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use super::Limits;
+use super::limits::Limits;
 use crate::http::pace::Pace;
 
 /// How long a client is waited for, even if others want its place: an honest one sends its request at once.

@@ -9,13 +9,15 @@
 mod activity;
 mod connection;
 pub mod descriptors;
+mod figures;
+mod limits;
 mod stream;
 
 use std::collections::HashMap;
 use std::io::ErrorKind;
 use std::net::SocketAddr;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use axum::Router;
@@ -25,41 +27,14 @@ use tokio_util::sync::CancellationToken;
 
 use self::activity::{Activity, Overdue};
 
+pub use figures::Figures;
+pub use limits::Limits;
+
 /// How often connections are looked after.
 const ROUND: Duration = Duration::from_millis(100);
 
 /// How long requests may take to end once the service is told to stop.
 const LAST_REQUESTS: Duration = Duration::from_secs(3);
-
-/// How many connections, and how long each may keep the service waiting.
-#[derive(Debug, Clone)]
-pub struct Limits {
-    /// Connections at once.
-    pub connections: usize,
-    /// For the head of a request, from its first byte or, of the first one, from the connection.
-    pub head: Duration,
-    /// Between two requests.
-    pub idle: Duration,
-    /// For the next 64 KiB of a body, or for a client to take more of its answer.
-    pub stall: Duration,
-}
-
-/// What became of connections.
-#[derive(Debug, Default)]
-pub struct Figures {
-    /// Open now.
-    pub open: AtomicUsize,
-    /// Accepted since the start.
-    pub accepted: AtomicU64,
-    /// Closed because the head of a request took too long.
-    pub overdue_heads: AtomicU64,
-    /// Closed because nothing came for too long.
-    pub overdue_rests: AtomicU64,
-    /// Closed because the client did not take its answer.
-    pub overdue_answers: AtomicU64,
-    /// Closed to make room for others.
-    pub given_up: AtomicU64,
-}
 
 /// Serves connections until `stop`. Those at rest are closed then; requests under way have a moment to end.
 pub async fn serve(

@@ -3,8 +3,11 @@
 use chrono::{TimeDelta, Utc};
 use sqlx::SqliteConnection;
 
-use super::{JobId, status_of};
-use crate::store::{Store, StoreError, timestamp};
+use super::job::JobId;
+use super::row::status_of;
+use crate::store::error::StoreError;
+use crate::store::handle::Store;
+use crate::store::time::timestamp;
 
 /// Speeds that one transaction deletes: others get to write in between.
 const SPEEDS_AT_ONCE: u32 = 64;

@@ -1,7 +1,9 @@
 //! Another request for a job that is running.
 
-use super::{JobId, JobRequest};
-use crate::store::{Store, StoreError, now};
+use super::job::{JobId, JobRequest};
+use crate::store::error::StoreError;
+use crate::store::handle::Store;
+use crate::store::time::now;
 
 impl Store {
     /// Gives a running job another request of the same kind, with so many `speeds`. What is finished stays, so speeds keep

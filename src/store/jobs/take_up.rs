@@ -1,7 +1,9 @@
 //! Taking up unfinished jobs when a service starts, and counting those it died under.
 
-use super::{JobId, read_id};
-use crate::store::{Store, StoreError};
+use super::job::JobId;
+use super::row::read_id;
+use crate::store::error::StoreError;
+use crate::store::handle::Store;
 
 /// A job that still wants work.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,0 +1,45 @@
+//! What steps cost on this machine.
+
+use std::sync::Arc;
+
+use tokio::sync::OnceCell;
+
+use super::pool::{CpuPool, Panicked};
+use crate::analysis::run::Calibration;
+use crate::store::{Store, StoreError};
+
+/// What steps cost on this machine: from the store, or measured at first use.
+#[derive(Debug)]
+pub(super) struct Calibrated {
+    store: Store,
+    known: OnceCell<Arc<Calibration>>,
+}
+
+impl Calibrated {
+    pub(super) fn new(store: Store) -> Self {
+        Self { store, known: OnceCell::new() }
+    }
+
+    /// Measures on a thread of `pool`, if need be.
+    pub(super) async fn get<E: From<StoreError> + From<Panicked>>(
+        &self,
+        pool: &CpuPool,
+    ) -> Result<Arc<Calibration>, E> {
+        let known = self
+            .known
+            .get_or_try_init(|| async {
+                let processors = std::thread::available_parallelism().map_or(1, |n| n.get() as u32);
+                if let Some(kept) = self.store.calibration(processors).await? {
+                    return Ok::<_, E>(Arc::new(kept));
+                }
+                let measured = pool.run(Calibration::measure).await?;
+                tracing::info!(processors, ?measured, "measured what a step costs");
+                if let Err(error) = self.store.insert_calibration(processors, &measured).await {
+                    tracing::warn!(%error, "could not keep what a step costs; the next start measures again");
+                }
+                Ok(Arc::new(measured))
+            })
+            .await?;
+        Ok(Arc::clone(known))
+    }
+}

@@ -1,0 +1,34 @@
+//! What is counted as it happens.
+
+use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
+
+/// What is counted as it happens.
+#[derive(Debug, Default)]
+pub(super) struct Counters {
+    pub(super) workers: AtomicU32,
+    pub(super) speeds_running: AtomicU64,
+    pub(super) speeds_finished: AtomicU64,
+    pub(super) steps: AtomicU64,
+}
+
+/// A speed that is being computed, for as long as this is held.
+#[derive(Debug)]
+pub(super) struct RunningSpeed<'a>(&'a Counters);
+
+impl Counters {
+    pub(super) fn speed_begins(&self) -> RunningSpeed<'_> {
+        self.speeds_running.fetch_add(1, Ordering::Relaxed);
+        RunningSpeed(self)
+    }
+
+    pub(super) fn speed_finished(&self, steps: u64) {
+        self.speeds_finished.fetch_add(1, Ordering::Relaxed);
+        self.steps.fetch_add(steps, Ordering::Relaxed);
+    }
+}
+
+impl Drop for RunningSpeed<'_> {
+    fn drop(&mut self) {
+        self.0.speeds_running.fetch_sub(1, Ordering::Relaxed);
+    }
+}

@@ -1,0 +1,105 @@
+//! The life of a job: from its beginning to its end.
+
+use super::job::{Failure, JobId};
+use super::row::status_of;
+use crate::store::end_states;
+use crate::store::error::StoreError;
+use crate::store::handle::Store;
+use crate::store::results::Document;
+use crate::store::status::JobStatus;
+use crate::store::time::now;
+
+impl Store {
+    /// Moves a job on, if the transition table allows it. Returns the status it has now; `None` if there is no
+    /// such job. `failure` goes with [`JobStatus::Failed`] and with nothing else.
+    pub async fn advance_job(
+        &self,
+        id: JobId,
+        next: JobStatus,
+        failure: Option<&Failure>,
+    ) -> Result<Option<JobStatus>, StoreError> {
+        let mut transaction = self.write().await?;
+        let status = status_of(&mut transaction, id).await?;
+        if !status.is_some_and(|status| status.may_become(next)) {
+            transaction.rollback().await?;
+            return Ok(status);
+        }
+        let time = now();
+        sqlx::query(
+            "update jobs set status = ?2, error = ?3, updated_at = ?4,
+                 finished_at = case when ?5 then ?4 end
+             where id = ?1",
+        )
+        .bind(id.to_string())
+        .bind(next.as_str())
+        .bind(failure.map(serde_json::to_string).transpose()?)
+        .bind(time)
+        .bind(next.is_final())
+        .execute(&mut *transaction)
+        .await?;
+        if next.is_final() {
+            end_states::drop_of(&mut transaction, id).await?;
+        }
+        transaction.commit().await?;
+        Ok(Some(next))
+    }
+
+    /// Takes a job in hand: it is running from here on. False if it wants no work any more.
+    pub async fn begin_job(&self, id: JobId) -> Result<bool, StoreError> {
+        let mut write = self.write().await?;
+        let begun = sqlx::query(
+            "update jobs set status = 'running', updated_at = ?2,
+                 started_at = coalesce(started_at, ?2)
+             where id = ?1 and status in ('accepted', 'running')",
+        )
+        .bind(id.to_string())
+        .bind(now())
+        .execute(&mut *write)
+        .await?;
+        write.commit().await?;
+        Ok(begun.rows_affected() == 1)
+    }
+
+    /// Ends a running job well: keeps the `documents` computed at its end (as JSON) or the id of the model it `made`,
+    /// and marks it successful, in one transaction. False if the job was not running any more.
+    pub async fn complete_job(
+        &self,
+        id: JobId,
+        documents: &[(Document, String)],
+        made: Option<&str>,
+    ) -> Result<bool, StoreError> {
+        let mut transaction = self.write().await?;
+        let status = status_of(&mut transaction, id).await?;
+        if !status.is_some_and(|status| status.may_become(JobStatus::Successful)) {
+            transaction.rollback().await?;
+            return Ok(false);
+        }
+        let time = now();
+        for (document, body) in documents {
+            let (name, part) = document.columns();
+            sqlx::query("insert into documents (job, name, part, body, created_at) values (?, ?, ?, ?, ?)")
+                .bind(id.to_string())
+                .bind(name)
+                .bind(part)
+                .bind(body)
+                .bind(&time)
+                .execute(&mut *transaction)
+                .await?;
+        }
+        let bytes: usize = documents.iter().map(|(_, body)| body.len()).sum();
+        sqlx::query(
+            "update jobs set status = 'successful', progress = 100, phase = '', stored_bytes = stored_bytes + ?4,
+                 finished_at = ?2, updated_at = ?2, model = coalesce(?3, model)
+             where id = ?1",
+        )
+        .bind(id.to_string())
+        .bind(time)
+        .bind(made)
+        .bind(bytes as i64)
+        .execute(&mut *transaction)
+        .await?;
+        end_states::drop_of(&mut transaction, id).await?;
+        transaction.commit().await?;
+        Ok(true)
+    }
+}

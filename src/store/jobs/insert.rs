@@ -1,0 +1,82 @@
+//! Keeping a new job.
+
+use super::job::{JobId, JobRequest};
+use crate::analysis::run::ModelFacts;
+use crate::store::error::StoreError;
+use crate::store::handle::Store;
+use crate::store::idempotency::{self, Answer};
+use crate::store::limits::{LimitReached, Limits};
+use crate::store::time::now;
+
+/// What became of a job that was to be kept.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Insertion {
+    /// It is accepted.
+    Accepted,
+    /// Its model is not there (any more).
+    UnknownModel,
+    /// The idempotency key was used meanwhile; nothing was kept.
+    KeyTaken,
+    /// Its owner has too much already.
+    Limit(LimitReached),
+}
+
+impl Store {
+    /// Keeps a new job of `owner`, within `limits`, with the answer its idempotency key will repeat. `facts` are those of the model it computes
+    /// from, if it does.
+    pub async fn insert_job(
+        &self,
+        id: JobId,
+        (owner, limits): (&str, Limits),
+        request: &JobRequest,
+        facts: Option<&ModelFacts>,
+        speeds: u32,
+        answer: Option<&Answer>,
+    ) -> Result<Insertion, StoreError> {
+        let mut transaction = self.write().await?;
+        if let Some(answer) = answer
+            && !idempotency::insert(&mut transaction, answer).await?
+        {
+            transaction.rollback().await?;
+            return Ok(Insertion::KeyTaken);
+        }
+        let asked = u64::from(speeds.max(1));
+        if let Err(reached) = limits.allow_speeds(&mut transaction, owner, asked).await? {
+            transaction.rollback().await?;
+            return Ok(Insertion::Limit(reached));
+        }
+        let time = now();
+        let inserted = sqlx::query(
+            "insert into jobs (id, kind, model, modes_per_speed, facts, request, speeds, created_at, updated_at, owner)
+             select ?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?8, ?9
+             where ?3 is null or exists (select 1 from models where id = ?3)",
+        )
+        .bind(id.to_string())
+        .bind(request.kind().as_str())
+        .bind(request.model())
+        .bind(request.modes_per_speed())
+        .bind(facts.map(serde_json::to_string).transpose()?)
+        .bind(request.to_json()?)
+        .bind(speeds)
+        .bind(time)
+        .bind(owner)
+        .execute(&mut *transaction)
+        .await?;
+        if inserted.rows_affected() == 0 {
+            transaction.rollback().await?;
+            return Ok(Insertion::UnknownModel);
+        }
+        transaction.commit().await?;
+        self.seen(id).await?;
+        Ok(Insertion::Accepted)
+    }
+
+    /// Whether others can read a job that was just kept: only then may its client be told so.
+    async fn seen(&self, id: JobId) -> Result<(), StoreError> {
+        let seen: bool = sqlx::query_scalar("select exists (select 1 from jobs where id = ?)")
+            .bind(id.to_string())
+            .fetch_one(&self.readers)
+            .await?;
+        if seen { Ok(()) } else { Err(StoreError::Unseen) }
+    }
+}

@@ -1,0 +1,47 @@
+//! What becomes known of a job while it runs.
+
+use super::job::{Chosen, JobId};
+use crate::analysis::run::Estimate;
+use crate::store::error::StoreError;
+use crate::store::handle::Store;
+use crate::store::time::now;
+
+impl Store {
+    /// Records progress of a running job. It never falls, and only [`Store::complete_job`] reaches 100.
+    pub async fn record_progress(&self, id: JobId, percent: u8, phase: &str) -> Result<(), StoreError> {
+        let mut write = self.write().await?;
+        sqlx::query(
+            "update jobs set progress = max(progress, min(?2, 99)), phase = ?3, updated_at = ?4
+             where id = ?1 and status = 'running'",
+        )
+        .bind(id.to_string())
+        .bind(percent)
+        .bind(phase)
+        .bind(now())
+        .execute(&mut *write)
+        .await?;
+        write.commit().await
+    }
+
+    /// Keeps the settings that were chosen for a job, and why.
+    pub async fn record_choice(&self, id: JobId, choice: &Chosen) -> Result<(), StoreError> {
+        let mut write = self.write().await?;
+        sqlx::query("update jobs set choice = ? where id = ?")
+            .bind(serde_json::to_string(choice)?)
+            .bind(id.to_string())
+            .execute(&mut *write)
+            .await?;
+        write.commit().await
+    }
+
+    /// Keeps what a sweep is expected to cost; the first estimate stays.
+    pub async fn record_plan(&self, id: JobId, estimate: &Estimate) -> Result<(), StoreError> {
+        let mut write = self.write().await?;
+        sqlx::query("update jobs set plan = ? where id = ? and plan is null")
+            .bind(serde_json::to_string(estimate)?)
+            .bind(id.to_string())
+            .execute(&mut *write)
+            .await?;
+        write.commit().await
+    }
+}

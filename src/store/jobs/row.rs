@@ -1,0 +1,66 @@
+//! Rows of jobs as jobs.
+
+use sqlx::Row;
+use sqlx::sqlite::SqliteRow;
+
+use super::job::{Job, JobId, JobRequest, SpeedCounts};
+use crate::store::error::StoreError;
+use crate::store::status::JobStatus;
+
+pub(super) async fn status_of(
+    connection: &mut sqlx::SqliteConnection,
+    id: JobId,
+) -> Result<Option<JobStatus>, StoreError> {
+    let status: Option<String> = sqlx::query_scalar("select status from jobs where id = ? and deleted = 0")
+        .bind(id.to_string())
+        .fetch_optional(connection)
+        .await?;
+    status.map(|status| JobStatus::from_column(&status)).transpose()
+}
+
+pub(super) fn read_id(text: &str) -> Result<JobId, StoreError> {
+    JobId::parse(text).ok_or_else(|| StoreError::Unknown { column: "jobs.id", value: text.to_owned() })
+}
+
+pub(crate) fn read(row: &SqliteRow) -> Result<Job, StoreError> {
+    let kind: &str = row.try_get("kind")?;
+    let request: &str = row.try_get("request")?;
+    let request = match kind {
+        "sweep" => JobRequest::Sweep(serde_json::from_str(request)?),
+        "modal_analysis" => JobRequest::ModalAnalysis(serde_json::from_str(request)?),
+        "study" => JobRequest::Study(serde_json::from_str(request)?),
+        "model_generation" => JobRequest::ModelGeneration(serde_json::from_str(request)?),
+        _ => return Err(StoreError::Unknown { column: "jobs.kind", value: kind.to_owned() }),
+    };
+    let status = JobStatus::from_column(row.try_get("status")?)?;
+    let total = row.try_get("speeds")?;
+    let finished = match (&request, status) {
+        // These compute their speeds together.
+        (JobRequest::ModalAnalysis(_) | JobRequest::Study(_), JobStatus::Successful) => total,
+        _ => row.try_get("finished")?,
+    };
+    Ok(Job {
+        id: read_id(row.try_get("id")?)?,
+        owner: row.try_get("owner")?,
+        status,
+        model: row.try_get("model")?,
+        facts: row.try_get::<Option<&str>, _>("facts")?.map(serde_json::from_str).transpose()?,
+        request,
+        progress: row.try_get("progress")?,
+        phase: row.try_get("phase")?,
+        speeds: SpeedCounts {
+            total,
+            finished,
+            diverged: row.try_get("diverged")?,
+            failed: row.try_get("failed")?,
+        },
+        stored_bytes: row.try_get::<i64, _>("stored_bytes")?.unsigned_abs(),
+        plan: row.try_get::<Option<&str>, _>("plan")?.map(serde_json::from_str).transpose()?,
+        choice: row.try_get::<Option<&str>, _>("choice")?.map(serde_json::from_str).transpose()?,
+        failure: row.try_get::<Option<&str>, _>("error")?.map(serde_json::from_str).transpose()?,
+        created_at: row.try_get("created_at")?,
+        started_at: row.try_get("started_at")?,
+        finished_at: row.try_get("finished_at")?,
+        updated_at: row.try_get("updated_at")?,
+    })
+}
