@@ -80,7 +80,7 @@ impl ModelFacts {
     }
 }
 
-/// Reduces a sector (METHOD §2–§4). Deterministic. Takes at most `memory_bytes`, if given; goes on from `checkpoints`.
+/// Reduces a sector (docs/method.md, Reduction). Deterministic. Takes at most `memory_bytes`, if given; goes on from `checkpoints`.
 pub fn prepare(
     sector: &SectorModel,
     modes_per_speed: u32,

@@ -200,7 +200,7 @@ pub struct Point {
     /// Smallest multiplier λ of an active node, in the model's unit of force; absent without contact.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub smallest_multiplier: Option<f64>,
-    /// Largest violation of the energy identity, relative to the largest energy seen (§8).
+    /// Largest violation of the energy identity, relative to the largest energy seen (docs/method.md, Energy).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy_residual: Option<f64>,
     /// Where that energy came from and went; absent where nothing was integrated or the run overflowed.
@@ -449,7 +449,7 @@ pub struct CriticalSpeeds {
     pub version: String,
 }
 
-/// How trustworthy K(Ω) = K0 + Ω²K1 + Ω⁴K2 is between the given speeds (METHOD §3).
+/// How trustworthy K(Ω) = K0 + Ω²K1 + Ω⁴K2 is between the given speeds (docs/method.md, Centrifugal stiffening).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]

@@ -27,7 +27,7 @@ pub(crate) fn padded(count: usize) -> usize {
     count.next_multiple_of(LANES)
 }
 
-/// Modal damping of the reduced wheel (§6).
+/// Modal damping of the reduced wheel.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModalDamping {
     /// ζ of every mode not listed below.
