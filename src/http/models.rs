@@ -74,7 +74,7 @@ pub(super) struct ModelList {
     next: Option<String>,
 }
 
-/// A zip file as PACKAGE.md describes it.
+/// A zip file as docs/package.md describes it.
 #[derive(ToSchema)]
 #[schema(value_type = String, format = Binary)]
 #[expect(dead_code, reason = "describes the body in the OpenAPI document only")]

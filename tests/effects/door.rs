@@ -235,7 +235,8 @@ fn an_initial_mode_stays_within_the_clearance() {
     assert!(start(0.999 * largest).message.is_none() && start(1.001 * largest).message.is_some());
 }
 
-/// Light damping lets a tiny asymmetry grow by the same rate whatever its size, heavy damping lets it decay (METHOD §10).
+/// Light damping lets a tiny asymmetry grow by the same rate whatever its size, heavy damping lets it decay (docs/method.md,
+/// Symmetry).
 #[test]
 fn a_probe_finds_whether_symmetry_breaks() {
     let sector = wheel(WheelRecipe::default());

@@ -1,4 +1,4 @@
-//! A response that doubles its period within the symmetry of its scene (METHOD §10; the paper's area E): odd engine orders under
+//! A response that doubles its period within the symmetry of its scene (docs/method.md, Symmetry; the paper's area E): odd engine orders under
 //! two lobes, carried by even nodal diameters only, on the default impeller.
 //!
 //! Ten sectors see two lobes as five pairs of opposite blades. Where every second passage of a lobe is the stronger one, a

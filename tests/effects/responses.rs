@@ -32,7 +32,7 @@ fn circular(clearance: f64, ramp_revolutions: f64) -> Option<Casing> {
     Some(Casing { clearance: vec![clearance], restriction: None, ramp_revolutions })
 }
 
-/// Vibro-impact oscillator (BENCHMARKS.md), its stop brought to the distance d by a whirl: Ω/ω0 = π/(π − arccos(d/A)).
+/// Vibro-impact oscillator with restitution 1, its stop brought to the distance d by a whirl: Ω/ω0 = π/(π − arccos(d/A)).
 #[test]
 fn a_blade_bounces_off_a_whirling_casing() {
     let omega0 = 10.0 * SPEED;

@@ -189,7 +189,7 @@ fn sound(result: &SpeedResult, request: &SweepRequest) {
     assert!(point.steps_per_revolution >= point.smallest_stable_steps_per_revolution, "{point:?}");
     assert!(point.contact_impulse.unwrap() >= 0.0 && point.largest_energy.unwrap() >= 0.0, "{point:?}");
     assert!(point.smallest_multiplier.is_none_or(|lambda| lambda >= 0.0), "{point:?}");
-    // The README's bound of a healthy run.
+    // The bound of a healthy run in docs/reading-results.md.
     assert!(point.energy_residual.unwrap() <= 1e-9, "{point:?}");
     // Work was done if there was contact, and without other causes only then.
     let (touched, moved) = (point.contact_impulse > Some(0.0), point.largest_energy > Some(0.0));

@@ -29,7 +29,7 @@ fn annulus(order: ElementOrder, sectors: usize, around: usize, radial: usize) ->
     sector
 }
 
-/// Hoop stress at the bore, per unit ρΩ² (BENCHMARKS.md).
+/// Hoop stress at the bore in plane stress, per unit ρΩ².
 fn exact_bore_stress() -> f64 {
     let nu = MATERIAL.poissons_ratio;
     (3.0 + nu) / 4.0 * (OUTER.powi(2) + (1.0 - nu) / (3.0 + nu) * INNER.powi(2))

@@ -1,11 +1,12 @@
-//! The rotating cantilever of BENCHMARKS.md: flap against the table, lag² = flap² − Ω².
+//! The rotating uniform cantilever (Wright, Smith, Thresher and Wang, J. Appl. Mech. 49, 1982): flap against the table,
+//! lag² = flap² − Ω².
 
 use rubmap::impeller::mesh::ElementOrder::{self, Linear, Quadratic};
 use rubmap::impeller::{CantileverParameters, Material, SectorMatrices, cantilever, cantilever_mesh};
 
 use crate::eigen::{dense_eigenvalues, lowest_real};
 
-/// ω* of flap modes 1 and 2 at η (BENCHMARKS.md, Wright et al. 1982).
+/// ω* of flap modes 1 and 2 at η (Wright et al. 1982, recomputed by Legendre–Ritz).
 const TABLE: [(f64, [f64; 2]); 4] = [
     (0.0, [3.51602, 22.03449]),
     (2.0, [4.13732, 22.61492]),

@@ -1,4 +1,4 @@
-//! Bending vibration of a spinning disk without bending stiffness (Lamb and Southwell), BENCHMARKS.md.
+//! Bending vibration of a spinning disk without bending stiffness (Lamb and Southwell).
 
 use rubmap::impeller::annulus;
 use rubmap::impeller::mesh::ElementOrder;

@@ -31,7 +31,7 @@ pub(crate) fn dense_eigenvalues(stiffness: &RawMatrix, mass: &RawMatrix) -> Vec<
     a.self_adjoint_eigenvalues(Side::Lower).expect("converges")
 }
 
-/// The Hermitian matrix of nodal diameter `i`: `u_high = u_low e^{jiα}` (METHOD §2), both triangles.
+/// The Hermitian matrix of nodal diameter `i`: `u_high = u_low e^{jiα}` (docs/method.md, From a sector to harmonic matrices), both triangles.
 pub(crate) fn harmonic(package: &RawPackage, matrix: &RawMatrix, i: usize) -> SparseColMat<usize, c64> {
     let alpha = 2.0 * PI / package.manifest.sectors as f64;
     let rows: HashMap<(u64, u8), usize> =

@@ -1,4 +1,4 @@
-//! Annular plates, clamped inside and free outside, against BENCHMARKS.md.
+//! Annular plates, clamped inside and free outside, against the zeros of the determinant of Bessel functions of Kirchhoff's plate.
 
 use rubmap::impeller::mesh::ElementOrder;
 use rubmap::impeller::{AnnulusParameters, Material, annulus};

@@ -1,4 +1,4 @@
-//! The default impeller: its package is what PACKAGE.md asks for, and its matrices are honest.
+//! The default impeller: its package is what docs/package.md asks for, and its matrices are honest.
 
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::PI;
@@ -105,7 +105,7 @@ fn stiffness_is_exactly_linear_in_the_speed_squared() {
         assert!((4.0 * (b.2 - a.2) - (c.2 - a.2)).abs() < 1e-14 * largest);
         spin = spin.max((c.2 - a.2).abs());
     }
-    // METHOD §3: about 1e-3 or less of the elastic stiffness for matrices on the undeformed geometry.
+    // docs/method.md, Centrifugal stiffening: about 1e-3 or less of the elastic stiffness for matrices on the undeformed geometry.
     assert!(spin > 1e-6 * largest && spin < 2e-3 * largest, "{}", spin / largest);
 }
 

@@ -1,4 +1,5 @@
-//! Harmonic matrices of the wheel: Ŷ(i) = Y0 + Y1 e^{jiα} + Y1ᵀ e^{−jiα}, α = 2π/N (§2; Eqs 1, 2).
+//! Harmonic matrices of the wheel: Ŷ(i) = Y0 + Y1 e^{jiα} + Y1ᵀ e^{−jiα}, α = 2π/N (docs/method.md, From a sector
+//! to harmonic matrices; Eqs 1, 2).
 //!
 //! The paper writes the same Hermitian operator as a doubled real matrix; in complex form it is half the size and
 //! does not double every eigenvalue.

@@ -220,7 +220,7 @@ pub(crate) fn gauss_seidel(w: &DMatrix<f64>, gap: &DVector<f64>, lambda: &mut DV
     panic!("Gauss–Seidel did not converge");
 }
 
-/// c − p at every node of every sector, literally (§6), after `revolutions`; negative ones turn the other way.
+/// c − p at every node of every sector, literally, after `revolutions`; negative ones turn the other way.
 pub(crate) fn free_gaps(casing: &Casing, reduced: &ReducedWheel, revolutions: f64) -> Vec<f64> {
     let mut gaps = Vec::new();
     for s in 0..reduced.sectors {

@@ -1,5 +1,5 @@
-//! The schemes beyond central differences on the whole dense wheel, literally: the exact propagator (METHOD §11) and the
-//! boundary without mass (§12).
+//! The schemes beyond central differences on the whole dense wheel, literally: the exact propagator and the boundary
+//! without mass (docs/method.md, Schemes).
 
 use nalgebra::{DMatrix, DVector};
 use rubmap::dynamics::reduction::ReducedWheel;

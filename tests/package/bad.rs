@@ -1,4 +1,4 @@
-//! PACKAGE.md's list of checks as a list of bad packages: each carries the exact message it must produce.
+//! The checks of docs/package.md as a list of bad packages: each carries the exact message it must produce.
 
 use serde_json::json;
 

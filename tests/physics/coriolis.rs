@@ -41,7 +41,7 @@ fn lower(row: u32, column: u32, value: f64) -> (u32, u32, f64) {
     (row, column, value)
 }
 
-/// Two masses on isotropic springs in the plane of rotation (BENCHMARKS.md): m(ẍ − 2Ωẏ − Ω²x) + kx = 0.
+/// Two masses on isotropic springs in the plane of rotation: m(ẍ − 2Ωẏ − Ω²x) + kx = 0.
 fn two_masses(frame: Frame) -> RawPackage {
     let masses = [2e-6, 3e-6];
     let squares = SQUARES;

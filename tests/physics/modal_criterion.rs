@@ -5,7 +5,7 @@ use rubmap::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use rubmap::dynamics::reduction::{NoCheckpoints, ReductionOptions, reduce};
 use rubmap::dynamics::sector::{ContactNode, CyclicMatrix, SectorModel, Units};
 
-/// BENCHMARKS.md, cyclic chain: N masses m, ground springs k, neighbour springs k_c give
+/// Cyclic chain: N masses m, ground springs k, neighbour springs k_c give
 /// ω_i² = (k + 4 k_c sin²(πi/N))/m, a pair for 0 < i < N/2.
 #[test]
 fn cyclic_chain() {

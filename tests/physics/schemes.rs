@@ -181,7 +181,7 @@ fn orders_and_limits_on_the_impeller() {
 }
 
 /// Free vibration of a mass between its spring and a stop at distance d, amplitude A: Ω/ω0 = π/(π − arccos(d/A)) where
-/// the stop is rigid and gives all energy back (BENCHMARKS.md). The stop is the residual flexibility of a stiff mode.
+/// the stop is rigid and gives all energy back. The stop is the residual flexibility of a stiff mode.
 #[test]
 fn a_mass_bounces_off_a_stop_at_the_frequency_of_restitution_one() {
     let tip = ContactNode { id: 0, position: [1e9, 0.0, 0.0], normal: [1.0, 0.0, 0.0], dofs: [0, 1, 2] };

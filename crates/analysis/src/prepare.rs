@@ -14,7 +14,7 @@ use rubmap_wheel::dynamics::reduction::{
 use rubmap_wheel::dynamics::sector::SectorModel;
 use rubmap_wheel::revision::VERSION;
 
-/// Reduces a sector (METHOD §2–§4). Deterministic. Takes at most `memory_bytes`, if given; goes on from `checkpoints`.
+/// Reduces a sector (docs/method.md, Reduction). Deterministic. Takes at most `memory_bytes`, if given; goes on from `checkpoints`.
 pub fn prepare(
     sector: &SectorModel,
     modes_per_speed: u32,

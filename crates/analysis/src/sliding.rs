@@ -11,8 +11,8 @@ use rubmap_wheel::dynamics::schemes::Scheme;
 use rubmap_wheel::dynamics::schemes::massless_boundary::residual_flexibility;
 use rubmap_wheel::dynamics::sector::ContactNode;
 
-/// Checks the contact operator of a scheme and its step (METHOD §7) before it runs, an elastic casing's and Coriolis forces' share apart, which only help or
-/// are small; a scene without friction passes.
+/// Checks the contact operator of a scheme and its step (docs/method.md, Contact and Friction) before it runs, an elastic casing's
+/// and Coriolis forces' share apart, which only help or are small; a scene without friction passes.
 pub(super) fn check(
     wheel: &ModalWheel,
     contact_nodes: &[ContactNode],

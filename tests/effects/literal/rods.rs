@@ -87,7 +87,7 @@ mod tests {
     use super::*;
     use crate::scene::contact_nodes;
 
-    /// BENCHMARKS.md: w/t0 = (Eε − σ_Y)/(E + K), and an identical second pass adds none.
+    /// Linear hardening, pushed and unloaded: w/t0 = (Eε − σ_Y)/(E + K), and an identical second pass adds none.
     #[test]
     fn a_rod_follows_its_closed_form() {
         let material = CoatingMaterial { modulus: 400.0, yield_stress: 2.0, hardening: 60.0 };

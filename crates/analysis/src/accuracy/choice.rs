@@ -3,7 +3,7 @@
 //! Pilot runs at a few speeds of the scene climb two ladders that double: modes per speed and steps per revolution. At a setting
 //! (k, S) the error of the modes is estimated from the difference to (2k, S), that of the steps from the difference to (k, 2S),
 //! and whichever is larger is refined. Time is stepped by the exact propagator with mass, which converges to the finite-element
-//! model as both are refined; a boundary without mass is cheaper at a few per cent (README), but has a limit of its own.
+//! model as both are refined; a boundary without mass is cheaper at a few per cent (docs/accuracy.md), but has a limit of its own.
 //!
 //! [`next`] is a pure function of the runs known so far: it names the runs it misses, and ends with a choice or a refusal.
 

@@ -192,7 +192,7 @@ pub struct Point {
     /// Smallest multiplier λ of an active node, in the model's unit of force; absent without contact.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub smallest_multiplier: Option<f64>,
-    /// Largest violation of the energy identity, relative to the largest energy seen (§8).
+    /// Largest violation of the energy identity, relative to the largest energy seen (docs/method.md, Energy).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub energy_residual: Option<f64>,
     /// Where that energy came from and went; absent where nothing was integrated or the run overflowed.

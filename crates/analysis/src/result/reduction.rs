@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// How trustworthy K(Ω) = K0 + Ω²K1 + Ω⁴K2 is between the given speeds (METHOD §3).
+/// How trustworthy K(Ω) = K0 + Ω²K1 + Ω⁴K2 is between the given speeds (docs/method.md, Centrifugal stiffening).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]

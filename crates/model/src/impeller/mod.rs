@@ -4,8 +4,8 @@
 //! softening → package. Everything after the mesh knows only [`mesh::SectorMesh`], so another geometry is another
 //! function that makes one ([`cantilever()`], [`annulus()`]), and another element is another [`element::Hexahedron`].
 //!
-//! The matrices are honest: `K(Ω) = K_e + K_σ(Ω) − Ω² M_spin` on the undeformed geometry (METHOD §3), exactly
-//! linear in Ω². Where asked for, the gyroscopic matrix of Coriolis forces joins them.
+//! The matrices are honest: `K(Ω) = K_e + K_σ(Ω) − Ω² M_spin` on the undeformed geometry, exactly linear in Ω²
+//! (docs/method.md, Centrifugal stiffening). Where asked for, the gyroscopic matrix of Coriolis forces joins them.
 
 mod annulus;
 mod assembly;

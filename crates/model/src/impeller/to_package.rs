@@ -1,4 +1,4 @@
-//! A sector mesh into the content of a model package (PACKAGE.md).
+//! A sector mesh into the content of a model package (docs/package.md).
 
 use super::error::ImpellerError;
 use super::material::Material;

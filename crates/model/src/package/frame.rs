@@ -2,7 +2,7 @@
 //!
 //! e3 is the direction of the axis; e1 is the package's x axis projected normal to it (the y axis if x is within
 //! about 0.06° of parallel to it), where θ = 0; e2 = e3 × e1, so that +θ turns positively about the direction, which is how the wheel
-//! rotates (METHOD §1). A point on the axis has θ = 0.
+//! rotates (docs/method.md, Conventions). A point on the axis has θ = 0.
 
 use super::raw::Axis;
 

@@ -1,4 +1,4 @@
-//! The model package of PACKAGE.md: read, check, rotate to cylindrical components; and write.
+//! The model package of docs/package.md: read, check, rotate to cylindrical components; and write.
 //!
 //! ```text
 //! file ── importer ──▶ Content ── check ──▶ Layout ── frame, partition ──▶ SectorModel

@@ -1,4 +1,5 @@
-//! From a checked package to the sector model: cylindrical components, high face eliminated (METHOD §1, §2).
+//! From a checked package to the sector model: cylindrical components, high face eliminated (docs/method.md, Conventions and
+//! From a sector to harmonic matrices).
 //!
 //! A sector matrix A couples own rows (o) and rows of the high face (c). The high face of sector s is the low face of
 //! sector s + 1, whose displacement has the same *cylindrical* components there, so with P the map from high rows to

@@ -1,4 +1,4 @@
-//! Writing a package: the zip of PACKAGE.md, numbers in shortest round-trip form or, in `.npz` matrices, as they are.
+//! Writing a package: the zip of docs/package.md, numbers in shortest round-trip form or, in `.npz` matrices, as they are.
 
 use std::io::{self, BufWriter, Seek, Write};
 

@@ -1,4 +1,5 @@
-//! The casing: clearance along the chord, static restriction in the fixed frame, and its growth (§6).
+//! The casing: clearance along the chord, static restriction in the fixed frame, and its growth (docs/method.md,
+//! Casing and gap).
 
 use std::f64::consts::{PI, TAU};
 

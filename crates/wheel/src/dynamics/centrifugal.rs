@@ -1,4 +1,4 @@
-//! Centrifugal stiffening K(Ω) = K0 + Ω²K1 + Ω⁴K2 through the given speeds (§3; Eq. 3).
+//! Centrifugal stiffening K(Ω) = K0 + Ω²K1 + Ω⁴K2 through the given speeds (docs/method.md, Centrifugal stiffening; Eq. 3).
 
 use faer::{Mat, c64};
 use serde::{Deserialize, Serialize};

@@ -1,4 +1,4 @@
-//! The energy audit (§8).
+//! The energy audit (docs/method.md, Energy).
 
 use super::oscillators::Exchange;
 

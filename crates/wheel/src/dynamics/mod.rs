@@ -1,4 +1,4 @@
-//! The physics: cyclic structure, reduction, contact and time integration, in the words of METHOD.md.
+//! The physics: cyclic structure, reduction, contact and time integration, in the words of docs/method.md.
 
 #[cfg(test)]
 mod bouncing_bar;

@@ -1,4 +1,4 @@
-//! The reduced wheel at one speed in modal coordinates (§5; Eq. 7).
+//! The reduced wheel at one speed in modal coordinates (docs/method.md, One speed in modal coordinates; Eq. 7).
 //!
 //! The wheel is block diagonal in the nodal diameter. Each small pencil (K_r(Ω), M_r) is solved once, an exact change
 //! of coordinates, after which the free motion is one scalar oscillator per mode:

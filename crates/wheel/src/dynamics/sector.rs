@@ -1,4 +1,4 @@
-//! One impeller sector as every computation sees it: cylindrical components, high face eliminated (§1, §2).
+//! One impeller sector as every computation sees it: cylindrical components, high face eliminated (docs/method.md, Conventions).
 
 use faer::sparse::SparseColMat;
 use serde::{Deserialize, Serialize};
@@ -51,7 +51,7 @@ pub struct ContactNode {
 
 /// A validated sector: matrices over the own DOF (internal, low face and contact), in (r, θ, z) components.
 ///
-/// Built only by an importer that has checked everything PACKAGE.md lists.
+/// Built only by an importer that has checked everything docs/package.md lists.
 #[derive(Debug, Clone)]
 pub struct SectorModel {
     /// Free text of the user.

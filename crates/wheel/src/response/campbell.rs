@@ -1,4 +1,4 @@
-//! Campbell data and the linear interaction criterion (§9; Eq. 11).
+//! Campbell data and the linear interaction criterion (docs/method.md, Reading responses; Eq. 11).
 
 use std::f64::consts::TAU;
 
@@ -223,7 +223,7 @@ mod tests {
     use super::*;
     use crate::response::waves::Table;
 
-    /// f² = f0² + BΩ² fitted to the paper's Table 2 (BENCHMARKS.md): per nodal diameter (f0, B) of families 1 and 2.
+    /// f² = f0² + BΩ² fitted to the paper's Table 2: per nodal diameter (f0, B) of families 1 and 2.
     struct PaperFit;
 
     /// (i, j, f0, B). Family (1,1) has one row only, f = 12.0 at Ω = 4.0: with B = 3 like its neighbours f0 is 9.798.

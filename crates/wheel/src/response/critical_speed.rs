@@ -1,4 +1,5 @@
-//! Critical speeds: peaks of the steady response over Ω (§9), and whether the computed speeds resolve them.
+//! Critical speeds: peaks of the steady response over Ω, and whether the computed speeds resolve them (docs/method.md, Reading
+//! responses).
 
 /// A peak is resolved if the response at the neighbouring speeds is at least this share of it. Evenly sampled, a linear
 /// resonance 1/√(1 + x²) is then seen at |x| < 0.18 half-bandwidths and within 1.5 % of its top.

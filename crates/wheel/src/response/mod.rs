@@ -1,4 +1,5 @@
-//! From histories to engineering results: spectra, nodal diameters, settling and critical speeds (§9).
+//! From histories to engineering results: spectra, nodal diameters, settling and critical speeds (docs/method.md, Reading
+//! responses).
 
 pub mod campbell;
 pub mod coincidence;

@@ -1,4 +1,4 @@
-//! Is the response steady? Revolutions are compared, never assumed equal (§9).
+//! Is the response steady? Revolutions are compared, never assumed equal (docs/method.md, Reading responses).
 
 use std::f64::consts::PI;
 
@@ -22,7 +22,7 @@ pub enum Verdict {
     NotSettled,
 }
 
-/// Steady state, judged by comparing revolutions (§9).
+/// Steady state, judged by comparing revolutions (docs/method.md, Reading responses).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Settling {

@@ -1,4 +1,4 @@
-//! Whole-revolution spectra of sensors and of their nodal diameters (§9; Eqs 12, 13).
+//! Whole-revolution spectra of sensors and of their nodal diameters (docs/method.md, Reading responses; Eqs 12, 13).
 
 use rubmap_numerics::sector_fourier::{SectorFourier, harmonic_count};
 use rubmap_numerics::spectrum::amplitudes;

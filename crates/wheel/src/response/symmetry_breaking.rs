@@ -1,4 +1,4 @@
-//! Do the nodal diameters grow that the symmetry of a scene keeps at rest? (METHOD §10)
+//! Do the nodal diameters grow that the symmetry of a scene keeps at rest? (docs/method.md, Symmetry)
 //!
 //! A run is started from a tiny asymmetry; the amplitude of the nodal diameters that a symmetric run would leave at rest,
 //! √(their energy), is followed from revolution to revolution and fitted by e^{rate·revolutions} as long as it is small.

@@ -1,4 +1,5 @@
-//! Whether K(Ω) − K(0) is what spinning adds on the undeformed geometry (METHOD §3), without knowing the stresses.
+//! Whether K(Ω) − K(0) is what spinning adds on the undeformed geometry, without knowing the stresses (docs/method.md,
+//! Centrifugal stiffening).
 //!
 //! Turn the sector rigidly, w = a × x. The elastic stiffness gives no force; the geometric stiffness turns the nodal
 //! forces that the stresses balance, K_σ w = a × Ω² M x⊥ where nothing else holds a node (x⊥ is the part of x

@@ -1,4 +1,4 @@
-//! Every check of PACKAGE.md on a parsed package, each with its own error.
+//! Every check of docs/package.md on a parsed package, each with its own error.
 //!
 //! The order is that of understanding: what `sector.json` says by itself, the tables, the matrices, then the
 //! cyclic faces and the contact nodes. [`mass`] comes last, on the finished sector.

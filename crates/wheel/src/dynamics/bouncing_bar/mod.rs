@@ -1,4 +1,5 @@
-//! Contact under every scheme on the bouncing elastic bar (Doyen, Ern, Piperno, SIAM J. Sci. Comput. 33, 2011; BENCHMARKS.md).
+//! Contact under every scheme on the bouncing elastic bar (Doyen, Ern, Piperno, SIAM J. Sci. Comput. 33, 2011;
+//! docs/method.md, What it is held against).
 //!
 //! Seen from the falling frame the bar is at rest and the ground comes up by ½ g t²: a restriction that grows with
 //! time, so the production loop runs it unchanged as a "wheel" of one sector whose revolution is the whole run.
@@ -230,7 +231,7 @@ fn exact_solution_passes_the_tabulated_heights() {
     }
 }
 
-/// The table of BENCHMARKS.md for central differences with a mass at the contact node, Courant number 0.9:
+/// The table of docs/method.md (What it is held against) for central differences with a mass at the contact node, Courant number 0.9:
 /// (elements, energy change after 1 and 4 periods, tip error in the 1st and 4th).
 #[test]
 fn loses_what_a_mass_at_the_contact_node_loses() {

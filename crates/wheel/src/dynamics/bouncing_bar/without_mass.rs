@@ -3,8 +3,8 @@
 use super::super::schemes::{Scheme, massless_boundary};
 use super::{Bar, PERIOD, TIP, bar_modes, courant_step};
 
-/// METHOD.md §12: 15 modes and 5333 steps a period end ten periods with an error of 2.4e-2 and an energy drift of 5e-4, where
-/// a mass at the contact node has lost nearly all.
+/// A massless boundary (docs/method.md, A boundary without mass), computed apart, with 15 modes and 5333 steps a period ends ten periods with an error of
+/// 2.4e-2 and an energy drift of 5e-4, where a mass at the contact node has lost nearly all.
 #[test]
 fn a_boundary_without_mass_keeps_the_energy_of_ten_bounces() {
     let bar = Bar::drop(200, Scheme::MasslessBoundary { kept_modes: 15 }, PERIOD / 5333.0, 10);
@@ -26,7 +26,7 @@ fn carried(elements: usize, share: f64, periods: usize) -> Bar {
     Bar::drop(elements, Scheme::MasslessBoundary { kept_modes }, step, periods)
 }
 
-/// The rows of BENCHMARKS.md for a contact node whose mass was taken away, another model of the same idea: (elements,
+/// The rows of docs/method.md (What it is held against) for a contact node whose mass was taken away, another model of the same idea: (elements,
 /// energy change and tip error of the first period).
 #[test]
 fn a_boundary_without_mass_is_of_the_size_of_a_massless_node() {

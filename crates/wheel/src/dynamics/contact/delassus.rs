@@ -1,4 +1,4 @@
-//! The contact operator of a tuned wheel: one block-circulant table per speed and step (§7).
+//! The contact operator of a tuned wheel: one block-circulant table per speed and step (docs/method.md, Contact).
 
 use faer::{Mat, c64};
 

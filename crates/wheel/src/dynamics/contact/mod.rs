@@ -1,4 +1,4 @@
-//! Unilateral contact between blade tips and casing (§7; Eqs 9, 10).
+//! Unilateral contact between blade tips and casing (docs/method.md, Contact; Eqs 9, 10).
 //!
 //! At every step the gaps of all contact nodes of all sectors and their forces solve
 //!

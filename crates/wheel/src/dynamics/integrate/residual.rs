@@ -1,4 +1,4 @@
-//! Displacements through the modes that are not integrated (METHOD §12), where they are read.
+//! Displacements through the modes that are not integrated, where they are read (docs/method.md, A boundary without mass).
 
 use faer::{Mat, c64};
 

@@ -22,7 +22,7 @@ use super::modal_wheel::ModalWheel;
 use super::schemes::{ModeStep, Scheme};
 use rubmap_numerics::aligned::Aligned;
 
-/// Modal damping of the reduced wheel (§6).
+/// Modal damping of the reduced wheel.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModalDamping {
     /// ζ of every mode not listed below.

@@ -1,4 +1,4 @@
-//! Can K(Ω) be trusted between the given speeds? (METHOD §3, the deformed-geometry trap)
+//! Can K(Ω) be trusted between the given speeds? (docs/method.md, Centrifugal stiffening)
 //!
 //! On the undeformed geometry K is linear in Ω²: K2 vanishes to round-off, and eigenvalues are smooth in Ω². Tangents
 //! of a geometrically non-linear step sit on the deformed geometry; every stiff entry moves with the deformation, K2

@@ -1,4 +1,4 @@
-//! Modified Craig–Bampton reduction per nodal diameter (§4; Eqs 4–6).
+//! Modified Craig–Bampton reduction per nodal diameter (docs/method.md, Reduction; Eqs 4–6).
 //!
 //! Contact DOF stay physical. The internal ones follow through the static modes at rest and an orthonormal basis of
 //! the fixed-interface modes at all given speeds:

@@ -1,4 +1,5 @@
-//! The sector with its faces untied: one set of real matrices for every nodal diameter (§2).
+//! The sector with its faces untied: one set of real matrices for every nodal diameter (docs/method.md, From a sector to
+//! harmonic matrices).
 //!
 //! Rows are the interior in elimination order, the low face, the high face, the contact DOF (and the high copies of
 //! those of them that lie on the low face). A nodal diameter ties the high face to the low one, u_H = e^{jiα} u_L; its

@@ -1,4 +1,4 @@
-//! The exact propagator of every modal oscillator (METHOD §11): no error in free motion at any step.
+//! The exact propagator of every modal oscillator (docs/method.md, The exact propagator): no error in free motion at any step.
 //!
 //! ```text
 //! z⁺ = 2a cosθ z − a² z⁻ + b f,   a = e^{−ζωh},  θ = ωh√(1−ζ²),  b = (1 − 2a cosθ + a²)/ω²

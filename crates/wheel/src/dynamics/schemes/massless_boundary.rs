@@ -1,4 +1,5 @@
-//! A boundary without mass (METHOD §12; Monjaraz-Tec, Gross and Krack, Computers & Structures 260, 2022).
+//! A boundary without mass (docs/method.md, A boundary without mass; Monjaraz-Tec, Gross and Krack, Computers & Structures 260,
+//! 2022).
 //!
 //! Of every nodal diameter the r lowest modes of the reduced wheel carry the mass. All others follow statically, through
 //! the residual flexibility they leave at the contact DOF:

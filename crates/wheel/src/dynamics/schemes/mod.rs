@@ -7,7 +7,7 @@
 //! ```
 //!
 //! Written symmetrically, with c = (1 − keep)/(1 + keep) and B = (1 + c)·receptance, it has the discrete energy identity
-//! (§8)
+//! (docs/method.md, Energy)
 //!
 //! ```text
 //! E⁺ − E = f (z⁺ − z⁻)/2 − c (d⁺ + d)²/(2B),   E = d²/(2B) + ½ ω² z z⁻
@@ -33,9 +33,9 @@ use super::sector::ContactNode;
 pub enum Scheme {
     /// The paper's (Eqs 8–10).
     CentralDifferences,
-    /// The exact propagator of every mode (§11).
+    /// The exact propagator of every mode.
     ExactModal,
-    /// The lowest modes carry the mass, the boundary follows statically (§12).
+    /// The lowest modes carry the mass, the boundary follows statically.
     MasslessBoundary {
         /// Modes integrated per nodal diameter.
         kept_modes: usize,

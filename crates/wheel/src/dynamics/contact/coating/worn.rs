@@ -145,7 +145,7 @@ mod tests {
         WornCoating::new(Coating::new(material, THICKNESS, 100, &nodes(), 5).unwrap(), &nodes(), 5, 100)
     }
 
-    /// w/t0 of a push to strain ε (BENCHMARKS.md).
+    /// w/t0 of a monotone push to strain ε and its unloading, with linear hardening.
     fn worn(strain: f64) -> f64 {
         (E * strain - YIELD) / (E + K)
     }
