@@ -5,14 +5,20 @@ FROM rust:1.95-slim-trixie AS build
 WORKDIR /src
 # Dependencies first: they change less often than we do.
 COPY Cargo.toml Cargo.lock build.rs ./
-RUN mkdir -p src benches && echo 'fn main() {}' > src/main.rs && touch src/lib.rs \
+COPY crates/analysis/Cargo.toml crates/analysis/
+COPY crates/model/Cargo.toml crates/model/
+COPY crates/numerics/Cargo.toml crates/numerics/
+COPY crates/plot/Cargo.toml crates/plot/
+COPY crates/wheel/Cargo.toml crates/wheel/
+RUN mkdir src && echo 'fn main() {}' > src/main.rs && touch src/lib.rs \
+    && for crate in crates/*; do mkdir "$crate/src" && touch "$crate/src/lib.rs"; done \
     && sed -i '/^\[\[bench\]\]/,$d' Cargo.toml \
-    && cargo build --release --locked && rm -r src benches
+    && cargo build --release --locked && rm -r src crates
 COPY . .
 # The image is built without the history: `--build-arg RUBMAP_COMMIT=$(git rev-parse HEAD)` tells what it is built from.
 ARG RUBMAP_COMMIT
 # Files copied keep their times; the program must look newer than its stand-in.
-RUN touch build.rs src/main.rs src/lib.rs && cargo build --release --locked
+RUN touch build.rs src/main.rs src/lib.rs crates/*/src/lib.rs && cargo build --release --locked
 
 FROM debian:trixie-slim
 COPY --from=build /src/target/release/rubmap /usr/local/bin/rubmap

@@ -112,7 +112,7 @@ impl<'ast> Visit<'ast> for Named {
 
     fn visit_item_mod(&mut self, item: &'ast ItemMod) {
         // Tests look at what they like.
-        if item.attrs.iter().any(|attribute| attribute.path().is_ident("cfg")) && item.ident == "tests" {
+        if item.ident == "tests" && item.attrs.iter().any(|attribute| attribute.path().is_ident("cfg")) {
             return;
         }
         self.module.push(item.ident.to_string());

@@ -91,7 +91,7 @@ pub(super) fn effects_of(scene: &Scene) -> Vec<PlannedEffect> {
     EFFECTS.iter().map(planned).collect()
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "schema"))]
 mod tests {
     use utoipa::PartialSchema;
 

@@ -16,9 +16,12 @@ pub use accuracy::{Accuracy, Budget};
 pub use auto_or::AutoOr;
 pub use integration::{Integration, SchemeChoice};
 pub use modal_analysis::ModalAnalysisRequest;
-pub use scene::*;
+pub use scene::{
+    Abradable, Casing, CasingMode, Clearance, Contact, Damping, EngineOrderExcitation, FlexibleCasing,
+    Friction, Initial, InitialWave, Lobes, Mistuning, Orbit, Probe, Ring, Scene, Symmetry,
+};
 pub use sensor::{Component, Sensor};
-pub use speeds::*;
+pub use speeds::{HIGHEST_SPEED, MAX_SPEEDS, SpeedSet, SpeedUnit, Speeds};
 pub use study::{Grid, StudyIntegration, StudyRequest};
-pub use sweep::*;
+pub use sweep::{SweepDirection, SweepRequest};
 pub use trial::{Setting, TrialRequest};

@@ -4,9 +4,10 @@ use crate::discretisation::most_samples;
 use crate::error::Violation;
 use crate::model::ModelFacts;
 use crate::request::auto_or::MOST_STEPS;
+use crate::request::speeds::Part;
 use crate::request::{
     Accuracy, AutoOr, Budget, Casing, Clearance, Component, Damping, Integration, Lobes,
-    ModalAnalysisRequest, Part, Scene, SchemeChoice, Sensor, Speeds, SweepDirection, SweepRequest,
+    ModalAnalysisRequest, Scene, SchemeChoice, Sensor, Speeds, SweepDirection, SweepRequest,
 };
 use crate::stepping::least_steps_for_lobes;
 use rubmap_wheel::dynamics::casing::Restriction;

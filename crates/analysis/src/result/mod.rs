@@ -11,16 +11,27 @@ pub mod study;
 pub mod sweep;
 pub mod trial;
 
-pub use campbell::*;
-pub use choice::*;
-pub use errors::*;
-pub use plan::*;
-pub use point::*;
-pub use reduction::*;
-pub use refinement::*;
-pub use study::*;
-pub use sweep::*;
-pub use trial::*;
+pub use campbell::{AbsoluteFrequencies, Campbell, WaveTables};
+pub use choice::{Choice, ModesChoice, Pilot, TriedModes};
+pub use errors::{Control, ErrorEstimate, Errors, PointError, Quantity};
+pub use plan::{
+    CostRange, Estimate, FoundSymmetry, ModalAnalysisPlan, PlannedEffect, PlannedPoint, ReductionState,
+    Spent, SweepPlan,
+};
+pub use point::{
+    EnergyReport, Point, PointStatus, SchemeReport, SensorResponse, SensorSpectrum, SpeedResult,
+    SpeedSpectra, WearMap, WearReport,
+};
+pub use reduction::{
+    FrequencyDifference, LargestDifference, PreliminaryStiffening, ReductionReport, StiffeningReport,
+    StiffeningVerdict,
+};
+pub use refinement::{Refinement, Unresolvable, Unresolved};
+pub use study::{
+    Histories, HistoryLine, SpeedStudy, StepOrder, StudyReduction, StudyRun, WorkPrecision, front,
+};
+pub use sweep::{CriticalSpeed, CriticalSpeeds, InteractionMap};
+pub use trial::{Cost, Trial};
 
 pub use rubmap_wheel::response::campbell::{Crossing, DrivenCrossing};
 pub use rubmap_wheel::response::coincidence::Coincidence;

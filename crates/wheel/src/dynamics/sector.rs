@@ -9,16 +9,16 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct Units {
     /// Unit of length, for example `mm`.
-    #[cfg_attr(feature = "schema", schema(max_length = 200))]
+    #[cfg_attr(feature = "schema", schema(max_length = 40))]
     pub length: String,
     /// Unit of force, for example `N`.
-    #[cfg_attr(feature = "schema", schema(max_length = 200))]
+    #[cfg_attr(feature = "schema", schema(max_length = 40))]
     pub force: String,
     /// Unit of time, for example `s`.
-    #[cfg_attr(feature = "schema", schema(max_length = 200))]
+    #[cfg_attr(feature = "schema", schema(max_length = 40))]
     pub time: String,
     /// Unit of mass, for example `t`.
-    #[cfg_attr(feature = "schema", schema(max_length = 200))]
+    #[cfg_attr(feature = "schema", schema(max_length = 40))]
     pub mass: String,
 }
 
