@@ -29,6 +29,8 @@ mod preset;
 mod prestress;
 mod ranges;
 mod request;
+#[cfg(feature = "schema")]
+mod schema;
 mod sector_mesh;
 mod to_package;
 mod validate;

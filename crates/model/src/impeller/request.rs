@@ -65,29 +65,3 @@ fn merge(value: &mut Value, given: &Value, path: &str) -> Result<(), ImpellerErr
         }
     }
 }
-
-#[cfg(feature = "schema")]
-mod schema {
-    use utoipa::openapi::{RefOr, Schema};
-    use utoipa::{PartialSchema, ToSchema};
-
-    use super::{ImpellerParameters, ImpellerRequest, Preset};
-
-    impl ToSchema for ImpellerRequest {
-        fn schemas(schemas: &mut Vec<(String, RefOr<Schema>)>) {
-            ImpellerParameters::schemas(schemas);
-            schemas.push((Preset::name().into_owned(), Preset::schema()));
-        }
-    }
-
-    impl PartialSchema for ImpellerRequest {
-        /// The schema of [`ImpellerParameters`] with the preset's name.
-        fn schema() -> RefOr<Schema> {
-            let mut schema = ImpellerParameters::schema();
-            if let RefOr::T(Schema::Object(object)) = &mut schema {
-                object.properties.insert("preset".to_owned(), Preset::schema());
-            }
-            schema
-        }
-    }
-}
