@@ -11,8 +11,8 @@ use sha2::{Digest, Sha256};
 use zip::ZipArchive;
 use zip::result::ZipError;
 
-use super::Limits;
 use super::error::{ArchiveProblem, PackageError};
+use super::limits::Limits;
 use super::quote::quoted;
 use super::raw::LONGEST_NAME;
 
