@@ -17,7 +17,7 @@ use std::f64::consts::TAU;
 use faer::sparse::{SparseColMat, SymbolicSparseColMat};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
-use super::check::{Layout, NONE};
+use super::check::layout::{Layout, NONE};
 use super::frame::{Basis, GLOBAL, apply};
 use super::raw::{Frame, RawMatrix, RawPackage};
 use super::symmetric::Mirror;

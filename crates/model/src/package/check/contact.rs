@@ -1,7 +1,7 @@
 //! The contact nodes: known, free, inside the sector, each once, with unit normals.
 
+use super::layout::{NONE, components};
 use super::tables::NodeIndex;
-use super::{NONE, components};
 use crate::package::error::{ManifestProblem, PackageError};
 use crate::package::frame::dot;
 use crate::package::raw::RawPackage;

@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use super::layout::{NONE, components};
 use super::tables::NodeIndex;
-use super::{NONE, components};
 use crate::package::error::{ManifestProblem, PackageError};
 use crate::package::frame::{AxisFrame, Basis, distance};
 use crate::package::raw::{Frame, RawPackage};

@@ -14,7 +14,7 @@ const MOST_CONTACT_NODES: usize = 200;
 /// Checks name, counts, units, axis and speeds; returns the axis.
 ///
 /// Three speeds need not be equally spaced: the polynomial of METHOD §3 passes through any three.
-pub(in crate::package) fn check(manifest: &Manifest) -> Result<AxisFrame, PackageError> {
+pub(crate) fn check(manifest: &Manifest) -> Result<AxisFrame, PackageError> {
     let wrong = |field: &str, problem| Err(PackageError::manifest(field, problem));
     if manifest.name.chars().nth(LONGEST_NAME).is_some() {
         return wrong("/name", ManifestProblem::TextTooLong { limit: LONGEST_NAME });
