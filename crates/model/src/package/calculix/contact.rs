@@ -5,10 +5,10 @@
 
 use std::path::Path;
 
-use super::Normals;
 use super::error::{CalculixError, LineProblem, ModelProblem};
+use super::model::Normals;
 use super::text::{self, TextLines};
-use crate::package::frame::{AxisFrame, distance};
+use crate::package::frame::{AxisFrame, apply, distance};
 
 /// A contact node in the making.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -218,7 +218,7 @@ fn from_table(
         let Some(normal) = normal else {
             return Err(ModelProblem::NoNormal { node, file: path.to_owned() }.into());
         };
-        let normal = crate::package::frame::apply(&frame.cylindrical(position[1]), normal);
+        let normal = apply(&frame.cylindrical(position[1]), normal);
         contact.push(ContactPoint { node, position, normal });
     }
     Ok(contact)

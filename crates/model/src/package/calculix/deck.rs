@@ -4,11 +4,10 @@
 //! on the next line, `*INCLUDE` may be nested. Cards that say nothing about these things are skipped.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs::File;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::error::{CalculixError, LineProblem};
-use super::text::{self, TextLines};
+use super::text::{self, TextLines, normal};
 use crate::package::quote::quoted;
 
 /// Deepest nesting of `*INCLUDE`.
@@ -227,11 +226,6 @@ fn append(to: &mut Vec<u64>, found: Vec<u64>) {
     to.extend(found.into_iter().filter(|node| seen.insert(*node)));
 }
 
-/// A name as CalculiX compares it.
-pub(super) fn normal(name: &str) -> String {
-    name.chars().filter(|c| !c.is_whitespace()).flat_map(char::to_uppercase).collect()
-}
-
 /// A keyword line.
 struct Card {
     /// `*NSET`, in capitals, without blanks.
@@ -261,9 +255,4 @@ impl Card {
     fn value(&self, name: &str) -> Option<String> {
         self.value_as_written(name).map(normal)
     }
-}
-
-/// Opens `path`, naming it in the error.
-pub(super) fn open(path: &Path) -> Result<File, CalculixError> {
-    File::open(path).map_err(|source| CalculixError::Io { path: PathBuf::from(path), source })
 }

@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use crate::package::error::PackageError;
+
 /// Files that cannot become a package.
 #[derive(Debug, thiserror::Error)]
 pub enum CalculixError {
@@ -28,7 +30,7 @@ pub enum CalculixError {
     Model(#[from] ModelProblem),
     /// What the checks of every package found.
     #[error(transparent)]
-    Package(#[from] crate::package::PackageError),
+    Package(#[from] PackageError),
 }
 
 /// What is wrong with a line.

@@ -1,0 +1,25 @@
+//! Node sets by name.
+
+use super::deck::Deck;
+use super::error::ModelProblem;
+use super::text::normal;
+use crate::package::quote::quoted;
+
+/// Node sets that an error lists.
+const MOST_NAMED: usize = 20;
+
+/// The nodes of the set `name`, of which there must be some.
+pub(super) fn set<'a>(deck: &'a Deck, name: &str) -> Result<&'a [u64], ModelProblem> {
+    match deck.sets.get(&normal(name)) {
+        None => {
+            let mut names: Vec<String> = deck.sets.keys().take(MOST_NAMED).map(|name| quoted(name)).collect();
+            if deck.sets.len() > names.len() {
+                names.push(format!("{} more", deck.sets.len() - names.len()));
+            }
+            let known = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
+            Err(ModelProblem::NoSuchSet { set: name.to_owned(), known })
+        }
+        Some(nodes) if nodes.is_empty() => Err(ModelProblem::EmptySet { set: name.to_owned() }),
+        Some(nodes) => Ok(nodes),
+    }
+}
