@@ -5,10 +5,12 @@
 
 use std::path::Path;
 
+use nalgebra::Vector3;
+
 use super::error::{CalculixError, LineProblem, ModelProblem};
 use super::model::Normals;
 use super::text::{self, TextLines};
-use crate::package::frame::{AxisFrame, apply, distance};
+use crate::package::frame::{AxisFrame, distance};
 
 /// A contact node in the making.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -218,7 +220,7 @@ fn from_table(
         let Some(normal) = normal else {
             return Err(ModelProblem::NoNormal { node, file: path.to_owned() }.into());
         };
-        let normal = apply(&frame.cylindrical(position[1]), normal);
+        let normal = (frame.cylindrical(position[1]) * Vector3::from(normal)).into();
         contact.push(ContactPoint { node, position, normal });
     }
     Ok(contact)

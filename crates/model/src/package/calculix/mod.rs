@@ -23,12 +23,14 @@ mod wheel;
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
+use nalgebra::Vector3;
+
 pub use contact::ContactPoint;
 pub use error::{CalculixError, LineProblem, ModelProblem, NoCopy};
 pub use model::{CalculixModel, Normals};
 pub use spin::SpinFinding;
 
-use super::frame::{AxisFrame, apply};
+use super::frame::AxisFrame;
 use super::raw::{Axis, Frame, Manifest, ManifestContact, RawMatrix, RawNode, RawPackage};
 use deck::Deck;
 use faces::{check_ties, faces, pair};
@@ -115,11 +117,11 @@ pub fn import(model: &CalculixModel) -> Result<(RawPackage, ImportSummary), Calc
     let all: Vec<[f64; 3]> = nodes.iter().map(|node| node.position).collect();
     summary.contact = contact::with_normals(&contact, &model.normals, &frame, &all)?;
     let on_face: HashSet<u64> = pairs.iter().flatten().copied().collect();
-    let [_, _, direction] = frame.cylindrical(0.0);
     for ((speed, _), at_speed) in model.at_speed.iter().zip(&matrices[2..]) {
         let given = [&matrices[1], at_speed, &matrices[0]];
         let inner = |node| !on_face.contains(&node);
-        let finding = spin::check(*speed, given, &dofs, &positions, (axis.origin, direction), inner);
+        let finding =
+            spin::check(*speed, given, &dofs, &positions, (axis.origin.into(), frame.direction()), inner);
         summary.spin.push((*speed, finding));
     }
     let stiffness = matrices.split_off(1);
@@ -144,8 +146,7 @@ pub fn import(model: &CalculixModel) -> Result<(RawPackage, ImportSummary), Calc
 
 fn manifest_contact(point: &ContactPoint, frame: &AxisFrame) -> ManifestContact {
     let local = frame.cylindrical(point.position[1]);
-    let transposed = std::array::from_fn(|i| std::array::from_fn(|k| local[k][i]));
-    ManifestContact { node: point.node, normal: apply(&transposed, point.normal) }
+    ManifestContact { node: point.node, normal: local.tr_mul(&Vector3::from(point.normal)).into() }
 }
 
 /// `job` with `.sti` and the like appended; a job may have dots in its name.

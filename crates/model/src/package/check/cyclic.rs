@@ -117,7 +117,7 @@ fn check_dofs(
 
 /// Whether the turn maps the free global directions onto each other: no part of it couples free with clamped ones.
 fn maps_onto_itself(turned: &Basis, free: [bool; 3]) -> bool {
-    (0..3).all(|i| (0..3).all(|j| !free[i] || free[j] || turned[i][j].abs() <= DIRECTION_TOLERANCE))
+    (0..3).all(|i| (0..3).all(|j| !free[i] || free[j] || turned[(i, j)].abs() <= DIRECTION_TOLERANCE))
 }
 
 /// Diagonal of the bounding box of all nodes.
