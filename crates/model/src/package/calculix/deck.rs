@@ -106,7 +106,6 @@ impl Deck {
     }
 
     fn start(&mut self, card: &Card) -> Result<Block, LineProblem> {
-        let unsupported = |reason| Err(LineProblem::Card { card: quoted(&card.keyword), reason });
         Ok(match &card.keyword[..] {
             "*NODE" => Block::Nodes { set: card.value("NSET") },
             "*NSET" => {
@@ -132,11 +131,7 @@ impl Deck {
                 })?;
                 Block::Axis { sectors, tie: card.value("TIE").unwrap_or_default(), numbers: Vec::new() }
             }
-            "*TRANSFORM" => {
-                return unsupported(
-                    "DOF of transformed nodes are not in global directions; export the matrices without it",
-                );
-            }
+            "*TRANSFORM" => return Err(LineProblem::Card { card: quoted(&card.keyword) }),
             _ => Block::Skip,
         })
     }

@@ -26,7 +26,7 @@ use std::path::{Path, PathBuf};
 use nalgebra::Vector3;
 
 pub use contact::ContactPoint;
-pub use error::{CalculixError, LineProblem, ModelProblem, NoCopy};
+pub use error::{CalculixError, LineProblem, ModelProblem, NoCopy, NoOrder};
 pub use model::{CalculixModel, Normals};
 pub use spin::SpinFinding;
 

@@ -12,12 +12,9 @@ const MOST_NAMED: usize = 20;
 pub(super) fn set<'a>(deck: &'a Deck, name: &str) -> Result<&'a [u64], ModelProblem> {
     match deck.sets.get(&normal(name)) {
         None => {
-            let mut names: Vec<String> = deck.sets.keys().take(MOST_NAMED).map(|name| quoted(name)).collect();
-            if deck.sets.len() > names.len() {
-                names.push(format!("{} more", deck.sets.len() - names.len()));
-            }
-            let known = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
-            Err(ModelProblem::NoSuchSet { set: name.to_owned(), known })
+            let known: Vec<String> = deck.sets.keys().take(MOST_NAMED).map(|name| quoted(name)).collect();
+            let more = deck.sets.len() - known.len();
+            Err(ModelProblem::NoSuchSet { set: name.to_owned(), known, more })
         }
         Some(nodes) if nodes.is_empty() => Err(ModelProblem::EmptySet { set: name.to_owned() }),
         Some(nodes) => Ok(nodes),

@@ -74,12 +74,8 @@ fn check_places(
         return Ok(());
     };
     debug_assert!(high_of.iter().any(|high| *high != NONE));
-    let hint = if pairs().all(|(.., from, to)| off(-alpha, from, to) <= tolerance) {
-        "every pair fits the turn by −2π/N: swap low and high, or reverse the axis direction"
-    } else {
-        "check sectors, axis and the pairing of the nodes"
-    };
-    let problem = ManifestProblem::PairNotTurned { low, high, distance, tolerance, sectors, hint };
+    let reversed = pairs().all(|(.., from, to)| off(-alpha, from, to) <= tolerance);
+    let problem = ManifestProblem::PairNotTurned { low, high, distance, tolerance, sectors, reversed };
     Err(PackageError::manifest(format!("/cyclic/{k}"), problem))
 }
 

@@ -1,5 +1,6 @@
 //! What the checks leave behind: which row of a package is what.
 
+use crate::package::error::Components;
 use crate::package::frame::AxisFrame;
 
 /// No such row or node.
@@ -27,8 +28,7 @@ pub(crate) struct Layout {
     pub(crate) normals: Vec<[f64; 3]>,
 }
 
-/// `1, 3` or `none`: the components of a node that the DOF table has.
-pub(super) fn components(rows: &[u32; 3]) -> String {
-    let present: Vec<_> = (1..=3).filter(|k| rows[k - 1] != NONE).map(|k| k.to_string()).collect();
-    if present.is_empty() { "none".to_owned() } else { present.join(", ") }
+/// The components of a node that the DOF table has.
+pub(super) fn components(rows: &[u32; 3]) -> Components {
+    Components(rows.map(|row| row != NONE))
 }

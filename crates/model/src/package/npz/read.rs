@@ -7,7 +7,7 @@ use sha2::{Digest, Sha256};
 use zip::ZipArchive;
 
 use crate::package::archive::{Archive, Hashed, storage};
-use crate::package::error::{MatrixProblem, NpzProblem, PackageError};
+use crate::package::error::{ExpectedShape, MatrixProblem, NpzProblem, PackageError};
 use crate::package::limits::Limits;
 use crate::package::npy::{Npy, NpyFault};
 use crate::package::quote::quoted;
@@ -52,11 +52,11 @@ pub(crate) fn read(
         let column = arrays.indices("col", dofs, limits)?;
         let same_length = |npy: &Npy<'_>| match npy.length()? {
             length if length == row.len() as u64 => Ok(()),
-            _ => Err(npy.shape_problem(format!("({},), as of row", row.len()))),
+            _ => Err(npy.shape_problem(ExpectedShape::AsOf { length: row.len(), array: "row" })),
         };
         if column.len() != row.len() {
-            let found = format!("({})", column.len());
-            let expected = format!("({},), as of row", row.len());
+            let found = vec![column.len() as u64];
+            let expected = ExpectedShape::AsOf { length: row.len(), array: "row" };
             return Err(wrong(NpzProblem::Shape { array: "col", found, expected }));
         }
         arrays.read("data", |npy| {
@@ -72,7 +72,9 @@ pub(crate) fn read(
         let mut major = 0;
         arrays.read("data", |npy| {
             if npy.length()? != indices.len() as u64 {
-                return Err(npy.shape_problem(format!("({},), as of indices", indices.len())).into());
+                return Err(npy
+                    .shape_problem(ExpectedShape::AsOf { length: indices.len(), array: "indices" })
+                    .into());
             }
             npy.reals(|k, value| {
                 while major < dofs && starts[major + 1] <= k {
@@ -173,7 +175,7 @@ impl<'a> Arrays<'a> {
     fn shape(&mut self) -> Result<(u64, u64), PackageError> {
         let shape = self.read("shape", |npy| {
             if npy.length()? != 2 {
-                return Err(npy.shape_problem("(2,)").into());
+                return Err(npy.shape_problem(ExpectedShape::Pair).into());
             }
             let mut shape = [0; 2];
             npy.integers(|k, size| {
@@ -222,7 +224,7 @@ impl<'a> Arrays<'a> {
     fn pointers(&mut self, size: usize, entries: u64) -> Result<Vec<u64>, PackageError> {
         self.read("indptr", |npy| {
             if npy.length()? != size as u64 + 1 {
-                return Err(npy.shape_problem(format!("({},), one more than the rows", size + 1)).into());
+                return Err(npy.shape_problem(ExpectedShape::OneMoreThanRows { length: size + 1 }).into());
             }
             let mut pointers: Vec<u64> = Vec::with_capacity(size + 1);
             npy.integers(|position, value| {
