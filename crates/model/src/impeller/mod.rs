@@ -39,7 +39,7 @@ pub use annulus::{AnnulusParameters, annulus, annulus_mesh};
 pub use assembly::cylindrical_frame;
 pub use cantilever::{CantileverParameters, cantilever, cantilever_mesh};
 pub use dofs::SectorDofs;
-pub use error::ImpellerError;
+pub use error::{FieldProblem, ImpellerError};
 pub use gyroscopic::gyroscopic_matrix;
 pub use material::Material;
 pub use matrices::{RestMatrices, SectorMatrices};

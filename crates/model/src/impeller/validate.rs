@@ -26,7 +26,7 @@ impl ImpellerParameters {
         }
         units::check(&self.units).map_err(|(field, problem)| ImpellerError::Field {
             field: field.trim_start_matches('/').replace('/', "."),
-            detail: problem.to_string(),
+            problem: problem.into(),
         })?;
         at_least("sectors", self.sectors, 3, "must be at least 3")?;
         positive("bore_radius", self.bore_radius)?;
