@@ -281,7 +281,7 @@ fn violation(error: &ImpellerError) -> Violation {
         ImpellerError::Parameter { field, value, requirement } => {
             at(field, format!("{value}: {requirement}"))
         }
-        ImpellerError::Field { field, detail } => at(field, detail.clone()),
+        ImpellerError::Field { field, problem } => at(field, problem.to_string()),
         other => Violation::new("", other.to_string()),
     }
 }

@@ -44,6 +44,9 @@ impl Program {
         let kept = Arc::clone(&lines);
         std::thread::spawn(move || {
             for line in log.lines().map_while(Result::ok) {
+                if line.contains(" ERROR ") {
+                    eprintln!("{line}");
+                }
                 kept.lock().unwrap().push(line);
             }
         });

@@ -2,8 +2,8 @@
 
 use std::collections::{HashMap, HashSet};
 
-use rubmap::impeller::element::{Hex8, Hex20, Hexahedron, gauss_points};
-use rubmap::impeller::mesh::{EDGES, Elements, HexMesh, SectorMesh};
+use rubmap::impeller::element::{EDGES, Hex8, Hex20, Hexahedron, gauss_points};
+use rubmap::impeller::mesh::{Elements, HexMesh, SectorMesh};
 
 /// Corners of each face, counter-clockwise seen from outside.
 const FACES: [[usize; 4]; 6] =

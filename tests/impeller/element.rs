@@ -2,8 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, SymmetricEigen, Vector3};
 use rubmap::impeller::Material;
-use rubmap::impeller::element::{Blocks, Hex8, Hex20, Hexahedron, Stress};
-use rubmap::impeller::mesh::EDGES;
+use rubmap::impeller::element::{Blocks, EDGES, Hex8, Hex20, Hexahedron, Stress};
 
 /// Positions of a block of elements, which nodes lie on its surface, and the elements' nodes.
 struct Patch<const N: usize> {

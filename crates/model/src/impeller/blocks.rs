@@ -5,8 +5,8 @@
 //! left out. The mid-edge nodes come from the same position function as the corners, so they lie on the true
 //! geometry.
 
-use super::element::CORNERS;
-use super::mesh::{EDGES, ElementOrder, Elements, HexMesh};
+use super::element::{CORNERS, EDGES};
+use super::mesh::{ElementOrder, Elements, HexMesh};
 
 /// The half-indices of a block's points, or of a point within an element (0, 1 or 2).
 pub(super) type HalfIndex = [usize; 3];

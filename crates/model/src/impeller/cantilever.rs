@@ -6,8 +6,8 @@ use super::blocks::BlockMesher;
 use super::error::ImpellerError;
 use super::material::Material;
 use super::mesh::{ElementOrder, SectorMesh, TipNode};
+use super::ranges::{at_least, positive};
 use super::to_package::to_package;
-use super::validate::{at_least, positive};
 use crate::package::raw::RawPackage;
 use rubmap_wheel::dynamics::sector::Units;
 

@@ -1,10 +1,13 @@
 //! An isotropic, linear elastic material.
 
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, SVector};
 use serde::{Deserialize, Serialize};
 
-use super::element::Stress;
 use super::error::ImpellerError;
+use super::ranges::positive;
+
+/// Cauchy stress `σ_xx, σ_yy, σ_zz, σ_xy, σ_yz, σ_zx`.
+pub type Stress = SVector<f64, 6>;
 
 /// Isotropic linear elasticity, in the model's consistent units. Default: titanium (`Ti-6Al-4V`) in mm-t-s-N.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -31,8 +34,8 @@ impl Material {
     /// # Errors
     /// [`ImpellerError::Parameter`] names the field.
     pub fn validate(&self) -> Result<(), ImpellerError> {
-        super::validate::positive("material.youngs_modulus", self.youngs_modulus)?;
-        super::validate::positive("material.density", self.density)?;
+        positive("material.youngs_modulus", self.youngs_modulus)?;
+        positive("material.density", self.density)?;
         if !(self.poissons_ratio > -1.0 && self.poissons_ratio < 0.5) {
             return Err(ImpellerError::Parameter {
                 field: "material.poissons_ratio",

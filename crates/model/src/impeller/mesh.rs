@@ -2,9 +2,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::element::{Hex8, Hex20, Hexahedron};
-use super::error::ImpellerError;
-
 /// Nodes and hexahedra, in Cartesian coordinates; z is the axis of rotation.
 #[derive(Debug, Clone, Default)]
 pub struct HexMesh {
@@ -20,14 +17,10 @@ pub struct HexMesh {
 pub enum Elements {
     /// 8-node hexahedra.
     Linear(Vec<[usize; 8]>),
-    /// 20-node serendipity hexahedra: the mid-edge nodes follow the corners in the order of [`EDGES`].
+    /// 20-node serendipity hexahedra: the mid-edge nodes follow the corners in the order of
+    /// [`EDGES`](super::element::EDGES).
     Quadratic(Vec<[usize; 20]>),
 }
-
-/// The corners at both ends of each edge, in the order of the mid-edge nodes (C3D20): around the face ζ = −1,
-/// around the face ζ = +1, then along ζ.
-pub const EDGES: [[usize; 2]; 12] =
-    [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4], [0, 4], [1, 5], [2, 6], [3, 7]];
 
 impl Default for Elements {
     fn default() -> Self {
@@ -129,33 +122,5 @@ impl HexMesh {
     /// Positions of an element's nodes.
     pub fn positions<const N: usize>(&self, nodes: &[usize; N]) -> [[f64; 3]; N] {
         nodes.map(|node| self.nodes[node])
-    }
-
-    /// Refuses a mesh with an element whose Jacobian determinant is not positive at its corners and at every point
-    /// of integration.
-    ///
-    /// # Errors
-    /// [`ImpellerError::Jacobian`] names the first such element.
-    pub fn check_jacobians(&self) -> Result<(), ImpellerError> {
-        match &self.elements {
-            Elements::Linear(elements) => self.check::<Hex8, 8>(elements),
-            Elements::Quadratic(elements) => self.check::<Hex20, 20>(elements),
-        }
-    }
-
-    fn check<E: Hexahedron<N>, const N: usize>(&self, elements: &[[usize; N]]) -> Result<(), ImpellerError> {
-        for (element, nodes) in elements.iter().enumerate() {
-            let determinant = E::from(self.positions(nodes)).smallest_jacobian();
-            if !(determinant > 0.0 && determinant.is_finite()) {
-                let mean = |d: usize| self.corners(element).iter().map(|x| x[d] / 8.0).sum::<f64>();
-                return Err(ImpellerError::Jacobian {
-                    element: element + 1,
-                    radius: mean(0).hypot(mean(1)),
-                    axial: mean(2),
-                    determinant,
-                });
-            }
-        }
-        Ok(())
     }
 }

@@ -3,7 +3,10 @@
 use serde::{Deserialize, Serialize};
 
 use super::dofs::SectorDofs;
-use super::{ImpellerError, ImpellerParameters, generation_bytes, impeller_sector};
+use super::error::ImpellerError;
+use super::memory::generation_bytes;
+use super::parameters::ImpellerParameters;
+use super::sector_mesh::impeller_sector;
 
 /// What generating a model will make and take.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-use super::error::ImpellerError;
+use super::error::{FieldProblem, ImpellerError};
 use super::parameters::ImpellerParameters;
 use super::preset::Preset;
 use crate::package::quote::{bounded_message, quoted};
@@ -27,8 +27,9 @@ impl ImpellerRequest {
     /// [`ImpellerError::Field`] for a field that is unknown, lacking or of the wrong type, [`ImpellerError::Parameter`] for
     /// one out of range.
     pub fn resolve(&self) -> Result<ImpellerParameters, ImpellerError> {
-        let refuse = |field: String, detail: String| {
-            Err(ImpellerError::Field { field: quoted(&field), detail: bounded_message(&detail) })
+        let refuse = |field: String, message: String| {
+            let problem = FieldProblem::Syntax { message: bounded_message(&message) };
+            Err(ImpellerError::Field { field: quoted(&field), problem })
         };
         let mut merged = match serde_json::to_value(self.preset.parameters()) {
             Ok(value) => value,
@@ -55,39 +56,12 @@ fn merge(value: &mut Value, given: &Value, path: &str) -> Result<(), ImpellerErr
             merge(fields.entry(key.as_str()).or_insert(Value::Null), given, &format!("{path}.{key}"))
         }),
         // No field is a list, but serde would take one for an object with its fields in order.
-        (_, Value::Array(_)) => Err(ImpellerError::Field {
-            field: quoted(path),
-            detail: "expected no list here, but a value or an object with named fields".to_owned(),
-        }),
+        (_, Value::Array(_)) => {
+            Err(ImpellerError::Field { field: quoted(path), problem: FieldProblem::List })
+        }
         (value, given) => {
             *value = given.clone();
             Ok(())
-        }
-    }
-}
-
-#[cfg(feature = "schema")]
-mod schema {
-    use utoipa::openapi::{RefOr, Schema};
-    use utoipa::{PartialSchema, ToSchema};
-
-    use super::{ImpellerParameters, ImpellerRequest, Preset};
-
-    impl ToSchema for ImpellerRequest {
-        fn schemas(schemas: &mut Vec<(String, RefOr<Schema>)>) {
-            ImpellerParameters::schemas(schemas);
-            schemas.push((Preset::name().into_owned(), Preset::schema()));
-        }
-    }
-
-    impl PartialSchema for ImpellerRequest {
-        /// The schema of [`ImpellerParameters`] with the preset's name.
-        fn schema() -> RefOr<Schema> {
-            let mut schema = ImpellerParameters::schema();
-            if let RefOr::T(Schema::Object(object)) = &mut schema {
-                object.properties.insert("preset".to_owned(), Preset::schema());
-            }
-            schema
         }
     }
 }

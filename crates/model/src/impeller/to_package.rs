@@ -4,7 +4,7 @@ use super::error::ImpellerError;
 use super::material::Material;
 use super::matrices::SectorMatrices;
 use super::mesh::SectorMesh;
-use super::validate::positive;
+use super::ranges::positive;
 use crate::package::raw::{Axis, Frame, Manifest, ManifestContact, RawDof, RawMatrix, RawNode, RawPackage};
 use rubmap_wheel::dynamics::sector::Units;
 

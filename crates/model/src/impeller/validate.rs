@@ -3,6 +3,7 @@
 use super::blocks::node_count;
 use super::error::ImpellerError;
 use super::parameters::{ImpellerParameters, MeshDensities};
+use super::ranges::{above, at_least, inside, positive};
 use crate::package::quote::quoted;
 use crate::package::units;
 
@@ -25,7 +26,7 @@ impl ImpellerParameters {
         }
         units::check(&self.units).map_err(|(field, problem)| ImpellerError::Field {
             field: field.trim_start_matches('/').replace('/', "."),
-            detail: problem.to_string(),
+            problem: problem.into(),
         })?;
         at_least("sectors", self.sectors, 3, "must be at least 3")?;
         positive("bore_radius", self.bore_radius)?;
@@ -100,48 +101,4 @@ impl MeshDensities {
         }
         Ok(())
     }
-}
-
-/// Refuses values that are not finite and positive.
-pub(super) fn positive(field: &'static str, value: f64) -> Result<(), ImpellerError> {
-    above(field, value, 0.0, "must be a positive number")
-}
-
-/// Refuses values that are not finite and above `bound`.
-pub(super) fn above(
-    field: &'static str,
-    value: f64,
-    bound: f64,
-    requirement: &'static str,
-) -> Result<(), ImpellerError> {
-    if value.is_finite() && value > bound {
-        return Ok(());
-    }
-    Err(ImpellerError::Parameter { field, value: value.to_string(), requirement })
-}
-
-/// Refuses values outside a closed range.
-pub(super) fn inside(
-    field: &'static str,
-    value: f64,
-    range: std::ops::RangeInclusive<f64>,
-    requirement: &'static str,
-) -> Result<(), ImpellerError> {
-    if range.contains(&value) {
-        return Ok(());
-    }
-    Err(ImpellerError::Parameter { field, value: value.to_string(), requirement })
-}
-
-/// Refuses counts below `least`.
-pub(super) fn at_least(
-    field: &'static str,
-    value: usize,
-    least: usize,
-    requirement: &'static str,
-) -> Result<(), ImpellerError> {
-    if value >= least {
-        return Ok(());
-    }
-    Err(ImpellerError::Parameter { field, value: value.to_string(), requirement })
 }

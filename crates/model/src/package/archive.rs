@@ -11,8 +11,8 @@ use sha2::{Digest, Sha256};
 use zip::ZipArchive;
 use zip::result::ZipError;
 
-use super::Limits;
 use super::error::{ArchiveProblem, PackageError};
+use super::limits::Limits;
 use super::quote::quoted;
 use super::raw::LONGEST_NAME;
 
@@ -111,10 +111,7 @@ impl Archive {
     ) -> Result<T, PackageError> {
         let mut zip = directory(&self.path)?;
         let Some(&index) = self.files.get(name) else {
-            return Err(PackageError::archive(
-                name.to_owned(),
-                ArchiveProblem::Damaged { reason: "it is gone".into() },
-            ));
+            return Err(PackageError::archive(name.to_owned(), ArchiveProblem::Gone));
         };
         if zip.by_index_raw(index).map_err(|error| storage(name, error))?.encrypted() {
             return Err(PackageError::archive(name.to_owned(), ArchiveProblem::Encrypted));

@@ -4,42 +4,43 @@
 //! about 0.06° of parallel to it), where θ = 0; e2 = e3 × e1, so that +θ turns positively about the direction, which is how the wheel
 //! rotates (docs/method.md, Conventions). A point on the axis has θ = 0.
 
+use nalgebra::{Matrix3, RowVector3, Vector3};
+
 use super::raw::Axis;
 
 /// Sine of the angle between x and the axis below which y takes over.
 const NEARLY_PARALLEL: f64 = 1e-3;
 
 /// Rows are the local unit vectors in global components: local = basis · global.
-pub(super) type Basis = [[f64; 3]; 3];
-
-/// Local components are global components.
-pub(super) const GLOBAL: Basis = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+pub(super) type Basis = Matrix3<f64>;
 
 /// The axis of rotation with its zero of θ.
 #[derive(Debug, Clone)]
 pub(super) struct AxisFrame {
-    origin: [f64; 3],
+    origin: Vector3<f64>,
     e: Basis,
 }
 
 impl AxisFrame {
     /// `None` if the direction is zero or not finite.
     pub(super) fn new(axis: &Axis) -> Option<Self> {
-        let e3 = unit(axis.direction)?;
-        let normal_part = |v: [f64; 3]| -> [f64; 3] { std::array::from_fn(|k| v[k] - dot(v, e3) * e3[k]) };
-        let from_x = normal_part(GLOBAL[0]);
-        let e1 = if dot(from_x, from_x).sqrt() > NEARLY_PARALLEL {
-            unit(from_x)
-        } else {
-            unit(normal_part(GLOBAL[1]))
-        }?;
-        Some(Self { origin: axis.origin, e: [e1, cross(e3, e1), e3] })
+        let e3 = unit(axis.direction.into())?;
+        let normal_part = |v: Vector3<f64>| v - e3 * v.dot(&e3);
+        let from_x = normal_part(Vector3::x());
+        let e1 =
+            if from_x.norm() > NEARLY_PARALLEL { unit(from_x) } else { unit(normal_part(Vector3::y())) }?;
+        let e = Basis::from_columns(&[e1, e3.cross(&e1), e3]).transpose();
+        Some(Self { origin: axis.origin.into(), e })
+    }
+
+    /// Unit vector of the axis.
+    pub(super) fn direction(&self) -> Vector3<f64> {
+        self.e.row(2).transpose()
     }
 
     /// (r, θ, z) of a point, θ in (−π, π].
     pub(super) fn coordinates(&self, position: [f64; 3]) -> [f64; 3] {
-        let from_origin = std::array::from_fn(|k| position[k] - self.origin[k]);
-        let [x, y, z] = apply(&self.e, from_origin);
+        let [x, y, z] = (self.e * (Vector3::from(position) - self.origin)).into();
         let r = x.hypot(y);
         [r, if r == 0.0 { 0.0 } else { y.atan2(x) }, z]
     }
@@ -47,61 +48,37 @@ impl AxisFrame {
     /// The unit vectors r, θ, z at the angle `theta`.
     pub(super) fn cylindrical(&self, theta: f64) -> Basis {
         let (sin, cos) = theta.sin_cos();
-        let [e1, e2, e3] = self.e;
-        [combine(cos, e1, sin, e2), combine(-sin, e1, cos, e2), e3]
+        let [e1, e2, e3]: [RowVector3<f64>; 3] = std::array::from_fn(|k| self.e.row(k).into_owned());
+        Basis::from_rows(&[e1 * cos + e2 * sin, e1 * -sin + e2 * cos, e3])
     }
 
     /// The global unit vectors turned by `angle` about the axis.
     pub(super) fn turned_global(&self, angle: f64) -> Basis {
-        GLOBAL.map(|v| self.turn_vector(v, angle))
+        let units = [Vector3::x(), Vector3::y(), Vector3::z()];
+        Basis::from_columns(&units.map(|v| self.turn_vector(v, angle))).transpose()
     }
 
     /// A point turned by `angle` about the axis.
     pub(super) fn turn_point(&self, position: [f64; 3], angle: f64) -> [f64; 3] {
-        let from_origin = std::array::from_fn(|k| position[k] - self.origin[k]);
-        let turned = self.turn_vector(from_origin, angle);
-        std::array::from_fn(|k| turned[k] + self.origin[k])
+        (self.turn_vector(Vector3::from(position) - self.origin, angle) + self.origin).into()
     }
 
-    fn turn_vector(&self, v: [f64; 3], angle: f64) -> [f64; 3] {
-        let [x, y, z] = apply(&self.e, v);
+    fn turn_vector(&self, v: Vector3<f64>, angle: f64) -> Vector3<f64> {
+        let [x, y, z] = (self.e * v).into();
         let (sin, cos) = angle.sin_cos();
-        let [x, y] = [cos * x - sin * y, sin * x + cos * y];
-        std::array::from_fn(|k| x * self.e[0][k] + y * self.e[1][k] + z * self.e[2][k])
+        self.e.tr_mul(&Vector3::new(cos * x - sin * y, sin * x + cos * y, z))
     }
 }
 
-/// basis · v.
-pub(super) fn apply(basis: &Basis, v: [f64; 3]) -> [f64; 3] {
-    basis.map(|row| dot(row, v))
-}
-
-pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-/// Distance of two points.
+/// Distance of two points; unlike the norm of their difference it neither over- nor underflows on the way.
 pub(super) fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1]).hypot(a[2] - b[2])
 }
 
-fn combine(a: f64, u: [f64; 3], b: f64, v: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|k| a * u[k] + b * v[k])
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
 /// Scaled first, so that no finite non-zero direction over- or underflows.
-fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
-    let largest = v.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
-    if !(largest > 0.0 && largest.is_finite() && v.iter().all(|x| x.is_finite())) {
-        return None;
-    }
-    let v = v.map(|x| x / largest);
-    let length = dot(v, v).sqrt();
-    Some(v.map(|x| x / length))
+fn unit(v: Vector3<f64>) -> Option<Vector3<f64>> {
+    let largest = v.amax();
+    (largest > 0.0 && v.iter().all(|x| x.is_finite())).then(|| (v / largest).normalize())
 }
 
 #[cfg(test)]
@@ -115,7 +92,7 @@ mod tests {
     }
 
     fn close(a: [f64; 3], b: [f64; 3]) -> bool {
-        distance(a, b) < 1e-14 * (1.0 + dot(b, b).sqrt())
+        distance(a, b) < 1e-14 * (1.0 + Vector3::from(b).norm())
     }
 
     #[test]
@@ -148,10 +125,10 @@ mod tests {
                 let wrapped = (theta + angle + PI).rem_euclid(2.0 * PI) - PI;
                 assert!(close(turned, [r, wrapped, z]), "{direction:?} {turned:?}");
                 // A vector turned with the point has the same cylindrical components.
-                let v = [0.2, 0.3, -0.4];
-                let before = apply(&frame.cylindrical(theta), v);
-                let after = apply(&frame.cylindrical(theta + angle), frame.turn_vector(v, angle));
-                assert!(close(before, after));
+                let v = Vector3::new(0.2, 0.3, -0.4);
+                let before = frame.cylindrical(theta) * v;
+                let after = frame.cylindrical(theta + angle) * frame.turn_vector(v, angle);
+                assert!(close(before.into(), after.into()));
             }
         }
         assert!(AxisFrame::new(&Axis { origin: [0.0; 3], direction: [0.0; 3] }).is_none());

@@ -4,8 +4,8 @@
 
 use std::io::Read;
 
-use super::Limits;
 use super::error::MatrixProblem;
+use super::limits::Limits;
 use super::lines::{Fault, Lines};
 use super::quote::quoted;
 use super::raw::RawMatrix;

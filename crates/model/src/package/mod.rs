@@ -16,6 +16,7 @@ mod content;
 mod digest;
 pub mod error;
 mod frame;
+mod limits;
 mod lines;
 mod manifest;
 mod matrix_market;
@@ -33,42 +34,12 @@ mod zip_package;
 use std::path::Path;
 
 pub use error::PackageError;
+pub use limits::Limits;
 pub use writer::write;
 
 use content::{Content, SourceLines};
 use raw::RawPackage;
 use rubmap_wheel::dynamics::sector::SectorModel;
-
-/// What an upload may cost before anything is known about it.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Limits {
-    /// Bytes that may leave decompressors, zip and gzip alike, over all files (default 16 GiB).
-    pub expanded_bytes: u64,
-    /// Bytes that may leave decompressors for each byte of the upload, beyond the first 64 MiB (default 100; matrices as
-    /// text deflate to a third, tables to a tenth): what an upload costs is in proportion to its size.
-    pub expansion: u64,
-    /// Entries of the archive, folders included (default 100; a package needs at most 8 files).
-    pub entries: usize,
-    /// Bytes of `sector.json`, which is held as text (default 64 MiB).
-    pub manifest_bytes: u64,
-    /// Lines of the node table, and of the DOF table (default 10 million).
-    pub table_rows: usize,
-    /// Entries of one matrix, at about 16 bytes of memory each while reading (default 200 million).
-    pub matrix_entries: usize,
-}
-
-impl Default for Limits {
-    fn default() -> Self {
-        Self {
-            expanded_bytes: 16 << 30,
-            expansion: 100,
-            entries: 100,
-            manifest_bytes: 64 << 20,
-            table_rows: 10_000_000,
-            matrix_entries: 200_000_000,
-        }
-    }
-}
 
 /// A package that passed every check.
 #[derive(Debug, Clone)]

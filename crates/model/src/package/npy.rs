@@ -5,7 +5,7 @@
 
 use std::io::{self, Read};
 
-use super::error::NpzProblem;
+use super::error::{ExpectedShape, NpzProblem};
 use super::quote::quoted;
 
 /// numpy's own limit for headers it does not trust.
@@ -75,15 +75,13 @@ impl<'a> Npy<'a> {
     pub(super) fn length(&self) -> Result<u64, NpzProblem> {
         match self.shape[..] {
             [length] => Ok(length),
-            _ => Err(self.shape_problem("one-dimensional")),
+            _ => Err(self.shape_problem(ExpectedShape::OneDimensional)),
         }
     }
 
     /// What is wrong with a shape other than `expected`.
-    pub(super) fn shape_problem(&self, expected: impl Into<String>) -> NpzProblem {
-        let sizes: Vec<String> = self.shape.iter().map(u64::to_string).collect();
-        let found = quoted(&format!("({})", sizes.join(", ")));
-        NpzProblem::Shape { array: self.name, found, expected: expected.into() }
+    pub(super) fn shape_problem(&self, expected: ExpectedShape) -> NpzProblem {
+        NpzProblem::Shape { array: self.name, found: self.shape.clone(), expected }
     }
 
     /// Hands every integer to `take`, with its position.
@@ -125,7 +123,7 @@ impl<'a> Npy<'a> {
             _ => return Err(self.type_problem(expected).into()),
         };
         if !self.shape.is_empty() {
-            return Err(self.shape_problem("a single text").into());
+            return Err(self.shape_problem(ExpectedShape::SingleText).into());
         }
         let mut text = vec![0; bytes];
         if !fill(self.source, &mut text)? {

@@ -16,10 +16,11 @@ use std::collections::HashMap;
 use std::f64::consts::TAU;
 
 use faer::sparse::{SparseColMat, SymbolicSparseColMat};
+use nalgebra::{Matrix3, Vector3};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
-use super::check::{Layout, NONE};
-use super::frame::{Basis, GLOBAL, apply};
+use super::check::layout::{Layout, NONE};
+use super::frame::Basis;
 use super::raw::{Frame, RawMatrix, RawPackage};
 use super::symmetric::Mirror;
 use rubmap_wheel::dynamics::sector::{ContactNode, CyclicMatrix, SectorModel};
@@ -77,7 +78,7 @@ fn contact_nodes(package: &RawPackage, layout: &Layout, bases: Option<&[Basis]>)
             ContactNode {
                 id: package.nodes[node].id,
                 position: layout.frame.coordinates(package.nodes[node].position),
-                normal: bases.map_or(normal, |bases| apply(&bases[node], normal)),
+                normal: bases.map_or(normal, |bases| (bases[node] * Vector3::from(normal)).into()),
                 dofs: layout.rows_of_node[node].map(|row| layout.own_of_row[row as usize] as usize),
             }
         })
@@ -105,10 +106,8 @@ fn local_bases(package: &RawPackage, layout: &Layout) -> Vec<Basis> {
             let [_, theta, _] = layout.frame.coordinates(package.nodes[reference].position);
             return layout.frame.cylindrical(theta + turn);
         }
-        let full = if turn == 0.0 { GLOBAL } else { layout.frame.turned_global(turn) };
-        std::array::from_fn(|i| {
-            std::array::from_fn(|j| if present[i] && present[j] { full[i][j] } else { 0.0 })
-        })
+        let full = if turn == 0.0 { Basis::identity() } else { layout.frame.turned_global(turn) };
+        Basis::from_fn(|i, j| if present[i] && present[j] { full[(i, j)] } else { 0.0 })
     };
     (0..package.nodes.len()).map(basis).collect()
 }
@@ -122,7 +121,7 @@ struct Folding<'a> {
     bases: Option<&'a [Basis]>,
 }
 
-type Block = [[f64; 3]; 3];
+type Block = Matrix3<f64>;
 
 impl Folding<'_> {
     fn fold(&self, matrix: RawMatrix, mirror: Mirror) -> CyclicMatrix {
@@ -150,7 +149,7 @@ impl Folding<'_> {
                     if row_node == node {
                         make_exact(mirror, &mut block);
                     }
-                    add(blocks.at(row_node), &block);
+                    *blocks.at(row_node) += block;
                 }
                 of_high.clear();
             }
@@ -174,7 +173,7 @@ impl Folding<'_> {
             for (row, value) in full.column(column as usize) {
                 let row_node = self.layout.node_of_row[row as usize];
                 if wanted(row_node) {
-                    blocks.at(row_node)[usize::from(self.components[row as usize])][k] = value;
+                    blocks.at(row_node)[(usize::from(self.components[row as usize]), k)] = value;
                 }
             }
         }
@@ -186,9 +185,9 @@ impl Folding<'_> {
         let Some(bases) = self.bases else { return block };
         let (row, column) = (&bases[row_node as usize], &bases[column_node as usize]);
         if by_transpose {
-            transpose(congruence(column, &transpose(block), row))
+            (column * block.transpose() * row.transpose()).transpose()
         } else {
-            congruence(row, &block, column)
+            row * block * column.transpose()
         }
     }
 
@@ -199,10 +198,11 @@ impl Folding<'_> {
         {
             out.start_column(self.layout.own_of_row[column as usize] as usize);
             for (row_node, block) in blocks.iter() {
-                for (&row, values) in self.layout.rows_of_node[row_node as usize].iter().zip(block) {
+                for (&row, &value) in self.layout.rows_of_node[row_node as usize].iter().zip(&block.column(k))
+                {
                     // Exact zeros are not stored, whether written by the user or left by cancellation.
-                    if row != NONE && values[k] != 0.0 {
-                        out.push(self.layout.own_of_row[row as usize] as usize, values[k]);
+                    if row != NONE && value != 0.0 {
+                        out.push(self.layout.own_of_row[row as usize] as usize, value);
                     }
                 }
             }
@@ -212,33 +212,13 @@ impl Folding<'_> {
     }
 }
 
-/// `left · block · rightᵀ`.
-fn congruence(left: &Basis, block: &Block, right: &Basis) -> Block {
-    let half: Block = left.map(|row| {
-        std::array::from_fn(|j| row[0] * block[0][j] + row[1] * block[1][j] + row[2] * block[2][j])
-    });
-    half.map(|row| {
-        std::array::from_fn(|j| row[0] * right[j][0] + row[1] * right[j][1] + row[2] * right[j][2])
-    })
-}
-
-fn transpose(block: Block) -> Block {
-    std::array::from_fn(|i| std::array::from_fn(|j| block[j][i]))
-}
-
 /// A diagonal block is (skew-)symmetric but for the rounding of its rotation.
 fn make_exact(mirror: Mirror, block: &mut Block) {
     for (i, j) in [(1, 0), (2, 0), (2, 1)] {
-        block[j][i] = mirror.image(block[i][j]);
+        block[(j, i)] = mirror.image(block[(i, j)]);
     }
     if mirror == Mirror::Skew {
-        (0..3).for_each(|k| block[k][k] = 0.0);
-    }
-}
-
-fn add(to: &mut Block, from: &Block) {
-    for (to, from) in to.iter_mut().flatten().zip(from.iter().flatten()) {
-        *to += from;
+        block.fill_diagonal(0.0);
     }
 }
 
@@ -301,7 +281,7 @@ impl NodeBlocks {
         if *place == NONE {
             *place = self.nodes.len() as u32;
             self.nodes.push(node);
-            self.blocks.push([[0.0; 3]; 3]);
+            self.blocks.push(Block::zeros());
         }
         &mut self.blocks[*place as usize]
     }

@@ -124,12 +124,6 @@ pub(crate) fn check(units: &Units) -> Result<(), (&'static str, ManifestProblem)
     }
     let needed = force * time * time / length;
     let fitting = MASS.iter().find(|(_, size)| (size / needed - 1.0).abs() <= TOLERANCE);
-    let hint = match fitting {
-        Some((names, _)) => {
-            format!("with {}, {} and {} the mass is in {}", units.length, units.force, units.time, names[0])
-        }
-        None => "choose a mass unit that makes it 1".to_owned(),
-    };
     let problem = ManifestProblem::UnitsInconsistent {
         mass: units.mass.clone(),
         length: units.length.clone(),
@@ -137,7 +131,7 @@ pub(crate) fn check(units: &Units) -> Result<(), (&'static str, ManifestProblem)
         force: units.force.clone(),
         // Six digits: the rest is rounding of the factors.
         factor: format!("{factor:.5e}").parse().unwrap_or(factor),
-        hint,
+        fitting: fitting.map(|(names, _)| names[0]),
     };
     Err(("/units", problem))
 }

@@ -109,7 +109,7 @@ fn failed(name: Option<&str>, error: zip::result::ZipError) -> PackageError {
         zip::result::ZipError::Io(source) => source.into(),
         error => PackageError::archive(
             name.map(str::to_owned),
-            ArchiveProblem::Damaged { reason: format!("it cannot be written: {error}") },
+            ArchiveProblem::Unwritable { reason: error.to_string() },
         ),
     }
 }

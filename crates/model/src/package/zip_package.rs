@@ -10,12 +10,13 @@ use super::content::{Content, SourceLines};
 use super::error::{
     ArchiveProblem, MANIFEST_FILE, ManifestProblem, MatrixProblem, PackageError, TableProblem,
 };
+use super::limits::Limits;
 use super::lines::Fault;
 use super::quote::quoted;
 use super::raw::{Manifest, MatrixFormat, RawMatrix, RawPackage};
 use super::symmetric::Mirror;
 use super::tables::Table;
-use super::{Limits, check, digest, manifest, matrix_market, npz, tables};
+use super::{check, digest, manifest, matrix_market, npz, tables};
 
 /// Reads every file of the archive; the matrices in parallel.
 pub(super) fn load(path: &Path, limits: &Limits) -> Result<Content, PackageError> {

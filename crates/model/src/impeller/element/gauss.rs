@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use super::Natural;
+use super::natural::Natural;
 
 /// A point of integration.
 #[derive(Debug, Clone, Copy)]

@@ -2,8 +2,8 @@
 
 use nalgebra::Vector3;
 
-use super::{CORNERS, Hexahedron, Natural};
-use crate::impeller::mesh::EDGES;
+use super::hexahedron::Hexahedron;
+use super::natural::{CORNERS, EDGES, Natural};
 
 /// A 20-node hexahedron, nodes in the order of [`EDGES`].
 ///

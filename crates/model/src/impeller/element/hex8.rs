@@ -2,10 +2,11 @@
 
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
-use super::{
-    Blocks, CORNERS, GaussPoint, Hexahedron, Natural, Stress, elastic_blocks, gauss_points, inverse_transpose,
-};
-use crate::impeller::material::Material;
+use super::blocks::Blocks;
+use super::gauss::{GaussPoint, gauss_points};
+use super::hexahedron::{Hexahedron, elastic_blocks, inverse_transpose};
+use super::natural::{CORNERS, Natural};
+use crate::impeller::material::{Material, Stress};
 
 /// An 8-node hexahedron with incompatible modes.
 ///

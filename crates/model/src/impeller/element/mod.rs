@@ -7,155 +7,18 @@
 //! For an isotropic material all of a stiffness follows from `S_ab = ∫ ∇N_a ⊗ ∇N_b dV`:
 //! `K_ab = λ S_ab + μ S_abᵀ + μ tr(S_ab) 1`.
 
+mod blocks;
 mod gauss;
 mod hex20;
 mod hex8;
+mod hexahedron;
+mod natural;
 
-use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
-
+pub use blocks::{Blocks, NodalMatrix, nodal_blocks};
 pub use gauss::{GaussPoint, gauss_points};
 pub use hex8::Hex8;
 pub use hex20::Hex20;
+pub use hexahedron::Hexahedron;
+pub use natural::{CORNERS, EDGES, Natural};
 
-use super::material::Material;
-
-/// Natural coordinates (ξ, η, ζ).
-pub type Natural = [f64; 3];
-/// An element's matrix as one 3 × 3 block (x, y, z) per pair of nodes, both triangles.
-pub type Blocks<const N: usize> = Box<[[Matrix3<f64>; N]; N]>;
-/// A matrix `m_ab` over the nodes, the same for every direction.
-pub type NodalMatrix<const N: usize> = SMatrix<f64, N, N>;
-/// Cauchy stress `σ_xx, σ_yy, σ_zz, σ_xy, σ_yz, σ_zx`.
-pub type Stress = SVector<f64, 6>;
-
-/// Natural coordinates of the corners, in the order of an element's first eight nodes.
-pub const CORNERS: [Natural; 8] = [
-    [-1.0, -1.0, -1.0],
-    [1.0, -1.0, -1.0],
-    [1.0, 1.0, -1.0],
-    [-1.0, 1.0, -1.0],
-    [-1.0, -1.0, 1.0],
-    [1.0, -1.0, 1.0],
-    [1.0, 1.0, 1.0],
-    [-1.0, 1.0, 1.0],
-];
-
-/// A hexahedron of N nodes at known Cartesian positions.
-///
-/// Integrals are sensible where det J > 0, which [`Self::smallest_jacobian`] checks.
-pub trait Hexahedron<const N: usize>: From<[[f64; 3]; N]> {
-    /// Gauss points in each direction at which stiffness is integrated and stress is evaluated.
-    const STRESS_POINTS: usize;
-
-    /// Positions of the nodes.
-    fn positions(&self) -> &[[f64; 3]; N];
-
-    /// `N_a(ξ)`.
-    fn shape_functions(xi: Natural) -> [f64; N];
-
-    /// `∂N_a/∂ξ`.
-    fn shape_derivatives(xi: Natural) -> [Vector3<f64>; N];
-
-    /// `J_ij = ∂x_i/∂ξ_j`.
-    fn jacobian(&self, xi: Natural) -> Matrix3<f64> {
-        let derivatives = Self::shape_derivatives(xi);
-        self.positions().iter().zip(&derivatives).map(|(&x, dn)| Vector3::from(x) * dn.transpose()).sum()
-    }
-
-    /// Smallest det J over the corners and the points of integration; NaN if any is.
-    fn smallest_jacobian(&self) -> f64 {
-        let gauss = gauss_points(3).iter().map(|point| point.xi);
-        let least = |least: f64, det: f64| if det < least || det.is_nan() { det } else { least };
-        CORNERS.into_iter().chain(gauss).map(|xi| self.jacobian(xi).determinant()).fold(f64::INFINITY, least)
-    }
-
-    /// `∇N_a` in x, y, z, and det J.
-    fn gradients(&self, xi: Natural) -> ([Vector3<f64>; N], f64) {
-        let (turn, determinant) = inverse_transpose(&self.jacobian(xi));
-        (Self::shape_derivatives(xi).map(|dn| turn * dn), determinant)
-    }
-
-    /// Elastic stiffness, per unit of displacement in x, y, z.
-    fn stiffness(&self, material: &Material) -> Blocks<N> {
-        let points = gauss_points(Self::STRESS_POINTS).iter().map(|point| {
-            let (gradients, determinant) = self.gradients(point.xi);
-            (gradients, determinant * point.weight)
-        });
-        elastic_blocks(points, material)
-    }
-
-    /// Stresses at the Gauss points of [`Self::STRESS_POINTS`] under the nodal displacements `u` (x, y, z).
-    fn stresses(&self, material: &Material, u: &[Vector3<f64>; N]) -> Vec<Stress> {
-        let stress = |point: &GaussPoint| {
-            let (gradients, _) = self.gradients(point.xi);
-            material.stress(&u.iter().zip(&gradients).map(|(u, g)| u * g.transpose()).sum())
-        };
-        gauss_points(Self::STRESS_POINTS).iter().map(stress).collect()
-    }
-
-    /// Consistent mass `m_ab = ∫ ρ N_a N_b dV` by 3 × 3 × 3 Gauss points.
-    fn mass(&self, density: f64) -> NodalMatrix<N> {
-        let mut mass = NodalMatrix::<N>::zeros();
-        for point in gauss_points(3) {
-            let n = SVector::<f64, N>::from(Self::shape_functions(point.xi));
-            let determinant = self.jacobian(point.xi).determinant();
-            mass += n * n.transpose() * (density * determinant * point.weight);
-        }
-        mass
-    }
-
-    /// Geometric stiffness `k_ab = ∫ ∇N_a · σ · ∇N_b dV`, `stresses` as [`Self::stresses`] gives them.
-    fn geometric_stiffness(&self, stresses: &[Stress]) -> NodalMatrix<N> {
-        let mut k = NodalMatrix::<N>::zeros();
-        for (point, s) in gauss_points(Self::STRESS_POINTS).iter().zip(stresses) {
-            let (gradients, determinant) = self.gradients(point.xi);
-            let sigma = Matrix3::new(s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2]);
-            let weighted = sigma * (determinant * point.weight);
-            for a in 0..N {
-                let traction = weighted * gradients[a];
-                for b in 0..=a {
-                    k[(a, b)] += traction.dot(&gradients[b]);
-                }
-            }
-        }
-        k.fill_upper_triangle_with_lower_triangle();
-        k
-    }
-}
-
-/// `m_ab` times the diagonal block `directions` (x, y, z).
-pub fn nodal_blocks<const N: usize>(m: &NodalMatrix<N>, directions: [f64; 3]) -> Blocks<N> {
-    let unit = Matrix3::from_diagonal(&Vector3::from(directions));
-    Box::new(std::array::from_fn(|a| std::array::from_fn(|b| unit * m[(a, b)])))
-}
-
-/// Elastic stiffness of displacement functions known by their gradients at weighted points.
-fn elastic_blocks<const F: usize>(
-    points: impl Iterator<Item = ([Vector3<f64>; F], f64)>,
-    material: &Material,
-) -> Blocks<F> {
-    let mut products = Box::new([[Matrix3::zeros(); F]; F]);
-    for (gradients, weight) in points {
-        for a in 0..F {
-            let weighted = gradients[a] * weight;
-            for b in 0..=a {
-                products[a][b] += weighted * gradients[b].transpose();
-            }
-        }
-    }
-    let (lambda, mu) = material.lame_constants();
-    for a in 0..F {
-        for b in 0..=a {
-            let s = products[a][b];
-            let block = s * lambda + (s.transpose() + Matrix3::identity() * s.trace()) * mu;
-            products[a][b] = block;
-            products[b][a] = block.transpose();
-        }
-    }
-    products
-}
-
-/// J⁻ᵀ and det J; a singular J gives zeros and 0 (meshes are checked before anything is integrated).
-fn inverse_transpose(j: &Matrix3<f64>) -> (Matrix3<f64>, f64) {
-    (j.try_inverse().unwrap_or_default().transpose(), j.determinant())
-}
+pub use super::material::Stress;

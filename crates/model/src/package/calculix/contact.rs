@@ -5,8 +5,10 @@
 
 use std::path::Path;
 
-use super::Normals;
-use super::error::{CalculixError, LineProblem, ModelProblem};
+use nalgebra::Vector3;
+
+use super::error::{CalculixError, LineProblem, ModelProblem, NoOrder};
+use super::model::Normals;
 use super::text::{self, TextLines};
 use crate::package::frame::{AxisFrame, distance};
 
@@ -44,9 +46,7 @@ pub(super) fn in_chord_order(
     let radius = |node: (u64, [f64; 3])| frame.coordinates(node.1)[0];
     let difference = radius(other_end) - radius(one_end);
     if difference.abs() < SAME_RADIUS * distance(one_end.1, other_end.1) {
-        return wrong(
-            "both ends of the set are at the same radius; write the set in order and say --contact-order set",
-        );
+        return wrong(NoOrder::SameRadius);
     }
     let (start, end) = if difference > 0.0 { (one_end, other_end) } else { (other_end, one_end) };
     let mut left: Vec<_> = nodes.iter().copied().filter(|node| node.0 != start.0).collect();
@@ -60,10 +60,7 @@ pub(super) fn in_chord_order(
         chain.push(last);
     }
     if last.0 != end.0 {
-        return wrong(
-            "its nodes are no single line along the tip; choose one line of nodes (mid-thickness or one side of the blade), \
-             or write the set in order and say --contact-order set",
-        );
+        return wrong(NoOrder::NoLine);
     }
     Ok(chain)
 }
@@ -115,10 +112,7 @@ pub(super) fn with_normals(
         Normals::Meridian(path) => {
             let curve = read_rows::<2>(path, "a point of the curve: r, z")?;
             if curve.len() < 3 {
-                return Err(ModelProblem::ContactOrder {
-                    reason: "the meridional curve has fewer than three points",
-                }
-                .into());
+                return Err(ModelProblem::ContactOrder { reason: NoOrder::ShortCurve }.into());
             }
             let length: f64 = meridional.windows(2).map(|pair| apart(pair[0], pair[1])).sum();
             for (point, at) in points.iter().zip(&meridional) {
@@ -131,9 +125,7 @@ pub(super) fn with_normals(
         }
         Normals::ContactNodes => {
             if points.len() < 3 {
-                let reason =
-                    "fewer than three nodes have no curve to take normals from; give --normals or --meridian";
-                return Err(ModelProblem::ContactOrder { reason }.into());
+                return Err(ModelProblem::ContactOrder { reason: NoOrder::FewNodes }.into());
             }
             meridional.clone()
         }
@@ -218,7 +210,7 @@ fn from_table(
         let Some(normal) = normal else {
             return Err(ModelProblem::NoNormal { node, file: path.to_owned() }.into());
         };
-        let normal = crate::package::frame::apply(&frame.cylindrical(position[1]), normal);
+        let normal = (frame.cylindrical(position[1]) * Vector3::from(normal)).into();
         contact.push(ContactPoint { node, position, normal });
     }
     Ok(contact)

@@ -4,11 +4,10 @@
 //! on the next line, `*INCLUDE` may be nested. Cards that say nothing about these things are skipped.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs::File;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::error::{CalculixError, LineProblem};
-use super::text::{self, TextLines};
+use super::text::{self, TextLines, normal};
 use crate::package::quote::quoted;
 
 /// Deepest nesting of `*INCLUDE`.
@@ -107,7 +106,6 @@ impl Deck {
     }
 
     fn start(&mut self, card: &Card) -> Result<Block, LineProblem> {
-        let unsupported = |reason| Err(LineProblem::Card { card: quoted(&card.keyword), reason });
         Ok(match &card.keyword[..] {
             "*NODE" => Block::Nodes { set: card.value("NSET") },
             "*NSET" => {
@@ -133,11 +131,7 @@ impl Deck {
                 })?;
                 Block::Axis { sectors, tie: card.value("TIE").unwrap_or_default(), numbers: Vec::new() }
             }
-            "*TRANSFORM" => {
-                return unsupported(
-                    "DOF of transformed nodes are not in global directions; export the matrices without it",
-                );
-            }
+            "*TRANSFORM" => return Err(LineProblem::Card { card: quoted(&card.keyword) }),
             _ => Block::Skip,
         })
     }
@@ -227,11 +221,6 @@ fn append(to: &mut Vec<u64>, found: Vec<u64>) {
     to.extend(found.into_iter().filter(|node| seen.insert(*node)));
 }
 
-/// A name as CalculiX compares it.
-pub(super) fn normal(name: &str) -> String {
-    name.chars().filter(|c| !c.is_whitespace()).flat_map(char::to_uppercase).collect()
-}
-
 /// A keyword line.
 struct Card {
     /// `*NSET`, in capitals, without blanks.
@@ -261,9 +250,4 @@ impl Card {
     fn value(&self, name: &str) -> Option<String> {
         self.value_as_written(name).map(normal)
     }
-}
-
-/// Opens `path`, naming it in the error.
-pub(super) fn open(path: &Path) -> Result<File, CalculixError> {
-    File::open(path).map_err(|source| CalculixError::Io { path: PathBuf::from(path), source })
 }

@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use crate::package::error::PackageError;
+
 /// Files that cannot become a package.
 #[derive(Debug, thiserror::Error)]
 pub enum CalculixError {
@@ -28,7 +30,7 @@ pub enum CalculixError {
     Model(#[from] ModelProblem),
     /// What the checks of every package found.
     #[error(transparent)]
-    Package(#[from] crate::package::PackageError),
+    Package(#[from] PackageError),
 }
 
 /// What is wrong with a line.
@@ -61,12 +63,12 @@ pub enum LineProblem {
         set: String,
     },
     /// A card whose effect on the matrices cannot be undone here.
-    #[error("{card} is not supported: {reason}")]
+    #[error(
+        "{card} is not supported: DOF of transformed nodes are not in global directions; export the matrices without it"
+    )]
     Card {
         /// The keyword.
         card: String,
-        /// Why, and what to do instead.
-        reason: &'static str,
     },
     /// Includes that include themselves.
     #[error("*INCLUDE goes deeper than {limit} files; does a file include itself?")]
@@ -136,12 +138,14 @@ pub enum ModelProblem {
         option: &'static str,
     },
     /// No such node set.
-    #[error("the deck defines no node set {set}; it has {known}")]
+    #[error("the deck defines no node set {set}; it has {}", listed(.known, *.more))]
     NoSuchSet {
         /// The name asked for.
         set: String,
-        /// The names there are.
-        known: String,
+        /// Names there are, shortened.
+        known: Vec<String>,
+        /// How many more there are.
+        more: usize,
     },
     /// A set without nodes.
     #[error("the node set {set} is empty")]
@@ -221,7 +225,7 @@ pub enum ModelProblem {
     #[error("contact nodes cannot be put in order from leading to trailing edge: {reason}")]
     ContactOrder {
         /// Why, and what to do.
-        reason: &'static str,
+        reason: NoOrder,
     },
     /// A contact node without a normal.
     #[error("{}: node {node} of the contact set has no normal there", .file.display())]
@@ -293,6 +297,37 @@ pub enum ModelProblem {
         /// Name of the contact set.
         set: String,
     },
+}
+
+/// Names, or `none`.
+fn listed(known: &[String], more: usize) -> String {
+    match (known, more) {
+        ([], _) => "none".to_owned(),
+        (_, 0) => known.join(", "),
+        _ => format!("{}, {more} more", known.join(", ")),
+    }
+}
+
+/// Why contact nodes have no order, or no curve for their normals.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum NoOrder {
+    /// No end is the leading edge.
+    #[error(
+        "both ends of the set are at the same radius; write the set in order and say --contact-order set"
+    )]
+    SameRadius,
+    /// From one end, the nearest nodes do not lead to the other.
+    #[error(
+        "its nodes are no single line along the tip; choose one line of nodes (mid-thickness or one side of the blade), \
+         or write the set in order and say --contact-order set"
+    )]
+    NoLine,
+    /// A meridional curve of one or two points.
+    #[error("the meridional curve has fewer than three points")]
+    ShortCurve,
+    /// One or two contact nodes.
+    #[error("fewer than three nodes have no curve to take normals from; give --normals or --meridian")]
+    FewNodes,
 }
 
 /// A node that has no node where the turn by one sector takes it.

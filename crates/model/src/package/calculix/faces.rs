@@ -6,8 +6,9 @@ use std::f64::consts::TAU;
 use super::deck::Deck;
 use super::error::{ModelProblem, NoCopy};
 use super::matrices::DofList;
+use super::model::CalculixModel;
 use super::places::Places;
-use super::{CalculixModel, set};
+use super::sets::set;
 use crate::package::frame::AxisFrame;
 
 /// Nodes of the low and of the high face; the latter empty for a whole wheel, both for a single blade whose faces

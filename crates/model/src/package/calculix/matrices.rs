@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use super::error::{CalculixError, LineProblem, ModelProblem};
 use super::text::TextLines;
-use crate::package::error::MatrixProblem;
+use crate::package::error::{MatrixProblem, PackageError};
 use crate::package::matrix_market::parse_entry;
 use crate::package::quote::quoted;
 use crate::package::raw::{RawDof, RawMatrix};
@@ -110,7 +110,7 @@ pub(super) fn read(
     let matrix =
         symmetric::from_triangle(Mirror::Symmetric, size, entries).map_err(|problem| match problem {
             MatrixProblem::Repeated { row, column, .. } => lines.fault(LineProblem::Repeated { row, column }),
-            problem => crate::package::PackageError::matrix(&path.display().to_string(), problem).into(),
+            problem => PackageError::matrix(&path.display().to_string(), problem).into(),
         });
     Ok((matrix?, held))
 }

@@ -13,7 +13,9 @@ mod deck;
 mod error;
 mod faces;
 mod matrices;
+mod model;
 mod places;
+mod sets;
 mod spin;
 mod text;
 mod wheel;
@@ -21,64 +23,19 @@ mod wheel;
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 
+use nalgebra::Vector3;
+
 pub use contact::ContactPoint;
-pub use error::{CalculixError, LineProblem, ModelProblem, NoCopy};
+pub use error::{CalculixError, LineProblem, ModelProblem, NoCopy, NoOrder};
+pub use model::{CalculixModel, Normals};
 pub use spin::SpinFinding;
 
-use super::frame::{AxisFrame, apply};
-use super::quote::quoted;
+use super::frame::AxisFrame;
 use super::raw::{Axis, Frame, Manifest, ManifestContact, RawMatrix, RawNode, RawPackage};
 use deck::Deck;
 use faces::{check_ties, faces, pair};
 use matrices::DofList;
-use rubmap_wheel::dynamics::sector::Units;
-
-/// Node sets that an error lists.
-const MOST_NAMED: usize = 20;
-
-/// What to import, from where.
-#[derive(Debug, Clone)]
-pub struct CalculixModel {
-    /// The deck that has the mesh and its node sets.
-    pub deck: PathBuf,
-    /// Job whose `.dof`, `.mas` and `.sti` are those at rest: their path without extension.
-    pub rest: PathBuf,
-    /// Speeds in rad/s, ascending, and the jobs whose `.dof` and `.sti` are those at speed.
-    pub at_speed: Vec<(f64, PathBuf)>,
-    /// Whether the matrices are those of the whole wheel instead of one sector.
-    pub whole_wheel: bool,
-    /// N; from `*CYCLIC SYMMETRY MODEL` if absent.
-    pub sectors: Option<usize>,
-    /// Axis of rotation; from `*CYCLIC SYMMETRY MODEL` if absent, else the z axis.
-    pub axis: Option<Axis>,
-    /// Node set of the low face; from the cyclic tie if absent. A single sector (N = 1) needs no faces.
-    pub low_set: Option<String>,
-    /// Node set of the high face; from the cyclic tie if absent. Not needed of a whole wheel.
-    pub high_set: Option<String>,
-    /// Node set along the blade tip.
-    pub contact_set: String,
-    /// Use this many nodes of the contact set, evenly spaced; all if absent.
-    pub contact_count: Option<usize>,
-    /// Keep the order in which the deck lists the contact set, instead of that along the chord.
-    pub contact_as_listed: bool,
-    /// Where normals come from.
-    pub normals: Normals,
-    /// Consistent units of the deck.
-    pub units: Units,
-    /// Name of the model.
-    pub name: String,
-}
-
-/// Where the contact nodes' normals come from.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Normals {
-    /// The meridional curve through the contact nodes themselves.
-    ContactNodes,
-    /// The casing's meridional curve, lines `r,z`.
-    Meridian(PathBuf),
-    /// Lines `node,nx,ny,nz`, Cartesian.
-    Table(PathBuf),
-}
+use sets::set;
 
 /// What an import found out, for the user to compare with what they know.
 #[derive(Debug, Clone)]
@@ -160,11 +117,11 @@ pub fn import(model: &CalculixModel) -> Result<(RawPackage, ImportSummary), Calc
     let all: Vec<[f64; 3]> = nodes.iter().map(|node| node.position).collect();
     summary.contact = contact::with_normals(&contact, &model.normals, &frame, &all)?;
     let on_face: HashSet<u64> = pairs.iter().flatten().copied().collect();
-    let [_, _, direction] = frame.cylindrical(0.0);
     for ((speed, _), at_speed) in model.at_speed.iter().zip(&matrices[2..]) {
         let given = [&matrices[1], at_speed, &matrices[0]];
         let inner = |node| !on_face.contains(&node);
-        let finding = spin::check(*speed, given, &dofs, &positions, (axis.origin, direction), inner);
+        let finding =
+            spin::check(*speed, given, &dofs, &positions, (axis.origin.into(), frame.direction()), inner);
         summary.spin.push((*speed, finding));
     }
     let stiffness = matrices.split_off(1);
@@ -189,8 +146,7 @@ pub fn import(model: &CalculixModel) -> Result<(RawPackage, ImportSummary), Calc
 
 fn manifest_contact(point: &ContactPoint, frame: &AxisFrame) -> ManifestContact {
     let local = frame.cylindrical(point.position[1]);
-    let transposed = std::array::from_fn(|i| std::array::from_fn(|k| local[k][i]));
-    ManifestContact { node: point.node, normal: apply(&transposed, point.normal) }
+    ManifestContact { node: point.node, normal: local.tr_mul(&Vector3::from(point.normal)).into() }
 }
 
 /// `job` with `.sti` and the like appended; a job may have dots in its name.
@@ -207,21 +163,6 @@ fn axis(model: &CalculixModel, deck: &Deck) -> Axis {
     };
     let z = || Axis { origin: [0.0; 3], direction: [0.0, 0.0, 1.0] };
     model.axis.clone().or_else(stated).unwrap_or_else(z)
-}
-
-fn set<'a>(deck: &'a Deck, name: &str) -> Result<&'a [u64], ModelProblem> {
-    match deck.sets.get(&deck::normal(name)) {
-        None => {
-            let mut names: Vec<String> = deck.sets.keys().take(MOST_NAMED).map(|name| quoted(name)).collect();
-            if deck.sets.len() > names.len() {
-                names.push(format!("{} more", deck.sets.len() - names.len()));
-            }
-            let known = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
-            Err(ModelProblem::NoSuchSet { set: name.to_owned(), known })
-        }
-        Some(nodes) if nodes.is_empty() => Err(ModelProblem::EmptySet { set: name.to_owned() }),
-        Some(nodes) => Ok(nodes),
-    }
 }
 
 /// CalculiX writes every matrix of a mesh with the same entries: a file with fewer is cut short.

@@ -14,8 +14,9 @@
 
 use std::collections::HashMap;
 
+use nalgebra::Vector3;
+
 use super::wheel::times;
-use crate::package::frame::dot;
 use crate::package::raw::{RawDof, RawMatrix};
 
 /// Forces of a translation below this part of Σ|K_ij| mark a row that no clamp holds.
@@ -52,38 +53,36 @@ pub(super) fn check(
     [rest, at_speed, mass]: [&RawMatrix; 3],
     dofs: &[RawDof],
     positions: &HashMap<u64, [f64; 3]>,
-    axis: ([f64; 3], [f64; 3]),
+    (origin, e3): (Vector3<f64>, Vector3<f64>),
     inner: impl Fn(u64) -> bool,
 ) -> SpinFinding {
-    let (origin, e3) = axis;
-    let of = |vector: &dyn Fn([f64; 3]) -> [f64; 3]| -> Vec<f64> {
+    let of = |vector: &dyn Fn(Vector3<f64>) -> Vector3<f64>| -> Vec<f64> {
         dofs.iter()
             .map(|dof| {
-                let at = positions[&dof.node];
-                let from_axis = std::array::from_fn(|k| at[k] - origin[k]);
+                let from_axis = Vector3::from(positions[&dof.node]) - origin;
                 vector(from_axis)[usize::from(dof.component) - 1]
             })
             .collect()
     };
-    let unit = |k: usize| -> [f64; 3] { std::array::from_fn(|i| f64::from(u8::from(i == k))) };
+    let units = [Vector3::x(), Vector3::y(), Vector3::z()];
     let magnitudes = RawMatrix {
         size: rest.size,
         entries: rest.entries.iter().map(|&(row, column, value)| (row, column, value.abs())).collect(),
     };
     let scale = times(&magnitudes, &vec![1.0; rest.size]);
     let mut free: Vec<bool> = dofs.iter().map(|dof| inner(dof.node)).collect();
-    for k in 0..3 {
-        let force = times(rest, &of(&|_| unit(k)));
+    for unit in units {
+        let force = times(rest, &of(&|_| unit));
         for (row, free) in free.iter_mut().enumerate() {
             *free &= force[row].abs() <= FREE * scale[row];
         }
     }
-    let normal_part = |v: [f64; 3]| -> [f64; 3] { std::array::from_fn(|k| v[k] - dot(v, e3) * e3[k]) };
+    let normal_part = |v: Vector3<f64>| v - e3 * v.dot(&e3);
     let load = times(mass, &of(&normal_part));
     let [mut with, mut without, mut size] = [0.0; 3];
-    for a in (0..3).map(unit) {
-        let turn = of(&|x| cross(a, x));
-        let in_plane = times(mass, &of(&|x| normal_part(cross(a, x))));
+    for a in units {
+        let turn = of(&|x| a.cross(&x));
+        let in_plane = times(mass, &of(&|x| normal_part(a.cross(&x))));
         let difference: Vec<f64> =
             times(at_speed, &turn).iter().zip(times(rest, &turn)).map(|(a, b)| a - b).collect();
         // Only rows of nodes with all three DOF can be turned; others keep zeros in `load` and are left out.
@@ -95,8 +94,8 @@ pub(super) fn check(
             rows.into_values().filter_map(|[x, y, z]| Some([x?, y?, z?])).collect();
         nodes.sort_unstable();
         for node in nodes.into_iter().filter(|node| node.iter().all(|row| free[*row])) {
-            let at = |v: &[f64]| node.map(|row| v[row]);
-            let turned_load = cross(a, at(&load));
+            let at = |v: &[f64]| Vector3::from(node.map(|row| v[row]));
+            let turned_load = a.cross(&at(&load));
             let softening = normal_part(at(&in_plane));
             for k in 0..3 {
                 let found = at(&difference)[k] / (speed * speed);
@@ -115,8 +114,4 @@ pub(super) fn check(
         (false, true) => SpinFinding::WithoutSoftening { residual: without },
         _ => SpinFinding::Other { residual: with },
     }
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }

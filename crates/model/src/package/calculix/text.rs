@@ -3,7 +3,6 @@
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
-use super::deck::open;
 use super::error::{CalculixError, LineProblem};
 use crate::package::lines::{Fault, Lines};
 use crate::package::quote::quoted;
@@ -40,9 +39,19 @@ impl TextLines {
     }
 }
 
+/// Opens `path`, naming it in the error.
+fn open(path: &Path) -> Result<File, CalculixError> {
+    File::open(path).map_err(|source| CalculixError::Io { path: PathBuf::from(path), source })
+}
+
 /// A node number.
 pub(super) fn node(word: &str) -> Result<u64, LineProblem> {
     word.parse().map_err(|_| LineProblem::NotA { text: quoted(word), expected: "a node number" })
+}
+
+/// A name as CalculiX compares it.
+pub(super) fn normal(name: &str) -> String {
+    name.chars().filter(|c| !c.is_whitespace()).flat_map(char::to_uppercase).collect()
 }
 
 /// A finite real number, in Fortran's spellings too: `1.5D+3`, `1.5+3`.

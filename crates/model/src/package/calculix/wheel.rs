@@ -13,6 +13,8 @@ use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
 use std::path::Path;
 
+use nalgebra::Vector3;
+
 use super::error::{ModelProblem, NoCopy};
 use super::matrices::DofList;
 use super::places::Places;
@@ -145,23 +147,21 @@ impl Cut<'_> {
             (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
         };
         let x: Vec<f64> = dofs.dofs.iter().map(|_| number()).collect();
-        let turned = |x: &[f64]| -> HashMap<u64, [f64; 3]> {
+        let turned = |x: &[f64]| -> HashMap<u64, Vector3<f64>> {
             let basis = self.frame.turned_global(TAU / self.sectors as f64);
             // Rows of the basis are the turned unit vectors: their combination is the turned vector.
-            let turn = |v: [f64; 3]| std::array::from_fn(|k| (0..3).map(|i| v[i] * basis[i][k]).sum());
-            by_node(dofs, x).into_iter().map(|(node, v)| (self.next[&node], turn(v))).collect()
+            by_node(dofs, x).into_iter().map(|(node, v)| (self.next[&node], basis.tr_mul(&v))).collect()
         };
         let of_turned = turned(&x);
         let tx: Vec<f64> =
             dofs.dofs.iter().map(|dof| of_turned[&dof.node][usize::from(dof.component) - 1]).collect();
         let y_tx = by_node(dofs, &times(matrix, &tx));
         let t_yx = turned(&times(matrix, &x));
-        let size = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let largest = y_tx.values().map(|v| size(*v)).fold(f64::MIN_POSITIVE, f64::max);
+        let largest = y_tx.values().map(Vector3::norm).fold(f64::MIN_POSITIVE, f64::max);
         let mut worst = (0.0, 0, 0);
         for dof in &dofs.dofs {
             let copy = self.next[&dof.node];
-            let off = size(std::array::from_fn(|k| y_tx[&copy][k] - t_yx[&copy][k])) / largest;
+            let off = (y_tx[&copy] - t_yx[&copy]).norm() / largest;
             if off > worst.0 {
                 worst = (off, dof.node, copy);
             }
@@ -188,10 +188,10 @@ pub(super) fn times(matrix: &RawMatrix, x: &[f64]) -> Vec<f64> {
 }
 
 /// The vector of each node, with zeros for clamped components.
-fn by_node(dofs: &DofList, x: &[f64]) -> HashMap<u64, [f64; 3]> {
+fn by_node(dofs: &DofList, x: &[f64]) -> HashMap<u64, Vector3<f64>> {
     let mut vectors = HashMap::new();
     for (dof, value) in dofs.dofs.iter().zip(x) {
-        vectors.entry(dof.node).or_insert([0.0; 3])[usize::from(dof.component) - 1] = *value;
+        vectors.entry(dof.node).or_insert_with(Vector3::zeros)[usize::from(dof.component) - 1] = *value;
     }
     vectors
 }

@@ -1,9 +1,10 @@
 //! The contact nodes: known, free, inside the sector, each once, with unit normals.
 
+use nalgebra::Vector3;
+
+use super::layout::{NONE, components};
 use super::tables::NodeIndex;
-use super::{NONE, components};
 use crate::package::error::{ManifestProblem, PackageError};
-use crate::package::frame::dot;
 use crate::package::raw::RawPackage;
 
 /// A normal may be this far from unit length: exporters print few digits. It is then made a unit vector.
@@ -45,7 +46,7 @@ pub(super) fn check(
         if rows.contains(&NONE) {
             return wrong("node", ManifestProblem::ContactClamped { node, components: components(rows) });
         }
-        let length = dot(contact.normal, contact.normal).sqrt();
+        let length = Vector3::from(contact.normal).norm();
         if !length.is_finite() {
             return wrong("normal", ManifestProblem::NotFinite);
         }

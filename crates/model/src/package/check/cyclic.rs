@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use super::layout::{NONE, components};
 use super::tables::NodeIndex;
-use super::{NONE, components};
 use crate::package::error::{ManifestProblem, PackageError};
 use crate::package::frame::{AxisFrame, Basis, distance};
 use crate::package::raw::{Frame, RawPackage};
@@ -74,12 +74,8 @@ fn check_places(
         return Ok(());
     };
     debug_assert!(high_of.iter().any(|high| *high != NONE));
-    let hint = if pairs().all(|(.., from, to)| off(-alpha, from, to) <= tolerance) {
-        "every pair fits the turn by −2π/N: swap low and high, or reverse the axis direction"
-    } else {
-        "check sectors, axis and the pairing of the nodes"
-    };
-    let problem = ManifestProblem::PairNotTurned { low, high, distance, tolerance, sectors, hint };
+    let reversed = pairs().all(|(.., from, to)| off(-alpha, from, to) <= tolerance);
+    let problem = ManifestProblem::PairNotTurned { low, high, distance, tolerance, sectors, reversed };
     Err(PackageError::manifest(format!("/cyclic/{k}"), problem))
 }
 
@@ -117,7 +113,7 @@ fn check_dofs(
 
 /// Whether the turn maps the free global directions onto each other: no part of it couples free with clamped ones.
 fn maps_onto_itself(turned: &Basis, free: [bool; 3]) -> bool {
-    (0..3).all(|i| (0..3).all(|j| !free[i] || free[j] || turned[i][j].abs() <= DIRECTION_TOLERANCE))
+    (0..3).all(|i| (0..3).all(|j| !free[i] || free[j] || turned[(i, j)].abs() <= DIRECTION_TOLERANCE))
 }
 
 /// Diagonal of the bounding box of all nodes.

@@ -15,7 +15,7 @@ use rubmap_wheel::dynamics::sector::SectorModel;
 const MOST_WORK: f64 = 1e11;
 
 /// Checks `sector.mass`; `rows` and `nodes` name the package row and node id of each own DOF.
-pub(in crate::package) fn check(
+pub(crate) fn check(
     sector: &SectorModel,
     file: &str,
     rows: &[u32],

@@ -5,6 +5,7 @@
 
 mod contact;
 mod cyclic;
+pub(super) mod layout;
 pub(super) mod mass;
 mod matrices;
 pub(super) mod statement;
@@ -12,33 +13,8 @@ pub(super) mod tables;
 
 use super::content::SourceLines;
 use super::error::PackageError;
-use super::frame::AxisFrame;
 use super::raw::RawPackage;
-
-/// No such row or node.
-pub(super) const NONE: u32 = u32::MAX;
-
-/// Which row of a checked package is what. Nodes are indices into the node table, rows into the DOF table.
-#[derive(Debug)]
-pub(super) struct Layout {
-    pub(super) frame: AxisFrame,
-    /// Node of each row.
-    pub(super) node_of_row: Vec<u32>,
-    /// Rows of each node's three components, or [`NONE`].
-    pub(super) rows_of_node: Vec<[u32; 3]>,
-    /// The high node of each low node, or [`NONE`].
-    pub(super) high_of: Vec<u32>,
-    /// The low node of each high node, or [`NONE`].
-    pub(super) low_of: Vec<u32>,
-    /// Rows that stay, in package order: all but those of high nodes.
-    pub(super) own_rows: Vec<u32>,
-    /// Position among the own DOF of each row; of a high row, that of its low counterpart.
-    pub(super) own_of_row: Vec<u32>,
-    /// Nodes of the contact list.
-    pub(super) contact: Vec<u32>,
-    /// Contact normals, of length 1, in the package's frame.
-    pub(super) normals: Vec<[f64; 3]>,
-}
+use layout::{Layout, NONE};
 
 /// Checks `package` and sorts its matrices (by column, then row) if they are not.
 pub(super) fn check(package: &mut RawPackage, lines: &SourceLines) -> Result<Layout, PackageError> {
@@ -65,10 +41,4 @@ pub(super) fn check(package: &mut RawPackage, lines: &SourceLines) -> Result<Lay
         }
     }
     Ok(Layout { frame, node_of_row, rows_of_node, high_of, low_of, own_rows, own_of_row, contact, normals })
-}
-
-/// `1, 3` or `none`: the components of a node that the DOF table has.
-fn components(rows: &[u32; 3]) -> String {
-    let present: Vec<_> = (1..=3).filter(|k| rows[k - 1] != NONE).map(|k| k.to_string()).collect();
-    if present.is_empty() { "none".to_owned() } else { present.join(", ") }
 }

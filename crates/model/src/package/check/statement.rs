@@ -15,7 +15,7 @@ const MOST_CONTACT_NODES: usize = 200;
 ///
 /// Three speeds need not be equally spaced: the polynomial passes through any three (docs/method.md, Centrifugal
 /// stiffening).
-pub(in crate::package) fn check(manifest: &Manifest) -> Result<AxisFrame, PackageError> {
+pub(crate) fn check(manifest: &Manifest) -> Result<AxisFrame, PackageError> {
     let wrong = |field: &str, problem| Err(PackageError::manifest(field, problem));
     if manifest.name.chars().nth(LONGEST_NAME).is_some() {
         return wrong("/name", ManifestProblem::TextTooLong { limit: LONGEST_NAME });

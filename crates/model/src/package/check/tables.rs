@@ -2,16 +2,16 @@
 
 use std::collections::HashMap;
 
-use super::NONE;
+use super::layout::NONE;
 use crate::package::content::SourceLines;
 use crate::package::error::{PackageError, TableProblem};
 use crate::package::raw::{RawDof, RawNode};
 
 /// Place of each node id in the node table.
-pub(in crate::package) type NodeIndex = HashMap<u64, u32>;
+pub(crate) type NodeIndex = HashMap<u64, u32>;
 
 /// Indexes the rows of the node table in `file`.
-pub(in crate::package) fn node_index(
+pub(crate) fn node_index(
     file: &str,
     nodes: &[RawNode],
     lines: &SourceLines,
@@ -37,7 +37,7 @@ pub(in crate::package) fn node_index(
 }
 
 /// The node of each row of the DOF table in `file`, and the rows of each node's components.
-pub(in crate::package) fn rows(
+pub(crate) fn rows(
     file: &str,
     dofs: &[RawDof],
     lines: &SourceLines,

@@ -56,6 +56,15 @@ pub enum ArchiveProblem {
         /// The decompressor's words.
         reason: String,
     },
+    /// A file that was in the archive when it was opened.
+    #[error("this file is damaged (it is gone); make the archive again")]
+    Gone,
+    /// A file that a zip archive cannot hold.
+    #[error("this file is damaged (it cannot be written: {reason}); make the archive again")]
+    Unwritable {
+        /// The zip writer's words.
+        reason: String,
+    },
     /// A file nobody names.
     #[error("sector.json does not name this file; remove it from the archive or name it")]
     Surplus,

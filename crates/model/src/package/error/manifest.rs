@@ -1,5 +1,7 @@
 //! Problems of `sector.json` and of what it claims about the rest.
 
+use std::fmt;
+
 /// What is wrong with a field of `sector.json`.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ManifestProblem {
@@ -69,7 +71,8 @@ pub enum ManifestProblem {
     /// force ≠ mass·length/time².
     #[error(
         "the units are not consistent: force must be mass·length/time², but 1 {mass}·{length}/{time}² is {factor} \
-         {force}; {hint}"
+         {force}; {}",
+        mass_hint(*.fitting, .length, .force, .time)
     )]
     UnitsInconsistent {
         /// Mass unit.
@@ -82,8 +85,8 @@ pub enum ManifestProblem {
         force: String,
         /// Size of the derived force in the force unit given.
         factor: f64,
-        /// The mass unit that would fit, in words.
-        hint: String,
+        /// The mass unit that would fit, if one has a name.
+        fitting: Option<&'static str>,
     },
     /// A number that is not finite.
     #[error("the value is not a finite number")]
@@ -158,7 +161,12 @@ pub enum ManifestProblem {
     /// Geometry of a pair.
     #[error(
         "high node {high} is {distance:.3e} away from low node {low} turned by +2π/{sectors} about the axis (tolerance \
-         {tolerance:.3e}; the worst pair); {hint}"
+         {tolerance:.3e}; the worst pair); {}",
+        if *.reversed {
+            "every pair fits the turn by −2π/N: swap low and high, or reverse the axis direction"
+        } else {
+            "check sectors, axis and the pairing of the nodes"
+        }
     )]
     PairNotTurned {
         /// Low node id.
@@ -171,8 +179,8 @@ pub enum ManifestProblem {
         tolerance: f64,
         /// N.
         sectors: usize,
-        /// What usually causes this.
-        hint: &'static str,
+        /// Whether every pair fits the turn the other way round.
+        reversed: bool,
     },
     /// DOF sets of a pair.
     #[error(
@@ -184,10 +192,10 @@ pub enum ManifestProblem {
         low: u64,
         /// High node id.
         high: u64,
-        /// Such as `1, 2, 3` or `none`.
-        low_components: String,
-        /// The same of the high node.
-        high_components: String,
+        /// Those of the low node.
+        low_components: Components,
+        /// Those of the high node.
+        high_components: Components,
     },
     /// Partly clamped pair whose free directions do not map onto each other.
     #[error(
@@ -231,8 +239,8 @@ pub enum ManifestProblem {
     ContactClamped {
         /// Its id.
         node: u64,
-        /// Such as `1, 3` or `none`.
-        components: String,
+        /// Those it has.
+        components: Components,
     },
     /// A contact node on a cyclic face.
     #[error("contact node {node} lies on the {face} cyclic face; contact nodes must be inside the sector")]
@@ -250,4 +258,23 @@ pub enum ManifestProblem {
         /// What would have been accepted.
         tolerance: f64,
     },
+}
+
+fn mass_hint(fitting: Option<&str>, length: &str, force: &str, time: &str) -> String {
+    match fitting {
+        Some(mass) => format!("with {length}, {force} and {time} the mass is in {mass}"),
+        None => "choose a mass unit that makes it 1".to_owned(),
+    }
+}
+
+/// Which of the components 1, 2, 3 a node has in the DOF table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Components(pub [bool; 3]);
+
+impl fmt::Display for Components {
+    /// `1, 3` or `none`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let present: Vec<_> = (1..=3).filter(|k| self.0[k - 1]).map(|k: usize| k.to_string()).collect();
+        if present.is_empty() { f.write_str("none") } else { f.write_str(&present.join(", ")) }
+    }
 }

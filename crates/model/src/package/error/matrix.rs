@@ -1,6 +1,6 @@
 //! Problems of the matrices. Rows and columns in these messages count from 1, as in the files.
 
-use super::NpzProblem;
+use super::npz::NpzProblem;
 
 /// What is wrong with a matrix.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -7,9 +7,9 @@ mod npz;
 mod table;
 
 pub use archive::ArchiveProblem;
-pub use manifest::ManifestProblem;
+pub use manifest::{Components, ManifestProblem};
 pub use matrix::MatrixProblem;
-pub use npz::NpzProblem;
+pub use npz::{ExpectedShape, NpzProblem};
 pub use table::TableProblem;
 
 /// Name of the file every package holds.

@@ -1,5 +1,7 @@
 //! Problems of matrices stored by `scipy.sparse.save_npz`. Positions in arrays count from 0, as in numpy.
 
+use crate::package::quote::quoted;
+
 /// What is wrong with the arrays of a matrix.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NpzProblem {
@@ -53,14 +55,14 @@ pub enum NpzProblem {
         expected: &'static str,
     },
     /// Wrong number of dimensions or elements.
-    #[error("the array {array} has the shape {found}; expected is {expected}")]
+    #[error("the array {array} has the shape {}; expected is {expected}", shape(.found))]
     Shape {
         /// Its name.
         array: &'static str,
-        /// Such as `(3, 4)`.
-        found: String,
+        /// Elements in each dimension.
+        found: Vec<u64>,
         /// What its place asks for.
-        expected: String,
+        expected: ExpectedShape,
     },
     /// Fewer or more bytes than the header announces.
     #[error("the array {array} does not hold the {announced} elements its header announces")]
@@ -94,4 +96,38 @@ pub enum NpzProblem {
         /// Elements of `indices`.
         entries: u64,
     },
+}
+
+/// The shape that an array's place asks for, in numpy's spelling.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum ExpectedShape {
+    /// Of any length.
+    #[error("one-dimensional")]
+    OneDimensional,
+    /// One element without dimensions.
+    #[error("a single text")]
+    SingleText,
+    /// Rows and columns.
+    #[error("(2,)")]
+    Pair,
+    /// As many elements as another array.
+    #[error("({length},), as of {array}")]
+    AsOf {
+        /// Elements of the other.
+        length: usize,
+        /// Its name.
+        array: &'static str,
+    },
+    /// Pointers to the starts of the rows, and to the end.
+    #[error("({length},), one more than the rows")]
+    OneMoreThanRows {
+        /// Elements.
+        length: usize,
+    },
+}
+
+/// Such as `(3, 4)`.
+fn shape(sizes: &[u64]) -> String {
+    let sizes: Vec<String> = sizes.iter().map(u64::to_string).collect();
+    quoted(&format!("({})", sizes.join(", ")))
 }

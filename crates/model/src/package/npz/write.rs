@@ -13,7 +13,7 @@ use crate::package::symmetric::Entry;
 ///
 /// Indices are deflated, which makes them several times smaller; values are stored, which no deflating would shrink
 /// by much.
-pub(in crate::package) fn write(matrix: &RawMatrix, out: impl Write + Seek) -> io::Result<()> {
+pub(crate) fn write(matrix: &RawMatrix, out: impl Write + Seek) -> io::Result<()> {
     let mut sorted: Vec<&Entry> = matrix.entries.iter().collect();
     sorted.sort_by_key(|entry| (entry.1, entry.0));
     let mut starts = vec![0_i64; matrix.size + 1];

@@ -1,0 +1,50 @@
+//! What an import is asked for.
+
+use std::path::PathBuf;
+
+use crate::package::raw::Axis;
+use rubmap_wheel::dynamics::sector::Units;
+
+/// What to import, from where.
+#[derive(Debug, Clone)]
+pub struct CalculixModel {
+    /// The deck that has the mesh and its node sets.
+    pub deck: PathBuf,
+    /// Job whose `.dof`, `.mas` and `.sti` are those at rest: their path without extension.
+    pub rest: PathBuf,
+    /// Speeds in rad/s, ascending, and the jobs whose `.dof` and `.sti` are those at speed.
+    pub at_speed: Vec<(f64, PathBuf)>,
+    /// Whether the matrices are those of the whole wheel instead of one sector.
+    pub whole_wheel: bool,
+    /// N; from `*CYCLIC SYMMETRY MODEL` if absent.
+    pub sectors: Option<usize>,
+    /// Axis of rotation; from `*CYCLIC SYMMETRY MODEL` if absent, else the z axis.
+    pub axis: Option<Axis>,
+    /// Node set of the low face; from the cyclic tie if absent. A single sector (N = 1) needs no faces.
+    pub low_set: Option<String>,
+    /// Node set of the high face; from the cyclic tie if absent. Not needed of a whole wheel.
+    pub high_set: Option<String>,
+    /// Node set along the blade tip.
+    pub contact_set: String,
+    /// Use this many nodes of the contact set, evenly spaced; all if absent.
+    pub contact_count: Option<usize>,
+    /// Keep the order in which the deck lists the contact set, instead of that along the chord.
+    pub contact_as_listed: bool,
+    /// Where normals come from.
+    pub normals: Normals,
+    /// Consistent units of the deck.
+    pub units: Units,
+    /// Name of the model.
+    pub name: String,
+}
+
+/// Where the contact nodes' normals come from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Normals {
+    /// The meridional curve through the contact nodes themselves.
+    ContactNodes,
+    /// The casing's meridional curve, lines `r,z`.
+    Meridian(PathBuf),
+    /// Lines `node,nx,ny,nz`, Cartesian.
+    Table(PathBuf),
+}

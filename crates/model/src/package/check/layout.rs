@@ -1,0 +1,34 @@
+//! What the checks leave behind: which row of a package is what.
+
+use crate::package::error::Components;
+use crate::package::frame::AxisFrame;
+
+/// No such row or node.
+pub(crate) const NONE: u32 = u32::MAX;
+
+/// Which row of a checked package is what. Nodes are indices into the node table, rows into the DOF table.
+#[derive(Debug)]
+pub(crate) struct Layout {
+    pub(crate) frame: AxisFrame,
+    /// Node of each row.
+    pub(crate) node_of_row: Vec<u32>,
+    /// Rows of each node's three components, or [`NONE`].
+    pub(crate) rows_of_node: Vec<[u32; 3]>,
+    /// The high node of each low node, or [`NONE`].
+    pub(crate) high_of: Vec<u32>,
+    /// The low node of each high node, or [`NONE`].
+    pub(crate) low_of: Vec<u32>,
+    /// Rows that stay, in package order: all but those of high nodes.
+    pub(crate) own_rows: Vec<u32>,
+    /// Position among the own DOF of each row; of a high row, that of its low counterpart.
+    pub(crate) own_of_row: Vec<u32>,
+    /// Nodes of the contact list.
+    pub(crate) contact: Vec<u32>,
+    /// Contact normals, of length 1, in the package's frame.
+    pub(crate) normals: Vec<[f64; 3]>,
+}
+
+/// The components of a node that the DOF table has.
+pub(super) fn components(rows: &[u32; 3]) -> Components {
+    Components(rows.map(|row| row != NONE))
+}
