@@ -56,6 +56,9 @@ impl Interruption {
 
     /// The generator made a package that the importer refuses.
     pub(super) fn generated_package(error: PackageError) -> Self {
+        if let PackageError::Io { source } = error {
+            return Self::Store(StoreError::File(source));
+        }
         let message = format!("these parameters give no valid model: {error}");
         Self::Failed(Failure { cause: FailureCause::Refused, message, violations: Vec::new() })
     }
@@ -154,5 +157,17 @@ impl From<ImpellerError> for Interruption {
             ImpellerError::NotPositiveDefinite => FailureCause::Model,
         };
         Self::Failed(Failure { cause, message, violations: Vec::new() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_generated_package_that_cannot_be_opened_is_no_verdict() {
+        let lack = PackageError::Io { source: std::io::Error::from_raw_os_error(24) };
+        let Interruption::Store(error) = Interruption::generated_package(lack) else { panic!("a verdict") };
+        assert!(error.may_pass());
     }
 }

@@ -82,6 +82,7 @@ impl Runner {
             // Counted at the next start.
             tracing::warn!(%error, "could not count what the last service ended under");
         }
+        store.restart_outdated().await?;
         for Unfinished { id, owner, crashes } in store.unfinished_jobs().await? {
             if crashes >= MOST_CRASHES && engine.fail(id, &error::crashed(crashes)).await.is_ok() {
                 continue;

@@ -12,6 +12,7 @@ use sha2::{Digest, Sha256};
 use super::error::StoreError;
 use super::handle::Store;
 use super::reductions;
+use super::unfinished::unfinished_file;
 use crate::analysis::run::VERSION;
 use crate::dynamics::reduction::Checkpoints;
 
@@ -98,7 +99,7 @@ impl CheckpointFolder {
     fn write(&self, part: &str, bytes: &[u8]) -> std::io::Result<()> {
         std::fs::create_dir_all(&self.folder)?;
         // Written whole and flushed before it gets its name: a name promises a part, whenever the power fails.
-        let mut file = tempfile::Builder::new().prefix("unfinished-").tempfile_in(&self.folder)?;
+        let mut file = unfinished_file(&self.folder, "unfinished-")?;
         file.write_all(&(bytes.len() as u64).to_le_bytes())?;
         file.write_all(&Sha256::digest(bytes))?;
         file.write_all(bytes)?;

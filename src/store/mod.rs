@@ -25,6 +25,7 @@ pub mod results;
 pub mod status;
 mod time;
 pub mod trials;
+mod unfinished;
 mod write;
 
 pub use backup::{Backup, Findings, backup, check};

@@ -9,6 +9,7 @@ use super::error::StoreError;
 use super::handle::Store;
 use super::limits::{LimitReached, Limits};
 use super::time::now;
+use super::unfinished::unfinished_file;
 use crate::analysis::run::ModelFacts;
 
 /// What names of packages on their way in begin with.
@@ -44,7 +45,7 @@ impl Store {
     /// An empty file on the same file system as the models, for a package on its way in. Removed when dropped, or by the
     /// next start.
     pub fn new_upload(&self) -> std::io::Result<tempfile::NamedTempFile> {
-        tempfile::Builder::new().prefix(UPLOAD_PREFIX).tempfile_in(self.folder.join("models"))
+        unfinished_file(&self.folder.join("models"), UPLOAD_PREFIX)
     }
 
     /// Where the package of `model` lies.

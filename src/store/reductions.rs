@@ -5,11 +5,14 @@ use super::handle::Store;
 use super::jobs::job::JobId;
 use super::time::now;
 use crate::analysis::result::ReductionReport;
-use crate::analysis::run::ReducedSector;
+use crate::analysis::run::{REVISION, ReducedSector};
 
 /// Layout of a stored reduction and of its checkpoints: raise it when [`ReducedSector`] or the parts of a reduction
 /// change, so that old ones are computed again instead of misread.
 pub(super) const LAYOUT: i64 = 4;
+
+/// What a stored reduction is known by: its layout and the revision of its numbers.
+const FORM: i64 = 1_000_000 * LAYOUT + REVISION as i64;
 
 impl Store {
     /// The stored reduction of `model`, if this version of the program can read it.
@@ -23,7 +26,7 @@ impl Store {
         )
         .bind(model)
         .bind(modes_per_speed)
-        .bind(LAYOUT)
+        .bind(FORM)
         .fetch_optional(&self.readers)
         .await?;
         Ok(blob.and_then(|blob| match postcard::from_bytes(&blob) {
@@ -42,7 +45,7 @@ impl Store {
             "select report from reductions where model = ? and layout = ? order by modes_per_speed",
         )
         .bind(model)
-        .bind(LAYOUT)
+        .bind(FORM)
         .fetch_all(&self.readers)
         .await?;
         Ok(reports.iter().map(|report| serde_json::from_str(report)).collect::<Result<_, _>>()?)
@@ -51,7 +54,7 @@ impl Store {
     /// Model and `modes_per_speed` of all stored reductions that this version of the program can read.
     pub(super) async fn stored_reductions(&self) -> Result<Vec<(String, u32)>, StoreError> {
         Ok(sqlx::query_as("select model, modes_per_speed from reductions where layout = ?")
-            .bind(LAYOUT)
+            .bind(FORM)
             .fetch_all(&self.readers)
             .await?)
     }
@@ -74,7 +77,7 @@ impl Store {
         )
         .bind(model)
         .bind(modes_per_speed)
-        .bind(LAYOUT)
+        .bind(FORM)
         .bind(postcard::to_stdvec(reduced)?)
         .bind(serde_json::to_string(&reduced.report)?)
         .bind(now())
@@ -95,7 +98,7 @@ mod tests {
     use super::*;
 
     #[tokio::test]
-    async fn a_reduction_of_an_older_layout_is_not_there() {
+    async fn a_reduction_of_other_numbers_is_not_there() {
         let folder = tempfile::tempdir().unwrap();
         let store = Store::open(folder.path()).await.unwrap();
         sqlx::query(
@@ -108,7 +111,7 @@ mod tests {
         let report = r#"{"modes_per_speed": 20, "unknowns": [7], "wheel_unknowns": 40, "largest_mode_residual": 1e-9,
             "modes": 60, "counted_modes": 60, "full_model": [], "basis_tolerance": 1e-5, "stiffening": {"verdict": "absent",
             "linear_ratio": 0, "quadratic_ratio": 0, "frequency_error": 0, "message": "none"}, "wall_time_s": 1.5, "version": "0.1.0"}"#;
-        let rows = [(10, LAYOUT - 1, r#"{"modes_per_speed": 10, "checked_modes": 5}"#), (20, LAYOUT, report)];
+        let rows = [(10, FORM - 1, r#"{"modes_per_speed": 10, "checked_modes": 5}"#), (20, FORM, report)];
         for (modes_per_speed, layout, report) in rows {
             sqlx::query("insert into reductions values (?, ?, ?, x'00', ?, 'a')")
                 .bind("m".repeat(64))

@@ -1,7 +1,7 @@
 //! Keeping a new job.
 
 use super::job::{JobId, JobRequest};
-use crate::analysis::run::ModelFacts;
+use crate::analysis::run::{ModelFacts, REVISION};
 use crate::store::error::StoreError;
 use crate::store::handle::Store;
 use crate::store::idempotency::{self, Answer};
@@ -47,8 +47,9 @@ impl Store {
         }
         let time = now();
         let inserted = sqlx::query(
-            "insert into jobs (id, kind, model, modes_per_speed, facts, request, speeds, created_at, updated_at, owner)
-             select ?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?8, ?9
+            "insert into jobs (id, kind, model, modes_per_speed, facts, request, speeds, created_at, updated_at, owner,
+                 revision)
+             select ?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?8, ?9, ?10
              where ?3 is null or exists (select 1 from models where id = ?3)",
         )
         .bind(id.to_string())
@@ -60,6 +61,7 @@ impl Store {
         .bind(speeds)
         .bind(time)
         .bind(owner)
+        .bind(REVISION)
         .execute(&mut *transaction)
         .await?;
         if inserted.rows_affected() == 0 {

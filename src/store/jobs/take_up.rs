@@ -1,7 +1,10 @@
 //! Taking up unfinished jobs when a service starts, and counting those it died under.
 
+use sqlx::AssertSqlSafe;
+
 use super::job::JobId;
 use super::row::read_id;
+use crate::analysis::run::REVISION;
 use crate::store::error::StoreError;
 use crate::store::handle::Store;
 
@@ -50,6 +53,28 @@ impl Store {
         }
         transaction.commit().await?;
         self.forget_marked()
+    }
+
+    /// Lets unfinished jobs begin anew that another revision of the numerics began: all numbers of a job are of one. For a
+    /// service that starts.
+    pub async fn restart_outdated(&self) -> Result<(), StoreError> {
+        const OUTDATED: &str = "status in ('accepted', 'running') and revision <> ?1";
+        let any = format!("select exists (select 1 from jobs where {OUTDATED})");
+        if !sqlx::query_scalar(AssertSqlSafe(any)).bind(REVISION).fetch_one(&self.readers).await? {
+            return Ok(());
+        }
+        let mut transaction = self.write().await?;
+        for table in ["speed_results", "end_states"] {
+            let begun = format!("delete from {table} where job in (select id from jobs where {OUTDATED})");
+            sqlx::query(AssertSqlSafe(begun)).bind(REVISION).execute(&mut *transaction).await?;
+        }
+        let restart = format!(
+            "update jobs set finished = 0, diverged = 0, failed = 0, stored_bytes = 0, revision = ?1 where {OUTDATED}"
+        );
+        let restarted = sqlx::query(AssertSqlSafe(restart)).bind(REVISION).execute(&mut *transaction).await?;
+        transaction.commit().await?;
+        tracing::info!(jobs = restarted.rows_affected(), "begin anew: their numbers were of another version");
+        Ok(())
     }
 
     /// All jobs that still want work, oldest first.
@@ -102,5 +127,48 @@ mod tests {
         // The reduction is finished: its parts are gone.
         store.remove_checkpoints("m", Some(20)).await;
         assert_eq!(crash().await, 1);
+    }
+
+    #[tokio::test]
+    async fn unfinished_work_of_other_numbers_begins_anew() {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::open(folder.path()).await.unwrap();
+        let insert = async |status: &str, revision: u32| {
+            let job = JobId::new();
+            sqlx::query(
+                "insert into jobs (id, kind, status, model, modes_per_speed, facts, request, speeds, created_at, updated_at,
+                     finished, stored_bytes, revision, finished_at)
+                 values (?, 'sweep', ?, 'm', 20, '{}', '{}', 2, 'a', 'a', 1, 2, ?, ?)",
+            )
+            .bind(job.to_string())
+            .bind(status)
+            .bind(revision)
+            .bind((status == "successful").then_some("a"))
+            .execute(&store.writer)
+            .await
+            .unwrap();
+            sqlx::query(
+                "insert into speed_results (job, speed, status, point, created_at) values (?, 1, 'completed', '{}', 'a')",
+            )
+            .bind(job.to_string())
+            .execute(&store.writer)
+            .await
+            .unwrap();
+            job
+        };
+        let outdated = insert("running", REVISION - 1).await;
+        let others = [insert("running", REVISION).await, insert("successful", REVISION - 1).await];
+        store.restart_outdated().await.unwrap();
+        assert!(store.finished_speeds(outdated).await.unwrap().is_empty());
+        let counted: (u32, u32, u32) =
+            sqlx::query_as("select finished, stored_bytes, revision from jobs where id = ?")
+                .bind(outdated.to_string())
+                .fetch_one(&store.readers)
+                .await
+                .unwrap();
+        assert_eq!(counted, (0, 0, REVISION));
+        for job in others {
+            assert_eq!(store.finished_speeds(job).await.unwrap().len(), 1);
+        }
     }
 }

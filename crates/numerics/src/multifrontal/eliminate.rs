@@ -11,7 +11,7 @@ use faer::{Accum, Mat, MatMut, MatRef, Par};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 use super::analysis::{Analysis, Front};
-use super::{Breakdown, Eliminated};
+use super::eliminated::{Breakdown, Eliminated};
 
 /// Pivots eliminated at once, and columns updated at once: wide enough for level-3 speed.
 const PANEL: usize = 192;

@@ -10,7 +10,7 @@ use faer::linalg::triangular_solve::{
 use faer::prelude::{Reborrow, ReborrowMut};
 use faer::{Accum, Mat, MatMut, Par};
 
-use super::PartialFactor;
+use super::factor::PartialFactor;
 
 impl PartialFactor<'_> {
     /// x_I ← L⁻¹ x_I, x_F ← x_F − L_F L⁻¹ x_I for every row of `x`.
