@@ -4,9 +4,10 @@ use crate::effects::{coating, rotation};
 use crate::error::{AnalysisError, Violation};
 use crate::model::ReducedSector;
 use crate::monitor::Monitor;
+use crate::not_runnable::NotRunnable;
 use crate::request::{AutoOr, Integration, SchemeChoice, SweepRequest};
 use crate::sliding;
-use crate::stepping::{SAFETY, Stepping, casing_limit, no_stable_step, touching};
+use crate::stepping::{SAFETY, Stepping, casing_limit, touching};
 use rubmap_wheel::dynamics::error::ModelError;
 use rubmap_wheel::dynamics::modal_wheel::{ModalWheel, RotationEffects, natural_frequencies};
 use rubmap_wheel::dynamics::schemes::{Scheme, central_differences};
@@ -23,8 +24,8 @@ pub fn check(
     let mut ends: Vec<f64> = speeds.first().into_iter().chain(speeds.last()).copied().collect();
     ends.dedup();
     check_sliding(reduced, request, &ends)?;
-    if let Err(message) = coating(&request.scene, &reduced.wheel.contact, reduced.wheel.sectors) {
-        return Err(AnalysisError::Refused(vec![Violation::new("/scene/abradable", message)]));
+    if let Err(error) = coating(&request.scene, &reduced.wheel.contact, reduced.wheel.sectors) {
+        return Err(AnalysisError::Refused(vec![Violation::new("/scene/abradable", error.to_string())]));
     }
     let Integration { steps_per_revolution, kept_modes, .. } = request.integration;
     if (steps_per_revolution, kept_modes) == (AutoOr::Auto, AutoOr::Auto) {
@@ -109,7 +110,8 @@ fn refuse(request: &SweepRequest, stable: u64, speed: f64) -> Result<(), Analysi
             AutoOr::Fixed(kept) => ("/integration/kept_modes", kept as usize),
             AutoOr::Auto => ("/integration/scheme", 1),
         };
-        return refused(pointer, no_stable_step(Scheme::MasslessBoundary { kept_modes }));
+        let scheme = Scheme::MasslessBoundary { kept_modes };
+        return refused(pointer, NotRunnable::NoStableStep(scheme).to_string());
     }
     let AutoOr::Fixed(steps) = request.integration.steps_per_revolution else { return Ok(()) };
     if u64::from(steps) >= stable {

@@ -3,9 +3,10 @@
 use std::f64::consts::TAU;
 
 use super::symmetry::repeats;
+use crate::not_runnable::NotRunnable;
 use crate::request::scene::FlexibleCasing as FlexibleCasingRequest;
 use crate::request::{Abradable, CasingMode, Component, Mistuning, Scene, SweepRequest, Symmetry};
-use rubmap_wheel::dynamics::contact::coating::{Coating, CoatingMaterial};
+use rubmap_wheel::dynamics::contact::coating::{Coating, CoatingError, CoatingMaterial};
 use rubmap_wheel::dynamics::contact::friction::sliding_directions;
 use rubmap_wheel::dynamics::effects::{Effects, Friction};
 use rubmap_wheel::dynamics::error::ModelError;
@@ -38,12 +39,12 @@ impl SceneEffects {
         contact_nodes: &[ContactNode],
         wheel: &ModalWheel,
         ramp_revolutions: f64,
-    ) -> Result<Self, String> {
+    ) -> Result<Self, NotRunnable> {
         let sectors = wheel.around();
         let friction = match &scene.friction {
             Some(friction) => {
                 let directions = sliding_directions(contact_nodes, friction.coefficient);
-                Some((friction.coefficient, directions.map_err(|error| error.to_string())?))
+                Some((friction.coefficient, directions?))
             }
             None => None,
         };
@@ -92,13 +93,11 @@ pub(super) fn coating(
     scene: &Scene,
     contact_nodes: &[ContactNode],
     sectors: usize,
-) -> Result<Option<Coating>, String> {
+) -> Result<Option<Coating>, CoatingError> {
     let Some(coating) = &scene.abradable else { return Ok(None) };
     let Abradable { modulus, yield_stress, hardening, thickness, rods_around } = *coating;
     let material = CoatingMaterial { modulus, yield_stress, hardening };
-    Coating::new(material, thickness, rods_around as usize, contact_nodes, sectors)
-        .map(Some)
-        .map_err(|error| error.to_string())
+    Coating::new(material, thickness, rods_around as usize, contact_nodes, sectors).map(Some)
 }
 
 /// What rotation does to the modes of the wheel.

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use faer::c64;
 
+use crate::not_runnable::NotRunnable;
 use crate::request::{Initial, Probe, SweepRequest, Symmetry};
 use crate::stepping::Stepping;
 use crate::symmetry::repeats;
@@ -22,7 +23,7 @@ pub(super) fn initial(
     contact_nodes: &[ContactNode],
     casing: Option<&Casing>,
     stepping: &Stepping,
-) -> Result<Vec<InitialMode>, String> {
+) -> Result<Vec<InitialMode>, NotRunnable> {
     if request.scene.symmetry == Symmetry::Probe {
         return Ok(asymmetry(request, wheel, casing));
     }
@@ -30,12 +31,11 @@ pub(super) fn initial(
     let (harmonic, family) = (initial.nodal_diameter as usize / wheel.repeats, initial.family as usize - 1);
     let modes = &wheel.harmonics[harmonic];
     if family >= modes.omega.len() {
-        return Err(format!(
-            "nodal diameter {} of the reduced wheel has {} modal families, not {}",
-            initial.nodal_diameter,
-            modes.omega.len(),
-            initial.family
-        ));
+        return Err(NotRunnable::NoSuchFamily {
+            nodal_diameter: initial.nodal_diameter,
+            families: modes.omega.len(),
+            family: initial.family,
+        });
     }
     check_integrated(initial, modes.omega[family], wheel, casing.is_some(), stepping)?;
     let wave = match initial.wave {
@@ -57,18 +57,16 @@ fn check_integrated(
     wheel: &ModalWheel,
     touching: bool,
     stepping: &Stepping,
-) -> Result<(), String> {
+) -> Result<(), NotRunnable> {
     let step = TAU / (wheel.speed_rad_s * stepping.discretisation.per_revolution as f64);
-    let (family, diameter) = (initial.family, initial.nodal_diameter);
+    let Initial { family, nodal_diameter, .. } = *initial;
     match stepping.scheme {
-        Scheme::MasslessBoundary { kept_modes } if family as usize > kept_modes => Err(format!(
-            "the initial mode is family {family} of nodal diameter {diameter}, of which {kept_modes} are kept: keep more, or take \
-             another scheme"
-        )),
-        Scheme::ExactModal if touching && omega * step > exact_modal::FOLLOWS => Err(format!(
-            "the initial mode, family {family} of nodal diameter {diameter}, is too fast for the step and would follow statically: \
-             take more steps_per_revolution"
-        )),
+        Scheme::MasslessBoundary { kept_modes } if family as usize > kept_modes => {
+            Err(NotRunnable::FamilyNotKept { family, nodal_diameter, kept_modes })
+        }
+        Scheme::ExactModal if touching && omega * step > exact_modal::FOLLOWS => {
+            Err(NotRunnable::FamilyFollows { family, nodal_diameter })
+        }
         _ => Ok(()),
     }
 }
@@ -80,7 +78,7 @@ fn check_reach(
     wheel: &ModalWheel,
     contact_nodes: &[ContactNode],
     casing: &Casing,
-) -> Result<(), String> {
+) -> Result<(), NotRunnable> {
     let modes = &wheel.harmonics[mode.harmonic];
     let sectors = wheel.sectors as f64;
     let weight = if modes.single { (1.0 / sectors).sqrt() } else { (2.0 / sectors).sqrt() };
@@ -101,10 +99,7 @@ fn check_reach(
     if fits >= 1.0 {
         return Ok(());
     }
-    Err(format!(
-        "the initial mode stands inside the casing at rest: at this speed /scene/initial/amplitude is at most {:.6e}",
-        initial.amplitude * fits
-    ))
+    Err(NotRunnable::InsideCasing { largest: initial.amplitude * fits })
 }
 
 /// The lowest mode of every nodal diameter that the symmetry of the scene keeps at rest, at a phase of its own.

@@ -21,6 +21,7 @@ mod initial;
 mod modal;
 mod model;
 pub mod monitor;
+mod not_runnable;
 mod plan;
 mod prepare;
 mod record;

@@ -10,14 +10,13 @@ use crate::calibration::effects::EffectSizes;
 use crate::calibration::size::StepSize;
 use crate::diagram::FrequencyDiagram;
 use crate::effect_list::effects_of;
-use crate::effects::wheel_of;
 use crate::initial::initial;
 use crate::model::{ModelFacts, ReducedSector};
 use crate::request::{ModalAnalysisRequest, Scene, SweepDirection, SweepRequest, Symmetry, TrialRequest};
 use crate::result::{
     CostRange, Estimate, FoundSymmetry, ModalAnalysisPlan, PlannedPoint, ReductionState, SweepPlan,
 };
-use crate::speed::{casing, check_table};
+use crate::speed::{casing, check_table, ready};
 use crate::stepping::Stepping;
 use rubmap_numerics::sector_fourier::harmonic_count;
 use rubmap_wheel::dynamics::casing::RestrictionTable;
@@ -154,15 +153,14 @@ fn plan_point(
     speed_rad_s: f64,
 ) -> PlannedPoint {
     let start = Instant::now();
-    let chosen = stepping_at(reduced, request, speed_rad_s).and_then(|(stepping, wheel)| {
+    let chosen = ready(reduced, request, speed_rad_s).and_then(|(wheel, stepping)| {
         let contact = &reduced.wheel.contact;
         let steps = stepping.discretisation.per_revolution;
-        sliding::check(&wheel, contact, request, stepping.scheme, steps)
-            .map_err(|error| error.to_string())?;
+        sliding::check(&wheel, contact, request, stepping.scheme, steps)?;
         check_table(&reduced.wheel, request, steps)?;
         let casing = casing(&reduced.wheel, request, request.integration.ramp_revolutions);
         initial(request, &wheel, contact, casing.as_ref(), &stepping)?;
-        Ok((stepping, wheel))
+        Ok((wheel, stepping))
     });
     let set_up = start.elapsed().as_secs_f64();
     let planned = PlannedPoint {
@@ -176,9 +174,9 @@ fn plan_point(
         computing_time_s: None,
         memory_bytes: 0,
     };
-    let (stepping, wheel) = match chosen {
+    let (wheel, stepping) = match chosen {
         Ok(chosen) => chosen,
-        Err(message) => return PlannedPoint { message: Some(message), ..planned },
+        Err(reason) => return PlannedPoint { message: Some(reason.to_string()), ..planned },
     };
     let unknowns = stepping.scheme.integrated_unknowns(&wheel);
     let steps = stepping.discretisation.per_revolution as u64 * u64::from(request.integration.revolutions);
@@ -200,17 +198,6 @@ fn plan_point(
     }
 }
 
-/// The wheel at a speed, and how time is stepped there.
-fn stepping_at(
-    reduced: &ReducedSector,
-    request: &SweepRequest,
-    speed_rad_s: f64,
-) -> Result<(Stepping, ModalWheel), String> {
-    let wheel = wheel_of(&request.scene, &reduced.wheel, speed_rad_s).map_err(|error| error.to_string())?;
-    let stepping = Stepping::choose(&wheel, &reduced.wheel.contact, request)?;
-    Ok((stepping, wheel))
-}
-
 /// Contact nodes of a sector that may touch.
 fn touching(reduced: &ReducedSector, request: &SweepRequest) -> usize {
     if request.scene.contact.is_some() { reduced.wheel.contact.len() } else { 0 }
@@ -222,7 +209,7 @@ pub fn trial_memory(reduced: &ReducedSector, request: &TrialRequest) -> u64 {
     let Some(&speed_rad_s) = sweep.speeds.resolve().ok().as_deref().and_then(<[f64]>::first) else {
         return 0;
     };
-    let Ok((stepping, wheel)) = stepping_at(reduced, sweep, speed_rad_s) else { return 0 };
+    let Ok((wheel, stepping)) = ready(reduced, sweep, speed_rad_s) else { return 0 };
     // A twin has a history of its own.
     let runs = 1 + u64::from(request.twin);
     runs * running_bytes(&wheel, sweep, &stepping, touching(reduced, sweep))

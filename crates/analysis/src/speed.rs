@@ -9,6 +9,7 @@ use crate::error::AnalysisError;
 use crate::initial::{initial, perturbed};
 use crate::model::ReducedSector;
 use crate::monitor::Monitor;
+use crate::not_runnable::NotRunnable;
 use crate::record::record_run;
 use crate::request::{Sensor, SweepDirection, SweepRequest};
 use crate::result::{Point, PointStatus, SpeedResult, WearMap};
@@ -44,7 +45,7 @@ pub fn run_speed(
         Ok((wheel, stepping, run))
     });
     match ran {
-        Err(message) => point.message = Some(message),
+        Err(reason) => point.message = Some(reason.to_string()),
         Ok((wheel, stepping, run)) => {
             spectra = record_run(&mut point, &run, request, &wheel, &stepping)?;
             end_state = end_state_of(&run, &reduced.wheel, &wheel, request);
@@ -63,8 +64,8 @@ pub(super) fn ready(
     reduced: &ReducedSector,
     request: &SweepRequest,
     speed_rad_s: f64,
-) -> Result<(ModalWheel, Stepping), String> {
-    let wheel = wheel_of(&request.scene, &reduced.wheel, speed_rad_s).map_err(|error| error.to_string())?;
+) -> Result<(ModalWheel, Stepping), NotRunnable> {
+    let wheel = wheel_of(&request.scene, &reduced.wheel, speed_rad_s)?;
     let stepping = Stepping::choose(&wheel, &reduced.wheel.contact, request)?;
     Ok((wheel, stepping))
 }
@@ -147,7 +148,7 @@ pub(super) fn simulate(
     stepping: &Stepping,
     start: Start<'_>,
     watch: &dyn Fn(f64) -> bool,
-) -> Result<Run, String> {
+) -> Result<Run, NotRunnable> {
     let scene = &request.scene;
     let Stepping { scheme, discretisation: steps, .. } = stepping;
     let scheme = *scheme;
@@ -156,17 +157,15 @@ pub(super) fn simulate(
         Start::After(_) => 0.0,
         Start::Scene | Start::Perturbed => request.integration.ramp_revolutions,
     };
-    sliding::check(wheel, &reduced.contact, request, scheme, steps.per_revolution)
-        .map_err(|error| error.to_string())?;
+    sliding::check(wheel, &reduced.contact, request, scheme, steps.per_revolution)?;
     let damping = modal_damping(request);
     let casing = casing(reduced, request, ramp_revolutions);
     check_table(reduced, request, steps.per_revolution)?;
     let effects = SceneEffects::of(scene, &reduced.contact, wheel, ramp_revolutions)?;
     let initial = match start {
         Start::After(state) => state
-            .modes(wheel, reduced, scene.centrifugal_stiffening, scheme)
-            .map_err(|error| error.to_string())?
-            .ok_or("the neighbouring speed ended in a state of another reduction: run the sweep again")?,
+            .modes(wheel, reduced, scene.centrifugal_stiffening, scheme)?
+            .ok_or(NotRunnable::OtherReduction)?,
         Start::Scene => initial(request, wheel, &reduced.contact, casing.as_ref(), stepping)?,
         Start::Perturbed => perturbed(
             initial(request, wheel, &reduced.contact, casing.as_ref(), stepping)?,
@@ -197,17 +196,14 @@ pub(super) fn check_table(
     reduced: &ReducedWheel,
     request: &SweepRequest,
     steps_per_revolution: usize,
-) -> Result<(), String> {
+) -> Result<(), NotRunnable> {
     let stride = reduced.contact.len().next_multiple_of(8);
-    let size = RestrictionTable::size(steps_per_revolution, reduced.sectors, stride);
+    let (steps, sectors) = (steps_per_revolution, reduced.sectors);
+    let size = RestrictionTable::size(steps, sectors, stride);
     if size <= MAX_TABLE_VALUES || request.scene.touched_lobes().is_none() {
         return Ok(());
     }
-    Err(format!(
-        "the casing's table would take {size} values at {steps_per_revolution} steps per revolution: take fewer steps, a multiple of \
-         the {} sectors, or wider lobes",
-        reduced.sectors
-    ))
+    Err(NotRunnable::Table { size, steps, sectors })
 }
 
 /// The casing of a scene with contact; a casing that nothing touches does not exist for the integration.

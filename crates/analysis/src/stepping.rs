@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::discretisation::Discretisation;
 use crate::effects::flexible_casing;
+use crate::not_runnable::NotRunnable;
 use crate::request::auto_or::MOST_STEPS;
 use crate::request::{AutoOr, Integration, SchemeChoice, SweepRequest};
 use crate::result::SchemeReport;
@@ -108,7 +109,7 @@ pub(super) fn touching<'a>(contact_nodes: &'a [ContactNode], request: &SweepRequ
 }
 
 /// A scheme with the steps it wants.
-struct Wish {
+struct Proposal {
     scheme: Scheme,
     least_steps: f64,
     why_scheme: String,
@@ -131,14 +132,14 @@ impl Stepping {
         wheel: &ModalWheel,
         contact_nodes: &[ContactNode],
         request: &SweepRequest,
-    ) -> Result<Self, String> {
+    ) -> Result<Self, NotRunnable> {
         let Integration { scheme, kept_modes, steps_per_revolution, .. } = request.integration;
         let given = match steps_per_revolution {
             AutoOr::Auto => None,
             AutoOr::Fixed(steps) => Some(steps),
         };
         let scope = Scope { wheel, contact_nodes: touching(contact_nodes, request), request, given };
-        let wish = match (scheme, kept_modes) {
+        let proposal = match (scheme, kept_modes) {
             (SchemeChoice::Auto, _) => scope.automatic(),
             (SchemeChoice::CentralDifferences, _) => scope.bounded(Scheme::CentralDifferences),
             (SchemeChoice::ExactModal, _) => scope.exact(),
@@ -147,54 +148,54 @@ impl Stepping {
             }
             (SchemeChoice::MasslessBoundary, AutoOr::Auto) => scope.massless()?,
         };
-        scope.grant(wish)
+        scope.settle(proposal)
     }
 }
 
 impl Scope<'_> {
     /// Resolves every mode if that price is bearable at the slowest speed, so that a sweep keeps to one scheme; otherwise
     /// lets the boundary go without mass.
-    fn automatic(&self) -> Wish {
+    fn automatic(&self) -> Proposal {
         let speeds = self.request.speeds.resolve().unwrap_or_default();
         let slowest = speeds.into_iter().fold(self.wheel.speed_rad_s, f64::min);
         let stiffest = resolving_steps(self.wheel, slowest);
         let affordable = self.given.map_or(PRICE_OF_STIFFNESS * steps_for_contact(self.request).0, f64::from);
-        let mut wish = self.exact();
+        let mut proposal = self.exact();
         let massive_casing = self.request.scene.flexible_casing.is_some();
         if self.contact_nodes.is_empty() || massive_casing || stiffest <= affordable {
             let resolving = resolving_steps(self.wheel, self.wheel.speed_rad_s);
             let pays = stiffest <= affordable && !self.contact_nodes.is_empty();
-            if pays && resolving > wish.least_steps {
-                wish.least_steps = resolving;
-                wish.why_steps = "the step resolves the stiffest mode".to_owned();
+            if pays && resolving > proposal.least_steps {
+                proposal.least_steps = resolving;
+                proposal.why_steps = "the step resolves the stiffest mode".to_owned();
             }
-            return wish;
+            return proposal;
         }
         let price = format!(
             "resolving the stiffest mode at the slowest speed would take {stiffest:.0} steps per revolution"
         );
         match self.massless() {
-            Ok(massless) => Wish { why_scheme: format!("{price}; {}", massless.why_scheme), ..massless },
-            Err(_) => Wish { why_scheme: format!("{price}; {}", wish.why_scheme), ..wish },
+            Ok(massless) => Proposal { why_scheme: format!("{price}; {}", massless.why_scheme), ..massless },
+            Err(_) => Proposal { why_scheme: format!("{price}; {}", proposal.why_scheme), ..proposal },
         }
     }
 
     /// A scheme with a stability limit.
-    fn bounded(&self, scheme: Scheme) -> Wish {
+    fn bounded(&self, scheme: Scheme) -> Proposal {
         let (contact, why) = steps_for_contact(self.request);
         let smallest = self.smallest_stable_steps(scheme);
         let limit = (smallest as f64 / SAFETY).ceil();
         let why_scheme = "as requested".to_owned();
         if limit > contact {
             let why_steps = format!("the step is {} of the stability limit", SAFETY);
-            Wish { scheme, least_steps: limit, why_scheme, why_steps }
+            Proposal { scheme, least_steps: limit, why_scheme, why_steps }
         } else {
-            Wish { scheme, least_steps: contact, why_scheme, why_steps: set_so_that(why) }
+            Proposal { scheme, least_steps: contact, why_scheme, why_steps: set_so_that(why) }
         }
     }
 
     /// Every mode by its exact propagator.
-    fn exact(&self) -> Wish {
+    fn exact(&self) -> Proposal {
         let why_scheme = if is_driven(self.request) {
             "every mode is advanced exactly but for the forces on it, which are of second order".to_owned()
         } else {
@@ -203,30 +204,25 @@ impl Scope<'_> {
         let scheme = Scheme::ExactModal;
         if self.contact_nodes.is_empty() && !is_driven(self.request) {
             let why_steps = "nothing touches, so that any step is exact".to_owned();
-            return Wish { scheme, least_steps: 1.0, why_scheme, why_steps };
+            return Proposal { scheme, least_steps: 1.0, why_scheme, why_steps };
         }
         let (contact, why) = steps_for_contact(self.request);
         let why = if self.contact_nodes.is_empty() { "its forces are resolved" } else { why };
-        Wish { scheme, least_steps: contact, why_scheme, why_steps: set_so_that(why) }
+        Proposal { scheme, least_steps: contact, why_scheme, why_steps: set_so_that(why) }
     }
 
     /// A boundary without mass, with as many modes as the step for contact carries, but enough for the engine orders
     /// asked for.
-    fn massless(&self) -> Result<Wish, String> {
+    fn massless(&self) -> Result<Proposal, NotRunnable> {
         let carried = |steps: f64| {
             massless_boundary::most_kept_modes(self.wheel, self.contact_nodes, (SAFETY * steps) as u64)
-        };
-        let none = |steps: f64| {
-            format!(
-                "{steps} steps per revolution carry no mode of a boundary without mass: take more, or another scheme"
-            )
         };
         let (contact, why) = steps_for_contact(self.request);
         let steps = self.given.map_or(contact, f64::from);
         let kept = carried(steps);
         let wanted = self.modes_reaching(REACH * self.highest_frequency());
         if let (Some(kept_modes), true) = (kept, self.given.is_some() || kept >= Some(wanted)) {
-            return Ok(Wish {
+            return Ok(Proposal {
                 scheme: Scheme::MasslessBoundary { kept_modes },
                 least_steps: steps,
                 why_scheme: "as many modes are kept as the step carries".to_owned(),
@@ -234,12 +230,13 @@ impl Scope<'_> {
             });
         }
         if self.given.is_some() {
-            return Err(none(steps));
+            return Err(NotRunnable::NoModeCarried { steps });
         }
-        let most = carried(f64::from(MOST_STEPS)).ok_or_else(|| none(f64::from(MOST_STEPS)))?;
+        let most_steps = f64::from(MOST_STEPS);
+        let most = carried(most_steps).ok_or(NotRunnable::NoModeCarried { steps: most_steps })?;
         let scheme = Scheme::MasslessBoundary { kept_modes: wanted.min(most) };
         let why_scheme = format!("modes are kept up to {REACH} times the highest engine order");
-        Ok(Wish { why_scheme, ..self.bounded(scheme) })
+        Ok(Proposal { why_scheme, ..self.bounded(scheme) })
     }
 
     fn smallest_stable_steps(&self, scheme: Scheme) -> u64 {
@@ -257,17 +254,15 @@ impl Scope<'_> {
         below.max().unwrap_or(1)
     }
 
-    /// Steps and report of a wish, if it can be had.
-    fn grant(&self, wish: Wish) -> Result<Stepping, String> {
-        let smallest = self.smallest_stable_steps(wish.scheme);
+    /// Steps and report of a proposal, if it can be had.
+    fn settle(&self, proposal: Proposal) -> Result<Stepping, NotRunnable> {
+        let smallest = self.smallest_stable_steps(proposal.scheme);
         if smallest == u64::MAX {
-            return Err(no_stable_step(wish.scheme));
+            return Err(NotRunnable::NoStableStep(proposal.scheme));
         }
         let (discretisation, why_steps) = match self.given {
             Some(steps) if u64::from(steps) < smallest => {
-                return Err(format!(
-                    "{steps} steps per revolution are unstable at this speed; at least {smallest} are needed"
-                ));
+                return Err(NotRunnable::Unstable { steps, smallest });
             }
             Some(steps) => {
                 let close = f64::from(steps) * SAFETY < smallest as f64;
@@ -276,21 +271,17 @@ impl Scope<'_> {
                     format!("{steps} steps per revolution as requested{}", if close { &limit } else { "" });
                 (Discretisation::exactly(steps as usize, self.request, self.wheel.around()), why)
             }
-            None if wish.least_steps > f64::from(MOST_STEPS) => {
-                return Err(format!(
-                    "this speed would need {:.1e} steps per revolution, more than {MOST_STEPS}: it is too slow for the \
-                     highest frequency of the reduced wheel, or the lobes are too narrow",
-                    wish.least_steps
-                ));
+            None if proposal.least_steps > f64::from(MOST_STEPS) => {
+                return Err(NotRunnable::TooManySteps { steps: proposal.least_steps });
             }
             None => {
-                let steps = wish.least_steps as usize;
-                (Discretisation::at_least(steps, self.request, self.wheel.around()), wish.why_steps)
+                let steps = proposal.least_steps as usize;
+                (Discretisation::at_least(steps, self.request, self.wheel.around()), proposal.why_steps)
             }
         };
-        let reason = format!("{}; {why_steps}", wish.why_scheme);
-        let report = self.report(wish.scheme, &discretisation, reason);
-        Ok(Stepping { scheme: wish.scheme, smallest, discretisation, report })
+        let reason = format!("{}; {why_steps}", proposal.why_scheme);
+        let report = self.report(proposal.scheme, &discretisation, reason);
+        Ok(Stepping { scheme: proposal.scheme, smallest, discretisation, report })
     }
 
     fn report(&self, scheme: Scheme, discretisation: &Discretisation, mut reason: String) -> SchemeReport {
@@ -324,16 +315,4 @@ impl Scope<'_> {
 
 fn set_so_that(why: &str) -> String {
     format!("the step is set so that {why}")
-}
-
-pub(super) fn no_stable_step(scheme: Scheme) -> String {
-    match scheme {
-        Scheme::MasslessBoundary { kept_modes } => format!(
-            "with {kept_modes} modes per nodal diameter kept, those left out give the boundary no flexibility: keep fewer, \
-             leave kept_modes away, or reduce with more modes_per_speed"
-        ),
-        Scheme::CentralDifferences | Scheme::ExactModal => {
-            "no number of steps per revolution is stable: the speed is too slow".to_owned()
-        }
-    }
 }

@@ -20,12 +20,21 @@ impl From<&Mat<c64>> for Flat {
     }
 }
 
-impl TryFrom<Flat> for Mat<c64> {
-    type Error = String;
+/// Numbers that do not fill the matrix.
+#[derive(Debug, thiserror::Error)]
+#[error("{values} values of a {rows} × {columns} matrix")]
+struct WrongShape {
+    values: usize,
+    rows: usize,
+    columns: usize,
+}
 
-    fn try_from(flat: Flat) -> Result<Self, String> {
+impl TryFrom<Flat> for Mat<c64> {
+    type Error = WrongShape;
+
+    fn try_from(flat: Flat) -> Result<Self, WrongShape> {
         if flat.rows.checked_mul(flat.columns) != Some(flat.values.len()) {
-            return Err(format!("{} values of a {} × {} matrix", flat.values.len(), flat.rows, flat.columns));
+            return Err(WrongShape { values: flat.values.len(), rows: flat.rows, columns: flat.columns });
         }
         Ok(Self::from_fn(flat.rows, flat.columns, |i, j| {
             let (re, im) = flat.values[i + j * flat.rows];

@@ -103,7 +103,7 @@ pub fn run_trial(
         let per_revolution = if revolutions > 0.0 { running / revolutions } else { 0.0 };
         repetitions.push((set_up.as_secs_f64(), per_revolution));
         match ran {
-            Err(message) => trial.point.message = Some(message),
+            Err(reason) => trial.point.message = Some(reason.to_string()),
             Ok(ran) => first = first.or(Some(ran)),
         }
     }

@@ -1,0 +1,82 @@
+//! Why a speed cannot be integrated.
+
+use crate::request::auto_or::MOST_STEPS;
+use rubmap_wheel::dynamics::contact::coating::CoatingError;
+use rubmap_wheel::dynamics::contact::friction::FrictionError;
+use rubmap_wheel::dynamics::error::ModelError;
+use rubmap_wheel::dynamics::schemes::Scheme;
+
+/// Why a speed cannot be integrated, and what to change. It ends the speed, not the sweep.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub(crate) enum NotRunnable {
+    /// The reduced sector cannot be evaluated at this speed.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// The wheel cannot slide.
+    #[error(transparent)]
+    Friction(#[from] FrictionError),
+    /// The coating cannot be simulated.
+    #[error(transparent)]
+    Coating(#[from] CoatingError),
+    /// A fixed step beyond the stability limit.
+    #[error("{steps} steps per revolution are unstable at this speed; at least {smallest} are needed")]
+    Unstable { steps: u32, smallest: u64 },
+    /// No step is stable.
+    #[error("{}", no_stable_step(*.0))]
+    NoStableStep(Scheme),
+    /// A step that carries no mode of a boundary without mass.
+    #[error(
+        "{steps} steps per revolution carry no mode of a boundary without mass: take more, or another scheme"
+    )]
+    NoModeCarried { steps: f64 },
+    /// More steps than a request may ask for.
+    #[error(
+        "this speed would need {steps:.1e} steps per revolution, more than {MOST_STEPS}: it is too slow for the highest frequency \
+         of the reduced wheel, or the lobes are too narrow"
+    )]
+    TooManySteps { steps: f64 },
+    /// The heights of the casing at all steps take too much memory.
+    #[error(
+        "the casing's table would take {size} values at {steps} steps per revolution: take fewer steps, a multiple of the \
+         {sectors} sectors, or wider lobes"
+    )]
+    Table { size: usize, steps: usize, sectors: usize },
+    /// The initial mode does not exist.
+    #[error(
+        "nodal diameter {nodal_diameter} of the reduced wheel has {families} modal families, not {family}"
+    )]
+    NoSuchFamily { nodal_diameter: u32, families: usize, family: u32 },
+    /// The initial mode is not kept.
+    #[error(
+        "the initial mode is family {family} of nodal diameter {nodal_diameter}, of which {kept_modes} are kept: keep more, or take \
+         another scheme"
+    )]
+    FamilyNotKept { family: u32, nodal_diameter: u32, kept_modes: usize },
+    /// The initial mode is not integrated.
+    #[error(
+        "the initial mode, family {family} of nodal diameter {nodal_diameter}, is too fast for the step and would follow statically: \
+         take more steps_per_revolution"
+    )]
+    FamilyFollows { family: u32, nodal_diameter: u32 },
+    /// The initial mode is too large.
+    #[error(
+        "the initial mode stands inside the casing at rest: at this speed /scene/initial/amplitude is at most {largest:.6e}"
+    )]
+    InsideCasing { largest: f64 },
+    /// The state to start from does not fit.
+    #[error("the neighbouring speed ended in a state of another reduction: run the sweep again")]
+    OtherReduction,
+}
+
+/// [`NotRunnable::NoStableStep`] in words.
+fn no_stable_step(scheme: Scheme) -> String {
+    match scheme {
+        Scheme::MasslessBoundary { kept_modes } => format!(
+            "with {kept_modes} modes per nodal diameter kept, those left out give the boundary no flexibility: keep fewer, \
+             leave kept_modes away, or reduce with more modes_per_speed"
+        ),
+        Scheme::CentralDifferences | Scheme::ExactModal => {
+            "no number of steps per revolution is stable: the speed is too slow".to_owned()
+        }
+    }
+}
