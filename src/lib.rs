@@ -8,14 +8,13 @@
 //! # Architecture
 //!
 //! ```text
-//! numerics ← dynamics ← response ← analysis ← store ← jobs ← http ← app ← main
-//!               ↑         (package and impeller build a SectorModel; http and jobs use them)
-//!                                    (plot draws results of analysis; http and cli use it)
+//! crates/numerics ← crates/wheel (dynamics ← response) ← crates/analysis ← src (store ← jobs ← http ← app ← cli)
+//!                        ↑ crates/model (package, impeller)       ↑ crates/plot
 //! ```
 //!
 //! What is absent, and stays absent:
 //!
-//! - Left of [`store`] nothing knows HTTP, SQL, async, the clock's date or the environment.
+//! - Left of `src` nothing knows HTTP, SQL, async, the clock's date or the environment.
 //! - [`analysis`] is the one door between physics and service: plain data and the verbs that prepare a reduced
 //!   sector, run one speed and summarise the speeds.
 //! - Only [`store`] contains SQL; only [`http`] contains status codes; `http` never computes.
