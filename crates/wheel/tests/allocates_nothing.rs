@@ -1,0 +1,139 @@
+//! The step loop allocates nothing: a run six times as long takes no more allocations.
+
+use allocation_counter::measure;
+use faer::{Mat, c64};
+use rubmap_wheel::dynamics::casing::{Casing, Restriction};
+use rubmap_wheel::dynamics::contact::coating::{Coating, CoatingMaterial};
+use rubmap_wheel::dynamics::contact::friction::sliding_directions;
+use rubmap_wheel::dynamics::effects::{Effects, Friction};
+use rubmap_wheel::dynamics::excitation::EngineOrderExcitation;
+use rubmap_wheel::dynamics::flexible_casing::{CasingWave, FlexibleCasing};
+use rubmap_wheel::dynamics::integrate::{Outcome, SensorRow, Simulation};
+use rubmap_wheel::dynamics::modal_wheel::{ModalHarmonic, ModalWheel};
+use rubmap_wheel::dynamics::orbit::Orbit;
+use rubmap_wheel::dynamics::oscillators::{Direction, ModalDamping};
+use rubmap_wheel::dynamics::schemes::Scheme;
+use rubmap_wheel::dynamics::sector::ContactNode;
+
+const SECTORS: usize = 5;
+const NODES: usize = 3;
+const MODES: usize = 11;
+
+fn wheel() -> ModalWheel {
+    let harmonic = |harmonic: usize| {
+        let shape = |row: usize, mode: usize| {
+            // Without structure: rows must not depend on each other.
+            let number = |part: usize| {
+                let seed = (1 + row * MODES + mode + 40 * harmonic + 200 * part) as f64;
+                100.0 * (2.0 * (1e4 * (12.9898 * seed).sin()).fract().abs() - 1.0)
+            };
+            c64::new(number(0), if harmonic == 0 { 0.0 } else { number(1) })
+        };
+        ModalHarmonic {
+            harmonic,
+            single: harmonic == 0,
+            omega: (0..MODES).map(|mode| 4000.0 * (1 + mode) as f64 + 500.0 * harmonic as f64).collect(),
+            contact: Mat::from_fn(3 * NODES, MODES, shape),
+            gyroscopic: None,
+        }
+    };
+    let harmonics = (0..=SECTORS / 2).map(harmonic).collect();
+    ModalWheel { speed_rad_s: 1000.0, sectors: SECTORS, repeats: 1, harmonics }
+}
+
+fn contact_nodes() -> Vec<ContactNode> {
+    let node = |k: usize| ContactNode {
+        id: k as u64,
+        position: [100.0, 0.03 * k as f64, 4.0 * k as f64],
+        normal: [0.8, 0.0, 0.6],
+        dofs: [3 * k, 3 * k + 1, 3 * k + 2],
+    };
+    (0..NODES).map(node).collect()
+}
+
+/// Allocations of a run of `revolutions` in contact.
+fn allocations(scheme: Scheme, effects: Effects<'_>, revolutions: usize) -> u64 {
+    let (wheel, contact_nodes) = (wheel(), contact_nodes());
+    let casing = Casing {
+        clearance: vec![0.25, 0.3, 0.35],
+        restriction: Some(Restriction { count: 2, amplitude: 0.5, width_rad: 0.4, phase_rad: 0.1 }),
+        ramp_revolutions: 0.5,
+    };
+    let damping = ModalDamping { modal_ratio: 0.01, family_ratios: vec![0.005] };
+    let sensors = [SensorRow { direction: Direction { node: 0, components: [1.0, 0.0, 0.0] }, sector: 3 }];
+    let simulation = Simulation {
+        wheel: &wheel,
+        contact_nodes: &contact_nodes,
+        damping: Some(&damping),
+        casing: Some(&casing),
+        effects,
+        initial: &[],
+        sensors: &sensors,
+        scheme,
+        steps_per_revolution: 600,
+        samples_per_revolution: 120,
+        revolutions,
+        window_revolutions: 1,
+    };
+    let mut run = None;
+    let counted = measure(|| run = Some(simulation.run(&|_| true)));
+    let run = run.unwrap();
+    assert!(matches!(run.outcome, Outcome::Completed(_)), "{:?}", run.outcome);
+    assert!(run.statistics.contact_impulse > 0.0, "nothing touched");
+    assert!(counted.count_total > 0, "setting up allocates");
+    counted.count_total
+}
+
+fn long_runs_take_no_more(scheme: Scheme, effects: Effects<'_>) {
+    // What is made once for all runs is made.
+    allocations(scheme, effects, 2);
+    assert_eq!(allocations(scheme, effects, 12), allocations(scheme, effects, 2), "{scheme:?}");
+}
+
+#[test]
+fn without_effects() {
+    for scheme in [Scheme::CentralDifferences, Scheme::ExactModal, Scheme::MasslessBoundary { kept_modes: 5 }]
+    {
+        long_runs_take_no_more(scheme, Effects::default());
+    }
+}
+
+#[test]
+fn with_each_effect_and_with_all() {
+    let nodes = contact_nodes();
+    let directions = sliding_directions(&nodes, 0.05).unwrap();
+    let material = CoatingMaterial { modulus: 50.0, yield_stress: 1.0, hardening: 5.0 };
+    let coating = Coating::new(material, 0.5, 60, &nodes, SECTORS).unwrap();
+    let waves = vec![CasingWave { nodal_diameter: 2, omega: 9000.0, modal_mass: 1e-3 }];
+    let flexible_casing = FlexibleCasing { waves, damping_ratio: 0.01 };
+    let direction = Direction { node: 1, components: [0.0, 0.0, 1.0] };
+    let excitation = [EngineOrderExcitation {
+        order: 3,
+        directions: vec![direction],
+        amplitude: 1e-3,
+        phase_rad: 0.2,
+        ramp_revolutions: 0.5,
+    }];
+    let friction = Effects {
+        friction: Some(Friction { coefficient: 0.05, directions: &directions }),
+        ..Effects::default()
+    };
+    let coating = Effects { coating: Some(&coating), ..Effects::default() };
+    let casing = Effects { flexible_casing: Some(&flexible_casing), ..Effects::default() };
+    let orbit = Orbit { radius: 0.02, whirl_ratio: 0.5, phase_rad: 0.1 };
+    let orbit = Effects { orbit: Some(orbit), ..Effects::default() };
+    let mistuning = Effects { mistuning: Some(&[0.01, -0.02, 0.0, 0.015, -0.005]), ..Effects::default() };
+    let excitation = Effects { excitation: &excitation, ..Effects::default() };
+    let all = Effects {
+        friction: friction.friction,
+        flexible_casing: casing.flexible_casing,
+        orbit: orbit.orbit,
+        mistuning: mistuning.mistuning,
+        excitation: excitation.excitation,
+        coating: None,
+        energies: false,
+    };
+    for effects in [friction, coating, casing, orbit, mistuning, excitation, all] {
+        long_runs_take_no_more(Scheme::ExactModal, effects);
+    }
+}
