@@ -2,6 +2,7 @@
 
 use rubmap::dynamics::contact::coating::{Coating, CoatingMaterial};
 use rubmap::dynamics::contact::friction::sliding_directions;
+use rubmap::dynamics::direction::Direction;
 use rubmap::dynamics::effects::{Effects, Friction};
 use rubmap::dynamics::excitation::EngineOrderExcitation;
 use rubmap::dynamics::flexible_casing::{FlexibleCasing, Ring};
@@ -9,7 +10,6 @@ use rubmap::dynamics::integrate::{Outcome, Simulation};
 use rubmap::dynamics::mistuning::normal_deviations;
 use rubmap::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use rubmap::dynamics::orbit::Orbit;
-use rubmap::dynamics::oscillators::Direction;
 
 use crate::scene::{SPEED, Scene, Stepping, TOUCHING, name, radial};
 use crate::timing::{Contender, medians, timed};

@@ -8,10 +8,11 @@ use rubmap::analysis::request::{Component, Integration, SchemeChoice, Sensor, Sw
 use rubmap::analysis::result::PointStatus;
 use rubmap::analysis::run::{ReducedSector, prepare, run_speed};
 use rubmap::dynamics::casing::{Casing, Restriction};
+use rubmap::dynamics::direction::Direction;
 use rubmap::dynamics::effects::Effects;
 use rubmap::dynamics::integrate::{SensorRow, Simulation};
 use rubmap::dynamics::modal_wheel::{ModalWheel, RotationEffects};
-use rubmap::dynamics::oscillators::{Direction, ModalDamping};
+use rubmap::dynamics::oscillators::ModalDamping;
 use rubmap::dynamics::reduction::NoCheckpoints;
 use rubmap::dynamics::schemes::Scheme;
 use rubmap::impeller::ImpellerParameters;

@@ -3,10 +3,11 @@
 use std::f64::consts::TAU;
 
 use faer::{Mat, c64, mat};
+use rubmap::dynamics::direction::Direction;
 use rubmap::dynamics::excitation::EngineOrderExcitation;
 use rubmap::dynamics::initial::InitialMode;
 use rubmap::dynamics::modal_wheel::{ModalHarmonic, ModalWheel};
-use rubmap::dynamics::oscillators::{Direction, ModalDamping};
+use rubmap::dynamics::oscillators::ModalDamping;
 use rubmap::dynamics::schemes::Scheme;
 
 use crate::literal::Literal;

@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 
 use faer::c64;
 use nalgebra::{Complex, DMatrix, DVector};
+use rubmap::dynamics::direction::Direction;
 use rubmap::dynamics::excitation::EngineOrderExcitation;
 use rubmap::dynamics::initial::{InitialMode, InitialWave};
-use rubmap::dynamics::oscillators::Direction;
 use rubmap::dynamics::schemes::Scheme;
 
 use crate::literal::Literal;

@@ -1,10 +1,10 @@
 //! Limits in which an effect vanishes, and scenes that are the same scene in two guises.
 
+use rubmap::dynamics::direction::Direction;
 use rubmap::dynamics::excitation::EngineOrderExcitation;
 use rubmap::dynamics::flexible_casing::{CasingWave, FlexibleCasing};
 use rubmap::dynamics::integrate::SensorRow;
 use rubmap::dynamics::orbit::Orbit;
-use rubmap::dynamics::oscillators::Direction;
 use rubmap::dynamics::schemes::Scheme;
 
 use crate::scene::{Effect, SPEED, Scene, Start, difference, history, set_gyroscopic};

@@ -5,12 +5,13 @@ use std::f64::consts::TAU;
 use faer::{Mat, c64};
 use rubmap::dynamics::casing::{Casing, Restriction};
 use rubmap::dynamics::contact::coating::CoatingMaterial;
+use rubmap::dynamics::direction::Direction;
 use rubmap::dynamics::excitation::EngineOrderExcitation;
 use rubmap::dynamics::flexible_casing::{CasingWave, FlexibleCasing};
 use rubmap::dynamics::initial::InitialMode;
 use rubmap::dynamics::integrate::SensorRow;
 use rubmap::dynamics::orbit::Orbit;
-use rubmap::dynamics::oscillators::{Direction, ModalDamping};
+use rubmap::dynamics::oscillators::ModalDamping;
 use rubmap::dynamics::schemes::Scheme;
 
 use crate::agreement::agrees;

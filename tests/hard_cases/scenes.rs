@@ -2,11 +2,12 @@
 
 use faer::{Mat, c64};
 use rubmap::dynamics::casing::{Casing, Restriction};
+use rubmap::dynamics::direction::Direction;
 use rubmap::dynamics::effects::Effects;
 use rubmap::dynamics::initial::InitialMode;
 use rubmap::dynamics::integrate::{History, Outcome, Run, SensorRow, Simulation};
 use rubmap::dynamics::modal_wheel::{ModalHarmonic, ModalWheel, RotationEffects};
-use rubmap::dynamics::oscillators::{Direction, ModalDamping};
+use rubmap::dynamics::oscillators::ModalDamping;
 use rubmap::dynamics::reduction::{NoCheckpoints, ReductionOptions, reduce};
 use rubmap::dynamics::schemes::Scheme;
 use rubmap::dynamics::sector::ContactNode;

@@ -2,10 +2,11 @@
 
 use proptest::prelude::*;
 use rubmap::dynamics::casing::{Casing, Restriction};
+use rubmap::dynamics::direction::Direction;
 use rubmap::dynamics::effects::Effects;
 use rubmap::dynamics::integrate::{History, Outcome, Run, SensorRow, Simulation};
 use rubmap::dynamics::modal_wheel::{ModalWheel, RotationEffects};
-use rubmap::dynamics::oscillators::{Direction, ModalDamping};
+use rubmap::dynamics::oscillators::ModalDamping;
 use rubmap::dynamics::reduction::{NoCheckpoints, ReducedWheel, ReductionOptions, reduce};
 use rubmap::dynamics::schemes::Scheme;
 use rubmap::dynamics::schemes::central_differences::smallest_stable_steps;

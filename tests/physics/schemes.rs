@@ -4,11 +4,12 @@ use std::f64::consts::{PI, TAU};
 
 use faer::{Mat, c64};
 use rubmap::dynamics::casing::{Casing, Restriction};
+use rubmap::dynamics::direction::Direction;
 use rubmap::dynamics::effects::Effects;
 use rubmap::dynamics::initial::InitialMode;
 use rubmap::dynamics::integrate::{Outcome, SensorRow, Simulation};
 use rubmap::dynamics::modal_wheel::{ModalHarmonic, ModalWheel, RotationEffects};
-use rubmap::dynamics::oscillators::{Direction, ModalDamping};
+use rubmap::dynamics::oscillators::ModalDamping;
 use rubmap::dynamics::reduction::{NoCheckpoints, ReductionOptions, reduce};
 use rubmap::dynamics::schemes::Scheme;
 use rubmap::dynamics::sector::{ContactNode, SectorModel};

@@ -8,6 +8,7 @@ use crate::request::scene::FlexibleCasing as FlexibleCasingRequest;
 use crate::request::{Abradable, CasingMode, Component, Mistuning, Scene, SweepRequest, Symmetry};
 use rubmap_wheel::dynamics::contact::coating::{Coating, CoatingError, CoatingMaterial};
 use rubmap_wheel::dynamics::contact::friction::sliding_directions;
+use rubmap_wheel::dynamics::direction::Direction;
 use rubmap_wheel::dynamics::effects::{Effects, Friction};
 use rubmap_wheel::dynamics::error::ModelError;
 use rubmap_wheel::dynamics::excitation::EngineOrderExcitation;
@@ -15,7 +16,7 @@ use rubmap_wheel::dynamics::flexible_casing::{CasingWave, FlexibleCasing, Ring};
 use rubmap_wheel::dynamics::mistuning::normal_deviations;
 use rubmap_wheel::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use rubmap_wheel::dynamics::orbit::Orbit;
-use rubmap_wheel::dynamics::oscillators::{Direction, ModalDamping};
+use rubmap_wheel::dynamics::oscillators::ModalDamping;
 use rubmap_wheel::dynamics::reduction::ReducedWheel;
 use rubmap_wheel::dynamics::sector::ContactNode;
 

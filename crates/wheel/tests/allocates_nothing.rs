@@ -5,13 +5,14 @@ use faer::{Mat, c64};
 use rubmap_wheel::dynamics::casing::{Casing, Restriction};
 use rubmap_wheel::dynamics::contact::coating::{Coating, CoatingMaterial};
 use rubmap_wheel::dynamics::contact::friction::sliding_directions;
+use rubmap_wheel::dynamics::direction::Direction;
 use rubmap_wheel::dynamics::effects::{Effects, Friction};
 use rubmap_wheel::dynamics::excitation::EngineOrderExcitation;
 use rubmap_wheel::dynamics::flexible_casing::{CasingWave, FlexibleCasing};
 use rubmap_wheel::dynamics::integrate::{Outcome, SensorRow, Simulation};
 use rubmap_wheel::dynamics::modal_wheel::{ModalHarmonic, ModalWheel};
 use rubmap_wheel::dynamics::orbit::Orbit;
-use rubmap_wheel::dynamics::oscillators::{Direction, ModalDamping};
+use rubmap_wheel::dynamics::oscillators::ModalDamping;
 use rubmap_wheel::dynamics::schemes::Scheme;
 use rubmap_wheel::dynamics::sector::ContactNode;
 

@@ -9,13 +9,13 @@ use crate::effects::flexible_casing;
 use crate::request::Scene;
 use rubmap_wheel::dynamics::contact::coating::{Coating, CoatingMaterial};
 use rubmap_wheel::dynamics::contact::friction::sliding_directions;
+use rubmap_wheel::dynamics::direction::Direction;
 use rubmap_wheel::dynamics::effects::{Effects, Friction};
 use rubmap_wheel::dynamics::excitation::EngineOrderExcitation;
 use rubmap_wheel::dynamics::flexible_casing::{CasingWave, FlexibleCasing};
 use rubmap_wheel::dynamics::mistuning::normal_deviations;
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
 use rubmap_wheel::dynamics::orbit::Orbit;
-use rubmap_wheel::dynamics::oscillators::Direction;
 use rubmap_wheel::dynamics::schemes::Scheme;
 
 /// One value for each part of the price of a scene's effects.

@@ -7,10 +7,11 @@ use faer::{Mat, c64};
 
 use rubmap_numerics::sector_fourier::{harmonic_count, is_single};
 use rubmap_wheel::dynamics::casing::{Casing, Restriction};
+use rubmap_wheel::dynamics::direction::Direction;
 use rubmap_wheel::dynamics::effects::Effects;
 use rubmap_wheel::dynamics::integrate::{SensorRow, Simulation};
 use rubmap_wheel::dynamics::modal_wheel::{ModalHarmonic, ModalWheel};
-use rubmap_wheel::dynamics::oscillators::{Direction, ModalDamping};
+use rubmap_wheel::dynamics::oscillators::ModalDamping;
 use rubmap_wheel::dynamics::schemes::Scheme;
 use rubmap_wheel::dynamics::sector::ContactNode;
 use rubmap_wheel::dynamics::statistics::RunStatistics;

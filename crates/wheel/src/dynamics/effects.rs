@@ -1,10 +1,10 @@
 //! Effects beyond damping and contact with a rigid casing. One that is absent does not exist in the run.
 
 use super::contact::coating::Coating;
+use super::direction::Direction;
 use super::excitation::EngineOrderExcitation;
 use super::flexible_casing::FlexibleCasing;
 use super::orbit::Orbit;
-use super::oscillators::Direction;
 
 /// Effects of a simulation. Coriolis forces are the wheel's own: they act where it has gyroscopic matrices.
 #[derive(Debug, Clone, Copy, Default)]

@@ -13,8 +13,8 @@ use std::f64::consts::TAU;
 use faer::c64;
 
 use super::casing::ramp;
+use super::direction::Direction;
 use super::modal_wheel::ModalWheel;
-use super::oscillators::Direction;
 
 /// A force at one engine order.
 #[derive(Debug, Clone, PartialEq)]

@@ -6,6 +6,7 @@ pub mod casing;
 pub mod centrifugal;
 pub mod contact;
 pub mod coriolis;
+pub mod direction;
 pub mod effects;
 pub mod energy;
 pub mod error;

@@ -11,11 +11,11 @@ use std::f64::consts::TAU;
 use faer::{Mat, c64};
 
 use super::casing::{Casing, RestrictionTable};
+use super::direction::Direction;
 use super::effects::Effects;
 use super::initial::InitialMode;
 use super::integrate::{Outcome, Run, SensorRow, Simulation};
 use super::modal_wheel::{ModalHarmonic, ModalWheel};
-use super::oscillators::Direction;
 use super::schemes::Scheme;
 use super::sector::ContactNode;
 use rubmap_numerics::hermitian::generalised_eigenpairs;

@@ -3,8 +3,8 @@
 
 use faer::{Mat, c64};
 
+use super::super::direction::Direction;
 use super::super::modal_wheel::{ModalHarmonic, ModalWheel};
-use super::super::oscillators::Direction;
 use super::super::sector::ContactNode;
 use rubmap_numerics::hermitian::eigenvalues;
 use rubmap_numerics::sector_fourier::is_single;

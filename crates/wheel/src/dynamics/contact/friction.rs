@@ -15,7 +15,7 @@
 
 use faer::{Mat, Side, c64};
 
-use super::super::oscillators::Direction;
+use super::super::direction::Direction;
 use super::super::sector::ContactNode;
 use super::flexibility::outward_normals;
 use rubmap_numerics::p_matrix::non_positive_minor;

@@ -11,8 +11,9 @@
 
 use std::fmt;
 
+use super::super::direction::Direction;
+use super::super::oscillators::Oscillators;
 use super::super::oscillators::rows::Rows;
-use super::super::oscillators::{Direction, Oscillators};
 use super::residual::ResidualDisplacement;
 use super::simulation::Simulation;
 use rubmap_numerics::sector_fourier::SectorFourier;

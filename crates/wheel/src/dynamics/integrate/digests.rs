@@ -5,10 +5,11 @@ use pulp::Arch;
 use sha2::{Digest, Sha256};
 
 use super::super::casing::{Casing, Restriction};
+use super::super::direction::Direction;
 use super::super::effects::Effects;
 use super::super::initial::InitialMode;
 use super::super::modal_wheel::{ModalHarmonic, ModalWheel};
-use super::super::oscillators::{Direction, ModalDamping};
+use super::super::oscillators::ModalDamping;
 use super::super::schemes::Scheme;
 use super::super::sector::ContactNode;
 use super::run::Outcome;

@@ -3,7 +3,7 @@
 use faer::{Mat, c64};
 
 use super::super::contact::flexibility::outward_normals;
-use super::super::oscillators::Direction;
+use super::super::direction::Direction;
 use super::super::schemes::Scheme;
 use super::super::schemes::massless_boundary::residual_flexibility;
 use super::simulation::Simulation;

@@ -3,10 +3,11 @@
 use std::f64::consts::TAU;
 
 use crate::dynamics::casing::Casing;
+use crate::dynamics::direction::Direction;
 use crate::dynamics::effects::Effects;
 use crate::dynamics::initial::InitialMode;
 use crate::dynamics::modal_wheel::ModalWheel;
-use crate::dynamics::oscillators::{Direction, ModalDamping};
+use crate::dynamics::oscillators::ModalDamping;
 use crate::dynamics::schemes::Scheme;
 use crate::dynamics::sector::ContactNode;
 

@@ -7,6 +7,7 @@ use faer::{Mat, c64};
 use pulp::Simd;
 
 use super::super::coriolis::swing_matrix;
+use super::super::direction::Direction;
 use super::super::effects::Effects;
 use super::super::energy::EffectWork;
 use super::super::excitation::{EngineOrderExcitation, ModalExcitation};
@@ -15,7 +16,7 @@ use super::super::mistuning::{ModalMistuning, Place, RESOLVED};
 use super::super::modal_wheel::ModalWheel;
 use super::product::{LoadPair, LoadSingle, ProjectPair, ProjectSingle};
 use super::rows::{RowBlock, Rows};
-use super::{Direction, Exchange, Loads, Oscillators, Segment};
+use super::{Exchange, Loads, Oscillators, Segment};
 use rubmap_numerics::aligned::Aligned;
 use rubmap_numerics::sector_fourier::SectorFourier;
 

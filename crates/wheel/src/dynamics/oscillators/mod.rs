@@ -15,7 +15,6 @@ use pulp::Simd;
 
 use self::lanes::padded;
 use self::product::{LoadPair, LoadSingle, ProjectPair, ProjectSingle};
-pub use self::rows::Direction;
 use self::rows::Rows;
 use super::initial::InitialMode;
 use super::modal_wheel::ModalWheel;

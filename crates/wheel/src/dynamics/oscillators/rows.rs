@@ -3,25 +3,10 @@
 use faer::{Mat, MatRef, c64};
 use pulp::Simd;
 
+use super::super::direction::Direction;
 use super::super::modal_wheel::ModalWheel;
 use super::lanes::padded;
 use rubmap_numerics::aligned::Aligned;
-
-/// A displacement direction at a contact node in (r, θ, z) components.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Direction {
-    /// Contact node, from the leading edge.
-    pub node: usize,
-    /// Components of the direction.
-    pub components: [f64; 3],
-}
-
-impl Direction {
-    /// dᵀφ of mode `mode`, φ given at the contact DOF (`n_b × modes`).
-    pub fn of(&self, contact: MatRef<'_, c64>, mode: usize) -> c64 {
-        (0..3).map(|c| contact[(3 * self.node + c, mode)] * self.components[c]).sum()
-    }
-}
 
 /// Scalar displacements to be read or loaded: one row a contact normal or a sensor, for every nodal diameter.
 #[derive(Debug, Clone)]

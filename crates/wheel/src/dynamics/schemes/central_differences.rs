@@ -14,7 +14,7 @@
 
 use std::f64::consts::PI;
 
-use super::ModeStep;
+use super::mode_step::ModeStep;
 
 /// ω_max and ω_max h are known to this: a step closer to the limit counts as the limit.
 const ROUND_OFF: f64 = 1e-12;

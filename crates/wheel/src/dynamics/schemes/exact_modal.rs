@@ -12,7 +12,7 @@
 //! bound. Where the wheel may touch, modes beyond [`FOLLOWS`] therefore follow statically, z⁺ = f/ω²: the limit of
 //! heavy damping (a = 0), in the same recursion. What they take from the energy is in the identity's loss.
 
-use super::ModeStep;
+use super::mode_step::ModeStep;
 
 /// ωh beyond which a mode of a wheel in contact follows statically: a sixth below the rhythm of the steps, π.
 pub const FOLLOWS: f64 = 5.0 / 6.0 * std::f64::consts::PI;

@@ -26,8 +26,8 @@ use faer::linalg::solvers::Solve;
 use faer::{Mat, Side, c64};
 
 use super::super::contact::flexibility::{flexibility, outward_normals, ridge};
+use super::super::direction::Direction;
 use super::super::modal_wheel::ModalWheel;
-use super::super::oscillators::Direction;
 use super::super::sector::ContactNode;
 use super::central_differences;
 use rubmap_numerics::hermitian::eigenvalues;
