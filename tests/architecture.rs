@@ -55,8 +55,6 @@ struct Named {
     /// The module that is being read: the file's, or one inside it.
     module: Module,
     found: Vec<Vec<String>>,
-    /// Of other crates.
-    others: BTreeSet<String>,
 }
 
 impl Named {
@@ -76,10 +74,8 @@ impl Named {
                     module.pop();
                 }
             }
-            Some(first) => {
-                // A module beside the declarations of this file, or another crate.
-                self.others.insert(first.to_owned());
-            }
+            // A module that this file declares, or another crate.
+            Some(_) => {}
             None => return,
         }
         module.extend(parts);
@@ -120,6 +116,9 @@ impl<'ast> Visit<'ast> for Named {
         self.module.pop();
     }
 
+    /// Who may see something is not what it needs.
+    fn visit_vis_restricted(&mut self, _: &'ast syn::VisRestricted) {}
+
     fn visit_path(&mut self, path: &'ast syn::Path) {
         let parts: Vec<String> = path.segments.iter().map(|segment| segment.ident.to_string()).collect();
         if parts.len() > 1 {
@@ -129,24 +128,22 @@ impl<'ast> Visit<'ast> for Named {
     }
 }
 
-/// Which files of a crate need which, and the other crates they name.
-fn arrows(folder: &Path) -> (BTreeMap<Module, BTreeSet<Module>>, BTreeSet<String>) {
+/// Which files of a crate need which.
+fn arrows(folder: &Path) -> BTreeMap<Module, BTreeSet<Module>> {
     let files: BTreeMap<Module, PathBuf> =
         rust_files(folder).into_iter().map(|file| (module_of(folder, &file), file)).collect();
     let mut arrows = BTreeMap::new();
-    let mut others = BTreeSet::new();
     for (module, file) in &files {
         let syntax = syn::parse_file(&std::fs::read_to_string(file).unwrap()).unwrap();
-        let mut named = Named { module: module.clone(), found: Vec::new(), others: BTreeSet::new() };
+        let mut named = Named { module: module.clone(), found: Vec::new() };
         named.visit_file(&syntax);
-        others.append(&mut named.others);
         let needed = named.found.iter().filter_map(|path| {
             let file = (0..=path.len()).rev().find(|&length| files.contains_key(&path[..length]));
             file.map(|length| path[..length].to_vec())
         });
         arrows.insert(module.clone(), needed.filter(|needed| needed != module).collect());
     }
-    (arrows, others)
+    arrows
 }
 
 /// The files that can be reached from `from`.
@@ -166,7 +163,7 @@ fn reached(arrows: &BTreeMap<Module, BTreeSet<Module>>, from: &Module) -> BTreeS
 #[test]
 fn no_file_needs_itself_in_the_end() {
     for (name, _) in CRATES {
-        let (arrows, _) = arrows(&root().join(name).join("src"));
+        let arrows = arrows(&root().join(name).join("src"));
         let circular: Vec<String> = arrows
             .keys()
             .filter(|module| reached(&arrows, module).contains(*module))
@@ -181,7 +178,7 @@ fn a_circle_is_found_however_it_is_written() {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
     let circular = || {
-        let (arrows, _) = arrows(folder.path());
+        let arrows = arrows(folder.path());
         arrows.keys().filter(|module| reached(&arrows, module).contains(*module)).count()
     };
     write("lib.rs", "mod a; mod b; mod c;");
@@ -197,7 +194,7 @@ fn a_circle_is_found_however_it_is_written() {
         assert_eq!(circular(), 0, "{need}");
         write("b.rs", "pub use crate::{c::three, a}; pub fn two() {}");
         assert_eq!(circular(), 2, "{need}");
-        write("b.rs", "#[cfg(test)] mod tests { use crate::a; } pub fn two() {}");
+        write("b.rs", "#[cfg(test)] mod tests { use crate::a; } pub(in crate::a) fn two() {}");
         assert_eq!(circular(), 0, "{need}");
     }
 }

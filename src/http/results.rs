@@ -24,8 +24,11 @@ use crate::store::results::Document;
 use crate::store::status::JobStatus;
 use crate::tokens::Principal;
 
-/// Memory of spectra that are being read, over what they take in the store.
-const ROW_MEMORY: u64 = 2;
+/// Memory of spectra that are being read, over what they take unpacked: the row, its numbers deflated and inflated, the spectra.
+const ROW_MEMORY: u64 = 4;
+
+/// Memory of a document, over its text: the row and the text.
+const TEXT_MEMORY: u64 = 2;
 
 /// Memory of a document that is drawn, over its text: the text, its numbers and the drawing.
 const DRAWN_MEMORY: u64 = 4;
@@ -103,9 +106,10 @@ pub(super) async fn get_interaction_map(
         let (request, facts) = sweep(&job)?;
         let points = runtime.block_on(store.points(id))?.into_iter().map(|point| (point, None)).collect();
         let map = run::interaction_map(request, &facts.units, points, sensor, nodal_diameter);
-        Ok::<_, Problem>(InteractionMap { plan: job.plan.clone(), errors, amplitude: Vec::new(), ..map })
+        let map = InteractionMap { plan: job.plan.clone(), errors, amplitude: Vec::new(), ..map };
+        Ok::<_, Problem>((map, leave))
     });
-    let map = map.await??;
+    let (map, leave) = map.await??;
     let (store, runtime) = (state.store.clone(), Handle::current());
     Ok(stream::json(leave, move || {
         let row =
@@ -155,7 +159,9 @@ pub(super) async fn get_spectra(
     })?;
     let leave = state.answers.leave(&state.jobs, ROW_MEMORY * state.store.largest_spectra(id).await?).await;
     let (store, runtime) = (state.store.clone(), Handle::current());
-    match stream::blocking(move || runtime.block_on(store.speed_result(id, index))).await?? {
+    let read = move || Ok::<_, Problem>((runtime.block_on(store.speed_result(id, index))?, leave));
+    let (result, leave) = stream::blocking(read).await??;
+    match result {
         Some(result) => {
             let SpeedResult { point, spectra, wear, .. } = result;
             let units = facts.units.clone();
@@ -249,9 +255,10 @@ pub(super) fn wrong_kind(job: &Job, wanted: JobKind) -> Problem {
 
 /// A document as it was stored.
 pub(super) async fn document(state: &AppState, job: &Job, document: Document) -> Result<Response, Problem> {
-    let leave = leave_for(state, job, document, 1).await?;
+    let leave = leave_for(state, job, document, TEXT_MEMORY).await?;
     let body = read(state, job.id, document);
-    Ok(stream::text(leave, "application/json", stream::blocking(body).await??))
+    let (body, leave) = stream::blocking(move || Ok::<_, Problem>((body()?, leave))).await??;
+    Ok(stream::text(leave, "application/json", body))
 }
 
 /// A document in another form, which `draw` gives it.
@@ -264,8 +271,9 @@ pub(super) async fn drawn<T: DeserializeOwned>(
 ) -> Result<Response, Problem> {
     let leave = leave_for(state, job, document, DRAWN_MEMORY).await?;
     let body = read(state, job.id, document);
-    let drawing = stream::blocking(move || Ok::<_, Problem>(draw(&serde_json::from_str(&body()?)?)));
-    Ok(stream::text(leave, content_type, drawing.await??))
+    let drawing = move || Ok::<_, Problem>((draw(&serde_json::from_str(&body()?)?), leave));
+    let (drawing, leave) = stream::blocking(drawing).await??;
+    Ok(stream::text(leave, content_type, drawing))
 }
 
 /// What reads the text of a document, on a thread that may wait.

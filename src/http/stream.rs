@@ -28,7 +28,8 @@ pub struct LargeAnswers {
     turns: Arc<Semaphore>,
 }
 
-/// Leave to make a large answer, for as long as it is made.
+/// Leave to make a large answer, for as long as it is made: it goes with what is read and drawn from thread to thread, whether or
+/// not somebody still waits for the answer.
 #[derive(Debug)]
 pub(super) struct Leave {
     _turn: Option<OwnedSemaphorePermit>,

@@ -43,9 +43,11 @@ pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) 
         let _running = engine.counters.speed_begins();
         engine.computing.run(&job.watch, compute).await?
     };
-    let (point, packed, _memory) = computed?;
+    let (point, packed, memory) = computed?;
 
     let kept = patiently(&job.watch, || engine.store.insert_speed(id, &packed)).await?;
+    // What follows may want more of it than is left beside this.
+    drop((packed, memory));
     let Some(finished) = kept else { return Ok(()) };
     engine.computing.acquit(id);
     job.watch.speeds_finished(finished, Some(speed));

@@ -56,7 +56,7 @@ impl StoreError {
     pub fn is_disk_full(&self) -> bool {
         match self {
             Self::Database(error) => result_code(error) == Some(SQLITE_FULL),
-            Self::File(error) => is_no_room(error),
+            Self::File(error) | Self::Package(error) => is_no_room(error),
             _ => false,
         }
     }

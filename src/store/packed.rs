@@ -79,7 +79,10 @@ pub(super) fn unpack(bytes: &[u8]) -> Result<SpeedSpectra, StoreError> {
     let Packed { sensors, lengths, numbers } = postcard::from_bytes(bytes)?;
     let count: usize = lengths.iter().map(|length| *length as usize).sum();
     let mut bytes = Vec::new();
-    DeflateDecoder::new(&*numbers).take((REAL * count) as u64).read_to_end(&mut bytes)?;
+    DeflateDecoder::new(&*numbers)
+        .take((REAL * count) as u64)
+        .read_to_end(&mut bytes)
+        .map_err(|_| StoreError::Spectra)?;
     if bytes.len() != REAL * count {
         return Err(StoreError::Spectra);
     }

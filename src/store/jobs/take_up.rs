@@ -55,8 +55,8 @@ impl Store {
         self.forget_marked()
     }
 
-    /// Lets unfinished jobs begin anew that another revision of the numerics began: all numbers of a job are of one. For a
-    /// service that starts.
+    /// Lets unfinished jobs begin anew that another revision of the numerics began: all speeds of a sweep are of one. Settings that
+    /// were chosen and speeds that were added before stay, as if they had been asked for. For a service that starts.
     pub async fn restart_outdated(&self) -> Result<(), StoreError> {
         const OUTDATED: &str = "status in ('accepted', 'running') and revision <> ?1";
         let any = format!("select exists (select 1 from jobs where {OUTDATED})");
@@ -69,7 +69,9 @@ impl Store {
             sqlx::query(AssertSqlSafe(begun)).bind(REVISION).execute(&mut *transaction).await?;
         }
         let restart = format!(
-            "update jobs set finished = 0, diverged = 0, failed = 0, stored_bytes = 0, revision = ?1 where {OUTDATED}"
+            "update jobs set finished = 0, diverged = 0, failed = 0, stored_bytes = 0, progress = 0, phase = '', plan = null,
+                 revision = ?1
+             where {OUTDATED}"
         );
         let restarted = sqlx::query(AssertSqlSafe(restart)).bind(REVISION).execute(&mut *transaction).await?;
         transaction.commit().await?;

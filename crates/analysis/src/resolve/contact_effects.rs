@@ -1,6 +1,7 @@
 //! Friction and abradable coating of a request.
 
-use super::{Findings, between, limits};
+use super::findings::{Findings, between};
+use super::limits;
 use crate::model::ModelFacts;
 use crate::request::{Abradable, AutoOr, Friction, Integration};
 use rubmap_wheel::dynamics::contact::coating::{LEAST_HARDENING, RODS_PER_SECTOR};

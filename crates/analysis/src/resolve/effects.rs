@@ -1,6 +1,7 @@
 //! Checks of the effects that a scene names, and of which go together.
 
-use super::{Findings, between, check_reach, limits};
+use super::findings::{Findings, between, check_reach};
+use super::limits;
 use crate::effects::flexible_casing;
 use crate::model::ModelFacts;
 use crate::request::{

@@ -11,68 +11,15 @@ use crate::request::{
 };
 use crate::stepping::least_steps_for_lobes;
 use rubmap_wheel::dynamics::casing::Restriction;
-use rubmap_wheel::dynamics::integrate::DIVERGED_SHARE_OF_RADIUS;
 use std::f64::consts::TAU;
+
+use self::findings::{Findings, between, check_reach};
 
 mod contact_effects;
 mod effects;
+mod findings;
+pub(crate) mod limits;
 pub(crate) mod study;
-
-/// Bounds that keep a request's memory and time within reason.
-pub(super) mod limits {
-    pub(crate) const MODES_PER_SPEED: u32 = 500;
-    pub(super) const CONTROL_SPEEDS: u32 = 100;
-    pub(super) const TARGET: std::ops::RangeInclusive<f64> = 1e-9..=0.5;
-    pub(super) const BUDGET_S: std::ops::RangeInclusive<f64> = 1.0..=1e7;
-    pub(super) const REVOLUTIONS: u32 = 100_000;
-    pub(super) const ENGINE_ORDER: u32 = 1_000;
-    pub(super) const SENSORS: usize = 64;
-    /// Recorded numbers of one speed, 8 bytes each.
-    pub(super) const RECORDED: usize = 1 << 27;
-    pub(super) const LOBES: u32 = 100;
-    pub(super) const FAMILIES: u32 = 100;
-    pub(super) const SUPERHARMONIC: u32 = 100;
-    pub(super) const SUPERHARMONICS: usize = 16;
-    /// Values of W, the contact operator: sectors times the square of contact nodes.
-    pub(super) const DELASSUS: usize = 1 << 26;
-    /// Shortest ramp of lobes that stand inside the blade.
-    pub(super) const RAMP_REVOLUTIONS: f64 = 0.05;
-    /// Rods of a coating, all rows together: the wear map of a result has a number for each.
-    pub(super) const RODS: u32 = 1 << 20;
-    /// Lengths and stresses other than 0, in any unit: far from where squares overflow or motion counts as decayed to nothing.
-    pub(super) const LENGTH: std::ops::RangeInclusive<f64> = 1e-30..=1e30;
-    pub(super) const LEAST_LOBE_WIDTH_RAD: f64 = 1e-4;
-    /// Two equal Gaussians exp(−(φ/w)²) have a valley between them up to this ratio of w to their distance.
-    pub(super) const LOBE_WIDTH_OVER_DISTANCE: f64 = std::f64::consts::FRAC_1_SQRT_2;
-    pub(super) const PHASE_RAD: f64 = 1000.0;
-    pub(super) const CASING_WAVES: u32 = 50;
-    pub(super) const SPREAD: f64 = 0.1;
-    pub(super) const FORCE: f64 = 1e30;
-    /// The whirl is prescribed and its inertia left out: that of a shaft's own slow whirl.
-    pub(super) const WHIRL_RATIO: f64 = 2.0;
-    pub(super) const CASING_OMEGA: std::ops::RangeInclusive<f64> = 1e-3..=1e9;
-}
-
-/// A range in words.
-fn between(range: &std::ops::RangeInclusive<f64>) -> String {
-    format!("between {:?} and {:?}", range.start(), range.end())
-}
-
-/// Collects violations.
-#[derive(Default)]
-struct Findings(Vec<Violation>);
-
-impl Findings {
-    fn require(&mut self, holds: bool, pointer: &str, message: impl Into<String>) {
-        if !holds {
-            self.0.push(Violation::new(pointer, message));
-        }
-    }
-
-    fn finish<T>(self, value: T) -> Result<T, Vec<Violation>> {
-        if self.0.is_empty() { Ok(value) } else { Err(self.0) }
-    }
-}
 
 /// Checks a sweep request against its model and fills in the default sensors.
 pub fn resolve_sweep(mut request: SweepRequest, facts: &ModelFacts) -> Result<SweepRequest, Vec<Violation>> {
@@ -288,20 +235,6 @@ fn check_coriolis(found: &mut Findings, coriolis: bool, pointer: &str, facts: &M
         pointer,
         "the model has no gyroscopic matrix, so there are no Coriolis forces to simulate: set this to false, or upload a \
          package with the entry `gyroscopic`",
-    );
-}
-
-/// Lobes, an orbit or an initial state that would move a tip so far that the run ends as diverged.
-fn check_reach(found: &mut Findings, length: f64, pointer: &str, facts: &ModelFacts) {
-    let Some(radius) = facts.contact_radius.filter(|radius| *radius > 0.0) else { return };
-    let reach = DIVERGED_SHARE_OF_RADIUS * radius;
-    found.require(
-        !limits::LENGTH.contains(&length) || length <= reach,
-        pointer,
-        format!(
-            "{length} is out of proportion to this wheel, whose tips lie at a radius of up to {radius}: a tip that moves by more than \
-             a tenth of that, {reach}, ends a run as diverged; check the number and its unit"
-        ),
     );
 }
 

@@ -5,6 +5,7 @@ use std::io::BufReader;
 
 use sha2::{Digest, Sha256};
 use zip::ZipArchive;
+use zip::result::ZipError;
 
 use crate::package::archive::{Archive, Hashed, storage};
 use crate::package::error::{ExpectedShape, MatrixProblem, NpzProblem, PackageError};
@@ -135,8 +136,10 @@ struct Arrays<'a> {
 impl<'a> Arrays<'a> {
     fn open(archive: &'a Archive, file: &'a str) -> Result<Self, PackageError> {
         let wrong = |problem: NpzProblem| PackageError::matrix(file, problem.into());
-        let zip = ZipArchive::new(BufReader::new(archive.spool(file)?))
-            .map_err(|error| wrong(NpzProblem::NotAZip { reason: error.to_string() }))?;
+        let zip = ZipArchive::new(BufReader::new(archive.spool(file)?)).map_err(|error| match error {
+            ZipError::Io(error) if error.raw_os_error().is_some() => error.into(),
+            error => wrong(NpzProblem::NotAZip { reason: error.to_string() }),
+        })?;
         if zip.has_duplicate_names() {
             return Err(wrong(NpzProblem::Repeated));
         }

@@ -2,6 +2,7 @@
 
 use std::io::{self, BufWriter, Seek, Write};
 
+use zip::result::ZipError;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
@@ -51,8 +52,16 @@ pub(crate) fn write(matrix: &RawMatrix, out: impl Write + Seek) -> io::Result<()
         &entries,
         sorted.iter().map(|e| e.2.to_le_bytes()),
     )?;
-    zip.finish()?;
+    zip.finish().map_err(own)?;
     Ok(())
+}
+
+/// The system's own error, by whose number it is known what may pass.
+fn own(error: ZipError) -> io::Error {
+    match error {
+        ZipError::Io(source) => source,
+        error => error.into(),
+    }
 }
 
 fn array<const SIZE: usize>(
@@ -66,7 +75,8 @@ fn array<const SIZE: usize>(
     zip.start_file(
         format!("{name}.npy"),
         SimpleFileOptions::default().compression_method(method).large_file(true),
-    )?;
+    )
+    .map_err(own)?;
     let mut file = BufWriter::new(zip);
     file.write_all(&npy::header(descr, shape))?;
     elements.into_iter().try_for_each(|element| file.write_all(&element))?;

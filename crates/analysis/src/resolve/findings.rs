@@ -1,0 +1,41 @@
+//! What is found wrong with a request.
+
+use super::limits;
+use crate::error::Violation;
+use crate::model::ModelFacts;
+use rubmap_wheel::dynamics::integrate::DIVERGED_SHARE_OF_RADIUS;
+
+/// A range in words.
+pub(super) fn between(range: &std::ops::RangeInclusive<f64>) -> String {
+    format!("between {:?} and {:?}", range.start(), range.end())
+}
+
+/// Collects violations.
+#[derive(Default)]
+pub(super) struct Findings(pub(super) Vec<Violation>);
+
+impl Findings {
+    pub(super) fn require(&mut self, holds: bool, pointer: &str, message: impl Into<String>) {
+        if !holds {
+            self.0.push(Violation::new(pointer, message));
+        }
+    }
+
+    pub(super) fn finish<T>(self, value: T) -> Result<T, Vec<Violation>> {
+        if self.0.is_empty() { Ok(value) } else { Err(self.0) }
+    }
+}
+
+/// Lobes, an orbit or an initial state that would move a tip so far that the run ends as diverged.
+pub(super) fn check_reach(found: &mut Findings, length: f64, pointer: &str, facts: &ModelFacts) {
+    let Some(radius) = facts.contact_radius.filter(|radius| *radius > 0.0) else { return };
+    let reach = DIVERGED_SHARE_OF_RADIUS * radius;
+    found.require(
+        !limits::LENGTH.contains(&length) || length <= reach,
+        pointer,
+        format!(
+            "{length} is out of proportion to this wheel, whose tips lie at a radius of up to {radius}: a tip that moves by more than \
+             a tenth of that, {reach}, ends a run as diverged; check the number and its unit"
+        ),
+    );
+}
