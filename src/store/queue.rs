@@ -4,12 +4,14 @@
 //! from there at every start, and no full disk, lock or lack of descriptors can stop it. Handlers must not care how often or
 //! where they are called; that is what lets the same ones run on a queue that other machines share.
 
+use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 use apalis::prelude::{TaskBuilder, TaskId};
 use apalis_sqlite::{Config, SqliteStorage, queries};
 use serde::{Deserialize, Serialize};
-use sqlx::sqlite::{SqliteConnectOptions, SqlitePool, SqlitePoolOptions};
+use sqlx::ConnectOptions;
+use sqlx::sqlite::{SqliteConnectOptions, SqliteConnection, SqlitePool, SqlitePoolOptions};
 
 use super::error::StoreError;
 use super::jobs::job::JobId;
@@ -37,13 +39,16 @@ const SPEEDS: &str = "speeds";
 #[derive(Debug, Clone)]
 pub struct Queue {
     pool: SqlitePool,
+    /// Keeps the tables there while the pool's connection is replaced, as it is where its user is cancelled.
+    _anchor: Arc<Mutex<SqliteConnection>>,
 }
 
 impl Queue {
     /// Makes an empty queue.
     pub async fn create() -> Result<Self, StoreError> {
-        let options = SqliteConnectOptions::new().in_memory(true);
-        // One connection, which is the database, and for ever.
+        // By this name each call gets a database of its own, which all its connections share.
+        let options: SqliteConnectOptions = "sqlite::memory:".parse()?;
+        let anchor = options.connect().await?;
         let pool = SqlitePoolOptions::new()
             .max_connections(1)
             .min_connections(1)
@@ -52,7 +57,7 @@ impl Queue {
             .connect_with(options)
             .await?;
         SqliteStorage::<()>::migrations().run(&pool).await?;
-        Ok(Self { pool })
+        Ok(Self { pool, _anchor: Arc::new(Mutex::new(anchor)) })
     }
 
     /// Tasks that prepare jobs.
@@ -101,4 +106,20 @@ fn config(queue: &str) -> Config {
         .batch_size(1)
         // A fetched task counts as taken already; locking it again would be one more write per speed.
         .lock_tasks(false)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[tokio::test]
+    async fn a_lost_connection_loses_no_tasks_and_queues_are_apart() {
+        let (queue, other) = (Queue::create().await.unwrap(), Queue::create().await.unwrap());
+        queue.push_preparation(JobId::new()).await.unwrap();
+        let count = async |queue: &Queue| -> i64 {
+            sqlx::query_scalar("select count(*) from Jobs").fetch_one(&queue.pool).await.unwrap()
+        };
+        queue.pool.acquire().await.unwrap().close().await.unwrap();
+        assert_eq!((count(&queue).await, count(&other).await), (1, 0));
+    }
 }
