@@ -3,6 +3,7 @@
 mod bounds;
 #[cfg(test)]
 mod digests;
+mod instant;
 mod obstacle;
 mod recorder;
 mod residual;

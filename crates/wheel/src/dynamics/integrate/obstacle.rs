@@ -3,18 +3,18 @@
 use pulp::Simd;
 
 use super::super::casing::{Casing, RestrictionTable};
-use super::super::contact::coating::{Coating, WornCoating};
+use super::super::contact::coating::Coating;
 use super::super::contact::delassus::Delassus;
 use super::super::contact::flexibility::{flexibility, outward_normals, ridge};
 use super::super::effects::Effects;
 use super::super::energy::EffectWork;
-use super::super::flexible_casing::CasingMotion;
 use super::super::oscillators::Oscillators;
 use super::super::oscillators::lanes::LANES;
-use super::super::oscillators::rows::Rows;
+use super::super::oscillators::rows::{Loads, Rows};
 use super::super::schemes::Scheme;
 use super::super::schemes::massless_boundary::residual_flexibility;
 use super::super::statistics::RunStatistics;
+use super::instant::Instant;
 use super::residual::ResidualDisplacement;
 use super::simulation::Simulation;
 use super::surroundings::{Law, Surroundings};
@@ -28,11 +28,9 @@ const LEFT: f64 = 1e-6;
 
 #[derive(Debug)]
 pub(super) struct Obstacle {
-    pub(super) rows: Rows,
+    rows: Rows,
     delassus: Delassus,
     solver: ActiveSetSolver,
-    /// None for a scene without effects.
-    pub(super) surroundings: Option<Surroundings>,
     residual: ResidualDisplacement,
     casing: Casing,
     pub(super) restriction: Option<RestrictionTable>,
@@ -45,12 +43,12 @@ pub(super) struct Obstacle {
     most_left: f64,
     step_s: f64,
     /// Normal displacements of the integrated modes, `[Fourier column][node]`.
-    pub(super) harmonic: Vec<f64>,
+    harmonic: Vec<f64>,
     predicted_gap: Vec<f64>,
     /// Contact nodes with a force on any sector.
-    pub(super) loaded: Vec<usize>,
+    loaded: Vec<usize>,
     is_loaded: Vec<bool>,
-    /// Along what [`applied`](super::surroundings::applied) says, `[Fourier column][node]`.
+    /// Along what [`Surroundings::applied`] says, `[Fourier column][node]`.
     pub(super) force: Vec<f64>,
 }
 
@@ -60,6 +58,7 @@ impl Obstacle {
         casing: &Casing,
         oscillators: &Oscillators,
         fourier: &SectorFourier,
+        surroundings: Option<&Surroundings>,
     ) -> Self {
         let (wheel, scheme, nodes) = (simulation.wheel, simulation.scheme, simulation.contact_nodes);
         let normals = outward_normals(nodes);
@@ -73,8 +72,7 @@ impl Obstacle {
         });
         let mut clearance = casing.clearance.clone();
         clearance.resize(stride, f64::INFINITY);
-        let surroundings = Surroundings::new(simulation, stride);
-        let delassus = delassus(simulation, oscillators, fourier, stride, surroundings.as_ref());
+        let delassus = delassus(simulation, oscillators, fourier, stride, surroundings);
         let size = sectors * stride;
         let Effects { coating, orbit, .. } = simulation.effects;
         let length = casing.length_scale(simulation.reach())
@@ -82,7 +80,6 @@ impl Obstacle {
             + orbit.map_or(0.0, |orbit| orbit.radius);
         Self {
             delassus,
-            surroundings,
             solver: ActiveSetSolver::new(size),
             residual: ResidualDisplacement::new(simulation, &normals),
             restriction,
@@ -102,26 +99,39 @@ impl Obstacle {
         }
     }
 
+    /// Forces of the last solution, and the normal displacements to be read: rows and where their values go.
+    #[inline(always)]
+    pub(super) fn loads_and_reading<'a>(
+        &'a mut self,
+        surroundings: Option<&'a Surroundings>,
+    ) -> (Loads<'a>, (&'a Rows, &'a mut [f64])) {
+        let rows = match surroundings {
+            Some(surroundings) => surroundings.applied(&self.rows),
+            None => &self.rows,
+        };
+        (Loads { rows, loaded: &self.loaded, force: &self.force }, (&self.rows, &mut self.harmonic))
+    }
+
     /// Normal displacements of all sectors from their Fourier coordinates, and g_p = c − p − nᵀu, whose smallest value
     /// is returned.
     #[inline(always)]
-    pub(super) fn predict_gaps<S: Simd, const EFFECTS: bool>(
+    pub(super) fn predict_gaps<S: Simd>(
         &mut self,
         simd: S,
         fourier: &SectorFourier,
-        step: usize,
-        revolutions: f64,
+        now: Instant,
+        surroundings: Option<&mut Surroundings>,
     ) -> f64 {
         let mut smallest = simd.splat_f64s(f64::INFINITY);
         let stride = self.rows.stride;
         let vectors = stride / S::F64_LANES;
-        let growth = self.casing.growth(revolutions);
-        let shift = match &mut self.surroundings {
-            Some(surroundings) if EFFECTS => {
-                surroundings.move_to(revolutions, growth);
-                surroundings.shift.as_slice()
+        let growth = self.casing.growth(now.revolutions);
+        let shift = match surroundings {
+            Some(surroundings) => {
+                surroundings.move_to(now.revolutions, growth);
+                Some(surroundings.shift.as_slice())
             }
-            _ => &[],
+            None => None,
         };
         let growth = simd.splat_f64s(growth);
         let clearance = &S::as_simd_f64s(&self.clearance).0[..vectors];
@@ -130,18 +140,18 @@ impl Obstacle {
             let range = sector * stride..(sector + 1) * stride;
             let gap = &mut S::as_mut_simd_f64s(&mut self.predicted_gap[range.clone()]).0[..vectors];
             let restricted = match &self.restriction {
-                Some(table) => table.at(step, sector),
+                Some(table) => table.at(now.step, sector),
                 None => &self.unrestricted,
             };
             let restricted = &S::as_simd_f64s(restricted).0[..vectors];
-            let shift = if EFFECTS { &S::as_simd_f64s(&shift[range.clone()]).0[..vectors] } else { &[] };
+            let shift = shift.map(|shift| &S::as_simd_f64s(&shift[range]).0[..vectors]);
             for v in 0..vectors {
                 let mut u = simd.splat_f64s(0.0);
                 for (&f, column) in fourier.row(sector).iter().zip(harmonic.chunks_exact(vectors)) {
                     u = simd.mul_add_e_f64s(simd.splat_f64s(f), column[v], u);
                 }
                 let mut free = simd.negate_mul_add_e_f64s(growth, restricted[v], clearance[v]);
-                if EFFECTS {
+                if let Some(shift) = shift {
                     free = simd.add_f64s(free, shift[v]);
                 }
                 gap[v] = simd.sub_f64s(free, u);
@@ -151,31 +161,19 @@ impl Obstacle {
         simd.reduce_min_f64s(smallest)
     }
 
-    /// The casing in motion, if it is elastic.
-    pub(super) fn flexible_casing(&mut self) -> Option<&mut CasingMotion> {
-        self.surroundings.as_mut()?.casing.as_mut()
-    }
-
-    /// The coating as it is now, if there is one.
-    pub(super) fn worn_coating(&self) -> Option<&WornCoating> {
-        match &self.surroundings.as_ref()?.law {
-            Law::Coated(_, coating) => Some(coating),
-            Law::Plain | Law::General(_) => None,
-        }
-    }
-
     /// Contact forces of the predicted gaps (Eqs 9, 10) and what they add to the statistics.
     #[inline(always)]
-    pub(super) fn solve<const EFFECTS: bool>(
+    pub(super) fn solve(
         &mut self,
         fourier: &SectorFourier,
-        step: usize,
+        now: Instant,
+        surroundings: Option<&mut Surroundings>,
         statistics: &mut RunStatistics,
         work: &mut EffectWork,
     ) -> Result<(), ComplementarityError> {
-        let (law, sliding, mut casing) = match &mut self.surroundings {
-            Some(s) if EFFECTS => (&mut s.law, s.sliding.as_ref(), s.casing.as_mut()),
-            _ => (&mut Law::Plain, None, None),
+        let (law, sliding, mut casing) = match surroundings {
+            Some(s) => (&mut s.law, s.sliding.as_ref(), s.casing.as_mut()),
+            None => (&mut Law::Plain, None, None),
         };
         let mut allowed = 0.0;
         let (active, lambda, gap, pivots) = match law {
@@ -186,12 +184,12 @@ impl Obstacle {
             Law::Coated(solver, coating) => {
                 let law = |index: usize| {
                     let (sector, row) = self.delassus.place(index);
-                    coating.law(coating.rod(step, sector, row), row)
+                    coating.law(coating.rod(now.step, sector, row), row)
                 };
                 solver.solve(&self.delassus, law, &self.predicted_gap, self.tolerance)?;
                 for &index in solver.active() {
                     let (sector, row) = self.delassus.place(index);
-                    let rod = coating.rod(step, sector, row);
+                    let rod = coating.rod(now.step, sector, row);
                     coating.press(rod, row, -solver.gap()[index]);
                 }
                 allowed = coating.unworn().thickness();
@@ -238,25 +236,23 @@ impl Obstacle {
         Ok(())
     }
 
-    /// Largest penetration of the state as it is, at the instant of the last gaps.
+    /// Largest penetration of the state as it is `now`, the instant of the last gaps.
     #[inline(always)]
-    pub(super) fn penetration<S: Simd, const EFFECTS: bool>(
+    pub(super) fn penetration<S: Simd>(
         &mut self,
         simd: S,
         oscillators: &Oscillators,
         fourier: &SectorFourier,
-        step: usize,
-        revolutions: f64,
+        now: Instant,
+        surroundings: Option<&mut Surroundings>,
     ) -> f64 {
         oscillators.project(simd, &self.rows, &mut self.harmonic);
         self.residual.add(&self.force, self.rows.stride, &mut self.harmonic, self.rows.stride);
-        let allowed = match &self.surroundings {
-            Some(Surroundings { law: Law::Coated(_, coating), .. }) if EFFECTS => {
-                coating.unworn().thickness()
-            }
+        let allowed = match &surroundings {
+            Some(Surroundings { law: Law::Coated(_, coating), .. }) => coating.unworn().thickness(),
             _ => 0.0,
         };
-        (-self.predict_gaps::<S, EFFECTS>(simd, fourier, step, revolutions) - allowed).max(0.0)
+        (-self.predict_gaps(simd, fourier, now, surroundings) - allowed).max(0.0)
     }
 
     /// No forces, until the next solution.

@@ -2,10 +2,12 @@
 //!
 //! With mass at the contact, a step predicts every modal oscillator (Eq. 8), reads the normal displacement of every
 //! contact node and solves the complementarity problem of the gaps (Eqs 9, 10) for the forces that complete it; they are
-//! applied together with the next step's prediction, in one pass over the mode shapes. Without mass at the contact, the
-//! forces of the last instant carry the modes to the next one, where the boundary then finds its own equilibrium.
+//! applied together with the next step's prediction, in one pass over the mode shapes, or before the state is recorded.
+//! Without mass at the contact, the forces of the last instant carry the modes to the next one, where the boundary then
+//! finds its own equilibrium.
 //!
-//! Scenes with effects have a loop of their own, so that the others do not even ask for them.
+//! What of this a scene and its scheme have is a [`Motion`], with a loop of its own each: scenes without effects do not
+//! even ask for them.
 
 use pulp::Simd;
 
@@ -14,16 +16,17 @@ use super::super::casing::RestrictionTable;
 use super::super::energy::EnergyAudit;
 use super::super::flexible_casing::CasingMotion;
 use super::super::initial::InitialMode;
+use super::super::oscillators::Oscillators;
 use super::super::oscillators::driven::Drive;
-use super::super::oscillators::{Loads, Oscillators};
 use super::super::schemes::Scheme;
 use super::super::statistics::RunStatistics;
 use super::bounds::Bounds;
+use super::instant::Instant;
 use super::obstacle::Obstacle;
 use super::recorder::Recorder;
 use super::run::{Divergence, Outcome, Run};
 use super::simulation::Simulation;
-use super::surroundings::applied;
+use super::surroundings::Surroundings;
 use rubmap_numerics::sector_fourier::SectorFourier;
 
 /// Steps between two looks at progress and cancellation: some tens of milliseconds.
@@ -31,17 +34,6 @@ const WATCHED_STEPS: u64 = 1 << 14;
 
 /// Steps between two looks for motion that has decayed to nothing.
 const QUENCHED_STEPS: u64 = 16;
-
-/// Contact of a scene and of its scheme, decided before the loop.
-mod contact {
-    pub(super) const NONE: u8 = 0;
-    /// The force that closes the gap completes the step.
-    pub(super) const COMPLETES: u8 = 1;
-    /// The force acts from the instant at which it closes the gap.
-    pub(super) const MASSLESS: u8 = 2;
-    /// Any of these, asked for at every step: in scenes with effects.
-    pub(super) const ASKED: u8 = 3;
-}
 
 /// Everything a step changes or reads; built before the loop, nothing is allocated in it.
 #[derive(Debug)]
@@ -51,6 +43,12 @@ pub(super) struct Stepper {
     /// What else than contact moves the wheel.
     drive: Option<Drive>,
     obstacle: Option<Obstacle>,
+    /// What effects make of the obstacle.
+    surroundings: Option<Surroundings>,
+    /// Whether contact forces act from the instant at which they close a gap, instead of completing its step.
+    massless: bool,
+    /// Whether motion may decay to nothing.
+    decays: bool,
     /// Of a wheel that may touch something.
     bounds: Option<Bounds>,
     recorder: Recorder,
@@ -73,27 +71,30 @@ impl Stepper {
             touching,
             simulation.initial,
         );
-        let obstacle =
-            simulation.casing.map(|casing| Obstacle::new(simulation, casing, &oscillators, &fourier));
+        let surroundings = Surroundings::new(simulation);
+        let obstacle = simulation
+            .casing
+            .map(|casing| Obstacle::new(simulation, casing, &oscillators, &fourier, surroundings.as_ref()));
         let bounds = simulation.casing.map(|_| Bounds::new(simulation, &oscillators));
         let step = simulation.step_s();
         let mut drive = Drive::new(wheel, &simulation.effects, &oscillators, &fourier, step);
         if let Some(drive) = &mut drive {
             drive.start(wheel, simulation.initial, &mut oscillators);
         }
-        let recorder = Recorder::new(simulation, &fourier);
-        let energy = EnergyAudit::starting_at(oscillators.energy());
-        let statistics = RunStatistics::default();
+        let effects = drive.is_some() || surroundings.is_some();
         Self {
+            massless: matches!(scheme, Scheme::MasslessBoundary { .. }),
+            decays: effects || oscillators.dissipates(),
+            recorder: Recorder::new(simulation, &fourier),
+            statistics: RunStatistics::default(),
+            energy: EnergyAudit::starting_at(oscillators.energy()),
+            last_energy: None,
             fourier,
             oscillators,
             drive,
             obstacle,
+            surroundings,
             bounds,
-            recorder,
-            statistics,
-            energy,
-            last_energy: None,
         }
     }
 
@@ -112,194 +113,123 @@ impl Stepper {
         simulation: &Simulation<'_>,
         watch: &dyn Fn(f64) -> bool,
     ) -> Run {
-        use contact::{ASKED, COMPLETES, MASSLESS, NONE};
-        let massless = is_massless(simulation);
-        let surrounded = self.obstacle.as_ref().is_some_and(|obstacle| obstacle.surroundings.is_some());
-        let effects = self.drive.is_some() || surrounded;
-        let outcome = match (effects, self.oscillators.dissipates(), self.obstacle.is_some(), massless) {
-            (false, true, false, _) => self.integrate::<S, true, NONE, false>(simd, simulation, watch),
-            (false, false, false, _) => self.integrate::<S, false, NONE, false>(simd, simulation, watch),
-            (false, true, true, false) => {
-                self.integrate::<S, true, COMPLETES, false>(simd, simulation, watch)
-            }
-            (false, false, true, false) => {
-                self.integrate::<S, false, COMPLETES, false>(simd, simulation, watch)
-            }
-            (false, true, true, true) => self.integrate::<S, true, MASSLESS, false>(simd, simulation, watch),
-            (false, false, true, true) => {
-                self.integrate::<S, false, MASSLESS, false>(simd, simulation, watch)
-            }
-            (true, ..) => self.integrate::<S, true, ASKED, true>(simd, simulation, watch),
+        let effects = self.drive.is_some() || self.surroundings.is_some();
+        let ended = match &self.obstacle {
+            _ if effects => self.integrate::<S, Affected>(simd, simulation, watch),
+            None => self.integrate::<S, Free>(simd, simulation, watch),
+            Some(_) if self.massless => self.integrate::<S, Massless>(simd, simulation, watch),
+            Some(_) => self.integrate::<S, Completing>(simd, simulation, watch),
         };
-        let outcome = match outcome {
+        let outcome = match ended {
             Ok(()) => Outcome::Completed(self.recorder.take()),
             Err(ended) => ended,
         };
         self.statistics.casing_amplitude = self.flexible_casing().map(CasingMotion::largest_amplitude);
-        let coating = self.obstacle.as_ref().and_then(Obstacle::worn_coating).cloned();
+        let coating = self.surroundings.as_ref().and_then(Surroundings::coating).cloned();
         Run { outcome, statistics: self.statistics, energy: self.energy, coating }
     }
 
     #[inline(always)]
-    fn integrate<S: Simd, const DISSIPATES: bool, const CONTACT: u8, const EFFECTS: bool>(
+    fn integrate<S: Simd, M: Motion>(
         &mut self,
         simd: S,
         simulation: &Simulation<'_>,
         watch: &dyn Fn(f64) -> bool,
     ) -> Result<(), Outcome> {
-        let steps = simulation.steps_per_revolution;
+        let Simulation { revolutions, window_revolutions, steps_per_revolution: steps, .. } = *simulation;
         let sampling = steps / simulation.samples_per_revolution;
-        let massless = is_massless(simulation);
-        let window_start = simulation.revolutions - simulation.window_revolutions;
-        for revolution in 0..simulation.revolutions {
+        for revolution in 0..revolutions {
+            let windowed = revolution >= revolutions - window_revolutions;
             for step in 1..=steps {
-                let revolutions = revolution as f64 + step as f64 / steps as f64;
-                if EFFECTS {
-                    let before = revolution as f64 + (step - 1) as f64 / steps as f64;
-                    self.advance_wheel(simd, massless, before);
-                } else if CONTACT == contact::NONE {
-                    self.energy.add(self.oscillators.advance::<S, DISSIPATES>(simd));
-                } else {
-                    self.advance_touching::<S, DISSIPATES, CONTACT>(simd);
-                }
-                if CONTACT != contact::NONE {
-                    self.touch::<S, EFFECTS>(simd, step % steps, revolutions)?;
+                let now = Instant::new(revolution, step, steps);
+                M::predict(self, simd, now);
+                let open = self.gaps::<S, M>(simd, now);
+                if !open {
+                    self.solve::<M>(now)?;
                 }
                 self.statistics.steps += 1;
-                if DISSIPATES && self.statistics.steps.is_multiple_of(QUENCHED_STEPS) {
-                    self.oscillators.quench();
-                    if EFFECTS
-                        && let Some(casing) = self.obstacle.as_mut().and_then(Obstacle::flexible_casing)
-                    {
-                        casing.quench();
-                    }
-                }
-                if self.statistics.steps.is_multiple_of(WATCHED_STEPS)
-                    && !watch(revolutions / simulation.revolutions as f64)
-                {
-                    return Err(Outcome::Cancelled);
-                }
+                self.quench::<M>();
+                self.look_up(watch, now.revolutions / revolutions as f64)?;
                 if step % sampling == 0 {
-                    if CONTACT == contact::COMPLETES || (EFFECTS && !massless) {
-                        self.complete::<S, DISSIPATES, EFFECTS>(simd);
-                    }
-                    if CONTACT != contact::NONE {
-                        self.check_penetration::<S, EFFECTS>(simd, step % steps, revolutions);
-                    }
-                    let energy = self.mechanical_energy();
-                    self.energy.check(energy);
-                    self.record(simd, revolution >= window_start);
-                    self.check_bounds(energy, revolutions)?;
+                    M::apply(self, simd);
+                    self.record::<S, M>(simd, now, windowed)?;
                 }
             }
             self.last_energy = Some(self.mechanical_energy());
             self.recorder.end_revolution(&self.oscillators);
         }
+        self.end(simulation);
+        Ok(())
+    }
+
+    /// Predicts the gaps (Eq. 9); whether all are open.
+    #[inline(always)]
+    fn gaps<S: Simd, M: Motion>(&mut self, simd: S, now: Instant) -> bool {
+        match &mut self.obstacle {
+            Some(obstacle) if M::TOUCHES => {
+                let surroundings = M::surroundings(&mut self.surroundings);
+                obstacle.predict_gaps(simd, &self.fourier, now, surroundings) >= 0.0
+            }
+            _ => true,
+        }
+    }
+
+    /// Finds the forces that close the gaps (Eqs 9, 10).
+    #[inline(always)]
+    fn solve<M: Motion>(&mut self, now: Instant) -> Result<(), Outcome> {
+        let Some(obstacle) = &mut self.obstacle else { return Ok(()) };
+        let surroundings = M::surroundings(&mut self.surroundings);
+        let (statistics, work) = (&mut self.statistics, self.energy.effects_mut());
+        obstacle
+            .solve(&self.fourier, now, surroundings, statistics, work)
+            .map_err(|error| Outcome::ContactFailed { revolutions: now.revolutions, error })
+    }
+
+    /// Now and then brings to rest what has decayed to nothing.
+    #[inline(always)]
+    fn quench<M: Motion>(&mut self) {
+        if self.decays && self.statistics.steps.is_multiple_of(QUENCHED_STEPS) {
+            self.oscillators.quench();
+            let surroundings = M::surroundings(&mut self.surroundings);
+            if let Some(casing) = surroundings.and_then(|surroundings| surroundings.casing.as_mut()) {
+                casing.quench();
+            }
+        }
+    }
+
+    /// Now and then asks whether to go on, `done` being the share of work done.
+    #[inline(always)]
+    fn look_up(&self, watch: &dyn Fn(f64) -> bool, done: f64) -> Result<(), Outcome> {
+        if self.statistics.steps.is_multiple_of(WATCHED_STEPS) && !watch(done) {
+            return Err(Outcome::Cancelled);
+        }
+        Ok(())
+    }
+
+    /// Holds the state against what contact and energy promise, records it, and ends the run where it left its bounds.
+    #[inline(always)]
+    fn record<S: Simd, M: Motion>(&mut self, simd: S, now: Instant, windowed: bool) -> Result<(), Outcome> {
+        let Self { oscillators, fourier, obstacle, surroundings, statistics, .. } = self;
+        if M::TOUCHES
+            && let Some(obstacle) = obstacle
+        {
+            let left = obstacle.penetration(simd, oscillators, fourier, now, M::surroundings(surroundings));
+            statistics.largest_penetration = statistics.largest_penetration.max(left);
+        }
+        let energy = self.mechanical_energy();
+        self.energy.check(energy);
+        let force = self.obstacle.as_ref().map(|obstacle| obstacle.force.as_slice());
+        self.recorder.record(simd, &self.oscillators, &self.fourier, force, windowed);
+        self.check_bounds(energy, now.revolutions)
+    }
+
+    /// Keeps the state at the end, as free motion would have it.
+    fn end(&mut self, simulation: &Simulation<'_>) {
         if let Some(drive) = &mut self.drive {
             let read = |oscillators: &Oscillators| modal_state(simulation, oscillators);
             drive.end(simulation.wheel, simulation.revolutions as f64, &mut self.oscillators, read);
         }
         self.recorder.end(modal_state(simulation, &self.oscillators));
-        Ok(())
-    }
-
-    /// A step of a wheel that may touch the casing, up to its gaps.
-    #[inline(always)]
-    fn advance_touching<S: Simd, const DISSIPATES: bool, const CONTACT: u8>(&mut self, simd: S) {
-        let Some(obstacle) = &mut self.obstacle else {
-            return;
-        };
-        let loads = Loads { rows: &obstacle.loaded, force: &obstacle.force };
-        let (rows, out) = (&obstacle.rows, &mut obstacle.harmonic);
-        let exchange = if CONTACT == contact::MASSLESS {
-            self.oscillators.advance_loaded::<S, DISSIPATES>(simd, rows, (rows, loads), out)
-        } else {
-            self.oscillators.complete_and_predict::<S, DISSIPATES>(simd, rows, (rows, loads), out)
-        };
-        self.energy.add(exchange);
-        obstacle.clear_forces(&self.fourier);
-    }
-
-    /// A step of a wheel with effects that starts after `revolutions`, up to its gaps.
-    #[inline(always)]
-    fn advance_wheel<S: Simd>(&mut self, simd: S, massless: bool, revolutions: f64) {
-        let Self { oscillators, drive, obstacle, energy, .. } = self;
-        let Some(obstacle) = obstacle else {
-            let exchange = match drive {
-                Some(drive) => {
-                    oscillators.advance_driven(simd, drive, None, revolutions, energy.effects_mut())
-                }
-                None => oscillators.advance::<S, true>(simd),
-            };
-            return energy.add(exchange);
-        };
-        let loads = Loads { rows: &obstacle.loaded, force: &obstacle.force };
-        let applied = applied(obstacle.surroundings.as_ref(), &obstacle.rows);
-        let (rows, out) = (&obstacle.rows, &mut obstacle.harmonic);
-        let exchange = match (drive, massless) {
-            (None, true) => oscillators.advance_loaded::<S, true>(simd, rows, (applied, loads), out),
-            (None, false) => oscillators.complete_and_predict::<S, true>(simd, rows, (applied, loads), out),
-            (Some(drive), massless) => {
-                let work = energy.effects_mut();
-                let exchange = if massless {
-                    oscillators.advance_driven(simd, drive, Some((applied, loads)), revolutions, work)
-                } else {
-                    let exchange = oscillators.complete_driven(simd, drive, applied, loads, work);
-                    oscillators.predict_driven(simd, drive, revolutions);
-                    exchange
-                };
-                oscillators.project(simd, rows, out);
-                exchange
-            }
-        };
-        energy.add(exchange);
-        if let Some(casing) = obstacle.flexible_casing() {
-            energy.add_casing(casing.complete());
-            casing.predict();
-        }
-        obstacle.clear_forces(&self.fourier);
-    }
-
-    /// Contact at the end of a step; `step` is its position in the revolution.
-    #[inline(always)]
-    fn touch<S: Simd, const EFFECTS: bool>(
-        &mut self,
-        simd: S,
-        step: usize,
-        revolutions: f64,
-    ) -> Result<(), Outcome> {
-        let Some(obstacle) = &mut self.obstacle else {
-            return Ok(());
-        };
-        if obstacle.predict_gaps::<S, EFFECTS>(simd, &self.fourier, step, revolutions) >= 0.0 {
-            return Ok(());
-        }
-        obstacle
-            .solve::<EFFECTS>(&self.fourier, step, &mut self.statistics, self.energy.effects_mut())
-            .map_err(|error| Outcome::ContactFailed { revolutions, error })
-    }
-
-    /// Completes the last step now instead of with the next one.
-    #[inline(always)]
-    fn complete<S: Simd, const DISSIPATES: bool, const EFFECTS: bool>(&mut self, simd: S) {
-        let Some(obstacle) = &mut self.obstacle else {
-            return;
-        };
-        let loads = Loads { rows: &obstacle.loaded, force: &obstacle.force };
-        let surroundings = if EFFECTS { obstacle.surroundings.as_ref() } else { None };
-        let applied = applied(surroundings, &obstacle.rows);
-        let exchange = match &mut self.drive {
-            Some(drive) if EFFECTS => {
-                let work = self.energy.effects_mut();
-                self.oscillators.complete_driven(simd, drive, applied, loads, work)
-            }
-            _ => self.oscillators.complete::<S, DISSIPATES>(simd, applied, loads),
-        };
-        self.energy.add(exchange);
-        if EFFECTS && let Some(casing) = obstacle.flexible_casing() {
-            self.energy.add_casing(casing.complete());
-        }
-        obstacle.clear_forces(&self.fourier);
     }
 
     fn mechanical_energy(&self) -> f64 {
@@ -307,22 +237,7 @@ impl Stepper {
     }
 
     fn flexible_casing(&self) -> Option<&CasingMotion> {
-        self.obstacle.as_ref()?.surroundings.as_ref()?.casing.as_ref()
-    }
-
-    /// Holds what the contact solution promised against the state.
-    #[inline(always)]
-    fn check_penetration<S: Simd, const EFFECTS: bool>(&mut self, simd: S, step: usize, revolutions: f64) {
-        let Some(obstacle) = &mut self.obstacle else { return };
-        let left =
-            obstacle.penetration::<S, EFFECTS>(simd, &self.oscillators, &self.fourier, step, revolutions);
-        self.statistics.largest_penetration = self.statistics.largest_penetration.max(left);
-    }
-
-    #[inline(always)]
-    fn record<S: Simd>(&mut self, simd: S, windowed: bool) {
-        let force = self.obstacle.as_ref().map(|obstacle| obstacle.force.as_slice());
-        self.recorder.record(simd, &self.oscillators, &self.fourier, force, windowed);
+        self.surroundings.as_ref()?.casing.as_ref()
     }
 
     #[inline(never)]
@@ -343,6 +258,137 @@ impl Stepper {
     }
 }
 
+/// How contact forces move the wheel, and whether anything else does: decided before the loop, which is compiled for each.
+trait Motion {
+    /// Whether there is anything to touch.
+    const TOUCHES: bool = true;
+    /// Whether there are effects.
+    const EFFECTS: bool = false;
+
+    /// Takes the step that ends `now` (Eq. 8), up to the reading of the gaps, after the forces of the instant before were
+    /// applied, or under them.
+    fn predict<S: Simd>(stepper: &mut Stepper, simd: S, now: Instant);
+
+    /// Applies the forces that complete the step (Eq. 10) at once, instead of with the next prediction.
+    fn apply<S: Simd>(stepper: &mut Stepper, simd: S);
+
+    /// What the loop asks for of the effects on contact.
+    #[inline(always)]
+    fn surroundings(of: &mut Option<Surroundings>) -> Option<&mut Surroundings> {
+        if Self::EFFECTS { of.as_mut() } else { None }
+    }
+}
+
+/// Nothing to touch.
+struct Free;
+
+impl Motion for Free {
+    const TOUCHES: bool = false;
+
+    #[inline(always)]
+    fn predict<S: Simd>(stepper: &mut Stepper, simd: S, _: Instant) {
+        stepper.energy.add(stepper.oscillators.advance(simd));
+    }
+
+    #[inline(always)]
+    fn apply<S: Simd>(_: &mut Stepper, _: S) {}
+}
+
+/// The force that closes a gap completes the step.
+struct Completing;
+
+impl Motion for Completing {
+    #[inline(always)]
+    fn predict<S: Simd>(stepper: &mut Stepper, simd: S, _: Instant) {
+        let Stepper { fourier, oscillators, obstacle: Some(obstacle), energy, .. } = stepper else { return };
+        let (loads, reading) = obstacle.loads_and_reading(None);
+        energy.add(oscillators.complete_and_predict(simd, loads, reading));
+        obstacle.clear_forces(fourier);
+    }
+
+    #[inline(always)]
+    fn apply<S: Simd>(stepper: &mut Stepper, simd: S) {
+        let Stepper { fourier, oscillators, obstacle: Some(obstacle), energy, .. } = stepper else { return };
+        let (loads, _) = obstacle.loads_and_reading(None);
+        energy.add(oscillators.complete(simd, loads));
+        obstacle.clear_forces(fourier);
+    }
+}
+
+/// The force that closes a gap acts from then on, through the next step.
+struct Massless;
+
+impl Motion for Massless {
+    #[inline(always)]
+    fn predict<S: Simd>(stepper: &mut Stepper, simd: S, _: Instant) {
+        let Stepper { fourier, oscillators, obstacle: Some(obstacle), energy, .. } = stepper else { return };
+        let (loads, reading) = obstacle.loads_and_reading(None);
+        energy.add(oscillators.advance_loaded(simd, loads, reading));
+        obstacle.clear_forces(fourier);
+    }
+
+    #[inline(always)]
+    fn apply<S: Simd>(_: &mut Stepper, _: S) {}
+}
+
+/// Any of these under the effects of the scene, each asked for at every step.
+struct Affected;
+
+impl Motion for Affected {
+    const EFFECTS: bool = true;
+
+    #[inline(always)]
+    fn predict<S: Simd>(stepper: &mut Stepper, simd: S, now: Instant) {
+        let Stepper { fourier, oscillators, drive, obstacle, surroundings, energy, massless, .. } = stepper;
+        let work = energy.effects_mut();
+        let Some(obstacle) = obstacle else {
+            let exchange = match drive {
+                Some(drive) => oscillators.advance_driven(simd, drive, None, now.before, work),
+                None => oscillators.advance(simd),
+            };
+            return energy.add(exchange);
+        };
+        let (loads, (rows, out)) = obstacle.loads_and_reading(surroundings.as_ref());
+        let exchange = match drive {
+            None if *massless => oscillators.advance_loaded(simd, loads, (rows, out)),
+            None => oscillators.complete_and_predict(simd, loads, (rows, out)),
+            Some(drive) => {
+                let exchange = if *massless {
+                    oscillators.advance_driven(simd, drive, Some(loads), now.before, work)
+                } else {
+                    let exchange = oscillators.complete_driven(simd, drive, loads, work);
+                    oscillators.predict_driven(simd, drive, now.before);
+                    exchange
+                };
+                oscillators.project(simd, rows, out);
+                exchange
+            }
+        };
+        energy.add(exchange);
+        if let Some(casing) = surroundings.as_mut().and_then(|surroundings| surroundings.casing.as_mut()) {
+            energy.add_casing(casing.complete());
+            casing.predict();
+        }
+        obstacle.clear_forces(fourier);
+    }
+
+    #[inline(always)]
+    fn apply<S: Simd>(stepper: &mut Stepper, simd: S) {
+        let Stepper { fourier, oscillators, drive, obstacle, surroundings, energy, massless, .. } = stepper;
+        let Some(obstacle) = obstacle.as_mut().filter(|_| !*massless) else { return };
+        let (loads, _) = obstacle.loads_and_reading(surroundings.as_ref());
+        let exchange = match drive {
+            Some(drive) => oscillators.complete_driven(simd, drive, loads, energy.effects_mut()),
+            None => oscillators.complete(simd, loads),
+        };
+        energy.add(exchange);
+        if let Some(casing) = surroundings.as_mut().and_then(|surroundings| surroundings.casing.as_mut()) {
+            energy.add_casing(casing.complete());
+        }
+        obstacle.clear_forces(fourier);
+    }
+}
+
 /// z and ż of every mode, its increment being that of free motion.
 fn modal_state(simulation: &Simulation<'_>, oscillators: &Oscillators) -> Vec<InitialMode> {
     let (step, touching) = (simulation.step_s(), simulation.casing.is_some());
@@ -351,8 +397,4 @@ fn modal_state(simulation: &Simulation<'_>, oscillators: &Oscillators) -> Vec<In
         let zeta = simulation.damping.map_or(0.0, |damping| damping.ratio(family));
         simulation.scheme.velocity(omega, zeta, step, z, d, touching)
     })
-}
-
-fn is_massless(simulation: &Simulation<'_>) -> bool {
-    matches!(simulation.scheme, Scheme::MasslessBoundary { .. })
 }

@@ -3,6 +3,7 @@
 use super::super::contact::coating::WornCoating;
 use super::super::flexible_casing::CasingMotion;
 use super::super::orbit::OrbitShift;
+use super::super::oscillators::lanes::padded;
 use super::super::oscillators::rows::Rows;
 use super::simulation::Simulation;
 use rubmap_numerics::complementarity::active_set::ActiveSetSolver;
@@ -16,7 +17,7 @@ pub(super) struct Surroundings {
     pub(super) law: Law,
     pub(super) casing: Option<CasingMotion>,
     orbit: Option<OrbitShift>,
-    /// What is added to the gaps, `[sector][node]`.
+    /// What is added to the gaps, `[sector][node]`, nodes padded to whole vectors.
     pub(super) shift: Vec<f64>,
 }
 
@@ -40,19 +41,11 @@ pub(super) struct Sliding {
     pub(super) heat: Vec<f64>,
 }
 
-/// What contact forces act along: the normals, `rows`, but for friction.
-#[inline(always)]
-pub(super) fn applied<'a>(surroundings: Option<&'a Surroundings>, rows: &'a Rows) -> &'a Rows {
-    match surroundings {
-        Some(Surroundings { sliding: Some(sliding), .. }) => &sliding.rows,
-        _ => rows,
-    }
-}
-
 impl Surroundings {
-    /// None for a scene without effects on contact. Gaps are padded to `stride` nodes a sector.
-    pub(super) fn new(simulation: &Simulation<'_>, stride: usize) -> Option<Self> {
-        let Simulation { wheel, effects, contact_nodes, scheme, .. } = *simulation;
+    /// None for a scene without contact or without effects on it.
+    pub(super) fn new(simulation: &Simulation<'_>) -> Option<Self> {
+        let Simulation { wheel, casing, effects, contact_nodes, scheme, .. } = *simulation;
+        casing?;
         let sliding = effects.friction.map(|friction| Sliding {
             rows: Rows::new(wheel, friction.directions, |modes| scheme.integrated_modes(modes)),
             heat: (contact_nodes.iter().zip(friction.directions))
@@ -66,6 +59,7 @@ impl Surroundings {
         if !effects.any() && !coriolis {
             return None;
         }
+        let stride = padded(contact_nodes.len());
         let size = wheel.sectors * stride;
         let around = (wheel.sectors, wheel.around());
         Some(Self {
@@ -89,6 +83,23 @@ impl Surroundings {
             orbit: effects.orbit.map(|orbit| OrbitShift::new(orbit, contact_nodes, around, stride)),
             shift: vec![0.0; size],
         })
+    }
+
+    /// What contact forces act along: the normals, `rows`, but for friction.
+    #[inline(always)]
+    pub(super) fn applied<'a>(&'a self, rows: &'a Rows) -> &'a Rows {
+        match &self.sliding {
+            Some(sliding) => &sliding.rows,
+            None => rows,
+        }
+    }
+
+    /// The coating as it is now, if there is one.
+    pub(super) fn coating(&self) -> Option<&WornCoating> {
+        match &self.law {
+            Law::Coated(_, coating) => Some(coating),
+            Law::Plain | Law::General(_) => None,
+        }
     }
 
     /// What the effects add to the gaps after `revolutions`.

@@ -1,7 +1,14 @@
 //! Modal oscillators under forces other than contact: engine orders, mistuning and Coriolis forces.
 //!
-//! The same recursion as the parent's, with known modal forces at the middle instant of each step and, for Coriolis
-//! forces, swings turned by S ([`super::super::coriolis`]). Completion and prediction are two passes over the mode shapes.
+//! The recursion of [`recursion`](super::recursion), with known modal forces at the middle instant of each step and, for
+//! Coriolis forces, swings turned by S ([`super::super::coriolis`]):
+//!
+//! ```text
+//! z⁺ − z⁻ = S (keep·d − pull·z + d + receptance·f),   d⁺ = z⁺ − z⁻ − d,   z⁺ = z + d⁺
+//! ```
+//!
+//! It is the swing that S turns, so the swing comes first, and products are rounded before they are added: other bits than
+//! the recursion without a drive. Completion and prediction are two passes over the mode shapes.
 
 use faer::{Mat, c64};
 use pulp::Simd;
@@ -14,9 +21,10 @@ use super::super::excitation::{EngineOrderExcitation, ModalExcitation};
 use super::super::initial::InitialMode;
 use super::super::mistuning::{ModalMistuning, Place, RESOLVED};
 use super::super::modal_wheel::ModalWheel;
-use super::product::{LoadPair, LoadSingle, ProjectPair, ProjectSingle};
-use super::rows::{RowBlock, Rows};
-use super::{Exchange, Loads, Oscillators, Segment};
+use super::Oscillators;
+use super::recursion::Exchange;
+use super::rows::{Loads, RowBlock};
+use super::segment::Segment;
 use rubmap_numerics::aligned::Aligned;
 use rubmap_numerics::sector_fourier::SectorFourier;
 
@@ -34,9 +42,10 @@ pub(crate) struct Drive {
     turning: Vec<RowBlock>,
     /// z⁺ − z⁻ of the step.
     swing: Aligned,
-    /// φᴴf of the loads on one nodal diameter, and what is turned by S.
+    /// φᴴf of the loads on one nodal diameter.
     force: Aligned,
-    free: Aligned,
+    /// What they all move it by, and room for the same turned by S.
+    moved: Aligned,
     turned: Aligned,
 }
 
@@ -84,7 +93,7 @@ impl Drive {
             turning: turning.collect(),
             swing: of(true),
             force: Aligned::zeros(2 * longest),
-            free: Aligned::zeros(2 * longest),
+            moved: Aligned::zeros(2 * longest),
             turned: Aligned::zeros(2 * longest),
         })
     }
@@ -146,7 +155,7 @@ impl Drive {
                 }
             }
         }
-        let Oscillators { segments, coefficients, state } = oscillators;
+        let Oscillators { segments, coefficients, state, .. } = oscillators;
         for segment in segments {
             for start in segment.parts() {
                 for m in 0..segment.integrated {
@@ -195,24 +204,20 @@ impl Drive {
         }
     }
 
-    /// `turned` = S `free` of nodal diameter `index`.
+    /// `moved` by S of nodal diameter `index`; as it is without Coriolis forces.
     #[inline(always)]
     fn turn<S: Simd>(&mut self, simd: S, index: usize, segment: Segment) {
-        let Segment { single, length, .. } = segment;
-        let block = &self.turning[index];
-        if single {
-            let out = &mut self.turned[..segment.integrated];
-            simd.vectorize(ProjectSingle { block, z: &self.free[..length], out });
-        } else {
-            let (re, im) = self.free[..2 * length].split_at(length);
-            let (out_re, out_im) = self.turned[..2 * length].split_at_mut(length);
-            let (out_re, out_im) = (&mut out_re[..segment.integrated], &mut out_im[..segment.integrated]);
-            simd.vectorize(ProjectPair { block, re, im, out_re, out_im });
+        if self.turning.is_empty() {
+            return;
         }
+        let Segment { integrated, length, .. } = segment;
+        let moved = &self.moved[..segment.size()];
+        self.turning[index].project(simd, segment, moved, &mut self.turned, (integrated, length));
         // Oscillators that only pad the vectors stay at rest, whatever the last nodal diameter left there.
         for part in 0..segment.parts().count() {
-            self.turned[part * length + segment.integrated..(part + 1) * length].fill(0.0);
+            self.turned[part * length + integrated..(part + 1) * length].fill(0.0);
         }
+        std::mem::swap(&mut self.moved, &mut self.turned);
     }
 }
 
@@ -231,45 +236,40 @@ impl Oscillators {
         self.segments.iter().map(of).min().unwrap_or(0)
     }
 
-    /// Completes the last step by `loads` on `rows`, and counts it.
+    /// Completes the last step by `loads`, and counts it.
     #[inline(always)]
     pub(crate) fn complete_driven<S: Simd>(
         &mut self,
         simd: S,
         drive: &mut Drive,
-        rows: &Rows,
         loads: Loads<'_>,
         work: &mut EffectWork,
     ) -> Exchange {
         let mut exchange = Exchange { work: 0.0, loss: 0.0 };
+        let loaded = !loads.loaded.is_empty();
         for index in 0..self.segments.len() {
             let segment = self.segments[index];
-            if !loads.rows.is_empty() {
-                load(simd, segment, &rows.blocks[index], rows.stride, loads, &mut drive.force);
+            if loaded {
+                loads.modal(simd, index, segment, &mut drive.force);
                 let receptance = &self.coefficients.receptance[segment.modes..][..segment.length];
                 for part in 0..segment.parts().count() {
                     let range = part * segment.length..(part + 1) * segment.length;
-                    let (free, force) = (&mut drive.free[range.clone()], &drive.force[range]);
-                    for (free, (r, f)) in free.iter_mut().zip(receptance.iter().zip(force)) {
-                        *free = r * f;
+                    let (moved, force) = (&mut drive.moved[range.clone()], &drive.force[range]);
+                    for (moved, (r, f)) in moved.iter_mut().zip(receptance.iter().zip(force)) {
+                        *moved = r * f;
                     }
                 }
-                let moved = if drive.turning.is_empty() {
-                    &drive.free
-                } else {
-                    drive.turn(simd, index, segment);
-                    &drive.turned
-                };
+                drive.turn(simd, index, segment);
                 for (part, start) in segment.parts().enumerate() {
                     for m in 0..segment.length {
-                        let moved = moved[part * segment.length + m];
+                        let moved = drive.moved[part * segment.length + m];
                         self.state.z[start + m] += moved;
                         self.state.d[start + m] += moved;
                         drive.swing[start + m] += moved;
                     }
                 }
             }
-            self.count(segment, drive, !loads.rows.is_empty(), &mut exchange);
+            self.count(segment, drive, loaded, &mut exchange);
             drive.count(segment, work);
         }
         drive.swing.fill(0.0);
@@ -286,13 +286,13 @@ impl Oscillators {
         }
     }
 
-    /// Takes a step under `loads` on `rows` that act from its start, `revolutions` after the start, and counts it.
+    /// Takes a step under `loads` that act from its start, `revolutions` after the start, and counts it.
     #[inline(always)]
     pub(crate) fn advance_driven<S: Simd>(
         &mut self,
         simd: S,
         drive: &mut Drive,
-        loaded: Option<(&Rows, Loads<'_>)>,
+        loads: Option<Loads<'_>>,
         revolutions: f64,
         work: &mut EffectWork,
     ) -> Exchange {
@@ -300,14 +300,12 @@ impl Oscillators {
         drive.prepare(&self.state.z, revolutions);
         for index in 0..self.segments.len() {
             let segment = self.segments[index];
-            match loaded {
-                Some((rows, loads)) => {
-                    load(simd, segment, &rows.blocks[index], rows.stride, loads, &mut drive.force);
-                }
+            match loads {
+                Some(loads) => loads.modal(simd, index, segment, &mut drive.force),
                 None => drive.force.fill(0.0),
             }
             self.swing(simd, index, drive);
-            self.count(segment, drive, loaded.is_some(), &mut exchange);
+            self.count(segment, drive, loads.is_some(), &mut exchange);
             drive.count(segment, work);
         }
         exchange
@@ -326,27 +324,23 @@ impl Oscillators {
             let (z, d) = (&self.state.z[range.clone()], &self.state.d[range.clone()]);
             let offset = part * segment.length;
             let force = &drive.force[offset..][..segment.length];
-            let free = &mut drive.free[offset..][..segment.length];
+            let moved = &mut drive.moved[offset..][..segment.length];
             for m in 0..segment.length {
-                free[m] = keep[m] * d[m] - pull[m] * z[m] + d[m] + receptance[m] * force[m];
+                moved[m] = keep[m] * d[m] - pull[m] * z[m] + d[m] + receptance[m] * force[m];
             }
             for drive in [&drive.excitation, &drive.pull] {
                 if !drive.is_empty() {
-                    for (free, (r, f)) in free.iter_mut().zip(receptance.iter().zip(&drive[range.clone()])) {
-                        *free += r * f;
+                    for (moved, (r, f)) in moved.iter_mut().zip(receptance.iter().zip(&drive[range.clone()]))
+                    {
+                        *moved += r * f;
                     }
                 }
             }
         }
-        let swing = if drive.turning.is_empty() {
-            &drive.free
-        } else {
-            drive.turn(simd, index, segment);
-            &drive.turned
-        };
+        drive.turn(simd, index, segment);
         for (part, start) in segment.parts().enumerate() {
             let range = start..start + segment.length;
-            let swing = &swing[part * segment.length..][..segment.length];
+            let swing = &drive.moved[part * segment.length..][..segment.length];
             let (z, d) = (&mut self.state.z[range.clone()], &mut self.state.d[range.clone()]);
             let kept = &mut drive.swing[range];
             for m in 0..segment.length {
@@ -390,26 +384,5 @@ impl Oscillators {
             }
         };
         wheel.harmonics.iter().zip(&self.segments).map(of).collect()
-    }
-}
-
-/// φᴴ f̂ of one nodal diameter into `out`.
-#[inline(always)]
-fn load<S: Simd>(
-    simd: S,
-    segment: Segment,
-    block: &RowBlock,
-    stride: usize,
-    loads: Loads<'_>,
-    out: &mut [f64],
-) {
-    let Segment { single, length, column, .. } = segment;
-    let force = &loads.force[column * stride..];
-    if single {
-        simd.vectorize(LoadSingle { block, loaded: loads.rows, force, out: &mut out[..length] });
-    } else {
-        let (force_re, force_im) = force.split_at(stride);
-        let (re, im) = out[..2 * length].split_at_mut(length);
-        simd.vectorize(LoadPair { block, loaded: loads.rows, force_re, force_im, re, im });
     }
 }

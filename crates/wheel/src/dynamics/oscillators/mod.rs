@@ -1,21 +1,26 @@
 //! The modal oscillators of the whole wheel: Eq. 8 made element-wise, and its projection on chosen DOF.
 //!
-//! Kernels work on SIMD lanes; modes of every nodal diameter are padded to whole vectors with oscillators that
-//! stay at rest. A pair keeps the real and the imaginary part of z as two consecutive segments that share their
-//! coefficients. The modes of one nodal diameter are forced, advanced and projected one after the other, while its mode
-//! shapes are in the first-level cache.
+//! `recursion` is the step of one vector of modes, `product` loads and reads them, and `Oscillators::pass` takes all of
+//! them through both. Modes of every nodal diameter are padded to whole vectors with oscillators that stay at rest. A pair
+//! keeps the real and the imaginary part of z as two consecutive segments that share their coefficients. The modes of one
+//! nodal diameter are forced, advanced and projected one after the other, while its mode shapes are in the first-level
+//! cache.
 
 pub(crate) mod driven;
 pub(crate) mod lanes;
 mod product;
+mod recursion;
 pub(crate) mod rows;
+mod segment;
 
 use faer::c64;
 use pulp::Simd;
 
 use self::lanes::padded;
-use self::product::{LoadPair, LoadSingle, ProjectPair, ProjectSingle};
-use self::rows::Rows;
+pub(crate) use self::recursion::Exchange;
+use self::recursion::{Advance, Complete, CompleteAndPredict, Modes, Numbers, Pass, Sums};
+use self::rows::{Loads, Rows};
+use self::segment::Segment;
 use super::initial::InitialMode;
 use super::modal_wheel::ModalWheel;
 use super::schemes::{ModeStep, Scheme};
@@ -37,29 +42,6 @@ impl ModalDamping {
     }
 }
 
-/// Where the modes of one nodal diameter live.
-#[derive(Debug, Clone, Copy)]
-struct Segment {
-    single: bool,
-    /// Modes.
-    integrated: usize,
-    /// Modes, padded.
-    length: usize,
-    /// Start in the coefficient arrays.
-    modes: usize,
-    /// Start in the state arrays (the imaginary part of a pair follows after `length`).
-    state: usize,
-    /// Fourier column of the real part (the imaginary part is the next).
-    column: usize,
-}
-
-impl Segment {
-    /// Starts of its real and, for a pair, imaginary part in the state arrays.
-    fn parts(self) -> impl Iterator<Item = usize> {
-        (0..if self.single { 1 } else { 2 }).map(move |part| self.state + part * self.length)
-    }
-}
-
 /// Modal coordinates of the wheel under one of the [schemes](super::schemes), in increments d = z − z⁻, which lose no
 /// digits to differences at small steps.
 #[derive(Debug, Clone)]
@@ -67,6 +49,8 @@ pub(crate) struct Oscillators {
     segments: Vec<Segment>,
     coefficients: Coefficients,
     state: State,
+    /// Whether any mode loses energy.
+    dissipates: bool,
 }
 
 /// One number a mode, the same for both parts of a pair.
@@ -97,57 +81,6 @@ struct State {
     swing: Aligned,
     /// φᴴf of the loads on one nodal diameter; empty without contact.
     force: Aligned,
-}
-
-/// Forces on rows, in Fourier coordinates.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Loads<'a> {
-    /// Rows with a force on any sector.
-    pub(crate) rows: &'a [usize],
-    /// `[column][row]`, rows padded to their stride.
-    pub(crate) force: &'a [f64],
-}
-
-/// What the energy gains and loses (see [`super::schemes`]).
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Exchange {
-    /// Work of the loads, Σ f (z⁺ − z⁻)/2.
-    pub(crate) work: f64,
-    /// Σ c (z⁺ − z⁻)²/(2B).
-    pub(crate) loss: f64,
-}
-
-/// [`Exchange`] in lanes, twice the work.
-struct Sums<S: Simd> {
-    twice_work: S::f64s,
-    loss: S::f64s,
-}
-
-impl<S: Simd> Sums<S> {
-    #[inline(always)]
-    fn new(simd: S) -> Self {
-        Self { twice_work: simd.splat_f64s(0.0), loss: simd.splat_f64s(0.0) }
-    }
-
-    /// Adds a step's exchange: its force, z⁺ − z⁻ and loss coefficient.
-    #[inline(always)]
-    fn add<const DISSIPATES: bool>(&mut self, simd: S, force: S::f64s, swing: S::f64s, loss: S::f64s) {
-        self.twice_work = simd.mul_add_e_f64s(force, swing, self.twice_work);
-        self.add_loss::<DISSIPATES>(simd, swing, loss);
-    }
-
-    /// [`Self::add`] without a force.
-    #[inline(always)]
-    fn add_loss<const DISSIPATES: bool>(&mut self, simd: S, swing: S::f64s, loss: S::f64s) {
-        if DISSIPATES {
-            self.loss = simd.mul_add_e_f64s(loss, simd.mul_f64s(swing, swing), self.loss);
-        }
-    }
-
-    #[inline(always)]
-    fn total(self, simd: S) -> Exchange {
-        Exchange { work: 0.5 * simd.reduce_sum_f64s(self.twice_work), loss: simd.reduce_sum_f64s(self.loss) }
-    }
 }
 
 impl Oscillators {
@@ -188,7 +121,8 @@ impl Oscillators {
             swing: Aligned::zeros(contact),
             force: Aligned::zeros(if touching { 2 * longest } else { 0 }),
         };
-        let mut this = Self { segments, coefficients: of, state };
+        let dissipates = of.loss.iter().any(|&loss| loss > 0.0);
+        let mut this = Self { segments, coefficients: of, state, dissipates };
         for mode in initial {
             let zeta = damping.map_or(0.0, |damping| damping.ratio(mode.family));
             this.start(mode, |z, v| {
@@ -211,137 +145,95 @@ impl Oscillators {
 
     /// Whether any mode loses energy.
     pub(crate) fn dissipates(&self) -> bool {
-        self.coefficients.loss.iter().any(|&loss| loss > 0.0)
+        self.dissipates
     }
 
     /// One free step of every mode.
     #[inline(always)]
-    pub(crate) fn advance<S: Simd, const DISSIPATES: bool>(&mut self, simd: S) -> Exchange {
-        let mut sums = Sums::new(simd);
-        for &segment in &self.segments {
-            let of = self.coefficients.of::<S>(segment);
-            for start in segment.parts() {
-                let Part { z, d, .. } = self.state.part::<S>(segment, start, false);
-                for m in 0..of.keep.len() {
-                    let next = simd.negate_mul_add_e_f64s(of.pull[m], z[m], simd.mul_f64s(of.keep[m], d[m]));
-                    sums.add_loss::<DISSIPATES>(simd, simd.add_f64s(next, d[m]), of.loss[m]);
-                    d[m] = next;
-                    z[m] = simd.add_f64s(z[m], next);
-                }
-            }
-        }
-        sums.total(simd)
+    pub(crate) fn advance<S: Simd>(&mut self, simd: S) -> Exchange {
+        self.pass::<S, Advance>(simd, None, None)
     }
 
-    /// Completes the last step by `loads` on the rows `applied` (Eq. 10), takes the next one free of them (Eq. 8), and reads
-    /// `rows` in Fourier coordinates, `out[column][row]`. Returns the exchange of the completed step.
+    /// One step of every mode under `loads`, which act from its start. Reads rows as [`Self::project`] does, at its end.
     #[inline(always)]
-    pub(crate) fn complete_and_predict<S: Simd, const DISSIPATES: bool>(
+    pub(crate) fn advance_loaded<S: Simd>(
         &mut self,
         simd: S,
-        rows: &Rows,
-        (applied, loads): (&Rows, Loads<'_>),
-        out: &mut [f64],
-    ) -> Exchange {
-        if loads.rows.is_empty() {
-            self.complete_and_predict_loaded::<S, DISSIPATES, false>(simd, rows, (applied, loads), out)
-        } else {
-            self.complete_and_predict_loaded::<S, DISSIPATES, true>(simd, rows, (applied, loads), out)
-        }
-    }
-
-    #[inline(always)]
-    fn complete_and_predict_loaded<S: Simd, const DISSIPATES: bool, const LOADED: bool>(
-        &mut self,
-        simd: S,
-        rows: &Rows,
-        (applied, loads): (&Rows, Loads<'_>),
-        out: &mut [f64],
-    ) -> Exchange {
-        let mut sums = Sums::new(simd);
-        for index in 0..self.segments.len() {
-            if LOADED {
-                self.load_segment(simd, index, applied, loads);
-            }
-            let segment = self.segments[index];
-            let of = self.coefficients.of::<S>(segment);
-            for start in segment.parts() {
-                let Part { z, d, swing, force } = self.state.part::<S>(segment, start, true);
-                for m in 0..of.keep.len() {
-                    let (mut z_now, mut d_now) = (z[m], d[m]);
-                    if LOADED {
-                        let moved = simd.mul_f64s(of.receptance[m], force[m]);
-                        sums.add::<DISSIPATES>(simd, force[m], simd.add_f64s(swing[m], moved), of.loss[m]);
-                        z_now = simd.add_f64s(z_now, moved);
-                        d_now = simd.add_f64s(d_now, moved);
-                    } else {
-                        sums.add_loss::<DISSIPATES>(simd, swing[m], of.loss[m]);
-                    }
-                    let next =
-                        simd.negate_mul_add_e_f64s(of.pull[m], z_now, simd.mul_f64s(of.keep[m], d_now));
-                    swing[m] = simd.add_f64s(next, d_now);
-                    d[m] = next;
-                    z[m] = simd.add_f64s(z_now, next);
-                }
-            }
-            self.project_segment(simd, index, rows, out);
-        }
-        sums.total(simd)
-    }
-
-    /// Completes the last step by `loads` on `rows` and returns its exchange.
-    #[inline(always)]
-    pub(crate) fn complete<S: Simd, const DISSIPATES: bool>(
-        &mut self,
-        simd: S,
-        rows: &Rows,
         loads: Loads<'_>,
+        reading: (&Rows, &mut [f64]),
     ) -> Exchange {
-        let mut sums = Sums::new(simd);
-        for index in 0..self.segments.len() {
-            self.load_segment(simd, index, rows, loads);
-            let segment = self.segments[index];
-            let of = self.coefficients.of::<S>(segment);
-            for start in segment.parts() {
-                let Part { z, d, swing, force } = self.state.part::<S>(segment, start, true);
-                for m in 0..of.keep.len() {
-                    let moved = simd.mul_f64s(of.receptance[m], force[m]);
-                    sums.add::<DISSIPATES>(simd, force[m], simd.add_f64s(swing[m], moved), of.loss[m]);
-                    z[m] = simd.add_f64s(z[m], moved);
-                    d[m] = simd.add_f64s(d[m], moved);
-                    swing[m] = simd.splat_f64s(0.0);
-                }
-            }
-        }
-        sums.total(simd)
+        self.pass::<S, Advance>(simd, Some(loads), Some(reading))
     }
 
-    /// One step of every mode under `loads` on the rows `applied`, which act from its start, and the values of `rows` at its
-    /// end in Fourier coordinates, `out[column][row]`.
+    /// Completes the last step by `loads` (Eq. 10), takes the next one free of them (Eq. 8), and reads rows as
+    /// [`Self::project`] does. Returns the exchange of the completed step.
     #[inline(always)]
-    pub(crate) fn advance_loaded<S: Simd, const DISSIPATES: bool>(
+    pub(crate) fn complete_and_predict<S: Simd>(
         &mut self,
         simd: S,
-        rows: &Rows,
-        (applied, loads): (&Rows, Loads<'_>),
-        out: &mut [f64],
+        loads: Loads<'_>,
+        reading: (&Rows, &mut [f64]),
     ) -> Exchange {
-        let mut sums = Sums::new(simd);
-        for index in 0..self.segments.len() {
-            self.load_segment(simd, index, applied, loads);
-            let segment = self.segments[index];
+        if loads.loaded.is_empty() {
+            self.pass::<S, CompleteAndPredict>(simd, None, Some(reading))
+        } else {
+            self.pass::<S, CompleteAndPredict>(simd, Some(loads), Some(reading))
+        }
+    }
+
+    /// Completes the last step by `loads` and returns its exchange.
+    #[inline(always)]
+    pub(crate) fn complete<S: Simd>(&mut self, simd: S, loads: Loads<'_>) -> Exchange {
+        self.pass::<S, Complete>(simd, Some(loads), None)
+    }
+
+    /// Forces, moves and reads one nodal diameter after the other; `P` is what moves it.
+    #[inline(always)]
+    fn pass<S: Simd, P: Pass>(
+        &mut self,
+        simd: S,
+        loads: Option<Loads<'_>>,
+        reading: Option<(&Rows, &mut [f64])>,
+    ) -> Exchange {
+        if self.dissipates {
+            self.pass_counting::<S, P, true>(simd, loads, reading)
+        } else {
+            self.pass_counting::<S, P, false>(simd, loads, reading)
+        }
+    }
+
+    #[inline(always)]
+    fn pass_counting<S: Simd, P: Pass, const DISSIPATES: bool>(
+        &mut self,
+        simd: S,
+        loads: Option<Loads<'_>>,
+        mut reading: Option<(&Rows, &mut [f64])>,
+    ) -> Exchange {
+        let zero = simd.splat_f64s(0.0);
+        let mut sums = Sums::<S, DISSIPATES>::new(simd);
+        for (index, &segment) in self.segments.iter().enumerate() {
+            if let Some(loads) = loads {
+                loads.modal(simd, index, segment, &mut self.state.force);
+            }
             let of = self.coefficients.of::<S>(segment);
             for start in segment.parts() {
-                let Part { z, d, force, .. } = self.state.part::<S>(segment, start, true);
+                let Part { z, d, swing, force } =
+                    self.state.part::<S>(segment, start, P::COUNTS_LATER, loads.is_some());
                 for m in 0..of.keep.len() {
-                    let free = simd.negate_mul_add_e_f64s(of.pull[m], z[m], simd.mul_f64s(of.keep[m], d[m]));
-                    let next = simd.mul_add_e_f64s(of.receptance[m], force[m], free);
-                    sums.add::<DISSIPATES>(simd, force[m], simd.add_f64s(next, d[m]), of.loss[m]);
-                    d[m] = next;
-                    z[m] = simd.add_f64s(z[m], next);
+                    let force = if loads.is_some() { Some(force[m]) } else { None };
+                    let of = of.at(m);
+                    let swung = if P::COUNTS_LATER { swing[m] } else { zero };
+                    let mut modes = Modes { z: z[m], d: d[m], swing: swung };
+                    P::over(simd, &mut modes, &of, force, &mut sums);
+                    (z[m], d[m]) = (modes.z, modes.d);
+                    if P::COUNTS_LATER {
+                        swing[m] = modes.swing;
+                    }
                 }
             }
-            self.project_segment(simd, index, rows, out);
+            if let Some((rows, out)) = &mut reading {
+                rows.project(simd, index, segment, &self.state.z, out);
+            }
         }
         sums.total(simd)
     }
@@ -349,40 +241,8 @@ impl Oscillators {
     /// Values of `rows` in Fourier coordinates: `out[column][row]`, rows padded to `rows.stride`.
     #[inline(always)]
     pub(crate) fn project<S: Simd>(&self, simd: S, rows: &Rows, out: &mut [f64]) {
-        for index in 0..self.segments.len() {
-            self.project_segment(simd, index, rows, out);
-        }
-    }
-
-    #[inline(always)]
-    fn project_segment<S: Simd>(&self, simd: S, index: usize, rows: &Rows, out: &mut [f64]) {
-        let Segment { single, length, state, column, .. } = self.segments[index];
-        let block = &rows.blocks[index];
-        let out = &mut out[column * rows.stride..];
-        let re = &self.state.z[state..][..length];
-        if single {
-            simd.vectorize(ProjectSingle { block, z: re, out: &mut out[..rows.count] });
-        } else {
-            let im = &self.state.z[state + length..][..length];
-            let (out_re, out_im) = out.split_at_mut(rows.stride);
-            let (out_re, out_im) = (&mut out_re[..rows.count], &mut out_im[..rows.count]);
-            simd.vectorize(ProjectPair { block, re, im, out_re, out_im });
-        }
-    }
-
-    /// φᴴ f̂ of one nodal diameter, its modal forces.
-    #[inline(always)]
-    fn load_segment<S: Simd>(&mut self, simd: S, index: usize, rows: &Rows, loads: Loads<'_>) {
-        let Segment { single, length, column, .. } = self.segments[index];
-        let block = &rows.blocks[index];
-        let force = &loads.force[column * rows.stride..];
-        if single {
-            let out = &mut self.state.force[..length];
-            simd.vectorize(LoadSingle { block, loaded: loads.rows, force, out });
-        } else {
-            let (force_re, force_im) = force.split_at(rows.stride);
-            let (re, im) = self.state.force[..2 * length].split_at_mut(length);
-            simd.vectorize(LoadPair { block, loaded: loads.rows, force_re, force_im, re, im });
+        for (index, &segment) in self.segments.iter().enumerate() {
+            rows.project(simd, index, segment, &self.state.z, out);
         }
     }
 
@@ -467,6 +327,13 @@ struct Slices<'a, S: Simd> {
     loss: &'a [S::f64s],
 }
 
+impl<S: Simd> Slices<'_, S> {
+    #[inline(always)]
+    fn at(&self, m: usize) -> Numbers<S> {
+        Numbers { keep: self.keep[m], pull: self.pull[m], receptance: self.receptance[m], loss: self.loss[m] }
+    }
+}
+
 impl Coefficients {
     fn zeros(modes: usize) -> Self {
         let zeros = || Aligned::zeros(modes);
@@ -512,22 +379,20 @@ struct Part<'a, S: Simd> {
 }
 
 impl State {
-    /// The part of `segment` at `start`; `swing` and `force` are empty unless `touching`.
+    /// The part of `segment` at `start`; `swing` and `force` are empty unless asked for.
     #[inline(always)]
-    fn part<S: Simd>(&mut self, segment: Segment, start: usize, touching: bool) -> Part<'_, S> {
+    fn part<S: Simd>(&mut self, segment: Segment, start: usize, swing: bool, force: bool) -> Part<'_, S> {
         let range = start..start + segment.length;
-        let (swing, force) = if touching {
-            (range.clone(), start - segment.state..start - segment.state + segment.length)
-        } else {
-            (0..0, 0..0)
-        };
+        let offset = start - segment.state;
         let z = S::as_mut_simd_f64s(&mut self.z[range.clone()]).0;
+        // Cut to one length, so that no index needs a check.
         let vectors = z.len();
-        let touched = if touching { vectors } else { 0 };
+        let (swing, swings) = if swing { (range.clone(), vectors) } else { (0..0, 0) };
+        let (force, forces) = if force { (offset..offset + segment.length, vectors) } else { (0..0, 0) };
         Part {
             d: &mut S::as_mut_simd_f64s(&mut self.d[range]).0[..vectors],
-            swing: &mut S::as_mut_simd_f64s(&mut self.swing[swing]).0[..touched],
-            force: &S::as_simd_f64s(&self.force[force]).0[..touched],
+            swing: &mut S::as_mut_simd_f64s(&mut self.swing[swing]).0[..swings],
+            force: &S::as_simd_f64s(&self.force[force]).0[..forces],
             z,
         }
     }

@@ -5,16 +5,73 @@
 
 use pulp::{Simd, WithSimd};
 
-use super::rows::RowBlock;
+use super::rows::{Loads, RowBlock, Rows};
+use super::segment::Segment;
 
 /// Rows at a time: ten sums and their operands are what sixteen registers hold.
 const LARGEST_GROUP: usize = 5;
 
+impl Rows {
+    /// Values of the rows by the modes of one nodal diameter, from the state array `z` into its columns of `out[column][row]`.
+    #[inline(always)]
+    pub(super) fn project<S: Simd>(
+        &self,
+        simd: S,
+        index: usize,
+        segment: Segment,
+        z: &[f64],
+        out: &mut [f64],
+    ) {
+        let (z, out) = (&z[segment.state..][..segment.size()], &mut out[segment.column * self.stride..]);
+        self.blocks[index].project(simd, segment, z, out, (self.count, self.stride));
+    }
+}
+
+impl Loads<'_> {
+    /// φᴴ f̂ of one nodal diameter, its modal forces, into the head of `out`.
+    #[inline(always)]
+    pub(super) fn modal<S: Simd>(self, simd: S, index: usize, segment: Segment, out: &mut [f64]) {
+        let Self { rows, loaded, force } = self;
+        let block = &rows.blocks[index];
+        let (force, out) = (&force[segment.column * rows.stride..], &mut out[..segment.size()]);
+        if segment.single {
+            simd.vectorize(LoadSingle { block, loaded, force, out });
+        } else {
+            let (force_re, force_im) = force.split_at(rows.stride);
+            let (re, im) = out.split_at_mut(segment.length);
+            simd.vectorize(LoadPair { block, loaded, force_re, force_im, re, im });
+        }
+    }
+}
+
+impl RowBlock {
+    /// φ z of one nodal diameter, both parts of z one after the other: `rows` rows of `out[part][row]`, parts `stride`
+    /// apart.
+    #[inline(always)]
+    pub(super) fn project<S: Simd>(
+        &self,
+        simd: S,
+        segment: Segment,
+        z: &[f64],
+        out: &mut [f64],
+        (rows, stride): (usize, usize),
+    ) {
+        if segment.single {
+            simd.vectorize(ProjectSingle { block: self, z, out: &mut out[..rows] });
+        } else {
+            let (re, im) = z.split_at(segment.length);
+            let (out_re, out_im) = out.split_at_mut(stride);
+            let (out_re, out_im) = (&mut out_re[..rows], &mut out_im[..rows]);
+            simd.vectorize(ProjectPair { block: self, re, im, out_re, out_im });
+        }
+    }
+}
+
 /// φ z of a single harmonic: `out[row]`.
-pub(super) struct ProjectSingle<'a> {
-    pub(super) block: &'a RowBlock,
-    pub(super) z: &'a [f64],
-    pub(super) out: &'a mut [f64],
+struct ProjectSingle<'a> {
+    block: &'a RowBlock,
+    z: &'a [f64],
+    out: &'a mut [f64],
 }
 
 impl WithSimd for ProjectSingle<'_> {
@@ -57,12 +114,12 @@ fn single_rows<S: Simd, const R: usize>(
 }
 
 /// φ z of a pair, (φ_re + jφ_im)(z_re + jz_im): `out_re[row]`, `out_im[row]`.
-pub(super) struct ProjectPair<'a> {
-    pub(super) block: &'a RowBlock,
-    pub(super) re: &'a [f64],
-    pub(super) im: &'a [f64],
-    pub(super) out_re: &'a mut [f64],
-    pub(super) out_im: &'a mut [f64],
+struct ProjectPair<'a> {
+    block: &'a RowBlock,
+    re: &'a [f64],
+    im: &'a [f64],
+    out_re: &'a mut [f64],
+    out_im: &'a mut [f64],
 }
 
 impl WithSimd for ProjectPair<'_> {
@@ -117,11 +174,11 @@ fn pair_rows<S: Simd, const R: usize>(
 }
 
 /// φᵀ f of the rows in `loaded`, of a single harmonic.
-pub(super) struct LoadSingle<'a> {
-    pub(super) block: &'a RowBlock,
-    pub(super) loaded: &'a [usize],
-    pub(super) force: &'a [f64],
-    pub(super) out: &'a mut [f64],
+struct LoadSingle<'a> {
+    block: &'a RowBlock,
+    loaded: &'a [usize],
+    force: &'a [f64],
+    out: &'a mut [f64],
 }
 
 impl WithSimd for LoadSingle<'_> {
@@ -165,13 +222,13 @@ fn load_single_rows<S: Simd, const R: usize>(
 }
 
 /// φᴴ f of the rows in `loaded`, of a pair: (φ_re − jφ_im)(f_re + jf_im).
-pub(super) struct LoadPair<'a> {
-    pub(super) block: &'a RowBlock,
-    pub(super) loaded: &'a [usize],
-    pub(super) force_re: &'a [f64],
-    pub(super) force_im: &'a [f64],
-    pub(super) re: &'a mut [f64],
-    pub(super) im: &'a mut [f64],
+struct LoadPair<'a> {
+    block: &'a RowBlock,
+    loaded: &'a [usize],
+    force_re: &'a [f64],
+    force_im: &'a [f64],
+    re: &'a mut [f64],
+    im: &'a mut [f64],
 }
 
 impl WithSimd for LoadPair<'_> {

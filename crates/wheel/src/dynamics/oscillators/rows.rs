@@ -18,6 +18,16 @@ pub(crate) struct Rows {
     pub(super) blocks: Vec<RowBlock>,
 }
 
+/// Forces on rows, in Fourier coordinates.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Loads<'a> {
+    pub(crate) rows: &'a Rows,
+    /// Those of them with a force on any sector.
+    pub(crate) loaded: &'a [usize],
+    /// `[column][row]`, rows padded to their stride.
+    pub(crate) force: &'a [f64],
+}
+
 /// dᵀφ_m of each row direction d, real and imaginary parts.
 #[derive(Debug, Clone)]
 pub(super) struct RowBlock {

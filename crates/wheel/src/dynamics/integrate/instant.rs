@@ -1,0 +1,20 @@
+//! Where a step ends.
+
+/// The end of a step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Instant {
+    /// Its place in the revolution, 0 being where the revolution began.
+    pub(super) step: usize,
+    /// Since the start, this one and that of the step before.
+    pub(super) revolutions: f64,
+    pub(super) before: f64,
+}
+
+impl Instant {
+    /// The end of `step`, counted from 1, of the `steps` of a revolution.
+    #[inline(always)]
+    pub(super) fn new(revolution: usize, step: usize, steps: usize) -> Self {
+        let after = |step: usize| revolution as f64 + step as f64 / steps as f64;
+        Self { step: step % steps, revolutions: after(step), before: after(step - 1) }
+    }
+}
