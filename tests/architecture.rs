@@ -44,7 +44,8 @@ type Module = Vec<String>;
 fn module_of(folder: &Path, file: &Path) -> Module {
     let path = file.strip_prefix(folder).unwrap().with_extension("");
     let mut module: Module = path.iter().map(|part| part.to_str().unwrap().to_owned()).collect();
-    if module.last().is_some_and(|last| ["mod", "lib", "main"].contains(&last.as_str())) {
+    // The program is a file of its own beside the library.
+    if module.last().is_some_and(|last| ["mod", "lib"].contains(&last.as_str())) {
         module.pop();
     }
     module
@@ -54,11 +55,14 @@ fn module_of(folder: &Path, file: &Path) -> Module {
 struct Named {
     /// The module that is being read: the file's, or one inside it.
     module: Module,
-    found: Vec<Vec<String>>,
+    /// What a `use` gave a name to.
+    imported: BTreeMap<String, Module>,
+    found: BTreeSet<Module>,
 }
 
 impl Named {
-    fn name(&mut self, path: Vec<String>) {
+    /// Notes a path; returns it from the root of the crate.
+    fn name(&mut self, path: Vec<String>) -> Module {
         let mut module = self.module.clone();
         let mut parts = path.into_iter().peekable();
         match parts.peek().map(String::as_str) {
@@ -74,12 +78,18 @@ impl Named {
                     module.pop();
                 }
             }
-            // A module that this file declares, or another crate.
-            Some(_) => {}
-            None => return,
+            // What was imported, a module that this file declares, or another crate.
+            Some(first) => {
+                if let Some(imported) = self.imported.get(first) {
+                    module.clone_from(imported);
+                    parts.next();
+                }
+            }
+            None => {}
         }
         module.extend(parts);
-        self.found.push(module);
+        self.found.insert(module.clone());
+        module
     }
 
     fn tree(&mut self, before: &mut Vec<String>, tree: &UseTree) {
@@ -90,14 +100,25 @@ impl Named {
                 before.pop();
             }
             UseTree::Group(group) => group.items.iter().for_each(|item| self.tree(before, item)),
-            UseTree::Name(name) => self.leaf(before, &name.ident),
-            UseTree::Rename(rename) => self.leaf(before, &rename.ident),
-            UseTree::Glob(_) => self.name(before.clone()),
+            UseTree::Name(name) => self.leaf(before, &name.ident, &name.ident),
+            UseTree::Rename(rename) => self.leaf(before, &rename.ident, &rename.rename),
+            UseTree::Glob(_) => {
+                self.name(before.clone());
+            }
         }
     }
 
-    fn leaf(&mut self, before: &[String], name: &syn::Ident) {
-        self.name([before, &[name.to_string()]].concat());
+    fn leaf(&mut self, before: &[String], name: &syn::Ident, alias: &syn::Ident) {
+        let mut path = before.to_vec();
+        if name != "self" {
+            path.push(name.to_string());
+        }
+        let alias = if alias == "self" { path.last().cloned() } else { Some(alias.to_string()) };
+        let ours = path.first().is_some_and(|first| ["crate", "self", "super"].contains(&first.as_str()));
+        let path = self.name(path);
+        if let (true, Some(alias)) = (ours, alias) {
+            self.imported.insert(alias, path);
+        }
     }
 }
 
@@ -126,6 +147,25 @@ impl<'ast> Visit<'ast> for Named {
         }
         syn::visit::visit_path(self, path);
     }
+
+    /// Arguments of macros are tokens: paths that begin at the root or above are seen.
+    fn visit_macro(&mut self, call: &'ast syn::Macro) {
+        let tokens = call.tokens.to_string();
+        let mut words = tokens.split_whitespace().peekable();
+        while let Some(word) = words.next() {
+            let first = word.trim_start_matches(|c: char| !c.is_alphanumeric() && c != '_');
+            if ["crate", "super"].contains(&first) {
+                let mut path = vec![first.to_owned()];
+                while words.next_if_eq(&"::").is_some() {
+                    path.extend(words.next().map(|part| {
+                        part.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap().to_owned()
+                    }));
+                }
+                self.name(path);
+            }
+        }
+        syn::visit::visit_macro(self, call);
+    }
 }
 
 /// Which files of a crate need which.
@@ -135,7 +175,10 @@ fn arrows(folder: &Path) -> BTreeMap<Module, BTreeSet<Module>> {
     let mut arrows = BTreeMap::new();
     for (module, file) in &files {
         let syntax = syn::parse_file(&std::fs::read_to_string(file).unwrap()).unwrap();
-        let mut named = Named { module: module.clone(), found: Vec::new() };
+        let (imported, found) = (BTreeMap::new(), BTreeSet::new());
+        let mut named = Named { module: module.clone(), imported, found };
+        // Twice: a name may be used above its import.
+        named.visit_file(&syntax);
         named.visit_file(&syntax);
         let needed = named.found.iter().filter_map(|path| {
             let file = (0..=path.len()).rev().find(|&length| files.contains_key(&path[..length]));
@@ -189,6 +232,8 @@ fn a_circle_is_found_however_it_is_written() {
         "pub use super::b::*;",
         "pub fn one() { crate::b::two() }",
         "mod inside { use super::super::b::two; }",
+        "use crate::{self as all, c}; pub fn one() { all::b::two() }",
+        "pub fn one() { println!(\"{:?}\", super::b::two()) }",
     ] {
         write("a.rs", need);
         assert_eq!(circular(), 0, "{need}");

@@ -5,6 +5,7 @@ use rubmap::analysis::request::auto_or::AutoOr;
 use rubmap::analysis::request::scene as request;
 use rubmap::analysis::request::speeds::{SpeedSet, SpeedUnit, Speeds};
 use rubmap::analysis::request::{Component, Integration, SchemeChoice, Sensor, SweepDirection, SweepRequest};
+use rubmap::analysis::resolved::ResolvedSweep;
 use rubmap::analysis::result::PointStatus;
 use rubmap::analysis::run::{ReducedSector, prepare, run_speed};
 use rubmap::dynamics::casing::{Casing, Restriction};
@@ -15,6 +16,7 @@ use rubmap::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use rubmap::dynamics::oscillators::ModalDamping;
 use rubmap::dynamics::reduction::NoCheckpoints;
 use rubmap::dynamics::schemes::Scheme;
+use rubmap::dynamics::sector::SectorModel;
 use rubmap::impeller::ImpellerParameters;
 
 pub(crate) const SPEED: f64 = 2500.0;
@@ -54,9 +56,11 @@ impl Scene {
 
     fn of(parameters: &ImpellerParameters, modes: usize, stiffnesses: usize) -> Self {
         let package = rubmap::impeller::generate(parameters).expect("the defaults are valid");
-        let mut sector = rubmap::package::to_sector(package).expect("the generator makes valid packages");
+        let mut sector =
+            rubmap::package::to_sector(package).expect("the generator makes valid packages").into_parts();
         sector.stiffness.truncate(stiffnesses);
         sector.speeds_rad_s.truncate(stiffnesses);
+        let sector = SectorModel::new(sector).expect("as before, or at rest alone");
         let reduced = prepare(&sector, modes as u32, None, &NoCheckpoints, &Unwatched)
             .expect("the default impeller is sound");
         let stiffening = stiffnesses == 3;
@@ -82,7 +86,7 @@ impl Scene {
         kept_modes: AutoOr,
         revolutions: usize,
         speeds_rad_s: Vec<f64>,
-    ) -> SweepRequest {
+    ) -> ResolvedSweep {
         let casing = self.casing(TOUCHING);
         let lobes = casing.restriction.map(|lobes| request::Lobes {
             count: lobes.count,
@@ -93,7 +97,7 @@ impl Scene {
         let clearance = request::Clearance { leading: None, trailing: None, values: Some(casing.clearance) };
         let last = self.reduced.wheel.contact.len() as u32 - 1;
         let sensor = |contact_node| Sensor { contact_node, sector: 0, component: Component::Radial };
-        SweepRequest {
+        let settings = SweepRequest {
             model: String::new(),
             modes_per_speed: AutoOr::Fixed(self.modes as u32),
             speeds: Speeds::One(SpeedSet {
@@ -102,7 +106,6 @@ impl Scene {
                 count: None,
                 values: Some(speeds_rad_s),
                 unit: SpeedUnit::RadS,
-                added: false,
             }),
             scene: request::Scene {
                 centrifugal_stiffening: self.stiffening,
@@ -127,7 +130,8 @@ impl Scene {
             budget: None,
             control_speeds: None,
             refine: false,
-        }
+        };
+        ResolvedSweep::stored(settings, 0).expect("the settings are sound")
     }
 
     /// `scheme` with the step that `auto` gives it against the casing.

@@ -3,8 +3,9 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rubmap::analysis::monitor::Unwatched;
+use rubmap::analysis::request::SchemeChoice;
 use rubmap::analysis::request::auto_or::AutoOr;
-use rubmap::analysis::request::{SchemeChoice, SweepRequest};
+use rubmap::analysis::resolved::ResolvedSweep;
 use rubmap::analysis::result::{PointStatus, SpeedResult};
 use rubmap::analysis::run::{ReducedSector, run_speed};
 
@@ -43,7 +44,7 @@ pub(crate) fn measure() {
 }
 
 /// The results of all speeds, in order, from `workers` threads that take the next speed when they are done with one.
-fn sweep(reduced: &ReducedSector, request: &SweepRequest, workers: usize) -> Vec<SpeedResult> {
+fn sweep(reduced: &ReducedSector, request: &ResolvedSweep, workers: usize) -> Vec<SpeedResult> {
     let next = AtomicUsize::new(0);
     let worker = || {
         let mut done = Vec::new();

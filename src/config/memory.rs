@@ -1,4 +1,9 @@
 //! How much memory this machine or container leaves to the service.
+//!
+//! `sysinfo` (0.40) reads the same files and is silent where we need its word: its limits of the system are those of the
+//! outermost group alone, and its limits of a process none as soon as one file on the way out from there is missing.
+//! Version 2 has no `memory.max` in a group to which the memory controller is not handed down, though a group around it
+//! may limit it; and a container may name a group that only its host has.
 
 use std::path::{Path, PathBuf};
 

@@ -5,7 +5,7 @@ use utoipa::ToSchema;
 
 use super::problem::Problem;
 use crate::analysis::result::ReductionReport;
-use crate::store::jobs::{Chosen, Job, JobId, JobKind, SpeedCounts};
+use crate::store::jobs::{Chosen, JobHead, JobId, JobKind, SpeedCounts};
 use crate::store::status::JobStatus;
 
 /// A job.
@@ -75,9 +75,9 @@ pub(super) struct Link {
     rel: &'static str,
 }
 
-impl From<Job> for JobBody {
-    fn from(job: Job) -> Self {
-        let kind = job.request.kind();
+impl From<JobHead> for JobBody {
+    fn from(job: JobHead) -> Self {
+        let kind = job.kind;
         Self {
             id: job.id.to_string(),
             kind,

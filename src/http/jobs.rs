@@ -89,7 +89,9 @@ pub(super) async fn get_job(
 ) -> Result<Json<JobDetail>, Problem> {
     let mut job = find(&state, &whose, id).await?;
     // What is stored is a second old, or older where the store takes nothing.
-    job.phase = state.jobs.phase(id).unwrap_or(job.phase);
+    if let Some(phase) = state.jobs.phase(id) {
+        job.head.phase = phase;
+    }
     let reduction = match (job.request.model(), job.request.modes_per_speed()) {
         (Some(model), Some(modes_per_speed)) => {
             let mut reports = state.store.reduction_reports(model).await?.into_iter();
@@ -97,8 +99,7 @@ pub(super) async fn get_job(
         }
         _ => None,
     };
-    let choice = job.choice.clone();
-    Ok(Json(JobDetail { job: job.into(), choice, reduction }))
+    Ok(Json(JobDetail { job: job.head.into(), choice: job.choice, reduction }))
 }
 
 /// Cancel a job that has not ended, or delete one that has.

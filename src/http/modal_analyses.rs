@@ -11,7 +11,7 @@ use super::state::AppState;
 use super::submit::{self, Receipt};
 use crate::analysis::request::ModalAnalysisRequest;
 use crate::analysis::run::ModalAnalysisPlan;
-use crate::store::jobs::JobRequest;
+use crate::jobs::Submission;
 use crate::tokens::Principal;
 
 /// Compute natural frequencies over speed and the linear interaction criterion.
@@ -45,7 +45,8 @@ pub(super) async fn create_modal_analysis(
     key: IdempotencyKey,
     body: JsonBody<ModalAnalysisRequest>,
 ) -> Result<Response, Problem> {
-    submit::accept(&state, &whose, key, &body.fingerprint, JobRequest::ModalAnalysis(body.value)).await
+    submit::accept(&state, &whose, key, &body.fingerprint, Submission::ModalAnalysis(Box::new(body.value)))
+        .await
 }
 
 /// Say what a modal analysis would do and cost, without starting anything.

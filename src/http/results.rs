@@ -13,7 +13,7 @@ use super::extract::{JobPath, Parameters, SpeedPath, job_not_found};
 use super::problem::{Kind, Problem};
 use super::state::AppState;
 use super::stream::{self, Leave};
-use crate::analysis::request::SweepRequest;
+use crate::analysis::resolved::ResolvedSweep;
 use crate::analysis::result::{
     Campbell, CriticalSpeeds, InteractionMap, Point, SpeedResult, SpeedSpectra, WearMap,
 };
@@ -230,15 +230,15 @@ pub(super) async fn find(state: &AppState, whose: &Principal, id: JobId) -> Resu
 }
 
 /// The request of a sweep and the facts of its model.
-fn sweep(job: &Job) -> Result<(&SweepRequest, &ModelFacts), Problem> {
+fn sweep(job: &Job) -> Result<(&ResolvedSweep, &ModelFacts), Problem> {
     match (&job.request, &job.facts) {
         (JobRequest::Sweep(request), Some(facts)) => Ok((request, facts)),
         _ => Err(wrong_kind(job, JobKind::Sweep)),
     }
 }
 
-fn check_sensor(request: &SweepRequest, sensor: u32) -> Result<(), Problem> {
-    let sensors = request.sensors.len();
+fn check_sensor(request: &ResolvedSweep, sensor: u32) -> Result<(), Problem> {
+    let sensors = request.sensors().len();
     if sensor as usize >= sensors {
         return Err(Problem::parameter("sensor", format!("the job has {sensors} sensors, counted from 0")));
     }

@@ -11,8 +11,11 @@ use super::problem::Problem;
 use super::results::{self, find, wrong_kind};
 use super::state::AppState;
 use super::submit::{self, Receipt};
+use crate::analysis::request::StudyRequest;
+use crate::analysis::resolved::ResolvedStudy;
 use crate::analysis::result::Quantity;
-use crate::analysis::run::{Histories, StudyRequest, WorkPrecision};
+use crate::analysis::run::{Histories, WorkPrecision};
+use crate::jobs::Submission;
 use crate::plot;
 use crate::store::jobs::{Job, JobKind, JobRequest};
 use crate::store::results::Document;
@@ -119,7 +122,7 @@ pub(super) async fn create_study(
     key: IdempotencyKey,
     body: JsonBody<StudyRequest>,
 ) -> Result<Response, Problem> {
-    submit::accept(&state, &whose, key, &body.fingerprint, JobRequest::Study(Box::new(body.value))).await
+    submit::accept(&state, &whose, key, &body.fingerprint, Submission::Study(Box::new(body.value))).await
 }
 
 /// Download errors and times of a study.
@@ -178,7 +181,7 @@ pub(super) async fn get_histories(
 ) -> Result<Response, Problem> {
     let job = find(&state, &whose, id).await?;
     let request = check_speed(&job, query.speed)?;
-    let sensors = request.sensors.len();
+    let sensors = request.sensors().len();
     if query.sensor as usize >= sensors {
         return Err(Problem::parameter("sensor", format!("the job has {sensors} sensors, counted from 0")));
     }
@@ -193,7 +196,7 @@ pub(super) async fn get_histories(
 }
 
 /// The request of a study that has so many speeds.
-fn check_speed(job: &Job, speed: u32) -> Result<&StudyRequest, Problem> {
+fn check_speed(job: &Job, speed: u32) -> Result<&ResolvedStudy, Problem> {
     let JobRequest::Study(request) = &job.request else { return Err(wrong_kind(job, JobKind::Study)) };
     let total = job.speeds.total;
     if speed >= total {

@@ -9,9 +9,9 @@ use super::idempotency::{self, IdempotencyKey};
 use super::job_body::{Link, links};
 use super::problem::Problem;
 use super::state::AppState;
-use crate::jobs::SubmitError;
+use crate::jobs::{Submission, SubmitError};
 use crate::store::idempotency::Answer;
-use crate::store::jobs::{JobId, JobKind, JobRequest};
+use crate::store::jobs::{JobId, JobKind};
 use crate::store::status::JobStatus;
 use crate::tokens::Principal;
 
@@ -35,13 +35,13 @@ pub(super) async fn accept(
     whose: &Principal,
     key: IdempotencyKey,
     fingerprint: &str,
-    request: JobRequest,
+    submission: Submission,
 ) -> Result<Response, Problem> {
     if let Some(response) = key.replay(&state.store, whose, fingerprint).await? {
         return Ok(response);
     }
-    let (id, kind) = (JobId::new(), request.kind());
-    let links = links(id, kind, request.model());
+    let (id, kind) = (JobId::new(), submission.kind());
+    let links = links(id, kind, submission.model());
     let receipt = Receipt { id: id.to_string(), kind, status: JobStatus::Accepted, links };
     let answer = Answer {
         owner: whose.owner.clone(),
@@ -51,7 +51,7 @@ pub(super) async fn accept(
         location: format!("/v1/jobs/{id}"),
         body: serde_json::to_string(&receipt)?,
     };
-    match state.jobs.submit(whose, id, request, key.answer(fingerprint, &answer).as_ref()).await {
+    match state.jobs.submit(whose, id, submission, key.answer(fingerprint, &answer).as_ref()).await {
         Ok(()) => Ok(idempotency::respond(&answer)),
         Err(error @ SubmitError::KeyTaken) => {
             key.replay(&state.store, whose, fingerprint).await?.ok_or_else(|| error.into())

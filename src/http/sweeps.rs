@@ -11,7 +11,7 @@ use super::state::AppState;
 use super::submit::{self, Receipt};
 use crate::analysis::request::SweepRequest;
 use crate::analysis::run::SweepPlan;
-use crate::store::jobs::JobRequest;
+use crate::jobs::Submission;
 use crate::tokens::Principal;
 
 /// Simulate contact over rotational speeds.
@@ -64,7 +64,7 @@ pub(super) async fn create_sweep(
     key: IdempotencyKey,
     body: JsonBody<SweepRequest>,
 ) -> Result<Response, Problem> {
-    submit::accept(&state, &whose, key, &body.fingerprint, JobRequest::Sweep(Box::new(body.value))).await
+    submit::accept(&state, &whose, key, &body.fingerprint, Submission::Sweep(Box::new(body.value))).await
 }
 
 /// Say what a sweep would do and cost, without starting anything.

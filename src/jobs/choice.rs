@@ -10,7 +10,7 @@ use super::progress::PhaseMonitor;
 use super::trials::Trials;
 use crate::analysis::error::{AnalysisError, Violation};
 use crate::analysis::monitor::Monitor;
-use crate::analysis::request::{ModalAnalysisRequest, SweepRequest};
+use crate::analysis::resolved::{ResolvedModalAnalysis, ResolvedSweep};
 use crate::analysis::run::{self, Choice, ModelFacts, ModesChoice, Next, NextModes, Resources};
 use crate::store::StoreError;
 use crate::store::jobs::{Chosen, FailureCause, JobRequest};
@@ -19,23 +19,23 @@ use crate::store::jobs::{Chosen, FailureCause, JobRequest};
 pub(super) async fn sweep(
     engine: &Engine,
     job: Arc<Live>,
-    request: &SweepRequest,
+    request: &ResolvedSweep,
 ) -> Result<Arc<Live>, Interruption> {
-    if !request.unchosen() {
+    if !request.is_sought() {
         return Ok(job);
     }
     let (facts, begin) = begun(engine, &job).await?;
     let sectors = facts.sectors;
     let (mut trials, mut most_modes) = (Trials::default(), None);
     let choice = loop {
-        let resources = resources(engine, &request.model, seconds_since(begin), most_modes).await?;
+        let resources = resources(engine, request.model(), seconds_since(begin), most_modes).await?;
         let runs = match run::next(request, sectors, &resources, &|trial| trials.get(trial)) {
             Next::Take(choice) => break *choice,
             Next::Refuse(violation) => return Err(AnalysisError::Refused(vec![violation]).into()),
             Next::Run(runs) => runs,
         };
         let Some(first) = runs.first() else { return Err(Interruption::NotWanted) };
-        let (modes, total) = (first.sweep.modes(), runs.len());
+        let (modes, total) = (first.sweep().modes_per_speed(), runs.len());
         let monitor = PhaseMonitor::uncounted(job.watch.clone());
         let tell = |done| {
             monitor.progress(0.0, &format!("pilot runs with {modes} modes per speed: {done} of {total}"))
@@ -53,7 +53,7 @@ pub(super) async fn sweep(
     );
     let chosen = choice.explicit(request);
     // Nobody has checked these knobs yet.
-    let chosen = run::resolve_sweep(chosen, &facts).map_err(AnalysisError::Refused)?;
+    let chosen = run::resolve_sweep(chosen.into(), &facts).map_err(AnalysisError::Refused)?;
     let chosen = JobRequest::Sweep(Box::new(chosen));
     engine.choose(&job, chosen, Chosen::Setting(choice)).await
 }
@@ -61,10 +61,10 @@ pub(super) async fn sweep(
 /// The choice for a resolved sweep, if all that it rests on is stored.
 pub(super) async fn stored(
     engine: &Engine,
-    request: &SweepRequest,
+    request: &ResolvedSweep,
     sectors: u32,
 ) -> Result<Result<Option<Choice>, Violation>, StoreError> {
-    let resources = resources(engine, &request.model, 0.0, None).await?;
+    let resources = resources(engine, request.model(), 0.0, None).await?;
     let mut trials = Trials::default();
     loop {
         match run::next(request, sectors, &resources, &|trial| trials.get(trial)) {
@@ -83,23 +83,23 @@ pub(super) async fn stored(
 pub(super) async fn modal_analysis(
     engine: &Engine,
     job: Arc<Live>,
-    request: &ModalAnalysisRequest,
+    request: &ResolvedModalAnalysis,
 ) -> Result<Arc<Live>, Interruption> {
-    if !request.unchosen() {
+    if !request.is_sought() {
         return Ok(job);
     }
     let (_, begin) = begun(engine, &job).await?;
     let mut most_modes = None;
-    let mut reports = engine.store.reduction_reports(&request.model).await?;
+    let mut reports = engine.store.reduction_reports(request.model()).await?;
     let choice = loop {
-        let resources = resources(engine, &request.model, seconds_since(begin), most_modes).await?;
+        let resources = resources(engine, request.model(), seconds_since(begin), most_modes).await?;
         let modes = match run::next_modes(request, &resources, &reports) {
             NextModes::Take(choice) => break choice,
             NextModes::Refuse(violation) => return Err(AnalysisError::Refused(vec![violation]).into()),
             NextModes::Reduce(modes) => modes,
         };
         let monitor = PhaseMonitor::uncounted(job.watch.clone());
-        match engine.reductions.get(&request.model, modes, monitor).await {
+        match engine.reductions.get(request.model(), modes, monitor).await {
             Err(Interruption::Failed(failure)) if failure.cause == FailureCause::Memory => {
                 most_modes = Some(largest_below(modes, &resources).ok_or(Interruption::Failed(failure))?);
             }
@@ -113,10 +113,10 @@ pub(super) async fn modal_analysis(
 /// The choice for a resolved modal analysis, if the reductions that it rests on are stored.
 pub(super) async fn stored_modes(
     engine: &Engine,
-    request: &ModalAnalysisRequest,
+    request: &ResolvedModalAnalysis,
 ) -> Result<Result<Option<ModesChoice>, Violation>, StoreError> {
-    let resources = resources(engine, &request.model, 0.0, None).await?;
-    let reports = engine.store.reduction_reports(&request.model).await?;
+    let resources = resources(engine, request.model(), 0.0, None).await?;
+    let reports = engine.store.reduction_reports(request.model()).await?;
     Ok(match run::next_modes(request, &resources, &reports) {
         NextModes::Take(choice) => Ok(Some(choice)),
         NextModes::Refuse(violation) => Err(violation),

@@ -6,7 +6,7 @@ use super::error::Interruption;
 use super::progress::PhaseMonitor;
 use super::trials::Trials;
 use crate::analysis::monitor::Monitor;
-use crate::analysis::request::SweepRequest;
+use crate::analysis::resolved::ResolvedSweep;
 use crate::analysis::result::Point;
 use crate::analysis::run::{self, ErrorEstimate, FinerRun};
 use crate::store::jobs::{Chosen, FailureCause};
@@ -15,10 +15,10 @@ use crate::store::jobs::{Chosen, FailureCause};
 pub(super) async fn errors(
     engine: &Engine,
     job: &Live,
-    request: &SweepRequest,
+    request: &ResolvedSweep,
     points: &[Point],
 ) -> Result<Option<ErrorEstimate>, Interruption> {
-    if request.controls() == 0 {
+    if request.control_speeds() == 0 {
         return Ok(None);
     }
     let sectors = facts(engine, job).await?.sectors;
@@ -32,7 +32,7 @@ pub(super) async fn errors(
     match trials.obtain(engine, job, requests(&controls), tell).await {
         Err(Interruption::Failed(failure)) if failure.cause == FailureCause::Memory => {
             // No memory for more modes: then more steps alone, and the settings say so.
-            controls = run::control_requests(request, sectors, points, Some(request.modes()));
+            controls = run::control_requests(request, sectors, points, Some(request.modes_per_speed()));
             trials.obtain(engine, job, requests(&controls), tell).await?;
         }
         outcome => outcome?,

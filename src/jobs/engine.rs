@@ -18,7 +18,7 @@ use super::progress::{PendingReports, PhaseMonitor, Watch};
 use super::reductions::Reductions;
 use super::turns::Turns;
 use crate::analysis::monitor::Monitor;
-use crate::store::jobs::{Chosen, Failure, FailureCause, Job, JobId, JobRequest};
+use crate::store::jobs::{Chosen, Failure, FailureCause, Job, JobHead, JobId, JobRequest};
 use crate::store::limits::Limits;
 use crate::store::queue::{Queue, RunSpeed};
 use crate::store::status::JobStatus;
@@ -98,8 +98,7 @@ async fn until_taken<P: Future<Output = Result<(), StoreError>>>(push: impl Fn()
 /// The chain of a sweep up or down.
 fn chain(request: &JobRequest) -> Option<Vec<u32>> {
     match request {
-        // Resolved when it was accepted.
-        JobRequest::Sweep(sweep) => sweep.sweep.chain(&sweep.speeds.resolve().ok()?),
+        JobRequest::Sweep(sweep) => sweep.chain(),
         JobRequest::ModalAnalysis(_) | JobRequest::ModelGeneration(_) | JobRequest::Study(_) => None,
     }
 }
@@ -148,9 +147,10 @@ impl Engine {
         if let Some(live) = self.lock_live().get(&id) {
             return Ok(Some(Arc::clone(live)));
         }
-        let Some(Job { request, status, speeds, owner, plan, .. }) = self.store.job(id).await? else {
+        let Some(Job { head, request, plan, .. }) = self.store.job(id).await? else {
             return Ok(None);
         };
+        let JobHead { owner, status, speeds, .. } = head;
         if status.is_final() {
             return Ok(None);
         }

@@ -5,8 +5,7 @@ use super::engine::{Engine, Live};
 use super::error::Interruption;
 use super::patience::patiently;
 use super::progress::PhaseMonitor;
-use crate::analysis::error::AnalysisError;
-use crate::analysis::request::SweepRequest;
+use crate::analysis::resolved::ResolvedSweep;
 use crate::analysis::result::Point;
 use crate::analysis::run;
 use crate::store::jobs::{Failure, FailureCause, JobRequest};
@@ -14,13 +13,13 @@ use crate::store::results::Document;
 
 /// What to do with a sweep whose speeds are all finished: more speeds, where it asks for them around its peaks, or its
 /// critical speeds, with which it is successful.
-pub(super) async fn sweep(engine: &Engine, job: &Live, request: &SweepRequest) -> Result<(), Interruption> {
+pub(super) async fn sweep(engine: &Engine, job: &Live, request: &ResolvedSweep) -> Result<(), Interruption> {
     let points = engine.store.points(job.id).await?;
     if points.len() != job.speeds as usize {
         // Somebody else saw the last of them finished too, and has gone on with more.
         return Ok(());
     }
-    if request.refine {
+    if request.is_refined() {
         let (settings, finished) = (request.clone(), points.clone());
         if let Some(refined) =
             engine.computing.run(&job.watch, move || run::refine(&settings, &finished)).await?
@@ -32,8 +31,8 @@ pub(super) async fn sweep(engine: &Engine, job: &Live, request: &SweepRequest) -
 }
 
 /// Goes on with a request that has more speeds. Who comes to the same speeds a second time changes nothing.
-async fn more_speeds(engine: &Engine, job: &Live, request: SweepRequest) -> Result<(), Interruption> {
-    let speeds = request.speeds.resolve().map_err(AnalysisError::Refused)?.len() as u32;
+async fn more_speeds(engine: &Engine, job: &Live, request: ResolvedSweep) -> Result<(), Interruption> {
+    let speeds = request.speeds().count();
     let revised = engine.revise(job, JobRequest::Sweep(Box::new(request)), speeds).await?;
     tracing::info!(job.id = %job.id, speeds, added = speeds - job.speeds, "refining");
     let added = job.speeds..revised.speeds;
@@ -45,7 +44,7 @@ async fn more_speeds(engine: &Engine, job: &Live, request: SweepRequest) -> Resu
 async fn conclude(
     engine: &Engine,
     job: &Live,
-    request: &SweepRequest,
+    request: &ResolvedSweep,
     points: Vec<Point>,
 ) -> Result<(), Interruption> {
     if let Some(message) = run::nothing_completed(&points) {
@@ -53,7 +52,7 @@ async fn conclude(
         return Err(Interruption::Failed(failure));
     }
     let monitor = PhaseMonitor::uncounted(job.watch.clone());
-    let reduced = engine.reductions.get(&request.model, request.modes(), monitor).await?;
+    let reduced = engine.reductions.get(request.model(), request.modes_per_speed(), monitor).await?;
     let errors = control::errors(engine, job, request, &points).await?;
     let (settings, estimate) = (request.clone(), errors.clone());
     let monitor = PhaseMonitor::uncounted(job.watch.clone());

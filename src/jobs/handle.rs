@@ -8,9 +8,11 @@ use super::engine::Engine;
 use super::memory::Allowance;
 use super::plans;
 use super::pool::Panicked;
+use super::submission::Submission;
 use crate::analysis::error::{AnalysisError, Violation};
 use crate::analysis::monitor::Unwatched;
 use crate::analysis::request::{ModalAnalysisRequest, SweepRequest};
+use crate::analysis::resolved::{Modes, ResolvedSweep};
 use crate::analysis::run::{self, ModalAnalysisPlan, ReducedSector, SweepPlan};
 use crate::impeller::{GenerationPlan, ImpellerError, ImpellerParameters, ImpellerRequest, plan_generation};
 use crate::package;
@@ -69,41 +71,37 @@ impl Jobs {
         Self { engine }
     }
 
-    /// Checks a request of `whose` against its model, keeps it as job `id` and queues it. `answer` is what its idempotency
+    /// Resolves a submission of `whose` against its model, keeps it as job `id` and queues it. `answer` is what its idempotency
     /// key will repeat.
     pub async fn submit(
         &self,
         whose: &Principal,
         id: JobId,
-        request: JobRequest,
+        submission: Submission,
         answer: Option<&Answer>,
     ) -> Result<(), SubmitError> {
         let engine = &self.engine;
         let refused = SubmitError::Refused;
-        let (request, facts, speeds) = match request {
-            JobRequest::Sweep(mut request) => {
+        let (request, facts) = match submission {
+            Submission::Sweep(request) => {
                 let facts = self.facts(whose, &request.model).await?;
-                request.speeds.ask_for_all();
                 let request = run::resolve_sweep(*request, &facts).map_err(refused)?;
                 self.check(&request).await?;
-                let speeds = request.speeds.resolve().map_err(refused)?.len();
-                (JobRequest::Sweep(Box::new(request)), Some(facts), speeds)
+                (JobRequest::Sweep(Box::new(request)), Some(facts))
             }
-            JobRequest::ModalAnalysis(request) => {
+            Submission::ModalAnalysis(request) => {
                 let facts = self.facts(whose, &request.model).await?;
-                let request = run::resolve_modal_analysis(request, &facts).map_err(refused)?;
-                let speeds = request.speeds.ascending().map_err(refused)?.len();
-                (JobRequest::ModalAnalysis(request), Some(facts), speeds)
+                let request = run::resolve_modal_analysis(*request, &facts).map_err(refused)?;
+                (JobRequest::ModalAnalysis(request), Some(facts))
             }
-            JobRequest::Study(request) => {
+            Submission::Study(request) => {
                 let facts = self.facts(whose, &request.model).await?;
                 let request = run::resolve_study(*request, &facts).map_err(refused)?;
-                let speeds = request.speeds.resolve().map_err(refused)?.len();
-                (JobRequest::Study(Box::new(request)), Some(facts), speeds)
+                (JobRequest::Study(Box::new(request)), Some(facts))
             }
-            // Resolved by `generation_of`.
-            generation @ JobRequest::ModelGeneration(_) => (generation, None, 0),
+            Submission::ModelGeneration(parameters) => (JobRequest::ModelGeneration(parameters), None),
         };
+        let speeds = request.speeds();
         let model = request.model().unwrap_or_default().to_owned();
         tracing::info!(job.id = %id, kind = request.kind().as_str(), model.id = model, speeds, "submitted");
         let (engine, owner) = (Arc::clone(engine), whose.owner.clone());
@@ -111,7 +109,6 @@ impl Jobs {
         // To its end, whatever becomes of the client: a job that is kept is queued.
         let kept = tokio::spawn(async move {
             let whose = (owner.as_str(), engine.limits);
-            let speeds = speeds as u32;
             let kept =
                 engine.store.insert_job(id, whose, &request, facts.as_ref(), speeds, answer.as_ref()).await;
             // Also where nobody knows whether it was kept: a job that is not there harms nobody.
@@ -132,13 +129,12 @@ impl Jobs {
     pub async fn plan_sweep(
         &self,
         whose: &Principal,
-        mut request: SweepRequest,
+        request: SweepRequest,
     ) -> Result<SweepPlan, SubmitError> {
         let facts = self.facts(whose, &request.model).await?;
-        request.speeds.ask_for_all();
         let mut request = run::resolve_sweep(request, &facts).map_err(SubmitError::Refused)?;
         let mut choice = None;
-        if request.unchosen() {
+        if request.is_sought() {
             let stored = choice::stored(&self.engine, &request, facts.sectors).await?;
             choice = stored.map_err(|violation| SubmitError::Refused(vec![violation]))?;
             request = choice.as_ref().map_or(request.clone(), |choice| choice.explicit(&request));
@@ -157,19 +153,19 @@ impl Jobs {
         let facts = self.facts(whose, &request.model).await?;
         let mut request = run::resolve_modal_analysis(request, &facts).map_err(SubmitError::Refused)?;
         let mut choice = None;
-        if request.unchosen() {
+        if request.is_sought() {
             let stored = choice::stored_modes(&self.engine, &request).await?;
             choice = stored.map_err(|violation| SubmitError::Refused(vec![violation]))?;
             request = choice.as_ref().map_or(request.clone(), |choice| choice.explicit(&request));
         }
-        let reduced = self.reduction(&request.model, request.unchosen(), request.modes()).await?;
+        let reduced = self.reduction(request.model(), request.modes()).await?;
         let plan = plans::modal_analysis(&self.engine, request, facts, reduced).await?;
         Ok(ModalAnalysisPlan { choice, ..plan })
     }
 
     /// Checks what only the reduction of a resolved sweep can tell, if it is stored; returns it.
-    async fn check(&self, request: &SweepRequest) -> Result<Option<Arc<ReducedSector>>, SubmitError> {
-        let reduced = self.reduction(&request.model, request.unchosen(), request.modes()).await?;
+    async fn check(&self, request: &ResolvedSweep) -> Result<Option<Arc<ReducedSector>>, SubmitError> {
+        let reduced = self.reduction(request.model(), request.modes()).await?;
         if let Some(reduced) = reduced.clone() {
             let request = request.clone();
             let check = move || run::check(&reduced, &request, &Unwatched);
@@ -181,15 +177,8 @@ impl Jobs {
     }
 
     /// The reduction that a plan can rest on: none while its modes are not chosen.
-    async fn reduction(
-        &self,
-        model: &str,
-        unchosen: bool,
-        modes_per_speed: u32,
-    ) -> Result<Option<Arc<ReducedSector>>, SubmitError> {
-        if unchosen {
-            return Ok(None);
-        }
+    async fn reduction(&self, model: &str, modes: Modes) -> Result<Option<Arc<ReducedSector>>, SubmitError> {
+        let Some(modes_per_speed) = modes.given() else { return Ok(None) };
         Ok(self.engine.reductions.stored(model, modes_per_speed).await?)
     }
 
@@ -266,8 +255,8 @@ impl Jobs {
 ///
 /// # Errors
 /// [`SubmitError::Refused`] points at a field that is unknown or out of range.
-pub fn generation_of(request: &ImpellerRequest) -> Result<JobRequest, SubmitError> {
-    Ok(JobRequest::ModelGeneration(Box::new(parameters_of(request)?)))
+pub fn generation_of(request: &ImpellerRequest) -> Result<Submission, SubmitError> {
+    Ok(Submission::ModelGeneration(Box::new(parameters_of(request)?)))
 }
 
 fn parameters_of(request: &ImpellerRequest) -> Result<ImpellerParameters, SubmitError> {

@@ -7,14 +7,14 @@ use super::engine::{Engine, Live};
 use super::error::Interruption;
 use super::patience::patiently;
 use super::pool::Panicked;
-use crate::analysis::request::{ModalAnalysisRequest, SweepRequest};
+use crate::analysis::resolved::{ResolvedModalAnalysis, ResolvedSweep};
 use crate::analysis::run::{self, ModalAnalysisPlan, ModelFacts, ReducedSector, SweepPlan};
 use crate::store::StoreError;
 
 /// Plans a resolved sweep.
 pub(super) async fn sweep<E: From<StoreError> + From<Panicked>>(
     engine: &Engine,
-    request: SweepRequest,
+    request: ResolvedSweep,
     facts: ModelFacts,
     reduced: Option<Arc<ReducedSector>>,
 ) -> Result<SweepPlan, E> {
@@ -27,7 +27,7 @@ pub(super) async fn sweep<E: From<StoreError> + From<Panicked>>(
 /// Plans a resolved modal analysis.
 pub(super) async fn modal_analysis(
     engine: &Engine,
-    request: ModalAnalysisRequest,
+    request: ResolvedModalAnalysis,
     facts: ModelFacts,
     reduced: Option<Arc<ReducedSector>>,
 ) -> Result<ModalAnalysisPlan, Panicked> {
@@ -39,7 +39,7 @@ pub(super) async fn modal_analysis(
 pub(super) async fn keep(
     engine: &Engine,
     job: &Live,
-    request: &SweepRequest,
+    request: &ResolvedSweep,
     reduced: Arc<ReducedSector>,
 ) -> Result<(), Interruption> {
     let Some(stored) = engine.store.job(job.id).await? else { return Ok(()) };

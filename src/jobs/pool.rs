@@ -1,4 +1,9 @@
 //! Threads that compute: a fixed number, apart from those that serve requests.
+//!
+//! tokio's `spawn_blocking` behind a semaphore would be some lines less, and lose two things. It takes threads from the
+//! system as work comes, and panics where the system has none left at that moment (tokio 1.54, under a limit of
+//! processes); these are there from the start or there is no start. And who drops a runtime waits for what was given to
+//! it, however long that computes; these end with the process.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, PoisonError, mpsc};

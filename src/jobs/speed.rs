@@ -7,7 +7,7 @@ use super::error::Interruption;
 use super::finish;
 use super::patience::patiently;
 use super::progress::{PhaseMonitor, SpeedMonitor};
-use crate::analysis::request::SweepRequest;
+use crate::analysis::resolved::ResolvedSweep;
 use crate::analysis::run;
 use crate::store::jobs::JobRequest;
 use crate::store::queue::RunSpeed;
@@ -23,7 +23,7 @@ pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) 
         return go_on(engine, &job, request, speed, finished as u32).await;
     }
     let monitor = PhaseMonitor::uncounted(job.watch.clone());
-    let reduced = engine.reductions.get(&request.model, request.modes(), monitor).await?;
+    let reduced = engine.reductions.get(request.model(), request.modes_per_speed(), monitor).await?;
 
     let (before, _) = job.neighbours(speed);
     let start = match before {
@@ -65,7 +65,7 @@ pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) 
 async fn go_on(
     engine: &Engine,
     job: &Live,
-    request: &SweepRequest,
+    request: &ResolvedSweep,
     speed: u32,
     finished: u32,
 ) -> Result<(), Interruption> {

@@ -7,11 +7,12 @@ use super::finish;
 use super::progress::PhaseMonitor;
 use super::trials::Trials;
 use crate::analysis::monitor::Monitor;
-use crate::analysis::run::{self, StudyRequest};
+use crate::analysis::resolved::ResolvedStudy;
+use crate::analysis::run;
 use crate::store::results::Document;
 
 /// Computes and stores a study.
-pub(super) async fn run(engine: &Engine, job: &Live, request: &StudyRequest) -> Result<(), Interruption> {
+pub(super) async fn run(engine: &Engine, job: &Live, request: &ResolvedStudy) -> Result<(), Interruption> {
     let facts = facts(engine, job).await?;
     let requests = request.all_trials(facts.sectors);
     let total = requests.len();
@@ -23,8 +24,8 @@ pub(super) async fn run(engine: &Engine, job: &Live, request: &StudyRequest) -> 
     let mut trials = Trials::default();
     trials.obtain(engine, job, requests.clone(), tell).await?;
 
-    let sizes: Vec<u32> = requests.iter().map(|request| request.sweep.modes()).collect();
-    let mut reports = engine.store.reduction_reports(&request.model).await?;
+    let sizes: Vec<u32> = requests.iter().map(|request| request.sweep().modes_per_speed()).collect();
+    let mut reports = engine.store.reduction_reports(request.model()).await?;
     reports.retain(|report| sizes.contains(&report.modes_per_speed));
     let find = |request: &run::TrialRequest| trials.get(request);
     let Some((document, histories)) =

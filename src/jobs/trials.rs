@@ -66,7 +66,7 @@ async fn obtain(engine: &Engine, job: &Live, request: TrialRequest) -> Result<(S
     if let Some(trial) = engine.store.trial(&key).await? {
         return Ok((key, trial));
     }
-    let (model, modes) = (request.sweep.model.clone(), request.sweep.modes());
+    let (model, modes) = (request.sweep().model().to_owned(), request.sweep().modes_per_speed());
     let monitor = PhaseMonitor::uncounted(job.watch.clone());
     let reduced = engine.reductions.get(&model, modes, monitor.clone()).await?;
     let asked = (Arc::clone(&reduced), request.clone());

@@ -68,12 +68,12 @@ struct Outcome {
 }
 
 /// The difference of a speed from the reference, as the service measures it.
-fn truth(wheel: &mut Wheel, request: &rubmap::analysis::request::SweepRequest) -> f64 {
-    let reduced = wheel.reduced(request.modes());
+fn truth(wheel: &mut Wheel, request: &rubmap::analysis::resolved::ResolvedSweep) -> f64 {
+    let reduced = wheel.reduced(request.modes_per_speed());
     let result = run_speed(&reduced, request, 0, None, &Unwatched).unwrap();
     let spectra = result.spectra.unwrap_or_else(|| panic!("{:?}", result.point.message));
     let reference = Setting {
-        modes_per_speed: 8 * request.modes(),
+        modes_per_speed: 8 * request.modes_per_speed(),
         scheme: rubmap::analysis::request::SchemeChoice::ExactModal,
         kept_modes: rubmap::analysis::request::auto_or::AutoOr::Auto,
         steps_per_revolution: 16 * result.point.steps_per_revolution,
@@ -127,7 +127,7 @@ fn reached(wheel: &mut Wheel, asked: serde_json::Value, target: f64) -> Result<(
             }
             Next::Take(choice) => {
                 assert!(choice.estimated_error <= target);
-                return Ok((target, truth(wheel, &choice.setting.on(&request))));
+                return Ok((target, truth(wheel, &choice.explicit(&request))));
             }
             Next::Refuse(violation) => return Err(violation.message),
         }

@@ -1,10 +1,8 @@
 //! Observed orders in smooth free motion, and convergence with the modes on the demo's impeller. The orders with contact are held
 //! against theory on the bouncing bar (`dynamics::bouncing_bar`).
 
-use rubmap::analysis::request::SchemeChoice;
-use rubmap::analysis::run::{
-    StudyRequest, Trial, TrialRequest, WorkPrecision, resolve_study, work_precision,
-};
+use rubmap::analysis::request::{SchemeChoice, StudyRequest};
+use rubmap::analysis::run::{Trial, TrialRequest, WorkPrecision, resolve_study, work_precision};
 use rubmap::impeller::{ImpellerParameters, PaperCasing};
 use serde_json::{Value, json};
 

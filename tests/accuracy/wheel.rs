@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use rubmap::analysis::monitor::Unwatched;
-use rubmap::analysis::request::SweepRequest;
+use rubmap::analysis::resolved::ResolvedSweep;
 use rubmap::analysis::run::{
     ModelFacts, ReducedSector, Trial, TrialRequest, prepare, resolve_sweep, run_trial,
 };
@@ -50,11 +50,11 @@ impl Wheel {
     }
 
     pub(crate) fn run(&mut self, request: &TrialRequest) -> Trial {
-        let reduced = self.reduced(request.sweep.modes());
+        let reduced = self.reduced(request.sweep().modes_per_speed());
         run_trial(&reduced, request, &Unwatched).unwrap()
     }
 
-    pub(crate) fn resolved(&self, body: Value) -> SweepRequest {
+    pub(crate) fn resolved(&self, body: Value) -> ResolvedSweep {
         resolve_sweep(serde_json::from_value(body).unwrap(), &self.facts).unwrap()
     }
 }

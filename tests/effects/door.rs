@@ -15,9 +15,9 @@ const SPEED: f64 = 1500.0;
 
 fn sector() -> SectorModel {
     let recipe = WheelRecipe { sectors: 6, ..WheelRecipe::default() };
-    let mut sector = wheel(recipe);
+    let mut sector = wheel(recipe).into_parts();
     sector.gyroscopic = Some(gyroscopic(recipe, 5));
-    sector
+    SectorModel::new(sector).unwrap()
 }
 
 /// Every effect of a scene, as a user names it.
@@ -260,8 +260,8 @@ fn a_probe_finds_whether_symmetry_breaks() {
 /// strut lets move along one direction only, 60° backwards from outwards, dig in from tan 30° on.
 #[test]
 fn a_wheel_that_jams_is_refused_before_it_runs() {
-    let mut sector =
-        wheel(WheelRecipe { sectors: 4, contact_nodes: 1, stiffening: false, ..WheelRecipe::default() });
+    let recipe = WheelRecipe { sectors: 4, contact_nodes: 1, stiffening: false, ..WheelRecipe::default() };
+    let mut sector = wheel(recipe).into_parts();
     let [r, theta, _] = sector.contact[0].dofs;
     let (sin, cos) = 60f64.to_radians().sin_cos();
     let strut = 1e10;
@@ -271,6 +271,7 @@ fn a_wheel_that_jams_is_refused_before_it_runs() {
     {
         *own.get_mut(row, column).unwrap() += strut * value;
     }
+    let sector = SectorModel::new(sector).unwrap();
     let (facts, reduced) = (ModelFacts::of(&sector), reduced(&sector, 6));
     let try_with = |coefficient: f64| {
         let scene = json!({"friction": {"coefficient": coefficient}});

@@ -13,6 +13,7 @@ use rubmap::analysis::monitor::{Monitor, Unwatched};
 use rubmap::analysis::request::auto_or::AutoOr;
 use rubmap::analysis::request::scene::Symmetry;
 use rubmap::analysis::request::{Component, SchemeChoice, SweepDirection, SweepRequest};
+use rubmap::analysis::resolved::ResolvedSweep;
 use rubmap::analysis::result::{Point, PointStatus, SpeedResult};
 use rubmap::analysis::run::{
     ModelFacts, ReducedSector, check, critical_speeds, interaction_map, map_row, prepare, refine,
@@ -22,6 +23,7 @@ use rubmap::dynamics::casing::Restriction;
 use rubmap::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use rubmap::dynamics::reduction::NoCheckpoints;
 use rubmap::dynamics::schemes::Scheme;
+use rubmap::dynamics::sector::SectorModel;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -57,8 +59,9 @@ fn model() -> &'static Model {
     static MODEL: OnceLock<Model> = OnceLock::new();
     MODEL.get_or_init(|| {
         let recipe = WheelRecipe { sectors: 6, ..Default::default() };
-        let mut sector = wheel(recipe);
+        let mut sector = wheel(recipe).into_parts();
         sector.gyroscopic = Some(gyroscopic(recipe, 5));
+        let sector = SectorModel::new(sector).unwrap();
         let reduced = prepare(&sector, 4, None, &NoCheckpoints, &Unwatched).unwrap();
         Model { facts: ModelFacts::of(&sector), reduced }
     })
@@ -73,10 +76,11 @@ pub(crate) fn run(body: &[u8]) -> End {
         Ok(request) => request,
         Err(violations) => return refused(&violations, &asked),
     };
-    survives_json(&request);
-    assert_eq!(resolve_sweep(request.clone(), facts).as_ref(), Ok(&request), "resolved twice");
-    let speeds = request.speeds.resolve().unwrap();
-    if work(reduced, &request, &speeds) > BUDGET {
+    let settings = SweepRequest::from(request.clone());
+    survives_json(&settings);
+    assert_eq!(resolve_sweep(settings.clone(), facts).as_ref(), Ok(&request), "resolved twice");
+    let speeds = request.speeds().rad_s();
+    if work(reduced, &settings, speeds) > BUDGET {
         return End::TooLong;
     }
     let watch = Patience::default();
@@ -95,7 +99,7 @@ pub(crate) fn run(body: &[u8]) -> End {
     }
     for (index, result) in results.iter().enumerate() {
         assert_eq!((result.point.index as usize, result.point.speed_rad_s), (index, speeds[index]));
-        sound(result, &request);
+        sound(result, &settings);
     }
     summaries_survive(&request, &results);
     let completed = results.iter().filter(|result| result.point.status == PointStatus::Completed).count();
@@ -276,9 +280,9 @@ fn pressed(request: &SweepRequest, point: &Point) -> f64 {
 }
 
 /// Maps and critical speeds of whatever ran.
-fn summaries_survive(request: &SweepRequest, results: &[SpeedResult]) {
+fn summaries_survive(request: &ResolvedSweep, results: &[SpeedResult]) {
     let reduced = &model().reduced;
-    for sensor in 0..request.sensors.len() {
+    for sensor in 0..request.sensors().len() {
         let rows = results.iter().rev().map(|result| {
             let row = result.spectra.as_ref().and_then(|spectra| map_row(spectra, sensor, None));
             (result.point.clone(), row.map(<[f64]>::to_vec))
@@ -291,14 +295,17 @@ fn summaries_survive(request: &SweepRequest, results: &[SpeedResult]) {
     for table in critical_speeds(reduced, request, &points, None, &Unwatched).unwrap() {
         survives_json(&table);
     }
-    let independent = request.sweep == SweepDirection::Independent;
-    let Some(more) = refine(&SweepRequest { refine: independent, ..request.clone() }, &points) else {
+    let mut refined = SweepRequest::from(request.clone());
+    refined.refine = refined.sweep == SweepDirection::Independent;
+    let Some(more) = refine(&ResolvedSweep::stored(refined, 0).unwrap(), &points) else {
         return;
     };
-    let (before, after) = (request.speeds.resolve().unwrap(), more.speeds.resolve().unwrap());
-    assert!(after.len() > before.len() && after.starts_with(&before), "{before:?} {after:?}");
-    assert_eq!(resolve_sweep(more.clone(), &model().facts).as_ref(), Ok(&more));
-    survives_json(&more);
+    let (before, after) = (request.speeds().rad_s(), more.speeds().rad_s());
+    assert!(after.len() > before.len() && after.starts_with(before), "{before:?} {after:?}");
+    let settings = SweepRequest::from(more.clone());
+    assert_eq!(ResolvedSweep::stored(settings.clone(), 1).as_ref(), Ok(&more));
+    assert!(resolve_sweep(settings.clone(), &model().facts).is_ok());
+    survives_json(&settings);
 }
 
 /// What is written as JSON is read back unchanged; numbers that are none would come back as null.

@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 
 use faer::sparse::{SparseColMat, Triplet};
 use rubmap::dynamics::modal_wheel::{ModalWheel, RotationEffects};
-use rubmap::dynamics::sector::{ContactNode, CyclicMatrix, SectorModel, Units};
+use rubmap::dynamics::sector::{ContactNode, CyclicMatrix, SectorModel, SectorParts, Units};
 use serde_json::json;
 
 use crate::fixtures::{TOP_SPEED, WheelRecipe, wheel};
@@ -43,7 +43,7 @@ fn chains(sectors: usize, factors: &[f64]) -> SectorModel {
         next: SparseColMat::try_new_from_triplets(size, size, &[]).unwrap(),
     };
     let mass: Vec<_> = (0..size).map(|dof| Triplet::new(dof, dof, MASS)).collect();
-    SectorModel {
+    let parts = SectorParts {
         name: "chains".into(),
         sectors,
         units: Units { length: "mm".into(), force: "N".into(), time: "s".into(), mass: "t".into() },
@@ -58,7 +58,8 @@ fn chains(sectors: usize, factors: &[f64]) -> SectorModel {
             dofs: [0, 1, 2],
         }],
         node_of_dof: (0..size).map(|dof| dof / 3).collect(),
-    }
+    };
+    SectorModel::new(parts).unwrap()
 }
 
 /// ω² of the chains, ascending, three of each: 4 k/m sin²((2j − 1)π/(2(2n + 1))), fixed at one end, free at the other.
@@ -129,7 +130,7 @@ fn twins(blade: &SectorModel, sectors: usize) -> SectorModel {
         node
     });
     let nodes = blade.node_of_dof.len() / 3;
-    SectorModel {
+    let parts = SectorParts {
         sectors,
         mass: twice(&blade.mass),
         stiffness: blade.stiffness.iter().map(twice).collect(),
@@ -140,8 +141,9 @@ fn twins(blade: &SectorModel, sectors: usize) -> SectorModel {
             .copied()
             .chain(blade.node_of_dof.iter().map(|n| n + nodes))
             .collect(),
-        ..blade.clone()
-    }
+        ..blade.clone().into_parts()
+    };
+    SectorModel::new(parts).unwrap()
 }
 
 /// Two blades a sector that nothing joins: each frequency 2N times on the wheel, and the first blade does what it does

@@ -5,7 +5,7 @@
 //! that stiffness alone gives.
 
 use rubmap::dynamics::modal_wheel::{ModalWheel, RotationEffects};
-use rubmap::dynamics::sector::SectorModel;
+use rubmap::dynamics::sector::{SectorModel, SectorParts};
 use serde_json::json;
 
 use crate::fixtures::{TOP_SPEED, WheelRecipe, wheel};
@@ -15,11 +15,11 @@ const MODES: u32 = 8;
 
 /// The wheel with its stiffness at rest given once, and given three times.
 fn once_and_thrice() -> (SectorModel, SectorModel) {
-    let mut thrice = wheel(WheelRecipe { nodes: 40, ..Default::default() });
+    let mut thrice = wheel(WheelRecipe { nodes: 40, ..Default::default() }).into_parts();
     let rest = thrice.stiffness[0].clone();
-    let once = SectorModel { stiffness: vec![rest.clone()], speeds_rad_s: vec![0.0], ..thrice.clone() };
+    let once = SectorParts { stiffness: vec![rest.clone()], speeds_rad_s: vec![0.0], ..thrice.clone() };
     thrice.stiffness = vec![rest.clone(), rest.clone(), rest];
-    (once, thrice)
+    (SectorModel::new(once).unwrap(), SectorModel::new(thrice).unwrap())
 }
 
 #[test]

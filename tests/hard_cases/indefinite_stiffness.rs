@@ -15,13 +15,13 @@ use crate::support::{ENERGY_TOLERANCE, SCHEMES, assert_sound, assert_survives_js
 
 /// K(Ω) = f(Ω²) K(0) through the factors 1, `half` and 1 at rest, Ω1/2 and Ω1.
 fn dips(half: f64) -> SectorModel {
-    let mut sector = wheel(WheelRecipe::default());
+    let mut sector = wheel(WheelRecipe::default()).into_parts();
     let rest = sector.stiffness[0].clone();
     for (matrix, factor) in sector.stiffness.iter_mut().zip([1.0, half, 1.0]) {
         *matrix = rest.clone();
         scale(matrix, factor);
     }
-    sector
+    SectorModel::new(sector).unwrap()
 }
 
 #[test]
@@ -67,7 +67,7 @@ fn a_speed_at_which_the_stiffness_is_indefinite_fails_alone() {
         assert_survives_json(&map);
         let points: Vec<_> = results.into_iter().map(|result| result.point).collect();
         let critical = critical_speeds(&reduced, &request, &points, None, &Unwatched).unwrap();
-        assert_eq!(critical.len(), request.sensors.len());
+        assert_eq!(critical.len(), request.sensors().len());
         assert_eq!(critical[0].missing, [1]);
         assert_survives_json(&critical);
     }

@@ -5,7 +5,7 @@
 //! speeds are finite numbers.
 
 use rubmap::analysis::monitor::Unwatched;
-use rubmap::analysis::request::ModalAnalysisRequest;
+use rubmap::analysis::resolved::ResolvedModalAnalysis;
 use rubmap::analysis::run::{
     ModelFacts, ReducedSector, critical_speeds, interaction_map, map_row, modal_analysis,
     resolve_modal_analysis,
@@ -17,7 +17,7 @@ use crate::fixtures::{TOP_SPEED, WheelRecipe, wheel};
 use crate::support::{SCHEMES, assert_sound, assert_survives_json, reduced, run, spectral_difference, sweep};
 
 /// Campbell request over `speeds`.
-fn campbell(sector: &SectorModel, speeds: &[f64]) -> ModalAnalysisRequest {
+fn campbell(sector: &SectorModel, speeds: &[f64]) -> ResolvedModalAnalysis {
     let request =
         json!({"model": "test wheel", "modes_per_speed": 6, "speeds": {"values": speeds, "unit": "rad_s"}});
     resolve_modal_analysis(serde_json::from_value(request).unwrap(), &ModelFacts::of(sector)).unwrap()

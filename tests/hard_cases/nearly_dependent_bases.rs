@@ -33,7 +33,8 @@ fn speed_of(sector: &SectorModel) -> f64 {
 }
 
 /// `sector` with K(Ω) − K(0) times `epsilon`.
-fn stiffening_by(epsilon: f64, mut sector: SectorModel) -> SectorModel {
+fn stiffening_by(epsilon: f64, sector: SectorModel) -> SectorModel {
+    let mut sector = sector.into_parts();
     let rest = sector.stiffness[0].clone();
     for matrix in &mut sector.stiffness {
         let blend = |to: &mut [f64], from: &[f64]| {
@@ -42,7 +43,7 @@ fn stiffening_by(epsilon: f64, mut sector: SectorModel) -> SectorModel {
         blend(matrix.own.val_mut(), rest.own.val());
         blend(matrix.next.val_mut(), rest.next.val());
     }
-    sector
+    SectorModel::new(sector).unwrap()
 }
 
 #[test]

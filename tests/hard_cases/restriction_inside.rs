@@ -21,7 +21,7 @@ fn refused_without_a_ramp_and_sound_with_one() {
     for scheme in SCHEMES {
         let grown = sweep(&sector, scheme, &[0.6 * TOP_SPEED], json!({}));
         let over = |revolutions: f64, amplitude: f64| -> SweepRequest {
-            let mut request = grown.clone();
+            let mut request = SweepRequest::from(grown.clone());
             request.integration.ramp_revolutions = revolutions;
             request.scene.casing.as_mut().unwrap().lobes.as_mut().unwrap().amplitude = amplitude;
             request
@@ -36,10 +36,10 @@ fn refused_without_a_ramp_and_sound_with_one() {
         }
         // Lobes that end at the smallest clearance need no ramp.
         for request in [over(0.05, 0.425), over(1.0, 0.425), over(0.0, 0.22)] {
+            let touches = request.integration.ramp_revolutions > 0.0;
             let request = resolve_sweep(request, &facts).unwrap();
             let results = run(&reduced, &request);
             assert_sound(&results[0], 1.0);
-            let touches = request.integration.ramp_revolutions > 0.0;
             assert_eq!(results[0].point.contact_share > 0.0, touches, "{scheme}: {:?}", results[0].point);
         }
     }

@@ -18,7 +18,7 @@ use rubmap::dynamics::oscillators::ModalDamping;
 use rubmap::dynamics::reduction::{NoCheckpoints, ReducedWheel, ReductionOptions, reduce};
 use rubmap::dynamics::schemes::Scheme;
 use rubmap::dynamics::schemes::central_differences::smallest_stable_steps;
-use rubmap::dynamics::sector::{CyclicMatrix, SectorModel};
+use rubmap::dynamics::sector::{CyclicMatrix, SectorModel, SectorParts};
 
 use crate::fixtures::{TOP_SPEED, WheelRecipe, wheel};
 use crate::oracle::schemes::Literal;
@@ -49,17 +49,17 @@ fn seen_from_behind(sector: &SectorModel) -> SectorModel {
         own: turned(&matrix.own, false),
         next: turned(&matrix.next, true),
     };
-    let mut turned = SectorModel {
+    let mut turned = SectorParts {
         mass: flip(&sector.mass),
         stiffness: sector.stiffness.iter().map(flip).collect(),
-        ..sector.clone()
+        ..sector.clone().into_parts()
     };
     for node in &mut turned.contact {
         node.normal = std::array::from_fn(|d| SIGNS[d] * node.normal[d]);
         node.position[1] *= -1.0;
         node.position[2] *= -1.0;
     }
-    turned
+    SectorModel::new(turned).unwrap()
 }
 
 fn casing(contact_nodes: usize, phase_rad: f64) -> Casing {

@@ -8,6 +8,7 @@
 use std::f64::consts::TAU;
 
 use rubmap::analysis::request::SweepRequest;
+use rubmap::analysis::resolved::ResolvedSweep;
 use rubmap::analysis::result::SpeedResult;
 use rubmap::analysis::run::ReducedSector;
 use rubmap::dynamics::casing::{Casing, Restriction};
@@ -25,7 +26,7 @@ use crate::support::{
 
 /// Three revolutions, the last of them recorded, at 1.3 times the smallest stable number of steps; a multiple of 512
 /// steps has 512 samples.
-fn request(sector: &SectorModel, reduced: &ReducedSector, name: &str, scheme: Scheme) -> SweepRequest {
+fn request(sector: &SectorModel, reduced: &ReducedSector, name: &str, scheme: Scheme) -> ResolvedSweep {
     let speeds = [0.4, 0.7, 1.0].map(|share| share * TOP_SPEED);
     let smallest = speeds.iter().map(|&speed| {
         let modal = ModalWheel::at(&reduced.wheel, speed, RotationEffects::stiffening(true)).unwrap();
@@ -99,7 +100,7 @@ fn one_two_and_three_sectors_against_the_dense_scheme() {
             let request = request(&sector, &reduced, name, scheme);
             for result in run(&reduced, &request) {
                 assert_sound(&result, 1.0);
-                let (samples, contact_steps) = dense(scheme, &reduced, &request, &result);
+                let (samples, contact_steps) = dense(scheme, &reduced, &request.clone().into(), &result);
                 assert!(contact_steps > 10);
                 assert_eq!(result.point.contact_share, contact_steps as f64 / result.point.steps as f64);
                 same_numbers(&result, &samples, &format!("{name}, {sectors} sectors"));

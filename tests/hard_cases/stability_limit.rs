@@ -9,8 +9,8 @@ use std::f64::consts::PI;
 use faer::c64;
 use rubmap::analysis::error::AnalysisError;
 use rubmap::analysis::monitor::Unwatched;
-use rubmap::analysis::request::SweepRequest;
 use rubmap::analysis::request::auto_or::AutoOr;
+use rubmap::analysis::resolved::ResolvedSweep;
 use rubmap::analysis::run::{ReducedSector, check};
 use rubmap::dynamics::initial::InitialMode;
 use rubmap::dynamics::integrate::Outcome;
@@ -20,7 +20,7 @@ use serde_json::json;
 
 use crate::fixtures::{WheelRecipe, wheel};
 use crate::scenes::{Scene, history, largest};
-use crate::support::{assert_sound, reduced, run, sweep};
+use crate::support::{assert_sound, changed, reduced, run, sweep};
 
 const RECIPE: WheelRecipe = WheelRecipe {
     sectors: 10,
@@ -34,9 +34,9 @@ const RECIPE: WheelRecipe = WheelRecipe {
 };
 
 /// Whether a fixed number of steps is accepted; if not, it must be refused at its field with `smallest`.
-fn accepted(reduced: &ReducedSector, request: &SweepRequest, steps: u64, smallest: u64) -> bool {
-    let mut request = request.clone();
-    request.integration.steps_per_revolution = AutoOr::Fixed(steps as u32);
+fn accepted(reduced: &ReducedSector, request: &ResolvedSweep, steps: u64, smallest: u64) -> bool {
+    let request =
+        changed(request, |asked| asked.integration.steps_per_revolution = AutoOr::Fixed(steps as u32));
     match check(reduced, &request, &Unwatched) {
         Ok(()) => true,
         Err(AnalysisError::Refused(violations)) => {
@@ -87,7 +87,9 @@ fn only_the_shorter_step_runs() {
             json!({"integration": {"revolutions": 3, "window_revolutions": 1}}),
         );
         if let Scheme::MasslessBoundary { kept_modes } = scheme {
-            request.integration.kept_modes = AutoOr::Fixed(kept_modes as u32);
+            request = changed(&request, |asked| {
+                asked.integration.kept_modes = AutoOr::Fixed(kept_modes as u32);
+            });
         }
         let smallest = scheme.smallest_stable_steps(&modal, &reduced.wheel.contact);
         let limit = smallest - 1;
@@ -95,7 +97,8 @@ fn only_the_shorter_step_runs() {
         assert!(!accepted(&reduced, &request, limit, smallest), "{name}");
         let shorter = (limit as f64 / 0.99).ceil() as u64;
         assert!(accepted(&reduced, &request, shorter, smallest), "{name}");
-        request.integration.steps_per_revolution = AutoOr::Fixed(shorter as u32);
+        let request =
+            changed(&request, |asked| asked.integration.steps_per_revolution = AutoOr::Fixed(shorter as u32));
         let results = run(&reduced, &request);
         assert_sound(&results[0], 1.0);
         assert!(results[0].point.contact_share > 0.0);

@@ -13,7 +13,7 @@ use rubmap::analysis::monitor::Unwatched;
 use rubmap::analysis::run::prepare;
 use rubmap::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use rubmap::dynamics::reduction::NoCheckpoints;
-use rubmap::dynamics::sector::{ContactNode, CyclicMatrix, SectorModel, Units};
+use rubmap::dynamics::sector::{ContactNode, CyclicMatrix, SectorModel, SectorParts, Units};
 use serde_json::json;
 
 use crate::support::{SCHEMES, assert_sound, reduced, run, sweep};
@@ -39,7 +39,7 @@ fn sector(hub: [f64; 3], tip: [f64; 3]) -> SectorModel {
     }
     let sparse =
         |entries: &[Triplet<usize, usize, f64>]| SparseColMat::try_new_from_triplets(6, 6, entries).unwrap();
-    SectorModel {
+    let parts = SectorParts {
         name: "contrast".into(),
         sectors: SECTORS,
         units: Units { length: "mm".into(), force: "N".into(), time: "s".into(), mass: "t".into() },
@@ -54,7 +54,8 @@ fn sector(hub: [f64; 3], tip: [f64; 3]) -> SectorModel {
             dofs: [3, 4, 5],
         }],
         node_of_dof: vec![0, 0, 0, 1, 1, 1],
-    }
+    };
+    SectorModel::new(parts).unwrap()
 }
 
 /// ω² of two masses on two springs, (low, high): roots of m₁m₂λ² − (k₂(m₁ + m₂) + k₁m₂)λ + k₁k₂, free of

@@ -2,6 +2,7 @@
 
 use rubmap::analysis::monitor::Unwatched;
 use rubmap::analysis::request::SweepRequest;
+use rubmap::analysis::resolved::ResolvedSweep;
 use rubmap::analysis::result::{PointStatus, SpeedResult};
 use rubmap::analysis::run::{ModelFacts, ReducedSector, check, prepare, resolve_sweep, run_speed};
 use rubmap::dynamics::reduction::NoCheckpoints;
@@ -29,7 +30,7 @@ pub(crate) const ENERGY_TOLERANCE: f64 = 1e-9;
 
 /// A sweep over `speeds` in rad/s: two lobes beyond the clearance, well damped, changed by the fields of `changes`;
 /// `kept_modes` among them is for the scheme that has it.
-pub(crate) fn sweep(sector: &SectorModel, scheme: &str, speeds: &[f64], changes: Value) -> SweepRequest {
+pub(crate) fn sweep(sector: &SectorModel, scheme: &str, speeds: &[f64], changes: Value) -> ResolvedSweep {
     let mut request = json!({
         "model": "test wheel", "modes_per_speed": 6,
         "speeds": {"values": speeds, "unit": "rad_s"},
@@ -52,6 +53,13 @@ pub(crate) fn sweep(sector: &SectorModel, scheme: &str, speeds: &[f64], changes:
     resolve_sweep(serde_json::from_value(request).unwrap(), &ModelFacts::of(sector)).unwrap()
 }
 
+/// `request` with other settings, which nothing is held against.
+pub(crate) fn changed(request: &ResolvedSweep, change: impl FnOnce(&mut SweepRequest)) -> ResolvedSweep {
+    let mut settings = SweepRequest::from(request.clone());
+    change(&mut settings);
+    ResolvedSweep::stored(settings, 0).unwrap()
+}
+
 /// Every field of `changes` over that of `base`.
 pub(crate) fn merge(base: &mut Value, changes: Value) {
     match (base, changes) {
@@ -69,9 +77,9 @@ pub(crate) fn reduced(sector: &SectorModel, modes_per_speed: u32) -> ReducedSect
 }
 
 /// The whole sweep as a job runs it: checked first, then speed by speed.
-pub(crate) fn run(reduced: &ReducedSector, request: &SweepRequest) -> Vec<SpeedResult> {
+pub(crate) fn run(reduced: &ReducedSector, request: &ResolvedSweep) -> Vec<SpeedResult> {
     check(reduced, request, &Unwatched).unwrap();
-    let speeds = request.speeds.resolve().unwrap().len();
+    let speeds = request.speeds().rad_s().len();
     (0..speeds).map(|index| run_speed(reduced, request, index, None, &Unwatched).unwrap()).collect()
 }
 

@@ -14,7 +14,8 @@ use crate::fixtures::{TOP_SPEED, WheelRecipe, wheel};
 use crate::support::{SCHEMES, assert_sound, reduced, run, scale, sweep};
 
 /// A `sector` given in mm, t, N and s, in SI units: t → kg and N/mm → N/m are factors of 1e3.
-fn in_si(mut sector: SectorModel) -> SectorModel {
+fn in_si(sector: SectorModel) -> SectorModel {
+    let mut sector = sector.into_parts();
     scale(&mut sector.mass, 1e3);
     sector.stiffness.iter_mut().for_each(|k| scale(k, 1e3));
     for node in &mut sector.contact {
@@ -22,7 +23,7 @@ fn in_si(mut sector: SectorModel) -> SectorModel {
         node.position[2] *= 1e-3;
     }
     sector.units = Units { length: "m".into(), force: "N".into(), time: "s".into(), mass: "kg".into() };
-    sector
+    SectorModel::new(sector).unwrap()
 }
 
 fn close(a: f64, b: f64, what: &str) {
@@ -111,13 +112,14 @@ fn powers_of_two_change_no_bit() {
         let [force, length] = [force_bits, length_bits].map(|bits| f64::from(bits).exp2());
         // Mass and stiffness by the same factor: time stays.
         let stiffness = force / length;
-        let mut other = sector.clone();
+        let mut other = sector.clone().into_parts();
         scale(&mut other.mass, stiffness);
         other.stiffness.iter_mut().for_each(|k| scale(k, stiffness));
         for node in &mut other.contact {
             node.position[0] *= length;
             node.position[2] *= length;
         }
+        let other = SectorModel::new(other).unwrap();
         let changed = reduced(&other, 6);
         for scheme in SCHEMES {
             let changes = |length: f64| {

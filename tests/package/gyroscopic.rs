@@ -34,7 +34,7 @@ fn either_triangle_and_both_are_the_same_matrix() {
             .text("g.mtx")
             .starts_with("%%MatrixMarket matrix coordinate real skew-symmetric\n18 18 153\n2 1 ")
     );
-    let reference = files.import().expect("good").sector.gyroscopic.expect("given");
+    let reference = files.import().expect("good").sector.into_parts().gyroscopic.expect("given");
     let (mut upper, mut both) = (String::new(), String::new());
     for line in files.text("g.mtx").lines().skip(2) {
         let [row, column, value] = line.split(' ').collect::<Vec<_>>().try_into().expect("three words");
@@ -46,7 +46,7 @@ fn either_triangle_and_both_are_the_same_matrix() {
     for text in [format!("{head}{upper}"), general(18, &(both + "3 3 0\n"))] {
         let mut files = files.clone();
         files.put("g.mtx", text);
-        let found = files.import().expect("the same package").sector.gyroscopic.expect("given");
+        let found = files.import().expect("the same package").sector.into_parts().gyroscopic.expect("given");
         assert_eq!(found.own.to_dense(), reference.own.to_dense());
         assert_eq!(found.next.to_dense(), reference.next.to_dense());
     }
@@ -69,11 +69,11 @@ fn is_part_of_the_address_where_it_is_given() {
 #[test]
 fn milliseconds_become_seconds() {
     let mut files = Files::of(&good());
-    let seconds = files.import().expect("good").sector.gyroscopic.expect("given");
+    let seconds = files.import().expect("good").sector.into_parts().gyroscopic.expect("given");
     files.json(|json| {
         json["units"] = json!({"length": "mm", "force": "kN", "time": "ms", "mass": "kg"});
     });
-    let found = files.import().expect("consistent").sector.gyroscopic.expect("given");
+    let found = files.import().expect("consistent").sector.into_parts().gyroscopic.expect("given");
     for (a, b) in
         found.own.val().iter().chain(found.next.val()).zip(seconds.own.val().iter().chain(seconds.next.val()))
     {

@@ -9,7 +9,7 @@ use rubmap::analysis::run::{ModelFacts, modal_analysis, prepare, resolve_modal_a
 use rubmap::dynamics::error::ModelError;
 use rubmap::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use rubmap::dynamics::reduction::{NoCheckpoints, ReducedWheel, ReductionOptions, reduce};
-use rubmap::dynamics::sector::{ContactNode, SectorModel, Units};
+use rubmap::dynamics::sector::{ContactNode, SectorModel, SectorParts, Units};
 use rubmap::dynamics::waves::{WaveFrequencies, wave_frequencies};
 use rubmap::package::raw::{Axis, Frame, Manifest, ManifestContact, RawDof, RawMatrix, RawNode, RawPackage};
 use rubmap::package::to_sector;
@@ -124,12 +124,18 @@ fn dense_frequencies(m: &DMatrix<f64>, g: &DMatrix<f64>, k: &DMatrix<f64>) -> Ve
     squares.chunks(2).map(|pair| (0.5 * (pair[0] + pair[1])).sqrt()).collect()
 }
 
+/// The wheel of `recipe` with random gyroscopic forces.
+fn turning(recipe: WheelRecipe, seed: u64) -> SectorModel {
+    let gyroscopic = Some(gyroscopic(recipe, seed));
+    SectorModel::new(SectorParts { gyroscopic, ..wheel(recipe).into_parts() }).unwrap()
+}
+
 /// With every fixed-interface mode kept the waves of all nodal diameters are the motions of the assembled wheel.
 #[test]
 fn waves_are_those_of_the_assembled_wheel() {
     for sectors in [1, 2, 3, 4, 7, 10] {
         let recipe = WheelRecipe { sectors, ..Default::default() };
-        let sector = SectorModel { gyroscopic: Some(gyroscopic(recipe, 11)), ..wheel(recipe) };
+        let sector = turning(recipe, 11);
         let reduced = complete(&sector);
         for (index, speed) in [(1, 0.5 * TOP_SPEED), (2, TOP_SPEED)] {
             let mut found = Vec::new();
@@ -159,7 +165,7 @@ fn waves_are_those_of_the_assembled_wheel() {
 #[test]
 fn modal_gyroscopic_matrices_are_skew() {
     let recipe = WheelRecipe::default();
-    let springs = SectorModel { gyroscopic: Some(gyroscopic(recipe, 3)), ..wheel(recipe) };
+    let springs = turning(recipe, 3);
     let mut package = small_impeller(4);
     let half = package.mass.entries.iter().filter(|entry| entry.0 == entry.1 + 1).copied();
     package.gyroscopic = Some(RawMatrix { size: package.mass.size, entries: half.collect() });
@@ -188,7 +194,7 @@ fn without_speed_or_matrix_waves_are_plain_modes() {
     let of_zero = complete(&plain);
     let error = wave_frequencies(&of_zero, 1, 1.0, false).unwrap_err();
     assert_eq!(error, ModelError::NoGyroscopicMatrix);
-    let reduced = complete(&SectorModel { gyroscopic: Some(gyroscopic(recipe, 8)), ..plain });
+    let reduced = complete(&turning(recipe, 8));
     let modes = ModalWheel::at(&reduced, 0.0, RotationEffects::stiffening(false)).unwrap();
     let shift = |speed: f64| {
         let of = |i: usize| {
@@ -227,7 +233,7 @@ fn ring(sectors: usize) -> SectorModel {
     }
     (gyroscopic[(0, 1)], gyroscopic[(1, 0)]) = (-2.0 * mass, 2.0 * mass);
     let none = DMatrix::zeros(size, size);
-    SectorModel {
+    let parts = SectorParts {
         name: "ring".into(),
         sectors,
         units: Units { length: "mm".into(), force: "N".into(), time: "s".into(), mass: "t".into() },
@@ -242,7 +248,8 @@ fn ring(sectors: usize) -> SectorModel {
             dofs: [3, 4, 5],
         }],
         node_of_dof: vec![0, 0, 0, 1, 1, 1],
-    }
+    };
+    SectorModel::new(parts).unwrap()
 }
 
 /// Bryan (1890): the vibration pattern of a spinning inextensional ring lags behind the ring, in the rotating frame by

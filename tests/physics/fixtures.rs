@@ -3,7 +3,7 @@
 
 use faer::sparse::{SparseColMat, Triplet};
 use nalgebra::DMatrix;
-use rubmap::dynamics::sector::{ContactNode, CyclicMatrix, SectorModel, Units};
+use rubmap::dynamics::sector::{ContactNode, CyclicMatrix, SectorModel, SectorParts, Units};
 use rubmap::impeller::{ImpellerParameters, MeshDensities, generate};
 use rubmap::package::raw::RawPackage;
 
@@ -113,7 +113,7 @@ pub(crate) fn wheel(recipe: WheelRecipe) -> SectorModel {
             }
         })
         .collect();
-    SectorModel {
+    let parts = SectorParts {
         name: "test wheel".into(),
         sectors,
         units: Units { length: "mm".into(), force: "N".into(), time: "s".into(), mass: "t".into() },
@@ -123,7 +123,8 @@ pub(crate) fn wheel(recipe: WheelRecipe) -> SectorModel {
         speeds_rad_s: speeds,
         contact,
         node_of_dof: (0..size).map(|dof| dof / 3).collect(),
-    }
+    };
+    SectorModel::new(parts).unwrap()
 }
 
 /// A finite-element impeller of a few hundred DOF a sector, four contact nodes.

@@ -3,7 +3,7 @@
 use faer::sparse::{SparseColMat, Triplet};
 use rubmap::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use rubmap::dynamics::reduction::{NoCheckpoints, ReductionOptions, reduce};
-use rubmap::dynamics::sector::{ContactNode, CyclicMatrix, SectorModel, Units};
+use rubmap::dynamics::sector::{ContactNode, CyclicMatrix, SectorModel, SectorParts, Units};
 
 /// Cyclic chain: N masses m, ground springs k, neighbour springs k_c give
 /// ω_i² = (k + 4 k_c sin²(πi/N))/m, a pair for 0 < i < N/2.
@@ -18,7 +18,7 @@ fn cyclic_chain() {
         // The chain lives in the θ direction; r and z are plain oscillators at k/m.
         let own = sparse(&[(0, 0, k), (1, 1, k + 2.0 * coupling), (2, 2, k)]);
         let next = sparse(&[(1, 1, -coupling)]);
-        let sector = SectorModel {
+        let sector = SectorModel::new(SectorParts {
             name: "chain".into(),
             sectors,
             units: Units { length: "mm".into(), force: "N".into(), time: "s".into(), mass: "t".into() },
@@ -33,7 +33,8 @@ fn cyclic_chain() {
                 dofs: [0, 1, 2],
             }],
             node_of_dof: vec![0; 3],
-        };
+        })
+        .unwrap();
         let reduced = reduce(&sector, &ReductionOptions::new(4), &NoCheckpoints, &|_, _| true).unwrap();
         let modal = ModalWheel::at(&reduced, 100.0, RotationEffects::stiffening(false)).unwrap();
         assert_eq!(modal.harmonics.len(), sectors / 2 + 1);

@@ -130,7 +130,7 @@ fn impellers_assembled_or_not() {
 
 /// `sector` with `copies` more nodes that hang on the ground alone, by the same three springs each.
 fn with_pendants(sector: &SectorModel, copies: usize, squares: [f64; 3]) -> SectorModel {
-    let mut sector = sector.clone();
+    let mut sector = sector.clone().into_parts();
     let own = sector.own_dofs();
     let nodes = own / 3;
     let size = own + 3 * copies;
@@ -147,7 +147,7 @@ fn with_pendants(sector: &SectorModel, copies: usize, squares: [f64; 3]) -> Sect
     sector.mass = extend(&sector.mass, &|_| 1e-5);
     sector.stiffness = sector.stiffness.iter().map(|k| extend(k, &|d| 1e-5 * squares[d])).collect();
     sector.node_of_dof.extend((0..3 * copies).map(|dof| nodes + dof / 3));
-    sector
+    SectorModel::new(sector).unwrap()
 }
 
 /// Eight modes of one frequency in every nodal diameter, more than a block holds: the count notices what the first

@@ -5,6 +5,7 @@ use rubmap::analysis::monitor::{Monitor, Unwatched};
 use rubmap::analysis::request::SweepRequest;
 use rubmap::analysis::request::auto_or::AutoOr;
 use rubmap::analysis::request::scene::Symmetry;
+use rubmap::analysis::resolved::ResolvedSweep;
 use rubmap::analysis::result::{PointStatus, Verdict};
 use rubmap::analysis::run::{
     ModelFacts, ReducedSector, check, critical_speeds, prepare, resolve_sweep, run_speed,
@@ -28,7 +29,12 @@ fn request(sector: &SectorModel, speeds: &[f64]) -> SweepRequest {
         "integration": {"scheme": "central_differences", "revolutions": 10, "window_revolutions": 4},
         "max_engine_order": 12
     });
-    resolve_sweep(serde_json::from_value(request).unwrap(), &ModelFacts::of(sector)).unwrap()
+    resolve_sweep(serde_json::from_value(request).unwrap(), &ModelFacts::of(sector)).unwrap().into()
+}
+
+/// `request` as if it had been resolved.
+fn unchecked(request: &SweepRequest) -> ResolvedSweep {
+    ResolvedSweep::stored(request.clone(), 0).unwrap()
 }
 
 fn reduced(sector: &SectorModel) -> ReducedSector {
@@ -42,19 +48,19 @@ fn fixed_steps_are_held_against_the_stability_limit_of_the_slowest_speed() {
     let sector = wheel(WheelRecipe::default());
     let reduced = reduced(&sector);
     let mut request = request(&sector, &[0.9 * TOP_SPEED, 0.3 * TOP_SPEED]);
-    let auto = run_speed(&reduced, &request, 1, None, &Unwatched).unwrap().point;
+    let auto = run_speed(&reduced, &unchecked(&request), 1, None, &Unwatched).unwrap().point;
     let smallest = auto.smallest_stable_steps_per_revolution;
     assert!(auto.steps_per_revolution > smallest);
     request.integration.steps_per_revolution = AutoOr::Fixed(smallest - 1);
-    let Err(AnalysisError::Refused(violations)) = check(&reduced, &request, &Unwatched) else {
+    let Err(AnalysisError::Refused(violations)) = check(&reduced, &unchecked(&request), &Unwatched) else {
         panic!("{} steps must be refused", smallest - 1);
     };
     assert_eq!(violations[0].pointer, "/integration/steps_per_revolution");
     assert!(violations[0].message.contains(&format!("at least {smallest}")), "{violations:?}");
     request.integration.steps_per_revolution = AutoOr::Fixed(smallest);
-    check(&reduced, &request, &Unwatched).unwrap();
+    check(&reduced, &unchecked(&request), &Unwatched).unwrap();
     for index in 0..2 {
-        let point = run_speed(&reduced, &request, index, None, &Unwatched).unwrap().point;
+        let point = run_speed(&reduced, &unchecked(&request), index, None, &Unwatched).unwrap().point;
         assert_eq!(point.status, PointStatus::Completed, "{point:?}");
         assert_eq!(point.steps_per_revolution, smallest);
         assert!(point.energy_residual.unwrap() < 1e-9, "{point:?}");
@@ -68,7 +74,7 @@ fn results_are_consistent() {
     let reduced = reduced(&sector);
     let mut request = request(&sector, &[0.5 * TOP_SPEED]);
     request.integration.revolutions = 30;
-    let result = run_speed(&reduced, &request, 0, None, &Unwatched).unwrap();
+    let result = run_speed(&reduced, &unchecked(&request), 0, None, &Unwatched).unwrap();
     let settling = result.point.settling.as_ref().unwrap();
     assert_eq!((settling.verdict, settling.ratio), (Verdict::Periodic, Some(1)), "{settling:?}");
     let spectra = result.spectra.unwrap();
@@ -105,14 +111,14 @@ fn where_no_line_stands_out_none_is_named() {
     (low.integration.revolutions, low.integration.window_revolutions) = (30, 2);
     low.integration.steps_per_revolution = AutoOr::Fixed(4000);
     for (request, moves) in [(&still, false), (&low, true)] {
-        let run = |index| run_speed(&reduced, request, index, None, &Unwatched).unwrap().point;
+        let run = |index| run_speed(&reduced, &unchecked(request), index, None, &Unwatched).unwrap().point;
         let points: Vec<_> = (0..3).map(run).collect();
         for response in points.iter().flat_map(|point| &point.responses) {
             assert_eq!(response.rms > 1e-6, moves, "{response:?}");
             let dominant = (response.dominant_engine_order, response.dominant_nodal_diameter);
             assert_eq!(dominant, (None, None), "{response:?}");
         }
-        let tables = critical_speeds(&reduced, request, &points, None, &Unwatched).unwrap();
+        let tables = critical_speeds(&reduced, &unchecked(request), &points, None, &Unwatched).unwrap();
         for table in &tables {
             assert_eq!(table.critical_speeds.is_empty(), !moves);
             assert!(table.critical_speeds.iter().all(|speed| speed.dominant_engine_order.is_none()));
@@ -136,9 +142,12 @@ fn cancellation_is_seen_inside_every_verb() {
     assert!(matches!(prepare(&sector, 6, None, &NoCheckpoints, &Impatient), Err(AnalysisError::Cancelled)));
     let reduced = reduced(&sector);
     let mut request = request(&sector, &[1000.0]);
-    assert!(matches!(run_speed(&reduced, &request, 0, None, &Impatient), Err(AnalysisError::Cancelled)));
+    assert!(matches!(
+        run_speed(&reduced, &unchecked(&request), 0, None, &Impatient),
+        Err(AnalysisError::Cancelled)
+    ));
     request.integration.steps_per_revolution = AutoOr::Fixed(100_000);
-    assert!(matches!(check(&reduced, &request, &Impatient), Err(AnalysisError::Cancelled)));
+    assert!(matches!(check(&reduced, &unchecked(&request), &Impatient), Err(AnalysisError::Cancelled)));
 }
 
 /// Lengths up to what lets a run end without divergence, no more; of a model whose facts do not say where its tips are, any.
@@ -214,6 +223,6 @@ fn narrow_lobes_are_not_stepped_over() {
     assert!(violations[0].message.contains("at least 6284"), "{violations:?}");
     request.integration.steps_per_revolution = AutoOr::Auto;
     request.integration.revolutions = 6;
-    let point = run_speed(&reduced, &request, 0, None, &Unwatched).unwrap().point;
+    let point = run_speed(&reduced, &unchecked(&request), 0, None, &Unwatched).unwrap().point;
     assert!(point.steps_per_revolution >= 31416 && point.contact_share > 0.0, "{point:?}");
 }

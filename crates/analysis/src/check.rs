@@ -5,7 +5,8 @@ use crate::error::{AnalysisError, Violation};
 use crate::model::ReducedSector;
 use crate::monitor::Monitor;
 use crate::not_runnable::NotRunnable;
-use crate::request::{AutoOr, Integration, SchemeChoice, SweepRequest};
+use crate::request::{AutoOr, Integration, SchemeChoice};
+use crate::resolved::ResolvedSweep;
 use crate::sliding;
 use crate::stepping::{SAFETY, Stepping, casing_limit, touching};
 use rubmap_wheel::dynamics::error::ModelError;
@@ -17,10 +18,10 @@ use rubmap_wheel::dynamics::schemes::{Scheme, central_differences};
 /// K/Ω² does where K is linear in Ω². Speeds between, and those at which the model itself fails, are left to their own runs.
 pub fn check(
     reduced: &ReducedSector,
-    request: &SweepRequest,
+    request: &ResolvedSweep,
     monitor: &dyn Monitor,
 ) -> Result<(), AnalysisError> {
-    let speeds = request.speeds.ascending().map_err(AnalysisError::Refused)?;
+    let speeds = request.speeds.ascending();
     let mut ends: Vec<f64> = speeds.first().into_iter().chain(speeds.last()).copied().collect();
     ends.dedup();
     check_sliding(reduced, request, &ends)?;
@@ -48,7 +49,7 @@ pub fn check(
 /// Whether the wheel slides at each of `speeds`.
 fn check_sliding(
     reduced: &ReducedSector,
-    request: &SweepRequest,
+    request: &ResolvedSweep,
     speeds: &[f64],
 ) -> Result<(), AnalysisError> {
     if request.scene.friction.is_none() {
@@ -71,7 +72,7 @@ fn check_sliding(
 /// The stability limit of what a request fixes, at one speed; 1 where nothing it fixes has one.
 fn limit_of_request(
     reduced: &ReducedSector,
-    request: &SweepRequest,
+    request: &ResolvedSweep,
     speed_rad_s: f64,
 ) -> Result<u64, ModelError> {
     let stiffening = request.scene.centrifugal_stiffening;
@@ -102,7 +103,7 @@ fn limit_of_request(
     }
 }
 
-fn refuse(request: &SweepRequest, stable: u64, speed: f64) -> Result<(), AnalysisError> {
+fn refuse(request: &ResolvedSweep, stable: u64, speed: f64) -> Result<(), AnalysisError> {
     let refused =
         |pointer: &str, message: String| Err(AnalysisError::Refused(vec![Violation::new(pointer, message)]));
     if let (u64::MAX, SchemeChoice::MasslessBoundary) = (stable, request.integration.scheme) {

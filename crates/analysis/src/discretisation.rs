@@ -2,7 +2,8 @@
 
 use num_integer::gcd;
 
-use crate::request::{AutoOr, SweepRequest};
+use crate::request::AutoOr;
+use crate::resolved::ResolvedSweep;
 
 /// Steps and samples of a revolution.
 pub(super) struct Discretisation {
@@ -21,7 +22,7 @@ const LEAST_SAMPLES: usize = 512;
 
 impl Discretisation {
     /// Exactly `steps` per revolution of a wheel of `sectors`.
-    pub(super) fn exactly(steps: usize, request: &SweepRequest, sectors: usize) -> Self {
+    pub(super) fn exactly(steps: usize, request: &ResolvedSweep, sectors: usize) -> Self {
         let aligned = aligned_samples(request, sectors);
         let samples =
             if steps.is_multiple_of(aligned) { aligned } else { samples_of(steps, wanted_samples(request)) };
@@ -30,7 +31,7 @@ impl Discretisation {
 
     /// At least `steps` per revolution and as many as are sampled, the same for every blade of a wheel of `sectors` and at every
     /// lobe.
-    pub(super) fn at_least(steps: usize, request: &SweepRequest, sectors: usize) -> Self {
+    pub(super) fn at_least(steps: usize, request: &ResolvedSweep, sectors: usize) -> Self {
         let steps = steps.max(wanted_samples(request));
         // S = decimation · samples, both whole; samples a multiple of N share the casing table.
         let decimation = steps / wanted_samples(request);
@@ -42,18 +43,18 @@ impl Discretisation {
 /// What samples, and thus steps, are a multiple of: the blades of a wheel of `sectors`, and the lobes as well unless that takes
 /// over a quarter more. Lobes that a blade meets now on a step, now between two, drive orders that are no multiple of their number by some
 /// thousandths of the response.
-fn alike(request: &SweepRequest, sectors: usize) -> usize {
+fn alike(request: &ResolvedSweep, sectors: usize) -> usize {
     let lobes = request.scene.touched_lobes().map_or(1, |lobes| lobes.count);
     let both = sectors * (lobes / gcd(lobes, sectors as u32)) as usize;
     if both <= LEAST_SAMPLES / 4 { both } else { sectors }
 }
 
 /// The fewest samples, and steps, that are the same for every blade and at every lobe: runs with multiples of them share instants.
-pub(super) fn aligned_samples(request: &SweepRequest, sectors: usize) -> usize {
+pub(super) fn aligned_samples(request: &ResolvedSweep, sectors: usize) -> usize {
     wanted_samples(request).next_multiple_of(alike(request, sectors))
 }
 
-fn wanted_samples(request: &SweepRequest) -> usize {
+fn wanted_samples(request: &ResolvedSweep) -> usize {
     LEAST_SAMPLES.max(SAMPLES_PER_ORDER * request.max_engine_order as usize)
 }
 
@@ -63,7 +64,7 @@ fn samples_of(steps: usize, wanted: usize) -> usize {
 }
 
 /// Upper bound of the samples a revolution of this request records at any speed, on a wheel of `sectors`.
-pub(super) fn most_samples(request: &SweepRequest, sectors: usize) -> usize {
+pub(super) fn most_samples(request: &ResolvedSweep, sectors: usize) -> usize {
     let wanted = wanted_samples(request);
     match request.integration.steps_per_revolution {
         AutoOr::Auto => 2 * wanted + alike(request, sectors),
@@ -74,17 +75,18 @@ pub(super) fn most_samples(request: &SweepRequest, sectors: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::resolved::from_json;
 
     #[test]
     fn blades_meet_lobes_at_the_same_steps() {
         let steps = |sectors: usize, lobes: u32| {
             let casing = serde_json::json!({"clearance": {"leading": 1, "trailing": 1},
                 "lobes": {"count": lobes, "amplitude": 1, "width_rad": 0.3}});
-            let request = serde_json::from_value(serde_json::json!({
+            let request = from_json::sweep(serde_json::json!({
                 "model": "", "speeds": {"values": [1.0], "unit": "rad_s"},
                 "scene": {"casing": casing, "contact": {}}, "integration": {}
             }));
-            let found = Discretisation::at_least(3600, &request.unwrap(), sectors);
+            let found = Discretisation::at_least(3600, &request, sectors);
             assert!(found.per_revolution.is_multiple_of(found.samples) && found.per_revolution >= 3600);
             found.per_revolution
         };

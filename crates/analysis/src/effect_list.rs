@@ -1,6 +1,7 @@
 //! The effects of a scene by name, on and off, and what each adds.
 
-use crate::request::{Scene, Symmetry};
+use crate::request::Symmetry;
+use crate::resolved::Scene;
 use crate::result::PlannedEffect;
 
 /// An effect that a scene may name.
@@ -99,7 +100,7 @@ mod tests {
 
     #[test]
     fn every_field_of_a_scene_is_an_effect_of_the_list() {
-        let schema = serde_json::to_value(Scene::schema()).unwrap();
+        let schema = serde_json::to_value(crate::request::Scene::schema()).unwrap();
         let mut fields: Vec<&str> =
             schema["properties"].as_object().unwrap().keys().map(String::as_str).collect();
         let mut named = EFFECTS.map(|effect| effect.name);

@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use super::symmetry::repeats;
 use crate::not_runnable::NotRunnable;
-use crate::request::scene::FlexibleCasing as FlexibleCasingRequest;
-use crate::request::{Abradable, CasingMode, Component, Mistuning, Scene, SweepRequest, Symmetry};
+use crate::request::{Abradable, CasingMode, Component, Symmetry};
+use crate::resolved::{self, Mistuning, ResolvedSweep, Scene, WavesOf};
 use rubmap_wheel::dynamics::contact::coating::{Coating, CoatingError, CoatingMaterial};
 use rubmap_wheel::dynamics::contact::friction::sliding_directions;
 use rubmap_wheel::dynamics::direction::Direction;
@@ -132,35 +132,38 @@ pub(super) fn direction(contact_nodes: &[ContactNode], node: u32, component: Com
 }
 
 /// The casing's waves; of a ring or as given.
-pub(super) fn flexible_casing(casing: &FlexibleCasingRequest) -> FlexibleCasing {
-    let given = casing.modes.iter().flatten().map(|mode: &CasingMode| CasingWave {
+pub(super) fn flexible_casing(casing: &resolved::FlexibleCasing) -> FlexibleCasing {
+    let given = |mode: &CasingMode| CasingWave {
         nodal_diameter: mode.nodal_diameter,
         omega: TAU * mode.frequency_hz,
         modal_mass: mode.modal_mass,
-    });
-    let ring = casing.ring.iter().flat_map(|ring| {
-        let section = Ring {
-            radius: ring.radius,
-            modulus: ring.modulus,
-            density: ring.density,
-            area: ring.area,
-            second_moment: ring.second_moment,
-        };
-        section.waves(ring.n_max)
-    });
-    FlexibleCasing { waves: given.chain(ring).collect(), damping_ratio: casing.damping_ratio }
+    };
+    let waves = match &casing.waves {
+        WavesOf::Modes(modes) => modes.iter().map(given).collect(),
+        WavesOf::Ring(ring) => {
+            let section = Ring {
+                radius: ring.radius,
+                modulus: ring.modulus,
+                density: ring.density,
+                area: ring.area,
+                second_moment: ring.second_moment,
+            };
+            section.waves(ring.n_max)
+        }
+    };
+    FlexibleCasing { waves, damping_ratio: casing.damping_ratio }
 }
 
 /// δ of every sector.
 pub(super) fn deviations(mistuning: &Mistuning, sectors: usize) -> Vec<f64> {
-    match (&mistuning.deviations, mistuning.spread) {
-        (Some(given), _) => given.clone(),
-        (None, spread) => normal_deviations(spread.unwrap_or(0.0), mistuning.seed.unwrap_or(0), sectors),
+    match mistuning {
+        Mistuning::Given(deviations) => deviations.clone(),
+        Mistuning::Drawn { spread, seed } => normal_deviations(*spread, *seed, sectors),
     }
 }
 
 /// The damping of a scene.
-pub(super) fn modal_damping(request: &SweepRequest) -> Option<ModalDamping> {
+pub(super) fn modal_damping(request: &ResolvedSweep) -> Option<ModalDamping> {
     let damping = request.scene.damping.as_ref()?;
     Some(ModalDamping { modal_ratio: damping.modal_ratio, family_ratios: damping.family_ratios.clone() })
 }

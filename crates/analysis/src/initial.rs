@@ -5,7 +5,8 @@ use std::f64::consts::TAU;
 use faer::c64;
 
 use crate::not_runnable::NotRunnable;
-use crate::request::{Initial, Probe, SweepRequest, Symmetry};
+use crate::request::{Initial, Probe, Symmetry};
+use crate::resolved::ResolvedSweep;
 use crate::stepping::Stepping;
 use crate::symmetry::repeats;
 use rubmap_wheel::dynamics::casing::Casing;
@@ -18,7 +19,7 @@ use rubmap_wheel::dynamics::sector::ContactNode;
 
 /// The modes that a scene starts with.
 pub(super) fn initial(
-    request: &SweepRequest,
+    request: &ResolvedSweep,
     wheel: &ModalWheel,
     contact_nodes: &[ContactNode],
     casing: Option<&Casing>,
@@ -103,7 +104,7 @@ fn check_reach(
 }
 
 /// The lowest mode of every nodal diameter that the symmetry of the scene keeps at rest, at a phase of its own.
-fn asymmetry(request: &SweepRequest, wheel: &ModalWheel, casing: Option<&Casing>) -> Vec<InitialMode> {
+fn asymmetry(request: &ResolvedSweep, wheel: &ModalWheel, casing: Option<&Casing>) -> Vec<InitialMode> {
     let Probe { amplitude, seed } = request.scene.probe.clone().unwrap_or_default();
     let repeats = repeats(&request.scene, wheel.sectors as u32) as usize;
     let mut modes = lowest_modes(wheel, amplitude * wheel_reach(casing), seed);

@@ -28,6 +28,7 @@ mod record;
 mod refine;
 pub mod request;
 mod resolve;
+pub mod resolved;
 mod response_curve;
 pub mod result;
 pub mod run;

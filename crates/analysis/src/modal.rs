@@ -6,7 +6,7 @@ use crate::diagram::FrequencyDiagram;
 use crate::error::AnalysisError;
 use crate::model::ReducedSector;
 use crate::monitor::Monitor;
-use crate::request::ModalAnalysisRequest;
+use crate::resolved::ResolvedModalAnalysis;
 use crate::result::{AbsoluteFrequencies, Campbell};
 use rubmap_wheel::dynamics::modal_wheel::RotationEffects;
 use rubmap_wheel::response::campbell::{absolute_frequency, multiples};
@@ -15,11 +15,11 @@ use rubmap_wheel::revision::VERSION;
 /// Natural frequencies over speed and the linear criterion.
 pub fn modal_analysis(
     reduced: &ReducedSector,
-    request: &ModalAnalysisRequest,
+    request: &ResolvedModalAnalysis,
     monitor: &dyn Monitor,
 ) -> Result<Campbell, AnalysisError> {
     let start = Instant::now();
-    let speeds = request.speeds.ascending().map_err(AnalysisError::Refused)?;
+    let speeds = request.speeds.ascending();
     let effects = RotationEffects { stiffening: true, coriolis: request.coriolis };
     let mut diagram = FrequencyDiagram::new(&reduced.wheel, effects, request.families as usize);
     for (index, &speed) in speeds.iter().enumerate() {
@@ -48,7 +48,7 @@ pub fn modal_analysis(
         waves: diagram.waves,
         speeds_rad_s: speeds,
         reduction: reduced.report.clone(),
-        settings: request.clone(),
+        settings: request.clone().into(),
         wall_time_s: start.elapsed().as_secs_f64(),
         version: VERSION.to_owned(),
     })

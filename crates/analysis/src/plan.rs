@@ -12,7 +12,8 @@ use crate::diagram::FrequencyDiagram;
 use crate::effect_list::effects_of;
 use crate::initial::initial;
 use crate::model::{ModelFacts, ReducedSector};
-use crate::request::{ModalAnalysisRequest, Scene, SweepDirection, SweepRequest, Symmetry, TrialRequest};
+use crate::request::{SweepDirection, Symmetry};
+use crate::resolved::{ResolvedModalAnalysis, ResolvedSweep, Scene, TrialRequest};
 use crate::result::{
     CostRange, Estimate, FoundSymmetry, ModalAnalysisPlan, PlannedPoint, ReductionState, SweepPlan,
 };
@@ -26,17 +27,17 @@ use rubmap_wheel::revision::VERSION;
 /// Plans a resolved sweep on `workers` threads; without `reduced`, what can be said without it. The choice is for the caller to
 /// add.
 pub fn plan_sweep(
-    request: &SweepRequest,
+    request: &ResolvedSweep,
     facts: &ModelFacts,
     reduced: Option<&ReducedSector>,
     calibration: &Calibration,
     workers: usize,
 ) -> SweepPlan {
-    let speeds = request.speeds.resolve().unwrap_or_default();
+    let speeds = request.speeds.rad_s();
     // One speed after the other.
     let workers = if request.sweep == SweepDirection::Independent { workers } else { 1 };
     let points: Vec<PlannedPoint> = match reduced {
-        Some(reduced) => representatives(&speeds, &reduced.report.unknowns)
+        Some(reduced) => representatives(speeds, &reduced.report.unknowns)
             .into_iter()
             .map(|index| plan_point(reduced, request, calibration, index, speeds[index]))
             .collect(),
@@ -50,15 +51,15 @@ pub fn plan_sweep(
             None => 0,
         },
         reduction: state(reduced),
-        reduced_unknowns_at_most: reduced_unknowns(facts, reduced, request.modes()),
+        reduced_unknowns_at_most: reduced_unknowns(facts, reduced, request.modes_per_speed()),
         speeds: speeds.len() as u32,
         workers: workers as u32,
-        estimate: reduced.and_then(|reduced| estimate(&points, &speeds, workers, reduced_bytes(reduced))),
+        estimate: reduced.and_then(|reduced| estimate(&points, speeds, workers, reduced_bytes(reduced))),
         points,
         choice: None,
         warnings: warnings(&request.scene, facts, reduced),
-        pilot_speeds_rad_s: request.unchosen().then(|| pilot_speeds(request)),
-        settings: request.clone(),
+        pilot_speeds_rad_s: request.is_sought().then(|| pilot_speeds(request)),
+        settings: request.clone().into(),
         version: VERSION.to_owned(),
     }
 }
@@ -72,11 +73,11 @@ fn sectors_simulated(scene: &Scene, facts: &ModelFacts) -> u32 {
 
 /// Plans a resolved modal analysis; without `reduced`, what can be said without it. The choice is for the caller to add.
 pub fn plan_modal_analysis(
-    request: &ModalAnalysisRequest,
+    request: &ResolvedModalAnalysis,
     facts: &ModelFacts,
     reduced: Option<&ReducedSector>,
 ) -> ModalAnalysisPlan {
-    let speeds = request.speeds.ascending().unwrap_or_default();
+    let speeds = request.speeds.ascending();
     let one = |reduced: &ReducedSector| {
         let effects = RotationEffects { stiffening: true, coriolis: request.coriolis };
         let mut diagram = FrequencyDiagram::new(&reduced.wheel, effects, request.families as usize);
@@ -94,13 +95,13 @@ pub fn plan_modal_analysis(
     ModalAnalysisPlan {
         effects,
         reduction: state(reduced),
-        reduced_unknowns_at_most: reduced_unknowns(facts, reduced, request.modes()),
+        reduced_unknowns_at_most: reduced_unknowns(facts, reduced, request.modes_per_speed()),
         speeds: speeds.len() as u32,
         nodal_diameters: harmonic_count(facts.sectors as usize) as u32,
         computing_time_s: reduced.and_then(one).map(|seconds| seconds * speeds.len() as f64),
         choice: None,
         warnings: warnings(&scene, facts, reduced),
-        settings: request.clone(),
+        settings: request.clone().into(),
         version: VERSION.to_owned(),
     }
 }
@@ -147,7 +148,7 @@ fn representatives(speeds: &[f64], unknowns: &[u32]) -> Vec<usize> {
 
 fn plan_point(
     reduced: &ReducedSector,
-    request: &SweepRequest,
+    request: &ResolvedSweep,
     calibration: &Calibration,
     index: usize,
     speed_rad_s: f64,
@@ -199,17 +200,14 @@ fn plan_point(
 }
 
 /// Contact nodes of a sector that may touch.
-fn touching(reduced: &ReducedSector, request: &SweepRequest) -> usize {
+fn touching(reduced: &ReducedSector, request: &ResolvedSweep) -> usize {
     if request.scene.contact.is_some() { reduced.wheel.contact.len() } else { 0 }
 }
 
 /// Memory that a trial holds while it runs, in bytes; 0 where its speed cannot be integrated.
 pub fn trial_memory(reduced: &ReducedSector, request: &TrialRequest) -> u64 {
     let sweep = &request.sweep;
-    let Some(&speed_rad_s) = sweep.speeds.resolve().ok().as_deref().and_then(<[f64]>::first) else {
-        return 0;
-    };
-    let Ok((wheel, stepping)) = ready(reduced, sweep, speed_rad_s) else { return 0 };
+    let Ok((wheel, stepping)) = ready(reduced, sweep, request.speed_rad_s()) else { return 0 };
     // A twin has a history of its own.
     let runs = 1 + u64::from(request.twin);
     runs * running_bytes(&wheel, sweep, &stepping, touching(reduced, sweep))
@@ -217,7 +215,7 @@ pub fn trial_memory(reduced: &ReducedSector, request: &TrialRequest) -> u64 {
 
 /// What a speed holds while it runs: its modes with what their eigenproblems took, the casing's table, the histories,
 /// what turns one of them into a spectrum, and the spectra, as they are and on their way into the database.
-fn running_bytes(wheel: &ModalWheel, request: &SweepRequest, stepping: &Stepping, nodes: usize) -> u64 {
+fn running_bytes(wheel: &ModalWheel, request: &ResolvedSweep, stepping: &Stepping, nodes: usize) -> u64 {
     const REAL: usize = size_of::<f64>();
     const COMPLEX: usize = 2 * REAL;
     let steps = &stepping.discretisation;

@@ -2,7 +2,8 @@
 
 use super::symmetry::repeats;
 use crate::error::AnalysisError;
-use crate::request::{Sensor, SweepRequest, Symmetry};
+use crate::request::{Sensor, Symmetry};
+use crate::resolved::ResolvedSweep;
 use crate::result::{
     EnergyReport, Point, PointStatus, SensorResponse, SensorSpectrum, SpeedSpectra, WearReport,
 };
@@ -23,7 +24,7 @@ use rubmap_wheel::response::symmetry_breaking;
 pub(super) fn record_run(
     point: &mut Point,
     run: &Run,
-    request: &SweepRequest,
+    request: &ResolvedSweep,
     wheel: &ModalWheel,
     stepping: &Stepping,
 ) -> Result<Option<SpeedSpectra>, AnalysisError> {
@@ -107,7 +108,7 @@ fn describe(divergence: &Divergence) -> String {
     }
 }
 
-fn spectra(history: &History, request: &SweepRequest, wheel: &ModalWheel) -> SpeedSpectra {
+fn spectra(history: &History, request: &ResolvedSweep, wheel: &ModalWheel) -> SpeedSpectra {
     let engine_orders = engine_orders(request.integration.window_revolutions, request.max_engine_order);
     let bins = engine_orders.len();
     let fourier = SectorFourier::new(wheel.sectors);
@@ -143,7 +144,7 @@ const ROUND_OFF: f64 = 1e-12;
 
 fn responses(
     history: &History,
-    request: &SweepRequest,
+    request: &ResolvedSweep,
     spectra: &SpeedSpectra,
     window_samples: usize,
 ) -> Vec<SensorResponse> {

@@ -1,6 +1,6 @@
 //! More speeds around the peaks that the speeds of a sweep do not resolve.
 
-use crate::request::{Speeds, SweepRequest};
+use crate::resolved::ResolvedSweep;
 use crate::response_curve::ResponseCurve;
 use crate::result::{Point, Refinement, Unresolvable, Unresolved};
 use rubmap_wheel::response::critical_speed::{Resolution, peaks};
@@ -11,20 +11,16 @@ const LEAST_MOST_ADDED: usize = 50;
 
 impl Refinement {
     /// From the finished speeds, in any order; none if the sweep is not to be refined.
-    pub(super) fn of(request: &SweepRequest, points: &[Point]) -> Option<Self> {
+    pub(super) fn of(request: &ResolvedSweep, points: &[Point]) -> Option<Self> {
         if !request.refine {
             return None;
         }
-        let speeds = request.speeds.resolve().ok()?;
-        let rounds = match &request.speeds {
-            Speeds::One(set) => u32::from(set.added),
-            Speeds::Several(sets) => sets.iter().filter(|set| set.added).count() as u32,
-        };
+        let speeds = request.speeds.rad_s();
         let finished = points.len() == speeds.len();
-        let unresolved = if finished { unresolved(request, &speeds, points) } else { Vec::new() };
+        let unresolved = if finished { unresolved(request, speeds, points) } else { Vec::new() };
         Some(Self {
-            added: (speeds.len() - request.speeds.asked().ok()?.len()) as u32,
-            rounds,
+            added: (speeds.len() - request.speeds.asked()) as u32,
+            rounds: request.speeds.rounds(),
             complete: finished && unresolved.is_empty(),
             unresolved,
         })
@@ -34,30 +30,29 @@ impl Refinement {
 /// The request with one more round of speeds: the middles of the intervals beside the peaks, of any sensor, that are not
 /// resolved. None if there is nothing to add, or no more may be. `points` are those of all speeds, in any order, which
 /// makes no difference.
-pub fn refine(request: &SweepRequest, points: &[Point]) -> Option<SweepRequest> {
+pub fn refine(request: &ResolvedSweep, points: &[Point]) -> Option<ResolvedSweep> {
     if !request.refine {
         return None;
     }
-    let speeds = request.speeds.resolve().ok()?;
-    let asked = request.speeds.asked().ok()?.len();
+    let speeds = request.speeds.rad_s();
+    let asked = request.speeds.asked();
     let most = (asked + asked.max(LEAST_MOST_ADDED)).saturating_sub(speeds.len());
-    let mut intervals = coarse_intervals(request, &speeds, points);
+    let mut intervals = coarse_intervals(request, speeds, points);
     // Peaks that are known worst go first where not all can; the sort is stable.
     intervals.sort_by(|a, b| (b.1 / b.0).total_cmp(&(a.1 / a.0)));
-    intervals.truncate(most.min(request.speeds.room()));
+    intervals.truncate(most.min(request.speeds.lists().room()));
     let mut middles: Vec<f64> = intervals.into_iter().map(|(from, to)| 0.5 * (from + to)).collect();
     middles.sort_by(f64::total_cmp);
     if middles.is_empty() {
         return None;
     }
-    let more = request.speeds.with_added(middles);
     // There is no middle between numbers so small that they are next to each other.
-    let grown = more.resolve().ok()?.len() > speeds.len();
-    grown.then(|| SweepRequest { speeds: more, ..request.clone() })
+    let speeds = request.speeds.with_round(middles)?;
+    Some(ResolvedSweep { speeds, ..request.clone() })
 }
 
 /// Critical speeds with the index of their sensor and how well they are known.
-fn resolutions(request: &SweepRequest, speeds: &[f64], points: &[Point]) -> Vec<(usize, f64, Resolution)> {
+fn resolutions(request: &ResolvedSweep, speeds: &[f64], points: &[Point]) -> Vec<(usize, f64, Resolution)> {
     let curve = ResponseCurve::of(speeds, points);
     let mut found = Vec::new();
     for sensor in 0..request.sensors.len() {
@@ -71,7 +66,7 @@ fn resolutions(request: &SweepRequest, speeds: &[f64], points: &[Point]) -> Vec<
 }
 
 /// Intervals between neighbouring speeds that are too wide for a peak of some sensor, ascending.
-fn coarse_intervals(request: &SweepRequest, speeds: &[f64], points: &[Point]) -> Vec<(f64, f64)> {
+fn coarse_intervals(request: &ResolvedSweep, speeds: &[f64], points: &[Point]) -> Vec<(f64, f64)> {
     let resolutions = resolutions(request, speeds, points).into_iter();
     let mut intervals: Vec<_> = resolutions.flat_map(|(_, _, resolution)| resolution.coarse).collect();
     intervals.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -80,7 +75,7 @@ fn coarse_intervals(request: &SweepRequest, speeds: &[f64], points: &[Point]) ->
 }
 
 /// The peaks that are not resolved.
-fn unresolved(request: &SweepRequest, speeds: &[f64], points: &[Point]) -> Vec<Unresolved> {
+fn unresolved(request: &ResolvedSweep, speeds: &[f64], points: &[Point]) -> Vec<Unresolved> {
     let why = |resolution: &Resolution| {
         if resolution.at_end {
             Unresolvable::EndOfRange
@@ -103,23 +98,27 @@ fn unresolved(request: &SweepRequest, speeds: &[f64], points: &[Point]) -> Vec<U
 
 #[cfg(test)]
 mod tests {
-    use serde_json::json;
+    use serde_json::{Value, json};
 
     use super::*;
     use crate::request::MAX_SPEEDS;
+    use crate::resolved::{ResolvedSpeeds, from_json};
+
+    fn speeds(given: Value) -> ResolvedSpeeds {
+        ResolvedSpeeds::of(serde_json::from_value(given).unwrap(), 0).unwrap()
+    }
 
     /// A sweep from 900 to 1100 rad/s with two sensors.
-    fn request(count: usize) -> SweepRequest {
+    fn request(count: usize) -> ResolvedSweep {
         let sensor = |contact_node: u32| json!({"contact_node": contact_node, "component": "radial"});
-        serde_json::from_value(json!({
+        from_json::sweep(json!({
             "model": "m", "speeds": {"from": 900.0, "to": 1100.0, "count": count, "unit": "rad_s"}, "scene": {},
             "sensors": [sensor(0), sensor(1)], "refine": true,
         }))
-        .unwrap()
     }
 
     /// What a run would find where the sensors have these levels; a level that is no number is a run that failed.
-    fn points(request: &SweepRequest, levels: &dyn Fn(f64) -> [f64; 2]) -> Vec<Point> {
+    fn points(request: &ResolvedSweep, levels: &dyn Fn(f64) -> [f64; 2]) -> Vec<Point> {
         let point = |(index, speed): (usize, f64)| {
             let levels = levels(speed);
             let failed = levels.iter().any(|level| level.is_nan());
@@ -135,18 +134,18 @@ mod tests {
             }))
             .unwrap()
         };
-        request.speeds.resolve().unwrap().into_iter().enumerate().map(point).collect()
+        request.speeds.rad_s().iter().copied().enumerate().map(point).collect()
     }
 
     /// The request when nothing is added any more, with what was.
-    fn refined(mut request: SweepRequest, levels: &dyn Fn(f64) -> [f64; 2]) -> (SweepRequest, Refinement) {
+    fn refined(mut request: ResolvedSweep, levels: &dyn Fn(f64) -> [f64; 2]) -> (ResolvedSweep, Refinement) {
         loop {
             let found = points(&request, levels);
             let Some(more) = refine(&request, &found) else {
                 return (request.clone(), Refinement::of(&request, &found).unwrap());
             };
-            let (before, after) = (request.speeds.resolve().unwrap(), more.speeds.resolve().unwrap());
-            assert_eq!(before, after[..before.len()], "no speed changes its index");
+            let (before, after) = (request.speeds.rad_s(), more.speeds.rad_s());
+            assert_eq!(before, &after[..before.len()], "no speed changes its index");
             assert!(after[before.len()..].windows(2).all(|pair| pair[0] < pair[1]));
             assert!(after[before.len()..].iter().all(|speed| !before.contains(speed)));
             request = more;
@@ -158,9 +157,9 @@ mod tests {
     }
 
     /// Distance of `speed` to the nearest one of a request.
-    fn nearest(request: &SweepRequest, speed: f64) -> f64 {
-        let speeds = request.speeds.resolve().unwrap();
-        speeds.into_iter().map(|other| (other - speed).abs()).fold(f64::INFINITY, f64::min)
+    fn nearest(request: &ResolvedSweep, speed: f64) -> f64 {
+        let speeds = request.speeds.rad_s().iter();
+        speeds.map(|other| (other - speed).abs()).fold(f64::INFINITY, f64::min)
     }
 
     #[test]
@@ -181,7 +180,7 @@ mod tests {
         let sawtooth = |speed: f64| if speed < 1013.7 { (speed - 900.0) / 113.7 } else { 0.1 };
         let (found, refinement) = refined(request(8), &|speed| [sawtooth(speed), 1.0]);
         assert!(refinement.complete && refinement.added <= 20, "{refinement:?}");
-        let speeds = found.speeds.ascending().unwrap();
+        let speeds = found.speeds.ascending();
         let jump = speeds.partition_point(|&speed| speed < 1013.7);
         assert!(speeds[jump] - speeds[jump - 1] <= 5e-4 * 1013.7);
     }
@@ -199,7 +198,7 @@ mod tests {
         let reasons: Vec<_> = refinement.unresolved.iter().map(|peak| (peak.sensor, peak.reason)).collect();
         assert_eq!(reasons, [(0, Unresolvable::BesideMissing)], "{refinement:?}");
         assert!(!refinement.complete);
-        let speeds = found.speeds.ascending().unwrap();
+        let speeds = found.speeds.ascending();
         let first = speeds.partition_point(|&speed| speed < 1033.3);
         assert!(speeds[first] - speeds[first - 1] <= 5e-4 * 1033.3);
     }
@@ -214,19 +213,19 @@ mod tests {
             let (found, refinement) = refined(request(count), &rough);
             assert_eq!((refinement.added, refinement.complete), (added, false));
             assert!(refinement.unresolved.iter().any(|peak| peak.reason == Unresolvable::TooCoarse));
-            assert_eq!(found.speeds.resolve().unwrap().len(), count + added as usize);
+            assert_eq!(found.speeds.rad_s().len(), count + added as usize);
         }
         let range = json!({"from": 1.0, "to": 1e6, "count": MAX_SPEEDS - 3, "unit": "rad_s"});
-        let many = SweepRequest { speeds: serde_json::from_value(range).unwrap(), ..request(2) };
+        let many = ResolvedSweep { speeds: speeds(range), ..request(2) };
         let (found, _) = refined(many, &rough);
-        assert_eq!(found.speeds.resolve().unwrap().len(), MAX_SPEEDS);
+        assert_eq!(found.speeds.rad_s().len(), MAX_SPEEDS);
     }
 
     #[test]
     fn numbers_without_a_middle_end_it() {
         let least = f64::from_bits(1);
-        let speeds = json!({"values": [least, 2.0 * least, 3.0 * least], "unit": "rad_s"});
-        let tiny = SweepRequest { speeds: serde_json::from_value(speeds).unwrap(), ..request(2) };
+        let given = json!({"values": [least, 2.0 * least, 3.0 * least], "unit": "rad_s"});
+        let tiny = ResolvedSweep { speeds: speeds(given), ..request(2) };
         let (_, refinement) = refined(tiny, &|speed| [if speed == 2.0 * least { 1.0 } else { 0.1 }, 1.0]);
         assert_eq!((refinement.added, refinement.rounds, refinement.complete), (0, 0, false));
         assert_eq!(refinement.unresolved[0].reason, Unresolvable::TooCoarse);
@@ -237,7 +236,7 @@ mod tests {
         let levels = |speed| [resonance(speed, 953.0, 1.0) + 0.05 * resonance(speed, 1041.0, 3.0), 1.0];
         let (most, _) = refined(request(81), &levels);
         assert!(nearest(&most, 1041.0) > 0.5, "5 % of the largest is below the default");
-        let (all, _) = refined(SweepRequest { peak_prominence: 0.02, ..request(81) }, &levels);
+        let (all, _) = refined(ResolvedSweep { peak_prominence: 0.02, ..request(81) }, &levels);
         assert!(nearest(&all, 1041.0) < 0.5);
     }
 
@@ -252,6 +251,6 @@ mod tests {
         // What a job was refined to, asked for again, is refined no further than it would have been.
         let (last, refinement) = refined(request, &levels);
         assert_eq!(refined(last.clone(), &levels), (last, refinement));
-        assert_eq!(refine(&SweepRequest { refine: false, ..more }, &[]), None);
+        assert_eq!(refine(&ResolvedSweep { refine: false, ..more }, &[]), None);
     }
 }

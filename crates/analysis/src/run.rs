@@ -12,9 +12,10 @@ pub use crate::model::{ModelFacts, ReducedSector};
 pub use crate::plan::{plan_modal_analysis, plan_sweep, trial_memory};
 pub use crate::prepare::prepare;
 pub use crate::refine::refine;
-pub use crate::request::{Setting, StudyRequest, TrialRequest};
+pub use crate::request::Setting;
 pub use crate::resolve::study::resolve_study;
 pub use crate::resolve::{resolve_modal_analysis, resolve_sweep};
+pub use crate::resolved::TrialRequest;
 pub use crate::result::{
     Choice, ErrorEstimate, Estimate, Histories, ModalAnalysisPlan, ModesChoice, Refinement, SweepPlan, Trial,
     WorkPrecision,

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::effects::modal_damping;
-use crate::request::SweepRequest;
+use crate::resolved::ResolvedSweep;
 use rubmap_wheel::dynamics::contact::flexibility::{flexibility, outward_normals, ridge};
 use rubmap_wheel::dynamics::contact::friction::{FrictionError, SlidingFlexibility};
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
@@ -16,7 +16,7 @@ use rubmap_wheel::dynamics::sector::ContactNode;
 pub(super) fn check(
     wheel: &ModalWheel,
     contact_nodes: &[ContactNode],
-    request: &SweepRequest,
+    request: &ResolvedSweep,
     scheme: Scheme,
     steps_per_revolution: usize,
 ) -> Result<(), FrictionError> {

@@ -11,7 +11,8 @@ use crate::model::ReducedSector;
 use crate::monitor::Monitor;
 use crate::not_runnable::NotRunnable;
 use crate::record::record_run;
-use crate::request::{Sensor, SweepDirection, SweepRequest};
+use crate::request::{Sensor, SweepDirection};
+use crate::resolved::{Clearance, ResolvedSweep};
 use crate::result::{Point, PointStatus, SpeedResult, WearMap};
 use crate::stepping::Stepping;
 use rubmap_wheel::dynamics::casing::{Casing, Restriction, RestrictionTable, clearance_along_chord};
@@ -22,18 +23,16 @@ use rubmap_wheel::revision::VERSION;
 
 /// Simulates speed `index` of a sweep, from `start` if it is given: the end of the neighbouring speed of a sweep up or down.
 /// Deterministic; runs on the calling thread. A speed that diverges or cannot be
-/// evaluated is a result (with its status), not an error; the only errors are cancellation and a request that was
-/// never resolved.
+/// evaluated is a result (with its status), not an error; the only error is cancellation.
 pub fn run_speed(
     reduced: &ReducedSector,
-    request: &SweepRequest,
+    request: &ResolvedSweep,
     index: usize,
     start: Option<&EndState>,
     monitor: &dyn Monitor,
 ) -> Result<SpeedResult, AnalysisError> {
     let clock = Instant::now();
-    let speeds = request.speeds.resolve().map_err(AnalysisError::Refused)?;
-    let mut point = empty_point(reduced, request, index, speeds[index]);
+    let mut point = empty_point(reduced, request, index, request.speeds.rad_s()[index]);
     let (mut spectra, mut end_state, mut wear) = (None, None, None);
     let watch = |fraction: f64| {
         monitor.progress(fraction, "contact simulation");
@@ -52,7 +51,7 @@ pub fn run_speed(
             wear = run.coating.map(|coating| WearMap { depths: coating.worn_depths() });
         }
     }
-    if start.is_none() && follows_another(request, &speeds, index) {
+    if start.is_none() && follows_another(request, index) {
         point.message = Some(from_the_start(point.message.take()));
     }
     point.wall_time_s = clock.elapsed().as_secs_f64();
@@ -62,7 +61,7 @@ pub fn run_speed(
 /// The wheel of a scene at a speed, and how it is stepped; or why it cannot be.
 pub(super) fn ready(
     reduced: &ReducedSector,
-    request: &SweepRequest,
+    request: &ResolvedSweep,
     speed_rad_s: f64,
 ) -> Result<(ModalWheel, Stepping), NotRunnable> {
     let wheel = wheel_of(&request.scene, &reduced.wheel, speed_rad_s)?;
@@ -86,7 +85,7 @@ fn end_state_of(
     run: &Run,
     reduced: &ReducedWheel,
     wheel: &ModalWheel,
-    request: &SweepRequest,
+    request: &ResolvedSweep,
 ) -> Option<EndState> {
     let Outcome::Completed(history) = &run.outcome else { return None };
     if request.sweep == SweepDirection::Independent {
@@ -96,8 +95,8 @@ fn end_state_of(
 }
 
 /// Whether speed `index` should start from the end of another one.
-fn follows_another(request: &SweepRequest, speeds: &[f64], index: usize) -> bool {
-    let chain = request.sweep.chain(speeds);
+fn follows_another(request: &ResolvedSweep, index: usize) -> bool {
+    let chain = request.chain();
     chain.is_some_and(|chain| chain.first() != Some(&(index as u32)))
 }
 
@@ -108,7 +107,7 @@ fn from_the_start(ended: Option<String>) -> String {
 
 pub(super) fn empty_point(
     reduced: &ReducedSector,
-    request: &SweepRequest,
+    request: &ResolvedSweep,
     index: usize,
     speed_rad_s: f64,
 ) -> Point {
@@ -144,7 +143,7 @@ pub(super) fn empty_point(
 pub(super) fn simulate(
     reduced: &ReducedWheel,
     wheel: &ModalWheel,
-    request: &SweepRequest,
+    request: &ResolvedSweep,
     stepping: &Stepping,
     start: Start<'_>,
     watch: &dyn Fn(f64) -> bool,
@@ -194,7 +193,7 @@ pub(super) fn simulate(
 /// Whether the casing's heights can be tabulated; the error says what to change.
 pub(super) fn check_table(
     reduced: &ReducedWheel,
-    request: &SweepRequest,
+    request: &ResolvedSweep,
     steps_per_revolution: usize,
 ) -> Result<(), NotRunnable> {
     let stride = reduced.contact.len().next_multiple_of(8);
@@ -209,16 +208,16 @@ pub(super) fn check_table(
 /// The casing of a scene with contact; a casing that nothing touches does not exist for the integration.
 pub(super) fn casing(
     reduced: &ReducedWheel,
-    request: &SweepRequest,
+    request: &ResolvedSweep,
     ramp_revolutions: f64,
 ) -> Option<Casing> {
     let casing = request.scene.casing.as_ref()?;
     request.scene.contact.as_ref()?;
     let positions: Vec<_> = reduced.contact.iter().map(|node| node.position).collect();
-    let given = &casing.clearance;
-    let clearance = given.values.clone().unwrap_or_else(|| {
-        clearance_along_chord(given.leading.unwrap_or(0.0), given.trailing.unwrap_or(0.0), &positions)
-    });
+    let clearance = match &casing.clearance {
+        Clearance::Each(values) => values.clone(),
+        Clearance::AlongChord { leading, trailing } => clearance_along_chord(*leading, *trailing, &positions),
+    };
     let restriction = casing.lobes.as_ref().map(|lobes| Restriction {
         count: lobes.count,
         amplitude: lobes.amplitude,

@@ -6,7 +6,8 @@ use crate::discretisation::Discretisation;
 use crate::effects::flexible_casing;
 use crate::not_runnable::NotRunnable;
 use crate::request::auto_or::MOST_STEPS;
-use crate::request::{AutoOr, Integration, SchemeChoice, SweepRequest};
+use crate::request::{AutoOr, Integration, SchemeChoice};
+use crate::resolved::ResolvedSweep;
 use crate::result::SchemeReport;
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
 use rubmap_wheel::dynamics::schemes::{Scheme, central_differences, exact_modal, massless_boundary};
@@ -44,17 +45,17 @@ const REACH: f64 = 2.0;
 pub(super) const SAFETY: f64 = 0.8;
 
 /// Half-width of the lobes that a scene's blades may touch, rad.
-fn lobe_width(request: &SweepRequest) -> Option<f64> {
+fn lobe_width(request: &ResolvedSweep) -> Option<f64> {
     request.scene.touched_lobes().map(|lobes| lobes.width_rad)
 }
 
 /// The smallest number of steps per revolution that sees the lobes of a scene.
-pub(super) fn least_steps_for_lobes(request: &SweepRequest) -> f64 {
+pub(super) fn least_steps_for_lobes(request: &ResolvedSweep) -> f64 {
     lobe_width(request).map_or(0.0, |width| (LEAST_STEPS_PER_WIDTH * TAU / width).ceil())
 }
 
 /// Steps per revolution that `"auto"` gives contact, and why.
-pub(super) fn steps_for_contact(request: &SweepRequest) -> (f64, &'static str) {
+pub(super) fn steps_for_contact(request: &ResolvedSweep) -> (f64, &'static str) {
     let lobes = lobe_width(request).map_or(0.0, |width| (AUTO_STEPS_PER_WIDTH * TAU / width).ceil());
     let rods = request.scene.abradable.as_ref().map_or(0.0, |coating| f64::from(coating.rods_around));
     let order = request.scene.engine_order_excitation.iter().map(|force| force.order).max().unwrap_or(0);
@@ -77,7 +78,7 @@ fn resolving_steps(wheel: &ModalWheel, speed_rad_s: f64) -> f64 {
 }
 
 /// Whether something else than contact acts on the modes, so that a step is no longer exact.
-fn is_driven(request: &SweepRequest) -> bool {
+fn is_driven(request: &ResolvedSweep) -> bool {
     let scene = &request.scene;
     scene.coriolis || scene.mistuning.is_some() || !scene.engine_order_excitation.is_empty()
 }
@@ -87,7 +88,7 @@ fn smallest_stable_steps(
     scheme: Scheme,
     wheel: &ModalWheel,
     contact_nodes: &[ContactNode],
-    request: &SweepRequest,
+    request: &ResolvedSweep,
 ) -> u64 {
     let smallest = scheme.smallest_stable_steps(wheel, contact_nodes);
     match scheme {
@@ -97,14 +98,14 @@ fn smallest_stable_steps(
 }
 
 /// Smallest stable number of steps for the waves of an elastic casing by central differences; 1 if it is rigid.
-pub(super) fn casing_limit(request: &SweepRequest, speed_rad_s: f64) -> u64 {
+pub(super) fn casing_limit(request: &ResolvedSweep, speed_rad_s: f64) -> u64 {
     let Some(casing) = &request.scene.flexible_casing else { return 1 };
     let highest = flexible_casing(casing).waves.iter().fold(0.0f64, |most, wave| most.max(wave.omega));
     central_differences::smallest_stable_steps(highest, speed_rad_s)
 }
 
 /// Contact nodes that may touch in this scene.
-pub(super) fn touching<'a>(contact_nodes: &'a [ContactNode], request: &SweepRequest) -> &'a [ContactNode] {
+pub(super) fn touching<'a>(contact_nodes: &'a [ContactNode], request: &ResolvedSweep) -> &'a [ContactNode] {
     if request.scene.contact.is_some() { contact_nodes } else { &[] }
 }
 
@@ -121,7 +122,7 @@ struct Scope<'a> {
     wheel: &'a ModalWheel,
     /// Empty if nothing may touch.
     contact_nodes: &'a [ContactNode],
-    request: &'a SweepRequest,
+    request: &'a ResolvedSweep,
     /// Steps per revolution given by the request.
     given: Option<u32>,
 }
@@ -131,7 +132,7 @@ impl Stepping {
     pub(super) fn choose(
         wheel: &ModalWheel,
         contact_nodes: &[ContactNode],
-        request: &SweepRequest,
+        request: &ResolvedSweep,
     ) -> Result<Self, NotRunnable> {
         let Integration { scheme, kept_modes, steps_per_revolution, .. } = request.integration;
         let given = match steps_per_revolution {
@@ -156,8 +157,7 @@ impl Scope<'_> {
     /// Resolves every mode if that price is bearable at the slowest speed, so that a sweep keeps to one scheme; otherwise
     /// lets the boundary go without mass.
     fn automatic(&self) -> Proposal {
-        let speeds = self.request.speeds.resolve().unwrap_or_default();
-        let slowest = speeds.into_iter().fold(self.wheel.speed_rad_s, f64::min);
+        let slowest = self.request.speeds.rad_s().iter().copied().fold(self.wheel.speed_rad_s, f64::min);
         let stiffest = resolving_steps(self.wheel, slowest);
         let affordable = self.given.map_or(PRICE_OF_STIFFNESS * steps_for_contact(self.request).0, f64::from);
         let mut proposal = self.exact();

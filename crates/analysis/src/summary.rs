@@ -8,7 +8,8 @@ use crate::effects::{flexible_casing, rotation};
 use crate::error::AnalysisError;
 use crate::model::ReducedSector;
 use crate::monitor::Monitor;
-use crate::request::{Sensor, SweepRequest};
+use crate::request::Sensor;
+use crate::resolved::ResolvedSweep;
 use crate::response_curve::ResponseCurve;
 use crate::result::{
     Coincidence, CriticalSpeed, CriticalSpeeds, Crossing, DrivenCrossing, ErrorEstimate, InteractionMap,
@@ -32,13 +33,13 @@ pub fn map_row(spectra: &SpeedSpectra, sensor: usize, nodal_diameter: Option<u32
 /// The interaction map of `sensor` from the speeds finished so far, in any order, each with its [`map_row`]; the plan is for
 /// the caller to add.
 pub fn interaction_map(
-    request: &SweepRequest,
+    request: &ResolvedSweep,
     units: &Units,
     finished: Vec<(Point, Option<Vec<f64>>)>,
     sensor: usize,
     nodal_diameter: Option<u32>,
 ) -> InteractionMap {
-    let speeds = request.speeds.resolve().unwrap_or_default();
+    let speeds = request.speeds.rad_s();
     let mut amplitude = vec![None; speeds.len()];
     let mut points = Vec::with_capacity(finished.len());
     for (point, row) in finished {
@@ -50,7 +51,7 @@ pub fn interaction_map(
     }
     points.sort_by_key(|point| point.index);
     InteractionMap {
-        speeds_rad_s: speeds,
+        speeds_rad_s: speeds.to_vec(),
         engine_orders: engine_orders(request.integration.window_revolutions, request.max_engine_order),
         amplitude,
         sensor: request.sensors[sensor],
@@ -62,7 +63,7 @@ pub fn interaction_map(
         stiffening: points.iter().filter_map(|point| point.stiffening).max(),
         points,
         errors: None,
-        settings: request.clone(),
+        settings: request.clone().into(),
         version: VERSION.to_owned(),
     }
 }
@@ -92,13 +93,13 @@ const PREDICTED_SUPERHARMONICS: [u32; 3] = [1, 2, 3];
 /// if they were estimated. The plan is for the caller to add.
 pub fn critical_speeds(
     reduced: &ReducedSector,
-    request: &SweepRequest,
+    request: &ResolvedSweep,
     points: &[Point],
     errors: Option<&ErrorEstimate>,
     monitor: &dyn Monitor,
 ) -> Result<Vec<CriticalSpeeds>, AnalysisError> {
-    let speeds = request.speeds.resolve().map_err(AnalysisError::Refused)?;
-    let curve = ResponseCurve::of(&speeds, points);
+    let speeds = request.speeds.rad_s();
+    let curve = ResponseCurve::of(speeds, points);
     let prediction = predict(reduced, request, &curve.speeds_rad_s, monitor)?;
     let completed: BTreeSet<u32> = curve.points.iter().flatten().map(|point| point.index).collect();
     let missing: Vec<u32> = (0..speeds.len() as u32).filter(|index| !completed.contains(index)).collect();
@@ -114,7 +115,7 @@ pub fn critical_speeds(
         plan: None,
         spent: Spent::on(points),
         units: reduced.units.clone(),
-        settings: request.clone(),
+        settings: request.clone().into(),
         reduction: reduced.report.clone(),
         version: VERSION.to_owned(),
     };
@@ -123,7 +124,7 @@ pub fn critical_speeds(
 
 /// Prominent peaks of one sensor's level over ascending speeds, each with the nearest linear crossing.
 fn response_peaks(
-    request: &SweepRequest,
+    request: &ResolvedSweep,
     curve: &ResponseCurve,
     sensor: usize,
     linear: &[Crossing],
@@ -168,7 +169,7 @@ struct Prediction {
 /// Crossings and coincidences over the range of a sweep.
 fn predict(
     reduced: &ReducedSector,
-    request: &SweepRequest,
+    request: &ResolvedSweep,
     ascending: &[f64],
     monitor: &dyn Monitor,
 ) -> Result<Prediction, AnalysisError> {

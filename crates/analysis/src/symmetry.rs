@@ -2,7 +2,7 @@
 
 use num_integer::gcd;
 
-use crate::request::Scene;
+use crate::resolved::Scene;
 use crate::result::FoundSymmetry;
 use rubmap_numerics::sector_fourier::harmonic_count;
 
@@ -30,10 +30,11 @@ pub(super) fn repeats(scene: &Scene, sectors: u32) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::resolved::from_json;
     use serde_json::{Value, json};
 
     fn of(scene: Value, sectors: u32) -> (u32, Vec<u32>) {
-        let found = FoundSymmetry::of(&serde_json::from_value(scene).unwrap(), sectors);
+        let found = FoundSymmetry::of(&from_json::scene(scene), sectors);
         assert_eq!(
             found.moving_nodal_diameters.len() + found.resting_nodal_diameters.len(),
             harmonic_count(sectors as usize)

@@ -15,6 +15,21 @@ pub enum Wave {
 
 /// Real orthonormal basis of functions over the sectors 0 … N−1, one column per wave, harmonics ascending:
 /// Fᵀ F = I. Column values are 1/√N for single waves (±) and √(2/N) cos, −√(2/N) sin for pairs.
+///
+/// ```
+/// use rubmap_numerics::sector_fourier::SectorFourier;
+///
+/// // Two nodal diameters over ten sectors belong to harmonic 2 alone, and keep their sum of squares.
+/// let basis = SectorFourier::new(10);
+/// let wave = |s: usize| (std::f64::consts::TAU * 2.0 * s as f64 / 10.0 + 0.3).cos();
+/// let mut squares = 0.0;
+/// for (column, &(harmonic, _)) in basis.columns().iter().enumerate() {
+///     let share: f64 = (0..10).map(|s| basis.row(s)[column] * wave(s)).sum();
+///     assert!(harmonic == 2 || share.abs() < 1e-14);
+///     squares += share * share;
+/// }
+/// assert!((squares - 5.0).abs() < 1e-14);
+/// ```
 #[derive(Debug, Clone)]
 pub struct SectorFourier {
     sectors: usize,

@@ -132,9 +132,7 @@ fn heading(campbell: &Campbell) -> Element {
     let model: String = settings.model.chars().take(12).collect();
     let words = format!(
         "{} modes per speed · {} lobes · model {model} · rubmap {}",
-        settings.modes(),
-        settings.lobes,
-        campbell.version
+        campbell.reduction.modes_per_speed, settings.lobes, campbell.version
     );
     let warning = campbell.reduction.stiffening.verdict.warning().map(str::to_owned);
     let paragraphs: Vec<String> = [words].into_iter().chain(warning).collect();

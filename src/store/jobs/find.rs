@@ -1,7 +1,10 @@
 //! One job, or a page of them.
 
-use super::job::{Job, JobId, JobKind};
-use super::row::read;
+use sqlx::AssertSqlSafe;
+
+use super::job::{Job, JobHead, JobId};
+use super::job_kind::JobKind;
+use super::row::{HEAD, read, read_head};
 use crate::store::error::StoreError;
 use crate::store::handle::Store;
 use crate::store::status::JobStatus;
@@ -31,12 +34,12 @@ impl Store {
     }
 
     /// Up to `limit` jobs that pass `filter`, newest first.
-    pub async fn jobs(&self, filter: JobFilter, limit: u32) -> Result<Vec<Job>, StoreError> {
-        sqlx::query(
-            "select * from jobs where deleted = 0 and (?1 is null or status = ?1) and (?2 is null or kind = ?2)
+    pub async fn jobs(&self, filter: JobFilter, limit: u32) -> Result<Vec<JobHead>, StoreError> {
+        sqlx::query(AssertSqlSafe(format!(
+            "select {HEAD} from jobs where deleted = 0 and (?1 is null or status = ?1) and (?2 is null or kind = ?2)
                  and (?3 is null or id < ?3) and (?5 is null or owner = ?5)
              order by id desc limit ?4",
-        )
+        )))
             .bind(filter.status.map(JobStatus::as_str))
             .bind(filter.kind.map(JobKind::as_str))
             .bind(filter.before.map(|id| id.to_string()))
@@ -45,7 +48,7 @@ impl Store {
             .fetch_all(&self.readers)
             .await?
             .iter()
-            .map(read)
+            .map(read_head)
             .collect()
     }
 }

@@ -1,6 +1,7 @@
 //! Keeping a new job.
 
-use super::job::{JobId, JobRequest};
+use super::job::JobId;
+use super::job_request::JobRequest;
 use crate::analysis::run::{ModelFacts, REVISION};
 use crate::store::error::StoreError;
 use crate::store::handle::Store;

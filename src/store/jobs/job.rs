@@ -4,11 +4,10 @@ use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 use uuid::Uuid;
 
+use super::job_kind::JobKind;
+use super::job_request::JobRequest;
 use crate::analysis::error::Violation;
-use crate::analysis::request::auto_or::AutoOr;
-use crate::analysis::request::{ModalAnalysisRequest, SweepRequest};
-use crate::analysis::run::{Choice, Estimate, ModelFacts, ModesChoice, StudyRequest};
-use crate::impeller::ImpellerParameters;
+use crate::analysis::run::{Choice, Estimate, ModelFacts, ModesChoice};
 use crate::store::status::JobStatus;
 
 /// Id of a job: a version 7 UUID, so that order of ids is order of age.
@@ -37,89 +36,6 @@ impl Default for JobId {
 impl std::fmt::Display for JobId {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         self.0.hyphenated().fmt(f)
-    }
-}
-
-/// Kind of a job.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum JobKind {
-    /// Contact simulations over speeds.
-    Sweep,
-    /// Natural frequencies over speeds.
-    ModalAnalysis,
-    /// A model from the parameters of the generator.
-    ModelGeneration,
-    /// Errors and times of a grid of settings.
-    Study,
-}
-
-impl JobKind {
-    /// The word on the wire and in the database.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Sweep => "sweep",
-            Self::ModalAnalysis => "modal_analysis",
-            Self::ModelGeneration => "model_generation",
-            Self::Study => "study",
-        }
-    }
-}
-
-/// What a job computes.
-#[derive(Debug, Clone, PartialEq)]
-pub enum JobRequest {
-    /// Contact simulations over speeds.
-    Sweep(Box<SweepRequest>),
-    /// Natural frequencies over speeds.
-    ModalAnalysis(ModalAnalysisRequest),
-    /// A model from the parameters of the generator.
-    ModelGeneration(Box<ImpellerParameters>),
-    /// Errors and times of a grid of settings.
-    Study(Box<StudyRequest>),
-}
-
-impl JobRequest {
-    /// Its kind.
-    pub fn kind(&self) -> JobKind {
-        match self {
-            Self::Sweep(_) => JobKind::Sweep,
-            Self::ModalAnalysis(_) => JobKind::ModalAnalysis,
-            Self::ModelGeneration(_) => JobKind::ModelGeneration,
-            Self::Study(_) => JobKind::Study,
-        }
-    }
-
-    /// The model it computes from, if it does.
-    pub fn model(&self) -> Option<&str> {
-        match self {
-            Self::Sweep(request) => Some(&request.model),
-            Self::ModalAnalysis(request) => Some(&request.model),
-            Self::ModelGeneration(_) => None,
-            Self::Study(request) => Some(&request.model),
-        }
-    }
-
-    /// `modes_per_speed` of the reduction that its results rest on, if there is one and it is known.
-    pub fn modes_per_speed(&self) -> Option<u32> {
-        let given = match self {
-            Self::Sweep(request) => request.modes_per_speed,
-            Self::ModalAnalysis(request) => request.modes_per_speed,
-            Self::ModelGeneration(_) | Self::Study(_) => AutoOr::Auto,
-        };
-        match given {
-            AutoOr::Auto => None,
-            AutoOr::Fixed(modes_per_speed) => Some(modes_per_speed),
-        }
-    }
-
-    pub(super) fn to_json(&self) -> Result<String, serde_json::Error> {
-        match self {
-            Self::Sweep(request) => serde_json::to_string(request),
-            Self::ModalAnalysis(request) => serde_json::to_string(request),
-            Self::ModelGeneration(parameters) => serde_json::to_string(parameters),
-            Self::Study(request) => serde_json::to_string(request),
-        }
     }
 }
 
@@ -167,21 +83,19 @@ pub enum Chosen {
     Modes(ModesChoice),
 }
 
-/// A stored job.
+/// A stored job as lists show it.
 #[derive(Debug, Clone)]
-pub struct Job {
+pub struct JobHead {
     /// Its id.
     pub id: JobId,
     /// Whose it is; empty where the service knows no owners.
     pub owner: String,
+    /// Its kind.
+    pub kind: JobKind,
     /// How far it is.
     pub status: JobStatus,
     /// The model it computes from, or the one that a finished generation made.
     pub model: Option<String>,
-    /// Facts of the model it computes from when it was accepted.
-    pub facts: Option<ModelFacts>,
-    /// The whole request as resolved, and as revised since: see [`Store::revise_request`](crate::store::Store::revise_request).
-    pub request: JobRequest,
     /// Percent of the work done.
     pub progress: u8,
     /// What runs now, in words.
@@ -190,10 +104,6 @@ pub struct Job {
     pub speeds: SpeedCounts,
     /// Bytes that its results take in the database.
     pub stored_bytes: u64,
-    /// What a sweep was expected to cost when its first speeds were queued.
-    pub plan: Option<Estimate>,
-    /// The settings that were chosen for it.
-    pub choice: Option<Chosen>,
     /// Why it failed.
     pub failure: Option<Failure>,
     /// RFC 3339, as all below.
@@ -204,6 +114,29 @@ pub struct Job {
     pub finished_at: Option<String>,
     /// When anything of the above last changed.
     pub updated_at: String,
+}
+
+/// A stored job.
+#[derive(Debug, Clone)]
+pub struct Job {
+    /// What lists show of it.
+    pub head: JobHead,
+    /// Facts of the model it computes from when it was accepted.
+    pub facts: Option<ModelFacts>,
+    /// The whole request as resolved, and as revised since: see [`Store::revise_request`](crate::store::Store::revise_request).
+    pub request: JobRequest,
+    /// What a sweep was expected to cost when its first speeds were queued.
+    pub plan: Option<Estimate>,
+    /// The settings that were chosen for it.
+    pub choice: Option<Chosen>,
+}
+
+impl std::ops::Deref for Job {
+    type Target = JobHead;
+
+    fn deref(&self) -> &JobHead {
+        &self.head
+    }
 }
 
 /// Speeds of a job, counted.

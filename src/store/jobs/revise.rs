@@ -1,6 +1,7 @@
 //! Another request for a job that is running.
 
-use super::job::{JobId, JobRequest};
+use super::job::JobId;
+use super::job_request::JobRequest;
 use crate::store::error::StoreError;
 use crate::store::handle::Store;
 use crate::store::time::now;
@@ -38,14 +39,16 @@ mod tests {
     use serde_json::json;
 
     use super::*;
+    use crate::store::jobs::JobKind;
     use crate::store::status::JobStatus;
 
     fn sweep(modes_per_speed: u32, speeds: u32) -> JobRequest {
-        let request = serde_json::from_value(json!({
+        let request = json!({
             "model": "m", "modes_per_speed": modes_per_speed, "scene": {},
             "speeds": {"from": 1.0, "to": 2.0, "count": speeds, "unit": "hz"},
-        }));
-        JobRequest::Sweep(request.unwrap())
+        });
+        let kept = json!({"schema": 1, "rounds": 0, "request": request});
+        JobRequest::from_json(JobKind::Sweep, &kept.to_string()).unwrap()
     }
 
     #[tokio::test]

@@ -3,7 +3,9 @@
 use sqlx::Row;
 use sqlx::sqlite::SqliteRow;
 
-use super::job::{Job, JobId, JobRequest, SpeedCounts};
+use super::job::{Job, JobHead, JobId, SpeedCounts};
+use super::job_kind::JobKind;
+use super::job_request::JobRequest;
 use crate::store::error::StoreError;
 use crate::store::status::JobStatus;
 
@@ -22,30 +24,25 @@ pub(super) fn read_id(text: &str) -> Result<JobId, StoreError> {
     JobId::parse(text).ok_or_else(|| StoreError::Unknown { column: "jobs.id", value: text.to_owned() })
 }
 
-pub(crate) fn read(row: &SqliteRow) -> Result<Job, StoreError> {
-    let kind: &str = row.try_get("kind")?;
-    let request: &str = row.try_get("request")?;
-    let request = match kind {
-        "sweep" => JobRequest::Sweep(serde_json::from_str(request)?),
-        "modal_analysis" => JobRequest::ModalAnalysis(serde_json::from_str(request)?),
-        "study" => JobRequest::Study(serde_json::from_str(request)?),
-        "model_generation" => JobRequest::ModelGeneration(serde_json::from_str(request)?),
-        _ => return Err(StoreError::Unknown { column: "jobs.kind", value: kind.to_owned() }),
-    };
+/// The columns of [`read_head`].
+pub(super) const HEAD: &str = "id, owner, kind, status, model, progress, phase, speeds, finished, diverged, failed, stored_bytes, error,
+    created_at, started_at, finished_at, updated_at";
+
+pub(super) fn read_head(row: &SqliteRow) -> Result<JobHead, StoreError> {
+    let kind = JobKind::from_column(row.try_get("kind")?)?;
     let status = JobStatus::from_column(row.try_get("status")?)?;
     let total = row.try_get("speeds")?;
-    let finished = match (&request, status) {
+    let finished = match (kind, status) {
         // These compute their speeds together.
-        (JobRequest::ModalAnalysis(_) | JobRequest::Study(_), JobStatus::Successful) => total,
+        (JobKind::ModalAnalysis | JobKind::Study, JobStatus::Successful) => total,
         _ => row.try_get("finished")?,
     };
-    Ok(Job {
+    Ok(JobHead {
         id: read_id(row.try_get("id")?)?,
         owner: row.try_get("owner")?,
+        kind,
         status,
         model: row.try_get("model")?,
-        facts: row.try_get::<Option<&str>, _>("facts")?.map(serde_json::from_str).transpose()?,
-        request,
         progress: row.try_get("progress")?,
         phase: row.try_get("phase")?,
         speeds: SpeedCounts {
@@ -55,12 +52,21 @@ pub(crate) fn read(row: &SqliteRow) -> Result<Job, StoreError> {
             failed: row.try_get("failed")?,
         },
         stored_bytes: row.try_get::<i64, _>("stored_bytes")?.unsigned_abs(),
-        plan: row.try_get::<Option<&str>, _>("plan")?.map(serde_json::from_str).transpose()?,
-        choice: row.try_get::<Option<&str>, _>("choice")?.map(serde_json::from_str).transpose()?,
         failure: row.try_get::<Option<&str>, _>("error")?.map(serde_json::from_str).transpose()?,
         created_at: row.try_get("created_at")?,
         started_at: row.try_get("started_at")?,
         finished_at: row.try_get("finished_at")?,
         updated_at: row.try_get("updated_at")?,
+    })
+}
+
+pub(crate) fn read(row: &SqliteRow) -> Result<Job, StoreError> {
+    let head = read_head(row)?;
+    Ok(Job {
+        request: JobRequest::from_json(head.kind, row.try_get("request")?)?,
+        facts: row.try_get::<Option<&str>, _>("facts")?.map(serde_json::from_str).transpose()?,
+        plan: row.try_get::<Option<&str>, _>("plan")?.map(serde_json::from_str).transpose()?,
+        choice: row.try_get::<Option<&str>, _>("choice")?.map(serde_json::from_str).transpose()?,
+        head,
     })
 }

@@ -9,8 +9,9 @@
 
 use crate::accuracy::rung::{Pilots, Rung, finer_modes, pilot_speeds};
 use crate::error::Violation;
+use crate::request::SweepDirection;
 use crate::request::auto_or::MOST_STEPS;
-use crate::request::{SweepDirection, SweepRequest, TrialRequest};
+use crate::resolved::{Aim, Modes, ResolvedSweep, TrialRequest};
 use crate::result::{Choice, Trial};
 
 /// What comes next.
@@ -48,7 +49,7 @@ const PILOT_SHARE: f64 = 0.4;
 
 /// Chooses for a resolved sweep of a wheel of `sectors`; `trial` looks up a run that is known.
 pub fn next<'a>(
-    request: &SweepRequest,
+    request: &ResolvedSweep,
     sectors: u32,
     resources: &Resources,
     trial: &dyn Fn(&TrialRequest) -> Option<&'a Trial>,
@@ -56,16 +57,16 @@ pub fn next<'a>(
     let most_modes = resources.most_modes;
     let pilots = Pilots { request, sectors, most_modes, speeds: pilot_speeds(request), trial };
     let climb = Climb { request, resources, pilots };
-    match (&request.accuracy, &request.budget) {
-        (Some(accuracy), _) => climb.to_target(accuracy.target),
-        (None, Some(budget)) => climb.within(budget.seconds),
-        (None, None) => Next::Refuse(Violation::new("/accuracy", "there is no target and no budget")),
+    match request.modes {
+        Modes::Sought(Aim::Accuracy(accuracy)) => climb.to_target(accuracy.target),
+        Modes::Sought(Aim::Budget(budget)) => climb.within(budget.seconds),
+        Modes::Given(_) => Next::Refuse(Violation::new("/accuracy", "there is no target and no budget")),
     }
 }
 
 /// A climb over settings.
 struct Climb<'a, 'b> {
-    request: &'b SweepRequest,
+    request: &'b ResolvedSweep,
     resources: &'b Resources,
     pilots: Pilots<'a, 'b>,
 }
@@ -138,7 +139,7 @@ impl Climb<'_, '_> {
             match self.pilots.rung((modes, finer, steps), tried.last()) {
                 Ok(rung) => tried.push(rung),
                 Err(missing) => {
-                    let needed = missing.first().map_or(modes, |request| request.sweep.modes());
+                    let needed = missing.first().map_or(modes, |request| request.sweep.modes_per_speed());
                     let reduction = self.reduction_s(needed);
                     if reduction <= PLANNED_SHARE * left {
                         return Next::Run(missing);
@@ -210,9 +211,10 @@ impl Climb<'_, '_> {
     }
 
     fn choice(&self, rung: &Rung, steps: u32, error_of_steps: f64, tried: &[Rung], reason: String) -> Choice {
+        let (_, accuracy, budget) = self.request.modes.fields();
         Choice {
-            accuracy: self.request.accuracy,
-            budget: self.request.budget,
+            accuracy,
+            budget,
             setting: self.pilots.setting(rung.modes, steps),
             estimated_error: rung.error_of_modes + error_of_steps + rung.spread,
             error_of_modes: rung.error_of_modes,
@@ -238,9 +240,9 @@ impl Climb<'_, '_> {
 
     /// Wall time of all speeds and of those that are simulated again with twice the modes and steps.
     fn sweep_wall(&self, rung: &Rung, steps: u32) -> f64 {
-        let speeds = self.request.speeds.resolve().map_or(0, |speeds| speeds.len());
+        let speeds = self.request.speeds.rad_s().len();
         let run = self.run_s(rung, steps);
-        let control = self.wall(self.request.controls().min(speeds), 4.0 * run);
+        let control = self.wall(self.request.control_speeds().min(speeds), 4.0 * run);
         match self.request.sweep {
             SweepDirection::Independent => self.wall(speeds, run) + control,
             // One after the other.

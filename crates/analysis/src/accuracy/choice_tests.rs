@@ -5,21 +5,22 @@ use std::cell::Cell;
 use serde_json::json;
 
 use crate::accuracy::choice::{Next, Resources, next};
-use crate::request::{AutoOr, SweepRequest, TrialRequest};
+use crate::request::AutoOr;
+use crate::resolved::{ResolvedSweep, TrialRequest, from_json};
 use crate::result::{Choice, Cost, Trial};
 use rubmap_wheel::response::sensitivity::{Growth, Sensitivity};
 
 /// What a run at (k, S) and a speed shows: its level, or none if it diverges, and whether it repeats.
 type Response<'a> = &'a dyn Fn(f64, f64, f64) -> (Option<f64>, bool);
 
-fn request(asked: serde_json::Value) -> SweepRequest {
+fn request(asked: serde_json::Value) -> ResolvedSweep {
     let mut body = json!({
         "model": "", "speeds": {"from": 100, "to": 400, "count": 31, "unit": "rad_s"}, "scene": {},
         "sensors": [{"contact_node": 0, "component": "radial"}], "max_engine_order": 4, "control_speeds": 0,
         "integration": {"revolutions": 10, "window_revolutions": 5},
     });
     body.as_object_mut().unwrap().extend(asked.as_object().unwrap().clone());
-    serde_json::from_value(body).unwrap()
+    from_json::sweep(body)
 }
 
 fn resources() -> Resources {
@@ -30,11 +31,11 @@ fn resources() -> Resources {
 const STEP_S: f64 = 1e-7;
 
 fn trial(request: &TrialRequest, response: Response, growth: Growth) -> Trial {
-    let speed = request.sweep.speeds.resolve().unwrap()[0];
+    let speed = request.speed_rad_s();
     let AutoOr::Fixed(steps) = request.sweep.integration.steps_per_revolution else {
         panic!("no fixed step")
     };
-    let modes = f64::from(request.sweep.modes());
+    let modes = f64::from(request.sweep.modes_per_speed());
     let (level, repeats) = response(modes, f64::from(steps), speed);
     let settling = json!({"verdict": if repeats { "periodic" } else { "aperiodic" }});
     let responses = json!([{"sensor": {"contact_node": 0, "component": "radial"}, "mean": 0.0, "rms": level,
@@ -49,7 +50,7 @@ fn trial(request: &TrialRequest, response: Response, growth: Growth) -> Trial {
     let lines = level.map(|level| vec![vec![level, 0.0]]).unwrap_or_default();
     Trial {
         point: serde_json::from_value(point).unwrap(),
-        unknowns: request.sweep.modes(),
+        unknowns: request.sweep.modes_per_speed(),
         lines,
         levels: vec![vec![1.0, 1.1, 0.9, 1.05, 0.95]],
         history: Vec::new(),
@@ -73,7 +74,7 @@ fn trial(request: &TrialRequest, response: Response, growth: Growth) -> Trial {
 
 /// Lets the pilots run until there is a choice or a refusal; with the number of runs.
 fn choose(
-    request: &SweepRequest,
+    request: &ResolvedSweep,
     resources: &Resources,
     response: Response,
 ) -> (Result<Choice, String>, usize) {
@@ -83,7 +84,7 @@ fn choose(
 /// The same where a tiny perturbation of any run behaves like `growth`.
 fn choose_of(
     growth: Growth,
-    request: &SweepRequest,
+    request: &ResolvedSweep,
     resources: &Resources,
     response: Response,
 ) -> (Result<Choice, String>, usize) {

@@ -3,7 +3,8 @@
 use crate::accuracy::errors::Response;
 use crate::accuracy::rung::{SAFETY, estimate, evenly_spread, finer_modes};
 use crate::request::auto_or::MOST_STEPS;
-use crate::request::{AutoOr, SchemeChoice, Setting, SweepRequest, TrialRequest};
+use crate::request::{AutoOr, SchemeChoice, Setting};
+use crate::resolved::{ResolvedSweep, TrialRequest};
 use crate::result::{Control, ErrorEstimate, Point, PointError, PointStatus, SpeedSpectra, Trial};
 use rubmap_wheel::response::critical_speed::peaks;
 
@@ -23,7 +24,7 @@ pub struct FinerRun<'a> {
 /// The speeds of a finished sweep that are simulated again, by index, with what is run; from the points of all speeds. `most_modes`
 /// is the largest reduction that memory allows, if that is known.
 pub fn control_requests(
-    request: &SweepRequest,
+    request: &ResolvedSweep,
     sectors: u32,
     points: &[Point],
     most_modes: Option<u32>,
@@ -31,7 +32,7 @@ pub fn control_requests(
     let mut ascending: Vec<&Point> =
         points.iter().filter(|point| point.status == PointStatus::Completed).collect();
     ascending.sort_by(|a, b| a.speed_rad_s.total_cmp(&b.speed_rad_s));
-    let wanted = request.controls().min(ascending.len());
+    let wanted = request.control_speeds().min(ascending.len());
     let level = |point: &&Point| Some(point.responses.iter().map(|r| r.rms).fold(0.0, f64::max));
     let mut prominent = peaks(&ascending.iter().map(level).collect::<Vec<_>>(), 0.0);
     prominent.sort_by(|a, b| b.prominence.total_cmp(&a.prominence).then(a.index.cmp(&b.index)));
@@ -48,10 +49,11 @@ pub fn control_requests(
 }
 
 /// Twice the modes, as far as memory allows, and twice the steps, by the exact propagator with mass.
-fn finer_setting(request: &SweepRequest, sectors: u32, point: &Point, most_modes: Option<u32>) -> Setting {
+fn finer_setting(request: &ResolvedSweep, sectors: u32, point: &Point, most_modes: Option<u32>) -> Setting {
     let steps = point.steps_per_revolution.saturating_mul(2).min(MOST_STEPS);
     Setting {
-        modes_per_speed: finer_modes(request.modes(), most_modes).unwrap_or(request.modes()),
+        modes_per_speed: finer_modes(request.modes_per_speed(), most_modes)
+            .unwrap_or(request.modes_per_speed()),
         scheme: SchemeChoice::ExactModal,
         kept_modes: AutoOr::Auto,
         steps_per_revolution: Setting::aligned_steps(steps, request, sectors),
@@ -61,7 +63,7 @@ fn finer_setting(request: &SweepRequest, sectors: u32, point: &Point, most_modes
 /// Estimated errors of all completed speeds from the finer runs of some, each given with the spectra of the speed itself, and
 /// whether they are within `target` if there is one.
 pub fn error_estimate(
-    request: &SweepRequest,
+    request: &ResolvedSweep,
     target: Option<f64>,
     points: &[Point],
     controls: &[FinerRun<'_>],
@@ -85,7 +87,8 @@ pub fn error_estimate(
     let completed = points.iter().filter(|point| point.status == PointStatus::Completed).count();
     let points = point_errors(points, &controls);
     let largest = points.iter().map(|point| point.estimated_error).reduce(f64::max);
-    let with_modes = controls.iter().all(|control| control.setting.modes_per_speed > request.modes());
+    let with_modes =
+        controls.iter().all(|control| control.setting.modes_per_speed > request.modes_per_speed());
     let all_known = points.len() == completed;
     let within = |target: f64| all_known && largest.is_none_or(|largest| largest <= target);
     let target_met = target.filter(|_| with_modes || !all_known).map(within);

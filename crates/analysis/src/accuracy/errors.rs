@@ -1,7 +1,7 @@
 //! How far a run is from a finer one.
 
 use crate::accuracy::trial::lines;
-use crate::request::SweepRequest;
+use crate::resolved::ResolvedSweep;
 use crate::result::trial::repeats;
 use crate::result::{Errors, Point, SpeedSpectra, Trial};
 
@@ -28,7 +28,7 @@ impl<'a> Response<'a> {
     }
 
     /// Of a speed of a sweep.
-    pub(super) fn of_speed(point: &Point, spectra: &SpeedSpectra, request: &SweepRequest) -> Self {
+    pub(super) fn of_speed(point: &Point, spectra: &SpeedSpectra, request: &ResolvedSweep) -> Self {
         Self { lines: lines(spectra, request), ..Self::of_point(point) }
     }
 

@@ -1,47 +1,20 @@
-//! What a convergence study asks for: a scene, a few speeds, a grid of settings.
+//! The runs of a convergence study: the settings of its grid at every speed, and the reference.
 
-use crate::request::sweep::default_peak_prominence;
-use crate::request::{
-    AutoOr, Integration, SchemeChoice, Setting, StudyRequest, SweepDirection, SweepRequest, TrialRequest,
-};
+use crate::request::{AutoOr, SchemeChoice, Setting};
 use crate::resolve::limits;
+use crate::resolved::{ResolvedStudy, TrialRequest};
 
 /// A level finer than the finest of a grid: so many times its steps and, where it has a single size, its modes.
 pub(crate) const FINER: u32 = 2;
 
-impl StudyRequest {
-    /// The sweep that its runs are speeds of.
-    pub(crate) fn sweep(&self) -> SweepRequest {
-        SweepRequest {
-            model: self.model.clone(),
-            modes_per_speed: AutoOr::Auto,
-            speeds: self.speeds.clone(),
-            scene: self.scene.clone(),
-            integration: Integration {
-                revolutions: self.integration.revolutions,
-                ramp_revolutions: self.integration.ramp_revolutions,
-                window_revolutions: self.integration.window_revolutions,
-                ..Integration::default()
-            },
-            sensors: self.sensors.clone(),
-            max_engine_order: self.max_engine_order,
-            peak_prominence: default_peak_prominence(),
-            sweep: SweepDirection::Independent,
-            refine: false,
-            accuracy: None,
-            budget: None,
-            control_speeds: None,
-        }
-    }
-
+impl ResolvedStudy {
     /// Every setting of the grid, sizes first, on a wheel of `sectors`. Steps that come out the same are taken once.
     pub(crate) fn settings(&self, sectors: u32) -> Vec<Setting> {
-        let sweep = self.sweep();
         let mut steps: Vec<u32> = self
             .grid
             .steps_per_revolution
             .iter()
-            .map(|&s| Setting::aligned_steps(s, &sweep, sectors))
+            .map(|&s| Setting::aligned_steps(s, &self.sweep, sectors))
             .collect();
         steps.sort_unstable();
         steps.dedup();
@@ -82,17 +55,16 @@ impl StudyRequest {
             modes_per_speed: finer.min(limits::MODES_PER_SPEED),
             scheme: SchemeChoice::ExactModal,
             kept_modes: AutoOr::Auto,
-            steps_per_revolution: FINER * Setting::aligned_steps(steps, &self.sweep(), sectors),
+            steps_per_revolution: FINER * Setting::aligned_steps(steps, &self.sweep, sectors),
         }
     }
 
     /// At `speed_rad_s`: the reference, which has the twin, and the grid.
     pub(crate) fn trials(&self, speed_rad_s: f64, sectors: u32) -> (TrialRequest, Vec<TrialRequest>) {
-        let sweep = self.sweep();
         let trial = |setting, twin| TrialRequest {
             history_revolutions: self.history_revolutions,
             twin,
-            ..TrialRequest::new(&sweep, speed_rad_s, setting)
+            ..TrialRequest::new(&self.sweep, speed_rad_s, setting)
         };
         let reference = trial(self.reference(sectors), true);
         (reference, self.settings(sectors).into_iter().map(|setting| trial(setting, false)).collect())
@@ -101,12 +73,12 @@ impl StudyRequest {
     /// All trials of a resolved study on a wheel of `sectors`, those of few modes first.
     pub fn all_trials(&self, sectors: u32) -> Vec<TrialRequest> {
         let mut trials = Vec::new();
-        for speed in self.speeds.resolve().unwrap_or_default() {
+        for &speed in self.speeds().rad_s() {
             let (reference, grid) = self.trials(speed, sectors);
             trials.extend(grid);
             trials.push(reference);
         }
-        trials.sort_by_key(|trial| trial.sweep.modes());
+        trials.sort_by_key(|trial| trial.sweep.modes_per_speed());
         trials
     }
 }

@@ -5,7 +5,8 @@
 use crate::accuracy::choice::{PLANNED_SHARE, Resources};
 use crate::accuracy::rung::finer_modes;
 use crate::error::Violation;
-use crate::request::{Accuracy, ModalAnalysisRequest};
+use crate::request::Accuracy;
+use crate::resolved::ResolvedModalAnalysis;
 use crate::result::{ModesChoice, ReductionReport, TriedModes};
 
 /// What comes next.
@@ -24,11 +25,11 @@ const FIRST_MODES: u32 = 10;
 
 /// Chooses for a resolved modal analysis from the reductions known so far.
 pub fn next_modes(
-    request: &ModalAnalysisRequest,
+    request: &ResolvedModalAnalysis,
     resources: &Resources,
     reports: &[ReductionReport],
 ) -> NextModes {
-    let ModalAnalysisRequest { accuracy, budget, .. } = *request;
+    let (_, accuracy, budget) = request.modes.fields();
     let mut modes = FIRST_MODES.min(resources.most_modes.unwrap_or(u32::MAX));
     let mut tried: Vec<TriedModes> = Vec::new();
     loop {

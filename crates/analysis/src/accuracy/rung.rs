@@ -2,8 +2,9 @@
 
 use crate::accuracy::errors::errors;
 use crate::request::auto_or::MOST_STEPS;
-use crate::request::{AutoOr, SchemeChoice, Setting, SweepRequest, TrialRequest};
+use crate::request::{AutoOr, SchemeChoice, Setting};
 use crate::resolve::limits;
+use crate::resolved::{ResolvedSweep, TrialRequest};
 use crate::result::{Errors, Pilot, Trial};
 use crate::stepping::steps_for_contact;
 use rubmap_wheel::response::sensitivity::Growth;
@@ -36,8 +37,8 @@ pub(super) fn evenly_spread<T: Copy>(values: &[T], count: usize) -> Vec<T> {
 }
 
 /// Pilot speeds of a sweep, ascending: all, or evenly spread over the ascending speeds, both ends included.
-pub fn pilot_speeds(request: &SweepRequest) -> Vec<f64> {
-    let mut speeds = request.speeds.ascending().unwrap_or_default();
+pub fn pilot_speeds(request: &ResolvedSweep) -> Vec<f64> {
+    let mut speeds = request.speeds.ascending();
     speeds.dedup();
     evenly_spread(&speeds, PILOT_SPEEDS)
 }
@@ -122,7 +123,7 @@ impl Rung {
 
 /// The pilot runs of a sweep.
 pub(super) struct Pilots<'a, 'b> {
-    pub(super) request: &'b SweepRequest,
+    pub(super) request: &'b ResolvedSweep,
     pub(super) sectors: u32,
     /// Most modes that memory allows, if that is known.
     pub(super) most_modes: Option<u32>,
@@ -195,8 +196,8 @@ impl<'a> Pilots<'a, '_> {
             }
         }
         // Few modes first: what their reduction takes tells what the next one will.
-        let fewest = missing.iter().map(|request| request.sweep.modes()).min();
-        missing.retain(|request| Some(request.sweep.modes()) == fewest);
+        let fewest = missing.iter().map(|request| request.sweep.modes_per_speed()).min();
+        missing.retain(|request| Some(request.sweep.modes_per_speed()) == fewest);
         if missing.is_empty() { Ok(rung) } else { Err(missing) }
     }
 

@@ -1,7 +1,8 @@
 //! What a convergence study says: errors, times, observed orders and the Pareto front (work and precision), and histories.
 
 use crate::accuracy::errors::{errors, history_error};
-use crate::request::{SchemeChoice, Setting, StudyRequest, TrialRequest};
+use crate::request::{SchemeChoice, Setting};
+use crate::resolved::{ResolvedStudy, TrialRequest};
 use crate::result::{
     Histories, HistoryLine, PointStatus, Quantity, ReductionReport, SpeedStudy, StepOrder, StudyReduction,
     StudyRun, Trial, WorkPrecision, front,
@@ -42,13 +43,13 @@ impl Tried<'_> {
 /// What the finished trials of a resolved study say, with a document of histories for every speed; `trial` looks one up. None if
 /// one is missing.
 pub fn work_precision<'a>(
-    request: &StudyRequest,
+    request: &ResolvedStudy,
     (sectors, units): (u32, &Units),
     reports: &[ReductionReport],
     trial: &dyn Fn(&TrialRequest) -> Option<&'a Trial>,
 ) -> Option<(WorkPrecision, Vec<Histories>)> {
     let (mut speeds, mut histories) = (Vec::new(), Vec::new());
-    for speed_rad_s in request.speeds.resolve().unwrap_or_default() {
+    for &speed_rad_s in request.speeds().rad_s() {
         let (reference, grid) = request.trials(speed_rad_s, sectors);
         let reference = Tried { setting: request.reference(sectors), trial: trial(&reference)? };
         let settings = request.settings(sectors).into_iter().zip(&grid);
@@ -66,12 +67,12 @@ pub fn work_precision<'a>(
             stiffening: Some(report.stiffening.verdict),
         })
         .collect();
-    let settings = request.clone();
+    let settings = request.clone().into();
     Some((WorkPrecision { speeds, reductions, settings, version: VERSION.to_owned() }, histories))
 }
 
-fn speed_study(request: &StudyRequest, speed_rad_s: f64, reference: &Tried, tried: &[Tried]) -> SpeedStudy {
-    let revolutions = request.integration.revolutions;
+fn speed_study(request: &ResolvedStudy, speed_rad_s: f64, reference: &Tried, tried: &[Tried]) -> SpeedStudy {
+    let revolutions = request.sweep.integration.revolutions;
     let mut runs: Vec<StudyRun> =
         tried.iter().map(|tried| tried.run(Some(reference.trial), revolutions)).collect();
     // Trajectories that have separated differ by chance.
@@ -166,7 +167,7 @@ fn orders(tried: &[Tried]) -> Vec<StepOrder> {
 }
 
 fn history_lines(
-    request: &StudyRequest,
+    request: &ResolvedStudy,
     speed_rad_s: f64,
     units: &Units,
     reference: &Tried,
@@ -194,7 +195,7 @@ fn history_lines(
     let shown = grid.chain(reference.completed().then_some((reference, true)));
     Histories {
         speed_rad_s,
-        sensors: request.sensors.clone(),
+        sensors: request.sensors().to_vec(),
         // A run that was not made has none.
         samples_per_revolution: samples.max().unwrap_or(0),
         lines: shown.map(line).collect(),

@@ -10,8 +10,9 @@ use crate::error::AnalysisError;
 use crate::model::ReducedSector;
 use crate::monitor::Monitor;
 use crate::record::record_run;
+use crate::request::Setting;
 use crate::request::auto_or::MOST_STEPS;
-use crate::request::{AutoOr, Setting, SweepRequest, TrialRequest};
+use crate::resolved::{ResolvedSweep, TrialRequest};
 use crate::result::{Cost, SpeedSpectra, Trial};
 use crate::speed::{Start, empty_point, ready, simulate};
 use crate::stepping::Stepping;
@@ -20,20 +21,9 @@ use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
 use rubmap_wheel::response::sensitivity;
 
 impl Setting {
-    /// `request` with these knobs.
-    #[must_use]
-    pub fn on(self, request: &SweepRequest) -> SweepRequest {
-        let mut request = request.clone();
-        request.modes_per_speed = AutoOr::Fixed(self.modes_per_speed);
-        request.integration.scheme = self.scheme;
-        request.integration.kept_modes = self.kept_modes;
-        request.integration.steps_per_revolution = AutoOr::Fixed(self.steps_per_revolution);
-        request
-    }
-
     /// At least `steps` per revolution, so many that the histories of all settings of `request` share their instants on a wheel
     /// of `sectors`.
-    pub(super) fn aligned_steps(steps: u32, request: &SweepRequest, sectors: u32) -> u32 {
+    pub(super) fn aligned_steps(steps: u32, request: &ResolvedSweep, sectors: u32) -> u32 {
         let aligned = aligned_samples(request, sectors as usize) as u32;
         let most = MOST_STEPS / aligned * aligned;
         steps.checked_next_multiple_of(aligned).map_or(most, |steps| steps.min(most))
@@ -52,14 +42,14 @@ const MOST_REPETITIONS: usize = 5;
 /// status and message of its point.
 ///
 /// # Errors
-/// Cancellation, and a request that was never resolved.
+/// Cancellation.
 pub fn run_trial(
     reduced: &ReducedSector,
     request: &TrialRequest,
     monitor: &dyn Monitor,
 ) -> Result<Trial, AnalysisError> {
     let sweep = &request.sweep;
-    let speed_rad_s = sweep.speeds.resolve().map_err(AnalysisError::Refused)?[0];
+    let speed_rad_s = request.speed_rad_s();
     let mut trial = Trial {
         point: empty_point(reduced, sweep, 0, speed_rad_s),
         unknowns: 0,
@@ -148,7 +138,7 @@ fn levels(window: &[f64], samples_per_revolution: usize) -> Vec<f64> {
 }
 
 /// `[sensor][engine order]`: amplitudes at the integer engine orders from 1 on.
-pub(super) fn lines(spectra: &SpeedSpectra, request: &SweepRequest) -> Vec<Vec<f64>> {
+pub(super) fn lines(spectra: &SpeedSpectra, request: &ResolvedSweep) -> Vec<Vec<f64>> {
     let window = request.integration.window_revolutions as usize;
     let orders = |amplitude: &[f64]| amplitude.iter().skip(window).step_by(window).copied().collect();
     spectra.sensors.iter().map(|sensor| orders(&sensor.amplitude)).collect()

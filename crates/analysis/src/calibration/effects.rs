@@ -6,7 +6,7 @@ use super::wheel::STEPS;
 use crate::calibration::size::StepSize;
 use crate::calibration::wheel::{Case, SPEED, StepSeconds, Wheel, measure};
 use crate::effects::flexible_casing;
-use crate::request::Scene;
+use crate::resolved::Scene;
 use rubmap_wheel::dynamics::contact::coating::{Coating, CoatingMaterial};
 use rubmap_wheel::dynamics::contact::friction::sliding_directions;
 use rubmap_wheel::dynamics::direction::Direction;
@@ -236,7 +236,7 @@ mod tests {
     fn a_scene_pays_for_what_it_names() {
         let wheel = Wheel::new(4, 2, 8);
         let of = |scene: serde_json::Value| {
-            let scene = serde_json::from_value(scene).unwrap();
+            let scene = crate::resolved::from_json::scene(scene);
             EffectSizes::of(&scene, wheel.modal(), Scheme::ExactModal, 2).0
         };
         assert_eq!(of(serde_json::json!({})), Parts::default());

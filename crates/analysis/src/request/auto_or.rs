@@ -15,16 +15,6 @@ pub enum AutoOr {
     Fixed(u32),
 }
 
-impl AutoOr {
-    /// The number, or `chosen` if the program may choose.
-    pub(crate) fn or(self, chosen: u32) -> u32 {
-        match self {
-            Self::Auto => chosen,
-            Self::Fixed(number) => number,
-        }
-    }
-}
-
 impl Serialize for AutoOr {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self {

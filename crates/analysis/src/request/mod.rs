@@ -7,10 +7,10 @@ pub mod modal_analysis;
 mod omit;
 pub mod scene;
 pub mod sensor;
+pub mod setting;
 pub mod speeds;
 pub mod study;
 pub mod sweep;
-pub mod trial;
 
 pub use accuracy::{Accuracy, Budget};
 pub use auto_or::AutoOr;
@@ -21,7 +21,7 @@ pub use scene::{
     Friction, Initial, InitialWave, Lobes, Mistuning, Orbit, Probe, Ring, Scene, Symmetry,
 };
 pub use sensor::{Component, Sensor};
+pub use setting::Setting;
 pub use speeds::{HIGHEST_SPEED, MAX_SPEEDS, SpeedSet, SpeedUnit, Speeds};
 pub use study::{Grid, StudyIntegration, StudyRequest};
 pub use sweep::{SweepDirection, SweepRequest};
-pub use trial::{Setting, TrialRequest};

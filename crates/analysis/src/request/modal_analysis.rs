@@ -6,7 +6,7 @@ use crate::request::accuracy::{Accuracy, Budget};
 use crate::request::auto_or::AutoOr;
 use crate::request::omit::is_false;
 use crate::request::speeds::Speeds;
-use crate::request::sweep::{DEFAULT_MODES_PER_SPEED, default_max_engine_order};
+use crate::request::sweep::default_max_engine_order;
 
 /// Natural frequencies over speed and the linear interaction criterion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -48,23 +48,6 @@ pub struct ModalAnalysisRequest {
     /// A time to keep in place of `modes_per_speed`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub budget: Option<Budget>,
-}
-
-impl ModalAnalysisRequest {
-    /// k of a resolved request.
-    pub fn modes(&self) -> u32 {
-        self.modes_per_speed.or(DEFAULT_MODES_PER_SPEED)
-    }
-
-    /// Whether the reductions themselves choose `modes_per_speed`.
-    pub(crate) fn chooses(&self) -> bool {
-        self.accuracy.is_some() || self.budget.is_some()
-    }
-
-    /// Whether they have still to do so.
-    pub fn unchosen(&self) -> bool {
-        self.chooses() && self.modes_per_speed == AutoOr::Auto
-    }
 }
 
 fn default_families() -> u32 {

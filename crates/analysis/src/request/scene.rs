@@ -55,14 +55,6 @@ pub struct Scene {
     pub probe: Option<Probe>,
 }
 
-impl Scene {
-    /// Lobes that pass the blades and may be touched.
-    pub(crate) fn touched_lobes(&self) -> Option<&Lobes> {
-        self.contact.as_ref()?;
-        self.casing.as_ref()?.lobes.as_ref()
-    }
-}
-
 /// Modal damping of the reduced wheel.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]

@@ -7,7 +7,6 @@ use serde::de::{MapAccess, SeqAccess};
 use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::error::Violation;
-use crate::request::omit::is_false;
 
 /// Rotational speeds: one range or list, or an array of them, whose union in the order given is taken. What one of them
 /// says is taken as it is; a speed that an earlier one has already (to 1e-9) is not computed again.
@@ -42,9 +41,6 @@ pub struct SpeedSet {
     pub values: Option<Vec<f64>>,
     /// Unit of the numbers above.
     pub unit: SpeedUnit,
-    /// Whether a round of `refine` added these speeds; set by the service.
-    #[serde(default, skip_serializing_if = "is_false")]
-    pub added: bool,
 }
 
 /// Unit of a rotational speed on the wire.
@@ -103,58 +99,7 @@ impl<'de> Deserialize<'de> for Speeds {
     }
 }
 
-/// The speeds of one range or list that no earlier one has.
-pub(crate) struct Part {
-    /// JSON pointer to the range or list.
-    pub(crate) pointer: String,
-    pub(crate) speeds_rad_s: Vec<f64>,
-    /// Whether a round of refinement added it.
-    pub(crate) added: bool,
-}
-
 impl Speeds {
-    /// The speeds in rad/s, in the order given.
-    pub fn resolve(&self) -> Result<Vec<f64>, Vec<Violation>> {
-        Ok(self.parts()?.into_iter().flat_map(|part| part.speeds_rad_s).collect())
-    }
-
-    /// The same in ascending order.
-    pub fn ascending(&self) -> Result<Vec<f64>, Vec<Violation>> {
-        let mut speeds = self.resolve()?;
-        speeds.sort_by(f64::total_cmp);
-        Ok(speeds)
-    }
-
-    /// Takes all of them as asked for: what one refinement added, another request may name.
-    pub fn ask_for_all(&mut self) {
-        match self {
-            Self::One(set) => set.added = false,
-            Self::Several(sets) => sets.iter_mut().for_each(|set| set.added = false),
-        }
-    }
-
-    /// Those of them that no refinement has added.
-    pub(crate) fn asked(&self) -> Result<Vec<f64>, Vec<Violation>> {
-        Ok(self.parts()?.into_iter().filter(|part| !part.added).flat_map(|part| part.speeds_rad_s).collect())
-    }
-
-    /// The same and `speeds_rad_s` after them, as a list that a refinement has added: no speed changes its index.
-    pub(crate) fn with_added(&self, speeds_rad_s: Vec<f64>) -> Self {
-        let mut sets = match self {
-            Self::One(set) => vec![set.clone()],
-            Self::Several(sets) => sets.clone(),
-        };
-        sets.push(SpeedSet {
-            from: None,
-            to: None,
-            count: None,
-            values: Some(speeds_rad_s),
-            unit: SpeedUnit::RadS,
-            added: true,
-        });
-        Self::Several(sets)
-    }
-
     /// How many more speeds there may be.
     pub(crate) fn room(&self) -> usize {
         let sets = match self {
@@ -165,11 +110,11 @@ impl Speeds {
         MAX_SPEEDS.saturating_sub(sets.iter().map(given).sum())
     }
 
-    /// The same, range by range.
-    pub(crate) fn parts(&self) -> Result<Vec<Part>, Vec<Violation>> {
+    /// The speeds in rad/s, range by range in the order given: those of each that no earlier one has.
+    pub(crate) fn parts(&self) -> Result<Vec<Vec<f64>>, Vec<Violation>> {
         let sets = match self {
             Self::One(set) => {
-                return Ok(vec![set.part("/speeds".to_owned(), MAX_SPEEDS).map_err(|v| vec![v])?]);
+                return Ok(vec![set.part("/speeds", MAX_SPEEDS).map_err(|v| vec![v])?]);
             }
             Self::Several(sets) if sets.is_empty() => {
                 return Err(vec![Violation::new("/speeds", "at least one speed is needed")]);
@@ -181,17 +126,17 @@ impl Speeds {
         // As bits, which ascend as the numbers do where none is negative.
         let mut earlier = BTreeSet::new();
         for (index, set) in sets.iter().enumerate() {
-            let mut part = match set.part(format!("/speeds/{index}"), room) {
+            let mut part = match set.part(&format!("/speeds/{index}"), room) {
                 Ok(part) => part,
                 Err(violation) => {
                     violations.push(violation);
                     continue;
                 }
             };
-            room -= part.speeds_rad_s.len();
+            room -= part.len();
             let near = |speed: f64| (speed * (1.0 - SAME)).to_bits()..=(speed * (1.0 + SAME)).to_bits();
-            part.speeds_rad_s.retain(|&speed| earlier.range(near(speed)).next().is_none());
-            earlier.extend(part.speeds_rad_s.iter().map(|speed| speed.to_bits()));
+            part.retain(|&speed| earlier.range(near(speed)).next().is_none());
+            earlier.extend(part.iter().map(|speed| speed.to_bits()));
             parts.push(part);
         }
         if violations.is_empty() { Ok(parts) } else { Err(violations) }
@@ -200,7 +145,7 @@ impl Speeds {
 
 impl SpeedSet {
     /// All its speeds, of which there may be `room`.
-    fn part(&self, pointer: String, room: usize) -> Result<Part, Violation> {
+    fn part(&self, pointer: &str, room: usize) -> Result<Vec<f64>, Violation> {
         let at = |field: &str, message: &str| Err(Violation::new(format!("{pointer}{field}"), message));
         let too_many = format!("at most {MAX_SPEEDS} speeds in one job, all ranges and lists together");
         let given = match (&self.values, self.from, self.to, self.count) {
@@ -234,7 +179,7 @@ impl SpeedSet {
                     format!("a speed lies between 0 and {HIGHEST_SPEED:e} rad/s, unlike {}", given[bad]);
                 at(&field, &message)
             }
-            None => Ok(Part { pointer, speeds_rad_s, added: self.added }),
+            None => Ok(speeds_rad_s),
         }
     }
 }
@@ -248,8 +193,13 @@ mod tests {
         serde_json::from_value(given).unwrap()
     }
 
+    /// The speeds in rad/s, in the order given.
+    fn resolve(speeds: &Speeds) -> Result<Vec<f64>, Vec<Violation>> {
+        Ok(speeds.parts()?.concat())
+    }
+
     fn pointers(given: Value) -> Vec<String> {
-        speeds(given).resolve().unwrap_err().into_iter().map(|violation| violation.pointer).collect()
+        resolve(&speeds(given)).unwrap_err().into_iter().map(|violation| violation.pointer).collect()
     }
 
     #[test]
@@ -262,34 +212,15 @@ mod tests {
         ]);
         let joined = speeds(given.clone());
         let expected = [100.0, 150.0, 200.0, 300.0, 120.0, 120.0, 0.0];
-        for (speed, expected) in joined.resolve().unwrap().iter().zip(expected) {
+        for (speed, expected) in resolve(&joined).unwrap().iter().zip(expected) {
             assert!((speed - expected).abs() < 1e-10, "{speed} {expected}");
         }
-        assert_eq!(joined.resolve().unwrap().len(), expected.len());
-        assert!(joined.ascending().unwrap().is_sorted());
+        assert_eq!(resolve(&joined).unwrap().len(), expected.len());
         // A list by itself is what it says: equal speeds are computed twice.
-        assert_eq!(speeds(json!({"values": [5, 5], "unit": "hz"})).resolve().unwrap().len(), 2);
+        assert_eq!(resolve(&speeds(json!({"values": [5, 5], "unit": "hz"}))).unwrap().len(), 2);
         // On the wire it stays as it was given.
         assert_eq!(speeds(serde_json::to_value(&joined).unwrap()), joined);
         assert!(serde_json::to_value(&joined).unwrap().is_array());
-    }
-
-    #[test]
-    fn added_speeds_change_no_index() {
-        for given in [
-            json!({"values": [5, 5, 7], "unit": "rad_s"}),
-            json!([{"values": [5, 5], "unit": "rad_s"}, {"from": 5, "to": 7, "count": 2, "unit": "rad_s"}]),
-        ] {
-            let asked = speeds(given);
-            let more = asked.with_added(vec![6.0]).with_added(vec![5.5, 6.5]);
-            assert_eq!(more.resolve().unwrap(), [5.0, 5.0, 7.0, 6.0, 5.5, 6.5]);
-            assert_eq!(more.asked().unwrap(), asked.resolve().unwrap());
-            assert_eq!(more.room(), asked.room() - 3);
-            assert_eq!(speeds(serde_json::to_value(&more).unwrap()), more);
-        }
-        let most = speeds(json!({"from": 1, "to": 2, "count": MAX_SPEEDS - 1, "unit": "rad_s"}));
-        assert_eq!((most.room(), most.with_added(vec![3.0]).room()), (1, 0));
-        assert!(most.with_added(vec![3.0]).resolve().is_ok());
     }
 
     #[test]
@@ -301,7 +232,7 @@ mod tests {
         assert_eq!(pointers(json!([range(3), {"from": 1, "unit": "hz"}])), ["/speeds/1"]);
         // Together, whether or not they repeat each other.
         assert_eq!(pointers(json!([range(6_000), range(4_001)])), ["/speeds/1/count"]);
-        assert!(speeds(json!([range(6_000), range(4_000)])).resolve().is_ok());
+        assert!(resolve(&speeds(json!([range(6_000), range(4_000)]))).is_ok());
         let most = MAX_SPEEDS as u32;
         assert_eq!(pointers(json!([range(most), {"values": [1], "unit": "hz"}])), ["/speeds/1/values"]);
         assert_eq!(pointers(range(most + 1)), ["/speeds/count"]);

@@ -64,29 +64,6 @@ pub struct SweepRequest {
     pub control_speeds: Option<u32>,
 }
 
-impl SweepRequest {
-    /// k of a resolved request.
-    pub fn modes(&self) -> u32 {
-        self.modes_per_speed.or(DEFAULT_MODES_PER_SPEED)
-    }
-
-    /// Whether pilot runs choose the knobs.
-    pub fn chooses(&self) -> bool {
-        self.accuracy.is_some() || self.budget.is_some()
-    }
-
-    /// Whether they have still to do so.
-    pub fn unchosen(&self) -> bool {
-        self.chooses() && self.modes_per_speed == AutoOr::Auto
-    }
-
-    /// Speeds that are simulated again.
-    pub fn controls(&self) -> usize {
-        let wanted = self.chooses() && self.sweep == SweepDirection::Independent;
-        self.control_speeds.map_or(if wanted { DEFAULT_CONTROL_SPEEDS } else { 0 }, |n| n as usize)
-    }
-}
-
 /// Where each speed of a sweep starts from. A response with several branches shows the one that it is led along.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
@@ -129,9 +106,3 @@ pub(crate) fn default_max_engine_order() -> u32 {
 pub(crate) fn default_peak_prominence() -> f64 {
     0.1
 }
-
-/// k where nobody says otherwise.
-pub(crate) const DEFAULT_MODES_PER_SPEED: u32 = 20;
-
-/// Control runs where the service chooses the knobs.
-const DEFAULT_CONTROL_SPEEDS: usize = 5;

@@ -5,14 +5,15 @@ use super::limits;
 use crate::effects::flexible_casing;
 use crate::model::ModelFacts;
 use crate::request::{
-    CasingMode, EngineOrderExcitation, FlexibleCasing, Initial, InitialWave, Mistuning, Orbit, Probe, Ring,
-    Scene, SchemeChoice, SweepDirection, SweepRequest, Symmetry,
+    CasingMode, EngineOrderExcitation, Initial, InitialWave, Orbit, Probe, Ring, SchemeChoice,
+    SweepDirection, Symmetry,
 };
 use crate::resolve::contact_effects::{check_abradable, check_friction};
+use crate::resolved::{FlexibleCasing, Mistuning, ResolvedSweep, Scene, WavesOf};
 use crate::symmetry::repeats;
 use rubmap_wheel::dynamics::mistuning::LARGEST_DEVIATION;
 
-pub(super) fn check_effects(found: &mut Findings, request: &SweepRequest, facts: &ModelFacts) {
+pub(super) fn check_effects(found: &mut Findings, request: &ResolvedSweep, facts: &ModelFacts) {
     let scene = &request.scene;
     check_contact_is_there(found, scene);
     if let Some(friction) = &scene.friction {
@@ -45,7 +46,7 @@ pub(super) fn check_effects(found: &mut Findings, request: &SweepRequest, facts:
 }
 
 /// What a speed cannot take over from its neighbour.
-fn check_chain(found: &mut Findings, request: &SweepRequest) {
+fn check_chain(found: &mut Findings, request: &ResolvedSweep) {
     if request.sweep == SweepDirection::Independent {
         return;
     }
@@ -92,60 +93,24 @@ fn check_contact_is_there(found: &mut Findings, scene: &Scene) {
     }
 }
 
-fn check_flexible_casing(found: &mut Findings, casing: &FlexibleCasing, request: &SweepRequest) {
+fn check_flexible_casing(found: &mut Findings, casing: &FlexibleCasing, request: &ResolvedSweep) {
     const AT: &str = "/scene/flexible_casing";
-    let FlexibleCasing { ring, modes, damping_ratio } = casing;
-    found.require(
-        ring.is_some() != modes.is_some(),
-        AT,
-        "give either `ring`, whose modes are computed, or `modes`",
-    );
+    let FlexibleCasing { waves, damping_ratio } = casing;
     found.require(
         (0.0..1.0).contains(damping_ratio),
         &format!("{AT}/damping_ratio"),
         "a damping ratio lies in [0, 1)",
     );
-    if let Some(Ring { radius, modulus, density, area, second_moment, n_max }) = ring {
-        let numbers = [
-            ("radius", radius),
-            ("modulus", modulus),
-            ("density", density),
-            ("area", area),
-            ("second_moment", second_moment),
-        ];
-        for (field, &value) in numbers {
-            found.require(
-                limits::LENGTH.contains(&value),
-                &format!("{AT}/ring/{field}"),
-                format!("this lies {}, unlike {value}", between(&limits::LENGTH)),
-            );
+    let mut bounded = true;
+    match waves {
+        WavesOf::Ring(ring) => {
+            check_ring(found, ring);
+            // A ring of as many waves as a number can say would fill the memory before it is refused.
+            bounded = ring.n_max <= limits::CASING_WAVES;
         }
-        found.require(
-            *n_max <= limits::CASING_WAVES,
-            &format!("{AT}/ring/n_max"),
-            format!("at most {} nodal diameters of the casing", limits::CASING_WAVES),
-        );
+        WavesOf::Modes(modes) => check_modes(found, modes),
     }
-    for (index, mode) in modes.iter().flatten().enumerate().take(2 * limits::CASING_WAVES as usize) {
-        let CasingMode { nodal_diameter, frequency_hz, modal_mass } = mode;
-        found.require(
-            limits::LENGTH.contains(frequency_hz),
-            &format!("{AT}/modes/{index}/frequency_hz"),
-            format!("a natural frequency lies {}", between(&limits::LENGTH)),
-        );
-        found.require(
-            limits::LENGTH.contains(modal_mass),
-            &format!("{AT}/modes/{index}/modal_mass"),
-            format!("a modal mass lies {}", between(&limits::LENGTH)),
-        );
-        found.require(
-            *nodal_diameter <= limits::CASING_WAVES,
-            &format!("{AT}/modes/{index}/nodal_diameter"),
-            format!("at most {}", limits::CASING_WAVES),
-        );
-    }
-    // A ring of as many waves as a number can say would fill the memory before it is refused.
-    if ring.as_ref().is_none_or(|ring| ring.n_max <= limits::CASING_WAVES) {
+    if bounded {
         found.require(
             flexible_casing(casing).waves.iter().all(|wave| limits::CASING_OMEGA.contains(&wave.omega)),
             AT,
@@ -156,11 +121,6 @@ fn check_flexible_casing(found: &mut Findings, casing: &FlexibleCasing, request:
         );
     }
     found.require(
-        (modes.as_ref()).is_none_or(|modes| (1..=limits::CASING_WAVES as usize).contains(&modes.len())),
-        &format!("{AT}/modes"),
-        format!("between 1 and {} modes", limits::CASING_WAVES),
-    );
-    found.require(
         request.integration.scheme != SchemeChoice::MasslessBoundary,
         AT,
         "an elastic casing has mass where it is touched, which massless_boundary leaves no room for: take the scheme \
@@ -168,39 +128,79 @@ fn check_flexible_casing(found: &mut Findings, casing: &FlexibleCasing, request:
     );
 }
 
+fn check_ring(found: &mut Findings, ring: &Ring) {
+    const AT: &str = "/scene/flexible_casing/ring";
+    let Ring { radius, modulus, density, area, second_moment, n_max } = *ring;
+    let numbers = [
+        ("radius", radius),
+        ("modulus", modulus),
+        ("density", density),
+        ("area", area),
+        ("second_moment", second_moment),
+    ];
+    for (field, value) in numbers {
+        found.require(
+            limits::LENGTH.contains(&value),
+            &format!("{AT}/{field}"),
+            format!("this lies {}, unlike {value}", between(&limits::LENGTH)),
+        );
+    }
+    found.require(
+        n_max <= limits::CASING_WAVES,
+        &format!("{AT}/n_max"),
+        format!("at most {} nodal diameters of the casing", limits::CASING_WAVES),
+    );
+}
+
+fn check_modes(found: &mut Findings, modes: &[CasingMode]) {
+    const AT: &str = "/scene/flexible_casing/modes";
+    for (index, mode) in modes.iter().enumerate().take(2 * limits::CASING_WAVES as usize) {
+        let CasingMode { nodal_diameter, frequency_hz, modal_mass } = mode;
+        found.require(
+            limits::LENGTH.contains(frequency_hz),
+            &format!("{AT}/{index}/frequency_hz"),
+            format!("a natural frequency lies {}", between(&limits::LENGTH)),
+        );
+        found.require(
+            limits::LENGTH.contains(modal_mass),
+            &format!("{AT}/{index}/modal_mass"),
+            format!("a modal mass lies {}", between(&limits::LENGTH)),
+        );
+        found.require(
+            *nodal_diameter <= limits::CASING_WAVES,
+            &format!("{AT}/{index}/nodal_diameter"),
+            format!("at most {}", limits::CASING_WAVES),
+        );
+    }
+    found.require(
+        (1..=limits::CASING_WAVES as usize).contains(&modes.len()),
+        AT,
+        format!("between 1 and {} modes", limits::CASING_WAVES),
+    );
+}
+
 fn check_mistuning(found: &mut Findings, mistuning: &Mistuning, facts: &ModelFacts) {
     const AT: &str = "/scene/mistuning";
-    let Mistuning { deviations, spread, seed } = mistuning;
-    found.require(
-        deviations.is_some() != spread.is_some(),
-        AT,
-        "give either `deviations`, one per sector, or `spread` (with a `seed`)",
-    );
-    found.require(
-        seed.is_none() || spread.is_some(),
-        &format!("{AT}/seed"),
-        "a seed belongs to `spread`: given deviations need none",
-    );
-    if let Some(deviations) = deviations {
-        found.require(
-            deviations.len() == facts.sectors as usize,
-            &format!("{AT}/deviations"),
-            format!("the wheel has {} sectors, not {}", facts.sectors, deviations.len()),
-        );
-        for (index, delta) in deviations.iter().enumerate().take(facts.sectors as usize) {
+    match mistuning {
+        Mistuning::Given(deviations) => {
             found.require(
-                delta.abs() <= LARGEST_DEVIATION,
-                &format!("{AT}/deviations/{index}"),
-                format!("a sector deviates by at most {LARGEST_DEVIATION} of the stiffness"),
+                deviations.len() == facts.sectors as usize,
+                &format!("{AT}/deviations"),
+                format!("the wheel has {} sectors, not {}", facts.sectors, deviations.len()),
             );
+            for (index, delta) in deviations.iter().enumerate().take(facts.sectors as usize) {
+                found.require(
+                    delta.abs() <= LARGEST_DEVIATION,
+                    &format!("{AT}/deviations/{index}"),
+                    format!("a sector deviates by at most {LARGEST_DEVIATION} of the stiffness"),
+                );
+            }
         }
-    }
-    if let Some(spread) = spread {
-        found.require(
+        Mistuning::Drawn { spread, .. } => found.require(
             (0.0..=limits::SPREAD).contains(spread),
             &format!("{AT}/spread"),
             format!("a spread lies between 0 and {}", limits::SPREAD),
-        );
+        ),
     }
 }
 
@@ -295,7 +295,7 @@ fn check_initial(found: &mut Findings, initial: &Initial, facts: &ModelFacts) {
 }
 
 /// What exact symmetry and the probe of it ask of the rest.
-fn check_symmetry(found: &mut Findings, request: &SweepRequest, facts: &ModelFacts) {
+fn check_symmetry(found: &mut Findings, request: &ResolvedSweep, facts: &ModelFacts) {
     let scene = &request.scene;
     if let Some(Probe { amplitude, .. }) = &scene.probe {
         found.require(

@@ -21,6 +21,11 @@ impl Findings {
         }
     }
 
+    /// Whether something is wrong with what stands at `pointer` as a whole.
+    pub(super) fn refused(&self, pointer: &str) -> bool {
+        self.0.iter().any(|violation| violation.pointer == pointer)
+    }
+
     pub(super) fn finish<T>(self, value: T) -> Result<T, Vec<Violation>> {
         if self.0.is_empty() { Ok(value) } else { Err(self.0) }
     }

@@ -4,11 +4,11 @@ use crate::discretisation::most_samples;
 use crate::error::Violation;
 use crate::model::ModelFacts;
 use crate::request::auto_or::MOST_STEPS;
-use crate::request::speeds::Part;
 use crate::request::{
-    Accuracy, AutoOr, Budget, Casing, Clearance, Component, Damping, Integration, Lobes,
-    ModalAnalysisRequest, Scene, SchemeChoice, Sensor, Speeds, SweepDirection, SweepRequest,
+    Accuracy, AutoOr, Budget, Component, Damping, Integration, Lobes, ModalAnalysisRequest, SchemeChoice,
+    Sensor, SweepDirection, SweepRequest,
 };
+use crate::resolved::{Casing, Clearance, ResolvedModalAnalysis, ResolvedSpeeds, ResolvedSweep, Scene};
 use crate::stepping::least_steps_for_lobes;
 use rubmap_wheel::dynamics::casing::Restriction;
 use std::f64::consts::TAU;
@@ -21,44 +21,44 @@ mod findings;
 pub(crate) mod limits;
 pub(crate) mod study;
 
-/// Checks a sweep request against its model and fills in the default sensors.
-pub fn resolve_sweep(mut request: SweepRequest, facts: &ModelFacts) -> Result<SweepRequest, Vec<Violation>> {
+/// Parses a sweep and checks it against its model; sensors left away are the default ones.
+pub fn resolve_sweep(request: SweepRequest, facts: &ModelFacts) -> Result<ResolvedSweep, Vec<Violation>> {
     let mut found = Findings::default();
     check_knobs(&mut found, &request);
-    check_modes(&mut found, request.modes());
-    check_speeds(&mut found, &request.speeds, facts, request.scene.centrifugal_stiffening, false);
-    check_scene(&mut found, &request.scene, facts);
-    check_integration(&mut found, &request.integration, request.max_engine_order);
+    let mut sweep = ResolvedSweep::of(request, 0, &mut |violation| found.0.push(violation));
+    check_controls(&mut found, &sweep);
+    check_modes(&mut found, sweep.modes_per_speed());
+    check_speeds(&mut found, &sweep.speeds, facts, sweep.scene.centrifugal_stiffening, false);
+    check_scene(&mut found, &sweep.scene, facts);
+    check_integration(&mut found, &sweep.integration, sweep.max_engine_order);
     found.require(
-        (0.0..=1.0).contains(&request.peak_prominence),
+        (0.0..=1.0).contains(&sweep.peak_prominence),
         "/peak_prominence",
         "a share of the largest response, between 0 and 1",
     );
-    check_steps(&mut found, &request);
-    check_ramp(&mut found, &request);
-    effects::check_effects(&mut found, &request, facts);
-    if request.sensors.is_empty() {
-        request.sensors = default_sensors(facts);
+    check_steps(&mut found, &sweep);
+    check_ramp(&mut found, &sweep);
+    effects::check_effects(&mut found, &sweep, facts);
+    if sweep.sensors.is_empty() {
+        sweep.sensors = default_sensors(facts);
     }
-    check_sensors(&mut found, &request.sensors, facts);
+    check_sensors(&mut found, &sweep.sensors, facts);
     if found.0.is_empty() {
-        check_memory(&mut found, &request, facts);
+        check_memory(&mut found, &sweep, facts);
     }
-    if !request.chooses() {
-        request.modes_per_speed = AutoOr::Fixed(request.modes());
-    }
-    found.finish(request)
+    found.finish(sweep)
 }
 
-/// Checks a modal-analysis request against its model.
+/// Parses a modal analysis and checks it against its model.
 pub fn resolve_modal_analysis(
-    mut request: ModalAnalysisRequest,
+    request: ModalAnalysisRequest,
     facts: &ModelFacts,
-) -> Result<ModalAnalysisRequest, Vec<Violation>> {
+) -> Result<ResolvedModalAnalysis, Vec<Violation>> {
     let mut found = Findings::default();
     let fixed = request.modes_per_speed != AutoOr::Auto;
     check_choice(&mut found, request.accuracy, request.budget, &[("/modes_per_speed", fixed)]);
-    check_modes(&mut found, request.modes());
+    let request = ResolvedModalAnalysis::of(request, &mut |violation| found.0.push(violation));
+    check_modes(&mut found, request.modes_per_speed());
     check_speeds(&mut found, &request.speeds, facts, facts.has_stiffening(), true);
     let families = 1..=limits::FAMILIES;
     found.require(
@@ -90,9 +90,6 @@ pub fn resolve_modal_analysis(
     }
     check_lobe_count(&mut found, request.lobes, "/lobes");
     check_coriolis(&mut found, request.coriolis, "/coriolis", facts);
-    if !request.chooses() {
-        request.modes_per_speed = AutoOr::Fixed(request.modes());
-    }
     found.finish(request)
 }
 
@@ -107,7 +104,8 @@ fn check_knobs(found: &mut Findings, request: &SweepRequest) {
     ];
     check_choice(found, request.accuracy, request.budget, &fixed);
     found.require(
-        !request.chooses() || request.integration.window_revolutions >= 2,
+        (request.accuracy.is_none() && request.budget.is_none())
+            || request.integration.window_revolutions >= 2,
         "/integration/window_revolutions",
         "an error is told from chance by comparing parts of the window: at least two revolutions",
     );
@@ -116,13 +114,16 @@ fn check_knobs(found: &mut Findings, request: &SweepRequest) {
         "/refine",
         "how many speeds are added is not known beforehand, and a budget cannot be kept: set this to false, or ask for an accuracy",
     );
+}
+
+fn check_controls(found: &mut Findings, sweep: &ResolvedSweep) {
     found.require(
-        request.control_speeds.is_none_or(|speeds| speeds <= limits::CONTROL_SPEEDS),
+        sweep.control_speeds <= limits::CONTROL_SPEEDS,
         "/control_speeds",
         format!("at most {} speeds are simulated again", limits::CONTROL_SPEEDS),
     );
     found.require(
-        request.controls() == 0 || request.sweep == SweepDirection::Independent,
+        sweep.control_speeds == 0 || sweep.sweep == SweepDirection::Independent,
         "/control_speeds",
         "a speed of a sweep up or down depends on all before it and cannot be simulated again alone: set this to 0",
     );
@@ -168,28 +169,30 @@ fn check_modes(found: &mut Findings, modes_per_speed: u32) {
     );
 }
 
-fn check_speeds(found: &mut Findings, speeds: &Speeds, facts: &ModelFacts, stiffening: bool, campbell: bool) {
-    let parts = match speeds.parts() {
-        Ok(parts) => parts,
-        Err(violations) => return found.0.extend(violations),
-    };
+fn check_speeds(
+    found: &mut Findings,
+    speeds: &ResolvedSpeeds,
+    facts: &ModelFacts,
+    stiffening: bool,
+    campbell: bool,
+) {
     let highest = facts.speeds_rad_s.last().copied().unwrap_or(0.0);
-    for Part { pointer, speeds_rad_s, .. } in &parts {
+    for (pointer, speeds_rad_s) in speeds.by_list() {
         found.require(
             campbell || speeds_rad_s.iter().all(|&omega| omega > 0.0),
-            pointer,
+            &pointer,
             "a contact simulation needs a speed above 0: its clock is the revolution",
         );
         found.require(
             !campbell || speeds_rad_s.windows(2).all(|pair| pair[0] < pair[1]),
-            pointer,
+            &pointer,
             "the speeds of a Campbell diagram ascend",
         );
         // A speed given in rpm may differ from the model's rad/s in the last digits.
         found.require(
             !(stiffening && facts.has_stiffening())
                 || speeds_rad_s.iter().all(|&omega| omega <= highest * (1.0 + 1e-6)),
-            pointer,
+            &pointer,
             format!(
                 "the model's stiffness is given up to {highest} rad/s; K(Ω) is not extrapolated: stay below, or \
                  export the stiffness at a higher speed"
@@ -247,11 +250,11 @@ fn check_casing(found: &mut Findings, casing: &Casing, facts: &ModelFacts) {
         between(&limits::LENGTH)
     );
     match &casing.clearance {
-        Clearance { leading: Some(leading), trailing: Some(trailing), values: None } => {
+        Clearance::AlongChord { leading, trailing } => {
             found.require(fits(*leading), "/scene/casing/clearance/leading", &message);
             found.require(fits(*trailing), "/scene/casing/clearance/trailing", &message);
         }
-        Clearance { leading: None, trailing: None, values: Some(values) } => {
+        Clearance::Each(values) => {
             found.require(
                 values.len() == facts.contact_nodes as usize,
                 "/scene/casing/clearance/values",
@@ -261,11 +264,6 @@ fn check_casing(found: &mut Findings, casing: &Casing, facts: &ModelFacts) {
                 found.require(fits(value), &format!("/scene/casing/clearance/values/{index}"), &message);
             }
         }
-        _ => found.require(
-            false,
-            "/scene/casing/clearance",
-            "give either `leading` and `trailing`, or `values` with one clearance per contact node",
-        ),
     }
     if let Some(lobes) = &casing.lobes {
         check_lobe_count(found, lobes.count, "/scene/casing/lobes/count");
@@ -366,7 +364,7 @@ fn check_integration(found: &mut Findings, integration: &Integration, max_engine
 }
 
 /// Steps wider than a lobe would pass it by, with numbers that look fine.
-fn check_steps(found: &mut Findings, request: &SweepRequest) {
+fn check_steps(found: &mut Findings, request: &ResolvedSweep) {
     let AutoOr::Fixed(steps) = request.integration.steps_per_revolution else { return };
     let wide = |lobes: &Lobes| lobes.width_rad >= limits::LEAST_LOBE_WIDTH_RAD;
     if !request.scene.touched_lobes().is_some_and(wide) {
@@ -384,7 +382,7 @@ fn check_steps(found: &mut Findings, request: &SweepRequest) {
 }
 
 /// The displacement over the whole run and the Fourier coordinates of all sectors over the window are held in memory.
-fn check_memory(found: &mut Findings, request: &SweepRequest, facts: &ModelFacts) {
+fn check_memory(found: &mut Findings, request: &ResolvedSweep, facts: &ModelFacts) {
     let sectors = facts.sectors as usize;
     let Integration { revolutions, window_revolutions, .. } = request.integration;
     let per_sensor = revolutions as usize + window_revolutions as usize * sectors;
@@ -414,7 +412,10 @@ fn check_memory(found: &mut Findings, request: &SweepRequest, facts: &ModelFacts
 }
 
 /// Without a ramp a restriction inside the blade would hit it as a step: forces scale as 1/h, nothing converges.
-fn check_ramp(found: &mut Findings, request: &SweepRequest) {
+fn check_ramp(found: &mut Findings, request: &ResolvedSweep) {
+    if found.refused(Clearance::AT) {
+        return;
+    }
     let Scene { casing: Some(casing), contact: Some(_), .. } = &request.scene else { return };
     let restriction = match &casing.lobes {
         Some(lobes) if lobes.count > limits::LOBES => return,
@@ -425,9 +426,7 @@ fn check_ramp(found: &mut Findings, request: &SweepRequest) {
         None => 0.0,
     };
     let orbit = request.scene.orbit.as_ref().map_or(0.0, |orbit| orbit.radius);
-    let clearance = &casing.clearance;
-    let given = clearance.values.iter().flatten().chain(&clearance.leading).chain(&clearance.trailing);
-    let smallest = given.copied().fold(f64::INFINITY, f64::min);
+    let smallest = casing.clearance.smallest();
     let highest = restriction + orbit;
     found.require(
         request.integration.ramp_revolutions >= limits::RAMP_REVOLUTIONS || highest <= smallest,

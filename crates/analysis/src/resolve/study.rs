@@ -7,6 +7,7 @@ use crate::model::ModelFacts;
 use crate::request::auto_or::MOST_STEPS;
 use crate::request::{AutoOr, Grid, SchemeChoice, StudyRequest};
 use crate::resolve::{limits, resolve_sweep};
+use crate::resolved::ResolvedStudy;
 
 /// Most speeds of a study, and most entries of each list of its grid.
 const MOST_SPEEDS: usize = 8;
@@ -16,23 +17,21 @@ const MOST_ENTRIES: usize = 12;
 const MOST_RUNS: usize = 2000;
 const MOST_KEPT: usize = 1 << 24;
 
-/// Checks a study against its model and fills in the default sensors.
-pub fn resolve_study(mut request: StudyRequest, facts: &ModelFacts) -> Result<StudyRequest, Vec<Violation>> {
-    let mut found = match resolve_sweep(request.sweep(), facts) {
-        Ok(sweep) => {
-            request.sensors = sweep.sensors;
-            Vec::new()
-        }
-        Err(found) => found,
+/// Parses a study and checks it against its model; sensors left away are the default ones.
+pub fn resolve_study(request: StudyRequest, facts: &ModelFacts) -> Result<ResolvedStudy, Vec<Violation>> {
+    let (sweep, mut found) = match resolve_sweep(request.sweep(), facts) {
+        Ok(sweep) => (Some(sweep), Vec::new()),
+        Err(found) => (None, found),
     };
     let mut require = |holds: bool, pointer: &str, message: String| {
         if !holds {
             found.push(Violation::new(pointer, message));
         }
     };
-    if let Ok(speeds) = request.speeds.resolve() {
-        let message = format!("a study has at most {MOST_SPEEDS} speeds, not {}", speeds.len());
-        require(speeds.len() <= MOST_SPEEDS, "/speeds", message);
+    if let Ok(parts) = request.speeds.parts() {
+        let speeds: usize = parts.iter().map(Vec::len).sum();
+        let message = format!("a study has at most {MOST_SPEEDS} speeds, not {speeds}");
+        require(speeds <= MOST_SPEEDS, "/speeds", message);
     }
     let revolutions = request.integration.revolutions;
     require(
@@ -85,19 +84,20 @@ pub fn resolve_study(mut request: StudyRequest, facts: &ModelFacts) -> Result<St
             "\"auto\" or numbers from 1 on, each once".to_owned(),
         );
     }
-    if found.is_empty() {
-        found = refused_settings(&request, facts);
-    }
-    if found.is_empty() { Ok(request) } else { Err(found) }
+    let (Some(sweep), true) = (sweep, found.is_empty()) else { return Err(found) };
+    let StudyRequest { grid, history_revolutions, .. } = request;
+    let study = ResolvedStudy { sweep, grid, history_revolutions };
+    let found = refused_settings(&study, facts);
+    if found.is_empty() { Ok(study) } else { Err(found) }
 }
 
 /// What the scene does not allow of a grid that is sound in itself, or what would take too much memory; each field once.
-fn refused_settings(request: &StudyRequest, facts: &ModelFacts) -> Vec<Violation> {
-    let sweep = request.sweep();
+fn refused_settings(request: &ResolvedStudy, facts: &ModelFacts) -> Vec<Violation> {
+    let sweep = &request.sweep;
     let mut found: Vec<Violation> = Vec::new();
     let trials = request.all_trials(facts.sectors).len();
-    let samples = aligned_samples(&sweep, facts.sectors as usize);
-    let kept = trials * samples * request.history_revolutions as usize * request.sensors.len();
+    let samples = aligned_samples(sweep, facts.sectors as usize);
+    let kept = trials * samples * request.history_revolutions as usize * request.sensors().len();
     if trials > MOST_RUNS || kept > MOST_KEPT {
         let message = format!(
             "{trials} runs with {kept} displacements to be kept: a study has at most {MOST_RUNS} runs and {MOST_KEPT} displacements; \
@@ -106,7 +106,7 @@ fn refused_settings(request: &StudyRequest, facts: &ModelFacts) -> Vec<Violation
         return vec![Violation::new("/grid", message)];
     }
     for setting in request.settings(facts.sectors).into_iter().chain([request.reference(facts.sectors)]) {
-        for mut violation in resolve_sweep(setting.on(&sweep), facts).err().unwrap_or_default() {
+        for mut violation in resolve_sweep(sweep.at(setting).into(), facts).err().unwrap_or_default() {
             if violation.pointer == "/integration/steps_per_revolution" {
                 violation.pointer = "/grid/steps_per_revolution".to_owned();
                 violation.message = format!("{}: {}", setting.steps_per_revolution, violation.message);

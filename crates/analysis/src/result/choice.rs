@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::request::{Accuracy, AutoOr, Budget, ModalAnalysisRequest, Setting, SweepRequest};
+use crate::request::{Accuracy, Budget, Setting};
+use crate::resolved::{ResolvedModalAnalysis, ResolvedSweep};
 use rubmap_wheel::response::settling::Verdict;
 
 /// The setting that pilot runs chose, and why.
@@ -40,13 +41,8 @@ pub struct Choice {
 impl Choice {
     /// The request with the knobs that were chosen, as if they had been given.
     #[must_use]
-    pub fn explicit(&self, request: &SweepRequest) -> SweepRequest {
-        SweepRequest {
-            accuracy: None,
-            budget: None,
-            control_speeds: Some(request.controls() as u32),
-            ..self.setting.on(request)
-        }
+    pub fn explicit(&self, request: &ResolvedSweep) -> ResolvedSweep {
+        request.at(self.setting)
     }
 }
 
@@ -96,13 +92,8 @@ pub struct ModesChoice {
 impl ModesChoice {
     /// The request with the modes that were chosen, as if they had been given.
     #[must_use]
-    pub fn explicit(&self, request: &ModalAnalysisRequest) -> ModalAnalysisRequest {
-        ModalAnalysisRequest {
-            modes_per_speed: AutoOr::Fixed(self.modes_per_speed),
-            accuracy: None,
-            budget: None,
-            ..request.clone()
-        }
+    pub fn explicit(&self, request: &ResolvedModalAnalysis) -> ResolvedModalAnalysis {
+        request.at(self.modes_per_speed)
     }
 }
 

@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::end_state::EndState;
-use crate::request::{Scene, SchemeChoice, Sensor};
+use crate::request::{SchemeChoice, Sensor};
+use crate::resolved::Scene;
 use crate::result::reduction::StiffeningVerdict;
 use rubmap_wheel::dynamics::energy::{EffectWork, EnergyAudit};
 use rubmap_wheel::response::settling::Settling;

@@ -56,6 +56,25 @@ use crate::package::raw::RawPackage;
 
 /// Makes the model package of one impeller sector.
 ///
+/// ```
+/// use rubmap_model::impeller::{ImpellerParameters, MeshDensities, generate};
+/// use rubmap_model::package::to_sector;
+/// use rubmap_wheel::dynamics::modal_wheel::natural_frequencies;
+/// use rubmap_wheel::dynamics::reduction::{NoCheckpoints, ReductionOptions, reduce};
+///
+/// // The demo's impeller, coarser.
+/// let mesh = MeshDensities { between_contact_nodes: 1, blade_height: 2, blade_thickness: 1, half_passage: 1, disk: 1 };
+/// let parameters = ImpellerParameters { contact_nodes: 3, mesh, ..ImpellerParameters::default() };
+/// let sector = to_sector(generate(&parameters)?)?;
+/// assert_eq!((sector.sectors, sector.contact.len()), (10, 3));
+///
+/// // Rotation stiffens it.
+/// let reduced = reduce(&sector, &ReductionOptions::new(5), &NoCheckpoints, &|_, _| true)?;
+/// let lowest = |speed_rad_s| natural_frequencies(&reduced.harmonics[2], speed_rad_s, true).map(|omega| omega[0]);
+/// assert!(lowest(parameters.top_speed_rad_s)? > lowest(0.0)?);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// [`ImpellerError`] names the parameter or the element at fault.
 pub fn generate(parameters: &ImpellerParameters) -> Result<RawPackage, ImpellerError> {

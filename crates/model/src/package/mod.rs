@@ -39,7 +39,7 @@ pub use writer::write;
 
 use content::{Content, SourceLines};
 use raw::RawPackage;
-use rubmap_wheel::dynamics::sector::SectorModel;
+use rubmap_wheel::dynamics::sector::{SectorModel, SectorParts};
 
 /// A package that passed every check.
 #[derive(Debug, Clone)]
@@ -55,6 +55,22 @@ pub struct Imported {
 }
 
 /// Reads, checks and converts the package at `path`.
+///
+/// ```
+/// use rubmap_model::impeller::{CantileverParameters, cantilever};
+/// use rubmap_model::package::{Limits, read, write};
+///
+/// let beam = cantilever(&CantileverParameters { elements: [4, 1, 1], ..CantileverParameters::default() })?;
+/// let file = tempfile::NamedTempFile::new()?;
+/// write(&beam, &file)?;
+///
+/// let imported = read(file.path(), &Limits::default())?;
+/// assert_eq!(imported.digest.len(), 64);
+/// // Three rows a node, but for those that are clamped at the root.
+/// assert_eq!(imported.sector.own_dofs(), beam.dofs.len());
+/// assert!(beam.dofs.len() < 3 * beam.nodes.len());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 ///
 /// # Errors
 ///
@@ -87,8 +103,14 @@ fn convert(mut package: RawPackage, lines: &SourceLines) -> Result<SectorModel, 
     let layout = check::check(&mut package, lines)?;
     let names = package.manifest.clone();
     let row_names: Vec<u64> = layout.own_rows.iter().map(|&row| package.dofs[row as usize].node).collect();
-    let mut sector = partition::build(package, &layout);
+    let sector = sound(partition::build(package, &layout));
     check::mass::check(&sector, &names.mass, &layout.own_rows, &row_names)?;
-    units::count_time_in_seconds(&mut sector);
-    Ok(sector)
+    let mut parts = sector.into_parts();
+    units::count_time_in_seconds(&mut parts);
+    Ok(sound(parts))
+}
+
+/// A sector of parts that were checked.
+fn sound(parts: SectorParts) -> SectorModel {
+    SectorModel::new(parts).unwrap_or_else(|unsound| unreachable!("the package was checked: {unsound}"))
 }

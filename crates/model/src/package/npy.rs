@@ -2,6 +2,10 @@
 //!
 //! The header is a Python literal. Only the form numpy itself writes is understood, in one pass over at most
 //! [`LONGEST_HEADER`] bytes: general literal parsers (npyz 0.9) need exponential time on nested brackets.
+//!
+//! Behind a check of those npyz could take over two steps, what stands behind a key and bytes to numbers. The check
+//! would need all the rest (mark, version, length of the header), the errors their own words, and the number of
+//! elements and what comes after them would still be ours to hold against the header.
 
 use std::io::{self, Read};
 

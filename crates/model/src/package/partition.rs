@@ -23,10 +23,10 @@ use super::check::layout::{Layout, NONE};
 use super::frame::Basis;
 use super::raw::{Frame, RawMatrix, RawPackage};
 use super::symmetric::Mirror;
-use rubmap_wheel::dynamics::sector::{ContactNode, CyclicMatrix, SectorModel};
+use rubmap_wheel::dynamics::sector::{ContactNode, CyclicMatrix, SectorParts};
 
-/// Builds the sector model; matrices in parallel, each the same bits for any number of threads.
-pub(super) fn build(package: RawPackage, layout: &Layout) -> SectorModel {
+/// Builds the parts of the sector; matrices in parallel, each the same bits for any number of threads.
+pub(super) fn build(package: RawPackage, layout: &Layout) -> SectorParts {
     let bases = match package.manifest.frame {
         Frame::Cartesian => Some(local_bases(&package, layout)),
         Frame::Cylindrical => None,
@@ -47,7 +47,7 @@ pub(super) fn build(package: RawPackage, layout: &Layout) -> SectorModel {
     let Some(mass) = matrices.pop() else {
         unreachable!("one matrix is folded per matrix, and the mass is the first")
     };
-    SectorModel {
+    SectorParts {
         name: package.manifest.name,
         sectors: package.manifest.sectors,
         units: package.manifest.units,

@@ -1,4 +1,8 @@
 //! `nodes.csv` and `dofs.csv`: comma-separated, header optional, white space, blank lines and CRLF tolerated.
+//!
+//! No field has a comma or a line end in it, so a line is a row. To the crate `csv` (1.4) a quote that nobody closes makes
+//! the rest of the file one field, which it holds; it counts a row behind blank lines from the first of them, and leaves
+//! quotes behind a space where they are.
 
 use std::io::Read;
 

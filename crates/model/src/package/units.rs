@@ -1,6 +1,6 @@
 //! Names of units, their sizes, and whether four of them are consistent.
 
-use rubmap_wheel::dynamics::sector::{SectorModel, Units};
+use rubmap_wheel::dynamics::sector::{SectorParts, Units};
 
 use super::error::ManifestProblem;
 
@@ -75,7 +75,7 @@ const QUANTITIES: [(&str, Names); 4] = [("length", LENGTH), ("force", FORCE), ("
 
 /// Brings a sector whose matrices count time in another unit than seconds to seconds, in which speeds are given:
 /// mass and the gyroscopic matrix, which is measured in mass, become force·s²/length; stiffness stays.
-pub(super) fn count_time_in_seconds(sector: &mut SectorModel) {
+pub(super) fn count_time_in_seconds(sector: &mut SectorParts) {
     let seconds = size(TIME, &sector.units.time).unwrap_or(1.0);
     if seconds == 1.0 {
         return;

@@ -49,11 +49,9 @@ pub struct ContactNode {
     pub dofs: [usize; 3],
 }
 
-/// A validated sector: matrices over the own DOF (internal, low face and contact), in (r, θ, z) components.
-///
-/// Built only by an importer that has checked everything docs/package.md lists.
+/// What a sector is made of: matrices over the own DOF (internal, low face and contact), in (r, θ, z) components.
 #[derive(Debug, Clone)]
-pub struct SectorModel {
+pub struct SectorParts {
     /// Free text of the user.
     pub name: String,
     /// Number N of identical sectors in the wheel.
@@ -76,9 +74,165 @@ pub struct SectorModel {
     pub node_of_dof: Vec<usize>,
 }
 
+/// A sector whose parts fit together; they can be read, not changed. What its numbers must be beyond that (symmetric, positive)
+/// an importer has checked: everything docs/package.md lists.
+#[derive(Debug, Clone)]
+pub struct SectorModel(SectorParts);
+
+/// Why parts make no sector.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum UnsoundSector {
+    /// A wheel without sectors.
+    #[error("a wheel has at least one sector")]
+    NoSectors,
+    /// Nothing could ever touch.
+    #[error("a sector has at least one contact node")]
+    NoContactNodes,
+    /// Speeds other than `[0]` or `[0, Ω1/2, Ω1]`, or not as many as stiffness matrices.
+    #[error(
+        "{matrices} stiffness matrices at the speeds {speeds_rad_s:?} rad/s: give one at rest, or three at 0, Ω/2 and Ω"
+    )]
+    Speeds {
+        /// How many stiffness matrices there are.
+        matrices: usize,
+        /// Their speeds.
+        speeds_rad_s: Vec<f64>,
+    },
+    /// A matrix of another size than the number of DOF.
+    #[error("a matrix has {rows} rows and {columns} columns, the sector {dofs} degrees of freedom")]
+    Size {
+        /// Its rows.
+        rows: usize,
+        /// Its columns.
+        columns: usize,
+        /// Own DOF of the sector.
+        dofs: usize,
+    },
+    /// A contact node whose displacement is not among the DOF.
+    #[error("contact node {id} has degree of freedom {dof}, the sector those below {dofs}")]
+    ContactDof {
+        /// The node.
+        id: u64,
+        /// Its row.
+        dof: usize,
+        /// Own DOF of the sector.
+        dofs: usize,
+    },
+}
+
 impl SectorModel {
+    /// Of parts that fit together.
+    ///
+    /// # Errors
+    /// [`UnsoundSector`] says which do not.
+    pub fn new(parts: SectorParts) -> Result<Self, UnsoundSector> {
+        if parts.sectors == 0 {
+            return Err(UnsoundSector::NoSectors);
+        }
+        if parts.contact.is_empty() {
+            return Err(UnsoundSector::NoContactNodes);
+        }
+        let speeds_fit = match parts.speeds_rad_s[..] {
+            [rest] => rest == 0.0,
+            [rest, half, full] => rest == 0.0 && rest < half && half < full && full.is_finite(),
+            _ => false,
+        };
+        if !speeds_fit || parts.stiffness.len() != parts.speeds_rad_s.len() {
+            let (matrices, speeds_rad_s) = (parts.stiffness.len(), parts.speeds_rad_s);
+            return Err(UnsoundSector::Speeds { matrices, speeds_rad_s });
+        }
+        let dofs = parts.node_of_dof.len();
+        let matrices = parts.stiffness.iter().chain([&parts.mass]).chain(&parts.gyroscopic);
+        for matrix in matrices.flat_map(|matrix| [&matrix.own, &matrix.next]) {
+            let (rows, columns) = (matrix.nrows(), matrix.ncols());
+            if (rows, columns) != (dofs, dofs) {
+                return Err(UnsoundSector::Size { rows, columns, dofs });
+            }
+        }
+        for node in &parts.contact {
+            if let Some(&dof) = node.dofs.iter().find(|&&dof| dof >= dofs) {
+                return Err(UnsoundSector::ContactDof { id: node.id, dof, dofs });
+            }
+        }
+        Ok(Self(parts))
+    }
+
+    /// What it is made of, to make another one.
+    pub fn into_parts(self) -> SectorParts {
+        self.0
+    }
+}
+
+impl std::ops::Deref for SectorModel {
+    type Target = SectorParts;
+
+    fn deref(&self) -> &SectorParts {
+        &self.0
+    }
+}
+
+impl SectorParts {
     /// Number of own DOF (internal with the low face, and contact).
     pub fn own_dofs(&self) -> usize {
         self.node_of_dof.len()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use faer::sparse::Triplet;
+
+    use super::*;
+
+    fn matrix(size: usize) -> CyclicMatrix {
+        let diagonal: Vec<_> = (0..size).map(|i| Triplet::new(i, i, 1.0)).collect();
+        let own = SparseColMat::try_new_from_triplets(size, size, &diagonal).unwrap();
+        let next = SparseColMat::try_new_from_triplets(size, size, &[]).unwrap();
+        CyclicMatrix { own, next }
+    }
+
+    fn parts() -> SectorParts {
+        let unit = || "1".to_owned();
+        SectorParts {
+            name: String::new(),
+            sectors: 3,
+            units: Units { length: unit(), force: unit(), time: unit(), mass: unit() },
+            mass: matrix(3),
+            stiffness: vec![matrix(3); 3],
+            gyroscopic: None,
+            speeds_rad_s: vec![0.0, 50.0, 100.0],
+            contact: vec![ContactNode {
+                id: 7,
+                position: [1.0, 0.0, 0.0],
+                normal: [1.0, 0.0, 0.0],
+                dofs: [0, 1, 2],
+            }],
+            node_of_dof: vec![0; 3],
+        }
+    }
+
+    #[test]
+    fn only_parts_that_fit_make_a_sector() {
+        let refused = |change: fn(&mut SectorParts)| {
+            let mut parts = parts();
+            change(&mut parts);
+            SectorModel::new(parts).map(|_| ())
+        };
+        assert_eq!(refused(|_| ()), Ok(()));
+        assert_eq!(refused(|parts| parts.sectors = 0), Err(UnsoundSector::NoSectors));
+        assert_eq!(refused(|parts| parts.contact.clear()), Err(UnsoundSector::NoContactNodes));
+        for change in [
+            (|parts| parts.speeds_rad_s.truncate(2)) as fn(&mut SectorParts),
+            |parts| parts.stiffness.truncate(1),
+            |parts| parts.speeds_rad_s[2] = 40.0,
+            |parts| parts.speeds_rad_s[0] = 1.0,
+        ] {
+            assert!(matches!(refused(change), Err(UnsoundSector::Speeds { .. })));
+        }
+        let other = Err(UnsoundSector::Size { rows: 4, columns: 4, dofs: 3 });
+        assert_eq!(refused(|parts| parts.mass = matrix(4)), other);
+        assert_eq!(refused(|parts| parts.gyroscopic = Some(matrix(4))), other);
+        let beyond = Err(UnsoundSector::ContactDof { id: 7, dof: 3, dofs: 3 });
+        assert_eq!(refused(|parts| parts.contact[0].dofs[2] = 3), beyond);
     }
 }

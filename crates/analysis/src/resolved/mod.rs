@@ -1,0 +1,38 @@
+//! Requests as they are stored and run: parsed and held against a model by `resolve`, and sound from then on. What
+//! was stored is parsed again by the functions `stored`, without the model.
+//!
+//! Speeds are numbers, defaults are filled in, alternatives are enums. What was asked for can be had back, as the
+//! `settings` of results, and asked for again.
+
+pub mod knobs;
+pub mod modal_analysis;
+pub mod scene;
+pub mod speeds;
+pub mod study;
+pub mod sweep;
+pub mod trial;
+
+pub use knobs::{Aim, Modes};
+pub use modal_analysis::ResolvedModalAnalysis;
+pub use scene::{Casing, Clearance, FlexibleCasing, Mistuning, Scene, WavesOf};
+pub use speeds::ResolvedSpeeds;
+pub use study::ResolvedStudy;
+pub use sweep::ResolvedSweep;
+pub use trial::TrialRequest;
+
+#[cfg(test)]
+pub(crate) mod from_json {
+    use serde_json::Value;
+
+    use super::{ResolvedSweep, Scene};
+
+    /// A sound scene, held against no model.
+    pub(crate) fn scene(asked: Value) -> Scene {
+        Scene::of(serde_json::from_value(asked).unwrap(), &mut |violation| panic!("{violation:?}"))
+    }
+
+    /// A sound sweep, held against no model.
+    pub(crate) fn sweep(asked: Value) -> ResolvedSweep {
+        ResolvedSweep::stored(serde_json::from_value(asked).unwrap(), 0).unwrap()
+    }
+}

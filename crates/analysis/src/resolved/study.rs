@@ -1,0 +1,93 @@
+//! A convergence study as it is stored and run.
+
+use serde::Serialize;
+
+use crate::error::Violation;
+use crate::request::sweep::default_peak_prominence;
+use crate::request::{
+    AutoOr, Grid, Integration, Sensor, StudyIntegration, StudyRequest, SweepDirection, SweepRequest,
+};
+use crate::resolved::speeds::ResolvedSpeeds;
+use crate::resolved::sweep::ResolvedSweep;
+
+/// A study that was checked against its model; see [`StudyRequest`], as which it is written.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(into = "StudyRequest")]
+pub struct ResolvedStudy {
+    /// What its runs are speeds of; each has knobs of its own.
+    pub(crate) sweep: ResolvedSweep,
+    pub(crate) grid: Grid,
+    pub(crate) history_revolutions: u32,
+}
+
+impl ResolvedStudy {
+    /// Reads again what was resolved before.
+    ///
+    /// # Errors
+    /// What is wrong with it, if it was not.
+    pub fn stored(written: StudyRequest) -> Result<Self, Vec<Violation>> {
+        Ok(Self {
+            sweep: ResolvedSweep::stored(written.sweep(), 0)?,
+            grid: written.grid,
+            history_revolutions: written.history_revolutions,
+        })
+    }
+
+    /// Id of its model.
+    pub fn model(&self) -> &str {
+        &self.sweep.model
+    }
+
+    /// Its speeds.
+    pub fn speeds(&self) -> &ResolvedSpeeds {
+        &self.sweep.speeds
+    }
+
+    /// Its sensors; at least one.
+    pub fn sensors(&self) -> &[Sensor] {
+        &self.sweep.sensors
+    }
+}
+
+impl StudyRequest {
+    /// The sweep that its runs are speeds of.
+    pub(crate) fn sweep(&self) -> SweepRequest {
+        SweepRequest {
+            model: self.model.clone(),
+            modes_per_speed: AutoOr::Auto,
+            speeds: self.speeds.clone(),
+            scene: self.scene.clone(),
+            integration: Integration {
+                revolutions: self.integration.revolutions,
+                ramp_revolutions: self.integration.ramp_revolutions,
+                window_revolutions: self.integration.window_revolutions,
+                ..Integration::default()
+            },
+            sensors: self.sensors.clone(),
+            max_engine_order: self.max_engine_order,
+            peak_prominence: default_peak_prominence(),
+            sweep: SweepDirection::Independent,
+            refine: false,
+            accuracy: None,
+            budget: None,
+            control_speeds: None,
+        }
+    }
+}
+
+impl From<ResolvedStudy> for StudyRequest {
+    fn from(study: ResolvedStudy) -> Self {
+        let sweep = study.sweep;
+        let Integration { revolutions, ramp_revolutions, window_revolutions, .. } = sweep.integration;
+        Self {
+            model: sweep.model,
+            speeds: sweep.speeds.lists().clone(),
+            scene: sweep.scene.into(),
+            grid: study.grid,
+            integration: StudyIntegration { revolutions, ramp_revolutions, window_revolutions },
+            history_revolutions: study.history_revolutions,
+            sensors: sweep.sensors,
+            max_engine_order: sweep.max_engine_order,
+        }
+    }
+}

@@ -1,0 +1,167 @@
+//! A sweep as it is stored and run.
+
+use serde::Serialize;
+
+use crate::error::Violation;
+use crate::request::{
+    AutoOr, Integration, Sensor, Setting, SweepDirection, SweepRequest, sweep::default_peak_prominence,
+};
+use crate::resolved::knobs::Modes;
+use crate::resolved::scene::Scene;
+use crate::resolved::speeds::ResolvedSpeeds;
+
+/// Control runs where the service chooses the knobs.
+const DEFAULT_CONTROL_SPEEDS: u32 = 5;
+
+/// A sweep that was checked against its model; see [`SweepRequest`], as which it is written.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(into = "SweepRequest")]
+pub struct ResolvedSweep {
+    pub(crate) model: String,
+    pub(crate) modes: Modes,
+    pub(crate) speeds: ResolvedSpeeds,
+    pub(crate) scene: Scene,
+    pub(crate) integration: Integration,
+    pub(crate) sensors: Vec<Sensor>,
+    pub(crate) max_engine_order: u32,
+    pub(crate) peak_prominence: f64,
+    pub(crate) sweep: SweepDirection,
+    pub(crate) refine: bool,
+    /// Speeds that are simulated again at a finer setting.
+    pub(crate) control_speeds: u32,
+}
+
+impl ResolvedSweep {
+    /// What `asked` says, the last `rounds` of its lists of speeds being rounds of a refinement; nothing is held against a model.
+    /// `refuse` hears of what says too much or too little, or nothing that is a speed.
+    pub(crate) fn of(asked: SweepRequest, rounds: u32, refuse: &mut dyn FnMut(Violation)) -> Self {
+        let modes = Modes::of(asked.modes_per_speed, asked.accuracy, asked.budget);
+        let speeds = ResolvedSpeeds::of(asked.speeds, rounds).unwrap_or_else(|violations| {
+            violations.into_iter().for_each(&mut *refuse);
+            ResolvedSpeeds::none()
+        });
+        Self {
+            model: asked.model,
+            modes,
+            speeds,
+            scene: Scene::of(asked.scene, refuse),
+            integration: asked.integration,
+            sensors: asked.sensors,
+            max_engine_order: asked.max_engine_order,
+            peak_prominence: asked.peak_prominence,
+            sweep: asked.sweep,
+            refine: asked.refine,
+            control_speeds: asked.control_speeds.unwrap_or(default_controls(modes, asked.sweep)),
+        }
+    }
+
+    /// Reads again what was resolved before, with so many `rounds` of a refinement.
+    ///
+    /// # Errors
+    /// What is wrong with it, if it was not.
+    pub fn stored(written: SweepRequest, rounds: u32) -> Result<Self, Vec<Violation>> {
+        let mut found = Vec::new();
+        let resolved = Self::of(written, rounds, &mut |violation| found.push(violation));
+        if found.is_empty() { Ok(resolved) } else { Err(found) }
+    }
+
+    /// Id of its model.
+    pub fn model(&self) -> &str {
+        &self.model
+    }
+
+    /// How k is set.
+    pub fn modes(&self) -> Modes {
+        self.modes
+    }
+
+    /// k; the usual one while it is sought.
+    pub fn modes_per_speed(&self) -> u32 {
+        self.modes.or_usual()
+    }
+
+    /// Whether its knobs have still to be chosen.
+    pub fn is_sought(&self) -> bool {
+        self.modes.given().is_none()
+    }
+
+    /// Its speeds.
+    pub fn speeds(&self) -> &ResolvedSpeeds {
+        &self.speeds
+    }
+
+    /// Its sensors; at least one.
+    pub fn sensors(&self) -> &[Sensor] {
+        &self.sensors
+    }
+
+    /// Whether speeds are added around its peaks.
+    pub fn is_refined(&self) -> bool {
+        self.refine
+    }
+
+    /// Speeds that are simulated again at a finer setting.
+    pub fn control_speeds(&self) -> usize {
+        self.control_speeds as usize
+    }
+
+    /// In which order its speeds follow each other; none if each is on its own.
+    pub fn chain(&self) -> Option<Vec<u32>> {
+        self.sweep.chain(self.speeds.rad_s())
+    }
+
+    /// With other knobs.
+    pub(crate) fn at(&self, setting: Setting) -> Self {
+        Self {
+            modes: Modes::Given(setting.modes_per_speed),
+            integration: Integration {
+                scheme: setting.scheme,
+                kept_modes: setting.kept_modes,
+                steps_per_revolution: AutoOr::Fixed(setting.steps_per_revolution),
+                ..self.integration.clone()
+            },
+            ..self.clone()
+        }
+    }
+
+    /// A single speed of it at one setting, without what concerns several, and what chooses settings.
+    pub(crate) fn one_speed(&self, speed_rad_s: f64, setting: Setting) -> Self {
+        Self {
+            speeds: ResolvedSpeeds::one(speed_rad_s),
+            sweep: SweepDirection::Independent,
+            refine: false,
+            peak_prominence: default_peak_prominence(),
+            control_speeds: 0,
+            ..self.at(setting)
+        }
+    }
+}
+
+fn default_controls(modes: Modes, sweep: SweepDirection) -> u32 {
+    match (modes, sweep) {
+        (Modes::Sought(_), SweepDirection::Independent) => DEFAULT_CONTROL_SPEEDS,
+        _ => 0,
+    }
+}
+
+impl From<ResolvedSweep> for SweepRequest {
+    fn from(sweep: ResolvedSweep) -> Self {
+        let (modes_per_speed, accuracy, budget) = sweep.modes.fields();
+        let usual = default_controls(sweep.modes, sweep.sweep);
+        Self {
+            model: sweep.model,
+            modes_per_speed,
+            speeds: sweep.speeds.lists().clone(),
+            scene: sweep.scene.into(),
+            integration: sweep.integration,
+            sensors: sweep.sensors,
+            max_engine_order: sweep.max_engine_order,
+            peak_prominence: sweep.peak_prominence,
+            sweep: sweep.sweep,
+            refine: sweep.refine,
+            accuracy,
+            budget,
+            control_speeds: Some(sweep.control_speeds).filter(|&speeds| speeds != usual),
+        }
+    }
+}

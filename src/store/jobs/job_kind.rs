@@ -1,0 +1,39 @@
+//! Kinds of jobs.
+
+use serde::{Deserialize, Serialize};
+use utoipa::ToSchema;
+
+use crate::store::error::StoreError;
+
+/// Kind of a job.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum JobKind {
+    /// Contact simulations over speeds.
+    Sweep,
+    /// Natural frequencies over speeds.
+    ModalAnalysis,
+    /// A model from the parameters of the generator.
+    ModelGeneration,
+    /// Errors and times of a grid of settings.
+    Study,
+}
+
+impl JobKind {
+    /// The word on the wire and in the database.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Sweep => "sweep",
+            Self::ModalAnalysis => "modal_analysis",
+            Self::ModelGeneration => "model_generation",
+            Self::Study => "study",
+        }
+    }
+
+    /// The kind that a column holds.
+    pub(super) fn from_column(text: &str) -> Result<Self, StoreError> {
+        let kinds = [Self::Sweep, Self::ModalAnalysis, Self::ModelGeneration, Self::Study];
+        let kind = kinds.into_iter().find(|kind| kind.as_str() == text);
+        kind.ok_or_else(|| StoreError::Unknown { column: "jobs.kind", value: text.to_owned() })
+    }
+}

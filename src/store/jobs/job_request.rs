@@ -1,0 +1,150 @@
+//! What a job computes, and how the table of jobs keeps it.
+
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+
+use super::job_kind::JobKind;
+use crate::analysis::error::Violation;
+use crate::analysis::resolved::{ResolvedModalAnalysis, ResolvedStudy, ResolvedSweep};
+use crate::impeller::ImpellerParameters;
+use crate::store::error::StoreError;
+
+/// What a job computes: checked, and with every default filled in.
+#[derive(Debug, Clone, PartialEq)]
+pub enum JobRequest {
+    /// Contact simulations over speeds.
+    Sweep(Box<ResolvedSweep>),
+    /// Natural frequencies over speeds.
+    ModalAnalysis(ResolvedModalAnalysis),
+    /// A model from the parameters of the generator.
+    ModelGeneration(Box<ImpellerParameters>),
+    /// Errors and times of a grid of settings.
+    Study(Box<ResolvedStudy>),
+}
+
+/// Version of the form in which requests are kept; a change of it needs a migration.
+const SCHEMA: u32 = 1;
+
+/// A request as it is kept.
+#[derive(Serialize, Deserialize)]
+struct Kept<R> {
+    schema: u32,
+    /// How many of the last lists of speeds `refine` has added.
+    rounds: u32,
+    request: R,
+}
+
+impl JobRequest {
+    /// Its kind.
+    pub fn kind(&self) -> JobKind {
+        match self {
+            Self::Sweep(_) => JobKind::Sweep,
+            Self::ModalAnalysis(_) => JobKind::ModalAnalysis,
+            Self::ModelGeneration(_) => JobKind::ModelGeneration,
+            Self::Study(_) => JobKind::Study,
+        }
+    }
+
+    /// The model it computes from, if it does.
+    pub fn model(&self) -> Option<&str> {
+        match self {
+            Self::Sweep(request) => Some(request.model()),
+            Self::ModalAnalysis(request) => Some(request.model()),
+            Self::ModelGeneration(_) => None,
+            Self::Study(request) => Some(request.model()),
+        }
+    }
+
+    /// How many speeds it has by now.
+    pub fn speeds(&self) -> u32 {
+        match self {
+            Self::Sweep(request) => request.speeds().count(),
+            Self::ModalAnalysis(request) => request.speeds().count(),
+            Self::ModelGeneration(_) => 0,
+            Self::Study(request) => request.speeds().count(),
+        }
+    }
+
+    /// `modes_per_speed` of the reduction that its results rest on, if there is one and it is known.
+    pub fn modes_per_speed(&self) -> Option<u32> {
+        match self {
+            Self::Sweep(request) => request.modes().given(),
+            Self::ModalAnalysis(request) => request.modes().given(),
+            Self::ModelGeneration(_) | Self::Study(_) => None,
+        }
+    }
+
+    pub(super) fn to_json(&self) -> Result<String, serde_json::Error> {
+        match self {
+            Self::Sweep(request) => kept(request, request.speeds().rounds()),
+            Self::ModalAnalysis(request) => kept(request, 0),
+            Self::ModelGeneration(parameters) => kept(parameters, 0),
+            Self::Study(request) => kept(request, 0),
+        }
+    }
+
+    pub(super) fn from_json(kind: JobKind, json: &str) -> Result<Self, StoreError> {
+        Ok(match kind {
+            JobKind::Sweep => {
+                let (request, rounds) = read(json)?;
+                Self::Sweep(Box::new(ResolvedSweep::stored(request, rounds).map_err(unsound)?))
+            }
+            JobKind::ModalAnalysis => {
+                Self::ModalAnalysis(ResolvedModalAnalysis::stored(read(json)?.0).map_err(unsound)?)
+            }
+            JobKind::Study => Self::Study(Box::new(ResolvedStudy::stored(read(json)?.0).map_err(unsound)?)),
+            JobKind::ModelGeneration => Self::ModelGeneration(read(json)?.0),
+        })
+    }
+}
+
+fn kept<R: Serialize>(request: R, rounds: u32) -> Result<String, serde_json::Error> {
+    serde_json::to_string(&Kept { schema: SCHEMA, rounds, request })
+}
+
+fn read<R: DeserializeOwned>(json: &str) -> Result<(R, u32), StoreError> {
+    let Kept { schema, rounds, request } = serde_json::from_str(json)?;
+    if schema != SCHEMA {
+        return Err(StoreError::Unknown { column: "jobs.request", value: format!("schema {schema}") });
+    }
+    Ok((request, rounds))
+}
+
+fn unsound(violations: Vec<Violation>) -> StoreError {
+    let value = violations.iter().map(|violation| format!("{}: {}", violation.pointer, violation.message));
+    StoreError::Unknown { column: "jobs.request", value: value.collect::<Vec<_>>().join("; ") }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    fn sweep(speeds: serde_json::Value, rounds: u32) -> String {
+        let request = json!({"model": "m", "modes_per_speed": 20, "scene": {"mistuning": {"spread": 0.01, "seed": 3}}, "speeds": speeds});
+        json!({"schema": 1, "rounds": rounds, "request": request}).to_string()
+    }
+
+    #[test]
+    fn what_is_kept_reads_as_it_was() {
+        let list = |value: f64| json!({"values": [value], "unit": "hz"});
+        for (speeds, rounds) in
+            [(list(1.0), 0), (json!([list(1.0)]), 0), (json!([list(1.0), list(2.0), list(1.5)]), 2)]
+        {
+            let read = JobRequest::from_json(JobKind::Sweep, &sweep(speeds, rounds)).unwrap();
+            assert_eq!(JobRequest::from_json(JobKind::Sweep, &read.to_json().unwrap()).unwrap(), read);
+            let JobRequest::Sweep(request) = &read else { panic!("{read:?}") };
+            assert_eq!((request.speeds().rounds(), read.speeds()), (rounds, rounds + 1));
+        }
+    }
+
+    #[test]
+    fn what_cannot_have_been_kept_is_not_guessed_at() {
+        let no_speed = sweep(json!({"values": [-1.0], "unit": "hz"}), 0);
+        let later = sweep(json!({"values": [1.0], "unit": "hz"}), 0).replace("\"schema\":1", "\"schema\":9");
+        for kept in [no_speed.as_str(), &later, "{}"] {
+            assert!(JobRequest::from_json(JobKind::Sweep, kept).is_err(), "{kept}");
+        }
+    }
+}
