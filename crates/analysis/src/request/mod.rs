@@ -22,6 +22,6 @@ pub use scene::{
 };
 pub use sensor::{Component, Sensor};
 pub use setting::Setting;
-pub use speeds::{HIGHEST_SPEED, MAX_SPEEDS, SpeedSet, SpeedUnit, Speeds};
+pub use speeds::{HIGHEST_SPEED, LOWEST_SPEED, MAX_SPEEDS, SpeedSet, SpeedUnit, Speeds};
 pub use study::{Grid, StudyIntegration, StudyRequest};
 pub use sweep::{SweepDirection, SweepRequest};

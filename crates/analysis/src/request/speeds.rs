@@ -70,6 +70,9 @@ impl SpeedUnit {
 /// Speeds beyond this, in rad/s, are typing errors.
 pub const HIGHEST_SPEED: f64 = 1e7;
 
+/// So are those below it that are not 0: a revolution would take more than two months.
+pub const LOWEST_SPEED: f64 = 1e-6;
+
 /// Largest number of speeds in one job.
 pub const MAX_SPEEDS: usize = 10_000;
 
@@ -155,6 +158,9 @@ impl SpeedSet {
                 1 if from != to => {
                     return at("/count", "one speed cannot span from and to; give count ≥ 2");
                 }
+                2.. if from == to => {
+                    return at("/count", "from and to are one speed: give count 1, or another end");
+                }
                 _ if count as usize > room => return at("/count", &too_many),
                 1 => vec![from],
                 _ => {
@@ -172,11 +178,14 @@ impl SpeedSet {
         }
         // Adding 0 makes −0 a 0.
         let speeds_rad_s: Vec<f64> = given.iter().map(|v| v * self.unit.rad_s() + 0.0).collect();
-        match speeds_rad_s.iter().position(|speed| !(0.0..=HIGHEST_SPEED).contains(speed)) {
+        let known = |&speed: &f64| speed == 0.0 || (LOWEST_SPEED..=HIGHEST_SPEED).contains(&speed);
+        match speeds_rad_s.iter().position(|speed| !known(speed)) {
             Some(bad) => {
                 let field = if self.values.is_some() { format!("/values/{bad}") } else { String::new() };
-                let message =
-                    format!("a speed lies between 0 and {HIGHEST_SPEED:e} rad/s, unlike {}", given[bad]);
+                let message = format!(
+                    "a speed is 0 or lies between {LOWEST_SPEED:e} and {HIGHEST_SPEED:e} rad/s, unlike {}",
+                    given[bad]
+                );
                 at(&field, &message)
             }
             None => Ok(speeds_rad_s),
@@ -229,6 +238,9 @@ mod tests {
         assert_eq!(pointers(json!([])), ["/speeds"]);
         assert_eq!(pointers(json!([range(0), range(2), range(1)])), ["/speeds/0/count", "/speeds/2/count"]);
         assert_eq!(pointers(json!([{"values": [1, -1], "unit": "hz"}])), ["/speeds/0/values/1"]);
+        assert_eq!(pointers(json!({"values": [0, 1e-300], "unit": "rpm"})), ["/speeds/values/1"]);
+        assert_eq!(pointers(json!({"from": 7, "to": 7, "count": 3, "unit": "hz"})), ["/speeds/count"]);
+        assert!(resolve(&speeds(json!({"from": 7, "to": 7, "count": 1, "unit": "hz"}))).is_ok());
         assert_eq!(pointers(json!([range(3), {"from": 1, "unit": "hz"}])), ["/speeds/1"]);
         // Together, whether or not they repeat each other.
         assert_eq!(pointers(json!([range(6_000), range(4_001)])), ["/speeds/1/count"]);
