@@ -8,7 +8,7 @@ use sqlx::{ConnectOptions, Connection, Row};
 
 use super::error::StoreError;
 use super::handle::{DATABASE, PATIENCE};
-use super::models::package_path;
+use super::packages::{package_path, packages_folder};
 use super::{end_states, jobs, models, results};
 use crate::package;
 
@@ -23,7 +23,7 @@ pub struct Backup {
     pub dropped: u64,
 }
 
-/// Copies the data folder `data` to `to`, which must not exist: the database as it is at one moment, and the packages of
+/// Copies the data folder `data` to `to`, which must not exist and lies elsewhere: the database as it is at one moment, and the packages of
 /// its models. A service may run on the folder. What can be computed again (parts of unfinished reductions) is left out.
 ///
 /// # Errors
@@ -38,9 +38,14 @@ pub async fn backup(data: &Path, to: &Path) -> Result<Backup, StoreError> {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     };
+    expect_database(data)?;
+    if around.canonicalize()?.starts_with(data.canonicalize()?) {
+        let inside = "a backup inside the data folder would be lost with it";
+        return Err(std::io::Error::new(std::io::ErrorKind::InvalidInput, inside).into());
+    }
     // Its name promises that it is whole.
     let unfinished = tempfile::Builder::new().prefix("unfinished-backup-").tempdir_in(around)?;
-    std::fs::create_dir(unfinished.path().join("models"))?;
+    std::fs::create_dir(packages_folder(unfinished.path()))?;
     let mut source = connect(data).read_only(true).connect().await?;
     let copy = unfinished.path().join(DATABASE);
     sqlx::query("vacuum into ?").bind(copy.to_string_lossy()).execute(&mut source).await?;
@@ -71,7 +76,7 @@ pub async fn backup(data: &Path, to: &Path) -> Result<Backup, StoreError> {
         sqlx::query_scalar("select count(*) from jobs where deleted = 0").fetch_one(&mut copied).await?;
     copied.close().await?;
     source.close().await?;
-    for written in [copy, unfinished.path().join("models"), unfinished.path().to_owned()] {
+    for written in [copy, packages_folder(unfinished.path()), unfinished.path().to_owned()] {
         std::fs::File::open(written)?.sync_all()?;
     }
     std::fs::rename(unfinished.path(), to)?;
@@ -79,6 +84,15 @@ pub async fn backup(data: &Path, to: &Path) -> Result<Backup, StoreError> {
     // It has another name now.
     let _ = unfinished.keep();
     Ok(Backup { models, jobs: jobs.unsigned_abs(), dropped })
+}
+
+/// Refuses a folder without a database.
+fn expect_database(data: &Path) -> Result<(), StoreError> {
+    if data.join(DATABASE).try_exists()? {
+        return Ok(());
+    }
+    let absent = format!("no {DATABASE} in it: this is no data folder");
+    Err(std::io::Error::new(std::io::ErrorKind::NotFound, absent).into())
 }
 
 fn copy_file(from: &Path, to: &Path) -> std::io::Result<()> {
@@ -102,6 +116,7 @@ pub struct Findings {
 /// Reads everything in the data folder `data` and says what is not as it was written. Changes nothing; a service may run
 /// on the folder.
 pub async fn check(data: &Path) -> Result<Findings, StoreError> {
+    expect_database(data)?;
     let mut found = Findings::default();
     let mut database = connect(data).read_only(true).connect().await?;
     let verdicts: Vec<String> = sqlx::query_scalar("pragma integrity_check").fetch_all(&mut database).await?;

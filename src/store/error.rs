@@ -1,6 +1,7 @@
 //! What can go wrong with remembering.
 
 use std::io::ErrorKind;
+use std::path::PathBuf;
 
 use sqlx::migrate::MigrateError;
 
@@ -16,6 +17,19 @@ pub enum StoreError {
     /// The queue's tables refused.
     #[error("queue: {0}")]
     Queue(#[from] apalis_sqlite::Error),
+    /// Packages of models, and nothing that knows them.
+    #[error(
+        "{} is missing or empty, and beside it lie the packages of {packages} models, which a new database would not know \
+         and the service remove: put the database back (from a backup), or, to begin anew, move its folder `models` \
+         elsewhere and upload the packages again",
+        database.display()
+    )]
+    LostDatabase {
+        /// Where it should be.
+        database: PathBuf,
+        /// Packages that are there.
+        packages: usize,
+    },
     /// A file beside the database could not be written or read.
     #[error("data folder: {0}")]
     File(#[from] std::io::Error),
@@ -83,9 +97,12 @@ impl StoreError {
             | Self::Migration(MigrateError::Execute(error) | MigrateError::ExecuteMigration(error, _)) => {
                 result_code(error).is_some_and(|code| PASSING.contains(&code))
             }
-            Self::Migration(_) | Self::Json(_) | Self::Numbers(_) | Self::Spectra | Self::Unknown { .. } => {
-                false
-            }
+            Self::Migration(_)
+            | Self::LostDatabase { .. }
+            | Self::Json(_)
+            | Self::Numbers(_)
+            | Self::Spectra
+            | Self::Unknown { .. } => false,
         }
     }
 }

@@ -11,6 +11,7 @@ use sqlx::sqlite::{
 
 use super::error::StoreError;
 use super::marks::Marks;
+use super::packages::{count_packages, packages_folder};
 
 /// Name of the database in its folder.
 pub(super) const DATABASE: &str = "rubmap.sqlite";
@@ -34,8 +35,12 @@ pub struct Store {
 
 impl Store {
     /// Opens the store in `folder`, which must exist, and brings its tables up to date.
+    ///
+    /// # Errors
+    /// Also where packages of models lie beside a database that is missing or empty: a new one would make leftovers of them.
     pub async fn open(folder: &Path) -> Result<Self, StoreError> {
-        std::fs::create_dir_all(folder.join("models"))?;
+        std::fs::create_dir_all(packages_folder(folder))?;
+        expect_database(folder)?;
         let options = SqliteConnectOptions::new()
             .filename(folder.join(DATABASE))
             .create_if_missing(true)
@@ -61,6 +66,20 @@ impl Store {
     }
 }
 
+/// Refuses a folder whose packages have lost their database.
+fn expect_database(folder: &Path) -> Result<(), StoreError> {
+    let database = folder.join(DATABASE);
+    match std::fs::metadata(&database) {
+        Ok(file) if file.len() > 0 => return Ok(()),
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => return Err(error.into()),
+        _ => {}
+    }
+    match count_packages(folder)? {
+        0 => Ok(()),
+        packages => Err(StoreError::LostDatabase { database, packages }),
+    }
+}
+
 /// Makes a database anew, once, that an earlier version made such that it cannot give room back.
 async fn make_shrinkable(writer: &SqlitePool) -> Result<(), StoreError> {
     const INCREMENTAL: i64 = 2;
@@ -81,6 +100,7 @@ mod tests {
 
     use super::*;
     use crate::store::jobs::JobId;
+    use crate::store::packages::package_path;
     use crate::store::results::Document;
 
     /// A data folder as the program made it with the migrations before `version`, with one finished sweep.
@@ -109,6 +129,29 @@ mod tests {
         }
         pool.close().await;
         folder
+    }
+
+    /// A database that was moved away or emptied took every package with it: nothing knew them any more.
+    #[tokio::test]
+    async fn packages_without_a_database_are_not_leftovers() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::create_dir(packages_folder(folder.path())).unwrap();
+        let package = package_path(folder.path(), &"0a".repeat(32));
+        std::fs::write(&package, "package").unwrap();
+        let database = folder.path().join(DATABASE);
+        for emptied in [false, true] {
+            if emptied {
+                std::fs::write(&database, "").unwrap();
+            }
+            let refused = Store::open(folder.path()).await.unwrap_err();
+            assert!(matches!(refused, StoreError::LostDatabase { packages: 1, .. }), "{refused}");
+            assert!(!refused.may_pass());
+            assert_eq!(database.exists(), emptied);
+            assert!(package.exists());
+        }
+        // Elsewhere they stand in nobody's way.
+        std::fs::rename(&package, folder.path().join("kept.zip")).unwrap();
+        Store::open(folder.path()).await.unwrap();
     }
 
     #[tokio::test]

@@ -29,15 +29,21 @@ pub enum LimitReached {
         limit: u64,
     },
     /// Too many bytes.
-    #[error("your models and results take {stored} bytes, the limit is {limit}: delete jobs or models")]
+    #[error(
+        "your models and results take {stored} bytes, with {more} to be added, and the limit is {limit}: delete jobs or models"
+    )]
     StoredBytes {
         /// Bytes stored.
         stored: u64,
+        /// Bytes that were to be added, as far as that is known.
+        more: u64,
         /// Most bytes.
         limit: u64,
     },
     /// Too many models.
-    #[error("you have {models} models, the limit is {limit}: delete some")]
+    #[error(
+        "you have {models} models, those that are being generated included, and the limit is {limit}: delete some"
+    )]
     Models {
         /// Models there are.
         models: u64,
@@ -62,36 +68,60 @@ impl Limits {
                 return Ok(Err(LimitReached::QueuedSpeeds { queued, asked, limit }));
             }
         }
-        self.allow_bytes(connection, owner).await
+        // What they will take nobody knows yet.
+        self.allow_bytes(connection, owner, 0).await
     }
 
-    /// Whether `owner` may have one model more.
+    /// Whether `owner` may have one model more, of so many bytes.
     pub(super) async fn allow_model(
         self,
         connection: &mut SqliteConnection,
         owner: &str,
+        bytes: u64,
     ) -> Result<Result<(), LimitReached>, StoreError> {
-        if let Some(limit) = self.models {
-            let models =
-                count(connection, "select count(*) from model_owners where owner = ?", owner).await?;
-            if models >= limit {
-                return Ok(Err(LimitReached::Models { models, limit }));
-            }
+        let sql = "select count(*) from model_owners where owner = ?";
+        if let Err(reached) = self.allow_one_of(connection, owner, sql).await? {
+            return Ok(Err(reached));
         }
-        self.allow_bytes(connection, owner).await
+        self.allow_bytes(connection, owner, bytes).await
+    }
+
+    /// Whether `owner` may have one model more when those are there that are being generated.
+    pub(super) async fn allow_generation(
+        self,
+        connection: &mut SqliteConnection,
+        owner: &str,
+    ) -> Result<Result<(), LimitReached>, StoreError> {
+        let sql = "select (select count(*) from model_owners where owner = ?1)
+                   + (select count(*) from jobs where owner = ?1 and kind = 'model_generation'
+                      and status in ('accepted', 'running'))";
+        self.allow_one_of(connection, owner, sql).await
+    }
+
+    async fn allow_one_of(
+        self,
+        connection: &mut SqliteConnection,
+        owner: &str,
+        models: &'static str,
+    ) -> Result<Result<(), LimitReached>, StoreError> {
+        let Some(limit) = self.models else { return Ok(Ok(())) };
+        let models = count(connection, models, owner).await?;
+        Ok(if models >= limit { Err(LimitReached::Models { models, limit }) } else { Ok(()) })
     }
 
     async fn allow_bytes(
         self,
         connection: &mut SqliteConnection,
         owner: &str,
+        more: u64,
     ) -> Result<Result<(), LimitReached>, StoreError> {
         let Some(limit) = self.stored_bytes else { return Ok(Ok(())) };
         let sql = "select (select coalesce(sum(stored_bytes), 0) from jobs where owner = ?1 and deleted = 0)
                    + (select coalesce(sum(size_bytes), 0) from models
                       where id in (select model from model_owners where owner = ?1))";
         let stored = count(connection, sql, owner).await?;
-        Ok(if stored >= limit { Err(LimitReached::StoredBytes { stored, limit }) } else { Ok(()) })
+        let reached = stored >= limit || stored.saturating_add(more) > limit;
+        Ok(if reached { Err(LimitReached::StoredBytes { stored, more, limit }) } else { Ok(()) })
     }
 }
 

@@ -8,6 +8,7 @@ use sqlx::sqlite::SqliteRow;
 use super::error::StoreError;
 use super::handle::Store;
 use super::limits::{LimitReached, Limits};
+use super::packages::{self, packages_folder};
 use super::time::now;
 use super::unfinished::unfinished_file;
 use crate::analysis::run::ModelFacts;
@@ -45,12 +46,12 @@ impl Store {
     /// An empty file on the same file system as the models, for a package on its way in. Removed when dropped, or by the
     /// next start.
     pub fn new_upload(&self) -> std::io::Result<tempfile::NamedTempFile> {
-        unfinished_file(&self.folder.join("models"), UPLOAD_PREFIX)
+        unfinished_file(&packages_folder(&self.folder), UPLOAD_PREFIX)
     }
 
     /// Where the package of `model` lies.
     pub fn package_path(&self, model: &str) -> PathBuf {
-        package_path(&self.folder, model)
+        packages::package_path(&self.folder, model)
     }
 
     /// Keeps the package at `upload`, a file from [`Self::new_upload`], as model `id` of `owner`, within `limits`. Returns the
@@ -72,8 +73,14 @@ impl Store {
             if tokio::fs::try_exists(&target).await? {
                 return Ok(Ok((known, false)));
             }
-        } else if let Err(reached) = limits.allow_model(&mut *self.readers.acquire().await?, owner).await? {
-            return Ok(Err(reached));
+        } else {
+            // An earlier attempt may have moved it to its place.
+            let package = if tokio::fs::try_exists(upload).await? { upload } else { &target };
+            let bytes = tokio::fs::metadata(package).await?.len();
+            let mut reader = self.readers.acquire().await?;
+            if let Err(reached) = limits.allow_model(&mut reader, owner, bytes).await? {
+                return Ok(Err(reached));
+            }
         }
         let upload = upload.to_owned();
         let size_bytes = tokio::task::spawn_blocking(move || keep_file(&upload, &target))
@@ -146,14 +153,18 @@ impl Store {
 
     /// Removes package files without a row: of uploads and deletions that broke off.
     pub(super) async fn remove_stale_packages(&self) -> Result<(), StoreError> {
-        let mut files = tokio::fs::read_dir(self.folder.join("models")).await?;
+        let mut files = tokio::fs::read_dir(packages_folder(&self.folder)).await?;
         while let Some(file) = files.next_entry().await? {
             let Ok(name) = file.file_name().into_string() else { continue };
-            let stale = match name.strip_suffix(".zip") {
+            let stale = match packages::model_of(&name) {
                 Some(id) => self.model(id, None).await?.is_none(),
                 None => name.starts_with(UPLOAD_PREFIX),
             };
             if stale {
+                tracing::warn!(
+                    file = name,
+                    "removing a package that no model has: an upload or a deletion broke off"
+                );
                 tokio::fs::remove_file(file.path()).await?;
             }
         }
@@ -164,6 +175,10 @@ impl Store {
     /// is no other owner. With its last owner it is deleted, and its reductions with it.
     pub async fn delete_model(&self, id: &str, owner: Option<&str>) -> Result<Deletion, StoreError> {
         let _packages = self.packages.lock().await;
+        self.with_reserve(|| self.remove_model(id, owner)).await
+    }
+
+    async fn remove_model(&self, id: &str, owner: Option<&str>) -> Result<Deletion, StoreError> {
         if self.model(id, owner).await?.is_none() {
             return Ok(Deletion::Unknown);
         }
@@ -219,11 +234,6 @@ pub(super) fn read(row: &SqliteRow) -> Result<StoredModel, StoreError> {
         size_bytes: row.try_get::<i64, _>("size_bytes")?.unsigned_abs(),
         created_at: row.try_get("since")?,
     })
-}
-
-/// Where the package of `model` lies in a data folder.
-pub(super) fn package_path(folder: &Path, model: &str) -> PathBuf {
-    folder.join("models").join(format!("{model}.zip"))
 }
 
 /// Flushes the upload to the disk and gives it its final name, in this order, unless an earlier attempt did. Returns its

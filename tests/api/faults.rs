@@ -12,6 +12,7 @@ use sqlx::sqlite::{SqliteConnectOptions, SqliteConnection};
 use sqlx::{ConnectOptions, Connection};
 
 use super::app::{TestApp, long_sweep_of, modal_analysis_of, sweep_of};
+use super::keeping::wide_sweep_of;
 use super::kill::points;
 use super::model;
 use super::program::Program;
@@ -94,6 +95,43 @@ async fn a_full_disk_loses_nothing_that_was_accepted() {
         assert_eq!(program.api.job(id).await.text("/status"), "successful");
     }
     assert_eq!(points(&program.api, &running).await, before);
+}
+
+/// On a disk to the last byte, too: who uses the service may not reach its disk.
+#[tokio::test]
+async fn room_can_be_made_on_a_full_disk() {
+    let Some(disk) = SmallDisk::mount(48) else { return };
+    let program = Program::serve(&disk.data());
+    let api = &program.api;
+    let model = api.model(model::package(1.0)).await;
+    let mut request = wide_sweep_of(&model);
+    request["max_engine_order"] = 100.into();
+    let mut finished = Vec::new();
+    for _ in 0..2 {
+        let id = api.sweep(&request).await;
+        assert_eq!(api.finish(&id).await["status"], "successful");
+        finished.push(id);
+    }
+    let running = api.sweep(&long_sweep_of(&model, 40)).await;
+    api.follow(&running, |job| job["speeds"]["finished"].as_u64() >= Some(1)).await;
+    disk.fill();
+    let post = async || api.post("/v1/sweeps", &quick_sweep_of(&model)).await.status;
+    let mut refused = 0;
+    for _ in 0..400 {
+        refused += usize::from(post().await == 507);
+        if refused == 5 {
+            break;
+        }
+    }
+    assert_eq!(refused, 5, "the disk did not fill up");
+    api.follow(&running, |job| job["phase"].as_str().unwrap().contains("disk")).await;
+
+    for id in &finished {
+        assert_eq!(api.delete(&format!("/v1/jobs/{id}")).await.status, 204);
+    }
+    assert_eq!(api.finish(&running).await["status"], "successful");
+    assert_eq!(post().await, 202);
+    assert_eq!(api.delete(&format!("/v1/jobs/{running}")).await.status, 204);
 }
 
 async fn connect(data: &Path) -> SqliteConnection {

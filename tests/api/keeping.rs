@@ -60,11 +60,30 @@ async fn a_backup_of_a_running_service_is_whole() {
     assert!(said(&checked).contains("another content"), "{}", said(&checked));
     std::fs::remove_file(copy.join("models").join(format!("{model}.zip"))).unwrap();
     assert!(said(&rubmap(&["check"], &copy)).contains(&model));
-    assert!(!rubmap(&["check"], &folder.path().join("nowhere")).status.success());
+    for command in [&["check"][..], &["backup", "--to", "elsewhere"]] {
+        let refused = rubmap(command, &folder.path().join("nowhere"));
+        assert!(!refused.status.success() && said(&refused).contains("no data folder"), "{}", said(&refused));
+    }
+    let inside = data.join("copy");
+    let refused = rubmap(&["backup", "--to", inside.to_str().unwrap()], &data);
+    assert!(said(&refused).contains("lost with it") && !inside.exists(), "{}", said(&refused));
+
+    // A folder that has lost its database loses no packages on top.
+    let package = copy.join("models").join(format!("{model}.zip"));
+    std::fs::rename(folder.path().join("whole"), &package).unwrap();
+    std::fs::remove_file(copy.join("rubmap.sqlite")).unwrap();
+    let mut serve = Command::new(env!("CARGO_BIN_EXE_rubmap"));
+    let refused = serve.args(["serve", "--addr", "127.0.0.1:0", "--data"]).arg(&copy).output().unwrap();
+    assert!(
+        !refused.status.success() && said(&refused).contains("packages of 1 models"),
+        "{}",
+        said(&refused)
+    );
+    assert!(package.exists() && !copy.join("rubmap.sqlite").exists());
 }
 
 /// A sweep that records as much as it may.
-fn wide_sweep_of(model: &str) -> Value {
+pub(crate) fn wide_sweep_of(model: &str) -> Value {
     let mut request = sweep_of(model);
     request["speeds"] = json!({"values": [400.0, 500.0, 600.0, 700.0], "unit": "rad_s"});
     request["integration"]["revolutions"] = 60.into();

@@ -27,8 +27,12 @@ pub enum JobDeletion {
 }
 
 impl Store {
-    /// Deletes a finished job with its results.
+    /// Deletes a finished job with its results, on a full disk as well.
     pub async fn delete_job(&self, id: JobId) -> Result<JobDeletion, StoreError> {
+        self.with_reserve(|| self.mark_deleted(id)).await
+    }
+
+    async fn mark_deleted(&self, id: JobId) -> Result<JobDeletion, StoreError> {
         let mut write = self.write().await?;
         let outcome = match status_of(&mut write, id).await? {
             None => JobDeletion::Unknown,
@@ -63,6 +67,12 @@ impl Store {
     /// Removes the rows of deleted jobs, a few at a time, and gives their room back to the file system. Goes on where it
     /// was if it is interrupted.
     pub async fn purge(&self) -> Result<(), StoreError> {
+        self.with_reserve(|| self.remove_deleted()).await?;
+        self.keep_reserve().await;
+        Ok(())
+    }
+
+    async fn remove_deleted(&self) -> Result<(), StoreError> {
         let deleted: Vec<String> =
             sqlx::query_scalar("select id from jobs where deleted = 1").fetch_all(&self.readers).await?;
         for id in &deleted {

@@ -1,6 +1,7 @@
 //! Keeping a new job.
 
 use super::job::JobId;
+use super::job_kind::JobKind;
 use super::job_request::JobRequest;
 use crate::analysis::run::{ModelFacts, REVISION};
 use crate::store::error::StoreError;
@@ -43,6 +44,12 @@ impl Store {
         }
         let asked = u64::from(speeds.max(1));
         if let Err(reached) = limits.allow_speeds(&mut transaction, owner, asked).await? {
+            transaction.rollback().await?;
+            return Ok(Insertion::Limit(reached));
+        }
+        if request.kind() == JobKind::ModelGeneration
+            && let Err(reached) = limits.allow_generation(&mut transaction, owner).await?
+        {
             transaction.rollback().await?;
             return Ok(Insertion::Limit(reached));
         }

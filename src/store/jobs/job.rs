@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 use uuid::Uuid;
+use uuid::fmt::Hyphenated;
 
 use super::job_kind::JobKind;
 use super::job_request::JobRequest;
@@ -23,7 +24,9 @@ impl JobId {
 
     /// Reads an id; `None` if `text` is not one.
     pub fn parse(text: &str) -> Option<Self> {
-        Uuid::try_parse(text).ok().map(Self)
+        let id = Uuid::try_parse(text).ok()?;
+        // Braces and URNs would be other paths to the same job.
+        (text.len() == Hyphenated::LENGTH).then_some(Self(id))
     }
 }
 
