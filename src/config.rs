@@ -32,7 +32,7 @@ pub struct Config {
     pub workers: Option<u16>,
 
     /// Largest model package accepted, in bytes as sent.
-    #[arg(long, env = "RUBMAP_UPLOAD_BYTES", default_value_t = UPLOAD_BYTES)]
+    #[arg(long, env = "RUBMAP_UPLOAD_BYTES", default_value_t = UPLOAD_BYTES, value_parser = clap::value_parser!(u64).range(1..))]
     pub upload_bytes: u64,
 
     /// Largest model package accepted, in bytes once expanded [default: what fits into memory beside a reduction].

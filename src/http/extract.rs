@@ -14,6 +14,9 @@ use super::problem::{Kind, Problem, ProblemItem, excerpt};
 use super::state::AppState;
 use crate::store::jobs::JobId;
 
+/// Largest body that is read as a whole.
+pub(super) const JSON_BYTES: usize = 2 << 20;
+
 /// A JSON body.
 pub(super) struct JsonBody<T> {
     pub(super) value: T,
@@ -26,18 +29,30 @@ impl<T: DeserializeOwned + ToSchema> FromRequest<AppState> for JsonBody<T> {
 
     async fn from_request(request: Request, state: &AppState) -> Result<Self, Problem> {
         expect_media_type(request.headers(), &["application/json"])?;
+        if declared_bytes(request.headers()) > Some(JSON_BYTES as u64) {
+            return Err(json_too_large());
+        }
         let path = request.uri().path().to_owned();
         let body = Bytes::from_request(request, state).await.map_err(|rejection| match rejection {
             BytesRejection::FailedToBufferBody(ref failure)
                 if failure.status() == StatusCode::PAYLOAD_TOO_LARGE =>
             {
-                Problem::new(Kind::PayloadTooLarge, "a request body may have 2 MB")
+                json_too_large()
             }
             other => Problem::new(Kind::BadRequest, other.body_text()),
         })?;
         let value = read_json(&state.contract, &body)?;
         Ok(Self { value, fingerprint: idempotency::fingerprint(&path, &body) })
     }
+}
+
+fn json_too_large() -> Problem {
+    Problem::new(Kind::PayloadTooLarge, format!("a request in JSON may have {JSON_BYTES} bytes"))
+}
+
+/// How long the body says it is.
+pub(super) fn declared_bytes(headers: &HeaderMap) -> Option<u64> {
+    headers.get(header::CONTENT_LENGTH)?.to_str().ok()?.parse().ok()
 }
 
 /// A query string.
@@ -94,8 +109,13 @@ impl<S: Send + Sync> FromRequestParts<S> for SpeedPath {
             let text = rejection.body_text();
             Problem::new(if text.contains("index") { Kind::SpeedNotFound } else { Kind::JobNotFound }, text)
         })?;
-        Ok(Self(parse_job_id(&id)?, index.parse().ok()))
+        Ok(Self(parse_job_id(&id)?, parse_index(&index)))
     }
+}
+
+/// A number has one spelling, so that a result has one path.
+fn parse_index(text: &str) -> Option<u32> {
+    text.parse().ok().filter(|index: &u32| index.to_string() == text)
 }
 
 fn parse_job_id(text: &str) -> Result<JobId, Problem> {
@@ -107,8 +127,18 @@ pub(super) fn job_not_found(id: &impl std::fmt::Display) -> Problem {
     Problem::new(Kind::JobNotFound, format!("there is no job {id}"))
 }
 
-/// Refuses a body whose declared type is none of `accepted`.
+/// Refuses a body whose declared type is none of `accepted`, or that is encoded.
 pub(super) fn expect_media_type(headers: &HeaderMap, accepted: &[&str]) -> Result<(), Problem> {
+    if let Some(encoding) = headers.get(header::CONTENT_ENCODING)
+        && !encoding.as_bytes().eq_ignore_ascii_case(b"identity")
+    {
+        let detail = "bodies are taken as they are: send it without Content-Encoding";
+        return Err(Problem::new(Kind::UnsupportedMediaType, detail).with(ProblemItem {
+            parameter: Some("Content-Encoding".to_owned()),
+            detail: detail.to_owned(),
+            ..ProblemItem::default()
+        }));
+    }
     if accepted.iter().any(|accepted| is_media_type(headers, accepted)) {
         return Ok(());
     }

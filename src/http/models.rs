@@ -3,14 +3,14 @@
 use axum::Json;
 use axum::body::Body;
 use axum::extract::{FromRequest, Request, State};
-use axum::http::{StatusCode, header};
+use axum::http::StatusCode;
 use axum::response::Response;
 use futures::StreamExt;
 use serde::{Deserialize, Serialize};
 use tokio::io::{AsyncWriteExt, BufWriter};
 use utoipa::{IntoParams, ToSchema};
 
-use super::extract::{JsonBody, ModelPath, Parameters, expect_media_type, is_media_type};
+use super::extract::{JsonBody, ModelPath, Parameters, declared_bytes, expect_media_type, is_media_type};
 use super::idempotency::{self, IdempotencyKey};
 use super::page;
 use super::problem::{Kind, Problem, excerpt};
@@ -133,12 +133,7 @@ pub(super) async fn create_model(
         let body = JsonBody::<ImpellerRequest>::from_request(request, &state).await?;
         return submit::accept(&state, &whose, key, &body.fingerprint, generation_of(&body.value)?).await;
     }
-    let declared = request
-        .headers()
-        .get(header::CONTENT_LENGTH)
-        .and_then(|length| length.to_str().ok())
-        .and_then(|length| length.parse::<u64>().ok());
-    if declared.is_some_and(|length| length > state.upload_bytes) {
+    if declared_bytes(request.headers()) > Some(state.upload_bytes) {
         return Err(too_large(state.upload_bytes));
     }
     let digest = idempotency::start(request.uri().path());

@@ -330,11 +330,15 @@ impl From<SubmitError> for Problem {
 
 impl From<LimitReached> for Problem {
     fn from(reached: LimitReached) -> Self {
-        let problem = Self::new(Kind::LimitReached, reached.to_string());
         match reached {
             // No waiting helps.
-            LimitReached::QueuedSpeeds { asked, limit, .. } if asked > limit => problem,
-            _ => problem.retry_after(LIMIT_S),
+            LimitReached::QueuedSpeeds { asked, limit, .. } if asked > limit => {
+                let message = format!(
+                    "{asked} speeds are more than the {limit} that one owner may have waiting: ask for fewer at a time"
+                );
+                Self::violations(Kind::InvalidRequest, vec![Violation::new("/speeds", message)])
+            }
+            _ => Self::new(Kind::LimitReached, reached.to_string()).retry_after(LIMIT_S),
         }
     }
 }

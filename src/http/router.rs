@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use axum::Router;
+use axum::extract::DefaultBodyLimit;
 use axum::http::{HeaderName, HeaderValue, Method, StatusCode, header};
 use axum::middleware;
 use tower::ServiceBuilder;
@@ -16,8 +17,8 @@ use utoipa_axum::routes;
 
 use super::state::AppState;
 use super::{
-    access, body, contract, health, host, jobs, metrics, modal_analyses, models, openapi, principal, problem,
-    results, studies, sweeps, version,
+    access, body, contract, extract, health, host, jobs, metrics, modal_analyses, models, openapi, principal,
+    problem, results, studies, sweeps, version,
 };
 
 /// The routes with their descriptions.
@@ -65,6 +66,7 @@ pub fn router(state: AppState) -> Router {
         .option_layer(cors(&state.transport.cors_origins))
         .layer(middleware::from_fn_with_state(state.tokens.clone(), principal::authenticate))
         .layer(middleware::from_fn_with_state(state.clone(), body::keep_coming))
+        .layer(DefaultBodyLimit::max(extract::JSON_BYTES))
         .layer(middleware::from_fn_with_state(
             Arc::clone(&state.contract),
             contract::refuse_unknown_parameters,

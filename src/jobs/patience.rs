@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use super::error::Interruption;
+use super::error::{Interruption, waiting_for};
 use super::progress::Watch;
 use crate::store::StoreError;
 
@@ -15,16 +15,16 @@ pub(super) async fn patiently<T, W>(watch: &Watch, mut write: impl FnMut() -> W)
 where
     W: Future<Output = Result<T, StoreError>>,
 {
-    let mut warned = false;
+    let mut waiting = None;
     loop {
         match write().await {
             Err(error) if error.may_pass() => {
                 if watch.is_cancelled() {
                     return Err(Interruption::NotWanted);
                 }
-                if !warned {
+                if waiting.is_none() {
                     tracing::error!(%error, "a result waits until the data folder takes it");
-                    warned = true;
+                    waiting = Some(watch.waits_for(waiting_for(&error)));
                 }
                 tokio::time::sleep(BETWEEN_ATTEMPTS).await;
             }

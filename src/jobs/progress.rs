@@ -54,10 +54,14 @@ pub(super) struct Watch {
 /// How much of a job is done.
 #[derive(Debug, Default)]
 struct Done {
-    /// Last percentage reported.
+    /// Percent that are done.
     percent: u8,
-    /// Last phase reported.
+    /// What is being done.
     phase: String,
+    /// How many results cannot be stored, and what the last of them waits for.
+    waiting: (u32, &'static str),
+    /// Last percentage and phase reported.
+    reported: (u8, String),
     speeds: u32,
     finished: u32,
     /// Fractions of the speeds that are being computed.
@@ -83,7 +87,7 @@ impl Watch {
     /// The latest phase; `None` before the first.
     pub(super) fn phase(&self) -> Option<String> {
         let done = self.done.lock().unwrap_or_else(PoisonError::into_inner);
-        Some(done.phase.clone()).filter(|phase| !phase.is_empty())
+        Some(done.words().to_owned()).filter(|phase| !phase.is_empty())
     }
 
     /// Tells all computations of the job to stop.
@@ -93,6 +97,18 @@ impl Watch {
 
     pub(super) fn is_cancelled(&self) -> bool {
         self.dismissed.load(Ordering::Relaxed) || self.stopping.load(Ordering::Relaxed)
+    }
+
+    /// A result waits for `what` until the guard is dropped, and until then the phase says so, whatever else is computed.
+    pub(super) fn waits_for(&self, what: &'static str) -> Waiting<'_> {
+        self.change_waiting(|(waiting, _)| (waiting + 1, what));
+        Waiting { watch: self }
+    }
+
+    fn change_waiting(&self, change: impl FnOnce((u32, &'static str)) -> (u32, &'static str)) {
+        let mut done = self.done.lock().unwrap_or_else(PoisonError::into_inner);
+        done.waiting = change(done.waiting);
+        self.tell(&mut done);
     }
 
     /// `finished` speeds are done: before this start of the service, or by the one that calls.
@@ -119,16 +135,41 @@ impl Watch {
 
     /// Reports what has changed. The percentage never falls; 100 is for the store to give.
     fn report(&self, done: &mut Done, phase: &str, percent: f64) {
-        let percent = done.percent.max(percent.clamp(0.0, 99.0) as u8);
-        if percent > done.percent || phase != done.phase {
-            done.percent = percent;
-            phase.clone_into(&mut done.phase);
-            self.reports.put(self.job, Report { percent, phase: phase.to_owned() });
+        done.percent = done.percent.max(percent.clamp(0.0, 99.0) as u8);
+        phase.clone_into(&mut done.phase);
+        self.tell(done);
+    }
+
+    fn tell(&self, done: &mut Done) {
+        let (percent, phase) = (done.percent, done.words());
+        if (percent, phase) != (done.reported.0, &done.reported.1) {
+            done.reported = (percent, phase.to_owned());
+            self.reports.put(self.job, Report { percent, phase: done.reported.1.clone() });
         }
     }
 }
 
+/// A result that waits to be stored.
+#[derive(Debug)]
+pub(super) struct Waiting<'a> {
+    watch: &'a Watch,
+}
+
+impl Drop for Waiting<'_> {
+    fn drop(&mut self) {
+        self.watch.change_waiting(|(waiting, what)| (waiting - 1, what));
+    }
+}
+
 impl Done {
+    /// What the job does, or what keeps it from going on.
+    fn words(&self) -> &str {
+        match self.waiting {
+            (0, _) => &self.phase,
+            (_, what) => what,
+        }
+    }
+
     fn percent_of_sweep(&self) -> f64 {
         // A speed that two tasks happened to run counts once.
         let speeds = f64::from(self.finished) + self.running.values().sum::<f64>();
@@ -283,6 +324,21 @@ mod tests {
         // A restart goes through finished phases again.
         monitor.progress(0.1, "harmonic 0");
         assert_eq!(told(&watch), Some((45, "harmonic 0".to_owned())));
+    }
+
+    #[test]
+    fn a_result_that_waits_is_the_phase_until_it_is_stored() {
+        let watch = watch(3);
+        let speed = SpeedMonitor::new(watch.clone(), 1);
+        speed.progress(0.1, "integrating");
+        let [first, second] = [watch.waits_for("no room"), watch.waits_for("no room")];
+        assert_eq!(told(&watch).unwrap().1, "no room");
+        // Others go on computing meanwhile.
+        speed.progress(0.11, "integrating");
+        drop(first);
+        assert_eq!((told(&watch), watch.phase().as_deref()), (None, Some("no room")));
+        drop(second);
+        assert_eq!(told(&watch).unwrap().1, "0 of 3 speeds finished");
     }
 
     #[test]

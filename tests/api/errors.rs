@@ -34,6 +34,10 @@ async fn bodies_that_cannot_be_read() {
     let items = post("application/json", "{\"model\": \n oops}".into()).await.problem(400, "malformed-json");
     assert_eq!((&items[0]["line"], &items[0]["column"]), (&json!(2), &json!(2)));
     post("application/json", " ".repeat(3 << 20)).await.problem(413, "payload-too-large");
+    let encoded = app.api.request("POST", "/v1/sweeps").header("content-type", "application/json");
+    let encoded =
+        Answer::of(encoded.header("content-encoding", "gzip").body("{}").send().await.unwrap()).await;
+    assert_eq!(encoded.problem(415, "unsupported-media-type")[0]["parameter"], "Content-Encoding");
     post("application/json; charset=utf-8", "[]".into()).await.problem(422, "invalid-request");
 
     let upload = app.api.request("POST", "/v1/models").header("content-type", "application/gzip").body("{}");

@@ -3,9 +3,10 @@
 use reqwest::Method;
 use rubmap::app::{App, StartError};
 use rubmap::tokens::{Scope, new_token};
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::app::{Answer, Api, TestApp, config, long_sweep_of, modal_analysis_of, sweep_of};
+use super::generation::coarse;
 use super::model;
 
 /// A client with a token.
@@ -160,8 +161,8 @@ async fn limits_are_said_with_when_to_try_again() {
     let refused = api.request("POST", "/v1/sweeps").json(&request).send().await.unwrap();
     assert!(!refused.headers().contains_key("retry-after"), "no waiting helps");
     let refused = Answer::of(refused).await;
-    refused.problem(429, "limit-reached");
-    assert!(refused.text("/detail").contains("limit of 10"), "{}", refused.body);
+    assert_eq!(refused.pointers(422, "invalid-request"), ["/speeds"]);
+    assert!(refused.text("/detail").contains("more than the 10"), "{}", refused.body);
     let long = api.sweep(&long_sweep_of(&model, 9)).await;
     request["speeds"]["count"] = 10.into();
     let refused = api.request("POST", "/v1/sweeps").json(&request).send().await.unwrap();
@@ -172,6 +173,34 @@ async fn limits_are_said_with_when_to_try_again() {
     let id = api.sweep(&request).await;
     assert_eq!(api.finish(&id).await["status"], "successful");
     assert_eq!(api.finish(&api.sweep(&request).await).await["status"], "successful", "those have ended");
+    app.stop().await;
+}
+
+#[tokio::test]
+async fn a_package_counts_before_it_is_there() {
+    let package = model::package(1.0);
+    let bytes = package.len() as u64;
+    let app = TestApp::start_with(|config| config.owner_bytes = Some(bytes)).await;
+    let api = &app.api;
+    api.model(package).await;
+    api.upload(model::package(2.0)).await.problem(429, "limit-reached");
+    app.stop().await;
+
+    let app = TestApp::start_with(|config| config.owner_bytes = Some(bytes - 1)).await;
+    app.api.upload(model::package(1.0)).await.problem(429, "limit-reached");
+    app.stop().await;
+}
+
+#[tokio::test]
+async fn models_that_are_being_generated_count() {
+    let app = TestApp::start_with(|config| config.owner_models = Some(1)).await;
+    let api = &app.api;
+    let generation = api.post("/v1/models", &coarse()).await;
+    assert_eq!(generation.status, 202, "{}", generation.body);
+    let again = api.post("/v1/models", &json!({"preset": "small"})).await;
+    again.problem(429, "limit-reached");
+    assert_eq!(api.finish(&generation.text("/id")).await["status"], "successful");
+    api.post("/v1/models", &coarse()).await.problem(429, "limit-reached");
     app.stop().await;
 }
 

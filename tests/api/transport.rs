@@ -18,6 +18,7 @@ const NEVER: u64 = 3600;
 
 /// A request of which the end never comes.
 const HALF_A_HEAD: &str = "GET /healthz HTTP/1.1\r\nHost: local";
+const TOO_LONG_A_BODY: &str = "POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 3000000\r\nConnection: close\r\n\r\n{";
 const HALF_A_BODY: &str = "POST /v1/sweeps HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: 100\r\n\r\n{";
 
 async fn app(change: impl FnOnce(&mut TransportConfig)) -> TestApp {
@@ -115,6 +116,15 @@ async fn heads_rests_and_bodies_have_their_limits() {
         assert_eq!((status, &problem["type"]), (408, &"urn:rubmap:problem:upload-stalled".into()));
     }
     limited.stop().await;
+}
+
+/// It was waited for, to be refused all the same.
+#[tokio::test]
+async fn a_body_that_says_it_is_too_long_is_not_waited_for() {
+    let app = app(|_| {}).await;
+    let (status, problem) = problem(&hear(say(app.api.base(), TOO_LONG_A_BODY).await).await);
+    assert_eq!((status, &problem["type"]), (413, &"urn:rubmap:problem:payload-too-large".into()));
+    app.stop().await;
 }
 
 #[tokio::test]
