@@ -50,7 +50,8 @@ impl Store {
             .foreign_keys(true)
             .auto_vacuum(SqliteAutoVacuum::Incremental)
             .busy_timeout(PATIENCE);
-        let pool = || SqlitePoolOptions::new().acquire_timeout(2 * PATIENCE);
+        // A connection to a file does not break while nobody uses it: no need to ask it each time.
+        let pool = || SqlitePoolOptions::new().acquire_timeout(2 * PATIENCE).test_before_acquire(false);
         let writer = pool().max_connections(1).connect_with(options.clone()).await?;
         sqlx::migrate!().run(&writer).await?;
         make_shrinkable(&writer).await?;
