@@ -46,6 +46,7 @@ pub fn refine(request: &ResolvedSweep, points: &[Point]) -> Option<ResolvedSweep
     if middles.is_empty() {
         return None;
     }
+    // There is no middle between numbers so small that they are next to each other.
     let speeds = request.speeds.with_round(middles)?;
     Some(ResolvedSweep { speeds, ..request.clone() })
 }
@@ -218,6 +219,16 @@ mod tests {
         let many = ResolvedSweep { speeds: speeds(range), ..request(2) };
         let (found, _) = refined(many, &rough);
         assert_eq!(found.speeds.rad_s().len(), MAX_SPEEDS);
+    }
+
+    #[test]
+    fn numbers_without_a_middle_end_it() {
+        let least = f64::from_bits(1);
+        let given = json!({"values": [least, 2.0 * least, 3.0 * least], "unit": "rad_s"});
+        let tiny = ResolvedSweep { speeds: speeds(given), ..request(2) };
+        let (_, refinement) = refined(tiny, &|speed| [if speed == 2.0 * least { 1.0 } else { 0.1 }, 1.0]);
+        assert_eq!((refinement.added, refinement.rounds, refinement.complete), (0, 0, false));
+        assert_eq!(refinement.unresolved[0].reason, Unresolvable::TooCoarse);
     }
 
     #[test]

@@ -113,6 +113,17 @@ impl Speeds {
         MAX_SPEEDS.saturating_sub(sets.iter().map(given).sum())
     }
 
+    /// What can be computed and cannot be meant. Apart from the rest, for jobs of earlier versions have such speeds.
+    pub(crate) fn implausible(&self) -> Vec<Violation> {
+        match self {
+            Self::One(set) => set.implausible("/speeds").into_iter().collect(),
+            Self::Several(sets) => {
+                let sets = sets.iter().enumerate();
+                sets.filter_map(|(index, set)| set.implausible(&format!("/speeds/{index}"))).collect()
+            }
+        }
+    }
+
     /// The speeds in rad/s, range by range in the order given: those of each that no earlier one has.
     pub(crate) fn parts(&self) -> Result<Vec<Vec<f64>>, Vec<Violation>> {
         let sets = match self {
@@ -147,6 +158,21 @@ impl Speeds {
 }
 
 impl SpeedSet {
+    fn implausible(&self, pointer: &str) -> Option<Violation> {
+        if self.count > Some(1) && self.from == self.to {
+            let message = "from and to are one speed: give count 1, or another end";
+            return Some(Violation::new(format!("{pointer}/count"), message));
+        }
+        let listed = self.values.iter().flatten().enumerate();
+        let listed = listed.map(|(index, value)| (format!("{pointer}/values/{index}"), *value));
+        let ends = [("from", self.from), ("to", self.to)];
+        let ends = ends.into_iter().filter_map(|(end, value)| Some((format!("{pointer}/{end}"), value?)));
+        let slow = |value: f64| value > 0.0 && value * self.unit.rad_s() < LOWEST_SPEED;
+        let (field, value) = listed.chain(ends).find(|(_, value)| slow(*value))?;
+        let message = format!("a speed is 0 or at least {LOWEST_SPEED:e} rad/s, unlike {value}");
+        Some(Violation::new(field, message))
+    }
+
     /// All its speeds, of which there may be `room`.
     fn part(&self, pointer: &str, room: usize) -> Result<Vec<f64>, Violation> {
         let at = |field: &str, message: &str| Err(Violation::new(format!("{pointer}{field}"), message));
@@ -157,9 +183,6 @@ impl SpeedSet {
                 0 => return at("/count", "at least one speed is needed"),
                 1 if from != to => {
                     return at("/count", "one speed cannot span from and to; give count ≥ 2");
-                }
-                2.. if from == to => {
-                    return at("/count", "from and to are one speed: give count 1, or another end");
                 }
                 _ if count as usize > room => return at("/count", &too_many),
                 1 => vec![from],
@@ -178,14 +201,11 @@ impl SpeedSet {
         }
         // Adding 0 makes −0 a 0.
         let speeds_rad_s: Vec<f64> = given.iter().map(|v| v * self.unit.rad_s() + 0.0).collect();
-        let known = |&speed: &f64| speed == 0.0 || (LOWEST_SPEED..=HIGHEST_SPEED).contains(&speed);
-        match speeds_rad_s.iter().position(|speed| !known(speed)) {
+        match speeds_rad_s.iter().position(|speed| !(0.0..=HIGHEST_SPEED).contains(speed)) {
             Some(bad) => {
                 let field = if self.values.is_some() { format!("/values/{bad}") } else { String::new() };
-                let message = format!(
-                    "a speed is 0 or lies between {LOWEST_SPEED:e} and {HIGHEST_SPEED:e} rad/s, unlike {}",
-                    given[bad]
-                );
+                let message =
+                    format!("a speed lies between 0 and {HIGHEST_SPEED:e} rad/s, unlike {}", given[bad]);
                 at(&field, &message)
             }
             None => Ok(speeds_rad_s),
@@ -233,14 +253,26 @@ mod tests {
     }
 
     #[test]
+    fn what_cannot_be_meant_is_found_apart() {
+        let found = |given: Value| {
+            let speeds = speeds(given);
+            assert!(resolve(&speeds).is_ok(), "a job of an earlier version may have it");
+            speeds.implausible().into_iter().map(|violation| violation.pointer).collect::<Vec<_>>()
+        };
+        assert_eq!(found(json!({"values": [0, 1e-300], "unit": "rpm"})), ["/speeds/values/1"]);
+        let range =
+            |from: f64, to: f64, count: u32| json!({"from": from, "to": to, "count": count, "unit": "hz"});
+        assert_eq!(found(json!([range(1.0, 7.0, 3), range(7.0, 7.0, 3)])), ["/speeds/1/count"]);
+        assert_eq!(found(range(1e-9, 7.0, 3)), ["/speeds/from"]);
+        assert!(found(json!([range(7.0, 7.0, 1), range(0.0, 7.0, 2)])).is_empty());
+    }
+
+    #[test]
     fn violations_point_into_the_array() {
         let range = |count: u32| json!({"from": 1, "to": 2, "count": count, "unit": "hz"});
         assert_eq!(pointers(json!([])), ["/speeds"]);
         assert_eq!(pointers(json!([range(0), range(2), range(1)])), ["/speeds/0/count", "/speeds/2/count"]);
         assert_eq!(pointers(json!([{"values": [1, -1], "unit": "hz"}])), ["/speeds/0/values/1"]);
-        assert_eq!(pointers(json!({"values": [0, 1e-300], "unit": "rpm"})), ["/speeds/values/1"]);
-        assert_eq!(pointers(json!({"from": 7, "to": 7, "count": 3, "unit": "hz"})), ["/speeds/count"]);
-        assert!(resolve(&speeds(json!({"from": 7, "to": 7, "count": 1, "unit": "hz"}))).is_ok());
         assert_eq!(pointers(json!([range(3), {"from": 1, "unit": "hz"}])), ["/speeds/1"]);
         // Together, whether or not they repeat each other.
         assert_eq!(pointers(json!([range(6_000), range(4_001)])), ["/speeds/1/count"]);

@@ -176,6 +176,7 @@ fn check_speeds(
     stiffening: bool,
     campbell: bool,
 ) {
+    found.0.extend(speeds.lists().implausible());
     let highest = facts.speeds_rad_s.last().copied().unwrap_or(0.0);
     for (pointer, speeds_rad_s) in speeds.by_list() {
         found.require(
