@@ -51,6 +51,9 @@ fn module_of(folder: &Path, file: &Path) -> Module {
     module
 }
 
+/// Part of a path in the definition of a macro that a variable stands for.
+const ANY: &str = "$";
+
 /// The paths a file names, from the root of its crate where they begin with `crate`, `self` or `super`.
 struct Named {
     /// The module that is being read: the file's, or one inside it.
@@ -150,22 +153,33 @@ impl<'ast> Visit<'ast> for Named {
 
     /// Arguments of macros are tokens: paths that begin at the root or above are seen.
     fn visit_macro(&mut self, call: &'ast syn::Macro) {
-        let tokens = call.tokens.to_string();
+        // A variable is two tokens, the first of which sticks to colons before it.
+        let tokens = call.tokens.to_string().replace("::$ ", ":: $");
         let mut words = tokens.split_whitespace().peekable();
         while let Some(word) = words.next() {
             let first = word.trim_start_matches(|c: char| !c.is_alphanumeric() && c != '_');
             if ["crate", "super"].contains(&first) {
                 let mut path = vec![first.to_owned()];
                 while words.next_if_eq(&"::").is_some() {
-                    path.extend(words.next().map(|part| {
-                        part.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap().to_owned()
-                    }));
+                    let Some(part) = words.next() else { break };
+                    let name = part.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap();
+                    path.push(if part.starts_with(ANY) { ANY } else { name }.to_owned());
                 }
                 self.name(path);
             }
         }
         syn::visit::visit_macro(self, call);
     }
+}
+
+/// The paths that one with a macro's variable may stand for: by every folder in its place.
+fn meant(path: &Module, files: &BTreeMap<Module, PathBuf>) -> Vec<Module> {
+    let Some(place) = path.iter().position(|part| part == ANY) else { return vec![path.clone()] };
+    let is_meant = |(module, file): &(&Module, &PathBuf)| {
+        module.len() == place + 1 && module[..place] == path[..place] && file.ends_with("mod.rs")
+    };
+    let folders = files.iter().filter(is_meant);
+    folders.map(|(folder, _)| [folder, &path[place + 1..]].concat()).collect()
 }
 
 /// Which files of a crate need which.
@@ -180,7 +194,7 @@ fn arrows(folder: &Path) -> BTreeMap<Module, BTreeSet<Module>> {
         // Twice: a name may be used above its import.
         named.visit_file(&syntax);
         named.visit_file(&syntax);
-        let needed = named.found.iter().filter_map(|path| {
+        let needed = named.found.iter().flat_map(|path| meant(path, &files)).filter_map(|path| {
             let file = (0..=path.len()).rev().find(|&length| files.contains_key(&path[..length]));
             file.map(|length| path[..length].to_vec())
         });
@@ -242,6 +256,14 @@ fn a_circle_is_found_however_it_is_written() {
         write("b.rs", "#[cfg(test)] mod tests { use crate::a; } pub(in crate::a) fn two() {}");
         assert_eq!(circular(), 0, "{need}");
     }
+    std::fs::create_dir(folder.path().join("all")).unwrap();
+    write("all/mod.rs", "pub mod one;");
+    std::fs::create_dir(folder.path().join("all/one")).unwrap();
+    write("a.rs", "macro_rules! table { ($($name:ident)*) => { [$(&crate::all::$name::ONE),*] }; }");
+    write("all/one/mod.rs", "pub const ONE: u32 = 1;");
+    assert_eq!(circular(), 0);
+    write("all/one/mod.rs", "pub const ONE: u32 = crate::a::TWO;");
+    assert_eq!(circular(), 2);
 }
 
 #[test]

@@ -1,10 +1,14 @@
 //! The default impeller in front of a casing with two lobes, as the service would integrate it.
 
+use rubmap::analysis::effects::casing::request::{Casing as CasingRequest, Clearance, Lobes};
+use rubmap::analysis::effects::contact::request::Contact;
+use rubmap::analysis::effects::damping::request::Damping;
 use rubmap::analysis::monitor::Unwatched;
 use rubmap::analysis::request::auto_or::AutoOr;
-use rubmap::analysis::request::scene as request;
 use rubmap::analysis::request::speeds::{SpeedSet, SpeedUnit, Speeds};
-use rubmap::analysis::request::{Component, Integration, SchemeChoice, Sensor, SweepDirection, SweepRequest};
+use rubmap::analysis::request::{
+    self, Component, Integration, SchemeChoice, Sensor, SweepDirection, SweepRequest,
+};
 use rubmap::analysis::resolved::ResolvedSweep;
 use rubmap::analysis::result::PointStatus;
 use rubmap::analysis::run::{ReducedSector, prepare, run_speed};
@@ -88,13 +92,13 @@ impl Scene {
         speeds_rad_s: Vec<f64>,
     ) -> ResolvedSweep {
         let casing = self.casing(TOUCHING);
-        let lobes = casing.restriction.map(|lobes| request::Lobes {
+        let lobes = casing.restriction.map(|lobes| Lobes {
             count: lobes.count,
             amplitude: lobes.amplitude,
             width_rad: lobes.width_rad,
             phase_rad: lobes.phase_rad,
         });
-        let clearance = request::Clearance { leading: None, trailing: None, values: Some(casing.clearance) };
+        let clearance = Clearance { leading: None, trailing: None, values: Some(casing.clearance) };
         let last = self.reduced.wheel.contact.len() as u32 - 1;
         let sensor = |contact_node| Sensor { contact_node, sector: 0, component: Component::Radial };
         let settings = SweepRequest {
@@ -109,9 +113,9 @@ impl Scene {
             }),
             scene: request::Scene {
                 centrifugal_stiffening: self.stiffening,
-                damping: Some(request::Damping { modal_ratio: DAMPING, family_ratios: Vec::new() }),
-                casing: Some(request::Casing { clearance, lobes }),
-                contact: Some(request::Contact {}),
+                damping: Some(Damping { modal_ratio: DAMPING, family_ratios: Vec::new() }),
+                casing: Some(CasingRequest { clearance, lobes }),
+                contact: Some(Contact {}),
                 ..request::Scene::default()
             },
             integration: Integration {

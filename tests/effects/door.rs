@@ -118,6 +118,22 @@ fn every_pair_of_effects_runs_or_is_refused_by_name() {
     assert_eq!(refused, expected);
 }
 
+/// No effect is left behind on its way from the request to the simulation.
+#[test]
+fn every_effect_changes_the_response() {
+    let sector = sector();
+    let reduced = reduced(&sector, 6);
+    let spectra =
+        |scene: &[&Value]| run(&reduced, &sector, request(&[SPEED], scene, json!({}))).spectra.unwrap();
+    let plain = spectra(&[]);
+    for (name, fields) in effects() {
+        // One part of the wheel says what the whole says.
+        if name != "exact" {
+            assert!(spectra(&[&fields]) != plain, "{name}");
+        }
+    }
+}
+
 /// What repeats around the wheel is said by one part of it: the sub-wheel's spectra and credentials are the wheel's.
 #[test]
 fn exact_symmetry_says_what_the_whole_wheel_says() {

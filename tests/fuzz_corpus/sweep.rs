@@ -8,10 +8,10 @@ use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use faer::c64;
+use rubmap::analysis::effects::symmetry::request::Symmetry;
 use rubmap::analysis::error::{AnalysisError, Violation};
 use rubmap::analysis::monitor::{Monitor, Unwatched};
 use rubmap::analysis::request::auto_or::AutoOr;
-use rubmap::analysis::request::scene::Symmetry;
 use rubmap::analysis::request::{Component, SchemeChoice, SweepDirection, SweepRequest};
 use rubmap::analysis::resolved::ResolvedSweep;
 use rubmap::analysis::result::{Point, PointStatus, SpeedResult};

@@ -1,10 +1,10 @@
 //! A sweep through the door: the stability limit, results with their credentials.
 
+use rubmap::analysis::effects::symmetry::request::Symmetry;
 use rubmap::analysis::error::AnalysisError;
 use rubmap::analysis::monitor::{Monitor, Unwatched};
 use rubmap::analysis::request::SweepRequest;
 use rubmap::analysis::request::auto_or::AutoOr;
-use rubmap::analysis::request::scene::Symmetry;
 use rubmap::analysis::resolved::ResolvedSweep;
 use rubmap::analysis::result::{PointStatus, Verdict};
 use rubmap::analysis::run::{

@@ -1,14 +1,16 @@
 //! What only the reduced sector can tell about a request, before any speed runs.
 
-use crate::effects::{coating, rotation};
+use crate::effects::abradable::convert::coating;
+use crate::effects::effect::AtSpeed;
+use crate::effects::table::named;
 use crate::error::{AnalysisError, Violation};
 use crate::model::ReducedSector;
 use crate::monitor::Monitor;
 use crate::not_runnable::NotRunnable;
 use crate::request::{AutoOr, Integration, SchemeChoice};
 use crate::resolved::ResolvedSweep;
-use crate::sliding;
 use crate::stepping::{SAFETY, Stepping, casing_limit, touching};
+use crate::wheel::rotation;
 use rubmap_wheel::dynamics::error::ModelError;
 use rubmap_wheel::dynamics::modal_wheel::{ModalWheel, RotationEffects, natural_frequencies};
 use rubmap_wheel::dynamics::schemes::{Scheme, central_differences};
@@ -24,7 +26,7 @@ pub fn check(
     let speeds = request.speeds.ascending();
     let mut ends: Vec<f64> = speeds.first().into_iter().chain(speeds.last()).copied().collect();
     ends.dedup();
-    check_sliding(reduced, request, &ends)?;
+    check_at(reduced, request, &ends)?;
     if let Err(error) = coating(&request.scene, &reduced.wheel.contact, reduced.wheel.sectors) {
         return Err(AnalysisError::Refused(vec![Violation::new("/scene/abradable", error.to_string())]));
     }
@@ -46,24 +48,22 @@ pub fn check(
     refuse(request, worst.0, worst.1)
 }
 
-/// Whether the wheel slides at each of `speeds`.
-fn check_sliding(
-    reduced: &ReducedSector,
-    request: &ResolvedSweep,
-    speeds: &[f64],
-) -> Result<(), AnalysisError> {
-    if request.scene.friction.is_none() {
+/// Whether the wheel stands what the scene names at each of `speeds`.
+fn check_at(reduced: &ReducedSector, request: &ResolvedSweep, speeds: &[f64]) -> Result<(), AnalysisError> {
+    let asked: Vec<&AtSpeed> = named(&request.scene).filter_map(|effect| effect.at_speed.as_ref()).collect();
+    if asked.is_empty() {
         return Ok(());
     }
     for &speed in speeds {
         let contact = &reduced.wheel.contact;
         let Ok(wheel) = ModalWheel::at(&reduced.wheel, speed, rotation(&request.scene)) else { continue };
         let Ok(stepping) = Stepping::choose(&wheel, contact, request) else { continue };
-        let steps = stepping.discretisation.per_revolution;
-        if let Err(error) = sliding::check(&wheel, contact, request, stepping.scheme, steps) {
-            let message = format!("at {speed:.6} rad/s {error}");
-            let violation = Violation::new("/scene/friction/coefficient", message);
-            return Err(AnalysisError::Refused(vec![violation]));
+        let run = stepping.of(request, &wheel, contact);
+        for AtSpeed { pointer, check } in &asked {
+            if let Err(error) = check(&run) {
+                let message = format!("at {speed:.6} rad/s {error}");
+                return Err(AnalysisError::Refused(vec![Violation::new(*pointer, message)]));
+            }
         }
     }
     Ok(())

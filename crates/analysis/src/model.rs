@@ -68,3 +68,22 @@ impl ModelFacts {
         self.speeds_rad_s.len() == 3
     }
 }
+
+#[cfg(test)]
+impl ModelFacts {
+    /// Those of a model of no particular kind.
+    pub(crate) fn of_ten_sectors(contact_nodes: u32) -> Self {
+        let unit = |name: &str| name.to_owned();
+        Self {
+            name: unit("wheel"),
+            sectors: 10,
+            contact_nodes,
+            own_dofs: 900,
+            speeds_rad_s: vec![0.0],
+            units: Units { length: unit("mm"), force: unit("N"), time: unit("s"), mass: unit("t") },
+            gyroscopic: false,
+            contact_radius: None,
+            stiffening: None,
+        }
+    }
+}

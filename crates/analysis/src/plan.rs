@@ -2,22 +2,23 @@
 
 use std::time::Instant;
 
-use super::sliding;
-use super::symmetry::repeats;
 use crate::accuracy::rung::pilot_speeds;
 use crate::calibration::Calibration;
 use crate::calibration::effects::EffectSizes;
 use crate::calibration::size::StepSize;
 use crate::diagram::FrequencyDiagram;
-use crate::effect_list::effects_of;
-use crate::initial::initial;
+use crate::effects::casing::convert::{casing, check_table};
+use crate::effects::symmetry::repeats::repeats;
+use crate::effects::symmetry::request::Symmetry;
+use crate::effects::table::{check_at_speed, planned};
 use crate::model::{ModelFacts, ReducedSector};
-use crate::request::{SweepDirection, Symmetry};
+use crate::request::SweepDirection;
 use crate::resolved::{ResolvedModalAnalysis, ResolvedSweep, Scene, TrialRequest};
 use crate::result::{
     CostRange, Estimate, FoundSymmetry, ModalAnalysisPlan, PlannedPoint, ReductionState, SweepPlan,
 };
-use crate::speed::{casing, check_table, ready};
+use crate::speed::ready;
+use crate::start::initial;
 use crate::stepping::Stepping;
 use rubmap_numerics::sector_fourier::harmonic_count;
 use rubmap_wheel::dynamics::casing::RestrictionTable;
@@ -44,7 +45,7 @@ pub fn plan_sweep(
         None => Vec::new(),
     };
     SweepPlan {
-        effects: effects_of(&request.scene),
+        effects: planned(&request.scene),
         symmetry: FoundSymmetry::of(&request.scene, facts.sectors),
         contact_pairs: match request.scene.contact {
             Some(_) => u64::from(sectors_simulated(&request.scene, facts)) * u64::from(facts.contact_nodes),
@@ -90,7 +91,7 @@ pub fn plan_modal_analysis(
         coriolis: request.coriolis,
         ..Scene::default()
     };
-    let mut effects = effects_of(&scene);
+    let mut effects = planned(&scene);
     effects.retain(|effect| ["centrifugal_stiffening", "coriolis"].contains(&effect.name.as_str()));
     ModalAnalysisPlan {
         effects,
@@ -157,7 +158,7 @@ fn plan_point(
     let chosen = ready(reduced, request, speed_rad_s).and_then(|(wheel, stepping)| {
         let contact = &reduced.wheel.contact;
         let steps = stepping.discretisation.per_revolution;
-        sliding::check(&wheel, contact, request, stepping.scheme, steps)?;
+        check_at_speed(&stepping.of(request, &wheel, contact))?;
         check_table(&reduced.wheel, request, steps)?;
         let casing = casing(&reduced.wheel, request, request.integration.ramp_revolutions);
         initial(request, &wheel, contact, casing.as_ref(), &stepping)?;
@@ -184,7 +185,7 @@ fn plan_point(
     let nodes = touching(reduced, request);
     let size = StepSize { sectors: wheel.sectors, nodes, unknowns };
     let effects = EffectSizes::of(&request.scene, &wheel, stepping.scheme, nodes);
-    let (free, contact) = calibration.step_seconds(size, effects);
+    let (free, contact) = calibration.step_seconds(size, &effects);
     PlannedPoint {
         integrated_unknowns: unknowns as u32,
         steps_per_revolution: stepping.discretisation.per_revolution as u32,

@@ -1,23 +1,20 @@
 //! What a run says: credentials, spectra and steady response of one speed.
 
-use super::symmetry::repeats;
+use crate::effects::effect::Ran;
+use crate::effects::symmetry::repeats::repeats;
+use crate::effects::table::named;
 use crate::error::AnalysisError;
-use crate::request::{Sensor, Symmetry};
+use crate::request::Sensor;
 use crate::resolved::ResolvedSweep;
-use crate::result::{
-    EnergyReport, Point, PointStatus, SensorResponse, SensorSpectrum, SpeedSpectra, WearReport,
-};
+use crate::result::{EnergyReport, Point, PointStatus, SensorResponse, SensorSpectrum, SpeedSpectra};
 use crate::stepping::Stepping;
-use rubmap_numerics::complementarity::ComplementarityError;
 use rubmap_numerics::sector_fourier::{SectorFourier, harmonic_count};
 use rubmap_numerics::spectrum::amplitudes;
-use rubmap_wheel::dynamics::contact::coating::WornCoating;
 use rubmap_wheel::dynamics::integrate::{Divergence, History, Outcome, Run, TipDisplacement};
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
 use rubmap_wheel::response::settling::judge;
 use rubmap_wheel::response::side_bands::{SideBands, side_bands};
 use rubmap_wheel::response::spectra::{engine_orders, nodal_diameter_amplitudes};
-use rubmap_wheel::response::symmetry_breaking;
 
 /// Writes a run's credentials into `point`; returns its spectra if it is complete. A scene that repeats was run on one part
 /// of the wheel: what adds up over the wheel is multiplied here.
@@ -40,27 +37,19 @@ pub(super) fn record_run(
     point.contact_impulse = finite(parts * run.statistics.contact_impulse);
     point.largest_penetration = finite(run.statistics.largest_penetration);
     point.smallest_multiplier = run.statistics.smallest_multiplier.and_then(finite);
-    point.wear = run.coating.as_ref().map(wear);
-    point.casing_amplitude = run.statistics.casing_amplitude.and_then(finite);
     point.energy_residual = finite(run.energy.residual());
-    point.energy = EnergyReport::of(&run.energy, &request.scene, parts);
+    point.energy = EnergyReport::of(&run.energy, parts);
     point.largest_energy = finite(parts * run.energy.largest_energy());
-    match &run.outcome {
-        Outcome::Cancelled => Err(AnalysisError::Cancelled),
+    let spectra = match &run.outcome {
+        Outcome::Cancelled => return Err(AnalysisError::Cancelled),
         Outcome::Diverged(divergence) => {
             point.status = PointStatus::Diverged;
             point.message = Some(describe(divergence));
-            Ok(None)
+            None
         }
         Outcome::ContactFailed { revolutions, error } => {
-            let advice = match (error, &request.scene.friction) {
-                (ComplementarityError::NotPMatrix { .. }, Some(_)) => {
-                    ": tips jam together with this friction; lower /scene/friction/coefficient"
-                }
-                _ => "",
-            };
-            point.message = Some(format!("after {revolutions:.4} revolutions {error}{advice}"));
-            Ok(None)
+            point.message = Some(format!("after {revolutions:.4} revolutions {error}"));
+            None
         }
         Outcome::Completed(history) => {
             point.status = PointStatus::Completed;
@@ -70,23 +59,13 @@ pub(super) fn record_run(
             let lobes = request.scene.touched_lobes().map(|lobes| lobes.count);
             let settling = judge(&history.displacement, steps.samples, window, lobes);
             point.settling = Some(settling.beside(strongest_side_bands(&point.responses)));
-            if request.scene.symmetry == Symmetry::Probe {
-                let grown = request.integration.ramp_revolutions.ceil() as usize;
-                let repeats = repeats(&request.scene, wheel.sectors as u32) as usize;
-                point.symmetry_breaking = Some(symmetry_breaking::judge(&history.energies, repeats, grown));
-            }
-            Ok(Some(spectra))
+            Some(spectra)
         }
-    }
-}
-
-fn wear(coating: &WornCoating) -> WearReport {
-    WearReport {
-        removed_volume: coating.removed_volume(),
-        deepest: coating.worn_depths().into_iter().flatten().fold(0.0, f64::max),
-        plastic_work: coating.plastic_work(),
-        reached_metal: coating.reached_metal(),
-    }
+    };
+    let repeats = repeats(&request.scene, wheel.sectors as u32) as usize;
+    let ran = Ran { run, request, parts, repeats };
+    named(&request.scene).filter_map(|effect| effect.record).for_each(|record| record(point, &ran));
+    Ok(spectra)
 }
 
 fn describe(divergence: &Divergence) -> String {

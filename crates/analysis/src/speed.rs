@@ -2,21 +2,24 @@
 
 use std::time::Instant;
 
-use super::sliding;
-use crate::effects::{SceneEffects, direction, modal_damping, wheel_of};
+use crate::component::direction;
+use crate::effects::casing::convert::{casing, check_table};
+use crate::effects::damping::convert::modal_damping;
+use crate::effects::physics::Surroundings;
+use crate::effects::table::{SceneEffects, check_at_speed};
 use crate::end_state::EndState;
 use crate::error::AnalysisError;
-use crate::initial::{initial, perturbed};
 use crate::model::ReducedSector;
 use crate::monitor::Monitor;
 use crate::not_runnable::NotRunnable;
 use crate::record::record_run;
 use crate::request::{Sensor, SweepDirection};
-use crate::resolved::{Clearance, ResolvedSweep};
+use crate::resolved::ResolvedSweep;
 use crate::result::{Point, PointStatus, SpeedResult, WearMap};
+use crate::start::{initial, perturbed};
 use crate::stepping::Stepping;
-use rubmap_wheel::dynamics::casing::{Casing, Restriction, RestrictionTable, clearance_along_chord};
-use rubmap_wheel::dynamics::integrate::{MAX_TABLE_VALUES, Outcome, Run, SensorRow, Simulation};
+use crate::wheel::wheel_of;
+use rubmap_wheel::dynamics::integrate::{Outcome, Run, SensorRow, Simulation};
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
 use rubmap_wheel::dynamics::reduction::ReducedWheel;
 use rubmap_wheel::revision::VERSION;
@@ -48,7 +51,7 @@ pub fn run_speed(
         Ok((wheel, stepping, run)) => {
             spectra = record_run(&mut point, &run, request, &wheel, &stepping)?;
             end_state = end_state_of(&run, &reduced.wheel, &wheel, request);
-            wear = run.coating.map(|coating| WearMap { depths: coating.worn_depths() });
+            wear = run.coating.as_ref().map(WearMap::of);
         }
     }
     if start.is_none() && follows_another(request, index) {
@@ -156,11 +159,13 @@ pub(super) fn simulate(
         Start::After(_) => 0.0,
         Start::Scene | Start::Perturbed => request.integration.ramp_revolutions,
     };
-    sliding::check(wheel, &reduced.contact, request, scheme, steps.per_revolution)?;
+    check_at_speed(&stepping.of(request, wheel, &reduced.contact))?;
     let damping = modal_damping(request);
     let casing = casing(reduced, request, ramp_revolutions);
     check_table(reduced, request, steps.per_revolution)?;
-    let effects = SceneEffects::of(scene, &reduced.contact, wheel, ramp_revolutions)?;
+    let surroundings =
+        Surroundings { contact_nodes: &reduced.contact, sectors: wheel.around(), ramp_revolutions };
+    let effects = SceneEffects::of(scene, &surroundings)?;
     let initial = match start {
         Start::After(state) => state
             .modes(wheel, reduced, scene.centrifugal_stiffening, scheme)?
@@ -188,43 +193,6 @@ pub(super) fn simulate(
         window_revolutions: request.integration.window_revolutions as usize,
     }
     .run(watch))
-}
-
-/// Whether the casing's heights can be tabulated; the error says what to change.
-pub(super) fn check_table(
-    reduced: &ReducedWheel,
-    request: &ResolvedSweep,
-    steps_per_revolution: usize,
-) -> Result<(), NotRunnable> {
-    let stride = reduced.contact.len().next_multiple_of(8);
-    let (steps, sectors) = (steps_per_revolution, reduced.sectors);
-    let size = RestrictionTable::size(steps, sectors, stride);
-    if size <= MAX_TABLE_VALUES || request.scene.touched_lobes().is_none() {
-        return Ok(());
-    }
-    Err(NotRunnable::Table { size, steps, sectors })
-}
-
-/// The casing of a scene with contact; a casing that nothing touches does not exist for the integration.
-pub(super) fn casing(
-    reduced: &ReducedWheel,
-    request: &ResolvedSweep,
-    ramp_revolutions: f64,
-) -> Option<Casing> {
-    let casing = request.scene.casing.as_ref()?;
-    request.scene.contact.as_ref()?;
-    let positions: Vec<_> = reduced.contact.iter().map(|node| node.position).collect();
-    let clearance = match &casing.clearance {
-        Clearance::Each(values) => values.clone(),
-        Clearance::AlongChord { leading, trailing } => clearance_along_chord(*leading, *trailing, &positions),
-    };
-    let restriction = casing.lobes.as_ref().map(|lobes| Restriction {
-        count: lobes.count,
-        amplitude: lobes.amplitude,
-        width_rad: lobes.width_rad,
-        phase_rad: lobes.phase_rad,
-    });
-    Some(Casing { clearance, restriction, ramp_revolutions })
 }
 
 fn sensor_row(reduced: &ReducedWheel, wheel: &ModalWheel, sensor: &Sensor) -> SensorRow {

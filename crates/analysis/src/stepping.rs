@@ -3,7 +3,9 @@
 use std::f64::consts::TAU;
 
 use crate::discretisation::Discretisation;
-use crate::effects::flexible_casing;
+use crate::effects::effect::{AboutToRun, WantedSteps};
+use crate::effects::flexible_casing::convert::flexible_casing;
+use crate::effects::table::{is_driven, named};
 use crate::not_runnable::NotRunnable;
 use crate::request::auto_or::MOST_STEPS;
 use crate::request::{AutoOr, Integration, SchemeChoice};
@@ -25,16 +27,6 @@ pub(super) struct Stepping {
 /// `"auto"` never steps over more than a tenth of a degree of contact: it begins and ends within a step.
 const LEAST_AUTO_STEPS: f64 = 3600.0;
 
-/// `"auto"` takes this many steps over the half-width of a lobe.
-const AUTO_STEPS_PER_WIDTH: f64 = 10.0;
-
-/// `"auto"` takes this many steps over a period of the highest engine order of the forces: their amplitude is then right to
-/// two parts in a thousand.
-const AUTO_STEPS_PER_PERIOD: f64 = 40.0;
-
-/// Fewer steps over the half-width of a lobe would pass it by.
-const LEAST_STEPS_PER_WIDTH: f64 = 2.0;
-
 /// The scheme `auto` resolves every mode as long as that takes no more than this many times the steps that contact needs.
 const PRICE_OF_STIFFNESS: f64 = 10.0;
 
@@ -44,43 +36,16 @@ const REACH: f64 = 2.0;
 /// `"auto"` stays this far below a stability limit.
 pub(super) const SAFETY: f64 = 0.8;
 
-/// Half-width of the lobes that a scene's blades may touch, rad.
-fn lobe_width(request: &ResolvedSweep) -> Option<f64> {
-    request.scene.touched_lobes().map(|lobes| lobes.width_rad)
-}
-
-/// The smallest number of steps per revolution that sees the lobes of a scene.
-pub(super) fn least_steps_for_lobes(request: &ResolvedSweep) -> f64 {
-    lobe_width(request).map_or(0.0, |width| (LEAST_STEPS_PER_WIDTH * TAU / width).ceil())
-}
-
-/// Steps per revolution that `"auto"` gives contact, and why.
-pub(super) fn steps_for_contact(request: &ResolvedSweep) -> (f64, &'static str) {
-    let lobes = lobe_width(request).map_or(0.0, |width| (AUTO_STEPS_PER_WIDTH * TAU / width).ceil());
-    let rods = request.scene.abradable.as_ref().map_or(0.0, |coating| f64::from(coating.rods_around));
-    let order = request.scene.engine_order_excitation.iter().map(|force| force.order).max().unwrap_or(0);
-    let forces = AUTO_STEPS_PER_PERIOD * f64::from(order);
-    if forces > lobes.max(rods).max(LEAST_AUTO_STEPS) {
-        return (forces, "forty steps fall on a period of the fastest force");
-    }
-    if rods > lobes.max(LEAST_AUTO_STEPS) {
-        (rods, "no step jumps a rod of the coating")
-    } else if lobes > LEAST_AUTO_STEPS {
-        (lobes, "ten steps fall on the half-width of a lobe")
-    } else {
-        (LEAST_AUTO_STEPS, "contact begins and ends within a tenth of a degree")
-    }
+/// Steps per revolution that `"auto"` gives contact, and why: as many as the effect that wants most.
+pub(super) fn steps_for_contact(request: &ResolvedSweep) -> WantedSteps {
+    let least = (LEAST_AUTO_STEPS, "contact begins and ends within a tenth of a degree");
+    let wanted = named(&request.scene).filter_map(|effect| effect.steps).map(|steps| steps(&request.scene));
+    wanted.fold(least, |most, steps| if steps.0 > most.0 { steps } else { most })
 }
 
 /// Steps per revolution at `speed_rad_s` from which on no mode follows statically under `exact_modal`.
 fn resolving_steps(wheel: &ModalWheel, speed_rad_s: f64) -> f64 {
     (TAU * wheel.largest_frequency() / (speed_rad_s * exact_modal::FOLLOWS)).ceil()
-}
-
-/// Whether something else than contact acts on the modes, so that a step is no longer exact.
-fn is_driven(request: &ResolvedSweep) -> bool {
-    let scene = &request.scene;
-    scene.coriolis || scene.mistuning.is_some() || !scene.engine_order_excitation.is_empty()
 }
 
 /// [`Scheme::smallest_stable_steps`] of the wheel and, if it is elastic, its casing.
@@ -151,6 +116,17 @@ impl Stepping {
         };
         scope.settle(proposal)
     }
+
+    /// A wheel that is stepped so.
+    pub(super) fn of<'a>(
+        &self,
+        request: &'a ResolvedSweep,
+        wheel: &'a ModalWheel,
+        contact_nodes: &'a [ContactNode],
+    ) -> AboutToRun<'a> {
+        let steps_per_revolution = self.discretisation.per_revolution;
+        AboutToRun { request, wheel, contact_nodes, scheme: self.scheme, steps_per_revolution }
+    }
 }
 
 impl Scope<'_> {
@@ -196,13 +172,14 @@ impl Scope<'_> {
 
     /// Every mode by its exact propagator.
     fn exact(&self) -> Proposal {
-        let why_scheme = if is_driven(self.request) {
+        let driven = is_driven(&self.request.scene);
+        let why_scheme = if driven {
             "every mode is advanced exactly but for the forces on it, which are of second order".to_owned()
         } else {
             "every mode is advanced exactly".to_owned()
         };
         let scheme = Scheme::ExactModal;
-        if self.contact_nodes.is_empty() && !is_driven(self.request) {
+        if self.contact_nodes.is_empty() && !driven {
             let why_steps = "nothing touches, so that any step is exact".to_owned();
             return Proposal { scheme, least_steps: 1.0, why_scheme, why_steps };
         }

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 
 use crate::diagram::FrequencyDiagram;
-use crate::effects::{flexible_casing, rotation};
+use crate::effects::flexible_casing::convert::flexible_casing;
 use crate::error::AnalysisError;
 use crate::model::ReducedSector;
 use crate::monitor::Monitor;
@@ -15,6 +15,7 @@ use crate::result::{
     Coincidence, CriticalSpeed, CriticalSpeeds, Crossing, DrivenCrossing, ErrorEstimate, InteractionMap,
     Point, PointStatus, ReductionReport, Refinement, SpeedSpectra, Spent,
 };
+use crate::wheel::rotation;
 use rubmap_wheel::dynamics::sector::Units;
 use rubmap_wheel::response::campbell::multiples;
 use rubmap_wheel::response::critical_speed::{Resolution, peaks};

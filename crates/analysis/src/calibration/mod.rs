@@ -9,8 +9,8 @@ use crate::calibration::wheel::{Case, StepSeconds, Wheel};
 use rubmap_wheel::dynamics::effects::Effects;
 
 pub(crate) mod effects;
-pub(super) mod size;
-mod wheel;
+pub(crate) mod size;
+pub(crate) mod wheel;
 
 /// What a time step costs on one machine; measured once and kept.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -64,7 +64,7 @@ impl StepCost {
 
 impl Calibration {
     /// Seconds of a step with such effects, if nothing ever touches and if something always does.
-    pub(super) fn step_seconds(&self, size: StepSize, effects: EffectSizes) -> (f64, f64) {
+    pub(super) fn step_seconds(&self, size: StepSize, effects: &EffectSizes) -> (f64, f64) {
         let (added_free, added_contact) = self.effects.seconds(effects);
         if size.nodes == 0 {
             let seconds = self.without_contact.seconds(size) + added_free;
@@ -77,7 +77,7 @@ impl Calibration {
     /// Measures this machine, on the calling thread.
     pub fn measure() -> Self {
         let wheels = SIZES.map(|(sectors, nodes, modes)| Wheel::new(sectors, nodes, modes));
-        let measured = wheel::measure(wheels.each_ref().map(|wheel| Case::of(wheel, Effects::default())));
+        let measured = wheel::measure(&wheels.each_ref().map(|wheel| Case::of(wheel, Effects::default())));
         let fit = |of: fn(&StepSeconds) -> f64, touching: bool| {
             let sizes = SIZES.iter().zip(&wheels).map(|(&(sectors, nodes, _), wheel)| StepSize {
                 sectors,
@@ -129,7 +129,7 @@ mod tests {
         }
         let measured = Calibration::measure();
         let size = StepSize { sectors: 10, nodes: 10, unknowns: 600 };
-        let (free, contact) = measured.step_seconds(size, EffectSizes::default());
+        let (free, contact) = measured.step_seconds(size, &EffectSizes::default());
         assert!(free > 0.0 && contact >= free);
     }
 

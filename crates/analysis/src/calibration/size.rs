@@ -1,5 +1,8 @@
 //! What the price of a step depends on.
 
+use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
+use rubmap_wheel::dynamics::schemes::Scheme;
+
 /// What the cost of a step depends on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct StepSize {
@@ -19,5 +22,32 @@ impl StepSize {
     /// Normal displacements of all sectors from their Fourier coordinates.
     pub(crate) fn transforms(self) -> f64 {
         (self.sectors * self.sectors * self.nodes.next_multiple_of(8)) as f64
+    }
+}
+
+/// What the costs of effects grow with.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct EffectSize {
+    pub(crate) step: StepSize,
+    /// Numbers in the gyroscopic matrices of all nodal diameters.
+    pub(crate) squares: usize,
+}
+
+impl EffectSize {
+    /// On `wheel`, or the part of it that is simulated, with `nodes` contact nodes a sector that may touch.
+    pub(crate) fn of(wheel: &ModalWheel, scheme: Scheme, nodes: usize) -> Self {
+        let integrated = wheel
+            .harmonics
+            .iter()
+            .map(|h| (scheme.integrated_modes(h.omega.len()), if h.single { 1 } else { 2 }));
+        let unknowns = integrated.clone().map(|(modes, parts)| modes * parts).sum();
+        // A pair reads the real and the imaginary part of its matrix.
+        let squares = integrated.map(|(modes, parts)| modes * modes * parts).sum();
+        Self { step: StepSize { sectors: wheel.sectors, nodes, unknowns }, squares }
+    }
+
+    /// Gaps of all sectors, as they are padded.
+    pub(crate) fn gaps(self) -> usize {
+        self.step.sectors * self.step.nodes.next_multiple_of(8)
     }
 }

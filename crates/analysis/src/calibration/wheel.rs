@@ -21,8 +21,8 @@ const OUT_OF_REACH: f64 = 100.0;
 const WITHIN_REACH: f64 = 0.6;
 
 /// Ω, rad/s.
-pub(super) const SPEED: f64 = 1000.0;
-pub(super) const STEPS: usize = 480;
+pub(crate) const SPEED: f64 = 1000.0;
+pub(crate) const STEPS: usize = 480;
 const SAMPLES: usize = 60;
 /// One revolution that has the set-up to itself, and another one. As short as that, some of them are not interrupted by the
 /// other work of a machine.
@@ -31,7 +31,7 @@ const ROUNDS: usize = 5;
 
 /// A wheel of no particular shape.
 #[derive(Clone)]
-pub(super) struct Wheel {
+pub(crate) struct Wheel {
     modal: ModalWheel,
     contact_nodes: Vec<ContactNode>,
 }
@@ -64,7 +64,7 @@ impl Wheel {
     }
 
     /// The same with Coriolis forces of no particular kind.
-    pub(super) fn turning(mut self) -> Self {
+    pub(crate) fn turning(mut self) -> Self {
         for harmonic in &mut self.modal.harmonics {
             let modes = harmonic.omega.len();
             // Skew-symmetric.
@@ -76,11 +76,11 @@ impl Wheel {
         self
     }
 
-    pub(super) fn modal(&self) -> &ModalWheel {
+    pub(crate) fn modal(&self) -> &ModalWheel {
         &self.modal
     }
 
-    pub(super) fn contact_nodes(&self) -> &[ContactNode] {
+    pub(crate) fn contact_nodes(&self) -> &[ContactNode] {
         &self.contact_nodes
     }
 
@@ -148,9 +148,9 @@ pub(super) struct StepSeconds {
 }
 
 /// Runs all cases in turns, so that other work of the machine meets them alike, and takes each at its best.
-pub(super) fn measure<const N: usize>(cases: [Case<'_>; N]) -> [StepSeconds; N] {
+pub(super) fn measure(cases: &[Case<'_>]) -> Vec<StepSeconds> {
     const CLEARANCES: [Option<f64>; 3] = [None, Some(OUT_OF_REACH), Some(WITHIN_REACH)];
-    let mut best = [[Best::default(); CLEARANCES.len()]; N];
+    let mut best = vec![[Best::default(); CLEARANCES.len()]; cases.len()];
     for _ in 0..ROUNDS {
         for (case, best) in cases.iter().zip(&mut best) {
             for (&clearance, best) in CLEARANCES.iter().zip(best) {
@@ -163,10 +163,11 @@ pub(super) fn measure<const N: usize>(cases: [Case<'_>; N]) -> [StepSeconds; N] 
             }
         }
     }
-    best.map(|[without, free, contact]| {
+    let seconds = |[without, free, contact]: &[Best; CLEARANCES.len()]| {
         let ((without, _), (free, _), (touching, share)) = (without.step(), free.step(), contact.step());
         StepSeconds { without, free, contact: free + (touching - free).max(0.0) / share.max(0.1) }
-    })
+    };
+    best.iter().map(seconds).collect()
 }
 
 /// The fastest run of each length, and what it counted.

@@ -16,10 +16,7 @@ pub use accuracy::{Accuracy, Budget};
 pub use auto_or::AutoOr;
 pub use integration::{Integration, SchemeChoice};
 pub use modal_analysis::ModalAnalysisRequest;
-pub use scene::{
-    Abradable, Casing, CasingMode, Clearance, Contact, Damping, EngineOrderExcitation, FlexibleCasing,
-    Friction, Initial, InitialWave, Lobes, Mistuning, Orbit, Probe, Ring, Scene, Symmetry,
-};
+pub use scene::Scene;
 pub use sensor::{Component, Sensor};
 pub use setting::Setting;
 pub use speeds::{HIGHEST_SPEED, LOWEST_SPEED, MAX_SPEEDS, SpeedSet, SpeedUnit, Speeds};

@@ -6,33 +6,33 @@ use crate::model::ModelFacts;
 use rubmap_wheel::dynamics::integrate::DIVERGED_SHARE_OF_RADIUS;
 
 /// A range in words.
-pub(super) fn between(range: &std::ops::RangeInclusive<f64>) -> String {
+pub(crate) fn between(range: &std::ops::RangeInclusive<f64>) -> String {
     format!("between {:?} and {:?}", range.start(), range.end())
 }
 
 /// Collects violations.
 #[derive(Default)]
-pub(super) struct Findings(pub(super) Vec<Violation>);
+pub(crate) struct Findings(pub(crate) Vec<Violation>);
 
 impl Findings {
-    pub(super) fn require(&mut self, holds: bool, pointer: &str, message: impl Into<String>) {
+    pub(crate) fn require(&mut self, holds: bool, pointer: &str, message: impl Into<String>) {
         if !holds {
             self.0.push(Violation::new(pointer, message));
         }
     }
 
     /// Whether something is wrong with what stands at `pointer` as a whole.
-    pub(super) fn refused(&self, pointer: &str) -> bool {
+    pub(crate) fn refused(&self, pointer: &str) -> bool {
         self.0.iter().any(|violation| violation.pointer == pointer)
     }
 
-    pub(super) fn finish<T>(self, value: T) -> Result<T, Vec<Violation>> {
+    pub(crate) fn finish<T>(self, value: T) -> Result<T, Vec<Violation>> {
         if self.0.is_empty() { Ok(value) } else { Err(self.0) }
     }
 }
 
 /// Lobes, an orbit or an initial state that would move a tip so far that the run ends as diverged.
-pub(super) fn check_reach(found: &mut Findings, length: f64, pointer: &str, facts: &ModelFacts) {
+pub(crate) fn check_reach(found: &mut Findings, length: f64, pointer: &str, facts: &ModelFacts) {
     let Some(radius) = facts.contact_radius.filter(|radius| *radius > 0.0) else { return };
     let reach = DIVERGED_SHARE_OF_RADIUS * radius;
     found.require(

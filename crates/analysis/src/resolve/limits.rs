@@ -9,25 +9,11 @@ pub(crate) const ENGINE_ORDER: u32 = 1_000;
 pub(crate) const SENSORS: usize = 64;
 /// Recorded numbers of one speed, 8 bytes each.
 pub(crate) const RECORDED: usize = 1 << 27;
-pub(crate) const LOBES: u32 = 100;
 pub(crate) const FAMILIES: u32 = 100;
 pub(crate) const SUPERHARMONIC: u32 = 100;
 pub(crate) const SUPERHARMONICS: usize = 16;
 /// Values of W, the contact operator: sectors times the square of contact nodes.
 pub(crate) const DELASSUS: usize = 1 << 26;
-/// Shortest ramp of lobes that stand inside the blade.
-pub(crate) const RAMP_REVOLUTIONS: f64 = 0.05;
-/// Rods of a coating, all rows together: the wear map of a result has a number for each.
-pub(crate) const RODS: u32 = 1 << 20;
 /// Lengths and stresses other than 0, in any unit: far from where squares overflow or motion counts as decayed to nothing.
 pub(crate) const LENGTH: std::ops::RangeInclusive<f64> = 1e-30..=1e30;
-pub(crate) const LEAST_LOBE_WIDTH_RAD: f64 = 1e-4;
-/// Two equal Gaussians exp(−(φ/w)²) have a valley between them up to this ratio of w to their distance.
-pub(crate) const LOBE_WIDTH_OVER_DISTANCE: f64 = std::f64::consts::FRAC_1_SQRT_2;
 pub(crate) const PHASE_RAD: f64 = 1000.0;
-pub(crate) const CASING_WAVES: u32 = 50;
-pub(crate) const SPREAD: f64 = 0.1;
-pub(crate) const FORCE: f64 = 1e30;
-/// The whirl is prescribed and its inertia left out: that of a shaft's own slow whirl.
-pub(crate) const WHIRL_RATIO: f64 = 2.0;
-pub(crate) const CASING_OMEGA: std::ops::RangeInclusive<f64> = 1e-3..=1e9;

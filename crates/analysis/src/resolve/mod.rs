@@ -1,23 +1,21 @@
 //! Checks a request against its model and fills in defaults: all violations at once, each at its JSON pointer.
 
 use crate::discretisation::most_samples;
+use crate::effects::casing::check::{check_lobe_count, check_ramp, check_steps};
+use crate::effects::coriolis;
 use crate::error::Violation;
 use crate::model::ModelFacts;
 use crate::request::auto_or::MOST_STEPS;
 use crate::request::{
-    Accuracy, AutoOr, Budget, Component, Damping, Integration, Lobes, ModalAnalysisRequest, SchemeChoice,
-    Sensor, SweepDirection, SweepRequest,
+    Accuracy, AutoOr, Budget, Component, Integration, ModalAnalysisRequest, SchemeChoice, Sensor,
+    SweepDirection, SweepRequest,
 };
-use crate::resolved::{Casing, Clearance, ResolvedModalAnalysis, ResolvedSpeeds, ResolvedSweep, Scene};
-use crate::stepping::least_steps_for_lobes;
-use rubmap_wheel::dynamics::casing::Restriction;
-use std::f64::consts::TAU;
+use crate::resolved::{ResolvedModalAnalysis, ResolvedSpeeds, ResolvedSweep};
 
-use self::findings::{Findings, between, check_reach};
+use self::findings::Findings;
 
-mod contact_effects;
 mod effects;
-mod findings;
+pub(crate) mod findings;
 pub(crate) mod limits;
 pub(crate) mod study;
 
@@ -29,7 +27,7 @@ pub fn resolve_sweep(request: SweepRequest, facts: &ModelFacts) -> Result<Resolv
     check_controls(&mut found, &sweep);
     check_modes(&mut found, sweep.modes_per_speed());
     check_speeds(&mut found, &sweep.speeds, facts, sweep.scene.centrifugal_stiffening, false);
-    check_scene(&mut found, &sweep.scene, facts);
+    effects::check_before_integration(&mut found, &sweep, facts);
     check_integration(&mut found, &sweep.integration, sweep.max_engine_order);
     found.require(
         (0.0..=1.0).contains(&sweep.peak_prominence),
@@ -38,7 +36,7 @@ pub fn resolve_sweep(request: SweepRequest, facts: &ModelFacts) -> Result<Resolv
     );
     check_steps(&mut found, &sweep);
     check_ramp(&mut found, &sweep);
-    effects::check_effects(&mut found, &sweep, facts);
+    effects::check_after_integration(&mut found, &sweep, facts);
     if sweep.sensors.is_empty() {
         sweep.sensors = default_sensors(facts);
     }
@@ -89,7 +87,7 @@ pub fn resolve_modal_analysis(
         );
     }
     check_lobe_count(&mut found, request.lobes, "/lobes");
-    check_coriolis(&mut found, request.coriolis, "/coriolis", facts);
+    coriolis::check::check(&mut found, request.coriolis, "/coriolis", facts);
     found.finish(request)
 }
 
@@ -202,105 +200,6 @@ fn check_speeds(
     }
 }
 
-fn check_scene(found: &mut Findings, scene: &Scene, facts: &ModelFacts) {
-    found.require(
-        !scene.centrifugal_stiffening || facts.has_stiffening(),
-        "/scene/centrifugal_stiffening",
-        "the model has a single stiffness matrix, so there is no stiffening to simulate: set this to false, or \
-         upload a package with the stiffness at three speeds",
-    );
-    if let Some(Damping { modal_ratio, family_ratios }) = &scene.damping {
-        let valid = |ratio: f64| (0.0..1.0).contains(&ratio);
-        let message = "a damping ratio lies in [0, 1)";
-        found.require(valid(*modal_ratio), "/scene/damping/modal_ratio", message);
-        found.require(
-            family_ratios.len() <= limits::FAMILIES as usize,
-            "/scene/damping/family_ratios",
-            format!("at most {} modal families", limits::FAMILIES),
-        );
-        for (index, &ratio) in family_ratios.iter().enumerate().take(limits::FAMILIES as usize) {
-            found.require(valid(ratio), &format!("/scene/damping/family_ratios/{index}"), message);
-        }
-    }
-    found.require(
-        scene.contact.is_none() || scene.casing.is_some(),
-        "/scene/contact",
-        "contact needs a casing to touch: add /scene/casing",
-    );
-    if let Some(casing) = &scene.casing {
-        check_casing(found, casing, facts);
-    }
-    check_coriolis(found, scene.coriolis, "/scene/coriolis", facts);
-}
-
-fn check_coriolis(found: &mut Findings, coriolis: bool, pointer: &str, facts: &ModelFacts) {
-    found.require(
-        !coriolis || facts.gyroscopic,
-        pointer,
-        "the model has no gyroscopic matrix, so there are no Coriolis forces to simulate: set this to false, or upload a \
-         package with the entry `gyroscopic`",
-    );
-}
-
-fn check_casing(found: &mut Findings, casing: &Casing, facts: &ModelFacts) {
-    let valid = |length: f64| length == 0.0 || limits::LENGTH.contains(&length);
-    let radius = facts.contact_radius.filter(|radius| *radius > 0.0).unwrap_or(f64::INFINITY);
-    let fits = |length: f64| valid(length) && length <= radius;
-    let message = format!(
-        "a clearance is 0 or a length {}, no larger than the radius at which the tips lie",
-        between(&limits::LENGTH)
-    );
-    match &casing.clearance {
-        Clearance::AlongChord { leading, trailing } => {
-            found.require(fits(*leading), "/scene/casing/clearance/leading", &message);
-            found.require(fits(*trailing), "/scene/casing/clearance/trailing", &message);
-        }
-        Clearance::Each(values) => {
-            found.require(
-                values.len() == facts.contact_nodes as usize,
-                "/scene/casing/clearance/values",
-                format!("the model has {} contact nodes, not {}", facts.contact_nodes, values.len()),
-            );
-            for (index, &value) in values.iter().enumerate() {
-                found.require(fits(value), &format!("/scene/casing/clearance/values/{index}"), &message);
-            }
-        }
-    }
-    if let Some(lobes) = &casing.lobes {
-        check_lobe_count(found, lobes.count, "/scene/casing/lobes/count");
-        found.require(
-            valid(lobes.amplitude),
-            "/scene/casing/lobes/amplitude",
-            format!("a lobe's height is 0 or a length {}", between(&limits::LENGTH)),
-        );
-        check_reach(found, lobes.amplitude, "/scene/casing/lobes/amplitude", facts);
-        let least = limits::LEAST_LOBE_WIDTH_RAD;
-        let most = limits::LOBE_WIDTH_OVER_DISTANCE * TAU / f64::from(lobes.count.max(1));
-        found.require(
-            (least..=most).contains(&lobes.width_rad),
-            "/scene/casing/lobes/width_rad",
-            format!(
-                "the half-width of a lobe is at least {least} rad and of {} lobes at most {most:.6} rad: between wider ones there is no \
-                 valley",
-                lobes.count
-            ),
-        );
-        found.require(
-            lobes.phase_rad.abs() <= limits::PHASE_RAD,
-            "/scene/casing/lobes/phase_rad",
-            format!("the phase is an angle of at most {} rad", limits::PHASE_RAD),
-        );
-    }
-}
-
-fn check_lobe_count(found: &mut Findings, count: u32, pointer: &str) {
-    found.require(
-        (1..=limits::LOBES).contains(&count),
-        pointer,
-        format!("a casing has 1 to {} lobes", limits::LOBES),
-    );
-}
-
 fn check_integration(found: &mut Findings, integration: &Integration, max_engine_order: u32) {
     let Integration {
         scheme,
@@ -364,24 +263,6 @@ fn check_integration(found: &mut Findings, integration: &Integration, max_engine
     );
 }
 
-/// Steps wider than a lobe would pass it by, with numbers that look fine.
-fn check_steps(found: &mut Findings, request: &ResolvedSweep) {
-    let AutoOr::Fixed(steps) = request.integration.steps_per_revolution else { return };
-    let wide = |lobes: &Lobes| lobes.width_rad >= limits::LEAST_LOBE_WIDTH_RAD;
-    if !request.scene.touched_lobes().is_some_and(wide) {
-        return;
-    }
-    let seen = least_steps_for_lobes(request);
-    found.require(
-        f64::from(steps) >= seen,
-        "/integration/steps_per_revolution",
-        format!(
-            "{steps} steps per revolution pass the lobes by, which are seen from {seen} steps per revolution on; give at least \
-             {seen}, or \"auto\""
-        ),
-    );
-}
-
 /// The displacement over the whole run and the Fourier coordinates of all sectors over the window are held in memory.
 fn check_memory(found: &mut Findings, request: &ResolvedSweep, facts: &ModelFacts) {
     let sectors = facts.sectors as usize;
@@ -408,34 +289,6 @@ fn check_memory(found: &mut Findings, request: &ResolvedSweep, facts: &ModelFact
              engine orders, or choose steps_per_revolution with small divisors",
             request.sensors.len(),
             limits::RECORDED
-        ),
-    );
-}
-
-/// Without a ramp a restriction inside the blade would hit it as a step: forces scale as 1/h, nothing converges.
-fn check_ramp(found: &mut Findings, request: &ResolvedSweep) {
-    if found.refused(Clearance::AT) {
-        return;
-    }
-    let Scene { casing: Some(casing), contact: Some(_), .. } = &request.scene else { return };
-    let restriction = match &casing.lobes {
-        Some(lobes) if lobes.count > limits::LOBES => return,
-        Some(lobes) => {
-            let Lobes { count, amplitude, width_rad, phase_rad } = *lobes;
-            Restriction { count, amplitude, width_rad, phase_rad }.highest()
-        }
-        None => 0.0,
-    };
-    let orbit = request.scene.orbit.as_ref().map_or(0.0, |orbit| orbit.radius);
-    let smallest = casing.clearance.smallest();
-    let highest = restriction + orbit;
-    found.require(
-        request.integration.ramp_revolutions >= limits::RAMP_REVOLUTIONS || highest <= smallest,
-        "/integration/ramp_revolutions",
-        format!(
-            "lobes and orbit of up to {highest} reach inside the blade at rest (smallest clearance {smallest}): let them \
-             grow over at least {} revolutions",
-            limits::RAMP_REVOLUTIONS
         ),
     );
 }

@@ -14,7 +14,7 @@ pub mod trial;
 
 pub use knobs::{Aim, Modes};
 pub use modal_analysis::ResolvedModalAnalysis;
-pub use scene::{Casing, Clearance, FlexibleCasing, Mistuning, Scene, WavesOf};
+pub use scene::Scene;
 pub use speeds::ResolvedSpeeds;
 pub use study::ResolvedStudy;
 pub use sweep::ResolvedSweep;

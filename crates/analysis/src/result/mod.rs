@@ -15,12 +15,10 @@ pub use campbell::{AbsoluteFrequencies, Campbell, WaveTables};
 pub use choice::{Choice, ModesChoice, Pilot, TriedModes};
 pub use errors::{Control, ErrorEstimate, Errors, PointError, Quantity};
 pub use plan::{
-    CostRange, Estimate, FoundSymmetry, ModalAnalysisPlan, PlannedEffect, PlannedPoint, ReductionState,
-    Spent, SweepPlan,
+    CostRange, Estimate, ModalAnalysisPlan, PlannedEffect, PlannedPoint, ReductionState, Spent, SweepPlan,
 };
 pub use point::{
-    EnergyReport, Point, PointStatus, SchemeReport, SensorResponse, SensorSpectrum, SpeedResult,
-    SpeedSpectra, WearMap, WearReport,
+    EnergyReport, Point, PointStatus, SchemeReport, SensorResponse, SensorSpectrum, SpeedResult, SpeedSpectra,
 };
 pub use reduction::{
     FrequencyDifference, LargestDifference, PreliminaryStiffening, ReductionReport, StiffeningReport,
@@ -33,6 +31,8 @@ pub use study::{
 pub use sweep::{CriticalSpeed, CriticalSpeeds, InteractionMap};
 pub use trial::{Cost, Trial};
 
+pub use crate::effects::abradable::result::{WearMap, WearReport};
+pub use crate::effects::symmetry::result::FoundSymmetry;
 pub use rubmap_wheel::response::campbell::{Crossing, DrivenCrossing};
 pub use rubmap_wheel::response::coincidence::Coincidence;
 pub use rubmap_wheel::response::settling::{Settling, Verdict};

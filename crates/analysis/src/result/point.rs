@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::effects::abradable::result::{WearMap, WearReport};
 use crate::end_state::EndState;
 use crate::request::{SchemeChoice, Sensor};
-use crate::resolved::Scene;
 use crate::result::reduction::StiffeningVerdict;
 use rubmap_wheel::dynamics::energy::{EffectWork, EnergyAudit};
 use rubmap_wheel::response::settling::Settling;
@@ -97,58 +97,24 @@ pub struct EnergyReport {
 }
 
 impl EnergyReport {
-    /// Of a run on one of the `parts` of a wheel; none if a number is not finite.
-    pub(crate) fn of(audit: &EnergyAudit, scene: &Scene, parts: f64) -> Option<Self> {
-        let effects = audit.effects();
-        let named = |effect: bool, value: f64| effect.then_some(parts * value);
+    /// Of a run on one of the `parts` of a wheel, to which effects add theirs; none if a number is not finite.
+    pub(crate) fn of(audit: &EnergyAudit, parts: f64) -> Option<Self> {
         let (initial, last) = audit.ends();
-        let EffectWork { excitation, mistuning, casing, casing_loss, friction_heat } = effects;
-        let all = [
-            initial,
-            last,
-            audit.work(),
-            audit.loss(),
-            excitation,
-            mistuning,
-            casing,
-            casing_loss,
-            friction_heat,
-        ];
-        all.iter().all(|value| value.is_finite()).then(|| Self {
+        let EffectWork { excitation, mistuning, casing, casing_loss, friction_heat } = audit.effects();
+        let of_effects = [excitation, mistuning, casing, casing_loss, friction_heat];
+        let mut all = [initial, last, audit.work(), audit.loss()].into_iter().chain(of_effects);
+        all.all(f64::is_finite).then(|| Self {
             initial: parts * initial,
             last: parts * last,
             contact_work: parts * audit.work(),
             damping_loss: parts * audit.loss(),
-            excitation_work: named(!scene.engine_order_excitation.is_empty(), effects.excitation),
-            mistuning_work: named(scene.mistuning.is_some(), effects.mistuning),
-            casing_work: named(scene.flexible_casing.is_some(), effects.casing),
-            casing_loss: named(scene.flexible_casing.is_some(), effects.casing_loss),
-            friction_heat: named(scene.friction.is_some(), effects.friction_heat),
+            excitation_work: None,
+            mistuning_work: None,
+            casing_work: None,
+            casing_loss: None,
+            friction_heat: None,
         })
     }
-}
-
-/// What the blades wore off an abradable coating.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-pub struct WearReport {
-    /// Volume removed, length³.
-    pub removed_volume: f64,
-    /// Deepest wear, length.
-    pub deepest: f64,
-    /// Work that went into plastic strain, force·length.
-    pub plastic_work: f64,
-    /// Whether a tip met the metal behind the coating.
-    pub reached_metal: bool,
-}
-
-/// How deep the blades wore an abradable coating.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-pub struct WearMap {
-    /// `[rod][contact node]`, length: rods in the direction of rotation from the package's x axis, contact nodes from the
-    /// leading edge.
-    pub depths: Vec<Vec<f64>>,
 }
 
 /// One speed of a sweep with its credentials.

@@ -2,24 +2,18 @@
 
 use std::f64::consts::TAU;
 
-use crate::effects::modal_damping;
-use crate::resolved::ResolvedSweep;
+use crate::effects::damping::convert::modal_damping;
+use crate::effects::effect::AboutToRun;
+use crate::not_runnable::NotRunnable;
 use rubmap_wheel::dynamics::contact::flexibility::{flexibility, outward_normals, ridge};
-use rubmap_wheel::dynamics::contact::friction::{FrictionError, SlidingFlexibility};
-use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
+use rubmap_wheel::dynamics::contact::friction::SlidingFlexibility;
 use rubmap_wheel::dynamics::schemes::Scheme;
 use rubmap_wheel::dynamics::schemes::massless_boundary::residual_flexibility;
-use rubmap_wheel::dynamics::sector::ContactNode;
 
 /// Checks the contact operator of a scheme and its step (docs/method.md, Contact and Friction) before it runs, an elastic casing's
 /// and Coriolis forces' share apart, which only help or are small; a scene without friction passes.
-pub(super) fn check(
-    wheel: &ModalWheel,
-    contact_nodes: &[ContactNode],
-    request: &ResolvedSweep,
-    scheme: Scheme,
-    steps_per_revolution: usize,
-) -> Result<(), FrictionError> {
+pub(super) fn check(run: &AboutToRun<'_>) -> Result<(), NotRunnable> {
+    let AboutToRun { request, wheel, contact_nodes, scheme, steps_per_revolution } = *run;
     let Some(friction) = &request.scene.friction else { return Ok(()) };
     let step = TAU / (wheel.speed_rad_s * steps_per_revolution as f64);
     let damping = modal_damping(request);
@@ -36,5 +30,5 @@ pub(super) fn check(
     };
     let flexibility = SlidingFlexibility::new(contact_nodes, blocks)?;
     let ridge = ridge(&flexibility.normal, wheel.sectors);
-    flexibility.check(wheel.sectors, ridge, friction.coefficient)
+    Ok(flexibility.check(wheel.sectors, ridge, friction.coefficient)?)
 }

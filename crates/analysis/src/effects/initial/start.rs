@@ -1,34 +1,29 @@
-//! The motion that a speed begins with.
+//! The mode that moves when a run starts.
 
 use std::f64::consts::TAU;
 
 use faer::c64;
 
+use super::request::{self, Initial};
 use crate::not_runnable::NotRunnable;
-use crate::request::{Initial, Probe, Symmetry};
 use crate::resolved::ResolvedSweep;
 use crate::stepping::Stepping;
-use crate::symmetry::repeats;
 use rubmap_wheel::dynamics::casing::Casing;
 use rubmap_wheel::dynamics::contact::flexibility::outward_normals;
 use rubmap_wheel::dynamics::initial::{InitialMode, InitialWave};
-use rubmap_wheel::dynamics::mistuning::normal_numbers;
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
 use rubmap_wheel::dynamics::schemes::{Scheme, exact_modal};
 use rubmap_wheel::dynamics::sector::ContactNode;
 
-/// The modes that a scene starts with.
-pub(super) fn initial(
+/// The mode that a scene starts with, if it names one.
+pub(crate) fn initial_mode(
     request: &ResolvedSweep,
     wheel: &ModalWheel,
     contact_nodes: &[ContactNode],
     casing: Option<&Casing>,
     stepping: &Stepping,
-) -> Result<Vec<InitialMode>, NotRunnable> {
-    if request.scene.symmetry == Symmetry::Probe {
-        return Ok(asymmetry(request, wheel, casing));
-    }
-    let Some(initial) = &request.scene.initial else { return Ok(Vec::new()) };
+) -> Result<Option<InitialMode>, NotRunnable> {
+    let Some(initial) = &request.scene.initial else { return Ok(None) };
     let (harmonic, family) = (initial.nodal_diameter as usize / wheel.repeats, initial.family as usize - 1);
     let modes = &wheel.harmonics[harmonic];
     if family >= modes.omega.len() {
@@ -40,15 +35,15 @@ pub(super) fn initial(
     }
     check_integrated(initial, modes.omega[family], wheel, casing.is_some(), stepping)?;
     let wave = match initial.wave {
-        crate::request::scene::InitialWave::Standing => InitialWave::Standing,
-        crate::request::scene::InitialWave::Forward => InitialWave::Forward,
-        crate::request::scene::InitialWave::Backward => InitialWave::Backward,
+        request::InitialWave::Standing => InitialWave::Standing,
+        request::InitialWave::Forward => InitialWave::Forward,
+        request::InitialWave::Backward => InitialWave::Backward,
     };
     let mode = InitialMode::of_amplitude(wheel, harmonic, family, initial.amplitude, c64::ONE, wave);
     if let Some(casing) = casing {
         check_reach(initial, &mode, wheel, contact_nodes, casing)?;
     }
-    Ok(vec![mode])
+    Ok(Some(mode))
 }
 
 /// A mode that the scheme does not carry would be gone at once.
@@ -101,53 +96,4 @@ fn check_reach(
         return Ok(());
     }
     Err(NotRunnable::InsideCasing { largest: initial.amplitude * fits })
-}
-
-/// The lowest mode of every nodal diameter that the symmetry of the scene keeps at rest, at a phase of its own.
-fn asymmetry(request: &ResolvedSweep, wheel: &ModalWheel, casing: Option<&Casing>) -> Vec<InitialMode> {
-    let Probe { amplitude, seed } = request.scene.probe.clone().unwrap_or_default();
-    let repeats = repeats(&request.scene, wheel.sectors as u32) as usize;
-    let mut modes = lowest_modes(wheel, amplitude * wheel_reach(casing), seed);
-    modes.retain(|mode| !wheel.harmonics[mode.harmonic].harmonic.is_multiple_of(repeats));
-    modes
-}
-
-/// Amplitude of the perturbation that a twin starts from, relative to the reach of the wheel.
-const PERTURBATION: f64 = 1e-7;
-
-/// `modes` with a tiny perturbation of the lowest mode of every nodal diameter.
-pub(super) fn perturbed(
-    mut modes: Vec<InitialMode>,
-    wheel: &ModalWheel,
-    casing: Option<&Casing>,
-) -> Vec<InitialMode> {
-    for added in lowest_modes(wheel, PERTURBATION * wheel_reach(casing), 1) {
-        let same = |mode: &&mut InitialMode| (mode.harmonic, mode.family) == (added.harmonic, added.family);
-        match modes.iter_mut().find(same) {
-            Some(mode) => mode.displacement += added.displacement,
-            None => modes.push(added),
-        }
-    }
-    modes
-}
-
-/// The lowest mode of every nodal diameter, standing, at a phase of its own.
-fn lowest_modes(wheel: &ModalWheel, amplitude: f64, seed: u64) -> Vec<InitialMode> {
-    let phases = normal_numbers(seed).take(wheel.harmonics.len());
-    let mode = |(index, phase): (usize, f64)| {
-        let phase = c64::new(phase.cos(), phase.sin());
-        InitialMode::of_amplitude(wheel, index, 0, amplitude, phase, InitialWave::Standing)
-    };
-    phases.enumerate().map(mode).collect()
-}
-
-/// The length that an asymmetry is small against: the smallest clearance, or the restriction where that is zero; 1 without
-/// a casing, where all motion is linear.
-fn wheel_reach(casing: Option<&Casing>) -> f64 {
-    let Some(casing) = casing else { return 1.0 };
-    let smallest = casing.clearance.iter().copied().fold(f64::INFINITY, f64::min);
-    match casing.restriction {
-        Some(restriction) if smallest == 0.0 => restriction.highest(),
-        _ => smallest,
-    }
 }

@@ -1,27 +1,19 @@
-//! Friction and abradable coating of a request.
+//! Checks of an abradable coating.
 
-use super::findings::{Findings, between};
-use super::limits;
+use super::request::Abradable;
 use crate::model::ModelFacts;
-use crate::request::{Abradable, AutoOr, Friction, Integration};
+use crate::request::AutoOr;
+use crate::resolve::findings::{Findings, between};
+use crate::resolve::limits;
+use crate::resolved::ResolvedSweep;
 use rubmap_wheel::dynamics::contact::coating::{LEAST_HARDENING, RODS_PER_SECTOR};
 
-/// What can be said of friction before a wheel is reduced; whether it jams is found out at every speed.
-pub(super) fn check_friction(found: &mut Findings, friction: &Friction) {
-    found.require(
-        (0.0..=1.0).contains(&friction.coefficient),
-        "/scene/friction/coefficient",
-        "a friction coefficient lies in [0, 1]",
-    );
-}
+/// Rods of a coating, all rows together: the wear map of a result has a number for each.
+const RODS: u32 = 1 << 20;
 
 /// The coating, and that time steps are fine enough for its rods.
-pub(super) fn check_abradable(
-    found: &mut Findings,
-    abradable: &Abradable,
-    integration: &Integration,
-    facts: &ModelFacts,
-) {
+pub(super) fn check(found: &mut Findings, request: &ResolvedSweep, facts: &ModelFacts) {
+    let Some(abradable) = &request.scene.abradable else { return };
     found.require(
         facts.contact_nodes >= 2,
         "/scene/abradable",
@@ -30,7 +22,7 @@ pub(super) fn check_abradable(
     check_material(found, abradable);
     let rods = abradable.rods_around;
     let least = u32::try_from(RODS_PER_SECTOR).unwrap_or(u32::MAX).saturating_mul(facts.sectors);
-    let most = (limits::RODS / facts.contact_nodes.max(1)).max(least);
+    let most = (RODS / facts.contact_nodes.max(1)).max(least);
     found.require(
         (least..=most).contains(&rods),
         "/scene/abradable/rods_around",
@@ -38,10 +30,10 @@ pub(super) fn check_abradable(
             "between {least} and {most} rods: blades share none ({RODS_PER_SECTOR} for every sector), and the {} rows \
              together keep to {}",
             facts.contact_nodes,
-            limits::RODS
+            RODS
         ),
     );
-    if let AutoOr::Fixed(steps) = integration.steps_per_revolution {
+    if let AutoOr::Fixed(steps) = request.integration.steps_per_revolution {
         found.require(
             steps >= rods,
             "/integration/steps_per_revolution",
@@ -91,31 +83,7 @@ mod tests {
     use serde_json::{Value, json};
 
     use super::*;
-    use crate::error::Violation;
-    use rubmap_wheel::dynamics::sector::Units;
-
-    fn facts(contact_nodes: u32) -> ModelFacts {
-        let unit = |name: &str| name.to_owned();
-        let units = Units { length: unit("mm"), force: unit("N"), time: unit("s"), mass: unit("t") };
-        let name = unit("wheel");
-        ModelFacts {
-            name,
-            sectors: 10,
-            contact_nodes,
-            own_dofs: 900,
-            speeds_rad_s: vec![0.0],
-            units,
-            gyroscopic: false,
-            contact_radius: None,
-            stiffening: None,
-        }
-    }
-
-    fn friction(coefficient: f64) -> Vec<Violation> {
-        let mut found = Findings::default();
-        check_friction(&mut found, &Friction { coefficient });
-        found.0
-    }
+    use crate::resolved::from_json;
 
     /// Pointers of what is found in a coating with some values changed.
     fn abradable(changed: Value, integration: Value, contact_nodes: u32) -> Vec<String> {
@@ -124,18 +92,17 @@ mod tests {
         for (field, value) in changed.as_object().unwrap() {
             coating[field] = value.clone();
         }
-        let coating: Abradable = serde_json::from_value(coating).unwrap();
-        let integration: Integration = serde_json::from_value(integration).unwrap();
+        let request = from_json::sweep(json!({
+            "model": "", "speeds": {"values": [1.0], "unit": "rad_s"},
+            "scene": {"abradable": coating}, "integration": integration
+        }));
         let mut found = Findings::default();
-        check_abradable(&mut found, &coating, &integration, &facts(contact_nodes));
+        check(&mut found, &request, &ModelFacts::of_ten_sectors(contact_nodes));
         found.0.into_iter().map(|violation| violation.pointer).collect()
     }
 
     #[test]
-    fn sound_requests_pass() {
-        for coefficient in [0.0, 0.2, 1.0] {
-            assert!(friction(coefficient).is_empty());
-        }
+    fn sound_coatings_pass() {
         assert!(abradable(json!({}), json!({}), 16).is_empty());
         let fewest = json!({"rods_around": 40, "yield_stress": 0.0});
         assert!(abradable(fewest, json!({"steps_per_revolution": 40}), 2).is_empty());
@@ -143,9 +110,6 @@ mod tests {
 
     #[test]
     fn names_what_is_wrong() {
-        for coefficient in [-0.1, 1.1, f64::NAN] {
-            assert_eq!(friction(coefficient)[0].pointer, "/scene/friction/coefficient");
-        }
         assert_eq!(abradable(json!({}), json!({}), 1), ["/scene/abradable"]);
         for (field, value) in [
             ("modulus", json!(0.0)),

@@ -2,13 +2,15 @@
 
 use num_integer::gcd;
 
+use super::result::FoundSymmetry;
+use crate::effects::effect::Repeats;
+use crate::effects::table::named;
 use crate::resolved::Scene;
-use crate::result::FoundSymmetry;
 use rubmap_numerics::sector_fourier::harmonic_count;
 
 impl FoundSymmetry {
     /// That of `scene` around `sectors` sectors.
-    pub(super) fn of(scene: &Scene, sectors: u32) -> Self {
+    pub(crate) fn of(scene: &Scene, sectors: u32) -> Self {
         let repeats = repeats(scene, sectors);
         let (moving, resting) =
             (0..harmonic_count(sectors as usize) as u32).partition(|i| i.is_multiple_of(repeats));
@@ -17,14 +19,13 @@ impl FoundSymmetry {
 }
 
 /// [`FoundSymmetry::repeats`].
-pub(super) fn repeats(scene: &Scene, sectors: u32) -> u32 {
-    let lobes = scene.touched_lobes().map_or(0, |lobes| lobes.count);
-    let excitation = scene.engine_order_excitation.iter().map(|force| force.order);
-    let initial = scene.initial.as_ref().map(|mode| mode.nodal_diameter);
-    // Order 1 repeats once.
-    let once = [scene.orbit.is_some(), scene.mistuning.is_some()];
-    let once = once.into_iter().filter(|present| *present).map(|_| 1);
-    excitation.chain(initial).chain(once).chain([lobes]).fold(sectors, gcd)
+pub(crate) fn repeats(scene: &Scene, sectors: u32) -> u32 {
+    let times = named(scene).flat_map(|effect| match effect.repeats {
+        Repeats::Everywhere => Vec::new(),
+        Repeats::Times(of) => of(scene),
+        Repeats::Once(_) => vec![1],
+    });
+    times.fold(sectors, gcd)
 }
 
 #[cfg(test)]

@@ -1,0 +1,45 @@
+//! The casing in the terms of the physics.
+
+use super::resolved::Clearance;
+use crate::not_runnable::NotRunnable;
+use crate::resolved::ResolvedSweep;
+use rubmap_wheel::dynamics::casing::{Casing, Restriction, RestrictionTable, clearance_along_chord};
+use rubmap_wheel::dynamics::integrate::MAX_TABLE_VALUES;
+use rubmap_wheel::dynamics::reduction::ReducedWheel;
+
+/// The casing of a scene with contact; a casing that nothing touches does not exist for the integration.
+pub(crate) fn casing(
+    reduced: &ReducedWheel,
+    request: &ResolvedSweep,
+    ramp_revolutions: f64,
+) -> Option<Casing> {
+    let casing = request.scene.casing.as_ref()?;
+    request.scene.contact.as_ref()?;
+    let positions: Vec<_> = reduced.contact.iter().map(|node| node.position).collect();
+    let clearance = match &casing.clearance {
+        Clearance::Each(values) => values.clone(),
+        Clearance::AlongChord { leading, trailing } => clearance_along_chord(*leading, *trailing, &positions),
+    };
+    let restriction = casing.lobes.as_ref().map(|lobes| Restriction {
+        count: lobes.count,
+        amplitude: lobes.amplitude,
+        width_rad: lobes.width_rad,
+        phase_rad: lobes.phase_rad,
+    });
+    Some(Casing { clearance, restriction, ramp_revolutions })
+}
+
+/// Whether the casing's heights can be tabulated; the error says what to change.
+pub(crate) fn check_table(
+    reduced: &ReducedWheel,
+    request: &ResolvedSweep,
+    steps_per_revolution: usize,
+) -> Result<(), NotRunnable> {
+    let stride = reduced.contact.len().next_multiple_of(8);
+    let (steps, sectors) = (steps_per_revolution, reduced.sectors);
+    let size = RestrictionTable::size(steps, sectors, stride);
+    if size <= MAX_TABLE_VALUES || request.scene.touched_lobes().is_none() {
+        return Ok(());
+    }
+    Err(NotRunnable::Table { size, steps, sectors })
+}

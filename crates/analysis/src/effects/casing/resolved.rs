@@ -1,0 +1,79 @@
+//! The casing with its alternatives told apart.
+
+use super::request::{self, Lobes};
+use crate::effects::asked::Asked;
+use crate::error::Violation;
+
+/// Casing of revolution with an optional static restriction.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Casing {
+    pub(crate) clearance: Clearance,
+    pub(crate) lobes: Option<Lobes>,
+}
+
+/// Clearance at rest, in the model's unit of length.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Clearance {
+    /// Linear in the arc length from contact node 0 to the last.
+    AlongChord {
+        /// At contact node 0.
+        leading: f64,
+        /// At the last contact node.
+        trailing: f64,
+    },
+    /// One value per contact node.
+    Each(Vec<f64>),
+}
+
+impl Asked for Option<request::Casing> {
+    type Resolved = Option<Casing>;
+
+    fn resolve(self, refuse: &mut dyn FnMut(Violation)) -> Option<Casing> {
+        let request::Casing { clearance, lobes } = self?;
+        Some(Casing { clearance: Clearance::of(clearance, refuse), lobes })
+    }
+
+    fn of(resolved: Option<Casing>) -> Self {
+        resolved.map(|casing| request::Casing { clearance: casing.clearance.into(), lobes: casing.lobes })
+    }
+}
+
+impl Clearance {
+    /// Where it is in a request.
+    pub(crate) const AT: &str = "/scene/casing/clearance";
+
+    fn of(asked: request::Clearance, refuse: &mut dyn FnMut(Violation)) -> Self {
+        match asked {
+            request::Clearance { leading: Some(leading), trailing: Some(trailing), values: None } => {
+                Self::AlongChord { leading, trailing }
+            }
+            request::Clearance { leading: None, trailing: None, values: Some(values) } => Self::Each(values),
+            request::Clearance { .. } => {
+                refuse(Violation::new(
+                    Self::AT,
+                    "give either `leading` and `trailing`, or `values` with one clearance per contact node",
+                ));
+                Self::AlongChord { leading: 0.0, trailing: 0.0 }
+            }
+        }
+    }
+
+    /// The smallest number that was given.
+    pub(crate) fn smallest(&self) -> f64 {
+        match self {
+            Self::AlongChord { leading, trailing } => leading.min(*trailing),
+            Self::Each(values) => values.iter().copied().fold(f64::INFINITY, f64::min),
+        }
+    }
+}
+
+impl From<Clearance> for request::Clearance {
+    fn from(clearance: Clearance) -> Self {
+        match clearance {
+            Clearance::AlongChord { leading, trailing } => {
+                Self { leading: Some(leading), trailing: Some(trailing), values: None }
+            }
+            Clearance::Each(values) => Self { leading: None, trailing: None, values: Some(values) },
+        }
+    }
+}

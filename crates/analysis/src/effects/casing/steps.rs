@@ -1,0 +1,26 @@
+//! Steps that see the lobes of a casing.
+
+use std::f64::consts::TAU;
+
+use crate::effects::effect::WantedSteps;
+use crate::resolved::Scene;
+
+/// `"auto"` takes this many steps over the half-width of a lobe.
+const AUTO_STEPS_PER_WIDTH: f64 = 10.0;
+
+/// Fewer steps over the half-width of a lobe would pass it by.
+const LEAST_STEPS_PER_WIDTH: f64 = 2.0;
+
+pub(super) fn wanted_steps(scene: &Scene) -> WantedSteps {
+    (steps(scene, AUTO_STEPS_PER_WIDTH), "ten steps fall on the half-width of a lobe")
+}
+
+/// The smallest number of steps per revolution that sees the lobes of a scene.
+pub(super) fn least_steps(scene: &Scene) -> f64 {
+    steps(scene, LEAST_STEPS_PER_WIDTH)
+}
+
+/// Steps per revolution of which so many fall on the half-width of a lobe that may be touched.
+fn steps(scene: &Scene, per_width: f64) -> f64 {
+    scene.touched_lobes().map_or(0.0, |lobes| (per_width * TAU / lobes.width_rad).ceil())
+}

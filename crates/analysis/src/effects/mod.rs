@@ -1,0 +1,23 @@
+//! Effects, a folder each: what a scene may say (`request.rs`, and `resolved.rs` where that has alternatives), and what the
+//! program asks of it (`EFFECT` in `mod.rs`, with its checks, conversion, price and place in results beside it).
+
+pub(crate) mod asked;
+pub(crate) mod effect;
+pub(crate) mod list;
+pub(crate) mod physics;
+pub(crate) mod table;
+
+pub mod abradable;
+pub mod casing;
+pub mod centrifugal_stiffening;
+pub mod contact;
+pub mod coriolis;
+pub mod damping;
+pub mod engine_order_excitation;
+pub mod flexible_casing;
+pub mod friction;
+pub mod initial;
+pub mod mistuning;
+pub mod orbit;
+pub mod probe;
+pub mod symmetry;

@@ -1,0 +1,30 @@
+//! An eccentric casing or a whirling shaft.
+
+use crate::effects::effect::{Acts, Break, Chain, Check, Effect, Repeats};
+
+mod check;
+mod convert;
+pub(crate) mod price;
+pub mod request;
+
+pub(crate) const EFFECT: Effect = Effect {
+    name: "orbit",
+    is_on: |scene| scene.orbit.is_some(),
+    adds: "a shift of every gap that moves with the axis",
+    acts: Acts::AtContact,
+    repeats: Repeats::Once("an axis off the casing's"),
+    chain: Chain::Moves(Break {
+        what: "orbit",
+        when: |request| {
+            let revolutions = f64::from(request.integration.revolutions);
+            request.scene.orbit.as_ref().is_some_and(|orbit| (orbit.whirl_ratio * revolutions).fract() != 0.0)
+        },
+        why: "its axis would jump, for whirl_ratio × revolutions is not whole",
+    }),
+    check: Check::Then(check::check),
+    steps: None,
+    at_speed: None,
+    convert: Some(convert::convert),
+    price: None,
+    record: None,
+};
