@@ -14,7 +14,7 @@ use super::problem::Problem;
 use super::results::find;
 use super::state::AppState;
 use crate::jobs::Cancellation;
-use crate::store::jobs::{JobDeletion, JobFilter, JobId, JobKind};
+use crate::store::jobs::{JobDeletion, JobFilter, JobHead, JobId, JobKind};
 use crate::store::status::JobStatus;
 use crate::tokens::Principal;
 
@@ -71,7 +71,17 @@ pub(super) async fn list_jobs(
         }
         next
     });
+    for job in &mut jobs {
+        tell_phase(&state, job);
+    }
     Ok(Json(JobList { jobs: jobs.into_iter().map(JobBody::from).collect(), next }))
+}
+
+/// What is stored is a second old, or older where the store takes nothing.
+fn tell_phase(state: &AppState, job: &mut JobHead) {
+    if let Some(phase) = state.jobs.phase(job.id) {
+        job.phase = phase;
+    }
 }
 
 /// Follow a job.
@@ -88,10 +98,7 @@ pub(super) async fn get_job(
     JobPath(id): JobPath,
 ) -> Result<Json<JobDetail>, Problem> {
     let mut job = find(&state, &whose, id).await?;
-    // What is stored is a second old, or older where the store takes nothing.
-    if let Some(phase) = state.jobs.phase(id) {
-        job.head.phase = phase;
-    }
+    tell_phase(&state, &mut job.head);
     let reduction = match (job.request.model(), job.request.modes_per_speed()) {
         (Some(model), Some(modes_per_speed)) => {
             let mut reports = state.store.reduction_reports(model).await?.into_iter();

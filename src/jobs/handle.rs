@@ -201,7 +201,7 @@ impl Jobs {
 
     /// Cancels a job. Its finished speeds stay.
     pub async fn cancel(&self, id: JobId) -> Result<Cancellation, StoreError> {
-        match self.engine.store.advance_job(id, JobStatus::Dismissed, None).await? {
+        match self.engine.store.dismiss_job(id).await? {
             None => Ok(Cancellation::Unknown),
             Some(JobStatus::Dismissed) => {
                 self.engine.retire(id);

@@ -40,11 +40,8 @@ const LAST_TASKS: Duration = Duration::from_secs(1);
 /// Time between two writes of a job's progress. Each is a flush of the disk, and nobody looks more often.
 const BETWEEN_PROGRESS: Duration = Duration::from_secs(1);
 
-/// Time after which a cleaning that failed is tried again.
-const NEXT_CLEANING: Duration = Duration::from_secs(60);
-
-/// Time between two looks for jobs that have been kept long enough.
-const BETWEEN_CLEANINGS: Duration = Duration::from_secs(3600);
+/// Time between two looks for jobs that have been kept long enough, and for what a full disk has kept from being cleaned up.
+const BETWEEN_CLEANINGS: Duration = Duration::from_secs(60);
 
 /// How the runner is set up.
 #[derive(Debug, Clone)]
@@ -169,8 +166,6 @@ async fn keep_house(engine: Arc<Engine>, keep_days: Option<u32>) {
         };
         if let Err(error) = cleaned.await {
             tracing::warn!(%error, "could not clean up; trying again later");
-            tokio::time::sleep(NEXT_CLEANING).await;
-            continue;
         }
         tokio::select! {
             () = engine.deleted.notified() => {}

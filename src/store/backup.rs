@@ -64,7 +64,8 @@ pub async fn backup(data: &Path, to: &Path) -> Result<Backup, StoreError> {
                     .fetch_one(&mut source)
                     .await?;
                 if there {
-                    return Err(StoreError::Package(error));
+                    let missing = std::io::Error::new(error.kind(), format!("of model {id}: {error}"));
+                    return Err(StoreError::Package(missing));
                 }
                 sqlx::query("delete from models where id = ?").bind(&id).execute(&mut copied).await?;
                 dropped += 1;

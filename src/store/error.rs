@@ -19,9 +19,9 @@ pub enum StoreError {
     Queue(#[from] apalis_sqlite::Error),
     /// Packages of models, and nothing that knows them.
     #[error(
-        "{} is missing or empty, and beside it lie the packages of {packages} models, which a new database would not know \
-         and the service remove: put the database back (from a backup), or, to begin anew, move its folder `models` \
-         elsewhere and upload the packages again",
+        "{} is missing or holds nothing of this program, and beside it lie the packages of {packages} models, which a new \
+         database would not know and the service remove: put the database back (from a backup; a copy needs its -wal file, too), \
+         or, to begin anew, move it and its folder `models` elsewhere and upload the packages again",
         database.display()
     )]
     LostDatabase {

@@ -1,13 +1,16 @@
 //! The store itself: the database of one data folder, opened and brought up to date.
 
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 use sqlx::sqlite::{
     SqliteAutoVacuum, SqliteConnectOptions, SqliteJournalMode, SqlitePool, SqlitePoolOptions,
     SqliteSynchronous,
 };
+use sqlx::{ConnectOptions, Connection};
 
 use super::error::StoreError;
 use super::marks::Marks;
@@ -31,6 +34,8 @@ pub struct Store {
     pub(super) marks: Marks,
     /// Held while a package file and its row come or go together.
     pub(super) packages: Arc<tokio::sync::Mutex<()>>,
+    /// Whether a deletion has taken the room that is kept for deletions: nothing else is written then.
+    pub(super) reserve_taken: Arc<AtomicBool>,
 }
 
 impl Store {
@@ -40,7 +45,7 @@ impl Store {
     /// Also where packages of models lie beside a database that is missing or empty: a new one would make leftovers of them.
     pub async fn open(folder: &Path) -> Result<Self, StoreError> {
         std::fs::create_dir_all(packages_folder(folder))?;
-        expect_database(folder)?;
+        expect_database(folder).await?;
         let options = SqliteConnectOptions::new()
             .filename(folder.join(DATABASE))
             .create_if_missing(true)
@@ -57,7 +62,8 @@ impl Store {
         make_shrinkable(&writer).await?;
         let readers = pool().max_connections(READERS).connect_with(options).await?;
         let marks = Marks::new(folder)?;
-        Ok(Self { folder: folder.to_owned(), readers, writer, marks, packages: Arc::default() })
+        let (packages, reserve_taken) = (Arc::default(), Arc::default());
+        Ok(Self { folder: folder.to_owned(), readers, writer, marks, packages, reserve_taken })
     }
 
     /// Closes all connections, which folds the write-ahead log into the database.
@@ -67,18 +73,30 @@ impl Store {
     }
 }
 
-/// Refuses a folder whose packages have lost their database.
-fn expect_database(folder: &Path) -> Result<(), StoreError> {
+/// Refuses a folder whose packages have lost their database: it is not there, or a new one in all but its name, as after its
+/// write-ahead log was lost or only the file copied.
+async fn expect_database(folder: &Path) -> Result<(), StoreError> {
     let database = folder.join(DATABASE);
-    match std::fs::metadata(&database) {
-        Ok(file) if file.len() > 0 => return Ok(()),
-        Err(error) if error.kind() != std::io::ErrorKind::NotFound => return Err(error.into()),
-        _ => {}
+    if database.is_dir() {
+        return Err(std::io::Error::new(ErrorKind::IsADirectory, format!("{DATABASE} is a folder")).into());
     }
-    match count_packages(folder)? {
-        0 => Ok(()),
-        packages => Err(StoreError::LostDatabase { database, packages }),
+    let packages = count_packages(folder)?;
+    if packages == 0 {
+        return Ok(());
     }
+    let length = match std::fs::metadata(&database) {
+        Err(error) if error.kind() != ErrorKind::NotFound => return Err(error.into()),
+        found => found.map_or(0, |file| file.len()),
+    };
+    let knows_models = length > 0 && {
+        let options = SqliteConnectOptions::new().filename(&database).busy_timeout(PATIENCE);
+        let mut connection = options.connect().await?;
+        let tables = "select exists (select 1 from sqlite_master where type = 'table' and name = 'models')";
+        let known = sqlx::query_scalar(tables).fetch_one(&mut connection).await?;
+        connection.close().await?;
+        known
+    };
+    if knows_models { Ok(()) } else { Err(StoreError::LostDatabase { database, packages }) }
 }
 
 /// Makes a database anew, once, that an earlier version made such that it cannot give room back.
@@ -132,7 +150,7 @@ mod tests {
         folder
     }
 
-    /// A database that was moved away or emptied took every package with it: nothing knew them any more.
+    /// A database that was moved away, emptied or copied without its log took every package with it: nothing knew them any more.
     #[tokio::test]
     async fn packages_without_a_database_are_not_leftovers() {
         let folder = tempfile::tempdir().unwrap();
@@ -140,16 +158,26 @@ mod tests {
         let package = package_path(folder.path(), &"0a".repeat(32));
         std::fs::write(&package, "package").unwrap();
         let database = folder.path().join(DATABASE);
-        for emptied in [false, true] {
-            if emptied {
-                std::fs::write(&database, "").unwrap();
+        let of_another = folder.path().join("another");
+        let options = SqliteConnectOptions::new().filename(&of_another).create_if_missing(true);
+        let mut another = options.connect().await.unwrap();
+        sqlx::query("create table theirs (a)").execute(&mut another).await.unwrap();
+        another.close().await.unwrap();
+        let contents = [None, Some(Vec::new()), Some(vec![b'x']), Some(std::fs::read(of_another).unwrap())];
+        for content in contents {
+            if let Some(content) = &content {
+                std::fs::write(&database, content).unwrap();
             }
             let refused = Store::open(folder.path()).await.unwrap_err();
             assert!(matches!(refused, StoreError::LostDatabase { packages: 1, .. }), "{refused}");
             assert!(!refused.may_pass());
-            assert_eq!(database.exists(), emptied);
+            assert_eq!(database.exists(), content.is_some());
             assert!(package.exists());
         }
+        std::fs::remove_file(&database).unwrap();
+        std::fs::create_dir(&database).unwrap();
+        assert!(!Store::open(folder.path()).await.unwrap_err().may_pass(), "a folder is nothing to wait for");
+        std::fs::remove_dir(&database).unwrap();
         // Elsewhere they stand in nobody's way.
         std::fs::rename(&package, folder.path().join("kept.zip")).unwrap();
         Store::open(folder.path()).await.unwrap();

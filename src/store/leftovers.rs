@@ -15,6 +15,10 @@ impl Store {
         if let Err(error) = self.remove_stale_trials().await {
             tracing::warn!(%error, "could not remove the trials of another version");
         }
-        self.keep_reserve().await;
+        if !self.keep_reserve().await {
+            tracing::warn!(
+                "there is little room on the disk of the data folder, and none to keep for deletions"
+            );
+        }
     }
 }

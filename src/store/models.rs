@@ -182,7 +182,7 @@ impl Store {
         if self.model(id, owner).await?.is_none() {
             return Ok(Deletion::Unknown);
         }
-        let mut transaction = self.write().await?;
+        let mut transaction = self.write_removal().await?;
         let users: i64 = sqlx::query_scalar(
             "select count(*) from jobs
              where model = ?1 and status in ('accepted', 'running')

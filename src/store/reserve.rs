@@ -2,6 +2,7 @@
 
 use std::io::{self, ErrorKind};
 use std::path::Path;
+use std::sync::atomic::Ordering;
 
 use super::error::StoreError;
 use super::handle::Store;
@@ -12,17 +13,19 @@ const RESERVE: &str = "reserve";
 /// Its size: what the write-ahead log grows to between two checkpoints.
 const BYTES: u64 = 4 << 20;
 
-/// It is made only where so many times its size are free.
-const PLENTY: u64 = 4;
+/// It is made only where so much is left beside it.
+const BESIDE: u64 = 1 << 20;
 
 impl Store {
-    /// Runs `remove`, and on a full disk once more with the room of the reserve.
+    /// Runs `remove`, and on a full disk once more with the room of the reserve. From then on the disk is full for all else that is
+    /// written, until there is room for a new one: work that goes on would take it before the next deletion does.
     pub(super) async fn with_reserve<T, F>(&self, remove: impl Fn() -> F) -> Result<T, StoreError>
     where
         F: Future<Output = Result<T, StoreError>>,
     {
         match remove().await {
             Err(error) if error.is_disk_full() => {
+                self.reserve_taken.store(true, Ordering::Relaxed);
                 if tokio::fs::remove_file(self.folder.join(RESERVE)).await.is_err() {
                     return Err(error);
                 }
@@ -33,15 +36,23 @@ impl Store {
         }
     }
 
-    /// Keeps the reserve if it is not there and there is plenty of room.
-    pub(super) async fn keep_reserve(&self) {
+    /// Refuses to write while deletions have the last room.
+    pub(super) async fn expect_room(&self) -> io::Result<()> {
+        let refused = self.reserve_taken.load(Ordering::Relaxed) && !self.keep_reserve().await;
+        if refused { Err(ErrorKind::StorageFull.into()) } else { Ok(()) }
+    }
+
+    /// Keeps the reserve if it is not there and there is room for it. Returns whether it is there.
+    pub(super) async fn keep_reserve(&self) -> bool {
         let reserve = self.folder.join(RESERVE);
-        if reserve.exists() || !self.free_bytes().is_ok_and(|free| free > PLENTY * BYTES) {
-            return;
+        let is_there = reserve.exists() || {
+            let fits = self.free_bytes().is_ok_and(|free| free > BYTES + BESIDE);
+            fits && matches!(tokio::task::spawn_blocking(move || make(&reserve)).await, Ok(Ok(())))
+        };
+        if is_there {
+            self.reserve_taken.store(false, Ordering::Relaxed);
         }
-        if let Ok(Err(error)) = tokio::task::spawn_blocking(move || make(&reserve)).await {
-            tracing::warn!(%error, "could not keep room for deletions on a full disk");
-        }
+        is_there
     }
 }
 
@@ -76,12 +87,15 @@ mod tests {
         assert!(store.with_reserve(second).await.unwrap_err().is_disk_full());
         assert_eq!(attempts.take(), 1, "there was no reserve");
 
-        store.keep_reserve().await;
+        assert!(store.keep_reserve().await);
         assert_eq!(folder.path().join(RESERVE).metadata().unwrap().len(), BYTES);
         assert_eq!(store.with_reserve(second).await.unwrap(), 2);
         assert!(!folder.path().join(RESERVE).exists());
+        // The first that writes, now that there is room, keeps a new one.
+        assert!(store.reserve_taken.load(Ordering::Relaxed));
+        store.probe().await.unwrap();
+        assert!(folder.path().join(RESERVE).exists() && !store.reserve_taken.load(Ordering::Relaxed));
         // Other failures leave it alone.
-        store.keep_reserve().await;
         assert!(store.with_reserve(|| async { Err::<(), _>(StoreError::Spectra) }).await.is_err());
         assert!(folder.path().join(RESERVE).exists());
     }

@@ -20,8 +20,14 @@ pub(super) struct Write {
 }
 
 impl Store {
-    /// Begins to write, once nobody else does.
+    /// Begins to write, once nobody else does. While deletions have the last room, the disk is full for all others.
     pub(super) async fn write(&self) -> Result<Write, StoreError> {
+        self.expect_room().await?;
+        self.write_removal().await
+    }
+
+    /// The same for what makes room, or ends work that takes it.
+    pub(super) async fn write_removal(&self) -> Result<Write, StoreError> {
         let mut write = Write { connection: self.writer.acquire().await?, ended: false };
         sqlx::query("begin immediate").execute(&mut *write).await?;
         Ok(write)

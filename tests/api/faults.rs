@@ -131,7 +131,14 @@ async fn room_can_be_made_on_a_full_disk() {
     }
     assert_eq!(api.finish(&running).await["status"], "successful");
     assert_eq!(post().await, 202);
+    // The next full disk finds room kept again, and what still computes does not take it.
+    let last = api.sweep(&long_sweep_of(&model, 200)).await;
+    api.follow(&last, |job| job["speeds"]["finished"].as_u64() >= Some(1)).await;
+    disk.fill();
     assert_eq!(api.delete(&format!("/v1/jobs/{running}")).await.status, 204);
+    tokio::time::sleep(Duration::from_secs(3)).await;
+    assert_eq!(api.delete(&format!("/v1/jobs/{last}")).await.text("/status"), "dismissed");
+    assert_eq!(api.delete(&format!("/v1/jobs/{last}")).await.status, 204);
 }
 
 async fn connect(data: &Path) -> SqliteConnection {

@@ -18,7 +18,7 @@ impl Store {
         next: JobStatus,
         failure: Option<&Failure>,
     ) -> Result<Option<JobStatus>, StoreError> {
-        let mut transaction = self.write().await?;
+        let mut transaction = self.write_removal().await?;
         let status = status_of(&mut transaction, id).await?;
         if !status.is_some_and(|status| status.may_become(next)) {
             transaction.rollback().await?;
@@ -42,6 +42,11 @@ impl Store {
         }
         transaction.commit().await?;
         Ok(Some(next))
+    }
+
+    /// Dismisses a job, on a full disk as well. Returns the status it has now; `None` if there is no such job.
+    pub async fn dismiss_job(&self, id: JobId) -> Result<Option<JobStatus>, StoreError> {
+        self.with_reserve(|| self.advance_job(id, JobStatus::Dismissed, None)).await
     }
 
     /// Takes a job in hand: it is running from here on. False if it wants no work any more.

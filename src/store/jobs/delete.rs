@@ -33,7 +33,7 @@ impl Store {
     }
 
     async fn mark_deleted(&self, id: JobId) -> Result<JobDeletion, StoreError> {
-        let mut write = self.write().await?;
+        let mut write = self.write_removal().await?;
         let outcome = match status_of(&mut write, id).await? {
             None => JobDeletion::Unknown,
             Some(status) if !status.is_final() => JobDeletion::Unfinished,
@@ -52,9 +52,13 @@ impl Store {
         Ok(outcome)
     }
 
-    /// Deletes the jobs that ended more than so many days ago. Returns how many.
+    /// Deletes the jobs that ended more than so many days ago, on a full disk as well. Returns how many.
     pub async fn delete_older_jobs(&self, days: u32) -> Result<u64, StoreError> {
-        let mut write = self.write().await?;
+        self.with_reserve(|| self.mark_older_deleted(days)).await
+    }
+
+    async fn mark_older_deleted(&self, days: u32) -> Result<u64, StoreError> {
+        let mut write = self.write_removal().await?;
         let deleted = sqlx::query("update jobs set deleted = 1 where deleted = 0 and finished_at < ?")
             .bind(timestamp(Utc::now() - TimeDelta::days(days.into())))
             .execute(&mut *write)
@@ -77,7 +81,7 @@ impl Store {
             sqlx::query_scalar("select id from jobs where deleted = 1").fetch_all(&self.readers).await?;
         for id in &deleted {
             loop {
-                let mut write = self.write().await?;
+                let mut write = self.write_removal().await?;
                 let removed = sqlx::query(
                     "delete from speed_results where job = ?1 and speed in
                          (select speed from speed_results where job = ?1 limit ?2)",

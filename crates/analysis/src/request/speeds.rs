@@ -159,9 +159,13 @@ impl Speeds {
 
 impl SpeedSet {
     fn implausible(&self, pointer: &str) -> Option<Violation> {
-        if self.count > Some(1) && self.from == self.to {
-            let message = "from and to are one speed: give count 1, or another end";
-            return Some(Violation::new(format!("{pointer}/count"), message));
+        if let (Some(from), Some(to), Some(count @ 2..)) = (self.from, self.to, self.count) {
+            let apart = (to - from).abs() / f64::from(count - 1);
+            if apart <= SAME * from.abs().max(to.abs()) {
+                let message =
+                    "its speeds are one and the same (to 1e-9): give a smaller count, or another end";
+                return Some(Violation::new(format!("{pointer}/count"), message));
+            }
         }
         let listed = self.values.iter().flatten().enumerate();
         let listed = listed.map(|(index, value)| (format!("{pointer}/values/{index}"), *value));
@@ -263,6 +267,7 @@ mod tests {
         let range =
             |from: f64, to: f64, count: u32| json!({"from": from, "to": to, "count": count, "unit": "hz"});
         assert_eq!(found(json!([range(1.0, 7.0, 3), range(7.0, 7.0, 3)])), ["/speeds/1/count"]);
+        assert_eq!(found(range(7.0, 7.0_f64.next_up(), 10_000)), ["/speeds/count"]);
         assert_eq!(found(range(1e-9, 7.0, 3)), ["/speeds/from"]);
         assert!(found(json!([range(7.0, 7.0, 1), range(0.0, 7.0, 2)])).is_empty());
     }
