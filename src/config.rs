@@ -52,7 +52,7 @@ pub struct Config {
     pub open: bool,
 
     /// Speeds that one owner may have waiting [default: no limit].
-    #[arg(long, env = "RUBMAP_OWNER_SPEEDS")]
+    #[arg(long, env = "RUBMAP_OWNER_SPEEDS", value_parser = clap::value_parser!(u64).range(1..))]
     pub owner_speeds: Option<u64>,
 
     /// Bytes of models and results that one owner may have stored [default: no limit].

@@ -1,5 +1,6 @@
 //! The program: logs, then whatever the command line says.
 
+use std::env::VarError;
 use std::io::IsTerminal;
 use std::process::ExitCode;
 
@@ -16,7 +17,10 @@ static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
 fn main() -> anyhow::Result<ExitCode> {
     let cli = rubmap::cli::Cli::parse();
-    let wanted = std::env::var("RUST_LOG").unwrap_or_default();
+    let wanted = match std::env::var("RUST_LOG") {
+        Err(error @ VarError::NotUnicode(_)) => return Err(error).context("RUST_LOG"),
+        wanted => wanted.unwrap_or_default(),
+    };
     let wanted = if wanted.is_empty() { cli.default_log() } else { &wanted };
     // Levels by module; the expressions of `EnvFilter` bring the regex crate, a hundredth of the build, and nobody needs them.
     let filter: Targets = wanted.parse().with_context(|| {

@@ -189,7 +189,7 @@ async fn receive(
 ) -> Result<(tempfile::TempPath, sha2::Sha256), Problem> {
     use sha2::Digest;
 
-    let (file, path) = state.store.new_upload()?.into_parts();
+    let (file, path) = state.store.new_upload().await?.into_parts();
     let mut file = BufWriter::with_capacity(PIECE, tokio::fs::File::from_std(file));
     let mut received = 0;
     let mut pieces = body.into_data_stream();

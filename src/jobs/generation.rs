@@ -17,7 +17,7 @@ use crate::analysis::run::ModelFacts;
 use crate::impeller::{ImpellerParameters, generate, generation_bytes, impeller_sector};
 use crate::package::raw::RawPackage;
 use crate::package::{self, Limits, PackageError};
-use crate::store::StoreError;
+use crate::store::{StoreError, limits};
 
 /// Generates the package, reads it back as if it had been uploaded, and keeps it as a model.
 pub(super) async fn run(
@@ -69,7 +69,8 @@ pub(super) async fn run(
         engine.computing.run_parallel(&job.watch, read).await?.map_err(Interruption::generated_package)?;
 
     wanted(0.95, "keeping the model")?;
-    let owner = (job.owner.as_str(), engine.limits);
+    // Its place among the owner's models it has had since it was accepted.
+    let owner = (job.owner.as_str(), limits::Limits { models: None, ..engine.limits });
     let keep = || engine.store.insert_model(owner, &id, &facts, &upload);
     let (_, new) = patiently(&job.watch, keep).await?.map_err(Interruption::limit)?;
     tracing::info!(job.id = %job.id, model.id = id, name = facts.name, new, "generated a model");
@@ -78,7 +79,7 @@ pub(super) async fn run(
 
 /// Writes `package` to a file beside the models; a broken attempt leaves none.
 async fn write(engine: &Engine, package: Arc<RawPackage>) -> Result<Result<TempPath, Panicked>, StoreError> {
-    let (file, upload) = engine.store.new_upload()?.into_parts();
+    let (file, upload) = engine.store.new_upload().await?.into_parts();
     match engine.importer.run(move || write_to(file, &package)).await {
         Ok(written) => written.map(|()| Ok(upload)).map_err(StoreError::File),
         Err(panicked) => Ok(Err(panicked)),

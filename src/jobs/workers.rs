@@ -12,6 +12,7 @@ use apalis::prelude::{
 use futures::{FutureExt, future::BoxFuture};
 use tokio::sync::Notify;
 use tokio::task::JoinHandle;
+use tokio::time::MissedTickBehavior;
 use tokio_util::sync::CancellationToken;
 
 use super::computing::{MOST_CRASHES, pause};
@@ -154,6 +155,9 @@ async fn hand_out(engine: Arc<Engine>) {
 /// Deletes jobs that have been kept long enough, and gives the room of deleted ones back.
 async fn keep_house(engine: Arc<Engine>, keep_days: Option<u32>) {
     let mut interval = tokio::time::interval(BETWEEN_CLEANINGS);
+    interval.set_missed_tick_behavior(MissedTickBehavior::Delay);
+    // The first comes at once.
+    interval.tick().await;
     loop {
         let cleaned = async {
             if let Some(days) = keep_days {

@@ -38,7 +38,7 @@ pub async fn backup(data: &Path, to: &Path) -> Result<Backup, StoreError> {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     };
-    expect_database(data)?;
+    expect_data_folder(data)?;
     if around.canonicalize()?.starts_with(data.canonicalize()?) {
         let inside = "a backup inside the data folder would be lost with it";
         return Err(std::io::Error::new(std::io::ErrorKind::InvalidInput, inside).into());
@@ -88,7 +88,7 @@ pub async fn backup(data: &Path, to: &Path) -> Result<Backup, StoreError> {
 }
 
 /// Refuses a folder without a database.
-fn expect_database(data: &Path) -> Result<(), StoreError> {
+fn expect_data_folder(data: &Path) -> Result<(), StoreError> {
     if data.join(DATABASE).try_exists()? {
         return Ok(());
     }
@@ -117,7 +117,7 @@ pub struct Findings {
 /// Reads everything in the data folder `data` and says what is not as it was written. Changes nothing; a service may run
 /// on the folder.
 pub async fn check(data: &Path) -> Result<Findings, StoreError> {
-    expect_database(data)?;
+    expect_data_folder(data)?;
     let mut found = Findings::default();
     let mut database = connect(data).read_only(true).connect().await?;
     let verdicts: Vec<String> = sqlx::query_scalar("pragma integrity_check").fetch_all(&mut database).await?;

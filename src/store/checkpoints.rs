@@ -12,6 +12,7 @@ use sha2::{Digest, Sha256};
 use super::error::StoreError;
 use super::handle::Store;
 use super::reductions;
+use super::reserve::Reserve;
 use super::unfinished::unfinished_file;
 use crate::analysis::run::VERSION;
 use crate::dynamics::reduction::Checkpoints;
@@ -23,12 +24,14 @@ const HEADER: usize = 8 + 32;
 #[derive(Debug, Clone)]
 pub struct CheckpointFolder {
     folder: PathBuf,
+    reserve: Reserve,
 }
 
 impl Store {
     /// Checkpoints of the reduction of `model`.
     pub fn checkpoints(&self, model: &str, modes_per_speed: u32) -> CheckpointFolder {
-        CheckpointFolder { folder: self.checkpoint_root().join(folder_name(model, modes_per_speed)) }
+        let folder = self.checkpoint_root().join(folder_name(model, modes_per_speed));
+        CheckpointFolder { folder, reserve: self.reserve.clone() }
     }
 
     /// Number of parts of all reductions of `model` that this program can read.
@@ -36,7 +39,7 @@ impl Store {
         let mut parts = 0;
         for folder in entries(&self.checkpoint_root()).await? {
             if belongs(file_name(&folder), model) {
-                parts += CheckpointFolder { folder }.parts().await?;
+                parts += count_parts(&folder).await?;
             }
         }
         Ok(parts)
@@ -85,11 +88,16 @@ impl Store {
     }
 }
 
+/// Number of parts in a folder that this program can read.
+async fn count_parts(folder: &Path) -> std::io::Result<u32> {
+    let files = entries(folder).await?;
+    Ok(files.iter().filter(|file| file_name(file).starts_with(&prefix())).count() as u32)
+}
+
 impl CheckpointFolder {
     /// Number of parts that this program can read.
     pub(super) async fn parts(&self) -> std::io::Result<u32> {
-        let files = entries(&self.folder).await?;
-        Ok(files.iter().filter(|file| file_name(file).starts_with(&prefix())).count() as u32)
+        count_parts(&self.folder).await
     }
 
     fn path(&self, part: &str) -> PathBuf {
@@ -126,6 +134,10 @@ impl Checkpoints for CheckpointFolder {
     }
 
     fn save(&self, part: &str, bytes: Vec<u8>) {
+        if self.reserve.is_taken() {
+            tracing::warn!(part, "no checkpoint: what room is left is for deletions");
+            return;
+        }
         match self.write(part, &bytes) {
             Ok(()) => tracing::info!(part, folder = file_name(&self.folder), "kept a checkpoint"),
             Err(error) => {
@@ -201,7 +213,8 @@ mod tests {
     fn folder() -> (tempfile::TempDir, CheckpointFolder) {
         let root = tempfile::tempdir().unwrap();
         let folder = root.path().join("checkpoints/model-20");
-        (root, CheckpointFolder { folder })
+        let reserve = Reserve::of(root.path());
+        (root, CheckpointFolder { folder, reserve })
     }
 
     #[test]

@@ -19,8 +19,8 @@ pub enum StoreError {
     Queue(#[from] apalis_sqlite::Error),
     /// Packages of models, and nothing that knows them.
     #[error(
-        "{} is missing or holds nothing of this program, and beside it lie the packages of {packages} models, which a new \
-         database would not know and the service remove: put the database back (from a backup; a copy needs its -wal file, too), \
+        "{} is missing or holds nothing of this program, and beside it lie packages of models ({packages}), which it \
+         would not know and the service remove: put the database back (from a backup; a copy needs its -wal file, too), \
          or, to begin anew, move it and its folder `models` elsewhere and upload the packages again",
         database.display()
     )]

@@ -3,18 +3,18 @@
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 use sqlx::sqlite::{
-    SqliteAutoVacuum, SqliteConnectOptions, SqliteJournalMode, SqlitePool, SqlitePoolOptions,
-    SqliteSynchronous,
+    SqliteAutoVacuum, SqliteConnectOptions, SqliteConnection, SqliteJournalMode, SqlitePool,
+    SqlitePoolOptions, SqliteSynchronous,
 };
 use sqlx::{ConnectOptions, Connection};
 
 use super::error::StoreError;
 use super::marks::Marks;
 use super::packages::{count_packages, packages_folder};
+use super::reserve::Reserve;
 
 /// Name of the database in its folder.
 pub(super) const DATABASE: &str = "rubmap.sqlite";
@@ -34,15 +34,15 @@ pub struct Store {
     pub(super) marks: Marks,
     /// Held while a package file and its row come or go together.
     pub(super) packages: Arc<tokio::sync::Mutex<()>>,
-    /// Whether a deletion has taken the room that is kept for deletions: nothing else is written then.
-    pub(super) reserve_taken: Arc<AtomicBool>,
+    /// Room that is kept for deletions.
+    pub(super) reserve: Reserve,
 }
 
 impl Store {
     /// Opens the store in `folder`, which must exist, and brings its tables up to date.
     ///
     /// # Errors
-    /// Also where packages of models lie beside a database that is missing or empty: a new one would make leftovers of them.
+    /// Also where packages of models lie beside a database that knows none: it would make leftovers of them.
     pub async fn open(folder: &Path) -> Result<Self, StoreError> {
         std::fs::create_dir_all(packages_folder(folder))?;
         expect_database(folder).await?;
@@ -62,8 +62,8 @@ impl Store {
         make_shrinkable(&writer).await?;
         let readers = pool().max_connections(READERS).connect_with(options).await?;
         let marks = Marks::new(folder)?;
-        let (packages, reserve_taken) = (Arc::default(), Arc::default());
-        Ok(Self { folder: folder.to_owned(), readers, writer, marks, packages, reserve_taken })
+        let (packages, reserve) = (Arc::default(), Reserve::of(folder));
+        Ok(Self { folder: folder.to_owned(), readers, writer, marks, packages, reserve })
     }
 
     /// Closes all connections, which folds the write-ahead log into the database.
@@ -73,8 +73,8 @@ impl Store {
     }
 }
 
-/// Refuses a folder whose packages have lost their database: it is not there, or a new one in all but its name, as after its
-/// write-ahead log was lost or only the file copied.
+/// Refuses a folder whose packages have lost their database: it is not there, or knows no models, as after its write-ahead log was
+/// lost or only the file copied. A single package may be of the first upload ever, which broke off.
 async fn expect_database(folder: &Path) -> Result<(), StoreError> {
     let database = folder.join(DATABASE);
     if database.is_dir() {
@@ -88,15 +88,26 @@ async fn expect_database(folder: &Path) -> Result<(), StoreError> {
         Err(error) if error.kind() != ErrorKind::NotFound => return Err(error.into()),
         found => found.map_or(0, |file| file.len()),
     };
-    let knows_models = length > 0 && {
+    if length > 0 {
         let options = SqliteConnectOptions::new().filename(&database).busy_timeout(PATIENCE);
         let mut connection = options.connect().await?;
-        let tables = "select exists (select 1 from sqlite_master where type = 'table' and name = 'models')";
-        let known = sqlx::query_scalar(tables).fetch_one(&mut connection).await?;
+        let known = knows_models(&mut connection, packages > 1).await?;
         connection.close().await?;
-        known
-    };
-    if knows_models { Ok(()) } else { Err(StoreError::LostDatabase { database, packages }) }
+        if known {
+            return Ok(());
+        }
+    }
+    Err(StoreError::LostDatabase { database, packages })
+}
+
+/// Whether a database has the table of models, and, if need be, any in it.
+async fn knows_models(database: &mut SqliteConnection, any: bool) -> Result<bool, StoreError> {
+    let table = "select exists (select 1 from sqlite_master where type = 'table' and name = 'models')";
+    let is_there: bool = sqlx::query_scalar(table).fetch_one(&mut *database).await?;
+    if !is_there || !any {
+        return Ok(is_there);
+    }
+    Ok(sqlx::query_scalar("select exists (select 1 from models)").fetch_one(database).await?)
 }
 
 /// Makes a database anew, once, that an earlier version made such that it cannot give room back.
@@ -179,8 +190,15 @@ mod tests {
         assert!(!Store::open(folder.path()).await.unwrap_err().may_pass(), "a folder is nothing to wait for");
         std::fs::remove_dir(&database).unwrap();
         // Elsewhere they stand in nobody's way.
-        std::fs::rename(&package, folder.path().join("kept.zip")).unwrap();
-        Store::open(folder.path()).await.unwrap();
+        let kept = folder.path().join("kept.zip");
+        std::fs::rename(&package, &kept).unwrap();
+        Store::open(folder.path()).await.unwrap().close().await;
+        // One may be of an upload that broke off; several are not.
+        std::fs::copy(&kept, &package).unwrap();
+        Store::open(folder.path()).await.unwrap().close().await;
+        std::fs::copy(&kept, package_path(folder.path(), &"0b".repeat(32))).unwrap();
+        let refused = Store::open(folder.path()).await.unwrap_err();
+        assert!(matches!(refused, StoreError::LostDatabase { packages: 2, .. }), "{refused}");
     }
 
     #[tokio::test]

@@ -15,10 +15,12 @@ impl Store {
         if let Err(error) = self.remove_stale_trials().await {
             tracing::warn!(%error, "could not remove the trials of another version");
         }
-        if !self.keep_reserve().await {
-            tracing::warn!(
-                "there is little room on the disk of the data folder, and none to keep for deletions"
-            );
+        match self.reserve.keep().await {
+            Ok(true) => {}
+            Ok(false) => {
+                tracing::warn!("the disk of the data folder has too little room to keep some for deletions")
+            }
+            Err(error) => tracing::warn!(%error, "could not keep room for deletions"),
         }
     }
 }

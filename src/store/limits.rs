@@ -72,40 +72,30 @@ impl Limits {
         self.allow_bytes(connection, owner, 0).await
     }
 
-    /// Whether `owner` may have one model more, of so many bytes.
+    /// Whether `owner` may have one model more, of so many bytes, beside those that are being generated.
     pub(super) async fn allow_model(
         self,
         connection: &mut SqliteConnection,
         owner: &str,
         bytes: u64,
     ) -> Result<Result<(), LimitReached>, StoreError> {
-        let sql = "select count(*) from model_owners where owner = ?";
-        if let Err(reached) = self.allow_one_of(connection, owner, sql).await? {
+        if let Err(reached) = self.allow_generation(connection, owner).await? {
             return Ok(Err(reached));
         }
         self.allow_bytes(connection, owner, bytes).await
     }
 
-    /// Whether `owner` may have one model more when those are there that are being generated.
+    /// The same of a model whose bytes nobody knows yet.
     pub(super) async fn allow_generation(
         self,
         connection: &mut SqliteConnection,
         owner: &str,
     ) -> Result<Result<(), LimitReached>, StoreError> {
+        let Some(limit) = self.models else { return Ok(Ok(())) };
         let sql = "select (select count(*) from model_owners where owner = ?1)
                    + (select count(*) from jobs where owner = ?1 and kind = 'model_generation'
                       and status in ('accepted', 'running'))";
-        self.allow_one_of(connection, owner, sql).await
-    }
-
-    async fn allow_one_of(
-        self,
-        connection: &mut SqliteConnection,
-        owner: &str,
-        models: &'static str,
-    ) -> Result<Result<(), LimitReached>, StoreError> {
-        let Some(limit) = self.models else { return Ok(Ok(())) };
-        let models = count(connection, models, owner).await?;
+        let models = count(connection, sql, owner).await?;
         Ok(if models >= limit { Err(LimitReached::Models { models, limit }) } else { Ok(()) })
     }
 

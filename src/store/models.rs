@@ -45,7 +45,8 @@ pub enum Deletion {
 impl Store {
     /// An empty file on the same file system as the models, for a package on its way in. Removed when dropped, or by the
     /// next start.
-    pub fn new_upload(&self) -> std::io::Result<tempfile::NamedTempFile> {
+    pub async fn new_upload(&self) -> std::io::Result<tempfile::NamedTempFile> {
+        self.reserve.expect_room().await?;
         unfinished_file(&packages_folder(&self.folder), UPLOAD_PREFIX)
     }
 
@@ -82,6 +83,7 @@ impl Store {
                 return Ok(Err(reached));
             }
         }
+        self.reserve.expect_room().await?;
         let upload = upload.to_owned();
         let size_bytes = tokio::task::spawn_blocking(move || keep_file(&upload, &target))
             .await
@@ -175,12 +177,21 @@ impl Store {
     /// is no other owner. With its last owner it is deleted, and its reductions with it.
     pub async fn delete_model(&self, id: &str, owner: Option<&str>) -> Result<Deletion, StoreError> {
         let _packages = self.packages.lock().await;
-        self.with_reserve(|| self.remove_model(id, owner)).await
+        let (deletion, was_last) = self.with_reserve(|| self.remove_model(id, owner)).await?;
+        if was_last {
+            self.remove_checkpoints(id, None).await;
+            match tokio::fs::remove_file(self.package_path(id)).await {
+                Err(error) if error.kind() != std::io::ErrorKind::NotFound => return Err(error.into()),
+                _ => {}
+            }
+        }
+        Ok(deletion)
     }
 
-    async fn remove_model(&self, id: &str, owner: Option<&str>) -> Result<Deletion, StoreError> {
+    /// In the database. Returns also whether nobody has it any more.
+    async fn remove_model(&self, id: &str, owner: Option<&str>) -> Result<(Deletion, bool), StoreError> {
         if self.model(id, owner).await?.is_none() {
-            return Ok(Deletion::Unknown);
+            return Ok((Deletion::Unknown, false));
         }
         let mut transaction = self.write_removal().await?;
         let users: i64 = sqlx::query_scalar(
@@ -195,7 +206,7 @@ impl Store {
         .await?;
         if users > 0 {
             transaction.rollback().await?;
-            return Ok(Deletion::InUse(users.unsigned_abs()));
+            return Ok((Deletion::InUse(users.unsigned_abs()), false));
         }
         sqlx::query("delete from model_owners where model = ?1 and (?2 is null or owner = ?2)")
             .bind(id)
@@ -215,14 +226,7 @@ impl Store {
         .execute(&mut *transaction)
         .await?;
         transaction.commit().await?;
-        if deleted.rows_affected() == 0 {
-            return Ok(Deletion::Deleted);
-        }
-        self.remove_checkpoints(id, None).await;
-        match tokio::fs::remove_file(self.package_path(id)).await {
-            Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(error.into()),
-            _ => Ok(Deletion::Deleted),
-        }
+        Ok((Deletion::Deleted, deleted.rows_affected() == 1))
     }
 }
 
@@ -270,7 +274,7 @@ mod tests {
             contact_radius: None,
             stiffening: None,
         };
-        let upload = store.new_upload().unwrap().into_temp_path();
+        let upload = store.new_upload().await.unwrap().into_temp_path();
         std::fs::write(&upload, "package").unwrap();
         let id = "m".repeat(64);
         // SQLite refuses to grow beyond so many pages as it does on a full disk.

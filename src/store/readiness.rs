@@ -2,6 +2,7 @@
 
 use super::error::StoreError;
 use super::handle::Store;
+use super::reserve::free_bytes;
 
 /// Work that is waiting.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -33,8 +34,7 @@ impl Store {
 
     /// Room on the disk of the data folder for this process, in bytes.
     pub fn free_bytes(&self) -> Result<u64, StoreError> {
-        let disk = rustix::fs::statvfs(&self.folder).map_err(std::io::Error::from)?;
-        Ok(disk.f_bavail.saturating_mul(disk.f_frsize))
+        Ok(free_bytes(&self.folder)?)
     }
 
     /// Work that is waiting.

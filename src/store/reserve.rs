@@ -1,14 +1,17 @@
 //! Room that is kept for deletions: on a full disk they, too, have to write something before they give anything back.
 
 use std::io::{self, ErrorKind};
-use std::path::Path;
-use std::sync::atomic::Ordering;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use tokio::sync::Mutex;
 
 use super::error::StoreError;
 use super::handle::Store;
 
 /// Name of the file that takes the room, in the data folder.
-const RESERVE: &str = "reserve";
+const FILE: &str = "reserve";
 
 /// Its size: what the write-ahead log grows to between two checkpoints.
 const BYTES: u64 = 4 << 20;
@@ -16,55 +19,94 @@ const BYTES: u64 = 4 << 20;
 /// It is made only where so much is left beside it.
 const BESIDE: u64 = 1 << 20;
 
+/// A file that is removed when a deletion finds no room. From then on the disk is full for all else that is written, until there
+/// is room for a new one: work that goes on would take it before the next deletion does.
+#[derive(Debug, Clone)]
+pub(super) struct Reserve {
+    data: PathBuf,
+    taken: Arc<AtomicBool>,
+    /// Held while the file comes or goes.
+    changing: Arc<Mutex<()>>,
+}
+
+impl Reserve {
+    /// That of the data folder `data`.
+    pub(super) fn of(data: &Path) -> Self {
+        Self { data: data.to_owned(), taken: Arc::default(), changing: Arc::default() }
+    }
+
+    /// Whether a deletion has taken it.
+    pub(super) fn is_taken(&self) -> bool {
+        self.taken.load(Ordering::Relaxed)
+    }
+
+    /// Refuses to write while deletions have the last room.
+    pub(super) async fn expect_room(&self) -> io::Result<()> {
+        if self.is_taken() && !self.keep().await? { Err(ErrorKind::StorageFull.into()) } else { Ok(()) }
+    }
+
+    /// Keeps the file if it is not there and there is room for it. Returns whether it is there.
+    pub(super) async fn keep(&self) -> io::Result<bool> {
+        let _changing = self.changing.lock().await;
+        let data = self.data.clone();
+        let is_there = tokio::task::spawn_blocking(move || make(&data)).await.map_err(io::Error::other)??;
+        if is_there {
+            self.taken.store(false, Ordering::Relaxed);
+        }
+        Ok(is_there)
+    }
+
+    /// Gives the room to a deletion. Returns whether there was some, now or for an earlier one.
+    async fn take(&self) -> bool {
+        let _changing = self.changing.lock().await;
+        // First, so that nobody writes in between.
+        let earlier = self.taken.swap(true, Ordering::Relaxed);
+        let removed = tokio::fs::remove_file(self.data.join(FILE)).await.is_ok();
+        if removed {
+            tracing::warn!("the disk is full: a deletion takes the room that is kept for it");
+        }
+        self.taken.store(earlier || removed, Ordering::Relaxed);
+        earlier || removed
+    }
+}
+
+/// Whether the file is there in the end.
+fn make(data: &Path) -> io::Result<bool> {
+    let file = data.join(FILE);
+    // A shorter one is of a start that was killed.
+    if file.metadata().is_ok_and(|found| found.len() == BYTES) {
+        return Ok(true);
+    }
+    if free_bytes(data)? <= BYTES + BESIDE {
+        return Ok(false);
+    }
+    std::fs::write(&file, vec![0; BYTES as usize])?;
+    Ok(true)
+}
+
+/// Room on the disk of the data folder `data` for this process, in bytes.
+pub(super) fn free_bytes(data: &Path) -> io::Result<u64> {
+    let disk = rustix::fs::statvfs(data)?;
+    Ok(disk.f_bavail.saturating_mul(disk.f_frsize))
+}
+
 impl Store {
-    /// Runs `remove`, and on a full disk once more with the room of the reserve. From then on the disk is full for all else that is
-    /// written, until there is room for a new one: work that goes on would take it before the next deletion does.
+    /// Runs `remove`, and on a full disk once more with the room of the reserve.
     pub(super) async fn with_reserve<T, F>(&self, remove: impl Fn() -> F) -> Result<T, StoreError>
     where
         F: Future<Output = Result<T, StoreError>>,
     {
         match remove().await {
             Err(error) if error.is_disk_full() => {
-                self.reserve_taken.store(true, Ordering::Relaxed);
-                if tokio::fs::remove_file(self.folder.join(RESERVE)).await.is_err() {
-                    return Err(error);
+                if self.reserve.take().await {
+                    remove().await
+                } else {
+                    Err(error)
                 }
-                tracing::warn!("the disk is full: a deletion takes the room that is kept for it");
-                remove().await
             }
             outcome => outcome,
         }
     }
-
-    /// Refuses to write while deletions have the last room.
-    pub(super) async fn expect_room(&self) -> io::Result<()> {
-        let refused = self.reserve_taken.load(Ordering::Relaxed) && !self.keep_reserve().await;
-        if refused { Err(ErrorKind::StorageFull.into()) } else { Ok(()) }
-    }
-
-    /// Keeps the reserve if it is not there and there is room for it. Returns whether it is there.
-    pub(super) async fn keep_reserve(&self) -> bool {
-        let reserve = self.folder.join(RESERVE);
-        let is_there = reserve.exists() || {
-            let fits = self.free_bytes().is_ok_and(|free| free > BYTES + BESIDE);
-            fits && matches!(tokio::task::spawn_blocking(move || make(&reserve)).await, Ok(Ok(())))
-        };
-        if is_there {
-            self.reserve_taken.store(false, Ordering::Relaxed);
-        }
-        is_there
-    }
-}
-
-fn make(reserve: &Path) -> io::Result<()> {
-    let made = std::fs::write(reserve, vec![0; BYTES as usize]);
-    if made.is_err() {
-        match std::fs::remove_file(reserve) {
-            Err(error) if error.kind() != ErrorKind::NotFound => return Err(error),
-            _ => {}
-        }
-    }
-    made
 }
 
 #[cfg(test)]
@@ -74,29 +116,34 @@ mod tests {
     use super::*;
 
     #[tokio::test]
-    async fn a_deletion_has_the_reserve_once() {
+    async fn a_deletion_has_the_reserve_and_nobody_else() {
         let folder = tempfile::tempdir().unwrap();
         let store = Store::open(folder.path()).await.unwrap();
-        let full = || StoreError::File(ErrorKind::StorageFull.into());
+        let file = folder.path().join(FILE);
         let attempts = Cell::new(0);
         let second = || {
             attempts.set(attempts.get() + 1);
-            let outcome = if attempts.get() == 2 { Ok(attempts.get()) } else { Err(full()) };
+            let full = StoreError::File(ErrorKind::StorageFull.into());
+            let outcome = if attempts.get() == 2 { Ok(()) } else { Err(full) };
             async { outcome }
         };
         assert!(store.with_reserve(second).await.unwrap_err().is_disk_full());
-        assert_eq!(attempts.take(), 1, "there was no reserve");
+        assert!(attempts.take() == 1 && !store.reserve.is_taken(), "there was none");
 
-        assert!(store.keep_reserve().await);
-        assert_eq!(folder.path().join(RESERVE).metadata().unwrap().len(), BYTES);
-        assert_eq!(store.with_reserve(second).await.unwrap(), 2);
-        assert!(!folder.path().join(RESERVE).exists());
+        // What a killed start has left is none either.
+        std::fs::write(&file, "short").unwrap();
+        assert!(store.reserve.keep().await.unwrap());
+        assert_eq!(file.metadata().unwrap().len(), BYTES);
+        store.with_reserve(second).await.unwrap();
+        assert!(store.reserve.is_taken() && !file.exists());
+        // Another deletion has what is left of it.
+        attempts.set(0);
+        store.with_reserve(second).await.unwrap();
         // The first that writes, now that there is room, keeps a new one.
-        assert!(store.reserve_taken.load(Ordering::Relaxed));
         store.probe().await.unwrap();
-        assert!(folder.path().join(RESERVE).exists() && !store.reserve_taken.load(Ordering::Relaxed));
+        assert!(!store.reserve.is_taken() && file.exists());
         // Other failures leave it alone.
         assert!(store.with_reserve(|| async { Err::<(), _>(StoreError::Spectra) }).await.is_err());
-        assert!(folder.path().join(RESERVE).exists());
+        assert!(file.exists());
     }
 }

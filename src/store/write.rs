@@ -22,7 +22,7 @@ pub(super) struct Write {
 impl Store {
     /// Begins to write, once nobody else does. While deletions have the last room, the disk is full for all others.
     pub(super) async fn write(&self) -> Result<Write, StoreError> {
-        self.expect_room().await?;
+        self.reserve.expect_room().await?;
         self.write_removal().await
     }
 

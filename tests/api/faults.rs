@@ -136,7 +136,7 @@ async fn room_can_be_made_on_a_full_disk() {
     api.follow(&last, |job| job["speeds"]["finished"].as_u64() >= Some(1)).await;
     disk.fill();
     assert_eq!(api.delete(&format!("/v1/jobs/{running}")).await.status, 204);
-    tokio::time::sleep(Duration::from_secs(3)).await;
+    api.follow(&last, |job| job["phase"].as_str().unwrap().contains("disk")).await;
     assert_eq!(api.delete(&format!("/v1/jobs/{last}")).await.text("/status"), "dismissed");
     assert_eq!(api.delete(&format!("/v1/jobs/{last}")).await.status, 204);
 }

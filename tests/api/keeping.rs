@@ -75,7 +75,7 @@ async fn a_backup_of_a_running_service_is_whole() {
     let mut serve = Command::new(env!("CARGO_BIN_EXE_rubmap"));
     let refused = serve.args(["serve", "--addr", "127.0.0.1:0", "--data"]).arg(&copy).output().unwrap();
     assert!(
-        !refused.status.success() && said(&refused).contains("packages of 1 models"),
+        !refused.status.success() && said(&refused).contains("packages of models (1)"),
         "{}",
         said(&refused)
     );

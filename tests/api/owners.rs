@@ -199,6 +199,7 @@ async fn models_that_are_being_generated_count() {
     assert_eq!(generation.status, 202, "{}", generation.body);
     let again = api.post("/v1/models", &json!({"preset": "small"})).await;
     again.problem(429, "limit-reached");
+    api.upload(model::package(1.0)).await.problem(429, "limit-reached");
     assert_eq!(api.finish(&generation.text("/id")).await["status"], "successful");
     api.post("/v1/models", &coarse()).await.problem(429, "limit-reached");
     app.stop().await;

@@ -72,7 +72,7 @@ impl Store {
     /// was if it is interrupted.
     pub async fn purge(&self) -> Result<(), StoreError> {
         self.with_reserve(|| self.remove_deleted()).await?;
-        self.keep_reserve().await;
+        self.reserve.keep().await?;
         Ok(())
     }
 

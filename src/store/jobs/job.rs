@@ -3,7 +3,6 @@
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 use uuid::Uuid;
-use uuid::fmt::Hyphenated;
 
 use super::job_kind::JobKind;
 use super::job_request::JobRequest;
@@ -25,8 +24,8 @@ impl JobId {
     /// Reads an id; `None` if `text` is not one.
     pub fn parse(text: &str) -> Option<Self> {
         let id = Uuid::try_parse(text).ok()?;
-        // Braces and URNs would be other paths to the same job.
-        (text.len() == Hyphenated::LENGTH).then_some(Self(id))
+        // Other spellings (capitals, braces, URNs) would be other paths to the same job.
+        (id.to_string() == text).then_some(Self(id))
     }
 }
 
