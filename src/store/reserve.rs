@@ -7,14 +7,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use tokio::sync::Mutex;
 
-use super::error::StoreError;
-use super::handle::Store;
-
 /// Name of the file that takes the room, in the data folder.
-const FILE: &str = "reserve";
+pub(super) const FILE: &str = "reserve";
 
 /// Its size: what the write-ahead log grows to between two checkpoints.
-const BYTES: u64 = 4 << 20;
+pub(super) const BYTES: u64 = 4 << 20;
 
 /// It is made only where so much is left beside it.
 const BESIDE: u64 = 1 << 20;
@@ -57,7 +54,7 @@ impl Reserve {
     }
 
     /// Gives the room to a deletion. Returns whether there was some, now or for an earlier one.
-    async fn take(&self) -> bool {
+    pub(super) async fn take(&self) -> bool {
         let _changing = self.changing.lock().await;
         // First, so that nobody writes in between.
         let earlier = self.taken.swap(true, Ordering::Relaxed);
@@ -88,62 +85,4 @@ fn make(data: &Path) -> io::Result<bool> {
 pub(super) fn free_bytes(data: &Path) -> io::Result<u64> {
     let disk = rustix::fs::statvfs(data)?;
     Ok(disk.f_bavail.saturating_mul(disk.f_frsize))
-}
-
-impl Store {
-    /// Runs `remove`, and on a full disk once more with the room of the reserve.
-    pub(super) async fn with_reserve<T, F>(&self, remove: impl Fn() -> F) -> Result<T, StoreError>
-    where
-        F: Future<Output = Result<T, StoreError>>,
-    {
-        match remove().await {
-            Err(error) if error.is_disk_full() => {
-                if self.reserve.take().await {
-                    remove().await
-                } else {
-                    Err(error)
-                }
-            }
-            outcome => outcome,
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use std::cell::Cell;
-
-    use super::*;
-
-    #[tokio::test]
-    async fn a_deletion_has_the_reserve_and_nobody_else() {
-        let folder = tempfile::tempdir().unwrap();
-        let store = Store::open(folder.path()).await.unwrap();
-        let file = folder.path().join(FILE);
-        let attempts = Cell::new(0);
-        let second = || {
-            attempts.set(attempts.get() + 1);
-            let full = StoreError::File(ErrorKind::StorageFull.into());
-            let outcome = if attempts.get() == 2 { Ok(()) } else { Err(full) };
-            async { outcome }
-        };
-        assert!(store.with_reserve(second).await.unwrap_err().is_disk_full());
-        assert!(attempts.take() == 1 && !store.reserve.is_taken(), "there was none");
-
-        // What a killed start has left is none either.
-        std::fs::write(&file, "short").unwrap();
-        assert!(store.reserve.keep().await.unwrap());
-        assert_eq!(file.metadata().unwrap().len(), BYTES);
-        store.with_reserve(second).await.unwrap();
-        assert!(store.reserve.is_taken() && !file.exists());
-        // Another deletion has what is left of it.
-        attempts.set(0);
-        store.with_reserve(second).await.unwrap();
-        // The first that writes, now that there is room, keeps a new one.
-        store.probe().await.unwrap();
-        assert!(!store.reserve.is_taken() && file.exists());
-        // Other failures leave it alone.
-        assert!(store.with_reserve(|| async { Err::<(), _>(StoreError::Spectra) }).await.is_err());
-        assert!(file.exists());
-    }
 }

@@ -32,6 +32,23 @@ impl Store {
         sqlx::query("begin immediate").execute(&mut *write).await?;
         Ok(write)
     }
+
+    /// Runs `remove`, and on a full disk once more with the room of the reserve.
+    pub(super) async fn with_reserve<T, F>(&self, remove: impl Fn() -> F) -> Result<T, StoreError>
+    where
+        F: Future<Output = Result<T, StoreError>>,
+    {
+        match remove().await {
+            Err(error) if error.is_disk_full() => {
+                if self.reserve.take().await {
+                    remove().await
+                } else {
+                    Err(error)
+                }
+            }
+            outcome => outcome,
+        }
+    }
 }
 
 impl Write {
@@ -71,5 +88,46 @@ impl Drop for Write {
         if !self.ended {
             self.connection.close_on_drop();
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::Cell;
+    use std::io::ErrorKind;
+
+    use super::*;
+    use crate::store::reserve::{BYTES, FILE};
+
+    #[tokio::test]
+    async fn a_deletion_has_the_reserve_and_nobody_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::open(folder.path()).await.unwrap();
+        let file = folder.path().join(FILE);
+        let attempts = Cell::new(0);
+        let second = || {
+            attempts.set(attempts.get() + 1);
+            let full = StoreError::File(ErrorKind::StorageFull.into());
+            let outcome = if attempts.get() == 2 { Ok(()) } else { Err(full) };
+            async { outcome }
+        };
+        assert!(store.with_reserve(second).await.unwrap_err().is_disk_full());
+        assert!(attempts.take() == 1 && !store.reserve.is_taken(), "there was none");
+
+        // What a killed start has left is none either.
+        std::fs::write(&file, "short").unwrap();
+        assert!(store.reserve.keep().await.unwrap());
+        assert_eq!(file.metadata().unwrap().len(), BYTES);
+        store.with_reserve(second).await.unwrap();
+        assert!(store.reserve.is_taken() && !file.exists());
+        // Another deletion has what is left of it.
+        attempts.set(0);
+        store.with_reserve(second).await.unwrap();
+        // The first that writes, now that there is room, keeps a new one.
+        store.probe().await.unwrap();
+        assert!(!store.reserve.is_taken() && file.exists());
+        // Other failures leave it alone.
+        assert!(store.with_reserve(|| async { Err::<(), _>(StoreError::Spectra) }).await.is_err());
+        assert!(file.exists());
     }
 }
