@@ -2,7 +2,9 @@
 
 pub mod campbell;
 pub mod choice;
+pub mod contact;
 pub mod errors;
+pub mod histories;
 pub mod plan;
 pub mod point;
 pub mod reduction;
@@ -13,7 +15,9 @@ pub mod trial;
 
 pub use campbell::{AbsoluteFrequencies, Campbell, WaveTables};
 pub use choice::{Choice, ModesChoice, Pilot, TriedModes};
+pub use contact::{ContactForces, ContactSummary, ForceMap, ForceRow};
 pub use errors::{Control, ErrorEstimate, Errors, PointError, Quantity};
+pub use histories::{ContactHistory, EnergyHistory, SensorHistory, SpeedHistories};
 pub use plan::{
     CostRange, Estimate, ModalAnalysisPlan, PlannedEffect, PlannedPoint, ReductionState, Spent, SweepPlan,
 };

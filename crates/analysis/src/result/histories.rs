@@ -1,0 +1,98 @@
+//! What happened at one speed, sample by sample.
+
+use serde::{Deserialize, Serialize};
+
+use crate::request::{Sensor, SweepRequest};
+use crate::result::point::Point;
+use rubmap_wheel::dynamics::sector::Units;
+
+/// Histories of one speed over chosen revolutions, as downloaded. Sample j = 0, 1, … is at `revolutions[0]` + (j + 1) /
+/// `samples_per_revolution` revolutions after the start. What was not asked for is empty or absent.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct SpeedHistories {
+    /// Index of the speed in the request.
+    pub index: u32,
+    /// Ω, rad/s.
+    pub speed_rad_s: f64,
+    /// Samples per revolution.
+    pub samples_per_revolution: u32,
+    /// Whole revolutions after which recording begins and ends.
+    pub revolutions: [u32; 2],
+    /// One per sensor, in the order of the request.
+    pub sensors: Vec<SensorHistory>,
+    /// Contact; absent where nothing may touch.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contact: Option<ContactHistory>,
+    /// Energy of the whole wheel.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub energy: Option<EnergyHistory>,
+    /// Credentials of the run.
+    pub point: Point,
+    /// Units of the model.
+    pub units: Units,
+    /// The whole request as resolved.
+    pub settings: SweepRequest,
+    /// Version of the code.
+    pub version: String,
+}
+
+/// One sensor, `[sample]`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct SensorHistory {
+    /// The sensor.
+    pub sensor: Sensor,
+    /// Displacement, length.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub displacement: Vec<f64>,
+    /// Velocity, length/time.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub velocity: Vec<f64>,
+}
+
+/// Contact between the blades and the casing. All numbers of a sample are means over the interval since the sample before, so that their
+/// sums are integrals over time.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct ContactHistory {
+    /// `[sector][contact node][sample]`: force. Where the scene repeats around the wheel, the sectors of one part.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub force: Vec<Vec<Vec<f64>>>,
+    /// `[sample]`: contact nodes of the wheel that touch.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub nodes_in_contact: Vec<f64>,
+    /// `[sample]`: length of the contact lines of all blades that touches: every node stands for half the way to its neighbours.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub contact_length: Vec<f64>,
+}
+
+/// Energy and where it came from and went since the start of the run, `[sample]`, force·length: mechanical = initial + all works − all
+/// losses. Effects that the scene does not name are empty.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct EnergyHistory {
+    /// Mechanical energy at the start of the run, of wheel and elastic casing.
+    pub initial: f64,
+    /// The same at the samples.
+    pub mechanical: Vec<f64>,
+    /// Work of the contact forces on the wheel.
+    pub contact_work: Vec<f64>,
+    /// Lost to modal damping, and to modes that follow statically.
+    pub damping_loss: Vec<f64>,
+    /// Work of the forces at engine orders.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub excitation_work: Vec<f64>,
+    /// Minus the change of the energy that the stiffness deviations store.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub mistuning_work: Vec<f64>,
+    /// Work of the contact forces on the elastic casing.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub casing_work: Vec<f64>,
+    /// Lost in the casing's damping.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub casing_loss: Vec<f64>,
+    /// Heat of friction, supplied by the shaft; its work on the vibration is part of the work of contact.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub friction_heat: Vec<f64>,
+}
