@@ -125,6 +125,7 @@ impl Scene {
                 revolutions: revolutions as u32,
                 ramp_revolutions: casing.ramp_revolutions,
                 window_revolutions: 1,
+                detail: None,
             },
             sensors: vec![sensor(0), sensor(last)],
             max_engine_order: 24,
@@ -182,6 +183,7 @@ impl Scene {
             samples_per_revolution: (192..steps).find(|s| steps.is_multiple_of(*s)).unwrap_or(steps),
             revolutions: 1,
             window_revolutions: 1,
+            detail: None,
         }
     }
 }

@@ -138,7 +138,8 @@ pub(crate) struct DenseScheme {
     before: DVector<f64>,
     next: DVector<f64>,
     gap: DVector<f64>,
-    lambda: DVector<f64>,
+    /// Contact forces of the last step, sector by sector.
+    pub(crate) lambda: DVector<f64>,
     contact_nodes: usize,
     pub(crate) contact_steps: u64,
 }
@@ -190,6 +191,8 @@ impl DenseScheme {
             solve(&self.delassus, &self.gap, &mut self.lambda);
             next.gemv(-1.0, &self.response, &self.lambda, 1.0);
             self.contact_steps += 1;
+        } else {
+            self.lambda.fill(0.0);
         }
         self.next = std::mem::replace(&mut self.before, std::mem::replace(&mut self.now, next));
     }

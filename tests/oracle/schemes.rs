@@ -50,6 +50,14 @@ impl Literal {
         }
     }
 
+    /// Contact forces of the last step, sector by sector.
+    pub(crate) fn forces(&self) -> &DVector<f64> {
+        match self {
+            Self::Central(scheme) => &scheme.lambda,
+            Self::Modal(scheme) => &scheme.lambda,
+        }
+    }
+
     /// Steps in which something touched.
     pub(crate) fn contact_steps(&self) -> u64 {
         match self {

@@ -6,6 +6,7 @@ mod dense_agreement;
 #[path = "../properties/fixed.rs"]
 mod fixed;
 mod fixtures;
+mod histories;
 mod impeller_a;
 mod invariants;
 mod modal_criterion;

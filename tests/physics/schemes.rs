@@ -86,6 +86,7 @@ impl Scene {
             samples_per_revolution: SAMPLES,
             revolutions: self.revolutions,
             window_revolutions: 1,
+            detail: None,
         }
         .run(&|_| true);
         match run.outcome {
@@ -215,6 +216,7 @@ fn a_mass_bounces_off_a_stop_at_the_frequency_of_restitution_one() {
             samples_per_revolution: steps,
             revolutions: 2,
             window_revolutions: 1,
+            detail: None,
         }
         .run(&|_| true);
         let Outcome::Completed(history) = &run.outcome else { panic!("{:?}", run.outcome) };

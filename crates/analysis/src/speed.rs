@@ -191,6 +191,7 @@ pub(super) fn simulate(
         samples_per_revolution: steps.samples,
         revolutions: request.integration.revolutions as usize,
         window_revolutions: request.integration.window_revolutions as usize,
+        detail: None,
     }
     .run(watch))
 }

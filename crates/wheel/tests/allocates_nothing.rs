@@ -75,6 +75,7 @@ fn allocations(scheme: Scheme, effects: Effects<'_>, revolutions: usize) -> u64 
         samples_per_revolution: 120,
         revolutions,
         window_revolutions: 1,
+        detail: None,
     };
     let mut run = None;
     let counted = measure(|| run = Some(simulation.run(&|_| true)));

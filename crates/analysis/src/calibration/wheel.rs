@@ -116,6 +116,7 @@ impl Wheel {
             samples_per_revolution: SAMPLES,
             revolutions,
             window_revolutions: 1,
+            detail: None,
         };
         let start = Instant::now();
         let run = simulation.run(&|_| true);

@@ -153,6 +153,7 @@ impl Bar {
             samples_per_revolution: steps,
             revolutions: 1,
             window_revolutions: 1,
+            detail: None,
         };
         let mut run = match ground {
             Some(ground) => simulation.run_against(ground, &|_| true),

@@ -1,6 +1,8 @@
 //! Time integration with contact (Eqs 8–10): what a run is given and what it returns. The loop is in `stepper`.
 
 mod bounds;
+mod decimation;
+mod detail;
 #[cfg(test)]
 mod digests;
 mod instant;
@@ -9,15 +11,19 @@ mod recorder;
 mod residual;
 mod run;
 mod simulation;
+mod step_flexibility;
 mod stepper;
 mod surroundings;
+mod tally;
 
 use pulp::{Simd, WithSimd};
 
 pub use self::bounds::{TipComponent, TipDisplacement};
+pub use self::detail::{Detail, DetailHistory};
 pub use self::run::{Divergence, History, MAX_TABLE_VALUES, Outcome, Run};
 pub use self::simulation::{DIVERGED_SHARE_OF_RADIUS, SensorRow, Simulation};
 use self::stepper::Stepper;
+pub use self::tally::{ContactRecord, PairContact};
 #[cfg(test)]
 use super::casing::RestrictionTable;
 
@@ -26,7 +32,8 @@ impl Simulation<'_> {
     /// stops the run.
     ///
     /// # Panics
-    /// If the sample count does not divide the step count, the window exceeds the run, or an initial mode is not integrated.
+    /// If the sample count does not divide the step count, the window or the revolutions of [`Self::detail`] exceed the run, or an
+    /// initial mode is not integrated.
     pub fn run(&self, watch: &dyn Fn(f64) -> bool) -> Run {
         self.dispatch(pulp::Arch::new(), Stepper::new(self), watch)
     }
@@ -48,6 +55,10 @@ impl Simulation<'_> {
     fn dispatch(&self, arch: pulp::Arch, mut stepper: Stepper, watch: &dyn Fn(f64) -> bool) -> Run {
         assert!(self.steps_per_revolution.is_multiple_of(self.samples_per_revolution));
         assert!(self.window_revolutions <= self.revolutions);
+        assert!(
+            self.detail
+                .is_none_or(|Detail { revolutions: (from, to), .. }| from < to && to <= self.revolutions)
+        );
         // Who does not want the run says so again soon.
         watch(0.0);
         arch.dispatch(Loop { simulation: self, stepper: &mut stepper, watch })

@@ -5,19 +5,19 @@ use pulp::Simd;
 use super::super::casing::{Casing, RestrictionTable};
 use super::super::contact::coating::Coating;
 use super::super::contact::delassus::Delassus;
-use super::super::contact::flexibility::{flexibility, outward_normals, ridge};
+use super::super::contact::flexibility::{outward_normals, ridge};
 use super::super::effects::Effects;
 use super::super::energy::EffectWork;
 use super::super::oscillators::Oscillators;
 use super::super::oscillators::lanes::LANES;
 use super::super::oscillators::rows::{Loads, Rows};
-use super::super::schemes::Scheme;
-use super::super::schemes::massless_boundary::residual_flexibility;
 use super::super::statistics::RunStatistics;
 use super::instant::Instant;
 use super::residual::ResidualDisplacement;
 use super::simulation::Simulation;
+use super::step_flexibility::{is_turned, step_flexibility, symmetric_flexibility};
 use super::surroundings::{Law, Surroundings};
+use super::tally::{ContactInterval, ContactTally};
 use rubmap_numerics::complementarity::ComplementarityError;
 use rubmap_numerics::complementarity::active_set::ActiveSetSolver;
 use rubmap_numerics::sector_fourier::SectorFourier;
@@ -50,6 +50,7 @@ pub(super) struct Obstacle {
     is_loaded: Vec<bool>,
     /// Along what [`Surroundings::applied`] says, `[Fourier column][node]`.
     pub(super) force: Vec<f64>,
+    pub(super) tally: ContactTally,
 }
 
 impl Obstacle {
@@ -95,6 +96,7 @@ impl Obstacle {
             loaded: Vec::with_capacity(stride),
             is_loaded: vec![false; stride],
             force: vec![0.0; size],
+            tally: ContactTally::new(simulation),
             rows,
         }
     }
@@ -225,6 +227,8 @@ impl Obstacle {
             if let Some(casing) = &mut casing {
                 casing.press(index, lambda);
             }
+            // The step that ends with this solution is counted after it.
+            self.tally.press(sector, row, lambda, statistics.steps + 1);
             impulse += lambda * self.step_s;
             let smallest = statistics.smallest_multiplier.map_or(lambda, |least| least.min(lambda));
             statistics.smallest_multiplier = Some(smallest);
@@ -255,6 +259,17 @@ impl Obstacle {
         (-self.predict_gaps(simd, fourier, now, surroundings) - allowed).max(0.0)
     }
 
+    /// Ends the interval between two samples, after [`Self::penetration`].
+    #[inline(always)]
+    pub(super) fn end_interval(&mut self, fourier: &SectorFourier, seen: Option<&mut ContactInterval>) {
+        let Self { tally, harmonic, rows, .. } = self;
+        let columns = harmonic.chunks_exact(rows.stride);
+        let outward = |sector: usize, node: usize| {
+            fourier.row(sector).iter().zip(columns.clone()).map(|(f, column)| f * column[node]).sum()
+        };
+        tally.sample(outward, seen);
+    }
+
     /// No forces, until the next solution.
     #[inline(always)]
     pub(super) fn clear_forces(&mut self, fourier: &SectorFourier) {
@@ -276,25 +291,15 @@ fn delassus(
     stride: usize,
     surroundings: Option<&Surroundings>,
 ) -> Delassus {
-    let Simulation { wheel, scheme, .. } = *simulation;
     let normals = outward_normals(simulation.contact_nodes);
-    let blocks = |from: &[_], turned: bool| match scheme {
-        Scheme::CentralDifferences | Scheme::ExactModal if turned => {
-            oscillators.turned_flexibility(wheel, simulation.step_s(), &normals, from)
-        }
-        Scheme::CentralDifferences | Scheme::ExactModal => {
-            flexibility(wheel, &normals, from, |harmonic, mode| oscillators.receptance(harmonic, mode))
-        }
-        Scheme::MasslessBoundary { kept_modes } => residual_flexibility(wheel, kept_modes, &normals, from),
-    };
-    let plain = blocks(&normals, false);
-    let ridge = ridge(&plain, wheel.sectors);
-    let turned = wheel.harmonics.iter().any(|harmonic| harmonic.gyroscopic.is_some());
+    let symmetric = symmetric_flexibility(simulation, oscillators, &normals, &normals);
+    let ridge = ridge(&symmetric, simulation.wheel.sectors);
     let mut delassus = match simulation.effects.friction {
-        None if !turned => Delassus::new(&plain, ridge, stride, fourier),
+        None if !is_turned(simulation) => Delassus::new(&symmetric, ridge, stride, fourier),
         friction => {
             let from = friction.map_or(normals.as_slice(), |friction| friction.directions);
-            Delassus::new(&blocks(from, turned), ridge, stride, fourier)
+            let blocks = step_flexibility(simulation, oscillators, &normals, from);
+            Delassus::new(&blocks, ridge, stride, fourier)
         }
     };
     if let Some(casing) = surroundings.and_then(|surroundings| surroundings.casing.as_ref()) {

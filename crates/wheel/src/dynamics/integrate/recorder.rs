@@ -1,13 +1,17 @@
-//! What a run records at its samples.
+//! What a run records: displacements at its samples, nodal diameters over its window, details of chosen revolutions.
 
 use pulp::Simd;
 
+use super::super::energy::EnergyAudit;
 use super::super::initial::InitialMode;
 use super::super::oscillators::Oscillators;
 use super::super::oscillators::rows::Rows;
+use super::decimation::Decimation;
+use super::detail::DetailRecorder;
 use super::residual::ResidualDisplacement;
 use super::run::History;
 use super::simulation::Simulation;
+use super::tally::ContactInterval;
 use rubmap_numerics::sector_fourier::SectorFourier;
 
 #[derive(Debug)]
@@ -15,62 +19,103 @@ pub(super) struct Recorder {
     rows: Rows,
     sectors: Vec<usize>,
     energies: bool,
-    /// What contact forces add to the sensors through modes that are not integrated.
+    /// What contact forces add to the sensors that no integrated mode has.
     residual: ResidualDisplacement,
+    /// Displacements in Fourier coordinates as they were read last, `[column][sensor]`, sensors padded.
     harmonic: Vec<f64>,
+    /// The same without padding.
+    reading: Vec<f64>,
+    decimation: Decimation,
+    detail: Option<DetailRecorder>,
     history: History,
 }
 
 impl Recorder {
-    pub(super) fn new(simulation: &Simulation<'_>, fourier: &SectorFourier) -> Self {
+    /// `interval`: of the contact of the run, empty where there is none.
+    pub(super) fn new(
+        simulation: &Simulation<'_>,
+        oscillators: &Oscillators,
+        fourier: &SectorFourier,
+        interval: ContactInterval,
+    ) -> Self {
         let directions: Vec<_> = simulation.sensors.iter().map(|sensor| sensor.direction).collect();
         let scheme = simulation.scheme;
         let rows = Rows::new(simulation.wheel, &directions, |modes| scheme.integrated_modes(modes));
-        let whole = simulation.samples_per_revolution * simulation.revolutions;
-        let window = simulation.samples_per_revolution * simulation.window_revolutions;
+        let samples = simulation.samples_per_revolution;
         let sensors = directions.len();
+        let width = fourier.sectors() * sensors;
+        let sampling = simulation.steps_per_revolution / samples;
         Self {
             harmonic: vec![0.0; fourier.sectors() * rows.stride],
+            reading: vec![0.0; width],
+            decimation: Decimation::new(width, sampling, samples * simulation.window_revolutions),
             energies: simulation.effects.energies,
             sectors: simulation.sensors.iter().map(|sensor| sensor.sector).collect(),
-            residual: ResidualDisplacement::new(simulation, &directions),
+            residual: ResidualDisplacement::until_applied(simulation, oscillators, &directions),
+            detail: simulation.detail.map(|detail| DetailRecorder::new(simulation, detail, interval)),
             history: History {
-                displacement: (0..sensors).map(|_| Vec::with_capacity(whole)).collect(),
-                harmonics: (0..sensors)
-                    .map(|_| (0..fourier.sectors()).map(|_| Vec::with_capacity(window)).collect())
+                displacement: (0..sensors)
+                    .map(|_| Vec::with_capacity(samples * simulation.revolutions))
                     .collect(),
-                energies: Vec::new(),
-                end: Vec::new(),
+                ..History::default()
             },
             rows,
         }
     }
 
-    /// Records the sensors; `force` is that on the contact nodes in Fourier coordinates, `[column][node]`.
+    /// Whether the sensors are read after `step`, counted from the start, though it is no sample.
     #[inline(always)]
-    pub(super) fn record<S: Simd>(
+    pub(super) fn reads(&self, step: u64, windowed: bool) -> bool {
+        windowed || self.detail.as_ref().is_some_and(|detail| detail.reads(step))
+    }
+
+    /// Reads the sensors after `step`; `force` is that on the contact nodes in Fourier coordinates, `[column][node]`.
+    #[inline(always)]
+    pub(super) fn read<S: Simd>(
         &mut self,
         simd: S,
         oscillators: &Oscillators,
         fourier: &SectorFourier,
         force: Option<&[f64]>,
-        windowed: bool,
+        (step, windowed): (u64, bool),
     ) {
         oscillators.project(simd, &self.rows, &mut self.harmonic);
         let stride = self.rows.stride;
         if let Some(force) = force {
             self.residual.add(force, force.len() / fourier.sectors(), &mut self.harmonic, stride);
         }
-        for (sensor, &sector) in self.sectors.iter().enumerate() {
-            let coordinate = |column: usize| self.harmonic[column * stride + sensor];
-            let row = fourier.row(sector).iter().enumerate();
-            self.history.displacement[sensor].push(row.map(|(column, f)| f * coordinate(column)).sum());
-            if windowed {
-                for (column, line) in self.history.harmonics[sensor].iter_mut().enumerate() {
-                    line.push(coordinate(column));
-                }
+        let sensors = self.sectors.len();
+        if windowed && sensors > 0 {
+            let columns = self.harmonic.chunks_exact(stride);
+            for (to, from) in self.reading.chunks_exact_mut(sensors).zip(columns) {
+                to.copy_from_slice(&from[..sensors]);
             }
+            self.decimation.add(&self.reading);
         }
+        if let Some(detail) = &mut self.detail
+            && detail.reads(step)
+        {
+            let (harmonic, sectors) = (&self.harmonic, &self.sectors);
+            detail.read(step, |sensor| displacement(harmonic, stride, fourier, sensor, sectors[sensor]));
+        }
+    }
+
+    /// Records what was read last, at a sample.
+    #[inline(always)]
+    pub(super) fn record(&mut self, fourier: &SectorFourier, step: u64, energy: &EnergyAudit) {
+        for (sensor, &sector) in self.sectors.iter().enumerate() {
+            let now = displacement(&self.harmonic, self.rows.stride, fourier, sensor, sector);
+            self.history.displacement[sensor].push(now);
+        }
+        if let Some(detail) = &mut self.detail {
+            detail.sample(step, energy);
+        }
+    }
+
+    /// Where contact between this sample and the last one is wanted.
+    #[inline(always)]
+    pub(super) fn contact_interval(&mut self, step: u64) -> Option<&mut ContactInterval> {
+        self.detail.as_mut()?.interval(step)
     }
 
     pub(super) fn end_revolution(&mut self, oscillators: &Oscillators) {
@@ -79,11 +124,32 @@ impl Recorder {
         }
     }
 
-    pub(super) fn end(&mut self, modes: Vec<InitialMode>) {
+    /// Ends the run after `steps`, with its modes as they are.
+    pub(super) fn end(&mut self, modes: Vec<InitialMode>, steps: u64) {
         self.history.end = modes;
+        self.history.detail = self.detail.take().map(|detail| detail.end(steps));
+        let sensors = self.sectors.len();
+        let columns = self.reading.len() / sensors.max(1);
+        let line = |sensor: usize| {
+            (0..columns).map(|column| self.decimation.line(column * sensors + sensor)).collect()
+        };
+        self.history.harmonics = (0..sensors).map(line).collect();
     }
 
     pub(super) fn take(&mut self) -> History {
         std::mem::take(&mut self.history)
     }
+}
+
+/// At a sector, from Fourier coordinates.
+#[inline(always)]
+fn displacement(
+    harmonic: &[f64],
+    stride: usize,
+    fourier: &SectorFourier,
+    sensor: usize,
+    sector: usize,
+) -> f64 {
+    let row = fourier.row(sector).iter().enumerate();
+    row.map(|(column, f)| f * harmonic[column * stride + sensor]).sum()
 }

@@ -1,14 +1,17 @@
-//! Displacements through the modes that are not integrated, where they are read (docs/method.md, A boundary without mass).
+//! Displacements that no integrated mode has: through the modes that are not integrated (docs/method.md, A boundary without mass), or
+//! by forces that are yet to complete a step.
 
 use faer::{Mat, c64};
 
 use super::super::contact::flexibility::outward_normals;
 use super::super::direction::Direction;
+use super::super::oscillators::Oscillators;
 use super::super::schemes::Scheme;
 use super::super::schemes::massless_boundary::residual_flexibility;
 use super::simulation::Simulation;
+use super::step_flexibility::step_flexibility;
 
-/// F f of some rows; nothing if the scheme integrates every mode.
+/// F f of some rows.
 #[derive(Debug)]
 pub(super) struct ResidualDisplacement {
     harmonics: Vec<Harmonic>,
@@ -26,19 +29,37 @@ struct Harmonic {
 }
 
 impl ResidualDisplacement {
+    /// Through the modes that are not integrated; nothing if the scheme integrates every mode.
     pub(super) fn new(simulation: &Simulation<'_>, rows: &[Direction]) -> Self {
-        let mut harmonics: Vec<Harmonic> = Vec::new();
-        if let (Scheme::MasslessBoundary { kept_modes }, Some(_)) = (simulation.scheme, simulation.casing) {
-            let applied = match simulation.effects.friction {
-                Some(friction) => friction.directions.to_vec(),
-                None => outward_normals(simulation.contact_nodes),
-            };
-            let blocks = residual_flexibility(simulation.wheel, kept_modes, rows, &applied);
-            let mut column = 0;
-            for (modes, flexibility) in simulation.wheel.harmonics.iter().zip(blocks) {
-                harmonics.push(Harmonic { flexibility, column, single: modes.single });
-                column += if modes.single { 1 } else { 2 };
+        match (simulation.scheme, simulation.casing) {
+            (Scheme::MasslessBoundary { kept_modes }, Some(_)) => {
+                let from = applied(simulation);
+                Self::of(simulation, residual_flexibility(simulation.wheel, kept_modes, rows, &from))
             }
+            _ => Self::of(simulation, Vec::new()),
+        }
+    }
+
+    /// By the forces of a step as well until they are applied.
+    pub(super) fn until_applied(
+        simulation: &Simulation<'_>,
+        oscillators: &Oscillators,
+        rows: &[Direction],
+    ) -> Self {
+        let blocks = match simulation.casing {
+            Some(_) => step_flexibility(simulation, oscillators, rows, &applied(simulation)),
+            None => Vec::new(),
+        };
+        Self::of(simulation, blocks)
+    }
+
+    /// F per nodal diameter, or of none.
+    fn of(simulation: &Simulation<'_>, blocks: Vec<Mat<c64>>) -> Self {
+        let mut harmonics: Vec<Harmonic> = Vec::new();
+        let mut column = 0;
+        for (modes, flexibility) in simulation.wheel.harmonics.iter().zip(blocks) {
+            harmonics.push(Harmonic { flexibility, column, single: modes.single });
+            column += if modes.single { 1 } else { 2 };
         }
         let entries = harmonics.iter().flat_map(|harmonic| harmonic.flexibility.col_iter());
         let largest = entries.flat_map(|column| column.iter()).fold(0.0f64, |m, f| m.max(f.norm()));
@@ -74,5 +95,13 @@ impl ResidualDisplacement {
                 }
             }
         }
+    }
+}
+
+/// What contact forces act along.
+fn applied(simulation: &Simulation<'_>) -> Vec<Direction> {
+    match simulation.effects.friction {
+        Some(friction) => friction.directions.to_vec(),
+        None => outward_normals(simulation.contact_nodes),
     }
 }

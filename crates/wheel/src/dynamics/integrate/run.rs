@@ -1,6 +1,8 @@
 //! How a run ended, and what it left.
 
 use super::bounds::TipDisplacement;
+use super::detail::DetailHistory;
+use super::tally::ContactRecord;
 use crate::dynamics::contact::coating::WornCoating;
 use crate::dynamics::energy::EnergyAudit;
 use crate::dynamics::initial::InitialMode;
@@ -13,12 +15,15 @@ pub struct History {
     /// `[sensor][sample]`: displacement at the sensor's sector, over the whole run.
     pub displacement: Vec<Vec<f64>>,
     /// `[sensor][Fourier column][sample]`: coordinates of all sectors in the real orthonormal Fourier basis, over the
-    /// window.
+    /// window, every sample being a weighted mean of the steps around it so that nothing folds onto its lower half (docs/method.md,
+    /// Sampling).
     pub harmonics: Vec<Vec<Vec<f64>>>,
     /// `[revolution][nodal diameter]`: mechanical energy at its end, if asked for.
     pub energies: Vec<Vec<f64>>,
     /// All modes at the end of the run.
     pub end: Vec<InitialMode>,
+    /// What was recorded of chosen revolutions, if any were.
+    pub detail: Option<DetailHistory>,
 }
 
 /// A response that left the bounds of the theory.
@@ -62,6 +67,8 @@ pub struct Run {
     pub energy: EnergyAudit,
     /// The coating at the end, if there is one.
     pub coating: Option<WornCoating>,
+    /// Contact over the window, where there is a casing.
+    pub contact: Option<ContactRecord>,
 }
 
 /// A restriction table larger than this many values (2 GiB) is refused.

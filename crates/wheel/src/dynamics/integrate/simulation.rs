@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use super::detail::Detail;
 use crate::dynamics::casing::Casing;
 use crate::dynamics::direction::Direction;
 use crate::dynamics::effects::Effects;
@@ -38,6 +39,8 @@ pub struct Simulation<'a> {
     pub revolutions: usize,
     /// Revolutions at the end for which nodal-diameter coordinates are recorded.
     pub window_revolutions: usize,
+    /// Revolutions of which more is recorded.
+    pub detail: Option<Detail>,
 }
 
 /// A recorded displacement.

@@ -85,7 +85,12 @@ impl Stepper {
         Self {
             massless: matches!(scheme, Scheme::MasslessBoundary { .. }),
             decays: effects || oscillators.dissipates(),
-            recorder: Recorder::new(simulation, &fourier),
+            recorder: Recorder::new(
+                simulation,
+                &oscillators,
+                &fourier,
+                obstacle.as_ref().map(|obstacle| obstacle.tally.interval()).unwrap_or_default(),
+            ),
             statistics: RunStatistics::default(),
             energy: EnergyAudit::starting_at(oscillators.energy()),
             last_energy: None,
@@ -126,7 +131,8 @@ impl Stepper {
         };
         self.statistics.casing_amplitude = self.flexible_casing().map(CasingMotion::largest_amplitude);
         let coating = self.surroundings.as_ref().and_then(Surroundings::coating).cloned();
-        Run { outcome, statistics: self.statistics, energy: self.energy, coating }
+        let contact = self.obstacle.as_ref().map(|obstacle| obstacle.tally.record().clone());
+        Run { outcome, statistics: self.statistics, energy: self.energy, coating, contact }
     }
 
     #[inline(always)]
@@ -138,8 +144,14 @@ impl Stepper {
     ) -> Result<(), Outcome> {
         let Simulation { revolutions, window_revolutions, steps_per_revolution: steps, .. } = *simulation;
         let sampling = steps / simulation.samples_per_revolution;
+        if self.recorder.reads(0, false) {
+            self.read(simd, false);
+        }
         for revolution in 0..revolutions {
             let windowed = revolution >= revolutions - window_revolutions;
+            if windowed && let Some(obstacle) = &mut self.obstacle {
+                obstacle.tally.begin_window();
+            }
             for step in 1..=steps {
                 let now = Instant::new(revolution, step, steps);
                 M::predict(self, simd, now);
@@ -153,6 +165,8 @@ impl Stepper {
                 if step % sampling == 0 {
                     M::apply(self, simd);
                     self.record::<S, M>(simd, now, windowed)?;
+                } else if self.recorder.reads(self.statistics.steps, windowed) {
+                    self.read(simd, windowed);
                 }
             }
             self.last_energy = Some(self.mechanical_energy());
@@ -209,18 +223,27 @@ impl Stepper {
     /// Holds the state against what contact and energy promise, records it, and ends the run where it left its bounds.
     #[inline(always)]
     fn record<S: Simd, M: Motion>(&mut self, simd: S, now: Instant, windowed: bool) -> Result<(), Outcome> {
-        let Self { oscillators, fourier, obstacle, surroundings, statistics, .. } = self;
+        let Self { oscillators, fourier, obstacle, surroundings, statistics, recorder, .. } = self;
         if M::TOUCHES
             && let Some(obstacle) = obstacle
         {
             let left = obstacle.penetration(simd, oscillators, fourier, now, M::surroundings(surroundings));
             statistics.largest_penetration = statistics.largest_penetration.max(left);
+            obstacle.end_interval(fourier, recorder.contact_interval(statistics.steps));
         }
         let energy = self.mechanical_energy();
         self.energy.check(energy);
-        let force = self.obstacle.as_ref().map(|obstacle| obstacle.force.as_slice());
-        self.recorder.record(simd, &self.oscillators, &self.fourier, force, windowed);
+        self.read(simd, windowed);
+        self.recorder.record(&self.fourier, self.statistics.steps, &self.energy);
         self.check_bounds(energy, now.revolutions)
+    }
+
+    /// Reads the sensors after the last step.
+    #[inline(always)]
+    fn read<S: Simd>(&mut self, simd: S, windowed: bool) {
+        let force = self.obstacle.as_ref().map(|obstacle| obstacle.force.as_slice());
+        let when = (self.statistics.steps, windowed);
+        self.recorder.read(simd, &self.oscillators, &self.fourier, force, when);
     }
 
     /// Keeps the state at the end, as free motion would have it.
@@ -229,7 +252,7 @@ impl Stepper {
             let read = |oscillators: &Oscillators| modal_state(simulation, oscillators);
             drive.end(simulation.wheel, simulation.revolutions as f64, &mut self.oscillators, read);
         }
-        self.recorder.end(modal_state(simulation, &self.oscillators));
+        self.recorder.end(modal_state(simulation, &self.oscillators), self.statistics.steps);
     }
 
     fn mechanical_energy(&self) -> f64 {

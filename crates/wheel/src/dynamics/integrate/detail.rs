@@ -1,0 +1,145 @@
+//! Histories beyond displacements, of chosen revolutions.
+
+use super::super::energy::EnergyAudit;
+use super::simulation::Simulation;
+use super::tally::ContactInterval;
+
+/// What a run records of chosen revolutions, at every sample.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Detail {
+    /// Whole revolutions after which recording begins and ends.
+    pub revolutions: (usize, usize),
+    /// Velocities of the sensors.
+    pub velocity: bool,
+    /// Contact forces, and how much touches.
+    pub contact: bool,
+    /// The energy audit.
+    pub energy: bool,
+}
+
+/// What was recorded of them.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct DetailHistory {
+    /// `[sensor][sample]`: (u⁺ − u⁻)/2h of the steps beside the sample; at the end of the run, which no step follows,
+    /// (3u − 4u⁻ + u⁻⁻)/2h.
+    pub velocity: Vec<Vec<f64>>,
+    /// `[sector · contact nodes + contact node][sample]`: force, mean over the interval that the sample ends.
+    pub force: Vec<Vec<f64>>,
+    /// `[sample]`: nodes in contact, mean over the interval.
+    pub nodes_in_contact: Vec<f64>,
+    /// `[sample]`: length of the contact lines that touches, mean over the interval.
+    pub contact_length: Vec<f64>,
+    /// `[sample]`: the audit so far.
+    pub energy: Vec<EnergyAudit>,
+}
+
+/// Records it.
+#[derive(Debug)]
+pub(super) struct DetailRecorder {
+    detail: Detail,
+    steps_per_revolution: usize,
+    sampling: usize,
+    step_s: f64,
+    /// Displacements of the sensors at the last three steps, the latest first.
+    last: [Vec<f64>; 3],
+    interval: ContactInterval,
+    history: DetailHistory,
+}
+
+impl DetailRecorder {
+    /// `interval` as the tally of the run fills it; of no pairs where nothing can be touched.
+    pub(super) fn new(simulation: &Simulation<'_>, detail: Detail, interval: ContactInterval) -> Self {
+        let samples = simulation.samples_per_revolution * (detail.revolutions.1 - detail.revolutions.0);
+        let line = |wanted: bool| Vec::with_capacity(if wanted { samples } else { 0 });
+        let sensors = simulation.sensors.len();
+        let lines =
+            |count: usize, wanted: bool| (0..if wanted { count } else { 0 }).map(|_| line(true)).collect();
+        Self {
+            history: DetailHistory {
+                velocity: lines(sensors, detail.velocity),
+                force: lines(interval.force.len(), detail.contact),
+                nodes_in_contact: line(detail.contact),
+                contact_length: line(detail.contact),
+                energy: Vec::with_capacity(if detail.energy { samples } else { 0 }),
+            },
+            detail,
+            steps_per_revolution: simulation.steps_per_revolution,
+            sampling: simulation.steps_per_revolution / simulation.samples_per_revolution,
+            step_s: simulation.step_s(),
+            last: std::array::from_fn(|_| vec![0.0; sensors]),
+            interval,
+        }
+    }
+
+    /// Whether a sample at the end of this step, counted from the start, is recorded.
+    fn holds(&self, step: u64) -> bool {
+        let end = |revolutions: usize| (revolutions * self.steps_per_revolution) as u64;
+        let (from, to) = self.detail.revolutions;
+        end(from) < step && step <= end(to) && step.is_multiple_of(self.sampling as u64)
+    }
+
+    /// Whether the displacements of the sensors after this step are wanted, because a sample is beside it.
+    pub(super) fn reads(&self, step: u64) -> bool {
+        let near = |other: u64| self.holds(other);
+        self.detail.velocity
+            && (near(step) || near(step + 1) || (step > 0 && near(step - 1)) || self.closes(step))
+    }
+
+    /// Whether the last sample has this step two before it.
+    fn closes(&self, step: u64) -> bool {
+        let end = (self.detail.revolutions.1 * self.steps_per_revolution) as u64;
+        step + 2 == end
+    }
+
+    /// Displacements of the sensors after `step`, every wanted one in turn.
+    #[inline(always)]
+    pub(super) fn read(&mut self, step: u64, displacement: impl Fn(usize) -> f64) {
+        self.last.rotate_right(1);
+        for (sensor, place) in self.last[0].iter_mut().enumerate() {
+            *place = displacement(sensor);
+        }
+        if step > 1 && self.holds(step - 1) {
+            let [after, _, before] = &self.last;
+            for (line, (after, before)) in self.history.velocity.iter_mut().zip(after.iter().zip(before)) {
+                line.push((after - before) / (2.0 * self.step_s));
+            }
+        }
+    }
+
+    /// Where contact between this sample and the last one is wanted.
+    #[inline(always)]
+    pub(super) fn interval(&mut self, step: u64) -> Option<&mut ContactInterval> {
+        (self.detail.contact && self.holds(step)).then_some(&mut self.interval)
+    }
+
+    /// Ends a sample, once its contact is known.
+    #[inline(always)]
+    pub(super) fn sample(&mut self, step: u64, energy: &EnergyAudit) {
+        if !self.holds(step) {
+            return;
+        }
+        let history = &mut self.history;
+        if self.detail.contact {
+            for (line, force) in history.force.iter_mut().zip(&self.interval.force) {
+                line.push(*force);
+            }
+            history.nodes_in_contact.push(self.interval.nodes);
+            history.contact_length.push(self.interval.length);
+        }
+        if self.detail.energy {
+            history.energy.push(*energy);
+        }
+    }
+
+    /// Ends the run after so many steps.
+    pub(super) fn end(mut self, steps: u64) -> DetailHistory {
+        if self.detail.velocity && self.holds(steps) {
+            let [now, before, earlier] = &self.last;
+            for (sensor, line) in self.history.velocity.iter_mut().enumerate() {
+                let difference = 3.0 * now[sensor] - 4.0 * before[sensor] + earlier[sensor];
+                line.push(difference / (2.0 * self.step_s));
+            }
+        }
+        self.history
+    }
+}
