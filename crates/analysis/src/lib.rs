@@ -5,6 +5,7 @@
 //! - [`run::plan_sweep`] and [`run::plan_modal_analysis`] say beforehand what that will do and cost;
 //! - [`run::refine`] says which speeds a sweep lacks around its peaks;
 //! - [`run::interaction_map`] and [`run::critical_speeds`] assemble the finished speeds of a sweep, [`run::refine`] asks for more;
+//! - [`run::speed_histories`] simulates a speed once more and records what happens, [`run::force_map`] gathers contact over all speeds;
 //! - [`run::run_trial`] runs one speed to be compared with others: for studies ([`run::work_precision`]), for the choice of settings
 //!   ([`run::next`], [`run::next_modes`]) and for the error of a finished sweep ([`run::error_estimate`]).
 
@@ -12,11 +13,13 @@ pub mod accuracy;
 mod calibration;
 mod check;
 mod component;
+mod contact;
 mod diagram;
 mod discretisation;
 pub mod effects;
 pub mod end_state;
 pub mod error;
+mod histories;
 mod modal;
 mod model;
 pub mod monitor;

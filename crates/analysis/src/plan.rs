@@ -13,7 +13,8 @@ use crate::effects::symmetry::request::Symmetry;
 use crate::effects::table::{check_at_speed, planned};
 use crate::model::{ModelFacts, ReducedSector};
 use crate::request::SweepDirection;
-use crate::resolved::{ResolvedModalAnalysis, ResolvedSweep, Scene, TrialRequest};
+use crate::resolve::case_study::revolutions;
+use crate::resolved::{ResolvedCaseStudy, ResolvedModalAnalysis, ResolvedSweep, Scene, TrialRequest};
 use crate::result::{
     CostRange, Estimate, FoundSymmetry, ModalAnalysisPlan, PlannedPoint, ReductionState, SweepPlan,
 };
@@ -212,6 +213,21 @@ pub fn trial_memory(reduced: &ReducedSector, request: &TrialRequest) -> u64 {
     // A twin has a history of its own.
     let runs = 1 + u64::from(request.twin);
     runs * running_bytes(&wheel, sweep, &stepping, touching(reduced, sweep))
+}
+
+/// Memory that the speed of this `place` in a case study holds while it is recorded, in bytes: its run, and its histories twice, as
+/// numbers and as text.
+pub fn histories_memory(reduced: &ReducedSector, case: &ResolvedCaseStudy, place: usize) -> u64 {
+    /// Bytes of a number as numbers and as text.
+    const NUMBER: usize = 8 + 24;
+    let sweep = &case.sweep;
+    let speed = sweep.speeds.rad_s()[case.speeds[place] as usize];
+    let Ok((wheel, stepping)) = ready(reduced, sweep, speed) else { return 0 };
+    let nodes = touching(reduced, sweep);
+    let [from, to] = revolutions(&case.record, sweep);
+    let lines = 2 * sweep.sensors.len() + wheel.sectors * nodes + 10;
+    let recorded = NUMBER * lines * stepping.discretisation.samples * (to - from) as usize;
+    running_bytes(&wheel, sweep, &stepping, nodes) + recorded as u64
 }
 
 /// What a speed holds while it runs: its modes with what their eigenproblems took, the casing's table, the histories,

@@ -1,22 +1,35 @@
 //! What a run says: credentials, spectra and steady response of one speed.
 
+use crate::contact::ContactOf;
+use crate::effects::casing::convert::clearance;
 use crate::effects::effect::Ran;
 use crate::effects::symmetry::repeats::repeats;
 use crate::effects::table::named;
 use crate::error::AnalysisError;
 use crate::request::Sensor;
 use crate::resolved::ResolvedSweep;
-use crate::result::{EnergyReport, Point, PointStatus, SensorResponse, SensorSpectrum, SpeedSpectra};
+use crate::result::{
+    ContactForces, ContactSummary, EnergyReport, Point, PointStatus, SensorResponse, SensorSpectrum,
+    SpeedSpectra,
+};
 use crate::stepping::Stepping;
 use rubmap_numerics::sector_fourier::{SectorFourier, harmonic_count};
 use rubmap_numerics::spectrum::amplitudes;
 use rubmap_wheel::dynamics::integrate::{Divergence, History, Outcome, Run, TipDisplacement};
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
+use rubmap_wheel::dynamics::sector::ContactNode;
 use rubmap_wheel::response::settling::judge;
 use rubmap_wheel::response::side_bands::{SideBands, side_bands};
 use rubmap_wheel::response::spectra::{engine_orders, nodal_diameter_amplitudes};
 
-/// Writes a run's credentials into `point`; returns its spectra if it is complete. A scene that repeats was run on one part
+/// What a complete run left beside its point.
+pub(super) struct Recorded {
+    pub(super) spectra: SpeedSpectra,
+    /// Of a scene with contact.
+    pub(super) contact: Option<ContactForces>,
+}
+
+/// Writes a run's credentials into `point`; returns the rest if it is complete. A scene that repeats was run on one part
 /// of the wheel: what adds up over the wheel is multiplied here.
 pub(super) fn record_run(
     point: &mut Point,
@@ -24,7 +37,8 @@ pub(super) fn record_run(
     request: &ResolvedSweep,
     wheel: &ModalWheel,
     stepping: &Stepping,
-) -> Result<Option<SpeedSpectra>, AnalysisError> {
+    contact_nodes: &[ContactNode],
+) -> Result<Option<Recorded>, AnalysisError> {
     let parts = wheel.repeats as f64;
     let steps = &stepping.discretisation;
     point.smallest_stable_steps_per_revolution = stepping.smallest as u32;
@@ -40,7 +54,7 @@ pub(super) fn record_run(
     point.energy_residual = finite(run.energy.residual());
     point.energy = EnergyReport::of(&run.energy, parts);
     point.largest_energy = finite(parts * run.energy.largest_energy());
-    let spectra = match &run.outcome {
+    let recorded = match &run.outcome {
         Outcome::Cancelled => return Err(AnalysisError::Cancelled),
         Outcome::Diverged(divergence) => {
             point.status = PointStatus::Diverged;
@@ -53,19 +67,54 @@ pub(super) fn record_run(
         }
         Outcome::Completed(history) => {
             point.status = PointStatus::Completed;
-            let spectra = spectra(history, request, wheel);
+            let filtered = filtered(history, request, wheel);
+            let spectra = spectra(history, request, wheel, &filtered);
             let window = request.integration.window_revolutions as usize;
-            point.responses = responses(history, request, &spectra, window * steps.samples);
+            point.responses = responses(history, request, &spectra, &filtered);
             let lobes = request.scene.touched_lobes().map(|lobes| lobes.count);
             let settling = judge(&history.displacement, steps.samples, window, lobes);
             point.settling = Some(settling.beside(strongest_side_bands(&point.responses)));
-            Some(spectra)
+            let contact = contact(run, request, wheel, stepping, contact_nodes);
+            let (summary, forces) = contact.unzip();
+            point.contact = summary;
+            Some(Recorded { spectra, contact: forces })
         }
     };
     let repeats = repeats(&request.scene, wheel.sectors as u32) as usize;
     let ran = Ran { run, request, parts, repeats };
     named(&request.scene).filter_map(|effect| effect.record).for_each(|record| record(point, &ran));
-    Ok(spectra)
+    Ok(recorded)
+}
+
+/// Contact over the window, in short and in full; none of a scene without.
+fn contact(
+    run: &Run,
+    request: &ResolvedSweep,
+    wheel: &ModalWheel,
+    stepping: &Stepping,
+    contact_nodes: &[ContactNode],
+) -> Option<(ContactSummary, ContactForces)> {
+    let of = ContactOf {
+        record: run.contact.as_ref()?,
+        wheel,
+        clearance: &clearance(contact_nodes, request)?,
+        window_revolutions: f64::from(request.integration.window_revolutions),
+        steps_per_revolution: stepping.discretisation.per_revolution,
+        samples_per_revolution: stepping.discretisation.samples,
+    };
+    let forces = of.forces();
+    Some((of.summary(&forces), forces))
+}
+
+/// `[sensor]`: displacements of the window as its spectra see them.
+fn filtered(history: &History, request: &ResolvedSweep, wheel: &ModalWheel) -> Vec<Vec<f64>> {
+    let fourier = SectorFourier::new(wheel.sectors);
+    let of = |(columns, sensor): (&Vec<Vec<f64>>, &Sensor)| {
+        let row = fourier.row(sensor.sector as usize % wheel.sectors);
+        let at = |sample: usize| row.iter().zip(columns).map(|(f, column)| f * column[sample]).sum();
+        (0..columns[0].len()).map(at).collect()
+    };
+    history.harmonics.iter().zip(&request.sensors).map(of).collect()
 }
 
 fn describe(divergence: &Divergence) -> String {
@@ -87,17 +136,20 @@ fn describe(divergence: &Divergence) -> String {
     }
 }
 
-fn spectra(history: &History, request: &ResolvedSweep, wheel: &ModalWheel) -> SpeedSpectra {
+fn spectra(
+    history: &History,
+    request: &ResolvedSweep,
+    wheel: &ModalWheel,
+    filtered: &[Vec<f64>],
+) -> SpeedSpectra {
     let engine_orders = engine_orders(request.integration.window_revolutions, request.max_engine_order);
     let bins = engine_orders.len();
     let fourier = SectorFourier::new(wheel.sectors);
     let sensors = request.sensors.iter().enumerate().map(|(index, &sensor)| {
         let columns = &history.harmonics[index];
-        let whole = &history.displacement[index];
-        let window = &whole[whole.len() - columns[0].len()..];
         SensorSpectrum {
             sensor,
-            amplitude: amplitudes(window, bins),
+            amplitude: amplitudes(&filtered[index], bins),
             nodal_diameters: of_the_wheel(nodal_diameter_amplitudes(columns, &fourier, bins), wheel),
         }
     });
@@ -125,8 +177,9 @@ fn responses(
     history: &History,
     request: &ResolvedSweep,
     spectra: &SpeedSpectra,
-    window_samples: usize,
+    filtered: &[Vec<f64>],
 ) -> Vec<SensorResponse> {
+    let window_samples = filtered.first().map_or(0, Vec::len);
     let windows = history.displacement.iter().map(|whole| &whole[whole.len() - window_samples..]);
     let round_off = ROUND_OFF * windows.flatten().fold(0.0f64, |most, x| most.max(x.abs()));
     let of = |(index, &sensor): (usize, &Sensor)| {
@@ -149,7 +202,7 @@ fn responses(
             dominant_engine_order: stands_out.then(|| spectra.engine_orders[bin]),
             dominant_nodal_diameter: stands_out.then(|| largest_bin(&carried) as u32),
             side_bands: side_bands(
-                window,
+                &filtered[index],
                 request.integration.window_revolutions as usize,
                 request.max_engine_order as usize,
             ),

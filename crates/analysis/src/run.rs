@@ -7,12 +7,15 @@ pub use crate::accuracy::study::work_precision;
 pub use crate::accuracy::trial::run_trial;
 pub use crate::calibration::Calibration;
 pub use crate::check::check;
+pub use crate::contact::{force_map, force_row};
+pub use crate::histories::{histories_wanted, speed_histories};
 pub use crate::modal::modal_analysis;
 pub use crate::model::{ModelFacts, ReducedSector};
-pub use crate::plan::{plan_modal_analysis, plan_sweep, trial_memory};
+pub use crate::plan::{histories_memory, plan_modal_analysis, plan_sweep, trial_memory};
 pub use crate::prepare::prepare;
 pub use crate::refine::refine;
 pub use crate::request::Setting;
+pub use crate::resolve::case_study::{histories_of, resolve_case_study};
 pub use crate::resolve::study::resolve_study;
 pub use crate::resolve::{resolve_modal_analysis, resolve_sweep};
 pub use crate::resolved::TrialRequest;
@@ -21,5 +24,5 @@ pub use crate::result::{
     WorkPrecision,
 };
 pub use crate::speed::run_speed;
-pub use crate::summary::{critical_speeds, interaction_map, map_row, nothing_completed};
+pub use crate::summary::{critical_indices, critical_speeds, interaction_map, map_row, nothing_completed};
 pub use rubmap_wheel::revision::{REVISION, VERSION};

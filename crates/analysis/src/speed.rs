@@ -12,14 +12,14 @@ use crate::error::AnalysisError;
 use crate::model::ReducedSector;
 use crate::monitor::Monitor;
 use crate::not_runnable::NotRunnable;
-use crate::record::record_run;
+use crate::record::{Recorded, record_run};
 use crate::request::{Sensor, SweepDirection};
 use crate::resolved::ResolvedSweep;
 use crate::result::{Point, PointStatus, SpeedResult, WearMap};
 use crate::start::{initial, perturbed};
 use crate::stepping::Stepping;
 use crate::wheel::wheel_of;
-use rubmap_wheel::dynamics::integrate::{Outcome, Run, SensorRow, Simulation};
+use rubmap_wheel::dynamics::integrate::{Detail, Outcome, Run, SensorRow, Simulation};
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
 use rubmap_wheel::dynamics::reduction::ReducedWheel;
 use rubmap_wheel::revision::VERSION;
@@ -36,20 +36,20 @@ pub fn run_speed(
 ) -> Result<SpeedResult, AnalysisError> {
     let clock = Instant::now();
     let mut point = empty_point(reduced, request, index, request.speeds.rad_s()[index]);
-    let (mut spectra, mut end_state, mut wear) = (None, None, None);
+    let (mut recorded, mut end_state, mut wear) = (None, None, None);
     let watch = |fraction: f64| {
         monitor.progress(fraction, "contact simulation");
         !monitor.is_cancelled()
     };
     let from = start.map_or(Start::Scene, Start::After);
     let ran = ready(reduced, request, point.speed_rad_s).and_then(|(wheel, stepping)| {
-        let run = simulate(&reduced.wheel, &wheel, request, &stepping, from, &watch)?;
+        let run = simulate(&reduced.wheel, &wheel, request, &stepping, from, None, &watch)?;
         Ok((wheel, stepping, run))
     });
     match ran {
         Err(reason) => point.message = Some(reason.to_string()),
         Ok((wheel, stepping, run)) => {
-            spectra = record_run(&mut point, &run, request, &wheel, &stepping)?;
+            recorded = record_run(&mut point, &run, request, &wheel, &stepping, &reduced.wheel.contact)?;
             end_state = end_state_of(&run, &reduced.wheel, &wheel, request);
             wear = run.coating.as_ref().map(WearMap::of);
         }
@@ -58,7 +58,9 @@ pub fn run_speed(
         point.message = Some(from_the_start(point.message.take()));
     }
     point.wall_time_s = clock.elapsed().as_secs_f64();
-    Ok(SpeedResult { point, spectra, wear, end_state })
+    let (spectra, contact) =
+        recorded.map_or((None, None), |Recorded { spectra, contact }| (Some(spectra), contact));
+    Ok(SpeedResult { point, spectra, wear, contact, end_state })
 }
 
 /// The wheel of a scene at a speed, and how it is stepped; or why it cannot be.
@@ -127,6 +129,7 @@ pub(super) fn empty_point(
         smallest_stable_steps_per_revolution: 0,
         steps: 0,
         contact_share: 0.0,
+        contact: None,
         contact_impulse: None,
         largest_penetration: None,
         smallest_multiplier: None,
@@ -149,6 +152,7 @@ pub(super) fn simulate(
     request: &ResolvedSweep,
     stepping: &Stepping,
     start: Start<'_>,
+    detail: Option<Detail>,
     watch: &dyn Fn(f64) -> bool,
 ) -> Result<Run, NotRunnable> {
     let scene = &request.scene;
@@ -191,7 +195,7 @@ pub(super) fn simulate(
         samples_per_revolution: steps.samples,
         revolutions: request.integration.revolutions as usize,
         window_revolutions: request.integration.window_revolutions as usize,
-        detail: None,
+        detail,
     }
     .run(watch))
 }

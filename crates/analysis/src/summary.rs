@@ -123,6 +123,14 @@ pub fn critical_speeds(
     Ok(request.sensors.iter().enumerate().map(table).collect())
 }
 
+/// Indices of the critical speeds of all sensors, from the points of all speeds.
+pub fn critical_indices(request: &ResolvedSweep, points: &[Point]) -> BTreeSet<u32> {
+    let curve = ResponseCurve::of(request.speeds.rad_s(), points);
+    let of = |sensor: usize| peaks(&curve.level(sensor), request.peak_prominence);
+    let peaks = (0..request.sensors.len()).flat_map(of);
+    peaks.filter_map(|peak| Some(curve.points[peak.index]?.index)).collect()
+}
+
 /// Prominent peaks of one sensor's level over ascending speeds, each with the nearest linear crossing.
 fn response_peaks(
     request: &ResolvedSweep,

@@ -9,7 +9,7 @@ use crate::discretisation::aligned_samples;
 use crate::error::AnalysisError;
 use crate::model::ReducedSector;
 use crate::monitor::Monitor;
-use crate::record::record_run;
+use crate::record::{Recorded, record_run};
 use crate::request::Setting;
 use crate::request::auto_or::MOST_STEPS;
 use crate::resolved::{ResolvedSweep, TrialRequest};
@@ -74,7 +74,7 @@ pub fn run_trial(
             watch(fraction)
         };
         let ran = ready(reduced, sweep, speed_rad_s).and_then(|(wheel, stepping)| {
-            let run = simulate(&reduced.wheel, &wheel, sweep, &stepping, Start::Scene, &marked)?;
+            let run = simulate(&reduced.wheel, &wheel, sweep, &stepping, Start::Scene, None, &marked)?;
             Ok((wheel, stepping, run))
         });
         let whole = clock.elapsed();
@@ -102,8 +102,8 @@ pub fn run_trial(
     trial.unknowns = stepping.scheme.integrated_unknowns(&wheel) as u32;
     let samples = stepping.discretisation.samples;
     trial.samples_per_revolution = samples as u32;
-    let spectra = record_run(&mut trial.point, &run, sweep, &wheel, &stepping)?;
-    if let (Outcome::Completed(history), Some(spectra)) = (&run.outcome, &spectra) {
+    let recorded = record_run(&mut trial.point, &run, sweep, &wheel, &stepping, &reduced.wheel.contact)?;
+    if let (Outcome::Completed(history), Some(Recorded { spectra, .. })) = (&run.outcome, &recorded) {
         let kept = samples * request.history_revolutions.min(sweep.integration.revolutions) as usize;
         trial.history = history.displacement.iter().map(|line| line[..kept].to_vec()).collect();
         let window = samples * sweep.integration.window_revolutions as usize;
@@ -111,7 +111,7 @@ pub fn run_trial(
             history.displacement.iter().map(|line| levels(&line[line.len() - window..], samples)).collect();
         trial.lines = lines(spectra, sweep);
         if request.twin {
-            let twin = simulate(&reduced.wheel, &wheel, sweep, &stepping, Start::Perturbed, &watch);
+            let twin = simulate(&reduced.wheel, &wheel, sweep, &stepping, Start::Perturbed, None, &watch);
             if let Ok(Run { outcome: Outcome::Completed(twin), .. }) = twin {
                 let from = sweep.integration.ramp_revolutions.ceil() as usize;
                 let (run, twin) = (&history.displacement, &twin.displacement);

@@ -2,9 +2,11 @@
 
 pub mod accuracy;
 pub mod auto_or;
+pub mod case_study;
 pub mod integration;
 pub mod modal_analysis;
 mod omit;
+pub mod record;
 pub mod scene;
 pub mod sensor;
 pub mod setting;
@@ -14,8 +16,10 @@ pub mod sweep;
 
 pub use accuracy::{Accuracy, Budget};
 pub use auto_or::AutoOr;
+pub use case_study::{CaseSpeed, CaseStudyRequest, CaseStudySettings};
 pub use integration::{Integration, SchemeChoice};
 pub use modal_analysis::ModalAnalysisRequest;
+pub use record::{HistoriesRequest, HistorySpeeds, Record, Recorded, RecordedQuantity};
 pub use scene::Scene;
 pub use sensor::{Component, Sensor};
 pub use setting::Setting;

@@ -6,6 +6,7 @@ use crate::request::accuracy::{Accuracy, Budget};
 use crate::request::auto_or::AutoOr;
 use crate::request::integration::Integration;
 use crate::request::omit::is_false;
+use crate::request::record::Record;
 use crate::request::scene::Scene;
 use crate::request::sensor::Sensor;
 use crate::request::speeds::Speeds;
@@ -62,6 +63,9 @@ pub struct SweepRequest {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schema(maximum = 100))]
     pub control_speeds: Option<u32>,
+    /// What is recorded beside spectra.
+    #[serde(default, skip_serializing_if = "Record::is_nothing")]
+    pub record: Record,
 }
 
 /// Where each speed of a sweep starts from. A response with several branches shows the one that it is led along.

@@ -14,6 +14,7 @@ use crate::resolved::{ResolvedModalAnalysis, ResolvedSpeeds, ResolvedSweep};
 
 use self::findings::Findings;
 
+pub(crate) mod case_study;
 mod effects;
 pub(crate) mod findings;
 pub(crate) mod limits;
@@ -43,6 +44,9 @@ pub fn resolve_sweep(request: SweepRequest, facts: &ModelFacts) -> Result<Resolv
     check_sensors(&mut found, &sweep.sensors, facts);
     if found.0.is_empty() {
         check_memory(&mut found, &sweep, facts);
+        if let Some(histories) = sweep.histories() {
+            case_study::check_histories(&mut found, histories, "/record/histories", &sweep, facts);
+        }
     }
     found.finish(sweep)
 }

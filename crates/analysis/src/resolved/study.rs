@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::error::Violation;
 use crate::request::sweep::default_peak_prominence;
 use crate::request::{
-    AutoOr, Grid, Integration, Sensor, StudyIntegration, StudyRequest, SweepDirection, SweepRequest,
+    AutoOr, Grid, Integration, Record, Sensor, StudyIntegration, StudyRequest, SweepDirection, SweepRequest,
 };
 use crate::resolved::speeds::ResolvedSpeeds;
 use crate::resolved::sweep::ResolvedSweep;
@@ -71,6 +71,7 @@ impl StudyRequest {
             accuracy: None,
             budget: None,
             control_speeds: None,
+            record: Record::default(),
         }
     }
 }

@@ -4,7 +4,8 @@ use serde::Serialize;
 
 use crate::error::Violation;
 use crate::request::{
-    AutoOr, Integration, Sensor, Setting, SweepDirection, SweepRequest, sweep::default_peak_prominence,
+    AutoOr, HistoriesRequest, Integration, Record, Sensor, Setting, SweepDirection, SweepRequest,
+    sweep::default_peak_prominence,
 };
 use crate::resolved::knobs::Modes;
 use crate::resolved::scene::Scene;
@@ -29,6 +30,7 @@ pub struct ResolvedSweep {
     pub(crate) refine: bool,
     /// Speeds that are simulated again at a finer setting.
     pub(crate) control_speeds: u32,
+    pub(crate) record: Record,
 }
 
 impl ResolvedSweep {
@@ -52,6 +54,7 @@ impl ResolvedSweep {
             sweep: asked.sweep,
             refine: asked.refine,
             control_speeds: asked.control_speeds.unwrap_or(default_controls(modes, asked.sweep)),
+            record: asked.record,
         }
     }
 
@@ -100,6 +103,11 @@ impl ResolvedSweep {
         self.refine
     }
 
+    /// The histories it asks for.
+    pub fn histories(&self) -> Option<&HistoriesRequest> {
+        self.record.histories.as_ref()
+    }
+
     /// Speeds that are simulated again at a finer setting.
     pub fn control_speeds(&self) -> usize {
         self.control_speeds as usize
@@ -132,6 +140,7 @@ impl ResolvedSweep {
             refine: false,
             peak_prominence: default_peak_prominence(),
             control_speeds: 0,
+            record: Record::default(),
             ..self.at(setting)
         }
     }
@@ -162,6 +171,7 @@ impl From<ResolvedSweep> for SweepRequest {
             accuracy,
             budget,
             control_speeds: Some(sweep.control_speeds).filter(|&speeds| speeds != usual),
+            record: sweep.record,
         }
     }
 }

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::effects::abradable::result::{WearMap, WearReport};
 use crate::end_state::EndState;
 use crate::request::{SchemeChoice, Sensor};
+use crate::result::contact::{ContactForces, ContactSummary};
 use crate::result::reduction::StiffeningVerdict;
 use rubmap_wheel::dynamics::energy::{EffectWork, EnergyAudit};
 use rubmap_wheel::response::settling::Settling;
@@ -148,6 +149,9 @@ pub struct Point {
     pub steps: u64,
     /// Share of the steps with a contact force.
     pub contact_share: f64,
+    /// Contact over the window; absent unless `completed`, and of scenes without contact.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contact: Option<ContactSummary>,
     /// Sum over contact nodes and steps of λ·h, in force·time of the model's units. This and the next numbers are absent
     /// where nothing was integrated or the run overflowed.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -219,4 +223,6 @@ pub struct SpeedResult {
     pub end_state: Option<EndState>,
     /// Of an abradable coating.
     pub wear: Option<WearMap>,
+    /// Of a completed run with contact.
+    pub contact: Option<ContactForces>,
 }

@@ -15,6 +15,7 @@ use faer::c64;
 use super::casing::ramp;
 use super::direction::Direction;
 use super::modal_wheel::ModalWheel;
+use super::oscillators::ModalDamping;
 
 /// A force at one engine order.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,6 +30,35 @@ pub struct EngineOrderExcitation {
     pub phase_rad: f64,
     /// Revolutions over which it grows.
     pub ramp_revolutions: f64,
+}
+
+/// Largest displacements along `to` that the steady response to `excitations` can have, without contact, mistuning or Coriolis forces:
+/// the amplitudes z = f/(ω² − (kΩ)² ± 2jζωkΩ) of all orders added up.
+pub fn steady_amplitudes(
+    wheel: &ModalWheel,
+    excitations: &[EngineOrderExcitation],
+    damping: Option<&ModalDamping>,
+    to: &[Direction],
+) -> Vec<f64> {
+    let mut amplitudes = vec![0.0; to.len()];
+    for excitation in excitations {
+        let force = ModalExcitation::new(excitation, wheel);
+        let modes = &wheel.harmonics[force.harmonic];
+        let frequency = force.order * wheel.speed_rad_s;
+        let moved = |(family, &omega): (usize, &f64)| {
+            let lag = 2.0 * damping.map_or(0.0, |damping| damping.ratio(family)) * omega * frequency;
+            let lag = if force.backwards { -lag } else { lag };
+            force.amplitude[family] / c64::new(omega * omega - frequency * frequency, lag)
+        };
+        let z: Vec<c64> = modes.omega.iter().enumerate().map(moved).collect();
+        let waves = if modes.single { 1.0 } else { 2.0 };
+        let weight = (waves / wheel.sectors as f64).sqrt();
+        for (amplitude, direction) in amplitudes.iter_mut().zip(to) {
+            let at = |(m, z): (usize, &c64)| direction.of(modes.contact.as_ref(), m) * z;
+            *amplitude += weight * z.iter().enumerate().map(at).sum::<c64>().norm();
+        }
+    }
+    amplitudes
 }
 
 /// Its modal forces.

@@ -6,6 +6,7 @@ use crate::resolved::ResolvedSweep;
 use rubmap_wheel::dynamics::casing::{Casing, Restriction, RestrictionTable, clearance_along_chord};
 use rubmap_wheel::dynamics::integrate::MAX_TABLE_VALUES;
 use rubmap_wheel::dynamics::reduction::ReducedWheel;
+use rubmap_wheel::dynamics::sector::ContactNode;
 
 /// The casing of a scene with contact; a casing that nothing touches does not exist for the integration.
 pub(crate) fn casing(
@@ -13,13 +14,8 @@ pub(crate) fn casing(
     request: &ResolvedSweep,
     ramp_revolutions: f64,
 ) -> Option<Casing> {
+    let clearance = clearance(&reduced.contact, request)?;
     let casing = request.scene.casing.as_ref()?;
-    request.scene.contact.as_ref()?;
-    let positions: Vec<_> = reduced.contact.iter().map(|node| node.position).collect();
-    let clearance = match &casing.clearance {
-        Clearance::Each(values) => values.clone(),
-        Clearance::AlongChord { leading, trailing } => clearance_along_chord(*leading, *trailing, &positions),
-    };
     let restriction = casing.lobes.as_ref().map(|lobes| Restriction {
         count: lobes.count,
         amplitude: lobes.amplitude,
@@ -27,6 +23,17 @@ pub(crate) fn casing(
         phase_rad: lobes.phase_rad,
     });
     Some(Casing { clearance, restriction, ramp_revolutions })
+}
+
+/// c of every contact node of a scene with contact.
+pub(crate) fn clearance(contact_nodes: &[ContactNode], request: &ResolvedSweep) -> Option<Vec<f64>> {
+    let casing = request.scene.casing.as_ref()?;
+    request.scene.contact.as_ref()?;
+    let positions: Vec<_> = contact_nodes.iter().map(|node| node.position).collect();
+    Some(match &casing.clearance {
+        Clearance::Each(values) => values.clone(),
+        Clearance::AlongChord { leading, trailing } => clearance_along_chord(*leading, *trailing, &positions),
+    })
 }
 
 /// Whether the casing's heights can be tabulated; the error says what to change.

@@ -1,5 +1,7 @@
 //! What contact does, per contact node and blade.
 
+use super::super::contact::flexibility::outward_normals;
+use super::super::excitation::steady_amplitudes;
 use super::super::sector::ContactNode;
 use super::simulation::Simulation;
 
@@ -27,6 +29,9 @@ pub struct ContactRecord {
     pub pairs: Vec<PairContact>,
     /// Largest sum of all forces, mean over the interval between two samples.
     pub peak_force: f64,
+    /// `[contact node]`: amplitude along the normal of the steady response to the forces at engine orders, were there no contact; empty
+    /// without such forces.
+    pub linear: Vec<f64>,
 }
 
 /// Contact between two samples.
@@ -74,7 +79,12 @@ impl ContactTally {
         let none =
             PairContact { peak_force: 0.0, impulse: 0.0, steps: 0, closings: 0, outward: f64::NEG_INFINITY };
         Self {
-            record: ContactRecord { nodes, pairs: vec![none; pairs], peak_force: 0.0 },
+            record: ContactRecord {
+                nodes,
+                pairs: vec![none; pairs],
+                peak_force: 0.0,
+                linear: linear(simulation),
+            },
             pairs: vec![Recent { force: 0.0, steps: 0, last: u64::MAX }; pairs],
             touched: Vec::with_capacity(pairs),
             force: 0.0,
@@ -157,6 +167,15 @@ impl ContactTally {
 
     pub(super) fn record(&self) -> &ContactRecord {
         &self.record
+    }
+}
+
+/// [`ContactRecord::linear`].
+fn linear(simulation: &Simulation<'_>) -> Vec<f64> {
+    let Simulation { wheel, effects, damping, contact_nodes, .. } = *simulation;
+    match effects.excitation {
+        [] => Vec::new(),
+        forces => steady_amplitudes(wheel, forces, damping, &outward_normals(contact_nodes)),
     }
 }
 

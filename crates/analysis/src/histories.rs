@@ -1,0 +1,168 @@
+//! What happened at one speed of a sweep, simulated again.
+
+use crate::end_state::EndState;
+use crate::error::AnalysisError;
+use crate::model::ReducedSector;
+use crate::monitor::Monitor;
+use crate::record::record_run;
+use crate::request::{Recorded, RecordedQuantity, Sensor};
+use crate::resolve::case_study::{revolutions, wanted};
+use crate::resolved::{ResolvedCaseStudy, ResolvedSweep};
+use crate::result::{ContactHistory, EnergyHistory, Point, PointStatus, SensorHistory, SpeedHistories};
+use crate::speed::{Start, empty_point, ready, run_speed, simulate};
+use crate::summary::critical_indices;
+use rubmap_wheel::dynamics::energy::{EffectWork, EnergyAudit};
+use rubmap_wheel::dynamics::integrate::{Detail, DetailHistory, History, Outcome};
+use rubmap_wheel::revision::VERSION;
+
+/// The case study of the histories that a sweep asks for, if there is a speed to record, from the points of all its speeds.
+pub fn histories_wanted(sweep: &ResolvedSweep, points: &[Point]) -> Option<ResolvedCaseStudy> {
+    let request = sweep.histories()?;
+    let speeds = wanted(request, &critical_indices(sweep, points));
+    let case = ResolvedCaseStudy { sweep: sweep.clone(), speeds, record: request.recorded() };
+    (!case.speeds.is_empty()).then_some(case)
+}
+
+/// Simulates the speed of this `place` in a case study and records it: the run that the sweep had, to the bit. Of a sweep up or down
+/// the speeds before it are simulated as well. Histories of a speed that was not completed are empty, and its point says why.
+///
+/// # Errors
+/// Cancellation.
+pub fn speed_histories(
+    reduced: &ReducedSector,
+    case: &ResolvedCaseStudy,
+    place: usize,
+    monitor: &dyn Monitor,
+) -> Result<SpeedHistories, AnalysisError> {
+    let ResolvedCaseStudy { sweep, record, .. } = case;
+    let index = case.speeds[place] as usize;
+    let start = state_before(reduced, sweep, index, monitor)?;
+    let mut point = empty_point(reduced, sweep, index, sweep.speeds.rad_s()[index]);
+    let [from, to] = revolutions(record, sweep);
+    let contact = record.wants(RecordedQuantity::ContactForce) || record.wants(RecordedQuantity::Contact);
+    let detail = Detail {
+        revolutions: (from as usize, to as usize),
+        velocity: record.wants(RecordedQuantity::Velocity),
+        contact: contact && sweep.scene.contact.is_some(),
+        energy: record.wants(RecordedQuantity::Energy),
+    };
+    let watch = |fraction: f64| {
+        monitor.progress(fraction, "recording histories");
+        !monitor.is_cancelled()
+    };
+    let from_where = start.as_ref().map_or(Start::Scene, Start::After);
+    let ran = ready(reduced, sweep, point.speed_rad_s).and_then(|(wheel, stepping)| {
+        let run = simulate(&reduced.wheel, &wheel, sweep, &stepping, from_where, Some(detail), &watch)?;
+        Ok((wheel, stepping, run))
+    });
+    let mut histories = SpeedHistories {
+        index: index as u32,
+        speed_rad_s: point.speed_rad_s,
+        samples_per_revolution: 0,
+        revolutions: [from, to],
+        sensors: Vec::new(),
+        contact: None,
+        energy: None,
+        point: point.clone(),
+        units: reduced.units.clone(),
+        settings: sweep.clone().into(),
+        version: VERSION.to_owned(),
+    };
+    match ran {
+        Err(reason) => point.message = Some(reason.to_string()),
+        Ok((wheel, stepping, run)) => {
+            record_run(&mut point, &run, sweep, &wheel, &stepping, &reduced.wheel.contact)?;
+            if let (PointStatus::Completed, Outcome::Completed(history)) = (point.status, &run.outcome) {
+                let samples = stepping.discretisation.samples;
+                histories.samples_per_revolution = samples as u32;
+                histories.sensors =
+                    sensors(history, sweep, record, samples * from as usize..samples * to as usize);
+                if let Some(detail) = &history.detail {
+                    histories.contact = detail_contact(detail, record, wheel.sectors, wheel.repeats);
+                    histories.energy = energy(&detail.energy, &point, wheel.repeats);
+                }
+            }
+        }
+    }
+    histories.point = point;
+    Ok(histories)
+}
+
+/// Where the speed before `index` in a sweep up or down ends.
+fn state_before(
+    reduced: &ReducedSector,
+    sweep: &ResolvedSweep,
+    index: usize,
+    monitor: &dyn Monitor,
+) -> Result<Option<EndState>, AnalysisError> {
+    let mut state = None;
+    for before in sweep.chain().unwrap_or_default().into_iter().take_while(|&before| before as usize != index)
+    {
+        state = run_speed(reduced, sweep, before as usize, state.as_ref(), monitor)?.end_state;
+    }
+    Ok(state)
+}
+
+fn sensors(
+    history: &History,
+    sweep: &ResolvedSweep,
+    record: &Recorded,
+    samples: std::ops::Range<usize>,
+) -> Vec<SensorHistory> {
+    let velocity = history.detail.as_ref().map_or(&[][..], |detail| &detail.velocity);
+    let of = |(sensor, &at): (usize, &Sensor)| SensorHistory {
+        sensor: at,
+        displacement: match record.wants(RecordedQuantity::Displacement) {
+            true => history.displacement[sensor][samples.clone()].to_vec(),
+            false => Vec::new(),
+        },
+        velocity: velocity.get(sensor).cloned().unwrap_or_default(),
+    };
+    sweep.sensors.iter().enumerate().map(of).collect()
+}
+
+/// Of one part of a wheel that repeats it: what adds up over the wheel is multiplied.
+fn detail_contact(
+    detail: &DetailHistory,
+    record: &Recorded,
+    sectors: usize,
+    repeats: usize,
+) -> Option<ContactHistory> {
+    if detail.force.is_empty() {
+        return None;
+    }
+    let nodes = detail.force.len() / sectors;
+    let of_the_wheel = |line: &[f64]| line.iter().map(|value| repeats as f64 * value).collect();
+    let mut contact = ContactHistory::default();
+    if record.wants(RecordedQuantity::ContactForce) {
+        contact.force = detail.force.chunks(nodes).map(<[Vec<f64>]>::to_vec).collect();
+    }
+    if record.wants(RecordedQuantity::Contact) {
+        contact.nodes_in_contact = of_the_wheel(&detail.nodes_in_contact);
+        contact.contact_length = of_the_wheel(&detail.contact_length);
+    }
+    Some(contact)
+}
+
+/// Parts that `point` names, of the whole wheel.
+fn energy(audits: &[EnergyAudit], point: &Point, repeats: usize) -> Option<EnergyHistory> {
+    let (named, first) = (point.energy?, audits.first()?);
+    let line = |of: &dyn Fn(&EnergyAudit) -> f64| -> Vec<f64> {
+        audits.iter().map(|audit| repeats as f64 * of(audit)).collect()
+    };
+    let effect = |named: Option<f64>, of: fn(EffectWork) -> f64| match named {
+        Some(_) => line(&|audit| of(audit.effects())),
+        None => Vec::new(),
+    };
+    Some(EnergyHistory {
+        initial: repeats as f64 * first.ends().0,
+        mechanical: line(&|audit| audit.ends().1),
+        contact_work: line(&EnergyAudit::work),
+        damping_loss: line(&EnergyAudit::loss),
+        excitation_work: effect(named.excitation_work, |work| work.excitation),
+        mistuning_work: effect(named.mistuning_work, |work| work.mistuning),
+        casing_work: effect(named.casing_work, |work| work.casing),
+        casing_loss: effect(named.casing_loss, |work| work.casing_loss),
+        friction_heat: effect(named.friction_heat, |work| work.friction_heat),
+    })
+}

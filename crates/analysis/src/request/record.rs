@@ -1,0 +1,154 @@
+//! What is recorded beside spectra.
+
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+/// What a sweep records beside spectra.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Record {
+    /// Histories of some of its speeds, which are simulated once more for them when all are finished: to the bit, since nothing
+    /// that is recorded changes a run.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub histories: Option<HistoriesRequest>,
+}
+
+impl Record {
+    pub(crate) fn is_nothing(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+/// Histories of which speeds, over which revolutions, of what.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(deny_unknown_fields)]
+pub struct HistoriesRequest {
+    /// Indices of speeds in the request, or `critical` (default) for the critical speeds of all sensors.
+    #[serde(default)]
+    pub speeds: HistorySpeeds,
+    /// As of a case study.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub revolutions: Option<[u32; 2]>,
+    /// As of a case study.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(feature = "schema", schema(max_items = 5))]
+    pub quantities: Vec<RecordedQuantity>,
+}
+
+impl HistoriesRequest {
+    /// Over which revolutions, and what.
+    pub(crate) fn recorded(&self) -> Recorded {
+        Recorded { revolutions: self.revolutions, quantities: self.quantities.clone() }
+    }
+}
+
+/// Over which revolutions, and of what.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Recorded {
+    /// Whole revolutions after which recording begins and ends; default: the window.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub revolutions: Option<[u32; 2]>,
+    /// What is recorded; default: everything.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(feature = "schema", schema(max_items = 5))]
+    pub quantities: Vec<RecordedQuantity>,
+}
+
+/// What can be recorded.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum RecordedQuantity {
+    /// Displacements of the sensors.
+    Displacement,
+    /// Their velocities.
+    Velocity,
+    /// The force on every contact node of every blade.
+    ContactForce,
+    /// Number of nodes in contact, and length of the contact lines that touches.
+    Contact,
+    /// Energy and its parts.
+    Energy,
+}
+
+impl Recorded {
+    /// Whether `quantity` is asked for.
+    pub(crate) fn wants(&self, quantity: RecordedQuantity) -> bool {
+        self.quantities.is_empty() || self.quantities.contains(&quantity)
+    }
+}
+
+/// Speeds by index, or the critical ones.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub enum HistorySpeeds {
+    /// The critical speeds of all sensors, once they are known.
+    #[default]
+    Critical,
+    /// These, counted from 0 in the order of the request.
+    Indices(Vec<u32>),
+}
+
+const CRITICAL: &str = "critical";
+
+impl Serialize for HistorySpeeds {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Critical => serializer.serialize_str(CRITICAL),
+            Self::Indices(indices) => indices.serialize(serializer),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for HistorySpeeds {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Visitor;
+        impl<'de> serde::de::Visitor<'de> for Visitor {
+            type Value = HistorySpeeds;
+
+            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str("\"critical\" or a list of indices of speeds")
+            }
+
+            fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<Self::Value, E> {
+                if text == CRITICAL {
+                    Ok(HistorySpeeds::Critical)
+                } else {
+                    Err(E::invalid_value(serde::de::Unexpected::Str(text), &self))
+                }
+            }
+
+            fn visit_seq<A: serde::de::SeqAccess<'de>>(self, list: A) -> Result<Self::Value, A::Error> {
+                let list = serde::de::value::SeqAccessDeserializer::new(list);
+                Vec::deserialize(list).map(HistorySpeeds::Indices)
+            }
+        }
+        deserializer.deserialize_any(Visitor)
+    }
+}
+
+#[cfg(feature = "schema")]
+mod schema {
+    use utoipa::{PartialSchema, ToSchema};
+
+    use super::{CRITICAL, HistorySpeeds};
+
+    impl PartialSchema for HistorySpeeds {
+        fn schema() -> utoipa::openapi::RefOr<utoipa::openapi::schema::Schema> {
+            use utoipa::openapi::schema::{ArrayBuilder, ObjectBuilder, OneOfBuilder, Type};
+            let index =
+                ObjectBuilder::new().schema_type(Type::Integer).minimum(Some(0)).maximum(Some(u32::MAX));
+            OneOfBuilder::new()
+                .description(Some(
+                    "Indices of speeds in the request, or `critical` for the critical speeds of all sensors.",
+                ))
+                .item(ObjectBuilder::new().schema_type(Type::String).enum_values(Some([CRITICAL])))
+                .item(ArrayBuilder::new().items(index))
+                .into()
+        }
+    }
+
+    impl ToSchema for HistorySpeeds {}
+}
