@@ -28,7 +28,26 @@ impl<T: DeserializeOwned + ToSchema> FromRequest<AppState> for JsonBody<T> {
     type Rejection = Problem;
 
     async fn from_request(request: Request, state: &AppState) -> Result<Self, Problem> {
-        expect_media_type(request.headers(), &["application/json"])?;
+        Self::read(request, state, &["application/json"]).await
+    }
+}
+
+/// A merge patch (RFC 7396).
+pub(super) struct MergePatch<T>(pub(super) T);
+
+impl<T: DeserializeOwned + ToSchema> FromRequest<AppState> for MergePatch<T> {
+    type Rejection = Problem;
+
+    async fn from_request(request: Request, state: &AppState) -> Result<Self, Problem> {
+        let accepted = ["application/merge-patch+json", "application/json"];
+        Ok(Self(JsonBody::read(request, state, &accepted).await?.value))
+    }
+}
+
+impl<T: DeserializeOwned + ToSchema> JsonBody<T> {
+    /// Reads a body whose declared type is one of `accepted`.
+    async fn read(request: Request, state: &AppState, accepted: &[&str]) -> Result<Self, Problem> {
+        expect_media_type(request.headers(), accepted)?;
         if declared_bytes(request.headers()) > Some(JSON_BYTES as u64) {
             return Err(json_too_large());
         }

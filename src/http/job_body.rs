@@ -4,8 +4,10 @@ use serde::Serialize;
 use utoipa::ToSchema;
 
 use super::problem::Problem;
+use crate::analysis::request::{ModalAnalysisRequest, StudyRequest, SweepRequest};
 use crate::analysis::result::ReductionReport;
-use crate::store::jobs::{Chosen, JobHead, JobId, JobKind, SpeedCounts};
+use crate::impeller::ImpellerParameters;
+use crate::store::jobs::{Chosen, JobHead, JobId, JobKind, JobRequest, SpeedCounts};
 use crate::store::status::JobStatus;
 
 /// A job.
@@ -16,6 +18,14 @@ pub(super) struct JobBody {
     id: String,
     /// Its kind.
     kind: JobKind,
+    /// What its owner calls it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    name: Option<String>,
+    /// Words to group by.
+    tags: Vec<String>,
+    /// What its owner has noted.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    notes: Option<String>,
     /// How far it is.
     status: JobStatus,
     /// Percent of the work done; never falls, 100 only when successful.
@@ -55,6 +65,8 @@ pub(super) struct JobDetail {
     /// The job.
     #[serde(flatten)]
     pub(super) job: JobBody,
+    /// What was asked for, with every default filled in, and with what `refine` has added so far.
+    pub(super) request: RequestBody,
     /// The settings that were chosen for it, once they are, of a job that asks for an accuracy or gives a budget.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) choice: Option<Chosen>,
@@ -62,6 +74,31 @@ pub(super) struct JobDetail {
     /// between the given speeds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) reduction: Option<ReductionReport>,
+}
+
+/// What a job was asked for.
+#[derive(Debug, Serialize, ToSchema)]
+#[serde(untagged)]
+pub(super) enum RequestBody {
+    /// Of a sweep.
+    Sweep(Box<SweepRequest>),
+    /// Of a modal analysis.
+    ModalAnalysis(ModalAnalysisRequest),
+    /// Of a study.
+    Study(Box<StudyRequest>),
+    /// Of a generated model.
+    ModelGeneration(Box<ImpellerParameters>),
+}
+
+impl From<JobRequest> for RequestBody {
+    fn from(request: JobRequest) -> Self {
+        match request {
+            JobRequest::Sweep(request) => Self::Sweep(Box::new((*request).into())),
+            JobRequest::ModalAnalysis(request) => Self::ModalAnalysis(request.into()),
+            JobRequest::Study(request) => Self::Study(Box::new((*request).into())),
+            JobRequest::ModelGeneration(parameters) => Self::ModelGeneration(parameters),
+        }
+    }
 }
 
 /// A link to something related.
@@ -81,6 +118,9 @@ impl From<JobHead> for JobBody {
         Self {
             id: job.id.to_string(),
             kind,
+            name: job.labels.name,
+            tags: job.labels.tags,
+            notes: job.labels.notes,
             status: job.status,
             progress: job.progress,
             phase: if job.status == JobStatus::Running { job.phase } else { String::new() },

@@ -7,8 +7,9 @@ use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
 
-use super::extract::{JobPath, Parameters, job_not_found};
+use super::extract::{JobPath, MergePatch, Parameters, job_not_found};
 use super::job_body::{JobBody, JobDetail};
+use super::labels::LabelPatch;
 use super::page;
 use super::problem::Problem;
 use super::results::find;
@@ -19,13 +20,24 @@ use crate::store::status::JobStatus;
 use crate::tokens::Principal;
 
 /// Which jobs to list.
-#[derive(Debug, Deserialize, IntoParams)]
+#[derive(Debug, Serialize, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 pub(super) struct JobQuery {
     /// Only jobs with this status.
+    #[serde(skip_serializing_if = "Option::is_none")]
     status: Option<JobStatus>,
     /// Only jobs of this kind.
+    #[serde(skip_serializing_if = "Option::is_none")]
     kind: Option<JobKind>,
+    /// Only jobs that compute from the model of this id, or made it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    model: Option<String>,
+    /// Only jobs with this in their names; letters a to z may be capitals or not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    name: Option<String>,
+    /// Only jobs with this tag.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tag: Option<String>,
     /// Jobs per page, 1 to 500; default 50.
     #[param(minimum = 1, maximum = 500)]
     limit: Option<u32>,
@@ -58,19 +70,16 @@ pub(super) async fn list_jobs(
     let limit = page::limit(query.limit)?;
     let before = page::cursor(query.cursor.as_deref(), JobId::parse)?;
     let owner = whose.only().map(ToOwned::to_owned);
-    let filter = JobFilter { owner, status: query.status, kind: query.kind, before };
+    let JobQuery { status, kind, model, name, tag, .. } = &query;
+    let (model, name, tag) = (model.clone(), name.clone(), tag.clone());
+    let filter = JobFilter { owner, status: *status, kind: *kind, model, name, tag, before };
     // One more than asked for tells whether there is another page.
     let mut jobs = state.store.jobs(filter, limit + 1).await?;
     let next = page::cut(&mut jobs, limit).map(|last| {
-        let mut next = format!("/v1/jobs?limit={limit}&cursor={}", last.id);
-        if let Some(status) = query.status {
-            next += &format!("&status={}", status.as_str());
-        }
-        if let Some(kind) = query.kind {
-            next += &format!("&kind={}", kind.as_str());
-        }
-        next
+        let cursor = Some(last.id.to_string());
+        page::path("/v1/jobs", &JobQuery { limit: Some(limit), cursor, ..query })
     });
+    let next = next.transpose()?;
     for job in &mut jobs {
         tell_phase(&state, job);
     }
@@ -106,7 +115,40 @@ pub(super) async fn get_job(
         }
         _ => None,
     };
-    Ok(Json(JobDetail { job: job.head.into(), choice: job.choice, reduction }))
+    let request = job.request.into();
+    Ok(Json(JobDetail { job: job.head.into(), request, choice: job.choice, reduction }))
+}
+
+/// Call a job otherwise.
+///
+/// A merge patch (RFC 7396): what is left out stays, null takes away. Nothing else of a job can be changed.
+#[utoipa::path(patch, path = "/v1/jobs/{id}", operation_id = "label_job", tag = "jobs",
+    params(("id" = String, Path, description = "Id of the job.")),
+    request_body(content((LabelPatch = "application/merge-patch+json"), (LabelPatch = "application/json"))),
+    responses(
+        (status = 200, description = "The job as it is called now.", body = JobDetail),
+        (status = 400, description = "The body is not JSON; `errors` has line and column.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 404, description = "There is no such job.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 413, description = "The body is too large.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 415, description = "The body is not declared as JSON.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 422, description = "A field is unknown or impossible: `errors` points at it.", body = Problem,
+            content_type = "application/problem+json"),
+    ))]
+pub(super) async fn label_job(
+    state: State<AppState>,
+    whose: Principal,
+    JobPath(id): JobPath,
+    MergePatch(patch): MergePatch<LabelPatch>,
+) -> Result<Json<JobDetail>, Problem> {
+    find(&state, &whose, id).await?;
+    if !state.store.label_job(id, patch.changes()?).await? {
+        return Err(job_not_found(&id));
+    }
+    get_job(state, whose, JobPath(id)).await
 }
 
 /// Cancel a job that has not ended, or delete one that has.

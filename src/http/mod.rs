@@ -11,6 +11,7 @@ mod hosts;
 mod idempotency;
 mod job_body;
 mod jobs;
+mod labels;
 mod metrics;
 mod modal_analyses;
 mod models;

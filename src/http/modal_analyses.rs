@@ -6,6 +6,7 @@ use axum::response::Response;
 
 use super::extract::JsonBody;
 use super::idempotency::IdempotencyKey;
+use super::labels::Labelled;
 use super::problem::Problem;
 use super::state::AppState;
 use super::submit::{self, Receipt};
@@ -14,11 +15,14 @@ use crate::analysis::run::ModalAnalysisPlan;
 use crate::jobs::Submission;
 use crate::tokens::Principal;
 
+/// The body: the request, and what the job is to be called.
+type ModalAnalysisBody = Labelled<ModalAnalysisRequest>;
+
 /// Compute natural frequencies over speed and the linear interaction criterion.
 #[utoipa::path(post, path = "/v1/modal-analyses", operation_id = "create_modal_analysis", tag = "jobs",
     params(("Idempotency-Key" = Option<String>, Header,
         description = "Repeating the request with this key repeats its answer and starts nothing.")),
-    request_body(content = ModalAnalysisRequest, example = json!({
+    request_body(content = ModalAnalysisBody, example = json!({
         "model": "9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08",
         "modes_per_speed": 20,
         "families": 2,
@@ -43,17 +47,18 @@ pub(super) async fn create_modal_analysis(
     state: State<AppState>,
     whose: Principal,
     key: IdempotencyKey,
-    body: JsonBody<ModalAnalysisRequest>,
+    body: JsonBody<ModalAnalysisBody>,
 ) -> Result<Response, Problem> {
-    submit::accept(&state, &whose, key, &body.fingerprint, Submission::ModalAnalysis(Box::new(body.value)))
-        .await
+    let (request, labels) = body.value.parts()?;
+    let submission = (Submission::ModalAnalysis(Box::new(request)), labels);
+    submit::accept(&state, &whose, key, &body.fingerprint, submission).await
 }
 
 /// Say what a modal analysis would do and cost, without starting anything.
 ///
 /// Takes the body of `POST /v1/modal-analyses` and answers at once.
 #[utoipa::path(post, path = "/v1/modal-analyses/plan", operation_id = "plan_modal_analysis", tag = "jobs",
-    request_body(content = ModalAnalysisRequest),
+    request_body(content = ModalAnalysisBody),
     responses(
         (status = 200, description = "The plan.", body = ModalAnalysisPlan),
         (status = 400, description = "The body is not JSON; `errors` has line and column.", body = Problem,
@@ -68,7 +73,7 @@ pub(super) async fn create_modal_analysis(
 pub(super) async fn plan_modal_analysis(
     state: State<AppState>,
     whose: Principal,
-    body: JsonBody<ModalAnalysisRequest>,
+    body: JsonBody<ModalAnalysisBody>,
 ) -> Result<Json<ModalAnalysisPlan>, Problem> {
-    Ok(Json(state.jobs.plan_modal_analysis(&whose, body.value).await?))
+    Ok(Json(state.jobs.plan_modal_analysis(&whose, body.value.parts()?.0).await?))
 }

@@ -4,14 +4,18 @@ use axum::Json;
 use axum::body::Body;
 use axum::extract::{FromRequest, Request, State};
 use axum::http::StatusCode;
+use axum::http::uri::PathAndQuery;
 use axum::response::Response;
 use futures::StreamExt;
 use serde::{Deserialize, Serialize};
 use tokio::io::{AsyncWriteExt, BufWriter};
 use utoipa::{IntoParams, ToSchema};
 
-use super::extract::{JsonBody, ModelPath, Parameters, declared_bytes, expect_media_type, is_media_type};
+use super::extract::{
+    JsonBody, MergePatch, ModelPath, Parameters, declared_bytes, expect_media_type, is_media_type,
+};
 use super::idempotency::{self, IdempotencyKey};
+use super::labels::{LabelPatch, LabelQuery, Labelled};
 use super::page;
 use super::problem::{Kind, Problem, excerpt};
 use super::state::AppState;
@@ -21,8 +25,12 @@ use crate::analysis::run::ModelFacts;
 use crate::impeller::{GenerationPlan, ImpellerRequest};
 use crate::jobs::generation_of;
 use crate::store::idempotency::Answer;
-use crate::store::models::{Deletion, StoredModel};
+use crate::store::labels::Labels;
+use crate::store::models::{Deletion, ModelFilter, StoredModel};
 use crate::tokens::Principal;
+
+/// Parameters of the generator, and what job and model are to be called.
+type GenerationBody = Labelled<ImpellerRequest>;
 
 const JSON: &str = "application/json";
 
@@ -35,8 +43,14 @@ pub(super) struct ModelBody {
     /// Digest of the package's content: the same model is one model, however it was zipped.
     #[schema(example = "9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08")]
     id: String,
+    /// Its `name` is that of the package, unless its owner calls it otherwise.
     #[serde(flatten)]
     facts: ModelFacts,
+    /// Words to group by.
+    tags: Vec<String>,
+    /// What its owner has noted.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    notes: Option<String>,
     /// Size of the zip as uploaded.
     size_bytes: u64,
     /// When it was uploaded first (RFC 3339).
@@ -54,9 +68,15 @@ pub(super) struct ModelDetail {
 }
 
 /// Which models to list.
-#[derive(Debug, Deserialize, IntoParams)]
+#[derive(Debug, Serialize, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 pub(super) struct ModelQuery {
+    /// Only models with this in their names; letters a to z may be capitals or not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    name: Option<String>,
+    /// Only models with this tag.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tag: Option<String>,
     /// Models per page, 1 to 500; default 50.
     #[param(minimum = 1, maximum = 500)]
     limit: Option<u32>,
@@ -82,8 +102,10 @@ pub(super) struct PackageZip(Vec<u8>);
 
 impl From<StoredModel> for ModelBody {
     fn from(model: StoredModel) -> Self {
-        let StoredModel { id, facts, size_bytes, created_at, .. } = model;
-        Self { id, facts, size_bytes, created_at }
+        let StoredModel { id, facts, labels, size_bytes, created_at, .. } = model;
+        let Labels { name, tags, notes } = labels;
+        let facts = ModelFacts { name: name.unwrap_or(facts.name.clone()), ..facts };
+        Self { id, facts, tags, notes, size_bytes, created_at }
     }
 }
 
@@ -95,12 +117,15 @@ impl From<StoredModel> for ModelBody {
 /// Parameters of the generator (`application/json`; what they leave out comes from the preset) become a job of kind
 /// `model_generation`. When it is successful its `model` is the id of the model, the same as of an uploaded package with
 /// that content.
+///
+/// What the model is to be called comes in the query of a package, and beside the parameters of the generator, where the job is
+/// called so as well. A model that is known keeps what it is called; `PATCH` changes it.
 #[utoipa::path(post, path = "/v1/models", operation_id = "create_model", tag = "models",
-    params(("Idempotency-Key" = Option<String>, Header,
+    params(LabelQuery, ("Idempotency-Key" = Option<String>, Header,
         description = "Repeating the request with this key repeats its answer.")),
     request_body(description = "The model package, one impeller sector; or parameters of the generator.", content(
         (PackageZip = "application/zip"),
-        (ImpellerRequest = "application/json"),
+        (GenerationBody = "application/json"),
     )),
     responses(
         (status = 201, description = "The model is new.", body = ModelBody,
@@ -126,17 +151,26 @@ pub(super) async fn create_model(
     state: State<AppState>,
     whose: Principal,
     key: IdempotencyKey,
+    Parameters(query): Parameters<LabelQuery>,
     request: Request,
 ) -> Result<Response, Problem> {
     expect_media_type(request.headers(), &["application/zip", "application/x-zip-compressed", JSON])?;
     if is_media_type(request.headers(), JSON) {
-        let body = JsonBody::<ImpellerRequest>::from_request(request, &state).await?;
-        return submit::accept(&state, &whose, key, &body.fingerprint, generation_of(&body.value)?).await;
+        if !query.is_empty() {
+            let detail = "beside parameters of the generator name, tags and notes are fields of the body";
+            return Err(Problem::new(Kind::InvalidParameter, detail));
+        }
+        let body = JsonBody::<GenerationBody>::from_request(request, &state).await?;
+        let (parameters, labels) = body.value.parts()?;
+        let submission = (generation_of(&parameters)?, labels);
+        return submit::accept(&state, &whose, key, &body.fingerprint, submission).await;
     }
     if declared_bytes(request.headers()) > Some(state.upload_bytes) {
         return Err(too_large(state.upload_bytes));
     }
-    let digest = idempotency::start(request.uri().path());
+    let labels = query.labels()?;
+    let path = request.uri().path_and_query().map_or("", PathAndQuery::as_str);
+    let digest = idempotency::start(path);
     let (upload, digest) = receive(&state, request.into_body(), digest).await?;
     let fingerprint = idempotency::finish(digest);
     if let Some(response) = key.replay(&state.store, &whose, &fingerprint).await? {
@@ -144,7 +178,7 @@ pub(super) async fn create_model(
     }
     let (facts, id) = state.jobs.read_package(upload.to_path_buf(), state.package_limits.clone()).await??;
     let owner = (whose.owner.as_str(), state.limits);
-    let (model, new) = state.store.insert_model(owner, &id, &facts, &upload).await??;
+    let (model, new) = state.store.insert_model(owner, &id, &facts, &labels, &upload).await??;
     tracing::info!(model.id = id, name = facts.name, new, "received a model");
     let answer = Answer {
         owner: whose.owner.clone(),
@@ -162,7 +196,7 @@ pub(super) async fn create_model(
 
 /// Say what generating a model would make and take, without starting anything.
 #[utoipa::path(post, path = "/v1/models/plan", operation_id = "plan_model_generation", tag = "models",
-    request_body(content = ImpellerRequest),
+    request_body(content = GenerationBody),
     responses(
         (status = 200, description = "The plan.", body = GenerationPlan),
         (status = 400, description = "The body is not JSON; `errors` has line and column.", body = Problem,
@@ -176,9 +210,9 @@ pub(super) async fn create_model(
     ))]
 pub(super) async fn plan_model_generation(
     state: State<AppState>,
-    body: JsonBody<ImpellerRequest>,
+    body: JsonBody<GenerationBody>,
 ) -> Result<Json<GenerationPlan>, Problem> {
-    Ok(Json(state.jobs.plan_generation(&body.value).await?))
+    Ok(Json(state.jobs.plan_generation(&body.value.parts()?.0).await?))
 }
 
 /// Writes a body to a temporary file beside the models, piece by piece.
@@ -226,9 +260,18 @@ pub(super) async fn list_models(
     let limit = page::limit(query.limit)?;
     let before = page::cursor(query.cursor.as_deref(), |cursor| cursor.parse().ok())?;
     // One more than asked for tells whether there is another page.
-    let mut models = state.store.models(whose.only(), before, limit + 1).await?;
-    let next =
-        page::cut(&mut models, limit).map(|last| format!("/v1/models?limit={limit}&cursor={}", last.number));
+    let filter = ModelFilter {
+        owner: whose.only().map(ToOwned::to_owned),
+        name: query.name.clone(),
+        tag: query.tag.clone(),
+        before,
+    };
+    let mut models = state.store.models(filter, limit + 1).await?;
+    let next = page::cut(&mut models, limit).map(|last| {
+        let cursor = Some(last.number.to_string());
+        page::path("/v1/models", &ModelQuery { limit: Some(limit), cursor, ..query })
+    });
+    let next = next.transpose()?;
     Ok(Json(ModelList { models: models.into_iter().map(ModelBody::from).collect(), next }))
 }
 
@@ -248,6 +291,38 @@ pub(super) async fn get_model(
     let model = state.store.model(&id, whose.only()).await?.ok_or_else(|| model_not_found(&id))?;
     let reductions = state.store.reduction_reports(&id).await?;
     Ok(Json(ModelDetail { model: model.into(), reductions }))
+}
+
+/// Call a model otherwise.
+///
+/// A merge patch (RFC 7396): what is left out stays, null takes away; without a name of its own a model has that of its package.
+/// Of a model that several owners have each changes what he calls it.
+#[utoipa::path(patch, path = "/v1/models/{id}", operation_id = "label_model", tag = "models",
+    params(("id" = String, Path, description = "Id of the model.")),
+    request_body(content((LabelPatch = "application/merge-patch+json"), (LabelPatch = "application/json"))),
+    responses(
+        (status = 200, description = "The model as it is called now.", body = ModelDetail),
+        (status = 400, description = "The body is not JSON; `errors` has line and column.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 404, description = "There is no such model.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 413, description = "The body is too large.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 415, description = "The body is not declared as JSON.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 422, description = "A field is unknown or impossible: `errors` points at it.", body = Problem,
+            content_type = "application/problem+json"),
+    ))]
+pub(super) async fn label_model(
+    state: State<AppState>,
+    whose: Principal,
+    ModelPath(id): ModelPath,
+    MergePatch(patch): MergePatch<LabelPatch>,
+) -> Result<Json<ModelDetail>, Problem> {
+    if !state.store.label_model(&id, whose.only(), patch.changes()?).await? {
+        return Err(model_not_found(&id));
+    }
+    get_model(state, whose, ModelPath(id)).await
 }
 
 /// Delete a model with its package and reductions.

@@ -1,5 +1,7 @@
 //! Pages of listings.
 
+use serde::Serialize;
+
 use super::problem::Problem;
 
 const DEFAULT_LIMIT: u32 = 50;
@@ -18,6 +20,12 @@ pub(super) fn limit(asked: Option<u32>) -> Result<u32, Problem> {
 pub(super) fn cursor<T>(given: Option<&str>, read: impl Fn(&str) -> Option<T>) -> Result<Option<T>, Problem> {
     let bad = || Problem::parameter("cursor", "not a cursor that this service gave");
     given.map(|cursor| read(cursor).ok_or_else(bad)).transpose()
+}
+
+/// Path of another page of a listing.
+pub(super) fn path(listing: &str, query: &impl Serialize) -> Result<String, Problem> {
+    let query = serde_urlencoded::to_string(query).map_err(std::io::Error::other)?;
+    Ok(format!("{listing}?{query}"))
 }
 
 /// Cuts a listing of up to `limit` + 1 items to a page. Returns the last item if there is another page.

@@ -7,6 +7,7 @@ use utoipa::{IntoParams, ToSchema};
 
 use super::extract::{JobPath, JsonBody, Parameters};
 use super::idempotency::IdempotencyKey;
+use super::labels::Labelled;
 use super::problem::Problem;
 use super::results::{self, find, wrong_kind};
 use super::state::AppState;
@@ -20,6 +21,9 @@ use crate::plot;
 use crate::store::jobs::{Job, JobKind, JobRequest};
 use crate::store::results::Document;
 use crate::tokens::Principal;
+
+/// The body: the request, and what the job is to be called.
+type StudyBody = Labelled<StudyRequest>;
 
 /// Form of a download.
 #[derive(Debug, Clone, Copy, Default, Deserialize, ToSchema)]
@@ -84,7 +88,7 @@ pub(super) struct HistoriesQuery {
 #[utoipa::path(post, path = "/v1/studies", operation_id = "create_study", tag = "jobs",
     params(("Idempotency-Key" = Option<String>, Header,
         description = "Repeating the request with this key repeats its answer and starts nothing.")),
-    request_body(content = StudyRequest, example = json!({
+    request_body(content = StudyBody, example = json!({
         "model": "9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08",
         "speeds": {"values": [24000.0], "unit": "rpm"},
         "scene": {
@@ -120,9 +124,11 @@ pub(super) async fn create_study(
     state: State<AppState>,
     whose: Principal,
     key: IdempotencyKey,
-    body: JsonBody<StudyRequest>,
+    body: JsonBody<StudyBody>,
 ) -> Result<Response, Problem> {
-    submit::accept(&state, &whose, key, &body.fingerprint, Submission::Study(Box::new(body.value))).await
+    let (request, labels) = body.value.parts()?;
+    let submission = (Submission::Study(Box::new(request)), labels);
+    submit::accept(&state, &whose, key, &body.fingerprint, submission).await
 }
 
 /// Download errors and times of a study.

@@ -12,6 +12,7 @@ use super::state::AppState;
 use crate::jobs::{Submission, SubmitError};
 use crate::store::idempotency::Answer;
 use crate::store::jobs::{JobId, JobKind};
+use crate::store::labels::Labels;
 use crate::store::status::JobStatus;
 use crate::tokens::Principal;
 
@@ -29,13 +30,13 @@ pub(super) struct Receipt {
     links: Vec<Link>,
 }
 
-/// Accepts a job, or repeats the answer given before under its key.
+/// Accepts a job, called as its labels say, or repeats the answer given before under its key.
 pub(super) async fn accept(
     state: &AppState,
     whose: &Principal,
     key: IdempotencyKey,
     fingerprint: &str,
-    submission: Submission,
+    (submission, labels): (Submission, Labels),
 ) -> Result<Response, Problem> {
     if let Some(response) = key.replay(&state.store, whose, fingerprint).await? {
         return Ok(response);
@@ -51,7 +52,7 @@ pub(super) async fn accept(
         location: format!("/v1/jobs/{id}"),
         body: serde_json::to_string(&receipt)?,
     };
-    match state.jobs.submit(whose, id, submission, key.answer(fingerprint, &answer).as_ref()).await {
+    match state.jobs.submit(whose, id, submission, labels, key.answer(fingerprint, &answer).as_ref()).await {
         Ok(()) => Ok(idempotency::respond(&answer)),
         Err(error @ SubmitError::KeyTaken) => {
             key.replay(&state.store, whose, fingerprint).await?.ok_or_else(|| error.into())

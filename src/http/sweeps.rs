@@ -6,6 +6,7 @@ use axum::response::Response;
 
 use super::extract::JsonBody;
 use super::idempotency::IdempotencyKey;
+use super::labels::Labelled;
 use super::problem::Problem;
 use super::state::AppState;
 use super::submit::{self, Receipt};
@@ -13,6 +14,9 @@ use crate::analysis::request::SweepRequest;
 use crate::analysis::run::SweepPlan;
 use crate::jobs::Submission;
 use crate::tokens::Principal;
+
+/// The body: the request, and what the job is to be called.
+type SweepBody = Labelled<SweepRequest>;
 
 /// Simulate contact over rotational speeds.
 ///
@@ -23,7 +27,7 @@ use crate::tokens::Principal;
 #[utoipa::path(post, path = "/v1/sweeps", operation_id = "create_sweep", tag = "jobs",
     params(("Idempotency-Key" = Option<String>, Header,
         description = "Repeating the request with this key repeats its answer and starts nothing.")),
-    request_body(content = SweepRequest, example = json!({
+    request_body(content = SweepBody, example = json!({
         "model": "9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08",
         "modes_per_speed": 20,
         "speeds": {"from": 12000.0, "to": 36000.0, "count": 60, "unit": "rpm"},
@@ -62,9 +66,11 @@ pub(super) async fn create_sweep(
     state: State<AppState>,
     whose: Principal,
     key: IdempotencyKey,
-    body: JsonBody<SweepRequest>,
+    body: JsonBody<SweepBody>,
 ) -> Result<Response, Problem> {
-    submit::accept(&state, &whose, key, &body.fingerprint, Submission::Sweep(Box::new(body.value))).await
+    let (request, labels) = body.value.parts()?;
+    let submission = (Submission::Sweep(Box::new(request)), labels);
+    submit::accept(&state, &whose, key, &body.fingerprint, submission).await
 }
 
 /// Say what a sweep would do and cost, without starting anything.
@@ -73,7 +79,7 @@ pub(super) async fn create_sweep(
 /// stored, unknowns, scheme and step with the reason that set them, and the expected computing time and memory, from a
 /// short calibration of this machine. The results of a sweep repeat the estimate beside what was spent.
 #[utoipa::path(post, path = "/v1/sweeps/plan", operation_id = "plan_sweep", tag = "jobs",
-    request_body(content = SweepRequest),
+    request_body(content = SweepBody),
     responses(
         (status = 200, description = "The plan.", body = SweepPlan),
         (status = 400, description = "The body is not JSON; `errors` has line and column.", body = Problem,
@@ -88,7 +94,7 @@ pub(super) async fn create_sweep(
 pub(super) async fn plan_sweep(
     state: State<AppState>,
     whose: Principal,
-    body: JsonBody<SweepRequest>,
+    body: JsonBody<SweepBody>,
 ) -> Result<Json<SweepPlan>, Problem> {
-    Ok(Json(state.jobs.plan_sweep(&whose, body.value).await?))
+    Ok(Json(state.jobs.plan_sweep(&whose, body.value.parts()?.0).await?))
 }

@@ -71,7 +71,10 @@ pub(super) async fn run(
     wanted(0.95, "keeping the model")?;
     // Its place among the owner's models it has had since it was accepted.
     let owner = (job.owner.as_str(), limits::Limits { models: None, ..engine.limits });
-    let keep = || engine.store.insert_model(owner, &id, &facts, &upload);
+    // It is called as the job is by now.
+    let find = || engine.store.job(job.id);
+    let labels = patiently(&job.watch, find).await?.map(|job| job.head.labels).unwrap_or_default();
+    let keep = || engine.store.insert_model(owner, &id, &facts, &labels, &upload);
     let (_, new) = patiently(&job.watch, keep).await?.map_err(Interruption::limit)?;
     tracing::info!(job.id = %job.id, model.id = id, name = facts.name, new, "generated a model");
     finish::complete(engine, job, &[], Some(&id)).await

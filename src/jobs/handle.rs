@@ -19,6 +19,7 @@ use crate::package;
 use crate::store::StoreError;
 use crate::store::idempotency::Answer;
 use crate::store::jobs::{Insertion, JobDeletion, JobId, JobRequest};
+use crate::store::labels::Labels;
 use crate::store::limits::LimitReached;
 use crate::store::status::JobStatus;
 use crate::tokens::Principal;
@@ -71,13 +72,14 @@ impl Jobs {
         Self { engine }
     }
 
-    /// Resolves a submission of `whose` against its model, keeps it as job `id` and queues it. `answer` is what its idempotency
-    /// key will repeat.
+    /// Resolves a submission of `whose` against its model, keeps it as job `id`, called as `labels` say, and queues it.
+    /// `answer` is what its idempotency key will repeat.
     pub async fn submit(
         &self,
         whose: &Principal,
         id: JobId,
         submission: Submission,
+        labels: Labels,
         answer: Option<&Answer>,
     ) -> Result<(), SubmitError> {
         let engine = &self.engine;
@@ -110,7 +112,7 @@ impl Jobs {
         let kept = tokio::spawn(async move {
             let whose = (owner.as_str(), engine.limits);
             let kept =
-                engine.store.insert_job(id, whose, &request, facts.as_ref(), speeds, answer.as_ref()).await;
+                engine.store.insert_job(id, whose, &request, &labels, facts.as_ref(), answer.as_ref()).await;
             // Also where nobody knows whether it was kept: a job that is not there harms nobody.
             if matches!(kept, Ok(Insertion::Accepted) | Err(_)) {
                 engine.queue_preparation(&owner, id);

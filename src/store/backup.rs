@@ -149,10 +149,7 @@ async fn check_models(
     database: &mut SqliteConnection,
     found: &mut Findings,
 ) -> Result<(), StoreError> {
-    for row in sqlx::query("select rowid as number, *, created_at as since from models")
-        .fetch_all(&mut *database)
-        .await?
-    {
+    for row in sqlx::query(models::OWNED).bind(None::<&str>).fetch_all(&mut *database).await? {
         let id: String = row.try_get("id")?;
         if let Err(error) = models::read(&row) {
             found.wrong.push(format!("model {id}: {error}"));

@@ -13,6 +13,7 @@ mod error;
 mod handle;
 pub mod idempotency;
 pub mod jobs;
+pub mod labels;
 mod leftovers;
 pub mod limits;
 pub mod marks;

@@ -2,11 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use sqlx::Row;
 use sqlx::sqlite::SqliteRow;
+use sqlx::{AssertSqlSafe, Row};
 
 use super::error::StoreError;
 use super::handle::Store;
+use super::labels::{self, LabelChanges, Labels, SET, quoted};
 use super::limits::{LimitReached, Limits};
 use super::packages::{self, packages_folder};
 use super::time::now;
@@ -25,11 +26,35 @@ pub struct StoredModel {
     pub id: String,
     /// What requests are checked against.
     pub facts: ModelFacts,
+    /// What its owner calls it; of several owners, the first.
+    pub labels: Labels,
     /// Size of the zip as uploaded.
     pub size_bytes: u64,
     /// RFC 3339.
     pub created_at: String,
 }
+
+/// Which models to list.
+#[derive(Debug, Clone, Default)]
+pub struct ModelFilter {
+    /// Only of this owner.
+    pub owner: Option<String>,
+    /// Only with this in their names, those of their packages where their owner gave none; letters a to z may be capitals or not.
+    pub name: Option<String>,
+    /// Only with this among their tags.
+    pub tag: Option<String>,
+    /// Only older than that with this number: the last of the previous page.
+    pub before: Option<i64>,
+}
+
+/// All models of the owner ?1, or of all; a condition may follow.
+pub(super) const OWNED: &str = "select models.rowid as number, models.id, facts, size_bytes,
+        case when ?1 is null then models.created_at else owned.created_at end as since,
+        owned.name, coalesce(owned.tags, '[]') as tags, owned.notes
+    from models left join model_owners as owned on owned.rowid =
+        (select rowid from model_owners where model = models.id and (?1 is null or owner = ?1)
+         order by created_at, rowid limit 1)
+    where (?1 is null or owned.rowid is not null)";
 
 /// What became of a model that was to be deleted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -56,7 +81,7 @@ impl Store {
     }
 
     /// Keeps the package at `upload`, a file from [`Self::new_upload`], as model `id` of `owner`, within `limits`. Returns the
-    /// model and whether it is new to the owner.
+    /// model and whether it is new to the owner; only then it is called as `labels` say.
     ///
     /// The file comes first: a row promises that its package is there and complete. If the row then finds no room, the
     /// same call may be made again.
@@ -65,6 +90,7 @@ impl Store {
         (owner, limits): (&str, Limits),
         id: &str,
         facts: &ModelFacts,
+        labels: &Labels,
         upload: &Path,
     ) -> Result<Result<(StoredModel, bool), LimitReached>, StoreError> {
         let _packages = self.packages.lock().await;
@@ -101,11 +127,15 @@ impl Store {
         .execute(&mut *write)
         .await?;
         let owned = sqlx::query(
-            "insert into model_owners (model, owner, created_at) values (?, ?, ?) on conflict do nothing",
+            "insert into model_owners (model, owner, created_at, name, tags, notes) values (?, ?, ?, ?, ?, ?)
+             on conflict do nothing",
         )
         .bind(id)
         .bind(owner)
         .bind(now())
+        .bind(&labels.name)
+        .bind(serde_json::to_string(&labels.tags)?)
+        .bind(&labels.notes)
         .execute(&mut *write)
         .await?;
         write.commit().await?;
@@ -115,42 +145,58 @@ impl Store {
 
     /// The model `id`, if `owner` has it; `None` asks for anybody's.
     pub async fn model(&self, id: &str, owner: Option<&str>) -> Result<Option<StoredModel>, StoreError> {
-        sqlx::query(
-            "select rowid as number, *, coalesce(
-                 (select created_at from model_owners where model = id and owner = ?2), created_at) as since
-             from models where id = ?1
-             and (?2 is null or exists (select 1 from model_owners where model = ?1 and owner = ?2))",
-        )
-        .bind(id)
-        .bind(owner)
-        .fetch_optional(&self.readers)
-        .await?
-        .map(|row| read(&row))
-        .transpose()
+        sqlx::query(AssertSqlSafe(format!("{OWNED} and models.id = ?2")))
+            .bind(owner)
+            .bind(id)
+            .fetch_optional(&self.readers)
+            .await?
+            .map(|row| read(&row))
+            .transpose()
     }
 
-    /// Up to `limit` models of `owner` (`None`: of all), newest first; only older ones than that with number `before`.
-    pub async fn models(
-        &self,
-        owner: Option<&str>,
-        before: Option<i64>,
-        limit: u32,
-    ) -> Result<Vec<StoredModel>, StoreError> {
-        sqlx::query(
-            "select rowid as number, *, coalesce(
-                 (select created_at from model_owners where model = id and owner = ?3), created_at) as since
-             from models where (?1 is null or rowid < ?1)
-             and (?3 is null or exists (select 1 from model_owners where model = id and owner = ?3))
-             order by rowid desc limit ?2",
-        )
-        .bind(before)
+    /// Up to `limit` models that pass `filter`, newest first.
+    pub async fn models(&self, filter: ModelFilter, limit: u32) -> Result<Vec<StoredModel>, StoreError> {
+        sqlx::query(AssertSqlSafe(format!(
+            "{OWNED} and (?2 is null or models.rowid < ?2)
+                 and (?3 is null or instr(lower(coalesce(owned.name, models.name)), lower(?3)) > 0)
+                 and (?4 is null or instr(owned.tags, ?4) > 0)
+             order by models.rowid desc limit ?5"
+        )))
+        .bind(filter.owner)
+        .bind(filter.before)
+        .bind(filter.name)
+        .bind(filter.tag.as_deref().map(quoted).transpose()?)
         .bind(limit)
-        .bind(owner)
         .fetch_all(&self.readers)
         .await?
         .iter()
         .map(read)
         .collect()
+    }
+
+    /// Changes what `owner` (`None`: all that have it) calls a model. False if there is no such model.
+    pub async fn label_model(
+        &self,
+        id: &str,
+        owner: Option<&str>,
+        changes: LabelChanges,
+    ) -> Result<bool, StoreError> {
+        let (named, name, tags, noted, notes) = changes.columns()?;
+        let mut write = self.write().await?;
+        let changed = sqlx::query(AssertSqlSafe(format!(
+            "update model_owners set {SET} where model = ?6 and (?7 is null or owner = ?7)"
+        )))
+        .bind(named)
+        .bind(name)
+        .bind(tags)
+        .bind(noted)
+        .bind(notes)
+        .bind(id)
+        .bind(owner)
+        .execute(&mut *write)
+        .await?;
+        write.commit().await?;
+        Ok(changed.rows_affected() > 0)
     }
 
     /// Removes package files without a row: of uploads and deletions that broke off.
@@ -235,6 +281,7 @@ pub(super) fn read(row: &SqliteRow) -> Result<StoredModel, StoreError> {
         number: row.try_get("number")?,
         id: row.try_get("id")?,
         facts: serde_json::from_str(row.try_get("facts")?)?,
+        labels: labels::read(row)?,
         size_bytes: row.try_get::<i64, _>("size_bytes")?.unsigned_abs(),
         created_at: row.try_get("since")?,
     })
@@ -280,10 +327,17 @@ mod tests {
         // SQLite refuses to grow beyond so many pages as it does on a full disk.
         sqlx::query("pragma max_page_count = 1").execute(&store.writer).await.unwrap();
         let whose = ("", Limits::default());
-        assert!(store.insert_model(whose, &id, &facts, &upload).await.unwrap_err().is_disk_full());
+        assert!(
+            store
+                .insert_model(whose, &id, &facts, &Labels::default(), &upload)
+                .await
+                .unwrap_err()
+                .is_disk_full()
+        );
         assert!(store.model(&id, None).await.unwrap().is_none());
         sqlx::query("pragma max_page_count = 100000").execute(&store.writer).await.unwrap();
-        let (model, new) = store.insert_model(whose, &id, &facts, &upload).await.unwrap().unwrap();
+        let (model, new) =
+            store.insert_model(whose, &id, &facts, &Labels::default(), &upload).await.unwrap().unwrap();
         drop(upload);
         assert_eq!((model.size_bytes, new), (7, true));
         assert_eq!(std::fs::read_to_string(store.package_path(&id)).unwrap(), "package");

@@ -12,6 +12,7 @@ mod idempotency;
 mod jobs;
 mod keeping;
 mod kill;
+mod labels;
 mod metrics;
 mod model;
 mod models;

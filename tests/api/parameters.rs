@@ -45,7 +45,7 @@ async fn parameters_are_refused_in_words() {
         (
             "/v1/jobs?Limit=2",
             "Limit",
-            "there is no such parameter; this path takes status, kind, limit, cursor",
+            "there is no such parameter; this path takes status, kind, model, name, tag, limit, cursor",
         ),
         ("/readyz?x", "x", "there is no such parameter; this path takes no parameters"),
         (

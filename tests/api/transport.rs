@@ -245,6 +245,7 @@ async fn answers_say_what_browsers_and_logs_need() {
     let preflight = preflight.header("origin", "https://tools.example").send().await.unwrap();
     assert_eq!(preflight.status(), 200);
     assert!(text(&preflight, "access-control-allow-headers").unwrap().contains("idempotency-key"));
+    assert!(text(&preflight, "access-control-allow-methods").unwrap().contains("PATCH"));
     app.stop().await;
 }
 

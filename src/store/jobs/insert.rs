@@ -7,6 +7,7 @@ use crate::analysis::run::{ModelFacts, REVISION};
 use crate::store::error::StoreError;
 use crate::store::handle::Store;
 use crate::store::idempotency::{self, Answer};
+use crate::store::labels::Labels;
 use crate::store::limits::{LimitReached, Limits};
 use crate::store::time::now;
 
@@ -24,15 +25,15 @@ pub enum Insertion {
 }
 
 impl Store {
-    /// Keeps a new job of `owner`, within `limits`, with the answer its idempotency key will repeat. `facts` are those of the model it computes
-    /// from, if it does.
+    /// Keeps a new job of `owner`, within `limits`, called as `labels` say, with the answer its idempotency key will repeat. `facts`
+    /// are those of the model it computes from, if it does.
     pub async fn insert_job(
         &self,
         id: JobId,
         (owner, limits): (&str, Limits),
         request: &JobRequest,
+        labels: &Labels,
         facts: Option<&ModelFacts>,
-        speeds: u32,
         answer: Option<&Answer>,
     ) -> Result<Insertion, StoreError> {
         let mut transaction = self.write().await?;
@@ -42,6 +43,7 @@ impl Store {
             transaction.rollback().await?;
             return Ok(Insertion::KeyTaken);
         }
+        let speeds = request.speeds();
         let asked = u64::from(speeds.max(1));
         if let Err(reached) = limits.allow_speeds(&mut transaction, owner, asked).await? {
             transaction.rollback().await?;
@@ -56,8 +58,8 @@ impl Store {
         let time = now();
         let inserted = sqlx::query(
             "insert into jobs (id, kind, model, modes_per_speed, facts, request, speeds, created_at, updated_at, owner,
-                 revision)
-             select ?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?8, ?9, ?10
+                 revision, name, tags, notes)
+             select ?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?8, ?9, ?10, ?11, ?12, ?13
              where ?3 is null or exists (select 1 from models where id = ?3)",
         )
         .bind(id.to_string())
@@ -70,6 +72,9 @@ impl Store {
         .bind(time)
         .bind(owner)
         .bind(REVISION)
+        .bind(&labels.name)
+        .bind(serde_json::to_string(&labels.tags)?)
+        .bind(&labels.notes)
         .execute(&mut *transaction)
         .await?;
         if inserted.rows_affected() == 0 {

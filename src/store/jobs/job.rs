@@ -8,6 +8,7 @@ use super::job_kind::JobKind;
 use super::job_request::JobRequest;
 use crate::analysis::error::Violation;
 use crate::analysis::run::{Choice, Estimate, ModelFacts, ModesChoice};
+use crate::store::labels::Labels;
 use crate::store::status::JobStatus;
 
 /// Id of a job: a version 7 UUID, so that order of ids is order of age.
@@ -94,6 +95,8 @@ pub struct JobHead {
     pub owner: String,
     /// Its kind.
     pub kind: JobKind,
+    /// What its owner calls it.
+    pub labels: Labels,
     /// How far it is.
     pub status: JobStatus,
     /// The model it computes from, or the one that a finished generation made.

@@ -7,6 +7,7 @@ mod insert;
 pub(super) mod job;
 mod job_kind;
 mod job_request;
+mod label;
 mod record;
 mod revise;
 mod row;

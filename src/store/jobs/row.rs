@@ -7,6 +7,7 @@ use super::job::{Job, JobHead, JobId, SpeedCounts};
 use super::job_kind::JobKind;
 use super::job_request::JobRequest;
 use crate::store::error::StoreError;
+use crate::store::labels;
 use crate::store::status::JobStatus;
 
 pub(super) async fn status_of(
@@ -26,7 +27,7 @@ pub(super) fn read_id(text: &str) -> Result<JobId, StoreError> {
 
 /// The columns of [`read_head`].
 pub(super) const HEAD: &str = "id, owner, kind, status, model, progress, phase, speeds, finished, diverged, failed, stored_bytes, error,
-    created_at, started_at, finished_at, updated_at";
+    created_at, started_at, finished_at, updated_at, name, tags, notes";
 
 pub(super) fn read_head(row: &SqliteRow) -> Result<JobHead, StoreError> {
     let kind = JobKind::from_column(row.try_get("kind")?)?;
@@ -41,6 +42,7 @@ pub(super) fn read_head(row: &SqliteRow) -> Result<JobHead, StoreError> {
         id: read_id(row.try_get("id")?)?,
         owner: row.try_get("owner")?,
         kind,
+        labels: labels::read(row)?,
         status,
         model: row.try_get("model")?,
         progress: row.try_get("progress")?,

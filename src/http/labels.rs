@@ -1,0 +1,299 @@
+//! What users call their jobs and models: beside the request for a job, in the query of an upload, changed later.
+
+use std::borrow::Cow;
+use std::collections::BTreeSet;
+
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{DeserializeOwned, DeserializeSeed, IntoDeserializer, MapAccess, Visitor};
+use serde::{Deserialize, Deserializer};
+use utoipa::openapi::{RefOr, Schema};
+use utoipa::{IntoParams, PartialSchema, ToSchema};
+
+use super::problem::{Kind, Problem};
+use crate::analysis::error::Violation;
+use crate::store::labels::{LabelChanges, Labels};
+
+/// Longest name, in characters.
+const NAME: usize = 200;
+
+/// Most tags.
+const TAGS: usize = 20;
+
+/// Longest tag, in characters.
+const TAG: usize = 50;
+
+/// Longest notes, in characters.
+const NOTES: usize = 4000;
+
+/// Labels as they come with a request.
+#[derive(Debug, Default, Deserialize, ToSchema)]
+#[serde(default)]
+struct Given {
+    /// What it is to be called; nothing is computed from it.
+    #[schema(max_length = 200)]
+    name: Option<String>,
+    /// Words to group by, of up to 50 characters without commas.
+    #[schema(max_items = 20)]
+    tags: Vec<String>,
+    /// Anything worth remembering.
+    #[schema(max_length = 4000)]
+    notes: Option<String>,
+}
+
+/// A request for a job with what the job is to be called, which is no part of what is computed.
+#[derive(Debug)]
+pub(super) struct Labelled<T> {
+    request: T,
+    given: Given,
+}
+
+impl<T> Labelled<T> {
+    /// The request and its labels.
+    ///
+    /// # Errors
+    /// Labels that cannot be.
+    pub(super) fn parts(self) -> Result<(T, Labels), Problem> {
+        Ok((self.request, self.given.labels()?))
+    }
+}
+
+impl Given {
+    fn labels(self) -> Result<Labels, Problem> {
+        let labels = Labels { name: self.name, tags: self.tags, notes: self.notes };
+        let violations = check(labels.name.as_deref(), &labels.tags, labels.notes.as_deref());
+        if violations.is_empty() { Ok(labels) } else { Err(refused(violations)) }
+    }
+}
+
+/// Labels of an uploaded package.
+#[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+pub(super) struct LabelQuery {
+    /// Of a package: what the model is to be called in place of the package's own name, in up to 200 characters.
+    name: Option<String>,
+    /// Of a package: up to 20 words to group by, with commas between them.
+    tags: Option<String>,
+    /// Of a package: anything worth remembering, in up to 4000 characters.
+    notes: Option<String>,
+}
+
+impl LabelQuery {
+    /// The labels.
+    ///
+    /// # Errors
+    /// Labels that cannot be.
+    pub(super) fn labels(self) -> Result<Labels, Problem> {
+        let tags = self.tags.as_deref().unwrap_or_default().split(',').filter(|tag| !tag.is_empty());
+        let labels =
+            Labels { name: self.name, tags: tags.map(ToOwned::to_owned).collect(), notes: self.notes };
+        match check(labels.name.as_deref(), &labels.tags, labels.notes.as_deref()).first() {
+            None => Ok(labels),
+            Some(Violation { pointer, message }) => {
+                let parameter = pointer.split('/').nth(1).unwrap_or_default();
+                Err(Problem::parameter(parameter, message.as_str()))
+            }
+        }
+    }
+
+    /// Whether there is none.
+    pub(super) fn is_empty(&self) -> bool {
+        self.name.is_none() && self.tags.is_none() && self.notes.is_none()
+    }
+}
+
+/// Changes of labels as a merge patch (RFC 7396): what is left out stays, null takes away.
+#[derive(Debug, Default, Deserialize, ToSchema)]
+#[serde(default, deny_unknown_fields)]
+pub(super) struct LabelPatch {
+    /// What it is to be called.
+    #[schema(max_length = 200)]
+    #[serde(deserialize_with = "some")]
+    #[schema(value_type = Option<String>)]
+    name: Option<Option<String>>,
+    /// Words to group by in place of those there are, of up to 50 characters without commas.
+    #[schema(max_items = 20)]
+    #[serde(deserialize_with = "some")]
+    #[schema(value_type = Option<Vec<String>>)]
+    tags: Option<Option<Vec<String>>>,
+    /// Anything worth remembering.
+    #[schema(max_length = 4000)]
+    #[serde(deserialize_with = "some")]
+    #[schema(value_type = Option<String>)]
+    notes: Option<Option<String>>,
+}
+
+/// Null is something else than nothing.
+fn some<'de, T: Deserialize<'de>, D: Deserializer<'de>>(deserializer: D) -> Result<Option<T>, D::Error> {
+    T::deserialize(deserializer).map(Some)
+}
+
+impl LabelPatch {
+    /// The changes.
+    ///
+    /// # Errors
+    /// Labels that cannot be.
+    pub(super) fn changes(self) -> Result<LabelChanges, Problem> {
+        let changes = LabelChanges {
+            name: self.name,
+            tags: self.tags.map(Option::unwrap_or_default),
+            notes: self.notes,
+        };
+        let text = |change: &Option<Option<String>>| change.clone().flatten();
+        let (name, notes) = (text(&changes.name), text(&changes.notes));
+        let tags = changes.tags.as_deref().unwrap_or_default();
+        let violations = check(name.as_deref(), tags, notes.as_deref());
+        if violations.is_empty() { Ok(changes) } else { Err(refused(violations)) }
+    }
+}
+
+fn refused(violations: Vec<Violation>) -> Problem {
+    Problem::violations(Kind::InvalidRequest, violations)
+}
+
+fn check(name: Option<&str>, tags: &[String], notes: Option<&str>) -> Vec<Violation> {
+    let mut found = Vec::new();
+    let mut refuse = |pointer: String, message: &str| found.push(Violation::new(pointer, message));
+    if name.is_some_and(|name| name.trim().is_empty() || is_longer(name, NAME) || has_control(name)) {
+        refuse("/name".to_owned(), "a name has 1 to 200 characters, not all of them blank, on one line");
+    }
+    if tags.len() > TAGS {
+        refuse("/tags".to_owned(), "there may be 20 tags at most");
+    }
+    let mut seen = BTreeSet::new();
+    for (index, tag) in tags.iter().enumerate() {
+        let pointer = || format!("/tags/{index}");
+        if tag.trim().is_empty() || is_longer(tag, TAG) || has_control(tag) || tag.contains(',') {
+            refuse(
+                pointer(),
+                "a tag has 1 to 50 characters, not all of them blank, on one line, and no commas",
+            );
+        } else if !seen.insert(tag) {
+            refuse(pointer(), "this tag is given twice; give it once");
+        }
+    }
+    if notes.is_some_and(|notes| is_longer(notes, NOTES)) {
+        refuse("/notes".to_owned(), "notes have 4000 characters at most");
+    }
+    found
+}
+
+fn is_longer(text: &str, most: usize) -> bool {
+    text.chars().nth(most).is_some()
+}
+
+fn has_control(text: &str) -> bool {
+    text.chars().any(char::is_control)
+}
+
+impl<T: ToSchema> ToSchema for Labelled<T> {
+    fn name() -> Cow<'static, str> {
+        format!("Labelled{}", T::name()).into()
+    }
+
+    fn schemas(schemas: &mut Vec<(String, RefOr<Schema>)>) {
+        T::schemas(schemas);
+    }
+}
+
+impl<T: PartialSchema> PartialSchema for Labelled<T> {
+    /// The schema of the request with the fields of labels.
+    fn schema() -> RefOr<Schema> {
+        let mut schema = T::schema();
+        if let (RefOr::T(Schema::Object(object)), RefOr::T(Schema::Object(given))) =
+            (&mut schema, Given::schema())
+        {
+            object.properties.extend(given.properties);
+        }
+        schema
+    }
+}
+
+impl<'de, T: DeserializeOwned> Deserialize<'de> for Labelled<T> {
+    /// Takes the labels out on the way: the request knows no such fields, and refuses what it does not know.
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Apart<T>(std::marker::PhantomData<T>);
+
+        impl<'de, T: DeserializeOwned> Visitor<'de> for Apart<T> {
+            type Value = Labelled<T>;
+
+            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str("an object")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Labelled<T>, A::Error> {
+                let mut given = Given::default();
+                let rest = WithoutLabels { map, given: &mut given };
+                Ok(Labelled { request: T::deserialize(MapAccessDeserializer::new(rest))?, given })
+            }
+        }
+
+        deserializer.deserialize_map(Apart(std::marker::PhantomData))
+    }
+}
+
+/// What is in a map beside labels, which are put aside.
+struct WithoutLabels<'a, A> {
+    map: A,
+    given: &'a mut Given,
+}
+
+impl<'de, A: MapAccess<'de>> MapAccess<'de> for WithoutLabels<'_, A> {
+    type Error = A::Error;
+
+    fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Result<Option<K::Value>, A::Error> {
+        while let Some(key) = self.map.next_key::<String>()? {
+            match key.as_str() {
+                "name" => self.given.name = self.map.next_value()?,
+                "tags" => self.given.tags = self.map.next_value()?,
+                "notes" => self.given.notes = self.map.next_value()?,
+                _ => return seed.deserialize(key.into_deserializer()).map(Some),
+            }
+        }
+        Ok(None)
+    }
+
+    fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Result<V::Value, A::Error> {
+        self.map.next_value_seed(seed)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+    use crate::analysis::request::SweepRequest;
+    use crate::impeller::ImpellerRequest;
+
+    #[test]
+    fn labels_are_no_part_of_a_request() {
+        let plain = json!({"model": "m", "scene": {}, "speeds": {"values": [0.1, 1e300, 3], "unit": "hz"}});
+        let mut labelled = plain.clone();
+        labelled["tags"] = json!(["a", "b"]);
+        labelled["name"] = json!("Mine");
+        let read: Labelled<SweepRequest> = serde_json::from_str(&labelled.to_string()).unwrap();
+        let (request, labels) = read.parts().unwrap();
+        assert_eq!(request, serde_json::from_value(plain).unwrap());
+        assert_eq!(labels.tags, ["a", "b"]);
+        assert_eq!((labels.name.as_deref(), labels.notes), (Some("Mine"), None));
+
+        // A request that takes what it does not know.
+        let read: Labelled<ImpellerRequest> =
+            serde_json::from_value(json!({"preset": "small", "sectors": 9, "notes": "n"})).unwrap();
+        let (request, labels) = read.parts().unwrap();
+        assert_eq!((request.overrides.len(), labels.notes.as_deref()), (1, Some("n")));
+    }
+
+    #[test]
+    fn labels_that_cannot_be_are_pointed_at() {
+        let tags = |tags: &[&str]| tags.iter().map(ToString::to_string).collect::<Vec<_>>();
+        let long = |length: usize| "ä".repeat(length);
+        let (name, tag, notes) = (long(NAME), long(TAG), long(NOTES));
+        assert!(check(Some(&name), &tags(&[&tag, "a b"]), Some(&notes)).is_empty());
+        let wrong =
+            check(Some("two\nlines"), &tags(&["a", " ", "a", "b,c", &long(TAG + 1)]), Some(&long(NOTES + 1)));
+        let pointers: Vec<_> = wrong.iter().map(|violation| violation.pointer.as_str()).collect();
+        assert_eq!(pointers, ["/name", "/tags/1", "/tags/2", "/tags/3", "/tags/4", "/notes"]);
+        assert_eq!(check(Some(&long(NAME + 1)), &vec!["t".to_owned(); TAGS + 1], None)[1].pointer, "/tags");
+    }
+}
