@@ -4,7 +4,7 @@ use serde::Serialize;
 use utoipa::ToSchema;
 
 use super::problem::Problem;
-use crate::analysis::request::{ModalAnalysisRequest, StudyRequest, SweepRequest};
+use crate::analysis::request::{CaseStudySettings, ModalAnalysisRequest, StudyRequest, SweepRequest};
 use crate::analysis::result::ReductionReport;
 use crate::impeller::ImpellerParameters;
 use crate::store::jobs::{Chosen, JobHead, JobId, JobKind, JobRequest, SpeedCounts};
@@ -86,6 +86,8 @@ pub(super) enum RequestBody {
     ModalAnalysis(ModalAnalysisRequest),
     /// Of a study.
     Study(Box<StudyRequest>),
+    /// Of a case study.
+    CaseStudy(Box<CaseStudySettings>),
     /// Of a generated model.
     ModelGeneration(Box<ImpellerParameters>),
 }
@@ -96,6 +98,7 @@ impl From<JobRequest> for RequestBody {
             JobRequest::Sweep(request) => Self::Sweep(Box::new((*request).into())),
             JobRequest::ModalAnalysis(request) => Self::ModalAnalysis(request.into()),
             JobRequest::Study(request) => Self::Study(Box::new((*request).into())),
+            JobRequest::CaseStudy(case) => Self::CaseStudy(Box::new((*case).into())),
             JobRequest::ModelGeneration(parameters) => Self::ModelGeneration(parameters),
         }
     }
@@ -107,7 +110,7 @@ pub(super) struct Link {
     /// Path on this service.
     #[schema(example = "/v1/jobs/0198c5a2-7c1e-7d54-9f3b-2f6d7a6f4b10/interaction-map")]
     href: String,
-    /// What it is: `self`, `interaction-map`, `critical-speeds`, `spectra` (with a `{index}` to fill in), `campbell`,
+    /// What it is: `self`, `interaction-map`, `critical-speeds`, `wheel-critical-speeds`, `forces`, `spectra` (with a `{index}` to fill in), `campbell`,
     /// `work-precision`, `histories` or `model`.
     rel: &'static str,
 }
@@ -143,11 +146,14 @@ pub(super) fn links(id: JobId, kind: JobKind, model: Option<&str>) -> Vec<Link> 
         JobKind::Sweep => &[
             ("interaction-map", "/interaction-map"),
             ("critical-speeds", "/critical-speeds"),
+            ("wheel-critical-speeds", "/critical-speeds/wheel"),
             ("spectra", "/spectra/{index}"),
+            ("forces", "/forces"),
         ],
         JobKind::ModalAnalysis => &[("campbell", "/campbell")],
         JobKind::ModelGeneration => &[],
         JobKind::Study => &[("work-precision", "/work-precision"), ("histories", "/histories")],
+        JobKind::CaseStudy => &[("histories", "/histories")],
     };
     let model = model.map(|model| Link { href: format!("/v1/models/{model}"), rel: "model" });
     [("self", "")]

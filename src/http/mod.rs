@@ -2,9 +2,11 @@
 
 mod access;
 mod body;
+mod case_studies;
 mod contract;
 mod document;
 mod extract;
+mod forces;
 mod health;
 mod host;
 mod hosts;
@@ -32,6 +34,7 @@ mod submit;
 mod sweeps;
 mod transport;
 mod version;
+mod wheel;
 
 pub use contract::Contract;
 pub use document::document;

@@ -15,7 +15,7 @@ use super::state::AppState;
 use super::stream::{self, Leave};
 use crate::analysis::resolved::ResolvedSweep;
 use crate::analysis::result::{
-    Campbell, CriticalSpeeds, InteractionMap, Point, SpeedResult, SpeedSpectra, WearMap,
+    Campbell, ContactForces, CriticalSpeeds, InteractionMap, Point, SpeedResult, SpeedSpectra, WearMap,
 };
 use crate::analysis::run::{self, ModelFacts};
 use crate::dynamics::sector::Units;
@@ -65,6 +65,9 @@ pub(super) struct SpectraBody {
     /// Wear of an abradable coating; absent without one.
     #[serde(skip_serializing_if = "Option::is_none")]
     wear: Option<WearMap>,
+    /// Contact over the window, blade by blade; absent without.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    contact: Option<ContactForces>,
 }
 
 /// Download the interaction map: amplitude over speed and engine order.
@@ -163,9 +166,9 @@ pub(super) async fn get_spectra(
     let (result, leave) = stream::blocking(read).await??;
     match result {
         Some(result) => {
-            let SpeedResult { point, spectra, wear, .. } = result;
+            let SpeedResult { point, spectra, wear, contact, .. } = result;
             let units = facts.units.clone();
-            Ok(stream::json(leave, move || SpectraBody { point, units, spectra, wear }))
+            Ok(stream::json(leave, move || SpectraBody { point, units, spectra, wear, contact }))
         }
         None if job.status.is_final() => Err(Problem::new(
             Kind::SpeedNotFound,
@@ -230,7 +233,7 @@ pub(super) async fn find(state: &AppState, whose: &Principal, id: JobId) -> Resu
 }
 
 /// The request of a sweep and the facts of its model.
-fn sweep(job: &Job) -> Result<(&ResolvedSweep, &ModelFacts), Problem> {
+pub(super) fn sweep(job: &Job) -> Result<(&ResolvedSweep, &ModelFacts), Problem> {
     match (&job.request, &job.facts) {
         (JobRequest::Sweep(request), Some(facts)) => Ok((request, facts)),
         _ => Err(wrong_kind(job, JobKind::Sweep)),
@@ -290,6 +293,18 @@ fn read(
 async fn leave_for(state: &AppState, job: &Job, document: Document, times: u64) -> Result<Leave, Problem> {
     if let Some(bytes) = state.store.document_bytes(job.id, document).await? {
         return Ok(state.answers.leave(&state.jobs, times * bytes).await);
+    }
+    if let (Document::Histories(speed), JobStatus::Successful) = (document, job.status) {
+        let detail = match job.request {
+            JobRequest::Sweep(_) => format!(
+                "nothing was recorded of speed {speed}: POST /v1/jobs/{}/histories with {{\"speeds\": [{speed}]}} records it",
+                job.id
+            ),
+            _ => {
+                format!("the job has no histories of speed {speed}; its request says of which speeds it has")
+            }
+        };
+        return Err(Problem::new(Kind::HistoryNotRecorded, detail));
     }
     let instead = match document {
         Document::CriticalSpeeds(_) => {

@@ -17,8 +17,8 @@ use utoipa_axum::routes;
 
 use super::state::AppState;
 use super::{
-    access, body, contract, extract, health, host, jobs, metrics, modal_analyses, models, openapi, principal,
-    problem, results, studies, sweeps, version,
+    access, body, case_studies, contract, extract, forces, health, host, jobs, metrics, modal_analyses,
+    models, openapi, principal, problem, results, studies, sweeps, version, wheel,
 };
 
 /// The routes with their descriptions.
@@ -32,14 +32,17 @@ pub(super) fn routes() -> OpenApiRouter<AppState> {
         .routes(routes!(sweeps::create_sweep))
         .routes(routes!(sweeps::plan_sweep))
         .routes(routes!(studies::create_study))
+        .routes(routes!(case_studies::create_case_study))
         .routes(routes!(jobs::list_jobs))
         .routes(routes!(jobs::get_job, jobs::label_job, jobs::delete_job))
         .routes(routes!(results::get_campbell))
         .routes(routes!(results::get_interaction_map))
         .routes(routes!(results::get_spectra))
         .routes(routes!(results::get_critical_speeds))
+        .routes(routes!(wheel::get_wheel_critical_speeds))
         .routes(routes!(studies::get_work_precision))
-        .routes(routes!(studies::get_histories))
+        .routes(routes!(studies::get_histories, case_studies::create_histories))
+        .routes(routes!(forces::get_forces))
         .routes(routes!(health::get_health))
         .routes(routes!(health::get_readiness))
         .routes(routes!(metrics::get_metrics))

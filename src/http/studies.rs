@@ -186,6 +186,9 @@ pub(super) async fn get_histories(
     Parameters(query): Parameters<HistoriesQuery>,
 ) -> Result<Response, Problem> {
     let job = find(&state, &whose, id).await?;
+    if matches!(job.request, JobRequest::Sweep(_) | JobRequest::CaseStudy(_)) {
+        return results::document(&state, &job, Document::Histories(query.speed)).await;
+    }
     let request = check_speed(&job, query.speed)?;
     let sensors = request.sensors().len();
     if query.sensor as usize >= sensors {

@@ -99,7 +99,10 @@ async fn until_taken<P: Future<Output = Result<(), StoreError>>>(push: impl Fn()
 fn chain(request: &JobRequest) -> Option<Vec<u32>> {
     match request {
         JobRequest::Sweep(sweep) => sweep.chain(),
-        JobRequest::ModalAnalysis(_) | JobRequest::ModelGeneration(_) | JobRequest::Study(_) => None,
+        JobRequest::ModalAnalysis(_)
+        | JobRequest::ModelGeneration(_)
+        | JobRequest::Study(_)
+        | JobRequest::CaseStudy(_) => None,
     }
 }
 

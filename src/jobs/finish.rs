@@ -1,10 +1,10 @@
 //! The end of a sweep: what can only be said of all its speeds together.
 
-use super::control;
 use super::engine::{Engine, Live};
 use super::error::Interruption;
 use super::patience::patiently;
 use super::progress::PhaseMonitor;
+use super::{control, histories};
 use crate::analysis::resolved::ResolvedSweep;
 use crate::analysis::result::Point;
 use crate::analysis::run;
@@ -54,8 +54,15 @@ async fn conclude(
     let monitor = PhaseMonitor::uncounted(job.watch.clone());
     let reduced = engine.reductions.get(request.model(), request.modes_per_speed(), monitor).await?;
     let errors = control::errors(engine, job, request, &points).await?;
+    let recorded = match run::histories_wanted(request, &points) {
+        Some(case) => {
+            histories::record(engine, job, &case, PhaseMonitor::uncounted(job.watch.clone())).await?
+        }
+        None => Vec::new(),
+    };
     let (settings, estimate) = (request.clone(), errors.clone());
     let monitor = PhaseMonitor::uncounted(job.watch.clone());
+    let all = points.clone();
     let compute = move || run::critical_speeds(&reduced, &settings, &points, estimate.as_ref(), &monitor);
     let mut tables = engine.computing.run(&job.watch, compute).await??;
     let plan = engine.store.job(job.id).await?.and_then(|job| job.plan);
@@ -64,9 +71,13 @@ async fn conclude(
         .zip(&tables)
         .map(|(sensor, table)| Ok((Document::CriticalSpeeds(sensor), serde_json::to_string(table)?)))
         .collect::<Result<Vec<_>, serde_json::Error>>()?;
+    if let Some(wheel) = run::wheel_critical_speeds(request, &all, errors.as_ref(), &tables) {
+        documents.push((Document::WheelCriticalSpeeds, serde_json::to_string(&wheel)?));
+    }
     if let Some(errors) = &errors {
         documents.push((Document::Errors, serde_json::to_string(errors)?));
     }
+    documents.extend(recorded);
     complete(engine, job, &documents, None).await
 }
 

@@ -101,6 +101,18 @@ impl Jobs {
                 let request = run::resolve_study(*request, &facts).map_err(refused)?;
                 (JobRequest::Study(Box::new(request)), Some(facts))
             }
+            Submission::CaseStudy(request) => {
+                let facts = self.facts(whose, &request.model).await?;
+                let case = run::resolve_case_study(*request, &facts).map_err(refused)?;
+                self.check(case.sweep()).await?;
+                (JobRequest::CaseStudy(Box::new(case)), Some(facts))
+            }
+            Submission::Histories(of) => {
+                let (sweep, critical, request) = *of;
+                let facts = self.facts(whose, sweep.model()).await?;
+                let case = run::histories_of(&sweep, &request, &critical, &facts).map_err(refused)?;
+                (JobRequest::CaseStudy(Box::new(case)), Some(facts))
+            }
             Submission::ModelGeneration(parameters) => (JobRequest::ModelGeneration(parameters), None),
         };
         let speeds = request.speeds();

@@ -29,6 +29,7 @@ mod error;
 mod finish;
 mod generation;
 mod handle;
+mod histories;
 mod memory;
 mod modal_analysis;
 mod patience;

@@ -1,6 +1,11 @@
 //! What is asked for, as it came.
 
-use crate::analysis::request::{ModalAnalysisRequest, StudyRequest, SweepRequest};
+use std::collections::BTreeSet;
+
+use crate::analysis::request::{
+    CaseStudyRequest, HistoriesRequest, ModalAnalysisRequest, StudyRequest, SweepRequest,
+};
+use crate::analysis::resolved::ResolvedSweep;
 use crate::impeller::ImpellerParameters;
 use crate::store::jobs::JobKind;
 
@@ -15,6 +20,10 @@ pub enum Submission {
     ModelGeneration(Box<ImpellerParameters>),
     /// Errors and times of a grid of settings.
     Study(Box<StudyRequest>),
+    /// One speed with everything recorded.
+    CaseStudy(Box<CaseStudyRequest>),
+    /// Histories of a sweep that has ended, with the indices of its critical speeds.
+    Histories(Box<(ResolvedSweep, BTreeSet<u32>, HistoriesRequest)>),
 }
 
 impl Submission {
@@ -25,6 +34,7 @@ impl Submission {
             Self::ModalAnalysis(_) => JobKind::ModalAnalysis,
             Self::ModelGeneration(_) => JobKind::ModelGeneration,
             Self::Study(_) => JobKind::Study,
+            Self::CaseStudy(_) | Self::Histories(_) => JobKind::CaseStudy,
         }
     }
 
@@ -35,6 +45,8 @@ impl Submission {
             Self::ModalAnalysis(request) => Some(&request.model),
             Self::ModelGeneration(_) => None,
             Self::Study(request) => Some(&request.model),
+            Self::CaseStudy(request) => Some(&request.model),
+            Self::Histories(of) => Some(of.0.model()),
         }
     }
 }

@@ -183,8 +183,9 @@ async fn check_jobs(database: &mut SqliteConnection, found: &mut Findings) -> Re
         }
     }
     drop(rows);
-    let mut rows = sqlx::query("select job, speed, point, spectra, unpacked_bytes, wear from speed_results")
-        .fetch(&mut *database);
+    let mut rows =
+        sqlx::query("select job, speed, point, spectra, unpacked_bytes, wear, contact from speed_results")
+            .fetch(&mut *database);
     while let Some(row) = rows.try_next().await? {
         match results::read(&row) {
             Ok(_) => found.speeds += 1,

@@ -72,6 +72,7 @@ mod tests {
             point: serde_json::from_value(point).unwrap(),
             spectra: None,
             wear: None,
+            contact: None,
             end_state: state.map(|x| EndState(vec![x, 0.1 + 0.2])),
         }
     }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use futures::TryStreamExt;
 use sqlx::Row;
 use sqlx::sqlite::SqliteRow;
 
@@ -10,7 +11,7 @@ use super::handle::Store;
 use super::jobs::job::JobId;
 use super::time::now;
 use super::{end_states, packed};
-use crate::analysis::result::{Point, PointStatus, SpeedResult, SpeedSpectra, WearMap};
+use crate::analysis::result::{ContactForces, Point, PointStatus, SpeedResult, SpeedSpectra, WearMap};
 
 /// A document computed at the end of a job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -19,11 +20,13 @@ pub enum Document {
     Campbell,
     /// Critical speeds of a sweep at the sensor of this index.
     CriticalSpeeds(u32),
+    /// Critical speeds of the wheel as a whole.
+    WheelCriticalSpeeds,
     /// Estimated errors of a sweep.
     Errors,
     /// Errors and times of a study.
     WorkPrecision,
-    /// Histories of a study at the speed of this index.
+    /// Histories at the speed of this index.
     Histories(u32),
 }
 
@@ -33,6 +36,7 @@ impl Document {
         match self {
             Self::Campbell => ("campbell", 0),
             Self::CriticalSpeeds(sensor) => ("critical_speeds", sensor),
+            Self::WheelCriticalSpeeds => ("wheel_critical_speeds", 0),
             Self::Errors => ("errors", 0),
             Self::WorkPrecision => ("work_precision", 0),
             Self::Histories(speed) => ("histories", speed),
@@ -49,6 +53,7 @@ pub struct PackedSpeed {
     /// With the bytes that they take unpacked.
     spectra: Option<(Vec<u8>, u64)>,
     wear: Option<Vec<u8>>,
+    contact: Option<Vec<u8>>,
     end_state: Option<Vec<u8>>,
 }
 
@@ -61,6 +66,7 @@ impl PackedSpeed {
             point: serde_json::to_string(&result.point)?,
             spectra: result.spectra.as_ref().map(packed::pack).transpose()?,
             wear: result.wear.as_ref().map(postcard::to_stdvec).transpose()?,
+            contact: result.contact.as_ref().map(postcard::to_stdvec).transpose()?,
             end_state: result.end_state.as_ref().map(postcard::to_stdvec).transpose()?,
         })
     }
@@ -68,7 +74,8 @@ impl PackedSpeed {
     /// Bytes that are kept until the job is deleted.
     fn bytes(&self) -> usize {
         let spectra = self.spectra.as_ref().map_or(0, |(bytes, _)| bytes.len());
-        self.point.len() + spectra + self.wear.as_ref().map_or(0, Vec::len)
+        let lists = [&self.wear, &self.contact].into_iter().flatten();
+        self.point.len() + spectra + lists.map(Vec::len).sum::<usize>()
     }
 }
 
@@ -79,8 +86,8 @@ impl Store {
     pub async fn insert_speed(&self, job: JobId, speed: &PackedSpeed) -> Result<Option<u32>, StoreError> {
         let mut transaction = self.write().await?;
         let inserted = sqlx::query(
-            "insert into speed_results (job, speed, status, point, spectra, unpacked_bytes, wear, created_at)
-             select ?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8 where exists (select 1 from jobs where id = ?1 and deleted = 0)
+            "insert into speed_results (job, speed, status, point, spectra, unpacked_bytes, wear, contact, created_at)
+             select ?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9 where exists (select 1 from jobs where id = ?1 and deleted = 0)
              on conflict (job, speed) do nothing",
         )
         .bind(job.to_string())
@@ -94,6 +101,7 @@ impl Store {
         .bind(speed.spectra.as_ref().map(|(bytes, _)| bytes))
         .bind(speed.spectra.as_ref().map(|(_, unpacked)| *unpacked as i64))
         .bind(&speed.wear)
+        .bind(&speed.contact)
         .bind(now())
         .execute(&mut *transaction)
         .await?;
@@ -180,7 +188,7 @@ impl Store {
     /// Speed `index` of a job, if it is finished.
     pub async fn speed_result(&self, job: JobId, index: u32) -> Result<Option<SpeedResult>, StoreError> {
         sqlx::query(
-            "select point, spectra, unpacked_bytes, wear from speed_results where job = ? and speed = ?",
+            "select point, spectra, unpacked_bytes, wear, contact from speed_results where job = ? and speed = ?",
         )
         .bind(job.to_string())
         .bind(index)
@@ -188,6 +196,27 @@ impl Store {
         .await?
         .map(|row| read(&row))
         .transpose()
+    }
+
+    /// What `row` takes of the contact of all speeds of a job that have any, by index.
+    pub async fn contacts<T>(
+        &self,
+        job: JobId,
+        row: impl Fn(&Point, &ContactForces) -> Option<T>,
+    ) -> Result<Vec<(u32, T)>, StoreError> {
+        let mut speeds = sqlx::query(
+            "select speed, point, contact from speed_results where job = ? and contact is not null order by speed",
+        )
+        .bind(job.to_string())
+        .fetch(&self.readers);
+        let mut found = Vec::new();
+        while let Some(speed) = speeds.try_next().await? {
+            let point = serde_json::from_str(speed.try_get("point")?)?;
+            if let Some(taken) = contact(&speed)?.and_then(|contact| row(&point, &contact)) {
+                found.push((speed.try_get("speed")?, taken));
+            }
+        }
+        Ok(found)
     }
 
     /// Bytes of the text of a document, if it is there.
@@ -216,11 +245,16 @@ impl Store {
     }
 }
 
+fn contact(row: &SqliteRow) -> Result<Option<ContactForces>, StoreError> {
+    let contact: Option<&[u8]> = row.try_get("contact")?;
+    Ok(contact.map(postcard::from_bytes).transpose()?)
+}
+
 pub(super) fn read(row: &SqliteRow) -> Result<SpeedResult, StoreError> {
     let wear: Option<&[u8]> = row.try_get("wear")?;
     let wear: Option<WearMap> = wear.map(postcard::from_bytes).transpose()?;
     let point = serde_json::from_str(row.try_get("point")?)?;
-    Ok(SpeedResult { point, spectra: spectra(row)?, wear, end_state: None })
+    Ok(SpeedResult { point, spectra: spectra(row)?, wear, contact: contact(row)?, end_state: None })
 }
 
 fn spectra(row: &SqliteRow) -> Result<Option<SpeedSpectra>, StoreError> {

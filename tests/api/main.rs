@@ -3,6 +3,7 @@
 mod accuracy;
 mod app;
 mod bodies;
+mod case_studies;
 mod chains;
 mod checkpoints;
 mod errors;

@@ -1,7 +1,7 @@
 //! What a run says of contact.
 
 use crate::resolved::ResolvedSweep;
-use crate::result::{ContactForces, ContactSummary, ForceMap, ForceRow};
+use crate::result::{ContactForces, ContactSummary, ForceMap, ForceRow, Point};
 use rubmap_wheel::dynamics::integrate::{ContactRecord, PairContact};
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
 use rubmap_wheel::dynamics::sector::Units;
@@ -76,7 +76,8 @@ impl ContactOf<'_> {
 }
 
 /// A completed speed with contact as a row of a [`ForceMap`]: of every contact node its worst blade.
-pub fn force_row(summary: &ContactSummary, forces: &ContactForces) -> ForceRow {
+pub fn force_row(point: &Point, forces: &ContactForces) -> Option<ForceRow> {
+    let summary = point.contact.as_ref()?;
     let nodes = forces.peak_force.first().map_or(0, Vec::len);
     let most = |of: &[Vec<f64>]| -> Vec<f64> {
         (0..nodes).map(|node| of.iter().fold(0.0, |most, blade| f64::max(most, blade[node]))).collect()
@@ -87,7 +88,7 @@ pub fn force_row(summary: &ContactSummary, forces: &ContactForces) -> ForceRow {
         let worst = sectors.rev().max_by(|a, b| impulse(a).total_cmp(&impulse(b)));
         worst.filter(|sector| impulse(sector) > 0.0).map(|sector| sector as u32)
     };
-    ForceRow {
+    Some(ForceRow {
         summary: summary.clone(),
         peak_force: most(&forces.peak_force),
         impulse_per_revolution: most(&forces.impulse_per_revolution),
@@ -96,7 +97,7 @@ pub fn force_row(summary: &ContactSummary, forces: &ContactForces) -> ForceRow {
         closings_per_revolution: most(&forces.closings_per_revolution),
         clearance_consumption: most(&forces.clearance_consumption),
         linear_clearance_consumption: forces.linear_clearance_consumption.clone(),
-    }
+    })
 }
 
 /// Contact over all speeds of a sweep from `rows` by index.

@@ -39,4 +39,5 @@ mod start;
 mod stepping;
 mod stiffening;
 mod summary;
+mod tips;
 mod wheel;

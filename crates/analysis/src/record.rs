@@ -13,6 +13,7 @@ use crate::result::{
     SpeedSpectra,
 };
 use crate::stepping::Stepping;
+use crate::tips::largest_tip;
 use rubmap_numerics::sector_fourier::{SectorFourier, harmonic_count};
 use rubmap_numerics::spectrum::amplitudes;
 use rubmap_wheel::dynamics::integrate::{Divergence, History, Outcome, Run, TipDisplacement};
@@ -77,6 +78,7 @@ pub(super) fn record_run(
             let contact = contact(run, request, wheel, stepping, contact_nodes);
             let (summary, forces) = contact.unzip();
             point.contact = summary;
+            point.tip = largest_tip(history, request, contact_nodes);
             Some(Recorded { spectra, contact: forces })
         }
     };

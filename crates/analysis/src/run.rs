@@ -25,4 +25,5 @@ pub use crate::result::{
 };
 pub use crate::speed::run_speed;
 pub use crate::summary::{critical_indices, critical_speeds, interaction_map, map_row, nothing_completed};
+pub use crate::tips::wheel_critical_speeds;
 pub use rubmap_wheel::revision::{REVISION, VERSION};

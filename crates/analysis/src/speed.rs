@@ -129,6 +129,7 @@ pub(super) fn empty_point(
         smallest_stable_steps_per_revolution: 0,
         steps: 0,
         contact_share: 0.0,
+        tip: None,
         contact: None,
         contact_impulse: None,
         largest_penetration: None,

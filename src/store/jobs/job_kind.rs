@@ -17,6 +17,8 @@ pub enum JobKind {
     ModelGeneration,
     /// Errors and times of a grid of settings.
     Study,
+    /// What happens at chosen speeds.
+    CaseStudy,
 }
 
 impl JobKind {
@@ -27,12 +29,13 @@ impl JobKind {
             Self::ModalAnalysis => "modal_analysis",
             Self::ModelGeneration => "model_generation",
             Self::Study => "study",
+            Self::CaseStudy => "case_study",
         }
     }
 
     /// The kind that a column holds.
     pub(super) fn from_column(text: &str) -> Result<Self, StoreError> {
-        let kinds = [Self::Sweep, Self::ModalAnalysis, Self::ModelGeneration, Self::Study];
+        let kinds = [Self::Sweep, Self::ModalAnalysis, Self::ModelGeneration, Self::Study, Self::CaseStudy];
         let kind = kinds.into_iter().find(|kind| kind.as_str() == text);
         kind.ok_or_else(|| StoreError::Unknown { column: "jobs.kind", value: text.to_owned() })
     }

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::job_kind::JobKind;
 use crate::analysis::error::Violation;
-use crate::analysis::resolved::{ResolvedModalAnalysis, ResolvedStudy, ResolvedSweep};
+use crate::analysis::resolved::{ResolvedCaseStudy, ResolvedModalAnalysis, ResolvedStudy, ResolvedSweep};
 use crate::impeller::ImpellerParameters;
 use crate::store::error::StoreError;
 
@@ -20,6 +20,8 @@ pub enum JobRequest {
     ModelGeneration(Box<ImpellerParameters>),
     /// Errors and times of a grid of settings.
     Study(Box<ResolvedStudy>),
+    /// What happens at chosen speeds.
+    CaseStudy(Box<ResolvedCaseStudy>),
 }
 
 /// Version of the form in which requests are kept; a change of it needs a migration.
@@ -42,6 +44,7 @@ impl JobRequest {
             Self::ModalAnalysis(_) => JobKind::ModalAnalysis,
             Self::ModelGeneration(_) => JobKind::ModelGeneration,
             Self::Study(_) => JobKind::Study,
+            Self::CaseStudy(_) => JobKind::CaseStudy,
         }
     }
 
@@ -52,6 +55,7 @@ impl JobRequest {
             Self::ModalAnalysis(request) => Some(request.model()),
             Self::ModelGeneration(_) => None,
             Self::Study(request) => Some(request.model()),
+            Self::CaseStudy(case) => Some(case.sweep().model()),
         }
     }
 
@@ -62,6 +66,7 @@ impl JobRequest {
             Self::ModalAnalysis(request) => request.speeds().count(),
             Self::ModelGeneration(_) => 0,
             Self::Study(request) => request.speeds().count(),
+            Self::CaseStudy(case) => case.speeds().len() as u32,
         }
     }
 
@@ -70,6 +75,7 @@ impl JobRequest {
         match self {
             Self::Sweep(request) => request.modes().given(),
             Self::ModalAnalysis(request) => request.modes().given(),
+            Self::CaseStudy(case) => case.sweep().modes().given(),
             Self::ModelGeneration(_) | Self::Study(_) => None,
         }
     }
@@ -80,6 +86,7 @@ impl JobRequest {
             Self::ModalAnalysis(request) => kept(request, 0),
             Self::ModelGeneration(parameters) => kept(parameters, 0),
             Self::Study(request) => kept(request, 0),
+            Self::CaseStudy(case) => kept(case, case.sweep().speeds().rounds()),
         }
     }
 
@@ -93,6 +100,10 @@ impl JobRequest {
                 Self::ModalAnalysis(ResolvedModalAnalysis::stored(read(json)?.0).map_err(unsound)?)
             }
             JobKind::Study => Self::Study(Box::new(ResolvedStudy::stored(read(json)?.0).map_err(unsound)?)),
+            JobKind::CaseStudy => {
+                let (settings, rounds) = read(json)?;
+                Self::CaseStudy(Box::new(ResolvedCaseStudy::stored(settings, rounds).map_err(unsound)?))
+            }
             JobKind::ModelGeneration => Self::ModelGeneration(read(json)?.0),
         })
     }

@@ -35,7 +35,7 @@ pub(super) fn read_head(row: &SqliteRow) -> Result<JobHead, StoreError> {
     let total = row.try_get("speeds")?;
     let finished = match (kind, status) {
         // These compute their speeds together.
-        (JobKind::ModalAnalysis | JobKind::Study, JobStatus::Successful) => total,
+        (JobKind::ModalAnalysis | JobKind::Study | JobKind::CaseStudy, JobStatus::Successful) => total,
         _ => row.try_get("finished")?,
     };
     Ok(JobHead {

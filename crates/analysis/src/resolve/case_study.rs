@@ -116,20 +116,18 @@ fn check_recorded(
     facts: &ModelFacts,
 ) {
     let run = sweep.integration.revolutions;
-    if let Some([from, to]) = record.revolutions {
-        found.require(
-            from < to && to <= run,
-            &format!("{pointer}/revolutions"),
-            format!(
-                "the run has {run} revolutions: name where recording begins and ends, such as [0, {run}]"
-            ),
-        );
+    let [from, to] = revolutions(record, sweep);
+    let at = format!("{pointer}/revolutions");
+    let message =
+        format!("the run has {run} revolutions: name where recording begins and ends, such as [0, {run}]");
+    found.require(from < to && to <= run, &at, message);
+    if !(from < to && to <= run) {
+        return;
     }
     for (place, quantity) in record.quantities.iter().enumerate() {
         let again = record.quantities[..place].contains(quantity);
         found.require(!again, &format!("{pointer}/quantities/{place}"), "is in the list already");
     }
-    let [from, to] = revolutions(record, sweep);
     let (sensors, sectors) = (sweep.sensors.len(), facts.sectors as usize);
     let of = |quantity, numbers: usize| if record.wants(quantity) { numbers } else { 0 };
     let pairs = sectors * facts.contact_nodes as usize;
@@ -142,7 +140,7 @@ fn check_recorded(
     let numbers = samples.saturating_mul(lines);
     found.require(
         numbers <= MOST_NUMBERS,
-        &format!("{pointer}/revolutions"),
+        &at,
         format!(
             "{lines} histories of up to {samples} samples are {numbers} numbers a speed, more than {MOST_NUMBERS}: record fewer \
              revolutions, quantities or sensors"

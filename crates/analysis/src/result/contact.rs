@@ -56,7 +56,6 @@ pub struct ContactForces {
     pub clearance_consumption: Vec<Vec<f64>>,
     /// `[contact node]`: the same of a linear calculation, which knows no contact; empty where the scene has no forces at engine
     /// orders.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub linear_clearance_consumption: Vec<f64>,
 }
 

@@ -11,6 +11,7 @@ pub mod reduction;
 pub mod refinement;
 pub mod study;
 pub mod sweep;
+pub mod tips;
 pub mod trial;
 
 pub use campbell::{AbsoluteFrequencies, Campbell, WaveTables};
@@ -33,6 +34,7 @@ pub use study::{
     Histories, HistoryLine, SpeedStudy, StepOrder, StudyReduction, StudyRun, WorkPrecision, front,
 };
 pub use sweep::{CriticalSpeed, CriticalSpeeds, InteractionMap};
+pub use tips::{SensorView, TipResponse, WheelCriticalSpeed, WheelCriticalSpeeds};
 pub use trial::{Cost, Trial};
 
 pub use crate::effects::abradable::result::{WearMap, WearReport};

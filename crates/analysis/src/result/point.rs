@@ -7,6 +7,7 @@ use crate::end_state::EndState;
 use crate::request::{SchemeChoice, Sensor};
 use crate::result::contact::{ContactForces, ContactSummary};
 use crate::result::reduction::StiffeningVerdict;
+use crate::result::tips::TipResponse;
 use rubmap_wheel::dynamics::energy::{EffectWork, EnergyAudit};
 use rubmap_wheel::response::settling::Settling;
 use rubmap_wheel::response::side_bands::SideBands;
@@ -149,6 +150,9 @@ pub struct Point {
     pub steps: u64,
     /// Share of the steps with a contact force.
     pub contact_share: f64,
+    /// The tip that moves most over the window; absent unless `completed`, and of speeds that an earlier version computed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tip: Option<TipResponse>,
     /// Contact over the window; absent unless `completed`, and of scenes without contact.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact: Option<ContactSummary>,

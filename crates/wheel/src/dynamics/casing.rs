@@ -77,8 +77,16 @@ pub(crate) fn ramp(revolutions: f64, ramp_revolutions: f64) -> f64 {
 
 /// Clearances linear in the arc length through the contact nodes, from `leading` to `trailing`.
 ///
-/// `positions` are cylindrical (r, θ, z); the arc is measured along straight segments between nodes.
+/// `positions` as of [`arc_lengths`].
 pub fn clearance_along_chord(leading: f64, trailing: f64, positions: &[[f64; 3]]) -> Vec<f64> {
+    let arc = arc_lengths(positions);
+    let total = arc.last().copied().unwrap_or(0.0);
+    let share = |s: f64| if total > 0.0 { s / total } else { 0.0 };
+    arc.into_iter().map(|s| leading + (trailing - leading) * share(s)).collect()
+}
+
+/// Length along straight segments from the first of `positions`, cylindrical (r, θ, z), to each.
+pub fn arc_lengths(positions: &[[f64; 3]]) -> Vec<f64> {
     let cartesian = |p: &[f64; 3]| [p[0] * p[1].cos(), p[0] * p[1].sin(), p[2]];
     let mut arc = vec![0.0; positions.len()];
     for (k, pair) in positions.windows(2).enumerate() {
@@ -86,9 +94,7 @@ pub fn clearance_along_chord(leading: f64, trailing: f64, positions: &[[f64; 3]]
         let length = (0..3).map(|d| (b[d] - a[d]).powi(2)).sum::<f64>().sqrt();
         arc[k + 1] = arc[k] + length;
     }
-    let total = arc.last().copied().unwrap_or(0.0);
-    let share = |s: f64| if total > 0.0 { s / total } else { 0.0 };
-    arc.into_iter().map(|s| leading + (trailing - leading) * share(s)).collect()
+    arc
 }
 
 /// p at every contact node for every time step of a revolution: nothing is evaluated in the step loop.

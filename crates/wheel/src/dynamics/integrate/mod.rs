@@ -15,6 +15,7 @@ mod step_flexibility;
 mod stepper;
 mod surroundings;
 mod tally;
+mod tips;
 
 use pulp::{Simd, WithSimd};
 
@@ -24,6 +25,7 @@ pub use self::run::{Divergence, History, MAX_TABLE_VALUES, Outcome, Run};
 pub use self::simulation::{DIVERGED_SHARE_OF_RADIUS, SensorRow, Simulation};
 use self::stepper::Stepper;
 pub use self::tally::{ContactRecord, PairContact};
+pub use self::tips::{COMPONENTS, TipMotion};
 #[cfg(test)]
 use super::casing::RestrictionTable;
 

@@ -12,6 +12,7 @@ use super::residual::ResidualDisplacement;
 use super::run::History;
 use super::simulation::Simulation;
 use super::tally::ContactInterval;
+use super::tips::TipTally;
 use rubmap_numerics::sector_fourier::SectorFourier;
 
 #[derive(Debug)]
@@ -26,6 +27,7 @@ pub(super) struct Recorder {
     /// The same without padding.
     reading: Vec<f64>,
     decimation: Decimation,
+    tips: TipTally,
     detail: Option<DetailRecorder>,
     history: History,
 }
@@ -52,6 +54,7 @@ impl Recorder {
             energies: simulation.effects.energies,
             sectors: simulation.sensors.iter().map(|sensor| sensor.sector).collect(),
             residual: ResidualDisplacement::until_applied(simulation, oscillators, &directions),
+            tips: TipTally::new(simulation),
             detail: simulation.detail.map(|detail| DetailRecorder::new(simulation, detail, interval)),
             history: History {
                 displacement: (0..sensors)
@@ -112,6 +115,18 @@ impl Recorder {
         }
     }
 
+    /// Looks at the tips, at a sample of the window; `force` as of [`Self::read`].
+    #[inline(always)]
+    pub(super) fn look_at_tips<S: Simd>(
+        &mut self,
+        simd: S,
+        oscillators: &Oscillators,
+        fourier: &SectorFourier,
+        force: Option<&[f64]>,
+    ) {
+        self.tips.sample(simd, oscillators, fourier, force);
+    }
+
     /// Where contact between this sample and the last one is wanted.
     #[inline(always)]
     pub(super) fn contact_interval(&mut self, step: u64) -> Option<&mut ContactInterval> {
@@ -127,6 +142,7 @@ impl Recorder {
     /// Ends the run after `steps`, with its modes as they are.
     pub(super) fn end(&mut self, modes: Vec<InitialMode>, steps: u64) {
         self.history.end = modes;
+        self.history.tips = self.tips.motions();
         self.history.detail = self.detail.take().map(|detail| detail.end(steps));
         let sensors = self.sectors.len();
         let columns = self.reading.len() / sensors.max(1);

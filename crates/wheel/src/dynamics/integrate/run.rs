@@ -3,6 +3,7 @@
 use super::bounds::TipDisplacement;
 use super::detail::DetailHistory;
 use super::tally::ContactRecord;
+use super::tips::TipMotion;
 use crate::dynamics::contact::coating::WornCoating;
 use crate::dynamics::energy::EnergyAudit;
 use crate::dynamics::initial::InitialMode;
@@ -22,6 +23,8 @@ pub struct History {
     pub energies: Vec<Vec<f64>>,
     /// All modes at the end of the run.
     pub end: Vec<InitialMode>,
+    /// `[sector][contact node][component]`, one after the other: motion of the tips over the window.
+    pub tips: Vec<TipMotion>,
     /// What was recorded of chosen revolutions, if any were.
     pub detail: Option<DetailHistory>,
 }

@@ -234,6 +234,10 @@ impl Stepper {
         let energy = self.mechanical_energy();
         self.energy.check(energy);
         self.read(simd, windowed);
+        if windowed {
+            let force = self.obstacle.as_ref().map(|obstacle| obstacle.force.as_slice());
+            self.recorder.look_at_tips(simd, &self.oscillators, &self.fourier, force);
+        }
         self.recorder.record(&self.fourier, self.statistics.steps, &self.energy);
         self.check_bounds(energy, now.revolutions)
     }

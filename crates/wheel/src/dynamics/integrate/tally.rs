@@ -1,5 +1,6 @@
 //! What contact does, per contact node and blade.
 
+use super::super::casing::arc_lengths;
 use super::super::contact::flexibility::outward_normals;
 use super::super::excitation::steady_amplitudes;
 use super::super::sector::ContactNode;
@@ -181,17 +182,11 @@ fn linear(simulation: &Simulation<'_>) -> Vec<f64> {
 
 /// Half the way to the neighbours along the contact line.
 fn tributary_lengths(nodes: &[ContactNode]) -> Vec<f64> {
-    let place = |node: &ContactNode| {
-        let [r, theta, z] = node.position;
-        [r * theta.cos(), r * theta.sin(), z]
-    };
-    let distance = |pair: &[ContactNode]| {
-        let (a, b) = (place(&pair[0]), place(&pair[1]));
-        (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt()
-    };
+    let positions: Vec<_> = nodes.iter().map(|node| node.position).collect();
+    let arc = arc_lengths(&positions);
     let mut lengths = vec![0.0; nodes.len()];
-    for (first, pair) in nodes.windows(2).enumerate() {
-        let half = 0.5 * distance(pair);
+    for (first, pair) in arc.windows(2).enumerate() {
+        let half = 0.5 * (pair[1] - pair[0]);
         lengths[first] += half;
         lengths[first + 1] += half;
     }

@@ -1,0 +1,99 @@
+//! How far the tips move, and at which speeds that is dangerous.
+
+use serde::{Deserialize, Serialize};
+
+use crate::request::{Component, Sensor, SweepRequest};
+use crate::result::refinement::Refinement;
+use crate::result::sweep::CriticalSpeed;
+use rubmap_wheel::dynamics::sector::Units;
+use rubmap_wheel::response::settling::Verdict;
+
+/// The tip that moves most over the window: of all components (radial, tangential, axial) of all contact nodes of all blades.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct TipResponse {
+    /// Largest root mean square about the mean, from some 128 instants of a revolution.
+    pub rms: f64,
+    /// Half the peak-to-peak displacement of the same component, from the same instants.
+    pub half_peak_to_peak: f64,
+    /// Contact node.
+    pub contact_node: u32,
+    /// Blade; of a scene that repeats around the wheel one of those that move alike.
+    pub sector: u32,
+    /// Component.
+    pub component: Component,
+    /// Half the peak-to-peak displacement over the clearance of the node; absent where nothing can be touched, or without
+    /// clearance.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub over_clearance: Option<f64>,
+    /// The same over the length of the contact line; absent of a single node.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub over_chord: Option<f64>,
+}
+
+/// Critical speeds of the wheel as a whole, the most severe first, with the views of the sensors beside them.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct WheelCriticalSpeeds {
+    /// Peaks over Ω of the largest root mean square of any tip.
+    pub critical_speeds: Vec<WheelCriticalSpeed>,
+    /// Critical speeds that each sensor sees, in the order of the request.
+    pub sensors: Vec<SensorView>,
+    /// Indices of the speeds without a result, which may hide a peak.
+    pub missing: Vec<u32>,
+    /// What `refine` has added; absent without it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub refinement: Option<Refinement>,
+    /// Units of the model.
+    pub units: Units,
+    /// The whole request as resolved.
+    pub settings: SweepRequest,
+    /// Version of the code.
+    pub version: String,
+}
+
+/// One of them.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct WheelCriticalSpeed {
+    /// Ω of the peak, rad/s.
+    pub speed_rad_s: f64,
+    /// Index of the speed in the sweep.
+    pub index: u32,
+    /// What it is ranked by: the displacement over the clearance, where there is none over the contact line, otherwise itself.
+    pub severity: f64,
+    /// The tip that moves most there.
+    pub tip: TipResponse,
+    /// Mean and largest sum of all contact forces; absent of scenes without contact.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mean_force: Option<f64>,
+    /// See `mean_force`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub peak_force: Option<f64>,
+    /// Largest share of its clearance that the outward motion of a node takes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub clearance_consumption: Option<f64>,
+    /// By how much the level rises above the higher one of the valleys beside it.
+    pub prominence: f64,
+    /// Whether it lies at an end of the range or beside a speed without a result.
+    pub at_edge: bool,
+    /// How far the true peak may be from `speed_rad_s` because only the speeds of the sweep were computed, as of the sensors.
+    pub speed_error_rad_s: f64,
+    /// Whether the speeds beside it resolve the peak.
+    pub resolved: bool,
+    /// Estimated relative error of the steady response at this speed; absent without control runs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub amplitude_error: Option<f64>,
+    /// Steady-state verdict of the speed.
+    pub settling: Verdict,
+}
+
+/// What one sensor sees.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct SensorView {
+    /// The sensor.
+    pub sensor: Sensor,
+    /// Its critical speeds.
+    pub critical_speeds: Vec<CriticalSpeed>,
+}

@@ -1,0 +1,91 @@
+//! The tips of the whole wheel: which one moves most, and at which speeds that is dangerous.
+
+use crate::effects::casing::convert::clearance;
+use crate::request::{Component, Sensor};
+use crate::resolved::ResolvedSweep;
+use crate::response_curve::ResponseCurve;
+use crate::result::{
+    CriticalSpeeds, ErrorEstimate, Point, SensorView, TipResponse, WheelCriticalSpeed, WheelCriticalSpeeds,
+};
+use rubmap_wheel::dynamics::casing::arc_lengths;
+use rubmap_wheel::dynamics::integrate::{COMPONENTS, History};
+use rubmap_wheel::dynamics::sector::ContactNode;
+use rubmap_wheel::response::critical_speed::{Peak, Resolution, peaks};
+
+/// Components in the order of the wheel's motions.
+const IN_ORDER: [Component; COMPONENTS] = [Component::Radial, Component::Tangential, Component::Axial];
+
+/// The tip with the largest root mean square, the first of equal ones.
+pub(super) fn largest_tip(
+    history: &History,
+    request: &ResolvedSweep,
+    contact_nodes: &[ContactNode],
+) -> Option<TipResponse> {
+    let later_if_larger = |best: usize, now: usize| {
+        if history.tips[now].rms > history.tips[best].rms { now } else { best }
+    };
+    let place = (0..history.tips.len()).reduce(later_if_larger)?;
+    let motion = history.tips[place];
+    let (pair, component) = (place / COMPONENTS, place % COMPONENTS);
+    let (sector, node) = (pair / contact_nodes.len(), pair % contact_nodes.len());
+    let positions: Vec<_> = contact_nodes.iter().map(|node| node.position).collect();
+    let over = |length: f64| (length > 0.0).then(|| motion.half_peak_to_peak / length);
+    Some(TipResponse {
+        rms: motion.rms,
+        half_peak_to_peak: motion.half_peak_to_peak,
+        contact_node: node as u32,
+        sector: sector as u32,
+        component: IN_ORDER[component],
+        over_clearance: clearance(contact_nodes, request).and_then(|clearance| over(clearance[node])),
+        over_chord: over(arc_lengths(&positions).last().copied().unwrap_or(0.0)),
+    })
+}
+
+/// Critical speeds of the wheel from the points of all speeds and the tables of its sensors.
+pub fn wheel_critical_speeds(
+    request: &ResolvedSweep,
+    points: &[Point],
+    errors: Option<&ErrorEstimate>,
+    tables: &[CriticalSpeeds],
+) -> Option<WheelCriticalSpeeds> {
+    let first = tables.first()?;
+    let curve = ResponseCurve::of(request.speeds.rad_s(), points);
+    let level: Vec<Option<f64>> = curve.points.iter().map(|point| Some(point.as_ref()?.tip?.rms)).collect();
+    let critical = |peak: Peak| {
+        let point = curve.points[peak.index]?;
+        let tip = point.tip?;
+        let resolution = Resolution::of(&curve.speeds_rad_s, &level, &peak);
+        let contact = point.contact.as_ref();
+        Some(WheelCriticalSpeed {
+            speed_rad_s: point.speed_rad_s,
+            index: point.index,
+            severity: tip.over_clearance.or(tip.over_chord).unwrap_or(tip.half_peak_to_peak),
+            tip,
+            mean_force: contact.map(|contact| contact.mean_force),
+            peak_force: contact.map(|contact| contact.peak_force),
+            clearance_consumption: contact.map(|contact| contact.clearance_consumption),
+            prominence: peak.prominence,
+            at_edge: peak.at_edge,
+            speed_error_rad_s: resolution.error,
+            resolved: resolution.resolved,
+            amplitude_error: errors.and_then(|errors| errors.of(point.index)),
+            settling: point.settling.as_ref()?.verdict,
+        })
+    };
+    let mut critical_speeds: Vec<_> =
+        peaks(&level, request.peak_prominence).into_iter().filter_map(critical).collect();
+    critical_speeds.sort_by(|a, b| b.severity.total_cmp(&a.severity));
+    let view = |table: &CriticalSpeeds| SensorView {
+        sensor: Sensor::clone(&table.sensor),
+        critical_speeds: table.critical_speeds.clone(),
+    };
+    Some(WheelCriticalSpeeds {
+        critical_speeds,
+        sensors: tables.iter().map(view).collect(),
+        missing: first.missing.clone(),
+        refinement: first.refinement.clone(),
+        units: first.units.clone(),
+        settings: first.settings.clone(),
+        version: first.version.clone(),
+    })
+}

@@ -1,0 +1,126 @@
+//! How far the tips move: every component of every contact node of every blade, over the window.
+
+use pulp::Simd;
+
+use super::super::direction::Direction;
+use super::super::oscillators::Oscillators;
+use super::super::oscillators::rows::Rows;
+use super::residual::ResidualDisplacement;
+use super::simulation::Simulation;
+use rubmap_numerics::sector_fourier::SectorFourier;
+
+/// Motion of one component of one contact node of one blade over the window, from [`INSTANTS`] of a revolution.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TipMotion {
+    /// Root mean square about the mean, length.
+    pub rms: f64,
+    /// Half the peak-to-peak displacement, length.
+    pub half_peak_to_peak: f64,
+}
+
+/// Instants of a revolution at which tips are looked at, about: enough for levels, few enough to cost next to nothing.
+const INSTANTS: usize = 128;
+
+/// Components of a node: r, θ, z.
+pub const COMPONENTS: usize = 3;
+
+/// Sums over the window.
+#[derive(Debug)]
+pub(super) struct TipTally {
+    rows: Rows,
+    residual: ResidualDisplacement,
+    harmonic: Vec<f64>,
+    /// Samples from one look to the next.
+    every: usize,
+    samples: usize,
+    looks: u32,
+    /// `[sector][node][component]`
+    motions: Vec<Sums>,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Sums {
+    /// What is taken off before squares are summed: the first value.
+    origin: f64,
+    sum: f64,
+    squares: f64,
+    low: f64,
+    high: f64,
+}
+
+impl TipTally {
+    pub(super) fn new(simulation: &Simulation<'_>) -> Self {
+        let Simulation { wheel, scheme, .. } = *simulation;
+        let nodes = 0..simulation.contact_nodes.len();
+        let unit = |d: usize| std::array::from_fn(|component| if component == d { 1.0 } else { 0.0 });
+        let directions: Vec<Direction> = nodes
+            .flat_map(|node| (0..COMPONENTS).map(move |d| Direction { node, components: unit(d) }))
+            .collect();
+        let rows = Rows::new(wheel, &directions, |modes| scheme.integrated_modes(modes));
+        let none = Sums { origin: 0.0, sum: 0.0, squares: 0.0, low: f64::INFINITY, high: f64::NEG_INFINITY };
+        Self {
+            residual: ResidualDisplacement::new(simulation, &directions),
+            harmonic: vec![0.0; wheel.sectors * rows.stride],
+            every: simulation.samples_per_revolution.div_ceil(INSTANTS),
+            samples: 0,
+            looks: 0,
+            motions: vec![none; wheel.sectors * directions.len()],
+            rows,
+        }
+    }
+
+    /// Looks at the tips at a sample of the window, if it is time; `force` as of [`ResidualDisplacement::add`].
+    #[inline(always)]
+    pub(super) fn sample<S: Simd>(
+        &mut self,
+        simd: S,
+        oscillators: &Oscillators,
+        fourier: &SectorFourier,
+        force: Option<&[f64]>,
+    ) {
+        self.samples += 1;
+        if !self.samples.is_multiple_of(self.every) {
+            return;
+        }
+        let Self { rows, harmonic, .. } = self;
+        oscillators.project(simd, rows, harmonic);
+        if let Some(force) = force {
+            self.residual.add(force, force.len() / fourier.sectors(), harmonic, rows.stride);
+        }
+        let columns = harmonic.chunks_exact(rows.stride);
+        for (sector, blade) in self.motions.chunks_exact_mut(rows.count).enumerate() {
+            for (row, sums) in blade.iter_mut().enumerate() {
+                let terms = fourier.row(sector).iter().zip(columns.clone());
+                sums.add(terms.map(|(f, column)| f * column[row]).sum(), self.looks == 0);
+            }
+        }
+        self.looks += 1;
+    }
+
+    /// `[sector][contact node][component]`, one after the other.
+    pub(super) fn motions(&self) -> Vec<TipMotion> {
+        self.motions.iter().map(|sums| sums.motion(f64::from(self.looks))).collect()
+    }
+}
+
+impl Sums {
+    #[inline(always)]
+    fn add(&mut self, value: f64, first: bool) {
+        if first {
+            self.origin = value;
+        }
+        let moved = value - self.origin;
+        self.sum += moved;
+        self.squares += moved * moved;
+        self.low = self.low.min(moved);
+        self.high = self.high.max(moved);
+    }
+
+    fn motion(&self, looks: f64) -> TipMotion {
+        let mean = self.sum / looks;
+        TipMotion {
+            rms: (self.squares / looks - mean * mean).max(0.0).sqrt(),
+            half_peak_to_peak: 0.5 * (self.high - self.low),
+        }
+    }
+}

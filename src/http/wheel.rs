@@ -1,0 +1,34 @@
+//! Critical speeds of the wheel as a whole.
+
+use axum::extract::State;
+use axum::response::Response;
+
+use super::extract::JobPath;
+use super::problem::Problem;
+use super::results::{document, find, sweep};
+use super::state::AppState;
+use crate::analysis::result::WheelCriticalSpeeds;
+use crate::store::results::Document;
+use crate::tokens::Principal;
+
+/// Download the critical speeds of the wheel, the most severe first: over all contact nodes, components and blades.
+///
+/// The views of the sensors are beside them; `critical-speeds` has one of them with the linear prediction.
+#[utoipa::path(get, path = "/v1/jobs/{id}/critical-speeds/wheel", operation_id = "get_wheel_critical_speeds", tag = "results",
+    params(("id" = String, Path, description = "Id of a sweep.")),
+    responses(
+        (status = 200, description = "The table.", body = WheelCriticalSpeeds),
+        (status = 404, description = "There is no such job.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 409, description = "The job is not a sweep, not finished, ended without this result, or is of an earlier version.",
+            body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(super) async fn get_wheel_critical_speeds(
+    state: State<AppState>,
+    whose: Principal,
+    JobPath(id): JobPath,
+) -> Result<Response, Problem> {
+    let job = find(&state, &whose, id).await?;
+    sweep(&job)?;
+    document(&state, &job, Document::WheelCriticalSpeeds).await
+}
