@@ -69,15 +69,21 @@ pub(crate) fn measure() {
         ("coriolis", exact, &turning, none),
         ("all together", exact, &turning, all),
     ];
+    // Not of the scene: what is recorded of it.
+    let spectra = [("spectra of one sensor, in the window", 1), ("spectra of four", 4)];
     let mut shares = vec![0.0; entries.len()];
     let mut contenders: Vec<Contender<'_>> = Vec::new();
     for ((_, stepping, wheel, effects), share) in entries.iter().zip(&mut shares) {
         let scene = &scene;
         contenders.push(Box::new(move || {
-            let (seconds, contact_share) = run(scene, *stepping, wheel, *effects);
+            let (seconds, contact_share) = run(scene, *stepping, wheel, *effects, None);
             *share = contact_share;
             seconds
         }));
+    }
+    for (_, sensors) in spectra {
+        let scene = &scene;
+        contenders.push(Box::new(move || run(scene, exact, &scene.modal, none, Some(sensors)).0));
     }
     let times = medians(ROUNDS, &mut contenders);
     drop(contenders);
@@ -99,16 +105,32 @@ pub(crate) fn measure() {
             time / times[0]
         );
     }
+    for ((label, _), time) in spectra.iter().zip(&times[entries.len()..]) {
+        println!(
+            "| {label} | {} | {} | | {:.0} | {:.2} |",
+            name(exact.scheme),
+            exact.steps,
+            1e9 * time,
+            time / times[0]
+        );
+    }
 }
 
-/// Seconds per step of a whole run, and the share of steps with contact.
-fn run(scene: &Scene, stepping: Stepping, wheel: &ModalWheel, effects: Effects<'_>) -> (f64, f64) {
+/// Seconds per step of a whole run, with spectra of so many sensors over all of it, and the share of steps with contact.
+fn run(
+    scene: &Scene,
+    stepping: Stepping,
+    wheel: &ModalWheel,
+    effects: Effects<'_>,
+    spectra: Option<usize>,
+) -> (f64, f64) {
     let casing = scene.casing(TOUCHING);
-    let sensors = [radial(0, 0)];
+    let sensors = vec![radial(0, 0); spectra.unwrap_or(1)];
     let simulation = Simulation {
         wheel,
         effects,
         revolutions: REVOLUTIONS,
+        window_revolutions: spectra.map_or(0, |_| REVOLUTIONS),
         ..scene.simulation(stepping, &casing, &sensors)
     };
     let (run, time) = timed(|| simulation.run(&|_| true));

@@ -187,13 +187,16 @@ fn plan_point(
     let size = StepSize { sectors: wheel.sectors, nodes, unknowns };
     let effects = EffectSizes::of(&request.scene, &wheel, stepping.scheme, nodes);
     let (free, contact) = calibration.step_seconds(size, &effects);
+    let window =
+        f64::from(request.integration.window_revolutions) / f64::from(request.integration.revolutions);
+    let spectra = window * calibration.spectra_seconds(size, request.sensors.len());
     PlannedPoint {
         integrated_unknowns: unknowns as u32,
         steps_per_revolution: stepping.discretisation.per_revolution as u32,
         steps,
         computing_time_s: Some(CostRange {
-            free: set_up + steps as f64 * free,
-            contact: set_up + steps as f64 * contact,
+            free: set_up + steps as f64 * (free + spectra),
+            contact: set_up + steps as f64 * (contact + spectra),
         }),
         memory_bytes: running_bytes(&wheel, request, &stepping, nodes),
         scheme: Some(stepping.report),

@@ -23,6 +23,8 @@ pub struct Calibration {
     contact: StepCost,
     /// Over these.
     effects: EffectCosts,
+    /// Nanoseconds that the spectra of a sensor add to a step of the window, per unknown.
+    spectra: f64,
 }
 
 /// Nanoseconds of a step: `fixed + per_product·products + per_transform·transforms`, fitted to what was measured.
@@ -74,6 +76,11 @@ impl Calibration {
         (free, (self.contact.seconds(size) + added_contact).max(free))
     }
 
+    /// Seconds that the spectra of so many sensors add to a step of the window.
+    pub(super) fn spectra_seconds(&self, size: StepSize, sensors: usize) -> f64 {
+        1e-9 * self.spectra * (size.unknowns * sensors) as f64
+    }
+
     /// Measures this machine, on the calling thread.
     pub fn measure() -> Self {
         let wheels = SIZES.map(|(sectors, nodes, modes)| Wheel::new(sectors, nodes, modes));
@@ -91,6 +98,7 @@ impl Calibration {
             free: fit(|seconds| seconds.free, true),
             contact: fit(|seconds| seconds.contact, true),
             effects: EffectCosts::measure(),
+            spectra: 1e9 * wheel::measure_spectra(&wheels[2]),
         }
     }
 }

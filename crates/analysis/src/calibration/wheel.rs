@@ -88,8 +88,19 @@ impl Wheel {
         self.modal.unknowns()
     }
 
-    /// Seconds of a run, and what it counted.
+    /// Seconds of a run without spectra, and what it counted.
     fn run(&self, clearance: Option<f64>, effects: Effects<'_>, revolutions: usize) -> (f64, RunStatistics) {
+        self.run_with(clearance, effects, revolutions, Spectra { sensors: 1, window_revolutions: 0 })
+    }
+
+    /// Seconds of a run, and what it counted.
+    fn run_with(
+        &self,
+        clearance: Option<f64>,
+        effects: Effects<'_>,
+        revolutions: usize,
+        spectra: Spectra,
+    ) -> (f64, RunStatistics) {
         let casing = clearance.map(|clearance| Casing {
             clearance: vec![clearance; self.contact_nodes.len()],
             restriction: Some(Restriction {
@@ -101,8 +112,8 @@ impl Wheel {
             ramp_revolutions: 0.5,
         });
         let damping = ModalDamping { modal_ratio: 0.05, family_ratios: Vec::new() };
-        let sensors =
-            [SensorRow { direction: Direction { node: 0, components: [1.0, 0.0, 0.0] }, sector: 0 }];
+        let sensor = SensorRow { direction: Direction { node: 0, components: [1.0, 0.0, 0.0] }, sector: 0 };
+        let sensors = vec![sensor; spectra.sensors];
         let simulation = Simulation {
             wheel: &self.modal,
             contact_nodes: &self.contact_nodes,
@@ -115,13 +126,36 @@ impl Wheel {
             steps_per_revolution: STEPS,
             samples_per_revolution: SAMPLES,
             revolutions,
-            window_revolutions: 1,
+            window_revolutions: spectra.window_revolutions,
             detail: None,
         };
         let start = Instant::now();
         let run = simulation.run(&|_| true);
         (start.elapsed().as_secs_f64(), run.statistics)
     }
+}
+
+/// What spectra are of.
+#[derive(Clone, Copy)]
+struct Spectra {
+    sensors: usize,
+    window_revolutions: usize,
+}
+
+/// Seconds that the spectra of a sensor add to a step of the window, per unknown.
+pub(super) fn measure_spectra(wheel: &Wheel) -> f64 {
+    const SENSORS: usize = 4;
+    const WINDOW: usize = 2;
+    let mut best = [f64::INFINITY; 2];
+    for _ in 0..ROUNDS {
+        for (window_revolutions, best) in [0, WINDOW].into_iter().zip(&mut best) {
+            let spectra = Spectra { sensors: SENSORS, window_revolutions };
+            let (seconds, _) = wheel.run_with(None, Effects::default(), WINDOW, spectra);
+            *best = best.min(seconds);
+        }
+    }
+    let [without, with] = best;
+    (with - without).max(0.0) / (WINDOW * STEPS * SENSORS * wheel.unknowns()) as f64
 }
 
 /// What is run to see what a step costs.
