@@ -35,6 +35,7 @@ use std::path::Path;
 
 pub use error::PackageError;
 pub use limits::Limits;
+pub use npz::NpzWriter;
 pub use writer::write;
 
 use content::{Content, SourceLines};
