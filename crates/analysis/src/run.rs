@@ -21,5 +21,5 @@ pub use crate::result::{
     WorkPrecision,
 };
 pub use crate::speed::run_speed;
-pub use crate::summary::{critical_speeds, interaction_map, map_row, nothing_completed};
+pub use crate::summary::{critical_speeds, interaction_map, map_engine_orders, map_row, nothing_completed};
 pub use rubmap_wheel::revision::{REVISION, VERSION};
