@@ -52,6 +52,11 @@ impl Diagram {
         (self.x.contains(x) && self.y.contains(y)).then(|| self.point(x, y))
     }
 
+    /// Whether a place of the drawing lies in the frame.
+    pub(super) fn encloses(&self, (x, y): (f64, f64)) -> bool {
+        (self.left..=self.right()).contains(&x) && (self.top..=self.bottom()).contains(&y)
+    }
+
     /// The straight line between two points of linear axes, cut off at the frame; nothing if it lies outside.
     pub(super) fn clipped(&self, from: (f64, f64), to: (f64, f64)) -> Option<[(f64, f64); 2]> {
         let mut span = (0.0, 1.0);
@@ -69,6 +74,12 @@ impl Diagram {
         }
         let at = |s: f64| (from.0 + s * delta.0, from.1 + s * delta.1);
         (span.0 < span.1).then(|| [at(span.0), at(span.1)])
+    }
+
+    /// A region of this name that ends at the frame, for `clip-path`.
+    pub(super) fn region(&self, name: &str) -> Element {
+        let inside = rectangle(self.left, self.top, self.width, self.height);
+        Element::new("defs").child(Element::new("clipPath").set("id", name).child(inside))
     }
 
     /// Background, to be drawn first.
