@@ -114,6 +114,8 @@ kinds! {
     SpeedNotFound = NOT_FOUND, "speed-not-found", "There is no such speed";
     /// The route knows other methods.
     MethodNotAllowed = METHOD_NOT_ALLOWED, "method-not-allowed", "The method is not allowed here";
+    /// The result does not have the form that was asked for.
+    NotAcceptable = NOT_ACCEPTABLE, "not-acceptable", "The result does not come in this form";
     /// Unfinished jobs need the model.
     ModelInUse = CONFLICT, "model-in-use", "Unfinished jobs need the model";
     /// This kind of job has no such result.

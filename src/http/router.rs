@@ -17,8 +17,8 @@ use utoipa_axum::routes;
 
 use super::state::AppState;
 use super::{
-    access, body, contract, extract, health, host, jobs, metrics, modal_analyses, models, openapi, principal,
-    problem, results, studies, sweeps, version,
+    access, body, contract, extract, health, host, jobs, maps, metrics, modal_analyses, models, openapi,
+    principal, problem, results, spectra, studies, sweeps, version,
 };
 
 /// The routes with their descriptions.
@@ -35,8 +35,9 @@ pub(super) fn routes() -> OpenApiRouter<AppState> {
         .routes(routes!(jobs::list_jobs))
         .routes(routes!(jobs::get_job, jobs::delete_job))
         .routes(routes!(results::get_campbell))
-        .routes(routes!(results::get_interaction_map))
-        .routes(routes!(results::get_spectra))
+        .routes(routes!(maps::get_interaction_map))
+        .routes(routes!(spectra::get_spectra))
+        .routes(routes!(spectra::get_wear))
         .routes(routes!(results::get_critical_speeds))
         .routes(routes!(studies::get_work_precision))
         .routes(routes!(studies::get_histories))
@@ -81,7 +82,13 @@ fn cors(origins: &[HeaderValue]) -> Option<CorsLayer> {
     let layer = CorsLayer::new()
         .allow_origin(AllowOrigin::list(origins.iter().cloned()))
         .allow_methods([Method::GET, Method::POST, Method::DELETE])
-        .allow_headers([header::AUTHORIZATION, header::CONTENT_TYPE, idempotency_key, access::REQUEST_ID])
-        .expose_headers([header::LOCATION, header::RETRY_AFTER, access::REQUEST_ID]);
+        .allow_headers([
+            header::AUTHORIZATION,
+            header::CONTENT_TYPE,
+            header::IF_NONE_MATCH,
+            idempotency_key,
+            access::REQUEST_ID,
+        ])
+        .expose_headers([header::ETAG, header::LOCATION, header::RETRY_AFTER, access::REQUEST_ID]);
     (!origins.is_empty()).then_some(layer)
 }
