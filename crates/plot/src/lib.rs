@@ -30,9 +30,11 @@
 
 mod axis;
 mod campbell;
+mod campbell_fixed_frame;
 mod cells;
 mod colour;
 mod colour_bar;
+mod critical_speeds;
 mod diagram;
 mod error_over_step;
 mod force_map;
@@ -50,6 +52,7 @@ mod marks;
 mod pixels;
 mod raster;
 mod scheme;
+mod section;
 mod sectors;
 mod settling_strip;
 mod spectrum;
@@ -65,6 +68,8 @@ mod window;
 mod work_precision;
 
 pub use campbell::campbell;
+pub use campbell_fixed_frame::campbell_fixed_frame;
+pub use critical_speeds::critical_speeds;
 pub use error_over_step::error_over_step;
 pub use force_map::{ForceQuantity, force_map};
 pub use histories::histories;
@@ -72,6 +77,7 @@ pub use interaction_map::interaction_map;
 pub use map_sheet::map_sheet;
 pub use map_view::VerticalAxis;
 pub use raster::{PngError, WIDTHS, png};
+pub use section::{SectionView, section};
 pub use spectrum::{Frame, spectrum};
 pub use speed_histories::{HistoryQuantity, speed_histories};
 pub use trajectories::trajectories;
