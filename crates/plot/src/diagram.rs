@@ -26,6 +26,17 @@ impl Diagram {
         Self::with_scales(corner, size, |places| scale(x, places), |places| scale(y, places))
     }
 
+    /// With a linear axis to the right and a logarithmic one upwards, whose values must be positive.
+    pub(super) fn upwards_logarithmic(
+        corner: (f64, f64),
+        size: (f64, f64),
+        x: (f64, f64),
+        y: (f64, f64),
+    ) -> Self {
+        let logarithmic = |places| Scale::logarithmic(y, places);
+        Self::with_scales(corner, size, |places| Scale::linear(x, places), logarithmic)
+    }
+
     fn with_scales(
         (left, top): (f64, f64),
         (width, height): (f64, f64),
@@ -115,8 +126,8 @@ impl Diagram {
             let tick = line((x, bottom), (x, bottom + 5.0)).set("stroke", INK);
             [tick, text(x, bottom + 19.0, "middle", label)]
         });
-        let title = text(self.left + 0.5 * self.width, bottom + 42.0, "middle", title).set("font-size", "14");
-        group().children(marks).child(title)
+        let words = text(self.left + 0.5 * self.width, bottom + 42.0, "middle", title).set("font-size", "14");
+        group().children(marks).children((!title.is_empty()).then(|| words.set("class", "axis")))
     }
 
     /// Ticks and labels on the left, and the axis title `away` from the frame.
@@ -126,8 +137,9 @@ impl Diagram {
             let tick = line((self.left - 5.0, y), (self.left, y)).set("stroke", INK);
             [tick, text(self.left - 9.0, y + 4.5, "end", label)]
         });
-        let title = upright(self.left - away, self.top + 0.5 * self.height, "middle", title);
-        group().children(marks).child(title.set("font-size", "14"))
+        let words = upright(self.left - away, self.top + 0.5 * self.height, "middle", title);
+        let words = words.set("class", "axis").set("font-size", "14");
+        group().children(marks).children((!title.is_empty()).then_some(words))
     }
 }
 

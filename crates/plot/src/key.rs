@@ -43,6 +43,14 @@ impl Key {
         self
     }
 
+    /// With words that say more of the rows above.
+    pub(super) fn note(mut self, words: &str) -> Self {
+        let note = text(self.x, self.y + 3.5, "start", words).set("class", "key").set("fill", "#555555");
+        self.rows = self.rows.child(note.set("font-size", "11"));
+        self.y += 0.8 * ROW_HEIGHT;
+        self
+    }
+
     pub(super) fn draw(self) -> Element {
         self.rows
     }
@@ -76,16 +84,6 @@ impl Flow {
         let words = text(x + width + 7.0, y + 4.5, "start", words);
         self.entries = self.entries.child(mark.set("transform", place)).child(words.set("class", "key"));
         self.x += wide + 22.0;
-        self
-    }
-
-    /// With words alone, that begin a line.
-    pub(super) fn line(mut self, words: &str) -> Self {
-        if self.x > self.left {
-            self.y += ROW_HEIGHT;
-        }
-        self.entries = self.entries.child(text(self.left, self.y + 4.5, "start", words).set("class", "key"));
-        self.x = self.left + text_width(words, SIZE) + 16.0;
         self
     }
 

@@ -19,7 +19,7 @@ pub use choice::{Choice, ModesChoice, Pilot, TriedModes};
 pub use contact::{ContactForces, ContactSummary, ForceMap, ForceRow};
 pub use errors::{Control, ErrorEstimate, Errors, PointError, Quantity};
 pub use geometry::{ContactPlace, NodeKind, SectorGeometry, SectorNode};
-pub use histories::{ContactHistory, EnergyHistory, SensorHistory, SpeedHistories};
+pub use histories::{ContactHistory, EnergyHistory, SensorHistory, SpeedHistories, TipPlace};
 pub use plan::{
     CostRange, Estimate, ModalAnalysisPlan, PlannedEffect, PlannedPoint, ReductionState, Spent, SweepPlan,
 };

@@ -1,5 +1,6 @@
 //! Drawings read back: what must be seen is there, where it belongs.
 
+mod fixtures;
 mod gallery;
 
 use std::f64::consts::TAU;
