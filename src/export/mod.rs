@@ -8,6 +8,7 @@ pub mod csv;
 mod force_map;
 pub mod maps;
 mod npz;
+mod section;
 pub mod spectra;
 mod speed_histories;
 mod studies;

@@ -29,6 +29,7 @@ mod renderings;
 mod request_metrics;
 mod results;
 mod router;
+mod section;
 mod selection;
 pub mod server;
 mod spectra;

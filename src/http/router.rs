@@ -18,7 +18,7 @@ use utoipa_axum::routes;
 use super::state::AppState;
 use super::{
     access, body, contract, extract, health, host, jobs, maps, metrics, modal_analyses, models, openapi,
-    principal, problem, results, spectra, studies, sweeps, version,
+    principal, problem, results, section, spectra, studies, sweeps, version,
 };
 
 /// The routes with their descriptions.
@@ -27,6 +27,7 @@ pub(super) fn routes() -> OpenApiRouter<AppState> {
         .routes(routes!(models::create_model, models::list_models))
         .routes(routes!(models::plan_model_generation))
         .routes(routes!(models::get_model, models::delete_model))
+        .routes(routes!(section::get_section))
         .routes(routes!(modal_analyses::create_modal_analysis))
         .routes(routes!(modal_analyses::plan_modal_analysis))
         .routes(routes!(sweeps::create_sweep))

@@ -28,6 +28,10 @@ impl Npz {
         Self(arrays)
     }
 
+    pub(crate) fn names(&self) -> Vec<&str> {
+        self.0.keys().map(String::as_str).collect()
+    }
+
     #[track_caller]
     pub(crate) fn array(&self, name: &str) -> &Array {
         self.0.get(name).unwrap_or_else(|| panic!("no {name} in {:?}", self.0.keys()))

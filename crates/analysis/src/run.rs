@@ -7,6 +7,7 @@ pub use crate::accuracy::study::work_precision;
 pub use crate::accuracy::trial::run_trial;
 pub use crate::calibration::Calibration;
 pub use crate::check::check;
+pub use crate::effects::casing::convert::clearances;
 pub use crate::modal::modal_analysis;
 pub use crate::model::{ModelFacts, ReducedSector};
 pub use crate::plan::{plan_modal_analysis, plan_sweep, trial_memory};

@@ -16,10 +16,7 @@ pub(crate) fn casing(
     let casing = request.scene.casing.as_ref()?;
     request.scene.contact.as_ref()?;
     let positions: Vec<_> = reduced.contact.iter().map(|node| node.position).collect();
-    let clearance = match &casing.clearance {
-        Clearance::Each(values) => values.clone(),
-        Clearance::AlongChord { leading, trailing } => clearance_along_chord(*leading, *trailing, &positions),
-    };
+    let clearance = along(&casing.clearance, &positions);
     let restriction = casing.lobes.as_ref().map(|lobes| Restriction {
         count: lobes.count,
         amplitude: lobes.amplitude,
@@ -27,6 +24,18 @@ pub(crate) fn casing(
         phase_rad: lobes.phase_rad,
     });
     Some(Casing { clearance, restriction, ramp_revolutions })
+}
+
+/// Clearances at rest of contact nodes at these positions `[r, θ, z]`, in the order of the chord; `None` if the scene has no casing.
+pub fn clearances(request: &ResolvedSweep, positions: &[[f64; 3]]) -> Option<Vec<f64>> {
+    request.scene.casing.as_ref().map(|casing| along(&casing.clearance, positions))
+}
+
+fn along(clearance: &Clearance, positions: &[[f64; 3]]) -> Vec<f64> {
+    match clearance {
+        Clearance::Each(values) => values.clone(),
+        Clearance::AlongChord { leading, trailing } => clearance_along_chord(*leading, *trailing, positions),
+    }
 }
 
 /// Whether the casing's heights can be tabulated; the error says what to change.
