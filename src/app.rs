@@ -119,6 +119,7 @@ impl App {
         let state = AppState {
             store: store.clone(),
             answers: LargeAnswers::new(LARGE_ANSWERS),
+            renderings: Arc::default(),
             tokens,
             limits: config.owner_limits(),
             jobs: runner.jobs(),

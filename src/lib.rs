@@ -23,6 +23,7 @@
 pub mod app;
 pub mod cli;
 pub mod config;
+pub mod export;
 pub mod http;
 pub mod jobs;
 pub mod store;

@@ -2,8 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use utoipa::openapi::{ContentBuilder, Ref, RefOr, Response, ResponseBuilder};
+use utoipa::openapi::path::Parameter;
+use utoipa::openapi::{ContentBuilder, HeaderBuilder, Object, Ref, RefOr, Response, ResponseBuilder, Type};
 
+use super::form::Form;
 use super::problem::MEDIA_TYPE;
 use super::router::routes;
 
@@ -13,10 +15,40 @@ pub fn document() -> utoipa::openapi::OpenApi {
     for path in document.paths.paths.values_mut() {
         let operations = [&mut path.get, &mut path.post, &mut path.put, &mut path.patch, &mut path.delete];
         for operation in operations.into_iter().flatten() {
+            if operation.parameters.iter().flatten().any(has_form) {
+                add_forms(&mut operation.responses.responses);
+            }
             add_common_answers(&mut operation.responses.responses);
         }
     }
     document
+}
+
+/// Whether this parameter says in which form a result is wanted.
+fn has_form(parameter: &RefOr<Parameter>) -> bool {
+    matches!(parameter, RefOr::T(parameter) if parameter.name == "format")
+}
+
+/// The forms of a result beside its json, and what goes with them.
+fn add_forms(responses: &mut BTreeMap<String, RefOr<Response>>) {
+    if let Some(RefOr::T(answer)) = responses.get_mut("200") {
+        for form in Form::ALL.into_iter().filter(|form| *form != Form::Json) {
+            // Of what is no text there is nothing more to say (OpenAPI 3.1, 4.8.14).
+            let schema = matches!(form, Form::Csv | Form::Svg).then(|| Object::with_type(Type::String));
+            answer
+                .content
+                .insert(form.media_type().to_owned(), ContentBuilder::new().schema(schema).build().into());
+        }
+        let tag = HeaderBuilder::new().description(Some(
+            "Of what does not change any more: sent back in `If-None-Match` it is answered with 304.",
+        ));
+        answer.headers.insert("ETag".to_owned(), tag.build().into());
+    }
+    let unchanged =
+        ResponseBuilder::new().description("The client has it: its `If-None-Match` names the ETag.");
+    responses.insert("304".to_owned(), unchanged.build().into());
+    let refused = "The result does not come in the form that `format` or `Accept` asks for; `detail` says in which it does.";
+    responses.insert("406".to_owned(), problem(refused));
 }
 
 /// What every route may answer, unless it says so itself.
@@ -34,9 +66,11 @@ fn add_common_answers(responses: &mut BTreeMap<String, RefOr<Response>>) {
         ("507", "The disk of the data folder is full; Retry-After says when to try again."),
         ("500", "A defect, or the data folder failed: the service's log says more."),
     ] {
-        responses.entry(status.to_owned()).or_insert_with(|| {
-            let content = ContentBuilder::new().schema(Some(Ref::from_schema_name("Problem"))).build();
-            ResponseBuilder::new().description(description).content(MEDIA_TYPE, content).build().into()
-        });
+        responses.entry(status.to_owned()).or_insert_with(|| problem(description));
     }
+}
+
+fn problem(description: &str) -> RefOr<Response> {
+    let content = ContentBuilder::new().schema(Some(Ref::from_schema_name("Problem"))).build();
+    ResponseBuilder::new().description(description).content(MEDIA_TYPE, content).build().into()
 }

@@ -355,6 +355,6 @@ pub(super) async fn delete_model(
     }
 }
 
-fn model_not_found(id: &str) -> Problem {
+pub(super) fn model_not_found(id: &str) -> Problem {
     Problem::new(Kind::ModelNotFound, format!("there is no model {:?}", excerpt(id)))
 }

@@ -116,6 +116,8 @@ kinds! {
     HistoryNotRecorded = NOT_FOUND, "history-not-recorded", "There are no histories of this speed";
     /// The route knows other methods.
     MethodNotAllowed = METHOD_NOT_ALLOWED, "method-not-allowed", "The method is not allowed here";
+    /// The result does not have the form that was asked for.
+    NotAcceptable = NOT_ACCEPTABLE, "not-acceptable", "The result does not come in this form";
     /// Unfinished jobs need the model.
     ModelInUse = CONFLICT, "model-in-use", "Unfinished jobs need the model";
     /// This kind of job has no such result.

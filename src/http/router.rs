@@ -17,8 +17,8 @@ use utoipa_axum::routes;
 
 use super::state::AppState;
 use super::{
-    access, body, case_studies, contract, extract, forces, health, host, jobs, metrics, modal_analyses,
-    models, openapi, principal, problem, results, studies, sweeps, version, wheel,
+    access, body, case_studies, contract, extract, forces, health, histories, host, jobs, maps, metrics, modal_analyses, models, openapi,
+    principal, problem, results, section, spectra, studies, sweeps, version, wheel,
 };
 
 /// The routes with their descriptions.
@@ -27,6 +27,7 @@ pub(super) fn routes() -> OpenApiRouter<AppState> {
         .routes(routes!(models::create_model, models::list_models))
         .routes(routes!(models::plan_model_generation))
         .routes(routes!(models::get_model, models::label_model, models::delete_model))
+        .routes(routes!(section::get_section))
         .routes(routes!(modal_analyses::create_modal_analysis))
         .routes(routes!(modal_analyses::plan_modal_analysis))
         .routes(routes!(sweeps::create_sweep))
@@ -36,12 +37,13 @@ pub(super) fn routes() -> OpenApiRouter<AppState> {
         .routes(routes!(jobs::list_jobs))
         .routes(routes!(jobs::get_job, jobs::label_job, jobs::delete_job))
         .routes(routes!(results::get_campbell))
-        .routes(routes!(results::get_interaction_map))
-        .routes(routes!(results::get_spectra))
+        .routes(routes!(maps::get_interaction_map))
+        .routes(routes!(spectra::get_spectra))
+        .routes(routes!(spectra::get_wear))
         .routes(routes!(results::get_critical_speeds))
         .routes(routes!(wheel::get_wheel_critical_speeds))
         .routes(routes!(studies::get_work_precision))
-        .routes(routes!(studies::get_histories, case_studies::create_histories))
+        .routes(routes!(histories::get_histories, case_studies::create_histories))
         .routes(routes!(forces::get_forces))
         .routes(routes!(health::get_health))
         .routes(routes!(health::get_readiness))
@@ -84,7 +86,13 @@ fn cors(origins: &[HeaderValue]) -> Option<CorsLayer> {
     let layer = CorsLayer::new()
         .allow_origin(AllowOrigin::list(origins.iter().cloned()))
         .allow_methods([Method::GET, Method::POST, Method::PATCH, Method::DELETE])
-        .allow_headers([header::AUTHORIZATION, header::CONTENT_TYPE, idempotency_key, access::REQUEST_ID])
-        .expose_headers([header::LOCATION, header::RETRY_AFTER, access::REQUEST_ID]);
+        .allow_headers([
+            header::AUTHORIZATION,
+            header::CONTENT_TYPE,
+            header::IF_NONE_MATCH,
+            idempotency_key,
+            access::REQUEST_ID,
+        ])
+        .expose_headers([header::ETAG, header::LOCATION, header::RETRY_AFTER, access::REQUEST_ID]);
     (!origins.is_empty()).then_some(layer)
 }

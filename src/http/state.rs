@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::contract::Contract;
+use super::renderings::Renderings;
 use super::stream::LargeAnswers;
 use super::transport::Transport;
 use crate::jobs::Jobs;
@@ -18,6 +19,8 @@ pub struct AppState {
     pub store: Store,
     /// Bounds what large answers take.
     pub answers: LargeAnswers,
+    /// Drawings that were made already.
+    pub renderings: Arc<Renderings>,
     /// Who may use the service; `None`: whoever reaches it.
     pub tokens: Option<Tokens>,
     /// What one owner may have.

@@ -14,7 +14,6 @@ use tokio::sync::{OwnedSemaphorePermit, Semaphore};
 
 use super::problem::{Kind, Problem};
 use crate::jobs::{Allowance, Jobs};
-use crate::store::StoreError;
 
 /// Bytes of a piece.
 const PIECE: usize = 1 << 16;
@@ -61,22 +60,21 @@ where
         .map_err(|_| Problem::new(Kind::Internal, "a defect of the program; the service's log says more"))
 }
 
-/// An answer in JSON, of what `value` makes on a thread that may wait and compute.
-pub(super) fn json<T: Serialize>(leave: Leave, value: impl FnOnce() -> T + Send + 'static) -> Response {
-    written(leave, "application/json", move |pieces| Ok(serde_json::to_writer(pieces, &value())?))
-}
-
 /// An answer that is there as a whole.
-pub(super) fn text(leave: Leave, content_type: &'static str, body: String) -> Response {
-    written(leave, content_type, move |pieces| pieces.write_all(body.as_bytes()))
+pub(super) fn whole(
+    leave: Leave,
+    content_type: &'static str,
+    body: impl AsRef<[u8]> + Send + 'static,
+) -> Response {
+    written(leave, content_type, move |pieces| pieces.write_all(body.as_ref()))
 }
 
 /// An answer that `write` writes on a thread that may wait and compute. What fails once the answer has begun breaks it
 /// off, so that nobody takes it for whole.
-fn written(
+pub(super) fn written(
     leave: Leave,
     content_type: &'static str,
-    write: impl FnOnce(&mut Pieces) -> io::Result<()> + Send + 'static,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()> + Send + 'static,
 ) -> Response {
     let (sender, receiver) = channel(WAITING);
     tokio::task::spawn_blocking(move || {
@@ -142,7 +140,7 @@ pub(super) struct Read<F> {
     pub(super) item: F,
 }
 
-impl<T: Serialize, F: Fn(u32) -> Result<T, StoreError>> Serialize for Read<F> {
+impl<T: Serialize, E: std::fmt::Display, F: Fn(u32) -> Result<T, E>> Serialize for Read<F> {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         use serde::ser::SerializeSeq;
 

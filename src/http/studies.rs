@@ -5,17 +5,19 @@ use axum::response::Response;
 use serde::Deserialize;
 use utoipa::{IntoParams, ToSchema};
 
+use super::download::{Download, DownloadQuery};
 use super::extract::{JobPath, JsonBody, Parameters};
+use super::forms::Forms;
 use super::idempotency::IdempotencyKey;
 use super::labels::Labelled;
 use super::problem::Problem;
-use super::results::{self, find, wrong_kind};
+use super::results::{find, wrong_kind};
 use super::state::AppState;
 use super::submit::{self, Receipt};
 use crate::analysis::request::StudyRequest;
 use crate::analysis::resolved::ResolvedStudy;
 use crate::analysis::result::Quantity;
-use crate::analysis::run::{Histories, WorkPrecision};
+use crate::analysis::run::WorkPrecision;
 use crate::jobs::Submission;
 use crate::plot;
 use crate::store::jobs::{Job, JobKind, JobRequest};
@@ -25,60 +27,29 @@ use crate::tokens::Principal;
 /// The body: the request, and what the job is to be called.
 type StudyBody = Labelled<StudyRequest>;
 
-/// Form of a download.
-#[derive(Debug, Clone, Copy, Default, Deserialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub(super) enum Format {
-    /// All numbers.
-    #[default]
-    Json,
-    /// A table.
-    Csv,
-    /// A drawing.
-    Svg,
-}
-
-/// Form of a download of histories.
-#[derive(Debug, Clone, Copy, Default, Deserialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub(super) enum HistoriesFormat {
-    /// All numbers.
-    #[default]
-    Json,
-    /// A drawing.
-    Svg,
-}
-
 /// What to download of a study.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 pub(super) struct WorkPrecisionQuery {
-    /// `json` (default) or `csv` for all speeds and quantities, `svg` for a drawing of one.
-    #[serde(default)]
-    #[param(inline)]
-    format: Format,
     /// Of the drawing: whose error; default `amplitude`.
     #[param(inline)]
     quantity: Option<Quantity>,
     /// Of the drawing: index of the speed in the request; default 0.
     #[serde(default)]
     speed: u32,
+    /// Of the drawing: over what the error is drawn; default `time`.
+    #[param(inline)]
+    over: Option<Over>,
 }
 
-/// Which histories of a study to download.
-#[derive(Debug, Deserialize, IntoParams)]
-#[into_params(parameter_in = Query)]
-pub(super) struct HistoriesQuery {
-    /// `json` (default) for all sensors, `svg` for a drawing of one.
-    #[serde(default)]
-    #[param(inline)]
-    format: HistoriesFormat,
-    /// Index of the speed in the request; default 0.
-    #[serde(default)]
-    speed: u32,
-    /// Of the drawing: index of the sensor in the request; default 0.
-    #[serde(default)]
-    sensor: u32,
+/// What errors are drawn over.
+#[derive(Debug, Clone, Copy, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum Over {
+    /// CPU time.
+    Time,
+    /// The time step.
+    Step,
 }
 
 /// Compare a grid of settings with a reference one level finer: errors, times, observed orders.
@@ -132,11 +103,12 @@ pub(super) async fn create_study(
 }
 
 /// Download errors and times of a study.
+///
+/// In csv a line is a run; npz has an array per column of it.
 #[utoipa::path(get, path = "/v1/jobs/{id}/work-precision", operation_id = "get_work_precision", tag = "results",
-    params(("id" = String, Path, description = "Id of a study."), WorkPrecisionQuery),
+    params(("id" = String, Path, description = "Id of a study."), WorkPrecisionQuery, DownloadQuery),
     responses(
-        (status = 200, description = "Errors and times of every setting.",
-            content((WorkPrecision = "application/json"), (String = "text/csv"), (String = "image/svg+xml"))),
+        (status = 200, description = "Errors and times of every setting.", body = WorkPrecision),
         (status = 400, description = "A parameter is not valid.", body = Problem,
             content_type = "application/problem+json"),
         (status = 404, description = "There is no such job.", body = Problem,
@@ -149,63 +121,21 @@ pub(super) async fn get_work_precision(
     whose: Principal,
     JobPath(id): JobPath,
     Parameters(query): Parameters<WorkPrecisionQuery>,
+    download: Download,
 ) -> Result<Response, Problem> {
     let job = find(&state, &whose, id).await?;
     check_speed(&job, query.speed)?;
-    let (document, speed) = (Document::WorkPrecision, query.speed as usize);
-    match query.format {
-        Format::Json => results::document(&state, &job, document).await,
-        Format::Csv => {
-            results::drawn(&state, &job, document, "text/csv; charset=utf-8", WorkPrecision::csv).await
-        }
-        Format::Svg => {
-            let quantity = query.quantity.unwrap_or(Quantity::Amplitude);
-            let draw = move |document: &WorkPrecision| plot::work_precision(document, speed, quantity);
-            results::drawn(&state, &job, document, "image/svg+xml", draw).await
-        }
-    }
-}
-
-/// Download the displacements of the first revolutions, one line per size.
-#[utoipa::path(get, path = "/v1/jobs/{id}/histories", operation_id = "get_histories", tag = "results",
-    params(("id" = String, Path, description = "Id of a study."), HistoriesQuery),
-    responses(
-        (status = 200, description = "The histories.",
-            content((Histories = "application/json"), (String = "image/svg+xml"))),
-        (status = 400, description = "A parameter is not valid.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 404, description = "There is no such job.", body = Problem,
-            content_type = "application/problem+json"),
-        (status = 409, description = "The job is not a study, not finished, or ended without this result.",
-            body = Problem, content_type = "application/problem+json"),
-    ))]
-pub(super) async fn get_histories(
-    state: State<AppState>,
-    whose: Principal,
-    JobPath(id): JobPath,
-    Parameters(query): Parameters<HistoriesQuery>,
-) -> Result<Response, Problem> {
-    let job = find(&state, &whose, id).await?;
-    if matches!(job.request, JobRequest::Sweep(_) | JobRequest::CaseStudy(_)) {
-        return results::document(&state, &job, Document::Histories(query.speed)).await;
-    }
-    let request = check_speed(&job, query.speed)?;
-    let sensors = request.sensors().len();
-    if query.sensor as usize >= sensors {
-        return Err(Problem::parameter("sensor", format!("the job has {sensors} sensors, counted from 0")));
-    }
-    let (document, sensor) = (Document::Histories(query.speed), query.sensor as usize);
-    match query.format {
-        HistoriesFormat::Json => results::document(&state, &job, document).await,
-        HistoriesFormat::Svg => {
-            let draw = move |histories: &Histories| plot::histories(histories, sensor);
-            results::drawn(&state, &job, document, "image/svg+xml", draw).await
-        }
-    }
+    let (speed, quantity) = (query.speed as usize, query.quantity.unwrap_or(Quantity::Amplitude));
+    let over = query.over.unwrap_or(Over::Time);
+    let draw = move |found: &WorkPrecision| match over {
+        Over::Time => plot::work_precision(found, speed, quantity),
+        Over::Step => plot::error_over_step(found, speed, quantity),
+    };
+    Forms::drawn_by(draw).of_document(&state, download, &job, Document::WorkPrecision).await
 }
 
 /// The request of a study that has so many speeds.
-fn check_speed(job: &Job, speed: u32) -> Result<&ResolvedStudy, Problem> {
+pub(super) fn check_speed(job: &Job, speed: u32) -> Result<&ResolvedStudy, Problem> {
     let JobRequest::Study(request) = &job.request else { return Err(wrong_kind(job, JobKind::Study)) };
     let total = job.speeds.total;
     if speed >= total {

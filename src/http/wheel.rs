@@ -3,9 +3,11 @@
 use axum::extract::State;
 use axum::response::Response;
 
+use super::download::{Download, DownloadQuery};
 use super::extract::JobPath;
+use super::forms::Forms;
 use super::problem::Problem;
-use super::results::{document, find, sweep};
+use super::results::{find, sweep};
 use super::state::AppState;
 use crate::analysis::result::WheelCriticalSpeeds;
 use crate::store::results::Document;
@@ -13,9 +15,9 @@ use crate::tokens::Principal;
 
 /// Download the critical speeds of the wheel, the most severe first: over all contact nodes, components and blades.
 ///
-/// The views of the sensors are beside them; `critical-speeds` has one of them with the linear prediction.
+/// The views of the sensors are beside them in json; `critical-speeds` has one of them with the linear prediction, and its drawing.
 #[utoipa::path(get, path = "/v1/jobs/{id}/critical-speeds/wheel", operation_id = "get_wheel_critical_speeds", tag = "results",
-    params(("id" = String, Path, description = "Id of a sweep.")),
+    params(("id" = String, Path, description = "Id of a sweep."), DownloadQuery),
     responses(
         (status = 200, description = "The table.", body = WheelCriticalSpeeds),
         (status = 404, description = "There is no such job.", body = Problem,
@@ -27,8 +29,9 @@ pub(super) async fn get_wheel_critical_speeds(
     state: State<AppState>,
     whose: Principal,
     JobPath(id): JobPath,
+    download: Download,
 ) -> Result<Response, Problem> {
     let job = find(&state, &whose, id).await?;
     sweep(&job)?;
-    document(&state, &job, Document::WheelCriticalSpeeds).await
+    Forms::<WheelCriticalSpeeds>::undrawn().of_document(&state, download, &job, Document::WheelCriticalSpeeds).await
 }

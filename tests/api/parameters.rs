@@ -53,7 +53,11 @@ async fn parameters_are_refused_in_words() {
             "sensor",
             "expected a whole number from 0 to 4294967295, not \"-1\"",
         ),
-        (&format!("{job}/histories?format=pdf"), "format", "expected one of json, svg, not \"pdf\""),
+        (
+            &format!("{job}/histories?format=pdf"),
+            "format",
+            "expected one of json, csv, npz, svg, png, not \"pdf\"",
+        ),
         (
             &format!("{job}/histories?sensor=%FF"),
             "sensor",
@@ -87,6 +91,7 @@ async fn what_is_no_text_is_not_found() {
         ("GET", "/v1/jobs/%FF/interaction-map", "job-not-found"),
         ("GET", "/v1/jobs/%FF/spectra/0", "job-not-found"),
         ("GET", &format!("{job}/spectra/%FF"), "speed-not-found"),
+        ("GET", &format!("{job}/wear/%FF"), "speed-not-found"),
         ("GET", "/v1/jobs/%FF/histories", "job-not-found"),
     ] {
         let request = app.api.request(method, path);

@@ -6,7 +6,7 @@ use super::app::{Api, TestApp, sweep_of};
 use super::model;
 use super::program::Program;
 
-fn study_of(model: &str) -> Value {
+pub(crate) fn study_of(model: &str) -> Value {
     let sweep = sweep_of(model);
     json!({
         "model": model,
@@ -103,10 +103,10 @@ async fn a_study_tells_errors_and_times_of_every_setting() {
 
     for (query, parameter) in [
         ("work-precision?speed=2", "speed"),
-        ("work-precision?format=png", "format"),
+        ("work-precision?format=pdf", "format"),
         ("work-precision?quantity=beauty", "quantity"),
         ("histories?sensor=2", "sensor"),
-        ("histories?format=csv", "format"),
+        ("histories?format=dvd", "format"),
     ] {
         let answer = api.get(&format!("/v1/jobs/{id}/{query}")).await;
         assert_eq!(answer.problem(400, "invalid-parameter")[0]["parameter"], parameter, "{query}");

@@ -9,6 +9,7 @@ pub use crate::calibration::Calibration;
 pub use crate::check::check;
 pub use crate::contact::{force_map, force_row};
 pub use crate::histories::{histories_wanted, speed_histories};
+pub use crate::effects::casing::convert::clearances;
 pub use crate::modal::modal_analysis;
 pub use crate::model::{ModelFacts, ReducedSector};
 pub use crate::plan::{histories_memory, plan_modal_analysis, plan_sweep, trial_memory};
@@ -24,6 +25,8 @@ pub use crate::result::{
     WorkPrecision,
 };
 pub use crate::speed::run_speed;
-pub use crate::summary::{critical_indices, critical_speeds, interaction_map, map_row, nothing_completed};
+pub use crate::summary::{
+    critical_indices, critical_speeds, interaction_map, map_engine_orders, map_row, nothing_completed,
+};
 pub use crate::tips::wheel_critical_speeds;
 pub use rubmap_wheel::revision::{REVISION, VERSION};

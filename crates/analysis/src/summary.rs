@@ -31,6 +31,11 @@ pub fn map_row(spectra: &SpeedSpectra, sensor: usize, nodal_diameter: Option<u32
     }
 }
 
+/// Engine orders of the columns of a sweep's maps.
+pub fn map_engine_orders(request: &ResolvedSweep) -> Vec<f64> {
+    engine_orders(request.integration.window_revolutions, request.max_engine_order)
+}
+
 /// The interaction map of `sensor` from the speeds finished so far, in any order, each with its [`map_row`]; the plan is for
 /// the caller to add.
 pub fn interaction_map(
@@ -53,7 +58,7 @@ pub fn interaction_map(
     points.sort_by_key(|point| point.index);
     InteractionMap {
         speeds_rad_s: speeds.to_vec(),
-        engine_orders: engine_orders(request.integration.window_revolutions, request.max_engine_order),
+        engine_orders: map_engine_orders(request),
         amplitude,
         sensor: request.sensors[sensor],
         nodal_diameter,

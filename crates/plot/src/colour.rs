@@ -38,6 +38,16 @@ pub(super) fn ordinal(index: usize, count: usize) -> String {
     hex(polynomial(&VIRIDIS, 0.88 * index as f64 / (count - 1) as f64))
 }
 
+/// Colour of one of `count` things in a natural order, all light enough for lines on the colours of [`amplitude`].
+pub(super) fn on_dark(index: usize, count: usize) -> String {
+    const FEW: [&str; 7] = ["#ffffff", "#7fd6ff", "#9df59d", "#ffb3de", "#b9a8ff", "#4df0d0", "#ffe08a"];
+    if count <= FEW.len() {
+        return FEW[index.min(FEW.len() - 1)].to_owned();
+    }
+    let [r, g, b] = polynomial(&VIRIDIS, index as f64 / (count - 1) as f64);
+    hex([r, g, b].map(|channel| 120 + (u16::from(channel) * 135 / 255) as u8))
+}
+
 /// Colours of Okabe and Ito's palette that the colour-blind tell apart as well, those that show as lines on white.
 pub(super) const DISTINCT: [&str; 6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"];
 

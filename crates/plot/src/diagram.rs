@@ -26,6 +26,17 @@ impl Diagram {
         Self::with_scales(corner, size, |places| scale(x, places), |places| scale(y, places))
     }
 
+    /// With a linear axis to the right and a logarithmic one upwards, whose values must be positive.
+    pub(super) fn upwards_logarithmic(
+        corner: (f64, f64),
+        size: (f64, f64),
+        x: (f64, f64),
+        y: (f64, f64),
+    ) -> Self {
+        let logarithmic = |places| Scale::logarithmic(y, places);
+        Self::with_scales(corner, size, |places| Scale::linear(x, places), logarithmic)
+    }
+
     fn with_scales(
         (left, top): (f64, f64),
         (width, height): (f64, f64),
@@ -52,6 +63,11 @@ impl Diagram {
         (self.x.contains(x) && self.y.contains(y)).then(|| self.point(x, y))
     }
 
+    /// Whether a place of the drawing lies in the frame.
+    pub(super) fn encloses(&self, (x, y): (f64, f64)) -> bool {
+        (self.left..=self.right()).contains(&x) && (self.top..=self.bottom()).contains(&y)
+    }
+
     /// The straight line between two points of linear axes, cut off at the frame; nothing if it lies outside.
     pub(super) fn clipped(&self, from: (f64, f64), to: (f64, f64)) -> Option<[(f64, f64); 2]> {
         let mut span = (0.0, 1.0);
@@ -69,6 +85,12 @@ impl Diagram {
         }
         let at = |s: f64| (from.0 + s * delta.0, from.1 + s * delta.1);
         (span.0 < span.1).then(|| [at(span.0), at(span.1)])
+    }
+
+    /// A region of this name that ends at the frame, for `clip-path`.
+    pub(super) fn region(&self, name: &str) -> Element {
+        let inside = rectangle(self.left, self.top, self.width, self.height);
+        Element::new("defs").child(Element::new("clipPath").set("id", name).child(inside))
     }
 
     /// Background, to be drawn first.
@@ -104,8 +126,8 @@ impl Diagram {
             let tick = line((x, bottom), (x, bottom + 5.0)).set("stroke", INK);
             [tick, text(x, bottom + 19.0, "middle", label)]
         });
-        let title = text(self.left + 0.5 * self.width, bottom + 42.0, "middle", title).set("font-size", "14");
-        group().children(marks).child(title)
+        let words = text(self.left + 0.5 * self.width, bottom + 42.0, "middle", title).set("font-size", "14");
+        group().children(marks).children((!title.is_empty()).then(|| words.set("class", "axis")))
     }
 
     /// Ticks and labels on the left, and the axis title `away` from the frame.
@@ -115,8 +137,9 @@ impl Diagram {
             let tick = line((self.left - 5.0, y), (self.left, y)).set("stroke", INK);
             [tick, text(self.left - 9.0, y + 4.5, "end", label)]
         });
-        let title = upright(self.left - away, self.top + 0.5 * self.height, "middle", title);
-        group().children(marks).child(title.set("font-size", "14"))
+        let words = upright(self.left - away, self.top + 0.5 * self.height, "middle", title);
+        let words = words.set("class", "axis").set("font-size", "14");
+        group().children(marks).children((!title.is_empty()).then_some(words))
     }
 }
 

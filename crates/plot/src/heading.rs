@@ -18,15 +18,26 @@ pub(super) fn heading(left: f64, title: &str, paragraphs: &[String]) -> (Element
     (group().child(title).children(lines.iter().enumerate().map(row)), bottom)
 }
 
+/// Where numbers come from, in words.
+pub(super) fn origin(model: &str, version: &str) -> String {
+    let model: String = model.chars().take(12).collect();
+    format!("model {model} · rubmap {version}")
+}
+
 /// A sensor in words.
 pub(super) fn sensor(sensor: &Sensor) -> String {
+    measured(sensor, "displacement")
+}
+
+/// What of a sensor is measured, in words.
+pub(super) fn measured(sensor: &Sensor, what: &str) -> String {
     let component = match sensor.component {
         Component::Radial => "radial",
         Component::Tangential => "tangential",
         Component::Axial => "axial",
         Component::Normal => "normal",
     };
-    format!("{component} displacement at contact node {} of sector {}", sensor.contact_node, sensor.sector)
+    format!("{component} {what} at contact node {} of sector {}", sensor.contact_node, sensor.sector)
 }
 
 /// Lines of at most `columns` characters, unless a single word has more.

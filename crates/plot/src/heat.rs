@@ -1,29 +1,24 @@
 //! The amplitudes as one image with a palette.
 
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
-
 use super::axis::Scale;
-use super::cells::Cell;
-use super::colour;
+use super::cells::{Cell, rpm};
 use super::diagram::Diagram;
+use super::pixels::{DENSITY, Pixels};
 use super::svg::Element;
+use super::window::Window;
 use rubmap_analysis::result::InteractionMap;
-
-/// Pixels of the image for each unit of the drawing.
-const DENSITY: f64 = 2.0;
 
 /// Least height of a spectral line in the drawing. At 24 engine orders and a window of 20 revolutions a bin alone would be
 /// a pixel high.
 const LINE_HEIGHT: f64 = 5.0;
 
-/// Palette index of a speed without result: transparent.
-const MISSING: u8 = 255;
-
-/// The loudest amplitude of the map beside the mean; none if nothing moves or nothing is there.
-pub(super) fn loudest(map: &InteractionMap) -> Option<f64> {
-    let values = map.amplitude.iter().flatten().flat_map(|row| row.iter().zip(&map.engine_orders));
-    let loudest = values.filter(|(_, order)| **order > 0.0).fold(0.0, |m: f64, (a, _)| m.max(*a));
+/// The loudest amplitude of a map within a window, beside the mean; none if nothing moves or nothing is there.
+pub(super) fn loudest(map: &InteractionMap, window: &Window) -> Option<f64> {
+    let rows =
+        map.speeds_rad_s.iter().zip(&map.amplitude).filter(|(speed, _)| window.has_speed(rpm(**speed)));
+    let values = rows.filter_map(|(_, row)| row.as_ref()).flat_map(|row| row.iter().zip(&map.engine_orders));
+    let inside = values.filter(|(_, order)| **order > 0.0 && window.has_order(**order));
+    let loudest = inside.fold(0.0, |m: f64, (a, _)| m.max(*a));
     (loudest.is_finite() && loudest > 0.0).then_some(loudest)
 }
 
@@ -36,40 +31,29 @@ pub(super) fn image(
     amplitudes: &Scale,
     engine_order: impl Fn(f64, f64) -> f64,
 ) -> Element {
-    let (width, height) = ((diagram.width * DENSITY) as usize, (diagram.height * DENSITY) as usize);
-    let mut pixels = vec![MISSING; width * height];
+    let mut pixels = Pixels::over(diagram);
     let value = |pixel: usize| diagram.x.value(diagram.left + pixel as f64 / DENSITY);
     let mut first = 0;
-    for column in 0..width {
+    for column in 0..pixels.width {
         let (from, to) = (value(column), value(column + 1));
         while first + 1 < cells.len() && cells[first].to <= from {
             first += 1;
         }
-        // The cell at the left edge, and all that begin within the column.
-        let here = cells[first..].iter().enumerate().take_while(|(i, cell)| *i == 0 || cell.from < to);
-        for (_, cell) in here {
+        // All that have a part in the column.
+        let here = cells[first..].iter().take_while(|cell| cell.from < to).filter(|cell| cell.to > from);
+        for cell in here {
             let Some(row) = map.amplitude.get(cell.index).and_then(Option::as_ref) else { continue };
             let rpm = 0.5 * (from + to);
-            for line in 0..height {
+            for line in 0..pixels.height {
                 let y = diagram.top + (line as f64 + 0.5) / DENSITY;
                 let order = |y: f64| engine_order(diagram.y.value(y), rpm);
                 let band = (order(y + 0.5 * LINE_HEIGHT), order(y - 0.5 * LINE_HEIGHT));
                 let Some(amplitude) = loudest_within(&map.engine_orders, row, band) else { continue };
-                let shade =
-                    (amplitudes.share(amplitude.max(f64::MIN_POSITIVE)).clamp(0.0, 1.0) * 254.0).round();
-                let pixel = &mut pixels[line * width + column];
-                *pixel = if *pixel == MISSING { shade as u8 } else { (*pixel).max(shade as u8) };
+                pixels.paint(column, line, amplitudes.share(amplitude.max(f64::MIN_POSITIVE)));
             }
         }
     }
-    Element::new("image")
-        .number("x", diagram.left)
-        .number("y", diagram.top)
-        .number("width", diagram.width)
-        .number("height", diagram.height)
-        .set("preserveAspectRatio", "none")
-        .set("image-rendering", "pixelated")
-        .set("href", data_uri(width, height, &pixels))
+    pixels.draw()
 }
 
 /// The loudest of the bins whose engine order lies in a band or is the nearest to its middle; the mean is no vibration.
@@ -91,26 +75,6 @@ fn loudest_within(orders: &[f64], row: &[f64], (low, high): (f64, f64)) -> Optio
     };
     let bins = range.filter(|bin| orders[*bin] > 0.0).filter_map(|bin| row.get(bin));
     Some(bins.fold(0.0, |m: f64, a| m.max(*a)))
-}
-
-fn data_uri(width: usize, height: usize, pixels: &[u8]) -> String {
-    let palette: Vec<u8> =
-        (0..=254).flat_map(|i| colour::amplitude(f64::from(i) / 254.0)).chain([0; 3]).collect();
-    let mut transparency = [255; 256];
-    transparency[usize::from(MISSING)] = 0;
-    let mut file = Vec::new();
-    let mut encoder = png::Encoder::new(&mut file, width as u32, height as u32);
-    encoder.set_color(png::ColorType::Indexed);
-    encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_palette(palette);
-    encoder.set_trns(transparency.to_vec());
-    encoder.set_compression(png::Compression::High);
-    let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(pixels));
-    // Into memory, with sizes that agree, nothing can fail; without an image the drawing is still one.
-    match written {
-        Ok(()) => format!("data:image/png;base64,{}", STANDARD.encode(&file)),
-        Err(_) => "data:,".to_owned(),
-    }
 }
 
 #[cfg(test)]

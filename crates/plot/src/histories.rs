@@ -6,7 +6,9 @@ use super::colour::DISTINCT;
 use super::diagram::Diagram;
 use super::heading::{heading, sensor as in_words};
 use super::key::{Key, MARK_WIDTH};
-use super::svg::{Element, group, line, polyline};
+use super::marks::order;
+use super::svg::{Element, group, line, rectangle};
+use super::trace::Trace;
 use super::{scheme, svg};
 use rubmap_analysis::result::HistoryLine;
 use rubmap_analysis::run::Histories;
@@ -15,9 +17,6 @@ const WIDTH: f64 = 1180.0;
 const HEIGHT: f64 = 640.0;
 const LEFT: f64 = 92.0;
 const PLOT_WIDTH: f64 = 800.0;
-
-/// Lines of more points are thinned to what the drawing can show.
-const MOST_POINTS: usize = 4000;
 
 /// Line styles of the sizes beyond the colours, and of those beyond that.
 const DASHES: [&str; 3] = ["", "7 3", "2 3"];
@@ -28,10 +27,20 @@ const REFERENCE: &str = "8 5";
 /// Draws the displacements of the sensor of index `sensor` over revolutions, one line per size; the reference is dashed and black.
 pub fn histories(histories: &Histories, sensor: usize) -> String {
     let measured = histories.sensors.get(sensor).map_or_else(|| "displacement".to_owned(), in_words);
-    let title = format!("First revolutions: {measured}, {} rpm", label(rpm(histories.speed_rad_s), 0));
-    let words = format!("each size at its finest time step · rubmap {}", histories.version);
-    let (heading, bottom) = heading(LEFT, &title, &[words]);
     let curves: Vec<Curve> = histories.lines.iter().filter_map(|line| Curve::of(line, sensor)).collect();
+    let longest = curves.iter().map(|curve| curve.displacement.len()).max().unwrap_or(0);
+    let revolutions = longest as f64 / f64::from(histories.samples_per_revolution.max(1));
+    let title = match revolutions {
+        0.0 => format!("First revolutions: {measured}, {} rpm", label(rpm(histories.speed_rad_s), 0)),
+        _ => format!(
+            "First {} revolutions: {measured}, {} rpm",
+            order(revolutions),
+            label(rpm(histories.speed_rad_s), 0)
+        ),
+    };
+    let words = "one line per size of the model, each at the finest time step that was completed";
+    let words = format!("{words} · rubmap {}", histories.version);
+    let (heading, bottom) = heading(LEFT, &title, &[words]);
     let diagram = diagram(&curves, histories.samples_per_revolution, bottom + 24.0);
     let mut content = vec![heading];
     if curves.is_empty() {
@@ -40,18 +49,21 @@ pub fn histories(histories: &Histories, sensor: usize) -> String {
     }
     let (x, y) = (ticks(diagram.x.values, 8.0), ticks(diagram.y.values, 8.0));
     content.push(diagram.grid(&x, &y));
+    let mut bands = false;
     content.extend(curves.iter().enumerate().map(|(index, curve)| {
         let step = 1.0 / f64::from(histories.samples_per_revolution.max(1));
         let place = |(j, value): (usize, &f64)| diagram.point((j + 1) as f64 * step, *value);
         let points: Vec<(f64, f64)> = curve.displacement.iter().enumerate().map(place).collect();
-        let path = polyline(thinned(points).into_iter().map(Some)).set("class", "history");
-        curve.styled(path, index).set("stroke-linejoin", "round").title(&curve.title())
+        let (colour, dashes) = curve.style(index);
+        let trace = Trace::of(points);
+        bands |= trace.is_band;
+        trace.coloured(colour, 1.6, dashes).title(&curve.title())
     }));
     content.extend([
         diagram.frame(),
         diagram.x_axis(&x, "revolutions"),
         diagram.y_axis(&y, &format!("displacement, {}", histories.units.length), 66.0),
-        key(&curves, &diagram),
+        key(&curves, &diagram, bands),
     ]);
     svg::document(&title, WIDTH, HEIGHT, content)
 }
@@ -80,15 +92,12 @@ impl<'a> Curve<'a> {
         )
     }
 
-    /// `stroke` as the line of this place has it.
-    fn styled(&self, stroke: Element, index: usize) -> Element {
+    /// Colour and dashes of the line at this place.
+    fn style(&self, index: usize) -> (&'static str, &'static str) {
         if self.line.reference {
-            let stroke = stroke.set("stroke", "black").set("stroke-width", "1.6");
-            return stroke.set("stroke-dasharray", REFERENCE);
+            return ("black", REFERENCE);
         }
-        let dashes = DASHES[(index / DISTINCT.len()).min(DASHES.len() - 1)];
-        let stroke = stroke.set("stroke", DISTINCT[index % DISTINCT.len()]).set("stroke-width", "1.6");
-        stroke.set("stroke-dasharray", dashes)
+        (DISTINCT[index % DISTINCT.len()], DASHES[(index / DISTINCT.len()).min(DASHES.len() - 1)])
     }
 }
 
@@ -103,35 +112,24 @@ fn diagram(curves: &[Curve], samples_per_revolution: u32, top: f64) -> Diagram {
     Diagram::new((LEFT, top), size, (0.0, revolutions), (low - room, high + room))
 }
 
-/// Of more than [`MOST_POINTS`], the lowest and the highest of every column one unit wide.
-fn thinned(points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
-    if points.len() <= MOST_POINTS {
-        return points;
-    }
-    let extremes = |column: &[(f64, f64)]| {
-        let height = |(_, point): &(usize, &(f64, f64))| point.1;
-        let places = || column.iter().enumerate();
-        let low = places().min_by(|a, b| height(a).total_cmp(&height(b)));
-        let high = places().max_by(|a, b| height(a).total_cmp(&height(b)));
-        let mut kept: Vec<usize> = low.into_iter().chain(high).map(|(index, _)| index).collect();
-        kept.sort_unstable();
-        kept.dedup();
-        kept.into_iter().map(|index| column[index]).collect::<Vec<_>>()
-    };
-    points.chunk_by(|a, b| a.0.floor() == b.0.floor()).flat_map(extremes).collect()
-}
-
-fn key(curves: &[Curve], diagram: &Diagram) -> Element {
+fn key(curves: &[Curve], diagram: &Diagram, bands: bool) -> Element {
     let key = Key::new(diagram.right() + 30.0, diagram.top).heading("modes per speed · unknowns");
     let row = |key: Key, (index, curve): (usize, &Curve)| {
-        let stroke = line((0.0, 0.0), (MARK_WIDTH, 0.0));
+        let (colour, dashes) = curve.style(index);
+        let mark = if bands {
+            rectangle(0.0, -6.0, MARK_WIDTH, 12.0).set("fill", colour).set("fill-opacity", "0.45")
+        } else {
+            let stroke = line((0.0, 0.0), (MARK_WIDTH, 0.0)).set("stroke", colour);
+            stroke.set("stroke-width", "1.6").set("stroke-dasharray", dashes)
+        };
         let words = format!(
             "{}{} · {} unknowns",
             if curve.line.reference { "reference: " } else { "" },
             curve.line.setting.modes_per_speed,
             label(curve.line.unknowns.into(), 0)
         );
-        key.row(group().child(curve.styled(stroke, index)), &words)
+        key.row(group().child(mark), &words)
     };
-    curves.iter().enumerate().fold(key, row).draw()
+    let key = curves.iter().enumerate().fold(key, row);
+    if bands { key.heading("bands: lowest to highest").draw() } else { key.draw() }
 }

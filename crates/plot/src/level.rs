@@ -1,7 +1,7 @@
 //! The level of the response over speed, above the map.
 
 use super::axis::{significant, ticks};
-use super::cells::{Cell, extent};
+use super::cells::Cell;
 use super::diagram::Diagram;
 use super::svg::{Element, group, line, polyline};
 use rubmap_analysis::result::InteractionMap;
@@ -16,10 +16,17 @@ pub(super) fn rms(map: &InteractionMap, index: usize) -> Option<f64> {
 }
 
 /// The empty diagram of the level.
-pub(super) fn diagram(map: &InteractionMap, cells: &[Cell], corner: (f64, f64), size: (f64, f64)) -> Diagram {
-    let highest = cells.iter().filter_map(|cell| rms(map, cell.index)).fold(0.0, f64::max);
+pub(super) fn diagram(
+    map: &InteractionMap,
+    cells: &[Cell],
+    speeds: (f64, f64),
+    corner: (f64, f64),
+    size: (f64, f64),
+) -> Diagram {
+    let shown = cells.iter().filter(|cell| (speeds.0..=speeds.1).contains(&cell.rpm));
+    let highest = shown.filter_map(|cell| rms(map, cell.index)).fold(0.0, f64::max);
     let top = if highest > 0.0 { 1.12 * highest } else { 1.0 };
-    Diagram::new(corner, size, extent(cells), (0.0, top))
+    Diagram::new(corner, size, speeds, (0.0, top))
 }
 
 /// The curve with its axis.
@@ -31,7 +38,10 @@ pub(super) fn draw(map: &InteractionMap, cells: &[Cell], diagram: &Diagram) -> E
     });
     let points: Vec<_> = cells
         .iter()
-        .map(|cell| (cell, rms(map, cell.index).map(|rms| (diagram.point(cell.rpm, rms), rms))))
+        .map(|cell| {
+            let place = |rms| Some((diagram.inside(cell.rpm, rms)?, rms));
+            (cell, rms(map, cell.index).and_then(place))
+        })
         .collect();
     let curve = polyline(points.iter().map(|(_, point)| point.map(|(place, _)| place)))
         .set("stroke", COLOUR)

@@ -13,7 +13,6 @@ pub(super) const UNRESOLVED: &str = "1.5 4";
 
 /// An open circle: the linear criterion's crossing.
 pub(super) fn linear((x, y): (f64, f64), stroke: &str, crossing: &Crossing) -> Element {
-    let Crossing { nodal_diameter: i, family: j, superharmonic: n, .. } = crossing;
     Element::new("circle")
         .number("cx", x)
         .number("cy", y)
@@ -22,10 +21,21 @@ pub(super) fn linear((x, y): (f64, f64), stroke: &str, crossing: &Crossing) -> E
         .set("stroke", stroke)
         .set("stroke-width", "1.5")
         .title(&format!(
-            "linear criterion (i, j, n) = ({i}, {j}, {n}): {} rpm, {} Hz",
+            "linear criterion (i, j, n) = {}: {} rpm, {} Hz",
+            triple(crossing),
             label(rpm(crossing.speed_rad_s), 0),
             significant(crossing.frequency_hz)
         ))
+}
+
+/// (i, j, n) of a crossing.
+pub(super) fn triple(crossing: &Crossing) -> String {
+    format!("({}, {}, {})", crossing.nodal_diameter, crossing.family, crossing.superharmonic)
+}
+
+/// (i, j) of a crossing that is driven.
+pub(super) fn pair(crossing: &DrivenCrossing) -> String {
+    format!("({}, {})", crossing.nodal_diameter, crossing.family)
 }
 
 /// A filled diamond: a crossing that the lobes can drive.

@@ -74,10 +74,13 @@ pub(super) fn strip(
             _ => stretches.push((standing, cell.from, cell.to)),
         }
     }
-    group().children(stretches.into_iter().map(|(standing, from, to)| {
-        let (from, to) = (diagram.x.place(from), diagram.x.place(to));
-        rectangle(from, top, to - from, height).set("fill", standing.colour()).title(standing.words())
-    }))
+    let (low, high) = diagram.x.values;
+    group().children(stretches.into_iter().filter(|(_, from, to)| *to > low && *from < high).map(
+        |(standing, from, to)| {
+            let (from, to) = (diagram.x.place(from.max(low)), diagram.x.place(to.min(high)));
+            rectangle(from, top, to - from, height).set("fill", standing.colour()).title(standing.words())
+        },
+    ))
 }
 
 /// The key of the standings that occur.

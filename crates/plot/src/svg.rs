@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 /// Families that are on most machines, and whatever has no serifs elsewhere.
-const FONTS: &str = "Helvetica, Arial, 'DejaVu Sans', sans-serif";
+const FONTS: &str = "Helvetica, Arial, 'DejaVu Sans Condensed', 'DejaVu Sans', sans-serif";
 
 /// An element with its attributes and children.
 #[derive(Debug, Clone)]
@@ -38,6 +38,12 @@ impl Element {
     /// With what a browser shows under the pointer.
     pub(super) fn title(self, text: &str) -> Self {
         self.child(Self::new("title").text(text))
+    }
+
+    /// With a rim that keeps a text legible over what it covers.
+    pub(super) fn rimmed(self, colour: &str) -> Self {
+        let rim = self.set("paint-order", "stroke").set("stroke", colour).set("stroke-width", "3");
+        rim.set("stroke-linejoin", "round")
     }
 
     /// With an element inside.
@@ -115,6 +121,17 @@ pub(super) fn polyline(points: impl IntoIterator<Item = Option<(f64, f64)>>) -> 
 /// A text that begins, is centred (`middle`) or ends at a point.
 pub(super) fn text(x: f64, y: f64, anchor: &str, content: &str) -> Element {
     Element::new("text").number("x", x).number("y", y).set("text-anchor", anchor).text(content)
+}
+
+/// About how wide a text of this size is in the fonts of a drawing.
+pub(super) fn text_width(words: &str, size: f64) -> f64 {
+    let share = |character: char| match character {
+        'i' | 'j' | 'l' | '.' | ',' | ':' | ';' | '|' | '\'' | ' ' | '·' | '(' | ')' | '/' => 0.34,
+        'm' | 'w' | 'M' | 'W' | '%' | '—' | '→' | '±' | '−' | '≤' | '×' => 0.84,
+        c if c.is_uppercase() => 0.68,
+        _ => 0.57,
+    };
+    size * words.chars().map(share).sum::<f64>()
 }
 
 /// A text that reads upwards from (or centred at) a point.

@@ -1,15 +1,16 @@
 //! Error over computing time of every setting of a study.
 
-use super::axis::{decades, label, significant};
+use super::axis::{decades, label};
 use super::cells::rpm;
 use super::diagram::Diagram;
 use super::heading::heading;
 use super::key::{Key, MARK_WIDTH};
+use super::labels::Labels;
+use super::study_runs::{Drawn, extent, left_out, origin, reason, words};
 use super::svg::{Element, INK, group, line, polyline, text};
 use super::{scheme, svg};
 use rubmap_analysis::request::SchemeChoice;
-use rubmap_analysis::request::auto_or::AutoOr;
-use rubmap_analysis::result::{PointStatus, Quantity, SpeedStudy, StudyRun, front};
+use rubmap_analysis::result::{Quantity, SpeedStudy, front};
 use rubmap_analysis::run::{Setting, WorkPrecision};
 use rubmap_wheel::response::sensitivity::Growth;
 
@@ -38,76 +39,6 @@ pub fn work_precision(study: &WorkPrecision, speed: usize, quantity: Quantity) -
     let mut content = vec![heading];
     content.extend(view.draw());
     svg::document(&title, WIDTH, HEIGHT, content)
-}
-
-/// A quantity in words.
-fn words(quantity: Quantity, study: &WorkPrecision) -> String {
-    match quantity {
-        Quantity::History => {
-            format!("displacement over the first {} revolutions", study.settings.history_revolutions)
-        }
-        Quantity::Amplitude => "steady amplitude".to_owned(),
-        Quantity::EngineOrders => "peaks at integer engine orders".to_owned(),
-        Quantity::Impulse => "contact impulse".to_owned(),
-    }
-}
-
-/// What the runs are held against, and where they come from.
-fn origin(study: &WorkPrecision, at: &SpeedStudy) -> String {
-    let reference = &at.reference;
-    let model: String = study.settings.model.chars().take(12).collect();
-    format!(
-        "reference: {}, {} unknowns, {} s · {} revolutions · model {model} · rubmap {}",
-        setting(&reference.setting),
-        label(reference.unknowns.into(), 0),
-        significant(reference.time_s),
-        study.settings.integration.revolutions,
-        study.version
-    )
-}
-
-fn setting(setting: &Setting) -> String {
-    let kept = match setting.kept_modes {
-        AutoOr::Fixed(kept) => format!(" with {kept} kept modes"),
-        AutoOr::Auto => String::new(),
-    };
-    format!(
-        "{} modes per speed, {}{kept}, {} steps a revolution",
-        setting.modes_per_speed,
-        scheme::words(setting.scheme),
-        label(setting.steps_per_revolution.into(), 0)
-    )
-}
-
-/// A run that can be drawn.
-struct Drawn<'a> {
-    run: &'a StudyRun,
-    error: f64,
-    /// Standard error of `error`, where there is one.
-    spread: Option<f64>,
-}
-
-impl<'a> Drawn<'a> {
-    fn of(run: &'a StudyRun, quantity: Quantity) -> Option<Self> {
-        let errors = run.errors.as_ref()?;
-        let error = errors.of(quantity)?;
-        let spread = errors.amplitude_spread.filter(|_| quantity == Quantity::Amplitude);
-        (error > 0.0 && error.is_finite() && run.time_s > 0.0).then_some(Self { run, error, spread })
-    }
-
-    fn title(&self) -> String {
-        let run = self.run;
-        let spread = self.spread.map(|spread| format!(" ± {}", significant(spread))).unwrap_or_default();
-        format!(
-            "{} ({} unknowns integrated): error {}{spread}; set-up {} s, {} ms a revolution, {} s in all",
-            setting(&run.setting),
-            label(run.unknowns.into(), 0),
-            significant(self.error),
-            significant(run.cost.set_up_s),
-            significant(1e3 * run.cost.per_revolution_s),
-            significant(run.time_s)
-        )
-    }
 }
 
 /// The diagram of one quantity at one speed.
@@ -144,10 +75,10 @@ impl<'a> View<'a> {
 
     fn draw(&self) -> Vec<Element> {
         let diagram = &self.diagram;
-        let note = text(LEFT, HEIGHT - 16.0, "start", &self.left_out());
+        let note = text(LEFT, HEIGHT - 16.0, "start", &left_out(self.at, self.quantity));
         let note = note.set("class", "left-out").set("font-size", "12").set("fill", "#555555");
         if self.runs.is_empty() {
-            return vec![diagram.frame(), diagram.words(&self.reason()), note];
+            return vec![diagram.frame(), diagram.words(&reason(self.at, self.quantity)), note];
         }
         let (x, y) = (decades(diagram.x.values, 14), decades(diagram.y.values, 20));
         let mut content = vec![diagram.grid(&x, &y), self.front_line()];
@@ -159,6 +90,7 @@ impl<'a> View<'a> {
             content.extend(here.map(|drawn| self.mark(drawn)));
         }
         content.extend(self.front().into_iter().map(|drawn| self.ring(drawn)));
+        content.push(self.steps());
         content.extend([
             diagram.frame(),
             diagram.x_axis(&x, "CPU time of the whole run with set-up, without reduction, s"),
@@ -220,6 +152,22 @@ impl<'a> View<'a> {
         front
     }
 
+    /// Steps per revolution at the marks, where there is room.
+    fn steps(&self) -> Element {
+        let mut labels = Labels::inside(&self.diagram);
+        for drawn in &self.runs {
+            labels.keep_off(self.place(drawn), self.radius(drawn.run.setting.modes_per_speed) + 2.0);
+        }
+        let front = self.front();
+        let others = self.runs.iter().filter(|drawn| !front.iter().any(|on| std::ptr::eq(*on, *drawn)));
+        // Those on the front first.
+        let words = front.iter().copied().chain(others).filter_map(|drawn| {
+            let steps = label(drawn.run.setting.steps_per_revolution.into(), 0);
+            labels.beside(self.place(drawn), &steps, 10.5)
+        });
+        group().children(words.map(|label| label.set("fill", "#444444").rimmed("white")))
+    }
+
     fn ring(&self, drawn: &Drawn) -> Element {
         let (x, y) = self.place(drawn);
         ring((x, y), self.radius(drawn.run.setting.modes_per_speed)).title(&drawn.title())
@@ -244,9 +192,11 @@ impl<'a> View<'a> {
             let row = group().child(stroke.set("stroke-width", "1.8"));
             key = key.row(row.child(scheme::mark(scheme, middle, 5.5)), &scheme::words(scheme));
         }
+        key = key.note("line: the runs that no other of the scheme beats");
+        key = key.note("number: time steps a revolution");
         let dashes = line((0.0, 0.0), (MARK_WIDTH, 0.0)).set("stroke", "#999999");
         let dashes = dashes.set("stroke-dasharray", "6 4");
-        key = key.row(group().child(dashes).child(ring(middle, 4.0)), "Pareto front of all runs");
+        key = key.row(group().child(dashes).child(ring(middle, 4.0)), "no run is better in time and error");
         if self.bars {
             let bar = line((middle.0, -8.0), (middle.0, 8.0)).set("stroke", INK).set("stroke-width", "1.2");
             key = key.row(bar, "± standard error (chaotic response)");
@@ -262,54 +212,6 @@ impl<'a> View<'a> {
         }
         key.draw()
     }
-
-    /// Which runs are not drawn.
-    fn left_out(&self) -> String {
-        let (mut not_completed, mut exact, mut without) = (0, 0, 0);
-        for run in &self.at.runs {
-            let error = run.errors.as_ref().and_then(|errors| errors.of(self.quantity));
-            match error {
-                _ if run.status != PointStatus::Completed => not_completed += 1,
-                Some(0.0) => exact += 1,
-                _ if Drawn::of(run, self.quantity).is_none() => without += 1,
-                _ => {}
-            }
-        }
-        let parts = [
-            (not_completed, "not completed"),
-            (exact, "with an error of exactly 0"),
-            (without, "without this error"),
-        ];
-        let parts: Vec<String> = parts
-            .iter()
-            .filter(|(count, _)| *count > 0)
-            .map(|(count, words)| format!("{count} {words}"))
-            .collect();
-        match parts.is_empty() {
-            true => String::new(),
-            false => format!("Left out of {} runs: {}", self.at.runs.len(), parts.join(", ")),
-        }
-    }
-
-    /// Why nothing is drawn.
-    fn reason(&self) -> String {
-        let completed = |run: &&StudyRun| run.status == PointStatus::Completed;
-        if self.at.reference.status != PointStatus::Completed {
-            return "Nothing to draw: the reference was not completed".to_owned();
-        }
-        if self.at.runs.iter().filter(completed).count() == 0 {
-            let first = self.at.runs.iter().find_map(|run| run.message.as_deref());
-            return format!("Nothing to draw: no run was completed ({})", first.unwrap_or("no reason given"));
-        }
-        let error = |run: &StudyRun| run.errors.as_ref()?.of(self.quantity);
-        let why = match (self.at.runs.iter().any(|run| error(run).is_some()), self.quantity) {
-            (true, _) => "all errors are exactly 0",
-            (false, Quantity::EngineOrders) => "the response does not repeat and has no steady peaks",
-            (false, Quantity::Impulse) => "there is no contact",
-            (false, Quantity::History | Quantity::Amplitude) => "no run has this error",
-        };
-        format!("Nothing to draw: {why}")
-    }
 }
 
 fn ring((x, y): (f64, f64), radius: f64) -> Element {
@@ -321,15 +223,4 @@ fn ring((x, y): (f64, f64), radius: f64) -> Element {
         .set("fill", "none")
         .set("stroke", INK)
         .set("stroke-width", "1.5")
-}
-
-/// Ends of a logarithmic axis for positive values: some room about them, and a decade at least.
-fn extent(values: impl Iterator<Item = f64>) -> (f64, f64) {
-    let (low, high) =
-        values.fold((f64::INFINITY, 0f64), |(low, high), value| (low.min(value), high.max(value)));
-    if high == 0.0 {
-        return (0.1, 10.0);
-    }
-    let room = f64::max(1.5, (10.0 * low / high).sqrt());
-    (low / room, high * room)
 }

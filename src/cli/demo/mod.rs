@@ -12,7 +12,7 @@ use super::session::client::Client;
 use super::session::{Session, impeller, progress, save, upload};
 use super::study;
 use crate::analysis::result::{Campbell, CriticalSpeeds, InteractionMap};
-use crate::plot::{self, VerticalAxis};
+use crate::plot::{self, VerticalAxis, Window};
 
 /// What the demo computes and where it leaves its results.
 #[derive(Debug, Args)]
@@ -61,7 +61,7 @@ async fn play(args: &DemoArgs, client: &Client, package: &Path) -> anyhow::Resul
         client.download(sweep.link("interaction-map")?, &out.join("interaction-map.json")).await?;
     let critical: CriticalSpeeds =
         client.download(sweep.link("critical-speeds")?, &out.join("critical-speeds.json")).await?;
-    let draw = |axis| plot::interaction_map(&map, Some(&critical), Some(&campbell), axis);
+    let draw = |axis| plot::interaction_map(&map, Some(&critical), Some(&campbell), axis, Window::default());
     save(&out.join("interaction-map.svg"), &draw(VerticalAxis::EngineOrder))?;
     save(&out.join("interaction-map-frequency.svg"), &draw(VerticalAxis::Frequency))?;
     save(&out.join("campbell.svg"), &plot::campbell(&campbell))?;

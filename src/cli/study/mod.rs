@@ -13,7 +13,7 @@ use super::session::client::Client;
 use super::session::{Session, impeller, progress, save, upload};
 use crate::analysis::result::Quantity;
 use crate::analysis::run::{Histories, WorkPrecision};
-use crate::plot;
+use crate::{export, plot};
 
 /// What is studied and where the results are left.
 #[derive(Debug, Args)]
@@ -59,7 +59,9 @@ pub(super) async fn play(client: &Client, body: Value, model: &str, out: &Path) 
 
     let found: WorkPrecision =
         client.download(job.link("work-precision")?, &out.join("work-precision.json")).await?;
-    save(&out.join("work-precision.csv"), &found.csv())?;
+    let mut table = Vec::new();
+    export::write_csv(&found, None, &mut table)?;
+    save(&out.join("work-precision.csv"), &String::from_utf8(table)?)?;
     for index in 0..found.speeds.len() {
         let speed = name(&found, index);
         for quantity in Quantity::ALL {

@@ -2,7 +2,7 @@
 //!
 //! - [`trial`]: one run at one setting, with what is compared and what it cost;
 //! - [`errors`]: how far a run is from a finer one;
-//! - [`study`], `grid`: a grid of settings against a reference (work and precision), `table` as CSV;
+//! - [`study`], `grid`: a grid of settings against a reference (work and precision);
 //! - [`choice`], [`rung`]: the cheapest setting that meets a target, or the most accurate one that a budget pays for;
 //! - [`modes`]: the same for a modal analysis, from its reductions;
 //! - [`control`]: the error of a finished sweep, from some of its speeds at a finer setting.
@@ -16,5 +16,4 @@ pub(crate) mod grid;
 pub mod modes;
 pub mod rung;
 pub mod study;
-mod table;
 pub mod trial;

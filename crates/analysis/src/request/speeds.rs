@@ -57,7 +57,8 @@ pub enum SpeedUnit {
 }
 
 impl SpeedUnit {
-    fn rad_s(self) -> f64 {
+    /// One of it in rad/s.
+    pub fn rad_s(self) -> f64 {
         use std::f64::consts::TAU;
         match self {
             Self::RadS => 1.0,

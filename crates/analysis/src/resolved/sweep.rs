@@ -98,6 +98,11 @@ impl ResolvedSweep {
         &self.sensors
     }
 
+    /// Whether the casing has a coating that wears.
+    pub fn is_worn(&self) -> bool {
+        self.scene.abradable.is_some()
+    }
+
     /// Whether speeds are added around its peaks.
     pub fn is_refined(&self) -> bool {
         self.refine

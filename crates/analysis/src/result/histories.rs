@@ -43,12 +43,25 @@ pub struct SpeedHistories {
 pub struct SensorHistory {
     /// The sensor.
     pub sensor: Sensor,
+    /// Where its node meets the casing; absent of a node that is not on the contact line, and without a casing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tip: Option<TipPlace>,
     /// Displacement, length.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub displacement: Vec<f64>,
     /// Velocity, length/time.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub velocity: Vec<f64>,
+}
+
+/// Where a node of the contact line stands before the casing.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct TipPlace {
+    /// Angle of the node from the package's x axis at the start of a revolution, rad: its own, and that of its sector.
+    pub angle_rad: f64,
+    /// Clearance of the node, length.
+    pub clearance: f64,
 }
 
 /// Contact between the blades and the casing. All numbers of a sample are means over the interval since the sample before, so that their

@@ -4,6 +4,7 @@ pub mod campbell;
 pub mod choice;
 pub mod contact;
 pub mod errors;
+pub mod geometry;
 pub mod histories;
 pub mod plan;
 pub mod point;
@@ -18,7 +19,8 @@ pub use campbell::{AbsoluteFrequencies, Campbell, WaveTables};
 pub use choice::{Choice, ModesChoice, Pilot, TriedModes};
 pub use contact::{ContactForces, ContactSummary, ForceMap, ForceRow};
 pub use errors::{Control, ErrorEstimate, Errors, PointError, Quantity};
-pub use histories::{ContactHistory, EnergyHistory, SensorHistory, SpeedHistories};
+pub use geometry::{ContactPlace, NodeKind, SectorGeometry, SectorNode};
+pub use histories::{ContactHistory, EnergyHistory, SensorHistory, SpeedHistories, TipPlace};
 pub use plan::{
     CostRange, Estimate, ModalAnalysisPlan, PlannedEffect, PlannedPoint, ReductionState, Spent, SweepPlan,
 };

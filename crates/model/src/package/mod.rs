@@ -23,6 +23,7 @@ mod matrix_market;
 mod npy;
 mod npz;
 mod partition;
+mod places;
 pub(crate) mod quote;
 pub mod raw;
 mod symmetric;
@@ -35,6 +36,8 @@ use std::path::Path;
 
 pub use error::PackageError;
 pub use limits::Limits;
+pub use npz::NpzWriter;
+pub use places::{Face, Place, Places, read_places};
 pub use writer::write;
 
 use content::{Content, SourceLines};

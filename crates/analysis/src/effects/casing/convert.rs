@@ -27,13 +27,21 @@ pub(crate) fn casing(
 
 /// c of every contact node of a scene with contact.
 pub(crate) fn clearance(contact_nodes: &[ContactNode], request: &ResolvedSweep) -> Option<Vec<f64>> {
-    let casing = request.scene.casing.as_ref()?;
     request.scene.contact.as_ref()?;
     let positions: Vec<_> = contact_nodes.iter().map(|node| node.position).collect();
-    Some(match &casing.clearance {
+    clearances(request, &positions)
+}
+
+/// Clearances at rest of contact nodes at these positions `[r, θ, z]`, in the order of the chord; `None` if the scene has no casing.
+pub fn clearances(request: &ResolvedSweep, positions: &[[f64; 3]]) -> Option<Vec<f64>> {
+    request.scene.casing.as_ref().map(|casing| along(&casing.clearance, positions))
+}
+
+fn along(clearance: &Clearance, positions: &[[f64; 3]]) -> Vec<f64> {
+    match clearance {
         Clearance::Each(values) => values.clone(),
-        Clearance::AlongChord { leading, trailing } => clearance_along_chord(*leading, *trailing, &positions),
-    })
+        Clearance::AlongChord { leading, trailing } => clearance_along_chord(*leading, *trailing, positions),
+    }
 }
 
 /// Whether the casing's heights can be tabulated; the error says what to change.

@@ -7,6 +7,8 @@
 
 mod read;
 mod write;
+mod writer;
 
 pub(super) use read::read;
 pub(super) use write::write;
+pub use writer::NpzWriter;

@@ -1,12 +1,10 @@
 //! Writing matrices as scipy does.
 
-use std::io::{self, BufWriter, Seek, Write};
+use std::io::{self, Seek, Write};
 
-use zip::result::ZipError;
-use zip::write::SimpleFileOptions;
-use zip::{CompressionMethod, ZipWriter};
+use zip::CompressionMethod;
 
-use crate::package::npy;
+use super::writer::NpzWriter;
 use crate::package::raw::RawMatrix;
 use crate::package::symmetric::Entry;
 
@@ -24,61 +22,19 @@ pub(crate) fn write(matrix: &RawMatrix, out: impl Write + Seek) -> io::Result<()
     for k in 0..matrix.size {
         starts[k + 1] += starts[k];
     }
-    let mut zip = ZipWriter::new(out);
-    let entries = format!("({},)", sorted.len());
+    let mut npz = NpzWriter::new(out);
+    let (entries, pointers) = ([sorted.len()], [matrix.size + 1]);
     let deflated = CompressionMethod::Deflated;
-    array(&mut zip, "indices", deflated, "<i4", &entries, sorted.iter().map(|e| (e.0 as i32).to_le_bytes()))?;
-    let pointers = format!("({},)", matrix.size + 1);
+    npz.elements("indices", deflated, "<i4", &entries, sorted.iter().map(|e| (e.0 as i32).to_le_bytes()))?;
     if i32::try_from(sorted.len()).is_ok() {
-        array(
-            &mut zip,
-            "indptr",
-            deflated,
-            "<i4",
-            &pointers,
-            starts.iter().map(|s| (*s as i32).to_le_bytes()),
-        )?;
+        let starts = starts.iter().map(|s| (*s as i32).to_le_bytes());
+        npz.elements("indptr", deflated, "<i4", &pointers, starts)?;
     } else {
-        array(&mut zip, "indptr", deflated, "<i8", &pointers, starts.iter().map(|s| s.to_le_bytes()))?;
+        npz.integers("indptr", &pointers, starts)?;
     }
-    array(&mut zip, "format", CompressionMethod::Stored, "|S3", "()", [*b"csc"])?;
+    npz.elements("format", CompressionMethod::Stored, "|S3", &[], [*b"csc"])?;
     let size = (matrix.size as i64).to_le_bytes();
-    array(&mut zip, "shape", CompressionMethod::Stored, "<i8", "(2,)", [size, size])?;
-    array(
-        &mut zip,
-        "data",
-        CompressionMethod::Stored,
-        "<f8",
-        &entries,
-        sorted.iter().map(|e| e.2.to_le_bytes()),
-    )?;
-    zip.finish().map_err(own)?;
-    Ok(())
-}
-
-/// The system's own error, by whose number it is known what may pass.
-fn own(error: ZipError) -> io::Error {
-    match error {
-        ZipError::Io(source) => source,
-        error => error.into(),
-    }
-}
-
-fn array<const SIZE: usize>(
-    zip: &mut ZipWriter<impl Write + Seek>,
-    name: &str,
-    method: CompressionMethod,
-    descr: &str,
-    shape: &str,
-    elements: impl IntoIterator<Item = [u8; SIZE]>,
-) -> io::Result<()> {
-    zip.start_file(
-        format!("{name}.npy"),
-        SimpleFileOptions::default().compression_method(method).large_file(true),
-    )
-    .map_err(own)?;
-    let mut file = BufWriter::new(zip);
-    file.write_all(&npy::header(descr, shape))?;
-    elements.into_iter().try_for_each(|element| file.write_all(&element))?;
-    file.flush()
+    npz.elements("shape", CompressionMethod::Stored, "<i8", &[2], [size, size])?;
+    npz.reals("data", &entries, sorted.iter().map(|e| e.2))?;
+    npz.finish()
 }

@@ -1,11 +1,14 @@
 //! Drawings read back: what must be seen is there, where it belongs.
 
+mod fixtures;
+mod gallery;
+
 use std::f64::consts::TAU;
 
 use roxmltree::{Document, Node};
 use serde_json::{Value, json};
 
-use super::{VerticalAxis, campbell, histories, interaction_map, work_precision};
+use super::{VerticalAxis, Window, campbell, histories, interaction_map, work_precision};
 use rubmap_analysis::result::{Campbell, CriticalSpeeds, InteractionMap, Quantity, WaveTables};
 use rubmap_analysis::run::{Histories, WorkPrecision};
 
@@ -117,8 +120,20 @@ fn split_waves_are_drawn_apart() {
     for (together, apart) in [
         (campbell(&modes()), campbell(&waves())),
         (
-            interaction_map(&map(), Some(&critical()), Some(&modes()), VerticalAxis::EngineOrder),
-            interaction_map(&map(), Some(&critical()), Some(&waves()), VerticalAxis::EngineOrder),
+            interaction_map(
+                &map(),
+                Some(&critical()),
+                Some(&modes()),
+                VerticalAxis::EngineOrder,
+                Window::default(),
+            ),
+            interaction_map(
+                &map(),
+                Some(&critical()),
+                Some(&waves()),
+                VerticalAxis::EngineOrder,
+                Window::default(),
+            ),
         ),
     ] {
         assert_eq!(count(&together, "wave</title>"), 0);
@@ -137,7 +152,7 @@ fn unsound_stiffening_stands_above_the_drawing() {
         let verdict = serde_json::from_value(json!(verdict)).unwrap();
         map.stiffening = Some(verdict);
         modes.reduction.stiffening.verdict = verdict;
-        [interaction_map(&map, None, None, VerticalAxis::EngineOrder), campbell(&modes)]
+        [interaction_map(&map, None, None, VerticalAxis::EngineOrder, Window::default()), campbell(&modes)]
     };
     for (verdict, warned) in [("absent", false), ("sound", false), ("suspect", true), ("unsound", true)] {
         for drawing in drawings(verdict) {
@@ -151,7 +166,8 @@ fn unsound_stiffening_stands_above_the_drawing() {
 fn a_critical_speed_without_a_line_is_labelled_without_one() {
     let mut critical = critical();
     critical.critical_speeds[0].dominant_engine_order = None;
-    let drawing = interaction_map(&map(), Some(&critical), None, VerticalAxis::EngineOrder);
+    let drawing =
+        interaction_map(&map(), Some(&critical), None, VerticalAxis::EngineOrder, Window::default());
     assert!(drawing.contains("11,000 rpm · EO –"), "{drawing}");
 }
 
@@ -171,7 +187,7 @@ fn tick(drawing: &Document, label: &str) -> f64 {
 #[test]
 fn critical_speeds_stand_at_their_speeds() {
     for axis in [VerticalAxis::EngineOrder, VerticalAxis::Frequency] {
-        let drawing = interaction_map(&map(), Some(&critical()), Some(&modes()), axis);
+        let drawing = interaction_map(&map(), Some(&critical()), Some(&modes()), axis, Window::default());
         let drawing = Document::parse(&drawing).unwrap();
         let lines: Vec<f64> = of_class(&drawing, "critical-speed").map(|line| number(line, "x1")).collect();
         let expected = [tick(&drawing, "11,000"), tick(&drawing, "13,000")];
@@ -186,13 +202,13 @@ fn critical_speeds_stand_at_their_speeds() {
         let dashes: Vec<_> =
             of_class(&drawing, "critical-speed").map(|line| line.attribute("stroke-dasharray")).collect();
         assert_ne!(dashes[0], dashes[1], "not resolved is dotted");
-        assert!(texts.contains(&"peak not resolved"));
+        assert!(texts.contains(&"critical speed, peak not resolved"));
     }
 }
 
 #[test]
 fn a_speed_without_result_is_hatched_and_transparent() {
-    let drawing = interaction_map(&map(), None, None, VerticalAxis::EngineOrder);
+    let drawing = interaction_map(&map(), None, None, VerticalAxis::EngineOrder, Window::default());
     let drawing = Document::parse(&drawing).unwrap();
     let missing: Vec<_> = of_class(&drawing, "missing").collect();
     assert_eq!(missing.len(), 1);
@@ -222,7 +238,7 @@ fn decode(uri: &str) -> (usize, Vec<u8>) {
 
 #[test]
 fn unsettled_speeds_are_in_the_strip() {
-    let drawing = interaction_map(&map(), None, None, VerticalAxis::EngineOrder);
+    let drawing = interaction_map(&map(), None, None, VerticalAxis::EngineOrder, Window::default());
     let drawing = Document::parse(&drawing).unwrap();
     let titles: Vec<_> = drawing
         .descendants()
@@ -242,11 +258,17 @@ fn an_empty_map_is_still_a_drawing() {
     let mut map = map();
     map.amplitude = vec![None; 5];
     map.points.clear();
-    assert!(Document::parse(&interaction_map(&map, None, None, VerticalAxis::EngineOrder)).is_ok());
+    assert!(
+        Document::parse(&interaction_map(&map, None, None, VerticalAxis::EngineOrder, Window::default()))
+            .is_ok()
+    );
     map.speeds_rad_s.clear();
     map.amplitude.clear();
     map.engine_orders.clear();
-    assert!(Document::parse(&interaction_map(&map, None, None, VerticalAxis::Frequency)).is_ok());
+    assert!(
+        Document::parse(&interaction_map(&map, None, None, VerticalAxis::Frequency, Window::default()))
+            .is_ok()
+    );
 }
 
 #[test]
@@ -256,7 +278,7 @@ fn a_long_sweep_stays_small() {
     map.engine_orders = (0..=480).map(|bin| f64::from(bin) / 20.0).collect();
     map.speeds_rad_s = (0..3000).map(|i| rad_s(10_000.0 + f64::from(i))).collect();
     map.amplitude = vec![Some(row); 3000];
-    assert!(interaction_map(&map, None, None, VerticalAxis::Frequency).len() < 2_000_000);
+    assert!(interaction_map(&map, None, None, VerticalAxis::Frequency, Window::default()).len() < 2_000_000);
 }
 
 #[test]
@@ -471,4 +493,13 @@ fn histories_of_nothing_say_so() {
         let drawing = Document::parse(&drawing).unwrap();
         assert_eq!(of_class(&drawing, "empty").count(), 1);
     }
+}
+
+/// Width, height and the red, green, blue and opacity of every pixel.
+fn decoded(image: &[u8]) -> (u32, u32, Vec<u8>) {
+    let mut reader = png::Decoder::new(std::io::Cursor::new(image)).read_info().unwrap();
+    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+    let frame = reader.next_frame(&mut pixels).unwrap();
+    assert_eq!((frame.color_type, frame.bit_depth), (png::ColorType::Rgba, png::BitDepth::Eight));
+    (frame.width, frame.height, pixels)
 }

@@ -1,0 +1,65 @@
+//! Where the nodes of a sector are: what its sections are drawn from.
+
+use serde::{Deserialize, Serialize};
+
+use rubmap_wheel::dynamics::sector::Units;
+
+/// A sector as its package places it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct SectorGeometry {
+    /// Free text of the user.
+    pub name: String,
+    /// Number N of identical sectors in the wheel.
+    pub sectors: u32,
+    /// Units of the model.
+    pub units: Units,
+    /// All nodes, those of the contact line too, in no particular order.
+    pub nodes: Vec<SectorNode>,
+    /// The contact line from the leading to the trailing edge.
+    pub contact: Vec<ContactPlace>,
+}
+
+/// A node of the sector.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct SectorNode {
+    /// Node id in the user's model.
+    pub id: u64,
+    /// What it is to the sector.
+    pub kind: NodeKind,
+    /// `[r, θ, z]`: radius, angle in rad, axial coordinate.
+    pub position: [f64; 3],
+}
+
+/// What a node is to its sector.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum NodeKind {
+    /// Inside, or on a free surface.
+    Internal,
+    /// On the low cyclic face.
+    Low,
+    /// On the high cyclic face, where the next sector begins.
+    High,
+    /// On the contact line.
+    Contact,
+    /// Held: all its displacements are zero.
+    Clamped,
+}
+
+/// A node of the contact line.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct ContactPlace {
+    /// Node id in the user's model.
+    pub id: u64,
+    /// `[r, θ, z]`: radius, angle in rad, axial coordinate.
+    pub position: [f64; 3],
+    /// Unit normal out of the blade into the casing, (r, θ, z) components.
+    pub normal: [f64; 3],
+    /// Distance of the casing along the normal at rest, length; absent where no scene says it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub clearance: Option<f64>,
+}

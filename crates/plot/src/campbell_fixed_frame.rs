@@ -1,0 +1,239 @@
+//! The Campbell diagram as it is seen from beside the wheel: the paper's Figs 5 and 11.
+
+use std::f64::consts::TAU;
+
+use super::axis::{label, ticks};
+use super::cells::rpm;
+use super::colour::ordinal;
+use super::diagram::Diagram;
+use super::key::{Key, MARK_WIDTH};
+use super::labels::Labels;
+use super::svg::{Element, document, group, line, polyline};
+use super::{heading, marks};
+use rubmap_analysis::result::{Campbell, Table, Wave};
+
+const WIDTH: f64 = 1180.0;
+const HEIGHT: f64 = 800.0;
+const LEFT: f64 = 84.0;
+const PLOT_WIDTH: f64 = 850.0;
+
+/// Dashes of the waves that a superharmonic makes beside those of n = 1.
+const SUPERHARMONIC: [&str; 3] = ["6 3", "2 3", "7 3 2 3"];
+
+/// Draws the frequencies at which waves of the wheel are seen from beside it, over speed: f + iΩ/2π of those that travel with the
+/// rotation, |f − iΩ/2π| of those against it, and |f − i·n·Ω/2π| of the superharmonics n of Eq. 11. Where a line comes down to zero the
+/// wave stands still before the casing: the linear criterion's critical speeds.
+pub fn campbell_fixed_frame(campbell: &Campbell) -> String {
+    let title = "Campbell diagram in the fixed frame";
+    let words = format!(
+        "{} modes per speed · {} lobes · {}",
+        campbell.reduction.modes_per_speed,
+        campbell.settings.lobes,
+        heading::origin(&campbell.settings.model, &campbell.version)
+    );
+    let warning = campbell.reduction.stiffening.verdict.warning().map(str::to_owned);
+    let paragraphs: Vec<String> = [words].into_iter().chain(warning).collect();
+    let (heading, bottom) = heading::heading(LEFT, title, &paragraphs);
+    let curves = curves(campbell);
+    let diagram = diagram(campbell, &curves, bottom + 24.0);
+    let (x, y) = (ticks(diagram.x.values, 10.0), ticks(diagram.y.values, 10.0));
+    let drawn = curves.iter().map(|curve| curve.draw(campbell, &diagram));
+    let content = vec![
+        heading,
+        diagram.grid(&x, &y),
+        diagram.region("inside"),
+        group().set("clip-path", "url(#inside)").children(drawn),
+        diagram.frame(),
+        crossings(campbell, &diagram),
+        diagram.x_axis(&x, "rotational speed Ω, rpm"),
+        diagram.y_axis(&y, "frequency in the fixed frame, Hz", 62.0),
+        key(campbell, &curves, &diagram),
+    ];
+    document(title, WIDTH, HEIGHT, content)
+}
+
+/// What is seen of a mode.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Seen {
+    /// f + iΩ/2π.
+    Forward,
+    /// |f − iΩ/2π|.
+    Backward,
+    /// |f − i·n·Ω/2π|.
+    Superharmonic(u32),
+}
+
+/// One line of the diagram.
+struct Curve {
+    nodal_diameter: usize,
+    harmonics: usize,
+    family: usize,
+    seen: Seen,
+    /// Hz at each speed.
+    hz: Vec<Option<f64>>,
+}
+
+fn curves(campbell: &Campbell) -> Vec<Curve> {
+    let branches = campbell.branches();
+    let table = |wanted: Wave| {
+        let found = branches.iter().find(|(wave, _)| wave.is_none_or(|wave| wave == wanted));
+        found.map_or(&campbell.frequencies_hz, |(_, table)| *table)
+    };
+    let modes = |table: &Table| {
+        let first = table.first();
+        let harmonics = first.map_or(0, Vec::len);
+        let families = first.into_iter().flatten().map(Vec::len).max().unwrap_or(0);
+        (0..harmonics).flat_map(move |i| (0..families).map(move |j| (i, j, harmonics)))
+    };
+    let mut curves = Vec::new();
+    for (seen, sign, table) in
+        [(Seen::Backward, -1.0, table(Wave::Backward)), (Seen::Forward, 1.0, table(Wave::Forward))]
+    {
+        for (nodal_diameter, family, harmonics) in modes(table) {
+            // A wave of nodal diameter 0 does not travel.
+            if nodal_diameter == 0 && seen == Seen::Forward {
+                continue;
+            }
+            let at = |(speed, row): (&f64, &Vec<Vec<f64>>)| {
+                let hz = row.get(nodal_diameter)?.get(family)?;
+                Some((hz + sign * nodal_diameter as f64 * speed / TAU).abs())
+            };
+            let hz = campbell.speeds_rad_s.iter().zip(table).map(at).collect();
+            curves.push(Curve { nodal_diameter, harmonics, family, seen, hz });
+        }
+    }
+    for absolute in campbell.absolute_frequencies_hz.iter().filter(|absolute| absolute.superharmonic > 1) {
+        let table = &absolute.frequencies_hz;
+        for (nodal_diameter, family, harmonics) in modes(table).filter(|(i, ..)| *i > 0) {
+            let hz = table.iter().map(|row| row.get(nodal_diameter)?.get(family).copied()).collect();
+            let seen = Seen::Superharmonic(absolute.superharmonic);
+            curves.push(Curve { nodal_diameter, harmonics, family, seen, hz });
+        }
+    }
+    curves
+}
+
+impl Curve {
+    fn draw(&self, campbell: &Campbell, diagram: &Diagram) -> Element {
+        let mut points = Vec::new();
+        let mut before: Option<(f64, f64)> = None;
+        for (speed, hz) in campbell.speeds_rad_s.iter().zip(&self.hz) {
+            let now = hz.map(|hz| (rpm(*speed), hz));
+            // |f − kΩ/2π| comes down to zero between two speeds whose sum it falls or rises by.
+            if let (Some(from), Some(to), true) = (before, now, self.seen != Seen::Forward) {
+                points.extend(self.foot(from, to).map(|rpm| Some(diagram.point(rpm, 0.0))));
+            }
+            points.push(now.map(|(rpm, hz)| diagram.point(rpm, hz)));
+            before = now;
+        }
+        let (width, dashes, opacity) = self.style();
+        polyline(points)
+            .set("class", "wave")
+            .set("stroke", ordinal(self.nodal_diameter, self.harmonics))
+            .set("stroke-width", width)
+            .set("stroke-dasharray", dashes)
+            .set("stroke-opacity", opacity)
+            .title(&self.words())
+    }
+
+    /// The speed at which the line touches zero between two points: where going straight through zero fits its slope better than
+    /// staying above.
+    fn foot(&self, from: (f64, f64), to: (f64, f64)) -> Option<f64> {
+        let order = match self.seen {
+            Seen::Superharmonic(n) => f64::from(n) * self.nodal_diameter as f64,
+            Seen::Backward | Seen::Forward => self.nodal_diameter as f64,
+        };
+        let fall = order * (to.0 - from.0) / 60.0;
+        let through = (from.1 + to.1 - fall.abs()).abs();
+        let above = ((to.1 - from.1).abs() - fall.abs()).abs();
+        (through < above && from.1 + to.1 > 0.0).then(|| from.0 + (to.0 - from.0) * from.1 / (from.1 + to.1))
+    }
+
+    fn style(&self) -> (&'static str, &'static str, &'static str) {
+        match self.seen {
+            Seen::Backward => ("1.8", "", "1"),
+            Seen::Forward => ("0.8", "", "0.9"),
+            Seen::Superharmonic(n) => ("1", SUPERHARMONIC[(n as usize + 1) % SUPERHARMONIC.len()], "0.6"),
+        }
+    }
+
+    fn words(&self) -> String {
+        let (i, family) = (self.nodal_diameter, self.family + 1);
+        match self.seen {
+            Seen::Forward => format!("nodal diameter {i}, family {family}: f + iΩ/2π"),
+            Seen::Backward => format!("nodal diameter {i}, family {family}: |f − iΩ/2π|"),
+            Seen::Superharmonic(n) => format!("nodal diameter {i}, family {family}: |f − i·{n}·Ω/2π|"),
+        }
+    }
+}
+
+fn diagram(campbell: &Campbell, curves: &[Curve], top: f64) -> Diagram {
+    let highest = curves
+        .iter()
+        .filter(|curve| curve.seen != Seen::Forward)
+        .flat_map(|curve| curve.hz.iter().flatten().copied())
+        .filter(|hz| hz.is_finite());
+    // Forward waves leave through the top: what matters comes down.
+    let at_rest = curves.iter().filter_map(|curve| curve.hz.first().copied().flatten()).fold(0.0, f64::max);
+    let highest = highest.fold(0.0, f64::max).min(if at_rest > 0.0 { 1.6 * at_rest } else { f64::INFINITY });
+    let speeds = campbell.speeds_rad_s.iter().map(|speed| rpm(*speed));
+    let (slow, fast) = speeds.fold((f64::INFINITY, 0f64), |(a, b), speed| (a.min(speed), b.max(speed)));
+    let speeds = if slow < fast { (slow, fast) } else { (0.0, f64::max(fast, 1.0)) };
+    let size = (PLOT_WIDTH, HEIGHT - 66.0 - top);
+    Diagram::new((LEFT, top), size, speeds, (0.0, if highest > 0.0 { 1.05 * highest } else { 1.0 }))
+}
+
+/// Where a wave stands still, on the line of zero frequency.
+fn crossings(campbell: &Campbell, diagram: &Diagram) -> Element {
+    let mut labels = Labels::inside(diagram);
+    let places: Vec<_> = campbell
+        .crossings
+        .iter()
+        .filter_map(|crossing| Some((crossing, diagram.inside(rpm(crossing.speed_rad_s), 0.0)?)))
+        .collect();
+    let mut drawn = group();
+    for (crossing, place) in places {
+        let heights = [16.0, 30.0, 44.0, 58.0, 72.0].map(|up| (place.0, place.1 - up));
+        let label =
+            labels.at_first(heights, &marks::triple(crossing), 10.5).map(|label| label.rimmed("white"));
+        drawn = drawn.child(marks::linear(place, "black", crossing)).children(label);
+    }
+    drawn
+}
+
+fn key(campbell: &Campbell, curves: &[Curve], diagram: &Diagram) -> Element {
+    /// More nodal diameters than this are named at the ends only.
+    const MOST: usize = 16;
+    let mut key = Key::new(diagram.right() + 30.0, diagram.top + 8.0);
+    let stroke = |colour: &str, width: &str, dashes: &str| {
+        let stroke = line((0.0, 0.0), (MARK_WIDTH, 0.0)).set("stroke", colour).set("stroke-width", width);
+        stroke.set("stroke-dasharray", dashes)
+    };
+    let harmonics = curves.iter().map(|curve| curve.harmonics).max().unwrap_or(0);
+    for i in (0..harmonics).filter(|i| harmonics <= MOST || *i == 0 || i + 1 == harmonics) {
+        key = key.row(stroke(&ordinal(i, harmonics), "1.8", ""), &format!("nodal diameter {i}"));
+    }
+    let mut kinds: Vec<Seen> = Vec::new();
+    for curve in curves {
+        if !kinds.contains(&curve.seen) {
+            kinds.push(curve.seen);
+            let (width, dashes, _) = curve.style();
+            let words = match curve.seen {
+                Seen::Backward => "against the rotation: |f − iΩ/2π|".to_owned(),
+                Seen::Forward => "with the rotation: f + iΩ/2π".to_owned(),
+                Seen::Superharmonic(n) => format!("superharmonic: |f − {n}iΩ/2π|"),
+            };
+            key = key.row(stroke("#444444", width, dashes), &words);
+        }
+    }
+    if campbell.crossings.iter().any(|crossing| diagram.x.contains(rpm(crossing.speed_rad_s))) {
+        let ring = Element::new("circle").number("cx", 16.0).number("r", 4.5).set("fill", "none");
+        key = key.row(ring.set("stroke", "black").set("stroke-width", "1.5"), "stands still: (i, j, n)");
+    }
+    let families: Vec<usize> = curves.iter().map(|curve| curve.family).collect();
+    if let Some(last) = families.iter().max().filter(|last| **last > 0) {
+        let words = format!("families 1 to {} from below", label((last + 1) as f64, 0));
+        key = key.note(&words);
+    }
+    key.draw()
+}

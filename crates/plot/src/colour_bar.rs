@@ -1,0 +1,38 @@
+//! What the colours of a map mean.
+
+use super::axis::Scale;
+use super::colour;
+use super::svg::{Element, INK, group, line, rectangle, text, upright};
+
+const WIDTH: f64 = 16.0;
+
+/// A bar of the colours of `amplitudes` from `left` on, as high as its places, with ticks and a title.
+pub(super) fn draw(amplitudes: &Scale, left: f64, ticks: &[(f64, String)], title: &str) -> Element {
+    const STOPS: u32 = 32;
+    let stops = (0..=STOPS).map(|i| {
+        let share = f64::from(i) / f64::from(STOPS);
+        let colour = colour::hex(colour::amplitude(share));
+        Element::new("stop").number("offset", share).set("stop-color", colour)
+    });
+    let gradient = Element::new("linearGradient")
+        .set("id", "amplitude")
+        .set("x1", "0")
+        .set("x2", "0")
+        .set("y1", "1")
+        .set("y2", "0")
+        .children(stops);
+    let (low, high) = amplitudes.values;
+    let (bottom, top) = (amplitudes.place(low), amplitudes.place(high));
+    let inside = ticks.iter().filter(|(value, _)| amplitudes.contains(*value));
+    let marks = inside.flat_map(|(value, label)| {
+        let y = amplitudes.place(*value);
+        let tick = line((left + WIDTH, y), (left + WIDTH + 4.0, y)).set("stroke", INK);
+        [tick, text(left + WIDTH + 7.0, y + 4.0, "start", label).set("font-size", "11")]
+    });
+    let title = upright(left + 66.0, 0.5 * (bottom + top), "middle", title);
+    group()
+        .child(Element::new("defs").child(gradient))
+        .child(rectangle(left, top, WIDTH, bottom - top).set("fill", "url(#amplitude)").set("stroke", INK))
+        .children(marks)
+        .child(title.set("font-size", "14"))
+}

@@ -1,0 +1,300 @@
+//! Critical speeds beside what a linear calculation says.
+
+use super::axis::{label, significant, ticks};
+use super::cells::rpm;
+use super::diagram::Diagram;
+use super::key::{Key, MARK_WIDTH};
+use super::labels::Labels;
+use super::svg::{Element, document, group, line, rectangle, text};
+use super::{heading, marks};
+use rubmap_analysis::result::{CriticalSpeed, CriticalSpeeds, Crossing, Verdict};
+
+const WIDTH: f64 = 1180.0;
+const LEFT: f64 = 150.0;
+const PLOT_WIDTH: f64 = 740.0;
+const PEAKS_HEIGHT: f64 = 330.0;
+const ROW_HEIGHT: f64 = 34.0;
+
+const PEAK: &str = "#1f4e79";
+const NEAREST: &str = "#d62728";
+
+/// Draws the peaks of the response over speed, with how far off they may be, and below them the crossings of the linear calculation, a
+/// row for each superharmonic; each peak is tied to the crossing nearest to it.
+pub fn critical_speeds(critical: &CriticalSpeeds) -> String {
+    let title = format!("Critical speeds: {}", heading::sensor(&critical.sensor));
+    let found = critical.critical_speeds.len();
+    let mut words = vec![match found {
+        1 => "1 peak".to_owned(),
+        _ => format!("{found} peaks"),
+    }];
+    if !critical.missing.is_empty() {
+        words.push(format!("{} speeds without a result", critical.missing.len()));
+    }
+    words.push(heading::origin(&critical.settings.model, &critical.version));
+    let warning = critical.reduction.stiffening.verdict.warning().map(str::to_owned);
+    let paragraphs: Vec<String> = [words.join(" · ")].into_iter().chain(warning).collect();
+    let (heading, bottom) = heading::heading(LEFT, &title, &paragraphs);
+    let view = View::new(critical, bottom + 26.0);
+    let mut content = vec![heading];
+    content.extend(view.draw());
+    document(&title, WIDTH, view.rows.bottom() + 66.0, content)
+}
+
+/// A row of crossings: its name, and of each crossing its speed, mark and words.
+struct Row<'a> {
+    name: String,
+    marks: Vec<Mark<'a>>,
+}
+
+struct Mark<'a> {
+    rpm: f64,
+    words: String,
+    draw: Box<dyn Fn((f64, f64)) -> Element + 'a>,
+}
+
+struct View<'a> {
+    critical: &'a CriticalSpeeds,
+    peaks: Diagram,
+    rows: Diagram,
+    lines: Vec<Row<'a>>,
+}
+
+impl<'a> View<'a> {
+    fn new(critical: &'a CriticalSpeeds, top: f64) -> Self {
+        let lines = rows(critical);
+        let peaks = critical.critical_speeds.iter();
+        let ends = peaks.clone().flat_map(|peak| {
+            [peak.speed_rad_s - peak.speed_error_rad_s, peak.speed_rad_s + peak.speed_error_rad_s].map(rpm)
+        });
+        let crossings = lines.iter().flat_map(|row| row.marks.iter().map(|mark| mark.rpm));
+        let (slow, fast) = ends
+            .chain(crossings)
+            .filter(|speed| speed.is_finite())
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(slow, fast), speed| {
+                (slow.min(speed), fast.max(speed))
+            });
+        let speeds = match slow <= fast {
+            true => {
+                let room = (0.03 * (fast - slow)).max(0.002 * fast).max(1.0);
+                ((slow - room).max(0.0), fast + room)
+            }
+            false => (0.0, 1.0),
+        };
+        let tops = peaks.map(|peak| peak.rms * (1.0 + peak.amplitude_error.unwrap_or(0.0)));
+        let highest = tops.filter(|top| top.is_finite()).fold(0.0, f64::max);
+        let highest = if highest > 0.0 { 1.25 * highest } else { 1.0 };
+        let peaks = Diagram::new((LEFT, top), (PLOT_WIDTH, PEAKS_HEIGHT), speeds, (0.0, highest));
+        let count = lines.len().max(1) as f64;
+        let below = (LEFT, peaks.bottom() + 14.0);
+        let rows = Diagram::new(below, (PLOT_WIDTH, ROW_HEIGHT * count), speeds, (0.0, count));
+        Self { critical, peaks, rows, lines }
+    }
+
+    fn draw(&self) -> Vec<Element> {
+        let (peaks, rows) = (&self.peaks, &self.rows);
+        let (x, y) = (ticks(peaks.x.values, 9.0), ticks(peaks.y.values, 6.0));
+        let length = &self.critical.units.length;
+        let empty = self.critical.critical_speeds.is_empty();
+        let words = "no critical speed stands out of the response";
+        let mut content = vec![peaks.grid(&x, &y), rows.grid(&x, &[])];
+        content.extend(self.critical.critical_speeds.iter().filter_map(|peak| self.tie(peak)));
+        content.push(self.crossings());
+        content.push(self.peaks());
+        content.extend(empty.then(|| peaks.words(words)));
+        content.extend([peaks.frame(), rows.frame()]);
+        content.push(peaks.y_axis(&y, &format!("level at the peak, {length} rms"), 72.0));
+        content.push(rows.x_axis(&x, "rotational speed Ω, rpm"));
+        content.push(self.key());
+        content
+    }
+
+    /// From a peak down to the crossing that is nearest to it.
+    fn tie(&self, peak: &CriticalSpeed) -> Option<Element> {
+        let nearest = peak.nearest_crossing.as_ref()?;
+        let row = self.lines.iter().position(|row| row.name == linear_row(nearest.superharmonic))?;
+        let from = self.peaks.inside(rpm(peak.speed_rad_s), peak.rms)?;
+        let x = self.rows.x.place(rpm(nearest.speed_rad_s));
+        let foot = (from.0, self.peaks.bottom());
+        let tie = group().set("class", "nearest").set("stroke", NEAREST).set("stroke-width", "1.1");
+        let down = line(from, foot).set("stroke-opacity", "0.35");
+        let tie = tie.child(down).child(line(foot, (x, self.height(row))));
+        let distance = peak
+            .distance_rad_s
+            .map_or_else(String::new, |distance| format!(", {} rpm away", significant(rpm(distance))));
+        Some(tie.title(&format!("nearest linear crossing: {}{distance}", marks::triple(nearest))))
+    }
+
+    /// The middle of a row.
+    fn height(&self, row: usize) -> f64 {
+        self.rows.top + ROW_HEIGHT * (row as f64 + 0.5)
+    }
+
+    fn crossings(&self) -> Element {
+        let mut labels = Labels::inside(&self.rows);
+        for (row, line) in self.lines.iter().enumerate() {
+            for mark in &line.marks {
+                labels.keep_off((self.rows.x.place(mark.rpm), self.height(row)), 6.0);
+            }
+        }
+        let mut drawn = group();
+        for (row, line) in self.lines.iter().enumerate() {
+            let y = self.height(row);
+            drawn = drawn.child(text(LEFT - 10.0, y + 4.5, "end", &line.name));
+            for mark in &line.marks {
+                let place = (self.rows.x.place(mark.rpm), y);
+                let label = labels.beside(place, &mark.words, 10.5).map(|label| label.rimmed("white"));
+                drawn = drawn.child((mark.draw)(place)).children(label);
+            }
+        }
+        drawn
+    }
+
+    fn peaks(&self) -> Element {
+        let mut labels = Labels::inside(&self.peaks);
+        let places: Vec<_> = self
+            .critical
+            .critical_speeds
+            .iter()
+            .filter_map(|peak| Some((peak, self.peaks.inside(rpm(peak.speed_rad_s), peak.rms)?)))
+            .collect();
+        for (_, place) in &places {
+            labels.keep_off(*place, 6.0);
+        }
+        let mut drawn = group();
+        for (peak, place) in places {
+            let order = peak.dominant_engine_order.map_or_else(|| "–".to_owned(), marks::order);
+            let star = if peak.settling == Verdict::NotSettled { " *" } else { "" };
+            let words = format!("{} rpm, EO {order}{star}", label(rpm(peak.speed_rad_s), 0));
+            let above =
+                [(0.0, -14.0), (0.0, -28.0), (60.0, -14.0), (-60.0, -14.0), (78.0, 0.0), (-78.0, 0.0)];
+            let above = above.map(|(dx, dy)| (place.0 + dx, place.1 + dy));
+            let label = labels.at_first(above, &words, 11.0).map(|label| label.rimmed("white"));
+            drawn = drawn
+                .child(self.bars(peak))
+                .child(peak_mark(place, peak.resolved).title(&words))
+                .children(label);
+        }
+        drawn
+    }
+
+    /// How far the peak may be off, in speed and in amplitude.
+    fn bars(&self, peak: &CriticalSpeed) -> Element {
+        let speed =
+            |off: f64| rpm(peak.speed_rad_s + off).clamp(self.peaks.x.values.0, self.peaks.x.values.1);
+        let level = |share: f64| (peak.rms * (1.0 + share)).max(0.0);
+        let at = |x: f64, y: f64| self.peaks.point(x, y);
+        let middle = rpm(peak.speed_rad_s);
+        let (slow, fast) =
+            (at(speed(-peak.speed_error_rad_s), peak.rms), at(speed(peak.speed_error_rad_s), peak.rms));
+        let bars = group().set("class", "error").set("stroke", PEAK).set("stroke-width", "1.3");
+        let bars = bars.child(line(slow, fast)).child(cap(slow, true)).child(cap(fast, true));
+        let Some(error) = peak.amplitude_error.filter(|error| error.is_finite()) else { return bars };
+        let (low, high) = (at(middle, level(-error)), at(middle, level(error)));
+        bars.child(line(low, high)).child(cap(low, false)).child(cap(high, false))
+    }
+
+    fn key(&self) -> Element {
+        let middle = (0.5 * MARK_WIDTH, 0.0);
+        let mut key = Key::new(self.peaks.right() + 24.0, self.peaks.top + 8.0);
+        let peaks = &self.critical.critical_speeds;
+        if peaks.iter().any(|peak| peak.resolved) {
+            key = key.row(peak_mark(middle, true), "critical speed");
+        }
+        if peaks.iter().any(|peak| !peak.resolved) {
+            key = key.row(peak_mark(middle, false), "peak not resolved");
+        }
+        let bar = |from, to, upright| {
+            let bar = group().set("stroke", PEAK).set("stroke-width", "1.3").child(line(from, to));
+            group().child(bar.child(cap(from, upright)).child(cap(to, upright)))
+        };
+        if !peaks.is_empty() {
+            let bar = bar((4.0, 0.0), (MARK_WIDTH - 4.0, 0.0), true);
+            key = key.row(bar, "between neighbouring speeds");
+        }
+        if peaks.iter().any(|peak| peak.amplitude_error.is_some()) {
+            key = key.row(bar((middle.0, -8.0), (middle.0, 8.0), false), "estimated error of the level");
+        }
+        if peaks.iter().any(|peak| peak.settling == Verdict::NotSettled) {
+            key = key.row(text(middle.0, 4.5, "middle", "*"), "not settled");
+        }
+        if peaks.iter().any(|peak| self.tie(peak).is_some()) {
+            let tie = line((2.0, -6.0), (MARK_WIDTH - 2.0, 6.0)).set("stroke", NEAREST);
+            key = key.row(tie.set("stroke-width", "1.2"), "to the nearest crossing");
+        }
+        if !self.critical.linear_crossings.is_empty() {
+            key = key.row(ring(middle), "linear criterion, (i, j, n)");
+        }
+        if !self.critical.driven_crossings.is_empty() {
+            key = key.row(marks::diamond(middle, "#ff9d5c", "black"), "driven by the lobes, (i, j)");
+        }
+        if !self.critical.casing_coincidences.is_empty() {
+            key = key.row(square(middle), "wave of the casing, (n, i)");
+        }
+        key.draw()
+    }
+}
+
+fn linear_row(superharmonic: u32) -> String {
+    format!("linear, n = {superharmonic}")
+}
+
+fn rows(critical: &CriticalSpeeds) -> Vec<Row<'_>> {
+    let mut orders: Vec<u32> =
+        critical.linear_crossings.iter().map(|crossing| crossing.superharmonic).collect();
+    orders.sort_unstable();
+    orders.dedup();
+    let linear = orders.into_iter().map(|order| {
+        let here = critical.linear_crossings.iter().filter(|crossing| crossing.superharmonic == order);
+        let mark = |crossing: &'_ Crossing| {
+            let crossing = crossing.clone();
+            Mark {
+                rpm: rpm(crossing.speed_rad_s),
+                words: marks::triple(&crossing),
+                draw: Box::new(move |place| marks::linear(place, "black", &crossing)) as Box<_>,
+            }
+        };
+        Row { name: linear_row(order), marks: here.map(mark).collect() }
+    });
+    let mut rows: Vec<Row> = linear.collect();
+    if !critical.driven_crossings.is_empty() {
+        let mark = |crossing: &'_ _| {
+            let words = marks::pair(crossing);
+            let rpm = rpm(crossing.speed_rad_s);
+            let crossing = crossing.clone();
+            let draw = move |place| marks::driven(place, "#ff9d5c", "black", &crossing);
+            Mark { rpm, words, draw: Box::new(draw) as Box<_> }
+        };
+        rows.push(Row {
+            name: "driven".to_owned(),
+            marks: critical.driven_crossings.iter().map(mark).collect(),
+        });
+    }
+    if !critical.casing_coincidences.is_empty() {
+        let mark = |found: &'_ rubmap_analysis::result::Coincidence| {
+            let words = format!("({}, {})", found.casing_nodal_diameter, found.nodal_diameter);
+            Mark { rpm: rpm(found.speed_rad_s), words, draw: Box::new(square) as Box<_> }
+        };
+        let marks = critical.casing_coincidences.iter().map(mark).collect();
+        rows.push(Row { name: "elastic casing".to_owned(), marks });
+    }
+    rows
+}
+
+fn peak_mark((x, y): (f64, f64), resolved: bool) -> Element {
+    let mark = Element::new("circle").number("cx", x).number("cy", y).number("r", 4.6).set("stroke", PEAK);
+    mark.set("class", "peak").set("stroke-width", "1.6").set("fill", if resolved { PEAK } else { "white" })
+}
+
+fn ring((x, y): (f64, f64)) -> Element {
+    let ring = Element::new("circle").number("cx", x).number("cy", y).number("r", 4.5).set("fill", "none");
+    ring.set("stroke", "black").set("stroke-width", "1.5")
+}
+
+fn square((x, y): (f64, f64)) -> Element {
+    rectangle(x - 4.0, y - 4.0, 8.0, 8.0).set("fill", "#9ec9a5").set("stroke", "black")
+}
+
+/// The end of an error bar.
+fn cap((x, y): (f64, f64), upright: bool) -> Element {
+    if upright { line((x, y - 3.5), (x, y + 3.5)) } else { line((x - 3.5, y), (x + 3.5, y)) }
+}

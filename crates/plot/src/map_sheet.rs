@@ -1,0 +1,118 @@
+//! A sheet of zoomed maps, one per nodal diameter: the paper's Figs 12 to 14.
+
+use super::axis::{Scale, logarithmic_ticks, ticks};
+use super::cells::{cells, rpm};
+use super::key::Flow;
+use super::map_view::{QUIETEST, VerticalAxis, View, is_missing};
+use super::svg::{Element, document, group, line, text};
+use super::window::Window;
+use super::{colour_bar, hatching, heading, heat};
+use rubmap_analysis::result::InteractionMap;
+
+const WIDTH: f64 = 1180.0;
+const LEFT: f64 = 84.0;
+/// Where the colour bar stands.
+const BAR: f64 = 1076.0;
+const GAP: (f64, f64) = (58.0, 84.0);
+const PANEL_HEIGHT: f64 = 232.0;
+
+/// Draws the same window of several maps, a panel each with a common scale of colours: maps of one sensor, restricted to nodal diameters.
+pub fn map_sheet(maps: &[InteractionMap], window: Window) -> String {
+    let title = title(maps);
+    let words = words(maps);
+    let (heading, bottom) = heading::heading(LEFT, &title, &[words]);
+    let Some(first) = maps.first() else {
+        let empty =
+            text(LEFT, bottom + 40.0, "start", "Nothing to draw: no map is given").set("class", "empty");
+        return document(&title, WIDTH, 160.0, vec![heading, empty]);
+    };
+    let columns = if maps.len() > 4 { 3 } else { maps.len().min(2) };
+    let width = (BAR - 44.0 - LEFT - GAP.0 * (columns - 1) as f64) / columns as f64;
+    let rows = maps.len().div_ceil(columns);
+    let top = bottom + 42.0;
+    let loudest = maps.iter().filter_map(|map| heat::loudest(map, &window)).fold(0.0, f64::max);
+    let loudest = (loudest > 0.0).then_some(loudest);
+    let mut content = vec![hatching::definition(), heading];
+    let mut missing = false;
+    for (index, map) in maps.iter().enumerate() {
+        let (row, column) = (index / columns, index % columns);
+        let left = LEFT + column as f64 * (width + GAP.0);
+        let corner = (left, top + row as f64 * (PANEL_HEIGHT + GAP.1));
+        let cells = cells(&map.speeds_rad_s);
+        let place = (corner, (width, PANEL_HEIGHT));
+        let view = View::new(map, &cells, None, VerticalAxis::EngineOrder, &window, place);
+        let (low, high) = view.diagram.x.values;
+        missing |= cells.iter().any(|cell| cell.to > low && cell.from < high && is_missing(map, cell));
+        let below = index + columns >= maps.len();
+        content.push(panel(map, &view, loudest, (column == 0, below)));
+    }
+    if let Some(loudest) = loudest {
+        let foot = top + rows as f64 * (PANEL_HEIGHT + GAP.1) - GAP.1;
+        let scale = Scale::logarithmic((QUIETEST * loudest, loudest), (foot, top));
+        let ticks = logarithmic_ticks(scale.values);
+        let words = format!("amplitude, {}", first.units.length);
+        content.push(colour_bar::draw(&scale, BAR, &ticks, &words));
+    }
+    let foot = top + rows as f64 * (PANEL_HEIGHT + GAP.1) - 12.0;
+    content.push(key(foot, missing));
+    document(&title, WIDTH, foot + 30.0, content)
+}
+
+/// A map with its name; the axes have titles where nothing stands beside or below.
+fn panel(
+    map: &InteractionMap,
+    view: &View,
+    loudest: Option<f64>,
+    (leftmost, below): (bool, bool),
+) -> Element {
+    let diagram = &view.diagram;
+    let cells = cells(&map.speeds_rad_s);
+    let name = match map.nodal_diameter {
+        Some(i) => format!("nodal diameter {i}"),
+        None => "all nodal diameters".to_owned(),
+    };
+    let x = ticks(diagram.x.values, (diagram.width / 95.0).max(2.0));
+    let y = ticks(diagram.y.values, 8.0);
+    group()
+        .set("class", "panel")
+        .child(text(diagram.left, diagram.top - 8.0, "start", &name).set("font-weight", "bold"))
+        .child(view.amplitudes(map, &cells, loudest))
+        .child(view.engine_orders(map).0)
+        .child(diagram.frame())
+        .child(diagram.x_axis(&x, if below { "rotational speed Ω, rpm" } else { "" }))
+        .child(diagram.y_axis(&y, if leftmost { "engine order k" } else { "" }, 46.0))
+}
+
+fn key(y: f64, missing: bool) -> Element {
+    let stroke = |dashes: &str| {
+        let stroke = line((3.0, 0.0), (25.0, 0.0)).set("stroke", "white").set("stroke-dasharray", dashes);
+        let dark = super::svg::rectangle(0.0, -7.0, 28.0, 14.0).set("fill", "#101010");
+        group().child(dark).child(stroke)
+    };
+    let flow = Flow::new(LEFT, WIDTH - 20.0, y).entry(stroke(""), 28.0, "multiples of the lobe count").entry(
+        stroke("1.5 5"),
+        28.0,
+        "other engine orders",
+    );
+    if missing { flow.entry(hatching::mark(), 20.0, "no result").draw() } else { flow.draw() }
+}
+
+fn title(maps: &[InteractionMap]) -> String {
+    match maps.first() {
+        Some(map) => format!("Maps by nodal diameter: {}", heading::sensor(&map.sensor)),
+        None => "Maps by nodal diameter".to_owned(),
+    }
+}
+
+fn words(maps: &[InteractionMap]) -> String {
+    let Some(map) = maps.first() else { return String::new() };
+    let computed = map.amplitude.iter().flatten().count();
+    let speeds = map.speeds_rad_s.iter().map(|speed| rpm(*speed));
+    let (slow, fast) = speeds.fold((f64::INFINITY, 0f64), |(a, b), speed| (a.min(speed), b.max(speed)));
+    let range = if slow <= fast { format!(" from {slow:.0} to {fast:.0} rpm") } else { String::new() };
+    let origin = heading::origin(&map.settings.model, &map.version);
+    format!(
+        "{computed} of {} speeds{range} · one scale of colours for all · {origin}",
+        map.speeds_rad_s.len()
+    )
+}

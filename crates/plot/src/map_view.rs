@@ -1,0 +1,244 @@
+//! The rectangle of a map: amplitudes and the lines and marks that lie over them.
+
+use super::axis::Scale;
+use super::cells::{Cell, extent, rpm};
+use super::colour::on_dark;
+use super::diagram::Diagram;
+use super::labels::Labels;
+use super::svg::{Element, group, line, polyline, rectangle, text};
+use super::window::Window;
+use super::{hatching, heat, marks};
+use rubmap_analysis::result::{Campbell, CriticalSpeeds, InteractionMap};
+
+/// Amplitudes below this share of the loudest are shown as quiet.
+pub(super) const QUIETEST: f64 = 1e-3;
+
+/// Fill of the crossings that the lobes drive.
+pub(super) const DRIVEN: &str = "#ff9d5c";
+
+/// What the map has upwards.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum VerticalAxis {
+    /// Engine order: engine-order lines are horizontal, natural frequencies fall with speed.
+    EngineOrder,
+    /// Frequency: engine-order lines f = kΩ/2π rise with speed, natural frequencies hardly do.
+    Frequency,
+}
+
+/// The map's rectangle and what its vertical axis means.
+#[derive(Debug)]
+pub(super) struct View {
+    pub(super) axis: VerticalAxis,
+    pub(super) diagram: Diagram,
+}
+
+impl View {
+    /// The part of a map that lies in the window, within a rectangle of the drawing.
+    pub(super) fn new(
+        map: &InteractionMap,
+        cells: &[Cell],
+        campbell: Option<&Campbell>,
+        axis: VerticalAxis,
+        window: &Window,
+        (corner, size): ((f64, f64), (f64, f64)),
+    ) -> Self {
+        let highest_order = map.engine_orders.last().copied().filter(|order| *order > 0.0).unwrap_or(1.0);
+        let speeds = window.speeds(extent(cells));
+        let orders = window.orders((0.0, highest_order + 0.5));
+        let upwards = match axis {
+            VerticalAxis::EngineOrder => orders,
+            VerticalAxis::Frequency if window.engine_orders.is_some() => {
+                (orders.0 * speeds.0 / 60.0, orders.1 * speeds.1 / 60.0)
+            }
+            VerticalAxis::Frequency => {
+                // Full spectra at all speeds, and room above the natural frequencies.
+                let branches = campbell.map(Campbell::branches).unwrap_or_default();
+                let natural = branches.into_iter().flat_map(|(_, table)| table.iter().flatten().flatten());
+                let wanted = natural.fold(highest_order * speeds.0 / 60.0, |top, hz| top.max(1.6 * hz));
+                (0.0, wanted.min(highest_order * speeds.1 / 60.0))
+            }
+        };
+        let upwards = if upwards.0 < upwards.1 { upwards } else { (0.0, 1.0) };
+        Self { axis, diagram: Diagram::new(corner, size, speeds, upwards) }
+    }
+
+    /// Engine order at a height of the axis.
+    fn order(&self, y: f64, rpm: f64) -> f64 {
+        match self.axis {
+            VerticalAxis::EngineOrder => y,
+            VerticalAxis::Frequency if rpm > 0.0 => y * 60.0 / rpm,
+            VerticalAxis::Frequency => 0.0,
+        }
+    }
+
+    /// Height of an engine order at a speed.
+    fn height(&self, rpm: f64, order: f64) -> f64 {
+        match self.axis {
+            VerticalAxis::EngineOrder => order,
+            VerticalAxis::Frequency => order * rpm / 60.0,
+        }
+    }
+
+    /// Place of an engine order at a speed, if it is in the drawing.
+    fn place(&self, rpm: f64, order: f64) -> Option<(f64, f64)> {
+        self.diagram.inside(rpm, self.height(rpm, order))
+    }
+
+    /// Hatching, with transparent areas over it that say which speeds are without result, and the amplitudes.
+    pub(super) fn amplitudes(&self, map: &InteractionMap, cells: &[Cell], loudest: Option<f64>) -> Element {
+        let without = |cell: &&Cell| is_missing(map, cell);
+        let missing = cells.iter().filter(without).filter_map(|cell| {
+            let (low, high) = self.diagram.x.values;
+            let (from, to) = (cell.from.max(low), cell.to.min(high));
+            let (left, right) = (self.diagram.x.place(from), self.diagram.x.place(to));
+            let point = map.points.iter().find(|point| point.index as usize == cell.index);
+            let reason = point.and_then(|point| point.message.as_deref()).unwrap_or("no result");
+            let area = rectangle(left, self.diagram.top, right - left, self.diagram.height);
+            let area = area.set("class", "missing").set("fill", "white").set("fill-opacity", "0");
+            (from < to).then(|| area.title(&format!("{:.0} rpm: {reason}", cell.rpm)))
+        });
+        let image = match loudest {
+            Some(loudest) => {
+                let amplitudes = self.scale(loudest);
+                heat::image(map, cells, &self.diagram, &amplitudes, |y, rpm| self.order(y, rpm))
+            }
+            // Nothing moves: as quiet as the colours go.
+            None => heat::image(map, cells, &self.diagram, &self.scale(1.0), |y, rpm| self.order(y, rpm)),
+        };
+        group().child(self.diagram.background(hatching::FILL)).children(missing).child(image)
+    }
+
+    /// The scale of the colours, as high as the diagram.
+    pub(super) fn scale(&self, loudest: f64) -> Scale {
+        Scale::logarithmic((QUIETEST * loudest, loudest), (self.diagram.bottom(), self.diagram.top))
+    }
+
+    /// Lines of whole engine orders, dotted, multiples of the lobe count drawn through; with where each leaves the diagram.
+    pub(super) fn engine_orders(&self, map: &InteractionMap) -> (Element, Vec<(u32, (f64, f64))>) {
+        let lobes = lobes(map);
+        let highest = map.engine_orders.last().map_or(0, |order| order.floor() as u32);
+        let span = match self.axis {
+            VerticalAxis::EngineOrder => (self.diagram.y.values.1 - self.diagram.y.values.0).ceil() as u32,
+            VerticalAxis::Frequency => highest,
+        };
+        let rows = span.div_ceil(30).max(1);
+        let (slow, fast) = self.diagram.x.values;
+        let (mut lines, mut ends) = (group(), Vec::new());
+        for order in (1..=highest).filter(|order| order.is_multiple_of(rows) || order.is_multiple_of(lobes)) {
+            let k = f64::from(order);
+            let from_to = ((slow, self.height(slow, k)), (fast, self.height(fast, k)));
+            let Some([from, to]) = self.diagram.clipped(from_to.0, from_to.1) else { continue };
+            let excited = order.is_multiple_of(lobes);
+            let end = self.diagram.point(to.0, to.1);
+            lines = lines.child(
+                line(self.diagram.point(from.0, from.1), end)
+                    .set("class", "engine-order")
+                    .set("stroke", "white")
+                    .set("stroke-opacity", if excited { "0.45" } else { "0.6" })
+                    .set("stroke-width", if excited { "0.9" } else { "1" })
+                    .set("stroke-dasharray", if excited { "" } else { "1.5 5" }),
+            );
+            ends.push((order, end));
+        }
+        (lines, ends)
+    }
+
+    /// Natural frequencies in the rotating frame, a colour and a number for each nodal diameter.
+    pub(super) fn natural_frequencies(&self, campbell: &Campbell, labels: &mut Labels) -> Element {
+        let harmonics = campbell.frequencies_hz.first().map_or(0, Vec::len);
+        let (mut curves, mut words) = (group().set("class", "natural"), group());
+        for (wave, table) in campbell.branches() {
+            let families = |i: usize| (0..campbell.frequencies_hz[0][i].len()).map(move |j| (i, j));
+            for (nodal_diameter, family) in (0..harmonics).flat_map(families) {
+                let places: Vec<_> = campbell
+                    .speeds_rad_s
+                    .iter()
+                    .zip(table)
+                    .map(|(speed, frequencies)| {
+                        let hz = frequencies.get(nodal_diameter)?.get(family)?;
+                        let rpm = rpm(*speed);
+                        (rpm > 0.0).then(|| self.diagram.point(rpm, self.height(rpm, hz * 60.0 / rpm)))
+                    })
+                    .collect();
+                let colour = on_dark(nodal_diameter, harmonics);
+                let inside = |place: &&(f64, f64)| self.diagram.encloses(**place);
+                let seen: Vec<(f64, f64)> = places.iter().flatten().filter(inside).copied().collect();
+                let stretches = [0.97, 0.85, 0.7, 0.5, 0.3, 0.1, 0.03];
+                let tried = stretches.map(|share| seen.get((share * seen.len() as f64) as usize).copied());
+                let number = labels.at_first(tried.into_iter().flatten(), &nodal_diameter.to_string(), 11.0);
+                words = words
+                    .children(number.map(|label| {
+                        label.set("fill", &colour).set("font-weight", "bold").rimmed("#101010")
+                    }));
+                let name = marks::mode(nodal_diameter as u32, family as u32 + 1, wave);
+                curves = curves.child(
+                    polyline(places)
+                        .set("stroke", colour)
+                        .set("stroke-opacity", "0.85")
+                        .set("stroke-width", "1")
+                        .title(&name),
+                );
+            }
+        }
+        let region = format!("view-{:.0}-{:.0}", self.diagram.left, self.diagram.top);
+        let clipped = curves.set("clip-path", format!("url(#{region})"));
+        group().child(self.diagram.region(&region)).child(clipped).child(words)
+    }
+
+    /// Where the linear criterion and the lobes' engine orders meet natural frequencies, with (i, j, n) and (i, j) where there is room.
+    pub(super) fn crossings(&self, critical: &CriticalSpeeds, labels: &mut Labels) -> Element {
+        let mut found = Vec::new();
+        for crossing in &critical.linear_crossings {
+            let order = f64::from(crossing.nodal_diameter * crossing.superharmonic);
+            let Some(place) = self.place(rpm(crossing.speed_rad_s), order) else { continue };
+            found.push((place, marks::linear(place, "white", crossing), marks::triple(crossing)));
+        }
+        for crossing in &critical.driven_crossings {
+            let k = f64::from(crossing.engine_order);
+            let Some(place) = self.place(rpm(crossing.speed_rad_s), k) else { continue };
+            found.push((place, marks::driven(place, DRIVEN, "black", crossing), marks::pair(crossing)));
+        }
+        for (place, ..) in &found {
+            labels.keep_off(*place, 5.0);
+        }
+        let mut drawn = group();
+        for (place, mark, words) in found {
+            let label = labels.beside(place, &words, 10.5);
+            drawn =
+                drawn.child(mark).children(label.map(|label| label.set("fill", "white").rimmed("#101010")));
+        }
+        drawn
+    }
+
+    /// Which marks [`crossings`](Self::crossings) has: of the linear criterion, and of what the lobes drive.
+    pub(super) fn has_crossings(&self, critical: &CriticalSpeeds) -> (bool, bool) {
+        let linear = critical.linear_crossings.iter().any(|crossing| {
+            let order = f64::from(crossing.nodal_diameter * crossing.superharmonic);
+            self.place(rpm(crossing.speed_rad_s), order).is_some()
+        });
+        let driven = critical.driven_crossings.iter().any(|crossing| {
+            self.place(rpm(crossing.speed_rad_s), f64::from(crossing.engine_order)).is_some()
+        });
+        (linear, driven)
+    }
+
+    /// Labels of engine orders that leave through the top, inside the diagram.
+    pub(super) fn label_inside(end: (f64, f64), order: u32, excited: bool) -> Element {
+        text(end.0 - 8.0, end.1 + 15.0, "end", &order.to_string())
+            .set("font-size", "11")
+            .set("font-weight", if excited { "bold" } else { "normal" })
+            .set("fill", if excited { "white" } else { "#cccccc" })
+            .rimmed("#101010")
+    }
+}
+
+/// Whether a speed has no amplitudes.
+pub(super) fn is_missing(map: &InteractionMap, cell: &Cell) -> bool {
+    map.amplitude.get(cell.index).is_none_or(Option::is_none)
+}
+
+/// Lobes of the casing, at least 1.
+pub(super) fn lobes(map: &InteractionMap) -> u32 {
+    let lobes = map.settings.scene.casing.as_ref().and_then(|casing| casing.lobes.as_ref());
+    lobes.map_or(1, |lobes| lobes.count.max(1))
+}

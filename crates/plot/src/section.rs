@@ -1,0 +1,282 @@
+//! Sections of the sector: the paper's Figs 1 and 3.
+
+use super::axis::{significant, ticks};
+use super::diagram::Diagram;
+use super::heading::heading;
+use super::key::{Key, MARK_WIDTH};
+use super::svg::{Element, document, group, line, polyline, rectangle, text};
+use rubmap_analysis::result::{NodeKind, SectorGeometry, SectorNode};
+
+const WIDTH: f64 = 1180.0;
+const HEIGHT: f64 = 800.0;
+const LEFT: f64 = 92.0;
+const PLOT: (f64, f64) = (790.0, 640.0);
+
+/// A gap that can be seen, in the drawing.
+const VISIBLE: f64 = 14.0;
+
+/// From where the sector is looked at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SectionView {
+    /// Across the axis: all nodes turned into one plane, with the contact line and the casing at its clearance.
+    Meridional,
+    /// Along the axis: the cyclic faces and what is clamped.
+    Cyclic,
+}
+
+/// What a node looks like and is called.
+struct Look {
+    kind: NodeKind,
+    words: &'static str,
+    colour: &'static str,
+    radius: f64,
+}
+
+/// In the order in which they are drawn over each other.
+const LOOKS: [Look; 5] = [
+    Look { kind: NodeKind::Internal, words: "other nodes", colour: "#b4bcc4", radius: 1.3 },
+    Look { kind: NodeKind::Low, words: "low cyclic face", colour: "#0072b2", radius: 2.2 },
+    Look { kind: NodeKind::High, words: "high cyclic face", colour: "#e69f00", radius: 2.2 },
+    Look { kind: NodeKind::Clamped, words: "clamped", colour: "#222222", radius: 2.4 },
+    Look { kind: NodeKind::Contact, words: "contact line", colour: "#d62728", radius: 2.6 },
+];
+
+/// Draws the nodes of the sector as dots, at the same scale in both directions.
+pub fn section(geometry: &SectorGeometry, view: SectionView) -> String {
+    let (subject, axes) = match view {
+        SectionView::Meridional => ("Meridional section", ["axial coordinate z", "radius r"]),
+        SectionView::Cyclic => ("Cyclic faces, seen along the axis", ["x", "y"]),
+    };
+    let name = if geometry.name.is_empty() { String::new() } else { format!(": {}", geometry.name) };
+    let title = format!("{subject}{name}");
+    let length = &geometry.units.length;
+    let mut words = format!(
+        "one of {} sectors · {} nodes, {} on the contact line",
+        geometry.sectors,
+        geometry.nodes.len(),
+        geometry.contact.len()
+    );
+    if let (SectionView::Meridional, Some(clearance)) = (view, clearances(geometry)) {
+        words += &format!(" · clearance {clearance} {length}");
+    }
+    let (heading, bottom) = heading(LEFT, &title, &[words]);
+    let drawing = Drawing::new(geometry, view, bottom + 24.0);
+    let diagram = &drawing.diagram;
+    let (x, y) = (ticks(diagram.x.values, 9.0), ticks(diagram.y.values, 8.0));
+    let content = vec![
+        heading,
+        diagram.grid(&x, &y),
+        diagram.region("inside"),
+        group().set("clip-path", "url(#inside)").children(drawing.content()),
+        diagram.frame(),
+        diagram.x_axis(&x, &format!("{}, {length}", axes[0])),
+        diagram.y_axis(&y, &format!("{}, {length}", axes[1]), 66.0),
+        drawing.key(),
+    ];
+    document(&title, WIDTH, HEIGHT, content)
+}
+
+/// The clearances at both ends of the contact line, in words.
+fn clearances(geometry: &SectorGeometry) -> Option<String> {
+    let all: Option<Vec<f64>> = geometry.contact.iter().map(|place| place.clearance).collect();
+    let all = all.filter(|all| !all.is_empty())?;
+    let (leading, trailing) = (all[0], all[all.len() - 1]);
+    Some(if leading == trailing {
+        significant(leading)
+    } else {
+        format!("from {} to {}", significant(leading), significant(trailing))
+    })
+}
+
+struct Drawing<'a> {
+    geometry: &'a SectorGeometry,
+    view: SectionView,
+    diagram: Diagram,
+    /// How many times as large as it is a clearance is drawn.
+    stretch: f64,
+}
+
+impl<'a> Drawing<'a> {
+    fn new(geometry: &'a SectorGeometry, view: SectionView, top: f64) -> Self {
+        let nodes = geometry.nodes.iter().map(|node| node.position);
+        let places = nodes.chain(geometry.contact.iter().map(|place| place.position));
+        let places: Vec<(f64, f64)> = places.map(|position| project(view, position)).collect();
+        let diagram = fitted(&places, top);
+        let scale = diagram.width / (diagram.x.values.1 - diagram.x.values.0);
+        let clearance = geometry.contact.iter().filter_map(|place| place.clearance).fold(0.0, f64::max);
+        let stretch = if clearance > 0.0 { round_up(VISIBLE / (clearance * scale)) } else { 1.0 };
+        Self { geometry, view, diagram, stretch }
+    }
+
+    fn place(&self, position: [f64; 3]) -> (f64, f64) {
+        let (x, y) = project(self.view, position);
+        self.diagram.point(x, y)
+    }
+
+    fn of(&self, kind: NodeKind) -> impl Iterator<Item = &SectorNode> {
+        self.geometry.nodes.iter().filter(move |node| node.kind == kind)
+    }
+
+    fn content(&self) -> Vec<Element> {
+        let mut content = Vec::new();
+        if self.geometry.nodes.is_empty() && self.geometry.contact.is_empty() {
+            return vec![self.diagram.words("Nothing to draw: no node is known")];
+        }
+        content.extend(self.casing());
+        for look in &LOOKS {
+            let dots = self.of(look.kind).map(|node| dot(self.place(node.position), look));
+            content.push(group().set("class", class(look.kind)).set("fill", look.colour).children(dots));
+        }
+        let line = self.geometry.contact.iter().map(|contact| Some(self.place(contact.position)));
+        let line = polyline(line).set("class", "contact-line").set("stroke", "#d62728");
+        content.push(line.set("stroke-width", "2.2").title("contact line"));
+        content.push(self.ends());
+        content
+    }
+
+    /// Which end of the contact line is which.
+    fn ends(&self) -> Element {
+        let contact = &self.geometry.contact;
+        let end = |index: usize, words: &str| {
+            let (x, y) = self.place(contact[index].position);
+            let anchor = if x > self.diagram.left + 0.6 * self.diagram.width { "end" } else { "start" };
+            let beside = if anchor == "end" { -9.0 } else { 9.0 };
+            text(x + beside, y + 16.0, anchor, words).set("font-size", "11").rimmed("white")
+        };
+        match contact.len() {
+            0 => group(),
+            1 => group().child(end(0, "contact node 0")),
+            count => {
+                let last = format!("contact node {}", count - 1);
+                group().child(end(0, "contact node 0, leading edge")).child(end(count - 1, &last))
+            }
+        }
+    }
+
+    /// The casing at its clearance along the normals, with the normals.
+    fn casing(&self) -> Option<Element> {
+        (self.view == SectionView::Meridional).then_some(())?;
+        let contact = &self.geometry.contact;
+        let at = |place: &rubmap_analysis::result::ContactPlace| {
+            let [r, theta, z] = place.position;
+            let away = self.stretch * place.clearance?;
+            Some(self.place([r + away * place.normal[0], theta, z + away * place.normal[2]]))
+        };
+        let wall: Vec<(f64, f64)> = contact.iter().map(at).collect::<Option<_>>()?;
+        let every = contact.len().div_ceil(24).max(1);
+        let normals = contact.iter().zip(&wall).step_by(every).map(|(place, wall)| {
+            line(self.place(place.position), *wall).set("stroke", "#888888").set("stroke-width", "0.7")
+        });
+        let wall = polyline(wall.iter().copied().map(Some)).set("class", "casing").set("stroke", "#444444");
+        let wall = wall.set("stroke-width", "3").title("casing");
+        Some(group().children(normals).child(wall))
+    }
+
+    fn key(&self) -> Element {
+        let mut key = Key::new(self.diagram.left + PLOT.0 + 30.0, self.diagram.top + 8.0);
+        for look in &LOOKS {
+            let on_line = look.kind == NodeKind::Contact && !self.geometry.contact.is_empty();
+            if on_line || self.of(look.kind).next().is_some() {
+                let mark = dot((0.5 * MARK_WIDTH, 0.0), look).set("fill", look.colour);
+                let stroke = line((2.0, 0.0), (MARK_WIDTH - 2.0, 0.0)).set("stroke", look.colour);
+                let stroke = on_line.then(|| stroke.set("stroke-width", "2.2"));
+                key = key.row(group().children(stroke).child(mark), look.words);
+            }
+        }
+        if self.casing().is_some() {
+            let wall = line((0.0, 0.0), (MARK_WIDTH, 0.0)).set("stroke", "#444444").set("stroke-width", "3");
+            key = key.row(wall, "casing at rest");
+            if self.stretch > 1.0 {
+                key = key.note(&format!("its clearance drawn {} times as large", self.stretch));
+            }
+        }
+        key.draw()
+    }
+}
+
+fn class(kind: NodeKind) -> &'static str {
+    match kind {
+        NodeKind::Internal => "internal",
+        NodeKind::Low => "low",
+        NodeKind::High => "high",
+        NodeKind::Contact => "contact",
+        NodeKind::Clamped => "clamped",
+    }
+}
+
+/// Faces are told apart without colours, too: low ones are round, high ones diamonds, clamped nodes squares.
+fn dot((x, y): (f64, f64), look: &Look) -> Element {
+    let r = look.radius;
+    match look.kind {
+        NodeKind::Clamped => rectangle(x - r, y - r, 2.0 * r, 2.0 * r),
+        NodeKind::High => {
+            let r = 1.4 * r;
+            let path =
+                format!("M{:.2} {y:.2}L{x:.2} {:.2}L{:.2} {y:.2}L{x:.2} {:.2}Z", x - r, y - r, x + r, y + r);
+            Element::new("path").set("d", path)
+        }
+        NodeKind::Internal | NodeKind::Low | NodeKind::Contact => {
+            Element::new("circle").number("cx", x).number("cy", y).number("r", r)
+        }
+    }
+}
+
+/// Cylindrical coordinates as they are seen.
+fn project(view: SectionView, [r, theta, z]: [f64; 3]) -> (f64, f64) {
+    match view {
+        SectionView::Meridional => (z, r),
+        SectionView::Cyclic => (r * theta.cos(), r * theta.sin()),
+    }
+}
+
+/// A diagram of both directions at one scale about all places, with some room.
+fn fitted(places: &[(f64, f64)], top: f64) -> Diagram {
+    let ends = |values: &mut dyn Iterator<Item = f64>| {
+        values
+            .filter(|value| value.is_finite())
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
+    };
+    let x = ends(&mut places.iter().map(|place| place.0));
+    let y = ends(&mut places.iter().map(|place| place.1));
+    let (x, y) = if x.0 <= x.1 && y.0 <= y.1 { (x, y) } else { ((0.0, 1.0), (0.0, 1.0)) };
+    let size = (PLOT.0, f64::min(PLOT.1, HEIGHT - 66.0 - top));
+    let spans = (1.16 * (x.1 - x.0), 1.16 * (y.1 - y.0));
+    let per_unit = f64::max(spans.0 / size.0, spans.1 / size.1);
+    // A single place still has surroundings.
+    let per_unit = if per_unit > 0.0 { per_unit } else { 1.0 / size.0 };
+    let about = |(low, high): (f64, f64), size: f64| {
+        let (middle, half) = (0.5 * (low + high), 0.5 * size * per_unit);
+        (middle - half, middle + half)
+    };
+    Diagram::new((LEFT, top), size, about(x, size.0), about(y, size.1))
+}
+
+/// The next of 1, 2 and 5 times a power of ten; at least 1.
+fn round_up(value: f64) -> f64 {
+    if value <= 1.0 || !value.is_finite() {
+        return 1.0;
+    }
+    let power = 10f64.powf(value.log10().floor());
+    [1.0, 2.0, 5.0, 10.0].map(|m| m * power).into_iter().find(|step| *step >= 0.999 * value).unwrap_or(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stretches_are_round() {
+        assert_eq!([0.3, 1.0, 1.1, 4.0, 60.0, f64::INFINITY].map(round_up), [1.0, 1.0, 2.0, 5.0, 100.0, 1.0]);
+    }
+
+    #[test]
+    fn both_directions_have_one_scale() {
+        for places in [&[(0.0, 0.0), (10.0, 1.0)][..], &[(5.0, 5.0)], &[], &[(0.0, -3.0), (0.1, 90.0)]] {
+            let diagram = fitted(places, 100.0);
+            let a = diagram.width / (diagram.x.values.1 - diagram.x.values.0);
+            let b = diagram.height / (diagram.y.values.1 - diagram.y.values.0);
+            assert!((a / b - 1.0).abs() < 1e-9 || places.is_empty(), "{a} {b}");
+            assert!(places.iter().all(|place| diagram.inside(place.0, place.1).is_some()));
+        }
+    }
+}

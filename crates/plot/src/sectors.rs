@@ -1,0 +1,47 @@
+//! How many sectors a wheel has, read off what its reduction kept.
+
+use rubmap_analysis::result::ReductionReport;
+
+/// N: nodal diameters from 0 to N/2 have their unknowns twice in the wheel, but 0 and, of an even number, N/2. None where the numbers
+/// do not say.
+pub(super) fn sectors(reduction: &ReductionReport) -> Option<u32> {
+    let unknowns = &reduction.unknowns;
+    let last = u32::try_from(unknowns.len().checked_sub(1)?).ok()?;
+    let twice = 2 * unknowns.iter().sum::<u32>() - unknowns.first()?;
+    match twice.checked_sub(reduction.wheel_unknowns)? {
+        0 => Some(2 * last + 1),
+        single if last > 0 && single == unknowns[last as usize] => Some(2 * last),
+        _ => None,
+    }
+}
+
+/// Nodal diameter |k − N·round(k/N)| that engine order k drives.
+pub(super) fn driven(order: u32, sectors: u32) -> u32 {
+    let rest = order % sectors.max(1);
+    rest.min(sectors.max(1) - rest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    fn report(unknowns: &[u32], wheel: u32) -> ReductionReport {
+        serde_json::from_value(json!({"modes_per_speed": 1, "unknowns": unknowns, "wheel_unknowns": wheel,
+            "largest_mode_residual": 0.0, "modes": 1, "counted_modes": 1, "full_model": [], "basis_tolerance": 1e-5,
+            "stiffening": {"verdict": "sound", "linear_ratio": 0.0, "quadratic_ratio": 0.0, "frequency_error": 0.0, "message": ""},
+            "wall_time_s": 0.0, "version": "0"}))
+        .unwrap()
+    }
+
+    #[test]
+    fn even_and_odd_wheels_are_told_apart() {
+        assert_eq!(sectors(&report(&[3, 4, 5], 3 + 8 + 5)), Some(4));
+        assert_eq!(sectors(&report(&[3, 4, 5], 3 + 8 + 10)), Some(5));
+        assert_eq!(sectors(&report(&[3], 3)), Some(1));
+        assert_eq!(sectors(&report(&[3, 4], 3 + 4)), Some(2));
+        assert_eq!(sectors(&report(&[3, 4], 1)), None);
+        assert_eq!(sectors(&report(&[], 0)), None);
+        assert_eq!([0, 3, 5, 7, 12, 20].map(|k| driven(k, 10)), [0, 3, 5, 3, 2, 0]);
+    }
+}

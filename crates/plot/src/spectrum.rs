@@ -1,0 +1,268 @@
+//! Spectra of one speed: the paper's Fig 9, and Fig 11 in the fixed frame.
+
+use super::axis::{decades, label, significant, ticks};
+use super::cells::rpm;
+use super::colour::ordinal;
+use super::diagram::Diagram;
+use super::key::{Key, MARK_WIDTH};
+use super::svg::{Element, INK, document, group, line};
+use super::{heading, marks};
+use rubmap_analysis::result::{Point, SensorSpectrum, SpeedSpectra};
+use rubmap_wheel::dynamics::sector::Units;
+
+const WIDTH: f64 = 1180.0;
+const HEIGHT: f64 = 720.0;
+const LEFT: f64 = 96.0;
+const PLOT_WIDTH: f64 = 860.0;
+
+/// Lines below this share of the largest are not drawn.
+const QUIETEST: f64 = 1e-4;
+
+/// Who looks at the wheel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Frame {
+    /// Who turns with it.
+    Rotating,
+    /// Who stands beside it: a wave of nodal diameter n at engine order k is seen at k + n or k − n, as it travels with the
+    /// rotation or against it.
+    Fixed,
+}
+
+/// Draws the spectra of the sensor of index `sensor` at one speed: in the rotating frame its amplitude above those of the wheel's nodal
+/// diameters, in the fixed frame the latter where they may be seen. Amplitudes are logarithmic over four decades.
+pub fn spectrum(spectra: &SpeedSpectra, point: &Point, units: &Units, sensor: usize, frame: Frame) -> String {
+    let speed = label(rpm(point.speed_rad_s), 0);
+    let Some(found) = spectra.sensors.get(sensor) else {
+        let title = format!("Spectrum, {speed} rpm");
+        let (heading, _) = heading::heading(LEFT, &title, &[format!("there is no sensor of index {sensor}")]);
+        return document(&title, WIDTH, HEIGHT, vec![heading]);
+    };
+    let where_from = match frame {
+        Frame::Rotating => "rotating frame",
+        Frame::Fixed => "fixed frame",
+    };
+    let title = format!("Spectrum in the {where_from}: {}, {speed} rpm", heading::sensor(&found.sensor));
+    let mut words = vec![verdict(point)];
+    if frame == Frame::Fixed {
+        let both = "A wave of nodal diameter n at engine order k of the rotating frame is drawn at k + n, where one that travels with the \
+                    rotation is seen, and at |k − n|, where one that travels against it is: which of both it is, spectra do not tell.";
+        words.push(both.to_owned());
+    }
+    let (heading, bottom) = heading::heading(LEFT, &title, &words);
+    let lines = Lines::of(spectra, found, frame);
+    let mut content = vec![heading];
+    match frame {
+        Frame::Rotating => {
+            let height = 0.5 * (HEIGHT - 70.0 - bottom - 30.0 - 34.0);
+            let above = ((LEFT, bottom + 22.0), (PLOT_WIDTH, height));
+            content.extend(whole(spectra, found, units, above));
+            content.extend(lines.draw(units, ((LEFT, bottom + 56.0 + height), (PLOT_WIDTH, height))));
+        }
+        Frame::Fixed => {
+            let top = bottom + 22.0;
+            content.extend(lines.draw(units, ((LEFT, top), (PLOT_WIDTH, HEIGHT - 74.0 - top))));
+        }
+    }
+    document(&title, WIDTH, HEIGHT, content)
+}
+
+fn verdict(point: &Point) -> String {
+    let settled = point.settling.as_ref().map_or("no steady state is known", |settling| {
+        use rubmap_analysis::result::Verdict::{Aperiodic, NotSettled, Periodic, Subharmonic};
+        match settling.verdict {
+            Periodic => "repeats every revolution",
+            Subharmonic => "repeats every few revolutions",
+            Aperiodic => "steady, never repeating",
+            NotSettled => "not settled",
+        }
+    });
+    format!("{settled} · amplitudes are single-sided, the mean is left out · rubmap {}", point.version)
+}
+
+/// The amplitude of the sensor itself.
+fn whole(
+    spectra: &SpeedSpectra,
+    found: &SensorSpectrum,
+    units: &Units,
+    (corner, size): ((f64, f64), (f64, f64)),
+) -> Vec<Element> {
+    let lines: Vec<(f64, f64)> = spectra
+        .engine_orders
+        .iter()
+        .zip(&found.amplitude)
+        .filter(|(order, _)| **order > 0.0)
+        .map(|(order, amplitude)| (*order, *amplitude))
+        .collect();
+    let diagram = diagram(lines.iter().map(|line| line.1), highest(spectra), (corner, size));
+    let Some(diagram) = diagram else {
+        let empty = Diagram::new(corner, size, (0.0, 1.0), (0.0, 1.0));
+        return vec![empty.frame(), empty.words("Nothing to draw: the sensor does not move")];
+    };
+    let shown = lines.into_iter().filter(|(_, amplitude)| diagram.y.contains(*amplitude));
+    let stems = shown.map(|(order, amplitude)| {
+        let words =
+            format!("engine order {}: {} {}", marks::order(order), significant(amplitude), units.length);
+        stem(&diagram, order, amplitude).set("stroke", INK).set("stroke-width", "1.6").title(&words)
+    });
+    let title = format!("amplitude, {}", units.length);
+    framed(&diagram, group().set("class", "whole").children(stems), &title, "")
+}
+
+/// Highest engine order of the spectra.
+fn highest(spectra: &SpeedSpectra) -> f64 {
+    spectra.engine_orders.last().copied().filter(|order| *order > 0.0).unwrap_or(1.0)
+}
+
+fn diagram(
+    amplitudes: impl Iterator<Item = f64>,
+    highest: f64,
+    (corner, size): ((f64, f64), (f64, f64)),
+) -> Option<Diagram> {
+    let loudest = amplitudes.filter(|amplitude| amplitude.is_finite()).fold(0.0, f64::max);
+    (loudest > 0.0).then(|| {
+        Diagram::upwards_logarithmic(corner, size, (0.0, highest + 0.5), (QUIETEST * loudest, 1.6 * loudest))
+    })
+}
+
+fn stem(diagram: &Diagram, order: f64, amplitude: f64) -> Element {
+    let (x, y) = diagram.point(order, amplitude);
+    line((x, diagram.bottom()), (x, y))
+}
+
+fn framed(diagram: &Diagram, content: Element, y_title: &str, x_title: &str) -> Vec<Element> {
+    let (x, y) = (ticks(diagram.x.values, 12.0), decades(diagram.y.values, 9));
+    vec![
+        diagram.grid(&x, &y),
+        content,
+        diagram.frame(),
+        diagram.x_axis(&x, x_title),
+        diagram.y_axis(&y, y_title, 70.0),
+    ]
+}
+
+/// A line of a nodal diameter.
+struct Line {
+    nodal_diameter: usize,
+    /// Engine order in the rotating frame.
+    order: f64,
+    /// Where it is seen; in the fixed frame with the direction of travel.
+    seen: f64,
+    forward: bool,
+    amplitude: f64,
+}
+
+struct Lines {
+    frame: Frame,
+    highest: f64,
+    harmonics: usize,
+    lines: Vec<Line>,
+}
+
+impl Lines {
+    fn of(spectra: &SpeedSpectra, found: &SensorSpectrum, frame: Frame) -> Self {
+        let mut lines = Vec::new();
+        for (nodal_diameter, row) in found.nodal_diameters.iter().enumerate() {
+            for (&order, &amplitude) in spectra.engine_orders.iter().zip(row) {
+                if order <= 0.0 || !amplitude.is_finite() {
+                    continue;
+                }
+                let n = nodal_diameter as f64;
+                let here = |seen, forward| Line { nodal_diameter, order, seen, forward, amplitude };
+                match frame {
+                    Frame::Rotating => lines.push(here(order, true)),
+                    // A wave that stands is seen at its own order.
+                    Frame::Fixed if nodal_diameter == 0 => lines.push(here(order, true)),
+                    Frame::Fixed => lines.extend([here(order + n, true), here((order - n).abs(), false)]),
+                }
+            }
+        }
+        Self { frame, highest: highest(spectra), harmonics: found.nodal_diameters.len(), lines }
+    }
+
+    fn draw(&self, units: &Units, place: ((f64, f64), (f64, f64))) -> Vec<Element> {
+        let widest = match self.frame {
+            Frame::Rotating => self.highest,
+            Frame::Fixed => self.highest + self.harmonics.saturating_sub(1) as f64,
+        };
+        let x_title = match self.frame {
+            Frame::Rotating => "engine order k in the rotating frame",
+            Frame::Fixed => "multiple of the rotational frequency in the fixed frame",
+        };
+        let amplitudes = self.lines.iter().map(|line| line.amplitude);
+        let Some(diagram) = diagram(amplitudes, widest, place) else {
+            let empty = Diagram::new(place.0, place.1, (0.0, 1.0), (0.0, 1.0));
+            return vec![empty.frame(), empty.words("Nothing to draw: no nodal diameter moves")];
+        };
+        let mut shown: Vec<&Line> =
+            self.lines.iter().filter(|line| diagram.y.contains(line.amplitude)).collect();
+        // The smaller in front of the larger.
+        shown.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
+        let drawn = shown.iter().map(|found| self.line(&diagram, found, units));
+        let content = group().set("class", "lines").children(drawn);
+        let title = format!("nodal diameters, {} · √blades", units.length);
+        let mut all = framed(&diagram, content, &title, x_title);
+        all.push(self.key(&diagram, &shown));
+        all
+    }
+
+    fn line(&self, diagram: &Diagram, found: &Line, units: &Units) -> Element {
+        let colour = ordinal(found.nodal_diameter, self.harmonics);
+        let direction = match (self.frame, found.nodal_diameter, found.forward) {
+            (Frame::Rotating, ..) | (_, 0, _) => "",
+            (Frame::Fixed, _, true) => ", if it travels forwards",
+            (Frame::Fixed, _, false) => ", if it travels backwards",
+        };
+        let words = format!(
+            "nodal diameter {}, engine order {}: {} {}{direction}",
+            found.nodal_diameter,
+            marks::order(found.order),
+            significant(found.amplitude),
+            units.length
+        );
+        let stem =
+            stem(diagram, found.seen, found.amplitude).set("stroke", &colour).set("stroke-width", "1.4");
+        let stem = if found.forward { stem } else { stem.set("stroke-dasharray", "2 2") };
+        let place = diagram.point(found.seen, found.amplitude);
+        group().child(stem).child(symbol(place, &colour, found.nodal_diameter, found.forward)).title(&words)
+    }
+
+    fn key(&self, diagram: &Diagram, shown: &[&Line]) -> Element {
+        let mut key = Key::new(diagram.right() + 34.0, diagram.top + 8.0).heading("nodal diameter");
+        for nodal_diameter in 0..self.harmonics {
+            if shown.iter().any(|line| line.nodal_diameter == nodal_diameter) {
+                let colour = ordinal(nodal_diameter, self.harmonics);
+                let stem =
+                    line((0.0, 0.0), (MARK_WIDTH, 0.0)).set("stroke", &colour).set("stroke-width", "1.4");
+                let mark = symbol((0.5 * MARK_WIDTH, 0.0), &colour, nodal_diameter, true);
+                key = key.row(group().child(stem).child(mark), &nodal_diameter.to_string());
+            }
+        }
+        if self.frame == Frame::Fixed && shown.iter().any(|line| line.nodal_diameter > 0) {
+            key = key.heading("direction of travel");
+            let middle = (0.5 * MARK_WIDTH, 0.0);
+            key = key.row(group().child(symbol(middle, INK, 1, true)), "k + n: forwards");
+            key = key.row(group().child(symbol(middle, INK, 1, false)), "|k − n|: backwards");
+        }
+        key.draw()
+    }
+}
+
+/// A mark whose shape, beside its colour, says the nodal diameter; open of what travels backwards.
+fn symbol((x, y): (f64, f64), colour: &str, nodal_diameter: usize, filled: bool) -> Element {
+    let corners: &[(f64, f64)] = match nodal_diameter % 6 {
+        0 => &[],
+        1 => &[(-4.0, -4.0), (4.0, -4.0), (4.0, 4.0), (-4.0, 4.0)],
+        2 => &[(0.0, -5.0), (4.8, 4.0), (-4.8, 4.0)],
+        3 => &[(0.0, -5.5), (5.0, 0.0), (0.0, 5.5), (-5.0, 0.0)],
+        4 => &[(-4.8, -4.0), (4.8, -4.0), (0.0, 5.0)],
+        _ => &[(-1.6, -5.0), (1.6, -5.0), (1.6, 5.0), (-1.6, 5.0)],
+    };
+    let shape = if corners.is_empty() {
+        Element::new("circle").number("cx", x).number("cy", y).number("r", 4.2)
+    } else {
+        let place = |(dx, dy): &(f64, f64)| format!("{:.2} {:.2}", x + dx, y + dy);
+        let corners: Vec<String> = corners.iter().map(place).collect();
+        Element::new("path").set("d", format!("M{}Z", corners.join("L")))
+    };
+    shape.set("fill", if filled { colour } else { "white" }).set("stroke", colour).set("stroke-width", "1.2")
+}

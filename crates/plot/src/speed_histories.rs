@@ -1,0 +1,225 @@
+//! What happened at one speed over its revolutions: the paper's Figs 6 to 8.
+
+use super::axis::{label, ticks};
+use super::cells::rpm;
+use super::colour::ordinal;
+use super::diagram::Diagram;
+use super::heading::{heading, measured, origin};
+use super::key::{Key, MARK_WIDTH};
+use super::svg::{Element, document, group, line, rectangle};
+use super::trace::Trace;
+use rubmap_analysis::result::{ContactHistory, EnergyHistory, SensorHistory, SpeedHistories};
+
+const WIDTH: f64 = 1180.0;
+const HEIGHT: f64 = 640.0;
+const LEFT: f64 = 100.0;
+const PLOT_WIDTH: f64 = 830.0;
+
+/// Dashes of the curves of a panel, in turn: what tells them apart without colours.
+const DASHES: [&str; 4] = ["", "8 3", "2 3", "9 3 2 3"];
+
+/// What is drawn of the histories of a speed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum HistoryQuantity {
+    /// Displacement of a sensor.
+    Displacement,
+    /// Velocity of a sensor.
+    Velocity,
+    /// Force on a contact node, a line for every blade that was recorded.
+    Force,
+    /// Contact nodes that touch, and the length of the contact lines that does.
+    Contact,
+    /// Energy and its parts.
+    Energy,
+}
+
+/// Draws histories of one speed over revolutions. `index` counts sensors for displacements and velocities and contact nodes for
+/// forces; the wheel's contact and energy have none.
+pub fn speed_histories(histories: &SpeedHistories, what: HistoryQuantity, index: usize) -> String {
+    let panels = panels(histories, what, index);
+    let [begin, end] = histories.revolutions;
+    let title = format!(
+        "Revolutions {begin} to {end}: {}, {} rpm",
+        subject(histories, what, index),
+        label(rpm(histories.speed_rad_s), 0)
+    );
+    let mut words = vec![origin(&histories.settings.model, &histories.version)];
+    if matches!(what, HistoryQuantity::Force | HistoryQuantity::Contact) {
+        words.insert(0, "means over the interval between two samples".to_owned());
+    }
+    let (heading, bottom) = heading(LEFT, &title, &[words.join(" · ")]);
+    let top = bottom + 24.0;
+    let mut content = vec![heading];
+    let panels: Vec<Panel> = panels.into_iter().filter(|panel| !panel.curves.is_empty()).collect();
+    let gap = 34.0;
+    let count = panels.len().max(1) as f64;
+    let height = (HEIGHT - 64.0 - top - gap * (count - 1.0)) / count;
+    if panels.is_empty() {
+        let empty = Diagram::new((LEFT, top), (PLOT_WIDTH, height), (0.0, 1.0), (0.0, 1.0));
+        content.extend([empty.frame(), empty.words("Nothing to draw: this was not recorded")]);
+    }
+    for (place, panel) in panels.iter().enumerate() {
+        let corner = (LEFT, top + place as f64 * (height + gap));
+        let last = place + 1 == panels.len();
+        content.push(panel.draw(histories, (corner, (PLOT_WIDTH, height)), last));
+    }
+    document(&title, WIDTH, HEIGHT, content)
+}
+
+fn subject(histories: &SpeedHistories, what: HistoryQuantity, index: usize) -> String {
+    let of_sensor = |what: &str| match histories.sensors.get(index) {
+        Some(found) => measured(&found.sensor, what),
+        None => format!("{what} of sensor {index}"),
+    };
+    match what {
+        HistoryQuantity::Displacement => of_sensor("displacement"),
+        HistoryQuantity::Velocity => of_sensor("velocity"),
+        HistoryQuantity::Force => format!("force on contact node {index}"),
+        HistoryQuantity::Contact => "contact of the wheel with its casing".to_owned(),
+        HistoryQuantity::Energy => "energy of the wheel since the start".to_owned(),
+    }
+}
+
+/// A curve of a panel.
+struct Curve<'a> {
+    words: String,
+    values: &'a [f64],
+}
+
+/// Curves over one vertical axis.
+struct Panel<'a> {
+    axis: String,
+    curves: Vec<Curve<'a>>,
+}
+
+fn panels<'a>(histories: &'a SpeedHistories, what: HistoryQuantity, index: usize) -> Vec<Panel<'a>> {
+    let units = &histories.units;
+    let (length, force, time) = (&units.length, &units.force, &units.time);
+    let of_sensor = |axis: String, values: fn(&SensorHistory) -> &[f64]| {
+        let found = histories.sensors.get(index).map(values).filter(|values| !values.is_empty());
+        let curves = found.map(|values| Curve { words: String::new(), values });
+        vec![Panel { axis, curves: curves.into_iter().collect() }]
+    };
+    let contact = histories.contact.as_ref();
+    match what {
+        HistoryQuantity::Displacement => of_sensor(format!("displacement, {length}"), |s| &s.displacement),
+        HistoryQuantity::Velocity => of_sensor(format!("velocity, {length}/{time}"), |s| &s.velocity),
+        HistoryQuantity::Force => {
+            let curves = contact.map_or_else(Vec::new, |contact| forces(contact, index));
+            vec![Panel { axis: format!("force, {force}"), curves }]
+        }
+        HistoryQuantity::Contact => contact.map_or_else(Vec::new, |contact| {
+            let curve = |values: &'a Vec<f64>| {
+                let values = Some(values).filter(|values| !values.is_empty());
+                values.map(|values| Curve { words: String::new(), values }).into_iter().collect()
+            };
+            vec![
+                Panel {
+                    axis: "contact nodes that touch".to_owned(),
+                    curves: curve(&contact.nodes_in_contact),
+                },
+                Panel {
+                    axis: format!("length in contact, {length}"),
+                    curves: curve(&contact.contact_length),
+                },
+            ]
+        }),
+        HistoryQuantity::Energy => {
+            let curves = histories.energy.as_ref().map_or_else(Vec::new, energies);
+            vec![Panel { axis: format!("energy, {force}·{length}"), curves }]
+        }
+    }
+}
+
+fn forces(contact: &ContactHistory, node: usize) -> Vec<Curve<'_>> {
+    let sectors = contact.force.iter().enumerate();
+    let curve = |(sector, nodes): (usize, &'_ Vec<Vec<f64>>)| {
+        let values = nodes.get(node).filter(|values| !values.is_empty())?;
+        Some((sector, values.len()))
+    };
+    let found: Vec<(usize, usize)> = sectors.filter_map(curve).collect();
+    found
+        .into_iter()
+        .map(|(sector, _)| Curve { words: format!("blade {sector}"), values: &contact.force[sector][node] })
+        .collect()
+}
+
+fn energies(energy: &EnergyHistory) -> Vec<Curve<'_>> {
+    let all = [
+        ("mechanical energy", &energy.mechanical),
+        ("work of contact", &energy.contact_work),
+        ("lost to damping", &energy.damping_loss),
+        ("work of engine orders", &energy.excitation_work),
+        ("work of mistuning", &energy.mistuning_work),
+        ("work on the casing", &energy.casing_work),
+        ("lost in the casing", &energy.casing_loss),
+        ("heat of friction", &energy.friction_heat),
+    ];
+    let there = all.into_iter().filter(|(_, values)| !values.is_empty());
+    there.map(|(words, values)| Curve { words: words.to_owned(), values }).collect()
+}
+
+impl Panel<'_> {
+    fn draw(&self, histories: &SpeedHistories, place: ((f64, f64), (f64, f64)), last: bool) -> Element {
+        let diagram = self.diagram(histories, place);
+        let (x, y) = (ticks(diagram.x.values, 10.0), ticks(diagram.y.values, (place.1.1 / 60.0).max(2.0)));
+        let step = 1.0 / f64::from(histories.samples_per_revolution.max(1));
+        let begin = f64::from(histories.revolutions[0]);
+        let mut bands = false;
+        let mut curves = group();
+        for (index, curve) in self.curves.iter().enumerate() {
+            let at = |(j, value): (usize, &f64)| diagram.point(begin + (j + 1) as f64 * step, *value);
+            let trace = Trace::of(curve.values.iter().enumerate().map(at).collect());
+            bands |= trace.is_band;
+            let (colour, dashes) = self.style(index);
+            curves = curves.child(trace.coloured(&colour, 1.5, dashes).title(&curve.words));
+        }
+        group()
+            .set("class", "panel")
+            .child(diagram.grid(&x, &y))
+            .child(curves)
+            .child(diagram.frame())
+            .child(diagram.x_axis(&x, if last { "revolutions since the start" } else { "" }))
+            .child(diagram.y_axis(&y, &self.axis, 72.0))
+            .child(self.key(&diagram, bands))
+    }
+
+    fn style(&self, index: usize) -> (String, &'static str) {
+        let dashes = if self.curves.len() > DASHES.len() * 2 { "" } else { DASHES[index % DASHES.len()] };
+        if self.curves.len() == 1 {
+            ("#1f4e79".to_owned(), "")
+        } else {
+            (ordinal(index, self.curves.len()), dashes)
+        }
+    }
+
+    fn diagram(&self, histories: &SpeedHistories, (corner, size): ((f64, f64), (f64, f64))) -> Diagram {
+        let [begin, end] = histories.revolutions.map(f64::from);
+        let values = self.curves.iter().flat_map(|curve| curve.values.iter().copied());
+        let finite = values.filter(|value| value.is_finite());
+        let (low, high) = finite.fold((0f64, 0f64), |(low, high), value| (low.min(value), high.max(value)));
+        // What never moves still has an axis.
+        let room = if low < high { 0.06 * (high - low) } else { 1.0 };
+        let x = if begin < end { (begin, end) } else { (begin, begin + 1.0) };
+        Diagram::new(corner, size, x, (if low < 0.0 { low - room } else { 0.0 }, high + room))
+    }
+
+    fn key(&self, diagram: &Diagram, bands: bool) -> Element {
+        /// More curves than this are named at the ends only.
+        const MOST: usize = 16;
+        let mut key = Key::new(diagram.right() + 28.0, diagram.top + 8.0);
+        let count = self.curves.len();
+        let shown = |index: &usize| count <= MOST || *index == 0 || index + 1 == count;
+        for index in (0..count).filter(|index| count > 1 && shown(index)) {
+            let (colour, dashes) = self.style(index);
+            let mark = if bands {
+                rectangle(0.0, -6.0, MARK_WIDTH, 12.0).set("fill", colour).set("fill-opacity", "0.45")
+            } else {
+                let stroke = line((0.0, 0.0), (MARK_WIDTH, 0.0)).set("stroke", colour);
+                stroke.set("stroke-width", "1.6").set("stroke-dasharray", dashes)
+            };
+            key = key.row(mark, &self.curves[index].words);
+        }
+        if bands { key.heading("bands: lowest to highest").draw() } else { key.draw() }
+    }
+}

@@ -1,0 +1,114 @@
+//! Drawings to be looked at: `RUBMAP_GALLERY=folder cargo test --release -p rubmap-plot gallery -- --ignored` leaves all of them in
+//! the folder as SVG, and as PNG in colour and in grey. Where `rubmap demo` left its results in `folder/demo`, those are drawn.
+
+use std::path::{Path, PathBuf};
+
+use super::fixtures::{contact, recorded, sector, spectra, worn};
+use super::{RUNS, first_revolutions, point, study, units};
+use crate::{
+    ForceQuantity, Frame, HistoryQuantity, SectionView, VerticalAxis, Window, campbell, campbell_fixed_frame,
+    critical_speeds, error_over_step, force_map, histories, interaction_map, map_sheet, png, section,
+    spectrum, speed_histories, trajectories, wear_map, work_precision,
+};
+use rubmap_analysis::result::{
+    Campbell, CriticalSpeeds, InteractionMap, Point, Quantity, SectorGeometry, SpeedSpectra,
+};
+use rubmap_analysis::run::{Histories, WorkPrecision};
+use rubmap_wheel::dynamics::sector::Units;
+use serde::de::DeserializeOwned;
+
+fn read<T: DeserializeOwned>(path: &Path) -> Option<T> {
+    serde_json::from_slice(&std::fs::read(path).ok()?).ok()
+}
+
+fn save(folder: &Path, name: &str, drawing: &str) {
+    std::fs::write(folder.join(format!("{name}.svg")), drawing).unwrap();
+    let image = png(drawing, 1000).unwrap();
+    std::fs::write(folder.join(format!("{name}.png")), &image).unwrap();
+    let (width, height, pixels) = super::decoded(&image);
+    let grey: Vec<u8> = pixels
+        .chunks(4)
+        .map(|p| (0.2126 * f64::from(p[0]) + 0.7152 * f64::from(p[1]) + 0.0722 * f64::from(p[2])) as u8)
+        .collect();
+    let file = std::fs::File::create(folder.join(format!("{name}-grey.png"))).unwrap();
+    let mut encoder = ::png::Encoder::new(file, width, height);
+    encoder.set_color(::png::ColorType::Grayscale);
+    encoder.write_header().unwrap().write_image_data(&grey).unwrap();
+}
+
+#[test]
+#[ignore = "leaves files to be looked at"]
+fn gallery() {
+    let folder = PathBuf::from(std::env::var("RUBMAP_GALLERY").expect("a folder in RUBMAP_GALLERY"));
+    let demo = folder.join("demo");
+    let map: InteractionMap = read(&demo.join("interaction-map.json")).unwrap_or_else(super::map);
+    let critical: CriticalSpeeds = read(&demo.join("critical-speeds.json")).unwrap_or_else(super::critical);
+    let modes: Campbell = read(&demo.join("campbell.json")).unwrap_or_else(super::modes);
+    for (name, axis) in [("map", VerticalAxis::EngineOrder), ("map-frequency", VerticalAxis::Frequency)] {
+        let drawing = interaction_map(&map, Some(&critical), Some(&modes), axis, Window::default());
+        save(&folder, name, &drawing);
+    }
+    let window = Window { speeds_rpm: Some((18_000.0, 26_000.0)), engine_orders: Some((3.0, 9.0)) };
+    let zoomed = interaction_map(&map, Some(&critical), Some(&modes), VerticalAxis::EngineOrder, window);
+    save(&folder, "map-window", &zoomed);
+    save(&folder, "campbell", &campbell(&modes));
+    save(&folder, "campbell-fixed-frame", &campbell_fixed_frame(&modes));
+    save(&folder, "critical-speeds", &critical_speeds(&critical));
+
+    let zoom = Window { speeds_rpm: Some((18_000.0, 26_000.0)), engine_orders: Some((1.0, 12.0)) };
+    let maps: Option<Vec<InteractionMap>> =
+        (0..6).map(|i| read(&demo.join(format!("map-{i}.json")))).collect();
+    save(&folder, "map-sheet", &map_sheet(&maps.unwrap_or_else(|| vec![super::map(); 3]), zoom));
+    let found: SpeedSpectra = read(&demo.join("spectra-33.json")).unwrap_or_else(|| spectra(6));
+    for (name, frame) in [("spectrum", Frame::Rotating), ("spectrum-fixed-frame", Frame::Fixed)] {
+        save(&folder, name, &spectrum(&found, &credentials(), &mm(), 0, frame));
+    }
+
+    let (short, long) = (recorded([0, 4], 720), recorded([10, 50], 512));
+    for (name, what) in [
+        ("displacement", HistoryQuantity::Displacement),
+        ("velocity", HistoryQuantity::Velocity),
+        ("force", HistoryQuantity::Force),
+        ("contact", HistoryQuantity::Contact),
+        ("energy", HistoryQuantity::Energy),
+    ] {
+        save(&folder, &format!("history-{name}"), &speed_histories(&short, what, 0));
+        save(&folder, &format!("history-long-{name}"), &speed_histories(&long, what, 0));
+    }
+    save(&folder, "trajectories", &trajectories(&short));
+    for (name, quantity) in [
+        ("peak", ForceQuantity::Peak),
+        ("impulse", ForceQuantity::Impulse),
+        ("share", ForceQuantity::Share),
+        ("consumption", ForceQuantity::Consumption),
+    ] {
+        save(&folder, &format!("forces-{name}"), &force_map(&contact(10), quantity));
+    }
+    save(&folder, "wear", &wear_map(&worn(2000, 10), &credentials(), &mm()));
+    let geometry: SectorGeometry = read(&demo.join("geometry.json")).unwrap_or_else(|| sector(9));
+    for (name, view) in [("section", SectionView::Meridional), ("section-cyclic", SectionView::Cyclic)] {
+        save(&folder, name, &section(&geometry, view));
+    }
+
+    let found: WorkPrecision =
+        read(&folder.join("study/work-precision.json")).unwrap_or_else(|| study(&RUNS, false));
+    for quantity in Quantity::ALL {
+        save(&folder, &format!("work-precision-{}", quantity.as_str()), &work_precision(&found, 0, quantity));
+        save(
+            &folder,
+            &format!("error-over-step-{}", quantity.as_str()),
+            &error_over_step(&found, 0, quantity),
+        );
+    }
+    let lines: Histories =
+        read(&folder.join("study/histories.json")).unwrap_or_else(|| first_revolutions(&[1, 2, 4], 20, 9));
+    save(&folder, "histories", &histories(&lines, 0));
+}
+
+fn credentials() -> Point {
+    serde_json::from_value(point(1, "completed")).unwrap()
+}
+
+fn mm() -> Units {
+    serde_json::from_value(units()).unwrap()
+}

@@ -1,0 +1,200 @@
+//! Where blade tips move before the lobes of their casing, seen from beside the wheel: the paper's Fig 2.
+
+use std::f64::consts::TAU;
+
+use super::axis::{label, ticks};
+use super::cells::rpm;
+use super::colour::ordinal;
+use super::diagram::Diagram;
+use super::heading::{heading, origin};
+use super::key::{Key, MARK_WIDTH};
+use super::svg::{Element, document, group, line, polyline, rectangle};
+use rubmap_analysis::request::Component;
+use rubmap_analysis::result::{SensorHistory, SpeedHistories, TipPlace};
+use rubmap_wheel::dynamics::casing::Restriction;
+
+const WIDTH: f64 = 1180.0;
+const HEIGHT: f64 = 640.0;
+const LEFT: f64 = 100.0;
+const PLOT_WIDTH: f64 = 800.0;
+
+/// Revolutions from the end on that are drawn: more lie on each other.
+const MOST_REVOLUTIONS: u32 = 10;
+
+/// Dashes of the tips, in turn.
+const DASHES: [&str; 4] = ["", "8 3", "2 3", "9 3 2 3"];
+
+/// Draws the outward motion of every tip that a radial or normal sensor records over its angle in the fixed frame, and the casing
+/// that it meets there with its lobes at full height.
+pub fn trajectories(histories: &SpeedHistories) -> String {
+    let title = format!("Tip trajectories before the casing, {} rpm", label(rpm(histories.speed_rad_s), 0));
+    let tips: Vec<Tip> = histories.sensors.iter().filter_map(Tip::of).collect();
+    let [begin, end] = histories.revolutions;
+    let first = begin.max(end.saturating_sub(MOST_REVOLUTIONS));
+    let words = format!(
+        "revolutions {first} to {end}, over each other · {}",
+        origin(&histories.settings.model, &histories.version)
+    );
+    let mut paragraphs = vec![words];
+    let growing = f64::from(first) < histories.settings.integration.ramp_revolutions;
+    if growing && restriction(histories).is_some() {
+        let ramp = histories.settings.integration.ramp_revolutions;
+        paragraphs.push(format!("the lobes, drawn at full height, grow over the first {ramp} revolutions"));
+    }
+    let (heading, bottom) = heading(LEFT, &title, &paragraphs);
+    let mut content = vec![heading];
+    let place = ((LEFT, bottom + 24.0), (PLOT_WIDTH, HEIGHT - 90.0 - bottom));
+    content.extend(View::new(histories, tips, first - begin, place).draw());
+    document(&title, WIDTH, HEIGHT, content)
+}
+
+/// Lobes of the casing.
+fn restriction(histories: &SpeedHistories) -> Option<Restriction> {
+    let lobes = histories.settings.scene.casing.as_ref()?.lobes.as_ref()?;
+    Some(Restriction {
+        count: lobes.count,
+        amplitude: lobes.amplitude,
+        width_rad: lobes.width_rad,
+        phase_rad: lobes.phase_rad,
+    })
+}
+
+/// A tip whose outward motion is known, and where it is.
+struct Tip<'a> {
+    history: &'a SensorHistory,
+    place: TipPlace,
+}
+
+impl<'a> Tip<'a> {
+    fn of(history: &'a SensorHistory) -> Option<Self> {
+        let outward = matches!(history.sensor.component, Component::Radial | Component::Normal);
+        let place = history.tip.filter(|_| outward && !history.displacement.is_empty())?;
+        Some(Self { history, place })
+    }
+
+    fn words(&self) -> String {
+        let sensor = &self.history.sensor;
+        let component = if sensor.component == Component::Normal { "along its normal" } else { "radially" };
+        format!("node {}, blade {}, {component}", sensor.contact_node, sensor.sector)
+    }
+}
+
+struct View<'a> {
+    histories: &'a SpeedHistories,
+    tips: Vec<Tip<'a>>,
+    /// Revolutions of the record that are left out.
+    skipped: u32,
+    lobes: Option<Restriction>,
+    /// Clearances of the casing lines.
+    clearances: Vec<f64>,
+    diagram: Diagram,
+}
+
+impl<'a> View<'a> {
+    fn new(
+        histories: &'a SpeedHistories,
+        tips: Vec<Tip<'a>>,
+        skipped: u32,
+        (corner, size): ((f64, f64), (f64, f64)),
+    ) -> Self {
+        let lobes = restriction(histories).filter(|lobes| lobes.count > 0 && lobes.width_rad > 0.0);
+        let mut clearances: Vec<f64> = tips.iter().map(|tip| tip.place.clearance).collect();
+        clearances.sort_by(f64::total_cmp);
+        clearances.dedup();
+        let height = lobes.map_or(0.0, |lobes| lobes.highest());
+        let casing = clearances.iter().flat_map(|clearance| [*clearance, clearance - height]);
+        let moved = tips.iter().flat_map(|tip| tip.history.displacement.iter().copied());
+        let (low, high) = casing
+            .chain(moved)
+            .filter(|value| value.is_finite())
+            .fold((0f64, 0f64), |(low, high), value| (low.min(value), high.max(value)));
+        let room = if low < high { 0.08 * (high - low) } else { 1.0 };
+        let diagram = Diagram::new(corner, size, (0.0, 360.0), (low - room, high + room));
+        Self { histories, tips, skipped, lobes, clearances, diagram }
+    }
+
+    fn draw(&self) -> Vec<Element> {
+        let diagram = &self.diagram;
+        if self.tips.is_empty() {
+            let words =
+                "Nothing to draw: no radial or normal sensor of a tip whose place before the casing is known";
+            return vec![diagram.frame(), diagram.words(words)];
+        }
+        let degrees = (0..=8).map(|i| (45.0 * f64::from(i), format!("{}°", 45 * i))).collect::<Vec<_>>();
+        let y = ticks(diagram.y.values, 8.0);
+        let casings =
+            self.clearances.iter().enumerate().map(|(index, clearance)| self.casing(index, *clearance));
+        let paths = self.tips.iter().enumerate().map(|(index, tip)| self.path(index, tip));
+        let length = &self.histories.units.length;
+        vec![
+            diagram.grid(&degrees, &y),
+            diagram.region("casing"),
+            group().set("clip-path", "url(#casing)").children(casings),
+            group().children(paths),
+            diagram.frame(),
+            diagram.x_axis(&degrees, "angle in the fixed frame, in the direction of rotation"),
+            diagram.y_axis(&y, &format!("outward displacement, {length}"), 72.0),
+            self.key(),
+        ]
+    }
+
+    /// The casing before tips of this clearance; the first is filled.
+    fn casing(&self, index: usize, clearance: f64) -> Element {
+        const STEPS: u32 = 720;
+        let height = |angle: f64| clearance - self.lobes.map_or(0.0, |lobes| lobes.height(angle));
+        let at = |i: u32| {
+            let angle = TAU * f64::from(i) / f64::from(STEPS);
+            self.diagram.point(angle.to_degrees(), height(angle))
+        };
+        let wall: Vec<(f64, f64)> = (0..=STEPS).map(at).collect();
+        let stroke = polyline(wall.iter().copied().map(Some)).set("stroke", "#444444");
+        let stroke = stroke.set("class", "casing").set("stroke-width", if index == 0 { "1.6" } else { "1" });
+        let corners = [(self.diagram.right(), self.diagram.top), (self.diagram.left, self.diagram.top)];
+        let metal = polyline(wall.into_iter().chain(corners).map(Some));
+        let metal = metal.set("style", "fill:#9a9a9a;fill-opacity:0.22");
+        group().child(metal).child(stroke.title(&format!("casing, clearance {clearance}")))
+    }
+
+    /// The motion of a tip, a stroke for each revolution.
+    fn path(&self, index: usize, tip: &Tip) -> Element {
+        let samples = self.histories.samples_per_revolution.max(1);
+        let skipped = (self.skipped * samples) as usize;
+        let mut points = Vec::new();
+        let mut before = f64::NAN;
+        for (j, moved) in tip.history.displacement.iter().enumerate().skip(skipped) {
+            let turned = (j + 1) as f64 / f64::from(samples);
+            let angle = (tip.place.angle_rad / TAU + turned).rem_euclid(1.0) * 360.0;
+            if angle < before {
+                points.push(None);
+            }
+            before = angle;
+            points.push(self.diagram.inside(angle, *moved));
+        }
+        let (colour, dashes) = self.style(index);
+        polyline(points)
+            .set("class", "trajectory")
+            .set("stroke", colour)
+            .set("stroke-width", "1.3")
+            .set("stroke-dasharray", dashes)
+            .title(&tip.words())
+    }
+
+    fn style(&self, index: usize) -> (String, &'static str) {
+        (ordinal(index, self.tips.len().max(2)), DASHES[index % DASHES.len()])
+    }
+
+    fn key(&self) -> Element {
+        let mut key = Key::new(self.diagram.right() + 28.0, self.diagram.top + 8.0);
+        for (index, tip) in self.tips.iter().enumerate().take(20) {
+            let (colour, dashes) = self.style(index);
+            let stroke = line((0.0, 0.0), (MARK_WIDTH, 0.0)).set("stroke", colour).set("stroke-width", "1.6");
+            key = key.row(stroke.set("stroke-dasharray", dashes), &tip.words());
+        }
+        let metal = rectangle(0.0, -6.0, MARK_WIDTH, 12.0).set("fill", "#9a9a9a").set("fill-opacity", "0.35");
+        let words = match self.clearances.len() {
+            1 => "casing",
+            _ => "casing before each tip",
+        };
+        key.row(metal.set("stroke", "#444444"), words).draw()
+    }
+}

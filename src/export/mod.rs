@@ -1,0 +1,42 @@
+//! Results as files of numbers: one table for spreadsheets (CSV), arrays for numpy (`.npz`). Pure functions from results to numbers
+//! with names; where speeds are wanted in another unit, they are added by these names, in JSON as well.
+
+mod array;
+mod campbell;
+mod critical_speeds;
+pub mod csv;
+mod force_map;
+pub mod maps;
+mod npz;
+mod section;
+pub mod spectra;
+mod speed_histories;
+mod studies;
+mod unit;
+pub mod wear;
+mod wheel;
+
+use std::io::{self, Write};
+
+pub use array::{Array, Values};
+pub use npz::write as write_npz;
+pub use unit::{add_to_arrays, add_to_json};
+
+use crate::analysis::request::SpeedUnit;
+
+/// A result as files of numbers.
+pub trait Export {
+    /// One table: arrays of one dimension and one length, whose names have units.
+    fn table(&self) -> Vec<Array>;
+
+    /// All numbers, named as the fields of the JSON.
+    fn arrays(&self) -> Vec<Array>;
+}
+
+/// Writes the table of a result as comma-separated values (RFC 4180), with speeds in `unit` as well.
+///
+/// # Errors
+/// Those of writing.
+pub fn write_csv(result: &impl Export, unit: Option<SpeedUnit>, out: &mut dyn Write) -> io::Result<()> {
+    csv::write(&add_to_arrays(result.table(), unit), out)
+}

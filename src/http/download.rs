@@ -1,0 +1,234 @@
+//! Downloads of results: in which form, whether the client has it already, and what is said of the answer.
+
+use std::io::{self, Write};
+
+use axum::body::{Body, Bytes};
+use axum::extract::{FromRequestParts, Query};
+use axum::http::request::Parts;
+use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
+use axum::response::{IntoResponse, Response};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use sha2::{Digest, Sha256};
+use utoipa::IntoParams;
+
+use super::form::Form;
+use super::problem::{Kind, Problem};
+use super::state::AppState;
+use super::stream::{self, Leave};
+use crate::analysis::request::SpeedUnit;
+use crate::export::{self, Export};
+use crate::store::jobs::Job;
+use crate::{plot, version};
+
+/// Pixels of a picture's width, if nobody says otherwise.
+const WIDTH: u32 = 1200;
+
+/// Bytes that rendering takes per pixel: the canvas, what is drawn on it, and the file.
+const BYTES_PER_PIXEL: u64 = 12;
+
+/// In which form to download a result.
+#[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+pub(super) struct DownloadQuery {
+    /// Form of the result; by default the one that the `Accept` header prefers, json if that says nothing. A form that the result does
+    /// not have is refused with 406.
+    #[param(inline)]
+    format: Option<Form>,
+    /// Of a png: its width in pixels; default 1200.
+    #[param(minimum = 200, maximum = 4000)]
+    width: Option<u32>,
+    /// Adds, beside everything whose name ends with `_rad_s`, the same in this unit under a name that ends with `_rpm` or `_hz`: in
+    /// json, csv and npz.
+    #[param(inline)]
+    units: Option<SpeedUnit>,
+}
+
+/// What a client wants of a result, and what it has already.
+#[derive(Debug)]
+pub(super) struct Download {
+    query: DownloadQuery,
+    headers: HeaderMap,
+    /// Path and parameters of the request but for `format`, in one order.
+    target: String,
+}
+
+impl<S: Send + Sync> FromRequestParts<S> for Download {
+    type Rejection = Problem;
+
+    async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Problem> {
+        let invalid = |error: axum::extract::rejection::QueryRejection| {
+            Problem::new(Kind::InvalidParameter, error.body_text())
+        };
+        let Query(query) = Query::try_from_uri(&parts.uri).map_err(invalid)?;
+        let Query(mut all) = Query::<Vec<(String, String)>>::try_from_uri(&parts.uri).map_err(invalid)?;
+        all.retain(|(name, _)| name != "format");
+        all.sort_unstable();
+        let headers = [header::ACCEPT, header::IF_NONE_MATCH].into_iter().flat_map(|name| {
+            let values = parts.headers.get_all(&name).iter().cloned();
+            values.map(move |value| (name.clone(), value))
+        });
+        let target = format!("{} {all:?}", parts.uri.path());
+        Ok(Self { query, target, headers: HeaderMap::from_iter(headers) })
+    }
+}
+
+/// A name for the state of a job, if its results do not change any more.
+pub(super) fn lasting(job: &Job) -> Option<String> {
+    job.status.is_final().then(|| format!("job {} {}", job.id, job.updated_at))
+}
+
+/// A download whose form is known.
+#[derive(Debug)]
+pub(super) struct Answer {
+    pub(super) form: Form,
+    pub(super) unit: Option<SpeedUnit>,
+    width: u32,
+    /// Entity tag, of what does not change any more.
+    tag: Option<String>,
+}
+
+/// What is left to do for a download.
+pub(super) enum Next {
+    /// Nothing.
+    Done(Response),
+    /// All.
+    Make(Answer),
+}
+
+impl Download {
+    /// Chooses among the forms that a result has, and answers at once where that is possible. `lasting` names a state of the result
+    /// that does not change any more.
+    pub(super) fn begin(
+        self,
+        state: &AppState,
+        lasting: Option<String>,
+        those: &[Form],
+    ) -> Result<Next, Problem> {
+        let form = Form::choose(self.query.format, &self.headers, those)?;
+        let tag = lasting.map(|state| tag(&[&state, &self.target, form.word(), version::LINE]));
+        let DownloadQuery { width, units: unit, .. } = self.query;
+        let answer = Answer { form, unit, width: width.unwrap_or(WIDTH), tag };
+        let Some(tag) = &answer.tag else { return Ok(Next::Make(answer)) };
+        if has(&self.headers, tag) {
+            return Ok(Next::Done(answer.described(StatusCode::NOT_MODIFIED.into_response())));
+        }
+        let kept = form.is_drawing().then(|| state.renderings.get(tag)).flatten();
+        Ok(match kept {
+            Some(drawing) => {
+                let content_type = [(header::CONTENT_TYPE, form.content_type())];
+                Next::Done(answer.described((content_type, Body::from(drawing)).into_response()))
+            }
+            None => Next::Make(answer),
+        })
+    }
+}
+
+impl Answer {
+    /// Bytes that making it takes beside what it is made of.
+    pub(super) fn bytes(&self) -> u64 {
+        match self.form {
+            // Drawings are seldom higher than wide.
+            Form::Png => BYTES_PER_PIXEL * u64::from(self.width).pow(2),
+            _ => 0,
+        }
+    }
+
+    /// The result as numbers.
+    pub(super) fn numbers<T>(self, leave: Leave, result: T) -> Response
+    where
+        T: Export + Serialize + Send + 'static,
+    {
+        let Self { form, unit, .. } = self;
+        self.written(leave, move |out| match form {
+            Form::Csv => export::write_csv(&result, unit, out),
+            Form::Npz => export::write_npz(&export::add_to_arrays(result.arrays(), unit), out),
+            _ => json(&result, unit, out),
+        })
+    }
+
+    /// What `write` writes while it is sent.
+    pub(super) fn written(
+        self,
+        leave: Leave,
+        write: impl FnOnce(&mut dyn Write) -> io::Result<()> + Send + 'static,
+    ) -> Response {
+        self.described(stream::written(leave, self.form.content_type(), write))
+    }
+
+    /// What is there as a whole.
+    pub(super) fn whole(self, leave: Leave, body: impl AsRef<[u8]> + Send + 'static) -> Response {
+        self.described(stream::whole(leave, self.form.content_type(), body))
+    }
+
+    /// The drawing that `draw` makes, kept for the next time if it stays as it is.
+    pub(super) async fn drawn(
+        self,
+        state: &AppState,
+        leave: Leave,
+        draw: impl FnOnce() -> Result<String, Problem> + Send + 'static,
+    ) -> Result<Response, Problem> {
+        let Self { form, width, .. } = self;
+        let make = move || {
+            let svg = draw()?;
+            let drawing = match form {
+                Form::Png => Bytes::from(plot::png(&svg, width).map_err(|error| {
+                    tracing::error!(%error, "a drawing cannot be rendered");
+                    Problem::new(
+                        Kind::Internal,
+                        "the drawing cannot be rendered; the service's log says more",
+                    )
+                })?),
+                _ => Bytes::from(svg),
+            };
+            Ok::<_, Problem>((drawing, leave))
+        };
+        let (drawing, leave) = stream::blocking(make).await??;
+        if let Some(tag) = &self.tag {
+            state.renderings.keep(tag, drawing.clone());
+        }
+        Ok(self.whole(leave, drawing))
+    }
+
+    /// With what caches must know of it.
+    fn described(&self, mut response: Response) -> Response {
+        let headers = response.headers_mut();
+        headers.append(header::VARY, HeaderValue::from_static("accept"));
+        if let Some(tag) = self.tag.as_deref().and_then(|tag| HeaderValue::from_str(tag).ok()) {
+            headers.insert(header::ETAG, tag);
+        }
+        response
+    }
+}
+
+/// JSON, with speeds in `unit` as well.
+fn json(result: &impl Serialize, unit: Option<SpeedUnit>, out: &mut dyn Write) -> io::Result<()> {
+    match unit {
+        None => Ok(serde_json::to_writer(out, result)?),
+        Some(unit) => Ok(serde_json::to_writer(out, &with_unit(result, unit)?)?),
+    }
+}
+
+/// A document with its speeds in `unit` as well.
+pub(super) fn with_unit(document: &impl Serialize, unit: SpeedUnit) -> io::Result<Value> {
+    let mut document = serde_json::to_value(document)?;
+    export::add_to_json(&mut document, unit);
+    Ok(document)
+}
+
+/// Digest of all that an answer depends on.
+fn tag(parts: &[&str]) -> String {
+    let mut digest = Sha256::new();
+    for part in parts {
+        digest.update(part);
+        digest.update([0]);
+    }
+    format!("\"{:x}\"", digest.finalize())
+}
+
+/// Whether the client has what is tagged so (RFC 9110, 13.1.2).
+fn has(headers: &HeaderMap, tag: &str) -> bool {
+    let values = headers.get_all(header::IF_NONE_MATCH).iter().filter_map(|value| value.to_str().ok());
+    let mut listed = values.flat_map(|value| value.split(',')).map(str::trim);
+    listed.any(|one| one == "*" || one.strip_prefix("W/").unwrap_or(one) == tag)
+}

@@ -1,0 +1,152 @@
+//! The forms of one kind of result. Every result has its numbers as json, csv and npz, and its drawing as svg and png.
+//!
+//! To add a result: implement [`Export`] for it in `src/export`, take [`Download`] as an argument of its handler and
+//! [`DownloadQuery`](super::download::DownloadQuery) as parameters of its route, and answer with
+//! `Forms::drawn_by(draw).of_document(…)` if it is stored as a document, otherwise with `answer`.
+
+use axum::response::Response;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use tokio::runtime::Handle;
+
+use super::download::{Answer, Download, Next, lasting};
+use super::extract::job_not_found;
+use super::form::Form;
+use super::problem::{Kind, Problem};
+use super::state::AppState;
+use super::stream;
+use crate::export::Export;
+use crate::store::jobs::{Job, JobId, JobRequest};
+use crate::store::results::Document;
+use crate::store::status::JobStatus;
+
+/// Memory of a document, over its text: the row and the text.
+const TEXT_MEMORY: u64 = 2;
+
+/// Memory of a document that is read and written in another form, over its text: the text, its numbers, and what is made of them.
+const READ_MEMORY: u64 = 6;
+
+/// Makes the drawing of a result.
+type Draw<T> = Box<dyn FnOnce(&T) -> String + Send>;
+
+/// The forms of a result.
+pub(super) struct Forms<T> {
+    /// None of a result that is a table and nothing else.
+    draw: Option<Draw<T>>,
+}
+
+impl<T: Export + Serialize + Send + 'static> Forms<T> {
+    /// Of a result that `draw` draws.
+    pub(super) fn drawn_by(draw: impl FnOnce(&T) -> String + Send + 'static) -> Self {
+        Self { draw: Some(Box::new(draw)) }
+    }
+
+    /// Of a result that has no drawing.
+    pub(super) fn undrawn() -> Self {
+        Self { draw: None }
+    }
+
+    fn those(&self) -> &'static [Form] {
+        if self.draw.is_some() { &Form::ALL } else { &Form::NUMBERS }
+    }
+
+    /// Answers with what `read` reads, which may wait and takes so many bytes together with what is made of it. `lasting` names its
+    /// state, if that does not change any more.
+    pub(super) async fn answer(
+        self,
+        state: &AppState,
+        download: Download,
+        lasting: Option<String>,
+        bytes: u64,
+        read: impl FnOnce() -> Result<T, Problem> + Send + 'static,
+    ) -> Result<Response, Problem> {
+        match download.begin(state, lasting, self.those())? {
+            Next::Done(response) => Ok(response),
+            Next::Make(answer) => self.make(state, answer, bytes, read).await,
+        }
+    }
+
+    /// Answers with what `read` reads, once the form is known.
+    pub(super) async fn make(
+        self,
+        state: &AppState,
+        answer: Answer,
+        bytes: u64,
+        read: impl FnOnce() -> Result<T, Problem> + Send + 'static,
+    ) -> Result<Response, Problem> {
+        let leave = state.answers.leave(&state.jobs, bytes + answer.bytes()).await;
+        if let (true, Some(draw)) = (answer.form.is_drawing(), self.draw) {
+            return answer.drawn(state, leave, move || Ok(draw(&read()?))).await;
+        }
+        let (result, leave) = stream::blocking(move || Ok::<_, Problem>((read()?, leave))).await??;
+        Ok(answer.numbers(leave, result))
+    }
+}
+
+impl<T: Export + Serialize + DeserializeOwned + Send + 'static> Forms<T> {
+    /// Answers with a document that was computed at the end of a job: its JSON as it was stored.
+    pub(super) async fn of_document(
+        self,
+        state: &AppState,
+        download: Download,
+        job: &Job,
+        document: Document,
+    ) -> Result<Response, Problem> {
+        let bytes = stored_bytes(state, job, document).await?;
+        let text = read(state, job.id, document);
+        match download.begin(state, lasting(job), self.those())? {
+            Next::Done(response) => Ok(response),
+            Next::Make(answer) if answer.form == Form::Json && answer.unit.is_none() => {
+                let leave = state.answers.leave(&state.jobs, TEXT_MEMORY * bytes).await;
+                let (text, leave) = stream::blocking(move || Ok::<_, Problem>((text()?, leave))).await??;
+                Ok(answer.whole(leave, text))
+            }
+            Next::Make(answer) => {
+                let read = move || Ok(serde_json::from_str(&text()?)?);
+                self.make(state, answer, READ_MEMORY * bytes, read).await
+            }
+        }
+    }
+}
+
+/// What reads the text of a document, on a thread that may wait.
+fn read(
+    state: &AppState,
+    job: JobId,
+    document: Document,
+) -> impl FnOnce() -> Result<String, Problem> + Send + 'static {
+    let (store, runtime) = (state.store.clone(), Handle::current());
+    move || runtime.block_on(store.document(job, document))?.ok_or_else(|| job_not_found(&job))
+}
+
+/// Bytes of a document's text; the reason if there is none.
+async fn stored_bytes(state: &AppState, job: &Job, document: Document) -> Result<u64, Problem> {
+    if let Some(bytes) = state.store.document_bytes(job.id, document).await? {
+        return Ok(bytes);
+    }
+    if let (Document::Histories(speed), JobStatus::Successful) = (document, job.status) {
+        let detail = match job.request {
+            JobRequest::Sweep(_) => format!(
+                "nothing was recorded of speed {speed}: POST /v1/jobs/{}/histories with {{\"speeds\": [{speed}]}} records it",
+                job.id
+            ),
+            _ => format!("the job has no histories of speed {speed}; its request says of which speeds it has"),
+        };
+        return Err(Problem::new(Kind::HistoryNotRecorded, detail));
+    }
+    let instead = match document {
+        Document::CriticalSpeeds(_) => {
+            ": critical speeds are said of all speeds together; the interaction map has those that are done"
+        }
+        _ => "",
+    };
+    Err(match job.status {
+        JobStatus::Accepted | JobStatus::Running | JobStatus::Successful => {
+            Problem::new(Kind::ResultNotReady, format!("the job is at {} %{instead}", job.progress))
+        }
+        JobStatus::Failed | JobStatus::Dismissed => {
+            let status = job.status.as_str();
+            Problem::new(Kind::ResultUnavailable, format!("the job is {status}{instead}"))
+        }
+    })
+}

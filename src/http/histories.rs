@@ -1,0 +1,131 @@
+//! Histories: what happened at a speed, and the first revolutions of a study.
+
+use axum::extract::State;
+use axum::response::Response;
+use serde::Deserialize;
+use utoipa::{IntoParams, ToSchema};
+
+use super::download::{Download, DownloadQuery};
+use super::extract::{JobPath, Parameters};
+use super::forms::Forms;
+use super::problem::Problem;
+use super::results::{check_sensor, find, wrong_kind};
+use super::state::AppState;
+use super::studies::check_speed;
+use crate::analysis::result::SpeedHistories;
+use crate::analysis::run::Histories;
+use crate::plot::{self, HistoryQuantity};
+use crate::store::jobs::{Job, JobKind, JobRequest};
+use crate::store::results::Document;
+use crate::tokens::Principal;
+
+/// Which histories to download.
+#[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+pub(super) struct HistoriesQuery {
+    /// Index of the speed in the request, of a case study in that of its sweep; default 0.
+    #[serde(default)]
+    speed: u32,
+    /// Of a drawing: index of the sensor in the request; default 0.
+    #[serde(default)]
+    sensor: u32,
+    /// Of a drawing of one speed: what is drawn; default `displacement`.
+    #[param(inline)]
+    quantity: Option<Drawn>,
+    /// Of a drawing of forces: the contact node; default 0.
+    #[serde(default)]
+    contact_node: u32,
+}
+
+/// What is drawn of the histories of a speed.
+#[derive(Debug, Clone, Copy, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+enum Drawn {
+    /// Displacement of a sensor.
+    Displacement,
+    /// Its velocity.
+    Velocity,
+    /// Forces on a contact node, blade by blade.
+    Force,
+    /// Nodes in contact and contact length.
+    Contact,
+    /// Energy and its parts.
+    Energy,
+    /// The radial sensors against the casing.
+    Trajectories,
+}
+
+/// Download histories: of a case study or a sweep what happened at one speed; of a study the displacements of the first
+/// revolutions, one line per size.
+///
+/// In csv a line is a sample and a column a history. In npz, of a speed, `displacement` and `velocity` are `[sensor][sample]` and
+/// `force` is `[sector][contact node][sample]`; of a study `displacement` is `[size][sensor][sample]`.
+#[utoipa::path(get, path = "/v1/jobs/{id}/histories", operation_id = "get_histories", tag = "results",
+    params(("id" = String, Path, description = "Id of a case study, sweep or study."), HistoriesQuery, DownloadQuery),
+    responses(
+        (status = 200, description = "The histories: of a study `Histories`.",
+            content((SpeedHistories = "application/json"))),
+        (status = 400, description = "A parameter is not valid.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 404, description = "There is no such job, or nothing was recorded of that speed.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 409, description = "The job has no histories, is not finished, or ended without this result.",
+            body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(super) async fn get_histories(
+    state: State<AppState>,
+    whose: Principal,
+    JobPath(id): JobPath,
+    Parameters(query): Parameters<HistoriesQuery>,
+    download: Download,
+) -> Result<Response, Problem> {
+    let job = find(&state, &whose, id).await?;
+    let document = Document::Histories(query.speed);
+    let sensor = query.sensor as usize;
+    match &job.request {
+        JobRequest::Study(study) => {
+            check_speed(&job, query.speed)?;
+            check_sensor(study.sensors(), query.sensor)?;
+            let draw = move |histories: &Histories| plot::histories(histories, sensor);
+            Forms::drawn_by(draw).of_document(&state, download, &job, document).await
+        }
+        JobRequest::Sweep(_) | JobRequest::CaseStudy(_) => {
+            check_drawn(&job, &query)?;
+            let draw = move |histories: &SpeedHistories| query.draw(histories);
+            Forms::drawn_by(draw).of_document(&state, download, &job, document).await
+        }
+        JobRequest::ModalAnalysis(_) | JobRequest::ModelGeneration(_) => {
+            Err(wrong_kind(&job, JobKind::CaseStudy))
+        }
+    }
+}
+
+/// Whether there are the sensor and the contact node that are to be drawn.
+fn check_drawn(job: &Job, query: &HistoriesQuery) -> Result<(), Problem> {
+    match &job.request {
+        JobRequest::Sweep(sweep) => check_sensor(sweep.sensors(), query.sensor)?,
+        JobRequest::CaseStudy(case) => check_sensor(case.sweep().sensors(), query.sensor)?,
+        _ => {}
+    }
+    let nodes = job.facts.as_ref().map_or(0, |facts| facts.contact_nodes);
+    if query.contact_node >= nodes {
+        let detail = format!("the model has contact nodes 0 to {}", nodes.saturating_sub(1));
+        return Err(Problem::parameter("contact_node", detail));
+    }
+    Ok(())
+}
+
+impl HistoriesQuery {
+    fn draw(&self, histories: &SpeedHistories) -> String {
+        let (sensor, node) = (self.sensor as usize, self.contact_node as usize);
+        let (what, index) = match self.quantity.unwrap_or(Drawn::Displacement) {
+            Drawn::Displacement => (HistoryQuantity::Displacement, sensor),
+            Drawn::Velocity => (HistoryQuantity::Velocity, sensor),
+            Drawn::Force => (HistoryQuantity::Force, node),
+            Drawn::Contact => (HistoryQuantity::Contact, 0),
+            Drawn::Energy => (HistoryQuantity::Energy, 0),
+            Drawn::Trajectories => return plot::trajectories(histories),
+        };
+        plot::speed_histories(histories, what, index)
+    }
+}

@@ -1,0 +1,117 @@
+//! Sections of a model's sector.
+
+use axum::extract::State;
+use axum::response::Response;
+use serde::Deserialize;
+use utoipa::{IntoParams, ToSchema};
+
+use super::download::{Download, DownloadQuery};
+use super::extract::{ModelPath, Parameters};
+use super::forms::Forms;
+use super::models::model_not_found;
+use super::problem::Problem;
+use super::results::{find, sweep};
+use super::state::AppState;
+use crate::analysis::result::{ContactPlace, NodeKind, SectorGeometry, SectorNode};
+use crate::analysis::run::{self, ModelFacts};
+use crate::package::{Face, Place, Places, read_places};
+use crate::plot::{self, SectionView};
+use crate::store::jobs::JobId;
+use crate::tokens::Principal;
+
+/// Memory of a node while its table is read, shown and drawn; a node has three unknowns, seldom fewer.
+const NODE_MEMORY: u64 = 1 << 10;
+
+/// Which section to download.
+#[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+pub(super) struct SectionQuery {
+    /// Of a drawing: from where the sector is looked at; default `meridional`.
+    #[param(inline)]
+    view: Option<ViewWord>,
+    /// Id of a sweep of this model, whose casing is shown with its clearance.
+    #[param(max_length = 36)]
+    sweep: Option<String>,
+}
+
+/// From where a sector is looked at.
+#[derive(Debug, Clone, Copy, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum ViewWord {
+    /// Across the axis: all nodes turned into one plane, with the contact line and the casing.
+    Meridional,
+    /// Along the axis: the cyclic faces and what is clamped.
+    Cyclic,
+}
+
+/// Download where the nodes of a model are, or a section through its sector.
+///
+/// In csv a line is a node; in npz positions are `[node][r, θ, z]`.
+#[utoipa::path(get, path = "/v1/models/{id}/section", operation_id = "get_section", tag = "models",
+    params(("id" = String, Path, description = "Id of the model."), SectionQuery, DownloadQuery),
+    responses(
+        (status = 200, description = "The sector.", body = SectorGeometry),
+        (status = 404, description = "There is no such model.", body = Problem,
+            content_type = "application/problem+json"),
+    ))]
+pub(super) async fn get_section(
+    state: State<AppState>,
+    whose: Principal,
+    ModelPath(id): ModelPath,
+    Parameters(query): Parameters<SectionQuery>,
+    download: Download,
+) -> Result<Response, Problem> {
+    let model = state.store.model(&id, whose.only()).await?.ok_or_else(|| model_not_found(&id))?;
+    let request = match &query.sweep {
+        None => None,
+        Some(of) => {
+            let unknown = || Problem::parameter("sweep", "there is no such sweep of this model");
+            let job =
+                find(&state, &whose, JobId::parse(of).ok_or_else(unknown)?).await.map_err(|_| unknown())?;
+            let (request, _) = sweep(&job).map_err(|_| unknown())?;
+            Some(request.clone()).filter(|request| request.model() == id).ok_or_else(unknown).map(Some)?
+        }
+    };
+    let view = match query.view {
+        Some(ViewWord::Cyclic) => SectionView::Cyclic,
+        Some(ViewWord::Meridional) | None => SectionView::Meridional,
+    };
+    let (path, limits) = (state.store.package_path(&id), state.package_limits.clone());
+    let bytes = NODE_MEMORY * u64::from(model.facts.own_dofs);
+    Forms::drawn_by(move |geometry: &SectorGeometry| plot::section(geometry, view))
+        .answer(&state, download, Some(format!("model {id}")), bytes, move || {
+            let places = read_places(&path, &limits).map_err(Box::new)?;
+            let positions: Vec<[f64; 3]> =
+                places.contact.iter().map(|(number, _)| places.nodes[*number].position).collect();
+            let clearances = request.and_then(|request| run::clearances(&request, &positions));
+            Ok(geometry(&model.facts, &places, clearances.as_deref()))
+        })
+        .await
+}
+
+fn geometry(facts: &ModelFacts, places: &Places, clearances: Option<&[f64]>) -> SectorGeometry {
+    let contact = places.contact.iter().enumerate().map(|(k, (number, normal))| ContactPlace {
+        id: places.nodes[*number].id,
+        position: places.nodes[*number].position,
+        normal: *normal,
+        clearance: clearances.and_then(|clearances| clearances.get(k).copied()),
+    });
+    let kind = |place: &Place| match place.face {
+        _ if place.held => NodeKind::Clamped,
+        Some(Face::Low) => NodeKind::Low,
+        Some(Face::High) => NodeKind::High,
+        None => NodeKind::Internal,
+    };
+    let node = |place: &Place| SectorNode { id: place.id, kind: kind(place), position: place.position };
+    let mut nodes: Vec<SectorNode> = places.nodes.iter().map(node).collect();
+    for (number, _) in &places.contact {
+        nodes[*number].kind = NodeKind::Contact;
+    }
+    SectorGeometry {
+        name: facts.name.clone(),
+        sectors: facts.sectors,
+        units: facts.units.clone(),
+        nodes,
+        contact: contact.collect(),
+    }
+}
