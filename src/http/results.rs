@@ -25,10 +25,10 @@ use crate::store::status::JobStatus;
 use crate::tokens::Principal;
 
 /// Memory of spectra that are being read, over what they take unpacked: the row, its numbers deflated and inflated, the spectra.
-const ROW_MEMORY: u64 = 4;
+pub(super) const ROW_MEMORY: u64 = 4;
 
 /// Memory of a document, over its text: the row and the text.
-const TEXT_MEMORY: u64 = 2;
+pub(super) const TEXT_MEMORY: u64 = 2;
 
 /// Memory of a document that is drawn, over its text: the text, its numbers and the drawing.
 const DRAWN_MEMORY: u64 = 4;

@@ -23,3 +23,4 @@ pub use crate::result::{
 pub use crate::speed::run_speed;
 pub use crate::summary::{critical_speeds, interaction_map, map_row, nothing_completed};
 pub use rubmap_wheel::revision::{REVISION, VERSION};
+pub use rubmap_wheel::vectors::vectors;

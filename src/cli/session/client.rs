@@ -8,6 +8,7 @@ use reqwest::{Method, RequestBuilder, Response, StatusCode};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
+use tokio::io::AsyncWriteExt;
 
 /// A client of one service.
 #[derive(Debug)]
@@ -124,6 +125,17 @@ impl Client {
         let body = send(self.request(Method::GET, path)).await?.bytes().await?;
         tokio::fs::write(file, &body).await.with_context(|| format!("cannot write {}", file.display()))?;
         serde_json::from_slice(&body).with_context(|| format!("cannot understand {path}"))
+    }
+
+    /// Saves a download of any size in a file.
+    pub(in crate::cli) async fn save(&self, path: &str, file: &Path) -> anyhow::Result<()> {
+        let mut response = send(self.request(Method::GET, path)).await?;
+        let failed = || format!("cannot write {}", file.display());
+        let mut out = tokio::fs::File::create(file).await.with_context(failed)?;
+        while let Some(piece) = response.chunk().await? {
+            out.write_all(&piece).await.with_context(failed)?;
+        }
+        out.flush().await.with_context(failed)
     }
 
     /// Cancels every job that has not ended.
