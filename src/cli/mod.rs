@@ -4,6 +4,7 @@ mod demo;
 pub mod generate;
 mod import;
 mod keeping;
+mod repeat;
 mod serve;
 mod session;
 mod signals;
@@ -30,6 +31,8 @@ enum Command {
     Demo(demo::DemoArgs),
     /// Show what accuracy costs in time: errors of many settings against a finer one.
     Study(study::StudyArgs),
+    /// Compute the job of an archive again and compare bit by bit.
+    Repeat(repeat::RepeatArgs),
     /// Run the HTTP service.
     Serve(Config),
     /// Copy a data folder, while a service works on it or not.
@@ -52,6 +55,7 @@ impl Cli {
         match self.command {
             Command::Demo(_)
             | Command::Study(_)
+            | Command::Repeat(_)
             | Command::Backup(_)
             | Command::Check(_)
             | Command::Token(_) => "warn",
@@ -64,6 +68,7 @@ impl Cli {
         match self.command {
             Command::Demo(args) => return demo::run(&args),
             Command::Study(args) => return study::run(&args),
+            Command::Repeat(args) => return repeat::run(&args),
             Command::Check(args) => return keeping::check(args),
             Command::Serve(config) => serve::run(config)?,
             Command::Token(command) => token::token(command)?,

@@ -21,7 +21,7 @@ use crate::store::results::Document;
 use crate::store::status::JobStatus;
 
 /// Memory of a document, over its text: the row and the text.
-const TEXT_MEMORY: u64 = 2;
+pub(super) const TEXT_MEMORY: u64 = 2;
 
 /// Memory of a document that is read and written in another form, over its text: the text, its numbers, and what is made of them.
 const READ_MEMORY: u64 = 6;

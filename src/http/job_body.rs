@@ -110,8 +110,8 @@ pub(super) struct Link {
     /// Path on this service.
     #[schema(example = "/v1/jobs/0198c5a2-7c1e-7d54-9f3b-2f6d7a6f4b10/interaction-map")]
     href: String,
-    /// What it is: `self`, `interaction-map`, `critical-speeds`, `wheel-critical-speeds`, `forces`, `spectra` (with a `{index}` to fill in), `campbell`,
-    /// `work-precision`, `histories` or `model`.
+    /// What it is: `self`, `interaction-map`, `critical-speeds`, `wheel-critical-speeds`, `forces`, `spectra` (with a `{index}` to fill
+    /// in), `campbell`, `work-precision`, `histories`, `archive` or `model`.
     rel: &'static str,
 }
 
@@ -140,6 +140,9 @@ impl From<JobHead> for JobBody {
     }
 }
 
+/// Of jobs that can be repeated.
+const ARCHIVE: (&str, &str) = ("archive", "/archive");
+
 /// Links of a job.
 pub(super) fn links(id: JobId, kind: JobKind, model: Option<&str>) -> Vec<Link> {
     let results: &[(&str, &str)] = match kind {
@@ -149,10 +152,11 @@ pub(super) fn links(id: JobId, kind: JobKind, model: Option<&str>) -> Vec<Link> 
             ("wheel-critical-speeds", "/critical-speeds/wheel"),
             ("spectra", "/spectra/{index}"),
             ("forces", "/forces"),
+            ARCHIVE,
         ],
-        JobKind::ModalAnalysis => &[("campbell", "/campbell")],
+        JobKind::ModalAnalysis => &[("campbell", "/campbell"), ARCHIVE],
         JobKind::ModelGeneration => &[],
-        JobKind::Study => &[("work-precision", "/work-precision"), ("histories", "/histories")],
+        JobKind::Study => &[("work-precision", "/work-precision"), ("histories", "/histories"), ARCHIVE],
         JobKind::CaseStudy => &[("histories", "/histories")],
     };
     let model = model.map(|model| Link { href: format!("/v1/models/{model}"), rel: "model" });

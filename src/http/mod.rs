@@ -1,6 +1,7 @@
 //! The service as the world sees it. The only place that knows status codes; it computes nothing.
 
 mod access;
+pub mod archive;
 mod body;
 mod case_studies;
 mod contract;

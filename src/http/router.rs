@@ -9,6 +9,7 @@ use axum::middleware;
 use tower::ServiceBuilder;
 use tower_http::catch_panic::CatchPanicLayer;
 use tower_http::compression::CompressionLayer;
+use tower_http::compression::predicate::{DefaultPredicate, NotForContentType, Predicate};
 use tower_http::cors::{AllowOrigin, CorsLayer};
 use tower_http::set_header::SetResponseHeaderLayer;
 use utoipa::OpenApi;
@@ -17,8 +18,8 @@ use utoipa_axum::routes;
 
 use super::state::AppState;
 use super::{
-    access, body, case_studies, contract, extract, forces, health, histories, host, jobs, maps, metrics, modal_analyses, models, openapi,
-    principal, problem, results, section, spectra, studies, sweeps, version, wheel,
+    access, archive, body, case_studies, contract, extract, forces, health, histories, host, jobs, maps, metrics, modal_analyses,
+    models, openapi, principal, problem, results, section, spectra, stream, studies, sweeps, version, wheel,
 };
 
 /// The routes with their descriptions.
@@ -36,6 +37,7 @@ pub(super) fn routes() -> OpenApiRouter<AppState> {
         .routes(routes!(case_studies::create_case_study))
         .routes(routes!(jobs::list_jobs))
         .routes(routes!(jobs::get_job, jobs::label_job, jobs::delete_job))
+        .routes(routes!(archive::get_archive))
         .routes(routes!(results::get_campbell))
         .routes(routes!(maps::get_interaction_map))
         .routes(routes!(spectra::get_spectra))
@@ -62,7 +64,11 @@ pub fn router(state: AppState) -> Router {
     let layers = ServiceBuilder::new()
         .layer(middleware::from_fn_with_state(state.clone(), access::follow))
         .layer(sniffing)
-        .layer(CompressionLayer::new())
+        // An archive is compressed already.
+        .layer(
+            CompressionLayer::new()
+                .compress_when(DefaultPredicate::new().and(NotForContentType::const_new(stream::ZIP))),
+        )
         // Turns the bare statuses of axum's own fallbacks into problems, too.
         .layer(middleware::from_fn(problem::complete))
         .layer(CatchPanicLayer::custom(problem::panicked))

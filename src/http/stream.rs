@@ -15,6 +15,9 @@ use tokio::sync::{OwnedSemaphorePermit, Semaphore};
 use super::problem::{Kind, Problem};
 use crate::jobs::{Allowance, Jobs};
 
+/// Media type of archives.
+pub(super) const ZIP: &str = "application/zip";
+
 /// Bytes of a piece.
 const PIECE: usize = 1 << 16;
 
@@ -69,6 +72,16 @@ pub(super) fn whole(
     written(leave, content_type, move |pieces| pieces.write_all(body.as_ref()))
 }
 
+/// A zip archive of this name, which `write` writes on a thread that may wait and compute.
+pub(super) fn zip(
+    leave: Leave,
+    name: &str,
+    write: impl FnOnce(&mut Pieces) -> io::Result<()> + Send + 'static,
+) -> Response {
+    let disposition = (header::CONTENT_DISPOSITION, format!("attachment; filename=\"{name}\""));
+    ([disposition], written(leave, ZIP, write)).into_response()
+}
+
 /// An answer that `write` writes on a thread that may wait and compute. What fails once the answer has begun breaks it
 /// off, so that nobody takes it for whole.
 pub(super) fn written(
@@ -95,7 +108,7 @@ fn pieces_of(receiver: Receiver<io::Result<Bytes>>) -> impl stream::Stream<Item 
 }
 
 /// Sends what is written, piece by piece, and waits for the client to take them.
-struct Pieces {
+pub(super) struct Pieces {
     sender: Sender<io::Result<Bytes>>,
     piece: Vec<u8>,
     /// Whether all of it was sent.

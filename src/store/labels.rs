@@ -1,7 +1,8 @@
 //! What users call their jobs and models.
 
-use sqlx::Row;
-use sqlx::sqlite::SqliteRow;
+use sqlx::query::Query;
+use sqlx::sqlite::{SqliteArguments, SqliteRow};
+use sqlx::{AssertSqlSafe, Row, Sqlite};
 
 use super::error::StoreError;
 
@@ -27,16 +28,23 @@ pub struct LabelChanges {
     pub notes: Option<Option<String>>,
 }
 
-/// Sets the columns of the labels; takes the values of [`LabelChanges::columns`] as parameters 1 to 5.
-pub(super) const SET: &str = "name = case when ?1 then ?2 else name end, tags = coalesce(?3, tags), notes = case when ?4 then ?5 else notes end";
+/// Sets the columns of the labels, by parameters 1 to 5.
+const SET: &str = "name = case when ?1 then ?2 else name end, tags = coalesce(?3, tags), notes = case when ?4 then ?5 else notes end";
 
 impl LabelChanges {
-    /// The parameters of [`SET`].
-    pub(super) fn columns(
+    /// The statement that makes them in the rows of `table` that `whose` describes, with parameters from ?6 on.
+    pub(super) fn update(
         self,
-    ) -> Result<(bool, Option<String>, Option<String>, bool, Option<String>), StoreError> {
+        table: &str,
+        whose: &str,
+    ) -> Result<Query<'static, Sqlite, SqliteArguments>, StoreError> {
         let tags = self.tags.as_ref().map(serde_json::to_string).transpose()?;
-        Ok((self.name.is_some(), self.name.flatten(), tags, self.notes.is_some(), self.notes.flatten()))
+        Ok(sqlx::query(AssertSqlSafe(format!("update {table} set {SET} where {whose}")))
+            .bind(self.name.is_some())
+            .bind(self.name.flatten())
+            .bind(tags)
+            .bind(self.notes.is_some())
+            .bind(self.notes.flatten()))
     }
 }
 

@@ -7,7 +7,7 @@ use sqlx::{AssertSqlSafe, Row};
 
 use super::error::StoreError;
 use super::handle::Store;
-use super::labels::{self, LabelChanges, Labels, SET, quoted};
+use super::labels::{self, LabelChanges, Labels, quoted};
 use super::limits::{LimitReached, Limits};
 use super::packages::{self, packages_folder};
 use super::time::now;
@@ -181,20 +181,10 @@ impl Store {
         owner: Option<&str>,
         changes: LabelChanges,
     ) -> Result<bool, StoreError> {
-        let (named, name, tags, noted, notes) = changes.columns()?;
+        let update = changes.update("model_owners", "model = ?6 and (?7 is null or owner = ?7)")?;
         let mut write = self.write().await?;
-        let changed = sqlx::query(AssertSqlSafe(format!(
-            "update model_owners set {SET} where model = ?6 and (?7 is null or owner = ?7)"
-        )))
-        .bind(named)
-        .bind(name)
-        .bind(tags)
-        .bind(noted)
-        .bind(notes)
-        .bind(id)
-        .bind(owner)
-        .execute(&mut *write)
-        .await?;
+        let changed =
+            update.bind(id.to_owned()).bind(owner.map(ToOwned::to_owned)).execute(&mut *write).await?;
         write.commit().await?;
         Ok(changed.rows_affected() > 0)
     }

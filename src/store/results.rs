@@ -31,8 +31,22 @@ pub enum Document {
 }
 
 impl Document {
+    /// The document that a row holds.
+    fn from_columns(name: &str, part: u32) -> Result<Self, StoreError> {
+        let all = [
+            Self::Campbell,
+            Self::CriticalSpeeds(part),
+            Self::WheelCriticalSpeeds,
+            Self::Errors,
+            Self::WorkPrecision,
+            Self::Histories(part),
+        ];
+        let found = all.into_iter().find(|document| document.columns().0 == name);
+        found.ok_or_else(|| StoreError::Unknown { column: "documents.name", value: name.to_owned() })
+    }
+
     /// Its name and part in the database.
-    pub(super) fn columns(self) -> (&'static str, u32) {
+    pub fn columns(self) -> (&'static str, u32) {
         match self {
             Self::Campbell => ("campbell", 0),
             Self::CriticalSpeeds(sensor) => ("critical_speeds", sensor),
@@ -231,6 +245,15 @@ impl Store {
         .fetch_optional(&self.readers)
         .await?;
         Ok(bytes.map(i64::unsigned_abs))
+    }
+
+    /// Documents of a finished job.
+    pub async fn documents(&self, job: JobId) -> Result<Vec<Document>, StoreError> {
+        let rows = sqlx::query("select name, part from documents where job = ? order by name, part")
+            .bind(job.to_string())
+            .fetch_all(&self.readers)
+            .await?;
+        rows.iter().map(|row| Document::from_columns(row.try_get("name")?, row.try_get("part")?)).collect()
     }
 
     /// A document of a finished job, as JSON text.

@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod app;
+mod archive;
 mod bodies;
 mod case_studies;
 mod chains;

@@ -97,6 +97,7 @@ async fn what_belongs_to_one_owner_is_not_there_for_another() {
         "/critical-speeds",
         "/work-precision",
         "/histories",
+        "/archive",
     ] {
         bob.get(&format!("/v1/jobs/{id}{path}")).await.problem(404, "job-not-found");
     }

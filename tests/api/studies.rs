@@ -42,7 +42,7 @@ async fn a_study_tells_errors_and_times_of_every_setting() {
     assert_eq!(job["status"], "successful", "{job}");
     assert_eq!((&job["kind"], &job["speeds"]["finished"]), (&json!("study"), &json!(2)));
     let rels: Vec<_> = job["links"].as_array().unwrap().iter().map(|link| &link["rel"]).collect();
-    assert_eq!(rels, ["self", "work-precision", "histories", "model"]);
+    assert_eq!(rels, ["self", "work-precision", "histories", "archive", "model"]);
 
     let found = api.get(&path).await.body;
     assert_eq!(found["speeds"].as_array().unwrap().len(), 2);

@@ -30,3 +30,4 @@ pub use crate::summary::{
 };
 pub use crate::tips::wheel_critical_speeds;
 pub use rubmap_wheel::revision::{REVISION, VERSION};
+pub use rubmap_wheel::vectors::vectors;

@@ -48,3 +48,4 @@
 pub mod dynamics;
 pub mod response;
 pub mod revision;
+pub mod vectors;

@@ -8,7 +8,7 @@ use crate::analysis::result::{
     CriticalSpeed, CriticalSpeeds, DrivenCrossing, InteractionMap, PointStatus, Verdict,
 };
 
-fn rpm(speed_rad_s: f64) -> f64 {
+pub(super) fn rpm(speed_rad_s: f64) -> f64 {
     speed_rad_s * 60.0 / TAU
 }
 
@@ -158,6 +158,21 @@ fn nearest_driven(speed: &CriticalSpeed, driven: &[DrivenCrossing]) -> String {
         ),
         None => "  none in range".to_owned(),
     }
+}
+
+/// Where everything of a user's own package is.
+pub(super) fn own_places(out: &Path, request: &Path, package: &Path) -> String {
+    let folder = out.display();
+    format!(
+        "Look at   {folder}/interaction-map.svg, interaction-map-frequency.svg, campbell.svg
+Read      {folder}/interaction-map.json, critical-speeds.json, campbell.json
+Edit      {}, and again: rubmap demo --package {} --request {} --out {folder}
+Ask       rubmap serve --data {folder}/data
+",
+        request.display(),
+        package.display(),
+        request.display(),
+    )
 }
 
 /// Where everything is; with `study`, what a study adds.

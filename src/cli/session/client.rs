@@ -8,6 +8,7 @@ use reqwest::{Method, RequestBuilder, Response, StatusCode};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
+use tokio::io::AsyncWriteExt;
 
 /// A client of one service.
 #[derive(Debug)]
@@ -49,6 +50,7 @@ pub(in crate::cli) struct SpeedCounts {
 /// What went wrong (RFC 9457), as far as it is shown.
 #[derive(Debug, Deserialize)]
 struct Problem {
+    title: String,
     detail: String,
     #[serde(default)]
     errors: Vec<ProblemItem>,
@@ -107,12 +109,26 @@ impl Client {
 
     /// Posts a job.
     pub(in crate::cli) async fn post_job(&self, path: &str, request: &Value) -> anyhow::Result<Job> {
+        self.post(path, request).await
+    }
+
+    /// The answer to a POST.
+    pub(in crate::cli) async fn post<T: DeserializeOwned>(
+        &self,
+        path: &str,
+        request: &Value,
+    ) -> anyhow::Result<T> {
         Ok(send(self.request(Method::POST, path).json(request)).await?.json().await?)
+    }
+
+    /// The answer to a GET.
+    pub(in crate::cli) async fn get<T: DeserializeOwned>(&self, path: &str) -> anyhow::Result<T> {
+        Ok(send(self.request(Method::GET, path)).await?.json().await?)
     }
 
     /// `GET /v1/jobs/{id}`.
     pub(in crate::cli) async fn job(&self, id: &str) -> anyhow::Result<Job> {
-        Ok(send(self.request(Method::GET, &format!("/v1/jobs/{id}"))).await?.json().await?)
+        self.get(&format!("/v1/jobs/{id}")).await
     }
 
     /// Downloads a result to a file, byte by byte as the service gave it, and reads it.
@@ -126,6 +142,17 @@ impl Client {
         serde_json::from_slice(&body).with_context(|| format!("cannot understand {path}"))
     }
 
+    /// Saves a download of any size in a file.
+    pub(in crate::cli) async fn save(&self, path: &str, file: &Path) -> anyhow::Result<()> {
+        let mut response = send(self.request(Method::GET, path)).await?;
+        let failed = || format!("cannot write {}", file.display());
+        let mut out = tokio::fs::File::create(file).await.with_context(failed)?;
+        while let Some(piece) = response.chunk().await? {
+            out.write_all(&piece).await.with_context(failed)?;
+        }
+        out.flush().await.with_context(failed)
+    }
+
     /// Cancels every job that has not ended.
     pub(in crate::cli) async fn cancel_unfinished_jobs(&self) -> anyhow::Result<()> {
         #[derive(Deserialize)]
@@ -134,7 +161,7 @@ impl Client {
         }
         for status in [JobStatus::Accepted, JobStatus::Running] {
             let path = format!("/v1/jobs?limit=500&status={}", status.as_str());
-            let page: Page = send(self.request(Method::GET, &path)).await?.json().await?;
+            let page: Page = self.get(&path).await?;
             for job in page.jobs {
                 let response = self.request(Method::DELETE, &format!("/v1/jobs/{}", job.id)).send().await?;
                 // Between list and cancellation it may have ended by itself.
@@ -169,11 +196,15 @@ async fn accept(response: Response) -> anyhow::Result<Response> {
     }
 }
 
-/// A problem and all its items in one text.
+/// A problem in one text: what it is about, and all its items as a list; where it has none, its detail.
 fn words(problem: &Problem) -> String {
     let items = problem.errors.iter().map(|item| {
-        let place = item.pointer.as_deref().or(item.parameter.as_deref()).or(item.file.as_deref());
-        format!("\n  {}: {}", place.unwrap_or("-"), item.detail)
+        // What is said of a file begins with its place.
+        let place = item.pointer.as_deref().or(item.parameter.as_deref()).filter(|_| item.file.is_none());
+        format!("\n  {}{}", place.map(|place| format!("{place}: ")).unwrap_or_default(), item.detail)
     });
-    format!("{}{}", problem.detail, items.collect::<String>())
+    if problem.errors.is_empty() {
+        return problem.detail.clone();
+    }
+    format!("{}{}", problem.title, items.collect::<String>())
 }

@@ -3,6 +3,7 @@
 pub(super) mod client;
 pub(super) mod impeller;
 pub(super) mod progress;
+pub(super) mod request;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;

@@ -10,7 +10,7 @@ use clap::Args;
 use serde_json::Value;
 
 use super::session::client::Client;
-use super::session::{Session, impeller, progress, save, upload};
+use super::session::{Session, impeller, progress, request as bodies, save, upload};
 use crate::analysis::result::Quantity;
 use crate::analysis::run::{Histories, WorkPrecision};
 use crate::{export, plot};
@@ -39,7 +39,10 @@ pub(crate) struct StudyArgs {
 /// # Errors
 /// A file or folder that cannot be used, or a step that the service refuses.
 pub(super) fn run(args: &StudyArgs) -> anyhow::Result<ExitCode> {
-    let body = args.request.as_deref().map_or_else(|| Ok(request::default()), request::read)?;
+    let body = match &args.request {
+        Some(file) => bodies::read(file, "/v1/studies")?,
+        None => request::default(),
+    };
     let session = Session::begin(&args.out)?;
     let package = match &args.package {
         Some(package) => package.clone(),
@@ -53,7 +56,7 @@ pub(super) fn run(args: &StudyArgs) -> anyhow::Result<ExitCode> {
 
 /// Posts a study of an uploaded model, waits for it, draws it and tells what it says.
 pub(super) async fn play(client: &Client, body: Value, model: &str, out: &Path) -> anyhow::Result<()> {
-    let body = request::of_model(body, model)?;
+    let body = bodies::of_model(body, model)?;
     let job = client.post_job("/v1/studies", &body).await?;
     let job = progress::follow(client, &job, "study").await?;
 

@@ -2,6 +2,7 @@
 
 use super::job::{Failure, JobId};
 use super::row::status_of;
+use crate::analysis::run::vectors;
 use crate::store::end_states;
 use crate::store::error::StoreError;
 use crate::store::handle::Store;
@@ -54,11 +55,13 @@ impl Store {
         let mut write = self.write().await?;
         let begun = sqlx::query(
             "update jobs set status = 'running', updated_at = ?2,
-                 started_at = coalesce(started_at, ?2)
+                 started_at = coalesce(started_at, ?2),
+                 vectors = case when coalesce(vectors, ?3) = ?3 then ?3 else 'several' end
              where id = ?1 and status in ('accepted', 'running')",
         )
         .bind(id.to_string())
         .bind(now())
+        .bind(vectors())
         .execute(&mut *write)
         .await?;
         write.commit().await?;

@@ -134,6 +134,10 @@ pub struct Job {
     pub plan: Option<Estimate>,
     /// The settings that were chosen for it.
     pub choice: Option<Chosen>,
+    /// Revision of the numerics that its results are of.
+    pub revision: u32,
+    /// Kind of vectors of the processor that it was computed on; unknown of jobs of earlier versions.
+    pub vectors: Option<String>,
 }
 
 impl std::ops::Deref for Job {

@@ -69,6 +69,8 @@ pub(crate) fn read(row: &SqliteRow) -> Result<Job, StoreError> {
         facts: row.try_get::<Option<&str>, _>("facts")?.map(serde_json::from_str).transpose()?,
         plan: row.try_get::<Option<&str>, _>("plan")?.map(serde_json::from_str).transpose()?,
         choice: row.try_get::<Option<&str>, _>("choice")?.map(serde_json::from_str).transpose()?,
+        revision: row.try_get("revision")?,
+        vectors: row.try_get("vectors")?,
         head,
     })
 }

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::error::Violation;
+use crate::request::speeds::Speeds;
 use crate::request::{
     AutoOr, HistoriesRequest, Integration, Record, Sensor, Setting, SweepDirection, SweepRequest,
     sweep::default_peak_prominence,
@@ -91,6 +92,15 @@ impl ResolvedSweep {
     /// Its speeds.
     pub fn speeds(&self) -> &ResolvedSpeeds {
         &self.speeds
+    }
+
+    /// It as it was asked for, without the speeds that rounds of `refine` have added: who asks so again gets the same rounds.
+    pub fn unrefined(&self) -> SweepRequest {
+        let mut request = SweepRequest::from(self.clone());
+        if let Speeds::Several(lists) = &mut request.speeds {
+            lists.truncate(lists.len() - self.speeds.rounds() as usize);
+        }
+        request
     }
 
     /// Its sensors; at least one.

@@ -1,0 +1,34 @@
+//! Results and drawings of a modal analysis and a sweep, in a folder.
+
+use std::path::Path;
+
+use crate::analysis::result::{Campbell, CriticalSpeeds, InteractionMap};
+use crate::cli::session::client::{Client, Job};
+use crate::cli::session::save;
+use crate::plot::{self, VerticalAxis, Window};
+
+/// What a modal analysis and a sweep found.
+pub(super) struct Results {
+    pub(super) map: InteractionMap,
+    pub(super) critical: CriticalSpeeds,
+}
+
+/// Leaves results and drawings in the folder.
+pub(super) async fn download(
+    client: &Client,
+    modal_analysis: &Job,
+    sweep: &Job,
+    out: &Path,
+) -> anyhow::Result<Results> {
+    let campbell: Campbell =
+        client.download(modal_analysis.link("campbell")?, &out.join("campbell.json")).await?;
+    let map: InteractionMap =
+        client.download(sweep.link("interaction-map")?, &out.join("interaction-map.json")).await?;
+    let critical: CriticalSpeeds =
+        client.download(sweep.link("critical-speeds")?, &out.join("critical-speeds.json")).await?;
+    let draw = |axis| plot::interaction_map(&map, Some(&critical), Some(&campbell), axis, Window::default());
+    save(&out.join("interaction-map.svg"), &draw(VerticalAxis::EngineOrder))?;
+    save(&out.join("interaction-map-frequency.svg"), &draw(VerticalAxis::Frequency))?;
+    save(&out.join("campbell.svg"), &plot::campbell(&campbell))?;
+    Ok(Results { map, critical })
+}

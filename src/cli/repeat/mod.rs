@@ -1,0 +1,115 @@
+//! `rubmap repeat`: whether a result can be had again.
+
+mod archive;
+mod compare;
+
+use std::fs::File;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use anyhow::{Context, bail};
+use clap::Args;
+use serde_json::Value;
+
+use self::archive::Archive;
+use self::compare::{Comparison, compare};
+use super::session::client::Client;
+use super::session::{Session, progress, upload};
+use crate::analysis::run::{REVISION, vectors};
+use crate::http::archive::manifest::{PACKAGE, REQUEST};
+use crate::store::jobs::JobKind;
+
+/// Most results whose differences are shown.
+const SHOWN: usize = 10;
+
+/// Which archive is repeated.
+#[derive(Debug, Args)]
+pub(super) struct RepeatArgs {
+    /// Archive of a job: GET /v1/jobs/{id}/archive
+    archive: PathBuf,
+    /// Threads that compute [default: one per core]
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    workers: Option<u16>,
+}
+
+/// Checks an archive, computes its job again in a service of its own, and compares. The exit code says whether all is the same.
+///
+/// # Errors
+/// A file that is no archive, or a job that cannot be computed again.
+pub(super) fn run(args: &RepeatArgs) -> anyhow::Result<ExitCode> {
+    let archived = Archive::open(&args.archive)?;
+    let wrong = archived.wrong()?;
+    if !wrong.is_empty() {
+        println!("{} is not as it was written:", args.archive.display());
+        wrong.iter().take(SHOWN).for_each(|wrong| println!("  {wrong}"));
+        if wrong.len() > SHOWN {
+            println!("  and {} more", wrong.len() - SHOWN);
+        }
+        return Ok(ExitCode::FAILURE);
+    }
+    let job = &archived.manifest.job;
+    println!("archive   {}: {} {}, as it was written", args.archive.display(), job.kind.as_str(), job.id);
+
+    let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
+    let repeated = folder.path().join("repeated.zip");
+    let mut found = None;
+    let session = Session::begin(folder.path())?;
+    let code = session.run(args.workers, async |client| {
+        repeat(&archived, client, folder.path(), &repeated).await?;
+        let comparison = compare(&archived, &Archive::open(&repeated)?)?;
+        tell(&archived, &comparison);
+        found = Some(comparison.different.is_empty());
+        Ok(())
+    })?;
+    Ok(if found == Some(false) { ExitCode::FAILURE } else { code })
+}
+
+/// Asks a service for the same once more, and downloads what it found.
+async fn repeat(archived: &Archive, client: &Client, folder: &Path, to: &Path) -> anyhow::Result<()> {
+    let package = folder.join(PACKAGE);
+    let mut file = File::create(&package).with_context(|| format!("cannot write {}", package.display()))?;
+    archived.extract(PACKAGE, &mut file)?;
+    let request: Value = archived.json(REQUEST)?;
+    let model = upload(client, &package).await?;
+    if request["model"] != model.id.as_str() {
+        bail!("the archive's request is about another model than its package");
+    }
+    let path = match archived.manifest.job.kind {
+        JobKind::Sweep => "/v1/sweeps",
+        JobKind::ModalAnalysis => "/v1/modal-analyses",
+        JobKind::Study => "/v1/studies",
+        JobKind::ModelGeneration | JobKind::CaseStudy => bail!("jobs of this kind are not repeated from an archive"),
+    };
+    let job = client.post_job(path, &request).await?;
+    let job = progress::follow(client, &job, "once more").await?;
+    client.save(job.link("archive")?, to).await
+}
+
+/// Says what came of it, and what may be behind a difference.
+fn tell(archived: &Archive, comparison: &Comparison) {
+    let Comparison { same, different } = comparison;
+    if different.is_empty() {
+        println!("\nidentical: all {same} results to the bit; times are not compared");
+        return;
+    }
+    println!("\ndifferent: {} of {} results", different.len(), same + different.len());
+    different.iter().take(SHOWN).for_each(|words| println!("  {words}"));
+    if different.len() > SHOWN {
+        println!("  and {} more", different.len() - SHOWN);
+    }
+    let computed = &archived.manifest.computed;
+    let (kind, here) = (computed.vectors.as_deref().unwrap_or("an unknown kind"), vectors());
+    if computed.revision != REVISION {
+        println!(
+            "The archive is of revision {} of the numerics, this program of {REVISION}: other numbers are expected.",
+            computed.revision
+        );
+    } else if kind != here {
+        println!(
+            "The archive was computed on a processor with vectors of {kind}, this one has {here}: another kind adds up in \
+             another order, and last digits may differ, of chaotic responses all."
+        );
+    } else {
+        println!("Numerics and kind of vectors ({here}) are the same: this should not be.");
+    }
+}

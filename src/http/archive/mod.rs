@@ -1,0 +1,198 @@
+//! A job as a file: all that is needed to repeat it, and what it found.
+
+pub mod manifest;
+mod writer;
+
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+
+use axum::extract::State;
+use axum::response::Response;
+use tokio::runtime::Handle;
+use utoipa::ToSchema;
+
+use self::manifest::{
+    ArchivedJob, CHOICE, Computed, FORMAT, MANIFEST, Manifest, PACKAGE, REQUEST, RESULTS, SETTINGS,
+};
+use self::writer::Writer;
+use super::extract::JobPath;
+use super::job_body::RequestBody;
+use super::problem::{Kind, Problem};
+use super::forms::TEXT_MEMORY;
+use super::results::find;
+use super::spectra::ROW_MEMORY;
+use super::state::AppState;
+use super::stream;
+use crate::analysis::result::SpeedResult;
+use crate::analysis::run::VERSION;
+use crate::store::jobs::{Job, JobRequest};
+use crate::store::results::Document;
+use crate::store::status::JobStatus;
+use crate::store::{Store, StoreError};
+use crate::tokens::Principal;
+use crate::version;
+
+/// A zip file; docs/session.md says what is in it.
+#[derive(ToSchema)]
+#[schema(value_type = String, format = Binary)]
+#[expect(dead_code, reason = "describes the body in the OpenAPI document only")]
+pub(super) struct ArchiveZip(Vec<u8>);
+
+/// Download a job as an archive, from which `rubmap repeat` computes it again and compares bit by bit.
+///
+/// A zip file: `request.json`, which asks for the same when it is posted again; `settings.json`, as results repeat them;
+/// `package.zip`, the model byte by byte; `results/`; and `manifest.json` with the SHA-256 of every entry, the revision of the
+/// numerics and the kind of vectors of the processor that computed it. The same job always gives the same bytes.
+#[utoipa::path(get, path = "/v1/jobs/{id}/archive", operation_id = "get_archive", tag = "results",
+    params(("id" = String, Path, description = "Id of a job.")),
+    responses(
+        (status = 200, description = "The archive.", body = ArchiveZip, content_type = "application/zip"),
+        (status = 404, description = "There is no such job.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 409, description = "The job is not successful, generated a model, or its model is deleted.", body = Problem,
+            content_type = "application/problem+json"),
+    ))]
+pub(super) async fn get_archive(
+    state: State<AppState>,
+    whose: Principal,
+    JobPath(id): JobPath,
+) -> Result<Response, Problem> {
+    let job = find(&state, &whose, id).await?;
+    let (model, request) = repeatable(&job)?;
+    // A file that is open stays readable when its model is deleted.
+    let package = match state.store.model(&model, Some(&job.owner)).await? {
+        Some(_) => tokio::fs::File::open(state.store.package_path(&model)).await?.into_std().await,
+        None => {
+            let detail = "its model is deleted, and without it nobody can repeat the job; the results are there one by one";
+            return Err(Problem::new(Kind::ResultUnavailable, detail));
+        }
+    };
+    let documents = state.store.documents(id).await?;
+    let mut bytes = ROW_MEMORY * state.store.largest_spectra(id).await?;
+    for document in &documents {
+        bytes = bytes.max(TEXT_MEMORY * state.store.document_bytes(id, *document).await?.unwrap_or(0));
+    }
+    let leave = state.answers.leave(&state.jobs, bytes).await;
+    let (store, runtime) = (state.store.clone(), Handle::current());
+    let contents = Contents { job, model, request, package, documents, store, runtime };
+    Ok(stream::zip(leave, &format!("rubmap-{id}.zip"), move |out| contents.write(out)))
+}
+
+/// The model of a job that can be repeated, and the request that repeats it.
+fn repeatable(job: &Job) -> Result<(String, RequestBody), Problem> {
+    match job.status {
+        JobStatus::Successful => {}
+        JobStatus::Accepted | JobStatus::Running => {
+            let detail =
+                format!("the job is at {} %; an archive is made of a job that was successful", job.progress);
+            return Err(Problem::new(Kind::ResultNotReady, detail));
+        }
+        JobStatus::Failed | JobStatus::Dismissed => {
+            let detail = format!(
+                "the job is {}; an archive is made of a job that was successful",
+                job.status.as_str()
+            );
+            return Err(Problem::new(Kind::ResultUnavailable, detail));
+        }
+    }
+    let request = match &job.request {
+        JobRequest::Sweep(request) => RequestBody::Sweep(Box::new(request.unrefined())),
+        JobRequest::CaseStudy(_) => {
+            let detail = "a case study is of a sweep, whose archive repeats it when the sweep records its histories itself";
+            return Err(Problem::new(Kind::WrongJobKind, detail));
+        }
+        other => other.clone().into(),
+    };
+    match job.request.model() {
+        Some(model) => Ok((model.to_owned(), request)),
+        None => {
+            let detail =
+                "a generation has no other result than its model, which the same parameters give again";
+            Err(Problem::new(Kind::WrongJobKind, detail))
+        }
+    }
+}
+
+/// What goes into an archive.
+struct Contents {
+    job: Job,
+    model: String,
+    request: RequestBody,
+    package: File,
+    documents: Vec<Document>,
+    store: Store,
+    runtime: Handle,
+}
+
+impl Contents {
+    /// Writes the archive, reading the results one by one.
+    fn write(mut self, out: &mut impl Write) -> io::Result<()> {
+        let mut zip = Writer::new(BufWriter::new(out));
+        zip.json(REQUEST, 0, &self.request)?;
+        zip.json(SETTINGS, 0, &RequestBody::from(self.job.request.clone()))?;
+        if let Some(choice) = &self.job.choice {
+            zip.json(CHOICE, 0, choice)?;
+        }
+        let bytes = self.package.metadata()?.len();
+        zip.add(PACKAGE, bytes, |out| io::copy(&mut self.package, out).map(drop))?;
+        if matches!(self.job.request, JobRequest::Sweep(_)) {
+            self.write_speeds(&mut zip)?;
+        }
+        for document in &self.documents {
+            let (name, part) = document.columns();
+            let body = self.read(self.store.document(self.job.id, *document))?;
+            let name = format!("{RESULTS}{}/{part}.json", name.replace('_', "-"));
+            zip.add(&name, body.len() as u64, |out| out.write_all(body.as_bytes()))?;
+        }
+        let manifest = self.manifest(&zip);
+        zip.json(MANIFEST, 0, &manifest)?;
+        zip.finish()
+    }
+
+    fn write_speeds<W: Write>(&self, zip: &mut Writer<W>) -> io::Result<()> {
+        let points = self.runtime.block_on(self.store.points(self.job.id)).map_err(io::Error::other)?;
+        zip.json(&format!("{RESULTS}points.json"), 0, &points)?;
+        for point in points {
+            let index = point.index;
+            let SpeedResult { spectra, wear, contact, .. } = self.read(self.store.speed_result(self.job.id, index))?;
+            if let Some(spectra) = spectra {
+                zip.json(&format!("{RESULTS}spectra/{index:05}.json"), 0, &spectra)?;
+            }
+            if let Some(wear) = wear {
+                zip.json(&format!("{RESULTS}wear/{index:05}.json"), 0, &wear)?;
+            }
+            if let Some(contact) = contact {
+                zip.json(&format!("{RESULTS}contact/{index:05}.json"), 0, &contact)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// What the store has; a job that was deleted meanwhile has no archive.
+    fn read<T>(&self, question: impl Future<Output = Result<Option<T>, StoreError>>) -> io::Result<T> {
+        let answer = self.runtime.block_on(question).map_err(io::Error::other)?;
+        answer.ok_or_else(|| io::Error::other("a result is gone: the job was deleted"))
+    }
+
+    fn manifest<W: Write>(&self, zip: &Writer<W>) -> Manifest {
+        let Job { head, revision, vectors, .. } = &self.job;
+        Manifest {
+            format: FORMAT,
+            job: ArchivedJob {
+                id: head.id.to_string(),
+                kind: head.kind,
+                model: self.model.clone(),
+                created_at: head.created_at.clone(),
+                finished_at: head.finished_at.clone(),
+            },
+            computed: Computed {
+                revision: *revision,
+                vectors: vectors.clone(),
+                version: VERSION.to_owned(),
+                commit: version::COMMIT.to_owned(),
+                target: version::TARGET.to_owned(),
+            },
+            entries: zip.entries().to_vec(),
+        }
+    }
+}
