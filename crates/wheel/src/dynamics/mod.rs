@@ -16,6 +16,8 @@ pub mod initial;
 pub mod integrate;
 pub mod mistuning;
 pub mod modal_wheel;
+pub mod node_rows;
+pub mod nodes;
 pub mod orbit;
 pub mod oscillators;
 pub mod reduction;
