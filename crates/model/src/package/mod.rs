@@ -20,6 +20,7 @@ mod limits;
 mod lines;
 mod manifest;
 mod matrix_market;
+mod nodes;
 mod npy;
 mod npz;
 mod partition;
@@ -35,6 +36,7 @@ use std::path::Path;
 
 pub use error::PackageError;
 pub use limits::Limits;
+pub use nodes::read_nodes;
 pub use writer::write;
 
 use content::{Content, SourceLines};
