@@ -4,8 +4,7 @@ use crate::effects::effect::Ran;
 use crate::effects::symmetry::repeats::repeats;
 use crate::effects::table::named;
 use crate::error::AnalysisError;
-use crate::request::Sensor;
-use crate::resolved::ResolvedSweep;
+use crate::resolved::{ResolvedSensor, ResolvedSweep};
 use crate::result::{EnergyReport, Point, PointStatus, SensorResponse, SensorSpectrum, SpeedSpectra};
 use crate::stepping::Stepping;
 use rubmap_numerics::sector_fourier::{SectorFourier, harmonic_count};
@@ -96,7 +95,7 @@ fn spectra(history: &History, request: &ResolvedSweep, wheel: &ModalWheel) -> Sp
         let whole = &history.displacement[index];
         let window = &whole[whole.len() - columns[0].len()..];
         SensorSpectrum {
-            sensor,
+            sensor: sensor.into(),
             amplitude: amplitudes(window, bins),
             nodal_diameters: of_the_wheel(nodal_diameter_amplitudes(columns, &fourier, bins), wheel),
         }
@@ -129,7 +128,7 @@ fn responses(
 ) -> Vec<SensorResponse> {
     let windows = history.displacement.iter().map(|whole| &whole[whole.len() - window_samples..]);
     let round_off = ROUND_OFF * windows.flatten().fold(0.0f64, |most, x| most.max(x.abs()));
-    let of = |(index, &sensor): (usize, &Sensor)| {
+    let of = |(index, &sensor): (usize, &ResolvedSensor)| {
         let whole = &history.displacement[index];
         let window = &whole[whole.len() - window_samples..];
         let mean = window.iter().sum::<f64>() / window.len() as f64;
@@ -142,7 +141,7 @@ fn responses(
         let carried: Vec<f64> = spectrum.nodal_diameters.iter().map(|line| line[bin]).collect();
         let stands_out = spectrum.amplitude[bin] > round_off;
         SensorResponse {
-            sensor,
+            sensor: sensor.into(),
             mean,
             rms: variance.sqrt(),
             half_peak_to_peak: 0.5 * (high - low),

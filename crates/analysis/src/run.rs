@@ -13,12 +13,13 @@ pub use crate::plan::{plan_modal_analysis, plan_sweep, trial_memory};
 pub use crate::prepare::prepare;
 pub use crate::refine::refine;
 pub use crate::request::Setting;
+pub use crate::resolve::sensors::{name_nodes, place_sensors};
 pub use crate::resolve::study::resolve_study;
 pub use crate::resolve::{resolve_modal_analysis, resolve_sweep};
 pub use crate::resolved::TrialRequest;
 pub use crate::result::{
-    Choice, ErrorEstimate, Estimate, Histories, ModalAnalysisPlan, ModesChoice, Refinement, SweepPlan, Trial,
-    WorkPrecision,
+    Choice, ErrorEstimate, Estimate, Histories, ModalAnalysisPlan, ModesChoice, PlacedSensor, Refinement,
+    SweepPlan, Trial, WorkPrecision,
 };
 pub use crate::speed::run_speed;
 pub use crate::summary::{critical_speeds, interaction_map, map_row, nothing_completed};

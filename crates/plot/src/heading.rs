@@ -1,7 +1,6 @@
 //! What stands above a diagram.
 
 use super::svg::{Element, group, text};
-use rubmap_analysis::request::{Component, Sensor};
 
 const LINE_HEIGHT: f64 = 17.0;
 
@@ -16,17 +15,6 @@ pub(super) fn heading(left: f64, title: &str, paragraphs: &[String]) -> (Element
     let row = |(i, line): (usize, &String)| text(left, height(i), "start", line).set("fill", "#555555");
     let bottom = height(lines.len().saturating_sub(1));
     (group().child(title).children(lines.iter().enumerate().map(row)), bottom)
-}
-
-/// A sensor in words.
-pub(super) fn sensor(sensor: &Sensor) -> String {
-    let component = match sensor.component {
-        Component::Radial => "radial",
-        Component::Tangential => "tangential",
-        Component::Axial => "axial",
-        Component::Normal => "normal",
-    };
-    format!("{component} displacement at contact node {} of sector {}", sensor.contact_node, sensor.sector)
 }
 
 /// Lines of at most `columns` characters, unless a single word has more.

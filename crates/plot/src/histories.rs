@@ -4,7 +4,7 @@ use super::axis::{label, ticks};
 use super::cells::rpm;
 use super::colour::DISTINCT;
 use super::diagram::Diagram;
-use super::heading::{heading, sensor as in_words};
+use super::heading::heading;
 use super::key::{Key, MARK_WIDTH};
 use super::svg::{Element, group, line, polyline};
 use super::{scheme, svg};
@@ -27,7 +27,8 @@ const REFERENCE: &str = "8 5";
 
 /// Draws the displacements of the sensor of index `sensor` over revolutions, one line per size; the reference is dashed and black.
 pub fn histories(histories: &Histories, sensor: usize) -> String {
-    let measured = histories.sensors.get(sensor).map_or_else(|| "displacement".to_owned(), in_words);
+    let measured =
+        histories.sensors.get(sensor).map_or_else(|| "displacement".to_owned(), ToString::to_string);
     let title = format!("First revolutions: {measured}, {} rpm", label(rpm(histories.speed_rad_s), 0));
     let words = format!("each size at its finest time step · rubmap {}", histories.version);
     let (heading, bottom) = heading(LEFT, &title, &[words]);

@@ -4,7 +4,7 @@ use super::axis::{Scale, logarithmic_ticks, ticks};
 use super::cells::{Cell, cells, extent, rpm};
 use super::diagram::Diagram;
 use super::svg::{Element, INK, document, group, line, polyline, rectangle, text, upright};
-use super::{colour, heading, heat, level, marks, settling_strip};
+use super::{colour, heat, level, marks, settling_strip};
 use rubmap_analysis::result::{
     Campbell, CriticalSpeed, CriticalSpeeds, InteractionMap, StiffeningVerdict, Verdict,
 };
@@ -284,7 +284,7 @@ fn hatching() -> Element {
 
 fn title(map: &InteractionMap) -> String {
     let nodal_diameter = map.nodal_diameter.map(|i| format!(", nodal diameter {i} only")).unwrap_or_default();
-    format!("Interaction map: {}{nodal_diameter}", heading::sensor(&map.sensor))
+    format!("Interaction map: {}{nodal_diameter}", map.sensor)
 }
 
 fn heading(map: &InteractionMap) -> Element {

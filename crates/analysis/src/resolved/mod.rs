@@ -7,6 +7,7 @@
 pub mod knobs;
 pub mod modal_analysis;
 pub mod scene;
+pub mod sensor;
 pub mod speeds;
 pub mod study;
 pub mod sweep;
@@ -15,6 +16,7 @@ pub mod trial;
 pub use knobs::{Aim, Modes};
 pub use modal_analysis::ResolvedModalAnalysis;
 pub use scene::Scene;
+pub use sensor::ResolvedSensor;
 pub use speeds::ResolvedSpeeds;
 pub use study::ResolvedStudy;
 pub use sweep::ResolvedSweep;

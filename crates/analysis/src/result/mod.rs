@@ -19,7 +19,8 @@ pub use contact::{ContactForces, ContactSummary, ForceMap, ForceRow};
 pub use errors::{Control, ErrorEstimate, Errors, PointError, Quantity};
 pub use histories::{ContactHistory, EnergyHistory, SensorHistory, SpeedHistories};
 pub use plan::{
-    CostRange, Estimate, ModalAnalysisPlan, PlannedEffect, PlannedPoint, ReductionState, Spent, SweepPlan,
+    CostRange, Estimate, ModalAnalysisPlan, PlacedSensor, PlannedEffect, PlannedPoint, ReductionState, Spent,
+    SweepPlan,
 };
 pub use point::{
     EnergyReport, Point, PointStatus, SchemeReport, SensorResponse, SensorSpectrum, SpeedResult, SpeedSpectra,

@@ -1,5 +1,7 @@
 //! What nodes of the sector do in the reduced coordinates (docs/method.md, Reduction): the wheel is read there.
 
+use std::collections::BTreeMap;
+
 use faer::{Mat, c64};
 
 use super::error::ModelError;
@@ -10,28 +12,30 @@ use super::reduction::ReducedWheel;
 /// Rows of the reduction basis at some nodes of a sector.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct NodeRows {
-    /// Their ids, and whether they lie on the high face.
-    nodes: Vec<(u64, bool)>,
+    /// By id: their index, and whether they lie on the high face.
+    nodes: BTreeMap<u64, (usize, bool)>,
     /// Per nodal diameter, `3 nodes × unknowns`: r, θ, z of every node.
     harmonics: Vec<Mat<c64>>,
 }
 
 impl NodeRows {
-    /// Those of `nodes` for the nodal diameters of `reduced`; `row` gives the row of an own DOF at a nodal diameter.
+    /// Those of `nodes` for the nodal diameters of `reduced`; `row` gives the row of an own DOF at a nodal diameter,
+    /// real and imaginary part of every unknown.
     ///
     /// # Errors
     /// Those of `row`.
     pub fn gather<E>(
         nodes: &[SectorNode],
         reduced: &ReducedWheel,
-        mut row: impl FnMut(usize, usize) -> Result<Vec<c64>, E>,
+        mut row: impl FnMut(usize, usize) -> Result<Vec<f64>, E>,
     ) -> Result<Self, E> {
         let mut harmonics = Vec::with_capacity(reduced.harmonics.len());
         for (harmonic, reduced) in reduced.harmonics.iter().enumerate() {
             let mut rows = Mat::zeros(3 * nodes.len(), reduced.mass.ncols());
             for (index, node) in nodes.iter().enumerate() {
                 for dof in node.dofs.iter().flatten() {
-                    for (column, value) in row(harmonic, dof.dof)?.into_iter().enumerate() {
+                    for (column, value) in row(harmonic, dof.dof)?.chunks_exact(2).enumerate() {
+                        let value = c64::new(value[0], value[1]);
                         for (component, &share) in dof.components.iter().enumerate() {
                             rows[(3 * index + component, column)] += value * share;
                         }
@@ -40,12 +44,13 @@ impl NodeRows {
             }
             harmonics.push(rows);
         }
-        Ok(Self { nodes: nodes.iter().map(|node| (node.id, node.on_high_face)).collect(), harmonics })
+        let place = |(index, node): (usize, &SectorNode)| (node.id, (index, node.on_high_face));
+        Ok(Self { nodes: nodes.iter().enumerate().map(place).collect(), harmonics })
     }
 
     /// Index of node `id`, and whether it lies on the high face; none if it is not among them.
     pub fn find(&self, id: u64) -> Option<(usize, bool)> {
-        self.nodes.iter().position(|node| node.0 == id).map(|index| (index, self.nodes[index].1))
+        self.nodes.get(&id).copied()
     }
 
     /// `wheel` with these nodes below its contact nodes, at its speed. They can be read, not loaded.

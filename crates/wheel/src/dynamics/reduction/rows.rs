@@ -3,6 +3,7 @@
 use faer::{Mat, c64};
 
 use super::basis::Basis;
+use super::reduced::mark;
 
 /// Υ̂ of one nodal diameter, row by row: u = Υ̂ q for the own DOF in (r, θ, z) components, q being the coordinates of the reduced
 /// matrices. The DOF of the high face are those of the low one in the next sector.
@@ -33,14 +34,14 @@ impl<'a> BasisRows<'a> {
         self.mass.ncols()
     }
 
-    /// M_r, which tells to whose reduction rows belong.
-    pub fn mass(&self) -> &'a Mat<c64> {
-        self.mass
+    /// To whose reduction they belong; see [`ReducedHarmonic::mark`](super::ReducedHarmonic::mark).
+    pub fn mark(&self) -> [u8; 32] {
+        mark(self.mass)
     }
 
-    /// The row of own DOF `dof`.
-    pub fn row(&self, dof: usize) -> impl Iterator<Item = c64> + use<'a> {
-        self.basis.row(dof)
+    /// The row of own DOF `dof`: real and imaginary part of every column.
+    pub fn row(&self, dof: usize) -> impl Iterator<Item = f64> + use<'a> {
+        self.basis.row(dof).flat_map(|value| [value.re, value.im])
     }
 }
 
