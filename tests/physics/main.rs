@@ -9,6 +9,7 @@ mod fixtures;
 mod impeller_a;
 mod invariants;
 mod modal_criterion;
+mod node_sensors;
 #[path = "../oracle/mod.rs"]
 mod oracle;
 mod plain_agreement;
