@@ -12,9 +12,9 @@ use crate::analysis::error::AnalysisError;
 use crate::analysis::monitor::Monitor;
 use crate::analysis::resolved::ResolvedSweep;
 use crate::analysis::run::{self, ReducedSector};
+use crate::dynamics::kept_rows::KeptRows;
 use crate::dynamics::node_rows::NodeRows;
 use crate::dynamics::nodes::SectorNode;
-use crate::dynamics::reduction::KeptRows;
 use crate::package::{self, Limits};
 use crate::store::{Store, StoreError};
 

@@ -132,7 +132,7 @@ async fn sensors_that_are_nowhere_or_never_move_are_refused() {
 async fn more_sensors_than_sixty_four() {
     let app = TestApp::start().await;
     let model = app.api.model(model::package(1.0)).await;
-    let component = |k: u32| if k % 2 == 0 { "radial" } else { "axial" };
+    let component = |k: u32| if k.is_multiple_of(2) { "radial" } else { "axial" };
     let sensor = |k: u32| json!({"node": 1 + k % 5, "sector": k % 4, "component": component(k)});
     let sensors: Vec<Value> = (0..130).map(sensor).collect();
     let levels = levels(&app.api, &sweep_with(&model, sensors.into())).await;

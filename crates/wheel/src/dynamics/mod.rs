@@ -14,6 +14,7 @@ pub mod excitation;
 pub mod flexible_casing;
 pub mod initial;
 pub mod integrate;
+pub mod kept_rows;
 pub mod mistuning;
 pub mod modal_wheel;
 pub mod node_rows;

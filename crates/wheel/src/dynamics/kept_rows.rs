@@ -3,11 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Mutex, PoisonError};
 
-use super::checkpoints::Checkpoints;
-use super::reduced::ReducedWheel;
-use super::rows::BasisRows;
-use crate::dynamics::node_rows::NodeRows;
-use crate::dynamics::nodes::SectorNode;
+use super::node_rows::NodeRows;
+use super::nodes::SectorNode;
+use super::reduction::{BasisRows, Checkpoints, ReducedWheel};
 
 /// Checkpoints that also hold the rows of some nodes.
 pub struct KeptRows<'a> {
