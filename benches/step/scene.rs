@@ -100,7 +100,7 @@ impl Scene {
         });
         let clearance = Clearance { leading: None, trailing: None, values: Some(casing.clearance) };
         let last = self.reduced.wheel.contact.len() as u32 - 1;
-        let sensor = |contact_node| Sensor { contact_node, sector: 0, component: Component::Radial };
+        let sensor = |contact_node| Sensor::at_contact(contact_node, 0, Component::Radial);
         let settings = SweepRequest {
             model: String::new(),
             modes_per_speed: AutoOr::Fixed(self.modes as u32),

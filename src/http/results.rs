@@ -10,8 +10,7 @@ use super::extract::{JobPath, Parameters, job_not_found};
 use super::forms::Forms;
 use super::problem::{Kind, Problem};
 use super::state::AppState;
-use crate::analysis::request::Sensor;
-use crate::analysis::resolved::ResolvedSweep;
+use crate::analysis::resolved::{ResolvedSensor, ResolvedSweep};
 use crate::analysis::result::{Campbell, CriticalSpeeds};
 use crate::analysis::run::ModelFacts;
 use crate::plot;
@@ -121,7 +120,7 @@ pub(super) fn sweep(job: &Job) -> Result<(&ResolvedSweep, &ModelFacts), Problem>
     }
 }
 
-pub(super) fn check_sensor(sensors: &[Sensor], sensor: u32) -> Result<(), Problem> {
+pub(super) fn check_sensor(sensors: &[ResolvedSensor], sensor: u32) -> Result<(), Problem> {
     let sensors = sensors.len();
     if sensor as usize >= sensors {
         return Err(Problem::parameter("sensor", format!("the job has {sensors} sensors, counted from 0")));

@@ -1,5 +1,6 @@
 //! What `http` may ask of jobs. It does not know how many threads there are.
 
+use std::io::ErrorKind;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -11,9 +12,9 @@ use super::pool::Panicked;
 use super::submission::Submission;
 use crate::analysis::error::{AnalysisError, Violation};
 use crate::analysis::monitor::Unwatched;
-use crate::analysis::request::{ModalAnalysisRequest, SweepRequest};
+use crate::analysis::request::{ModalAnalysisRequest, Sensor, SweepRequest};
 use crate::analysis::resolved::{Modes, ResolvedSweep};
-use crate::analysis::run::{self, ModalAnalysisPlan, ReducedSector, SweepPlan};
+use crate::analysis::run::{self, ModalAnalysisPlan, PlacedSensor, ReducedSector, SweepPlan};
 use crate::impeller::{GenerationPlan, ImpellerError, ImpellerParameters, ImpellerRequest, plan_generation};
 use crate::package;
 use crate::store::StoreError;
@@ -85,9 +86,10 @@ impl Jobs {
         let engine = &self.engine;
         let refused = SubmitError::Refused;
         let (request, facts) = match submission {
-            Submission::Sweep(request) => {
+            Submission::Sweep(mut request) => {
                 let facts = self.facts(whose, &request.model).await?;
-                let request = run::resolve_sweep(*request, &facts).map_err(refused)?;
+                let placed = self.place(&request.model, &mut request.sensors).await?;
+                let (_, request) = both(placed, run::resolve_sweep(*request, &facts))?;
                 self.check(&request).await?;
                 (JobRequest::Sweep(Box::new(request)), Some(facts))
             }
@@ -96,9 +98,10 @@ impl Jobs {
                 let request = run::resolve_modal_analysis(*request, &facts).map_err(refused)?;
                 (JobRequest::ModalAnalysis(request), Some(facts))
             }
-            Submission::Study(request) => {
+            Submission::Study(mut request) => {
                 let facts = self.facts(whose, &request.model).await?;
-                let request = run::resolve_study(*request, &facts).map_err(refused)?;
+                let placed = self.place(&request.model, &mut request.sensors).await?;
+                let (_, request) = both(placed, run::resolve_study(*request, &facts))?;
                 (JobRequest::Study(Box::new(request)), Some(facts))
             }
             Submission::CaseStudy(request) => {
@@ -143,10 +146,11 @@ impl Jobs {
     pub async fn plan_sweep(
         &self,
         whose: &Principal,
-        request: SweepRequest,
+        mut request: SweepRequest,
     ) -> Result<SweepPlan, SubmitError> {
         let facts = self.facts(whose, &request.model).await?;
-        let mut request = run::resolve_sweep(request, &facts).map_err(SubmitError::Refused)?;
+        let placed = self.place(&request.model, &mut request.sensors).await?;
+        let (placed_sensors, mut request) = both(placed, run::resolve_sweep(request, &facts))?;
         let mut choice = None;
         if request.is_sought() {
             let stored = choice::stored(&self.engine, &request, facts.sectors).await?;
@@ -155,7 +159,7 @@ impl Jobs {
         }
         let reduced = self.check(&request).await?;
         let plan = plans::sweep::<SubmitError>(&self.engine, request, facts, reduced).await?;
-        Ok(SweepPlan { choice, ..plan })
+        Ok(SweepPlan { choice, placed_sensors, ..plan })
     }
 
     /// The same for a modal analysis.
@@ -175,6 +179,24 @@ impl Jobs {
         let reduced = self.reduction(request.model(), request.modes()).await?;
         let plan = plans::modal_analysis(&self.engine, request, facts, reduced).await?;
         Ok(ModalAnalysisPlan { choice, ..plan })
+    }
+
+    /// Gives `sensors` their nodes; see [`run::place_sensors`].
+    async fn place(
+        &self,
+        model: &str,
+        sensors: &mut [Sensor],
+    ) -> Result<Result<Vec<PlacedSensor>, Vec<Violation>>, SubmitError> {
+        if !run::name_nodes(sensors) {
+            return Ok(Ok(Vec::new()));
+        }
+        let path = self.engine.store.package_path(model);
+        let read = move || package::read_nodes(&path, &package::Limits::default());
+        let nodes = self.engine.importer.run(read).await?.map_err(|error| match error {
+            package::PackageError::Io { source } => StoreError::Package(source),
+            error => StoreError::Package(std::io::Error::new(ErrorKind::InvalidData, error.to_string())),
+        })?;
+        Ok(run::place_sensors(sensors, &nodes))
     }
 
     /// Checks what only the reduction of a resolved sweep can tell, if it is stored; returns it.
@@ -271,6 +293,17 @@ impl Jobs {
 /// [`SubmitError::Refused`] points at a field that is unknown or out of range.
 pub fn generation_of(request: &ImpellerRequest) -> Result<Submission, SubmitError> {
     Ok(Submission::ModelGeneration(Box::new(parameters_of(request)?)))
+}
+
+/// What was found out about a request, or all that is wrong with it.
+fn both<A, B>(a: Result<A, Vec<Violation>>, b: Result<B, Vec<Violation>>) -> Result<(A, B), SubmitError> {
+    match (a, b) {
+        (Ok(a), Ok(b)) => Ok((a, b)),
+        (a, b) => {
+            let found = [a.err(), b.err()].into_iter().flatten().flatten().collect();
+            Err(SubmitError::Refused(found))
+        }
+    }
 }
 
 fn parameters_of(request: &ImpellerRequest) -> Result<ImpellerParameters, SubmitError> {

@@ -33,7 +33,7 @@ pub(super) async fn prepare(engine: &Engine, id: JobId) -> Result<(), Interrupti
 async fn prepare_sweep(engine: &Engine, job: &Live) -> Result<(), Interruption> {
     let JobRequest::Sweep(request) = &job.request else { return Ok(()) };
     let monitor = PhaseMonitor::reduction_of_sweep(job.watch.clone());
-    let reduced = engine.reductions.get(request.model(), request.modes_per_speed(), monitor).await?;
+    let reduced = engine.reductions.of_sweep(request, monitor).await?;
 
     let (checked, monitor) = (request.clone(), PhaseMonitor::uncounted(job.watch.clone()));
     let sector = Arc::clone(&reduced);

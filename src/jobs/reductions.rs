@@ -10,7 +10,11 @@ use super::patience::patiently;
 use super::progress::PhaseMonitor;
 use crate::analysis::error::AnalysisError;
 use crate::analysis::monitor::Monitor;
+use crate::analysis::resolved::ResolvedSweep;
 use crate::analysis::run::{self, ReducedSector};
+use crate::dynamics::kept_rows::KeptRows;
+use crate::dynamics::node_rows::NodeRows;
+use crate::dynamics::nodes::SectorNode;
 use crate::package::{self, Limits};
 use crate::store::{Store, StoreError};
 
@@ -44,8 +48,27 @@ impl Reductions {
         modes_per_speed: u32,
         monitor: PhaseMonitor,
     ) -> Result<Arc<ReducedSector>, Interruption> {
+        self.reading(model, modes_per_speed, &[], monitor).await
+    }
+
+    /// The reduction that `sweep` runs on, with rows of its basis at the nodes of its sensors.
+    pub(super) async fn of_sweep(
+        &self,
+        sweep: &ResolvedSweep,
+        monitor: PhaseMonitor,
+    ) -> Result<Arc<ReducedSector>, Interruption> {
+        self.reading(sweep.model(), sweep.modes_per_speed(), &sweep.sensor_nodes(), monitor).await
+    }
+
+    async fn reading(
+        &self,
+        model: &str,
+        modes_per_speed: u32,
+        nodes: &[u64],
+        monitor: PhaseMonitor,
+    ) -> Result<Arc<ReducedSector>, Interruption> {
         let key = (model.to_owned(), modes_per_speed);
-        if let Some(reduced) = self.recall(&key) {
+        if let Some(reduced) = self.recall(&key, nodes) {
             return Ok(reduced);
         }
         let flight = {
@@ -59,7 +82,7 @@ impl Reductions {
                 flight.lock().await
             }
         };
-        let result = self.obtain(&key, monitor).await;
+        let result = self.obtain(&key, nodes, monitor).await;
         drop(guard);
         let mut flights = self.flights.lock().unwrap_or_else(PoisonError::into_inner);
         // Two handles are the map's and ours; more mean that somebody waits.
@@ -76,7 +99,7 @@ impl Reductions {
         modes_per_speed: u32,
     ) -> Result<Option<Arc<ReducedSector>>, StoreError> {
         let key = (model.to_owned(), modes_per_speed);
-        if let Some(reduced) = self.recall(&key) {
+        if let Some(reduced) = self.recall(&key, &[]) {
             return Ok(Some(reduced));
         }
         let stored = self.store.reduction(model, modes_per_speed).await?;
@@ -84,27 +107,48 @@ impl Reductions {
     }
 
     /// With the flight's lock held.
-    async fn obtain(&self, key: &Key, monitor: PhaseMonitor) -> Result<Arc<ReducedSector>, Interruption> {
-        if let Some(reduced) = self.recall(key) {
+    async fn obtain(
+        &self,
+        key: &Key,
+        nodes: &[u64],
+        monitor: PhaseMonitor,
+    ) -> Result<Arc<ReducedSector>, Interruption> {
+        if let Some(reduced) = self.recall(key, nodes) {
             return Ok(reduced);
         }
         if monitor.is_cancelled() {
             return Err(Interruption::NotWanted);
         }
         let (model, modes_per_speed) = (key.0.as_str(), key.1);
-        if let Some(reduced) = self.store.reduction(model, modes_per_speed).await? {
+        let nodes = self.nodes(model, nodes, &monitor).await?;
+        let known = match self.recall(key, &[]) {
+            Some(reduced) => Some(ReducedSector::clone(&reduced)),
+            None => self.store.reduction(model, modes_per_speed).await?,
+        };
+        if let Some(mut reduced) = known {
             tracing::info!(model.id = model, modes_per_speed, "read the stored reduction");
-            return Ok(self.remember(key, reduced));
+            if nodes.is_empty() {
+                return Ok(self.remember(key, reduced));
+            }
+            match self.rows(key, &reduced, &nodes, &monitor).await? {
+                Ok(rows) => {
+                    reduced.nodes = rows;
+                    return Ok(self.remember(key, reduced));
+                }
+                Err(error) => {
+                    tracing::warn!(model.id = model, modes_per_speed, %error, "the basis of the stored reduction cannot be read; reducing again");
+                }
+            }
         }
         let dofs = self.store.model(model, None).await?.map_or(0, |model| model.facts.own_dofs.into());
         monitor.progress(0.0, "waiting for memory that other jobs hold");
         let mut allowance = self.memory.claim(dofs).await;
-        let mut outcome = self.reduce(key, &monitor, allowance.bytes).await?;
+        let mut outcome = self.reduce(key, &nodes, &monitor, allowance.bytes).await?;
         if matches!(outcome, Err(AnalysisError::Memory { .. })) && !allowance.is_most() {
             // More than its size lets expect.
             drop(allowance);
             allowance = self.memory.claim_most().await;
-            outcome = self.reduce(key, &monitor, allowance.bytes).await?;
+            outcome = self.reduce(key, &nodes, &monitor, allowance.bytes).await?;
         }
         drop(allowance);
         let reduced = outcome?;
@@ -117,11 +161,43 @@ impl Reductions {
         Ok(self.remember(key, reduced))
     }
 
-    /// Computes a reduction within `memory_bytes`. The package is read anew each time: nobody who waits for memory may hold
+    /// Those nodes of `model` with these ids that are no contact nodes, which every reduction reads.
+    async fn nodes(
+        &self,
+        model: &str,
+        ids: &[u64],
+        monitor: &PhaseMonitor,
+    ) -> Result<Arc<[SectorNode]>, Interruption> {
+        if ids.is_empty() {
+            return Ok(Arc::default());
+        }
+        let (path, ids) = (self.store.package_path(model), ids.to_vec());
+        let read = move || package::read_nodes(&path, &Limits::default());
+        let mut nodes =
+            self.computing.run(monitor.watch(), read).await?.map_err(Interruption::stored_package)?;
+        nodes.retain(|node| node.contact.is_none() && ids.binary_search(&node.id).is_ok());
+        Ok(nodes.into())
+    }
+
+    /// Rows of the basis that lies beside a stored reduction.
+    async fn rows(
+        &self,
+        key: &Key,
+        reduced: &ReducedSector,
+        nodes: &Arc<[SectorNode]>,
+        monitor: &PhaseMonitor,
+    ) -> Result<std::io::Result<NodeRows>, Interruption> {
+        let basis = self.store.basis(&key.0, key.1);
+        let (wheel, nodes) = (Arc::clone(&reduced.wheel), Arc::clone(nodes));
+        self.computing.run(monitor.watch(), move || basis.rows(&wheel, &nodes)).await
+    }
+
+    /// Computes a reduction with its rows at `nodes` within `memory_bytes`. The package is read anew each time: nobody who waits for memory may hold
     /// a whole sector.
     async fn reduce(
         &self,
         key: &Key,
+        nodes: &Arc<[SectorNode]>,
         monitor: &PhaseMonitor,
         memory_bytes: Option<u64>,
     ) -> Result<Result<ReducedSector, AnalysisError>, Interruption> {
@@ -134,17 +210,23 @@ impl Reductions {
         let path = self.store.package_path(model);
         let watch = Arc::clone(monitor.watch());
         let (checkpoints, monitor) = (self.store.checkpoints(model, modes_per_speed), monitor.clone());
+        let nodes = Arc::clone(nodes);
         let compute = move || {
             let package = package::read(&path, &Limits::default()).map_err(Interruption::stored_package)?;
             monitor.progress(0.0, "reducing");
-            Ok(run::prepare(&package.sector, modes_per_speed, memory_bytes, &checkpoints, &monitor))
+            // From where they are, not from the disk, which may be full.
+            let kept = KeptRows::new(&checkpoints, &nodes);
+            let reduced = run::prepare(&package.sector, modes_per_speed, memory_bytes, &kept, &monitor);
+            Ok(reduced.map(|reduced| ReducedSector { nodes: kept.of(&reduced.wheel), ..reduced }))
         };
         self.computing.run_parallel(&watch, compute).await?
     }
 
-    fn recall(&self, key: &Key) -> Option<Arc<ReducedSector>> {
+    /// The latest that can be read at `nodes`.
+    fn recall(&self, key: &Key, nodes: &[u64]) -> Option<Arc<ReducedSector>> {
         let mut recent = self.recent.lock().unwrap_or_else(PoisonError::into_inner);
-        let position = recent.iter().position(|(known, _)| known == key)?;
+        let serves = |(known, reduced): &(Key, Arc<ReducedSector>)| known == key && reduced.reads(nodes);
+        let position = recent.iter().rposition(serves)?;
         let entry = recent.remove(position)?;
         let reduced = Arc::clone(&entry.1);
         recent.push_back(entry);

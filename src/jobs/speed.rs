@@ -23,7 +23,7 @@ pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) 
         return go_on(engine, &job, request, speed, finished as u32).await;
     }
     let monitor = PhaseMonitor::uncounted(job.watch.clone());
-    let reduced = engine.reductions.get(request.model(), request.modes_per_speed(), monitor).await?;
+    let reduced = engine.reductions.of_sweep(request, monitor).await?;
 
     let (before, _) = job.neighbours(speed);
     let start = match before {

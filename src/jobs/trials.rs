@@ -68,7 +68,7 @@ async fn obtain(engine: &Engine, job: &Live, request: TrialRequest) -> Result<(S
     }
     let (model, modes) = (request.sweep().model().to_owned(), request.sweep().modes_per_speed());
     let monitor = PhaseMonitor::uncounted(job.watch.clone());
-    let reduced = engine.reductions.get(&model, modes, monitor.clone()).await?;
+    let reduced = engine.reductions.of_sweep(request.sweep(), monitor.clone()).await?;
     let asked = (Arc::clone(&reduced), request.clone());
     let bytes = engine.computing.run(&job.watch, move || run::trial_memory(&asked.0, &asked.1)).await?;
     let memory = engine.memory.hold(bytes).await.map_err(Interruption::speed_memory)?;

@@ -9,21 +9,23 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
+use super::bases::BasisFolder;
 use super::error::StoreError;
+use super::folders::{self, entries, file_name, folder_name, model_of, remove_files_but, remove_folders};
 use super::handle::Store;
 use super::reductions;
 use super::reserve::Reserve;
 use super::unfinished::unfinished_file;
-use crate::analysis::run::VERSION;
-use crate::dynamics::reduction::Checkpoints;
+use crate::dynamics::reduction::{BasisRows, Checkpoints};
 
 /// Before the bytes of a part stand their number (little-endian) and their SHA-256.
 const HEADER: usize = 8 + 32;
 
-/// Checkpoints of one reduction.
+/// Checkpoints of one reduction, and the basis that it leaves.
 #[derive(Debug, Clone)]
 pub struct CheckpointFolder {
     folder: PathBuf,
+    basis: BasisFolder,
     reserve: Reserve,
 }
 
@@ -31,14 +33,15 @@ impl Store {
     /// Checkpoints of the reduction of `model`.
     pub fn checkpoints(&self, model: &str, modes_per_speed: u32) -> CheckpointFolder {
         let folder = self.checkpoint_root().join(folder_name(model, modes_per_speed));
-        CheckpointFolder { folder, reserve: self.reserve.clone() }
+        let basis = self.basis(model, modes_per_speed);
+        CheckpointFolder { folder, basis, reserve: self.reserve.clone() }
     }
 
     /// Number of parts of all reductions of `model` that this program can read.
     pub(super) async fn parts_of_model(&self, model: &str) -> std::io::Result<u32> {
         let mut parts = 0;
         for folder in entries(&self.checkpoint_root()).await? {
-            if belongs(file_name(&folder), model) {
+            if model_of(file_name(&folder)) == model {
                 parts += count_parts(&folder).await?;
             }
         }
@@ -55,7 +58,7 @@ impl Store {
     pub(super) async fn remove_checkpoints(&self, model: &str, modes_per_speed: Option<u32>) {
         let unused = |name: &str| match modes_per_speed {
             Some(modes_per_speed) => name == folder_name(model, modes_per_speed),
-            None => belongs(name, model),
+            None => model_of(name) == model,
         };
         if let Err(error) = remove_folders(&self.checkpoint_root(), unused).await {
             tracing::warn!(model.id = model, %error, "could not remove checkpoints");
@@ -72,18 +75,9 @@ impl Store {
             reduced.insert(folder_name(&model, modes_per_speed));
         }
         let root = self.checkpoint_root();
-        let stale = |name: &str| {
-            let model = name.rsplit_once('-').map_or(name, |(model, _)| model);
-            !models.contains(model) || reduced.contains(name)
-        };
+        let stale = |name: &str| !models.contains(model_of(name)) || reduced.contains(name);
         remove_folders(&root, stale).await?;
-        for folder in entries(&root).await? {
-            for file in entries(&folder).await? {
-                if !file_name(&file).starts_with(&prefix()) {
-                    tokio::fs::remove_file(file).await?;
-                }
-            }
-        }
+        remove_files_but(&root, &prefix()).await?;
         Ok(())
     }
 }
@@ -145,20 +139,15 @@ impl Checkpoints for CheckpointFolder {
             }
         }
     }
-}
 
-/// Whether the folder `name` is of a reduction of `model`.
-fn belongs(name: &str, model: &str) -> bool {
-    name.strip_prefix(model).is_some_and(|rest| rest.starts_with('-'))
-}
-
-fn folder_name(model: &str, modes_per_speed: u32) -> String {
-    format!("{model}-{modes_per_speed}")
+    fn keep_basis(&self, rows: &BasisRows<'_>) {
+        self.basis.keep(rows);
+    }
 }
 
 /// What names of parts begin with that this program can read.
 fn prefix() -> String {
-    format!("{VERSION}-{}-", reductions::LAYOUT)
+    folders::prefix(reductions::LAYOUT)
 }
 
 /// The bytes of a part, if they are those that were written.
@@ -178,34 +167,6 @@ fn read(path: &Path) -> std::io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-async fn remove_folders(root: &Path, which: impl Fn(&str) -> bool) -> std::io::Result<()> {
-    for folder in entries(root).await? {
-        if which(file_name(&folder)) {
-            tokio::fs::remove_dir_all(folder).await?;
-        }
-    }
-    Ok(())
-}
-
-/// What a folder contains; nothing if there is no such folder.
-async fn entries(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
-    let mut found = Vec::new();
-    match tokio::fs::read_dir(folder).await {
-        Err(error) if error.kind() == ErrorKind::NotFound => {}
-        Err(error) => return Err(error),
-        Ok(mut entries) => {
-            while let Some(entry) = entries.next_entry().await? {
-                found.push(entry.path());
-            }
-        }
-    }
-    Ok(found)
-}
-
-fn file_name(path: &Path) -> &str {
-    path.file_name().and_then(|name| name.to_str()).unwrap_or_default()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -214,7 +175,8 @@ mod tests {
         let root = tempfile::tempdir().unwrap();
         let folder = root.path().join("checkpoints/model-20");
         let reserve = Reserve::of(root.path());
-        (root, CheckpointFolder { folder, reserve })
+        let basis = BasisFolder::of(root.path(), "model-20", reserve.clone());
+        (root, CheckpointFolder { folder, basis, reserve })
     }
 
     #[test]

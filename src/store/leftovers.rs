@@ -12,6 +12,9 @@ impl Store {
         if let Err(error) = self.remove_stale_checkpoints().await {
             tracing::warn!(%error, "could not remove stale checkpoints");
         }
+        if let Err(error) = self.remove_stale_bases().await {
+            tracing::warn!(%error, "could not remove stale bases of reductions");
+        }
         if let Err(error) = self.remove_stale_trials().await {
             tracing::warn!(%error, "could not remove the trials of another version");
         }

@@ -1,15 +1,17 @@
-//! What is remembered: models, reductions, jobs and results in one `SQLite` file, packages and checkpoints as files
+//! What is remembered: models, reductions, jobs and results in one `SQLite` file, packages, checkpoints and bases as files
 //! beside it. The only SQL in the program.
 //!
 //! One function per question; rows become domain types here. All writes go through one connection, so transactions
 //! never meet a busy database, and readers never wait for writers (WAL).
 
 mod backup;
+pub mod bases;
 mod calibrations;
 pub mod checkpoints;
 mod computing;
 mod end_states;
 mod error;
+mod folders;
 mod handle;
 pub mod idempotency;
 pub mod jobs;
@@ -26,6 +28,7 @@ pub mod reductions;
 mod reserve;
 pub mod results;
 pub mod status;
+mod stored_sensor;
 mod time;
 pub mod trials;
 mod unfinished;

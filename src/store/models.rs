@@ -216,6 +216,7 @@ impl Store {
         let (deletion, was_last) = self.with_reserve(|| self.remove_model(id, owner)).await?;
         if was_last {
             self.remove_checkpoints(id, None).await;
+            self.remove_bases(id).await;
             match tokio::fs::remove_file(self.package_path(id)).await {
                 Err(error) if error.kind() != std::io::ErrorKind::NotFound => return Err(error.into()),
                 _ => {}

@@ -11,7 +11,7 @@ use flate2::write::DeflateEncoder;
 use serde::{Deserialize, Serialize};
 
 use super::error::StoreError;
-use crate::analysis::request::Sensor;
+use super::stored_sensor::StoredSensor;
 use crate::analysis::result::{SensorSpectrum, SpeedSpectra};
 
 /// Bytes of a number.
@@ -20,7 +20,7 @@ const REAL: usize = size_of::<f64>();
 /// Spectra as they are stored.
 #[derive(Debug, Serialize, Deserialize)]
 struct Packed {
-    sensors: Vec<(Sensor, Waves)>,
+    sensors: Vec<(StoredSensor, Waves)>,
     /// Of each line of numbers: the engine orders, then per sensor its amplitudes and its own nodal diameters.
     lengths: Vec<u32>,
     /// First bytes of all numbers, then second ones, and so on; deflated.
@@ -52,7 +52,7 @@ pub(super) fn pack(spectra: &SpeedSpectra) -> Result<(Vec<u8>, u64), StoreError>
                 Waves::Own(spectrum.nodal_diameters.len() as u32)
             }
         };
-        sensors.push((spectrum.sensor, waves));
+        sensors.push((StoredSensor::of(&spectrum.sensor).ok_or(StoreError::Spectra)?, waves));
     }
     let lengths = lines.iter().map(|line| line.len() as u32).collect();
     let numbers: Vec<[u8; REAL]> = lines.into_iter().flatten().map(|number| number.to_be_bytes()).collect();
@@ -65,9 +65,9 @@ pub(super) fn pack(spectra: &SpeedSpectra) -> Result<(Vec<u8>, u64), StoreError>
     Ok((postcard::to_stdvec(&packed)?, (REAL * unpacked) as u64))
 }
 
-/// Whether two sensors see the same waves, as those of one contact node do whatever their sector.
+/// Whether two sensors see the same waves, as those of one node do whatever their sector.
 fn has_the_waves_of<'a>(one: &'a SensorSpectrum, other: &'a SensorSpectrum) -> bool {
-    let place = |spectrum: &SensorSpectrum| (spectrum.sensor.contact_node, spectrum.sensor.component);
+    let place = |spectrum: &SensorSpectrum| StoredSensor::of(&spectrum.sensor).map(StoredSensor::anywhere);
     let lengths =
         |spectrum: &SensorSpectrum| spectrum.nodal_diameters.iter().map(Vec::len).collect::<Vec<_>>();
     let bits = |spectrum: &'a SensorSpectrum| spectrum.nodal_diameters.iter().flatten().map(|x| x.to_bits());
@@ -105,15 +105,33 @@ pub(super) fn unpack(bytes: &[u8]) -> Result<SpeedSpectra, StoreError> {
                 before.nodal_diameters.clone()
             }
         };
-        spectra.sensors.push(SensorSpectrum { sensor, amplitude, nodal_diameters });
+        spectra.sensors.push(SensorSpectrum { sensor: sensor.into(), amplitude, nodal_diameters });
     }
     Ok(spectra)
+}
+
+/// Spectra as earlier versions stored them, unpacked.
+#[derive(Debug, Serialize, Deserialize)]
+struct Unpacked {
+    engine_orders: Vec<f64>,
+    sensors: Vec<(StoredSensor, Vec<f64>, Vec<Vec<f64>>)>,
+}
+
+/// The spectra that an earlier version stored unpacked.
+pub(super) fn read_unpacked(bytes: &[u8]) -> Result<SpeedSpectra, StoreError> {
+    let Unpacked { engine_orders, sensors } = postcard::from_bytes(bytes)?;
+    let spectrum = |(sensor, amplitude, nodal_diameters): (StoredSensor, _, _)| SensorSpectrum {
+        sensor: sensor.into(),
+        amplitude,
+        nodal_diameters,
+    };
+    Ok(SpeedSpectra { engine_orders, sensors: sensors.into_iter().map(spectrum).collect() })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::request::Component;
+    use crate::analysis::request::{Component, Sensor};
 
     /// Spectra of `sensors`, which decay over the engine orders as those of a tip do; waves by contact node.
     fn spectra(sensors: &[(u32, u32)]) -> SpeedSpectra {
@@ -124,7 +142,7 @@ mod tests {
                 .collect()
         };
         let sensor = |&(contact_node, sector): &(u32, u32)| SensorSpectrum {
-            sensor: Sensor { contact_node, sector, component: Component::Radial },
+            sensor: Sensor::at_contact(contact_node, sector, Component::Radial),
             amplitude: line(100 * contact_node + sector),
             nodal_diameters: (0..8).map(|i| line(1000 * (contact_node + 1) + i)).collect(),
         };
@@ -174,8 +192,16 @@ mod tests {
         .await
         .unwrap();
         let (packed, unpacked) = pack(&written).unwrap();
+        let unpacked_then = Unpacked {
+            engine_orders: written.engine_orders.clone(),
+            sensors: (written.sensors.iter())
+                .map(|s| {
+                    (StoredSensor::of(&s.sensor).unwrap(), s.amplitude.clone(), s.nodal_diameters.clone())
+                })
+                .collect(),
+        };
         for (speed, bytes, unpacked) in
-            [(0, postcard::to_stdvec(&written).unwrap(), None), (1, packed, Some(unpacked as i64))]
+            [(0, postcard::to_stdvec(&unpacked_then).unwrap(), None), (1, packed, Some(unpacked as i64))]
         {
             sqlx::query(
                 "insert into speed_results (job, speed, status, point, spectra, unpacked_bytes, created_at)

@@ -68,7 +68,7 @@ impl Store {
         reduced: &ReducedSector,
     ) -> Result<(), StoreError> {
         let mut write = self.write().await?;
-        sqlx::query(
+        let kept = sqlx::query(
             "insert into reductions (model, modes_per_speed, layout, reduced, report, created_at)
              select ?1, ?2, ?3, ?4, ?5, ?6 where exists (select 1 from models where id = ?1)
              on conflict (model, modes_per_speed) do update
@@ -89,6 +89,9 @@ impl Store {
             .await?;
         write.commit().await?;
         self.remove_checkpoints(model, Some(modes_per_speed)).await;
+        if kept.rows_affected() == 0 {
+            self.remove_bases(model).await;
+        }
         Ok(())
     }
 }

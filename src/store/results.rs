@@ -284,5 +284,5 @@ fn spectra(row: &SqliteRow) -> Result<Option<SpeedSpectra>, StoreError> {
     let Some(bytes) = row.try_get::<Option<&[u8]>, _>("spectra")? else { return Ok(None) };
     // Earlier versions did not pack them.
     let packed = row.try_get::<Option<i64>, _>("unpacked_bytes")?.is_some();
-    Ok(Some(if packed { packed::unpack(bytes)? } else { postcard::from_bytes(bytes)? }))
+    Ok(Some(if packed { packed::unpack(bytes)? } else { packed::read_unpacked(bytes)? }))
 }

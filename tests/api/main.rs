@@ -26,6 +26,7 @@ mod parameters;
 mod plans;
 mod program;
 mod refine;
+mod sensors;
 mod small_disk;
 mod studies;
 mod sweeps;

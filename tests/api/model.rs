@@ -51,6 +51,13 @@ pub(crate) fn spoilt_package(spoil: impl FnOnce(&mut Value)) -> Vec<u8> {
     zip(&files, 6)
 }
 
+/// The package with a node 6 that has no DOF.
+pub(crate) fn package_with_a_clamped_node() -> Vec<u8> {
+    let mut files = files(1.0);
+    files[1].1.push_str("6,41,38,0\n");
+    zip(&files, 6)
+}
+
 /// Names in a folder, sorted.
 pub(crate) fn files_in(folder: &Path) -> Vec<String> {
     let mut names: Vec<_> = std::fs::read_dir(folder)

@@ -221,7 +221,7 @@ fn plausible(point: &Point, request: &SweepRequest) {
         let (span, round_off) = (2.0 * response.half_peak_to_peak, 1e-12 * response.mean.abs() + VANISHED);
         let least = 0.5 * span / (point.steps as f64).sqrt();
         assert!(response.rms >= least - round_off && response.rms <= span + round_off, "{response:?}");
-        if request.scene.contact.is_some() && response.sensor.component == Component::Normal {
+        if request.scene.contact.is_some() && response.sensor.component == Some(Component::Normal) {
             assert!(response.mean.abs().max(0.5 * span) <= 0.1 * radius(), "{response:?}");
         }
     }

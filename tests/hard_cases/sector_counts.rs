@@ -74,7 +74,11 @@ fn dense(
         literal.step(&free_gaps(&casing, &reduced.wheel, q as f64 / steps as f64), gauss_seidel);
         if q > 2 * steps && q % (steps / 512) == 0 {
             for (line, (sensor, d)) in samples.iter_mut().zip(request.sensors.iter().zip([0, 2, 1])) {
-                line.push(literal.displacement(sensor.sector as usize, sensor.contact_node as usize, d));
+                line.push(literal.displacement(
+                    sensor.sector as usize,
+                    sensor.contact_node.unwrap() as usize,
+                    d,
+                ));
             }
         }
     }

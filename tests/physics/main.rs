@@ -10,6 +10,7 @@ mod histories;
 mod impeller_a;
 mod invariants;
 mod modal_criterion;
+mod node_sensors;
 #[path = "../oracle/mod.rs"]
 mod oracle;
 mod plain_agreement;

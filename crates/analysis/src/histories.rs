@@ -5,9 +5,9 @@ use crate::error::AnalysisError;
 use crate::model::ReducedSector;
 use crate::monitor::Monitor;
 use crate::record::record_run;
-use crate::request::{Recorded, RecordedQuantity, Sensor};
+use crate::request::{Recorded, RecordedQuantity};
 use crate::resolve::case_study::{revolutions, wanted};
-use crate::resolved::{ResolvedCaseStudy, ResolvedSweep};
+use crate::resolved::{ResolvedCaseStudy, ResolvedSensor, ResolvedSweep};
 use crate::result::{ContactHistory, EnergyHistory, Point, PointStatus, SensorHistory, SpeedHistories};
 use crate::speed::{Start, empty_point, ready, run_speed, simulate};
 use crate::summary::critical_indices;
@@ -52,7 +52,7 @@ pub fn speed_histories(
     };
     let from_where = start.as_ref().map_or(Start::Scene, Start::After);
     let ran = ready(reduced, sweep, point.speed_rad_s).and_then(|(wheel, stepping)| {
-        let run = simulate(&reduced.wheel, &wheel, sweep, &stepping, from_where, Some(detail), &watch)?;
+        let run = simulate(reduced, &wheel, sweep, &stepping, from_where, Some(detail), &watch)?;
         Ok((wheel, stepping, run))
     });
     let mut histories = SpeedHistories {
@@ -110,8 +110,8 @@ fn sensors(
     samples: std::ops::Range<usize>,
 ) -> Vec<SensorHistory> {
     let velocity = history.detail.as_ref().map_or(&[][..], |detail| &detail.velocity);
-    let of = |(sensor, &at): (usize, &Sensor)| SensorHistory {
-        sensor: at,
+    let of = |(sensor, &at): (usize, &ResolvedSensor)| SensorHistory {
+        sensor: at.into(),
         displacement: match record.wants(RecordedQuantity::Displacement) {
             true => history.displacement[sensor][samples.clone()].to_vec(),
             false => Vec::new(),

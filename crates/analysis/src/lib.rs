@@ -34,6 +34,7 @@ pub mod resolved;
 mod response_curve;
 pub mod result;
 pub mod run;
+mod sensed;
 mod speed;
 mod start;
 mod stepping;

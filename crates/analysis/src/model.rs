@@ -1,9 +1,12 @@
 //! A sector on its way in: the facts requests are checked against, and its reduction with a report in words.
 
+use std::sync::Arc;
+
 use serde::{Deserialize, Serialize};
 
 use crate::result::{PreliminaryStiffening, ReductionReport};
 use crate::stiffening::preliminary_stiffening;
+use rubmap_wheel::dynamics::node_rows::NodeRows;
 use rubmap_wheel::dynamics::reduction::ReducedWheel;
 use rubmap_wheel::dynamics::sector::{SectorModel, Units};
 
@@ -13,9 +16,20 @@ pub struct ReducedSector {
     /// Units of the model.
     pub units: Units,
     /// The reduced wheel.
-    pub wheel: ReducedWheel,
+    pub wheel: Arc<ReducedWheel>,
     /// What the reduction found and cost.
     pub report: ReductionReport,
+    /// Rows of its basis at nodes that are to be read; kept apart from it.
+    #[serde(skip)]
+    pub nodes: NodeRows,
+}
+
+impl ReducedSector {
+    /// Whether sensors at all of these `nodes`, given by their ids, can be read.
+    pub fn reads(&self, nodes: &[u64]) -> bool {
+        let contact = |id| self.wheel.contact.iter().any(|node| node.id == id);
+        nodes.iter().all(|&id| self.nodes.find(id).is_some() || contact(id))
+    }
 }
 
 /// The few facts about a model that requests are checked against.

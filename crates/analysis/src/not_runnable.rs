@@ -12,6 +12,12 @@ pub(crate) enum NotRunnable {
     /// The reduced sector cannot be evaluated at this speed.
     #[error(transparent)]
     Model(#[from] ModelError),
+    /// A sensor's node of which no rows of the basis were read.
+    #[error("the basis of the reduction was not read at node {id}, where a sensor is")]
+    UnreadNode { id: u64 },
+    /// A sensor along the normal of a node that has none.
+    #[error("node {id}, where a sensor is, has no normal: only contact nodes have")]
+    NoNormal { id: u64 },
     /// The wheel cannot slide.
     #[error(transparent)]
     Friction(#[from] FrictionError),

@@ -26,8 +26,8 @@ use rubmap_wheel::dynamics::casing::RestrictionTable;
 use rubmap_wheel::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use rubmap_wheel::revision::VERSION;
 
-/// Plans a resolved sweep on `workers` threads; without `reduced`, what can be said without it. The choice is for the caller to
-/// add.
+/// Plans a resolved sweep on `workers` threads; without `reduced`, what can be said without it. The choice and where sensors stand
+/// are for the caller to add.
 pub fn plan_sweep(
     request: &ResolvedSweep,
     facts: &ModelFacts,
@@ -54,6 +54,8 @@ pub fn plan_sweep(
         },
         reduction: state(reduced),
         reduced_unknowns_at_most: reduced_unknowns(facts, reduced, request.modes_per_speed()),
+        basis_bytes_at_most: basis_bytes(facts, reduced, request.modes_per_speed()),
+        placed_sensors: Vec::new(),
         speeds: speeds.len() as u32,
         workers: workers as u32,
         estimate: reduced.and_then(|reduced| estimate(&points, speeds, workers, reduced_bytes(reduced))),
@@ -98,6 +100,7 @@ pub fn plan_modal_analysis(
         effects,
         reduction: state(reduced),
         reduced_unknowns_at_most: reduced_unknowns(facts, reduced, request.modes_per_speed()),
+        basis_bytes_at_most: basis_bytes(facts, reduced, request.modes_per_speed()),
         speeds: speeds.len() as u32,
         nodal_diameters: harmonic_count(facts.sectors as usize) as u32,
         computing_time_s: reduced.and_then(one).map(|seconds| seconds * speeds.len() as f64),
@@ -129,6 +132,17 @@ fn reduced_unknowns(facts: &ModelFacts, reduced: Option<&ReducedSector>, modes_p
     let modes = facts.speeds_rad_s.len() as u64 * u64::from(modes_per_speed);
     let expected = || u64::from(facts.sectors) * (3 * u64::from(facts.contact_nodes) + modes);
     reduced.map_or_else(expected, |reduced| reduced.report.wheel_unknowns.into())
+}
+
+/// Disk that the basis of a reduction will take.
+fn basis_bytes(facts: &ModelFacts, reduced: Option<&ReducedSector>, modes_per_speed: u32) -> Option<u64> {
+    let columns =
+        3 * u64::from(facts.contact_nodes) + facts.speeds_rad_s.len() as u64 * u64::from(modes_per_speed);
+    // Nobody has more columns than DOF.
+    let columns = columns.min(facts.own_dofs.into());
+    let harmonics = harmonic_count(facts.sectors as usize) as u64;
+    let per_dof = columns * 16;
+    reduced.is_none().then(|| u64::from(facts.own_dofs) * per_dof * harmonics)
 }
 
 /// Cubed unknowns over all nodal diameters that a plan solves three times: about a second.
@@ -248,7 +262,9 @@ fn running_bytes(wheel: &ModalWheel, request: &ResolvedSweep, stepping: &Steppin
     let lobes = nodes > 0 && request.scene.casing.as_ref().is_some_and(|casing| casing.lobes.is_some());
     let table =
         if lobes { REAL * RestrictionTable::size(steps.per_revolution, wheel.around(), stride) } else { 0 };
-    let rows = 2 * REAL * (nodes + request.sensors.len()) * sizes.sum::<usize>();
+    // What nodes do in the reduced coordinates and in the modes.
+    let read = 2 * COMPLEX * 3 * request.sensor_nodes().len() * sizes.clone().sum::<usize>();
+    let rows = 2 * REAL * (nodes + request.sensors.len()) * sizes.sum::<usize>() + read;
     let history = REAL * steps.samples * request.sensors.len() * (revolutions + wheel.sectors * window);
     let spectrum = 4 * COMPLEX * steps.samples * window;
     let bins = request.max_engine_order as usize * window + 1;

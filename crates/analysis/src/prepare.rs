@@ -1,5 +1,6 @@
 //! The reduction of a sector, with a report.
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use crate::error::AnalysisError;
@@ -8,6 +9,7 @@ use crate::monitor::Monitor;
 use crate::result::{FrequencyDifference, LargestDifference, ReductionReport};
 use crate::stiffening::stiffening_report;
 use rubmap_numerics::sector_fourier::is_single;
+use rubmap_wheel::dynamics::node_rows::NodeRows;
 use rubmap_wheel::dynamics::reduction::{
     Checkpoints, Completeness, ReducedWheel, ReductionError, ReductionOptions, reduce,
 };
@@ -36,7 +38,12 @@ pub fn prepare(
         ReductionError::Model(error) => error.into(),
     })?;
     let report = report(&wheel, &options, sector, start.elapsed().as_secs_f64());
-    Ok(ReducedSector { units: sector.units.clone(), wheel, report })
+    Ok(ReducedSector {
+        units: sector.units.clone(),
+        wheel: Arc::new(wheel),
+        report,
+        nodes: NodeRows::default(),
+    })
 }
 
 fn report(

@@ -6,8 +6,7 @@ use crate::effects::effect::Ran;
 use crate::effects::symmetry::repeats::repeats;
 use crate::effects::table::named;
 use crate::error::AnalysisError;
-use crate::request::Sensor;
-use crate::resolved::ResolvedSweep;
+use crate::resolved::{ResolvedSensor, ResolvedSweep};
 use crate::result::{
     ContactForces, ContactSummary, EnergyReport, Point, PointStatus, SensorResponse, SensorSpectrum,
     SpeedSpectra,
@@ -111,7 +110,7 @@ fn contact(
 /// `[sensor]`: displacements of the window as its spectra see them.
 fn filtered(history: &History, request: &ResolvedSweep, wheel: &ModalWheel) -> Vec<Vec<f64>> {
     let fourier = SectorFourier::new(wheel.sectors);
-    let of = |(columns, sensor): (&Vec<Vec<f64>>, &Sensor)| {
+    let of = |(columns, sensor): (&Vec<Vec<f64>>, &ResolvedSensor)| {
         let row = fourier.row(sensor.sector as usize % wheel.sectors);
         let at = |sample: usize| row.iter().zip(columns).map(|(f, column)| f * column[sample]).sum();
         (0..columns[0].len()).map(at).collect()
@@ -150,7 +149,7 @@ fn spectra(
     let sensors = request.sensors.iter().enumerate().map(|(index, &sensor)| {
         let columns = &history.harmonics[index];
         SensorSpectrum {
-            sensor,
+            sensor: sensor.into(),
             amplitude: amplitudes(&filtered[index], bins),
             nodal_diameters: of_the_wheel(nodal_diameter_amplitudes(columns, &fourier, bins), wheel),
         }
@@ -184,7 +183,7 @@ fn responses(
     let window_samples = filtered.first().map_or(0, Vec::len);
     let windows = history.displacement.iter().map(|whole| &whole[whole.len() - window_samples..]);
     let round_off = ROUND_OFF * windows.flatten().fold(0.0f64, |most, x| most.max(x.abs()));
-    let of = |(index, &sensor): (usize, &Sensor)| {
+    let of = |(index, &sensor): (usize, &ResolvedSensor)| {
         let whole = &history.displacement[index];
         let window = &whole[whole.len() - window_samples..];
         let mean = window.iter().sum::<f64>() / window.len() as f64;
@@ -197,7 +196,7 @@ fn responses(
         let carried: Vec<f64> = spectrum.nodal_diameters.iter().map(|line| line[bin]).collect();
         let stands_out = spectrum.amplitude[bin] > round_off;
         SensorResponse {
-            sensor,
+            sensor: sensor.into(),
             mean,
             rms: variance.sqrt(),
             half_peak_to_peak: 0.5 * (high - low),

@@ -17,12 +17,13 @@ pub use crate::prepare::prepare;
 pub use crate::refine::refine;
 pub use crate::request::Setting;
 pub use crate::resolve::case_study::{histories_of, resolve_case_study};
+pub use crate::resolve::sensors::{name_nodes, place_sensors};
 pub use crate::resolve::study::resolve_study;
 pub use crate::resolve::{resolve_modal_analysis, resolve_sweep};
 pub use crate::resolved::TrialRequest;
 pub use crate::result::{
-    Choice, ErrorEstimate, Estimate, Histories, ModalAnalysisPlan, ModesChoice, Refinement, SweepPlan, Trial,
-    WorkPrecision,
+    Choice, ErrorEstimate, Estimate, Histories, ModalAnalysisPlan, ModesChoice, PlacedSensor, Refinement,
+    SweepPlan, Trial, WorkPrecision,
 };
 pub use crate::speed::run_speed;
 pub use crate::summary::{

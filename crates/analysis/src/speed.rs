@@ -2,7 +2,6 @@
 
 use std::time::Instant;
 
-use crate::component::direction;
 use crate::effects::casing::convert::{casing, check_table};
 use crate::effects::damping::convert::modal_damping;
 use crate::effects::physics::Surroundings;
@@ -13,13 +12,14 @@ use crate::model::ReducedSector;
 use crate::monitor::Monitor;
 use crate::not_runnable::NotRunnable;
 use crate::record::{Recorded, record_run};
-use crate::request::{Sensor, SweepDirection};
+use crate::request::SweepDirection;
 use crate::resolved::ResolvedSweep;
 use crate::result::{Point, PointStatus, SpeedResult, WearMap};
+use crate::sensed::sensed;
 use crate::start::{initial, perturbed};
 use crate::stepping::Stepping;
 use crate::wheel::wheel_of;
-use rubmap_wheel::dynamics::integrate::{Detail, Outcome, Run, SensorRow, Simulation};
+use rubmap_wheel::dynamics::integrate::{Detail, Outcome, Run, Simulation};
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
 use rubmap_wheel::dynamics::reduction::ReducedWheel;
 use rubmap_wheel::revision::VERSION;
@@ -43,7 +43,7 @@ pub fn run_speed(
     };
     let from = start.map_or(Start::Scene, Start::After);
     let ran = ready(reduced, request, point.speed_rad_s).and_then(|(wheel, stepping)| {
-        let run = simulate(&reduced.wheel, &wheel, request, &stepping, from, None, &watch)?;
+        let run = simulate(reduced, &wheel, request, &stepping, from, None, &watch)?;
         Ok((wheel, stepping, run))
     });
     match ran {
@@ -148,7 +148,7 @@ pub(super) fn empty_point(
 
 /// Runs a scene on `wheel`; or says why it cannot be.
 pub(super) fn simulate(
-    reduced: &ReducedWheel,
+    sector: &ReducedSector,
     wheel: &ModalWheel,
     request: &ResolvedSweep,
     stepping: &Stepping,
@@ -156,7 +156,7 @@ pub(super) fn simulate(
     detail: Option<Detail>,
     watch: &dyn Fn(f64) -> bool,
 ) -> Result<Run, NotRunnable> {
-    let scene = &request.scene;
+    let (scene, reduced) = (&request.scene, &*sector.wheel);
     let Stepping { scheme, discretisation: steps, .. } = stepping;
     let scheme = *scheme;
     // A wheel that comes from another speed is in contact with a casing that is there.
@@ -182,9 +182,9 @@ pub(super) fn simulate(
             casing.as_ref(),
         ),
     };
-    let sensors: Vec<_> = request.sensors.iter().map(|sensor| sensor_row(reduced, wheel, sensor)).collect();
+    let (wheel, sensors) = sensed(sector, wheel, request)?;
     Ok(Simulation {
-        wheel,
+        wheel: &wheel,
         contact_nodes: &reduced.contact,
         damping: damping.as_ref(),
         casing: casing.as_ref(),
@@ -199,11 +199,4 @@ pub(super) fn simulate(
         detail,
     }
     .run(watch))
-}
-
-fn sensor_row(reduced: &ReducedWheel, wheel: &ModalWheel, sensor: &Sensor) -> SensorRow {
-    SensorRow {
-        direction: direction(&reduced.contact, sensor.contact_node, sensor.component),
-        sector: sensor.sector as usize % wheel.sectors,
-    }
 }

@@ -8,8 +8,7 @@ use crate::effects::flexible_casing::convert::flexible_casing;
 use crate::error::AnalysisError;
 use crate::model::ReducedSector;
 use crate::monitor::Monitor;
-use crate::request::Sensor;
-use crate::resolved::ResolvedSweep;
+use crate::resolved::{ResolvedSensor, ResolvedSweep};
 use crate::response_curve::ResponseCurve;
 use crate::result::{
     Coincidence, CriticalSpeed, CriticalSpeeds, Crossing, DrivenCrossing, ErrorEstimate, InteractionMap,
@@ -60,7 +59,7 @@ pub fn interaction_map(
         speeds_rad_s: speeds.to_vec(),
         engine_orders: map_engine_orders(request),
         amplitude,
-        sensor: request.sensors[sensor],
+        sensor: request.sensors[sensor].into(),
         nodal_diameter,
         units: units.clone(),
         refinement: Refinement::of(request, &points),
@@ -110,8 +109,8 @@ pub fn critical_speeds(
     let completed: BTreeSet<u32> = curve.points.iter().flatten().map(|point| point.index).collect();
     let missing: Vec<u32> = (0..speeds.len() as u32).filter(|index| !completed.contains(index)).collect();
     let refinement = Refinement::of(request, points);
-    let table = |(sensor, &of): (usize, &Sensor)| CriticalSpeeds {
-        sensor: of,
+    let table = |(sensor, &of): (usize, &ResolvedSensor)| CriticalSpeeds {
+        sensor: of.into(),
         critical_speeds: response_peaks(request, &curve, sensor, &prediction.linear, errors, &reduced.report),
         linear_crossings: prediction.linear.clone(),
         driven_crossings: prediction.driven.clone(),

@@ -21,7 +21,7 @@ const NEAREST: &str = "#d62728";
 /// Draws the peaks of the response over speed, with how far off they may be, and below them the crossings of the linear calculation, a
 /// row for each superharmonic; each peak is tied to the crossing nearest to it.
 pub fn critical_speeds(critical: &CriticalSpeeds) -> String {
-    let title = format!("Critical speeds: {}", heading::sensor(&critical.sensor));
+    let title = format!("Critical speeds: {}", critical.sensor);
     let found = critical.critical_speeds.len();
     let mut words = vec![match found {
         1 => "1 peak".to_owned(),

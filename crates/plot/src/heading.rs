@@ -1,7 +1,6 @@
 //! What stands above a diagram.
 
 use super::svg::{Element, group, text};
-use rubmap_analysis::request::{Component, Sensor};
 
 const LINE_HEIGHT: f64 = 17.0;
 
@@ -22,22 +21,6 @@ pub(super) fn heading(left: f64, title: &str, paragraphs: &[String]) -> (Element
 pub(super) fn origin(model: &str, version: &str) -> String {
     let model: String = model.chars().take(12).collect();
     format!("model {model} · rubmap {version}")
-}
-
-/// A sensor in words.
-pub(super) fn sensor(sensor: &Sensor) -> String {
-    measured(sensor, "displacement")
-}
-
-/// What of a sensor is measured, in words.
-pub(super) fn measured(sensor: &Sensor, what: &str) -> String {
-    let component = match sensor.component {
-        Component::Radial => "radial",
-        Component::Tangential => "tangential",
-        Component::Axial => "axial",
-        Component::Normal => "normal",
-    };
-    format!("{component} {what} at contact node {} of sector {}", sensor.contact_node, sensor.sector)
 }
 
 /// Lines of at most `columns` characters, unless a single word has more.

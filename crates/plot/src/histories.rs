@@ -4,7 +4,7 @@ use super::axis::{label, ticks};
 use super::cells::rpm;
 use super::colour::DISTINCT;
 use super::diagram::Diagram;
-use super::heading::{heading, sensor as in_words};
+use super::heading::heading;
 use super::key::{Key, MARK_WIDTH};
 use super::marks::order;
 use super::svg::{Element, group, line, rectangle};
@@ -26,7 +26,8 @@ const REFERENCE: &str = "8 5";
 
 /// Draws the displacements of the sensor of index `sensor` over revolutions, one line per size; the reference is dashed and black.
 pub fn histories(histories: &Histories, sensor: usize) -> String {
-    let measured = histories.sensors.get(sensor).map_or_else(|| "displacement".to_owned(), in_words);
+    let measured =
+        histories.sensors.get(sensor).map_or_else(|| "displacement".to_owned(), ToString::to_string);
     let curves: Vec<Curve> = histories.lines.iter().filter_map(|line| Curve::of(line, sensor)).collect();
     let longest = curves.iter().map(|curve| curve.displacement.len()).max().unwrap_or(0);
     let revolutions = longest as f64 / f64::from(histories.samples_per_revolution.max(1));

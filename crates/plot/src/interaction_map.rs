@@ -142,7 +142,7 @@ fn amplitude_bar(amplitudes: &Scale, left: f64, unit: &str) -> Element {
 
 fn title(map: &InteractionMap) -> String {
     let nodal_diameter = map.nodal_diameter.map(|i| format!(", nodal diameter {i} only")).unwrap_or_default();
-    format!("Interaction map: {}{nodal_diameter}", heading::sensor(&map.sensor))
+    format!("Interaction map: {}{nodal_diameter}", map.sensor)
 }
 
 fn heading(map: &InteractionMap) -> Element {

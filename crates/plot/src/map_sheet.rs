@@ -99,7 +99,7 @@ fn key(y: f64, missing: bool) -> Element {
 
 fn title(maps: &[InteractionMap]) -> String {
     match maps.first() {
-        Some(map) => format!("Maps by nodal diameter: {}", heading::sensor(&map.sensor)),
+        Some(map) => format!("Maps by nodal diameter: {}", map.sensor),
         None => "Maps by nodal diameter".to_owned(),
     }
 }

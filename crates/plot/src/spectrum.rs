@@ -41,7 +41,7 @@ pub fn spectrum(spectra: &SpeedSpectra, point: &Point, units: &Units, sensor: us
         Frame::Rotating => "rotating frame",
         Frame::Fixed => "fixed frame",
     };
-    let title = format!("Spectrum in the {where_from}: {}, {speed} rpm", heading::sensor(&found.sensor));
+    let title = format!("Spectrum in the {where_from}: {}, {speed} rpm", found.sensor);
     let mut words = vec![verdict(point)];
     if frame == Frame::Fixed {
         let both = "A wave of nodal diameter n at engine order k of the rotating frame is drawn at k + n, where one that travels with the \

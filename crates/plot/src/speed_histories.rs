@@ -68,7 +68,7 @@ pub fn speed_histories(histories: &SpeedHistories, what: HistoryQuantity, index:
 
 fn subject(histories: &SpeedHistories, what: HistoryQuantity, index: usize) -> String {
     let of_sensor = |what: &str| match histories.sensors.get(index) {
-        Some(found) => measured(&found.sensor, what),
+        Some(found) => found.sensor.measuring(what),
         None => format!("{what} of sensor {index}"),
     };
     match what {

@@ -75,11 +75,7 @@ pub(super) fn credentials(map: &InteractionMap) -> String {
 pub(super) fn critical_speeds(table: &CriticalSpeeds) -> String {
     let unit = &table.units.length;
     let mut out = String::new();
-    let _ = writeln!(
-        out,
-        "Critical speeds: peaks of the response at contact node {}, sector {}\n",
-        table.sensor.contact_node, table.sensor.sector
-    );
+    let _ = writeln!(out, "Critical speeds: peaks of the {}\n", table.sensor);
     let _ = writeln!(
         out,
         "    Ω   within      level  prominence   engine  nodal                nearest linear crossing     driven at that order"

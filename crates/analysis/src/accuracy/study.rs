@@ -195,7 +195,7 @@ fn history_lines(
     let shown = grid.chain(reference.completed().then_some((reference, true)));
     Histories {
         speed_rad_s,
-        sensors: request.sensors().to_vec(),
+        sensors: request.sensors().iter().map(|&sensor| sensor.into()).collect(),
         // A run that was not made has none.
         samples_per_revolution: samples.max().unwrap_or(0),
         lines: shown.map(line).collect(),

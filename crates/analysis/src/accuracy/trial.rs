@@ -74,7 +74,7 @@ pub fn run_trial(
             watch(fraction)
         };
         let ran = ready(reduced, sweep, speed_rad_s).and_then(|(wheel, stepping)| {
-            let run = simulate(&reduced.wheel, &wheel, sweep, &stepping, Start::Scene, None, &marked)?;
+            let run = simulate(reduced, &wheel, sweep, &stepping, Start::Scene, None, &marked)?;
             Ok((wheel, stepping, run))
         });
         let whole = clock.elapsed();
@@ -111,7 +111,7 @@ pub fn run_trial(
             history.displacement.iter().map(|line| levels(&line[line.len() - window..], samples)).collect();
         trial.lines = lines(spectra, sweep);
         if request.twin {
-            let twin = simulate(&reduced.wheel, &wheel, sweep, &stepping, Start::Perturbed, None, &watch);
+            let twin = simulate(reduced, &wheel, sweep, &stepping, Start::Perturbed, None, &watch);
             if let Ok(Run { outcome: Outcome::Completed(twin), .. }) = twin {
                 let from = sweep.integration.ramp_revolutions.ceil() as usize;
                 let (run, twin) = (&history.displacement, &twin.displacement);

@@ -7,10 +7,11 @@ use crate::error::Violation;
 use crate::model::ModelFacts;
 use crate::request::auto_or::MOST_STEPS;
 use crate::request::{
-    Accuracy, AutoOr, Budget, Component, Integration, ModalAnalysisRequest, SchemeChoice, Sensor,
-    SweepDirection, SweepRequest,
+    Accuracy, AutoOr, Budget, Component, Integration, ModalAnalysisRequest, SchemeChoice, SweepDirection,
+    SweepRequest,
 };
-use crate::resolved::{ResolvedModalAnalysis, ResolvedSpeeds, ResolvedSweep};
+use crate::resolved::sensor::{Along, Place};
+use crate::resolved::{ResolvedModalAnalysis, ResolvedSensor, ResolvedSpeeds, ResolvedSweep};
 
 use self::findings::Findings;
 
@@ -18,6 +19,7 @@ pub(crate) mod case_study;
 mod effects;
 pub(crate) mod findings;
 pub(crate) mod limits;
+pub(crate) mod sensors;
 pub(crate) mod study;
 
 /// Parses a sweep and checks it against its model; sensors left away are the default ones.
@@ -297,15 +299,16 @@ fn check_memory(found: &mut Findings, request: &ResolvedSweep, facts: &ModelFact
     );
 }
 
-fn default_sensors(facts: &ModelFacts) -> Vec<Sensor> {
-    let at = |contact_node| Sensor { contact_node, sector: 0, component: Component::Radial };
+fn default_sensors(facts: &ModelFacts) -> Vec<ResolvedSensor> {
+    let along = Along::Component(Component::Radial);
+    let at = |contact_node| ResolvedSensor { place: Place::Contact(contact_node), sector: 0, along };
     match facts.contact_nodes {
         0 | 1 => vec![at(0)],
         nodes => vec![at(0), at(nodes - 1)],
     }
 }
 
-fn check_sensors(found: &mut Findings, sensors: &[Sensor], facts: &ModelFacts) {
+fn check_sensors(found: &mut Findings, sensors: &[ResolvedSensor], facts: &ModelFacts) {
     found.require(
         sensors.len() <= limits::SENSORS,
         "/sensors",
@@ -313,7 +316,7 @@ fn check_sensors(found: &mut Findings, sensors: &[Sensor], facts: &ModelFacts) {
     );
     for (index, sensor) in sensors.iter().enumerate() {
         found.require(
-            sensor.contact_node < facts.contact_nodes,
+            !matches!(sensor.place, Place::Contact(node) if node >= facts.contact_nodes),
             &format!("/sensors/{index}/contact_node"),
             format!("the model has contact nodes 0 to {}", facts.contact_nodes.saturating_sub(1)),
         );

@@ -5,8 +5,9 @@ use serde::Serialize;
 use crate::error::Violation;
 use crate::request::sweep::default_peak_prominence;
 use crate::request::{
-    AutoOr, Grid, Integration, Record, Sensor, StudyIntegration, StudyRequest, SweepDirection, SweepRequest,
+    AutoOr, Grid, Integration, Record, StudyIntegration, StudyRequest, SweepDirection, SweepRequest,
 };
+use crate::resolved::sensor::ResolvedSensor;
 use crate::resolved::speeds::ResolvedSpeeds;
 use crate::resolved::sweep::ResolvedSweep;
 
@@ -44,7 +45,7 @@ impl ResolvedStudy {
     }
 
     /// Its sensors; at least one.
-    pub fn sensors(&self) -> &[Sensor] {
+    pub fn sensors(&self) -> &[ResolvedSensor] {
         &self.sweep.sensors
     }
 }
@@ -87,7 +88,7 @@ impl From<ResolvedStudy> for StudyRequest {
             grid: study.grid,
             integration: StudyIntegration { revolutions, ramp_revolutions, window_revolutions },
             history_revolutions: study.history_revolutions,
-            sensors: sweep.sensors,
+            sensors: sweep.sensors.into_iter().map(Into::into).collect(),
             max_engine_order: sweep.max_engine_order,
         }
     }

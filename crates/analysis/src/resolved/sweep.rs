@@ -5,11 +5,11 @@ use serde::Serialize;
 use crate::error::Violation;
 use crate::request::speeds::Speeds;
 use crate::request::{
-    AutoOr, HistoriesRequest, Integration, Record, Sensor, Setting, SweepDirection, SweepRequest,
-    sweep::default_peak_prominence,
+    AutoOr, HistoriesRequest, Integration, Record, Setting, SweepDirection, SweepRequest, sweep::default_peak_prominence,
 };
 use crate::resolved::knobs::Modes;
 use crate::resolved::scene::Scene;
+use crate::resolved::sensor::{Place, ResolvedSensor};
 use crate::resolved::speeds::ResolvedSpeeds;
 
 /// Control runs where the service chooses the knobs.
@@ -24,7 +24,7 @@ pub struct ResolvedSweep {
     pub(crate) speeds: ResolvedSpeeds,
     pub(crate) scene: Scene,
     pub(crate) integration: Integration,
-    pub(crate) sensors: Vec<Sensor>,
+    pub(crate) sensors: Vec<ResolvedSensor>,
     pub(crate) max_engine_order: u32,
     pub(crate) peak_prominence: f64,
     pub(crate) sweep: SweepDirection,
@@ -43,13 +43,18 @@ impl ResolvedSweep {
             violations.into_iter().for_each(&mut *refuse);
             ResolvedSpeeds::none()
         });
+        // Of all of them before any is given up.
+        let sensors: Vec<_> = (asked.sensors.into_iter().enumerate())
+            .map(|(index, asked)| ResolvedSensor::of(asked, index, refuse))
+            .collect();
+        let sensors = sensors.into_iter().collect::<Option<_>>().unwrap_or_default();
         Self {
             model: asked.model,
             modes,
             speeds,
             scene: Scene::of(asked.scene, refuse),
             integration: asked.integration,
-            sensors: asked.sensors,
+            sensors,
             max_engine_order: asked.max_engine_order,
             peak_prominence: asked.peak_prominence,
             sweep: asked.sweep,
@@ -104,13 +109,25 @@ impl ResolvedSweep {
     }
 
     /// Its sensors; at least one.
-    pub fn sensors(&self) -> &[Sensor] {
+    pub fn sensors(&self) -> &[ResolvedSensor] {
         &self.sensors
     }
 
     /// Whether the casing has a coating that wears.
     pub fn is_worn(&self) -> bool {
         self.scene.abradable.is_some()
+    }
+
+    /// Ids of the nodes that its sensors name, ascending, each once.
+    pub fn sensor_nodes(&self) -> Vec<u64> {
+        let of = |sensor: &ResolvedSensor| match sensor.place {
+            Place::Contact(_) => None,
+            Place::Node(id) => Some(id),
+        };
+        let mut nodes: Vec<u64> = self.sensors.iter().filter_map(of).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        nodes
     }
 
     /// Whether speeds are added around its peaks.
@@ -178,7 +195,7 @@ impl From<ResolvedSweep> for SweepRequest {
             speeds: sweep.speeds.lists().clone(),
             scene: sweep.scene.into(),
             integration: sweep.integration,
-            sensors: sweep.sensors,
+            sensors: sweep.sensors.into_iter().map(Into::into).collect(),
             max_engine_order: sweep.max_engine_order,
             peak_prominence: sweep.peak_prominence,
             sweep: sweep.sweep,

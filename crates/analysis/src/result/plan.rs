@@ -23,6 +23,13 @@ pub struct SweepPlan {
     /// The whole reduced wheel has at most so many real unknowns: its own number if the reduction is stored, otherwise N(n_b +
     /// speeds·k), of which nearly dependent directions will be dropped.
     pub reduced_unknowns_at_most: u64,
+    /// The basis of a reduction that has still to be computed takes at most so many bytes of disk, as long as the model is there:
+    /// rows of 16 bytes an unknown, one for every DOF and nodal diameter. Absent where the reduction is stored.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub basis_bytes_at_most: Option<u64>,
+    /// Where those sensors stand that name a node or a point.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub placed_sensors: Vec<PlacedSensor>,
     /// Speeds to simulate, those of the request.
     pub speeds: u32,
     /// Threads that compute speeds side by side; one where each starts from the end of another.
@@ -47,6 +54,24 @@ pub struct SweepPlan {
     pub settings: SweepRequest,
     /// Version of the code.
     pub version: String,
+}
+
+/// Where a sensor stands.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct PlacedSensor {
+    /// Index of the sensor in the request.
+    pub sensor: u32,
+    /// Id of its node.
+    pub node: u64,
+    /// Position of the node, x, y, z as in the package.
+    pub position: [f64; 3],
+    /// Its place among the contact nodes, if it is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contact_node: Option<u32>,
+    /// Distance from the point that the request names, if it does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub distance: Option<f64>,
 }
 
 /// Whether a reduction is there.
@@ -149,6 +174,9 @@ pub struct ModalAnalysisPlan {
     /// The whole reduced wheel has at most so many real unknowns: its own number if the reduction is stored, otherwise N(n_b +
     /// speeds·k), of which nearly dependent directions will be dropped.
     pub reduced_unknowns_at_most: u64,
+    /// The basis of a reduction that has still to be computed takes at most so many bytes of disk; see the plan of a sweep.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub basis_bytes_at_most: Option<u64>,
     /// Speeds of the diagram.
     pub speeds: u32,
     /// Eigenproblems solved at each of them, one a nodal diameter.

@@ -20,6 +20,7 @@ mod limits;
 mod lines;
 mod manifest;
 mod matrix_market;
+mod nodes;
 mod npy;
 mod npz;
 mod partition;
@@ -36,6 +37,7 @@ use std::path::Path;
 
 pub use error::PackageError;
 pub use limits::Limits;
+pub use nodes::read_nodes;
 pub use npz::NpzWriter;
 pub use places::{Face, Place, Places, read_places};
 pub use writer::write;

@@ -38,12 +38,7 @@ pub(super) fn load_tables(path: &Path, limits: &Limits) -> Result<Tables, Packag
 /// Reads every file of the archive; the matrices in parallel.
 pub(super) fn load(path: &Path, limits: &Limits) -> Result<Content, PackageError> {
     let archive = Archive::open(path, limits)?;
-    let manifest = read_manifest(&archive, limits)?;
-    // Before anything it names is read, so that nonsense is refused early.
-    check::statement::check(&manifest)?;
-    let files = Files::resolve(&archive, &manifest)?;
-    let nodes = read_table(&archive, &files.nodes, |source| tables::read_nodes(source, limits.table_rows))?;
-    let dofs = read_table(&archive, &files.dofs, |source| tables::read_dofs(source, limits.table_rows))?;
+    let Tables { manifest, files, nodes, dofs } = read_tables(&archive, limits)?;
     let lines = SourceLines { nodes: nodes.value.lines, dofs: dofs.value.lines };
     // Before the matrices, which are the long work, are read.
     let index = check::tables::node_index(&manifest.nodes, &nodes.value.rows, &lines)?;
@@ -83,6 +78,34 @@ pub(super) fn load(path: &Path, limits: &Limits) -> Result<Content, PackageError
         lines,
         digest,
     })
+}
+
+/// `sector.json` and the tables of the archive at `path`, with the lines of the tables' rows.
+pub(super) fn load_tables(
+    path: &Path,
+    limits: &Limits,
+) -> Result<(Manifest, Vec<RawNode>, Vec<RawDof>, SourceLines), PackageError> {
+    let Tables { manifest, nodes, dofs, .. } = read_tables(&Archive::open(path, limits)?, limits)?;
+    let lines = SourceLines { nodes: nodes.value.lines, dofs: dofs.value.lines };
+    Ok((manifest, nodes.value.rows, dofs.value.rows, lines))
+}
+
+/// What is read before the matrices.
+struct Tables {
+    manifest: Manifest,
+    files: Files,
+    nodes: Hashed<Table<RawNode>>,
+    dofs: Hashed<Table<RawDof>>,
+}
+
+fn read_tables(archive: &Archive, limits: &Limits) -> Result<Tables, PackageError> {
+    let manifest = read_manifest(archive, limits)?;
+    // Before anything it names is read, so that nonsense is refused early.
+    check::statement::check(&manifest)?;
+    let files = Files::resolve(archive, &manifest)?;
+    let nodes = read_table(archive, &files.nodes, |source| tables::read_nodes(source, limits.table_rows))?;
+    let dofs = read_table(archive, &files.dofs, |source| tables::read_dofs(source, limits.table_rows))?;
+    Ok(Tables { manifest, files, nodes, dofs })
 }
 
 /// Names under which the files are stored in the archive.

@@ -60,6 +60,7 @@ impl ModalMistuning {
     pub(crate) fn new(
         deviations: &[f64],
         wheel: &ModalWheel,
+        contact_nodes: usize,
         fourier: &SectorFourier,
         resolved: usize,
     ) -> Self {
@@ -70,7 +71,7 @@ impl ModalMistuning {
         let weight = |harmonic: &super::modal_wheel::ModalHarmonic| {
             let of = |m: usize| {
                 let alike = reference.map_or(c64::ONE, |reference| {
-                    let rows = 0..harmonic.contact.nrows();
+                    let rows = 0..3 * contact_nodes;
                     rows.map(|row| reference.contact[(row, m)].conj() * harmonic.contact[(row, m)]).sum()
                 });
                 let size = alike.norm();

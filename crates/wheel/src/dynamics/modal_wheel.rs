@@ -43,7 +43,8 @@ pub struct ModalHarmonic {
     pub single: bool,
     /// ω_m in rad/s, ascending.
     pub omega: Vec<f64>,
-    /// φ restricted to the contact DOF, `n_b × modes`, mass-normalised.
+    /// φ restricted to the contact DOF, `n_b × modes`, mass-normalised; below them r, θ, z of nodes that are read
+    /// ([`NodeRows::join`](super::node_rows::NodeRows::join)).
     pub contact: Mat<c64>,
     /// g = Φᴴ Ĝ Φ per unit speed, `modes × modes`, skew-Hermitian, real for single modes; absent without Coriolis forces.
     pub gyroscopic: Option<Mat<c64>>,

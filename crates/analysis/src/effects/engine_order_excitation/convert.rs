@@ -17,7 +17,7 @@ pub(super) fn convert(scene: &Scene, surroundings: &Surroundings<'_>) -> Convert
     let excitation = scene.engine_order_excitation.iter().map(|excitation| EngineOrderExcitation {
         order: excitation.order,
         directions: (excitation.contact_nodes.iter())
-            .map(|&node| direction(contact_nodes, node, excitation.component))
+            .map(|&node| direction(contact_nodes, node as usize, excitation.component))
             .collect(),
         amplitude: excitation.amplitude,
         phase_rad: excitation.phase_rad,

@@ -6,7 +6,7 @@ use super::layout::{NONE, components};
 use super::tables::NodeIndex;
 use crate::package::error::{ManifestProblem, PackageError};
 use crate::package::frame::{AxisFrame, Basis, distance};
-use crate::package::raw::{Frame, RawPackage};
+use crate::package::raw::{Frame, Manifest, RawPackage};
 
 /// Distance between a high node and its turned low node, relative to the diagonal of the sector's bounding box.
 /// Six printed digits stay below it; neighbouring nodes of any usable mesh are far above.
@@ -22,9 +22,21 @@ pub(super) fn check(
     index: &NodeIndex,
     rows_of_node: &[[u32; 3]],
 ) -> Result<(Vec<u32>, Vec<u32>), PackageError> {
-    let mut high_of = vec![NONE; package.nodes.len()];
-    let mut low_of = vec![NONE; package.nodes.len()];
-    for (k, &[low_id, high_id]) in package.manifest.cyclic.iter().enumerate() {
+    let (high_of, low_of) = partners(&package.manifest, package.nodes.len(), index)?;
+    check_places(package, frame, &high_of, index)?;
+    check_dofs(package, frame, rows_of_node, index)?;
+    Ok((high_of, low_of))
+}
+
+/// `(high_of, low_of)` as `sector.json` states them.
+pub(crate) fn partners(
+    manifest: &Manifest,
+    nodes: usize,
+    index: &NodeIndex,
+) -> Result<(Vec<u32>, Vec<u32>), PackageError> {
+    let mut high_of = vec![NONE; nodes];
+    let mut low_of = vec![NONE; nodes];
+    for (k, &[low_id, high_id]) in manifest.cyclic.iter().enumerate() {
         let wrong = |end: &str, problem| Err(PackageError::manifest(format!("/cyclic/{k}{end}"), problem));
         let Some(&low) = index.get(&low_id) else {
             return wrong("/0", ManifestProblem::UnknownNode { node: low_id });
@@ -46,8 +58,6 @@ pub(super) fn check(
         high_of[low as usize] = high;
         low_of[high as usize] = low;
     }
-    check_places(package, frame, &high_of, index)?;
-    check_dofs(package, frame, rows_of_node, index)?;
     Ok((high_of, low_of))
 }
 

@@ -32,3 +32,27 @@ pub(crate) struct Layout {
 pub(super) fn components(rows: &[u32; 3]) -> Components {
     Components(rows.map(|row| row != NONE))
 }
+
+/// The rows that stay, in package order, and the place among them of every row: of a high row, that of its low counterpart.
+pub(crate) fn own_of_rows(
+    node_of_row: &[u32],
+    rows_of_node: &[[u32; 3]],
+    low_of: &[u32],
+) -> (Vec<u32>, Vec<u32>) {
+    let mut own_rows = Vec::new();
+    let mut own_of_row = vec![NONE; node_of_row.len()];
+    for (row, &node) in node_of_row.iter().enumerate() {
+        if low_of[node as usize] == NONE {
+            own_of_row[row] = own_rows.len() as u32;
+            own_rows.push(row as u32);
+        }
+    }
+    for (high, &low) in low_of.iter().enumerate().filter(|(_, low)| **low != NONE) {
+        for (&high_row, &low_row) in rows_of_node[high].iter().zip(&rows_of_node[low as usize]) {
+            if high_row != NONE {
+                own_of_row[high_row as usize] = own_of_row[low_row as usize];
+            }
+        }
+    }
+    (own_rows, own_of_row)
+}

@@ -77,7 +77,14 @@ impl Stepper {
             .map(|casing| Obstacle::new(simulation, casing, &oscillators, &fourier, surroundings.as_ref()));
         let bounds = simulation.casing.map(|_| Bounds::new(simulation, &oscillators));
         let step = simulation.step_s();
-        let mut drive = Drive::new(wheel, &simulation.effects, &oscillators, &fourier, step);
+        let mut drive = Drive::new(
+            wheel,
+            simulation.contact_nodes.len(),
+            &simulation.effects,
+            &oscillators,
+            &fourier,
+            step,
+        );
         if let Some(drive) = &mut drive {
             drive.start(wheel, simulation.initial, &mut oscillators);
         }

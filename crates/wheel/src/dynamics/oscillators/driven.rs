@@ -53,6 +53,7 @@ impl Drive {
     /// None if nothing but contact moves the modes.
     pub(crate) fn new(
         wheel: &ModalWheel,
+        contact_nodes: usize,
         effects: &Effects<'_>,
         oscillators: &Oscillators,
         fourier: &SectorFourier,
@@ -76,7 +77,7 @@ impl Drive {
             Some(RowBlock::padded(s.as_ref(), segment.length))
         });
         let mistuning = effects.mistuning.map(|deviations| {
-            ModalMistuning::new(deviations, wheel, fourier, oscillators.resolved_families())
+            ModalMistuning::new(deviations, wheel, contact_nodes, fourier, oscillators.resolved_families())
         });
         let longest = oscillators.segments.iter().map(|segment| segment.length).max().unwrap_or(0);
         let excitation = |excitation: &EngineOrderExcitation| {

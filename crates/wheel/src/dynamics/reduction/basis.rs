@@ -54,6 +54,17 @@ impl<'a> Basis<'a> {
         Mat::from_fn(full.nrows(), full.ncols(), |i, j| (full[(i, j)] - full[(j, i)].conj()) * 0.5)
     }
 
+    /// Own DOF of the sector.
+    pub(super) fn dofs(&self) -> usize {
+        self.untied.place.len()
+    }
+
+    /// The row of own DOF `dof`.
+    pub(super) fn row(&self, dof: usize) -> impl Iterator<Item = c64> + use<'_> {
+        let row = self.untied.tied_row(dof);
+        (0..self.vectors.ncols()).map(move |column| self.vectors[(row, column)])
+    }
+
     fn product(&self, transpose: &SparseColMat<usize, f64>) -> Mat<c64> {
         let image = self.untied.product(transpose, &self.tie, self.vectors.as_ref());
         self.vectors.adjoint() * image

@@ -23,6 +23,7 @@ mod modes;
 mod options;
 mod ordering;
 pub(super) mod reduced;
+mod rows;
 mod sector_factor;
 mod speed;
 mod tied_factor;
@@ -46,6 +47,7 @@ pub use findings::{FrequencyComparison, InterpolationCheck, InterpolationVerdict
 pub use interpolation::MatrixRatios;
 pub use options::{ReductionError, ReductionOptions, Watch};
 pub use reduced::{ModeCertificate, ReducedHarmonic, ReducedWheel};
+pub use rows::BasisRows;
 
 /// Reduces `sector`.
 ///
@@ -174,6 +176,10 @@ fn project(
         };
         // A wheel that is not held at rest is no model at any speed.
         natural_frequencies(&reduced, 0.0, true)?;
+        if !watch(1.0, &format!("keeping the basis, nodal diameter {h}")) {
+            return Err(ReductionError::Cancelled);
+        }
+        work.checkpoints.keep_basis(&BasisRows::new(h, &bases[h], &reduced.mass));
         Ok(reduced)
     };
     projected.into_iter().enumerate().map(finish).collect()

@@ -2,6 +2,7 @@
 
 use faer::{Mat, c64};
 use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
 
 use super::count::Completeness;
 use super::findings::{FrequencyComparison, InterpolationCheck};
@@ -44,6 +45,11 @@ impl ReducedHarmonic {
     pub fn largest_mode_residual(&self) -> f64 {
         self.certificates.iter().flat_map(|certificate| &certificate.residuals).fold(0.0, |m, &r| m.max(r))
     }
+
+    /// SHA-256 of M_r, which tells whether rows of a basis are those that it was projected on.
+    pub fn mark(&self) -> [u8; 32] {
+        mark(&self.mass)
+    }
 }
 
 /// The reduced wheel at every speed: all that simulations need of a sector.
@@ -68,4 +74,13 @@ impl ReducedWheel {
     pub fn contact_dofs(&self) -> usize {
         3 * self.contact.len()
     }
+}
+
+pub(super) fn mark(mass: &Mat<c64>) -> [u8; 32] {
+    let mut digest = Sha256::new();
+    for value in mass.col_iter().flat_map(|column| column.iter()) {
+        digest.update(value.re.to_le_bytes());
+        digest.update(value.im.to_le_bytes());
+    }
+    digest.finalize().into()
 }

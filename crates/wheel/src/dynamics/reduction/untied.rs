@@ -147,6 +147,12 @@ impl UntiedSector {
         low.chain(high).chain(contact).chain(shared).collect()
     }
 
+    /// The tied row of an own DOF.
+    pub(super) fn tied_row(&self, dof: usize) -> usize {
+        let row = self.place[dof];
+        if row < self.internal() { row } else { row - self.face }
+    }
+
     /// The own DOF of a tied row.
     pub(super) fn dof_of(&self, tied: usize) -> usize {
         let row = if tied < self.internal() { tied } else { tied + self.face };

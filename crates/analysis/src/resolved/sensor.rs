@@ -1,0 +1,82 @@
+//! A sensor whose place and direction are known.
+
+use serde::Serialize;
+
+use crate::error::Violation;
+use crate::request::{Component, Sensor};
+
+/// A recorded displacement; see [`Sensor`], as which it is written.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(into = "Sensor")]
+pub struct ResolvedSensor {
+    pub(crate) place: Place,
+    pub(crate) sector: u32,
+    pub(crate) along: Along,
+}
+
+/// A node of the sector.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Place {
+    /// A contact node, from the leading edge.
+    Contact(u32),
+    /// Any node, by its id in the package.
+    Node(u64),
+}
+
+/// Along what it is recorded.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Along {
+    /// By name.
+    Component(Component),
+    /// In radial, tangential and axial components, of any length but 0.
+    Direction([f64; 3]),
+}
+
+impl ResolvedSensor {
+    /// What `asked`, sensor `index` of a request, says; `refuse` hears of what says too much, too little or nothing.
+    pub(crate) fn of(asked: Sensor, index: usize, refuse: &mut dyn FnMut(Violation)) -> Option<Self> {
+        let Sensor { contact_node, node, nearest, sector, component, direction } = asked;
+        let place = match (contact_node, node, nearest) {
+            (Some(node), None, None) => Ok(Place::Contact(node)),
+            (None, Some(id), None) => Ok(Place::Node(id)),
+            (None, None, Some(_)) => {
+                Err(("/nearest", "the nodes of the model are not known here: give `node`"))
+            }
+            (None, None, None) => Err(("", "say where: give one of `contact_node`, `node` and `nearest`")),
+            _ => Err(("", "a sensor is at one node: give only one of `contact_node`, `node` and `nearest`")),
+        };
+        let along = match (component, direction) {
+            (Some(component), None) => Ok(Along::Component(component)),
+            (None, Some([0.0, 0.0, 0.0])) => {
+                Err(("/direction", "this points nowhere: give a direction other than 0, 0, 0"))
+            }
+            (None, Some(direction)) => Ok(Along::Direction(direction)),
+            (None, None) => Err(("", "say along what: give `component` or `direction`")),
+            (Some(_), Some(_)) => Err(("/direction", "give either `component` or `direction`, not both")),
+        };
+        match (place, along) {
+            (Ok(place), Ok(along)) => Some(Self { place, sector, along }),
+            (place, along) => {
+                for (field, message) in place.err().into_iter().chain(along.err()) {
+                    refuse(Violation::new(format!("/sensors/{index}{field}"), message));
+                }
+                None
+            }
+        }
+    }
+}
+
+impl From<ResolvedSensor> for Sensor {
+    fn from(sensor: ResolvedSensor) -> Self {
+        let ResolvedSensor { place, sector, along } = sensor;
+        let (contact_node, node) = match place {
+            Place::Contact(node) => (Some(node), None),
+            Place::Node(id) => (None, Some(id)),
+        };
+        let (component, direction) = match along {
+            Along::Component(component) => (Some(component), None),
+            Along::Direction(direction) => (None, Some(direction)),
+        };
+        Self { contact_node, node, nearest: None, sector, component, direction }
+    }
+}

@@ -1,0 +1,51 @@
+//! The nodes of a package that was checked before, with what their displacement is made of; its matrices stay unread.
+
+use std::collections::HashMap;
+use std::path::Path;
+
+use super::check::layout::{NONE, own_of_rows};
+use super::check::{cyclic, statement, tables};
+use super::error::PackageError;
+use super::limits::Limits;
+use super::raw::Frame;
+use super::zip_package;
+use rubmap_wheel::dynamics::nodes::{NodeDof, SectorNode};
+
+/// Every node of the package at `path`, in the order of its node table; [`read`](super::read) has accepted it before.
+///
+/// # Errors
+/// Those of [`read`](super::read) that `sector.json` and the tables can cause.
+pub fn read_nodes(path: &Path, limits: &Limits) -> Result<Vec<SectorNode>, PackageError> {
+    let (manifest, nodes, dofs, lines) = zip_package::load_tables(path, limits)?;
+    let frame = statement::check(&manifest)?;
+    let index = tables::node_index(&manifest.nodes, &nodes, &lines)?;
+    let (node_of_row, rows_of_node) = tables::rows(&manifest.dofs, &dofs, &lines, &index)?;
+    let (_, low_of) = cyclic::partners(&manifest, nodes.len(), &index)?;
+    let (_, own_of_row) = own_of_rows(&node_of_row, &rows_of_node, &low_of);
+    let contact: HashMap<u64, u32> = (0..).zip(&manifest.contact).map(|(k, node)| (node.node, k)).collect();
+    let of = |place: usize| {
+        // A high node has the DOF of its low node, in its components.
+        let reference = if low_of[place] == NONE { place } else { low_of[place] as usize };
+        let rows = rows_of_node[reference];
+        let [_, theta, _] = frame.coordinates(nodes[reference].position);
+        let basis = frame.cylindrical(theta);
+        // What a Cartesian package clamps in part keeps its Cartesian components (partition.rs).
+        let cartesian = manifest.frame == Frame::Cartesian && rows.contains(&NONE);
+        let dof = |k: usize| {
+            let components = std::array::from_fn(|component| match cartesian {
+                true => basis[(component, k)],
+                false => f64::from(u8::from(component == k)),
+            });
+            let row = rows[k];
+            (row != NONE).then(|| NodeDof { dof: own_of_row[row as usize] as usize, components })
+        };
+        SectorNode {
+            id: nodes[place].id,
+            position: nodes[place].position,
+            dofs: std::array::from_fn(dof),
+            on_high_face: low_of[place] != NONE,
+            contact: contact.get(&nodes[place].id).copied(),
+        }
+    };
+    Ok((0..nodes.len()).map(of).collect())
+}
