@@ -104,9 +104,10 @@ impl Jobs {
                 let (_, request) = both(placed, run::resolve_study(*request, &facts))?;
                 (JobRequest::Study(Box::new(request)), Some(facts))
             }
-            Submission::CaseStudy(request) => {
+            Submission::CaseStudy(mut request) => {
                 let facts = self.facts(whose, &request.model).await?;
-                let case = run::resolve_case_study(*request, &facts).map_err(refused)?;
+                let placed = self.place(&request.model, &mut request.sensors).await?;
+                let (_, case) = both(placed, run::resolve_case_study(*request, &facts))?;
                 self.check(case.sweep()).await?;
                 (JobRequest::CaseStudy(Box::new(case)), Some(facts))
             }

@@ -48,7 +48,7 @@ async fn record_one(
 ) -> Result<(Document, String), Interruption> {
     let sweep = case.sweep();
     let monitor = PhaseMonitor::uncounted(job.watch.clone());
-    let reduced = engine.reductions.get(sweep.model(), sweep.modes_per_speed(), monitor.clone()).await?;
+    let reduced = engine.reductions.of_sweep(sweep, monitor.clone()).await?;
     let asked = (Arc::clone(&reduced), case.clone());
     let bytes =
         engine.computing.run(&job.watch, move || run::histories_memory(&asked.0, &asked.1, place)).await?;
