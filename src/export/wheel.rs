@@ -10,9 +10,8 @@ impl Export for WheelCriticalSpeeds {
         let (length, force) = (&self.units.length, &self.units.force);
         let all = || self.critical_speeds.iter();
         let reals = |name: String, of: fn(&WheelCriticalSpeed) -> f64| Array::reals(name, all().map(of));
-        let some_reals = |name: String, of: fn(&WheelCriticalSpeed) -> Option<f64>| {
-            Array::some_reals(name, all().map(of))
-        };
+        let some_reals =
+            |name: String, of: fn(&WheelCriticalSpeed) -> Option<f64>| Array::some_reals(name, all().map(of));
         vec![
             Array::whole("index", all().map(|speed| speed.index)),
             reals("speed_rad_s".to_owned(), |speed| speed.speed_rad_s),

@@ -130,7 +130,9 @@ async fn stored_bytes(state: &AppState, job: &Job, document: Document) -> Result
                 "nothing was recorded of speed {speed}: POST /v1/jobs/{}/histories with {{\"speeds\": [{speed}]}} records it",
                 job.id
             ),
-            _ => format!("the job has no histories of speed {speed}; its request says of which speeds it has"),
+            _ => {
+                format!("the job has no histories of speed {speed}; its request says of which speeds it has")
+            }
         };
         return Err(Problem::new(Kind::HistoryNotRecorded, detail));
     }

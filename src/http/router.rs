@@ -18,8 +18,9 @@ use utoipa_axum::routes;
 
 use super::state::AppState;
 use super::{
-    access, archive, body, case_studies, contract, extract, forces, health, histories, host, jobs, maps, metrics, modal_analyses,
-    models, openapi, principal, problem, results, section, spectra, stream, studies, sweeps, version, wheel,
+    access, archive, body, case_studies, contract, extract, forces, health, histories, host, jobs, maps,
+    metrics, modal_analyses, models, openapi, principal, problem, results, section, spectra, stream, studies,
+    sweeps, version, wheel,
 };
 
 /// The routes with their descriptions.

@@ -33,5 +33,7 @@ pub(super) async fn get_wheel_critical_speeds(
 ) -> Result<Response, Problem> {
     let job = find(&state, &whose, id).await?;
     sweep(&job)?;
-    Forms::<WheelCriticalSpeeds>::undrawn().of_document(&state, download, &job, Document::WheelCriticalSpeeds).await
+    Forms::<WheelCriticalSpeeds>::undrawn()
+        .of_document(&state, download, &job, Document::WheelCriticalSpeeds)
+        .await
 }

@@ -78,7 +78,9 @@ async fn repeat(archived: &Archive, client: &Client, folder: &Path, to: &Path) -
         JobKind::Sweep => "/v1/sweeps",
         JobKind::ModalAnalysis => "/v1/modal-analyses",
         JobKind::Study => "/v1/studies",
-        JobKind::ModelGeneration | JobKind::CaseStudy => bail!("jobs of this kind are not repeated from an archive"),
+        JobKind::ModelGeneration | JobKind::CaseStudy => {
+            bail!("jobs of this kind are not repeated from an archive")
+        }
     };
     let job = client.post_job(path, &request).await?;
     let job = progress::follow(client, &job, "once more").await?;

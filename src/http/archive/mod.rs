@@ -16,9 +16,9 @@ use self::manifest::{
 };
 use self::writer::Writer;
 use super::extract::JobPath;
+use super::forms::TEXT_MEMORY;
 use super::job_body::RequestBody;
 use super::problem::{Kind, Problem};
-use super::forms::TEXT_MEMORY;
 use super::results::find;
 use super::spectra::ROW_MEMORY;
 use super::state::AppState;
@@ -154,7 +154,8 @@ impl Contents {
         zip.json(&format!("{RESULTS}points.json"), 0, &points)?;
         for point in points {
             let index = point.index;
-            let SpeedResult { spectra, wear, contact, .. } = self.read(self.store.speed_result(self.job.id, index))?;
+            let SpeedResult { spectra, wear, contact, .. } =
+                self.read(self.store.speed_result(self.job.id, index))?;
             if let Some(spectra) = spectra {
                 zip.json(&format!("{RESULTS}spectra/{index:05}.json"), 0, &spectra)?;
             }

@@ -5,7 +5,8 @@ use serde::Serialize;
 use crate::error::Violation;
 use crate::request::speeds::Speeds;
 use crate::request::{
-    AutoOr, HistoriesRequest, Integration, Record, Setting, SweepDirection, SweepRequest, sweep::default_peak_prominence,
+    AutoOr, HistoriesRequest, Integration, Record, Setting, SweepDirection, SweepRequest,
+    sweep::default_peak_prominence,
 };
 use crate::resolved::knobs::Modes;
 use crate::resolved::scene::Scene;

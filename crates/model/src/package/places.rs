@@ -9,7 +9,7 @@ use super::error::PackageError;
 use super::frame::AxisFrame;
 use super::limits::Limits;
 use super::raw::{Frame, Manifest, RawDof, RawNode};
-use super::zip_package::{self, Tables};
+use super::zip_package;
 
 /// Nodes of a sector.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,7 +48,7 @@ pub enum Face {
 /// # Errors
 /// The first problem found with the archive, `sector.json` or the tables.
 pub fn read_places(path: &Path, limits: &Limits) -> Result<Places, PackageError> {
-    let Tables { manifest, nodes, dofs } = zip_package::load_tables(path, limits)?;
+    let (manifest, nodes, dofs, _) = zip_package::load_tables(path, limits)?;
     Ok(places(&manifest, &nodes, &dofs))
 }
 

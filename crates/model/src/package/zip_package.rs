@@ -18,23 +18,6 @@ use super::symmetric::Mirror;
 use super::tables::Table;
 use super::{check, digest, manifest, matrix_market, npz, tables};
 
-/// What is in a package beside its matrices.
-pub(super) struct Tables {
-    pub(super) manifest: Manifest,
-    pub(super) nodes: Vec<RawNode>,
-    pub(super) dofs: Vec<RawDof>,
-}
-
-/// Reads `sector.json` and the tables.
-pub(super) fn load_tables(path: &Path, limits: &Limits) -> Result<Tables, PackageError> {
-    let archive = Archive::open(path, limits)?;
-    let manifest = read_manifest(&archive, limits)?;
-    let files = Files::resolve(&archive, &manifest)?;
-    let nodes = read_table(&archive, &files.nodes, |source| tables::read_nodes(source, limits.table_rows))?;
-    let dofs = read_table(&archive, &files.dofs, |source| tables::read_dofs(source, limits.table_rows))?;
-    Ok(Tables { manifest, nodes: nodes.value.rows, dofs: dofs.value.rows })
-}
-
 /// Reads every file of the archive; the matrices in parallel.
 pub(super) fn load(path: &Path, limits: &Limits) -> Result<Content, PackageError> {
     let archive = Archive::open(path, limits)?;
