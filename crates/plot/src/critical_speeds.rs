@@ -133,7 +133,7 @@ impl<'a> View<'a> {
         let mut labels = Labels::inside(&self.rows);
         for (row, line) in self.lines.iter().enumerate() {
             for mark in &line.marks {
-                labels.keep_off((self.rows.x.place(mark.rpm), self.height(row)), 6.0);
+                labels.keep_off((self.rows.x.place(mark.rpm), self.height(row)), 4.0);
             }
         }
         let mut drawn = group();
@@ -142,7 +142,7 @@ impl<'a> View<'a> {
             drawn = drawn.child(text(LEFT - 10.0, y + 4.5, "end", &line.name));
             for mark in &line.marks {
                 let place = (self.rows.x.place(mark.rpm), y);
-                let label = labels.beside(place, &mark.words, 10.5).map(|label| label.rimmed("white"));
+                let label = labels.beside(place, 5.0, &mark.words, 10.5).map(|label| label.rimmed("white"));
                 drawn = drawn.child((mark.draw)(place)).children(label);
             }
         }
@@ -165,8 +165,15 @@ impl<'a> View<'a> {
             let order = peak.dominant_engine_order.map_or_else(|| "–".to_owned(), marks::order);
             let star = if peak.settling == Verdict::NotSettled { " *" } else { "" };
             let words = format!("{} rpm, EO {order}{star}", label(rpm(peak.speed_rad_s), 0));
-            let above =
-                [(0.0, -14.0), (0.0, -28.0), (60.0, -14.0), (-60.0, -14.0), (78.0, 0.0), (-78.0, 0.0)];
+            let above = [
+                (0.0, -14.0),
+                (0.0, -28.0),
+                (0.0, -42.0),
+                (50.0, 16.0),
+                (-50.0, 16.0),
+                (0.0, -56.0),
+                (0.0, -70.0),
+            ];
             let above = above.map(|(dx, dy)| (place.0 + dx, place.1 + dy));
             let label = labels.at_first(above, &words, 11.0).map(|label| label.rimmed("white"));
             drawn = drawn

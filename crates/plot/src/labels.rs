@@ -22,14 +22,26 @@ impl Labels {
         self.taken.push([x - half, y - half, x + half, y + half]);
     }
 
-    /// Words on the right of a mark, on its left, above or below; none where all of these are taken.
-    pub(super) fn beside(&mut self, (x, y): (f64, f64), words: &str, size: f64) -> Option<Element> {
+    /// Words beside a mark of this half width, off the lines that meet in it where possible; none where all places are taken.
+    pub(super) fn beside(
+        &mut self,
+        (x, y): (f64, f64),
+        half: f64,
+        words: &str,
+        size: f64,
+    ) -> Option<Element> {
         let (width, rise) = (text_width(words, size), 0.36 * size);
+        let (near, far) = (0.6 * half + 3.0, half + 4.0);
+        let (up, down) = (y - near - rise, y + near + rise);
         let places = [
-            (x + 8.0, y, "start", x + 8.0),
-            (x - 8.0, y, "end", x - 8.0 - width),
-            (x, y - 8.0 - rise, "middle", x - 0.5 * width),
-            (x, y + 8.0 + rise, "middle", x - 0.5 * width),
+            (x + near, up, "start", x + near),
+            (x - near, up, "end", x - near - width),
+            (x + near, down, "start", x + near),
+            (x - near, down, "end", x - near - width),
+            (x + far, y, "start", x + far),
+            (x - far, y, "end", x - far - width),
+            (x, y - far - rise, "middle", x - 0.5 * width),
+            (x, y + far + rise, "middle", x - 0.5 * width),
         ];
         places.into_iter().find_map(|(x, y, anchor, left)| {
             let area = [left - 1.0, y - 0.5 * size, left + width + 1.0, y + 0.5 * size];
@@ -79,9 +91,10 @@ mod tests {
     fn labels_neither_meet_nor_leave() {
         let diagram = Diagram::new((0.0, 0.0), (200.0, 100.0), (0.0, 1.0), (0.0, 1.0));
         let mut labels = Labels::inside(&diagram);
-        let found: Vec<_> = (0..20).filter_map(|_| labels.beside((100.0, 50.0), "(1, 2, 3)", 11.0)).collect();
-        assert_eq!(found.len(), 4, "on every side one");
-        assert!(labels.beside((198.0, 20.0), "beyond", 11.0).is_some(), "on the left");
+        let found: Vec<_> =
+            (0..20).filter_map(|_| labels.beside((100.0, 50.0), 5.0, "(1, 2, 3)", 11.0)).collect();
+        assert!((2..=8).contains(&found.len()), "{}", found.len());
+        assert!(labels.beside((198.0, 20.0), 5.0, "beyond", 11.0).is_some(), "on the left");
         for (i, a) in labels.taken.iter().enumerate() {
             for b in &labels.taken[..i] {
                 assert!(a[0] >= b[2] || b[0] >= a[2] || a[1] >= b[3] || b[1] >= a[3], "{a:?} {b:?}");

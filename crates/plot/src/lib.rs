@@ -49,6 +49,7 @@ mod level;
 mod map_sheet;
 mod map_view;
 mod marks;
+mod outline;
 mod pixels;
 mod raster;
 mod scheme;

@@ -1,6 +1,6 @@
 //! A sheet of zoomed maps, one per nodal diameter: the paper's Figs 12 to 14.
 
-use super::axis::{Scale, logarithmic_ticks, ticks};
+use super::axis::{Scale, label, logarithmic_ticks, ticks};
 use super::cells::{cells, rpm};
 use super::key::Flow;
 use super::map_view::{QUIETEST, VerticalAxis, View, is_missing};
@@ -109,7 +109,11 @@ fn words(maps: &[InteractionMap]) -> String {
     let computed = map.amplitude.iter().flatten().count();
     let speeds = map.speeds_rad_s.iter().map(|speed| rpm(*speed));
     let (slow, fast) = speeds.fold((f64::INFINITY, 0f64), |(a, b), speed| (a.min(speed), b.max(speed)));
-    let range = if slow <= fast { format!(" from {slow:.0} to {fast:.0} rpm") } else { String::new() };
+    let range = if slow <= fast {
+        format!(" from {} to {} rpm", label(slow, 0), label(fast, 0))
+    } else {
+        String::new()
+    };
     let origin = heading::origin(&map.settings.model, &map.version);
     format!(
         "{computed} of {} speeds{range} · one scale of colours for all · {origin}",

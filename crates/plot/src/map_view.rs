@@ -199,11 +199,11 @@ impl View {
             found.push((place, marks::driven(place, DRIVEN, "black", crossing), marks::pair(crossing)));
         }
         for (place, ..) in &found {
-            labels.keep_off(*place, 5.0);
+            labels.keep_off(*place, 4.0);
         }
         let mut drawn = group();
         for (place, mark, words) in found {
-            let label = labels.beside(place, &words, 10.5);
+            let label = labels.beside(place, 5.0, &words, 10.5);
             drawn =
                 drawn.child(mark).children(label.map(|label| label.set("fill", "white").rimmed("#101010")));
         }

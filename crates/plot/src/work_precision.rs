@@ -156,14 +156,19 @@ impl<'a> View<'a> {
     fn steps(&self) -> Element {
         let mut labels = Labels::inside(&self.diagram);
         for drawn in &self.runs {
-            labels.keep_off(self.place(drawn), self.radius(drawn.run.setting.modes_per_speed) + 2.0);
+            labels.keep_off(self.place(drawn), 0.8 * self.radius(drawn.run.setting.modes_per_speed));
         }
         let front = self.front();
         let others = self.runs.iter().filter(|drawn| !front.iter().any(|on| std::ptr::eq(*on, *drawn)));
         // Those on the front first.
         let words = front.iter().copied().chain(others).filter_map(|drawn| {
             let steps = label(drawn.run.setting.steps_per_revolution.into(), 0);
-            labels.beside(self.place(drawn), &steps, 10.5)
+            labels.beside(
+                self.place(drawn),
+                self.radius(drawn.run.setting.modes_per_speed) + 4.0,
+                &steps,
+                10.5,
+            )
         });
         group().children(words.map(|label| label.set("fill", "#444444").rimmed("white")))
     }

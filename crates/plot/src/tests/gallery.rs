@@ -59,7 +59,10 @@ fn gallery() {
     let maps: Option<Vec<InteractionMap>> =
         (0..6).map(|i| read(&demo.join(format!("map-{i}.json")))).collect();
     save(&folder, "map-sheet", &map_sheet(&maps.unwrap_or_else(|| vec![super::map(); 3]), zoom));
-    let found: SpeedSpectra = read(&demo.join("spectra-33.json")).unwrap_or_else(|| spectra(6));
+    let answer: Option<serde_json::Value> = read(&demo.join("spectra-33.json"));
+    let found: Option<SpeedSpectra> =
+        answer.and_then(|answer| serde_json::from_value(answer.get("spectra")?.clone()).ok());
+    let found = found.unwrap_or_else(|| spectra(6));
     for (name, frame) in [("spectrum", Frame::Rotating), ("spectrum-fixed-frame", Frame::Fixed)] {
         save(&folder, name, &spectrum(&found, &credentials(), &mm(), 0, frame));
     }
