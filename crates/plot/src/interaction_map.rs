@@ -228,6 +228,8 @@ fn key(
     let seen = |cell: &&Cell| cell.to > low && cell.from < high;
     if cells.iter().filter(seen).any(|cell| is_missing(map, cell)) {
         flow = flow.entry(hatching::mark(), 20.0, "no result");
+    } else if view.reaches_beyond(map) {
+        flow = flow.entry(hatching::mark(), 20.0, "beyond the spectra");
     }
     group().child(flow.draw()).child(settling_strip::legend(map, LEFT, HEIGHT - 18.0))
 }

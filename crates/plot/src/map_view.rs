@@ -108,6 +108,12 @@ impl View {
         group().child(self.diagram.background(hatching::FILL)).children(missing).child(image)
     }
 
+    /// Whether a corner of the diagram lies above the highest engine order, where spectra say nothing.
+    pub(super) fn reaches_beyond(&self, map: &InteractionMap) -> bool {
+        let highest = map.engine_orders.last().copied().unwrap_or(0.0) + 0.5;
+        self.order(self.diagram.y.values.1, self.diagram.x.values.0) > highest
+    }
+
     /// The scale of the colours, as high as the diagram.
     pub(super) fn scale(&self, loudest: f64) -> Scale {
         Scale::logarithmic((QUIETEST * loudest, loudest), (self.diagram.bottom(), self.diagram.top))

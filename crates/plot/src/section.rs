@@ -5,7 +5,7 @@ use super::diagram::Diagram;
 use super::heading::heading;
 use super::key::{Key, MARK_WIDTH};
 use super::outline;
-use super::svg::{Element, document, group, line, polyline, rectangle, text};
+use super::svg::{Element, document, group, line, polyline, rectangle, text, text_width};
 use rubmap_analysis::result::{NodeKind, SectorGeometry, SectorNode};
 
 const WIDTH: f64 = 1180.0;
@@ -74,7 +74,8 @@ pub fn section(geometry: &SectorGeometry, view: SectionView) -> String {
         diagram.y_axis(&y, &format!("{}, {length}", axes[1]), 66.0),
         drawing.key(),
     ];
-    document(&title, WIDTH, diagram.bottom() + 66.0, content)
+    let width = (diagram.right() + 290.0).max(LEFT + 1.15 * text_width(&title, 18.0)).min(WIDTH);
+    document(&title, width, diagram.bottom() + 66.0, content)
 }
 
 /// The clearances at both ends of the contact line, in words.

@@ -56,21 +56,25 @@ impl Trace {
     }
 }
 
-/// Along the highest of every column to the right, and back along the lowest.
+/// Along the highest of every column of this width to the right, and back along the lowest: in steps, but where a column is too
+/// narrow to show any.
 fn band(places: &[(f64, f64)], width: f64) -> Vec<(f64, f64)> {
     let start = places.first().map_or(0.0, |first| first.0);
     let column = |place: &(f64, f64)| ((place.0 - start) / width).floor();
-    let columns = || places.chunk_by(|a, b| column(a) == column(b));
-    let of = |column: &[(f64, f64)], least: bool| {
-        let places = column.iter().copied();
-        if least {
-            places.min_by(|a, b| a.1.total_cmp(&b.1))
-        } else {
-            places.max_by(|a, b| a.1.total_cmp(&b.1))
+    let (mut out, mut back) = (Vec::new(), Vec::new());
+    for here in places.chunk_by(|a, b| column(a) == column(b)) {
+        let (from, to) = (here[0].0, here[here.len() - 1].0);
+        let lower = |a: &&(f64, f64), b: &&(f64, f64)| a.1.total_cmp(&b.1);
+        let ends = here.iter().min_by(lower).zip(here.iter().max_by(lower));
+        let Some((top, foot)) = ends else { continue };
+        for (side, extreme) in [(&mut out, top), (&mut back, foot)] {
+            if width > 1.0 {
+                side.extend([(from, extreme.1), (to, extreme.1)]);
+            } else {
+                side.push(*extreme);
+            }
         }
-    };
-    let mut out: Vec<(f64, f64)> = columns().filter_map(|column| of(column, true)).collect();
-    let back: Vec<(f64, f64)> = columns().filter_map(|column| of(column, false)).collect();
+    }
     out.extend(back.into_iter().rev());
     out
 }

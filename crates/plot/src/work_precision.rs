@@ -197,7 +197,7 @@ impl<'a> View<'a> {
             let row = group().child(stroke.set("stroke-width", "1.8"));
             key = key.row(row.child(scheme::mark(scheme, middle, 5.5)), &scheme::words(scheme));
         }
-        key = key.note("line: the runs that no other of the scheme beats");
+        key = key.note("line: those that none of the scheme beats");
         key = key.note("number: time steps a revolution");
         let dashes = line((0.0, 0.0), (MARK_WIDTH, 0.0)).set("stroke", "#999999");
         let dashes = dashes.set("stroke-dasharray", "6 4");
