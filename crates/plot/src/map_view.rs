@@ -25,6 +25,9 @@ pub enum VerticalAxis {
     Frequency,
 }
 
+/// An engine order, and where its line leaves the diagram.
+pub(super) type End = (u32, (f64, f64));
+
 /// The map's rectangle and what its vertical axis means.
 #[derive(Debug)]
 pub(super) struct View {
@@ -120,7 +123,7 @@ impl View {
     }
 
     /// Lines of whole engine orders, dotted, multiples of the lobe count drawn through; with where each leaves the diagram.
-    pub(super) fn engine_orders(&self, map: &InteractionMap) -> (Element, Vec<(u32, (f64, f64))>) {
+    pub(super) fn engine_orders(&self, map: &InteractionMap) -> (Element, Vec<End>) {
         let lobes = lobes(map);
         let highest = map.engine_orders.last().map_or(0, |order| order.floor() as u32);
         let span = match self.axis {

@@ -204,7 +204,7 @@ impl<'a> View<'a> {
         key = key.row(group().child(dashes).child(ring(middle, 4.0)), "no run is better in time and error");
         if self.bars {
             let bar = line((middle.0, -8.0), (middle.0, 8.0)).set("stroke", INK).set("stroke-width", "1.2");
-            key = key.row(bar, "± standard error (chaotic response)");
+            key = key.row(bar, "± standard error (chaotic)");
         }
         key = key.heading("modes per speed · size of the wheel");
         for &size in &self.sizes {

@@ -6,14 +6,12 @@ use rubmap_analysis::result::{ForceMap, Point, Quantity, SpeedHistories, SpeedSp
 use rubmap_wheel::dynamics::sector::Units;
 
 use super::fixtures::{contact, recorded, sector, spectra, worn};
-use super::{
-    RUNS, campbell, critical, decoded, first_revolutions, histories, interaction_map, map, modes, point,
-    study, units, waves, work_precision,
-};
+use super::studies::{RUNS, first_revolutions, study};
+use super::{critical, decoded, map, modes, point, units, waves};
 use crate::{
-    ForceQuantity, Frame, HistoryQuantity, PngError, SectionView, VerticalAxis, Window, campbell_fixed_frame,
-    critical_speeds, error_over_step, force_map, map_sheet, png, section, spectrum, speed_histories,
-    trajectories, wear_map,
+    ForceQuantity, Frame, HistoryQuantity, PngError, SectionView, VerticalAxis, Window, campbell,
+    campbell_fixed_frame, critical_speeds, error_over_step, force_map, histories, interaction_map, map_sheet,
+    png, section, spectrum, speed_histories, trajectories, wear_map, work_precision,
 };
 
 pub(super) fn credentials() -> Point {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::drawings::{credentials, mm};
 use super::fixtures::{contact, recorded, sector, spectra, worn};
-use super::{RUNS, first_revolutions, study};
+use super::studies::{RUNS, first_revolutions, study};
 use crate::{
     ForceQuantity, Frame, HistoryQuantity, SectionView, VerticalAxis, Window, campbell, campbell_fixed_frame,
     critical_speeds, error_over_step, force_map, histories, interaction_map, map_sheet, png, section,
