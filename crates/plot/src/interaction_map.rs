@@ -224,6 +224,7 @@ fn key(
         let mark = group().child(dark(width)).children(numbers);
         flow = flow.entry(mark, width, "natural frequencies of nodal diameter i");
     }
+    flow = View::explained(flow, map, &view.engine_orders(map).1);
     let (low, high) = view.diagram.x.values;
     let seen = |cell: &&Cell| cell.to > low && cell.from < high;
     if cells.iter().filter(seen).any(|cell| is_missing(map, cell)) {

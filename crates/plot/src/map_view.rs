@@ -4,6 +4,7 @@ use super::axis::Scale;
 use super::cells::{Cell, extent, rpm};
 use super::colour::on_dark;
 use super::diagram::Diagram;
+use super::key::Flow;
 use super::labels::Labels;
 use super::svg::{Element, group, line, polyline, rectangle, text};
 use super::window::Window;
@@ -139,17 +140,28 @@ impl View {
             let Some([from, to]) = self.diagram.clipped(from_to.0, from_to.1) else { continue };
             let excited = order.is_multiple_of(lobes);
             let end = self.diagram.point(to.0, to.1);
-            lines = lines.child(
-                line(self.diagram.point(from.0, from.1), end)
-                    .set("class", "engine-order")
-                    .set("stroke", "white")
-                    .set("stroke-opacity", if excited { "0.45" } else { "0.6" })
-                    .set("stroke-width", if excited { "0.9" } else { "1" })
-                    .set("stroke-dasharray", if excited { "" } else { "1.5 5" }),
-            );
+            let drawn = order_line(self.diagram.point(from.0, from.1), end, excited);
+            lines = lines.child(drawn.set("class", "engine-order"));
             ends.push((order, end));
         }
         (lines, ends)
+    }
+
+    /// What the lines of engine orders are, for a key.
+    pub(super) fn explained(mut flow: Flow, map: &InteractionMap, ends: &[End]) -> Flow {
+        let lobes = lobes(map);
+        let stroke = |excited: bool| {
+            let dark = rectangle(0.0, -8.0, 30.0, 16.0).set("fill", "#101010");
+            group().child(dark).child(order_line((3.0, 0.0), (27.0, 0.0), excited))
+        };
+        if lobes > 1 && ends.iter().any(|(order, _)| order.is_multiple_of(lobes)) {
+            flow = flow.entry(stroke(true), 30.0, "multiples of the lobe count");
+        }
+        let words = if lobes > 1 { "other engine orders" } else { "engine orders" };
+        if ends.iter().any(|(order, _)| lobes == 1 || !order.is_multiple_of(lobes)) {
+            flow = flow.entry(stroke(lobes == 1), 30.0, words);
+        }
+        flow
     }
 
     /// Natural frequencies in the rotating frame, a colour and a number for each nodal diameter.
@@ -239,6 +251,15 @@ impl View {
             .set("fill", if excited { "white" } else { "#cccccc" })
             .rimmed("#101010")
     }
+}
+
+/// A line of an engine order: drawn through if the lobes excite it, otherwise dotted.
+fn order_line(from: (f64, f64), to: (f64, f64), excited: bool) -> Element {
+    line(from, to)
+        .set("stroke", "white")
+        .set("stroke-opacity", if excited { "0.45" } else { "0.6" })
+        .set("stroke-width", if excited { "0.9" } else { "1" })
+        .set("stroke-dasharray", if excited { "" } else { "1.5 5" })
 }
 
 /// Whether a speed has no amplitudes.
