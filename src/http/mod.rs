@@ -15,6 +15,7 @@ mod idempotency;
 mod job_body;
 mod jobs;
 mod map_body;
+mod map_part;
 mod maps;
 mod metrics;
 mod modal_analyses;
