@@ -37,10 +37,9 @@ pub(super) fn cells(columns: &[Array], row: usize, out: &mut dyn Write) -> io::R
         }
         match &column.values {
             Values::Real(values) => real(values[row], out)?,
-            Values::Whole(values) => match values[row] {
-                Some(value) => write!(out, "{value}")?,
-                None => {}
-            },
+            Values::Whole(values) => {
+                out.write_all(values[row].map_or(String::new(), |value| value.to_string()).as_bytes())?
+            }
             Values::Flag(values) => write!(out, "{}", values[row])?,
             Values::Text(values) => out.write_all(quoted(&values[row]).as_bytes())?,
         }

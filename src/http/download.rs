@@ -18,14 +18,15 @@ use super::state::AppState;
 use super::stream::{self, Leave};
 use crate::analysis::request::SpeedUnit;
 use crate::export::{self, Export};
+use crate::plot::{self, PngError};
 use crate::store::jobs::Job;
-use crate::{plot, version};
+use crate::version;
 
 /// Pixels of a picture's width, if nobody says otherwise.
 const WIDTH: u32 = 1200;
 
-/// Bytes that rendering takes per pixel: the canvas, what is drawn on it, and the file.
-const BYTES_PER_PIXEL: u64 = 12;
+/// Bytes that rendering takes per pixel of a square: the canvas, layers of it, and the file; sheets are higher than wide.
+const BYTES_PER_PIXEL: u64 = 16;
 
 /// In which form to download a result.
 #[derive(Debug, Deserialize, IntoParams)]
@@ -128,7 +129,6 @@ impl Answer {
     /// Bytes that making it takes beside what it is made of.
     pub(super) fn bytes(&self) -> u64 {
         match self.form {
-            // Drawings are seldom higher than wide.
             Form::Png => BYTES_PER_PIXEL * u64::from(self.width).pow(2),
             _ => 0,
         }
@@ -172,13 +172,7 @@ impl Answer {
         let make = move || {
             let svg = draw()?;
             let drawing = match form {
-                Form::Png => Bytes::from(plot::png(&svg, width).map_err(|error| {
-                    tracing::error!(%error, "a drawing cannot be rendered");
-                    Problem::new(
-                        Kind::Internal,
-                        "the drawing cannot be rendered; the service's log says more",
-                    )
-                })?),
+                Form::Png => Bytes::from(plot::png(&svg, width).map_err(not_rendered)?),
                 _ => Bytes::from(svg),
             };
             Ok::<_, Problem>((drawing, leave))
@@ -198,6 +192,17 @@ impl Answer {
             headers.insert(header::ETAG, tag);
         }
         response
+    }
+}
+
+/// Why there is no picture.
+fn not_rendered(error: PngError) -> Problem {
+    match error {
+        PngError::Width { .. } | PngError::Size { .. } => Problem::parameter("width", error.to_string()),
+        PngError::Svg(_) | PngError::Write(_) => {
+            tracing::error!(%error, "a drawing cannot be rendered");
+            Problem::new(Kind::Internal, "the drawing cannot be rendered; the service's log says more")
+        }
     }
 }
 

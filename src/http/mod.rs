@@ -20,6 +20,7 @@ mod job_body;
 mod jobs;
 mod labels;
 mod map_body;
+mod map_part;
 mod maps;
 mod metrics;
 mod modal_analyses;

@@ -296,7 +296,7 @@ async fn nonsense_is_refused_in_words() {
         ("interaction-map?speeds=99999999", "speeds"),
         ("interaction-map?speeds=0-18446744073709551616", "speeds"),
         ("interaction-map?speeds=", "speeds"),
-        ("interaction-map?speeds=1e3-1e4rpm", "speeds"),
+        ("interaction-map?speeds=1e-3-1e4rpm", "speeds"),
         ("interaction-map?speeds=0,,1", "speeds"),
         ("interaction-map?orders=nan", "orders"),
         ("interaction-map?orders=-1", "orders"),
@@ -408,5 +408,57 @@ async fn a_sheet_and_a_window_are_drawn() {
         // Drawn once, and then as it was.
         assert!(get(api, &format!("{path}{query}"), &[]).await.body == drawing.body);
     }
+    app.stop().await;
+}
+
+/// What both must find equal, to the bit: the map as an array and as a table.
+const READ_BY_PYTHON: &str = "
+import sys, numpy, pandas
+for name in sys.argv[1:]:
+    arrays = numpy.load(name + '.npz', allow_pickle=False)
+    table = pandas.read_csv(name + '.csv', float_precision='round_trip')
+    assert len(table) > 0 and all(arrays[key].size >= 0 for key in arrays), name
+    if name.endswith('map'):
+        assert numpy.array_equal(arrays['amplitude'], table.filter(like='order_').to_numpy())
+        assert numpy.array_equal(arrays['speeds_rpm'], table['speed_rpm'])
+        assert str(arrays['version']) and 'mm' in str(arrays['units'])
+";
+
+/// By the programs that they are for, where these are installed: in `RUBMAP_PYTHON`, or else `python3`.
+#[tokio::test]
+async fn numpy_and_pandas_read_them() {
+    let python = std::env::var("RUBMAP_PYTHON").unwrap_or_else(|_| "python3".to_owned());
+    let run = |arguments: &[&str]| std::process::Command::new(&python).args(arguments).output();
+    if !run(&["-c", "import numpy, pandas"]).is_ok_and(|output| output.status.success()) {
+        eprintln!("skipped: {python} has no numpy and pandas");
+        return;
+    }
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(model::package(1.0)).await;
+    let sweep = worn_sweep(api, &model).await;
+    let modal = job(api, "/v1/modal-analyses", &modal_analysis_of(&model)).await;
+    let study = job(api, "/v1/studies", &super::studies::study_of(&model)).await;
+    let folder = tempfile::tempdir().unwrap();
+    let mut arguments = vec!["-c".to_owned(), READ_BY_PYTHON.to_owned()];
+    for (name, path) in [
+        ("map", format!("/v1/jobs/{sweep}/interaction-map")),
+        ("critical-speeds", format!("/v1/jobs/{sweep}/critical-speeds")),
+        ("spectra", format!("/v1/jobs/{sweep}/spectra/1")),
+        ("wear", format!("/v1/jobs/{sweep}/wear/1")),
+        ("campbell", format!("/v1/jobs/{modal}/campbell")),
+        ("work-precision", format!("/v1/jobs/{study}/work-precision")),
+        ("histories", format!("/v1/jobs/{study}/histories")),
+        ("section", format!("/v1/models/{model}/section")),
+    ] {
+        for form in ["csv", "npz"] {
+            let raw = get(api, &format!("{path}?format={form}&units=rpm"), &[]).await.good();
+            std::fs::write(folder.path().join(format!("{name}.{form}")), raw.body).unwrap();
+        }
+        arguments.push(folder.path().join(name).to_str().unwrap().to_owned());
+    }
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let output = run(&arguments).unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     app.stop().await;
 }

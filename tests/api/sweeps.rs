@@ -57,7 +57,7 @@ async fn from_package_to_interaction_map() {
         ("sensor=2", "sensor"),
         ("sensor=-1", "sensor"),
         ("nodal_diameter=3", "nodal_diameter"),
-        ("sensors=0", "sensors"),
+        ("sensers=0", "sensers"),
     ] {
         let answer = api.get(&format!("/v1/jobs/{id}/interaction-map?{query}")).await;
         assert_eq!(answer.problem(400, "invalid-parameter")[0]["parameter"], parameter);

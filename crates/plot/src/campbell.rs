@@ -5,14 +5,15 @@ use super::cells::rpm;
 use super::colour::ordinal;
 use super::diagram::Diagram;
 use super::key::{Key, MARK_WIDTH};
+use super::labels::Labels;
 use super::svg::{Element, document, group, line, polyline, text};
 use super::{heading, marks};
-use rubmap_analysis::result::{Campbell, Wave};
+use rubmap_analysis::result::{Campbell, Crossing, DrivenCrossing, Table, Wave};
 
 const WIDTH: f64 = 1180.0;
-const HEIGHT: f64 = 780.0;
+const HEIGHT: f64 = 760.0;
 const CORNER: (f64, f64) = (84.0, 86.0);
-const SIZE: (f64, f64) = (850.0, 606.0);
+const SIZE: (f64, f64) = (820.0, 606.0);
 
 /// Engine orders beyond this crowd the corner of slow speeds; their rays and what they drive are left out.
 const HIGHEST_ORDER: u32 = 30;
@@ -29,11 +30,12 @@ pub fn campbell(campbell: &Campbell) -> String {
         diagram.grid(&[], &y_ticks),
         engine_orders(campbell, &diagram),
         natural_frequencies(campbell, &diagram),
-        crossings(campbell, &diagram),
         diagram.frame(),
+        crossings(campbell, &diagram),
+        numbers(campbell, &diagram),
         diagram.x_axis(&ticks(diagram.x.values, 10.0), "rotational speed Ω, rpm"),
         diagram.y_axis(&y_ticks, "natural frequency in the rotating frame, Hz", 62.0),
-        legend(campbell, diagram.right() + 34.0),
+        legend(campbell, &diagram, diagram.right() + 50.0),
     ];
     document("Campbell diagram", WIDTH, HEIGHT, content)
 }
@@ -83,12 +85,17 @@ fn stroke_width(wave: Option<Wave>) -> &'static str {
     if wave == Some(Wave::Forward) { "0.9" } else { "1.8" }
 }
 
+/// The highest engine order that has a ray: that of a crossing, unless it is beyond those drawn.
+fn drawn_orders(campbell: &Campbell) -> u32 {
+    let driven = campbell.driven_crossings.iter().map(|crossing| crossing.engine_order);
+    let linear = campbell.crossings.iter().map(|crossing| crossing.nodal_diameter * crossing.superharmonic);
+    driven.chain(linear).max().unwrap_or(0).min(HIGHEST_ORDER)
+}
+
 /// Rays f = kΩ/2π for every order that a crossing needs, those of the lobes darker, labelled where they leave.
 fn engine_orders(campbell: &Campbell, diagram: &Diagram) -> Element {
     let lobes = campbell.settings.lobes.max(1);
-    let driven = campbell.driven_crossings.iter().map(|crossing| crossing.engine_order);
-    let linear = campbell.crossings.iter().map(|crossing| crossing.nodal_diameter * crossing.superharmonic);
-    let highest = driven.chain(linear).max().unwrap_or(0).min(HIGHEST_ORDER);
+    let highest = drawn_orders(campbell);
     let mut rays = group();
     let mut last_label = (f64::NAN, f64::NAN);
     for order in 1..=highest {
@@ -104,27 +111,96 @@ fn engine_orders(campbell: &Campbell, diagram: &Diagram) -> Element {
             let (x, y, anchor) = if to.1 <= diagram.top + 0.5 {
                 (to.0, to.1 - 6.0, "middle")
             } else {
-                (to.0 + 6.0, to.1 + 4.0, "start")
+                // Right of the frame are the numbers of the lines.
+                (to.0 - 12.0, to.1 - 4.0, "end")
             };
-            rays = rays
-                .child(text(x, y, anchor, &format!("{order}")).set("font-size", "11").set("fill", "#555555"));
+            let label = text(x, y, anchor, &format!("{order}")).set("font-size", "11").set("fill", "#555555");
+            rays = rays.child(label.rimmed("white"));
             last_label = to;
         }
     }
     rays
 }
 
+/// Nodal diameters at the ends of their lines, apart where the lines are not; none of so many that they have no room.
+fn numbers(campbell: &Campbell, diagram: &Diagram) -> Element {
+    const SPACING: f64 = 12.0;
+    let (harmonics, families) = counts(campbell);
+    let last = |table: &Table, i: usize, j: usize| {
+        let hz = *table.last()?.get(i)?.get(j)?;
+        Some((diagram.inside(diagram.x.values.1, hz)?.1, i))
+    };
+    let modes = || (0..harmonics).flat_map(|i| (0..families).map(move |j| (i, j)));
+    let branches = campbell.branches();
+    let mut ends: Vec<(f64, usize)> =
+        branches.iter().flat_map(|(_, table)| modes().filter_map(move |(i, j)| last(table, i, j))).collect();
+    if ends.len() as f64 * SPACING > diagram.height {
+        return group();
+    }
+    ends.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut heights: Vec<f64> = ends.iter().map(|(y, _)| *y).collect();
+    for _ in 0..60 {
+        // Neighbours push each other away, half the lack each.
+        for pair in 1..heights.len() {
+            let lack = SPACING - (heights[pair] - heights[pair - 1]);
+            if lack > 0.0 {
+                heights[pair - 1] -= 0.5 * lack;
+                heights[pair] += 0.5 * lack;
+            }
+        }
+    }
+    let right = diagram.right();
+    group().set("class", "numbers").children(ends.into_iter().zip(heights).map(|((end, i), height)| {
+        let colour = ordinal(i, harmonics);
+        let lead = line((right, end), (right + 14.0, height)).set("stroke", &colour);
+        let number = text(right + 18.0, height + 4.0, "start", &i.to_string()).set("fill", colour);
+        group()
+            .child(lead.set("stroke-width", "0.8"))
+            .child(number.set("font-size", "11").set("font-weight", "bold"))
+    }))
+}
+
+/// Crossings that are driven and in the drawing, with their places.
+fn driven<'a>(
+    campbell: &'a Campbell,
+    diagram: &'a Diagram,
+) -> impl Iterator<Item = (&'a DrivenCrossing, (f64, f64))> {
+    let few = campbell.driven_crossings.iter().filter(|crossing| crossing.engine_order <= HIGHEST_ORDER);
+    few.filter_map(|crossing| {
+        Some((crossing, diagram.inside(rpm(crossing.speed_rad_s), crossing.frequency_hz)?))
+    })
+}
+
+/// Those of the linear criterion.
+fn linear<'a>(
+    campbell: &'a Campbell,
+    diagram: &'a Diagram,
+) -> impl Iterator<Item = (&'a Crossing, (f64, f64))> {
+    campbell.crossings.iter().filter_map(|crossing| {
+        Some((crossing, diagram.inside(rpm(crossing.speed_rad_s), crossing.frequency_hz)?))
+    })
+}
+
+/// Both kinds of crossings, with (i, j, n) and (i, j) where there is room.
 fn crossings(campbell: &Campbell, diagram: &Diagram) -> Element {
-    let linear = campbell.crossings.iter().filter_map(|crossing| {
-        let place = diagram.inside(rpm(crossing.speed_rad_s), crossing.frequency_hz)?;
-        Some(marks::linear(place, "black", crossing))
-    });
-    let driven = campbell.driven_crossings.iter().filter(|crossing| crossing.engine_order <= HIGHEST_ORDER);
-    let driven = driven.filter_map(|crossing| {
-        let place = diagram.inside(rpm(crossing.speed_rad_s), crossing.frequency_hz)?;
-        Some(marks::driven(place, "#d62728", "white", crossing))
-    });
-    group().children(linear).children(driven)
+    let mut labels = Labels::inside(diagram);
+    let places =
+        linear(campbell, diagram).map(|found| found.1).chain(driven(campbell, diagram).map(|found| found.1));
+    places.for_each(|place| labels.keep_off(place, 4.0));
+    let mut drawn = group();
+    let mut named = |mark: Element, place: (f64, f64), words: &str| {
+        let label = labels.beside(place, 5.0, words, 10.5).map(|label| label.rimmed("white"));
+        group().child(mark).children(label)
+    };
+    for (crossing, place) in linear(campbell, diagram) {
+        let mark = marks::linear(place, "black", crossing);
+        drawn = drawn.child(named(mark, place, &marks::triple(crossing)));
+    }
+    for (crossing, place) in driven(campbell, diagram) {
+        let mark = marks::driven(place, "#d62728", "white", crossing);
+        drawn = drawn.child(named(mark, place, &marks::pair(crossing)));
+    }
+    drawn
 }
 
 fn heading(campbell: &Campbell) -> Element {
@@ -139,7 +215,7 @@ fn heading(campbell: &Campbell) -> Element {
     heading::heading(CORNER.0, "Campbell diagram", &paragraphs).0
 }
 
-fn legend(campbell: &Campbell, x: f64) -> Element {
+fn legend(campbell: &Campbell, diagram: &Diagram, x: f64) -> Element {
     /// More nodal diameters than this are named at the ends only.
     const MOST: usize = 16;
     let (harmonics, families) = counts(campbell);
@@ -161,14 +237,30 @@ fn legend(campbell: &Campbell, x: f64) -> Element {
         let mark = mark.set("stroke-width", stroke_width(Some(wave)));
         key = key.row(mark, words);
     }
-    let lobes = campbell.settings.lobes;
-    key = key.row(stroke("#777777".to_owned(), ""), &format!("engine order {lobes}, {}, …", 2 * lobes));
-    key = key.row(stroke("#cccccc".to_owned(), ""), "other engine orders");
-    key = key.row(
-        marks::diamond((16.0, 0.0), "#d62728", "white"),
-        &format!("driven by lobes, k ≤ {HIGHEST_ORDER}"),
-    );
-    let ring = Element::new("circle").number("cx", 16.0).number("r", 4.5).set("fill", "none");
-    key = key.row(ring.set("stroke", "black").set("stroke-width", "1.5"), "linear criterion");
+    if harmonics > 0 {
+        key = key.note("numbers at the lines: nodal diameters");
+    }
+    let orders = drawn_orders(campbell);
+    let lobes = campbell.settings.lobes.max(1);
+    if orders >= lobes {
+        let words = if orders >= 2 * lobes {
+            format!("engine order {lobes}, {}, …", 2 * lobes)
+        } else {
+            format!("engine order {lobes}")
+        };
+        key = key.row(stroke("#777777".to_owned(), ""), &words);
+    }
+    if orders > 0 && lobes > 1 {
+        key = key.row(stroke("#cccccc".to_owned(), ""), "other engine orders");
+    }
+    if driven(campbell, diagram).next().is_some() {
+        let words = format!("driven, k ≤ {HIGHEST_ORDER}: (i, j)");
+        key = key.row(marks::diamond((16.0, 0.0), "#d62728", "white"), &words);
+    }
+    if linear(campbell, diagram).next().is_some() {
+        let ring = Element::new("circle").number("cx", 16.0).number("r", 4.5).set("fill", "none");
+        let ring = ring.set("stroke", "black").set("stroke-width", "1.5");
+        key = key.row(ring, "linear criterion (i, j, n)");
+    }
     key.draw()
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::axis::{label, ticks};
+use super::axis::ticks;
 use super::cells::rpm;
 use super::colour::ordinal;
 use super::diagram::Diagram;
@@ -15,7 +15,7 @@ use rubmap_analysis::result::{Campbell, Table, Wave};
 const WIDTH: f64 = 1180.0;
 const HEIGHT: f64 = 800.0;
 const LEFT: f64 = 84.0;
-const PLOT_WIDTH: f64 = 850.0;
+const PLOT_WIDTH: f64 = 800.0;
 
 /// Dashes of the waves that a superharmonic makes beside those of n = 1.
 const SUPERHARMONIC: [&str; 3] = ["6 3", "2 3", "7 3 2 3"];
@@ -44,7 +44,7 @@ pub fn campbell_fixed_frame(campbell: &Campbell) -> String {
         diagram.region("inside"),
         group().set("clip-path", "url(#inside)").children(drawn),
         diagram.frame(),
-        crossings(campbell, &diagram),
+        labels_and_crossings(campbell, &curves, &diagram),
         diagram.x_axis(&x, "rotational speed Ω, rpm"),
         diagram.y_axis(&y, "frequency in the fixed frame, Hz", 62.0),
         key(campbell, &curves, &diagram),
@@ -183,20 +183,27 @@ fn diagram(campbell: &Campbell, curves: &[Curve], top: f64) -> Diagram {
     Diagram::new((LEFT, top), size, speeds, (0.0, if highest > 0.0 { 1.05 * highest } else { 1.0 }))
 }
 
-/// Where a wave stands still, on the line of zero frequency.
-fn crossings(campbell: &Campbell, diagram: &Diagram) -> Element {
+/// Where a wave stands still, on the line of zero frequency, and the nodal diameters at the lines of n = 1.
+fn labels_and_crossings(campbell: &Campbell, curves: &[Curve], diagram: &Diagram) -> Element {
     let mut labels = Labels::inside(diagram);
-    let places: Vec<_> = campbell
-        .crossings
-        .iter()
-        .filter_map(|crossing| Some((crossing, diagram.inside(rpm(crossing.speed_rad_s), 0.0)?)))
-        .collect();
     let mut drawn = group();
-    for (crossing, place) in places {
+    for crossing in &campbell.crossings {
+        let Some(place) = diagram.inside(rpm(crossing.speed_rad_s), 0.0) else { continue };
         let heights = [16.0, 30.0, 44.0, 58.0, 72.0].map(|up| (place.0, place.1 - up));
         let label =
             labels.at_first(heights, &marks::triple(crossing), 10.5).map(|label| label.rimmed("white"));
         drawn = drawn.child(marks::linear(place, "black", crossing)).children(label);
+    }
+    for curve in curves.iter().filter(|curve| !matches!(curve.seen, Seen::Superharmonic(_))) {
+        let place = |(speed, hz): (&f64, &Option<f64>)| diagram.inside(rpm(*speed), (*hz)?);
+        let seen: Vec<(f64, f64)> = campbell.speeds_rad_s.iter().zip(&curve.hz).filter_map(place).collect();
+        let tried = [0.95, 0.85, 0.7, 0.55, 0.4].map(|share| seen.get((share * seen.len() as f64) as usize));
+        let words = curve.nodal_diameter.to_string();
+        let label = labels.at_first(tried.into_iter().flatten().copied(), &words, 11.0);
+        let colour = ordinal(curve.nodal_diameter, curve.harmonics);
+        drawn = drawn.children(
+            label.map(|label| label.set("fill", colour).set("font-weight", "bold").rimmed("white")),
+        );
     }
     drawn
 }
@@ -220,7 +227,7 @@ fn key(campbell: &Campbell, curves: &[Curve], diagram: &Diagram) -> Element {
             let (width, dashes, _) = curve.style();
             let words = match curve.seen {
                 Seen::Backward => "against the rotation: |f − iΩ/2π|".to_owned(),
-                Seen::Forward => "with the rotation: f + iΩ/2π".to_owned(),
+                Seen::Forward => "with it: f + iΩ/2π".to_owned(),
                 Seen::Superharmonic(n) => format!("superharmonic: |f − {n}iΩ/2π|"),
             };
             key = key.row(stroke("#444444", width, dashes), &words);
@@ -231,9 +238,12 @@ fn key(campbell: &Campbell, curves: &[Curve], diagram: &Diagram) -> Element {
         key = key.row(ring.set("stroke", "black").set("stroke-width", "1.5"), "stands still: (i, j, n)");
     }
     let families: Vec<usize> = curves.iter().map(|curve| curve.family).collect();
-    if let Some(last) = families.iter().max().filter(|last| **last > 0) {
-        let words = format!("families 1 to {} from below", label((last + 1) as f64, 0));
-        key = key.note(&words);
+    if let Some(last) = families.iter().max() {
+        key = key.note("numbers at the lines: nodal diameters");
+        key = key.note(&match last {
+            0 => "the first family".to_owned(),
+            last => format!("families 1 to {}, alike", last + 1),
+        });
     }
     key.draw()
 }

@@ -2,7 +2,7 @@
 
 use super::axis::Scale;
 use super::colour;
-use super::svg::{Element, INK, group, line, rectangle, text, upright};
+use super::svg::{Element, INK, group, line, rectangle, text, text_width, upright};
 
 const WIDTH: f64 = 16.0;
 
@@ -29,7 +29,8 @@ pub(super) fn draw(amplitudes: &Scale, left: f64, ticks: &[(f64, String)], title
         let tick = line((left + WIDTH, y), (left + WIDTH + 4.0, y)).set("stroke", INK);
         [tick, text(left + WIDTH + 7.0, y + 4.0, "start", label).set("font-size", "11")]
     });
-    let title = upright(left + 66.0, 0.5 * (bottom + top), "middle", title);
+    let widest = ticks.iter().map(|(_, label)| text_width(label, 11.0)).fold(0.0, f64::max);
+    let title = upright(left + f64::max(66.0, WIDTH + widest + 26.0), 0.5 * (bottom + top), "middle", title);
     group()
         .child(Element::new("defs").child(gradient))
         .child(rectangle(left, top, WIDTH, bottom - top).set("fill", "url(#amplitude)").set("stroke", INK))

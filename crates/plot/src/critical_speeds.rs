@@ -5,7 +5,7 @@ use super::cells::rpm;
 use super::diagram::Diagram;
 use super::key::{Key, MARK_WIDTH};
 use super::labels::Labels;
-use super::svg::{Element, document, group, line, rectangle, text};
+use super::svg::{Element, document, group, line, rectangle, text, upright};
 use super::{heading, marks};
 use rubmap_analysis::result::{CriticalSpeed, CriticalSpeeds, Crossing, Verdict};
 
@@ -82,7 +82,7 @@ impl<'a> View<'a> {
         };
         let tops = peaks.map(|peak| peak.rms * (1.0 + peak.amplitude_error.unwrap_or(0.0)));
         let highest = tops.filter(|top| top.is_finite()).fold(0.0, f64::max);
-        let highest = if highest > 0.0 { 1.25 * highest } else { 1.0 };
+        let highest = if highest > 0.0 { 1.7 * highest } else { 1.0 };
         let peaks = Diagram::new((LEFT, top), (PLOT_WIDTH, PEAKS_HEIGHT), speeds, (0.0, highest));
         let count = lines.len().max(1) as f64;
         let below = (LEFT, peaks.bottom() + 14.0);
@@ -133,7 +133,7 @@ impl<'a> View<'a> {
         let mut labels = Labels::inside(&self.rows);
         for (row, line) in self.lines.iter().enumerate() {
             for mark in &line.marks {
-                labels.keep_off((self.rows.x.place(mark.rpm), self.height(row)), 6.0);
+                labels.keep_off((self.rows.x.place(mark.rpm), self.height(row)), 4.0);
             }
         }
         let mut drawn = group();
@@ -142,7 +142,8 @@ impl<'a> View<'a> {
             drawn = drawn.child(text(LEFT - 10.0, y + 4.5, "end", &line.name));
             for mark in &line.marks {
                 let place = (self.rows.x.place(mark.rpm), y);
-                let label = labels.beside(place, &mark.words, 10.5).map(|label| label.rimmed("white"));
+                let label =
+                    labels.level_with(place, 5.0, &mark.words, 10.5).map(|label| label.rimmed("white"));
                 drawn = drawn.child((mark.draw)(place)).children(label);
             }
         }
@@ -150,31 +151,22 @@ impl<'a> View<'a> {
     }
 
     fn peaks(&self) -> Element {
-        let mut labels = Labels::inside(&self.peaks);
-        let places: Vec<_> = self
-            .critical
-            .critical_speeds
-            .iter()
-            .filter_map(|peak| Some((peak, self.peaks.inside(rpm(peak.speed_rad_s), peak.rms)?)))
-            .collect();
-        for (_, place) in &places {
-            labels.keep_off(*place, 6.0);
-        }
-        let mut drawn = group();
-        for (peak, place) in places {
+        let inside =
+            |peak: &'a CriticalSpeed| Some((self.peaks.inside(rpm(peak.speed_rad_s), peak.rms)?, peak));
+        let mut shown: Vec<_> = self.critical.critical_speeds.iter().filter_map(inside).collect();
+        shown.sort_by(|a, b| a.0.0.total_cmp(&b.0.0));
+        let places: Vec<f64> = shown.iter().map(|(place, _)| place.0).collect();
+        let apart = marks::spread(&places, self.peaks.right() - 6.0);
+        let drawn = shown.into_iter().zip(apart).map(|((place, peak), x)| {
             let order = peak.dominant_engine_order.map_or_else(|| "–".to_owned(), marks::order);
             let star = if peak.settling == Verdict::NotSettled { " *" } else { "" };
-            let words = format!("{} rpm, EO {order}{star}", label(rpm(peak.speed_rad_s), 0));
-            let above =
-                [(0.0, -14.0), (0.0, -28.0), (60.0, -14.0), (-60.0, -14.0), (78.0, 0.0), (-78.0, 0.0)];
-            let above = above.map(|(dx, dy)| (place.0 + dx, place.1 + dy));
-            let label = labels.at_first(above, &words, 11.0).map(|label| label.rimmed("white"));
-            drawn = drawn
-                .child(self.bars(peak))
-                .child(peak_mark(place, peak.resolved).title(&words))
-                .children(label);
-        }
-        drawn
+            let words = format!("{} rpm · EO {order}{star}", label(rpm(peak.speed_rad_s), 0));
+            let lead = line((place.0, place.1 - 6.0), (x, place.1 - 14.0)).set("stroke", "#888888");
+            let name = upright(x + 4.0, place.1 - 18.0, "start", &words).set("font-size", "11");
+            let mark = peak_mark(place, peak.resolved).title(&words);
+            group().child(lead).child(self.bars(peak)).child(mark).child(name.rimmed("white"))
+        });
+        group().children(drawn)
     }
 
     /// How far the peak may be off, in speed and in amplitude.

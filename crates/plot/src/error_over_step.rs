@@ -124,11 +124,11 @@ impl<'a> View<'a> {
         group().child(rungs).children(marks)
     }
 
-    /// From the finest and best run on: proportional to the step, and to its square.
+    /// What falls with the step, and with its square.
     fn slopes(&self) -> Element {
         let (x, y) = (self.diagram.x.values, self.diagram.y.values);
         let lines = [(1, "h"), (2, "h²")].into_iter().map(|(order, words)| {
-            // Through the lower left of the diagram, up to where it leaves.
+            // From the lower left of the diagram up to where it leaves.
             let from = (x.0, 1.3 * y.0);
             let reach = f64::min(x.1 / from.0, (y.1 / from.1).powf(1.0 / f64::from(order)));
             let to = (from.0 * reach, from.1 * reach.powi(order));

@@ -10,7 +10,6 @@ use super::{colour_bar, hatching, heading};
 use rubmap_analysis::result::{ForceMap, ForceRow};
 
 const WIDTH: f64 = 1180.0;
-const HEIGHT: f64 = 740.0;
 const LEFT: f64 = 100.0;
 const PLOT_WIDTH: f64 = 930.0;
 const CURVES_HEIGHT: f64 = 170.0;
@@ -74,10 +73,10 @@ type Curve = (&'static str, &'static str, fn(&ForceRow) -> Option<f64>);
 /// The wheel's curves above the map; the first is the worst of the map.
 fn curves(quantity: ForceQuantity) -> Vec<Curve> {
     let worst: Curve = match quantity {
-        ForceQuantity::Peak => ("worst node", "", |row| highest(&row.peak_force)),
-        ForceQuantity::Impulse => ("worst node", "", |row| highest(&row.impulse_per_revolution)),
-        ForceQuantity::Share => ("worst node", "", |row| highest(&row.contact_share)),
-        ForceQuantity::Consumption => ("worst node", "", |row| highest(&row.clearance_consumption)),
+        ForceQuantity::Peak => ("worst node", "", |row| largest(&row.peak_force)),
+        ForceQuantity::Impulse => ("worst node", "", |row| largest(&row.impulse_per_revolution)),
+        ForceQuantity::Share => ("worst node", "", |row| largest(&row.contact_share)),
+        ForceQuantity::Consumption => ("worst node", "", |row| largest(&row.clearance_consumption)),
     };
     match quantity {
         ForceQuantity::Peak => vec![
@@ -92,7 +91,7 @@ fn curves(quantity: ForceQuantity) -> Vec<Curve> {
     }
 }
 
-fn highest(values: &[f64]) -> Option<f64> {
+fn largest(values: &[f64]) -> Option<f64> {
     values.iter().copied().filter(|value| value.is_finite()).max_by(f64::total_cmp)
 }
 
@@ -115,8 +114,13 @@ pub fn force_map(map: &ForceMap, quantity: ForceQuantity) -> String {
         .into_iter()
         .filter(|(.., value)| cells.iter().any(|cell| rows(cell).and_then(value).is_some()))
         .collect();
+    let shown = curves
+        .iter()
+        .flat_map(|(.., value)| cells.iter().filter_map(move |cell| rows(cell).and_then(*value)));
+    let highest = shown.filter(|value| value.is_finite()).fold(0.0, f64::max);
+    let highest = if highest > 0.0 { 1.1 * highest } else { 1.0 };
     let nodes = map.rows.iter().flatten().map(|row| quantity.of(row).len()).max().unwrap_or(0);
-    let loudest = map.rows.iter().flatten().filter_map(|row| highest(quantity.of(row))).fold(0.0, f64::max);
+    let loudest = map.rows.iter().flatten().filter_map(|row| largest(quantity.of(row))).fold(0.0, f64::max);
     let place = ((LEFT, top + CURVES_HEIGHT + 16.0), (PLOT_WIDTH, MAP_HEIGHT));
     let diagram = Diagram::new(place.0, place.1, speeds, (-0.5, nodes.max(1) as f64 - 0.5));
     let scale =
@@ -133,7 +137,7 @@ pub fn force_map(map: &ForceMap, quantity: ForceQuantity) -> String {
     let x = ticks(diagram.x.values, 9.0);
     let mut content =
         vec![hatching::definition(), heading, diagram.background(hatching::FILL), pixels.draw()];
-    content.push(over_speed(&curves, &cells, &rows, (quantity, map), ((LEFT, top), speeds)));
+    content.push(over_speed(&curves, &cells, &rows, (quantity, map), ((LEFT, top), speeds, highest)));
     content.push(diagram.frame());
     content.push(diagram.x_axis(&x, "rotational speed Ω, rpm"));
     content.push(diagram.y_axis(&node_ticks(nodes), "contact node (0: leading edge)", 72.0));
@@ -143,7 +147,7 @@ pub fn force_map(map: &ForceMap, quantity: ForceQuantity) -> String {
     for (words, dashes, _) in &curves {
         flow = flow.entry(stroke(dashes), 30.0, words);
     }
-    if quantity == ForceQuantity::Consumption && loudest > 0.0 {
+    if quantity == ForceQuantity::Consumption && highest >= 1.0 {
         let limit = line((0.0, 0.0), (30.0, 0.0)).set("stroke", "#d62728").set("stroke-width", "1.2");
         flow = flow.entry(limit, 30.0, "1: reaches the undeformed casing");
     }
@@ -151,7 +155,7 @@ pub fn force_map(map: &ForceMap, quantity: ForceQuantity) -> String {
         flow = flow.entry(hatching::mark(), 20.0, "no result");
     }
     content.push(flow.draw());
-    document(&title, WIDTH, HEIGHT, content)
+    document(&title, WIDTH, diagram.bottom() + 92.0, content)
 }
 
 fn stroke(dashes: &str) -> Element {
@@ -171,14 +175,9 @@ fn over_speed<'a>(
     cells: &[Cell],
     rows: &impl Fn(&Cell) -> Option<&'a ForceRow>,
     (quantity, map): (ForceQuantity, &ForceMap),
-    (corner, speeds): ((f64, f64), (f64, f64)),
+    (corner, speeds, highest): ((f64, f64), (f64, f64), f64),
 ) -> Element {
-    let all = curves
-        .iter()
-        .flat_map(|(.., value)| cells.iter().filter_map(move |cell| rows(cell).and_then(*value)));
-    let top = all.filter(|value| value.is_finite()).fold(0.0, f64::max);
-    let top = if top > 0.0 { 1.1 * top } else { 1.0 };
-    let diagram = Diagram::new(corner, (PLOT_WIDTH, CURVES_HEIGHT), speeds, (0.0, top));
+    let diagram = Diagram::new(corner, (PLOT_WIDTH, CURVES_HEIGHT), speeds, (0.0, highest));
     let y = ticks(diagram.y.values, 4.0);
     let drawn = curves.iter().map(|(words, dashes, value)| {
         let at = |cell: &Cell| diagram.inside(cell.rpm, rows(cell).and_then(value)?);

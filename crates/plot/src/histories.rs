@@ -5,9 +5,9 @@ use super::cells::rpm;
 use super::colour::DISTINCT;
 use super::diagram::Diagram;
 use super::heading::heading;
-use super::key::{Key, MARK_WIDTH};
+use super::key::Key;
 use super::marks::order;
-use super::svg::{Element, group, line, rectangle};
+use super::svg::{Element, group};
 use super::trace::Trace;
 use super::{scheme, svg};
 use rubmap_analysis::result::HistoryLine;
@@ -56,9 +56,9 @@ pub fn histories(histories: &Histories, sensor: usize) -> String {
         let place = |(j, value): (usize, &f64)| diagram.point((j + 1) as f64 * step, *value);
         let points: Vec<(f64, f64)> = curve.displacement.iter().enumerate().map(place).collect();
         let (colour, dashes) = curve.style(index);
-        let trace = Trace::of(points);
+        let trace = Trace::of(points, diagram.x.place(1.0) - diagram.x.place(0.0));
         bands |= trace.is_band;
-        trace.coloured(colour, 1.6, dashes).title(&curve.title())
+        trace.coloured(colour, dashes, curves.len() > 2).title(&curve.title())
     }));
     content.extend([
         diagram.frame(),
@@ -117,12 +117,7 @@ fn key(curves: &[Curve], diagram: &Diagram, bands: bool) -> Element {
     let key = Key::new(diagram.right() + 30.0, diagram.top).heading("modes per speed · unknowns");
     let row = |key: Key, (index, curve): (usize, &Curve)| {
         let (colour, dashes) = curve.style(index);
-        let mark = if bands {
-            rectangle(0.0, -6.0, MARK_WIDTH, 12.0).set("fill", colour).set("fill-opacity", "0.45")
-        } else {
-            let stroke = line((0.0, 0.0), (MARK_WIDTH, 0.0)).set("stroke", colour);
-            stroke.set("stroke-width", "1.6").set("stroke-dasharray", dashes)
-        };
+        let mark = Trace::mark(bands, colour, dashes, curves.len() > 2);
         let words = format!(
             "{}{} · {} unknowns",
             if curve.line.reference { "reference: " } else { "" },
@@ -132,5 +127,5 @@ fn key(curves: &[Curve], diagram: &Diagram, bands: bool) -> Element {
         key.row(group().child(mark), &words)
     };
     let key = curves.iter().enumerate().fold(key, row);
-    if bands { key.heading("bands: lowest to highest").draw() } else { key.draw() }
+    if bands { key.heading("bands: from lowest to highest").draw() } else { key.draw() }
 }

@@ -224,10 +224,13 @@ fn key(
         let mark = group().child(dark(width)).children(numbers);
         flow = flow.entry(mark, width, "natural frequencies of nodal diameter i");
     }
+    flow = View::explained(flow, map, &view.engine_orders(map).1);
     let (low, high) = view.diagram.x.values;
     let seen = |cell: &&Cell| cell.to > low && cell.from < high;
     if cells.iter().filter(seen).any(|cell| is_missing(map, cell)) {
         flow = flow.entry(hatching::mark(), 20.0, "no result");
+    } else if view.reaches_beyond(map) {
+        flow = flow.entry(hatching::mark(), 20.0, "beyond the spectra");
     }
     group().child(flow.draw()).child(settling_strip::legend(map, LEFT, HEIGHT - 18.0))
 }

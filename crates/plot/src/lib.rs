@@ -1,8 +1,9 @@
-//! Results as SVG drawings: pure functions from [`rubmap_analysis::result`] to text, without files, fonts or HTTP.
+//! Results as drawings: pure functions from [`rubmap_analysis::result`] to SVG, without files or HTTP, and from SVG to PNG ([`png()`]).
 //!
-//! Texts name common font families and leave the choice to the viewer; nothing is measured. Amplitudes are embedded
-//! as one small image with a palette, at a fixed resolution, so that the size of a drawing does not grow with the
-//! sweep; everything else stays vectors. Marks carry a `<title>`, which browsers show under the pointer.
+//! Texts name common font families and leave the choice to the viewer; how wide they are is estimated, to keep labels apart. An image
+//! has the font that the program brings, so that it is the same on every machine. Amplitudes are embedded as one small image with a
+//! palette, at a fixed resolution, so that the size of a drawing does not grow with the sweep; everything else stays vectors. Marks
+//! carry a `<title>`, which browsers show under the pointer. Keys explain what is drawn, and nothing else.
 //!
 //! Results come from a run, or from the JSON that the service answers:
 //!
@@ -49,6 +50,7 @@ mod level;
 mod map_sheet;
 mod map_view;
 mod marks;
+mod outline;
 mod pixels;
 mod raster;
 mod scheme;

@@ -1,10 +1,10 @@
 //! A sheet of zoomed maps, one per nodal diameter: the paper's Figs 12 to 14.
 
-use super::axis::{Scale, logarithmic_ticks, ticks};
+use super::axis::{Scale, label, logarithmic_ticks, ticks};
 use super::cells::{cells, rpm};
 use super::key::Flow;
-use super::map_view::{QUIETEST, VerticalAxis, View, is_missing};
-use super::svg::{Element, document, group, line, text};
+use super::map_view::{End, QUIETEST, VerticalAxis, View, is_missing};
+use super::svg::{Element, document, group, text};
 use super::window::Window;
 use super::{colour_bar, hatching, heading, heat};
 use rubmap_analysis::result::InteractionMap;
@@ -33,7 +33,7 @@ pub fn map_sheet(maps: &[InteractionMap], window: Window) -> String {
     let loudest = maps.iter().filter_map(|map| heat::loudest(map, &window)).fold(0.0, f64::max);
     let loudest = (loudest > 0.0).then_some(loudest);
     let mut content = vec![hatching::definition(), heading];
-    let mut missing = false;
+    let (mut missing, mut ends) = (false, Vec::new());
     for (index, map) in maps.iter().enumerate() {
         let (row, column) = (index / columns, index % columns);
         let left = LEFT + column as f64 * (width + GAP.0);
@@ -43,6 +43,7 @@ pub fn map_sheet(maps: &[InteractionMap], window: Window) -> String {
         let view = View::new(map, &cells, None, VerticalAxis::EngineOrder, &window, place);
         let (low, high) = view.diagram.x.values;
         missing |= cells.iter().any(|cell| cell.to > low && cell.from < high && is_missing(map, cell));
+        ends.extend(view.engine_orders(map).1);
         let below = index + columns >= maps.len();
         content.push(panel(map, &view, loudest, (column == 0, below)));
     }
@@ -54,7 +55,7 @@ pub fn map_sheet(maps: &[InteractionMap], window: Window) -> String {
         content.push(colour_bar::draw(&scale, BAR, &ticks, &words));
     }
     let foot = top + rows as f64 * (PANEL_HEIGHT + GAP.1) - 12.0;
-    content.push(key(foot, missing));
+    content.push(key(first, &ends, foot, missing));
     document(&title, WIDTH, foot + 30.0, content)
 }
 
@@ -83,17 +84,8 @@ fn panel(
         .child(diagram.y_axis(&y, if leftmost { "engine order k" } else { "" }, 46.0))
 }
 
-fn key(y: f64, missing: bool) -> Element {
-    let stroke = |dashes: &str| {
-        let stroke = line((3.0, 0.0), (25.0, 0.0)).set("stroke", "white").set("stroke-dasharray", dashes);
-        let dark = super::svg::rectangle(0.0, -7.0, 28.0, 14.0).set("fill", "#101010");
-        group().child(dark).child(stroke)
-    };
-    let flow = Flow::new(LEFT, WIDTH - 20.0, y).entry(stroke(""), 28.0, "multiples of the lobe count").entry(
-        stroke("1.5 5"),
-        28.0,
-        "other engine orders",
-    );
+fn key(first: &InteractionMap, ends: &[End], y: f64, missing: bool) -> Element {
+    let flow = View::explained(Flow::new(LEFT, WIDTH - 20.0, y), first, ends);
     if missing { flow.entry(hatching::mark(), 20.0, "no result").draw() } else { flow.draw() }
 }
 
@@ -109,7 +101,11 @@ fn words(maps: &[InteractionMap]) -> String {
     let computed = map.amplitude.iter().flatten().count();
     let speeds = map.speeds_rad_s.iter().map(|speed| rpm(*speed));
     let (slow, fast) = speeds.fold((f64::INFINITY, 0f64), |(a, b), speed| (a.min(speed), b.max(speed)));
-    let range = if slow <= fast { format!(" from {slow:.0} to {fast:.0} rpm") } else { String::new() };
+    let range = if slow <= fast {
+        format!(" from {} to {} rpm", label(slow, 0), label(fast, 0))
+    } else {
+        String::new()
+    };
     let origin = heading::origin(&map.settings.model, &map.version);
     format!(
         "{computed} of {} speeds{range} · one scale of colours for all · {origin}",

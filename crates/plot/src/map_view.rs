@@ -4,6 +4,7 @@ use super::axis::Scale;
 use super::cells::{Cell, extent, rpm};
 use super::colour::on_dark;
 use super::diagram::Diagram;
+use super::key::Flow;
 use super::labels::Labels;
 use super::svg::{Element, group, line, polyline, rectangle, text};
 use super::window::Window;
@@ -24,6 +25,9 @@ pub enum VerticalAxis {
     /// Frequency: engine-order lines f = kΩ/2π rise with speed, natural frequencies hardly do.
     Frequency,
 }
+
+/// An engine order, and where its line leaves the diagram.
+pub(super) type End = (u32, (f64, f64));
 
 /// The map's rectangle and what its vertical axis means.
 #[derive(Debug)]
@@ -108,13 +112,19 @@ impl View {
         group().child(self.diagram.background(hatching::FILL)).children(missing).child(image)
     }
 
+    /// Whether a corner of the diagram lies above the highest engine order, where spectra say nothing.
+    pub(super) fn reaches_beyond(&self, map: &InteractionMap) -> bool {
+        let highest = map.engine_orders.last().copied().unwrap_or(0.0) + 0.5;
+        self.order(self.diagram.y.values.1, self.diagram.x.values.0) > highest
+    }
+
     /// The scale of the colours, as high as the diagram.
     pub(super) fn scale(&self, loudest: f64) -> Scale {
         Scale::logarithmic((QUIETEST * loudest, loudest), (self.diagram.bottom(), self.diagram.top))
     }
 
     /// Lines of whole engine orders, dotted, multiples of the lobe count drawn through; with where each leaves the diagram.
-    pub(super) fn engine_orders(&self, map: &InteractionMap) -> (Element, Vec<(u32, (f64, f64))>) {
+    pub(super) fn engine_orders(&self, map: &InteractionMap) -> (Element, Vec<End>) {
         let lobes = lobes(map);
         let highest = map.engine_orders.last().map_or(0, |order| order.floor() as u32);
         let span = match self.axis {
@@ -130,17 +140,28 @@ impl View {
             let Some([from, to]) = self.diagram.clipped(from_to.0, from_to.1) else { continue };
             let excited = order.is_multiple_of(lobes);
             let end = self.diagram.point(to.0, to.1);
-            lines = lines.child(
-                line(self.diagram.point(from.0, from.1), end)
-                    .set("class", "engine-order")
-                    .set("stroke", "white")
-                    .set("stroke-opacity", if excited { "0.45" } else { "0.6" })
-                    .set("stroke-width", if excited { "0.9" } else { "1" })
-                    .set("stroke-dasharray", if excited { "" } else { "1.5 5" }),
-            );
+            let drawn = order_line(self.diagram.point(from.0, from.1), end, excited);
+            lines = lines.child(drawn.set("class", "engine-order"));
             ends.push((order, end));
         }
         (lines, ends)
+    }
+
+    /// What the lines of engine orders are, for a key.
+    pub(super) fn explained(mut flow: Flow, map: &InteractionMap, ends: &[End]) -> Flow {
+        let lobes = lobes(map);
+        let stroke = |excited: bool| {
+            let dark = rectangle(0.0, -8.0, 30.0, 16.0).set("fill", "#101010");
+            group().child(dark).child(order_line((3.0, 0.0), (27.0, 0.0), excited))
+        };
+        if lobes > 1 && ends.iter().any(|(order, _)| order.is_multiple_of(lobes)) {
+            flow = flow.entry(stroke(true), 30.0, "multiples of the lobe count");
+        }
+        let words = if lobes > 1 { "other engine orders" } else { "engine orders" };
+        if ends.iter().any(|(order, _)| lobes == 1 || !order.is_multiple_of(lobes)) {
+            flow = flow.entry(stroke(lobes == 1), 30.0, words);
+        }
+        flow
     }
 
     /// Natural frequencies in the rotating frame, a colour and a number for each nodal diameter.
@@ -199,11 +220,11 @@ impl View {
             found.push((place, marks::driven(place, DRIVEN, "black", crossing), marks::pair(crossing)));
         }
         for (place, ..) in &found {
-            labels.keep_off(*place, 5.0);
+            labels.keep_off(*place, 4.0);
         }
         let mut drawn = group();
         for (place, mark, words) in found {
-            let label = labels.beside(place, &words, 10.5);
+            let label = labels.beside(place, 5.0, &words, 10.5);
             drawn =
                 drawn.child(mark).children(label.map(|label| label.set("fill", "white").rimmed("#101010")));
         }
@@ -230,6 +251,15 @@ impl View {
             .set("fill", if excited { "white" } else { "#cccccc" })
             .rimmed("#101010")
     }
+}
+
+/// A line of an engine order: drawn through if the lobes excite it, otherwise dotted.
+fn order_line(from: (f64, f64), to: (f64, f64), excited: bool) -> Element {
+    line(from, to)
+        .set("stroke", "white")
+        .set("stroke-opacity", if excited { "0.45" } else { "0.6" })
+        .set("stroke-width", if excited { "0.9" } else { "1" })
+        .set("stroke-dasharray", if excited { "" } else { "1.5 5" })
 }
 
 /// Whether a speed has no amplitudes.

@@ -118,7 +118,7 @@ pub(super) fn order(value: f64) -> String {
 }
 
 /// Moves ascending places apart, none beyond `right` as long as there is room.
-fn spread(places: &[f64], right: f64) -> Vec<f64> {
+pub(super) fn spread(places: &[f64], right: f64) -> Vec<f64> {
     let mut out = places.to_vec();
     for i in 1..out.len() {
         out[i] = out[i].max(out[i - 1] + LABEL_SPACING);

@@ -4,7 +4,8 @@ use super::axis::{significant, ticks};
 use super::diagram::Diagram;
 use super::heading::heading;
 use super::key::{Key, MARK_WIDTH};
-use super::svg::{Element, document, group, line, polyline, rectangle, text};
+use super::outline;
+use super::svg::{Element, document, group, line, polyline, rectangle, text, text_width};
 use rubmap_analysis::result::{NodeKind, SectorGeometry, SectorNode};
 
 const WIDTH: f64 = 1180.0;
@@ -73,7 +74,8 @@ pub fn section(geometry: &SectorGeometry, view: SectionView) -> String {
         diagram.y_axis(&y, &format!("{}, {length}", axes[1]), 66.0),
         drawing.key(),
     ];
-    document(&title, WIDTH, HEIGHT, content)
+    let width = (diagram.right() + 290.0).max(LEFT + 1.15 * text_width(&title, 18.0)).min(WIDTH);
+    document(&title, width, diagram.bottom() + 66.0, content)
 }
 
 /// The clearances at both ends of the contact line, in words.
@@ -113,6 +115,12 @@ impl<'a> Drawing<'a> {
         self.diagram.point(x, y)
     }
 
+    /// What is told apart: turned into one plane, both cyclic faces are one.
+    fn looks(&self) -> impl Iterator<Item = &'static Look> {
+        let view = self.view;
+        LOOKS.iter().filter(move |look| view == SectionView::Cyclic || look.kind != NodeKind::High)
+    }
+
     fn of(&self, kind: NodeKind) -> impl Iterator<Item = &SectorNode> {
         self.geometry.nodes.iter().filter(move |node| node.kind == kind)
     }
@@ -122,8 +130,9 @@ impl<'a> Drawing<'a> {
         if self.geometry.nodes.is_empty() && self.geometry.contact.is_empty() {
             return vec![self.diagram.words("Nothing to draw: no node is known")];
         }
+        content.extend(self.outline());
         content.extend(self.casing());
-        for look in &LOOKS {
+        for look in self.looks() {
             let dots = self.of(look.kind).map(|node| dot(self.place(node.position), look));
             content.push(group().set("class", class(look.kind)).set("fill", look.colour).children(dots));
         }
@@ -132,6 +141,22 @@ impl<'a> Drawing<'a> {
         content.push(line.set("stroke-width", "2.2").title("contact line"));
         content.push(self.ends());
         content
+    }
+
+    /// What the nodes cover, turned into one plane.
+    fn outline(&self) -> Option<Element> {
+        (self.view == SectionView::Meridional).then_some(())?;
+        let places: Vec<(f64, f64)> =
+            self.geometry.nodes.iter().map(|node| self.place(node.position)).collect();
+        let (triangles, edges) = outline::outline(&places);
+        (!edges.is_empty()).then_some(())?;
+        let corners = |[a, b, c]: [(f64, f64); 3]| [Some(a), Some(b), Some(c), Some(a), None];
+        let area = polyline(triangles.into_iter().flat_map(corners)).set("style", "fill:#e3e8ee");
+        // What the triangles leave of the area between them is covered, too.
+        let area = area.set("class", "area").set("stroke", "#e3e8ee").set("stroke-width", "0.8");
+        let rim = polyline(edges.into_iter().flat_map(|[a, b]| [Some(a), Some(b), None]));
+        let rim = rim.set("class", "outline").set("stroke", "#5a6672").set("stroke-width", "1.2");
+        Some(group().child(area).child(rim.set("stroke-linecap", "round")))
     }
 
     /// Which end of the contact line is which.
@@ -173,15 +198,23 @@ impl<'a> Drawing<'a> {
     }
 
     fn key(&self) -> Element {
-        let mut key = Key::new(self.diagram.left + PLOT.0 + 30.0, self.diagram.top + 8.0);
-        for look in &LOOKS {
+        let mut key = Key::new(self.diagram.right() + 30.0, self.diagram.top + 8.0);
+        for look in self.looks() {
             let on_line = look.kind == NodeKind::Contact && !self.geometry.contact.is_empty();
             if on_line || self.of(look.kind).next().is_some() {
                 let mark = dot((0.5 * MARK_WIDTH, 0.0), look).set("fill", look.colour);
                 let stroke = line((2.0, 0.0), (MARK_WIDTH - 2.0, 0.0)).set("stroke", look.colour);
                 let stroke = on_line.then(|| stroke.set("stroke-width", "2.2"));
-                key = key.row(group().children(stroke).child(mark), look.words);
+                let words = match (self.view, look.kind) {
+                    (SectionView::Meridional, NodeKind::Low) => "cyclic faces",
+                    _ => look.words,
+                };
+                key = key.row(group().children(stroke).child(mark), words);
             }
+        }
+        if self.outline().is_some() {
+            let area = rectangle(2.0, -6.0, MARK_WIDTH - 4.0, 12.0).set("fill", "#e3e8ee");
+            key = key.row(area.set("stroke", "#5a6672"), "what the nodes cover");
         }
         if self.casing().is_some() {
             let wall = line((0.0, 0.0), (MARK_WIDTH, 0.0)).set("stroke", "#444444").set("stroke-width", "3");
@@ -248,6 +281,8 @@ fn fitted(places: &[(f64, f64)], top: f64) -> Diagram {
         let (middle, half) = (0.5 * (low + high), 0.5 * size * per_unit);
         (middle - half, middle + half)
     };
+    // No wider and no higher than there is something to see.
+    let size = (size.0.min(spans.0 / per_unit).max(320.0), size.1.min(spans.1 / per_unit).max(240.0));
     Diagram::new((LEFT, top), size, about(x, size.0), about(y, size.1))
 }
 

@@ -37,11 +37,11 @@ impl Standing {
 
     fn colour(self) -> &'static str {
         match self {
-            Self::Settled(Verdict::Periodic) => "#9ec9a5",
+            Self::Settled(Verdict::Periodic) => "#b7dcbd",
             Self::Settled(Verdict::Subharmonic) => "#4477aa",
-            Self::Settled(Verdict::Aperiodic) => "#aa3377",
-            Self::Settled(Verdict::NotSettled) => "#ee7733",
-            Self::Missing => "#222222",
+            Self::Settled(Verdict::Aperiodic) => "#8a2277",
+            Self::Settled(Verdict::NotSettled) => "#f0924e",
+            Self::Missing => "#000000",
             Self::Pending => "#dddddd",
         }
     }

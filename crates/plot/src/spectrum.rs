@@ -42,7 +42,8 @@ pub fn spectrum(spectra: &SpeedSpectra, point: &Point, units: &Units, sensor: us
         Frame::Fixed => "fixed frame",
     };
     let title = format!("Spectrum in the {where_from}: {}, {speed} rpm", found.sensor);
-    let mut words = vec![verdict(point)];
+    let basis = "amplitudes of nodal diameters are those of the wheel, cosine and sine over all blades together: √N times a blade's";
+    let mut words = vec![verdict(point), basis.to_owned()];
     if frame == Frame::Fixed {
         let both = "A wave of nodal diameter n at engine order k of the rotating frame is drawn at k + n, where one that travels with the \
                     rotation is seen, and at |k − n|, where one that travels against it is: which of both it is, spectra do not tell.";
@@ -199,7 +200,7 @@ impl Lines {
         shown.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
         let drawn = shown.iter().map(|found| self.line(&diagram, found, units));
         let content = group().set("class", "lines").children(drawn);
-        let title = format!("nodal diameters, {} · √blades", units.length);
+        let title = format!("nodal diameters, {}", units.length);
         let mut all = framed(&diagram, content, &title, x_title);
         all.push(self.key(&diagram, &shown));
         all

@@ -5,8 +5,8 @@ use super::cells::rpm;
 use super::colour::ordinal;
 use super::diagram::Diagram;
 use super::heading::{heading, measured, origin};
-use super::key::{Key, MARK_WIDTH};
-use super::svg::{Element, document, group, line, rectangle};
+use super::key::Key;
+use super::svg::{Element, document, group};
 use super::trace::Trace;
 use rubmap_analysis::result::{ContactHistory, EnergyHistory, SensorHistory, SpeedHistories};
 
@@ -14,6 +14,8 @@ const WIDTH: f64 = 1180.0;
 const HEIGHT: f64 = 640.0;
 const LEFT: f64 = 100.0;
 const PLOT_WIDTH: f64 = 830.0;
+/// Where there is one curve only, and so no key.
+const WIDE: f64 = 1040.0;
 
 /// Dashes of the curves of a panel, in turn: what tells them apart without colours.
 const DASHES: [&str; 4] = ["", "8 3", "2 3", "9 3 2 3"];
@@ -61,7 +63,8 @@ pub fn speed_histories(histories: &SpeedHistories, what: HistoryQuantity, index:
     for (place, panel) in panels.iter().enumerate() {
         let corner = (LEFT, top + place as f64 * (height + gap));
         let last = place + 1 == panels.len();
-        content.push(panel.draw(histories, (corner, (PLOT_WIDTH, height)), last));
+        let width = if panels.iter().all(|panel| panel.curves.len() == 1) { WIDE } else { PLOT_WIDTH };
+        content.push(panel.draw(histories, (corner, (width, height)), last));
     }
     document(&title, WIDTH, HEIGHT, content)
 }
@@ -169,10 +172,11 @@ impl Panel<'_> {
         let mut curves = group();
         for (index, curve) in self.curves.iter().enumerate() {
             let at = |(j, value): (usize, &f64)| diagram.point(begin + (j + 1) as f64 * step, *value);
-            let trace = Trace::of(curve.values.iter().enumerate().map(at).collect());
+            let places = curve.values.iter().enumerate().map(at).collect();
+            let trace = Trace::of(places, diagram.x.place(1.0) - diagram.x.place(0.0));
             bands |= trace.is_band;
             let (colour, dashes) = self.style(index);
-            curves = curves.child(trace.coloured(&colour, 1.5, dashes).title(&curve.words));
+            curves = curves.child(trace.coloured(&colour, dashes, self.curves.len() > 2).title(&curve.words));
         }
         group()
             .set("class", "panel")
@@ -212,14 +216,15 @@ impl Panel<'_> {
         let shown = |index: &usize| count <= MOST || *index == 0 || index + 1 == count;
         for index in (0..count).filter(|index| count > 1 && shown(index)) {
             let (colour, dashes) = self.style(index);
-            let mark = if bands {
-                rectangle(0.0, -6.0, MARK_WIDTH, 12.0).set("fill", colour).set("fill-opacity", "0.45")
-            } else {
-                let stroke = line((0.0, 0.0), (MARK_WIDTH, 0.0)).set("stroke", colour);
-                stroke.set("stroke-width", "1.6").set("stroke-dasharray", dashes)
-            };
+            let mark = Trace::mark(bands, &colour, dashes, count > 2);
             key = key.row(mark, &self.curves[index].words);
         }
-        if bands { key.heading("bands: lowest to highest").draw() } else { key.draw() }
+        match (bands, count) {
+            (true, 1) => Key::new(diagram.right() - 190.0, diagram.top - 14.0)
+                .note("band: from lowest to highest")
+                .draw(),
+            (true, _) => key.note("bands: from lowest to highest").draw(),
+            (false, _) => key.draw(),
+        }
     }
 }

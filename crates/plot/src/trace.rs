@@ -1,6 +1,7 @@
 //! A history as a line, or, where its swings do not fit, as the band they fill.
 
-use super::svg::{Element, polyline};
+use super::key::MARK_WIDTH;
+use super::svg::{Element, line, polyline, rectangle};
 
 /// What shows of a history.
 #[derive(Debug)]
@@ -13,38 +14,67 @@ pub(super) struct Trace {
 /// Samples that a column one unit wide may have before a line through them is but a smear.
 const MOST_PER_COLUMN: f64 = 5.0;
 
+/// How much of its colour a band has.
+const FULL: &str = "0.45";
+const PALE: &str = "0.10";
+
+/// Revolutions narrower than this are a column each.
+const NARROW: f64 = 40.0;
+
 impl Trace {
-    /// Of places from left to right.
-    pub(super) fn of(places: Vec<(f64, f64)>) -> Self {
+    /// Of places from left to right, of which a revolution is so wide.
+    pub(super) fn of(places: Vec<(f64, f64)>, revolution: f64) -> Self {
         let width = places.last().map_or(0.0, |last| last.0 - places[0].0);
         let is_band = places.len() as f64 > MOST_PER_COLUMN * width.max(1.0);
-        let points = if is_band { band(&places) } else { places };
+        // What happens within a revolution is not seen where many are beside each other: its bounds are.
+        let column = if revolution < NARROW { revolution.max(1.0) } else { 1.0 };
+        let points = if is_band { band(&places, column) } else { places };
         Self { path: polyline(points.into_iter().map(Some)).set("stroke-linejoin", "round"), is_band }
     }
 
-    /// In a colour, with these dashes where it is a line.
-    pub(super) fn coloured(self, colour: &str, width: f64, dashes: &str) -> Element {
+    /// In a colour and with dashes; one of many has a pale band, so that the others show through.
+    pub(super) fn coloured(self, colour: &str, dashes: &str, of_many: bool) -> Element {
         let path = self.path.set("stroke", colour).set("class", "history");
-        if self.is_band {
-            return path.set("stroke-width", "0.6").set("style", format!("fill:{colour};fill-opacity:0.45"));
+        if !self.is_band {
+            return path.set("stroke-width", "1.5").set("stroke-dasharray", dashes);
         }
-        path.number("stroke-width", width).set("stroke-dasharray", dashes)
+        let (width, dashes, opacity) = if of_many { ("1.1", dashes, PALE) } else { ("0.6", "", FULL) };
+        path.set("stroke-width", width)
+            .set("stroke-dasharray", dashes)
+            .set("style", format!("fill:{colour};fill-opacity:{opacity}"))
+    }
+
+    /// What a key shows of it.
+    pub(super) fn mark(is_band: bool, colour: &str, dashes: &str, of_many: bool) -> Element {
+        if !is_band {
+            let stroke = line((0.0, 0.0), (MARK_WIDTH, 0.0)).set("stroke", colour);
+            return stroke.set("stroke-width", "1.5").set("stroke-dasharray", dashes);
+        }
+        let band = rectangle(0.0, -6.0, MARK_WIDTH, 12.0).set("fill", colour).set("stroke", colour);
+        let band = band.set("stroke-dasharray", if of_many { dashes } else { "" });
+        band.set("fill-opacity", if of_many { PALE } else { FULL })
     }
 }
 
-/// Along the highest of every column to the right, and back along the lowest.
-fn band(places: &[(f64, f64)]) -> Vec<(f64, f64)> {
-    let columns = || places.chunk_by(|a, b| a.0.floor() == b.0.floor());
-    let of = |column: &[(f64, f64)], least: bool| {
-        let places = column.iter().copied();
-        if least {
-            places.min_by(|a, b| a.1.total_cmp(&b.1))
-        } else {
-            places.max_by(|a, b| a.1.total_cmp(&b.1))
+/// Along the highest of every column of this width to the right, and back along the lowest: in steps, but where a column is too
+/// narrow to show any.
+fn band(places: &[(f64, f64)], width: f64) -> Vec<(f64, f64)> {
+    let start = places.first().map_or(0.0, |first| first.0);
+    let column = |place: &(f64, f64)| ((place.0 - start) / width).floor();
+    let (mut out, mut back) = (Vec::new(), Vec::new());
+    for here in places.chunk_by(|a, b| column(a) == column(b)) {
+        let (from, to) = (here[0].0, here[here.len() - 1].0);
+        let lower = |a: &&(f64, f64), b: &&(f64, f64)| a.1.total_cmp(&b.1);
+        let ends = here.iter().min_by(lower).zip(here.iter().max_by(lower));
+        let Some((top, foot)) = ends else { continue };
+        for (side, extreme) in [(&mut out, top), (&mut back, foot)] {
+            if width > 1.0 {
+                side.extend([(from, extreme.1), (to, extreme.1)]);
+            } else {
+                side.push(*extreme);
+            }
         }
-    };
-    let mut out: Vec<(f64, f64)> = columns().filter_map(|column| of(column, true)).collect();
-    let back: Vec<(f64, f64)> = columns().filter_map(|column| of(column, false)).collect();
+    }
     out.extend(back.into_iter().rev());
     out
 }
@@ -57,13 +87,13 @@ mod tests {
     fn a_band_goes_around_all_samples() {
         let swing = |i: u32| (f64::from(i) / 40.0, 10.0 * f64::from(i).sin());
         let all: Vec<_> = (0..4000).map(swing).collect();
-        let around = band(&all);
+        let around = band(&all, 1.0);
         assert_eq!(around.len(), 200);
         let (out, back) = around.split_at(100);
         for ((upper, lower), column) in out.iter().zip(back.iter().rev()).zip(all.chunks(40)) {
             assert!(column.iter().all(|place| place.1 >= upper.1 && place.1 <= lower.1));
         }
-        assert!(Trace::of(all).is_band && !Trace::of(vec![(0.0, 1.0); 3]).is_band);
-        assert!(!Trace::of(Vec::new()).is_band);
+        assert!(Trace::of(all, 50.0).is_band && !Trace::of(vec![(0.0, 1.0); 3], 50.0).is_band);
+        assert!(!Trace::of(Vec::new(), 0.0).is_band);
     }
 }

@@ -39,7 +39,8 @@ pub fn trajectories(histories: &SpeedHistories) -> String {
     let growing = f64::from(first) < histories.settings.integration.ramp_revolutions;
     if growing && restriction(histories).is_some() {
         let ramp = histories.settings.integration.ramp_revolutions;
-        paragraphs.push(format!("the lobes, drawn at full height, grow over the first {ramp} revolutions"));
+        let words = if ramp == 1.0 { "revolution".to_owned() } else { format!("{ramp} revolutions") };
+        paragraphs.push(format!("the lobes, drawn at full height, grow over the first {words}"));
     }
     let (heading, bottom) = heading(LEFT, &title, &paragraphs);
     let mut content = vec![heading];

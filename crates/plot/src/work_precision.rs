@@ -156,14 +156,19 @@ impl<'a> View<'a> {
     fn steps(&self) -> Element {
         let mut labels = Labels::inside(&self.diagram);
         for drawn in &self.runs {
-            labels.keep_off(self.place(drawn), self.radius(drawn.run.setting.modes_per_speed) + 2.0);
+            labels.keep_off(self.place(drawn), 0.8 * self.radius(drawn.run.setting.modes_per_speed));
         }
         let front = self.front();
         let others = self.runs.iter().filter(|drawn| !front.iter().any(|on| std::ptr::eq(*on, *drawn)));
         // Those on the front first.
         let words = front.iter().copied().chain(others).filter_map(|drawn| {
             let steps = label(drawn.run.setting.steps_per_revolution.into(), 0);
-            labels.beside(self.place(drawn), &steps, 10.5)
+            labels.beside(
+                self.place(drawn),
+                self.radius(drawn.run.setting.modes_per_speed) + 4.0,
+                &steps,
+                10.5,
+            )
         });
         group().children(words.map(|label| label.set("fill", "#444444").rimmed("white")))
     }
@@ -192,14 +197,14 @@ impl<'a> View<'a> {
             let row = group().child(stroke.set("stroke-width", "1.8"));
             key = key.row(row.child(scheme::mark(scheme, middle, 5.5)), &scheme::words(scheme));
         }
-        key = key.note("line: the runs that no other of the scheme beats");
+        key = key.note("line: those that none of the scheme beats");
         key = key.note("number: time steps a revolution");
         let dashes = line((0.0, 0.0), (MARK_WIDTH, 0.0)).set("stroke", "#999999");
         let dashes = dashes.set("stroke-dasharray", "6 4");
         key = key.row(group().child(dashes).child(ring(middle, 4.0)), "no run is better in time and error");
         if self.bars {
             let bar = line((middle.0, -8.0), (middle.0, 8.0)).set("stroke", INK).set("stroke-width", "1.2");
-            key = key.row(bar, "± standard error (chaotic response)");
+            key = key.row(bar, "± standard error (chaotic)");
         }
         key = key.heading("modes per speed · size of the wheel");
         for &size in &self.sizes {

@@ -3,18 +3,18 @@
 
 use std::path::{Path, PathBuf};
 
+use super::drawings::{credentials, mm};
 use super::fixtures::{contact, recorded, sector, spectra, worn};
-use super::{RUNS, first_revolutions, point, study, units};
+use super::studies::{RUNS, first_revolutions, study};
 use crate::{
     ForceQuantity, Frame, HistoryQuantity, SectionView, VerticalAxis, Window, campbell, campbell_fixed_frame,
     critical_speeds, error_over_step, force_map, histories, interaction_map, map_sheet, png, section,
     spectrum, speed_histories, trajectories, wear_map, work_precision,
 };
 use rubmap_analysis::result::{
-    Campbell, CriticalSpeeds, InteractionMap, Point, Quantity, SectorGeometry, SpeedSpectra,
+    Campbell, CriticalSpeeds, InteractionMap, Quantity, SectorGeometry, SpeedSpectra,
 };
 use rubmap_analysis::run::{Histories, WorkPrecision};
-use rubmap_wheel::dynamics::sector::Units;
 use serde::de::DeserializeOwned;
 
 fn read<T: DeserializeOwned>(path: &Path) -> Option<T> {
@@ -59,7 +59,10 @@ fn gallery() {
     let maps: Option<Vec<InteractionMap>> =
         (0..6).map(|i| read(&demo.join(format!("map-{i}.json")))).collect();
     save(&folder, "map-sheet", &map_sheet(&maps.unwrap_or_else(|| vec![super::map(); 3]), zoom));
-    let found: SpeedSpectra = read(&demo.join("spectra-33.json")).unwrap_or_else(|| spectra(6));
+    let answer: Option<serde_json::Value> = read(&demo.join("spectra-33.json"));
+    let found: Option<SpeedSpectra> =
+        answer.and_then(|answer| serde_json::from_value(answer.get("spectra")?.clone()).ok());
+    let found = found.unwrap_or_else(|| spectra(6));
     for (name, frame) in [("spectrum", Frame::Rotating), ("spectrum-fixed-frame", Frame::Fixed)] {
         save(&folder, name, &spectrum(&found, &credentials(), &mm(), 0, frame));
     }
@@ -103,12 +106,4 @@ fn gallery() {
     let lines: Histories =
         read(&folder.join("study/histories.json")).unwrap_or_else(|| first_revolutions(&[1, 2, 4], 20, 9));
     save(&folder, "histories", &histories(&lines, 0));
-}
-
-fn credentials() -> Point {
-    serde_json::from_value(point(1, "completed")).unwrap()
-}
-
-fn mm() -> Units {
-    serde_json::from_value(units()).unwrap()
 }

@@ -1,0 +1,207 @@
+//! Which part of a sweep's interaction maps is asked for, and its rows.
+
+use serde::Deserialize;
+use tokio::runtime::Handle;
+use utoipa::{IntoParams, ToSchema};
+
+use super::problem::Problem;
+use super::results::{check_sensor, sweep};
+use super::selection;
+use crate::analysis::request::{Sensor, SpeedUnit};
+use crate::analysis::resolved::ResolvedSweep;
+use crate::analysis::result::{InteractionMap, SpeedSpectra};
+use crate::analysis::run;
+use crate::plot::Window;
+use crate::store::jobs::{Job, JobId};
+use crate::store::results::Document;
+use crate::store::{Store, StoreError};
+
+/// Which part of an interaction map to download.
+#[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+pub(super) struct MapQuery {
+    /// Index of the sensor in the request; default 0.
+    sensor: Option<u32>,
+    /// In place of `sensor`: indices of sensors and ranges of them, such as `0-2,5`. Amplitudes are then `[sensor][speed][engine order]`,
+    /// even of one.
+    #[param(max_length = 1000)]
+    sensors: Option<String>,
+    /// Only these speeds: indices in the request and ranges of them, or ranges in rpm, rad_s or hz, such as `0-9,15` or
+    /// `24000-28000rpm`. A drawing shows what is from the slowest to the fastest of them.
+    #[param(max_length = 1000)]
+    speeds: Option<String>,
+    /// Only these engine orders: numbers and ranges, such as `0-8,12`. A drawing shows what is from the lowest to the highest.
+    #[param(max_length = 1000)]
+    orders: Option<String>,
+    /// Only the wheel's component in this nodal diameter.
+    nodal_diameter: Option<u32>,
+    /// Of a drawing, in place of `nodal_diameter`: a sheet with a map of each of these nodal diameters, such as `0-4`.
+    #[param(max_length = 1000)]
+    nodal_diameters: Option<String>,
+    /// Of a drawing: the axis upwards; default `engine_order`. A sheet has engine orders.
+    #[param(inline)]
+    pub(super) axis: Option<MapAxis>,
+}
+
+/// Axis of an interaction map upwards.
+#[derive(Debug, Clone, Copy, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum MapAxis {
+    /// Engine-order lines are horizontal.
+    EngineOrder,
+    /// Engine-order lines rise with speed.
+    Frequency,
+}
+
+/// The part of a sweep's maps that is asked for.
+pub(super) struct Part {
+    /// Indices in the request, ascending.
+    pub(super) sensors: Vec<(u32, Sensor)>,
+    /// Whether they were asked for as several.
+    pub(super) several: bool,
+    /// Indices in the request, ascending.
+    pub(super) speeds: Vec<u32>,
+    /// Columns of the engine orders, ascending.
+    pub(super) columns: Vec<usize>,
+    /// Whether these may be less than all.
+    selects: (bool, bool),
+    /// Nodal diameters; `None` is the whole wheel's motion.
+    pub(super) diameters: Vec<Option<u32>>,
+    /// Whether these were asked for as several.
+    pub(super) sheet: bool,
+}
+
+impl Part {
+    pub(super) fn of(job: &Job, query: &MapQuery) -> Result<Self, Problem> {
+        let (request, facts) = sweep(job)?;
+        let sensors = match (query.sensor, &query.sensors) {
+            (Some(_), Some(_)) => {
+                return Err(Problem::parameter("sensors", "give either sensor or sensors"));
+            }
+            (_, Some(sensors)) => selection::sensors(sensors, request.sensors().len())?,
+            (sensor, None) => {
+                let sensor = sensor.unwrap_or(0);
+                check_sensor(request.sensors(), sensor)?;
+                vec![sensor]
+            }
+        };
+        let largest = facts.sectors / 2;
+        let diameters = match (query.nodal_diameter, &query.nodal_diameters) {
+            (Some(_), Some(_)) => {
+                return Err(Problem::parameter(
+                    "nodal_diameters",
+                    "give either nodal_diameter or nodal_diameters",
+                ));
+            }
+            (_, Some(some)) => {
+                let some = selection::list("nodal_diameters", some, largest as usize + 1, "nodal diameter")?;
+                some.into_iter().map(Some).collect()
+            }
+            (Some(nodal_diameter), None) if nodal_diameter > largest => {
+                let detail = format!("{} sectors have nodal diameters 0 to {largest}", facts.sectors);
+                return Err(Problem::parameter("nodal_diameter", detail));
+            }
+            (nodal_diameter, None) => vec![nodal_diameter],
+        };
+        let (grid, orders) = (request.speeds().rad_s(), run::map_engine_orders(request));
+        let speeds = query.speeds.as_ref().map(|some| selection::speeds(some, grid)).transpose()?;
+        let columns = query.orders.as_ref().map(|some| selection::orders(some, &orders)).transpose()?;
+        let all = whole(request);
+        Ok(Self {
+            sensors: sensors.into_iter().map(|index| (index, request.sensors()[index as usize])).collect(),
+            several: query.sensors.is_some(),
+            selects: (speeds.is_some(), columns.is_some()),
+            speeds: speeds.unwrap_or(all.0),
+            columns: columns.unwrap_or(all.1),
+            diameters,
+            sheet: query.nodal_diameters.is_some(),
+        })
+    }
+
+    /// The map of the first sensor, without rows.
+    pub(super) fn head(&self, job: &Job, store: &Store, runtime: &Handle) -> Result<InteractionMap, Problem> {
+        let (request, facts) = sweep(job)?;
+        let errors = runtime.block_on(store.document(job.id, Document::Errors))?;
+        let errors = errors.map(|errors| serde_json::from_str(&errors)).transpose()?;
+        let points = runtime.block_on(store.points(job.id))?.into_iter().map(|point| (point, None)).collect();
+        let sensor = self.sensors[0].0 as usize;
+        let mut map = run::interaction_map(request, &facts.units, points, sensor, self.diameters[0]);
+        map.speeds_rad_s = self.speeds.iter().map(|&index| map.speeds_rad_s[index as usize]).collect();
+        map.engine_orders = self.columns.iter().map(|&column| map.engine_orders[column]).collect();
+        map.points.retain(|point| self.speeds.binary_search(&point.index).is_ok());
+        Ok(InteractionMap { plan: job.plan.clone(), errors, amplitude: Vec::new(), ..map })
+    }
+
+    /// The chosen columns of a row, of each nodal diameter one after the other.
+    pub(super) fn row(
+        &self,
+        store: &Store,
+        runtime: &Handle,
+        job: JobId,
+        sensor: u32,
+        index: u32,
+    ) -> Result<Option<Vec<f64>>, StoreError> {
+        let of = |spectra: &SpeedSpectra| {
+            let mut chosen = Vec::with_capacity(self.diameters.len() * self.columns.len());
+            for diameter in &self.diameters {
+                let row = run::map_row(spectra, sensor as usize, *diameter)?;
+                chosen.extend(self.columns.iter().filter_map(|&column| row.get(column)));
+            }
+            Some(chosen)
+        };
+        runtime.block_on(store.map_row(job, index, of))
+    }
+
+    /// The maps of the first sensor with their rows, one per nodal diameter.
+    pub(super) fn maps(
+        &self,
+        job: &Job,
+        store: &Store,
+        runtime: &Handle,
+    ) -> Result<Vec<InteractionMap>, Problem> {
+        let head = self.head(job, store, runtime)?;
+        let empty = vec![None; self.speeds.len()];
+        let of = |diameter: &Option<u32>| InteractionMap {
+            nodal_diameter: *diameter,
+            amplitude: empty.clone(),
+            ..head.clone()
+        };
+        let mut maps: Vec<InteractionMap> = self.diameters.iter().map(of).collect();
+        for point in &head.points {
+            let Some(row) = self.row(store, runtime, job.id, self.sensors[0].0, point.index)? else {
+                continue;
+            };
+            let place = self.speeds.partition_point(|index| *index < point.index);
+            for (map, row) in maps.iter_mut().zip(row.chunks(self.columns.len())) {
+                map.amplitude[place] = Some(row.to_vec());
+            }
+        }
+        Ok(maps)
+    }
+
+    /// What a drawing shows: from the slowest to the fastest chosen speed, and from the lowest to the highest engine order.
+    pub(super) fn window(&self, request: &ResolvedSweep) -> Result<Window, Problem> {
+        let range = |name: &str, values: &mut dyn Iterator<Item = f64>| {
+            let ends =
+                values.fold((f64::INFINITY, 0.0), |(low, high): (f64, f64), x| (low.min(x), high.max(x)));
+            if ends.0 < ends.1 {
+                Ok(ends)
+            } else {
+                Err(Problem::parameter(name, "a drawing goes from one to another: choose two at least"))
+            }
+        };
+        let (grid, orders) = (request.speeds().rad_s(), run::map_engine_orders(request));
+        let mut rpm = self.speeds.iter().map(|&index| grid[index as usize] / SpeedUnit::Rpm.rad_s());
+        let mut chosen = self.columns.iter().map(|&column| orders[column]);
+        Ok(Window {
+            speeds_rpm: self.selects.0.then(|| range("speeds", &mut rpm)).transpose()?,
+            engine_orders: self.selects.1.then(|| range("orders", &mut chosen)).transpose()?,
+        })
+    }
+}
+
+/// All speeds and all columns of a sweep's maps.
+pub(super) fn whole(request: &ResolvedSweep) -> (Vec<u32>, Vec<usize>) {
+    let (speeds, orders) = (request.speeds().rad_s().len(), run::map_engine_orders(request).len());
+    ((0..speeds as u32).collect(), (0..orders).collect())
+}
