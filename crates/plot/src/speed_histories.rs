@@ -2,7 +2,7 @@
 
 use super::axis::{label, ticks};
 use super::cells::rpm;
-use super::colour::ordinal;
+use super::colour::{DASHES, ordinal};
 use super::diagram::Diagram;
 use super::heading::{heading, measured, origin};
 use super::key::Key;
@@ -16,9 +16,6 @@ const LEFT: f64 = 100.0;
 const PLOT_WIDTH: f64 = 830.0;
 /// Where there is one curve only, and so no key.
 const WIDE: f64 = 1040.0;
-
-/// Dashes of the curves of a panel, in turn: what tells them apart without colours.
-const DASHES: [&str; 4] = ["", "8 3", "2 3", "9 3 2 3"];
 
 /// What is drawn of the histories of a speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
