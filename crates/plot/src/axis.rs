@@ -78,6 +78,11 @@ pub(super) fn decades(range: (f64, f64), most: usize) -> Vec<(f64, String)> {
     ticks
 }
 
+/// Eighths of a circle, in degrees.
+pub(super) fn eighths() -> Vec<(f64, String)> {
+    (0..=8).map(|i| (45.0 * f64::from(i), format!("{}°", 45 * i))).collect()
+}
+
 /// A number with commas between thousands.
 pub(super) fn label(value: f64, decimals: usize) -> String {
     let text = format!("{:.decimals$}", value.abs());

@@ -1,7 +1,7 @@
 //! The Campbell diagram in the rotating frame.
 
 use super::axis::ticks;
-use super::cells::rpm;
+use super::cells::{range, rpm};
 use super::colour::ordinal;
 use super::diagram::Diagram;
 use super::key::{Key, MARK_WIDTH};
@@ -44,10 +44,7 @@ fn diagram(campbell: &Campbell) -> Diagram {
     let branches = campbell.branches();
     let frequencies = branches.iter().flat_map(|(_, table)| table.iter().flatten().flatten()).copied();
     let highest = frequencies.filter(|f| f.is_finite()).fold(0.0, f64::max);
-    let speeds = campbell.speeds_rad_s.iter().map(|speed| rpm(*speed));
-    let (slow, fast) =
-        speeds.fold((f64::INFINITY, 0f64), |(slow, fast), speed| (slow.min(speed), fast.max(speed)));
-    let speeds = if slow < fast { (slow, fast) } else { (0.0, f64::max(fast, 1.0)) };
+    let speeds = range(&campbell.speeds_rad_s);
     Diagram::new(CORNER, SIZE, speeds, (0.0, if highest > 0.0 { 1.06 * highest } else { 1.0 }))
 }
 
@@ -258,8 +255,7 @@ fn legend(campbell: &Campbell, diagram: &Diagram, x: f64) -> Element {
         key = key.row(marks::diamond((16.0, 0.0), "#d62728", "white"), &words);
     }
     if linear(campbell, diagram).next().is_some() {
-        let ring = Element::new("circle").number("cx", 16.0).number("r", 4.5).set("fill", "none");
-        let ring = ring.set("stroke", "black").set("stroke-width", "1.5");
+        let ring = marks::ring((16.0, 0.0), "black");
         key = key.row(ring, "linear criterion (i, j, n)");
     }
     key.draw()

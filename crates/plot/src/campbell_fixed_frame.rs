@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::axis::ticks;
-use super::cells::rpm;
+use super::cells::{range, rpm};
 use super::colour::ordinal;
 use super::diagram::Diagram;
 use super::key::{Key, MARK_WIDTH};
@@ -176,9 +176,7 @@ fn diagram(campbell: &Campbell, curves: &[Curve], top: f64) -> Diagram {
     // Forward waves leave through the top: what matters comes down.
     let at_rest = curves.iter().filter_map(|curve| curve.hz.first().copied().flatten()).fold(0.0, f64::max);
     let highest = highest.fold(0.0, f64::max).min(if at_rest > 0.0 { 1.6 * at_rest } else { f64::INFINITY });
-    let speeds = campbell.speeds_rad_s.iter().map(|speed| rpm(*speed));
-    let (slow, fast) = speeds.fold((f64::INFINITY, 0f64), |(a, b), speed| (a.min(speed), b.max(speed)));
-    let speeds = if slow < fast { (slow, fast) } else { (0.0, f64::max(fast, 1.0)) };
+    let speeds = range(&campbell.speeds_rad_s);
     let size = (PLOT_WIDTH, HEIGHT - 66.0 - top);
     Diagram::new((LEFT, top), size, speeds, (0.0, if highest > 0.0 { 1.05 * highest } else { 1.0 }))
 }
@@ -234,8 +232,7 @@ fn key(campbell: &Campbell, curves: &[Curve], diagram: &Diagram) -> Element {
         }
     }
     if campbell.crossings.iter().any(|crossing| diagram.x.contains(rpm(crossing.speed_rad_s))) {
-        let ring = Element::new("circle").number("cx", 16.0).number("r", 4.5).set("fill", "none");
-        key = key.row(ring.set("stroke", "black").set("stroke-width", "1.5"), "stands still: (i, j, n)");
+        key = key.row(marks::ring((16.0, 0.0), "black"), "stands still: (i, j, n)");
     }
     let families: Vec<usize> = curves.iter().map(|curve| curve.family).collect();
     if let Some(last) = families.iter().max() {

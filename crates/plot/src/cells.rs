@@ -34,6 +34,14 @@ pub(super) fn cells(speeds_rad_s: &[f64]) -> Vec<Cell> {
     sorted.iter().enumerate().map(cell).collect()
 }
 
+/// The lowest and the highest of some speeds, in rpm; from standstill where all are one.
+pub(super) fn range(speeds_rad_s: &[f64]) -> (f64, f64) {
+    let speeds = speeds_rad_s.iter().map(|speed| rpm(*speed));
+    let (slow, fast) =
+        speeds.fold((f64::INFINITY, 0f64), |(slow, fast), speed| (slow.min(speed), fast.max(speed)));
+    if slow < fast { (slow, fast) } else { (0.0, f64::max(fast, 1.0)) }
+}
+
 /// First and last value of the speed axis, in rpm.
 pub(super) fn extent(cells: &[Cell]) -> (f64, f64) {
     match (cells.first(), cells.last()) {

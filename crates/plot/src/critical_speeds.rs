@@ -214,7 +214,7 @@ impl<'a> View<'a> {
             key = key.row(tie.set("stroke-width", "1.2"), "to the nearest crossing");
         }
         if !self.critical.linear_crossings.is_empty() {
-            key = key.row(ring(middle), "linear criterion, (i, j, n)");
+            key = key.row(marks::ring(middle, "black"), "linear criterion, (i, j, n)");
         }
         if !self.critical.driven_crossings.is_empty() {
             key = key.row(marks::diamond(middle, "#ff9d5c", "black"), "driven by the lobes, (i, j)");
@@ -275,11 +275,6 @@ fn rows(critical: &CriticalSpeeds) -> Vec<Row<'_>> {
 fn peak_mark((x, y): (f64, f64), resolved: bool) -> Element {
     let mark = Element::new("circle").number("cx", x).number("cy", y).number("r", 4.6).set("stroke", PEAK);
     mark.set("class", "peak").set("stroke-width", "1.6").set("fill", if resolved { PEAK } else { "white" })
-}
-
-fn ring((x, y): (f64, f64)) -> Element {
-    let ring = Element::new("circle").number("cx", x).number("cy", y).number("r", 4.5).set("fill", "none");
-    ring.set("stroke", "black").set("stroke-width", "1.5")
 }
 
 fn square((x, y): (f64, f64)) -> Element {

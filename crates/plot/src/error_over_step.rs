@@ -2,6 +2,7 @@
 
 use super::axis::{decades, label};
 use super::cells::rpm;
+use super::colour::DASHES;
 use super::diagram::Diagram;
 use super::heading::heading;
 use super::key::{Key, MARK_WIDTH};
@@ -17,9 +18,6 @@ const WIDTH: f64 = 1180.0;
 const HEIGHT: f64 = 760.0;
 const LEFT: f64 = 92.0;
 const PLOT_WIDTH: f64 = 790.0;
-
-/// Line styles of the sizes, in turn.
-const DASHES: [&str; 4] = ["", "8 3", "2 3", "9 3 2 3"];
 
 /// Draws the errors of one quantity over the time step at the speed of index `speed`, both on logarithmic axes: a line for each scheme
 /// and size of the model, and beside them what an error does that falls with the step or with its square.

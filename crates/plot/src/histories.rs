@@ -2,13 +2,13 @@
 
 use super::axis::{label, ticks};
 use super::cells::rpm;
-use super::colour::DISTINCT;
+use super::colour::{DASHES, DISTINCT};
 use super::diagram::Diagram;
 use super::heading::heading;
 use super::key::Key;
 use super::marks::order;
 use super::svg::{Element, group};
-use super::trace::Trace;
+use super::trace::{Pen, Trace};
 use super::{scheme, svg};
 use rubmap_analysis::result::HistoryLine;
 use rubmap_analysis::run::Histories;
@@ -18,13 +18,7 @@ const HEIGHT: f64 = 640.0;
 const LEFT: f64 = 92.0;
 const PLOT_WIDTH: f64 = 800.0;
 
-/// Line styles of the sizes beyond the colours, and of those beyond that.
-const DASHES: [&str; 3] = ["", "7 3", "2 3"];
-
-/// Dashes of the reference.
-const REFERENCE: &str = "8 5";
-
-/// Draws the displacements of the sensor of index `sensor` over revolutions, one line per size; the reference is dashed and black.
+/// Draws the displacements of the sensor of index `sensor` over revolutions, one line per size; the reference is thin and black.
 pub fn histories(histories: &Histories, sensor: usize) -> String {
     let measured =
         histories.sensors.get(sensor).map_or_else(|| "displacement".to_owned(), ToString::to_string);
@@ -55,10 +49,9 @@ pub fn histories(histories: &Histories, sensor: usize) -> String {
         let step = 1.0 / f64::from(histories.samples_per_revolution.max(1));
         let place = |(j, value): (usize, &f64)| diagram.point((j + 1) as f64 * step, *value);
         let points: Vec<(f64, f64)> = curve.displacement.iter().enumerate().map(place).collect();
-        let (colour, dashes) = curve.style(index);
         let trace = Trace::of(points, diagram.x.place(1.0) - diagram.x.place(0.0));
         bands |= trace.is_band;
-        trace.coloured(colour, dashes, curves.len() > 2).title(&curve.title())
+        trace.drawn(&curve.pen(index, curves.len() > 2)).title(&curve.title())
     }));
     content.extend([
         diagram.frame(),
@@ -93,12 +86,13 @@ impl<'a> Curve<'a> {
         )
     }
 
-    /// Colour and dashes of the line at this place.
-    fn style(&self, index: usize) -> (&'static str, &'static str) {
+    /// The reference is thin and black over the broad lines of the others.
+    fn pen(&self, index: usize, of_many: bool) -> Pen {
         if self.line.reference {
-            return ("black", REFERENCE);
+            return Pen { colour: "black".to_owned(), width: 0.9, dashes: "", of_many };
         }
-        (DISTINCT[index % DISTINCT.len()], DASHES[(index / DISTINCT.len()).min(DASHES.len() - 1)])
+        let colour = DISTINCT[index % DISTINCT.len()].to_owned();
+        Pen { colour, width: 2.2, dashes: DASHES[index % DASHES.len()], of_many }
     }
 }
 
@@ -116,8 +110,7 @@ fn diagram(curves: &[Curve], samples_per_revolution: u32, top: f64) -> Diagram {
 fn key(curves: &[Curve], diagram: &Diagram, bands: bool) -> Element {
     let key = Key::new(diagram.right() + 30.0, diagram.top).heading("modes per speed · unknowns");
     let row = |key: Key, (index, curve): (usize, &Curve)| {
-        let (colour, dashes) = curve.style(index);
-        let mark = Trace::mark(bands, colour, dashes, curves.len() > 2);
+        let mark = curve.pen(index, curves.len() > 2).mark(bands);
         let words = format!(
             "{}{} · {} unknowns",
             if curve.line.reference { "reference: " } else { "" },

@@ -204,8 +204,7 @@ fn key(
             flow = flow.entry(group().child(dark(16.0)).child(mark), 16.0, "driven by the lobes, (i, j)");
         }
         if linear {
-            let ring = Element::new("circle").number("cx", 8.0).number("r", 4.5).set("fill", "none");
-            let ring = ring.set("stroke", "white").set("stroke-width", "1.5");
+            let ring = marks::ring((8.0, 0.0), "white");
             let words = "linear criterion (i, j, n) at k = i·n";
             flow = flow.entry(group().child(dark(16.0)).child(ring), 16.0, words);
         }

@@ -1,7 +1,7 @@
 //! A sheet of zoomed maps, one per nodal diameter: the paper's Figs 12 to 14.
 
 use super::axis::{Scale, label, logarithmic_ticks, ticks};
-use super::cells::{cells, rpm};
+use super::cells::{cells, range};
 use super::key::Flow;
 use super::map_view::{End, QUIETEST, VerticalAxis, View, is_missing};
 use super::svg::{Element, document, group, text};
@@ -99,16 +99,9 @@ fn title(maps: &[InteractionMap]) -> String {
 fn words(maps: &[InteractionMap]) -> String {
     let Some(map) = maps.first() else { return String::new() };
     let computed = map.amplitude.iter().flatten().count();
-    let speeds = map.speeds_rad_s.iter().map(|speed| rpm(*speed));
-    let (slow, fast) = speeds.fold((f64::INFINITY, 0f64), |(a, b), speed| (a.min(speed), b.max(speed)));
-    let range = if slow <= fast {
-        format!(" from {} to {} rpm", label(slow, 0), label(fast, 0))
-    } else {
-        String::new()
-    };
+    let (slow, fast) = range(&map.speeds_rad_s);
+    let speeds =
+        format!("{} speeds from {} to {} rpm", map.speeds_rad_s.len(), label(slow, 0), label(fast, 0));
     let origin = heading::origin(&map.settings.model, &map.version);
-    format!(
-        "{computed} of {} speeds{range} · one scale of colours for all · {origin}",
-        map.speeds_rad_s.len()
-    )
+    format!("{computed} of {speeds} · one scale of colours for all · {origin}")
 }

@@ -13,6 +13,16 @@ pub(super) const UNRESOLVED: &str = "1.5 4";
 
 /// An open circle: the linear criterion's crossing.
 pub(super) fn linear((x, y): (f64, f64), stroke: &str, crossing: &Crossing) -> Element {
+    ring((x, y), stroke).title(&format!(
+        "linear criterion (i, j, n) = {}: {} rpm, {} Hz",
+        triple(crossing),
+        label(rpm(crossing.speed_rad_s), 0),
+        significant(crossing.frequency_hz)
+    ))
+}
+
+/// An open circle.
+pub(super) fn ring((x, y): (f64, f64), stroke: &str) -> Element {
     Element::new("circle")
         .number("cx", x)
         .number("cy", y)
@@ -20,12 +30,6 @@ pub(super) fn linear((x, y): (f64, f64), stroke: &str, crossing: &Crossing) -> E
         .set("fill", "none")
         .set("stroke", stroke)
         .set("stroke-width", "1.5")
-        .title(&format!(
-            "linear criterion (i, j, n) = {}: {} rpm, {} Hz",
-            triple(crossing),
-            label(rpm(crossing.speed_rad_s), 0),
-            significant(crossing.frequency_hz)
-        ))
 }
 
 /// (i, j, n) of a crossing.

@@ -2,12 +2,12 @@
 
 use super::axis::{label, ticks};
 use super::cells::rpm;
-use super::colour::ordinal;
+use super::colour::{DASHES, ordinal};
 use super::diagram::Diagram;
 use super::heading::{heading, measured, origin};
 use super::key::Key;
 use super::svg::{Element, document, group};
-use super::trace::Trace;
+use super::trace::{Pen, Trace};
 use rubmap_analysis::result::{ContactHistory, EnergyHistory, SensorHistory, SpeedHistories};
 
 const WIDTH: f64 = 1180.0;
@@ -16,9 +16,6 @@ const LEFT: f64 = 100.0;
 const PLOT_WIDTH: f64 = 830.0;
 /// Where there is one curve only, and so no key.
 const WIDE: f64 = 1040.0;
-
-/// Dashes of the curves of a panel, in turn: what tells them apart without colours.
-const DASHES: [&str; 4] = ["", "8 3", "2 3", "9 3 2 3"];
 
 /// What is drawn of the histories of a speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -64,7 +61,7 @@ pub fn speed_histories(histories: &SpeedHistories, what: HistoryQuantity, index:
         let corner = (LEFT, top + place as f64 * (height + gap));
         let last = place + 1 == panels.len();
         let width = if panels.iter().all(|panel| panel.curves.len() == 1) { WIDE } else { PLOT_WIDTH };
-        content.push(panel.draw(histories, (corner, (width, height)), last));
+        content.push(panel.draw(histories, (corner, (width, height)), (place == 0, last)));
     }
     document(&title, WIDTH, HEIGHT, content)
 }
@@ -163,7 +160,12 @@ fn energies(energy: &EnergyHistory) -> Vec<Curve<'_>> {
 }
 
 impl Panel<'_> {
-    fn draw(&self, histories: &SpeedHistories, place: ((f64, f64), (f64, f64)), last: bool) -> Element {
+    fn draw(
+        &self,
+        histories: &SpeedHistories,
+        place: ((f64, f64), (f64, f64)),
+        (first, last): (bool, bool),
+    ) -> Element {
         let diagram = self.diagram(histories, place);
         let (x, y) = (ticks(diagram.x.values, 10.0), ticks(diagram.y.values, (place.1.1 / 60.0).max(2.0)));
         let step = 1.0 / f64::from(histories.samples_per_revolution.max(1));
@@ -175,8 +177,7 @@ impl Panel<'_> {
             let places = curve.values.iter().enumerate().map(at).collect();
             let trace = Trace::of(places, diagram.x.place(1.0) - diagram.x.place(0.0));
             bands |= trace.is_band;
-            let (colour, dashes) = self.style(index);
-            curves = curves.child(trace.coloured(&colour, dashes, self.curves.len() > 2).title(&curve.words));
+            curves = curves.child(trace.drawn(&self.pen(index)).title(&curve.words));
         }
         group()
             .set("class", "panel")
@@ -185,16 +186,14 @@ impl Panel<'_> {
             .child(diagram.frame())
             .child(diagram.x_axis(&x, if last { "revolutions since the start" } else { "" }))
             .child(diagram.y_axis(&y, &self.axis, 72.0))
-            .child(self.key(&diagram, bands))
+            .child(self.key(&diagram, bands, first))
     }
 
-    fn style(&self, index: usize) -> (String, &'static str) {
-        let dashes = if self.curves.len() > DASHES.len() * 2 { "" } else { DASHES[index % DASHES.len()] };
-        if self.curves.len() == 1 {
-            ("#1f4e79".to_owned(), "")
-        } else {
-            (ordinal(index, self.curves.len()), dashes)
-        }
+    fn pen(&self, index: usize) -> Pen {
+        let count = self.curves.len();
+        let dashes = if count > 2 * DASHES.len() { "" } else { DASHES[index % DASHES.len()] };
+        let colour = if count == 1 { "#1f4e79".to_owned() } else { ordinal(index, count) };
+        Pen { colour, width: 1.5, dashes, of_many: count > 2 }
     }
 
     fn diagram(&self, histories: &SpeedHistories, (corner, size): ((f64, f64), (f64, f64))) -> Diagram {
@@ -208,18 +207,18 @@ impl Panel<'_> {
         Diagram::new(corner, size, x, (if low < 0.0 { low - room } else { 0.0 }, high + room))
     }
 
-    fn key(&self, diagram: &Diagram, bands: bool) -> Element {
+    fn key(&self, diagram: &Diagram, bands: bool, first: bool) -> Element {
         /// More curves than this are named at the ends only.
         const MOST: usize = 16;
         let mut key = Key::new(diagram.right() + 28.0, diagram.top + 8.0);
         let count = self.curves.len();
         let shown = |index: &usize| count <= MOST || *index == 0 || index + 1 == count;
         for index in (0..count).filter(|index| count > 1 && shown(index)) {
-            let (colour, dashes) = self.style(index);
-            let mark = Trace::mark(bands, &colour, dashes, count > 2);
-            key = key.row(mark, &self.curves[index].words);
+            key = key.row(self.pen(index).mark(bands), &self.curves[index].words);
         }
         match (bands, count) {
+            // Above the frame of the first; below it are the numbers of the axis.
+            (true, 1) if !first => key.draw(),
             (true, 1) => Key::new(diagram.right() - 190.0, diagram.top - 14.0)
                 .note("band: from lowest to highest")
                 .draw(),

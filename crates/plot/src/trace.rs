@@ -14,10 +14,6 @@ pub(super) struct Trace {
 /// Samples that a column one unit wide may have before a line through them is but a smear.
 const MOST_PER_COLUMN: f64 = 5.0;
 
-/// How much of its colour a band has.
-const FULL: &str = "0.45";
-const PALE: &str = "0.10";
-
 /// Revolutions narrower than this are a column each.
 const NARROW: f64 = 40.0;
 
@@ -32,27 +28,39 @@ impl Trace {
         Self { path: polyline(points.into_iter().map(Some)).set("stroke-linejoin", "round"), is_band }
     }
 
-    /// In a colour and with dashes; one of many has a pale band, so that the others show through.
-    pub(super) fn coloured(self, colour: &str, dashes: &str, of_many: bool) -> Element {
-        let path = self.path.set("stroke", colour).set("class", "history");
-        if !self.is_band {
-            return path.set("stroke-width", "1.5").set("stroke-dasharray", dashes);
+    /// As a line of this kind, or as the band that goes with it.
+    pub(super) fn drawn(self, pen: &Pen) -> Element {
+        let path = self.path.set("class", "history");
+        pen.of(path, self.is_band)
+    }
+}
+
+/// How a history is drawn.
+#[derive(Debug)]
+pub(super) struct Pen {
+    pub(super) colour: String,
+    pub(super) width: f64,
+    pub(super) dashes: &'static str,
+    /// Whether its band is pale, so that others show through.
+    pub(super) of_many: bool,
+}
+
+impl Pen {
+    fn of(&self, shape: Element, is_band: bool) -> Element {
+        let Self { colour, width, dashes, of_many } = self;
+        let shape = shape.set("stroke", colour);
+        if !is_band {
+            return shape.number("stroke-width", *width).set("stroke-dasharray", dashes);
         }
-        let (width, dashes, opacity) = if of_many { ("1.1", dashes, PALE) } else { ("0.6", "", FULL) };
-        path.set("stroke-width", width)
-            .set("stroke-dasharray", dashes)
-            .set("style", format!("fill:{colour};fill-opacity:{opacity}"))
+        let (width, dashes, opacity) = if *of_many { ("1.1", *dashes, "0.10") } else { ("0.6", "", "0.45") };
+        let fill = format!("fill:{colour};fill-opacity:{opacity}");
+        shape.set("stroke-width", width).set("stroke-dasharray", dashes).set("style", fill)
     }
 
     /// What a key shows of it.
-    pub(super) fn mark(is_band: bool, colour: &str, dashes: &str, of_many: bool) -> Element {
-        if !is_band {
-            let stroke = line((0.0, 0.0), (MARK_WIDTH, 0.0)).set("stroke", colour);
-            return stroke.set("stroke-width", "1.5").set("stroke-dasharray", dashes);
-        }
-        let band = rectangle(0.0, -6.0, MARK_WIDTH, 12.0).set("fill", colour).set("stroke", colour);
-        let band = band.set("stroke-dasharray", if of_many { dashes } else { "" });
-        band.set("fill-opacity", if of_many { PALE } else { FULL })
+    pub(super) fn mark(&self, is_band: bool) -> Element {
+        let line = || line((0.0, 0.0), (MARK_WIDTH, 0.0));
+        self.of(if is_band { rectangle(0.0, -6.0, MARK_WIDTH, 12.0) } else { line() }, is_band)
     }
 }
 

@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use super::axis::{label, ticks};
+use super::axis::{eighths, label, ticks};
 use super::cells::rpm;
-use super::colour::ordinal;
+use super::colour::{DASHES, ordinal};
 use super::diagram::Diagram;
 use super::heading::{heading, origin};
 use super::key::{Key, MARK_WIDTH};
@@ -20,9 +20,6 @@ const PLOT_WIDTH: f64 = 800.0;
 
 /// Revolutions from the end on that are drawn: more lie on each other.
 const MOST_REVOLUTIONS: u32 = 10;
-
-/// Dashes of the tips, in turn.
-const DASHES: [&str; 4] = ["", "8 3", "2 3", "9 3 2 3"];
 
 /// Draws the outward motion of every tip that a radial or normal sensor records over its angle in the fixed frame, and the casing
 /// that it meets there with its lobes at full height.
@@ -121,7 +118,7 @@ impl<'a> View<'a> {
                 "Nothing to draw: no radial or normal sensor of a tip whose place before the casing is known";
             return vec![diagram.frame(), diagram.words(words)];
         }
-        let degrees = (0..=8).map(|i| (45.0 * f64::from(i), format!("{}°", 45 * i))).collect::<Vec<_>>();
+        let degrees = eighths();
         let y = ticks(diagram.y.values, 8.0);
         let casings =
             self.clearances.iter().enumerate().map(|(index, clearance)| self.casing(index, *clearance));

@@ -1,6 +1,6 @@
 //! What the blades wore off the coating of the casing.
 
-use super::axis::{Scale, label, significant, ticks};
+use super::axis::{Scale, eighths, label, significant, ticks};
 use super::cells::rpm;
 use super::diagram::Diagram;
 use super::force_map::node_ticks;
@@ -32,8 +32,7 @@ pub fn wear_map(wear: &WearMap, point: &Point, units: &Units) -> String {
     let scale_end = wear.depths.iter().map(deepest).fold(0.0, f64::max);
     let scale_end = if scale_end > 0.0 { scale_end } else { 1.0 };
     let nodes = wear.depths.iter().map(Vec::len).max().unwrap_or(0);
-    let degrees: Vec<(f64, String)> =
-        (0..=8).map(|i| (45.0 * f64::from(i), format!("{}°", 45 * i))).collect();
+    let degrees = eighths();
 
     let top = bottom + 20.0;
     let size = (PLOT_WIDTH, CURVE_HEIGHT);
