@@ -108,7 +108,10 @@ impl Part {
         let columns = query.orders.as_ref().map(|some| selection::orders(some, &orders)).transpose()?;
         let all = whole(request);
         Ok(Self {
-            sensors: sensors.into_iter().map(|index| (index, request.sensors()[index as usize])).collect(),
+            sensors: sensors
+                .into_iter()
+                .map(|index| (index, request.sensors()[index as usize].into()))
+                .collect(),
             several: query.sensors.is_some(),
             selects: (speeds.is_some(), columns.is_some()),
             speeds: speeds.unwrap_or(all.0),

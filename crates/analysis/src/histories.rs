@@ -1,5 +1,6 @@
 //! What happened at one speed of a sweep, simulated again.
 
+use crate::effects::casing::convert::clearance;
 use crate::end_state::EndState;
 use crate::error::AnalysisError;
 use crate::model::ReducedSector;
@@ -7,8 +8,11 @@ use crate::monitor::Monitor;
 use crate::record::record_run;
 use crate::request::{Recorded, RecordedQuantity};
 use crate::resolve::case_study::{revolutions, wanted};
+use crate::resolved::sensor::Place;
 use crate::resolved::{ResolvedCaseStudy, ResolvedSensor, ResolvedSweep};
-use crate::result::{ContactHistory, EnergyHistory, Point, PointStatus, SensorHistory, SpeedHistories};
+use crate::result::{
+    ContactHistory, EnergyHistory, Point, PointStatus, SensorHistory, SpeedHistories, TipPlace,
+};
 use crate::speed::{Start, empty_point, ready, run_speed, simulate};
 use crate::summary::critical_indices;
 use rubmap_wheel::dynamics::energy::{EffectWork, EnergyAudit};
@@ -76,7 +80,7 @@ pub fn speed_histories(
                 let samples = stepping.discretisation.samples;
                 histories.samples_per_revolution = samples as u32;
                 histories.sensors =
-                    sensors(history, sweep, record, samples * from as usize..samples * to as usize);
+                    sensors(reduced, history, sweep, record, samples * from as usize..samples * to as usize);
                 if let Some(detail) = &history.detail {
                     histories.contact = detail_contact(detail, record, wheel.sectors, wheel.repeats);
                     histories.energy = energy(&detail.energy, &point, wheel.repeats);
@@ -104,6 +108,7 @@ fn state_before(
 }
 
 fn sensors(
+    reduced: &ReducedSector,
     history: &History,
     sweep: &ResolvedSweep,
     record: &Recorded,
@@ -112,6 +117,7 @@ fn sensors(
     let velocity = history.detail.as_ref().map_or(&[][..], |detail| &detail.velocity);
     let of = |(sensor, &at): (usize, &ResolvedSensor)| SensorHistory {
         sensor: at.into(),
+        tip: tip(reduced, sweep, at),
         displacement: match record.wants(RecordedQuantity::Displacement) {
             true => history.displacement[sensor][samples.clone()].to_vec(),
             false => Vec::new(),
@@ -119,6 +125,20 @@ fn sensors(
         velocity: velocity.get(sensor).cloned().unwrap_or_default(),
     };
     sweep.sensors.iter().enumerate().map(of).collect()
+}
+
+/// Where a sensor on the contact line stands before the casing, if there is one.
+fn tip(reduced: &ReducedSector, sweep: &ResolvedSweep, sensor: ResolvedSensor) -> Option<TipPlace> {
+    let contact = &reduced.wheel.contact;
+    let node = match sensor.place {
+        Place::Contact(node) => node as usize,
+        Place::Node(id) => contact.iter().position(|node| node.id == id)?,
+    };
+    let turn = f64::from(sensor.sector) * std::f64::consts::TAU / reduced.wheel.sectors as f64;
+    Some(TipPlace {
+        angle_rad: contact[node].position[1] + turn,
+        clearance: clearance(contact, sweep)?[node],
+    })
 }
 
 /// Of one part of a wheel that repeats it: what adds up over the wheel is multiplied.

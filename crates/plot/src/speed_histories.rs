@@ -4,7 +4,7 @@ use super::axis::{label, ticks};
 use super::cells::rpm;
 use super::colour::{DASHES, ordinal};
 use super::diagram::Diagram;
-use super::heading::{heading, measured, origin};
+use super::heading::{heading, origin};
 use super::key::Key;
 use super::svg::{Element, document, group};
 use super::trace::{Pen, Trace};

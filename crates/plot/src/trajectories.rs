@@ -65,14 +65,14 @@ struct Tip<'a> {
 
 impl<'a> Tip<'a> {
     fn of(history: &'a SensorHistory) -> Option<Self> {
-        let outward = matches!(history.sensor.component, Component::Radial | Component::Normal);
+        let outward = matches!(history.sensor.component, Some(Component::Radial | Component::Normal));
         let place = history.tip.filter(|_| outward && !history.displacement.is_empty())?;
         Some(Self { history, place })
     }
 
     fn words(&self) -> String {
         let sensor = &self.history.sensor;
-        let component = if sensor.component == Component::Normal { "along its normal" } else { "radially" };
+        let component = if sensor.component == Some(Component::Normal) { "along its normal" } else { "radially" };
         format!("node {}, blade {}, {component}", sensor.contact_node, sensor.sector)
     }
 }
