@@ -22,6 +22,7 @@ mod page;
 mod principal;
 mod probe;
 pub mod problem;
+mod report;
 mod request_metrics;
 mod results;
 mod router;

@@ -31,7 +31,7 @@ pub(super) const ROW_MEMORY: u64 = 4;
 pub(super) const TEXT_MEMORY: u64 = 2;
 
 /// Memory of a document that is drawn, over its text: the text, its numbers and the drawing.
-const DRAWN_MEMORY: u64 = 4;
+pub(super) const DRAWN_MEMORY: u64 = 4;
 
 /// Which part of an interaction map to download.
 #[derive(Debug, Deserialize, IntoParams)]
@@ -50,7 +50,7 @@ pub(super) struct MapQuery {
 pub(super) struct SensorQuery {
     /// Index of the sensor in the request; default 0.
     #[serde(default)]
-    sensor: u32,
+    pub(super) sensor: u32,
 }
 
 /// One speed of a sweep.
@@ -237,7 +237,7 @@ fn sweep(job: &Job) -> Result<(&ResolvedSweep, &ModelFacts), Problem> {
     }
 }
 
-fn check_sensor(request: &ResolvedSweep, sensor: u32) -> Result<(), Problem> {
+pub(super) fn check_sensor(request: &ResolvedSweep, sensor: u32) -> Result<(), Problem> {
     let sensors = request.sensors().len();
     if sensor as usize >= sensors {
         return Err(Problem::parameter("sensor", format!("the job has {sensors} sensors, counted from 0")));

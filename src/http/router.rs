@@ -19,7 +19,7 @@ use utoipa_axum::routes;
 use super::state::AppState;
 use super::{
     access, archive, body, contract, extract, health, host, jobs, metrics, modal_analyses, models, openapi,
-    principal, problem, results, stream, studies, sweeps, version,
+    principal, problem, report, results, stream, studies, sweeps, version,
 };
 
 /// The routes with their descriptions.
@@ -36,6 +36,7 @@ pub(super) fn routes() -> OpenApiRouter<AppState> {
         .routes(routes!(jobs::list_jobs))
         .routes(routes!(jobs::get_job, jobs::label_job, jobs::delete_job))
         .routes(routes!(archive::get_archive))
+        .routes(routes!(report::get_report))
         .routes(routes!(results::get_campbell))
         .routes(routes!(results::get_interaction_map))
         .routes(routes!(results::get_spectra))

@@ -23,6 +23,7 @@ mod parameters;
 mod plans;
 mod program;
 mod refine;
+mod report;
 mod small_disk;
 mod studies;
 mod sweeps;

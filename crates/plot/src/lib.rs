@@ -40,6 +40,7 @@ mod interaction_map;
 mod key;
 mod level;
 mod marks;
+pub mod report;
 mod scheme;
 mod settling_strip;
 mod svg;
