@@ -7,7 +7,7 @@ use tokio::runtime::Handle;
 
 use super::extract::{JobPath, Parameters};
 use super::problem::{Kind, Problem};
-use super::results::{DRAWN_MEMORY, ROW_MEMORY, SensorQuery, check_sensor, find};
+use super::results::{DRAWN_MEMORY, ROW_MEMORY, SensorQuery, check_sensor, expect_successful, find};
 use super::state::AppState;
 use super::stream;
 use crate::analysis::resolved::ResolvedSweep;
@@ -49,7 +49,7 @@ pub(super) async fn get_report(
     Parameters(query): Parameters<SensorQuery>,
 ) -> Result<Response, Problem> {
     let job = find(&state, &whose, id).await?;
-    expect_end(&job)?;
+    expect_successful(&job, "the interaction map has the speeds that are done")?;
     let (store, runtime) = (state.store.clone(), Handle::current());
     let (bytes, campbell) = match (&job.request, &job.facts) {
         (JobRequest::Sweep(request), Some(_)) => {
@@ -78,24 +78,6 @@ pub(super) async fn get_report(
     let (page, leave) = page.await??;
     let page = stream::text(leave, "text/html; charset=utf-8", page);
     Ok(([(CONTENT_SECURITY_POLICY, POLICY)], page).into_response())
-}
-
-fn expect_end(job: &Job) -> Result<(), Problem> {
-    match job.status {
-        JobStatus::Successful => Ok(()),
-        JobStatus::Accepted | JobStatus::Running => {
-            let detail =
-                format!("the job is at {} %; the interaction map has the speeds that are done", job.progress);
-            Err(Problem::new(Kind::ResultNotReady, detail))
-        }
-        JobStatus::Failed | JobStatus::Dismissed => {
-            let detail = format!(
-                "the job is {}; the interaction map has the speeds that were done",
-                job.status.as_str()
-            );
-            Err(Problem::new(Kind::ResultUnavailable, detail))
-        }
-    }
 }
 
 /// The latest modal analysis that the job's owner has of its model.

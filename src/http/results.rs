@@ -229,6 +229,16 @@ pub(super) async fn find(state: &AppState, whose: &Principal, id: JobId) -> Resu
     job.ok_or_else(|| job_not_found(&id))
 }
 
+/// Refuses a job that was not successful, and says what there is `instead`.
+pub(super) fn expect_successful(job: &Job, instead: &str) -> Result<(), Problem> {
+    let (kind, how) = match job.status {
+        JobStatus::Successful => return Ok(()),
+        JobStatus::Accepted | JobStatus::Running => (Kind::ResultNotReady, format!("at {} %", job.progress)),
+        JobStatus::Failed | JobStatus::Dismissed => (Kind::ResultUnavailable, job.status.as_str().to_owned()),
+    };
+    Err(Problem::new(kind, format!("the job is {how}; {instead}")))
+}
+
 /// The request of a sweep and the facts of its model.
 fn sweep(job: &Job) -> Result<(&ResolvedSweep, &ModelFacts), Problem> {
     match (&job.request, &job.facts) {
