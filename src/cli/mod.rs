@@ -5,6 +5,7 @@ pub mod generate;
 mod import;
 mod keeping;
 mod repeat;
+mod report;
 mod serve;
 mod session;
 mod signals;
@@ -33,6 +34,8 @@ enum Command {
     Study(study::StudyArgs),
     /// Compute the job of an archive again and compare bit by bit.
     Repeat(repeat::RepeatArgs),
+    /// Write a job of a running service as one page of HTML.
+    Report(report::ReportArgs),
     /// Run the HTTP service.
     Serve(Config),
     /// Copy a data folder, while a service works on it or not.
@@ -56,6 +59,7 @@ impl Cli {
             Command::Demo(_)
             | Command::Study(_)
             | Command::Repeat(_)
+            | Command::Report(_)
             | Command::Backup(_)
             | Command::Check(_)
             | Command::Token(_) => "warn",
@@ -70,6 +74,7 @@ impl Cli {
             Command::Study(args) => return study::run(&args),
             Command::Repeat(args) => return repeat::run(&args),
             Command::Check(args) => return keeping::check(args),
+            Command::Report(args) => report::report(args)?,
             Command::Serve(config) => serve::run(config)?,
             Command::Token(command) => token::token(command)?,
             Command::Backup(args) => keeping::backup(args)?,

@@ -24,7 +24,7 @@ use crate::store::status::JobStatus;
 pub(super) const TEXT_MEMORY: u64 = 2;
 
 /// Memory of a document that is read and written in another form, over its text: the text, its numbers, and what is made of them.
-const READ_MEMORY: u64 = 6;
+pub(super) const READ_MEMORY: u64 = 6;
 
 /// Makes the drawing of a result.
 type Draw<T> = Box<dyn FnOnce(&T) -> String + Send>;

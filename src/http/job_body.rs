@@ -111,7 +111,7 @@ pub(super) struct Link {
     #[schema(example = "/v1/jobs/0198c5a2-7c1e-7d54-9f3b-2f6d7a6f4b10/interaction-map")]
     href: String,
     /// What it is: `self`, `interaction-map`, `critical-speeds`, `wheel-critical-speeds`, `forces`, `spectra` (with a `{index}` to fill
-    /// in), `campbell`, `work-precision`, `histories`, `archive` or `model`.
+    /// in), `campbell`, `work-precision`, `histories`, `report`, `archive` or `model`.
     rel: &'static str,
 }
 
@@ -140,6 +140,9 @@ impl From<JobHead> for JobBody {
     }
 }
 
+/// Of jobs that fit on a page.
+const REPORT: (&str, &str) = ("report", "/report");
+
 /// Of jobs that can be repeated.
 const ARCHIVE: (&str, &str) = ("archive", "/archive");
 
@@ -152,9 +155,10 @@ pub(super) fn links(id: JobId, kind: JobKind, model: Option<&str>) -> Vec<Link> 
             ("wheel-critical-speeds", "/critical-speeds/wheel"),
             ("spectra", "/spectra/{index}"),
             ("forces", "/forces"),
+            REPORT,
             ARCHIVE,
         ],
-        JobKind::ModalAnalysis => &[("campbell", "/campbell"), ARCHIVE],
+        JobKind::ModalAnalysis => &[("campbell", "/campbell"), REPORT, ARCHIVE],
         JobKind::ModelGeneration => &[],
         JobKind::Study => &[("work-precision", "/work-precision"), ("histories", "/histories"), ARCHIVE],
         JobKind::CaseStudy => &[("histories", "/histories")],

@@ -32,6 +32,7 @@ mod principal;
 mod probe;
 pub mod problem;
 mod renderings;
+mod report;
 mod request_metrics;
 mod results;
 mod router;

@@ -16,6 +16,7 @@ use crate::analysis::run::ModelFacts;
 use crate::plot;
 use crate::store::jobs::{Job, JobId, JobKind, JobRequest};
 use crate::store::results::Document;
+use crate::store::status::JobStatus;
 use crate::tokens::Principal;
 
 /// Which table of critical speeds to download.
@@ -24,7 +25,7 @@ use crate::tokens::Principal;
 pub(super) struct SensorQuery {
     /// Index of the sensor in the request; default 0.
     #[serde(default)]
-    sensor: u32,
+    pub(super) sensor: u32,
 }
 
 /// Download the critical speeds of a sweep beside the linear prediction.
@@ -110,6 +111,16 @@ pub(super) async fn get_campbell(
 pub(super) async fn find(state: &AppState, whose: &Principal, id: JobId) -> Result<Job, Problem> {
     let job = state.store.job(id).await?.filter(|job| whose.sees(&job.owner));
     job.ok_or_else(|| job_not_found(&id))
+}
+
+/// Refuses a job that was not successful, and says what there is `instead`.
+pub(super) fn expect_successful(job: &Job, instead: &str) -> Result<(), Problem> {
+    let (kind, how) = match job.status {
+        JobStatus::Successful => return Ok(()),
+        JobStatus::Accepted | JobStatus::Running => (Kind::ResultNotReady, format!("at {} %", job.progress)),
+        JobStatus::Failed | JobStatus::Dismissed => (Kind::ResultUnavailable, job.status.as_str().to_owned()),
+    };
+    Err(Problem::new(kind, format!("the job is {how}; {instead}")))
 }
 
 /// The request of a sweep and the facts of its model.

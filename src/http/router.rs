@@ -19,7 +19,7 @@ use utoipa_axum::routes;
 use super::state::AppState;
 use super::{
     access, archive, body, case_studies, contract, extract, forces, health, histories, host, jobs, maps,
-    metrics, modal_analyses, models, openapi, principal, problem, results, section, spectra, stream, studies,
+    metrics, modal_analyses, models, openapi, principal, problem, report, results, section, spectra, stream, studies,
     sweeps, version, wheel,
 };
 
@@ -39,6 +39,7 @@ pub(super) fn routes() -> OpenApiRouter<AppState> {
         .routes(routes!(jobs::list_jobs))
         .routes(routes!(jobs::get_job, jobs::label_job, jobs::delete_job))
         .routes(routes!(archive::get_archive))
+        .routes(routes!(report::get_report))
         .routes(routes!(results::get_campbell))
         .routes(routes!(maps::get_interaction_map))
         .routes(routes!(spectra::get_spectra))

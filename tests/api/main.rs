@@ -26,6 +26,7 @@ mod parameters;
 mod plans;
 mod program;
 mod refine;
+mod report;
 mod sensors;
 mod small_disk;
 mod studies;

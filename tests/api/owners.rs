@@ -98,6 +98,7 @@ async fn what_belongs_to_one_owner_is_not_there_for_another() {
         "/work-precision",
         "/histories",
         "/archive",
+        "/report",
     ] {
         bob.get(&format!("/v1/jobs/{id}{path}")).await.problem(404, "job-not-found");
     }

@@ -9,7 +9,7 @@ use super::labels::Labels;
 use super::map_view::{DRIVEN, VerticalAxis, View, is_missing, lobes};
 use super::svg::{Element, INK, document, group, line, rectangle, text, upright};
 use super::window::Window;
-use super::{colour_bar, hatching, heading, heat, level, marks, sectors, settling_strip};
+use super::{colour_bar, hatching, heat, level, marks, sectors, settling_strip};
 use rubmap_analysis::result::{
     Campbell, CriticalSpeed, CriticalSpeeds, InteractionMap, StiffeningVerdict, Verdict,
 };

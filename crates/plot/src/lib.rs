@@ -53,6 +53,7 @@ mod marks;
 mod outline;
 mod pixels;
 mod raster;
+pub mod report;
 mod scheme;
 mod section;
 mod sectors;

@@ -15,6 +15,7 @@ use tokio::io::AsyncWriteExt;
 pub(in crate::cli) struct Client {
     base: String,
     http: reqwest::Client,
+    token: Option<String>,
 }
 
 /// An uploaded model.
@@ -89,7 +90,12 @@ impl Job {
 
 impl Client {
     pub(in crate::cli) fn new(base: String) -> Self {
-        Self { base, http: reqwest::Client::new() }
+        Self { base, http: reqwest::Client::new(), token: None }
+    }
+
+    /// With a bearer token, if there is one.
+    pub(in crate::cli) fn with_token(self, token: Option<String>) -> Self {
+        Self { token, ..self }
     }
 
     /// `POST /v1/models`.
@@ -174,7 +180,11 @@ impl Client {
     }
 
     fn request(&self, method: Method, path: &str) -> RequestBuilder {
-        self.http.request(method, format!("{}{path}", self.base))
+        let request = self.http.request(method, format!("{}{path}", self.base));
+        match &self.token {
+            Some(token) => request.bearer_auth(token),
+            None => request,
+        }
     }
 }
 

@@ -19,7 +19,7 @@ use super::extract::JobPath;
 use super::forms::TEXT_MEMORY;
 use super::job_body::RequestBody;
 use super::problem::{Kind, Problem};
-use super::results::find;
+use super::results::{expect_successful, find};
 use super::spectra::ROW_MEMORY;
 use super::state::AppState;
 use super::stream;
@@ -27,7 +27,6 @@ use crate::analysis::result::SpeedResult;
 use crate::analysis::run::VERSION;
 use crate::store::jobs::{Job, JobRequest};
 use crate::store::results::Document;
-use crate::store::status::JobStatus;
 use crate::store::{Store, StoreError};
 use crate::tokens::Principal;
 use crate::version;
@@ -80,21 +79,7 @@ pub(super) async fn get_archive(
 
 /// The model of a job that can be repeated, and the request that repeats it.
 fn repeatable(job: &Job) -> Result<(String, RequestBody), Problem> {
-    match job.status {
-        JobStatus::Successful => {}
-        JobStatus::Accepted | JobStatus::Running => {
-            let detail =
-                format!("the job is at {} %; an archive is made of a job that was successful", job.progress);
-            return Err(Problem::new(Kind::ResultNotReady, detail));
-        }
-        JobStatus::Failed | JobStatus::Dismissed => {
-            let detail = format!(
-                "the job is {}; an archive is made of a job that was successful",
-                job.status.as_str()
-            );
-            return Err(Problem::new(Kind::ResultUnavailable, detail));
-        }
-    }
+    expect_successful(job, "an archive is made of a job that was successful")?;
     let request = match &job.request {
         JobRequest::Sweep(request) => RequestBody::Sweep(Box::new(request.unrefined())),
         JobRequest::CaseStudy(_) => {

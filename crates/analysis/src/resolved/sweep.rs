@@ -131,6 +131,16 @@ impl ResolvedSweep {
         nodes
     }
 
+    /// Highest engine order of its spectra.
+    pub fn max_engine_order(&self) -> u32 {
+        self.max_engine_order
+    }
+
+    /// Revolutions that its spectra are computed from: as many lines have they per engine order.
+    pub fn window_revolutions(&self) -> u32 {
+        self.integration.window_revolutions
+    }
+
     /// Whether speeds are added around its peaks.
     pub fn is_refined(&self) -> bool {
         self.refine

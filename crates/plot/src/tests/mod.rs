@@ -3,6 +3,7 @@
 mod drawings;
 mod fixtures;
 mod gallery;
+mod report;
 mod studies;
 
 use std::f64::consts::TAU;

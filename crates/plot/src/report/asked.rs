@@ -1,0 +1,75 @@
+//! What was asked for, in a few lines.
+
+use maud::{Markup, html};
+use rubmap_analysis::request::{ModalAnalysisRequest, SweepRequest};
+use serde::Serialize;
+use serde_json::Value;
+
+use super::page::facts_table;
+
+pub(super) fn sweep(settings: &SweepRequest) -> Markup {
+    let mut facts = vec![("speeds".to_owned(), words(&settings.speeds))];
+    if let Ok(Value::Object(scene)) = serde_json::to_value(&settings.scene) {
+        facts.extend(scene.into_iter().map(|(effect, value)| (effect.replace('_', " "), plain(&value))));
+    }
+    facts.push(("modes per speed".to_owned(), words(&settings.modes_per_speed)));
+    facts.push(("integration".to_owned(), words(&settings.integration)));
+    facts.push(("highest engine order".to_owned(), settings.max_engine_order.to_string()));
+    section(facts)
+}
+
+pub(super) fn modal_analysis(settings: &ModalAnalysisRequest) -> Markup {
+    section(vec![
+        ("speeds".to_owned(), words(&settings.speeds)),
+        ("modes per speed".to_owned(), words(&settings.modes_per_speed)),
+        ("families".to_owned(), settings.families.to_string()),
+        ("lobes".to_owned(), settings.lobes.to_string()),
+        ("superharmonics".to_owned(), words(&settings.superharmonics)),
+        ("Coriolis forces".to_owned(), words(&settings.coriolis)),
+    ])
+}
+
+fn section(facts: Vec<(String, String)>) -> Markup {
+    html! {
+        h2 { "What was asked" }
+        (facts_table(facts))
+    }
+}
+
+fn words(value: &impl Serialize) -> String {
+    serde_json::to_value(value).map(|value| plain(&value)).unwrap_or_default()
+}
+
+/// Entries of a list that are shown; all are among the settings.
+const SHOWN: usize = 8;
+
+/// A value of a request as one says it: without quotes and braces.
+fn plain(value: &Value) -> String {
+    let joined = |parts: Vec<String>| parts.join(", ");
+    match value {
+        Value::Null => "–".to_owned(),
+        Value::Bool(true) => "yes".to_owned(),
+        Value::Bool(false) => "no".to_owned(),
+        Value::String(text) => text.replace('_', " "),
+        Value::Number(number) => number.to_string(),
+        Value::Array(list) if list.len() > SHOWN => {
+            let first = joined(list.iter().take(SHOWN).map(plain).collect());
+            format!("{first} … ({} in all)", list.len())
+        }
+        Value::Array(list) if list.iter().any(Value::is_object) => {
+            list.iter().map(plain).collect::<Vec<_>>().join("; ")
+        }
+        Value::Array(list) => joined(list.iter().map(plain).collect()),
+        Value::Object(fields) if fields.is_empty() => "yes".to_owned(),
+        Value::Object(fields) => joined(
+            fields
+                .iter()
+                .map(|(name, value)| {
+                    let inner = plain(value);
+                    let inner = if value.is_object() { format!("({inner})") } else { inner };
+                    format!("{} {inner}", name.replace('_', " "))
+                })
+                .collect(),
+        ),
+    }
+}

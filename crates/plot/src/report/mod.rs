@@ -1,0 +1,75 @@
+//! A job as one page that needs nothing else: what was asked, how far it can be trusted, what was found. For a browser, and for paper (A4).
+
+mod asked;
+mod credentials;
+mod head;
+mod page;
+mod tables;
+mod warnings;
+
+use maud::{Markup, html};
+use rubmap_analysis::result::{Campbell, CriticalSpeeds, InteractionMap};
+use serde_json::Value;
+
+use super::{VerticalAxis, Window};
+use page::{drawing, page};
+
+pub use head::Head;
+
+/// What a sweep found.
+#[derive(Debug, Clone, Copy)]
+pub struct Sweep<'a> {
+    /// The map at one sensor.
+    pub map: &'a InteractionMap,
+    /// The critical speeds at every sensor.
+    pub critical: &'a [CriticalSpeeds],
+    /// Natural frequencies of the same model, if there are any.
+    pub campbell: Option<&'a Campbell>,
+}
+
+/// The report of a sweep, as HTML. All texts of users are escaped.
+pub fn sweep(head: &Head, sweep: &Sweep) -> String {
+    let Sweep { map, critical, campbell } = *sweep;
+    let of_sensor = critical.iter().find(|table| table.sensor == map.sensor);
+    let body = html! {
+        (asked::sweep(&map.settings))
+        (warnings::section(&warnings::sweep(map, critical)))
+        (credentials::sweep(map, critical))
+        h2 { "Interaction map" }
+        (drawing(&super::interaction_map(map, of_sensor, campbell, VerticalAxis::EngineOrder, Window::default())))
+        h2 { "Critical speeds" }
+        (tables::critical_speeds(critical))
+        h2 { "Largest responses" }
+        (tables::largest_responses(map))
+        @if let Some(campbell) = campbell {
+            h2 { "Natural frequencies" }
+            (drawing(&super::campbell(campbell)))
+        }
+        (settings(serde_json::to_value(&map.settings).unwrap_or_default()))
+    };
+    page(head, &body)
+}
+
+/// The report of a modal analysis, as HTML. All texts of users are escaped.
+pub fn modal_analysis(head: &Head, campbell: &Campbell) -> String {
+    let body = html! {
+        (asked::modal_analysis(&campbell.settings))
+        (warnings::section(&warnings::reduction(&campbell.reduction)))
+        (credentials::modal_analysis(campbell))
+        h2 { "Natural frequencies" }
+        (drawing(&super::campbell(campbell)))
+        h2 { "Crossings that the lobes can drive" }
+        (tables::driven_crossings(&campbell.driven_crossings))
+        (settings(serde_json::to_value(&campbell.settings).unwrap_or_default()))
+    };
+    page(head, &body)
+}
+
+/// All settings: whoever posts them asks for the same.
+fn settings(settings: Value) -> Markup {
+    html! {
+        h2 { "Settings" }
+        p { "The whole request with every default filled in, as it can be posted again." }
+        pre { (format!("{settings:#}")) }
+    }
+}

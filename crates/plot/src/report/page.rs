@@ -1,0 +1,61 @@
+//! The frame of a report: one file with its style in it.
+
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+use super::head::Head;
+
+/// Narrow enough for A4 beside its margins; drawings shrink to the width of the paper.
+const STYLE: &str = "
+@page { size: A4; margin: 15mm }
+body { font: 14px/1.45 Helvetica, Arial, 'DejaVu Sans', sans-serif; color: #1c1c1c; max-width: 1180px; margin: 2em auto; padding: 0 1em }
+h1 { font-size: 1.6em; margin-bottom: .2em }
+h2 { font-size: 1.2em; margin: 1.6em 0 .5em; border-bottom: 1px solid #ccc; break-after: avoid }
+table { border-collapse: collapse; margin: .5em 0; width: 100% }
+th, td { text-align: left; padding: .2em .6em .2em 0; border-bottom: 1px solid #e4e4e4; vertical-align: top }
+table.numbers td, table.numbers th { text-align: right; font-variant-numeric: tabular-nums }
+table.facts th { width: 16em; font-weight: normal; color: #555 }
+tr, figure { break-inside: avoid }
+figure { margin: .5em 0 } figure svg { max-width: 100%; height: auto }
+.warnings { border-left: 4px solid #b01f20; padding-left: 1em } .small { color: #555; font-size: .9em }
+pre { white-space: pre-wrap; overflow-wrap: anywhere; font-size: .8em } .notes { white-space: pre-wrap }
+@media print { body { font-size: 9.5pt; margin: 0; padding: 0; max-width: none } pre { font-size: 7pt } }
+";
+
+/// A page around its `body`.
+pub(super) fn page(head: &Head, body: &Markup) -> String {
+    let Head { title, facts, notes } = head;
+    html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                title { (title) }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                h1 { (title) }
+                @if let Some(notes) = notes { p class="notes" { (notes) } }
+                (facts_table(facts.iter().map(|(name, value)| (*name, value.clone()))))
+                (body)
+            }
+        }
+    }
+    .into_string()
+}
+
+/// Names and values.
+pub(super) fn facts_table(facts: impl IntoIterator<Item = (impl maud::Render, String)>) -> Markup {
+    html! {
+        table class="facts" {
+            @for (name, value) in facts { tr { th scope="row" { (name) } td { (value) } } }
+        }
+    }
+}
+
+/// A drawing of this crate, whose texts are escaped where they are drawn.
+pub(super) fn drawing(svg: &str) -> Markup {
+    // A declaration is for a file of its own.
+    let element = svg.find("<svg").map_or("", |start| &svg[start..]);
+    html! { figure { (PreEscaped(element)) } }
+}

@@ -1,0 +1,134 @@
+//! Tables of a report.
+
+use maud::{Markup, html};
+use rubmap_analysis::result::{
+    CriticalSpeed, CriticalSpeeds, DrivenCrossing, InteractionMap, Point, SensorResponse, Verdict,
+};
+
+use crate::cells::rpm;
+use crate::heading::sensor;
+
+/// Largest responses that are listed.
+const LISTED: usize = 10;
+
+pub(super) fn critical_speeds(tables: &[CriticalSpeeds]) -> Markup {
+    html! {
+        @for table in tables {
+            h3 { (sensor(&table.sensor)) }
+            @if table.critical_speeds.is_empty() {
+                p { "No critical speed within the range." }
+            } @else {
+                (of_sensor(table))
+            }
+        }
+        @if let Some(table) = tables.first() {
+            h3 { "What the lobes can drive in this range (linear, without contact)" }
+            (driven_crossings(&table.driven_crossings))
+        }
+    }
+}
+
+fn of_sensor(table: &CriticalSpeeds) -> Markup {
+    let unit = &table.units.length;
+    html! {
+        table class="numbers" {
+            tr {
+                th { "Ω, rpm" } th { "within, rpm" } th { "level, " (unit) " rms" } th { "peak, " (unit) }
+                th { "engine order" } th { "nodal diameter" } th { "steady state" } th { "resolved" }
+                th { "nearest linear (i, j, n)" } th { "at, rpm" } th { "off" }
+            }
+            @for peak in &table.critical_speeds { (row(peak)) }
+        }
+    }
+}
+
+fn row(peak: &CriticalSpeed) -> Markup {
+    html! {
+        tr {
+            td { (format!("{:.0}", rpm(peak.speed_rad_s))) }
+            td { (format!("{:.0}", rpm(peak.speed_error_rad_s))) }
+            td { (format!("{:.3e}", peak.rms)) }
+            td { (format!("{:.3e}", peak.half_peak_to_peak)) }
+            td { (or_none(peak.dominant_engine_order)) }
+            td { (or_none(peak.dominant_nodal_diameter)) }
+            td { (verdict(peak.settling)) }
+            td { (if peak.resolved { "yes" } else { "no" }) }
+            @match &peak.nearest_crossing {
+                Some(near) => {
+                    td { (format!("({}, {}, {})", near.nodal_diameter, near.family, near.superharmonic)) }
+                    td { (format!("{:.0}", rpm(near.speed_rad_s))) }
+                    td { (format!("{:+.1} %", 100.0 * (peak.speed_rad_s / near.speed_rad_s - 1.0))) }
+                }
+                None => { td { "none in range" } td { "–" } td { "–" } }
+            }
+        }
+    }
+}
+
+pub(super) fn driven_crossings(crossings: &[DrivenCrossing]) -> Markup {
+    html! {
+        @if crossings.is_empty() {
+            p { "None." }
+        } @else {
+            table class="numbers" {
+                tr { th { "engine order" } th { "nodal diameter" } th { "family" } th { "Ω, rpm" } th { "f, Hz" } }
+                @for crossing in crossings {
+                    tr {
+                        td { (crossing.engine_order) }
+                        td { (crossing.nodal_diameter) }
+                        td { (crossing.family) }
+                        td { (format!("{:.0}", rpm(crossing.speed_rad_s))) }
+                        td { (format!("{:.1}", crossing.frequency_hz)) }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The speeds and sensors that move most, largest first.
+pub(super) fn largest_responses(map: &InteractionMap) -> Markup {
+    let responses = |point| -> Vec<(&Point, &SensorResponse)> {
+        let point: &Point = point;
+        point.responses.iter().map(|response| (point, response)).collect()
+    };
+    let mut all: Vec<_> = map.points.iter().flat_map(responses).collect();
+    all.sort_by(|a, b| b.1.half_peak_to_peak.total_cmp(&a.1.half_peak_to_peak));
+    let unit = &map.units.length;
+    html! {
+        table class="numbers" {
+            tr {
+                th { "Ω, rpm" } th { "where" } th { "peak, " (unit) } th { "level, " (unit) " rms" } th { "mean, " (unit) }
+                th { "engine order" } th { "nodal diameter" } th { "contact" } th { "steady state" }
+            }
+            @for (point, response) in all.into_iter().take(LISTED) {
+                tr {
+                    td { (format!("{:.0}", rpm(point.speed_rad_s))) }
+                    td { (sensor(&response.sensor)) }
+                    td { (format!("{:.3e}", response.half_peak_to_peak)) }
+                    td { (format!("{:.3e}", response.rms)) }
+                    td { (format!("{:.3e}", response.mean)) }
+                    td { (or_none(response.dominant_engine_order)) }
+                    td { (or_none(response.dominant_nodal_diameter)) }
+                    td { (format!("{:.1} %", 100.0 * point.contact_share)) }
+                    td { (point.settling.as_ref().map_or("–", |settling| verdict(settling.verdict))) }
+                }
+            }
+        }
+        p class="small" { "Peak: half the peak-to-peak displacement over the window at the end of the run." }
+    }
+}
+
+fn or_none<T: ToString>(value: Option<T>) -> String {
+    value.map_or_else(|| "–".to_owned(), |value| value.to_string())
+}
+
+/// A verdict on the steady state in words.
+pub(super) fn verdict(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Periodic => "periodic",
+        Verdict::Subharmonic => "subharmonic",
+        Verdict::Aperiodic => "aperiodic",
+        Verdict::NotSettled => "not settled",
+    }
+}

@@ -1,0 +1,192 @@
+//! A job as one page.
+
+use axum::extract::State;
+use axum::http::header::CONTENT_SECURITY_POLICY;
+use axum::response::{IntoResponse, Response};
+use tokio::runtime::Handle;
+
+use super::extract::{JobPath, Parameters};
+use super::problem::{Kind, Problem};
+use super::forms::READ_MEMORY;
+use super::results::{SensorQuery, check_sensor, expect_successful, find};
+use super::spectra::ROW_MEMORY;
+use super::state::AppState;
+use super::stream;
+use crate::analysis::resolved::ResolvedSweep;
+use crate::analysis::result::{Campbell, CriticalSpeeds, InteractionMap, SpeedSpectra};
+use crate::analysis::run::{self, ModelFacts, VERSION};
+use crate::plot::report::{self, Head, Sweep};
+use crate::store::jobs::{Job, JobFilter, JobId, JobKind, JobRequest};
+use crate::store::results::Document;
+use crate::store::status::JobStatus;
+use crate::store::{Store, StoreError};
+use crate::tokens::Principal;
+use crate::version;
+
+/// Nothing is loaded from anywhere; styles and images are in the page.
+const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; img-src data:";
+
+/// Memory of a row of a map: as read, and as it is drawn.
+const MAP_MEMORY: u64 = 3;
+
+/// Download a job as one page of HTML that needs nothing else, for a browser or for paper.
+///
+/// What was asked, warnings, credentials, the interaction map at one sensor, critical speeds at all of them, the largest responses,
+/// settings and version; natural frequencies where a modal analysis of the same model was successful, of several the latest.
+#[utoipa::path(get, path = "/v1/jobs/{id}/report", operation_id = "get_report", tag = "results",
+    params(("id" = String, Path, description = "Id of a sweep or of a modal analysis."), SensorQuery),
+    responses(
+        (status = 200, description = "The page.", body = String, content_type = "text/html"),
+        (status = 400, description = "A parameter is not valid.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 404, description = "There is no such job.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 409, description = "The job is neither a sweep nor a modal analysis, or it is not successful.",
+            body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(super) async fn get_report(
+    state: State<AppState>,
+    whose: Principal,
+    JobPath(id): JobPath,
+    Parameters(query): Parameters<SensorQuery>,
+) -> Result<Response, Problem> {
+    let job = find(&state, &whose, id).await?;
+    expect_successful(&job, "the interaction map has the speeds that are done")?;
+    let (store, runtime) = (state.store.clone(), Handle::current());
+    let (bytes, campbell) = match (&job.request, &job.facts) {
+        (JobRequest::Sweep(request), Some(_)) => {
+            check_sensor(request.sensors(), query.sensor)?;
+            let orders = request.max_engine_order() * request.window_revolutions();
+            let map = u64::from(request.speeds().count()) * 8 * u64::from(orders);
+            let row = ROW_MEMORY * state.store.largest_spectra(id).await?;
+            (row + MAP_MEMORY * map, latest_modal_analysis(&state.store, &job).await?)
+        }
+        (JobRequest::ModalAnalysis(_), _) => (0, Some(id)),
+        _ => {
+            let kind = job.request.kind().as_str();
+            let detail = format!("a report is made of a sweep or a modal analysis; the job is a {kind}");
+            return Err(Problem::new(Kind::WrongJobKind, detail));
+        }
+    };
+    let drawn = match campbell {
+        Some(of) => state.store.document_bytes(of, Document::Campbell).await?.unwrap_or(0),
+        None => 0,
+    };
+    let leave = state.answers.leave(&state.jobs, bytes + READ_MEMORY * drawn).await;
+    let page = stream::blocking(move || {
+        let found = Found { job: &job, store: &store, runtime: &runtime, campbell };
+        Ok::<_, StoreError>((found.page(query.sensor)?, leave))
+    });
+    let (page, leave) = page.await??;
+    let page = stream::text(leave, "text/html; charset=utf-8", page);
+    Ok(([(CONTENT_SECURITY_POLICY, POLICY)], page).into_response())
+}
+
+/// The latest modal analysis that the job's owner has of its model.
+async fn latest_modal_analysis(store: &Store, job: &Job) -> Result<Option<JobId>, StoreError> {
+    let filter = JobFilter {
+        owner: Some(job.owner.clone()),
+        status: Some(JobStatus::Successful),
+        kind: Some(JobKind::ModalAnalysis),
+        model: job.request.model().map(ToOwned::to_owned),
+        ..JobFilter::default()
+    };
+    Ok(store.jobs(filter, 1).await?.first().map(|job| job.id))
+}
+
+/// What a report is read from, on a thread that may wait.
+struct Found<'a> {
+    job: &'a Job,
+    store: &'a Store,
+    runtime: &'a Handle,
+    /// Of which job the natural frequencies are.
+    campbell: Option<JobId>,
+}
+
+impl Found<'_> {
+    fn page(&self, sensor: u32) -> Result<String, StoreError> {
+        let campbell = match self.campbell {
+            Some(of) => self.document::<Campbell>(of, Document::Campbell)?,
+            None => None,
+        };
+        let head = head(self.job, self.campbell.filter(|_| campbell.is_some()));
+        match (&self.job.request, &self.job.facts, &campbell) {
+            (JobRequest::Sweep(request), Some(facts), _) => {
+                let map = self.map(request, facts, sensor as usize)?;
+                let mut critical = Vec::new();
+                for sensor in 0..request.sensors().len() as u32 {
+                    critical.extend(
+                        self.document::<CriticalSpeeds>(self.job.id, Document::CriticalSpeeds(sensor))?,
+                    );
+                }
+                let found = Sweep { map: &map, critical: &critical, campbell: campbell.as_ref() };
+                Ok(report::sweep(&head, &found))
+            }
+            (_, _, Some(campbell)) => Ok(report::modal_analysis(&head, campbell)),
+            // Deleted since it was found.
+            _ => Err(StoreError::Unseen),
+        }
+    }
+
+    /// The map at one sensor, as a whole.
+    fn map(
+        &self,
+        request: &ResolvedSweep,
+        facts: &ModelFacts,
+        sensor: usize,
+    ) -> Result<InteractionMap, StoreError> {
+        let id = self.job.id;
+        let mut rows = Vec::new();
+        for point in self.runtime.block_on(self.store.points(id))? {
+            let row = |spectra: &SpeedSpectra| run::map_row(spectra, sensor, None).map(<[f64]>::to_vec);
+            let row = self.runtime.block_on(self.store.map_row(id, point.index, row))?;
+            rows.push((point, row));
+        }
+        let errors = self.document(id, Document::Errors)?;
+        let map = run::interaction_map(request, &facts.units, rows, sensor, None);
+        Ok(InteractionMap { plan: self.job.plan.clone(), errors, ..map })
+    }
+
+    fn document<T: serde::de::DeserializeOwned>(
+        &self,
+        job: JobId,
+        document: Document,
+    ) -> Result<Option<T>, StoreError> {
+        let text = self.runtime.block_on(self.store.document(job, document))?;
+        Ok(text.map(|text| serde_json::from_str(&text)).transpose()?)
+    }
+}
+
+/// What stands at the top.
+fn head(job: &Job, campbell: Option<JobId>) -> Head {
+    let kind = match job.kind {
+        JobKind::ModalAnalysis => "Modal analysis",
+        _ => "Sweep of contact simulations",
+    };
+    let facts = job.facts.as_ref();
+    let model = facts.map_or("", |facts| facts.name.as_str());
+    let mut rows = vec![("job", format!("{kind} {}", job.id)), ("model", model.to_owned())];
+    if let Some(facts) = facts {
+        let ModelFacts { sectors, contact_nodes, own_dofs, units, .. } = facts;
+        let size = format!(
+            "{sectors} sectors of {own_dofs} DOF, {contact_nodes} contact nodes; lengths in {}, forces in {}",
+            units.length, units.force
+        );
+        rows.push(("wheel", size));
+    }
+    rows.extend(job.request.model().map(|model| ("content of its package", format!("SHA-256 {model}"))));
+    if !job.labels.tags.is_empty() {
+        rows.push(("tags", job.labels.tags.join(", ")));
+    }
+    let finished = job.finished_at.as_deref().unwrap_or("–");
+    rows.push(("asked, finished", format!("{}, {finished}", job.created_at)));
+    if let Some(of) = campbell.filter(|of| *of != job.id) {
+        rows.push(("natural frequencies", format!("of modal analysis {of} of the same model")));
+    }
+    let vectors = job.vectors.as_deref().unwrap_or("unknown");
+    let program =
+        format!("rubmap {VERSION}, commit {}; computed on vectors of kind {vectors}", version::COMMIT);
+    rows.push(("program", program));
+    let title = job.labels.name.clone().unwrap_or_else(|| format!("{kind}: {model}"));
+    Head { title, facts: rows, notes: job.labels.notes.clone() }
+}
