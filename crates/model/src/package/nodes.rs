@@ -49,3 +49,44 @@ pub fn read_nodes(path: &Path, limits: &Limits) -> Result<Vec<SectorNode>, Packa
     };
     Ok((0..nodes.len()).map(of).collect())
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Vector3;
+
+    use super::*;
+    use crate::impeller::{CantileverParameters, cantilever};
+    use crate::package::write;
+
+    /// What a Cartesian package clamps in part keeps x, y, z, and says what of them is radial, tangential and axial.
+    #[test]
+    fn a_node_clamped_in_part_moves_along_its_cartesian_components() {
+        let mut package =
+            cantilever(&CantileverParameters { elements: [2, 1, 1], ..CantileverParameters::default() })
+                .unwrap();
+        package.manifest.frame = Frame::Cartesian;
+        let id = package.dofs[package.dofs.len() / 2].node;
+        package.dofs.retain(|dof| dof.node != id || dof.component != 1);
+        let file = tempfile::NamedTempFile::new().unwrap();
+        write(&package, &file).unwrap();
+        let nodes = read_nodes(file.path(), &Limits::default()).unwrap();
+        let axis = Vector3::from(package.manifest.axis.direction).normalize();
+        let whole = |node: &&SectorNode| node.dofs.iter().all(Option::is_some);
+        assert!(nodes.iter().filter(whole).count() > 2);
+        for node in nodes.iter().filter(whole) {
+            assert_eq!(
+                node.dofs.map(|dof| dof.unwrap().components),
+                [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+            );
+        }
+        let node = nodes.iter().find(|node| node.id == id).unwrap();
+        let from_origin = Vector3::from(node.position) - Vector3::from(package.manifest.axis.origin);
+        let radial = (from_origin - axis * from_origin.dot(&axis)).normalize();
+        assert!(node.dofs[0].is_none());
+        for k in [1, 2] {
+            let expected = [radial[k], axis.cross(&radial)[k], axis[k]];
+            let found = node.dofs[k].unwrap().components;
+            assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12), "{found:?} {expected:?}");
+        }
+    }
+}
