@@ -6,8 +6,8 @@ use axum::response::{IntoResponse, Response};
 use tokio::runtime::Handle;
 
 use super::extract::{JobPath, Parameters};
-use super::problem::{Kind, Problem};
 use super::forms::READ_MEMORY;
+use super::problem::{Kind, Problem};
 use super::results::{SensorQuery, check_sensor, expect_successful, find};
 use super::spectra::ROW_MEMORY;
 use super::state::AppState;
@@ -78,7 +78,7 @@ pub(super) async fn get_report(
         Ok::<_, StoreError>((found.page(query.sensor)?, leave))
     });
     let (page, leave) = page.await??;
-    let page = stream::text(leave, "text/html; charset=utf-8", page);
+    let page = stream::whole(leave, "text/html; charset=utf-8", page);
     Ok(([(CONTENT_SECURITY_POLICY, POLICY)], page).into_response())
 }
 

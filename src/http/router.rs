@@ -19,8 +19,8 @@ use utoipa_axum::routes;
 use super::state::AppState;
 use super::{
     access, archive, body, case_studies, contract, extract, forces, health, histories, host, jobs, maps,
-    metrics, modal_analyses, models, openapi, principal, problem, report, results, section, spectra, stream, studies,
-    sweeps, version, wheel,
+    metrics, modal_analyses, models, openapi, principal, problem, report, results, section, spectra, stream,
+    studies, sweeps, version, wheel,
 };
 
 /// The routes with their descriptions.

@@ -76,7 +76,7 @@ pub(super) fn whole(
 pub(super) fn zip(
     leave: Leave,
     name: &str,
-    write: impl FnOnce(&mut Pieces) -> io::Result<()> + Send + 'static,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()> + Send + 'static,
 ) -> Response {
     let disposition = (header::CONTENT_DISPOSITION, format!("attachment; filename=\"{name}\""));
     ([disposition], written(leave, ZIP, write)).into_response()
@@ -108,7 +108,7 @@ fn pieces_of(receiver: Receiver<io::Result<Bytes>>) -> impl stream::Stream<Item 
 }
 
 /// Sends what is written, piece by piece, and waits for the client to take them.
-pub(super) struct Pieces {
+struct Pieces {
     sender: Sender<io::Result<Bytes>>,
     piece: Vec<u8>,
     /// Whether all of it was sent.

@@ -72,7 +72,8 @@ impl<'a> Tip<'a> {
 
     fn words(&self) -> String {
         let sensor = &self.history.sensor;
-        let component = if sensor.component == Some(Component::Normal) { "along its normal" } else { "radially" };
+        let component =
+            if sensor.component == Some(Component::Normal) { "along its normal" } else { "radially" };
         let node = match (sensor.contact_node, sensor.node) {
             (Some(node), _) => format!("contact node {node}"),
             (None, node) => format!("node {}", node.unwrap_or_default()),

@@ -74,7 +74,7 @@ pub(super) async fn get_archive(
     let leave = state.answers.leave(&state.jobs, bytes).await;
     let (store, runtime) = (state.store.clone(), Handle::current());
     let contents = Contents { job, model, request, package, documents, store, runtime };
-    Ok(stream::zip(leave, &format!("rubmap-{id}.zip"), move |out| contents.write(out)))
+    Ok(stream::zip(leave, &format!("rubmap-{id}.zip"), move |mut out| contents.write(&mut out)))
 }
 
 /// The model of a job that can be repeated, and the request that repeats it.

@@ -6,7 +6,6 @@ use rubmap_analysis::result::{
 };
 
 use crate::cells::rpm;
-use crate::heading::sensor;
 
 /// Largest responses that are listed.
 const LISTED: usize = 10;
@@ -14,7 +13,7 @@ const LISTED: usize = 10;
 pub(super) fn critical_speeds(tables: &[CriticalSpeeds]) -> Markup {
     html! {
         @for table in tables {
-            h3 { (sensor(&table.sensor)) }
+            h3 { (table.sensor.to_string()) }
             @if table.critical_speeds.is_empty() {
                 p { "No critical speed within the range." }
             } @else {
@@ -104,7 +103,7 @@ pub(super) fn largest_responses(map: &InteractionMap) -> Markup {
             @for (point, response) in all.into_iter().take(LISTED) {
                 tr {
                     td { (format!("{:.0}", rpm(point.speed_rad_s))) }
-                    td { (sensor(&response.sensor)) }
+                    td { (response.sensor.to_string()) }
                     td { (format!("{:.3e}", response.half_peak_to_peak)) }
                     td { (format!("{:.3e}", response.rms)) }
                     td { (format!("{:.3e}", response.mean)) }
