@@ -13,6 +13,7 @@ use super::{colour_bar, hatching, heat, level, marks, sectors, settling_strip};
 use rubmap_analysis::result::{
     Campbell, CriticalSpeed, CriticalSpeeds, InteractionMap, StiffeningVerdict, Verdict,
 };
+use rubmap_wheel::response::waves::fold;
 
 const WIDTH: f64 = 1180.0;
 const HEIGHT: f64 = 1000.0;
@@ -88,7 +89,7 @@ fn engine_orders(view: &View, map: &InteractionMap, wheel: Option<u32>) -> Eleme
                 continue;
             }
             (VerticalAxis::Frequency, _) => order,
-            (VerticalAxis::EngineOrder, Some(wheel)) => sectors::driven(order, wheel),
+            (VerticalAxis::EngineOrder, Some(wheel)) => fold(order, wheel),
             (VerticalAxis::EngineOrder, None) => continue,
         };
         said = true;

@@ -101,14 +101,9 @@ impl View {
             let area = area.set("class", "missing").set("fill", "white").set("fill-opacity", "0");
             (from < to).then(|| area.title(&format!("{:.0} rpm: {reason}", cell.rpm)))
         });
-        let image = match loudest {
-            Some(loudest) => {
-                let amplitudes = self.scale(loudest);
-                heat::image(map, cells, &self.diagram, &amplitudes, |y, rpm| self.order(y, rpm))
-            }
-            // Nothing moves: as quiet as the colours go.
-            None => heat::image(map, cells, &self.diagram, &self.scale(1.0), |y, rpm| self.order(y, rpm)),
-        };
+        // Where nothing moves, all is as quiet as the colours go.
+        let amplitudes = self.scale(loudest.unwrap_or(1.0));
+        let image = heat::image(map, cells, &self.diagram, &amplitudes, |y, rpm| self.order(y, rpm));
         group().child(self.diagram.background(hatching::FILL)).children(missing).child(image)
     }
 

@@ -1,5 +1,7 @@
 //! Sections of the sector: the paper's Figs 1 and 3.
 
+use std::collections::BTreeSet;
+
 use super::axis::{significant, ticks};
 use super::diagram::Diagram;
 use super::heading::heading;
@@ -12,6 +14,9 @@ const WIDTH: f64 = 1180.0;
 const HEIGHT: f64 = 800.0;
 const LEFT: f64 = 92.0;
 const PLOT: (f64, f64) = (790.0, 640.0);
+
+/// Dots so near to each other are one.
+const COVERED: f64 = 1.5;
 
 /// A gap that can be seen, in the drawing.
 const VISIBLE: f64 = 14.0;
@@ -125,6 +130,14 @@ impl<'a> Drawing<'a> {
         self.geometry.nodes.iter().filter(move |node| node.kind == kind)
     }
 
+    /// Places of the nodes of a kind; of those that cover each other one.
+    fn seen(&self, kind: NodeKind) -> Vec<(f64, f64)> {
+        let places = self.of(kind).map(|node| self.place(node.position));
+        let mut taken = BTreeSet::new();
+        let cell = |(x, y): &(f64, f64)| ((x / COVERED) as i64, (y / COVERED) as i64);
+        places.filter(|place| taken.insert(cell(place))).collect()
+    }
+
     fn content(&self) -> Vec<Element> {
         let mut content = Vec::new();
         if self.geometry.nodes.is_empty() && self.geometry.contact.is_empty() {
@@ -133,7 +146,7 @@ impl<'a> Drawing<'a> {
         content.extend(self.outline());
         content.extend(self.casing());
         for look in self.looks() {
-            let dots = self.of(look.kind).map(|node| dot(self.place(node.position), look));
+            let dots = self.seen(look.kind).into_iter().map(|place| dot(place, look));
             content.push(group().set("class", class(look.kind)).set("fill", look.colour).children(dots));
         }
         let line = self.geometry.contact.iter().map(|contact| Some(self.place(contact.position)));

@@ -15,12 +15,6 @@ pub(super) fn sectors(reduction: &ReductionReport) -> Option<u32> {
     }
 }
 
-/// Nodal diameter |k − N·round(k/N)| that engine order k drives.
-pub(super) fn driven(order: u32, sectors: u32) -> u32 {
-    let rest = order % sectors.max(1);
-    rest.min(sectors.max(1) - rest)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -42,6 +36,5 @@ mod tests {
         assert_eq!(sectors(&report(&[3, 4], 3 + 4)), Some(2));
         assert_eq!(sectors(&report(&[3, 4], 1)), None);
         assert_eq!(sectors(&report(&[], 0)), None);
-        assert_eq!([0, 3, 5, 7, 12, 20].map(|k| driven(k, 10)), [0, 3, 5, 3, 2, 0]);
     }
 }

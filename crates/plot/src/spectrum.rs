@@ -18,6 +18,9 @@ const PLOT_WIDTH: f64 = 860.0;
 /// Lines below this share of the largest are not drawn.
 const QUIETEST: f64 = 1e-4;
 
+/// More lines than this are a black area.
+const MOST: usize = 4000;
+
 /// Who looks at the wheel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Frame {
@@ -99,8 +102,11 @@ fn whole(
         let empty = Diagram::new(corner, size, (0.0, 1.0), (0.0, 1.0));
         return vec![empty.frame(), empty.words("Nothing to draw: the sensor does not move")];
     };
-    let shown = lines.into_iter().filter(|(_, amplitude)| diagram.y.contains(*amplitude));
-    let stems = shown.map(|(order, amplitude)| {
+    let mut shown: Vec<(f64, f64)> =
+        lines.into_iter().filter(|(_, amplitude)| diagram.y.contains(*amplitude)).collect();
+    shown.sort_by(|a, b| b.1.total_cmp(&a.1));
+    shown.truncate(MOST);
+    let stems = shown.into_iter().map(|(order, amplitude)| {
         let words =
             format!("engine order {}: {} {}", marks::order(order), significant(amplitude), units.length);
         stem(&diagram, order, amplitude).set("stroke", INK).set("stroke-width", "1.6").title(&words)
@@ -198,11 +204,13 @@ impl Lines {
             self.lines.iter().filter(|line| diagram.y.contains(line.amplitude)).collect();
         // The smaller in front of the larger.
         shown.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
+        let all_shown = shown.len() <= MOST;
+        shown.truncate(MOST);
         let drawn = shown.iter().map(|found| self.line(&diagram, found, units));
         let content = group().set("class", "lines").children(drawn);
         let title = format!("nodal diameters, {}", units.length);
         let mut all = framed(&diagram, content, &title, x_title);
-        all.push(self.key(&diagram, &shown));
+        all.push(self.key(&diagram, &shown, all_shown));
         all
     }
 
@@ -227,7 +235,7 @@ impl Lines {
         group().child(stem).child(symbol(place, &colour, found.nodal_diameter, found.forward)).title(&words)
     }
 
-    fn key(&self, diagram: &Diagram, shown: &[&Line]) -> Element {
+    fn key(&self, diagram: &Diagram, shown: &[&Line], all_shown: bool) -> Element {
         let mut key = Key::new(diagram.right() + 34.0, diagram.top + 8.0).heading("nodal diameter");
         for nodal_diameter in 0..self.harmonics {
             if shown.iter().any(|line| line.nodal_diameter == nodal_diameter) {
@@ -243,6 +251,9 @@ impl Lines {
             let middle = (0.5 * MARK_WIDTH, 0.0);
             key = key.row(group().child(symbol(middle, INK, 1, true)), "k + n: forwards");
             key = key.row(group().child(symbol(middle, INK, 1, false)), "|k − n|: backwards");
+        }
+        if !all_shown {
+            key = key.note(&format!("the {} largest lines", label(MOST as f64, 0)));
         }
         key.draw()
     }

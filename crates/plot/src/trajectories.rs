@@ -21,6 +21,12 @@ const PLOT_WIDTH: f64 = 800.0;
 /// Revolutions from the end on that are drawn: more lie on each other.
 const MOST_REVOLUTIONS: u32 = 10;
 
+/// Shortest line that is drawn.
+const SMALLEST_STEP: f64 = 0.5;
+
+/// Where something is in the drawing.
+type Place = (f64, f64);
+
 /// Draws the outward motion of every tip that a radial or normal sensor records over its angle in the fixed frame, and the casing
 /// that it meets there with its lobes at full height.
 pub fn trajectories(histories: &SpeedHistories) -> String {
@@ -171,7 +177,15 @@ impl<'a> View<'a> {
                 points.push(None);
             }
             before = angle;
-            points.push(self.diagram.inside(angle, *moved));
+            let place = self.diagram.inside(angle, *moved);
+            // A step that cannot be seen says nothing.
+            let hidden =
+                points.last().copied().flatten().zip(place).is_some_and(|(last, place): (Place, Place)| {
+                    f64::hypot(place.0 - last.0, place.1 - last.1) < SMALLEST_STEP
+                });
+            if !hidden {
+                points.push(place);
+            }
         }
         let (colour, dashes) = self.style(index);
         polyline(points)

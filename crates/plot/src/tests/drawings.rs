@@ -464,6 +464,33 @@ fn images_have_the_right_size_and_texts() {
     }
 }
 
+/// However much there is, a drawing does not grow with it.
+#[test]
+fn large_results_make_no_large_drawings() {
+    let mut many = spectra(1);
+    many.engine_orders = (0..20_000).map(|bin| 0.05 * f64::from(bin)).collect();
+    many.sensors[0].amplitude = (0..20_000).map(|bin| 1.0 + f64::from(bin % 7)).collect();
+    many.sensors[0].nodal_diameters = vec![many.sensors[0].amplitude.clone(); 20];
+    let mut dense = sector(3);
+    let (first, mut nodes) = (dense.nodes[10], Vec::new());
+    for i in 0..200_000u32 {
+        let position = [20.0 + 1e-4 * f64::from(i), 0.1, f64::from(i % 100)];
+        nodes.push(rubmap_analysis::result::SectorNode { position, ..first });
+    }
+    dense.nodes = nodes;
+    for drawing in [
+        spectrum(&many, &credentials(), &mm(), 0, Frame::Rotating),
+        spectrum(&many, &credentials(), &mm(), 0, Frame::Fixed),
+        section(&dense, SectionView::Meridional),
+        speed_histories(&recorded([0, 50], 2048), HistoryQuantity::Force, 0),
+        trajectories(&recorded([0, 50], 2048)),
+        wear_map(&worn(20_000, 20), &credentials(), &mm()),
+        force_map(&contact(5000), ForceQuantity::Peak),
+    ] {
+        assert!(drawing.len() < 4_000_000, "{} bytes: {}", drawing.len(), &drawing[..300]);
+    }
+}
+
 #[test]
 fn what_is_no_image_is_refused() {
     assert_eq!(png("<svg/>", 5), Err(PngError::Width { width: 5 }));

@@ -1,5 +1,6 @@
-//! Drawings to be looked at: `RUBMAP_GALLERY=folder cargo test --release -p rubmap-plot gallery -- --ignored` leaves all of them in
-//! the folder as SVG, and as PNG in colour and in grey. Where `rubmap demo` left its results in `folder/demo`, those are drawn.
+//! Drawings to be looked at: `cargo test --release -p rubmap-plot gallery -- --ignored` leaves all of them in `target/gallery` as SVG,
+//! and as PNG in colour and in grey. Where `rubmap demo` and `rubmap study` left their results in `demo` and `study` in it, those are
+//! drawn.
 
 use std::path::{Path, PathBuf};
 
@@ -39,7 +40,8 @@ fn save(folder: &Path, name: &str, drawing: &str) {
 #[test]
 #[ignore = "leaves files to be looked at"]
 fn gallery() {
-    let folder = PathBuf::from(std::env::var("RUBMAP_GALLERY").expect("a folder in RUBMAP_GALLERY"));
+    let folder = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../target/gallery"));
+    std::fs::create_dir_all(&folder).unwrap();
     let demo = folder.join("demo");
     let map: InteractionMap = read(&demo.join("interaction-map.json")).unwrap_or_else(super::map);
     let critical: CriticalSpeeds = read(&demo.join("critical-speeds.json")).unwrap_or_else(super::critical);
