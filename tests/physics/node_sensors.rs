@@ -206,7 +206,6 @@ fn rows_of_a_contact_node_read_what_it_reads() {
             samples_per_revolution: 512,
             revolutions: 2,
             window_revolutions: 1,
-
             detail: None,
         }
         .run(&|_| true);
