@@ -1,5 +1,6 @@
 //! The command line: one file per command.
 
+mod case;
 mod demo;
 pub mod generate;
 mod import;
@@ -32,6 +33,8 @@ enum Command {
     Demo(demo::DemoArgs),
     /// Show what accuracy costs in time: errors of many settings against a finer one.
     Study(study::StudyArgs),
+    /// Show what happens at one speed: motion, forces, energy.
+    Case(case::CaseArgs),
     /// Compute the job of an archive again and compare bit by bit.
     Repeat(repeat::RepeatArgs),
     /// Write a job of a running service as one page of HTML.
@@ -58,6 +61,7 @@ impl Cli {
         match self.command {
             Command::Demo(_)
             | Command::Study(_)
+            | Command::Case(_)
             | Command::Repeat(_)
             | Command::Report(_)
             | Command::Backup(_)
@@ -72,6 +76,7 @@ impl Cli {
         match self.command {
             Command::Demo(args) => return demo::run(&args),
             Command::Study(args) => return study::run(&args),
+            Command::Case(args) => return case::run(&args),
             Command::Repeat(args) => return repeat::run(&args),
             Command::Check(args) => return keeping::check(args),
             Command::Report(args) => report::report(args)?,

@@ -13,7 +13,7 @@ use super::spectra::ROW_MEMORY;
 use super::state::AppState;
 use super::stream;
 use crate::analysis::resolved::ResolvedSweep;
-use crate::analysis::result::{Campbell, CriticalSpeeds, InteractionMap, SpeedSpectra};
+use crate::analysis::result::{Campbell, CriticalSpeeds, InteractionMap, SpeedHistories, SpeedSpectra};
 use crate::analysis::run::{self, ModelFacts, VERSION};
 use crate::plot::report::{self, Head, Sweep};
 use crate::store::jobs::{Job, JobFilter, JobId, JobKind, JobRequest};
@@ -26,13 +26,16 @@ use crate::version;
 /// Nothing is loaded from anywhere; styles and images are in the page.
 const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; img-src data:";
 
+/// Most speeds whose histories are drawn.
+const MOST_HISTORIES: usize = 3;
+
 /// Memory of a row of a map: as read, and as it is drawn.
 const MAP_MEMORY: u64 = 3;
 
 /// Download a job as one page of HTML that needs nothing else, for a browser or for paper.
 ///
 /// What was asked, warnings, credentials, the interaction map at one sensor, critical speeds at all of them, the largest responses,
-/// settings and version; natural frequencies where a modal analysis of the same model was successful, of several the latest.
+/// contact forces, recorded histories of up to three speeds, settings and version; natural frequencies where a modal analysis of the same model was successful, of several the latest.
 #[utoipa::path(get, path = "/v1/jobs/{id}/report", operation_id = "get_report", tag = "results",
     params(("id" = String, Path, description = "Id of a sweep or of a modal analysis."), SensorQuery),
     responses(
@@ -72,9 +75,16 @@ pub(super) async fn get_report(
         Some(of) => state.store.document_bytes(of, Document::Campbell).await?.unwrap_or(0),
         None => 0,
     };
-    let leave = state.answers.leave(&state.jobs, bytes + READ_MEMORY * drawn).await;
+    let mut histories = state.store.documents(id).await?;
+    histories.retain(|document| matches!(document, Document::Histories(_)));
+    histories.truncate(MOST_HISTORIES);
+    let mut recorded = 0;
+    for document in &histories {
+        recorded += state.store.document_bytes(id, *document).await?.unwrap_or(0);
+    }
+    let leave = state.answers.leave(&state.jobs, bytes + READ_MEMORY * (drawn + recorded)).await;
     let page = stream::blocking(move || {
-        let found = Found { job: &job, store: &store, runtime: &runtime, campbell };
+        let found = Found { job: &job, store: &store, runtime: &runtime, campbell, histories: &histories };
         Ok::<_, StoreError>((found.page(query.sensor)?, leave))
     });
     let (page, leave) = page.await??;
@@ -101,6 +111,8 @@ struct Found<'a> {
     runtime: &'a Handle,
     /// Of which job the natural frequencies are.
     campbell: Option<JobId>,
+    /// Histories to be drawn.
+    histories: &'a [Document],
 }
 
 impl Found<'_> {
@@ -119,7 +131,20 @@ impl Found<'_> {
                         self.document::<CriticalSpeeds>(self.job.id, Document::CriticalSpeeds(sensor))?,
                     );
                 }
-                let found = Sweep { map: &map, critical: &critical, campbell: campbell.as_ref() };
+                let row = |point: &_, contact: &_| run::force_row(point, contact);
+                let rows = self.runtime.block_on(self.store.contacts(self.job.id, row))?;
+                let forces = (!rows.is_empty()).then(|| run::force_map(request, &facts.units, rows));
+                let mut histories = Vec::new();
+                for document in self.histories {
+                    histories.extend(self.document::<SpeedHistories>(self.job.id, *document)?);
+                }
+                let found = Sweep {
+                    map: &map,
+                    critical: &critical,
+                    forces: forces.as_ref(),
+                    histories: &histories,
+                    campbell: campbell.as_ref(),
+                };
                 Ok(report::sweep(&head, &found))
             }
             (_, _, Some(campbell)) => Ok(report::modal_analysis(&head, campbell)),

@@ -8,10 +8,10 @@ mod tables;
 mod warnings;
 
 use maud::{Markup, html};
-use rubmap_analysis::result::{Campbell, CriticalSpeeds, InteractionMap};
+use rubmap_analysis::result::{Campbell, CriticalSpeeds, ForceMap, InteractionMap, SpeedHistories};
 use serde_json::Value;
 
-use super::{VerticalAxis, Window};
+use super::{ForceQuantity, HistoryQuantity, VerticalAxis, Window, cells};
 use page::{drawing, page};
 
 pub use head::Head;
@@ -23,13 +23,17 @@ pub struct Sweep<'a> {
     pub map: &'a InteractionMap,
     /// The critical speeds at every sensor.
     pub critical: &'a [CriticalSpeeds],
+    /// Contact over speed; none of a scene without.
+    pub forces: Option<&'a ForceMap>,
+    /// Histories that were recorded.
+    pub histories: &'a [SpeedHistories],
     /// Natural frequencies of the same model, if there are any.
     pub campbell: Option<&'a Campbell>,
 }
 
 /// The report of a sweep, as HTML. All texts of users are escaped.
 pub fn sweep(head: &Head, sweep: &Sweep) -> String {
-    let Sweep { map, critical, campbell } = *sweep;
+    let Sweep { map, critical, forces, histories, campbell } = *sweep;
     let of_sensor = critical.iter().find(|table| table.sensor == map.sensor);
     let body = html! {
         (asked::sweep(&map.settings))
@@ -41,6 +45,18 @@ pub fn sweep(head: &Head, sweep: &Sweep) -> String {
         (tables::critical_speeds(critical))
         h2 { "Largest responses" }
         (tables::largest_responses(map))
+        @if let Some(forces) = forces {
+            h2 { "Contact" }
+            (drawing(&super::force_map(forces, ForceQuantity::Peak)))
+            (drawing(&super::force_map(forces, ForceQuantity::Consumption)))
+        }
+        @for found in histories {
+            h2 { "What happened at " (format!("{:.0}", cells::rpm(found.speed_rad_s))) " rpm" }
+            (drawing(&super::speed_histories(found, HistoryQuantity::Displacement, 0)))
+            @if found.contact.is_some() {
+                (drawing(&super::speed_histories(found, HistoryQuantity::Force, 0)))
+            }
+        }
         @if let Some(campbell) = campbell {
             h2 { "Natural frequencies" }
             (drawing(&super::campbell(campbell)))

@@ -20,8 +20,16 @@ fn a_report_of_a_sweep_says_all_and_needs_nothing() {
         notes: Some(hostile.to_owned()),
     };
     let (map, tables, campbell) = (map(), [critical()], modes());
-    let page =
-        report::sweep(&head, &report::Sweep { map: &map, critical: &tables, campbell: Some(&campbell) });
+    let page = report::sweep(
+        &head,
+        &report::Sweep {
+            map: &map,
+            critical: &tables,
+            forces: None,
+            histories: &[],
+            campbell: Some(&campbell),
+        },
+    );
     let xml = as_xml(&page);
     let read = Document::parse(&xml).unwrap();
     assert!(!page.contains("<script"), "texts stay texts");

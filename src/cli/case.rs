@@ -1,0 +1,104 @@
+//! `rubmap case`: what happens at one speed, over HTTP as any user would find out.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Args;
+use serde_json::{Value, json};
+
+use super::session::client::Client;
+use super::session::{Session, impeller, progress, save, upload};
+use super::study::request;
+use crate::analysis::result::SpeedHistories;
+use crate::plot::{self, HistoryQuantity};
+
+/// What is looked at and where the results are left.
+#[derive(Debug, Args)]
+pub(crate) struct CaseArgs {
+    /// Model package [default: the impeller of the demo]
+    #[arg(long)]
+    package: Option<PathBuf>,
+    /// JSON file with the body of POST /v1/case-studies, whose `model` may be left out [default: the demo's scene at 24,000
+    /// rpm, the first ten revolutions]
+    #[arg(long)]
+    request: Option<PathBuf>,
+    /// Folder for histories and drawings; made if missing. A second run reuses the model and its reduction, which stay in the folder
+    /// `data` in it.
+    #[arg(long, default_value = "./rubmap-case")]
+    out: PathBuf,
+    /// Threads that compute [default: one per core]
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    workers: Option<u16>,
+}
+
+/// Drawings by the names of their files.
+const DRAWINGS: [(&str, HistoryQuantity); 5] = [
+    ("displacement", HistoryQuantity::Displacement),
+    ("velocity", HistoryQuantity::Velocity),
+    ("force", HistoryQuantity::Force),
+    ("contact", HistoryQuantity::Contact),
+    ("energy", HistoryQuantity::Energy),
+];
+
+/// Runs the case study; 130, as shells say it, if a signal stopped it.
+///
+/// # Errors
+/// A file or folder that cannot be used, or a step that the service refuses.
+pub(super) fn run(args: &CaseArgs) -> anyhow::Result<ExitCode> {
+    let body = match &args.request {
+        Some(file) => request::read(file, "POST /v1/case-studies")?,
+        None => default(),
+    };
+    let session = Session::begin(&args.out)?;
+    let package = match &args.package {
+        Some(package) => package.clone(),
+        None => impeller::make_package(&args.out)?,
+    };
+    session.run(args.workers, async |client| {
+        let model = upload(client, &package).await?;
+        play(args, client, request::of_model(body, &model.id)?).await
+    })
+}
+
+fn default() -> Value {
+    json!({
+        "speed": {"value": 24000, "unit": "rpm"},
+        "scene": impeller::scene(),
+        "record": {"revolutions": [0, 10]},
+    })
+}
+
+/// Posts the case study, waits for it, draws it and tells what it says.
+async fn play(args: &CaseArgs, client: &Client, body: Value) -> anyhow::Result<()> {
+    let job = client.post_job("/v1/case-studies", &body).await?;
+    let job = progress::follow(client, &job, "case").await?;
+    let out = &args.out;
+    let path = job.link("histories")?;
+    let histories: SpeedHistories = client.download(path, &out.join("histories.json")).await?;
+    client.save(&format!("{path}?format=csv"), &out.join("histories.csv")).await?;
+    for (name, what) in DRAWINGS {
+        save(&out.join(format!("{name}.svg")), &plot::speed_histories(&histories, what, 0))?;
+    }
+    save(&out.join("trajectories.svg"), &plot::trajectories(&histories))?;
+    tell(&histories);
+    println!("\nhistories.json, histories.csv and drawings are in {}", out.display());
+    Ok(())
+}
+
+fn tell(histories: &SpeedHistories) {
+    let point = &histories.point;
+    let (length, force) = (&histories.units.length, &histories.units.force);
+    println!("\n{:.1} rad/s: {}", point.speed_rad_s, point.message.as_deref().unwrap_or("completed"));
+    for response in &point.responses {
+        println!("  {}: rms {:.4} {length}", response.sensor, response.rms);
+    }
+    if let Some(contact) = &point.contact {
+        println!(
+            "  contact: mean force {:.1} {force}, peak {:.1} {force}, {:.0} closings a revolution, {:.0} % of the clearance taken",
+            contact.mean_force,
+            contact.peak_force,
+            contact.closings_per_revolution,
+            100.0 * contact.clearance_consumption
+        );
+    }
+}
