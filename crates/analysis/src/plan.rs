@@ -12,7 +12,7 @@ use crate::effects::symmetry::repeats::repeats;
 use crate::effects::symmetry::request::Symmetry;
 use crate::effects::table::{check_at_speed, planned};
 use crate::model::{ModelFacts, ReducedSector};
-use crate::request::SweepDirection;
+use crate::request::{HistorySpeeds, SweepDirection};
 use crate::resolve::case_study::revolutions;
 use crate::resolved::{ResolvedCaseStudy, ResolvedModalAnalysis, ResolvedSweep, Scene, TrialRequest};
 use crate::result::{
@@ -58,7 +58,7 @@ pub fn plan_sweep(
         placed_sensors: Vec::new(),
         speeds: speeds.len() as u32,
         workers: workers as u32,
-        estimate: reduced.and_then(|reduced| estimate(&points, speeds, workers, reduced_bytes(reduced))),
+        estimate: reduced.and_then(|reduced| estimate(&points, &simulated(request), workers, reduced_bytes(reduced))),
         points,
         choice: None,
         warnings: warnings(&request.scene, facts, reduced),
@@ -66,6 +66,26 @@ pub fn plan_sweep(
         settings: request.clone().into(),
         version: VERSION.to_owned(),
     }
+}
+
+/// All speeds, and once more those of which histories are asked for by index; of a chain with all before them.
+fn simulated(request: &ResolvedSweep) -> Vec<f64> {
+    let speeds = request.speeds.rad_s();
+    let mut all = speeds.to_vec();
+    let Some(HistorySpeeds::Indices(indices)) = request.histories().map(|histories| &histories.speeds) else {
+        return all;
+    };
+    let chain = request.chain();
+    for &index in indices {
+        match &chain {
+            Some(chain) => {
+                let before = chain.iter().take_while(|&&link| link != index).chain([&index]);
+                all.extend(before.map(|&link| speeds[link as usize]));
+            }
+            None => all.push(speeds[index as usize]),
+        }
+    }
+    all
 }
 
 fn sectors_simulated(scene: &Scene, facts: &ModelFacts) -> u32 {

@@ -8,7 +8,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 #[serde(deny_unknown_fields)]
 pub struct Record {
     /// Histories of some of its speeds, which are simulated once more for them when all are finished: to the bit, since nothing
-    /// that is recorded changes a run.
+    /// that is recorded changes a run. A plan counts those that are named by index.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub histories: Option<HistoriesRequest>,
 }
