@@ -104,10 +104,12 @@ async fn an_archive_has_what_was_asked_and_found_and_says_so() {
     let found = entries(&archive);
 
     let names: Vec<&str> = found.iter().map(|(name, _)| name.as_str()).collect();
-    let spectra: Vec<String> = (0..6).map(|index| format!("results/spectra/0000{index}.json")).collect();
+    let speed = |index| ["spectra", "contact"].map(|what| format!("results/{what}/0000{index}.json"));
+    let speeds: Vec<String> = (0..6).flat_map(speed).collect();
     let mut expected = vec!["request.json", "settings.json", "package.zip", "results/points.json"];
-    expected.extend(spectra.iter().map(String::as_str));
-    expected.extend(["results/critical-speeds/0.json", "results/critical-speeds/1.json", "manifest.json"]);
+    expected.extend(speeds.iter().map(String::as_str));
+    expected.extend(["results/critical-speeds/0.json", "results/critical-speeds/1.json"]);
+    expected.extend(["results/wheel-critical-speeds/0.json", "manifest.json"]);
     assert_eq!(names, expected);
     assert_eq!(found[2].1, package, "byte by byte");
 

@@ -47,7 +47,8 @@ async fn all_structural_errors_come_at_once_in_words() {
         (
             "/colour",
             "this field does not exist here; those here are accuracy, budget, control_speeds, integration, \
-          max_engine_order, model, modes_per_speed, peak_prominence, refine, scene, sensors, speeds, sweep",
+          max_engine_order, model, modes_per_speed, name, notes, peak_prominence, record, refine, scene, sensors, \
+          speeds, sweep, tags",
         ),
         ("/refine", "expected true or false, not the text \"yes\""),
         ("/max_engine_order", "expected a whole number from 1 to 1000, not 5000000000"),
@@ -235,7 +236,10 @@ fn example(schema: &Value, schemas: &Value) -> Value {
             let fields = schema["properties"].as_object().into_iter().flatten();
             fields.map(|(name, schema)| (name.clone(), example(schema, schemas))).collect()
         }
-        "array" => json!([example(&schema["items"], schemas)]),
+        "array" => {
+            let entries = schema["minItems"].as_u64().unwrap_or(1).max(1) as usize;
+            json!(vec![example(&schema["items"], schemas); entries])
+        }
         "string" => schema["enum"].get(0).cloned().unwrap_or(json!("m")),
         "boolean" => json!(false),
         "integer" => schema.get("minimum").cloned().unwrap_or(json!(1)),

@@ -58,7 +58,8 @@ pub fn plan_sweep(
         placed_sensors: Vec::new(),
         speeds: speeds.len() as u32,
         workers: workers as u32,
-        estimate: reduced.and_then(|reduced| estimate(&points, &simulated(request), workers, reduced_bytes(reduced))),
+        estimate: reduced
+            .and_then(|reduced| estimate(&points, &simulated(request), workers, reduced_bytes(reduced))),
         points,
         choice: None,
         warnings: warnings(&request.scene, facts, reduced),

@@ -182,6 +182,9 @@ impl std::fmt::Display for Shape {
             Self::List { shortest: 0, longest: Some(longest), .. } => {
                 write!(f, "a list of at most {longest} entries")
             }
+            Self::List { shortest, longest: Some(longest), .. } if shortest == longest => {
+                write!(f, "a list of {shortest} entries")
+            }
             Self::List { shortest, longest: None, .. } => write!(f, "a list of at least {shortest} entries"),
             Self::List { shortest, longest: Some(longest), .. } => {
                 write!(f, "a list of {shortest} to {longest} entries")

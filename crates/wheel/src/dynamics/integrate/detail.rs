@@ -1,21 +1,8 @@
 //! Histories beyond displacements, of chosen revolutions.
 
 use super::super::energy::EnergyAudit;
-use super::simulation::Simulation;
+use super::simulation::{Detail, Simulation};
 use super::tally::ContactInterval;
-
-/// What a run records of chosen revolutions, at every sample.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Detail {
-    /// Whole revolutions after which recording begins and ends.
-    pub revolutions: (usize, usize),
-    /// Velocities of the sensors.
-    pub velocity: bool,
-    /// Contact forces, and how much touches.
-    pub contact: bool,
-    /// The energy audit.
-    pub energy: bool,
-}
 
 /// What was recorded of them.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -20,9 +20,9 @@ mod tips;
 use pulp::{Simd, WithSimd};
 
 pub use self::bounds::{TipComponent, TipDisplacement};
-pub use self::detail::{Detail, DetailHistory};
+pub use self::detail::DetailHistory;
 pub use self::run::{Divergence, History, MAX_TABLE_VALUES, Outcome, Run};
-pub use self::simulation::{DIVERGED_SHARE_OF_RADIUS, SensorRow, Simulation};
+pub use self::simulation::{DIVERGED_SHARE_OF_RADIUS, Detail, SensorRow, Simulation};
 use self::stepper::Stepper;
 pub use self::tally::{ContactRecord, PairContact};
 pub use self::tips::{COMPONENTS, TipMotion};

@@ -2,7 +2,6 @@
 
 use std::f64::consts::TAU;
 
-use super::detail::Detail;
 use crate::dynamics::casing::Casing;
 use crate::dynamics::direction::Direction;
 use crate::dynamics::effects::Effects;
@@ -41,6 +40,19 @@ pub struct Simulation<'a> {
     pub window_revolutions: usize,
     /// Revolutions of which more is recorded.
     pub detail: Option<Detail>,
+}
+
+/// What a run records of chosen revolutions, at every sample.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Detail {
+    /// Whole revolutions after which recording begins and ends.
+    pub revolutions: (usize, usize),
+    /// Velocities of the sensors.
+    pub velocity: bool,
+    /// Contact forces, and how much touches.
+    pub contact: bool,
+    /// The energy audit.
+    pub energy: bool,
 }
 
 /// A recorded displacement.
