@@ -80,10 +80,11 @@ fn results_are_consistent() {
     let spectra = result.spectra.unwrap();
     assert_eq!(spectra.engine_orders.len(), 4 * 12 + 1);
     for (response, spectrum) in result.point.responses.iter().zip(&spectra.sensors) {
-        // Parseval over the orders kept: what lies above order 12 is missing from the sum, so it is smaller.
+        // Parseval over the orders kept: what lies above order 12 is missing from the sum, so it is smaller, but for what picking
+        // samples of all steps does to the level.
         let kept: f64 = spectrum.amplitude[1..].iter().map(|a| 0.5 * a * a).sum();
-        assert!(kept.sqrt() <= response.rms * (1.0 + 1e-12) && kept.sqrt() > 0.9 * response.rms);
-        assert!((spectrum.amplitude[0] - response.mean.abs()).abs() < 1e-12);
+        assert!(kept.sqrt() <= response.rms * (1.0 + 1e-3) && kept.sqrt() > 0.9 * response.rms);
+        assert!((spectrum.amplitude[0] - response.mean.abs()).abs() < 1e-3 * response.rms);
         assert!(response.half_peak_to_peak >= response.rms);
         // A periodic response has lines at whole engine orders only.
         let between = spectrum.amplitude.iter().enumerate().filter(|(bin, _)| bin % 4 != 0);

@@ -67,10 +67,9 @@ pub(super) fn record_run(
         }
         Outcome::Completed(history) => {
             point.status = PointStatus::Completed;
-            let filtered = filtered(history, request, wheel);
-            let spectra = spectra(history, request, wheel, &filtered);
+            let spectra = spectra(history, request, wheel);
             let window = request.integration.window_revolutions as usize;
-            point.responses = responses(history, request, &spectra, &filtered);
+            point.responses = responses(history, request, &spectra);
             let lobes = request.scene.touched_lobes().map(|lobes| lobes.count);
             let settling = judge(&history.displacement, steps.samples, window, lobes);
             point.settling = Some(settling.beside(strongest_side_bands(&point.responses)));
@@ -107,17 +106,6 @@ fn contact(
     Some((of.summary(&forces), forces))
 }
 
-/// `[sensor]`: displacements of the window as its spectra see them.
-fn filtered(history: &History, request: &ResolvedSweep, wheel: &ModalWheel) -> Vec<Vec<f64>> {
-    let fourier = SectorFourier::new(wheel.sectors);
-    let of = |(columns, sensor): (&Vec<Vec<f64>>, &ResolvedSensor)| {
-        let row = fourier.row(sensor.sector as usize % wheel.sectors);
-        let at = |sample: usize| row.iter().zip(columns).map(|(f, column)| f * column[sample]).sum();
-        (0..columns[0].len()).map(at).collect()
-    };
-    history.harmonics.iter().zip(&request.sensors).map(of).collect()
-}
-
 fn describe(divergence: &Divergence) -> String {
     let Divergence { revolutions, tip, energy_growth } = *divergence;
     let growth = match energy_growth.filter(|growth| growth.is_finite()) {
@@ -137,12 +125,7 @@ fn describe(divergence: &Divergence) -> String {
     }
 }
 
-fn spectra(
-    history: &History,
-    request: &ResolvedSweep,
-    wheel: &ModalWheel,
-    filtered: &[Vec<f64>],
-) -> SpeedSpectra {
+fn spectra(history: &History, request: &ResolvedSweep, wheel: &ModalWheel) -> SpeedSpectra {
     let engine_orders = engine_orders(request.integration.window_revolutions, request.max_engine_order);
     let bins = engine_orders.len();
     let fourier = SectorFourier::new(wheel.sectors);
@@ -150,7 +133,7 @@ fn spectra(
         let columns = &history.harmonics[index];
         SensorSpectrum {
             sensor: sensor.into(),
-            amplitude: amplitudes(&filtered[index], bins),
+            amplitude: amplitudes(&history.window[index], bins),
             nodal_diameters: of_the_wheel(nodal_diameter_amplitudes(columns, &fourier, bins), wheel),
         }
     });
@@ -174,13 +157,8 @@ fn of_the_wheel(part: Vec<Vec<f64>>, wheel: &ModalWheel) -> Vec<Vec<f64>> {
 /// Lines below this share of the largest displacement are round-off: some thousand roundings of it.
 const ROUND_OFF: f64 = 1e-12;
 
-fn responses(
-    history: &History,
-    request: &ResolvedSweep,
-    spectra: &SpeedSpectra,
-    filtered: &[Vec<f64>],
-) -> Vec<SensorResponse> {
-    let window_samples = filtered.first().map_or(0, Vec::len);
+fn responses(history: &History, request: &ResolvedSweep, spectra: &SpeedSpectra) -> Vec<SensorResponse> {
+    let window_samples = history.window.first().map_or(0, Vec::len);
     let windows = history.displacement.iter().map(|whole| &whole[whole.len() - window_samples..]);
     let round_off = ROUND_OFF * windows.flatten().fold(0.0f64, |most, x| most.max(x.abs()));
     let of = |(index, &sensor): (usize, &ResolvedSensor)| {
@@ -203,7 +181,7 @@ fn responses(
             dominant_engine_order: stands_out.then(|| spectra.engine_orders[bin]),
             dominant_nodal_diameter: stands_out.then(|| largest_bin(&carried) as u32),
             side_bands: side_bands(
-                &filtered[index],
+                &history.window[index],
                 request.integration.window_revolutions as usize,
                 request.max_engine_order as usize,
             ),

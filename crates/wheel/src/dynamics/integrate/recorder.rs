@@ -140,7 +140,7 @@ impl Recorder {
     }
 
     /// Ends the run after `steps`, with its modes as they are.
-    pub(super) fn end(&mut self, modes: Vec<InitialMode>, steps: u64) {
+    pub(super) fn end(&mut self, fourier: &SectorFourier, modes: Vec<InitialMode>, steps: u64) {
         self.history.end = modes;
         self.history.tips = self.tips.motions();
         self.history.detail = self.detail.take().map(|detail| detail.end(steps));
@@ -150,6 +150,13 @@ impl Recorder {
             (0..columns).map(|column| self.decimation.line(column * sensors + sensor)).collect()
         };
         self.history.harmonics = (0..sensors).map(line).collect();
+        let window = |(columns, &sector): (&Vec<Vec<f64>>, &usize)| {
+            let at = |sample: usize| {
+                fourier.row(sector).iter().zip(columns).map(|(f, column)| f * column[sample]).sum()
+            };
+            (0..columns.first().map_or(0, Vec::len)).map(at).collect()
+        };
+        self.history.window = self.history.harmonics.iter().zip(&self.sectors).map(window).collect();
     }
 
     pub(super) fn take(&mut self) -> History {

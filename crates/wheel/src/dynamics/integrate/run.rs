@@ -19,6 +19,8 @@ pub struct History {
     /// window, every sample being a weighted mean of the steps around it so that nothing folds onto its lower half (docs/method.md,
     /// Sampling).
     pub harmonics: Vec<Vec<Vec<f64>>>,
+    /// `[sensor][sample]`: the same at the sensor's sector.
+    pub window: Vec<Vec<f64>>,
     /// `[revolution][nodal diameter]`: mechanical energy at its end, if asked for.
     pub energies: Vec<Vec<f64>>,
     /// All modes at the end of the run.

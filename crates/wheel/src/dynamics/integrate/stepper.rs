@@ -263,7 +263,8 @@ impl Stepper {
             let read = |oscillators: &Oscillators| modal_state(simulation, oscillators);
             drive.end(simulation.wheel, simulation.revolutions as f64, &mut self.oscillators, read);
         }
-        self.recorder.end(modal_state(simulation, &self.oscillators), self.statistics.steps);
+        let modes = modal_state(simulation, &self.oscillators);
+        self.recorder.end(&self.fourier, modes, self.statistics.steps);
     }
 
     fn mechanical_energy(&self) -> f64 {
