@@ -285,8 +285,10 @@ fn running_bytes(wheel: &ModalWheel, request: &ResolvedSweep, stepping: &Steppin
         if lobes { REAL * RestrictionTable::size(steps.per_revolution, wheel.around(), stride) } else { 0 };
     // What nodes do in the reduced coordinates and in the modes.
     let read = 2 * COMPLEX * 3 * request.sensor_nodes().len() * sizes.clone().sum::<usize>();
-    let rows = 2 * REAL * (nodes + request.sensors.len()) * sizes.sum::<usize>() + read;
-    let history = REAL * steps.samples * request.sensors.len() * (revolutions + wheel.sectors * window);
+    // Normals, tips in three components, sensors.
+    let rows = 2 * REAL * (4 * nodes + request.sensors.len()) * sizes.sum::<usize>() + read;
+    let history =
+        REAL * steps.samples * request.sensors.len() * (revolutions + (2 * wheel.sectors + 1) * window);
     let spectrum = 4 * COMPLEX * steps.samples * window;
     let bins = request.max_engine_order as usize * window + 1;
     let spectra = 4 * REAL * request.sensors.len() * (1 + wheel.harmonics.len()) * bins;

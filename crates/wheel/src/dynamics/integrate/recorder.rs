@@ -143,7 +143,7 @@ impl Recorder {
     pub(super) fn end(&mut self, fourier: &SectorFourier, modes: Vec<InitialMode>, steps: u64) {
         self.history.end = modes;
         self.history.tips = self.tips.motions();
-        self.history.detail = self.detail.take().map(|detail| detail.end(steps));
+        self.history.detail = self.detail.take().map(|detail| Box::new(detail.end(steps)));
         let sensors = self.sectors.len();
         let columns = self.reading.len() / sensors.max(1);
         let line = |sensor: usize| {

@@ -28,7 +28,7 @@ pub struct History {
     /// `[sector][contact node][component]`, one after the other: motion of the tips over the window.
     pub tips: Vec<TipMotion>,
     /// What was recorded of chosen revolutions, if any were.
-    pub detail: Option<DetailHistory>,
+    pub detail: Option<Box<DetailHistory>>,
 }
 
 /// A response that left the bounds of the theory.

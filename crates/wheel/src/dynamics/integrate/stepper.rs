@@ -134,7 +134,7 @@ impl Stepper {
         };
         let outcome = match ended {
             Ok(()) => Outcome::Completed(self.recorder.take()),
-            Err(ended) => ended,
+            Err(ended) => *ended,
         };
         self.statistics.casing_amplitude = self.flexible_casing().map(CasingMotion::largest_amplitude);
         let coating = self.surroundings.as_ref().and_then(Surroundings::coating).cloned();
@@ -148,7 +148,7 @@ impl Stepper {
         simd: S,
         simulation: &Simulation<'_>,
         watch: &dyn Fn(f64) -> bool,
-    ) -> Result<(), Outcome> {
+    ) -> Result<(), Box<Outcome>> {
         let Simulation { revolutions, window_revolutions, steps_per_revolution: steps, .. } = *simulation;
         let sampling = steps / simulation.samples_per_revolution;
         if self.recorder.reads(0, false) {
@@ -197,13 +197,13 @@ impl Stepper {
 
     /// Finds the forces that close the gaps (Eqs 9, 10).
     #[inline(always)]
-    fn solve<M: Motion>(&mut self, now: Instant) -> Result<(), Outcome> {
+    fn solve<M: Motion>(&mut self, now: Instant) -> Result<(), Box<Outcome>> {
         let Some(obstacle) = &mut self.obstacle else { return Ok(()) };
         let surroundings = M::surroundings(&mut self.surroundings);
         let (statistics, work) = (&mut self.statistics, self.energy.effects_mut());
         obstacle
             .solve(&self.fourier, now, surroundings, statistics, work)
-            .map_err(|error| Outcome::ContactFailed { revolutions: now.revolutions, error })
+            .map_err(|error| Box::new(Outcome::ContactFailed { revolutions: now.revolutions, error }))
     }
 
     /// Now and then brings to rest what has decayed to nothing.
@@ -220,16 +220,21 @@ impl Stepper {
 
     /// Now and then asks whether to go on, `done` being the share of work done.
     #[inline(always)]
-    fn look_up(&self, watch: &dyn Fn(f64) -> bool, done: f64) -> Result<(), Outcome> {
+    fn look_up(&self, watch: &dyn Fn(f64) -> bool, done: f64) -> Result<(), Box<Outcome>> {
         if self.statistics.steps.is_multiple_of(WATCHED_STEPS) && !watch(done) {
-            return Err(Outcome::Cancelled);
+            return Err(Box::new(Outcome::Cancelled));
         }
         Ok(())
     }
 
     /// Holds the state against what contact and energy promise, records it, and ends the run where it left its bounds.
     #[inline(always)]
-    fn record<S: Simd, M: Motion>(&mut self, simd: S, now: Instant, windowed: bool) -> Result<(), Outcome> {
+    fn record<S: Simd, M: Motion>(
+        &mut self,
+        simd: S,
+        now: Instant,
+        windowed: bool,
+    ) -> Result<(), Box<Outcome>> {
         let Self { oscillators, fourier, obstacle, surroundings, statistics, recorder, .. } = self;
         if M::TOUCHES
             && let Some(obstacle) = obstacle
@@ -276,7 +281,7 @@ impl Stepper {
     }
 
     #[inline(never)]
-    fn check_bounds(&mut self, energy: f64, revolutions: f64) -> Result<(), Outcome> {
+    fn check_bounds(&mut self, energy: f64, revolutions: f64) -> Result<(), Box<Outcome>> {
         let force = self.obstacle.as_ref().map_or(&[][..], |obstacle| obstacle.force.as_slice());
         let tip = match &mut self.bounds {
             Some(bounds) => bounds.exceeded(&self.oscillators, &self.fourier, energy, force),
@@ -285,11 +290,11 @@ impl Stepper {
         if energy.is_finite() && tip.is_none() {
             return Ok(());
         }
-        Err(Outcome::Diverged(Divergence {
+        Err(Box::new(Outcome::Diverged(Divergence {
             revolutions,
             tip,
             energy_growth: self.last_energy.map(|last| energy / last),
-        }))
+        })))
     }
 }
 
