@@ -7,8 +7,7 @@ use clap::Args;
 use serde_json::{Value, json};
 
 use super::session::client::Client;
-use super::session::{Session, impeller, progress, save, upload};
-use super::study::request;
+use super::session::{Session, impeller, progress, request, save, upload};
 use crate::analysis::result::SpeedHistories;
 use crate::plot::{self, HistoryQuantity};
 
@@ -46,7 +45,7 @@ const DRAWINGS: [(&str, HistoryQuantity); 5] = [
 /// A file or folder that cannot be used, or a step that the service refuses.
 pub(super) fn run(args: &CaseArgs) -> anyhow::Result<ExitCode> {
     let body = match &args.request {
-        Some(file) => request::read(file, "POST /v1/case-studies")?,
+        Some(file) => request::read(file, "/v1/case-studies")?,
         None => default(),
     };
     let session = Session::begin(&args.out)?;
