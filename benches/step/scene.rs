@@ -125,7 +125,6 @@ impl Scene {
                 revolutions: revolutions as u32,
                 ramp_revolutions: casing.ramp_revolutions,
                 window_revolutions: 1,
-                detail: None,
             },
             sensors: vec![sensor(0), sensor(last)],
             max_engine_order: 24,
@@ -135,6 +134,7 @@ impl Scene {
             budget: None,
             control_speeds: None,
             refine: false,
+            record: request::Record::default(),
         };
         ResolvedSweep::stored(settings, 0).expect("the settings are sound")
     }
