@@ -79,8 +79,8 @@ async fn all_structural_errors_come_at_once_in_words() {
             "expected \"auto\", or a whole number from 1 to 10000000, not the text \
           \"many\"",
         ),
-        ("/sensors/0/contact_node", "expected a whole number from 0 to 4294967295, not -1"),
-        ("/sensors/0/component", "expected one of radial, tangential, axial, normal, not 7"),
+        ("/sensors/0/contact_node", "expected a whole number from 0 to 4294967295, or null, not -1"),
+        ("/sensors/0/component", "expected one of radial, tangential, axial, normal, or null, not 7"),
     ]);
     expected.sort();
     assert_eq!(found, expected);

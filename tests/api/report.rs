@@ -30,7 +30,7 @@ async fn a_report_has_what_was_asked_and_found() {
     let sweep = api.sweep(&request).await;
     api.finish(&sweep).await;
     let alone = page(api, &format!("/v1/jobs/{sweep}/report")).await;
-    assert_eq!(alone.matches("<svg").count(), 1, "there is no modal analysis yet");
+    assert_eq!(alone.matches("<svg").count(), 3, "map and contact: there is no modal analysis yet");
     assert!(
         alone.contains("&lt;b&gt;Bold&lt;/b&gt; clearance")
             && !alone.contains("<b>Bold")

@@ -7,7 +7,7 @@ use crate::model::ReducedSector;
 use crate::monitor::Monitor;
 use crate::record::record_run;
 use crate::request::{Recorded, RecordedQuantity};
-use crate::resolve::case_study::{revolutions, wanted};
+use crate::resolve::recorded::{revolutions, wanted};
 use crate::resolved::sensor::Place;
 use crate::resolved::{ResolvedCaseStudy, ResolvedSensor, ResolvedSweep};
 use crate::result::{

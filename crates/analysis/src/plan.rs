@@ -13,7 +13,7 @@ use crate::effects::symmetry::request::Symmetry;
 use crate::effects::table::{check_at_speed, planned};
 use crate::model::{ModelFacts, ReducedSector};
 use crate::request::{HistorySpeeds, SweepDirection};
-use crate::resolve::case_study::revolutions;
+use crate::resolve::recorded::revolutions;
 use crate::resolved::{ResolvedCaseStudy, ResolvedModalAnalysis, ResolvedSweep, Scene, TrialRequest};
 use crate::result::{
     CostRange, Estimate, FoundSymmetry, ModalAnalysisPlan, PlannedPoint, ReductionState, SweepPlan,

@@ -19,6 +19,7 @@ pub(crate) mod case_study;
 mod effects;
 pub(crate) mod findings;
 pub(crate) mod limits;
+pub(crate) mod recorded;
 pub(crate) mod sensors;
 pub(crate) mod study;
 
@@ -47,7 +48,7 @@ pub fn resolve_sweep(request: SweepRequest, facts: &ModelFacts) -> Result<Resolv
     if found.0.is_empty() {
         check_memory(&mut found, &sweep, facts);
         if let Some(histories) = sweep.histories() {
-            case_study::check_histories(&mut found, histories, "/record/histories", &sweep, facts);
+            recorded::check_histories(&mut found, histories, "/record/histories", &sweep, facts);
         }
     }
     found.finish(sweep)

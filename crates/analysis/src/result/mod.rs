@@ -12,8 +12,9 @@ pub mod reduction;
 pub mod refinement;
 pub mod study;
 pub mod sweep;
-pub mod tips;
+pub mod tip;
 pub mod trial;
+pub mod wheel;
 
 pub use campbell::{AbsoluteFrequencies, Campbell, WaveTables};
 pub use choice::{Choice, ModesChoice, Pilot, TriedModes};
@@ -37,8 +38,9 @@ pub use study::{
     Histories, HistoryLine, SpeedStudy, StepOrder, StudyReduction, StudyRun, WorkPrecision, front,
 };
 pub use sweep::{CriticalSpeed, CriticalSpeeds, InteractionMap};
-pub use tips::{SensorView, TipResponse, WheelCriticalSpeed, WheelCriticalSpeeds};
+pub use tip::TipResponse;
 pub use trial::{Cost, Trial};
+pub use wheel::{SensorView, WheelCriticalSpeed, WheelCriticalSpeeds};
 
 pub use crate::effects::abradable::result::{WearMap, WearReport};
 pub use crate::effects::symmetry::result::FoundSymmetry;

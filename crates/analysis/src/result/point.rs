@@ -7,7 +7,7 @@ use crate::end_state::EndState;
 use crate::request::{SchemeChoice, Sensor};
 use crate::result::contact::{ContactForces, ContactSummary};
 use crate::result::reduction::StiffeningVerdict;
-use crate::result::tips::TipResponse;
+use crate::result::tip::TipResponse;
 use rubmap_wheel::dynamics::energy::{EffectWork, EnergyAudit};
 use rubmap_wheel::response::settling::Settling;
 use rubmap_wheel::response::side_bands::SideBands;

@@ -1,35 +1,13 @@
-//! How far the tips move, and at which speeds that is dangerous.
+//! At which speeds the wheel as a whole moves dangerously.
 
 use serde::{Deserialize, Serialize};
 
-use crate::request::{Component, Sensor, SweepRequest};
+use crate::request::{Sensor, SweepRequest};
 use crate::result::refinement::Refinement;
 use crate::result::sweep::CriticalSpeed;
+use crate::result::tip::TipResponse;
 use rubmap_wheel::dynamics::sector::Units;
 use rubmap_wheel::response::settling::Verdict;
-
-/// The tip that moves most over the window: of all components (radial, tangential, axial) of all contact nodes of all blades.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-pub struct TipResponse {
-    /// Largest root mean square about the mean, from some 128 instants of a revolution.
-    pub rms: f64,
-    /// Half the peak-to-peak displacement of the same component, from the same instants.
-    pub half_peak_to_peak: f64,
-    /// Contact node.
-    pub contact_node: u32,
-    /// Blade; of a scene that repeats around the wheel one of those that move alike.
-    pub sector: u32,
-    /// Component.
-    pub component: Component,
-    /// Half the peak-to-peak displacement over the clearance of the node; absent where nothing can be touched, or without
-    /// clearance.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub over_clearance: Option<f64>,
-    /// The same over the length of the contact line; absent of a single node.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub over_chord: Option<f64>,
-}
 
 /// Critical speeds of the wheel as a whole, the most severe first, with the views of the sensors beside them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -1,0 +1,97 @@
+//! What is recorded of a sweep, held against it.
+
+use std::collections::BTreeSet;
+
+use crate::discretisation::most_samples;
+use crate::model::ModelFacts;
+use crate::request::{HistoriesRequest, HistorySpeeds, Recorded, RecordedQuantity};
+use crate::resolve::findings::Findings;
+use crate::resolved::ResolvedSweep;
+
+/// Most numbers of the histories of one speed, and most speeds with histories: they are kept as text.
+const MOST_NUMBERS: usize = 1 << 23;
+const MOST_SPEEDS: usize = 100;
+
+/// Indices of the speeds that histories are asked of.
+pub(crate) fn wanted(request: &HistoriesRequest, critical: &BTreeSet<u32>) -> Vec<u32> {
+    match &request.speeds {
+        HistorySpeeds::Critical => critical.iter().copied().take(MOST_SPEEDS).collect(),
+        HistorySpeeds::Indices(indices) => indices.clone(),
+    }
+}
+
+/// Checks the histories that a sweep asks for, at `pointer`.
+pub(super) fn check_histories(
+    found: &mut Findings,
+    request: &HistoriesRequest,
+    pointer: &str,
+    sweep: &ResolvedSweep,
+    facts: &ModelFacts,
+) {
+    if let HistorySpeeds::Indices(indices) = &request.speeds {
+        let at = format!("{pointer}/speeds");
+        found.require(
+            (1..=MOST_SPEEDS).contains(&indices.len()),
+            &at,
+            format!("histories are kept of 1 to {MOST_SPEEDS} speeds"),
+        );
+        let speeds = sweep.speeds.count();
+        for (place, index) in indices.iter().enumerate().take(MOST_SPEEDS) {
+            let at = format!("{at}/{place}");
+            found.require(
+                *index < speeds,
+                &at,
+                format!("the sweep has speeds 0 to {}", speeds.saturating_sub(1)),
+            );
+            let again = indices[..place].contains(index);
+            found.require(!again, &at, format!("{index} is in the list already"));
+        }
+    }
+    check_recorded(found, &request.recorded(), pointer, sweep, facts);
+}
+
+pub(super) fn check_recorded(
+    found: &mut Findings,
+    record: &Recorded,
+    pointer: &str,
+    sweep: &ResolvedSweep,
+    facts: &ModelFacts,
+) {
+    let run = sweep.integration.revolutions;
+    let [from, to] = revolutions(record, sweep);
+    let at = format!("{pointer}/revolutions");
+    let message =
+        format!("the run has {run} revolutions: name where recording begins and ends, such as [0, {run}]");
+    found.require(from < to && to <= run, &at, message);
+    if !(from < to && to <= run) {
+        return;
+    }
+    for (place, quantity) in record.quantities.iter().enumerate() {
+        let again = record.quantities[..place].contains(quantity);
+        found.require(!again, &format!("{pointer}/quantities/{place}"), "is in the list already");
+    }
+    let (sensors, sectors) = (sweep.sensors.len(), facts.sectors as usize);
+    let of = |quantity, numbers: usize| if record.wants(quantity) { numbers } else { 0 };
+    let pairs = sectors * facts.contact_nodes as usize;
+    let lines = of(RecordedQuantity::Displacement, sensors)
+        + of(RecordedQuantity::Velocity, sensors)
+        + of(RecordedQuantity::ContactForce, pairs)
+        + of(RecordedQuantity::Contact, 2)
+        + of(RecordedQuantity::Energy, 8);
+    let samples = most_samples(sweep, sectors).saturating_mul(to.saturating_sub(from) as usize);
+    let numbers = samples.saturating_mul(lines);
+    found.require(
+        numbers <= MOST_NUMBERS,
+        &at,
+        format!(
+            "{lines} histories of up to {samples} samples are {numbers} numbers a speed, more than {MOST_NUMBERS}: record fewer \
+             revolutions, quantities or sensors"
+        ),
+    );
+}
+
+/// Where recording begins and ends: the window, if nothing else is asked for.
+pub(crate) fn revolutions(record: &Recorded, sweep: &ResolvedSweep) -> [u32; 2] {
+    let run = sweep.integration.revolutions;
+    record.revolutions.unwrap_or([run.saturating_sub(sweep.integration.window_revolutions), run])
+}
