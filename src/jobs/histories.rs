@@ -1,4 +1,4 @@
-//! What happened at chosen speeds: case studies, and the histories that a sweep asks for.
+//! What happened at chosen speeds: histories of case studies and of sweeps.
 
 use std::sync::Arc;
 
@@ -6,18 +6,11 @@ use futures::{StreamExt, TryStreamExt, stream};
 
 use super::engine::{Engine, Live};
 use super::error::Interruption;
-use super::finish;
 use super::progress::PhaseMonitor;
 use crate::analysis::monitor::Monitor;
 use crate::analysis::resolved::ResolvedCaseStudy;
 use crate::analysis::run;
 use crate::store::results::Document;
-
-/// Computes and stores a case study.
-pub(super) async fn run(engine: &Engine, job: &Live, case: &ResolvedCaseStudy) -> Result<(), Interruption> {
-    let documents = record(engine, job, case, PhaseMonitor::whole(job.watch.clone())).await?;
-    finish::complete(engine, job, &documents, None).await
-}
 
 /// Simulates the speeds of `case` side by side; their histories, one document each.
 pub(super) async fn record(

@@ -20,6 +20,7 @@
 //! large ones only one runs at a time (`memory`), so that with two threads or more the other jobs go on.
 
 mod calibration;
+mod case_study;
 mod choice;
 mod computing;
 mod control;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::engine::{Engine, Live};
 use super::error::Interruption;
 use super::progress::PhaseMonitor;
-use super::{choice, finish, generation, histories, modal_analysis, plans, study};
+use super::{case_study, choice, finish, generation, modal_analysis, plans, study};
 use crate::analysis::run;
 use crate::store::jobs::{JobId, JobRequest};
 
@@ -26,7 +26,7 @@ pub(super) async fn prepare(engine: &Engine, id: JobId) -> Result<(), Interrupti
         }
         JobRequest::ModelGeneration(parameters) => generation::run(engine, &job, parameters).await,
         JobRequest::Study(request) => study::run(engine, &job, request).await,
-        JobRequest::CaseStudy(case) => histories::run(engine, &job, case).await,
+        JobRequest::CaseStudy(case) => case_study::run(engine, &job, case).await,
     }
 }
 

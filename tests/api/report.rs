@@ -42,7 +42,7 @@ async fn a_report_has_what_was_asked_and_found() {
     let job = api.finish(&modal).await;
     assert!(job["links"].to_string().contains(&format!("/v1/jobs/{modal}/report")));
     let both = page(api, &format!("/v1/jobs/{sweep}/report?sensor=1")).await;
-    assert_eq!(both.matches("<svg").count(), 2);
+    assert_eq!(both.matches("<svg").count(), 4);
     assert!(both.contains(&format!("of modal analysis {modal}")));
     // What the table of critical speeds says, it says.
     for sensor in 0..2 {

@@ -1,0 +1,13 @@
+//! A case study: its speeds simulated and recorded.
+
+use super::engine::{Engine, Live};
+use super::error::Interruption;
+use super::progress::PhaseMonitor;
+use super::{finish, histories};
+use crate::analysis::resolved::ResolvedCaseStudy;
+
+/// Computes and stores a case study.
+pub(super) async fn run(engine: &Engine, job: &Live, case: &ResolvedCaseStudy) -> Result<(), Interruption> {
+    let documents = histories::record(engine, job, case, PhaseMonitor::whole(job.watch.clone())).await?;
+    finish::complete(engine, job, &documents, None).await
+}
