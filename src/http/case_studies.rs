@@ -11,6 +11,7 @@ use super::labels::Labelled;
 use super::problem::{Kind, Problem};
 use super::results::{find, sweep};
 use super::state::AppState;
+use super::stream;
 use super::submit::{self, Receipt};
 use crate::analysis::request::{CaseStudyRequest, HistoriesRequest, HistorySpeeds};
 use crate::analysis::resolved::ResolvedSweep;
@@ -123,7 +124,10 @@ async fn critical(
     request: &HistoriesRequest,
 ) -> Result<BTreeSet<u32>, Problem> {
     match request.speeds {
-        HistorySpeeds::Critical => Ok(run::critical_indices(settings, &state.store.points(id).await?)),
+        HistorySpeeds::Critical => {
+            let (settings, points) = (settings.clone(), state.store.points(id).await?);
+            stream::blocking(move || run::critical_indices(&settings, &points)).await
+        }
         HistorySpeeds::Indices(_) => Ok(BTreeSet::new()),
     }
 }

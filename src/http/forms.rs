@@ -1,4 +1,5 @@
-//! The forms of one kind of result. Every result has its numbers as json, csv and npz, and its drawing as svg and png.
+//! The forms of one kind of result. Every result has its numbers as json, csv and npz, and, but for bare tables, its drawing as svg and
+//! png.
 //!
 //! To add a result: implement [`Export`] for it in `src/export`, take [`Download`] as an argument of its handler and
 //! [`DownloadQuery`](super::download::DownloadQuery) as parameters of its route, and answer with
@@ -143,8 +144,13 @@ async fn stored_bytes(state: &AppState, job: &Job, document: Document) -> Result
         _ => "",
     };
     Err(match job.status {
-        JobStatus::Accepted | JobStatus::Running | JobStatus::Successful => {
+        JobStatus::Accepted | JobStatus::Running => {
             Problem::new(Kind::ResultNotReady, format!("the job is at {} %{instead}", job.progress))
+        }
+        JobStatus::Successful => {
+            let detail =
+                "an earlier version computed the job, which had no such result: post its request again";
+            Problem::new(Kind::ResultUnavailable, detail)
         }
         JobStatus::Failed | JobStatus::Dismissed => {
             let status = job.status.as_str();

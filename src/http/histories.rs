@@ -12,6 +12,7 @@ use super::problem::Problem;
 use super::results::{check_sensor, find, wrong_kind};
 use super::state::AppState;
 use super::studies::check_speed;
+use crate::analysis::request::HistorySpeeds;
 use crate::analysis::result::SpeedHistories;
 use crate::analysis::run::Histories;
 use crate::plot::{self, HistoryQuantity};
@@ -23,9 +24,8 @@ use crate::tokens::Principal;
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 pub(super) struct HistoriesQuery {
-    /// Index of the speed in the request, of a case study in that of its sweep; default 0.
-    #[serde(default)]
-    speed: u32,
+    /// Index of the speed in the request, of a case study in that of its sweep; default the first that there is.
+    speed: Option<u32>,
     /// Of a drawing: index of the sensor in the request; default 0.
     #[serde(default)]
     sensor: u32,
@@ -80,11 +80,12 @@ pub(super) async fn get_histories(
     download: Download,
 ) -> Result<Response, Problem> {
     let job = find(&state, &whose, id).await?;
-    let document = Document::Histories(query.speed);
+    let speed = query.speed.unwrap_or(first(&job));
+    let document = Document::Histories(speed);
     let sensor = query.sensor as usize;
     match &job.request {
         JobRequest::Study(study) => {
-            check_speed(&job, query.speed)?;
+            check_speed(&job, speed)?;
             check_sensor(study.sensors(), query.sensor)?;
             let draw = move |histories: &Histories| plot::histories(histories, sensor);
             Forms::drawn_by(draw).of_document(&state, download, &job, document).await
@@ -98,6 +99,19 @@ pub(super) async fn get_histories(
             Err(wrong_kind(&job, JobKind::CaseStudy))
         }
     }
+}
+
+/// The first speed of a job that may have histories.
+fn first(job: &Job) -> u32 {
+    let wanted = match &job.request {
+        JobRequest::CaseStudy(case) => case.speeds().first().copied(),
+        JobRequest::Sweep(sweep) => sweep.histories().and_then(|asked| match &asked.speeds {
+            HistorySpeeds::Indices(indices) => indices.first().copied(),
+            HistorySpeeds::Critical => None,
+        }),
+        _ => None,
+    };
+    wanted.unwrap_or(0)
 }
 
 /// Whether there are the sensor and the contact node that are to be drawn.

@@ -14,7 +14,7 @@ use super::results::{find, sweep};
 use super::state::AppState;
 use crate::analysis::result::{ContactPlace, NodeKind, SectorGeometry, SectorNode};
 use crate::analysis::run::{self, ModelFacts};
-use crate::package::{Face, Place, Places, read_places};
+use crate::package::{Face, Limits, Place, Places, read_places};
 use crate::plot::{self, SectionView};
 use crate::store::jobs::JobId;
 use crate::tokens::Principal;
@@ -76,11 +76,11 @@ pub(super) async fn get_section(
         Some(ViewWord::Cyclic) => SectionView::Cyclic,
         Some(ViewWord::Meridional) | None => SectionView::Meridional,
     };
-    let (path, limits) = (state.store.package_path(&id), state.package_limits.clone());
+    let path = state.store.package_path(&id);
     let bytes = NODE_MEMORY * u64::from(model.facts.own_dofs);
     Forms::drawn_by(move |geometry: &SectorGeometry| plot::section(geometry, view))
         .answer(&state, download, Some(format!("model {id}")), bytes, move || {
-            let places = read_places(&path, &limits).map_err(Box::new)?;
+            let places = read_places(&path, &Limits::default()).map_err(Box::new)?;
             let positions: Vec<[f64; 3]> =
                 places.contact.iter().map(|(number, _)| places.nodes[*number].position).collect();
             let clearances = request.and_then(|request| run::clearances(&request, &positions));

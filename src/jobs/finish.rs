@@ -54,12 +54,9 @@ async fn conclude(
     let monitor = PhaseMonitor::uncounted(job.watch.clone());
     let reduced = engine.reductions.get(request.model(), request.modes_per_speed(), monitor).await?;
     let errors = control::errors(engine, job, request, &points).await?;
-    let recorded = match run::histories_wanted(request, &points) {
-        Some(case) => {
-            histories::record(engine, job, &case, PhaseMonitor::uncounted(job.watch.clone())).await?
-        }
-        None => Vec::new(),
-    };
+    if let Some(case) = run::histories_wanted(request, &points) {
+        histories::record(engine, job, &case, PhaseMonitor::uncounted(job.watch.clone())).await?;
+    }
     let (settings, estimate) = (request.clone(), errors.clone());
     let monitor = PhaseMonitor::uncounted(job.watch.clone());
     let all = points.clone();
@@ -77,7 +74,6 @@ async fn conclude(
     if let Some(errors) = &errors {
         documents.push((Document::Errors, serde_json::to_string(errors)?));
     }
-    documents.extend(recorded);
     complete(engine, job, &documents, None).await
 }
 

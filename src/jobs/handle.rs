@@ -192,12 +192,18 @@ impl Jobs {
             return Ok(Ok(Vec::new()));
         }
         let path = self.engine.store.package_path(model);
-        let read = move || package::read_nodes(&path, &package::Limits::default());
-        let nodes = self.engine.importer.run(read).await?.map_err(|error| match error {
+        let mut placed = sensors.to_vec();
+        let place = move || {
+            let nodes = package::read_nodes(&path, &package::Limits::default())?;
+            let found = run::place_sensors(&mut placed, &nodes);
+            Ok::<_, package::PackageError>((placed, found))
+        };
+        let (placed, found) = self.engine.importer.run(place).await?.map_err(|error| match error {
             package::PackageError::Io { source } => StoreError::Package(source),
             error => StoreError::Package(std::io::Error::new(ErrorKind::InvalidData, error.to_string())),
         })?;
-        Ok(run::place_sensors(sensors, &nodes))
+        sensors.copy_from_slice(&placed);
+        Ok(found)
     }
 
     /// Checks what only the reduction of a resolved sweep can tell, if it is stored; returns it.

@@ -6,31 +6,32 @@ use futures::{StreamExt, TryStreamExt, stream};
 
 use super::engine::{Engine, Live};
 use super::error::Interruption;
+use super::patience::patiently;
 use super::progress::PhaseMonitor;
 use crate::analysis::monitor::Monitor;
 use crate::analysis::resolved::ResolvedCaseStudy;
 use crate::analysis::run;
 use crate::store::results::Document;
 
-/// Simulates the speeds of `case` side by side; their histories, one document each.
+/// Simulates the speeds of `case` side by side and keeps the histories of each as soon as they are there: those that are kept already
+/// are not computed again.
 pub(super) async fn record(
     engine: &Engine,
     job: &Live,
     case: &ResolvedCaseStudy,
     monitor: PhaseMonitor,
-) -> Result<Vec<(Document, String)>, Interruption> {
+) -> Result<(), Interruption> {
     let total = case.speeds().len();
     let mut running = stream::iter(0..total)
         .map(|place| record_one(engine, job, case, place))
         .buffer_unordered(engine.computing.threads());
-    let mut documents = Vec::with_capacity(total);
-    while let Some(document) = running.try_next().await? {
-        documents.push(document);
-        let done = documents.len();
-        monitor
-            .progress(done as f64 / total as f64, &format!("histories of {done} of {total} speeds recorded"));
+    let mut done = 0;
+    while running.try_next().await?.is_some() {
+        done += 1;
+        let words = format!("histories of {done} of {total} speeds recorded");
+        monitor.progress(done as f64 / total as f64, &words);
     }
-    Ok(documents)
+    Ok(())
 }
 
 async fn record_one(
@@ -38,19 +39,26 @@ async fn record_one(
     job: &Live,
     case: &ResolvedCaseStudy,
     place: usize,
-) -> Result<(Document, String), Interruption> {
+) -> Result<(), Interruption> {
+    let document = Document::Histories(case.speeds()[place]);
+    if engine.store.document_bytes(job.id, document).await?.is_some() {
+        return Ok(());
+    }
     let sweep = case.sweep();
     let monitor = PhaseMonitor::uncounted(job.watch.clone());
     let reduced = engine.reductions.of_sweep(sweep, monitor.clone()).await?;
     let asked = (Arc::clone(&reduced), case.clone());
     let bytes =
         engine.computing.run(&job.watch, move || run::histories_memory(&asked.0, &asked.1, place)).await?;
-    let memory = engine.memory.hold(bytes).await.map_err(Interruption::speed_memory)?;
+    // Memory is held until the histories are in the store.
+    let _memory = engine.memory.hold(bytes).await.map_err(Interruption::speed_memory)?;
     let case = case.clone();
     let compute = move || {
-        let _memory = memory;
         let histories = run::speed_histories(&reduced, &case, place, &monitor)?;
-        Ok::<_, Interruption>((Document::Histories(histories.index), serde_json::to_string(&histories)?))
+        Ok::<_, Interruption>(serde_json::to_string(&histories)?)
     };
-    engine.computing.run(&job.watch, compute).await?
+    let text = engine.computing.run(&job.watch, compute).await??;
+    patiently(&job.watch, || engine.store.keep_document(job.id, document, &text)).await?;
+    engine.computing.acquit(job.id);
+    Ok(())
 }

@@ -233,6 +233,34 @@ impl Store {
         Ok(found)
     }
 
+    /// Keeps a document of a job that is still computed, in a transaction of its own. One that is there already stays as it is; a job
+    /// that was deleted keeps nothing.
+    pub async fn keep_document(&self, job: JobId, document: Document, body: &str) -> Result<(), StoreError> {
+        let (name, part) = document.columns();
+        let mut transaction = self.write().await?;
+        let inserted = sqlx::query(
+            "insert into documents (job, name, part, body, created_at)
+             select ?1, ?2, ?3, ?4, ?5 where exists (select 1 from jobs where id = ?1 and deleted = 0)
+             on conflict (job, name, part) do nothing",
+        )
+        .bind(job.to_string())
+        .bind(name)
+        .bind(part)
+        .bind(body)
+        .bind(now())
+        .execute(&mut *transaction)
+        .await?;
+        if inserted.rows_affected() == 1 {
+            sqlx::query("update jobs set crashes = 0, stored_bytes = stored_bytes + ?2 where id = ?1")
+                .bind(job.to_string())
+                .bind(body.len() as i64)
+                .execute(&mut *transaction)
+                .await?;
+        }
+        transaction.commit().await?;
+        Ok(())
+    }
+
     /// Bytes of the text of a document, if it is there.
     pub async fn document_bytes(&self, job: JobId, document: Document) -> Result<Option<u64>, StoreError> {
         let (name, part) = document.columns();

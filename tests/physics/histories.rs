@@ -106,7 +106,8 @@ fn completed(run: &Run) -> &History {
     history
 }
 
-const WHOLE: Detail = Detail { revolutions: (0, 1), velocity: true, contact: true, energy: true };
+const WHOLE: Detail =
+    Detail { revolutions: (0, 1), velocity: true, contact: true, forces: true, energy: true };
 
 /// Largest difference over the largest truth.
 fn apart(found: &[f64], truth: &[f64]) -> f64 {

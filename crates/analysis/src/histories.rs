@@ -43,11 +43,12 @@ pub fn speed_histories(
     let start = state_before(reduced, sweep, index, monitor)?;
     let mut point = empty_point(reduced, sweep, index, sweep.speeds.rad_s()[index]);
     let [from, to] = revolutions(record, sweep);
-    let contact = record.wants(RecordedQuantity::ContactForce) || record.wants(RecordedQuantity::Contact);
+    let touches = sweep.scene.contact.is_some();
     let detail = Detail {
         revolutions: (from as usize, to as usize),
         velocity: record.wants(RecordedQuantity::Velocity),
-        contact: contact && sweep.scene.contact.is_some(),
+        contact: touches && record.wants(RecordedQuantity::Contact),
+        forces: touches && record.wants(RecordedQuantity::ContactForce),
         energy: record.wants(RecordedQuantity::Energy),
     };
     let watch = |fraction: f64| {
@@ -82,7 +83,7 @@ pub fn speed_histories(
                 histories.sensors =
                     sensors(reduced, history, sweep, record, samples * from as usize..samples * to as usize);
                 if let Some(detail) = &history.detail {
-                    histories.contact = detail_contact(detail, record, wheel.sectors, wheel.repeats);
+                    histories.contact = detail_contact(detail, wheel.sectors, wheel.repeats);
                     histories.energy = energy(&detail.energy, &point, wheel.repeats);
                 }
             }
@@ -142,26 +143,17 @@ fn tip(reduced: &ReducedSector, sweep: &ResolvedSweep, sensor: ResolvedSensor) -
 }
 
 /// Of one part of a wheel that repeats it: what adds up over the wheel is multiplied.
-fn detail_contact(
-    detail: &DetailHistory,
-    record: &Recorded,
-    sectors: usize,
-    repeats: usize,
-) -> Option<ContactHistory> {
-    if detail.force.is_empty() {
+fn detail_contact(detail: &DetailHistory, sectors: usize, repeats: usize) -> Option<ContactHistory> {
+    if detail.force.is_empty() && detail.nodes_in_contact.is_empty() {
         return None;
     }
-    let nodes = detail.force.len() / sectors;
     let of_the_wheel = |line: &[f64]| line.iter().map(|value| repeats as f64 * value).collect();
-    let mut contact = ContactHistory::default();
-    if record.wants(RecordedQuantity::ContactForce) {
-        contact.force = detail.force.chunks(nodes).map(<[Vec<f64>]>::to_vec).collect();
-    }
-    if record.wants(RecordedQuantity::Contact) {
-        contact.nodes_in_contact = of_the_wheel(&detail.nodes_in_contact);
-        contact.contact_length = of_the_wheel(&detail.contact_length);
-    }
-    Some(contact)
+    let nodes = detail.force.len() / sectors;
+    Some(ContactHistory {
+        force: detail.force.chunks(nodes.max(1)).map(<[Vec<f64>]>::to_vec).collect(),
+        nodes_in_contact: of_the_wheel(&detail.nodes_in_contact),
+        contact_length: of_the_wheel(&detail.contact_length),
+    })
 }
 
 /// Parts that `point` names, of the whole wheel.

@@ -12,8 +12,8 @@ use crate::effects::symmetry::repeats::repeats;
 use crate::effects::symmetry::request::Symmetry;
 use crate::effects::table::{check_at_speed, planned};
 use crate::model::{ModelFacts, ReducedSector};
-use crate::request::{HistorySpeeds, SweepDirection};
-use crate::resolve::recorded::revolutions;
+use crate::request::{HistorySpeeds, Recorded, SweepDirection};
+use crate::resolve::recorded::{lines, revolutions};
 use crate::resolved::{ResolvedCaseStudy, ResolvedModalAnalysis, ResolvedSweep, Scene, TrialRequest};
 use crate::result::{
     CostRange, Estimate, FoundSymmetry, ModalAnalysisPlan, PlannedPoint, ReductionState, SweepPlan,
@@ -58,8 +58,14 @@ pub fn plan_sweep(
         placed_sensors: Vec::new(),
         speeds: speeds.len() as u32,
         workers: workers as u32,
-        estimate: reduced
-            .and_then(|reduced| estimate(&points, &simulated(request), workers, reduced_bytes(reduced))),
+        estimate: reduced.and_then(|reduced| {
+            let all = estimate(&points, speeds, workers, reduced_bytes(reduced))?;
+            let recorded = recorded_speeds(request);
+            if recorded.is_empty() {
+                return Some(all);
+            }
+            Some(all.followed_by(estimate(&points, &recorded, workers, 0)?))
+        }),
         points,
         choice: None,
         warnings: warnings(&request.scene, facts, reduced),
@@ -69,24 +75,18 @@ pub fn plan_sweep(
     }
 }
 
-/// All speeds, and once more those of which histories are asked for by index; of a chain with all before them.
-fn simulated(request: &ResolvedSweep) -> Vec<f64> {
-    let speeds = request.speeds.rad_s();
-    let mut all = speeds.to_vec();
+/// Speeds that are simulated once more for histories that name them by index, when all others are finished; of a chain with all
+/// before them, one after the other.
+fn recorded_speeds(request: &ResolvedSweep) -> Vec<f64> {
     let Some(HistorySpeeds::Indices(indices)) = request.histories().map(|histories| &histories.speeds) else {
-        return all;
+        return Vec::new();
     };
-    let chain = request.chain();
-    for &index in indices {
-        match &chain {
-            Some(chain) => {
-                let before = chain.iter().take_while(|&&link| link != index).chain([&index]);
-                all.extend(before.map(|&link| speeds[link as usize]));
-            }
-            None => all.push(speeds[index as usize]),
-        }
-    }
-    all
+    let (speeds, chain) = (request.speeds.rad_s(), request.chain().unwrap_or_default());
+    let with_those_before = |&index: &u32| {
+        let before = chain.iter().take_while(move |&&link| link != index).copied();
+        before.chain([index]).collect::<Vec<_>>()
+    };
+    indices.iter().flat_map(with_those_before).map(|index| speeds[index as usize]).collect()
 }
 
 fn sectors_simulated(scene: &Scene, facts: &ModelFacts) -> u32 {
@@ -222,6 +222,9 @@ fn plan_point(
     let size = StepSize { sectors: wheel.sectors, nodes, unknowns };
     let effects = EffectSizes::of(&request.scene, &wheel, stepping.scheme, nodes);
     let (free, contact) = calibration.step_seconds(size, &effects);
+    let histories = request
+        .histories()
+        .map_or(0, |asked| recorded_bytes(&asked.recorded(), request, &wheel, &stepping, nodes));
     let window =
         f64::from(request.integration.window_revolutions) / f64::from(request.integration.revolutions);
     let spectra = window * calibration.spectra_seconds(size, request.sensors.len());
@@ -233,7 +236,7 @@ fn plan_point(
             free: set_up + steps as f64 * (free + spectra),
             contact: set_up + steps as f64 * (contact + spectra),
         }),
-        memory_bytes: running_bytes(&wheel, request, &stepping, nodes),
+        memory_bytes: running_bytes(&wheel, request, &stepping, nodes) + histories,
         scheme: Some(stepping.report),
         ..planned
     }
@@ -256,16 +259,27 @@ pub fn trial_memory(reduced: &ReducedSector, request: &TrialRequest) -> u64 {
 /// Memory that the speed of this `place` in a case study holds while it is recorded, in bytes: its run, and its histories twice, as
 /// numbers and as text.
 pub fn histories_memory(reduced: &ReducedSector, case: &ResolvedCaseStudy, place: usize) -> u64 {
-    /// Bytes of a number as numbers and as text.
-    const NUMBER: usize = 8 + 24;
     let sweep = &case.sweep;
     let speed = sweep.speeds.rad_s()[case.speeds[place] as usize];
     let Ok((wheel, stepping)) = ready(reduced, sweep, speed) else { return 0 };
     let nodes = touching(reduced, sweep);
-    let [from, to] = revolutions(&case.record, sweep);
-    let lines = 2 * sweep.sensors.len() + wheel.sectors * nodes + 10;
-    let recorded = NUMBER * lines * stepping.discretisation.samples * (to - from) as usize;
-    running_bytes(&wheel, sweep, &stepping, nodes) + recorded as u64
+    let recorded = recorded_bytes(&case.record, sweep, &wheel, &stepping, nodes);
+    recorded + running_bytes(&wheel, sweep, &stepping, nodes)
+}
+
+/// Histories twice, as numbers and as text.
+fn recorded_bytes(
+    record: &Recorded,
+    sweep: &ResolvedSweep,
+    wheel: &ModalWheel,
+    stepping: &Stepping,
+    nodes: usize,
+) -> u64 {
+    /// Bytes of a number as numbers and as text.
+    const NUMBER: usize = 8 + 24;
+    let [from, to] = revolutions(record, sweep);
+    let lines = lines(record, sweep, wheel.sectors * nodes);
+    (NUMBER * lines * stepping.discretisation.samples * (to - from) as usize) as u64
 }
 
 /// What a speed holds while it runs: its modes with what their eigenproblems took, the casing's table, the histories,

@@ -51,6 +51,15 @@ pub fn wheel_critical_speeds(
     let first = tables.first()?;
     let curve = ResponseCurve::of(request.speeds.rad_s(), points);
     let level: Vec<Option<f64>> = curve.points.iter().map(|point| Some(point.as_ref()?.tip?.rms)).collect();
+    let tips = || curve.points.iter().flatten().filter_map(|point| point.tip);
+    // One scale for all.
+    let severity: fn(&TipResponse) -> f64 = if tips().all(|tip| tip.over_clearance.is_some()) {
+        |tip| tip.over_clearance.unwrap_or_default()
+    } else if tips().all(|tip| tip.over_chord.is_some()) {
+        |tip| tip.over_chord.unwrap_or_default()
+    } else {
+        |tip| tip.half_peak_to_peak
+    };
     let critical = |peak: Peak| {
         let point = curve.points[peak.index]?;
         let tip = point.tip?;
@@ -59,7 +68,7 @@ pub fn wheel_critical_speeds(
         Some(WheelCriticalSpeed {
             speed_rad_s: point.speed_rad_s,
             index: point.index,
-            severity: tip.over_clearance.or(tip.over_chord).unwrap_or(tip.half_peak_to_peak),
+            severity: severity(&tip),
             tip,
             mean_force: contact.map(|contact| contact.mean_force),
             peak_force: contact.map(|contact| contact.peak_force),

@@ -31,7 +31,7 @@ use crate::store::{Store, StoreError};
 use crate::tokens::Principal;
 use crate::version;
 
-/// A zip file; docs/session.md says what is in it.
+/// A zip file; docs/figures.md says what is in it.
 #[derive(ToSchema)]
 #[schema(value_type = String, format = Binary)]
 #[expect(dead_code, reason = "describes the body in the OpenAPI document only")]
@@ -48,7 +48,7 @@ pub(super) struct ArchiveZip(Vec<u8>);
         (status = 200, description = "The archive.", body = ArchiveZip, content_type = "application/zip"),
         (status = 404, description = "There is no such job.", body = Problem,
             content_type = "application/problem+json"),
-        (status = 409, description = "The job is not successful, generated a model, or its model is deleted.", body = Problem,
+        (status = 409, description = "The job is not successful, generated a model, is a case study, or its model is deleted.", body = Problem,
             content_type = "application/problem+json"),
     ))]
 pub(super) async fn get_archive(

@@ -64,7 +64,7 @@ impl Store {
             return Ok(());
         }
         let mut transaction = self.write().await?;
-        for table in ["speed_results", "end_states"] {
+        for table in ["speed_results", "end_states", "documents"] {
             let begun = format!("delete from {table} where job in (select id from jobs where {OUTDATED})");
             sqlx::query(AssertSqlSafe(begun)).bind(REVISION).execute(&mut *transaction).await?;
         }

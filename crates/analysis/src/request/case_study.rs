@@ -30,6 +30,7 @@ pub struct CaseStudyRequest {
     pub integration: Integration,
     /// Whose displacements and velocities are recorded; default: radial at the first and the last contact node of sector 0.
     #[serde(default)]
+    #[cfg_attr(feature = "schema", schema(max_items = 1_000))]
     pub sensors: Vec<Sensor>,
     /// Highest engine order of interest: a revolution has at least eight samples for each, and at least 512.
     #[serde(default = "default_max_engine_order")]

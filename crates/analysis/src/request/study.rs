@@ -32,7 +32,7 @@ pub struct StudyRequest {
     pub history_revolutions: u32,
     /// Where the response is recorded; default: radial at the first and the last contact node of sector 0.
     #[serde(default)]
-    #[cfg_attr(feature = "schema", schema(max_items = 100_000))]
+    #[cfg_attr(feature = "schema", schema(max_items = 1_000))]
     pub sensors: Vec<Sensor>,
     /// Highest engine order that is compared.
     #[serde(default = "default_max_engine_order")]

@@ -6,8 +6,8 @@ pub(crate) const TARGET: std::ops::RangeInclusive<f64> = 1e-9..=0.5;
 pub(crate) const BUDGET_S: std::ops::RangeInclusive<f64> = 1.0..=1e7;
 pub(crate) const REVOLUTIONS: u32 = 100_000;
 pub(crate) const ENGINE_ORDER: u32 = 1_000;
-/// Far above what memory lets a speed record; it keeps a request small.
-pub(crate) const SENSORS: usize = 100_000;
+/// Each has a table of critical speeds, with the whole request in it.
+pub(crate) const SENSORS: usize = 1_000;
 /// Recorded numbers of one speed, 8 bytes each.
 pub(crate) const RECORDED: usize = 1 << 27;
 pub(crate) const FAMILIES: u32 = 100;

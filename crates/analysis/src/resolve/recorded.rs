@@ -70,14 +70,8 @@ pub(super) fn check_recorded(
         let again = record.quantities[..place].contains(quantity);
         found.require(!again, &format!("{pointer}/quantities/{place}"), "is in the list already");
     }
-    let (sensors, sectors) = (sweep.sensors.len(), facts.sectors as usize);
-    let of = |quantity, numbers: usize| if record.wants(quantity) { numbers } else { 0 };
-    let pairs = sectors * facts.contact_nodes as usize;
-    let lines = of(RecordedQuantity::Displacement, sensors)
-        + of(RecordedQuantity::Velocity, sensors)
-        + of(RecordedQuantity::ContactForce, pairs)
-        + of(RecordedQuantity::Contact, 2)
-        + of(RecordedQuantity::Energy, 8);
+    let sectors = facts.sectors as usize;
+    let lines = lines(record, sweep, sectors * facts.contact_nodes as usize);
     let samples = most_samples(sweep, sectors).saturating_mul(to.saturating_sub(from) as usize);
     let numbers = samples.saturating_mul(lines);
     found.require(
@@ -94,4 +88,14 @@ pub(super) fn check_recorded(
 pub(crate) fn revolutions(record: &Recorded, sweep: &ResolvedSweep) -> [u32; 2] {
     let run = sweep.integration.revolutions;
     record.revolutions.unwrap_or([run.saturating_sub(sweep.integration.window_revolutions), run])
+}
+
+/// Histories of one speed, with so many pairs of a contact node and a blade.
+pub(crate) fn lines(record: &Recorded, sweep: &ResolvedSweep, pairs: usize) -> usize {
+    let of = |quantity, numbers: usize| if record.wants(quantity) { numbers } else { 0 };
+    of(RecordedQuantity::Displacement, sweep.sensors.len())
+        + of(RecordedQuantity::Velocity, sweep.sensors.len())
+        + of(RecordedQuantity::ContactForce, pairs)
+        + of(RecordedQuantity::Contact, 2)
+        + of(RecordedQuantity::Energy, 8)
 }

@@ -143,6 +143,20 @@ pub struct Estimate {
     pub speed_memory_bytes: u64,
 }
 
+impl Estimate {
+    /// With what is computed afterwards, in no more memory and by no more workers.
+    pub(crate) fn followed_by(self, later: Self) -> Self {
+        let both =
+            |a: CostRange, b: CostRange| CostRange { free: a.free + b.free, contact: a.contact + b.contact };
+        Self {
+            steps: self.steps + later.steps,
+            computing_time_s: both(self.computing_time_s, later.computing_time_s),
+            wall_time_s: both(self.wall_time_s, later.wall_time_s),
+            ..self
+        }
+    }
+}
+
 /// What was really spent on the finished speeds of a sweep.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]

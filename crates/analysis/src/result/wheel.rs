@@ -38,7 +38,8 @@ pub struct WheelCriticalSpeed {
     pub speed_rad_s: f64,
     /// Index of the speed in the sweep.
     pub index: u32,
-    /// What it is ranked by: the displacement over the clearance, where there is none over the contact line, otherwise itself.
+    /// What it is ranked by: the displacement over the clearance; if a node has none, of all speeds over the contact line; of a single
+    /// node itself.
     pub severity: f64,
     /// The tip that moves most there.
     pub tip: TipResponse,

@@ -44,7 +44,7 @@ impl DetailRecorder {
         Self {
             history: DetailHistory {
                 velocity: lines(sensors, detail.velocity),
-                force: lines(interval.force.len(), detail.contact),
+                force: lines(interval.force.len(), detail.forces),
                 nodes_in_contact: line(detail.contact),
                 contact_length: line(detail.contact),
                 energy: Vec::with_capacity(if detail.energy { samples } else { 0 }),
@@ -67,9 +67,11 @@ impl DetailRecorder {
 
     /// Whether the displacements of the sensors after this step are wanted, because a sample is beside it.
     pub(super) fn reads(&self, step: u64) -> bool {
-        let near = |other: u64| self.holds(other);
         self.detail.velocity
-            && (near(step) || near(step + 1) || (step > 0 && near(step - 1)) || self.closes(step))
+            && (self.holds(step)
+                || self.holds(step + 1)
+                || (step > 0 && self.holds(step - 1))
+                || self.closes(step))
     }
 
     /// Whether the last sample has this step two before it.
@@ -96,7 +98,8 @@ impl DetailRecorder {
     /// Where contact between this sample and the last one is wanted.
     #[inline(always)]
     pub(super) fn interval(&mut self, step: u64) -> Option<&mut ContactInterval> {
-        (self.detail.contact && self.holds(step)).then_some(&mut self.interval)
+        let wanted = self.detail.contact || self.detail.forces;
+        (wanted && self.holds(step)).then_some(&mut self.interval)
     }
 
     /// Ends a sample, once its contact is known.
@@ -106,10 +109,11 @@ impl DetailRecorder {
             return;
         }
         let history = &mut self.history;
+        // Without lines nothing is kept of them.
+        for (line, force) in history.force.iter_mut().zip(&self.interval.force) {
+            line.push(*force);
+        }
         if self.detail.contact {
-            for (line, force) in history.force.iter_mut().zip(&self.interval.force) {
-                line.push(*force);
-            }
             history.nodes_in_contact.push(self.interval.nodes);
             history.contact_length.push(self.interval.length);
         }

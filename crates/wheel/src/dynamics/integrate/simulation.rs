@@ -49,8 +49,10 @@ pub struct Detail {
     pub revolutions: (usize, usize),
     /// Velocities of the sensors.
     pub velocity: bool,
-    /// Contact forces, and how much touches.
+    /// How much touches.
     pub contact: bool,
+    /// The force on every contact node of every blade.
+    pub forces: bool,
     /// The energy audit.
     pub energy: bool,
 }

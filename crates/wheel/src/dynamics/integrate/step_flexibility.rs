@@ -17,15 +17,11 @@ pub(super) fn step_flexibility(
     to: &[Direction],
     from: &[Direction],
 ) -> Vec<Mat<c64>> {
-    let wheel = simulation.wheel;
     match simulation.scheme {
         Scheme::CentralDifferences | Scheme::ExactModal if is_turned(simulation) => {
-            oscillators.turned_flexibility(wheel, simulation.step_s(), to, from)
+            oscillators.turned_flexibility(simulation.wheel, simulation.step_s(), to, from)
         }
-        Scheme::CentralDifferences | Scheme::ExactModal => {
-            symmetric_flexibility(simulation, oscillators, to, from)
-        }
-        Scheme::MasslessBoundary { kept_modes } => residual_flexibility(wheel, kept_modes, to, from),
+        _ => symmetric_flexibility(simulation, oscillators, to, from),
     }
 }
 
