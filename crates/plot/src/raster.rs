@@ -6,7 +6,7 @@ use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::fontdb::{Database, Source};
 use resvg::usvg::{Options, Tree};
 
-/// Widths that [`png`] draws, in pixels: from what shows nothing to what no screen has; beyond, memory is at stake.
+/// Widths that [`png()`] draws, in pixels: from what shows nothing to what no screen has; beyond, memory is at stake.
 pub const WIDTHS: std::ops::RangeInclusive<u32> = 16..=4096;
 
 /// Pixels of an image, of any shape.

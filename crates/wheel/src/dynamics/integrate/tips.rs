@@ -9,7 +9,7 @@ use super::residual::ResidualDisplacement;
 use super::simulation::Simulation;
 use rubmap_numerics::sector_fourier::SectorFourier;
 
-/// Motion of one component of one contact node of one blade over the window, from [`INSTANTS`] of a revolution.
+/// Motion of one component of one contact node of one blade over the window, from some 128 instants of a revolution.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TipMotion {
     /// Root mean square about the mean, length.
