@@ -13,11 +13,10 @@ pub(super) struct Discretisation {
     pub(super) samples: usize,
 }
 
-/// Samples per revolution for each engine order asked for, so that what aliases onto a line of the spectrum comes
-/// from orders at least seven times as high.
+/// Samples per revolution for each engine order asked for: the band that the decimation of the window passes is an eighth of the samples.
 const SAMPLES_PER_ORDER: usize = 8;
 
-/// Fewest samples a revolution: blades that rattle move at orders of some hundreds, which must not alias onto the low ones.
+/// Fewest samples a revolution: levels and histories are of these instants, and blades that rattle move at orders of some hundreds.
 const LEAST_SAMPLES: usize = 512;
 
 impl Discretisation {

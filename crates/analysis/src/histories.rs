@@ -1,5 +1,6 @@
 //! What happened at one speed of a sweep, simulated again.
 
+use crate::component::{along, direction};
 use crate::effects::casing::convert::clearance;
 use crate::end_state::EndState;
 use crate::error::AnalysisError;
@@ -8,7 +9,7 @@ use crate::monitor::Monitor;
 use crate::record::record_run;
 use crate::request::{Recorded, RecordedQuantity};
 use crate::resolve::recorded::{revolutions, wanted};
-use crate::resolved::sensor::Place;
+use crate::resolved::sensor::{Along, Place};
 use crate::resolved::{ResolvedCaseStudy, ResolvedSensor, ResolvedSweep};
 use crate::result::{
     ContactHistory, EnergyHistory, Point, PointStatus, SensorHistory, SpeedHistories, TipPlace,
@@ -128,13 +129,24 @@ fn sensors(
     sweep.sensors.iter().enumerate().map(of).collect()
 }
 
-/// Where a sensor on the contact line stands before the casing, if there is one.
+/// Cosine of the angle to the contact normal up to which a sensor measures the way to the casing: eight degrees.
+const OUTWARD: f64 = 0.99;
+
+/// Where a sensor on the contact line stands before the casing, if there is one and it measures the way there.
 fn tip(reduced: &ReducedSector, sweep: &ResolvedSweep, sensor: ResolvedSensor) -> Option<TipPlace> {
     let contact = &reduced.wheel.contact;
     let node = match sensor.place {
         Place::Contact(node) => node as usize,
         Place::Node(id) => contact.iter().position(|node| node.id == id)?,
     };
+    let components = match sensor.along {
+        Along::Component(component) => direction(contact, node, component).components,
+        Along::Direction(vector) => along(vector),
+    };
+    let normal = contact[node].normal;
+    if components.iter().zip(normal).map(|(d, n)| d * n).sum::<f64>() < OUTWARD {
+        return None;
+    }
     let turn = f64::from(sensor.sector) * std::f64::consts::TAU / reduced.wheel.sectors as f64;
     Some(TipPlace {
         angle_rad: contact[node].position[1] + turn,

@@ -43,7 +43,8 @@ pub struct SpeedHistories {
 pub struct SensorHistory {
     /// The sensor.
     pub sensor: Sensor,
-    /// Where its node meets the casing; absent of a node that is not on the contact line, and without a casing.
+    /// Where its node meets the casing; absent of a node that is not on the contact line, of a sensor that does not measure along its
+    /// outward normal, and without a casing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tip: Option<TipPlace>,
     /// Displacement, length.
