@@ -2,7 +2,7 @@
 
 use axum::extract::State;
 use axum::response::Response;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
 
 use super::download::{Download, DownloadQuery};
@@ -12,7 +12,6 @@ use super::problem::Problem;
 use super::results::{check_sensor, find, wrong_kind};
 use super::state::AppState;
 use super::studies::check_speed;
-use crate::analysis::request::HistorySpeeds;
 use crate::analysis::result::SpeedHistories;
 use crate::analysis::run::Histories;
 use crate::plot::{self, HistoryQuantity};
@@ -55,6 +54,17 @@ enum Drawn {
     Trajectories,
 }
 
+/// Histories.
+#[derive(Serialize, ToSchema)]
+#[serde(untagged)]
+#[expect(dead_code, reason = "describes the body in the OpenAPI document only")]
+pub(super) enum HistoriesBody {
+    /// Of a case study or a sweep.
+    Speed(Box<SpeedHistories>),
+    /// Of a study.
+    Study(Box<Histories>),
+}
+
 /// Download histories: of a case study or a sweep what happened at one speed; of a study the displacements of the first
 /// revolutions, one line per size.
 ///
@@ -63,8 +73,7 @@ enum Drawn {
 #[utoipa::path(get, path = "/v1/jobs/{id}/histories", operation_id = "get_histories", tag = "results",
     params(("id" = String, Path, description = "Id of a case study, sweep or study."), HistoriesQuery, DownloadQuery),
     responses(
-        (status = 200, description = "The histories: of a study `Histories`.",
-            content((SpeedHistories = "application/json"))),
+        (status = 200, description = "The histories.", body = HistoriesBody),
         (status = 400, description = "A parameter is not valid.", body = Problem,
             content_type = "application/problem+json"),
         (status = 404, description = "There is no such job, or nothing was recorded of that speed.", body = Problem,
@@ -80,7 +89,10 @@ pub(super) async fn get_histories(
     download: Download,
 ) -> Result<Response, Problem> {
     let job = find(&state, &whose, id).await?;
-    let speed = query.speed.unwrap_or(first(&job));
+    let speed = match query.speed {
+        Some(speed) => speed,
+        None => first(&state, &job).await?,
+    };
     let document = Document::Histories(speed);
     let sensor = query.sensor as usize;
     match &job.request {
@@ -101,17 +113,13 @@ pub(super) async fn get_histories(
     }
 }
 
-/// The first speed of a job that may have histories.
-fn first(job: &Job) -> u32 {
-    let wanted = match &job.request {
-        JobRequest::CaseStudy(case) => case.speeds().first().copied(),
-        JobRequest::Sweep(sweep) => sweep.histories().and_then(|asked| match &asked.speeds {
-            HistorySpeeds::Indices(indices) => indices.first().copied(),
-            HistorySpeeds::Critical => None,
-        }),
+/// The first speed of a job that has histories; where none has, the first of all.
+async fn first(state: &AppState, job: &Job) -> Result<u32, Problem> {
+    let recorded = state.store.documents(job.id).await?.into_iter().find_map(|document| match document {
+        Document::Histories(speed) => Some(speed),
         _ => None,
-    };
-    wanted.unwrap_or(0)
+    });
+    Ok(recorded.unwrap_or(0))
 }
 
 /// Whether there are the sensor and the contact node that are to be drawn.

@@ -66,8 +66,9 @@ pub(super) async fn get_section(
         None => None,
         Some(of) => {
             let unknown = || Problem::parameter("sweep", "there is no such sweep of this model");
-            let job =
-                find(&state, &whose, JobId::parse(of).ok_or_else(unknown)?).await.map_err(|_| unknown())?;
+            let job = find(&state, &whose, JobId::parse(of).ok_or_else(unknown)?)
+                .await
+                .map_err(|problem| if problem.status == 404 { unknown() } else { problem })?;
             let (request, _) = sweep(&job).map_err(|_| unknown())?;
             Some(request.clone()).filter(|request| request.model() == id).ok_or_else(unknown).map(Some)?
         }

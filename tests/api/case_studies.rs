@@ -149,6 +149,8 @@ async fn critical_speeds_can_be_recorded() {
         critical.extend(peaks.iter().map(|peak| peak["index"].as_u64().unwrap() as u32));
     }
     assert!(!critical.is_empty());
+    let first = api.get(&format!("/v1/jobs/{id}/histories")).await.body;
+    assert_eq!(Some(first["index"].as_u64().unwrap() as u32), critical.iter().copied().min());
     for speed in critical {
         assert_eq!(histories(api, &id, speed).await["index"], speed);
     }
