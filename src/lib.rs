@@ -34,4 +34,5 @@ pub use rubmap_analysis as analysis;
 pub use rubmap_model::{impeller, package};
 pub use rubmap_numerics as numerics;
 pub use rubmap_plot as plot;
+pub use rubmap_solid as solid;
 pub use rubmap_wheel::{dynamics, response};

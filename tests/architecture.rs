@@ -7,13 +7,14 @@ use syn::visit::Visit;
 use syn::{ItemMod, ItemUse, UseTree};
 
 /// Crates of the workspace and those of its own that each may use: arrows point one way.
-const CRATES: [(&str, &[&str]); 6] = [
+const CRATES: [(&str, &[&str]); 7] = [
     ("crates/numerics", &[]),
     ("crates/wheel", &["numerics"]),
-    ("crates/model", &["numerics", "wheel"]),
-    ("crates/analysis", &["numerics", "wheel"]),
+    ("crates/solid", &[]),
+    ("crates/model", &["numerics", "solid", "wheel"]),
+    ("crates/analysis", &["numerics", "solid", "wheel"]),
     ("crates/plot", &["analysis", "wheel"]),
-    (".", &["analysis", "model", "numerics", "plot", "wheel"]),
+    (".", &["analysis", "model", "numerics", "plot", "solid", "wheel"]),
 ];
 
 /// What nothing below the service knows: HTTP, SQL, async, dates.

@@ -140,6 +140,8 @@ pub(super) fn empty_point(
         casing_amplitude: None,
         wear: None,
         symmetry_breaking: None,
+        stress: None,
+        validity: None,
         responses: Vec::new(),
         wall_time_s: 0.0,
         version: VERSION.to_owned(),

@@ -10,10 +10,13 @@ pub mod plan;
 pub mod point;
 pub mod reduction;
 pub mod refinement;
+pub mod stress;
 pub mod study;
+pub mod surface;
 pub mod sweep;
 pub mod tip;
 pub mod trial;
+pub mod validity;
 pub mod wheel;
 
 pub use campbell::{AbsoluteFrequencies, Campbell, WaveTables};
@@ -34,12 +37,15 @@ pub use reduction::{
     StiffeningVerdict,
 };
 pub use refinement::{Refinement, Unresolvable, Unresolved};
+pub use stress::{PointStress, StressCycle, StressPeak};
 pub use study::{
     Histories, HistoryLine, SpeedStudy, StepOrder, StudyReduction, StudyRun, WorkPrecision, front,
 };
+pub use surface::{FieldSurface, SurfaceColour};
 pub use sweep::{CriticalSpeed, CriticalSpeeds, InteractionMap};
 pub use tip::TipResponse;
 pub use trial::{Cost, Trial};
+pub use validity::{Validity, ValidityCheck, ValidityMeasure, ValidityVerdict};
 pub use wheel::{SensorView, WheelCriticalSpeed, WheelCriticalSpeeds};
 
 pub use crate::effects::abradable::result::{WearMap, WearReport};

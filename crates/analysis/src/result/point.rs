@@ -7,7 +7,9 @@ use crate::end_state::EndState;
 use crate::request::{SchemeChoice, Sensor};
 use crate::result::contact::{ContactForces, ContactSummary};
 use crate::result::reduction::StiffeningVerdict;
+use crate::result::stress::PointStress;
 use crate::result::tip::TipResponse;
+use crate::result::validity::Validity;
 use rubmap_wheel::dynamics::energy::{EffectWork, EnergyAudit};
 use rubmap_wheel::response::settling::Settling;
 use rubmap_wheel::response::side_bands::SideBands;
@@ -185,6 +187,12 @@ pub struct Point {
     /// What became of a tiny asymmetry; with `symmetry: probe`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub symmetry_breaking: Option<SymmetryBreaking>,
+    /// Stress and margin; of a sweep that records stress, if the speed was `completed`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stress: Option<PointStress>,
+    /// Whether linear theory holds; absent unless `completed`, and of speeds that an earlier version computed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub validity: Option<Validity>,
     /// Steady response per sensor; empty unless `completed`.
     pub responses: Vec<SensorResponse>,
     /// Wall time of this speed, s.

@@ -1,0 +1,59 @@
+//! Whether linear theory still holds at a speed.
+
+use serde::{Deserialize, Serialize};
+
+/// Whether the response is small enough for the theory that it was computed by, and the numbers that say so.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct Validity {
+    /// The worst of `checks`.
+    pub verdict: ValidityVerdict,
+    /// Every number that was looked at, the worst first; what a model cannot tell is not among them.
+    pub checks: Vec<ValidityCheck>,
+}
+
+/// How far linear theory holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum ValidityVerdict {
+    /// It holds.
+    Linear,
+    /// Numbers are to be taken with care.
+    Doubtful,
+    /// The response has left it: numbers say that something large happens, not how large.
+    Beyond,
+}
+
+/// One number beside its limits.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct ValidityCheck {
+    /// What it is.
+    pub what: ValidityMeasure,
+    /// Its value, without unit.
+    pub value: f64,
+    /// Above this it is doubtful.
+    pub doubtful_above: f64,
+    /// Above this it is beyond linear theory.
+    pub beyond_above: f64,
+}
+
+/// What is looked at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum ValidityMeasure {
+    /// Largest displacement of a tip over the blade's thickness there.
+    DisplacementOverThickness,
+    /// The same over the length of the contact line.
+    DisplacementOverChord,
+    /// Largest rotation of a tip, rad.
+    Rotation,
+    /// Largest von Mises stress over yield strength.
+    StressOverYield,
+    /// How far neighbouring tips come closer, over the distance between them.
+    NeighbourApproach,
+    /// Largest tangential displacement of a tip over the length in which the casing's lobes change.
+    ContactOverLobe,
+}

@@ -1,0 +1,50 @@
+//! The elements that a mesh may have.
+
+use serde::{Deserialize, Serialize};
+
+/// An element's shape and displacement functions, by the name that CalculiX has for it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub enum ElementKind {
+    /// 4-node tetrahedron.
+    C3D4,
+    /// 6-node wedge.
+    C3D6,
+    /// 8-node hexahedron, 2 × 2 × 2 integration points.
+    C3D8,
+    /// 8-node hexahedron with incompatible modes, as CalculiX takes their gradients.
+    C3D8I,
+    /// 10-node tetrahedron.
+    C3D10,
+    /// 15-node wedge.
+    C3D15,
+    /// 20-node hexahedron, 3 × 3 × 3 integration points.
+    C3D20,
+    /// 20-node hexahedron, 2 × 2 × 2 integration points.
+    C3D20R,
+    /// 8-node hexahedron with the incompatible modes of Taylor, Beresford and Wilson, which pass the patch test on crooked elements:
+    /// that of the generator. CalculiX has none such.
+    QM6,
+}
+
+impl ElementKind {
+    /// Number of nodes.
+    pub fn nodes(self) -> usize {
+        match self {
+            Self::C3D4 => 4,
+            Self::C3D6 => 6,
+            Self::C3D8 | Self::C3D8I | Self::QM6 => 8,
+            Self::C3D10 => 10,
+            Self::C3D15 => 15,
+            Self::C3D20 | Self::C3D20R => 20,
+        }
+    }
+
+    /// Number of its nodes that are corners; they come first.
+    pub fn corners(self) -> usize {
+        match self {
+            Self::C3D4 | Self::C3D10 => 4,
+            Self::C3D6 | Self::C3D15 => 6,
+            Self::C3D8 | Self::C3D8I | Self::QM6 | Self::C3D20 | Self::C3D20R => 8,
+        }
+    }
+}

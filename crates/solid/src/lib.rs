@@ -1,0 +1,8 @@
+//! The finite elements of one impeller sector: what stress is made of displacement by.
+//!
+//! It knows meshes and materials, and nothing of matrices, packages or speeds: the matrices that a wheel is simulated by come from
+//! wherever the user's elements were integrated, and only their displacement comes here.
+
+pub mod element;
+pub mod material;
+pub mod mesh;
