@@ -207,6 +207,7 @@ fn rows_of_a_contact_node_read_what_it_reads() {
             revolutions: 2,
             window_revolutions: 1,
             detail: None,
+            states: None,
         }
         .run(&|_| true);
         let Outcome::Completed(history) = run.outcome else { panic!("{:?}", run.outcome) };
