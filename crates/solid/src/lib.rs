@@ -4,5 +4,6 @@
 //! wherever the user's elements were integrated, and only their displacement comes here.
 
 pub mod element;
+pub mod frame;
 pub mod material;
 pub mod mesh;
