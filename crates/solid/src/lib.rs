@@ -4,5 +4,16 @@
 //! wherever the user's elements were integrated, and only their displacement comes here.
 
 pub mod element;
+pub mod extrapolation;
+pub mod frame;
+pub mod gauss;
+mod gradients;
+pub mod load;
 pub mod material;
 pub mod mesh;
+pub mod natural;
+pub mod rule;
+pub mod shape;
+pub mod skin;
+pub mod stress;
+pub mod topology;

@@ -15,7 +15,6 @@ mod check;
 mod content;
 mod digest;
 pub mod error;
-mod frame;
 mod limits;
 mod lines;
 mod manifest;

@@ -30,11 +30,11 @@ pub use error::{CalculixError, LineProblem, ModelProblem, NoCopy, NoOrder};
 pub use model::{CalculixModel, Normals};
 pub use spin::SpinFinding;
 
-use super::frame::AxisFrame;
 use super::raw::{Axis, Frame, Manifest, ManifestContact, RawMatrix, RawNode, RawPackage};
 use deck::Deck;
 use faces::{check_ties, faces, pair};
 use matrices::DofList;
+use rubmap_solid::frame::AxisFrame;
 use sets::set;
 
 /// What an import found out, for the user to compare with what they know.
@@ -60,7 +60,7 @@ pub fn import(model: &CalculixModel) -> Result<(RawPackage, ImportSummary), Calc
     let sectors = model.sectors.or_else(|| deck.cyclic.as_ref().map(|cyclic| cyclic.sectors));
     let sectors = sectors.filter(|&sectors| sectors > 0).ok_or(ModelProblem::SectorsUnknown)?;
     let axis = axis(model, &deck);
-    let frame = AxisFrame::new(&axis).ok_or(ModelProblem::AxisWithoutDirection)?;
+    let frame = AxisFrame::new(axis.origin, axis.direction).ok_or(ModelProblem::AxisWithoutDirection)?;
     let rest = DofList::read(&extended(&model.rest, ".dof"))?;
     let positions: HashMap<u64, [f64; 3]> = deck.nodes.iter().map(|(node, at)| (*node, *at)).collect();
     require_coordinates(&positions, rest.dofs.iter().map(|dof| dof.node), &rest.path.display().to_string())?;

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::package::frame::distance;
+use rubmap_solid::frame::distance;
 
 /// A copy of a node may be this far from where the turn puts it, relative to the diagonal of the mesh's bounding box:
 /// the tolerance of the package's own check.

@@ -1,7 +1,7 @@
 //! What the checks leave behind: which row of a package is what.
 
 use crate::package::error::Components;
-use crate::package::frame::AxisFrame;
+use rubmap_solid::frame::AxisFrame;
 
 /// No such row or node.
 pub(crate) const NONE: u32 = u32::MAX;
