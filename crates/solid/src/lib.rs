@@ -3,6 +3,7 @@
 //! It knows meshes and materials, and nothing of matrices, packages or speeds: the matrices that a wheel is simulated by come from
 //! wherever the user's elements were integrated, and only their displacement comes here.
 
+pub mod defect;
 pub mod element;
 pub mod extrapolation;
 pub mod frame;

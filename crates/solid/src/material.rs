@@ -49,6 +49,7 @@ pub fn stress((lambda, mu): (f64, f64), h: &Matrix3<f64>) -> Stress {
 
 /// The stress amplitude that a material bears when it alternates about zero.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct FatigueStrength {
     /// Amplitude of a fully reversed stress.

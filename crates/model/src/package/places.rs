@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 use super::error::PackageError;
 use super::limits::Limits;
 use super::raw::{Frame, Manifest, RawDof, RawNode};
-use super::zip_package;
+use super::zip_package::{self, Stated};
 use rubmap_solid::frame::AxisFrame;
 
 /// Nodes of a sector.
@@ -48,7 +48,7 @@ pub enum Face {
 /// # Errors
 /// The first problem found with the archive, `sector.json` or the tables.
 pub fn read_places(path: &Path, limits: &Limits) -> Result<Places, PackageError> {
-    let (manifest, nodes, dofs, _) = zip_package::load_tables(path, limits)?;
+    let Stated { manifest, nodes, dofs, .. } = zip_package::load_tables(path, limits)?;
     Ok(places(&manifest, &nodes, &dofs))
 }
 

@@ -17,7 +17,7 @@ use nalgebra::Vector3;
 
 use super::error::{ModelProblem, NoCopy};
 use super::matrices::DofList;
-use super::places::Places;
+use crate::package::by_place::Places;
 use crate::package::raw::{RawDof, RawMatrix};
 use rubmap_solid::frame::AxisFrame;
 

@@ -1,5 +1,6 @@
 //! What `sector.json` says by itself.
 
+use super::materials;
 use crate::package::error::{ManifestProblem, PackageError};
 use crate::package::raw::{LONGEST_NAME, Manifest};
 use crate::package::units;
@@ -66,6 +67,9 @@ pub(crate) fn check(manifest: &Manifest) -> Result<AxisFrame, PackageError> {
         let problem =
             ManifestProblem::StiffnessCount { matrices: manifest.stiffness.len(), speeds: speeds.len() };
         return wrong("/stiffness", problem);
+    }
+    if let Some(mesh) = &manifest.mesh {
+        materials::check(mesh)?;
     }
     Ok(frame)
 }
