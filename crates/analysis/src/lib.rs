@@ -41,5 +41,7 @@ mod stepping;
 mod stiffening;
 pub mod stress;
 mod summary;
+mod tip_thickness;
 mod tips;
+mod validity;
 mod wheel;
