@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::result::{PreliminaryStiffening, ReductionReport};
 use crate::stiffening::preliminary_stiffening;
+use rubmap_solid::mesh::{ElementSet, SectorMesh};
 use rubmap_wheel::dynamics::node_rows::NodeRows;
 use rubmap_wheel::dynamics::reduction::ReducedWheel;
 use rubmap_wheel::dynamics::sector::{SectorModel, Units};
@@ -59,6 +60,46 @@ pub struct ModelFacts {
     /// has kept. The verdict is that of a reduction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stiffening: Option<PreliminaryStiffening>,
+    /// The elements, if the package has them; without them there are no fields of elements and no stress.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mesh: Option<MeshFacts>,
+}
+
+/// What a package says of its elements.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct MeshFacts {
+    /// Number of elements of a sector.
+    pub elements: u32,
+    /// Element sets, in the order of their names.
+    pub sets: Vec<SetFacts>,
+}
+
+/// What a package says of one element set.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct SetFacts {
+    /// Its name.
+    pub name: String,
+    /// Whether its material has a yield strength.
+    pub yield_strength: bool,
+    /// Whether its material has an ultimate strength.
+    pub ultimate_strength: bool,
+    /// Whether its material has a fatigue strength.
+    pub fatigue_strength: bool,
+}
+
+impl MeshFacts {
+    /// The facts of `mesh`.
+    pub fn of(mesh: &SectorMesh) -> Self {
+        let set = |set: &ElementSet| SetFacts {
+            name: set.name.clone(),
+            yield_strength: set.material.yield_strength.is_some(),
+            ultimate_strength: set.material.ultimate_strength.is_some(),
+            fatigue_strength: set.material.fatigue_strength.is_some(),
+        };
+        Self { elements: mesh.elements.len() as u32, sets: mesh.sets.iter().map(set).collect() }
+    }
 }
 
 impl ModelFacts {
@@ -74,7 +115,13 @@ impl ModelFacts {
             gyroscopic: sector.gyroscopic.is_some(),
             contact_radius: sector.contact.iter().map(|node| node.position[0]).reduce(f64::max),
             stiffening: Some(preliminary_stiffening(sector)),
+            mesh: None,
         }
+    }
+
+    /// The same of a model whose package has these elements.
+    pub fn with_mesh(self, mesh: Option<&SectorMesh>) -> Self {
+        Self { mesh: mesh.map(MeshFacts::of), ..self }
     }
 
     /// Whether the model has stiffness at three speeds.
@@ -98,6 +145,7 @@ impl ModelFacts {
             gyroscopic: false,
             contact_radius: None,
             stiffening: None,
+            mesh: None,
         }
     }
 }

@@ -8,7 +8,7 @@ use super::check::{cyclic, statement, tables};
 use super::error::PackageError;
 use super::limits::Limits;
 use super::raw::Frame;
-use super::zip_package;
+use super::zip_package::{self, Stated};
 use rubmap_wheel::dynamics::nodes::{NodeDof, SectorNode};
 
 /// Every node of the package at `path`, in the order of its node table; [`read`](super::read) has accepted it before.
@@ -16,7 +16,7 @@ use rubmap_wheel::dynamics::nodes::{NodeDof, SectorNode};
 /// # Errors
 /// Those of [`read`](super::read) that `sector.json` and the tables can cause.
 pub fn read_nodes(path: &Path, limits: &Limits) -> Result<Vec<SectorNode>, PackageError> {
-    let (manifest, nodes, dofs, lines) = zip_package::load_tables(path, limits)?;
+    let Stated { manifest, nodes, dofs, lines, .. } = zip_package::load_tables(path, limits)?;
     let frame = statement::check(&manifest)?;
     let index = tables::node_index(&manifest.nodes, &nodes, &lines)?;
     let (node_of_row, rows_of_node) = tables::rows(&manifest.dofs, &dofs, &lines, &index)?;
