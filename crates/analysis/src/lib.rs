@@ -40,6 +40,7 @@ mod speed;
 mod start;
 mod stepping;
 mod stiffening;
+pub mod stress;
 mod summary;
 mod tips;
 mod wheel;
