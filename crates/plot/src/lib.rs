@@ -61,6 +61,7 @@ mod settling_strip;
 mod spectrum;
 mod speed_histories;
 mod study_runs;
+mod surface;
 mod svg;
 #[cfg(test)]
 mod tests;
@@ -83,6 +84,7 @@ pub use raster::{PngError, WIDTHS, png};
 pub use section::{SectionView, section};
 pub use spectrum::{Frame, spectrum};
 pub use speed_histories::{HistoryQuantity, speed_histories};
+pub use surface::{SurfaceView, surface};
 pub use trajectories::trajectories;
 pub use wear_map::wear_map;
 pub use window::Window;

@@ -3,8 +3,10 @@
 mod drawings;
 mod fixtures;
 mod gallery;
+mod impeller;
 mod report;
 mod studies;
+mod surfaces;
 
 use std::f64::consts::TAU;
 
