@@ -40,5 +40,6 @@ mod start;
 mod stepping;
 mod stiffening;
 mod summary;
+mod sweep_stress;
 mod tips;
 mod wheel;

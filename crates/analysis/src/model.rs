@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::result::{PreliminaryStiffening, ReductionReport};
+use crate::result::{PreliminaryStiffening, ReductionReport, Strengths};
 use crate::stiffening::preliminary_stiffening;
 use rubmap_wheel::dynamics::node_rows::NodeRows;
 use rubmap_wheel::dynamics::reduction::ReducedWheel;
@@ -59,6 +59,9 @@ pub struct ModelFacts {
     /// has kept. The verdict is that of a reduction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stiffening: Option<PreliminaryStiffening>,
+    /// What the materials of the mesh bear; none of a model without mesh.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub strengths: Vec<Strengths>,
 }
 
 impl ModelFacts {
@@ -74,6 +77,7 @@ impl ModelFacts {
             gyroscopic: sector.gyroscopic.is_some(),
             contact_radius: sector.contact.iter().map(|node| node.position[0]).reduce(f64::max),
             stiffening: Some(preliminary_stiffening(sector)),
+            strengths: Vec::new(),
         }
     }
 
@@ -98,6 +102,7 @@ impl ModelFacts {
             gyroscopic: false,
             contact_radius: None,
             stiffening: None,
+            strengths: Vec::new(),
         }
     }
 }

@@ -29,6 +29,7 @@ pub use crate::speed::run_speed;
 pub use crate::summary::{
     critical_indices, critical_speeds, interaction_map, map_engine_orders, map_row, nothing_completed,
 };
+pub use crate::sweep_stress::sweep_stress;
 pub use crate::tips::wheel_critical_speeds;
 pub use rubmap_wheel::revision::{REVISION, VERSION};
 pub use rubmap_wheel::vectors::vectors;

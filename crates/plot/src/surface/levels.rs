@@ -18,8 +18,11 @@ const MOST_BANDS: usize = 12;
 /// Bands that are aimed at.
 const BANDS: f64 = 10.0;
 
-/// Colour of what nothing is claimed of.
-pub(super) const UNCLAIMED: [u8; 3] = [0xc8, 0xc8, 0xc8];
+/// Colours of what nothing is claimed of: stripes, as where a map has no result.
+const UNCLAIMED: [[u8; 3]; 2] = [[0xe9, 0xe9, 0xe9], [0xb5, 0xb5, 0xb5]];
+
+/// Pixels along a line in which a stripe of both colours fits.
+const STRIPES: usize = 14;
 
 /// Colour of insides.
 pub(super) const INSIDE: [u8; 3] = [0xec, 0xe4, 0xd6];
@@ -86,16 +89,16 @@ pub(super) fn shade(colour: usize, light: f64) -> u8 {
     (colour * SHADES + shade) as u8
 }
 
-/// The number of the colour of a value.
-pub(super) fn of_value(levels: Option<&Levels>, value: f64) -> usize {
+/// The number of the colour of a value in a pixel.
+pub(super) fn of_value(levels: Option<&Levels>, value: f64, (column, line): (usize, usize)) -> usize {
     match levels {
-        Some(levels) if !value.is_nan() => 2 + levels.band(value),
-        _ => 0,
+        Some(levels) if !value.is_nan() => 3 + levels.band(value),
+        _ => usize::from((column + line) % STRIPES < STRIPES / 2),
     }
 }
 
 /// The number of the colour of insides.
-pub(super) const OF_INSIDE: usize = 1;
+pub(super) const OF_INSIDE: usize = 2;
 
 /// The place of the colour of edges in the palette.
 pub(super) const OF_EDGE: u8 = 253;
@@ -107,7 +110,7 @@ pub(super) const OF_REST: u8 = 254;
 pub(super) fn palette(levels: Option<&Levels>) -> Vec<u8> {
     let bands = levels.map_or(0, |levels| levels.count);
     let bands = (0..bands).filter_map(|band| levels.map(|levels| levels.colour(band)));
-    let colours = [UNCLAIMED, INSIDE].into_iter().chain(bands);
+    let colours = UNCLAIMED.into_iter().chain([INSIDE]).chain(bands);
     let shaded = |colour: [u8; 3], shade: usize| {
         let brightness = DARKEST + (1.0 - DARKEST) * shade as f64 / (SHADES - 1) as f64;
         colour.map(|channel| (f64::from(channel) * brightness).round() as u8)
@@ -150,7 +153,7 @@ mod tests {
         let levels = Levels::of(&[Some(0.0), Some(10.0)]).unwrap();
         let palette = palette(Some(&levels));
         let grey = |value: f64, light: f64| {
-            let at = 3 * usize::from(shade(of_value(Some(&levels), value), light));
+            let at = 3 * usize::from(shade(of_value(Some(&levels), value, (0, 0)), light));
             0.2126 * f64::from(palette[at])
                 + 0.7152 * f64::from(palette[at + 1])
                 + 0.0722 * f64::from(palette[at + 2])

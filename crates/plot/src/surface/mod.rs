@@ -12,7 +12,7 @@ use super::diagram::Diagram;
 use super::key::Flow;
 use super::pixels::{self, DENSITY, MISSING};
 use super::svg::{Element, document, group, line, rectangle, text_width};
-use super::{colour, colour_bar, heading, marks};
+use super::{colour, colour_bar, hatching, heading, marks};
 use depths::{Depths, Side};
 use levels::{Levels, OF_EDGE, OF_INSIDE, OF_REST};
 use shape::Shape;
@@ -32,7 +32,7 @@ const TOLERANCE: f64 = 3.0;
 /// Hidden surfaces are hidden pixel by pixel; an image of a fixed size with a palette carries the surface, so that a drawing of a hundred
 /// thousand faces is as large as one of a hundred. Colours are bands between round values: light and shade darken them and move no
 /// border. Displacement is drawn so large that the largest one is a twentieth of the wheel's radius, which the heading says; the outline at
-/// rest is drawn over it. Nodes without a value are grey. Close the surface of a sector by its cyclic faces if they are to be seen: what
+/// rest is drawn over it. Nodes without a value are hatched. Close the surface of a sector by its cyclic faces if they are to be seen: what
 /// is open shows its inside, in a colour of its own.
 pub fn surface(surface: &FieldSurface, view: SurfaceView) -> String {
     let camera = Camera::new(view, &surface.nodes);
@@ -53,7 +53,7 @@ pub fn surface(surface: &FieldSurface, view: SurfaceView) -> String {
 
     let (x, y) = (ticks(diagram.x.values, 9.0), ticks(diagram.y.values, 8.0));
     let axes = camera.axes().map(|axis| format!("{axis}, {}", surface.length_unit));
-    let mut content = vec![heading, diagram.grid(&x, &y)];
+    let mut content = vec![hatching::definition(), heading, diagram.grid(&x, &y)];
     match &picture {
         Some(picture) => content.extend([picture.image(&diagram), picture.largest_mark(surface)]),
         None => content.push(diagram.words("Nothing to draw: the surface has no faces")),
@@ -128,15 +128,19 @@ impl Picture {
         let levels = Levels::of(values);
         let mut depths = Depths::new(width, height);
         shape.draw(values, &mut depths);
-        let colour = |fragment: &depths::Fragment| match fragment.side {
+        let colour = |(index, fragment): (usize, &depths::Fragment)| match fragment.side {
             Side::Nothing => MISSING,
             Side::Inside => levels::shade(OF_INSIDE, f64::from(fragment.light)),
             Side::Outside => {
-                let colour = levels::of_value(levels.as_ref(), f64::from(fragment.value));
+                let colour = levels::of_value(
+                    levels.as_ref(),
+                    f64::from(fragment.value),
+                    (index % width, index / width),
+                );
                 levels::shade(colour, f64::from(fragment.light))
             }
         };
-        let mut indices: Vec<u8> = depths.fragments().iter().map(colour).collect();
+        let mut indices: Vec<u8> = depths.fragments().iter().enumerate().map(colour).collect();
         for edge in shape.edges() {
             draw_edge(edge, &depths, &mut indices);
         }
@@ -190,7 +194,7 @@ impl Picture {
         if fragments.iter().any(|seen| seen.side == Side::Outside && seen.value.is_nan()) {
             let words =
                 if self.levels.is_some() { "nothing claimed: near contact nodes" } else { "no values" };
-            flow = flow.entry(patch(levels::UNCLAIMED), 20.0, words);
+            flow = flow.entry(hatching::mark(), 20.0, words);
         }
         if fragments.iter().any(|seen| seen.side == Side::Inside) {
             flow = flow.entry(patch(levels::INSIDE), 20.0, "inside of an open surface");

@@ -7,11 +7,13 @@ use std::path::{Path, PathBuf};
 use super::drawings::{credentials, mm};
 use super::fixtures::{contact, recorded, sector, spectra, worn};
 use super::impeller::{SECTORS, impeller};
+use super::stresses::{of_sweep, stressed_map};
 use super::studies::{RUNS, first_revolutions, study};
 use crate::{
-    ForceQuantity, Frame, HistoryQuantity, SectionView, SurfaceView, VerticalAxis, Window, campbell,
-    campbell_fixed_frame, critical_speeds, error_over_step, force_map, histories, interaction_map, map_sheet,
-    png, section, spectrum, speed_histories, surface, trajectories, wear_map, work_precision,
+    ForceQuantity, Frame, HaighColour, HistoryQuantity, SectionView, SurfaceView, VerticalAxis, Window,
+    campbell, campbell_fixed_frame, critical_speeds, error_over_step, force_map, haigh, histories,
+    interaction_map, map_sheet, png, section, spectrum, speed_histories, surface, trajectories, wear_map,
+    work_precision,
 };
 use rubmap_analysis::result::{
     Campbell, CriticalSpeeds, InteractionMap, Quantity, SectorGeometry, SpeedSpectra,
@@ -101,6 +103,10 @@ fn gallery() {
     {
         save(&folder, &format!("surface-{name}"), &surface(&impeller(0..SECTORS, 12, 2.0), view));
         save(&folder, &format!("surface-sector-{name}"), &surface(&impeller(0..1, 12, 2.0), view));
+    }
+
+    for (name, by) in [("haigh", HaighColour::Speed), ("haigh-utilisation", HaighColour::Utilisation)] {
+        save(&folder, name, &haigh(&of_sweep(&stressed_map()), by));
     }
 
     let found: WorkPrecision =

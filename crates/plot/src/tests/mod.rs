@@ -5,6 +5,7 @@ mod fixtures;
 mod gallery;
 mod impeller;
 mod report;
+mod stresses;
 mod studies;
 mod surfaces;
 
