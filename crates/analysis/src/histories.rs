@@ -139,10 +139,12 @@ fn tip(reduced: &ReducedSector, sweep: &ResolvedSweep, sensor: ResolvedSensor) -
     let node = match sensor.place {
         Place::Contact(node) => node as usize,
         Place::Node(id) => contact.iter().position(|node| node.id == id)?,
+        Place::Gauge(_) => return None,
     };
     let components = match sensor.along {
         Along::Component(component) => direction(contact, node, component).components,
         Along::Direction(vector) => along(vector),
+        Along::Strain => return None,
     };
     let normal = contact[node].normal;
     if components.iter().zip(normal).map(|(d, n)| d * n).sum::<f64>() < OUTWARD {

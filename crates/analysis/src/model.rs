@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::result::{PreliminaryStiffening, ReductionReport};
+use crate::result::{PreliminaryStiffening, ReductionReport, Strengths};
 use crate::stiffening::preliminary_stiffening;
 use crate::stress::ReducedStress;
 use crate::tip_thickness::tip_thickness;
-use rubmap_solid::mesh::{ElementSet, SectorMesh};
+use rubmap_solid::mesh::SectorMesh;
 use rubmap_wheel::dynamics::casing::arc_lengths;
 use rubmap_wheel::dynamics::node_rows::NodeRows;
 use rubmap_wheel::dynamics::reduction::ReducedWheel;
@@ -89,40 +89,20 @@ pub struct ModelFacts {
 pub struct MeshFacts {
     /// Number of elements of a sector.
     pub elements: u32,
-    /// Element sets, in the order of their names.
-    pub sets: Vec<SetFacts>,
+    /// What its element sets bear, in the order of their names.
+    pub sets: Vec<Strengths>,
     /// Smallest thickness of the blade at a contact node, across the blade as a straight line just below the tip goes; absent where
     /// no such line leaves the mesh on both sides.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tip_thickness: Option<f64>,
 }
 
-/// What a package says of one element set.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-pub struct SetFacts {
-    /// Its name.
-    pub name: String,
-    /// Whether its material has a yield strength.
-    pub yield_strength: bool,
-    /// Whether its material has an ultimate strength.
-    pub ultimate_strength: bool,
-    /// Whether its material has a fatigue strength.
-    pub fatigue_strength: bool,
-}
-
 impl MeshFacts {
     /// The facts of the `mesh` of a sector.
     pub fn of(mesh: &SectorMesh, sector: &SectorModel) -> Self {
-        let set = |set: &ElementSet| SetFacts {
-            name: set.name.clone(),
-            yield_strength: set.material.yield_strength.is_some(),
-            ultimate_strength: set.material.ultimate_strength.is_some(),
-            fatigue_strength: set.material.fatigue_strength.is_some(),
-        };
         Self {
             elements: mesh.elements.len() as u32,
-            sets: mesh.sets.iter().map(set).collect(),
+            sets: Strengths::of(mesh),
             tip_thickness: tip_thickness(mesh, &sector.contact),
         }
     }

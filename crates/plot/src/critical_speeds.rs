@@ -93,7 +93,7 @@ impl<'a> View<'a> {
     fn draw(&self) -> Vec<Element> {
         let (peaks, rows) = (&self.peaks, &self.rows);
         let (x, y) = (ticks(peaks.x.values, 9.0), ticks(peaks.y.values, 6.0));
-        let length = &self.critical.units.length;
+        let length = self.critical.sensor.unit(&self.critical.units);
         let empty = self.critical.critical_speeds.is_empty();
         let words = "no critical speed stands out of the response";
         let mut content = vec![peaks.grid(&x, &y), rows.grid(&x, &[])];

@@ -53,7 +53,11 @@ pub fn interaction_map(
     content.push(settling_strip::strip(map, &cells, &level, STRIP_TOP, STRIP_HEIGHT));
     content.push(view.amplitudes(map, &cells, loudest));
     if let Some(loudest) = loudest {
-        content.push(amplitude_bar(&view.scale(loudest), view.diagram.right() + 62.0, &map.units.length));
+        content.push(amplitude_bar(
+            &view.scale(loudest),
+            view.diagram.right() + 62.0,
+            map.sensor.unit(&map.units),
+        ));
     }
     content.push(engine_orders(&view, map, wheel(critical, campbell)));
     content.extend(campbell.map(|campbell| view.natural_frequencies(campbell, &mut labels)));

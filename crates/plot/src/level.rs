@@ -53,7 +53,7 @@ pub(super) fn draw(map: &InteractionMap, cells: &[Cell], diagram: &Diagram) -> E
         let ((x, y), rms) = (*point)?;
         let dot =
             Element::new("circle").number("cx", x).number("cy", y).number("r", radius).set("fill", COLOUR);
-        let unit = &map.units.length;
+        let unit = map.sensor.unit(&map.units);
         Some(dot.title(&format!("{:.0} rpm: {} {unit} rms", cell.rpm, significant(rms))))
     });
     group()
@@ -61,5 +61,5 @@ pub(super) fn draw(map: &InteractionMap, cells: &[Cell], diagram: &Diagram) -> E
         .children(grid)
         .child(curve)
         .children(dots)
-        .child(diagram.y_axis(&ticks, &format!("level, {} rms", map.units.length), 58.0))
+        .child(diagram.y_axis(&ticks, &format!("level, {} rms", map.sensor.unit(&map.units)), 58.0))
 }

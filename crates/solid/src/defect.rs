@@ -1,20 +1,35 @@
 //! Whether an element is whole: nowhere turned inside out or collapsed.
 
 use crate::element::ElementKind;
+use crate::frame::distance;
 use crate::gradients::jacobian;
 use crate::natural::Natural;
 use crate::rule::points;
 use crate::topology::Topology;
 
-/// Where an element's Jacobian determinant is not positive.
+/// A node in the middle of an edge may be this far from there, relative to the edge's length: an edge bent by 155°. Among the
+/// nodes of a tetrahedron in a wrong order some are farther off, though its Jacobian determinant may be positive.
+const FARTHEST_MIDDLE: f64 = 0.4;
+
+/// Why an element is not whole.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Defect {
-    /// The corner, from 0, if it is there; otherwise an integration point.
-    pub corner: Option<usize>,
-    /// The determinant there.
-    pub determinant: f64,
-    /// What it looks like.
-    pub likely: Likely,
+pub enum Defect {
+    /// A node that should be in the middle of an edge is somewhere else. Local numbers, from 0.
+    Middle {
+        /// The node.
+        node: usize,
+        /// Ends of the edge.
+        edge: [usize; 2],
+    },
+    /// A Jacobian determinant that is not positive.
+    Jacobian {
+        /// The corner, from 0, if it is there; otherwise an integration point.
+        corner: Option<usize>,
+        /// The determinant there.
+        determinant: f64,
+        /// What it looks like.
+        likely: Likely,
+    },
 }
 
 /// The likely cause of a defect.
@@ -28,9 +43,17 @@ pub enum Likely {
     Other,
 }
 
-/// The first corner or integration point at which the Jacobian determinant is not a positive number; none for a whole element.
+/// The first thing wrong with an element: a mid-edge node elsewhere, then a corner or integration point at which the Jacobian
+/// determinant is not a positive number. None for a whole element.
 pub fn defect(kind: ElementKind, positions: &[[f64; 3]]) -> Option<Defect> {
     let topology = Topology::of(kind);
+    for (node, &edge) in (topology.corners.len()..positions.len()).zip(topology.edges) {
+        let [a, b] = edge.map(|corner| positions[corner]);
+        let middle = std::array::from_fn(|d| 0.5 * (a[d] + b[d]));
+        if distance(positions[node], middle) > FARTHEST_MIDDLE * distance(a, b) {
+            return Some(Defect::Middle { node, edge });
+        }
+    }
     let corners = topology.corners.iter().enumerate().map(|(k, &xi)| (Some(k), xi));
     let places: Vec<(Option<usize>, Natural)> =
         corners.chain(points(kind).iter().map(|point| (None, point.xi))).collect();
@@ -52,7 +75,7 @@ pub fn defect(kind: ElementKind, positions: &[[f64; 3]]) -> Option<Defect> {
     } else {
         Likely::Other
     };
-    Some(Defect { corner, determinant: value, likely })
+    Some(Defect::Jacobian { corner, determinant: value, likely })
 }
 
 #[cfg(test)]
@@ -63,21 +86,38 @@ mod tests {
         Topology::of(kind).nodes()
     }
 
+    fn likely(kind: ElementKind, positions: &[[f64; 3]]) -> Option<Likely> {
+        match defect(kind, positions) {
+            Some(Defect::Jacobian { likely, .. }) => Some(likely),
+            _ => None,
+        }
+    }
+
     #[test]
     fn the_cause_is_recognised() {
         for kind in ElementKind::ALL {
             let whole = reference(kind);
             assert_eq!(defect(kind, &whole), None, "{kind:?}");
             let mirrored: Vec<[f64; 3]> = whole.iter().map(|&[x, y, z]| [x, y, -z]).collect();
-            assert_eq!(defect(kind, &mirrored).unwrap().likely, Likely::Mirrored, "{kind:?}");
+            assert_eq!(likely(kind, &mirrored), Some(Likely::Mirrored), "{kind:?}");
             let mut collapsed = whole.clone();
             collapsed[1] = collapsed[0];
             assert!(defect(kind, &collapsed).is_some(), "{kind:?}");
-            if kind.nodes() > kind.corners() {
-                // Middles of the last edges before those of others, as some codes list them.
-                let mut other = whole.clone();
-                other[kind.corners()..].rotate_right(kind.corners() / 2);
-                assert_eq!(defect(kind, &other).unwrap().likely, Likely::MiddleNodes, "{kind:?}");
+            for from in kind.corners()..kind.nodes() {
+                for to in from + 1..kind.nodes() {
+                    let mut other = whole.clone();
+                    other.swap(from, to);
+                    let found = defect(kind, &other);
+                    assert!(
+                        matches!(found, Some(Defect::Middle { node, .. }) if node == from || node == to),
+                        "{kind:?} {from} {to}"
+                    );
+                }
+                // Nearer to one end than a quarter of the edge.
+                let mut pushed = whole.clone();
+                let [a, b] = Topology::of(kind).edges[from - kind.corners()].map(|corner| whole[corner]);
+                pushed[from] = std::array::from_fn(|d| 0.8 * a[d] + 0.2 * b[d]);
+                assert_eq!(likely(kind, &pushed), Some(Likely::MiddleNodes), "{kind:?} {from}");
             }
         }
     }

@@ -27,6 +27,7 @@ pub fn read_nodes(path: &Path, limits: &Limits) -> Result<Vec<SectorNode>, Packa
         // A high node has the DOF of its low node, in its components.
         let reference = if low_of[place] == NONE { place } else { low_of[place] as usize };
         let rows = rows_of_node[reference];
+        let coordinates = frame.coordinates(nodes[place].position);
         let [_, theta, _] = frame.coordinates(nodes[reference].position);
         let basis = frame.cylindrical(theta);
         // What a Cartesian package clamps in part keeps its Cartesian components (partition.rs).
@@ -42,6 +43,7 @@ pub fn read_nodes(path: &Path, limits: &Limits) -> Result<Vec<SectorNode>, Packa
         SectorNode {
             id: nodes[place].id,
             position: nodes[place].position,
+            coordinates,
             dofs: std::array::from_fn(dof),
             on_high_face: low_of[place] != NONE,
             contact: contact.get(&nodes[place].id).copied(),

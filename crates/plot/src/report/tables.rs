@@ -28,7 +28,7 @@ pub(super) fn critical_speeds(tables: &[CriticalSpeeds]) -> Markup {
 }
 
 fn of_sensor(table: &CriticalSpeeds) -> Markup {
-    let unit = &table.units.length;
+    let unit = table.sensor.unit(&table.units);
     html! {
         table class="numbers" {
             tr {

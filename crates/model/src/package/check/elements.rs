@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use rubmap_solid::defect::defect;
+use rubmap_solid::defect::{Defect, defect};
 use rubmap_solid::mesh::{Element, ElementSet};
 
 use super::materials::pointer;
@@ -58,12 +58,16 @@ pub(crate) fn check(
         }
         let positions: Vec<[f64; 3]> = places.iter().map(|&place| nodes[place as usize].position).collect();
         if let Some(defect) = defect(kind, &positions) {
-            let problem = TableProblem::ElementFlipped {
-                element,
-                kind: kind.name(),
-                corner: defect.corner.map(|corner| raw.nodes[corner]),
-                determinant: defect.determinant,
-                likely: defect.likely,
+            let (kind, node) = (kind.name(), |local: usize| raw.nodes[local]);
+            let problem = match defect {
+                Defect::Middle { node: middle, edge } => {
+                    let [from, to] = edge.map(node);
+                    TableProblem::ElementMiddleNode { element, kind, node: node(middle), from, to }
+                }
+                Defect::Jacobian { corner, determinant, likely } => {
+                    let corner = corner.map(node);
+                    TableProblem::ElementFlipped { element, kind, corner, determinant, likely }
+                }
             };
             return wrong(row, problem);
         }

@@ -143,8 +143,7 @@ pub enum TableProblem {
         },
         match .likely {
             Likely::Mirrored => "all of it is inside out: list the corners of each of its faces the other way round",
-            Likely::MiddleNodes =>
-                "its corners are in order: list the nodes on its edges in CalculiX's order, or move them nearer to the middle",
+            Likely::MiddleNodes => "its corners are in order: move the nodes on its edges nearer to the middle",
             Likely::Other => "list its nodes in CalculiX's order, and look at their positions",
         }
     )]
@@ -159,6 +158,23 @@ pub enum TableProblem {
         determinant: f64,
         /// What it looks like.
         likely: Likely,
+    },
+    /// A node on an edge that is not near its middle.
+    #[error(
+        "element {element} ({kind}) lists node {node} for the middle of the edge from node {from} to node {to}, which is far from \
+         there; list the nodes on its edges in CalculiX's order"
+    )]
+    ElementMiddleNode {
+        /// Its number.
+        element: u64,
+        /// Its type.
+        kind: &'static str,
+        /// The node.
+        node: u64,
+        /// One end of the edge.
+        from: u64,
+        /// The other end.
+        to: u64,
     },
     /// Elements that share no node with the others.
     #[error(
