@@ -4,7 +4,7 @@ use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Mat, Par, Side, c64};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
-use super::reduced::StaticStress;
+use super::reduced::{HarmonicStress, StaticStress};
 use rubmap_solid::load::centrifugal;
 use rubmap_solid::mesh::SectorMesh;
 use rubmap_solid::stress::NodalStress;
@@ -40,8 +40,7 @@ impl<'a> StressMaker<'a> {
         &self.operator
     }
 
-    /// S̃ of a nodal diameter (see [`HarmonicStress`](super::HarmonicStress)), `2·unknowns × 6·places`, in single precision: a
-    /// millionth of the root sum of squares of its unknowns. In parallel over unknowns, on the current rayon pool.
+    /// S̃ of a nodal diameter at all places, in single precision: a millionth of the root sum of squares of its unknowns. In parallel over unknowns, on the current rayon pool.
     ///
     /// # Errors
     /// Those of `row`.
@@ -50,7 +49,7 @@ impl<'a> StressMaker<'a> {
         reduced: &ReducedHarmonic,
         own_dofs: usize,
         row: StressOf<'_, E>,
-    ) -> Result<Mat<f32>, E> {
+    ) -> Result<HarmonicStress, E> {
         let unknowns = reduced.mass.ncols();
         // Υ̂ᴴ, then (Υ̂ L⁻ᴴ)ᴴ = L⁻¹ Υ̂ᴴ.
         let mut adjoint = Mat::<c64>::zeros(unknowns, own_dofs);
@@ -83,7 +82,7 @@ impl<'a> StressMaker<'a> {
                 }
             }
         }
-        Ok(rows)
+        Ok(HarmonicStress::new(rows))
     }
 
     /// Stress of the centrifugal load at all places.
