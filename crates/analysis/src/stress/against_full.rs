@@ -33,12 +33,12 @@ struct Impeller {
 fn impeller() -> Impeller {
     let mesh = MeshDensities {
         between_contact_nodes: 2,
-        blade_height: 4,
+        blade_height: 5,
         blade_thickness: 1,
         half_passage: 1,
         disk: 1,
     };
-    let parameters = ImpellerParameters { sectors: SECTORS, contact_nodes: 3, mesh, ..Default::default() };
+    let parameters = ImpellerParameters { sectors: SECTORS, contact_nodes: 5, mesh, ..Default::default() };
     let path = std::env::temp_dir().join(format!(
         "rubmap-stress-{}-{:?}",
         std::process::id(),

@@ -9,9 +9,7 @@ use rubmap_solid::load::centrifugal;
 use rubmap_solid::mesh::SectorMesh;
 use rubmap_solid::stress::NodalStress;
 use rubmap_wheel::dynamics::nodes::SectorNode;
-use rubmap_wheel::dynamics::reduction::{
-    ReducedHarmonic, ReducedWheel, ReductionError, Watch, static_response,
-};
+use rubmap_wheel::dynamics::reduction::{ReducedHarmonic, ReductionError, Watch, static_response};
 use rubmap_wheel::dynamics::sector::SectorModel;
 
 /// Unknowns whose stress is computed together.
@@ -125,10 +123,4 @@ impl<'a> StressMaker<'a> {
 /// L of K_r(0) = L Lᴴ; every reduction has it.
 pub(super) fn lower(reduced: &ReducedHarmonic) -> Option<Mat<c64>> {
     Some(reduced.stiffness.coefficients[0].llt(Side::Lower).ok()?.L().to_owned())
-}
-
-/// Bytes of the files that [`StressMaker`]'s numbers take, and of the memory of all of them.
-pub fn stress_bytes(reduced: &ReducedWheel, places: u64) -> u64 {
-    let unknowns: usize = reduced.harmonics.iter().map(|harmonic| harmonic.mass.ncols()).sum();
-    6 * places * 2 * size_of::<f32>() as u64 * unknowns as u64
 }

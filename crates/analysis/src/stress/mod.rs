@@ -14,7 +14,7 @@ mod reduced;
 mod search;
 mod trajectory;
 
-pub use make::{StressMaker, StressOf, stress_bytes};
+pub use make::{StressMaker, StressOf};
 pub use reduced::{HarmonicStress, ReducedStress, StaticStress};
 pub(crate) use search::{Course, stress_of};
 
