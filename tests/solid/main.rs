@@ -2,5 +2,6 @@
 
 mod calculix;
 mod closed_forms;
+mod cyclic;
 mod meshes;
 mod patch;
