@@ -6,7 +6,7 @@ use super::diagram::Diagram;
 use super::key::{Key, MARK_WIDTH};
 use super::labels::Labels;
 use super::svg::{Element, document, group, line, rectangle, text, upright};
-use super::{heading, marks};
+use super::{heading, marks, validity};
 use rubmap_analysis::result::{CriticalSpeed, CriticalSpeeds, Crossing, Verdict};
 
 const WIDTH: f64 = 1180.0;
@@ -160,11 +160,13 @@ impl<'a> View<'a> {
         let drawn = shown.into_iter().zip(apart).map(|((place, peak), x)| {
             let order = peak.dominant_engine_order.map_or_else(|| "–".to_owned(), marks::order);
             let star = if peak.settling == Verdict::NotSettled { " *" } else { "" };
-            let words = format!("{} rpm · EO {order}{star}", label(rpm(peak.speed_rad_s), 0));
+            let used = marks::utilisation(peak);
+            let words = format!("{} rpm · EO {order}{used}{star}", label(rpm(peak.speed_rad_s), 0));
             let lead = line((place.0, place.1 - 6.0), (x, place.1 - 14.0)).set("stroke", "#888888");
             let name = upright(x + 4.0, place.1 - 18.0, "start", &words).set("font-size", "11");
             let mark = peak_mark(place, peak.resolved).title(&words);
-            group().child(lead).child(self.bars(peak)).child(mark).child(name.rimmed("white"))
+            let ring = validity::ring(place, peak.validity, 7.5);
+            group().child(lead).child(self.bars(peak)).child(mark).children(ring).child(name.rimmed("white"))
         });
         group().children(drawn)
     }
@@ -208,6 +210,15 @@ impl<'a> View<'a> {
         }
         if peaks.iter().any(|peak| peak.settling == Verdict::NotSettled) {
             key = key.row(text(middle.0, 4.5, "middle", "*"), "not settled");
+        }
+        if peaks.iter().any(|peak| peak.utilisation.is_some()) {
+            key = key.row(text(middle.0, 4.5, "middle", "U"), "utilisation");
+        }
+        for verdict in validity::MARKED {
+            if peaks.iter().any(|peak| peak.validity == Some(verdict)) {
+                let ring = validity::ring(middle, Some(verdict), 7.5);
+                key = key.row(group().children(ring), validity::words(verdict));
+            }
         }
         if peaks.iter().any(|peak| self.tie(peak).is_some()) {
             let tie = line((2.0, -6.0), (MARK_WIDTH - 2.0, 6.0)).set("stroke", NEAREST);

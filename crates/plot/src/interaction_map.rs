@@ -6,10 +6,11 @@ use super::colour::on_dark;
 use super::diagram::Diagram;
 use super::key::Flow;
 use super::labels::Labels;
+use super::level::LevelColour;
 use super::map_view::{DRIVEN, VerticalAxis, View, is_missing, lobes};
 use super::svg::{Element, INK, document, group, line, rectangle, text, upright};
 use super::window::Window;
-use super::{colour_bar, hatching, heat, level, marks, sectors, settling_strip};
+use super::{colour_bar, hatching, heat, level, margin, marks, sectors, settling_strip, validity};
 use rubmap_analysis::result::{
     Campbell, CriticalSpeed, CriticalSpeeds, InteractionMap, StiffeningVerdict, Verdict,
 };
@@ -21,6 +22,8 @@ const LEFT: f64 = 92.0;
 const PLOT_WIDTH: f64 = 946.0;
 const LEVEL_TOP: f64 = 212.0;
 const LEVEL_HEIGHT: f64 = 130.0;
+const VALIDITY_TOP: f64 = 343.5;
+const VALIDITY_HEIGHT: f64 = 7.0;
 const STRIP_TOP: f64 = 352.0;
 const STRIP_HEIGHT: f64 = 9.0;
 const MAP_TOP: f64 = 365.0;
@@ -32,13 +35,15 @@ const WARNING: &str = "#b01f20";
 /// Draws an interaction map or a window of it, with its critical speeds and the linear prediction where they are given.
 ///
 /// Colour is the single-sided amplitude on a logarithmic scale of three decades below the loudest of the window; the mean is left out.
-/// Each spectral line is drawn at least five units high, the loudest wins. Speeds without result are hatched.
+/// Each spectral line is drawn at least five units high, the loudest wins. Speeds without result are hatched. Where linear theory is
+/// doubtful or left, a strip says so.
 pub fn interaction_map(
     map: &InteractionMap,
     critical: Option<&CriticalSpeeds>,
     campbell: Option<&Campbell>,
     axis: VerticalAxis,
     window: Window,
+    level_colour: LevelColour,
 ) -> String {
     let cells = cells(&map.speeds_rad_s);
     let place = ((LEFT, MAP_TOP), (PLOT_WIDTH, MAP_HEIGHT));
@@ -49,7 +54,8 @@ pub fn interaction_map(
     let mut labels = Labels::inside(&view.diagram);
     let crossings = critical.map(|critical| view.crossings(critical, &mut labels));
     let mut content = vec![hatching::definition(), heading(map)];
-    content.push(level::draw(map, &cells, &level));
+    content.push(level::draw(map, &cells, &level, level_colour));
+    content.extend(validity::strip(map, &cells, &level, (VALIDITY_TOP, VALIDITY_HEIGHT)));
     content.push(settling_strip::strip(map, &cells, &level, STRIP_TOP, STRIP_HEIGHT));
     content.push(view.amplitudes(map, &cells, loudest));
     if let Some(loudest) = loudest {
@@ -58,11 +64,13 @@ pub fn interaction_map(
     content.push(engine_orders(&view, map, wheel(critical, campbell)));
     content.extend(campbell.map(|campbell| view.natural_frequencies(campbell, &mut labels)));
     content.extend(crossings);
-    content.extend(critical.map(|critical| critical_speeds(critical, &level)).into_iter().flatten());
+    content.extend(
+        critical.map(|critical| critical_speeds(critical, &level, level_colour)).into_iter().flatten(),
+    );
     content.push(level.frame());
     content.push(view.diagram.frame());
     content.extend(axes(&view));
-    content.push(key(map, &cells, &view, critical, campbell));
+    content.push(key(map, &cells, &view, (critical, campbell), level_colour));
     document(&title(map), WIDTH, HEIGHT, content)
 }
 
@@ -121,11 +129,11 @@ fn axes(view: &View) -> [Element; 2] {
     [x, y]
 }
 
-fn critical_speeds(critical: &CriticalSpeeds, level: &Diagram) -> Vec<Element> {
+fn critical_speeds(critical: &CriticalSpeeds, level: &Diagram, by: LevelColour) -> Vec<Element> {
     let mut shown: Vec<(f64, &CriticalSpeed)> =
         in_view(critical, level).map(|speed| (level.x.place(rpm(speed.speed_rad_s)), speed)).collect();
     shown.sort_by(|a, b| a.0.total_cmp(&b.0));
-    marks::critical(&shown, level.right(), LEVEL_TOP, MAP_TOP + MAP_HEIGHT)
+    marks::critical(&shown, level.right(), (LEVEL_TOP, MAP_TOP + MAP_HEIGHT), by == LevelColour::Utilisation)
 }
 
 /// Critical speeds that the drawing has room for.
@@ -181,8 +189,8 @@ fn key(
     map: &InteractionMap,
     cells: &[Cell],
     view: &View,
-    critical: Option<&CriticalSpeeds>,
-    campbell: Option<&Campbell>,
+    (critical, campbell): (Option<&CriticalSpeeds>, Option<&Campbell>),
+    level_colour: LevelColour,
 ) -> Element {
     let dark = |width: f64| rectangle(0.0, -8.0, width, 16.0).set("fill", "#101010");
     let red = || line((0.0, 0.0), (24.0, 0.0)).set("stroke", "#d62728").set("stroke-width", "1.5");
@@ -195,6 +203,9 @@ fn key(
         if shown.iter().any(|speed| !speed.resolved) {
             let dots = red().set("stroke-dasharray", marks::UNRESOLVED);
             flow = flow.entry(dots, 24.0, "critical speed, peak not resolved");
+        }
+        if level_colour == LevelColour::Utilisation && shown.iter().any(|speed| speed.utilisation.is_some()) {
+            flow = flow.entry(group(), 0.0, "U utilisation");
         }
         if shown.iter().any(|speed| speed.settling == Verdict::NotSettled) {
             flow = flow.entry(group(), 0.0, "* not settled");
@@ -225,6 +236,10 @@ fn key(
         flow = flow.entry(mark, width, "natural frequencies of nodal diameter i");
     }
     flow = View::explained(flow, map, &view.engine_orders(map).1);
+    if level_colour == LevelColour::Utilisation {
+        flow = margin::explained(flow, map, cells);
+    }
+    flow = validity::explained(flow, map, cells, &view.diagram);
     let (low, high) = view.diagram.x.values;
     let seen = |cell: &&Cell| cell.to > low && cell.from < high;
     if cells.iter().filter(seen).any(|cell| is_missing(map, cell)) {
