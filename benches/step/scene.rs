@@ -184,6 +184,7 @@ impl Scene {
             revolutions: 1,
             window_revolutions: 1,
             detail: None,
+            states: None,
         }
     }
 }

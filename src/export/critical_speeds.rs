@@ -7,7 +7,7 @@ use crate::analysis::result::{CriticalSpeed, CriticalSpeeds, Crossing};
 impl Export for CriticalSpeeds {
     /// A line per critical speed, with the nearest prediction.
     fn table(&self) -> Vec<Array> {
-        let length = &self.units.length;
+        let length = self.sensor.unit(&self.units);
         let reals = |name: String, of: fn(&CriticalSpeed) -> f64| {
             Array::reals(name, self.critical_speeds.iter().map(of))
         };

@@ -39,10 +39,10 @@ impl<R: Fn(u32, u32) -> io::Result<Option<Vec<f64>>>> Maps<R> {
             ];
             add_to_arrays(left, unit)
         };
-        let length = &self.map.units.length;
+        let unit_of_all = Sensor::common_unit(self.sensors.iter().map(|(_, sensor)| sensor), &self.map.units);
         let orders = self.map.engine_orders.iter();
         let orders: Vec<Array> =
-            orders.map(|order| Array::reals(format!("order_{order}_{length}"), [])).collect();
+            orders.map(|order| Array::reals(format!("order_{order}_{unit_of_all}"), [])).collect();
         csv::names(&left(0), out)?;
         out.write_all(b",")?;
         csv::names(&orders, out)?;

@@ -1,12 +1,13 @@
 //! Spectra of one speed.
 
 use super::array::Array;
+use crate::analysis::request::Sensor;
 use crate::analysis::result::{Point, SensorSpectrum, SpeedSpectra};
 use crate::dynamics::sector::Units;
 
 /// A line per sensor and engine order: the amplitude, and those of the nodal diameters. `sensors` are their indices in the request.
 pub fn table(spectra: &SpeedSpectra, sensors: &[u32], units: &Units) -> Vec<Array> {
-    let length = &units.length;
+    let length = Sensor::common_unit(spectra.sensors.iter().map(|sensor| &sensor.sensor), units);
     let orders = &spectra.engine_orders;
     let lines = |name: String, of: &dyn Fn(&SensorSpectrum) -> Vec<f64>| {
         Array::reals(name, spectra.sensors.iter().flat_map(of))

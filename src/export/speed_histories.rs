@@ -24,8 +24,12 @@ fn columns(histories: &SpeedHistories) -> Vec<(String, &[f64])> {
     let (length, force, time) = (&units.length, &units.force, &units.time);
     let mut columns: Vec<(String, &[f64])> = Vec::new();
     for (index, sensor) in histories.sensors.iter().enumerate() {
-        columns.push((format!("sensor_{index}_displacement_{length}"), &sensor.displacement));
-        columns.push((format!("sensor_{index}_velocity_{length}_per_{time}"), &sensor.velocity));
+        let (what, rate) = match sensor.sensor.gauge {
+            Some(_) => ("strain".to_owned(), format!("strain_per_{time}")),
+            None => (format!("displacement_{length}"), format!("velocity_{length}_per_{time}")),
+        };
+        columns.push((format!("sensor_{index}_{what}"), &sensor.displacement));
+        columns.push((format!("sensor_{index}_{rate}"), &sensor.velocity));
     }
     if let Some(ContactHistory { force: forces, nodes_in_contact, contact_length }) = &histories.contact {
         columns.push(("nodes_in_contact".to_owned(), nodes_in_contact));

@@ -70,7 +70,8 @@ impl Export for Histories {
                 format!("{}", line.setting.modes_per_speed)
             };
             columns.extend(line.displacement.iter().enumerate().map(|(sensor, samples)| {
-                let name = format!("modes_{size}_sensor_{sensor}_{}", self.units.length);
+                let unit = self.sensors.get(sensor).map_or("", |sensor| sensor.unit(&self.units));
+                let name = format!("modes_{size}_sensor_{sensor}_{unit}");
                 Array::some_reals(name, (0..longest).map(|sample| samples.get(sample).copied()))
             }));
         }

@@ -63,7 +63,8 @@ pub(super) async fn run(
     wanted(0.8, "checking the package")?;
     let path = upload.to_path_buf();
     let read = move || {
-        package::read(&path, &Limits::default()).map(|read| (ModelFacts::of(&read.sector), read.digest))
+        package::read(&path, &Limits::default())
+            .map(|read| (ModelFacts::of(&read.sector).with_mesh(read.mesh.as_ref()), read.digest))
     };
     let (facts, id) =
         engine.computing.run_parallel(&job.watch, read).await?.map_err(Interruption::generated_package)?;

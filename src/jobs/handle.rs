@@ -287,7 +287,9 @@ impl Jobs {
         let read = move || {
             let _memory = memory;
             package::read(&path, &limits)
-                .map(|imported| (run::ModelFacts::of(&imported.sector), imported.digest))
+                .map(|imported| {
+                    (run::ModelFacts::of(&imported.sector).with_mesh(imported.mesh.as_ref()), imported.digest)
+                })
                 .map_err(Box::new)
         };
         self.engine.importer.run_parallel(read).await

@@ -311,7 +311,7 @@ mod tests {
             gyroscopic: false,
             contact_radius: None,
             stiffening: None,
-            strengths: Vec::new(),
+            mesh: None,
         };
         let upload = store.new_upload().await.unwrap().into_temp_path();
         std::fs::write(&upload, "package").unwrap();

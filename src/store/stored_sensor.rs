@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::analysis::request::{Component, Sensor};
+use crate::analysis::request::{Component, Gauge, Sensor};
 
 /// A sensor as it is stored; one at a contact node along a component in the bytes in which earlier versions wrote every sensor.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -26,12 +26,17 @@ enum Reading {
     AtNode(u64, Component),
     /// A direction there.
     AtNodeAlong(u64, [f64; 3]),
+    /// Strain between two nodes.
+    Strain([u64; 2]),
 }
 
 impl StoredSensor {
     /// `sensor`, if it is at a node.
     pub(super) fn of(sensor: &Sensor) -> Option<Self> {
-        let Sensor { contact_node, node, sector, component, direction, .. } = *sensor;
+        let Sensor { contact_node, node, sector, component, direction, gauge, .. } = *sensor;
+        if let Some(nodes) = gauge.and_then(|gauge| gauge.nodes) {
+            return Some(Self { contact_node: 0, sector, reading: Reading::Strain(nodes) });
+        }
         let reading = match (contact_node, node, component, direction) {
             (Some(_), _, Some(component), _) => match component {
                 Component::Radial => Reading::Radial,
@@ -67,6 +72,10 @@ impl From<StoredSensor> for Sensor {
             }
             Reading::AtNode(node, component) => Self { component: Some(component), ..at_node(node) },
             Reading::AtNodeAlong(node, direction) => Self { direction: Some(direction), ..at_node(node) },
+            Reading::Strain(nodes) => {
+                let gauge = Some(Gauge { nodes: Some(nodes), ..Gauge::default() });
+                Self { gauge, sector, ..Self::default() }
+            }
         }
     }
 }
@@ -86,6 +95,8 @@ mod tests {
         let direction = Some([1.0, -2.0, 0.5]);
         sensors.push(Sensor { contact_node: Some(4), sector: 1, direction, ..Sensor::default() });
         sensors.push(Sensor { node: Some(4), sector: 1, direction, ..Sensor::default() });
+        let gauge = Some(Gauge { nodes: Some([7, u64::MAX]), ..Gauge::default() });
+        sensors.push(Sensor { gauge, sector: 3, ..Sensor::default() });
         for sensor in sensors {
             let bytes = postcard::to_stdvec(&StoredSensor::of(&sensor).unwrap()).unwrap();
             let read: StoredSensor = postcard::from_bytes(&bytes).unwrap();

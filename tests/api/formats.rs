@@ -9,7 +9,7 @@ use super::model;
 use super::npz::Npz;
 
 /// An answer as it comes.
-struct Raw {
+pub(super) struct Raw {
     status: StatusCode,
     headers: HeaderMap,
     body: Vec<u8>,
@@ -20,7 +20,7 @@ impl Raw {
         self.headers.get(name).map_or("", |value| value.to_str().unwrap())
     }
 
-    fn text(&self) -> &str {
+    pub(super) fn text(&self) -> &str {
         std::str::from_utf8(&self.body).unwrap()
     }
 
@@ -29,13 +29,13 @@ impl Raw {
     }
 
     #[track_caller]
-    fn good(self) -> Self {
+    pub(super) fn good(self) -> Self {
         assert_eq!(self.status, 200, "{}", String::from_utf8_lossy(&self.body));
         self
     }
 }
 
-async fn get(api: &Api, path: &str, headers: &[(&str, &str)]) -> Raw {
+pub(super) async fn get(api: &Api, path: &str, headers: &[(&str, &str)]) -> Raw {
     let mut request = api.request("GET", path);
     for (name, value) in headers {
         request = request.header(*name, *value);

@@ -5,6 +5,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::app::{Api, TestApp, sweep_of};
+use super::formats;
 use super::model::{self, files_in};
 
 /// Bytes before the rows of a basis.
@@ -38,6 +39,58 @@ fn basis(data: &Path) -> Vec<std::path::PathBuf> {
     let [folder] = &files_in(&root)[..] else { panic!("{:?}", files_in(&root)) };
     let folder = root.join(folder);
     files_in(&folder).into_iter().map(|file| folder.join(file)).collect()
+}
+
+#[tokio::test]
+async fn gauges_are_found_and_refused() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(model::package_with_a_clamped_node()).await;
+    let gauge = json!({"at": [42.5, 42.5, 5.0], "direction": [5.0, 5.0, 10.0], "length": 12.0});
+    let request = sweep_with(
+        &model,
+        json!([{"gauge": gauge, "sector": 1}, {"gauge": {"nodes": [2, 5]}}, {"contact_node": 0, "component": "radial"}]),
+    );
+    let plan = api.post("/v1/sweeps/plan", &request).await;
+    assert_eq!(plan.status, 200, "{}", plan.body);
+    let placed = &plan.body["placed_sensors"][0];
+    assert_eq!((&placed["node"], &placed["end"]["node"]), (&json!(2), &json!(4)), "{placed}");
+    let (length, off) = (placed["end"]["length"].as_f64().unwrap(), placed["distance"].as_f64().unwrap());
+    assert!((length - 150f64.sqrt()).abs() < 1e-12 && (off - (0.5 * 150f64.sqrt() - 6.0)).abs() < 1e-12);
+    let settled = &plan.body["settings"]["sensors"];
+    assert_eq!(settled[0], json!({"sector": 1, "gauge": {"nodes": [2, 4]}}));
+
+    let id = api.sweep(&request).await;
+    assert_eq!(api.finish(&id).await["status"], "successful");
+    let table =
+        formats::get(api, &format!("/v1/jobs/{id}/critical-speeds?sensor=0&format=csv"), &[]).await.good();
+    assert!(table.text().contains("rms_strain"), "{}", table.text());
+    let map =
+        formats::get(api, &format!("/v1/jobs/{id}/interaction-map?sensor=0&format=svg"), &[]).await.good();
+    assert!(map.text().contains("strain between nodes 2 and 4 of sector 1"), "{}", map.text());
+    let spectra = formats::get(api, &format!("/v1/jobs/{id}/spectra/0?format=csv"), &[]).await.good();
+    assert!(spectra.text().contains("amplitude_mm_or_strain"), "{}", spectra.text());
+
+    for (sensor, pointer) in [
+        (json!({"gauge": {"nodes": [2, 99]}}), "/sensors/0/gauge/nodes/1"),
+        (json!({"gauge": {"nodes": [2, 2]}}), "/sensors/0/gauge/nodes"),
+        (json!({"gauge": {"nodes": [2, 4], "length": 3.0}}), "/sensors/0/gauge"),
+        (json!({"gauge": {"nodes": [2, 4]}, "component": "radial"}), "/sensors/0"),
+        (json!({"gauge": {"at": [0, 0, 0], "direction": [1, 0, 0]}}), "/sensors/0/gauge/length"),
+        (
+            json!({"gauge": {"at": [0, 0, 0], "direction": [0, 0, 0], "length": 1}}),
+            "/sensors/0/gauge/direction",
+        ),
+        (
+            json!({"gauge": {"at": [45, 45, 10], "direction": [1, 0, 0], "length": 0.1}}),
+            "/sensors/0/gauge/length",
+        ),
+        (json!({"gauge": {}}), "/sensors/0/gauge/at"),
+    ] {
+        let refused = api.post("/v1/sweeps", &sweep_with(&model, json!([sensor]))).await;
+        assert_eq!(refused.status, 422, "{sensor}: {}", refused.body);
+        assert_eq!(refused.body["errors"][0]["pointer"], pointer, "{sensor}: {}", refused.body);
+    }
 }
 
 #[tokio::test]

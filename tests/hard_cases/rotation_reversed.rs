@@ -145,6 +145,7 @@ fn turns_backwards(scheme: Scheme, sectors: usize) {
         revolutions: 1,
         window_revolutions: 1,
         detail: None,
+        states: None,
     }
     .run(&|_| true);
     let Outcome::Completed(history) = run.outcome else { panic!("{:?}", run.outcome) };

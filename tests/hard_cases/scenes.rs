@@ -97,6 +97,7 @@ impl Scene {
             revolutions: self.revolutions,
             window_revolutions: self.revolutions,
             detail: None,
+            states: None,
         }
         .run(&|_| true)
     }

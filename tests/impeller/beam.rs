@@ -29,7 +29,7 @@ impl Beam {
             depth: 1.0,
             elements: [elements, 1, 1],
             element_order,
-            material: Material { youngs_modulus: 1.0, poissons_ratio, density: 1.0 },
+            material: Material { youngs_modulus: 1.0, poissons_ratio, density: 1.0, ..Material::default() },
             ..CantileverParameters::default()
         };
         let matrices = SectorMatrices::assemble(&cantilever_mesh(&p).unwrap(), &p.material).unwrap();

@@ -60,7 +60,7 @@ fn deck(sector: &SectorMesh, material: &Material, speed: f64) -> String {
     }
     let free = |node: &usize| sector.clamped[*node] == [false; 3];
     set(&mut deck, "BORE", (0..sector.mesh.nodes.len()).filter(|node| !free(node)));
-    let Material { youngs_modulus, poissons_ratio, density } = material;
+    let Material { youngs_modulus, poissons_ratio, density, .. } = material;
     write!(
         deck,
         "*MATERIAL, NAME=M

@@ -27,7 +27,7 @@ pub(crate) fn unit_annulus(
         clamped_bore: true,
         elements: [radial, 2, 1],
         element_order,
-        material: Material { youngs_modulus: 1.0, poissons_ratio: 0.3, density: 1.0 },
+        material: Material { youngs_modulus: 1.0, poissons_ratio: 0.3, density: 1.0, ..Material::default() },
         top_speed_rad_s,
         ..AnnulusParameters::default()
     }

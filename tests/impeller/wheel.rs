@@ -151,7 +151,7 @@ fn units_do_not_change_the_frequencies() {
         material: Material {
             youngs_modulus: p.material.youngs_modulus * 1e6,
             density: p.material.density * 1e12,
-            ..p.material
+            ..p.material.clone()
         },
         ..p.clone()
     };

@@ -115,7 +115,7 @@ fn manifest() {
         ),
         case(
             |f| f.json(|j| j["colour"] = json!("red")),
-            "sector.json, /colour: unknown field `colour`, expected one of `name`, `sectors`, `units`, `axis`, `speeds_rad_s`, `frame`, `mass`, `stiffness`, `gyroscopic`, `nodes`, `dofs`, `cyclic`, `contact` (line 1, column 67)",
+            "sector.json, /colour: unknown field `colour`, expected one of `name`, `sectors`, `units`, `axis`, `speeds_rad_s`, `frame`, `mass`, `stiffness`, `gyroscopic`, `nodes`, `dofs`, `cyclic`, `contact`, `mesh` (line 1, column 67)",
             (JSON, Some(1), Some("/colour")),
         ),
         case(

@@ -93,6 +93,7 @@ pub(crate) fn package(shape: Shape) -> RawPackage {
         mass: matrix(1e-9),
         stiffness: vec![matrix(1e5), matrix(1.1e5), matrix(1.3e5)],
         gyroscopic: None,
+        elements: None,
         manifest: Manifest {
             name: "sample".into(),
             sectors: shape.sectors,
@@ -110,6 +111,7 @@ pub(crate) fn package(shape: Shape) -> RawPackage {
                 ManifestContact { node: 4, normal },
                 ManifestContact { node: 3, normal: [0.0, 0.0, 1.0] },
             ],
+            mesh: None,
         },
         nodes: nodes.into_iter().map(|(id, position)| RawNode { id, position }).collect(),
         dofs,

@@ -69,6 +69,7 @@ fn two_masses(frame: Frame) -> RawPackage {
             dofs: "dofs.csv".into(),
             cyclic: Vec::new(),
             contact: vec![ManifestContact { node: 1, normal: [0.0, 0.0, 1.0] }],
+            mesh: None,
         },
         nodes: vec![
             RawNode { id: 1, position: [30.0, 40.0, 0.0] },
@@ -79,6 +80,7 @@ fn two_masses(frame: Frame) -> RawPackage {
         stiffness: speeds.map(stiffness).to_vec(),
         // The same in x, y as in r, θ: 2m [e_z×].
         gyroscopic: Some(matrix(vec![lower(1, 0, 2.0 * masses[0]), lower(4, 3, 2.0 * masses[1])])),
+        elements: None,
     }
 }
 

@@ -64,6 +64,7 @@ fn agree_by(scheme: Scheme, recipe: WheelRecipe, damping_ratio: f64, lobes: u32,
         revolutions: 1,
         window_revolutions: 1,
         detail: None,
+        states: None,
     }
     .run(&|_| true);
     let Outcome::Completed(history) = run.outcome else { panic!("{:?}", run.outcome) };

@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use faer::c64;
 use rubmap::dynamics::casing::{Casing, Restriction};
 use rubmap::dynamics::direction::Direction;
 use rubmap::dynamics::effects::Effects;
@@ -11,6 +12,7 @@ use rubmap::dynamics::oscillators::ModalDamping;
 use rubmap::dynamics::reduction::{NoCheckpoints, ReducedWheel, ReductionOptions, reduce};
 use rubmap::dynamics::schemes::Scheme;
 use rubmap::dynamics::schemes::central_differences::smallest_stable_steps;
+use rubmap::dynamics::states::{HarmonicStates, WheelStates};
 use rubmap_numerics::sector_fourier::SectorFourier;
 use rubmap_numerics::spectrum::amplitudes;
 
@@ -80,6 +82,7 @@ impl Scene {
             revolutions: 1,
             window_revolutions: 1,
             detail,
+            states: Some((0, 1)),
         }
         .run(&|_| true)
     }
@@ -109,6 +112,18 @@ fn completed(run: &Run) -> &History {
 const WHOLE: Detail =
     Detail { revolutions: (0, 1), velocity: true, contact: true, forces: true, energy: true };
 
+/// Displacement of component `d` of contact node `node` of `sector`, read from the states of the whole wheel.
+fn of_states(states: &WheelStates, sectors: usize, (sector, node, d): (usize, usize, usize)) -> Vec<f64> {
+    let at = |instant: usize| {
+        let of = |harmonic: &HarmonicStates| {
+            let angle = TAU * (harmonic.harmonic * sector % sectors) as f64 / sectors as f64;
+            (c64::cis(angle) * harmonic.coordinates[(3 * node + d, instant)]).re
+        };
+        states.harmonics.iter().map(of).sum()
+    };
+    (0..states.revolutions.len()).map(at).collect()
+}
+
 /// Largest difference over the largest truth.
 fn apart(found: &[f64], truth: &[f64]) -> f64 {
     assert_eq!(found.len(), truth.len());
@@ -131,14 +146,19 @@ fn histories_are_those_of_the_literal_schemes() {
         let (truth, forces) = literally(&scene, scheme, steps);
         let run = scene.run(scheme, steps, interval, Some(WHOLE));
         let detail = completed(&run).detail.as_ref().unwrap();
+        let states = completed(&run).states.as_ref().unwrap();
+        let states = WheelStates::of(states, &scene.modal, &scene.reduced, true).unwrap();
         let h = TAU / (SPEED * steps as f64);
         let at = |q: usize, sensor: usize| if q == 0 { 0.0 } else { truth[q - 1][sensor] };
         let what = format!("{scheme:?} {recipe:?}");
 
-        for sensor in 0..2 {
+        let (last_sector, last_node) = (scene.reduced.sectors - 1, scene.reduced.contact.len() - 1);
+        for (sensor, place) in [(0, (0, 0, 0)), (1, (last_sector, last_node, 1))] {
             let samples = (1..=steps / interval).map(|j| j * interval);
             let displacement: Vec<f64> = samples.clone().map(|q| at(q, sensor)).collect();
             assert!(apart(&completed(&run).displacement[sensor], &displacement) < 1e-9, "{what}");
+            let of_states = of_states(&states, scene.reduced.sectors, place);
+            assert!(apart(&of_states, &displacement) < 1e-9, "{what}: states");
             let velocity: Vec<f64> = samples
                 .map(|q| match q {
                     q if q < steps => (at(q + 1, sensor) - at(q - 1, sensor)) / (2.0 * h),

@@ -64,6 +64,7 @@ impl Scene {
             revolutions: self.revolutions,
             window_revolutions: self.revolutions.min(2),
             detail: None,
+            states: None,
         }
         .run(&|_| true)
     }

@@ -27,6 +27,7 @@ fn nodes_of(sector: &SectorModel) -> Vec<SectorNode> {
     let node = |node: usize| SectorNode {
         id: node as u64,
         position: [node as f64, 0.0, 0.0],
+        coordinates: [node as f64, 0.0, 0.0],
         dofs: std::array::from_fn(|k| {
             let components = std::array::from_fn(|component| if component == k { 1.0 } else { 0.0 });
             Some(NodeDof { dof: 3 * node + k, components })
@@ -207,6 +208,7 @@ fn rows_of_a_contact_node_read_what_it_reads() {
             revolutions: 2,
             window_revolutions: 1,
             detail: None,
+            states: None,
         }
         .run(&|_| true);
         let Outcome::Completed(history) = run.outcome else { panic!("{:?}", run.outcome) };
@@ -253,6 +255,12 @@ fn the_same_displacement_by_other_names() {
         {"node": inner.id, "component": "tangential"},
         {"node": inner.id, "component": "axial"},
         {"node": inner.id, "direction": [2.0, -3.0, 6.0]},
+        {"node": high, "component": "radial"},
+        {"node": high, "component": "tangential"},
+        {"node": high, "component": "axial"},
+        {"gauge": {"nodes": [inner.id, high]}},
+        {"gauge": {"nodes": [tip, low]}, "sector": 3},
+        {"gauge": {"nodes": [low, tip]}, "sector": 3},
     ]);
     let length = (sector.contact[0].position[0]) * 1e-3;
     let request = resolved(
@@ -286,6 +294,21 @@ fn the_same_displacement_by_other_names() {
     let combined = (2.0 * mean(6) - 3.0 * mean(8) + 6.0 * mean(9)) / 7.0;
     let scale = [6, 8, 9].iter().fold(0.0f64, |m, &sensor| m.max(mean(sensor).abs()));
     assert!((mean(10) - combined).abs() < 1e-12 * scale, "{} {combined}", mean(10));
+
+    // A gauge across the seam: the fibre between both nodes, in Cartesian components.
+    let place = |id: u64| nodes.iter().find(|node| node.id == id).unwrap().position;
+    let (a, b) = (place(inner.id), place(high));
+    let apart: [f64; 3] = std::array::from_fn(|d| b[d] - a[d]);
+    let gauge = apart.iter().map(|d| d * d).sum::<f64>().sqrt();
+    let cartesian = |at: [f64; 3], [r, t, z]: [usize; 3]| {
+        let (sin, cos) = at[1].atan2(at[0]).sin_cos();
+        [mean(r) * cos - mean(t) * sin, mean(r) * sin + mean(t) * cos, mean(z)]
+    };
+    let (from, to) = (cartesian(a, [6, 8, 9]), cartesian(b, [11, 12, 13]));
+    let strain = (0..3).map(|d| (to[d] - from[d]) * apart[d]).sum::<f64>() / gauge.powi(2);
+    assert!(strain != 0.0 && (mean(14) - strain).abs() < 1e-10 * scale / gauge, "{} {strain}", mean(14));
+    // It does not matter from which end it is read, and a contact node is as good as any.
+    assert!(mean(15) != 0.0 && (mean(15) - mean(16)).abs() < 1e-12 * mean(15).abs());
     assert_eq!(responses[7].sensor, Sensor { node: Some(inner.id), nearest: None, ..responses[6].sensor });
 
     // A sensor whose rows nobody read ends the speed with a reason.

@@ -87,6 +87,7 @@ impl Scene {
             revolutions: self.revolutions,
             window_revolutions: 1,
             detail: None,
+            states: None,
         }
         .run(&|_| true);
         match run.outcome {
@@ -217,6 +218,7 @@ fn a_mass_bounces_off_a_stop_at_the_frequency_of_restitution_one() {
             revolutions: 2,
             window_revolutions: 1,
             detail: None,
+            states: None,
         }
         .run(&|_| true);
         let Outcome::Completed(history) = &run.outcome else { panic!("{:?}", run.outcome) };

@@ -14,7 +14,7 @@ use crate::resolved::{ResolvedCaseStudy, ResolvedSensor, ResolvedSweep};
 use crate::result::{
     ContactHistory, EnergyHistory, Point, PointStatus, SensorHistory, SpeedHistories, TipPlace,
 };
-use crate::speed::{Start, empty_point, ready, run_speed, simulate};
+use crate::speed::{Recording, Start, empty_point, ready, run_speed, simulate};
 use crate::summary::critical_indices;
 use rubmap_wheel::dynamics::energy::{EffectWork, EnergyAudit};
 use rubmap_wheel::dynamics::integrate::{Detail, DetailHistory, History, Outcome};
@@ -58,7 +58,8 @@ pub fn speed_histories(
     };
     let from_where = start.as_ref().map_or(Start::Scene, Start::After);
     let ran = ready(reduced, sweep, point.speed_rad_s).and_then(|(wheel, stepping)| {
-        let run = simulate(reduced, &wheel, sweep, &stepping, from_where, Some(detail), &watch)?;
+        let recording = Recording { detail: Some(detail), states: None };
+        let run = simulate(reduced, &wheel, sweep, &stepping, from_where, recording, &watch)?;
         Ok((wheel, stepping, run))
     });
     let mut histories = SpeedHistories {
@@ -138,10 +139,12 @@ fn tip(reduced: &ReducedSector, sweep: &ResolvedSweep, sensor: ResolvedSensor) -
     let node = match sensor.place {
         Place::Contact(node) => node as usize,
         Place::Node(id) => contact.iter().position(|node| node.id == id)?,
+        Place::Gauge(_) => return None,
     };
     let components = match sensor.along {
         Along::Component(component) => direction(contact, node, component).components,
         Along::Direction(vector) => along(vector),
+        Along::Strain => return None,
     };
     let normal = contact[node].normal;
     if components.iter().zip(normal).map(|(d, n)| d * n).sum::<f64>() < OUTWARD {

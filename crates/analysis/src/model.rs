@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::result::{PreliminaryStiffening, ReductionReport, Strengths};
 use crate::stiffening::preliminary_stiffening;
+use rubmap_solid::mesh::SectorMesh;
 use rubmap_wheel::dynamics::node_rows::NodeRows;
 use rubmap_wheel::dynamics::reduction::ReducedWheel;
 use rubmap_wheel::dynamics::sector::{SectorModel, Units};
@@ -59,9 +60,26 @@ pub struct ModelFacts {
     /// has kept. The verdict is that of a reduction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stiffening: Option<PreliminaryStiffening>,
-    /// What the materials of the mesh bear; none of a model without mesh.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub strengths: Vec<Strengths>,
+    /// The elements, if the package has them; without them there are no fields of elements and no stress.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mesh: Option<MeshFacts>,
+}
+
+/// What a package says of its elements.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct MeshFacts {
+    /// Number of elements of a sector.
+    pub elements: u32,
+    /// What its element sets bear, in the order of their names.
+    pub sets: Vec<Strengths>,
+}
+
+impl MeshFacts {
+    /// The facts of `mesh`.
+    pub fn of(mesh: &SectorMesh) -> Self {
+        Self { elements: mesh.elements.len() as u32, sets: Strengths::of(mesh) }
+    }
 }
 
 impl ModelFacts {
@@ -77,8 +95,13 @@ impl ModelFacts {
             gyroscopic: sector.gyroscopic.is_some(),
             contact_radius: sector.contact.iter().map(|node| node.position[0]).reduce(f64::max),
             stiffening: Some(preliminary_stiffening(sector)),
-            strengths: Vec::new(),
+            mesh: None,
         }
+    }
+
+    /// The same of a model whose package has these elements.
+    pub fn with_mesh(self, mesh: Option<&SectorMesh>) -> Self {
+        Self { mesh: mesh.map(MeshFacts::of), ..self }
     }
 
     /// Whether the model has stiffness at three speeds.
@@ -102,7 +125,7 @@ impl ModelFacts {
             gyroscopic: false,
             contact_radius: None,
             stiffening: None,
-            strengths: Vec::new(),
+            mesh: None,
         }
     }
 }

@@ -11,7 +11,7 @@ pub use crate::contact::{force_map, force_row};
 pub use crate::effects::casing::convert::clearances;
 pub use crate::histories::{histories_wanted, speed_histories};
 pub use crate::modal::modal_analysis;
-pub use crate::model::{ModelFacts, ReducedSector};
+pub use crate::model::{MeshFacts, ModelFacts, ReducedSector};
 pub use crate::plan::{histories_memory, plan_modal_analysis, plan_sweep, trial_memory};
 pub use crate::prepare::prepare;
 pub use crate::refine::refine;

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use crate::component::{along, direction};
+use crate::gauge::{End, add_gauge};
 use crate::model::ReducedSector;
 use crate::not_runnable::NotRunnable;
 use crate::request::Component;
@@ -12,48 +13,59 @@ use rubmap_wheel::dynamics::direction::Direction;
 use rubmap_wheel::dynamics::integrate::SensorRow;
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
 
-/// `wheel` with the nodes that sensors of `request` name, and the sensors.
+/// `wheel` with the nodes and gauges that sensors of `request` name, and the sensors.
 pub(super) fn sensed<'a>(
     reduced: &ReducedSector,
     wheel: &'a ModalWheel,
     request: &ResolvedSweep,
 ) -> Result<(Cow<'a, ModalWheel>, Vec<SensorRow>), NotRunnable> {
-    let sensor = |sensor: &ResolvedSensor| row(reduced, wheel, sensor);
-    let sensors = request.sensors.iter().map(sensor).collect::<Result<Vec<_>, _>>()?;
     let contact = reduced.wheel.contact.len();
-    let wheel = if sensors.iter().any(|sensor| sensor.direction.node >= contact) {
+    let named: Vec<End> =
+        request.sensor_nodes().into_iter().map(|id| find(reduced, id)).collect::<Result<_, _>>()?;
+    let mut wheel = if named.iter().any(|end| end.place >= contact) {
         let stiffening = request.scene.centrifugal_stiffening;
         Cow::Owned(reduced.nodes.join(wheel.clone(), &reduced.wheel, stiffening)?)
     } else {
         Cow::Borrowed(wheel)
     };
-    Ok((wheel, sensors))
+    let mut rows = Vec::with_capacity(request.sensors.len());
+    for sensor in &request.sensors {
+        rows.push(row(reduced, &mut wheel, sensor)?);
+    }
+    Ok((wheel, rows))
 }
 
 fn row(
     reduced: &ReducedSector,
-    wheel: &ModalWheel,
+    wheel: &mut Cow<'_, ModalWheel>,
     sensor: &ResolvedSensor,
 ) -> Result<SensorRow, NotRunnable> {
     let contact = &reduced.wheel.contact;
     let (place, turned) = match sensor.place {
         Place::Contact(node) => (node as usize, false),
-        // The same numbers as by its place among them.
-        Place::Node(id) => match contact.iter().position(|node| node.id == id) {
-            Some(place) => (place, false),
-            None if sensor.along == Along::Component(Component::Normal) => {
-                return Err(NotRunnable::NoNormal { id });
-            }
-            None => {
-                let (place, high) = reduced.nodes.find(id).ok_or(NotRunnable::UnreadNode { id })?;
-                (contact.len() + place, high)
-            }
-        },
+        Place::Node(id) if sensor.along == Along::Component(Component::Normal) => {
+            let place = contact.iter().position(|node| node.id == id);
+            (place.ok_or(NotRunnable::NoNormal { id })?, false)
+        }
+        Place::Node(id) => find(reduced, id).map(|end| (end.place, end.on_high_face))?,
+        Place::Gauge([a, b]) => (add_gauge(wheel.to_mut(), [find(reduced, a)?, find(reduced, b)?]), false),
     };
     let direction = match sensor.along {
         Along::Component(component) => direction(contact, place, component),
         Along::Direction(vector) => Direction { node: place, components: along(vector) },
+        Along::Strain => Direction { node: place, components: [1.0, 0.0, 0.0] },
     };
     // The high face of a sector is the low face of the next one.
     Ok(SensorRow { direction, sector: (sensor.sector as usize + usize::from(turned)) % wheel.sectors })
+}
+
+/// Where the node `id` is read; a contact node gives the same numbers as by its place among them.
+fn find(reduced: &ReducedSector, id: u64) -> Result<End, NotRunnable> {
+    let contact = &reduced.wheel.contact;
+    if let Some(place) = contact.iter().position(|node| node.id == id) {
+        return Ok(End { place, on_high_face: false, coordinates: contact[place].position });
+    }
+    let (index, on_high_face) = reduced.nodes.find(id).ok_or(NotRunnable::UnreadNode { id })?;
+    let coordinates = reduced.nodes.coordinates(index);
+    Ok(End { place: contact.len() + index, on_high_face, coordinates })
 }

@@ -43,7 +43,7 @@ pub fn run_speed(
     };
     let from = start.map_or(Start::Scene, Start::After);
     let ran = ready(reduced, request, point.speed_rad_s).and_then(|(wheel, stepping)| {
-        let run = simulate(reduced, &wheel, request, &stepping, from, None, &watch)?;
+        let run = simulate(reduced, &wheel, request, &stepping, from, Recording::default(), &watch)?;
         Ok((wheel, stepping, run))
     });
     match ran {
@@ -148,6 +148,15 @@ pub(super) fn empty_point(
     }
 }
 
+/// What a run records beside what every run does.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Recording {
+    /// Details of chosen revolutions.
+    pub(super) detail: Option<Detail>,
+    /// Whole revolutions after which recording of all modes begins and ends.
+    pub(super) states: Option<(usize, usize)>,
+}
+
 /// Runs a scene on `wheel`; or says why it cannot be.
 pub(super) fn simulate(
     sector: &ReducedSector,
@@ -155,7 +164,7 @@ pub(super) fn simulate(
     request: &ResolvedSweep,
     stepping: &Stepping,
     start: Start<'_>,
-    detail: Option<Detail>,
+    recording: Recording,
     watch: &dyn Fn(f64) -> bool,
 ) -> Result<Run, NotRunnable> {
     let (scene, reduced) = (&request.scene, &*sector.wheel);
@@ -198,7 +207,8 @@ pub(super) fn simulate(
         samples_per_revolution: steps.samples,
         revolutions: request.integration.revolutions as usize,
         window_revolutions: request.integration.window_revolutions as usize,
-        detail,
+        detail: recording.detail,
+        states: recording.states,
     }
     .run(watch))
 }

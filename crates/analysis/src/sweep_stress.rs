@@ -10,7 +10,7 @@ use rubmap_wheel::revision::VERSION;
 pub fn sweep_stress(request: &ResolvedSweep, facts: &ModelFacts, points: &[Point]) -> SweepStress {
     SweepStress {
         speeds: points.iter().filter_map(SpeedStress::of).collect(),
-        strengths: facts.strengths.clone(),
+        strengths: facts.mesh.as_ref().map_or_else(Vec::new, |mesh| mesh.sets.clone()),
         units: facts.units.clone(),
         settings: request.clone().into(),
         version: VERSION.to_owned(),

@@ -82,7 +82,10 @@ impl<'a> View<'a> {
         };
         let tops = peaks.map(|peak| peak.rms * (1.0 + peak.amplitude_error.unwrap_or(0.0)));
         let highest = tops.filter(|top| top.is_finite()).fold(0.0, f64::max);
-        let highest = if highest > 0.0 { 1.7 * highest } else { 1.0 };
+        // The labels stand above the peaks; one with a utilisation is longer.
+        let used = critical.critical_speeds.iter().any(|peak| peak.utilisation.is_some());
+        let room = if used { 2.2 } else { 1.7 };
+        let highest = if highest > 0.0 { room * highest } else { 1.0 };
         let peaks = Diagram::new((LEFT, top), (PLOT_WIDTH, PEAKS_HEIGHT), speeds, (0.0, highest));
         let count = lines.len().max(1) as f64;
         let below = (LEFT, peaks.bottom() + 14.0);
@@ -93,7 +96,7 @@ impl<'a> View<'a> {
     fn draw(&self) -> Vec<Element> {
         let (peaks, rows) = (&self.peaks, &self.rows);
         let (x, y) = (ticks(peaks.x.values, 9.0), ticks(peaks.y.values, 6.0));
-        let length = &self.critical.units.length;
+        let length = self.critical.sensor.unit(&self.critical.units);
         let empty = self.critical.critical_speeds.is_empty();
         let words = "no critical speed stands out of the response";
         let mut content = vec![peaks.grid(&x, &y), rows.grid(&x, &[])];
@@ -158,7 +161,7 @@ impl<'a> View<'a> {
         let places: Vec<f64> = shown.iter().map(|(place, _)| place.0).collect();
         let apart = marks::spread(&places, self.peaks.right() - 6.0);
         let drawn = shown.into_iter().zip(apart).map(|((place, peak), x)| {
-            let order = peak.dominant_engine_order.map_or_else(|| "–".to_owned(), marks::order);
+            let order = marks::engine_order(peak);
             let star = if peak.settling == Verdict::NotSettled { " *" } else { "" };
             let used = marks::utilisation(peak);
             let words = format!("{} rpm · EO {order}{used}{star}", label(rpm(peak.speed_rad_s), 0));

@@ -42,6 +42,10 @@ pub fn histories(histories: &Histories, sensor: usize) -> String {
         content.extend([diagram.frame(), diagram.words("Nothing to draw: no run was completed")]);
         return svg::document(&title, WIDTH, HEIGHT, content);
     }
+    let axis = match histories.sensors.get(sensor) {
+        Some(sensor) if sensor.gauge.is_some() => sensor.unit(&histories.units).to_owned(),
+        _ => format!("displacement, {}", histories.units.length),
+    };
     let (x, y) = (ticks(diagram.x.values, 8.0), ticks(diagram.y.values, 8.0));
     content.push(diagram.grid(&x, &y));
     let mut bands = false;
@@ -56,7 +60,7 @@ pub fn histories(histories: &Histories, sensor: usize) -> String {
     content.extend([
         diagram.frame(),
         diagram.x_axis(&x, "revolutions"),
-        diagram.y_axis(&y, &format!("displacement, {}", histories.units.length), 66.0),
+        diagram.y_axis(&y, &axis, 66.0),
         key(&curves, &diagram, bands),
     ]);
     svg::document(&title, WIDTH, HEIGHT, content)

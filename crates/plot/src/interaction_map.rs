@@ -10,7 +10,7 @@ use super::level::LevelColour;
 use super::map_view::{DRIVEN, VerticalAxis, View, is_missing, lobes};
 use super::svg::{Element, INK, document, group, line, rectangle, text, upright};
 use super::window::Window;
-use super::{colour_bar, hatching, heat, level, margin, marks, sectors, settling_strip, validity};
+use super::{colour_bar, hatching, heading, heat, level, margin, marks, sectors, settling_strip, validity};
 use rubmap_analysis::result::{
     Campbell, CriticalSpeed, CriticalSpeeds, InteractionMap, StiffeningVerdict, Verdict,
 };
@@ -53,13 +53,17 @@ pub fn interaction_map(
     let loudest = heat::loudest(map, &window);
     let mut labels = Labels::inside(&view.diagram);
     let crossings = critical.map(|critical| view.crossings(critical, &mut labels));
-    let mut content = vec![hatching::definition(), heading(map)];
+    let mut content = vec![hatching::definition(), head(map)];
     content.push(level::draw(map, &cells, &level, level_colour));
     content.extend(validity::strip(map, &cells, &level, (VALIDITY_TOP, VALIDITY_HEIGHT)));
     content.push(settling_strip::strip(map, &cells, &level, STRIP_TOP, STRIP_HEIGHT));
     content.push(view.amplitudes(map, &cells, loudest));
     if let Some(loudest) = loudest {
-        content.push(amplitude_bar(&view.scale(loudest), view.diagram.right() + 62.0, &map.units.length));
+        content.push(amplitude_bar(
+            &view.scale(loudest),
+            view.diagram.right() + 62.0,
+            map.sensor.unit(&map.units),
+        ));
     }
     content.push(engine_orders(&view, map, wheel(critical, campbell)));
     content.extend(campbell.map(|campbell| view.natural_frequencies(campbell, &mut labels)));
@@ -70,8 +74,11 @@ pub fn interaction_map(
     content.push(level.frame());
     content.push(view.diagram.frame());
     content.extend(axes(&view));
-    content.push(key(map, &cells, &view, (critical, campbell), level_colour));
-    document(&title(map), WIDTH, HEIGHT, content)
+    let flow = key(map, &cells, &view, (critical, campbell), level_colour);
+    // A long key makes the drawing higher.
+    let height = f64::max(HEIGHT, flow.bottom() + 42.0);
+    content.extend([flow.draw(), settling_strip::legend(map, LEFT, height - 18.0), origin(map, height)]);
+    document(&title(map), WIDTH, height, content)
 }
 
 /// Sectors of the wheel, where a reduction tells.
@@ -154,7 +161,7 @@ fn title(map: &InteractionMap) -> String {
     format!("Interaction map: {}{nodal_diameter}", map.sensor)
 }
 
-fn heading(map: &InteractionMap) -> Element {
+fn head(map: &InteractionMap) -> Element {
     let settings = &map.settings;
     let computed = map.amplitude.iter().flatten().count();
     let mut words = vec![format!("{computed} of {} speeds", map.speeds_rad_s.len())];
@@ -173,15 +180,16 @@ fn heading(map: &InteractionMap) -> Element {
         words.push("no contact".to_owned());
     }
     let warning = map.stiffening.and_then(StiffeningVerdict::warning);
-    let model: String = settings.model.chars().take(12).collect();
-    let origin = format!("model {model} · rubmap {}", map.version);
     group()
         .child(text(LEFT, 30.0, "start", &title(map)).set("font-size", "18").set("font-weight", "bold"))
         .child(text(LEFT, 51.0, "start", &words.join(" · ")).set("fill", "#555555"))
         .children(warning.map(|words| text(LEFT, 68.0, "start", words).set("fill", WARNING)))
-        .child(
-            text(WIDTH - 16.0, HEIGHT - 10.0, "end", &origin).set("fill", "#999999").set("font-size", "10"),
-        )
+}
+
+/// Where the numbers come from, in the corner.
+fn origin(map: &InteractionMap, height: f64) -> Element {
+    let words = heading::origin(&map.settings.model, &map.version);
+    text(WIDTH - 16.0, height - 10.0, "end", &words).set("fill", "#999999").set("font-size", "10")
 }
 
 /// What the marks mean, below the map: what is there, and nothing else.
@@ -191,7 +199,7 @@ fn key(
     view: &View,
     (critical, campbell): (Option<&CriticalSpeeds>, Option<&Campbell>),
     level_colour: LevelColour,
-) -> Element {
+) -> Flow {
     let dark = |width: f64| rectangle(0.0, -8.0, width, 16.0).set("fill", "#101010");
     let red = || line((0.0, 0.0), (24.0, 0.0)).set("stroke", "#d62728").set("stroke-width", "1.5");
     let mut flow = Flow::new(LEFT, WIDTH - 20.0, MAP_TOP + MAP_HEIGHT + 66.0);
@@ -247,5 +255,5 @@ fn key(
     } else if view.reaches_beyond(map) {
         flow = flow.entry(hatching::mark(), 20.0, "beyond the spectra");
     }
-    group().child(flow.draw()).child(settling_strip::legend(map, LEFT, HEIGHT - 18.0))
+    flow
 }

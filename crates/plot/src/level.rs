@@ -68,7 +68,7 @@ pub(super) fn draw(map: &InteractionMap, cells: &[Cell], diagram: &Diagram, by: 
         let colour = verdict.and_then(validity::colour);
         let dot = Element::new("circle").number("cx", x).number("cy", y);
         let dot = dot.number("r", colour.map_or(radius, |_| radius.max(2.0)));
-        let unit = &map.units.length;
+        let unit = map.sensor.unit(&map.units);
         let reason = point.and_then(|point| validity::reason(point.validity.as_ref()?));
         let reason = reason.map_or_else(String::new, |reason| format!(", {reason}"));
         let words = format!("{:.0} rpm: {} {unit} rms{reason}", cell.rpm, significant(rms));
@@ -80,5 +80,5 @@ pub(super) fn draw(map: &InteractionMap, cells: &[Cell], diagram: &Diagram, by: 
         .children(area)
         .child(curve)
         .children(dots)
-        .child(diagram.y_axis(&ticks, &format!("level, {} rms", map.units.length), 58.0))
+        .child(diagram.y_axis(&ticks, &format!("level, {} rms", map.sensor.unit(&map.units)), 58.0))
 }

@@ -51,7 +51,7 @@ pub fn map_sheet(maps: &[InteractionMap], window: Window) -> String {
         let foot = top + rows as f64 * (PANEL_HEIGHT + GAP.1) - GAP.1;
         let scale = Scale::logarithmic((QUIETEST * loudest, loudest), (foot, top));
         let ticks = logarithmic_ticks(scale.values);
-        let words = format!("amplitude, {}", first.units.length);
+        let words = format!("amplitude, {}", first.sensor.unit(&first.units));
         content.push(colour_bar::draw(&scale, BAR, &ticks, &words));
     }
     let foot = top + rows as f64 * (PANEL_HEIGHT + GAP.1) - 12.0;

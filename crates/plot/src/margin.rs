@@ -58,6 +58,9 @@ pub(super) fn area(
 pub(super) fn explained(mut flow: Flow, map: &InteractionMap, cells: &[Cell]) -> Flow {
     let found: Vec<usize> =
         cells.iter().filter_map(|cell| Some(class(utilisation(map, cell.index)?))).collect();
+    if found.is_empty() {
+        return flow.entry(group(), 0.0, "no utilisation is known");
+    }
     for (place, (.., words)) in CLASSES.iter().enumerate().filter(|(place, _)| found.contains(place)) {
         let patch = rectangle(0.0, -6.0, 20.0, 12.0).set("fill", fill(place)).set("stroke", "#888888");
         flow = flow.entry(patch, 20.0, words);

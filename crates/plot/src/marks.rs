@@ -81,7 +81,8 @@ pub(super) fn diamond((x, y): (f64, f64), fill: &str, stroke: &str) -> Element {
 }
 
 /// Dashed lines from `top` to `bottom` at the critical speeds, `x` in the drawing, each with its speed above; dotted where
-/// the speeds of the sweep do not resolve the peak. With their utilisation where that is `said`.
+/// the speeds of the sweep do not resolve the peak. Where it is `said`, utilisations stand in
+/// the place of engine orders.
 pub(super) fn critical(
     speeds: &[(f64, &CriticalSpeed)],
     right: f64,
@@ -94,10 +95,14 @@ pub(super) fn critical(
     for ((x, speed), label_x) in speeds.iter().zip(labels) {
         let settled = speed.settling != Verdict::NotSettled;
         let words = format!(
-            "{} rpm · EO {}{}{}",
+            "{} rpm{}{}",
             label(rpm(speed.speed_rad_s), 0),
-            speed.dominant_engine_order.map_or_else(|| "–".to_owned(), order),
-            if said { utilisation(speed) } else { String::new() },
+            // There is room for one of both.
+            if said && speed.utilisation.is_some() {
+                utilisation(speed)
+            } else {
+                format!(" · EO {}", engine_order(speed))
+            },
             if settled { "" } else { " *" }
         );
         let (dashes, title) = if speed.resolved {
@@ -120,6 +125,11 @@ pub(super) fn critical(
         );
     }
     out
+}
+
+/// The engine order of the largest amplitude at a critical speed.
+pub(super) fn engine_order(speed: &CriticalSpeed) -> String {
+    speed.dominant_engine_order.map_or_else(|| "–".to_owned(), order)
 }
 
 /// The utilisation at a critical speed, to be said after other things.

@@ -53,18 +53,19 @@ pub fn spectrum(spectra: &SpeedSpectra, point: &Point, units: &Units, sensor: us
         words.push(both.to_owned());
     }
     let (heading, bottom) = heading::heading(LEFT, &title, &words);
+    let unit = found.sensor.unit(units);
     let lines = Lines::of(spectra, found, frame);
     let mut content = vec![heading];
     match frame {
         Frame::Rotating => {
             let height = 0.5 * (HEIGHT - 70.0 - bottom - 30.0 - 34.0);
             let above = ((LEFT, bottom + 22.0), (PLOT_WIDTH, height));
-            content.extend(whole(spectra, found, units, above));
-            content.extend(lines.draw(units, ((LEFT, bottom + 56.0 + height), (PLOT_WIDTH, height))));
+            content.extend(whole(spectra, found, unit, above));
+            content.extend(lines.draw(unit, ((LEFT, bottom + 56.0 + height), (PLOT_WIDTH, height))));
         }
         Frame::Fixed => {
             let top = bottom + 22.0;
-            content.extend(lines.draw(units, ((LEFT, top), (PLOT_WIDTH, HEIGHT - 74.0 - top))));
+            content.extend(lines.draw(unit, ((LEFT, top), (PLOT_WIDTH, HEIGHT - 74.0 - top))));
         }
     }
     document(&title, WIDTH, HEIGHT, content)
@@ -87,7 +88,7 @@ fn verdict(point: &Point) -> String {
 fn whole(
     spectra: &SpeedSpectra,
     found: &SensorSpectrum,
-    units: &Units,
+    unit: &str,
     (corner, size): ((f64, f64), (f64, f64)),
 ) -> Vec<Element> {
     let lines: Vec<(f64, f64)> = spectra
@@ -107,11 +108,10 @@ fn whole(
     shown.sort_by(|a, b| b.1.total_cmp(&a.1));
     shown.truncate(MOST);
     let stems = shown.into_iter().map(|(order, amplitude)| {
-        let words =
-            format!("engine order {}: {} {}", marks::order(order), significant(amplitude), units.length);
+        let words = format!("engine order {}: {} {}", marks::order(order), significant(amplitude), unit);
         stem(&diagram, order, amplitude).set("stroke", INK).set("stroke-width", "1.6").title(&words)
     });
-    let title = format!("amplitude, {}", units.length);
+    let title = format!("amplitude, {unit}");
     framed(&diagram, group().set("class", "whole").children(stems), &title, "")
 }
 
@@ -186,7 +186,7 @@ impl Lines {
         Self { frame, highest: highest(spectra), harmonics: found.nodal_diameters.len(), lines }
     }
 
-    fn draw(&self, units: &Units, place: ((f64, f64), (f64, f64))) -> Vec<Element> {
+    fn draw(&self, unit: &str, place: ((f64, f64), (f64, f64))) -> Vec<Element> {
         let widest = match self.frame {
             Frame::Rotating => self.highest,
             Frame::Fixed => self.highest + self.harmonics.saturating_sub(1) as f64,
@@ -206,15 +206,15 @@ impl Lines {
         shown.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
         let all_shown = shown.len() <= MOST;
         shown.truncate(MOST);
-        let drawn = shown.iter().map(|found| self.line(&diagram, found, units));
+        let drawn = shown.iter().map(|found| self.line(&diagram, found, unit));
         let content = group().set("class", "lines").children(drawn);
-        let title = format!("nodal diameters, {}", units.length);
+        let title = format!("nodal diameters, {unit}");
         let mut all = framed(&diagram, content, &title, x_title);
         all.push(self.key(&diagram, &shown, all_shown));
         all
     }
 
-    fn line(&self, diagram: &Diagram, found: &Line, units: &Units) -> Element {
+    fn line(&self, diagram: &Diagram, found: &Line, unit: &str) -> Element {
         let colour = ordinal(found.nodal_diameter, self.harmonics);
         let direction = match (self.frame, found.nodal_diameter, found.forward) {
             (Frame::Rotating, ..) | (_, 0, _) => "",
@@ -226,7 +226,7 @@ impl Lines {
             found.nodal_diameter,
             marks::order(found.order),
             significant(found.amplitude),
-            units.length
+            unit
         );
         let stem =
             stem(diagram, found.seen, found.amplitude).set("stroke", &colour).set("stroke-width", "1.4");

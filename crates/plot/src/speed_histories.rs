@@ -92,7 +92,7 @@ struct Panel<'a> {
     curves: Vec<Curve<'a>>,
 }
 
-fn panels<'a>(histories: &'a SpeedHistories, what: HistoryQuantity, index: usize) -> Vec<Panel<'a>> {
+fn panels<'a>(histories: &'a SpeedHistories, quantity: HistoryQuantity, index: usize) -> Vec<Panel<'a>> {
     let units = &histories.units;
     let (length, force, time) = (&units.length, &units.force, &units.time);
     let of_sensor = |axis: String, values: fn(&SensorHistory) -> &[f64]| {
@@ -100,10 +100,14 @@ fn panels<'a>(histories: &'a SpeedHistories, what: HistoryQuantity, index: usize
         let curves = found.map(|values| Curve { words: String::new(), values });
         vec![Panel { axis, curves: curves.into_iter().collect() }]
     };
+    let gauge =
+        histories.sensors.get(index).map(|history| &history.sensor).filter(|sensor| sensor.gauge.is_some());
+    let unit = gauge.map_or(length.as_str(), |_| "1");
+    let (what, rate) = if gauge.is_some() { ("strain", "strain rate") } else { ("displacement", "velocity") };
     let contact = histories.contact.as_ref();
-    match what {
-        HistoryQuantity::Displacement => of_sensor(format!("displacement, {length}"), |s| &s.displacement),
-        HistoryQuantity::Velocity => of_sensor(format!("velocity, {length}/{time}"), |s| &s.velocity),
+    match quantity {
+        HistoryQuantity::Displacement => of_sensor(format!("{what}, {unit}"), |s| &s.displacement),
+        HistoryQuantity::Velocity => of_sensor(format!("{rate}, {unit}/{time}"), |s| &s.velocity),
         HistoryQuantity::Force => {
             let curves = contact.map_or_else(Vec::new, |contact| forces(contact, index));
             vec![Panel { axis: format!("force, {force}"), curves }]

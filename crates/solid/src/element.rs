@@ -27,6 +27,44 @@ pub enum ElementKind {
 }
 
 impl ElementKind {
+    /// All of them.
+    pub const ALL: [Self; 9] = [
+        Self::C3D4,
+        Self::C3D6,
+        Self::C3D8,
+        Self::C3D8I,
+        Self::C3D10,
+        Self::C3D15,
+        Self::C3D20,
+        Self::C3D20R,
+        Self::QM6,
+    ];
+
+    /// Its name: that of CalculiX, where it has one.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::C3D4 => "C3D4",
+            Self::C3D6 => "C3D6",
+            Self::C3D8 => "C3D8",
+            Self::C3D8I => "C3D8I",
+            Self::C3D10 => "C3D10",
+            Self::C3D15 => "C3D15",
+            Self::C3D20 => "C3D20",
+            Self::C3D20R => "C3D20R",
+            Self::QM6 => "QM6",
+        }
+    }
+
+    /// The element of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|kind| kind.name() == name)
+    }
+
+    /// Whether it has incompatible modes.
+    pub fn has_bubbles(self) -> bool {
+        matches!(self, Self::C3D8I | Self::QM6)
+    }
+
     /// Number of nodes.
     pub fn nodes(self) -> usize {
         match self {

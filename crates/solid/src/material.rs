@@ -1,6 +1,10 @@
 //! What elements are made of, and what it bears.
 
+use nalgebra::{Matrix3, SVector};
 use serde::{Deserialize, Serialize};
+
+/// Cauchy stress `σ_11, σ_22, σ_33, σ_12, σ_23, σ_31`.
+pub type Stress = SVector<f64, 6>;
 
 /// An isotropic, linear elastic material, in the package's consistent units. What it bears has no default: without it nothing is said of
 /// margins.
@@ -24,8 +28,28 @@ pub struct Material {
     pub fatigue_strength: Option<FatigueStrength>,
 }
 
+impl Material {
+    /// λ and μ of Lamé, `σ = λ tr(ε) 1 + 2μ ε`.
+    pub fn lame_constants(&self) -> (f64, f64) {
+        lame_constants(self.youngs_modulus, self.poissons_ratio)
+    }
+}
+
+/// λ and μ of Lamé from Young's modulus and Poisson's ratio.
+pub fn lame_constants(e: f64, nu: f64) -> (f64, f64) {
+    (e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)), e / (2.0 * (1.0 + nu)))
+}
+
+/// Stress under the displacement gradient `h_ij = ∂u_i/∂x_j`.
+pub fn stress((lambda, mu): (f64, f64), h: &Matrix3<f64>) -> Stress {
+    let normal = |i: usize| lambda * h.trace() + 2.0 * mu * h[(i, i)];
+    let shear = |i: usize, j: usize| mu * (h[(i, j)] + h[(j, i)]);
+    Stress::new(normal(0), normal(1), normal(2), shear(0, 1), shear(1, 2), shear(2, 0))
+}
+
 /// The stress amplitude that a material bears when it alternates about zero.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct FatigueStrength {
     /// Amplitude of a fully reversed stress.

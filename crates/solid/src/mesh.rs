@@ -43,3 +43,10 @@ pub struct ElementSet {
     /// What its elements are made of.
     pub material: Material,
 }
+
+impl SectorMesh {
+    /// Positions of an element's nodes.
+    pub fn positions(&self, element: &Element) -> Vec<[f64; 3]> {
+        element.nodes.iter().map(|&node| self.nodes[node as usize]).collect()
+    }
+}

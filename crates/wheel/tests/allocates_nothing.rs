@@ -76,6 +76,7 @@ fn allocations(scheme: Scheme, effects: Effects<'_>, revolutions: usize) -> u64 
         revolutions,
         window_revolutions: 1,
         detail: None,
+        states: Some((0, 1)),
     };
     let mut run = None;
     let counted = measure(|| run = Some(simulation.run(&|_| true)));

@@ -73,7 +73,7 @@ pub(super) fn credentials(map: &InteractionMap) -> String {
 
 /// The table of critical speeds beside the linear prediction.
 pub(super) fn critical_speeds(table: &CriticalSpeeds) -> String {
-    let unit = &table.units.length;
+    let unit = table.sensor.unit(&table.units);
     let mut out = String::new();
     let _ = writeln!(out, "Critical speeds: peaks of the {}\n", table.sensor);
     let _ = writeln!(

@@ -167,7 +167,7 @@ mod tests {
             gyroscopic: false,
             contact_radius: Some(123.4),
             stiffening: None,
-            strengths: Vec::new(),
+            mesh: None,
         }
     }
 

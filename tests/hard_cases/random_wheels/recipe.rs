@@ -209,6 +209,7 @@ impl Case {
             revolutions: REVOLUTIONS,
             window_revolutions: 1,
             detail: None,
+            states: None,
         }
         .run(&|_| true)
     }

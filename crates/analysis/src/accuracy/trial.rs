@@ -14,7 +14,7 @@ use crate::request::Setting;
 use crate::request::auto_or::MOST_STEPS;
 use crate::resolved::{ResolvedSweep, TrialRequest};
 use crate::result::{Cost, SpeedSpectra, Trial};
-use crate::speed::{Start, empty_point, ready, simulate};
+use crate::speed::{Recording, Start, empty_point, ready, simulate};
 use crate::stepping::Stepping;
 use rubmap_wheel::dynamics::integrate::{Outcome, Run};
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
@@ -74,7 +74,8 @@ pub fn run_trial(
             watch(fraction)
         };
         let ran = ready(reduced, sweep, speed_rad_s).and_then(|(wheel, stepping)| {
-            let run = simulate(reduced, &wheel, sweep, &stepping, Start::Scene, None, &marked)?;
+            let run =
+                simulate(reduced, &wheel, sweep, &stepping, Start::Scene, Recording::default(), &marked)?;
             Ok((wheel, stepping, run))
         });
         let whole = clock.elapsed();
@@ -111,7 +112,8 @@ pub fn run_trial(
             history.displacement.iter().map(|line| levels(&line[line.len() - window..], samples)).collect();
         trial.lines = lines(spectra, sweep);
         if request.twin {
-            let twin = simulate(reduced, &wheel, sweep, &stepping, Start::Perturbed, None, &watch);
+            let twin =
+                simulate(reduced, &wheel, sweep, &stepping, Start::Perturbed, Recording::default(), &watch);
             if let Ok(Run { outcome: Outcome::Completed(twin), .. }) = twin {
                 let from = sweep.integration.ramp_revolutions.ceil() as usize;
                 let (run, twin) = (&history.displacement, &twin.displacement);

@@ -128,6 +128,7 @@ impl Wheel {
             revolutions,
             window_revolutions: spectra.window_revolutions,
             detail: None,
+            states: None,
         };
         let start = Instant::now();
         let run = simulation.run(&|_| true);

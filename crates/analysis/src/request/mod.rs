@@ -21,7 +21,7 @@ pub use integration::{Integration, SchemeChoice};
 pub use modal_analysis::ModalAnalysisRequest;
 pub use record::{HistoriesRequest, HistorySpeeds, Record, Recorded, RecordedQuantity};
 pub use scene::Scene;
-pub use sensor::{Component, Sensor};
+pub use sensor::{Component, Gauge, Sensor};
 pub use setting::Setting;
 pub use speeds::{HIGHEST_SPEED, LOWEST_SPEED, MAX_SPEEDS, SpeedSet, SpeedUnit, Speeds};
 pub use study::{Grid, StudyIntegration, StudyRequest};

@@ -2,8 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-/// A displacement recorded during a run: at a node, which is named in exactly one of three ways, along a `component` or a
-/// `direction`.
+use rubmap_wheel::dynamics::sector::Units;
+
+/// What is recorded during a run: a displacement, at a node that is named in exactly one of three ways, along a `component` or a
+/// `direction`; or the strain of a `gauge`.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
@@ -29,6 +31,33 @@ pub struct Sensor {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schema(min_items = 3, max_items = 3))]
     pub direction: Option<[f64; 3]>,
+    /// In place of a node and a direction: a virtual strain gauge.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gauge: Option<Gauge>,
+}
+
+/// A virtual strain gauge between two nodes a and b: ε = (u_b − u_a)·e/L, with e from a to b and L their distance, as the small strain of a
+/// fibre that both hold. The nodes are given, or found: those nearest to the ends of a gauge of this `length` along this `direction` with
+/// its middle `at` this point. `settings` have the nodes.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Gauge {
+    /// Ids of both nodes in the package.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub nodes: Option<[u64; 2]>,
+    /// Middle, x, y, z as in the package.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schema(min_items = 3, max_items = 3))]
+    pub at: Option<[f64; 3]>,
+    /// Direction in the same coordinates, of any length but 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schema(min_items = 3, max_items = 3))]
+    pub direction: Option<[f64; 3]>,
+    /// Length, positive, in the model's unit of length.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schema(exclusive_minimum = 0))]
+    pub length: Option<f64>,
 }
 
 /// Displacement component at a node.
@@ -66,8 +95,30 @@ impl Sensor {
 }
 
 impl Sensor {
+    /// Unit of what it records: that of length, or `strain`.
+    pub fn unit<'a>(&self, units: &'a Units) -> &'a str {
+        if self.gauge.is_some() { "strain" } else { &units.length }
+    }
+
+    /// The unit of several sensors; both, where they differ.
+    pub fn common_unit<'a>(sensors: impl Iterator<Item = &'a Sensor>, units: &Units) -> String {
+        let mut words: Vec<&str> = sensors.map(|sensor| sensor.unit(units)).collect();
+        words.sort_unstable_by_key(|word| *word != units.length);
+        words.dedup();
+        words.join("_or_")
+    }
+
     /// What it measures of the motion ("displacement", "velocity"), in words.
     pub fn measuring(&self, what: &str) -> String {
+        if let Some(gauge) = &self.gauge {
+            let strain = if what == "displacement" { "strain" } else { "strain rate" };
+            let place = match (gauge.nodes, gauge.at) {
+                (Some([a, b]), _) => format!("between nodes {a} and {b}"),
+                (None, Some([x, y, z])) => format!("at ({x}, {y}, {z})"),
+                (None, None) => String::new(),
+            };
+            return format!("{strain} {place} of sector {}", self.sector);
+        }
         let along = match (self.component, self.direction) {
             (Some(component), _) => format!("{} {what}", component.name()),
             (None, Some([r, t, z])) => format!("{what} along ({r}, {t}, {z})"),
@@ -100,6 +151,8 @@ mod tests {
         assert_eq!(words(contact), "normal displacement at contact node 3 of sector 0");
         let node = serde_json::json!({"node": 812, "sector": 2, "direction": [1, 0, -0.5]});
         assert_eq!(words(node), "displacement along (1, 0, -0.5) at node 812 of sector 2");
+        let gauge = serde_json::json!({"gauge": {"nodes": [4, 17]}, "sector": 1});
+        assert_eq!(words(gauge), "strain between nodes 4 and 17 of sector 1");
     }
 
     #[test]

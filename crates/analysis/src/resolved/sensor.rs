@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::error::Violation;
-use crate::request::{Component, Sensor};
+use crate::request::{Component, Gauge, Sensor};
 
 /// A recorded displacement; see [`Sensor`], as which it is written.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -21,6 +21,8 @@ pub(crate) enum Place {
     Contact(u32),
     /// Any node, by its id in the package.
     Node(u64),
+    /// Two nodes, of a strain gauge.
+    Gauge([u64; 2]),
 }
 
 /// Along what it is recorded.
@@ -30,12 +32,44 @@ pub(crate) enum Along {
     Component(Component),
     /// In radial, tangential and axial components, of any length but 0.
     Direction([f64; 3]),
+    /// From one node of a gauge to the other, per length.
+    Strain,
 }
 
 impl ResolvedSensor {
     /// What `asked`, sensor `index` of a request, says; `refuse` hears of what says too much, too little or nothing.
     pub(crate) fn of(asked: Sensor, index: usize, refuse: &mut dyn FnMut(Violation)) -> Option<Self> {
-        let Sensor { contact_node, node, nearest, sector, component, direction } = asked;
+        let Sensor { contact_node, node, nearest, sector, component, direction, gauge } = asked;
+        let mut found = |field: &str, message: &str| {
+            refuse(Violation::new(format!("/sensors/{index}{field}"), message));
+        };
+        if let Some(gauge) = gauge {
+            return match (gauge, contact_node, node, nearest, component, direction) {
+                (
+                    Gauge { nodes: Some(nodes), at: None, direction: None, length: None },
+                    None,
+                    None,
+                    None,
+                    None,
+                    None,
+                ) => Some(Self { place: Place::Gauge(nodes), sector, along: Along::Strain }),
+                (Gauge { nodes: None, .. }, ..) => {
+                    found("/gauge", "the nodes of the model are not known here: give `nodes`");
+                    None
+                }
+                (Gauge { at: None, direction: None, length: None, .. }, ..) => {
+                    found(
+                        "",
+                        "a gauge has its place and direction of its own: give nothing else but a `sector`",
+                    );
+                    None
+                }
+                _ => {
+                    found("/gauge", "give either `nodes`, or `at`, `direction` and `length`");
+                    None
+                }
+            };
+        }
         let place = match (contact_node, node, nearest) {
             (Some(node), None, None) => Ok(Place::Contact(node)),
             (None, Some(id), None) => Ok(Place::Node(id)),
@@ -58,7 +92,7 @@ impl ResolvedSensor {
             (Ok(place), Ok(along)) => Some(Self { place, sector, along }),
             (place, along) => {
                 for (field, message) in place.err().into_iter().chain(along.err()) {
-                    refuse(Violation::new(format!("/sensors/{index}{field}"), message));
+                    found(field, message);
                 }
                 None
             }
@@ -69,14 +103,16 @@ impl ResolvedSensor {
 impl From<ResolvedSensor> for Sensor {
     fn from(sensor: ResolvedSensor) -> Self {
         let ResolvedSensor { place, sector, along } = sensor;
-        let (contact_node, node) = match place {
-            Place::Contact(node) => (Some(node), None),
-            Place::Node(id) => (None, Some(id)),
+        let (contact_node, node, gauge) = match place {
+            Place::Contact(node) => (Some(node), None, None),
+            Place::Node(id) => (None, Some(id), None),
+            Place::Gauge(nodes) => (None, None, Some(Gauge { nodes: Some(nodes), ..Gauge::default() })),
         };
         let (component, direction) = match along {
             Along::Component(component) => (Some(component), None),
             Along::Direction(direction) => (None, Some(direction)),
+            Along::Strain => (None, None),
         };
-        Self { contact_node, node, nearest: None, sector, component, direction }
+        Self { contact_node, node, nearest: None, sector, component, direction, gauge }
     }
 }

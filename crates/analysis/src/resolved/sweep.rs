@@ -122,10 +122,11 @@ impl ResolvedSweep {
     /// Ids of the nodes that its sensors name, ascending, each once.
     pub fn sensor_nodes(&self) -> Vec<u64> {
         let of = |sensor: &ResolvedSensor| match sensor.place {
-            Place::Contact(_) => None,
-            Place::Node(id) => Some(id),
+            Place::Contact(_) => [None; 2],
+            Place::Node(id) => [Some(id), None],
+            Place::Gauge(nodes) => nodes.map(Some),
         };
-        let mut nodes: Vec<u64> = self.sensors.iter().filter_map(of).collect();
+        let mut nodes: Vec<u64> = self.sensors.iter().flat_map(of).flatten().collect();
         nodes.sort_unstable();
         nodes.dedup();
         nodes

@@ -62,16 +62,31 @@ pub struct SweepPlan {
 pub struct PlacedSensor {
     /// Index of the sensor in the request.
     pub sensor: u32,
-    /// Id of its node.
+    /// Id of its node; of a gauge the first of two.
     pub node: u64,
     /// Position of the node, x, y, z as in the package.
     pub position: [f64; 3],
     /// Its place among the contact nodes, if it is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact_node: Option<u32>,
-    /// Distance from the point that the request names, if it does.
+    /// Distance from the point that the request names, if it does; of a gauge the larger one of its ends from where they should be.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub distance: Option<f64>,
+    /// Of a gauge: its other node.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub end: Option<GaugeEnd>,
+}
+
+/// The second node of a strain gauge.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct GaugeEnd {
+    /// Its id.
+    pub node: u64,
+    /// Its position, x, y, z as in the package.
+    pub position: [f64; 3],
+    /// Length of the gauge: the distance of both nodes.
+    pub length: f64,
 }
 
 /// Whether a reduction is there.

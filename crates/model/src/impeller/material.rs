@@ -1,16 +1,16 @@
 //! An isotropic, linear elastic material.
 
-use nalgebra::{Matrix3, SVector};
+use nalgebra::Matrix3;
+use rubmap_solid::material::{self, FatigueStrength};
 use serde::{Deserialize, Serialize};
 
 use super::error::ImpellerError;
 use super::ranges::positive;
 
-/// Cauchy stress `σ_xx, σ_yy, σ_zz, σ_xy, σ_yz, σ_zx`.
-pub type Stress = SVector<f64, 6>;
+pub use rubmap_solid::material::Stress;
 
 /// Isotropic linear elasticity, in the model's consistent units. Default: titanium (`Ti-6Al-4V`) in mm-t-s-N.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct Material {
@@ -20,11 +20,27 @@ pub struct Material {
     pub poissons_ratio: f64,
     /// Mass density ρ > 0 (t/mm³).
     pub density: f64,
+    /// Yield strength (N/mm²); none unless given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub yield_strength: Option<f64>,
+    /// Ultimate strength (N/mm²); none unless given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ultimate_strength: Option<f64>,
+    /// Fatigue strength; none unless given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fatigue_strength: Option<FatigueStrength>,
 }
 
 impl Default for Material {
     fn default() -> Self {
-        Self { youngs_modulus: 114_000.0, poissons_ratio: 0.32, density: 4.43e-9 }
+        Self {
+            youngs_modulus: 114_000.0,
+            poissons_ratio: 0.32,
+            density: 4.43e-9,
+            yield_strength: None,
+            ultimate_strength: None,
+            fatigue_strength: None,
+        }
     }
 }
 
@@ -43,20 +59,45 @@ impl Material {
                 requirement: "must lie between -1 and 0.5, both excluded",
             });
         }
-        Ok(())
+        for (field, strength) in [
+            ("material.yield_strength", self.yield_strength),
+            ("material.ultimate_strength", self.ultimate_strength),
+            ("material.fatigue_strength.amplitude", self.fatigue_strength.as_ref().map(|f| f.amplitude)),
+        ] {
+            strength.map_or(Ok(()), |strength| positive(field, strength))?;
+        }
+        match &self.fatigue_strength {
+            Some(FatigueStrength { source, .. }) if source.trim().is_empty() => {
+                Err(ImpellerError::Parameter {
+                    field: "material.fatigue_strength.source",
+                    value: format!("\"{source}\""),
+                    requirement: "must say where the strength comes from",
+                })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The same for a package.
+    pub fn to_solid(&self) -> material::Material {
+        let Self { youngs_modulus, poissons_ratio, density, .. } = *self;
+        material::Material {
+            youngs_modulus,
+            poissons_ratio,
+            density,
+            yield_strength: self.yield_strength,
+            ultimate_strength: self.ultimate_strength,
+            fatigue_strength: self.fatigue_strength.clone(),
+        }
     }
 
     /// λ and μ of Lamé, `σ = λ tr(ε) 1 + 2μ ε`.
     pub fn lame_constants(&self) -> (f64, f64) {
-        let (e, nu) = (self.youngs_modulus, self.poissons_ratio);
-        (e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)), e / (2.0 * (1.0 + nu)))
+        material::lame_constants(self.youngs_modulus, self.poissons_ratio)
     }
 
     /// Stress under the displacement gradient `h_ij = ∂u_i/∂x_j`.
     pub fn stress(&self, h: &Matrix3<f64>) -> Stress {
-        let (lambda, mu) = self.lame_constants();
-        let normal = |i: usize| lambda * h.trace() + 2.0 * mu * h[(i, i)];
-        let shear = |i: usize, j: usize| mu * (h[(i, j)] + h[(j, i)]);
-        Stress::new(normal(0), normal(1), normal(2), shear(0, 1), shear(1, 2), shear(2, 0))
+        material::stress(self.lame_constants(), h)
     }
 }

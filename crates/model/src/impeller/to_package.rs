@@ -1,12 +1,22 @@
 //! A sector mesh into the content of a model package (docs/package.md).
 
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use rubmap_solid::element::ElementKind;
+
 use super::error::ImpellerError;
 use super::material::Material;
 use super::matrices::SectorMatrices;
-use super::mesh::SectorMesh;
+use super::mesh::{Elements, SectorMesh};
 use super::ranges::positive;
-use crate::package::raw::{Axis, Frame, Manifest, ManifestContact, RawDof, RawMatrix, RawNode, RawPackage};
+use crate::package::raw::{
+    Axis, Frame, Manifest, ManifestContact, ManifestMesh, RawDof, RawElement, RawMatrix, RawNode, RawPackage,
+};
 use rubmap_wheel::dynamics::sector::Units;
+
+/// Name of the one element set.
+const SET: &str = "WHEEL";
 
 /// Assembles the sector and packs it: cylindrical frame, unassembled high face, K at rest, Ω1/2 and Ω1.
 ///
@@ -42,6 +52,10 @@ pub fn to_package(
         dofs: "dofs.csv".to_owned(),
         cyclic,
         contact: contact.collect(),
+        mesh: Some(ManifestMesh {
+            elements: "elements.csv".to_owned(),
+            sets: BTreeMap::from([(SET.to_owned(), material.to_solid())]),
+        }),
     };
     let nodes = &sector.mesh.nodes;
     let dofs = &matrices.rest.dofs.list;
@@ -52,7 +66,24 @@ pub fn to_package(
         stiffness: speeds_rad_s.iter().map(|&speed| matrices.stiffness(speed)).collect(),
         mass: without_zeros(matrices.rest.mass()),
         gyroscopic: None,
+        elements: Some(elements(&sector.mesh.elements)),
     })
+}
+
+/// The element table: numbers count from 1.
+fn elements(elements: &Elements) -> Vec<RawElement> {
+    let set: Arc<str> = SET.into();
+    let kind = match elements {
+        Elements::Linear(_) => ElementKind::QM6,
+        Elements::Quadratic(_) => ElementKind::C3D20,
+    };
+    let element = |e: usize| RawElement {
+        id: e as u64 + 1,
+        kind,
+        set: Arc::clone(&set),
+        nodes: elements.nodes_of(e).iter().map(|&node| node as u64 + 1).collect(),
+    };
+    (0..elements.len()).map(element).collect()
 }
 
 /// Drops entries that are exactly zero (the mass does not couple z with the plane).

@@ -16,11 +16,16 @@ pub(super) struct Content {
 pub(super) struct SourceLines {
     pub(super) nodes: Vec<u64>,
     pub(super) dofs: Vec<u64>,
+    pub(super) elements: Vec<u64>,
 }
 
 impl SourceLines {
     pub(super) fn of_node(&self, row: usize) -> u64 {
         self.nodes.get(row).copied().unwrap_or(row as u64 + 1)
+    }
+
+    pub(super) fn of_element(&self, row: usize) -> u64 {
+        self.elements.get(row).copied().unwrap_or(row as u64 + 1)
     }
 
     pub(super) fn of_dof(&self, row: usize) -> u64 {

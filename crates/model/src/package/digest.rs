@@ -29,6 +29,7 @@ pub(super) fn digest<'a>(manifest: &Manifest, files: impl Iterator<Item = (&'a s
         .into_iter()
         .chain(&mut manifest.stiffness)
         .chain(&mut manifest.gyroscopic)
+        .chain(manifest.mesh.as_mut().map(|mesh| &mut mesh.elements))
     {
         *name = plain(name).to_owned();
     }
@@ -66,6 +67,7 @@ impl fmt::Debug for Stated<'_> {
             dofs,
             cyclic,
             contact,
+            mesh,
         } = self.0;
         let mut fields = f.debug_struct("Manifest");
         fields.field("name", name).field("sectors", sectors).field("units", units).field("axis", axis);
@@ -75,6 +77,9 @@ impl fmt::Debug for Stated<'_> {
             fields.field("gyroscopic", file);
         }
         fields.field("nodes", nodes).field("dofs", dofs).field("cyclic", cyclic).field("contact", contact);
+        if let Some(mesh) = mesh {
+            fields.field("mesh", mesh);
+        }
         fields.finish()
     }
 }
@@ -96,11 +101,14 @@ mod tests {
             "stiffness": ["k"], "nodes": "n", "dofs": "d", "cyclic": [[1, 2]], "contact": [{"node": 3, "normal": [1, 0, 0]}]}"#;
         let mut manifest: Manifest = serde_json::from_str(text).unwrap();
         let derived = format!("{manifest:?}");
-        assert_eq!(format!("{:?}", Stated(&manifest)), derived.replace("gyroscopic: None, ", ""));
+        assert_eq!(
+            format!("{:?}", Stated(&manifest)),
+            derived.replace("gyroscopic: None, ", "").replace(", mesh: None", "")
+        );
         manifest.gyroscopic = Some("g".to_owned());
         assert_eq!(
             format!("{:?}", Stated(&manifest)),
-            format!("{manifest:?}").replace(r#"Some("g")"#, r#""g""#)
+            format!("{manifest:?}").replace(r#"Some("g")"#, r#""g""#).replace(", mesh: None", "")
         );
     }
 }

@@ -10,16 +10,17 @@
 //! ([`calculix`]), and [`write()`] makes a file of it. Everything after it is shared.
 
 mod archive;
+mod by_place;
 pub mod calculix;
 mod check;
 mod content;
 mod digest;
 pub mod error;
-mod frame;
 mod limits;
 mod lines;
 mod manifest;
 mod matrix_market;
+mod mesh;
 mod nodes;
 mod npy;
 mod npz;
@@ -37,6 +38,7 @@ use std::path::Path;
 
 pub use error::PackageError;
 pub use limits::Limits;
+pub use mesh::read_mesh;
 pub use nodes::read_nodes;
 pub use npz::NpzWriter;
 pub use places::{Face, Place, Places, read_places};
@@ -44,6 +46,7 @@ pub use writer::write;
 
 use content::{Content, SourceLines};
 use raw::RawPackage;
+use rubmap_solid::mesh::SectorMesh;
 use rubmap_wheel::dynamics::sector::{SectorModel, SectorParts};
 
 /// A package that passed every check.
@@ -57,6 +60,8 @@ pub struct Imported {
     /// again, in other order or compression, with matrices gzipped or not, have the same address. The same matrices
     /// as Matrix Market and as `.npz` are different bytes, and have different ones.
     pub digest: String,
+    /// The elements, if the package has them.
+    pub mesh: Option<SectorMesh>,
 }
 
 /// Reads, checks and converts the package at `path`.
@@ -82,7 +87,8 @@ pub struct Imported {
 /// The first problem found, in the order: archive, `sector.json`, tables, matrices, what they say together.
 pub fn read(path: &Path, limits: &Limits) -> Result<Imported, PackageError> {
     let Content { package, lines, digest } = zip_package::load(path, limits)?;
-    Ok(Imported { sector: convert(package, &lines)?, digest })
+    let (sector, mesh) = convert(package, &lines)?;
+    Ok(Imported { sector, digest, mesh })
 }
 
 /// Reads the package at `path` as its files state it: the inverse of [`write()`]. Matrices come sorted by column, then
@@ -101,18 +107,22 @@ pub fn read_raw(path: &Path, limits: &Limits) -> Result<RawPackage, PackageError
 ///
 /// The first problem found; table lines in it are those that [`write()`] would give.
 pub fn to_sector(package: RawPackage) -> Result<SectorModel, PackageError> {
-    convert(package, &SourceLines::default())
+    convert(package, &SourceLines::default()).map(|(sector, _)| sector)
 }
 
-fn convert(mut package: RawPackage, lines: &SourceLines) -> Result<SectorModel, PackageError> {
-    let layout = check::check(&mut package, lines)?;
+fn convert(
+    mut package: RawPackage,
+    lines: &SourceLines,
+) -> Result<(SectorModel, Option<SectorMesh>), PackageError> {
+    let mut layout = check::check(&mut package, lines)?;
+    let mesh = layout.mesh.take();
     let names = package.manifest.clone();
     let row_names: Vec<u64> = layout.own_rows.iter().map(|&row| package.dofs[row as usize].node).collect();
     let sector = sound(partition::build(package, &layout));
     check::mass::check(&sector, &names.mass, &layout.own_rows, &row_names)?;
     let mut parts = sector.into_parts();
     units::count_time_in_seconds(&mut parts);
-    Ok(sound(parts))
+    Ok((sound(parts), mesh))
 }
 
 /// A sector of parts that were checked.

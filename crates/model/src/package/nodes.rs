@@ -8,7 +8,7 @@ use super::check::{cyclic, statement, tables};
 use super::error::PackageError;
 use super::limits::Limits;
 use super::raw::Frame;
-use super::zip_package;
+use super::zip_package::{self, Stated};
 use rubmap_wheel::dynamics::nodes::{NodeDof, SectorNode};
 
 /// Every node of the package at `path`, in the order of its node table; [`read`](super::read) has accepted it before.
@@ -16,7 +16,7 @@ use rubmap_wheel::dynamics::nodes::{NodeDof, SectorNode};
 /// # Errors
 /// Those of [`read`](super::read) that `sector.json` and the tables can cause.
 pub fn read_nodes(path: &Path, limits: &Limits) -> Result<Vec<SectorNode>, PackageError> {
-    let (manifest, nodes, dofs, lines) = zip_package::load_tables(path, limits)?;
+    let Stated { manifest, nodes, dofs, lines, .. } = zip_package::load_tables(path, limits)?;
     let frame = statement::check(&manifest)?;
     let index = tables::node_index(&manifest.nodes, &nodes, &lines)?;
     let (node_of_row, rows_of_node) = tables::rows(&manifest.dofs, &dofs, &lines, &index)?;
@@ -27,6 +27,7 @@ pub fn read_nodes(path: &Path, limits: &Limits) -> Result<Vec<SectorNode>, Packa
         // A high node has the DOF of its low node, in its components.
         let reference = if low_of[place] == NONE { place } else { low_of[place] as usize };
         let rows = rows_of_node[reference];
+        let coordinates = frame.coordinates(nodes[place].position);
         let [_, theta, _] = frame.coordinates(nodes[reference].position);
         let basis = frame.cylindrical(theta);
         // What a Cartesian package clamps in part keeps its Cartesian components (partition.rs).
@@ -42,6 +43,7 @@ pub fn read_nodes(path: &Path, limits: &Limits) -> Result<Vec<SectorNode>, Packa
         SectorNode {
             id: nodes[place].id,
             position: nodes[place].position,
+            coordinates,
             dofs: std::array::from_fn(dof),
             on_high_face: low_of[place] != NONE,
             contact: contact.get(&nodes[place].id).copied(),

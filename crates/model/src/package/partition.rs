@@ -20,9 +20,9 @@ use nalgebra::{Matrix3, Vector3};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 use super::check::layout::{Layout, NONE};
-use super::frame::Basis;
 use super::raw::{Frame, RawMatrix, RawPackage};
 use super::symmetric::Mirror;
+use rubmap_solid::frame::Basis;
 use rubmap_wheel::dynamics::sector::{ContactNode, CyclicMatrix, SectorParts};
 
 /// Builds the parts of the sector; matrices in parallel, each the same bits for any number of threads.

@@ -6,10 +6,10 @@ use std::path::Path;
 use nalgebra::Vector3;
 
 use super::error::PackageError;
-use super::frame::AxisFrame;
 use super::limits::Limits;
 use super::raw::{Frame, Manifest, RawDof, RawNode};
-use super::zip_package;
+use super::zip_package::{self, Stated};
+use rubmap_solid::frame::AxisFrame;
 
 /// Nodes of a sector.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,7 +48,7 @@ pub enum Face {
 /// # Errors
 /// The first problem found with the archive, `sector.json` or the tables.
 pub fn read_places(path: &Path, limits: &Limits) -> Result<Places, PackageError> {
-    let (manifest, nodes, dofs, _) = zip_package::load_tables(path, limits)?;
+    let Stated { manifest, nodes, dofs, .. } = zip_package::load_tables(path, limits)?;
     Ok(places(&manifest, &nodes, &dofs))
 }
 
@@ -60,7 +60,7 @@ fn places(manifest: &Manifest, nodes: &[RawNode], dofs: &[RawDof]) -> Places {
         faces.insert(*high, Face::High);
     }
     // Its axis has a direction, or it would not have passed.
-    let frame = AxisFrame::new(&manifest.axis);
+    let frame = AxisFrame::new(manifest.axis.origin, manifest.axis.direction);
     let place = |node: &RawNode| Place {
         id: node.id,
         position: frame.as_ref().map_or(node.position, |frame| frame.coordinates(node.position)),

@@ -1,5 +1,10 @@
 //! A package's content as its files state it, before any check: what readers produce and writers consume.
 
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use rubmap_solid::element::ElementKind;
+use rubmap_solid::material::Material;
 use serde::{Deserialize, Serialize};
 
 use rubmap_wheel::dynamics::sector::Units;
@@ -38,6 +43,19 @@ pub struct Manifest {
     pub cyclic: Vec<[u64; 2]>,
     /// Contact nodes from leading to trailing edge.
     pub contact: Vec<ManifestContact>,
+    /// The elements, if the package has them: without them there is no stress.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mesh: Option<ManifestMesh>,
+}
+
+/// The elements that the matrices were made of, and their materials.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ManifestMesh {
+    /// File name of the element table.
+    pub elements: String,
+    /// Material of each element set.
+    pub sets: BTreeMap<String, Material>,
 }
 
 impl Manifest {
@@ -124,6 +142,19 @@ pub struct RawDof {
     pub component: u8,
 }
 
+/// One line of the element table.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RawElement {
+    /// Element number.
+    pub id: u64,
+    /// What it is.
+    pub kind: ElementKind,
+    /// Name of its set.
+    pub set: Arc<str>,
+    /// Ids of its nodes, in CalculiX's order.
+    pub nodes: Box<[u64]>,
+}
+
 /// Entries of a symmetric or skew-symmetric matrix: the lower triangle (of a skew-symmetric one without its diagonal,
 /// which is zero), 0-based, each position once.
 #[derive(Debug, Clone, PartialEq)]
@@ -149,4 +180,6 @@ pub struct RawPackage {
     pub stiffness: Vec<RawMatrix>,
     /// Gyroscopic matrix G per unit speed, skew-symmetric.
     pub gyroscopic: Option<RawMatrix>,
+    /// Element table.
+    pub elements: Option<Vec<RawElement>>,
 }

@@ -1,15 +1,19 @@
-//! `nodes.csv` and `dofs.csv`: comma-separated, header optional, white space, blank lines and CRLF tolerated.
+//! `nodes.csv`, `dofs.csv` and `elements.csv`: comma-separated, header optional, white space, blank lines and CRLF tolerated.
 //!
 //! No field has a comma or a line end in it, so a line is a row. To the crate `csv` (1.4) a quote that nobody closes makes
 //! the rest of the file one field, which it holds; it counts a row behind blank lines from the first of them, and leaves
 //! quotes behind a space where they are.
 
+use std::collections::HashMap;
 use std::io::Read;
+use std::sync::Arc;
+
+use rubmap_solid::element::ElementKind;
 
 use super::error::TableProblem;
 use super::lines::{Fault, Lines};
 use super::quote::quoted;
-use super::raw::{RawDof, RawNode};
+use super::raw::{ManifestMesh, RawDof, RawElement, RawNode};
 
 type TableFault = Fault<TableProblem>;
 
@@ -22,7 +26,8 @@ pub(super) struct Table<T> {
 
 pub(super) fn read_nodes(source: impl Read, limit: usize) -> Result<Table<RawNode>, TableFault> {
     const COLUMNS: &str = "id,x,y,z";
-    read(source, limit, COLUMNS, |[id, x, y, z]: [&str; 4]| {
+    read(source, limit, COLUMNS, |text| {
+        let [id, x, y, z] = fields(text, COLUMNS)?;
         let position = [number("x", x)?, number("y", y)?, number("z", z)?];
         Ok(RawNode { id: node_id(id)?, position })
     })
@@ -30,7 +35,8 @@ pub(super) fn read_nodes(source: impl Read, limit: usize) -> Result<Table<RawNod
 
 pub(super) fn read_dofs(source: impl Read, limit: usize) -> Result<Table<RawDof>, TableFault> {
     const COLUMNS: &str = "node,component";
-    read(source, limit, COLUMNS, |[node, component]: [&str; 2]| {
+    read(source, limit, COLUMNS, |text| {
+        let [node, component] = fields(text, COLUMNS)?;
         let node = node_id(node)?;
         match component {
             "1" => Ok(RawDof { node, component: 1 }),
@@ -41,11 +47,45 @@ pub(super) fn read_dofs(source: impl Read, limit: usize) -> Result<Table<RawDof>
     })
 }
 
-fn read<T, const C: usize>(
+/// Elements, whose sets must be among those of `mesh`.
+pub(super) fn read_elements(
+    source: impl Read,
+    limit: usize,
+    mesh: &ManifestMesh,
+) -> Result<Table<RawElement>, TableFault> {
+    const COLUMNS: &str = "id,type,set,n1,n2";
+    let sets: HashMap<&str, Arc<str>> =
+        mesh.sets.keys().map(|name| (name.as_str(), Arc::from(name.as_str()))).collect();
+    read(source, limit, COLUMNS, |text| {
+        let mut words = text.split(',').map(unquoted);
+        let mut word = || words.next().unwrap_or_default();
+        let (id, kind, set) = (word(), word(), word());
+        let id = id.parse().map_err(|_| TableProblem::BadElementId { text: quoted(id) })?;
+        let Some(kind) = ElementKind::named(kind) else {
+            return Err(TableProblem::UnknownElementType { element: id, text: quoted(kind) });
+        };
+        let Some(set) = sets.get(set) else {
+            return Err(TableProblem::ElementWithoutMaterial { element: id, set: quoted(set) });
+        };
+        let found = words.clone().count();
+        if found != kind.nodes() {
+            return Err(TableProblem::ElementNodeCount {
+                element: id,
+                kind: kind.name(),
+                found,
+                expected: kind.nodes(),
+            });
+        }
+        let nodes = words.map(node_id).collect::<Result<_, _>>()?;
+        Ok(RawElement { id, kind, set: Arc::clone(set), nodes })
+    })
+}
+
+fn read<T>(
     source: impl Read,
     limit: usize,
     columns: &'static str,
-    parse: impl Fn([&str; C]) -> Result<T, TableProblem>,
+    parse: impl Fn(&str) -> Result<T, TableProblem>,
 ) -> Result<Table<T>, TableFault> {
     let mut lines = Lines::new(source);
     let mut table = Table { rows: Vec::new(), lines: Vec::new() };
@@ -61,7 +101,7 @@ fn read<T, const C: usize>(
         } else if table.rows.len() == limit {
             Err(TableProblem::TooManyRows { limit })
         } else {
-            fields(text, columns).and_then(&parse).map(Some)
+            parse(text).map(Some)
         };
         match row {
             Err(problem) => return Err(Fault::At { line: lines.number(), problem }),

@@ -32,6 +32,15 @@ pub fn write(package: &RawPackage, out: impl Write + Seek) -> Result<(), Package
     add(&mut zip, &names.dofs, |file| {
         package.dofs.iter().try_for_each(|dof| writeln!(file, "{},{}", dof.node, dof.component))
     })?;
+    if let (Some(mesh), Some(elements)) = (&names.mesh, &package.elements) {
+        add(&mut zip, &mesh.elements, |file| {
+            elements.iter().try_for_each(|element| {
+                write!(file, "{},{},{}", element.id, element.kind.name(), element.set)?;
+                element.nodes.iter().try_for_each(|node| write!(file, ",{node}"))?;
+                writeln!(file)
+            })
+        })?;
+    }
     add_matrix(&mut zip, &names.mass, &package.mass, Mirror::Symmetric)?;
     let stiffness = || names.stiffness.iter().zip(&package.stiffness);
     for (k, (name, matrix)) in stiffness().enumerate() {

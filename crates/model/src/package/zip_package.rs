@@ -13,7 +13,7 @@ use super::error::{
 use super::limits::Limits;
 use super::lines::Fault;
 use super::quote::quoted;
-use super::raw::{Manifest, MatrixFormat, RawDof, RawMatrix, RawNode, RawPackage};
+use super::raw::{Manifest, MatrixFormat, RawDof, RawElement, RawMatrix, RawNode, RawPackage};
 use super::symmetric::Mirror;
 use super::tables::Table;
 use super::{check, digest, manifest, matrix_market, npz, tables};
@@ -21,11 +21,18 @@ use super::{check, digest, manifest, matrix_market, npz, tables};
 /// Reads every file of the archive; the matrices in parallel.
 pub(super) fn load(path: &Path, limits: &Limits) -> Result<Content, PackageError> {
     let archive = Archive::open(path, limits)?;
-    let Tables { manifest, files, nodes, dofs } = read_tables(&archive, limits)?;
-    let lines = SourceLines { nodes: nodes.value.lines, dofs: dofs.value.lines };
+    let Tables { manifest, files, nodes, dofs, elements } = read_tables(&archive, limits)?;
+    let (elements, elements_lines, elements_hash) = match elements {
+        Some(Hashed { value, sha256 }) => (Some(value.rows), value.lines, Some(sha256)),
+        None => (None, Vec::new(), None),
+    };
+    let lines = SourceLines { nodes: nodes.value.lines, dofs: dofs.value.lines, elements: elements_lines };
     // Before the matrices, which are the long work, are read.
     let index = check::tables::node_index(&manifest.nodes, &nodes.value.rows, &lines)?;
     check::tables::rows(&manifest.dofs, &dofs.value.rows, &lines, &index)?;
+    if let (Some(mesh), Some(elements)) = (&manifest.mesh, &elements) {
+        check::elements::check(mesh, elements, &nodes.value.rows, &lines, &index)?;
+    }
     drop(index);
     let rows = dofs.value.rows.len();
     let matrix_files: Vec<(&String, Mirror)> = std::iter::once(&files.mass)
@@ -40,6 +47,7 @@ pub(super) fn load(path: &Path, limits: &Limits) -> Result<Content, PackageError
         .collect();
     let mut matrices = matrices.into_iter().collect::<Result<Vec<_>, _>>()?;
     let mut hashes = vec![(files.nodes.as_str(), nodes.sha256), (files.dofs.as_str(), dofs.sha256)];
+    hashes.extend(files.elements.as_deref().zip(elements_hash));
     hashes.extend(
         matrix_files.iter().map(|(file, _)| file.as_str()).zip(matrices.iter().map(|matrix| matrix.sha256)),
     );
@@ -57,20 +65,31 @@ pub(super) fn load(path: &Path, limits: &Limits) -> Result<Content, PackageError
             mass: mass.value,
             stiffness: stiffness.into_iter().map(|matrix| matrix.value).collect(),
             gyroscopic: gyroscopic.map(|matrix| matrix.value),
+            elements,
         },
         lines,
         digest,
     })
 }
 
+/// What a package says besides its matrices.
+pub(super) struct Stated {
+    pub(super) manifest: Manifest,
+    pub(super) nodes: Vec<RawNode>,
+    pub(super) dofs: Vec<RawDof>,
+    pub(super) elements: Option<Vec<RawElement>>,
+    pub(super) lines: SourceLines,
+}
+
 /// `sector.json` and the tables of the archive at `path`, with the lines of the tables' rows.
-pub(super) fn load_tables(
-    path: &Path,
-    limits: &Limits,
-) -> Result<(Manifest, Vec<RawNode>, Vec<RawDof>, SourceLines), PackageError> {
-    let Tables { manifest, nodes, dofs, .. } = read_tables(&Archive::open(path, limits)?, limits)?;
-    let lines = SourceLines { nodes: nodes.value.lines, dofs: dofs.value.lines };
-    Ok((manifest, nodes.value.rows, dofs.value.rows, lines))
+pub(super) fn load_tables(path: &Path, limits: &Limits) -> Result<Stated, PackageError> {
+    let Tables { manifest, nodes, dofs, elements, .. } = read_tables(&Archive::open(path, limits)?, limits)?;
+    let (elements, of_elements) = match elements {
+        Some(table) => (Some(table.value.rows), table.value.lines),
+        None => (None, Vec::new()),
+    };
+    let lines = SourceLines { nodes: nodes.value.lines, dofs: dofs.value.lines, elements: of_elements };
+    Ok(Stated { manifest, nodes: nodes.value.rows, dofs: dofs.value.rows, elements, lines })
 }
 
 /// What is read before the matrices.
@@ -79,6 +98,7 @@ struct Tables {
     files: Files,
     nodes: Hashed<Table<RawNode>>,
     dofs: Hashed<Table<RawDof>>,
+    elements: Option<Hashed<Table<RawElement>>>,
 }
 
 fn read_tables(archive: &Archive, limits: &Limits) -> Result<Tables, PackageError> {
@@ -88,7 +108,13 @@ fn read_tables(archive: &Archive, limits: &Limits) -> Result<Tables, PackageErro
     let files = Files::resolve(archive, &manifest)?;
     let nodes = read_table(archive, &files.nodes, |source| tables::read_nodes(source, limits.table_rows))?;
     let dofs = read_table(archive, &files.dofs, |source| tables::read_dofs(source, limits.table_rows))?;
-    Ok(Tables { manifest, files, nodes, dofs })
+    let elements = match (&files.elements, &manifest.mesh) {
+        (Some(file), Some(mesh)) => {
+            Some(read_table(archive, file, |source| tables::read_elements(source, limits.table_rows, mesh))?)
+        }
+        _ => None,
+    };
+    Ok(Tables { manifest, files, nodes, dofs, elements })
 }
 
 /// Names under which the files are stored in the archive.
@@ -98,6 +124,7 @@ struct Files {
     gyroscopic: Option<String>,
     nodes: String,
     dofs: String,
+    elements: Option<String>,
 }
 
 impl Files {
@@ -131,6 +158,9 @@ impl Files {
                 .transpose()?,
             nodes: resolve("/nodes".to_owned(), &manifest.nodes, "the node table")?,
             dofs: resolve("/dofs".to_owned(), &manifest.dofs, "the DOF table")?,
+            elements: (manifest.mesh.as_ref())
+                .map(|mesh| resolve("/mesh/elements".to_owned(), &mesh.elements, "the element table"))
+                .transpose()?,
         };
         match archive.names().find(|name| roles.iter().all(|(file, _)| file != name)) {
             Some(surplus) => Err(PackageError::archive(surplus.to_owned(), ArchiveProblem::Surplus)),

@@ -30,7 +30,7 @@ pub(super) fn critical_speeds(tables: &[CriticalSpeeds]) -> Markup {
 }
 
 fn of_sensor(table: &CriticalSpeeds) -> Markup {
-    let unit = &table.units.length;
+    let unit = table.sensor.unit(&table.units);
     let peaks = || table.critical_speeds.iter();
     let (used, judged) =
         (peaks().any(|peak| peak.utilisation.is_some()), peaks().any(|peak| peak.validity.is_some()));

@@ -6,12 +6,15 @@ use rubmap_analysis::result::{ForceMap, Point, Quantity, SpeedHistories, SpeedSp
 use rubmap_wheel::dynamics::sector::Units;
 
 use super::fixtures::{contact, recorded, sector, spectra, worn};
+use super::impeller::{SECTORS, impeller};
+use super::stresses::{of_sweep, stressed_critical, stressed_map};
 use super::studies::{RUNS, first_revolutions, study};
 use super::{critical, decoded, map, modes, point, units, waves};
 use crate::{
-    ForceQuantity, Frame, HistoryQuantity, LevelColour, PngError, SectionView, VerticalAxis, Window,
-    campbell, campbell_fixed_frame, critical_speeds, error_over_step, force_map, histories, interaction_map,
-    map_sheet, png, section, spectrum, speed_histories, trajectories, wear_map, work_precision,
+    ForceQuantity, Frame, HaighColour, HistoryQuantity, LevelColour, PngError, SectionView, SurfaceView,
+    VerticalAxis, Window, campbell, campbell_fixed_frame, critical_speeds, error_over_step, force_map, haigh,
+    histories, interaction_map, map_sheet, png, section, spectrum, speed_histories, surface, trajectories,
+    wear_map, work_precision,
 };
 
 pub(super) fn credentials() -> Point {
@@ -142,6 +145,33 @@ fn all() -> Vec<Drawing> {
             &["axial coordinate z, mm", "radius r, mm"],
         ),
         (section(&sector(5), SectionView::Cyclic), "Cyclic faces", &["x, mm", "y, mm"]),
+        (
+            surface(&impeller(0..SECTORS, 4, 2.0), SurfaceView::Front),
+            "Nodal diameter 2, mode 1",
+            &["x, mm", "y, mm"],
+        ),
+        (
+            surface(&impeller(0..1, 4, 2.0), SurfaceView::Meridional),
+            "Nodal diameter 2, mode 1",
+            &["axial coordinate z, mm", "radius r, mm"],
+        ),
+        (
+            haigh(&of_sweep(&stressed_map()), HaighColour::Utilisation),
+            "Haigh diagram",
+            &["mean stress (signed von Mises), MPa", "alternating stress, MPa"],
+        ),
+        (
+            interaction_map(
+                &stressed_map(),
+                Some(&stressed_critical()),
+                Some(&modes()),
+                VerticalAxis::EngineOrder,
+                Window::default(),
+                LevelColour::Utilisation,
+            ),
+            "Interaction map",
+            &["rotational speed Ω, rpm", "engine order k"],
+        ),
         (
             work_precision(&study(&RUNS, true), 0, Quantity::Amplitude),
             "Work and precision: steady amplitude",

@@ -202,7 +202,7 @@ fn the_level_is_coloured_by_utilisation_on_request() {
     assert_eq!(found, expected);
     let words = texts(&drawing);
     for words_of_key in
-        ["from 0.25", "from 0.5", "from 0.75", "1 and above", "U utilisation", "11,000 rpm · EO 2 · U 0.583"]
+        ["from 0.25", "from 0.5", "from 0.75", "1 and above", "U utilisation", "11,000 rpm · U 0.583"]
     {
         assert!(words.contains(words_of_key), "{words_of_key}: {words}");
     }

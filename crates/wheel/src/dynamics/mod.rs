@@ -24,6 +24,7 @@ pub mod oscillators;
 pub mod reduction;
 pub mod schemes;
 pub mod sector;
+pub mod states;
 pub mod statistics;
 pub mod symmetry;
 pub mod waves;

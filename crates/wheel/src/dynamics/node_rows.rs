@@ -14,6 +14,8 @@ use super::reduction::ReducedWheel;
 pub struct NodeRows {
     /// By id: their index, and whether they lie on the high face.
     nodes: BTreeMap<u64, (usize, bool)>,
+    /// (r, θ, z) of each.
+    coordinates: Vec<[f64; 3]>,
     /// Per nodal diameter, `3 nodes × unknowns`: r, θ, z of every node.
     harmonics: Vec<Mat<c64>>,
 }
@@ -45,12 +47,18 @@ impl NodeRows {
             harmonics.push(rows);
         }
         let place = |(index, node): (usize, &SectorNode)| (node.id, (index, node.on_high_face));
-        Ok(Self { nodes: nodes.iter().enumerate().map(place).collect(), harmonics })
+        let coordinates = nodes.iter().map(|node| node.coordinates).collect();
+        Ok(Self { nodes: nodes.iter().enumerate().map(place).collect(), coordinates, harmonics })
     }
 
     /// Index of node `id`, and whether it lies on the high face; none if it is not among them.
     pub fn find(&self, id: u64) -> Option<(usize, bool)> {
         self.nodes.get(&id).copied()
+    }
+
+    /// Where the node of this index is: r, θ, z.
+    pub fn coordinates(&self, index: usize) -> [f64; 3] {
+        self.coordinates[index]
     }
 
     /// `wheel` with these nodes below its contact nodes, at its speed. They can be read, not loaded.

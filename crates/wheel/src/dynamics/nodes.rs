@@ -7,6 +7,8 @@ pub struct SectorNode {
     pub id: u64,
     /// Position in the user's Cartesian coordinates.
     pub position: [f64; 3],
+    /// The same about the axis of rotation: r, θ, z.
+    pub coordinates: [f64; 3],
     /// What it can do; none of a component that is clamped.
     pub dofs: [Option<NodeDof>; 3],
     /// Whether it lies on the high face: its displacement in sector s is that of a low node, whose DOF these are, in sector

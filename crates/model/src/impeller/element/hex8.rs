@@ -3,10 +3,11 @@
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 
 use super::blocks::Blocks;
-use super::gauss::{GaussPoint, gauss_points};
 use super::hexahedron::{Hexahedron, elastic_blocks, inverse_transpose};
-use super::natural::{CORNERS, Natural};
 use crate::impeller::material::{Material, Stress};
+use rubmap_solid::gauss::{GaussPoint, gauss_points};
+use rubmap_solid::natural::Natural;
+use rubmap_solid::shape::hexahedron;
 
 /// An 8-node hexahedron with incompatible modes.
 ///
@@ -62,14 +63,11 @@ impl Hexahedron<8> for Hex8 {
     }
 
     fn shape_functions(xi: Natural) -> [f64; 8] {
-        CORNERS.map(|c| (0..3).map(|d| 0.5 * (1.0 + c[d] * xi[d])).product())
+        hexahedron::linear(xi)
     }
 
     fn shape_derivatives(xi: Natural) -> [Vector3<f64>; 8] {
-        CORNERS.map(|c| {
-            let f: [f64; 3] = std::array::from_fn(|d| 0.5 * (1.0 + c[d] * xi[d]));
-            Vector3::from_fn(|d, _| 0.5 * c[d] * f[(d + 1) % 3] * f[(d + 2) % 3])
-        })
+        hexahedron::linear_derivatives(xi)
     }
 
     fn stiffness(&self, material: &Material) -> Blocks<8> {

@@ -3,9 +3,9 @@
 use nalgebra::{Matrix3, SVector, Vector3};
 
 use super::blocks::{Blocks, NodalMatrix};
-use super::gauss::{GaussPoint, gauss_points};
-use super::natural::{CORNERS, Natural};
 use crate::impeller::material::{Material, Stress};
+use rubmap_solid::gauss::{GaussPoint, gauss_points};
+use rubmap_solid::natural::{CORNERS, Natural};
 
 /// A hexahedron of N nodes at known Cartesian positions.
 ///

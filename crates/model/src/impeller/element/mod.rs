@@ -8,17 +8,15 @@
 //! `K_ab = λ S_ab + μ S_abᵀ + μ tr(S_ab) 1`.
 
 mod blocks;
-mod gauss;
 mod hex20;
 mod hex8;
 mod hexahedron;
-mod natural;
 
 pub use blocks::{Blocks, NodalMatrix, nodal_blocks};
-pub use gauss::{GaussPoint, gauss_points};
 pub use hex8::Hex8;
 pub use hex20::Hex20;
 pub use hexahedron::Hexahedron;
-pub use natural::{CORNERS, EDGES, Natural};
+pub use rubmap_solid::gauss::{GaussPoint, gauss_points};
+pub use rubmap_solid::natural::{CORNERS, EDGES, Natural};
 
 pub use super::material::Stress;

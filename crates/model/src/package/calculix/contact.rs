@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 use super::error::{CalculixError, LineProblem, ModelProblem, NoOrder};
 use super::model::Normals;
 use super::text::{self, TextLines};
-use crate::package::frame::{AxisFrame, distance};
+use rubmap_solid::frame::{AxisFrame, distance};
 
 /// A contact node in the making.
 #[derive(Debug, Clone, Copy, PartialEq)]

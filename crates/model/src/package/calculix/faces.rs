@@ -7,9 +7,9 @@ use super::deck::Deck;
 use super::error::{ModelProblem, NoCopy};
 use super::matrices::DofList;
 use super::model::CalculixModel;
-use super::places::Places;
 use super::sets::set;
-use crate::package::frame::AxisFrame;
+use crate::package::by_place::Places;
+use rubmap_solid::frame::AxisFrame;
 
 /// Nodes of the low and of the high face; the latter empty for a whole wheel, both for a single blade whose faces
 /// nothing names: one sector has no neighbour.

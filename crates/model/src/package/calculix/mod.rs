@@ -14,7 +14,6 @@ mod error;
 mod faces;
 mod matrices;
 mod model;
-mod places;
 mod sets;
 mod spin;
 mod text;
@@ -30,11 +29,12 @@ pub use error::{CalculixError, LineProblem, ModelProblem, NoCopy, NoOrder};
 pub use model::{CalculixModel, Normals};
 pub use spin::SpinFinding;
 
-use super::frame::AxisFrame;
+use super::by_place;
 use super::raw::{Axis, Frame, Manifest, ManifestContact, RawMatrix, RawNode, RawPackage};
 use deck::Deck;
 use faces::{check_ties, faces, pair};
 use matrices::DofList;
+use rubmap_solid::frame::AxisFrame;
 use sets::set;
 
 /// What an import found out, for the user to compare with what they know.
@@ -60,7 +60,7 @@ pub fn import(model: &CalculixModel) -> Result<(RawPackage, ImportSummary), Calc
     let sectors = model.sectors.or_else(|| deck.cyclic.as_ref().map(|cyclic| cyclic.sectors));
     let sectors = sectors.filter(|&sectors| sectors > 0).ok_or(ModelProblem::SectorsUnknown)?;
     let axis = axis(model, &deck);
-    let frame = AxisFrame::new(&axis).ok_or(ModelProblem::AxisWithoutDirection)?;
+    let frame = AxisFrame::new(axis.origin, axis.direction).ok_or(ModelProblem::AxisWithoutDirection)?;
     let rest = DofList::read(&extended(&model.rest, ".dof"))?;
     let positions: HashMap<u64, [f64; 3]> = deck.nodes.iter().map(|(node, at)| (*node, *at)).collect();
     require_coordinates(&positions, rest.dofs.iter().map(|dof| dof.node), &rest.path.display().to_string())?;
@@ -68,7 +68,7 @@ pub fn import(model: &CalculixModel) -> Result<(RawPackage, ImportSummary), Calc
     require_coordinates(&positions, contact_set.iter().copied(), &model.contact_set)?;
     let (low, high) = faces(model, &deck, sectors)?;
     require_coordinates(&positions, low.iter().chain(&high).copied(), "the cyclic faces")?;
-    let tolerance = places::tolerance(rest.dofs.iter().map(|dof| positions[&dof.node]));
+    let tolerance = by_place::tolerance(rest.dofs.iter().map(|dof| positions[&dof.node]));
     let mut files = vec![extended(&model.rest, ".mas"), extended(&model.rest, ".sti")];
     files.extend(model.at_speed.iter().map(|(_, job)| extended(job, ".sti")));
     let mut read = vec![matrices::read(&files[0], &rest, None)?, matrices::read(&files[1], &rest, None)?];
@@ -140,8 +140,9 @@ pub fn import(model: &CalculixModel) -> Result<(RawPackage, ImportSummary), Calc
         dofs: "dofs.csv".to_owned(),
         cyclic: pairs,
         contact: summary.contact.iter().map(|point| manifest_contact(point, &frame)).collect(),
+        mesh: None,
     };
-    Ok((RawPackage { manifest, nodes, dofs, mass, stiffness, gyroscopic: None }, summary))
+    Ok((RawPackage { manifest, nodes, dofs, mass, stiffness, gyroscopic: None, elements: None }, summary))
 }
 
 fn manifest_contact(point: &ContactPoint, frame: &AxisFrame) -> ManifestContact {

@@ -17,9 +17,9 @@ use nalgebra::Vector3;
 
 use super::error::{ModelProblem, NoCopy};
 use super::matrices::DofList;
-use super::places::Places;
-use crate::package::frame::AxisFrame;
+use crate::package::by_place::Places;
 use crate::package::raw::{RawDof, RawMatrix};
+use rubmap_solid::frame::AxisFrame;
 
 /// Sectors may differ by this much of the largest force: meshes copied with six digits stay well below.
 const CYCLIC_TOLERANCE: f64 = 1e-3;

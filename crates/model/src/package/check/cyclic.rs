@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use super::layout::{NONE, components};
 use super::tables::NodeIndex;
 use crate::package::error::{ManifestProblem, PackageError};
-use crate::package::frame::{AxisFrame, Basis, distance};
 use crate::package::raw::{Frame, Manifest, RawPackage};
+use rubmap_solid::frame::{AxisFrame, Basis, distance};
 
 /// Distance between a high node and its turned low node, relative to the diagonal of the sector's bounding box.
 /// Six printed digits stay below it; neighbouring nodes of any usable mesh are far above.

@@ -1,7 +1,8 @@
 //! What the checks leave behind: which row of a package is what.
 
 use crate::package::error::Components;
-use crate::package::frame::AxisFrame;
+use rubmap_solid::frame::AxisFrame;
+use rubmap_solid::mesh::SectorMesh;
 
 /// No such row or node.
 pub(crate) const NONE: u32 = u32::MAX;
@@ -26,6 +27,8 @@ pub(crate) struct Layout {
     pub(crate) contact: Vec<u32>,
     /// Contact normals, of length 1, in the package's frame.
     pub(crate) normals: Vec<[f64; 3]>,
+    /// The elements, if the package has them.
+    pub(crate) mesh: Option<SectorMesh>,
 }
 
 /// The components of a node that the DOF table has.

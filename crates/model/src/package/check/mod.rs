@@ -5,9 +5,12 @@
 
 mod contact;
 pub(super) mod cyclic;
+pub(super) mod elements;
 pub(super) mod layout;
 pub(super) mod mass;
+mod materials;
 mod matrices;
+pub(super) mod mesh;
 pub(super) mod statement;
 pub(super) mod tables;
 
@@ -25,6 +28,19 @@ pub(super) fn check(package: &mut RawPackage, lines: &SourceLines) -> Result<Lay
     matrices::check(package)?;
     let (high_of, low_of) = cyclic::check(package, &frame, &index, &rows_of_node)?;
     let (contact, normals) = contact::check(package, &index, &rows_of_node, &high_of, &low_of)?;
+    let faces = mesh::Faces { high_of: &high_of, low_of: &low_of };
+    let mesh = mesh::check(package, lines, &frame, &index, &rows_of_node, &faces)?;
     let (own_rows, own_of_row) = own_of_rows(&node_of_row, &rows_of_node, &low_of);
-    Ok(Layout { frame, node_of_row, rows_of_node, high_of, low_of, own_rows, own_of_row, contact, normals })
+    Ok(Layout {
+        frame,
+        node_of_row,
+        rows_of_node,
+        high_of,
+        low_of,
+        own_rows,
+        own_of_row,
+        contact,
+        normals,
+        mesh,
+    })
 }

@@ -1,9 +1,10 @@
 //! What `sector.json` says by itself.
 
+use super::materials;
 use crate::package::error::{ManifestProblem, PackageError};
-use crate::package::frame::AxisFrame;
 use crate::package::raw::{LONGEST_NAME, Manifest};
 use crate::package::units;
+use rubmap_solid::frame::AxisFrame;
 
 /// Wheels with more sectors are typing errors; the sector Fourier basis grows with the square.
 const MOST_SECTORS: usize = 1000;
@@ -39,7 +40,7 @@ pub(crate) fn check(manifest: &Manifest) -> Result<AxisFrame, PackageError> {
     if manifest.axis.direction.iter().any(|x| !x.is_finite()) {
         return wrong("/axis/direction", ManifestProblem::NotFinite);
     }
-    let Some(frame) = AxisFrame::new(&manifest.axis) else {
+    let Some(frame) = AxisFrame::new(manifest.axis.origin, manifest.axis.direction) else {
         return wrong("/axis/direction", ManifestProblem::AxisWithoutDirection);
     };
     let speeds = &manifest.speeds_rad_s;
@@ -66,6 +67,9 @@ pub(crate) fn check(manifest: &Manifest) -> Result<AxisFrame, PackageError> {
         let problem =
             ManifestProblem::StiffnessCount { matrices: manifest.stiffness.len(), speeds: speeds.len() };
         return wrong("/stiffness", problem);
+    }
+    if let Some(mesh) = &manifest.mesh {
+        materials::check(mesh)?;
     }
     Ok(frame)
 }

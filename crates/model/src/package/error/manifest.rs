@@ -221,6 +221,37 @@ pub enum ManifestProblem {
         /// High node id.
         high: u64,
     },
+    /// A constant or strength that must be positive.
+    #[error("the value is {value}; it must be positive")]
+    NotPositive {
+        /// Value given.
+        value: f64,
+    },
+    /// Poisson's ratio out of range.
+    #[error("Poisson's ratio is {value}; it lies between -1 and 0.5, both excluded")]
+    PoissonsRatio {
+        /// Value given.
+        value: f64,
+    },
+    /// A fatigue strength from nowhere.
+    #[error(
+        "say where the fatigue strength comes from: standard or test, number of cycles, surface, temperature"
+    )]
+    NoSource,
+    /// A material that nothing is made of.
+    #[error("no element of {elements} is of this set; remove it, or look at the sets of the elements")]
+    SetUnused {
+        /// File name of the element table.
+        elements: String,
+    },
+    /// A contact node outside the mesh.
+    #[error("contact node {node} belongs to no element of {elements}")]
+    ContactWithoutElement {
+        /// Its id.
+        node: u64,
+        /// File name of the element table.
+        elements: String,
+    },
     /// No contact nodes.
     #[error("no contact node is named; nothing could ever touch the casing")]
     NoContact,

@@ -154,6 +154,7 @@ impl Bar {
             revolutions: 1,
             window_revolutions: 1,
             detail: None,
+            states: None,
         };
         let mut run = match ground {
             Some(ground) => simulation.run_against(ground, &|_| true),

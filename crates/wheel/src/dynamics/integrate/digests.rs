@@ -87,6 +87,7 @@ fn digest(arch: Arch, scheme: Scheme, damped: bool, touching: bool) -> String {
         revolutions: 2,
         window_revolutions: 1,
         detail: None,
+        states: None,
     }
     .run_on(arch, &|_| true);
     let Outcome::Completed(history) = run.outcome else { panic!("{:?}", run.outcome) };

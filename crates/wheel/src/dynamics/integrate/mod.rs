@@ -11,6 +11,7 @@ mod recorder;
 mod residual;
 mod run;
 mod simulation;
+mod states;
 mod step_flexibility;
 mod stepper;
 mod surroundings;
@@ -23,6 +24,7 @@ pub use self::bounds::{TipComponent, TipDisplacement};
 pub use self::detail::DetailHistory;
 pub use self::run::{Divergence, History, MAX_TABLE_VALUES, Outcome, Run};
 pub use self::simulation::{DIVERGED_SHARE_OF_RADIUS, Detail, SensorRow, Simulation};
+pub use self::states::ModalStates;
 use self::stepper::Stepper;
 pub use self::tally::{ContactRecord, PairContact};
 pub use self::tips::{COMPONENTS, TipMotion};
@@ -34,8 +36,8 @@ impl Simulation<'_> {
     /// stops the run.
     ///
     /// # Panics
-    /// If the sample count does not divide the step count, the window or the revolutions of [`Self::detail`] exceed the run, or an
-    /// initial mode is not integrated.
+    /// If the sample count does not divide the step count, the window or the revolutions of [`Self::detail`] or [`Self::states`]
+    /// exceed the run, or an initial mode is not integrated.
     pub fn run(&self, watch: &dyn Fn(f64) -> bool) -> Run {
         self.dispatch(pulp::Arch::new(), Stepper::new(self), watch)
     }
@@ -57,10 +59,8 @@ impl Simulation<'_> {
     fn dispatch(&self, arch: pulp::Arch, mut stepper: Stepper, watch: &dyn Fn(f64) -> bool) -> Run {
         assert!(self.steps_per_revolution.is_multiple_of(self.samples_per_revolution));
         assert!(self.window_revolutions <= self.revolutions);
-        assert!(
-            self.detail
-                .is_none_or(|Detail { revolutions: (from, to), .. }| from < to && to <= self.revolutions)
-        );
+        let recorded = self.detail.map(|detail| detail.revolutions).into_iter().chain(self.states);
+        recorded.for_each(|(from, to)| assert!(from < to && to <= self.revolutions));
         // Who does not want the run says so again soon.
         watch(0.0);
         arch.dispatch(Loop { simulation: self, stepper: &mut stepper, watch })

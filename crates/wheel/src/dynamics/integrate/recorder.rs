@@ -4,6 +4,7 @@ use pulp::Simd;
 
 use super::super::energy::EnergyAudit;
 use super::super::initial::InitialMode;
+use super::super::modal_wheel::ModalWheel;
 use super::super::oscillators::Oscillators;
 use super::super::oscillators::rows::Rows;
 use super::decimation::Decimation;
@@ -11,6 +12,7 @@ use super::detail::DetailRecorder;
 use super::residual::ResidualDisplacement;
 use super::run::History;
 use super::simulation::Simulation;
+use super::states::StateRecorder;
 use super::tally::ContactInterval;
 use super::tips::TipTally;
 use rubmap_numerics::sector_fourier::SectorFourier;
@@ -29,6 +31,7 @@ pub(super) struct Recorder {
     decimation: Decimation,
     tips: TipTally,
     detail: Option<DetailRecorder>,
+    states: Option<StateRecorder>,
     history: History,
 }
 
@@ -56,6 +59,7 @@ impl Recorder {
             residual: ResidualDisplacement::until_applied(simulation, oscillators, &directions),
             tips: TipTally::new(simulation),
             detail: simulation.detail.map(|detail| DetailRecorder::new(simulation, detail, interval)),
+            states: simulation.states.map(|states| StateRecorder::new(simulation, states, oscillators)),
             history: History {
                 displacement: (0..sensors)
                     .map(|_| Vec::with_capacity(samples * simulation.revolutions))
@@ -127,6 +131,20 @@ impl Recorder {
         self.tips.sample(simd, oscillators, fourier, force);
     }
 
+    /// Keeps all modes at a sample, if they are wanted; `force` as of [`Self::read`].
+    #[inline(always)]
+    pub(super) fn keep_state(
+        &mut self,
+        step: u64,
+        oscillators: &Oscillators,
+        fourier: &SectorFourier,
+        force: Option<&[f64]>,
+    ) {
+        if let Some(states) = &mut self.states {
+            states.sample(step, oscillators, fourier, force);
+        }
+    }
+
     /// Where contact between this sample and the last one is wanted.
     #[inline(always)]
     pub(super) fn contact_interval(&mut self, step: u64) -> Option<&mut ContactInterval> {
@@ -139,11 +157,19 @@ impl Recorder {
         }
     }
 
-    /// Ends the run after `steps`, with its modes as they are.
-    pub(super) fn end(&mut self, fourier: &SectorFourier, modes: Vec<InitialMode>, steps: u64) {
+    /// Ends the run of `wheel` after `steps`, with its modes as they are.
+    pub(super) fn end(
+        &mut self,
+        wheel: &ModalWheel,
+        oscillators: &Oscillators,
+        fourier: &SectorFourier,
+        (modes, steps): (Vec<InitialMode>, u64),
+    ) {
         self.history.end = modes;
         self.history.tips = self.tips.motions();
         self.history.detail = self.detail.take().map(|detail| Box::new(detail.end(steps)));
+        let states = self.states.take().map(|states| states.end(&wheel.harmonics, oscillators));
+        self.history.states = states.map(Box::new);
         let sensors = self.sectors.len();
         let columns = self.reading.len() / sensors.max(1);
         let line = |sensor: usize| {

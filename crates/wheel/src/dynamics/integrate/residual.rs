@@ -99,7 +99,7 @@ impl ResidualDisplacement {
 }
 
 /// What contact forces act along.
-fn applied(simulation: &Simulation<'_>) -> Vec<Direction> {
+pub(super) fn applied(simulation: &Simulation<'_>) -> Vec<Direction> {
     match simulation.effects.friction {
         Some(friction) => friction.directions.to_vec(),
         None => outward_normals(simulation.contact_nodes),

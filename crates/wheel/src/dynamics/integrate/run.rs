@@ -2,6 +2,7 @@
 
 use super::bounds::TipDisplacement;
 use super::detail::DetailHistory;
+use super::states::ModalStates;
 use super::tally::ContactRecord;
 use super::tips::TipMotion;
 use crate::dynamics::contact::coating::WornCoating;
@@ -29,6 +30,8 @@ pub struct History {
     pub tips: Vec<TipMotion>,
     /// What was recorded of chosen revolutions, if any were.
     pub detail: Option<Box<DetailHistory>>,
+    /// All modes at the samples of chosen revolutions, if they were asked for.
+    pub states: Option<Box<ModalStates>>,
 }
 
 /// A response that left the bounds of the theory.

@@ -40,6 +40,8 @@ pub struct Simulation<'a> {
     pub window_revolutions: usize,
     /// Revolutions of which more is recorded.
     pub detail: Option<Detail>,
+    /// Whole revolutions after which recording of all modes begins and ends, at every sample.
+    pub states: Option<(usize, usize)>,
 }
 
 /// What a run records of chosen revolutions, at every sample.

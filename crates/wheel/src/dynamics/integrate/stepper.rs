@@ -246,10 +246,11 @@ impl Stepper {
         let energy = self.mechanical_energy();
         self.energy.check(energy);
         self.read(simd, windowed);
+        let force = self.obstacle.as_ref().map(|obstacle| obstacle.force.as_slice());
         if windowed {
-            let force = self.obstacle.as_ref().map(|obstacle| obstacle.force.as_slice());
             self.recorder.look_at_tips(simd, &self.oscillators, &self.fourier, force);
         }
+        self.recorder.keep_state(self.statistics.steps, &self.oscillators, &self.fourier, force);
         self.recorder.record(&self.fourier, self.statistics.steps, &self.energy);
         self.check_bounds(energy, now.revolutions)
     }
@@ -269,7 +270,8 @@ impl Stepper {
             drive.end(simulation.wheel, simulation.revolutions as f64, &mut self.oscillators, read);
         }
         let modes = modal_state(simulation, &self.oscillators);
-        self.recorder.end(&self.fourier, modes, self.statistics.steps);
+        let end = (modes, self.statistics.steps);
+        self.recorder.end(simulation.wheel, &self.oscillators, &self.fourier, end);
     }
 
     fn mechanical_energy(&self) -> f64 {

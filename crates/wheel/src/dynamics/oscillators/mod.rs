@@ -268,6 +268,18 @@ impl Oscillators {
         twice
     }
 
+    /// z of every mode in the order in which they are kept; [`Self::position`] finds one.
+    pub(crate) fn positions(&self) -> &[f64] {
+        &self.state.z
+    }
+
+    /// z of mode `family` of nodal diameter `harmonic` in what [`Self::positions`] gave.
+    pub(crate) fn position(&self, positions: &[f64], harmonic: usize, family: usize) -> c64 {
+        let segment = self.segments[harmonic];
+        let at = |start: usize| positions[start + family];
+        c64::new(at(segment.state), if segment.single { 0.0 } else { at(segment.state + segment.length) })
+    }
+
     /// z and ż of every mode, `velocity(harmonic, family, z, d)` being the scheme's.
     pub(crate) fn modal_state(&self, velocity: impl Fn(usize, usize, f64, f64) -> f64) -> Vec<InitialMode> {
         let mut modes = Vec::new();

@@ -26,6 +26,7 @@ pub(super) mod reduced;
 mod rows;
 mod sector_factor;
 mod speed;
+mod static_response;
 mod tied_factor;
 mod untied;
 
@@ -48,6 +49,7 @@ pub use interpolation::MatrixRatios;
 pub use options::{ReductionError, ReductionOptions, Watch};
 pub use reduced::{ModeCertificate, ReducedHarmonic, ReducedWheel};
 pub use rows::BasisRows;
+pub use static_response::{StaticResponse, StaticSpan, static_response};
 
 /// Reduces `sector`.
 ///

@@ -124,6 +124,29 @@ impl<'a> SectorFactor<'a> {
         }
     }
 
+    /// x ← K̂⁻¹ f for every load, given with contact DOF that may be free.
+    pub(super) fn solve(&self, loads: &mut [Load<'_>]) {
+        let interior = self.untied.interior();
+        let rows = loads.first().map_or(0, |load| load.vectors.nrows());
+        let boundary: Vec<Mat<c64>> =
+            loads.iter().map(|load| load.vectors.subrows(interior, rows - interior).to_owned()).collect();
+        // Untied, what acts on the low face would act on the high one again.
+        for load in &mut *loads {
+            load.vectors.subrows_mut(interior, rows - interior).fill(c64::new(0.0, 0.0));
+        }
+        let images = self.through(loads, rows, |mut panel| {
+            self.factor.forward(panel.rb_mut());
+            self.scale_interior(panel);
+        });
+        for ((load, image), boundary) in loads.iter_mut().zip(images).zip(boundary) {
+            load.vectors = image;
+            let mut below = load.vectors.subrows_mut(interior, rows - interior);
+            below += boundary;
+            load.tied.solve(load.vectors.as_mut(), interior);
+        }
+        self.half_adjoint(loads);
+    }
+
     /// Whether the matrix of every nodal diameter is positive definite, contact DOF included, seen without factoring
     /// each: with S(i) = A + B e^{jiα} + Bᵀ e^{−jiα}, ‖S(i) − S(0)‖ ≤ 4 ‖B‖, and little reaches from face to face
     /// through a mass. `false` says nothing.

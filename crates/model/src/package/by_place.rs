@@ -2,11 +2,14 @@
 
 use std::collections::HashMap;
 
-use crate::package::frame::distance;
+use rubmap_solid::frame::distance;
 
 /// A copy of a node may be this far from where the turn puts it, relative to the diagonal of the mesh's bounding box:
 /// the tolerance of the package's own check.
 const TOLERANCE: f64 = 1e-5;
+
+/// Nodes within the tolerance of a place that are compared.
+const MOST_NEAR: usize = 100;
 
 /// Nodes by the cell of a grid they lie in; cells are as wide as the tolerance.
 pub(super) struct Places {
@@ -31,13 +34,23 @@ impl Places {
     }
 
     /// The node nearest to `position` within the tolerance.
-    pub(super) fn at(&self, position: [f64; 3]) -> Result<u64, Nearest> {
+    pub(super) fn near(&self, position: [f64; 3]) -> Option<u64> {
         let [i, j, k] = cell(position, self.tolerance);
-        let around =
-            (-1..=1).flat_map(|a| (-1..=1).flat_map(move |b| (-1..=1).map(move |c| [i + a, j + b, k + c])));
-        let close = around.filter_map(|cell| self.cells.get(&cell)).flatten().copied();
-        if let Some(found) = self.nearest(close, position).filter(|near| near.distance <= self.tolerance) {
-            return Ok(found.node);
+        // Of a mesh that is finer than the tolerance no more than a few are looked at.
+        let around = (-1..=1).flat_map(|a| {
+            (-1..=1).flat_map(move |b| {
+                (-1..=1).map(move |c| [i.saturating_add(a), j.saturating_add(b), k.saturating_add(c)])
+            })
+        });
+        let close = around.filter_map(|cell| self.cells.get(&cell)).flatten().copied().take(MOST_NEAR);
+        let found = self.nearest(close, position).filter(|near| near.distance <= self.tolerance)?;
+        Some(found.node)
+    }
+
+    /// [`Self::near`], or what is nearest if it is farther off.
+    pub(super) fn at(&self, position: [f64; 3]) -> Result<u64, Nearest> {
+        if let Some(node) = self.near(position) {
+            return Ok(node);
         }
         Err(self
             .nearest(0..self.nodes.len(), position)

@@ -2,14 +2,14 @@
 
 use std::sync::LazyLock;
 
-use super::natural::Natural;
+use crate::natural::Natural;
 
 /// A point of integration.
 #[derive(Debug, Clone, Copy)]
 pub struct GaussPoint {
     /// Natural coordinates.
     pub xi: Natural,
-    /// Weight; the weights of a rule add up to 8.
+    /// Weight; the weights of a rule of the cube add up to 8.
     pub weight: f64,
 }
 

@@ -6,60 +6,58 @@
 
 use nalgebra::{Matrix3, RowVector3, Vector3};
 
-use super::raw::Axis;
-
 /// Sine of the angle between x and the axis below which y takes over.
 const NEARLY_PARALLEL: f64 = 1e-3;
 
 /// Rows are the local unit vectors in global components: local = basis · global.
-pub(super) type Basis = Matrix3<f64>;
+pub type Basis = Matrix3<f64>;
 
 /// The axis of rotation with its zero of θ.
 #[derive(Debug, Clone)]
-pub(super) struct AxisFrame {
+pub struct AxisFrame {
     origin: Vector3<f64>,
     e: Basis,
 }
 
 impl AxisFrame {
-    /// `None` if the direction is zero or not finite.
-    pub(super) fn new(axis: &Axis) -> Option<Self> {
-        let e3 = unit(axis.direction.into())?;
+    /// Of a point on the axis and its direction, of any length; `None` if the direction is zero or not finite.
+    pub fn new(origin: [f64; 3], direction: [f64; 3]) -> Option<Self> {
+        let e3 = unit(direction.into())?;
         let normal_part = |v: Vector3<f64>| v - e3 * v.dot(&e3);
         let from_x = normal_part(Vector3::x());
         let e1 =
             if from_x.norm() > NEARLY_PARALLEL { unit(from_x) } else { unit(normal_part(Vector3::y())) }?;
         let e = Basis::from_columns(&[e1, e3.cross(&e1), e3]).transpose();
-        Some(Self { origin: axis.origin.into(), e })
+        Some(Self { origin: origin.into(), e })
     }
 
     /// Unit vector of the axis.
-    pub(super) fn direction(&self) -> Vector3<f64> {
+    pub fn direction(&self) -> Vector3<f64> {
         self.e.row(2).transpose()
     }
 
     /// (r, θ, z) of a point, θ in (−π, π].
-    pub(super) fn coordinates(&self, position: [f64; 3]) -> [f64; 3] {
+    pub fn coordinates(&self, position: [f64; 3]) -> [f64; 3] {
         let [x, y, z] = (self.e * (Vector3::from(position) - self.origin)).into();
         let r = x.hypot(y);
         [r, if r == 0.0 { 0.0 } else { y.atan2(x) }, z]
     }
 
     /// The unit vectors r, θ, z at the angle `theta`.
-    pub(super) fn cylindrical(&self, theta: f64) -> Basis {
+    pub fn cylindrical(&self, theta: f64) -> Basis {
         let (sin, cos) = theta.sin_cos();
         let [e1, e2, e3]: [RowVector3<f64>; 3] = std::array::from_fn(|k| self.e.row(k).into_owned());
         Basis::from_rows(&[e1 * cos + e2 * sin, e1 * -sin + e2 * cos, e3])
     }
 
     /// The global unit vectors turned by `angle` about the axis.
-    pub(super) fn turned_global(&self, angle: f64) -> Basis {
+    pub fn turned_global(&self, angle: f64) -> Basis {
         let units = [Vector3::x(), Vector3::y(), Vector3::z()];
         Basis::from_columns(&units.map(|v| self.turn_vector(v, angle))).transpose()
     }
 
     /// A point turned by `angle` about the axis.
-    pub(super) fn turn_point(&self, position: [f64; 3], angle: f64) -> [f64; 3] {
+    pub fn turn_point(&self, position: [f64; 3], angle: f64) -> [f64; 3] {
         (self.turn_vector(Vector3::from(position) - self.origin, angle) + self.origin).into()
     }
 
@@ -71,7 +69,7 @@ impl AxisFrame {
 }
 
 /// Distance of two points; unlike the norm of their difference it neither over- nor underflows on the way.
-pub(super) fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+pub fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1]).hypot(a[2] - b[2])
 }
 
@@ -88,7 +86,7 @@ mod tests {
     use super::*;
 
     fn frame(direction: [f64; 3]) -> AxisFrame {
-        AxisFrame::new(&Axis { origin: [1.0, 2.0, 3.0], direction }).expect("a direction")
+        AxisFrame::new([1.0, 2.0, 3.0], direction).expect("a direction")
     }
 
     fn close(a: [f64; 3], b: [f64; 3]) -> bool {
@@ -131,6 +129,6 @@ mod tests {
                 assert!(close(before.into(), after.into()));
             }
         }
-        assert!(AxisFrame::new(&Axis { origin: [0.0; 3], direction: [0.0; 3] }).is_none());
+        assert!(AxisFrame::new([0.0; 3], [0.0; 3]).is_none());
     }
 }

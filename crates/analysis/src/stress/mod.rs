@@ -1,0 +1,20 @@
+//! Stress at every node of every blade over a revolution, and the margin that it leaves (docs/method.md, Stress).
+//!
+//! Stress is linear in the coordinates of the reduction, so one matrix per nodal diameter says all of it; places are bounded first,
+//! and only those that may be the worst are followed over all blades and instants.
+
+mod bounds;
+mod cycle;
+pub(crate) mod make;
+mod measure;
+mod places;
+mod reduced;
+mod search;
+mod trajectory;
+
+pub use make::{StressMaker, StressOf, stress_bytes};
+pub use reduced::{HarmonicStress, ReducedStress, StaticStress};
+pub(crate) use search::{Course, stress_of};
+
+#[cfg(test)]
+mod tests;

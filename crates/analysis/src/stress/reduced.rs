@@ -1,0 +1,154 @@
+//! What simulations need of a mesh: stress at its places in the coordinates of a reduction.
+
+use faer::{Mat, c64};
+use serde::{Deserialize, Serialize};
+
+use super::measure::{Stress, von_mises};
+use super::places::{Place, places};
+use rubmap_solid::mesh::{ElementSet, SectorMesh};
+use rubmap_solid::stress::NodalStress;
+use rubmap_wheel::dynamics::reduction::{ReducedWheel, StaticSpan};
+
+/// Stress of one sector as a function of the reduced coordinates and of the speed.
+#[derive(Debug)]
+pub struct ReducedStress {
+    pub(super) places: Vec<Place>,
+    pub(super) sets: Vec<ElementSet>,
+    /// Nodes nearer than this to a contact node are left out,
+    pub(super) excluded_radius: f64,
+    /// so many of a sector.
+    pub(super) excluded_nodes: u32,
+    pub(super) harmonics: Vec<HarmonicStress>,
+    pub(super) fixed: StaticStress,
+}
+
+/// Stress of one nodal diameter.
+#[derive(Debug, Clone)]
+pub struct HarmonicStress {
+    /// S̃ = S L⁻ᴴ with S the stress of the basis Υ̂ and K_r(0) = L Lᴴ, so that coordinates are root energies: `2·unknowns × 6·places`,
+    /// a column for each component of each place, real and imaginary part of every unknown in it.
+    pub(super) rows: Mat<f32>,
+    /// Of every place.
+    pub(super) norms: Vec<Norm>,
+}
+
+/// Stress of the wheel under its centrifugal load.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StaticStress {
+    /// `[place][component][given speed]`: stress of the solutions at the given speeds per unit Ω².
+    pub stress: Vec<f64>,
+    /// What makes those between them.
+    pub span: StaticSpan,
+}
+
+/// How large the columns of a place are.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Norm {
+    /// Root sum of squares of the von Mises stresses of all unknowns: a unit of root energy gives no more.
+    pub(super) von_mises: f64,
+    /// The same of all components, times √3: no von Mises stress or trace is more.
+    pub(super) whole: f64,
+}
+
+impl ReducedStress {
+    /// Of a mesh and the places that `load` reads: for each nodal diameter the rows of those places (by number, ascending) that are
+    /// not within `excluded_radius` of a contact node.
+    ///
+    /// # Errors
+    /// Those of `load`.
+    pub fn load<E>(
+        mesh: &SectorMesh,
+        operator: &NodalStress,
+        reduced: &ReducedWheel,
+        excluded_radius: f64,
+        fixed: StaticStress,
+        mut load: impl FnMut(usize, &[usize]) -> Result<HarmonicStress, E>,
+    ) -> Result<Self, E> {
+        let contact: Vec<u64> = reduced.contact.iter().map(|node| node.id).collect();
+        let all = places(mesh, operator, &contact);
+        let kept: Vec<usize> =
+            (0..all.len()).filter(|&place| all[place].from_contact > excluded_radius).collect();
+        let harmonics =
+            reduced.harmonics.iter().map(|h| load(h.harmonic, &kept)).collect::<Result<Vec<_>, E>>()?;
+        let width = 6 * fixed.span.speeds_rad_s.len();
+        let stress =
+            kept.iter().flat_map(|&place| &fixed.stress[width * place..width * (place + 1)]).copied();
+        Ok(Self {
+            excluded_nodes: (all.len() - kept.len()) as u32,
+            places: kept.iter().map(|&place| all[place].clone()).collect(),
+            sets: mesh.sets.clone(),
+            excluded_radius,
+            harmonics,
+            fixed: StaticStress { stress: stress.collect(), span: fixed.span.clone() },
+        })
+    }
+
+    /// Places with stress.
+    pub fn places(&self) -> usize {
+        self.places.len()
+    }
+
+    /// Memory that it takes, in bytes.
+    pub fn bytes(&self) -> u64 {
+        let of = |h: &HarmonicStress| {
+            size_of::<f32>() * h.rows.nrows() * h.rows.ncols() + size_of::<Norm>() * h.norms.len()
+        };
+        let harmonics: usize = self.harmonics.iter().map(of).sum();
+        (harmonics + size_of::<f64>() * self.fixed.stress.len()) as u64
+    }
+
+    /// Stress of the centrifugal load at a speed, of every place.
+    pub(super) fn fixed(&self, speed_rad_s: f64, stiffening: bool) -> Vec<Stress> {
+        let shares = self.fixed.span.at(speed_rad_s, stiffening);
+        let of = |place: &[f64]| -> Stress {
+            std::array::from_fn(|component| {
+                let from = shares.len() * component;
+                shares.iter().zip(&place[from..]).map(|(share, stress)| share * stress).sum()
+            })
+        };
+        self.fixed.stress.chunks_exact(6 * shares.len()).map(of).collect()
+    }
+}
+
+impl HarmonicStress {
+    /// Of `2·unknowns × 6·places` numbers, as [`StressMaker::harmonic`](super::StressMaker::harmonic) makes them.
+    pub fn new(rows: Mat<f32>) -> Self {
+        let mut this = Self { rows, norms: Vec::new() };
+        this.norms = (0..this.rows.ncols() / 6).map(|place| this.norm(place)).collect();
+        this
+    }
+
+    /// `2·unknowns × 6·places`.
+    pub fn rows(&self) -> &Mat<f32> {
+        &self.rows
+    }
+
+    fn norm(&self, place: usize) -> Norm {
+        let columns: [&[f32]; 6] = self.columns(place);
+        let (mut form, mut whole) = (0.0, 0.0);
+        for row in 0..self.rows.nrows() {
+            let stress: Stress = std::array::from_fn(|k| f64::from(columns[k][row]));
+            form += von_mises(&stress).powi(2);
+            whole += stress.iter().map(|s| s * s).sum::<f64>();
+        }
+        Norm { von_mises: form.sqrt(), whole: (3.0 * whole).sqrt() }
+    }
+
+    /// The rows of a place, `6 × unknowns`.
+    pub(super) fn of_place(&self, place: usize) -> Mat<c64> {
+        let columns = self.columns(place);
+        Mat::from_fn(6, self.rows.nrows() / 2, |component, unknown| {
+            let column = columns[component];
+            c64::new(f64::from(column[2 * unknown]), f64::from(column[2 * unknown + 1]))
+        })
+    }
+
+    fn columns(&self, place: usize) -> [&[f32]; 6] {
+        std::array::from_fn(|component| {
+            self.rows
+                .col(6 * place + component)
+                .try_as_col_major()
+                .map_or(&[][..], |column| column.as_slice())
+        })
+    }
+}

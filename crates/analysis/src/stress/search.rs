@@ -1,0 +1,296 @@
+//! The largest stress of a speed, and its most utilised places.
+
+use std::cmp::Ordering;
+
+use faer::{Mat, c64};
+
+use super::bounds::{BATCH, Bounds, Seen, turn};
+use super::cycle::{Cycle, Weights, weights};
+use super::measure::{Stress, von_mises};
+use super::reduced::ReducedStress;
+use super::trajectory::{Path, paths};
+use crate::result::stress::{PointStress, StressCycle, StressPeak};
+use rubmap_numerics::hermitian::EigenError;
+use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
+use rubmap_wheel::dynamics::reduction::ReducedWheel;
+use rubmap_wheel::dynamics::states::WheelStates;
+
+/// Places whose cycles are told.
+const CYCLES: usize = 20;
+
+/// A wheel at a speed over a revolution.
+pub(crate) struct Course<'a> {
+    pub(crate) reduced: &'a ReducedWheel,
+    /// The simulated part of it.
+    pub(crate) wheel: &'a ModalWheel,
+    pub(crate) states: &'a WheelStates,
+    pub(crate) stiffening: bool,
+}
+
+/// Finds them. Exact: a place is left out only if a bound rules it out. On the calling thread; deterministic.
+///
+/// # Errors
+/// If an eigenvalue iteration fails.
+pub(crate) fn stress_of(stress: &ReducedStress, course: &Course<'_>) -> Result<PointStress, EigenError> {
+    let fixed = stress.fixed(course.wheel.speed_rad_s, course.stiffening);
+    let paths = paths(course.states, course.reduced)?;
+    let (weights, lacking) = weights(&stress.sets);
+    let blades = (course.wheel.sectors, course.wheel.around());
+    let instants = course.states.revolutions.len();
+    let bounds = Bounds::new(stress, &fixed, &paths, blades, instants);
+    let weights: Vec<Option<Weights>> = stress.places.iter().map(|place| weights[place.set]).collect();
+    let mut search = Search {
+        seen: vec![None; stress.places()],
+        followed: vec![None; stress.places()],
+        instants,
+        stress,
+        fixed: &fixed,
+        paths: &paths,
+        blades,
+        bounds,
+        weights,
+    };
+    let rough: Vec<(f64, f64)> = (0..stress.places())
+        .map(|place| {
+            let bound = search.bounds.of(place);
+            (bound.largest, search.weights[place].map_or(-1.0, |weights| weights.most(&bound)))
+        })
+        .collect();
+    let largest = search.best(1, &rough, Largest).first().copied();
+    let utilised = search.best(CYCLES, &rough, Utilised);
+    let place = |place: usize| (&stress.places[place], &stress.sets[stress.places[place].set]);
+    let peak = largest.map(|at| {
+        let followed = search.follow(at);
+        let (von_mises, instant) = followed.peak;
+        let (place, _) = place(at);
+        StressPeak {
+            von_mises,
+            node: place.node,
+            position: place.position,
+            sector: followed.peak_blade as u32,
+            revolution: course.states.revolutions[instant],
+        }
+    });
+    let cycles = utilised.into_iter().map(|at| {
+        let followed = search.follow(at);
+        let (place, set) = place(at);
+        let Cycle { mean, alternating, principal_mean, principal_alternating, .. } = followed.cycle;
+        StressCycle {
+            node: place.node,
+            position: place.position,
+            sector: followed.cycle_blade as u32,
+            set: set.name.clone(),
+            mean,
+            alternating,
+            principal_mean,
+            principal_alternating,
+            utilisation: Weights::goodman(&set.material).map(|goodman| goodman.of(alternating, mean)),
+            over_yield: set.material.yield_strength.map(|strength| followed.peak.0 / strength),
+        }
+    });
+    let cycles = cycles.collect();
+    let none = StressPeak { von_mises: 0.0, node: 0, position: [0.0; 3], sector: 0, revolution: 0.0 };
+    Ok(PointStress {
+        largest: peak.unwrap_or(none),
+        largest_static: fixed.iter().map(von_mises).fold(0.0, f64::max),
+        cycles,
+        excluded_radius: stress.excluded_radius,
+        excluded_nodes: stress.excluded_nodes,
+        followed_nodes: search.followed.iter().flatten().count() as u32,
+        lacking,
+    })
+}
+
+/// What is sought.
+trait Sought {
+    fn rough(&self, bound: (f64, f64)) -> f64;
+    fn at_most(&self, seen: &Seen) -> f64;
+    fn at_least(&self, seen: &Seen) -> f64;
+    fn exact(&self, followed: &Followed) -> f64;
+}
+
+struct Largest;
+
+impl Sought for Largest {
+    fn rough(&self, bound: (f64, f64)) -> f64 {
+        bound.0
+    }
+
+    fn at_most(&self, seen: &Seen) -> f64 {
+        seen.largest
+    }
+
+    fn at_least(&self, seen: &Seen) -> f64 {
+        seen.largest_at_least
+    }
+
+    fn exact(&self, followed: &Followed) -> f64 {
+        followed.peak.0
+    }
+}
+
+struct Utilised;
+
+impl Sought for Utilised {
+    fn rough(&self, bound: (f64, f64)) -> f64 {
+        bound.1
+    }
+
+    fn at_most(&self, seen: &Seen) -> f64 {
+        seen.most
+    }
+
+    fn at_least(&self, seen: &Seen) -> f64 {
+        seen.most_at_least
+    }
+
+    fn exact(&self, followed: &Followed) -> f64 {
+        followed.measure
+    }
+}
+
+/// A place over all blades and instants.
+#[derive(Debug, Clone, Copy)]
+struct Followed {
+    /// Largest von Mises stress, its instant and its blade.
+    peak: (f64, usize),
+    peak_blade: usize,
+    /// Of the blade with the largest measure of utilisation.
+    cycle: Cycle,
+    cycle_blade: usize,
+    measure: f64,
+}
+
+struct Search<'a> {
+    stress: &'a ReducedStress,
+    fixed: &'a [Stress],
+    paths: &'a [Path],
+    /// Told apart, and around the wheel.
+    blades: (usize, usize),
+    instants: usize,
+    bounds: Bounds<'a>,
+    /// Of every place; none of those that are not ranked.
+    weights: Vec<Option<Weights>>,
+    seen: Vec<Option<Seen>>,
+    followed: Vec<Option<Followed>>,
+}
+
+impl Search<'_> {
+    /// The `count` places that have most of what is sought, the first of equal ones; `rough` bounds of all.
+    fn best(&mut self, count: usize, rough: &[(f64, f64)], sought: impl Sought) -> Vec<usize> {
+        let mut order: Vec<usize> =
+            (0..rough.len()).filter(|&place| sought.rough(rough[place]) >= 0.0).collect();
+        let descending = |a: f64, b: f64, i: usize, j: usize| match b.total_cmp(&a) {
+            Ordering::Equal => i.cmp(&j),
+            other => other,
+        };
+        order.sort_unstable_by(|&i, &j| descending(sought.rough(rough[i]), sought.rough(rough[j]), i, j));
+        let mut floor = Leaders::new(count);
+        let mut candidates: Vec<(f64, usize)> = Vec::new();
+        for batch in order.chunks(BATCH) {
+            if sought.rough(rough[batch[0]]) < floor.least() {
+                break;
+            }
+            self.look(batch);
+            for &place in batch {
+                if let Some(seen) = &self.seen[place] {
+                    floor.add(sought.at_least(seen));
+                    candidates.push((sought.at_most(seen), place));
+                }
+            }
+        }
+        candidates.sort_unstable_by(|a, b| descending(a.0, b.0, a.1, b.1));
+        let mut exact = Leaders::new(count);
+        let mut found: Vec<(f64, usize)> = Vec::new();
+        for (at_most, place) in candidates {
+            if at_most < floor.least().max(exact.least()) {
+                break;
+            }
+            let value = sought.exact(&self.follow(place));
+            exact.add(value);
+            found.push((value, place));
+        }
+        found.sort_unstable_by(|a, b| descending(a.0, b.0, a.1, b.1));
+        found.into_iter().take(count).map(|(_, place)| place).collect()
+    }
+
+    fn look(&mut self, batch: &[usize]) {
+        let new: Vec<usize> = batch.iter().copied().filter(|&place| self.seen[place].is_none()).collect();
+        let weights: Vec<_> = new.iter().map(|&place| self.weights[place]).collect();
+        for (&place, seen) in new.iter().zip(self.bounds.look(&new, &weights)) {
+            self.seen[place] = Some(seen);
+        }
+    }
+
+    fn follow(&mut self, place: usize) -> Followed {
+        if let Some(followed) = self.followed[place] {
+            return followed;
+        }
+        let fixed = &self.fixed[place];
+        let weights = self.weights[place].unwrap_or(Weights::ALTERNATING);
+        let waves: Vec<(usize, Mat<c64>)> = (self.paths.iter())
+            .map(|path| {
+                let rows = self.stress.harmonics[path.harmonic].of_place(place);
+                (path.harmonic, rows * &path.directions * &path.course)
+            })
+            .collect();
+        let mut found: Option<Followed> = None;
+        for blade in 0..self.blades.0 {
+            let turns: Vec<c64> =
+                waves.iter().map(|&(harmonic, _)| turn(harmonic, blade, self.blades.1)).collect();
+            let path = (0..self.instants).map(|instant| -> Stress {
+                let mut stress = *fixed;
+                for ((_, wave), turn) in waves.iter().zip(&turns) {
+                    for (component, stress) in stress.iter_mut().enumerate() {
+                        *stress += (turn * wave[(component, instant)]).re;
+                    }
+                }
+                stress
+            });
+            let cycle = Cycle::of(path);
+            let measure = weights.of(cycle.alternating, cycle.mean);
+            let here = Followed { peak: cycle.peak, peak_blade: blade, cycle, cycle_blade: blade, measure };
+            found = Some(found.map_or(here, |before| before.with(&here)));
+        }
+        let found = found.unwrap_or_else(|| unreachable!("a wheel has at least one blade"));
+        self.followed[place] = Some(found);
+        found
+    }
+}
+
+impl Followed {
+    /// With another blade, if it has more.
+    fn with(mut self, other: &Self) -> Self {
+        if other.peak.0 > self.peak.0 {
+            (self.peak, self.peak_blade) = (other.peak, other.peak_blade);
+        }
+        if other.measure > self.measure {
+            (self.cycle, self.cycle_blade, self.measure) = (other.cycle, other.cycle_blade, other.measure);
+        }
+        self
+    }
+}
+
+/// The largest few of some numbers.
+struct Leaders {
+    count: usize,
+    /// Descending.
+    values: Vec<f64>,
+}
+
+impl Leaders {
+    fn new(count: usize) -> Self {
+        Self { count, values: Vec::new() }
+    }
+
+    fn add(&mut self, value: f64) {
+        let place = self.values.partition_point(|&known| known >= value);
+        self.values.insert(place, value);
+        self.values.truncate(self.count);
+    }
+
+    /// What one must have to be among them.
+    fn least(&self) -> f64 {
+        if self.values.len() < self.count { f64::NEG_INFINITY } else { self.values[self.count - 1] }
+    }
+}

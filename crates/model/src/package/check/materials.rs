@@ -1,0 +1,59 @@
+//! What `sector.json` says of materials.
+
+use rubmap_solid::material::Material;
+
+use crate::package::error::{ManifestProblem, PackageError};
+use crate::package::quote::quoted;
+use crate::package::raw::{LONGEST_NAME, ManifestMesh};
+
+/// More sets than any wheel has materials.
+const MOST_SETS: usize = 1000;
+
+/// Checks names, constants and strengths.
+pub(super) fn check(mesh: &ManifestMesh) -> Result<(), PackageError> {
+    if mesh.sets.len() > MOST_SETS {
+        let problem = ManifestProblem::TooMany { what: "element sets", limit: MOST_SETS };
+        return Err(PackageError::manifest("/mesh/sets", problem));
+    }
+    for (name, material) in &mesh.sets {
+        let set = pointer(name);
+        if name.chars().nth(LONGEST_NAME).is_some() {
+            return Err(PackageError::manifest(set, ManifestProblem::TextTooLong { limit: LONGEST_NAME }));
+        }
+        of_one(material)
+            .map_err(|(field, problem)| PackageError::manifest(format!("{set}/{field}"), problem))?;
+    }
+    Ok(())
+}
+
+/// JSON pointer to a set.
+pub(super) fn pointer(name: &str) -> String {
+    format!("/mesh/sets/{}", quoted(name).replace('~', "~0").replace('/', "~1"))
+}
+
+fn of_one(material: &Material) -> Result<(), (&'static str, ManifestProblem)> {
+    let Material { youngs_modulus, poissons_ratio, density, yield_strength, ultimate_strength, .. } =
+        material;
+    let fatigue = material.fatigue_strength.as_ref();
+    for (field, value) in [
+        ("youngs_modulus", Some(*youngs_modulus)),
+        ("density", Some(*density)),
+        ("yield_strength", *yield_strength),
+        ("ultimate_strength", *ultimate_strength),
+        ("fatigue_strength/amplitude", fatigue.map(|fatigue| fatigue.amplitude)),
+    ] {
+        if let Some(value) = value.filter(|value| !(*value > 0.0 && value.is_finite())) {
+            return Err((field, ManifestProblem::NotPositive { value }));
+        }
+    }
+    if !(*poissons_ratio > -1.0 && *poissons_ratio < 0.5) {
+        return Err(("poissons_ratio", ManifestProblem::PoissonsRatio { value: *poissons_ratio }));
+    }
+    match fatigue.map(|fatigue| fatigue.source.trim()) {
+        Some("") => Err(("fatigue_strength/source", ManifestProblem::NoSource)),
+        Some(source) if source.chars().nth(LONGEST_NAME).is_some() => {
+            Err(("fatigue_strength/source", ManifestProblem::TextTooLong { limit: LONGEST_NAME }))
+        }
+        _ => Ok(()),
+    }
+}

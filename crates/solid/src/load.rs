@@ -1,0 +1,59 @@
+//! Loads of a sector's own mass.
+
+use nalgebra::Vector3;
+
+use crate::frame::AxisFrame;
+use crate::gradients::jacobian;
+use crate::mesh::SectorMesh;
+use crate::rule::fine_points;
+use crate::shape::functions;
+
+/// The centrifugal load per unit Ω²: `∫ ρ N_a r e_r dV` in (r, θ, z) components of every node of the sector. What acts on a high node
+/// is added to its low node, whose components it has; its own place is zero.
+///
+/// It is `M x_⊥` of the consistent mass: position is interpolated like displacement.
+pub fn centrifugal(mesh: &SectorMesh) -> Vec<[f64; 3]> {
+    let Some(axis) = AxisFrame::new(mesh.axis.0, mesh.axis.1) else {
+        return vec![[0.0; 3]; mesh.nodes.len()];
+    };
+    let direction = axis.direction();
+    let origin = Vector3::from(mesh.axis.0);
+    let mut forces = vec![Vector3::zeros(); mesh.nodes.len()];
+    for element in &mesh.elements {
+        let density = mesh.sets[element.set as usize].material.density;
+        let positions = mesh.positions(element);
+        for point in fine_points(element.kind) {
+            let shares = functions(element.kind, point.xi);
+            let at: Vector3<f64> =
+                positions.iter().zip(&shares).map(|(&x, share)| Vector3::from(x) * *share).sum();
+            let from_axis = at - origin;
+            let radial = from_axis - direction * from_axis.dot(&direction);
+            let mass = density * jacobian(element.kind, &positions, point.xi).determinant() * point.weight;
+            for (&node, share) in element.nodes.iter().zip(&shares) {
+                forces[node as usize] += radial * (mass * share);
+            }
+        }
+    }
+    let local = |(node, force): (usize, &Vector3<f64>)| {
+        let [_, theta, _] = axis.coordinates(mesh.nodes[node]);
+        axis.cylindrical(theta) * force
+    };
+    let mut load: Vec<Vector3<f64>> = forces.iter().enumerate().map(local).collect();
+    for &(low, high) in &mesh.cyclic {
+        let of_high = std::mem::take(&mut load[high as usize]);
+        load[low as usize] += of_high;
+    }
+    load.into_iter().map(Into::into).collect()
+}
+
+/// Volume of every element.
+pub fn volumes(mesh: &SectorMesh) -> Vec<f64> {
+    let volume = |element: &crate::mesh::Element| {
+        let positions = mesh.positions(element);
+        let part = |point: &crate::gauss::GaussPoint| {
+            jacobian(element.kind, &positions, point.xi).determinant() * point.weight
+        };
+        fine_points(element.kind).iter().map(part).sum()
+    };
+    mesh.elements.iter().map(volume).collect()
+}

@@ -1,0 +1,91 @@
+//! Small meshes of every element.
+
+use rubmap::solid::element::ElementKind;
+use rubmap::solid::material::Material;
+use rubmap::solid::mesh::{Element, ElementSet, SectorMesh};
+use rubmap::solid::natural::{CORNERS, EDGES};
+
+/// Steel in mm, N, s, t.
+pub(crate) fn steel() -> Material {
+    Material {
+        youngs_modulus: 2.1e5,
+        poissons_ratio: 0.3,
+        density: 7.85e-9,
+        yield_strength: None,
+        ultimate_strength: None,
+        fatigue_strength: None,
+    }
+}
+
+/// Corners of the tetrahedra and wedges that a cube is cut into, conforming with its neighbours.
+const TETRAHEDRA: [[usize; 4]; 6] =
+    [[0, 1, 2, 6], [0, 2, 3, 6], [0, 3, 7, 6], [0, 7, 4, 6], [0, 4, 5, 6], [0, 5, 1, 6]];
+const WEDGES: [[usize; 6]; 2] = [[0, 1, 2, 4, 5, 6], [0, 2, 3, 4, 6, 7]];
+const TETRAHEDRON_EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]];
+const WEDGE_EDGES: [[usize; 2]; 9] = [[0, 1], [1, 2], [2, 0], [3, 4], [4, 5], [5, 3], [0, 3], [1, 4], [2, 5]];
+
+/// A block of `cells` cubes, each cut into elements of one kind; its nodes, given in cells, are put where `place` says.
+pub(crate) fn block(
+    kind: ElementKind,
+    cells: [usize; 3],
+    place: impl Fn([f64; 3]) -> [f64; 3],
+) -> SectorMesh {
+    let mut nodes: Vec<[f64; 3]> = Vec::new();
+    let mut found = std::collections::HashMap::new();
+    // Twice the place in cells is a whole number at corners and in the middle of edges.
+    let mut node = |twice: [i64; 3]| {
+        *found.entry(twice).or_insert_with(|| {
+            nodes.push(place(twice.map(|x| 0.5 * x as f64)));
+            nodes.len() as u32 - 1
+        })
+    };
+    let (parts, edges): (Vec<Vec<usize>>, &[[usize; 2]]) = match kind.corners() {
+        4 => (TETRAHEDRA.iter().map(|part| part.to_vec()).collect(), &TETRAHEDRON_EDGES),
+        6 => (WEDGES.iter().map(|part| part.to_vec()).collect(), &WEDGE_EDGES),
+        _ => (vec![(0..8).collect()], &EDGES),
+    };
+    let mut elements = Vec::new();
+    for z in 0..cells[2] {
+        for y in 0..cells[1] {
+            for x in 0..cells[0] {
+                let corner = |k: usize| {
+                    let c = CORNERS[k];
+                    [x, y, z].iter().zip(c).map(|(&at, c)| 2 * at as i64 + 1 + c as i64).collect::<Vec<_>>()
+                };
+                for part in &parts {
+                    let corners: Vec<Vec<i64>> = part.iter().map(|&k| corner(k)).collect();
+                    let middle =
+                        |[a, b]: [usize; 2]| std::array::from_fn(|d| (corners[a][d] + corners[b][d]) / 2);
+                    let mut list: Vec<u32> = corners.iter().map(|at| node([at[0], at[1], at[2]])).collect();
+                    if kind.nodes() > kind.corners() {
+                        list.extend(edges.iter().map(|&edge| node(middle(edge))));
+                    }
+                    elements.push(Element { id: elements.len() as u64 + 1, kind, set: 0, nodes: list });
+                }
+            }
+        }
+    }
+    SectorMesh {
+        sectors: 1,
+        node_ids: (1..=nodes.len() as u64).collect(),
+        nodes,
+        axis: ([0.0; 3], [0.0, 0.0, 1.0]),
+        cyclic: Vec::new(),
+        elements,
+        sets: vec![ElementSet { name: "ALL".into(), material: steel() }],
+    }
+}
+
+/// A number in (−1, 1) that looks random, of a place and a seed.
+pub(crate) fn noise(at: [f64; 3], seed: f64) -> f64 {
+    let wave = (at[0] * 12.9898 + at[1] * 78.233 + at[2] * 37.719 + seed * 4.581).sin() * 43758.5453;
+    2.0 * (wave - wave.floor()) - 1.0
+}
+
+/// Every corner a little out of place; the middles of edges stay in the middle.
+pub(crate) fn crooked(at: [f64; 3], amount: f64) -> [f64; 3] {
+    let corner = |at: [f64; 3]| -> [f64; 3] { std::array::from_fn(|d| at[d] + amount * noise(at, d as f64)) };
+    // Ends of the edge in whose middle this is: a corner of the grid is both.
+    let [low, high] = [f64::floor, f64::ceil].map(|round| corner(at.map(round)));
+    std::array::from_fn(|d| 0.5 * (low[d] + high[d]))
+}
