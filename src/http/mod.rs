@@ -42,6 +42,7 @@ pub mod server;
 mod spectra;
 mod state;
 mod stream;
+mod stress;
 mod studies;
 mod submit;
 mod sweeps;

@@ -114,6 +114,8 @@ kinds! {
     SpeedNotFound = NOT_FOUND, "speed-not-found", "There is no such speed";
     /// No histories of that speed were recorded.
     HistoryNotRecorded = NOT_FOUND, "history-not-recorded", "There are no histories of this speed";
+    /// No stress of that speed was recorded.
+    StressNotRecorded = NOT_FOUND, "stress-not-recorded", "There is no stress";
     /// The route knows other methods.
     MethodNotAllowed = METHOD_NOT_ALLOWED, "method-not-allowed", "The method is not allowed here";
     /// The result does not have the form that was asked for.

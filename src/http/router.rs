@@ -20,7 +20,7 @@ use super::state::AppState;
 use super::{
     access, archive, body, case_studies, contract, extract, forces, health, histories, host, jobs, maps,
     metrics, modal_analyses, models, openapi, principal, problem, report, results, section, spectra, stream,
-    studies, sweeps, version, wheel,
+    stress, studies, sweeps, version, wheel,
 };
 
 /// The routes with their descriptions.
@@ -49,6 +49,7 @@ pub(super) fn routes() -> OpenApiRouter<AppState> {
         .routes(routes!(studies::get_work_precision))
         .routes(routes!(histories::get_histories, case_studies::create_histories))
         .routes(routes!(forces::get_forces))
+        .routes(routes!(stress::get_stress))
         .routes(routes!(health::get_health))
         .routes(routes!(health::get_readiness))
         .routes(routes!(metrics::get_metrics))
