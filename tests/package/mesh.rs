@@ -4,7 +4,7 @@ use std::path::Path;
 
 use rubmap::impeller::mesh::ElementOrder;
 use rubmap::impeller::{AnnulusParameters, Material, annulus};
-use rubmap::package::calculix::{self, CalculixModel};
+use rubmap::package::calculix::{self, CalculixModel, Normals};
 use rubmap::package::raw::RawPackage;
 use rubmap::package::{self, Limits, read_mesh, read_raw, write};
 use rubmap::solid::element::ElementKind;
@@ -312,10 +312,14 @@ fn deck(folder: &Path, change: impl FnOnce(String) -> String) -> CalculixModel {
         let text: String = diagonal.map(|(row, _, value)| format!("{0} {0} {value:e}\n", row + 1)).collect();
         std::fs::write(folder.join(name), text).unwrap();
     }
+    let normals = folder.join("normals.csv");
+    std::fs::write(&normals, "6, 1, 0, 0\n15, 1, 0, 0\n").unwrap();
     CalculixModel {
         sectors: Some(12),
         low_set: Some("LOW".into()),
         high_set: Some("HIGH".into()),
+        contact_as_listed: true,
+        normals: Normals::Table(normals),
         ..crate::calculix::model(folder, "deck.inp", "rest")
     }
 }
@@ -350,7 +354,7 @@ fn a_deck_has_elements_materials_and_strengths() {
     assert_eq!(refused, said);
     std::fs::write(&strengths, r#"{"TI": {"yield": 880}}"#).unwrap();
     let refused = calculix::import(&model).unwrap_err().to_string();
-    assert!(refused.contains("strengths.json: TI: unknown field `yield`"), "{refused}");
+    assert!(refused.contains("strengths.json: TI.yield: unknown field `yield`"), "{refused}");
 }
 
 #[test]
@@ -378,7 +382,7 @@ fn a_deck_that_has_no_usable_mesh_says_why() {
         (|deck| deck.replace("3,4,5,8,7,13,14,17,16", "1,4,5,8,7,13,14,17,16"), "element 1 is defined twice"),
         (
             |deck| deck.replace("3,4,5,8,7,13,14,17,16", "3,4,7,8,5,13,16,17,14"),
-            "elements.csv, line 3: element 3 (C3D8) is flipped or degenerate: its Jacobian determinant at node 4 is -1.472e2, not positive; all of it is inside out: list the corners of each of its faces the other way round",
+            "elements.csv, line 3: element 3 (C3D8) is flipped or degenerate: its Jacobian determinant at node 4 is -6.794e1, not positive; all of it is inside out: list the corners of each of its faces the other way round",
         ),
     ];
     let mut wrong = String::new();
