@@ -1,11 +1,14 @@
 //! Uploads that are not packages at all: never a panic, never past the limits.
 
 use std::io::Write;
+use std::sync::LazyLock;
 
 use proptest::prelude::*;
 use rubmap::package::Limits;
 use rubmap::package::PackageError;
 use rubmap::package::error::ArchiveProblem;
+use rubmap::solid::load::volumes;
+use rubmap::solid::stress::NodalStress;
 use zip::CompressionMethod::{Deflated, Stored};
 
 use crate::fixed::fixed;
@@ -188,6 +191,8 @@ fn files_that_are_not_zips_say_so() {
     ));
 }
 
+static MESHED: LazyLock<Files> = LazyLock::new(crate::mesh::linear);
+
 proptest! {
     #![proptest_config(fixed(300))]
 
@@ -227,6 +232,34 @@ proptest! {
         if let Err(error) = files.import() {
             prop_assert!(!error.to_string().is_empty());
             prop_assert!(error.line().is_none() || error.file().is_some());
+        }
+    }
+
+    #[test]
+    fn spoiled_meshes_never_panic(
+        file in 0..3_usize,
+        spots in proptest::collection::vec((any::<prop::sample::Index>(), prop::sample::select(&b"0123456789.-e,\nCDQMI"[..])), 1..4),
+    ) {
+        let mut files = MESHED.clone();
+        let content = files.0.get_mut(["elements.csv", "nodes.csv", "sector.json"][file]).expect("it has a mesh");
+        for (at, byte) in spots {
+            let at = at.index(content.len());
+            content[at] = byte;
+        }
+        match files.import() {
+            Err(error) => {
+                prop_assert!(!error.to_string().is_empty());
+                prop_assert!(error.line().is_none() || error.file().is_some());
+            }
+            // What passes can be worked with.
+            Ok(imported) => {
+                let mesh = imported.mesh.expect("it is named");
+                prop_assert!(volumes(&mesh).iter().all(|volume| *volume > 0.0));
+                let operator = NodalStress::new(&mesh);
+                let u = faer::Mat::zeros(3 * mesh.nodes.len(), 1);
+                let stress = operator.apply(faer::c64::new(1.0, 0.0), u.as_ref());
+                prop_assert_eq!(stress.norm_max(), 0.0);
+            }
         }
     }
 }

@@ -27,7 +27,7 @@ fn disk(element_order: ElementOrder) -> RawPackage {
     annulus(&p).unwrap()
 }
 
-fn linear() -> Files {
+pub(crate) fn linear() -> Files {
     Files::of(&disk(ElementOrder::Linear))
 }
 

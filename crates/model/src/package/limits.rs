@@ -8,7 +8,7 @@ pub struct Limits {
     /// Bytes that may leave decompressors for each byte of the upload, beyond the first 64 MiB (default 100; matrices as
     /// text deflate to a third, tables to a tenth): what an upload costs is in proportion to its size.
     pub expansion: u64,
-    /// Entries of the archive, folders included (default 100; a package needs at most 8 files).
+    /// Entries of the archive, folders included (default 100; a package needs at most 9 files).
     pub entries: usize,
     /// Bytes of `sector.json`, which is held as text (default 64 MiB).
     pub manifest_bytes: u64,
