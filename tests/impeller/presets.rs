@@ -1,9 +1,12 @@
 //! Presets and requests: sizes, the paper's numbers, and what a user may write.
 
+use rubmap::analysis::run::MeshFacts;
 use rubmap::impeller::mesh::ElementOrder;
 use rubmap::impeller::{
-    ImpellerError, ImpellerParameters, ImpellerRequest, PaperCasing, Preset, SectorDofs, impeller_sector,
+    ImpellerError, ImpellerParameters, ImpellerRequest, PaperCasing, Preset, SectorDofs, generate,
+    impeller_sector,
 };
+use rubmap::package::{Limits, read, read_mesh, write};
 use serde_json::{Value, json};
 use utoipa::PartialSchema;
 
@@ -32,6 +35,27 @@ fn presets_have_the_sizes_they_promise() {
         assert_eq!(parameters.element_order == ElementOrder::Quadratic, full);
     }
     assert_eq!(Preset::Small.parameters(), ImpellerParameters::default());
+}
+
+/// To the facets of a coarse mesh. Splitter, other blades and both ends
+/// of the blade do not disturb it.
+#[test]
+fn thickness_at_the_tip_is_found_in_the_mesh() {
+    for (changes, tip) in [
+        (json!({"preset": "small"}), 0.6),
+        (json!({"preset": "medium", "tip_thickness": 0.9}), 0.9),
+        (json!({"preset": "small", "contact_nodes": 4, "tip_thickness": 1.2, "sectors": 7}), 1.2),
+    ] {
+        let parameters = request(changes).resolve().unwrap();
+        let file = tempfile::NamedTempFile::new().unwrap();
+        write(&generate(&parameters).unwrap(), &file).unwrap();
+        let limits = Limits::default();
+        let mesh = read_mesh(file.path(), &limits).unwrap().unwrap();
+        let sector = read(file.path(), &limits).unwrap().sector;
+        let found = MeshFacts::of(&mesh, &sector).tip_thickness.unwrap();
+        println!("{tip}: {found}");
+        assert!((0.95 * tip..1.1 * tip).contains(&found), "{tip}: {found}");
+    }
 }
 
 /// 3 %, 2.2 % and 4.25 % of the height at the trailing edge, so that 1.25 % and 2.1 % (2.05) are pushed in.

@@ -7,11 +7,12 @@ use rubmap_solid::mesh::SectorMesh;
 use rubmap_solid::skin::skin;
 use rubmap_wheel::dynamics::sector::ContactNode;
 
-/// How far below the tip it is measured, in distances of neighbouring contact nodes: the edge itself may be round.
-const BELOW: f64 = 0.25;
+/// How far below the tip it is measured, in distances of neighbouring contact nodes: not on the edge, and not so far that a blade that leans
+/// has left the normal.
+const BELOW: f64 = 0.02;
 
-/// The smallest over all contact nodes of the way through the blade along the line across the contact line and the normal; none with a
-/// single contact node, or where no such line leaves the mesh.
+/// The smallest over the contact nodes, but for the first and the last, which stand on the ends of the blade, of the way through the blade
+/// along the line across the contact line and the normal; none with fewer than three contact nodes, or where no such line leaves the mesh.
 pub(super) fn tip_thickness(mesh: &SectorMesh, contact: &[ContactNode]) -> Option<f64> {
     let frame = AxisFrame::new(mesh.axis.0, mesh.axis.1)?;
     let position = |node: &ContactNode| {
@@ -27,9 +28,9 @@ pub(super) fn tip_thickness(mesh: &SectorMesh, contact: &[ContactNode]) -> Optio
             (2..corners.len()).map(|k| [at(corners[0]), at(corners[k - 1]), at(corners[k])])
         })
         .collect();
-    let thickness = |(k, node): (usize, &ContactNode)| {
-        let (before, after) = (line[k.saturating_sub(1)], line[(k + 1).min(line.len() - 1)]);
-        let spacing = (after - before).norm() / if k == 0 || k + 1 == line.len() { 1.0 } else { 2.0 };
+    let thickness = |k: usize, node: &ContactNode| {
+        let (before, after) = (line[k - 1], line[k + 1]);
+        let spacing = 0.5 * (after - before).norm();
         let [_, theta, _] = frame.coordinates(line[k].into());
         let normal = frame.cylindrical(theta).transpose() * Vector3::from(node.normal);
         let across = normal.cross(&(after - before)).try_normalize(0.0)?;
@@ -37,14 +38,10 @@ pub(super) fn tip_thickness(mesh: &SectorMesh, contact: &[ContactNode]) -> Optio
         let leaves = |way: Vector3<f64>| {
             triangles.iter().filter_map(|triangle| hit(from, way, triangle)).reduce(f64::min)
         };
-        match (leaves(across), leaves(-across)) {
-            (None, None) => None,
-            // A node on one side of the blade.
-            (there, back) => Some(there.unwrap_or(0.0) + back.unwrap_or(0.0)),
-        }
+        Some(leaves(across)? + leaves(-across)?)
     };
-    line.len().checked_sub(2)?;
-    contact.iter().enumerate().filter_map(thickness).reduce(f64::min)
+    let inner = 1..line.len().saturating_sub(1);
+    inner.filter_map(|k| thickness(k, &contact[k])).reduce(f64::min)
 }
 
 /// How far along the unit vector `way` a triangle lies (Möller and Trumbore 1997); its edges belong to it.

@@ -23,7 +23,7 @@ pub struct Record {
 #[serde(deny_unknown_fields)]
 pub struct StressRequest {
     /// Nodes within this distance of a contact node of any blade are left out, in the model's unit of length: forces act on points
-    /// there, and no stress is claimed. Default: twice the mean distance of neighbouring contact nodes; a model with one contact
+    /// there, and no stress is claimed. Default: the mean distance of neighbouring contact nodes; a model with one contact
     /// node has no default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub excluded_radius: Option<f64>,

@@ -84,8 +84,9 @@ pub(super) fn check_recorded(
     );
 }
 
-/// Spacings of the contact nodes around each of them of which no stress is claimed: the elements that touch it, and their neighbours.
-const EXCLUDED_SPACINGS: f64 = 2.0;
+/// Spacings of the contact nodes around each of them of which no stress is claimed: what a row of point forces differs by from a line of
+/// them has died out at a distance of their spacing (Saint-Venant).
+const EXCLUDED_SPACINGS: f64 = 1.0;
 
 /// Checks stress that a sweep asks for, at `pointer`, and fills in its radius.
 pub(super) fn resolve_stress(
