@@ -29,6 +29,7 @@ mod reserve;
 pub mod results;
 pub mod status;
 mod stored_sensor;
+mod stress;
 mod time;
 pub mod trials;
 mod unfinished;

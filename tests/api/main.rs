@@ -29,6 +29,7 @@ mod refine;
 mod report;
 mod sensors;
 mod small_disk;
+mod stress;
 mod studies;
 mod sweeps;
 mod transport;
