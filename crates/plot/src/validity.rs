@@ -5,9 +5,7 @@ use super::cells::Cell;
 use super::diagram::Diagram;
 use super::key::Flow;
 use super::svg::{Element, group, rectangle};
-use rubmap_analysis::result::{
-    InteractionMap, Point, Validity, ValidityCheck, ValidityMeasure, ValidityVerdict,
-};
+use rubmap_analysis::result::{InteractionMap, Point, Validity, ValidityMeasure, ValidityVerdict};
 
 const DOUBTFUL: &str = "#d9720c";
 const BEYOND: &str = "#8b0f14";
@@ -45,9 +43,9 @@ pub(super) fn measure(what: ValidityMeasure) -> &'static str {
         ValidityMeasure::DisplacementOverChord => {
             "largest displacement of a tip over the length of the contact line"
         }
-        ValidityMeasure::Rotation => "largest rotation of a tip, rad",
+        ValidityMeasure::Rotation => "largest rotation of the contact line, rad",
         ValidityMeasure::StressOverYield => "largest stress over yield strength",
-        ValidityMeasure::NeighbourApproach => "approach of neighbouring tips over their distance",
+        ValidityMeasure::NeighbourApproach => "approach of neighbouring blades over their distance",
         ValidityMeasure::ContactOverLobe => {
             "tangential displacement of a tip over the length in which lobes change"
         }
@@ -57,7 +55,7 @@ pub(super) fn measure(what: ValidityMeasure) -> &'static str {
 /// The verdict with the number that says so; none where linear theory holds.
 pub(super) fn reason(validity: &Validity) -> Option<String> {
     colour(validity.verdict)?;
-    let check = worst(validity)?;
+    let check = validity.checks.first()?;
     let limit = match validity.verdict {
         ValidityVerdict::Beyond => check.beyond_above,
         _ => check.doubtful_above,
@@ -69,12 +67,6 @@ pub(super) fn reason(validity: &Validity) -> Option<String> {
         significant(check.value),
         significant(limit)
     ))
-}
-
-/// The number that is farthest beyond its limits.
-pub(super) fn worst(validity: &Validity) -> Option<&ValidityCheck> {
-    let over = |check: &ValidityCheck| check.value / check.beyond_above;
-    validity.checks.iter().max_by(|a, b| over(a).total_cmp(&over(b)))
 }
 
 /// The point of a speed by its index.
