@@ -163,7 +163,7 @@ impl HarmonicStress {
         let columns: [&[f32]; 6] = self.columns(place);
         let (mut form, mut whole) = (0.0, 0.0);
         for row in 0..self.rows.nrows() {
-            let stress: Stress = std::array::from_fn(|k| f64::from(columns[k][row]));
+            let stress: Stress = columns.map(|column| f64::from(column[row]));
             form += von_mises(&stress).powi(2);
             whole += stress.iter().map(|s| s * s).sum::<f64>();
         }
