@@ -43,5 +43,6 @@ mod stepping;
 mod stiffening;
 pub mod stress;
 mod summary;
+mod sweep_stress;
 mod tips;
 mod wheel;

@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::result::{PreliminaryStiffening, ReductionReport};
+use crate::result::{PreliminaryStiffening, ReductionReport, Strengths};
 use crate::stiffening::preliminary_stiffening;
-use rubmap_solid::mesh::{ElementSet, SectorMesh};
+use rubmap_solid::mesh::SectorMesh;
 use rubmap_wheel::dynamics::node_rows::NodeRows;
 use rubmap_wheel::dynamics::reduction::ReducedWheel;
 use rubmap_wheel::dynamics::sector::{SectorModel, Units};
@@ -71,34 +71,14 @@ pub struct ModelFacts {
 pub struct MeshFacts {
     /// Number of elements of a sector.
     pub elements: u32,
-    /// Element sets, in the order of their names.
-    pub sets: Vec<SetFacts>,
-}
-
-/// What a package says of one element set.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-pub struct SetFacts {
-    /// Its name.
-    pub name: String,
-    /// Whether its material has a yield strength.
-    pub yield_strength: bool,
-    /// Whether its material has an ultimate strength.
-    pub ultimate_strength: bool,
-    /// Whether its material has a fatigue strength.
-    pub fatigue_strength: bool,
+    /// What its element sets bear, in the order of their names.
+    pub sets: Vec<Strengths>,
 }
 
 impl MeshFacts {
     /// The facts of `mesh`.
     pub fn of(mesh: &SectorMesh) -> Self {
-        let set = |set: &ElementSet| SetFacts {
-            name: set.name.clone(),
-            yield_strength: set.material.yield_strength.is_some(),
-            ultimate_strength: set.material.ultimate_strength.is_some(),
-            fatigue_strength: set.material.fatigue_strength.is_some(),
-        };
-        Self { elements: mesh.elements.len() as u32, sets: mesh.sets.iter().map(set).collect() }
+        Self { elements: mesh.elements.len() as u32, sets: Strengths::of(mesh) }
     }
 }
 

@@ -11,7 +11,7 @@ pub use crate::contact::{force_map, force_row};
 pub use crate::effects::casing::convert::clearances;
 pub use crate::histories::{histories_wanted, speed_histories};
 pub use crate::modal::modal_analysis;
-pub use crate::model::{MeshFacts, ModelFacts, ReducedSector, SetFacts};
+pub use crate::model::{MeshFacts, ModelFacts, ReducedSector};
 pub use crate::plan::{histories_memory, plan_modal_analysis, plan_sweep, trial_memory};
 pub use crate::prepare::prepare;
 pub use crate::refine::refine;
@@ -29,6 +29,7 @@ pub use crate::speed::run_speed;
 pub use crate::summary::{
     critical_indices, critical_speeds, interaction_map, map_engine_orders, map_row, nothing_completed,
 };
+pub use crate::sweep_stress::sweep_stress;
 pub use crate::tips::wheel_critical_speeds;
 pub use rubmap_wheel::revision::{REVISION, VERSION};
 pub use rubmap_wheel::vectors::vectors;

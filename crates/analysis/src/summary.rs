@@ -167,6 +167,8 @@ fn response_peaks(
             settling: point.settling.as_ref()?.verdict,
             distance_rad_s: nearest.as_ref().map(|crossing| point.speed_rad_s - crossing.speed_rad_s),
             nearest_crossing: nearest,
+            utilisation: point.utilisation(),
+            validity: point.validity_verdict(),
         })
     });
     critical.collect()

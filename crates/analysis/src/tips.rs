@@ -79,6 +79,8 @@ pub fn wheel_critical_speeds(
             resolved: resolution.resolved,
             amplitude_error: errors.and_then(|errors| errors.of(point.index)),
             settling: point.settling.as_ref()?.verdict,
+            utilisation: point.utilisation(),
+            validity: point.validity_verdict(),
         })
     };
     let mut critical_speeds: Vec<_> =

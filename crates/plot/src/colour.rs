@@ -28,6 +28,11 @@ pub(super) fn amplitude(share: f64) -> [u8; 3] {
     polynomial(&INFERNO, share)
 }
 
+/// Colour of a share of a scale on surfaces: none is black, where light and shade would not be seen.
+pub(super) fn level(share: f64) -> [u8; 3] {
+    polynomial(&VIRIDIS, share)
+}
+
 /// Colour of one of `count` things in a natural order, all dark enough for lines on white.
 pub(super) fn ordinal(index: usize, count: usize) -> String {
     /// Tol's bright scheme, in the order of the spectrum.

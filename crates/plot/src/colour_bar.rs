@@ -9,10 +9,21 @@ const WIDTH: f64 = 16.0;
 /// A bar of the colours of `amplitudes` from `left` on, as high as its places, with ticks and a title.
 pub(super) fn draw(amplitudes: &Scale, left: f64, ticks: &[(f64, String)], title: &str) -> Element {
     const STOPS: u32 = 32;
-    let stops = (0..=STOPS).map(|i| {
-        let share = f64::from(i) / f64::from(STOPS);
-        let colour = colour::hex(colour::amplitude(share));
-        Element::new("stop").number("offset", share).set("stop-color", colour)
+    let share = |i: u32| f64::from(i) / f64::from(STOPS);
+    let stops = (0..=STOPS).map(|i| (share(i), colour::amplitude(share(i))));
+    draw_colours(stops, amplitudes, left, ticks, title)
+}
+
+/// A bar of colours at ascending shares of a scale.
+pub(super) fn draw_colours(
+    colours: impl IntoIterator<Item = (f64, [u8; 3])>,
+    amplitudes: &Scale,
+    left: f64,
+    ticks: &[(f64, String)],
+    title: &str,
+) -> Element {
+    let stops = colours.into_iter().map(|(share, rgb)| {
+        Element::new("stop").set("offset", format!("{share:.4}")).set("stop-color", colour::hex(rgb))
     });
     let gradient = Element::new("linearGradient")
         .set("id", "amplitude")

@@ -3,6 +3,9 @@
 use super::axis::Scale;
 use super::svg::{Element, INK, group, line, rectangle, text, upright};
 
+/// Least size of a diagram whose axes have one scale.
+const SMALLEST: (f64, f64) = (320.0, 240.0);
+
 /// A rectangle with a horizontal and a vertical axis.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Diagram {
@@ -35,6 +38,34 @@ impl Diagram {
     ) -> Self {
         let logarithmic = |places| Scale::logarithmic(y, places);
         Self::with_scales(corner, size, |places| Scale::linear(x, places), logarithmic)
+    }
+
+    /// With linear axes of one scale about all places, with some room; no wider and no higher than there is something to see, and at
+    /// most of the size `within`.
+    pub(super) fn of_one_scale(places: &[(f64, f64)], corner: (f64, f64), within: (f64, f64)) -> Self {
+        let ends = |values: &mut dyn Iterator<Item = f64>| {
+            values
+                .filter(|value| value.is_finite())
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+                    (low.min(value), high.max(value))
+                })
+        };
+        let x = ends(&mut places.iter().map(|place| place.0));
+        let y = ends(&mut places.iter().map(|place| place.1));
+        let (x, y) = if x.0 <= x.1 && y.0 <= y.1 { (x, y) } else { ((0.0, 1.0), (0.0, 1.0)) };
+        let spans = (1.16 * (x.1 - x.0), 1.16 * (y.1 - y.0));
+        let per_unit = f64::max(spans.0 / within.0, spans.1 / within.1);
+        // A single place still has surroundings.
+        let per_unit = if per_unit > 0.0 { per_unit } else { 1.0 / within.0 };
+        let about = |(low, high): (f64, f64), size: f64| {
+            let (middle, half) = (0.5 * (low + high), 0.5 * size * per_unit);
+            (middle - half, middle + half)
+        };
+        let size = (
+            within.0.min(spans.0 / per_unit).max(SMALLEST.0),
+            within.1.min(spans.1 / per_unit).max(SMALLEST.1),
+        );
+        Self::new(corner, size, about(x, size.0), about(y, size.1))
     }
 
     fn with_scales(
@@ -155,5 +186,16 @@ mod tests {
         assert_eq!(diagram.clipped((-5.0, 10.0), (5.0, 10.0)), Some([(0.0, 10.0), (5.0, 10.0)]));
         assert_eq!(diagram.inside(5.0, 10.0), Some((50.0, 50.0)));
         assert_eq!(diagram.inside(5.0, 21.0), None);
+    }
+
+    #[test]
+    fn both_directions_have_one_scale() {
+        for places in [&[(0.0, 0.0), (10.0, 1.0)][..], &[(5.0, 5.0)], &[], &[(0.0, -3.0), (0.1, 90.0)]] {
+            let diagram = Diagram::of_one_scale(places, (90.0, 100.0), (790.0, 640.0));
+            let a = diagram.width / (diagram.x.values.1 - diagram.x.values.0);
+            let b = diagram.height / (diagram.y.values.1 - diagram.y.values.0);
+            assert!((a / b - 1.0).abs() < 1e-9 || places.is_empty(), "{a} {b}");
+            assert!(places.iter().all(|place| diagram.inside(place.0, place.1).is_some()));
+        }
     }
 }

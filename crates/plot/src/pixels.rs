@@ -11,7 +11,7 @@ use super::svg::Element;
 pub(super) const DENSITY: f64 = 2.0;
 
 /// Palette index of what has no result: transparent.
-const MISSING: u8 = 255;
+pub(super) const MISSING: u8 = 255;
 
 /// The image over one diagram; all is missing that nothing was painted on.
 #[derive(Debug)]
@@ -46,35 +46,44 @@ impl Pixels {
     }
 
     pub(super) fn draw(&self) -> Element {
-        let Diagram { left, top, width, height, .. } = self.diagram;
-        Element::new("image")
-            .number("x", left)
-            .number("y", top)
-            .number("width", width)
-            .number("height", height)
-            .set("preserveAspectRatio", "none")
-            .set("image-rendering", "pixelated")
-            .set("href", self.data_uri())
+        over(&self.diagram, self.data_uri()).set("image-rendering", "pixelated")
     }
 
     fn data_uri(&self) -> String {
         let palette: Vec<u8> =
             (0..=254).flat_map(|i| colour::amplitude(f64::from(i) / 254.0)).chain([0; 3]).collect();
-        let mut transparency = [255; 256];
-        transparency[usize::from(MISSING)] = 0;
-        let mut file = Vec::new();
-        let mut encoder = png::Encoder::new(&mut file, self.width as u32, self.height as u32);
-        encoder.set_color(png::ColorType::Indexed);
-        encoder.set_depth(png::BitDepth::Eight);
-        encoder.set_palette(palette);
-        encoder.set_trns(transparency.to_vec());
-        encoder.set_compression(png::Compression::High);
-        let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(&self.shades));
-        // Into memory, with sizes that agree, nothing can fail; without an image the drawing is still one.
-        match written {
-            Ok(()) => format!("data:image/png;base64,{}", STANDARD.encode(&file)),
-            Err(_) => "data:,".to_owned(),
-        }
+        data_uri((self.width, self.height), palette, &self.shades)
+    }
+}
+
+/// An image stretched over a diagram.
+pub(super) fn over(diagram: &Diagram, address: String) -> Element {
+    let Diagram { left, top, width, height, .. } = *diagram;
+    Element::new("image")
+        .number("x", left)
+        .number("y", top)
+        .number("width", width)
+        .number("height", height)
+        .set("preserveAspectRatio", "none")
+        .set("href", address)
+}
+
+/// An image of `width` × `height` indices into a palette, whose index [`MISSING`] is transparent, as the address of itself.
+pub(super) fn data_uri((width, height): (usize, usize), palette: Vec<u8>, indices: &[u8]) -> String {
+    let mut transparency = [255; 256];
+    transparency[usize::from(MISSING)] = 0;
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, width as u32, height as u32);
+    encoder.set_color(png::ColorType::Indexed);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_palette(palette);
+    encoder.set_trns(transparency.to_vec());
+    encoder.set_compression(png::Compression::High);
+    let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(indices));
+    // Into memory, with sizes that agree, nothing can fail; without an image the drawing is still one.
+    match written {
+        Ok(()) => format!("data:image/png;base64,{}", STANDARD.encode(&file)),
+        Err(_) => "data:,".to_owned(),
     }
 }
 

@@ -108,7 +108,8 @@ impl<'a> Drawing<'a> {
         let nodes = geometry.nodes.iter().map(|node| node.position);
         let places = nodes.chain(geometry.contact.iter().map(|place| place.position));
         let places: Vec<(f64, f64)> = places.map(|position| project(view, position)).collect();
-        let diagram = fitted(&places, top);
+        let diagram =
+            Diagram::of_one_scale(&places, (LEFT, top), (PLOT.0, f64::min(PLOT.1, HEIGHT - 66.0 - top)));
         let scale = diagram.width / (diagram.x.values.1 - diagram.x.values.0);
         let clearance = geometry.contact.iter().filter_map(|place| place.clearance).fold(0.0, f64::max);
         let stretch = if clearance > 0.0 { round_up(VISIBLE / (clearance * scale)) } else { 1.0 };
@@ -275,30 +276,6 @@ fn project(view: SectionView, [r, theta, z]: [f64; 3]) -> (f64, f64) {
     }
 }
 
-/// A diagram of both directions at one scale about all places, with some room.
-fn fitted(places: &[(f64, f64)], top: f64) -> Diagram {
-    let ends = |values: &mut dyn Iterator<Item = f64>| {
-        values
-            .filter(|value| value.is_finite())
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
-    };
-    let x = ends(&mut places.iter().map(|place| place.0));
-    let y = ends(&mut places.iter().map(|place| place.1));
-    let (x, y) = if x.0 <= x.1 && y.0 <= y.1 { (x, y) } else { ((0.0, 1.0), (0.0, 1.0)) };
-    let size = (PLOT.0, f64::min(PLOT.1, HEIGHT - 66.0 - top));
-    let spans = (1.16 * (x.1 - x.0), 1.16 * (y.1 - y.0));
-    let per_unit = f64::max(spans.0 / size.0, spans.1 / size.1);
-    // A single place still has surroundings.
-    let per_unit = if per_unit > 0.0 { per_unit } else { 1.0 / size.0 };
-    let about = |(low, high): (f64, f64), size: f64| {
-        let (middle, half) = (0.5 * (low + high), 0.5 * size * per_unit);
-        (middle - half, middle + half)
-    };
-    // No wider and no higher than there is something to see.
-    let size = (size.0.min(spans.0 / per_unit).max(320.0), size.1.min(spans.1 / per_unit).max(240.0));
-    Diagram::new((LEFT, top), size, about(x, size.0), about(y, size.1))
-}
-
 /// The next of 1, 2 and 5 times a power of ten; at least 1.
 fn round_up(value: f64) -> f64 {
     if value <= 1.0 || !value.is_finite() {
@@ -315,16 +292,5 @@ mod tests {
     #[test]
     fn stretches_are_round() {
         assert_eq!([0.3, 1.0, 1.1, 4.0, 60.0, f64::INFINITY].map(round_up), [1.0, 1.0, 2.0, 5.0, 100.0, 1.0]);
-    }
-
-    #[test]
-    fn both_directions_have_one_scale() {
-        for places in [&[(0.0, 0.0), (10.0, 1.0)][..], &[(5.0, 5.0)], &[], &[(0.0, -3.0), (0.1, 90.0)]] {
-            let diagram = fitted(places, 100.0);
-            let a = diagram.width / (diagram.x.values.1 - diagram.x.values.0);
-            let b = diagram.height / (diagram.y.values.1 - diagram.y.values.0);
-            assert!((a / b - 1.0).abs() < 1e-9 || places.is_empty(), "{a} {b}");
-            assert!(places.iter().all(|place| diagram.inside(place.0, place.1).is_some()));
-        }
     }
 }

@@ -14,6 +14,7 @@ pub mod stress;
 pub mod study;
 pub mod surface;
 pub mod sweep;
+pub mod sweep_stress;
 pub mod tip;
 pub mod trial;
 pub mod validity;
@@ -37,12 +38,13 @@ pub use reduction::{
     StiffeningVerdict,
 };
 pub use refinement::{Refinement, Unresolvable, Unresolved};
-pub use stress::{PointStress, StressCycle, StressPeak};
+pub use stress::{PointStress, Strengths, StressCycle, StressPeak, stress_unit};
 pub use study::{
     Histories, HistoryLine, SpeedStudy, StepOrder, StudyReduction, StudyRun, WorkPrecision, front,
 };
 pub use surface::{FieldSurface, SurfaceColour};
 pub use sweep::{CriticalSpeed, CriticalSpeeds, InteractionMap};
+pub use sweep_stress::{SpeedStress, SweepStress};
 pub use tip::TipResponse;
 pub use trial::{Cost, Trial};
 pub use validity::{Validity, ValidityCheck, ValidityMeasure, ValidityVerdict};

@@ -9,7 +9,7 @@ use crate::result::contact::{ContactForces, ContactSummary};
 use crate::result::reduction::StiffeningVerdict;
 use crate::result::stress::PointStress;
 use crate::result::tip::TipResponse;
-use crate::result::validity::Validity;
+use crate::result::validity::{Validity, ValidityVerdict};
 use rubmap_wheel::dynamics::energy::{EffectWork, EnergyAudit};
 use rubmap_wheel::response::settling::Settling;
 use rubmap_wheel::response::side_bands::SideBands;
@@ -199,6 +199,18 @@ pub struct Point {
     pub wall_time_s: f64,
     /// Version of the code that computed it.
     pub version: String,
+}
+
+impl Point {
+    /// The largest utilisation at the speed; none without stress or strengths.
+    pub fn utilisation(&self) -> Option<f64> {
+        self.stress.as_ref()?.utilisation()
+    }
+
+    /// Whether linear theory holds at the speed, as far as it is known.
+    pub fn validity_verdict(&self) -> Option<ValidityVerdict> {
+        Some(self.validity.as_ref()?.verdict)
+    }
 }
 
 /// Spectra of one sensor at one speed, over the engine orders of [`SpeedSpectra`].

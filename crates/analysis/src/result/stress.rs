@@ -2,6 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use rubmap_solid::mesh::{ElementSet, SectorMesh};
+use rubmap_wheel::dynamics::sector::Units;
+
 /// Stress of the mesh's nodes over the last revolution, as the mean over the elements around a node; static stress of the centrifugal load
 /// included. Nodes near the contact line are left out, where forces act on points.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -68,4 +71,95 @@ pub struct StressCycle {
     /// Largest von Mises stress over yield strength; absent without it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub over_yield: Option<f64>,
+}
+
+impl PointStress {
+    /// The largest utilisation of its cycles; none without strengths.
+    pub fn utilisation(&self) -> Option<f64> {
+        self.cycles.iter().filter_map(|cycle| cycle.utilisation).max_by(f64::total_cmp)
+    }
+}
+
+/// What the material of an element set bears, as far as the model says.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct Strengths {
+    /// Name of the element set.
+    pub set: String,
+    /// Fatigue strength: the amplitude of a fully reversed stress.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fatigue: Option<f64>,
+    /// Ultimate strength.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ultimate: Option<f64>,
+    /// Yield strength.
+    #[serde(default, rename = "yield", skip_serializing_if = "Option::is_none")]
+    pub yield_: Option<f64>,
+    /// Where the fatigue strength comes from.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub source: Option<String>,
+}
+
+impl Strengths {
+    /// Those of all sets of a mesh.
+    pub fn of(mesh: &SectorMesh) -> Vec<Self> {
+        let strengths = |set: &ElementSet| Self {
+            set: set.name.clone(),
+            fatigue: set.material.fatigue_strength.as_ref().map(|fatigue| fatigue.amplitude),
+            ultimate: set.material.ultimate_strength,
+            yield_: set.material.yield_strength,
+            source: set.material.fatigue_strength.as_ref().map(|fatigue| fatigue.source.clone()),
+        };
+        mesh.sets.iter().map(strengths).collect()
+    }
+}
+
+/// What stress is measured in: force over length².
+pub fn stress_unit(units: &Units) -> String {
+    match (units.force.as_str(), units.length.as_str()) {
+        ("N", "mm") => "MPa".to_owned(),
+        ("N", "m") => "Pa".to_owned(),
+        (force, length) => format!("{force}/{length}²"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rubmap_solid::material::{FatigueStrength, Material};
+
+    #[test]
+    fn strengths_are_those_of_the_sets() {
+        let fatigue = FatigueStrength { amplitude: 110.0, source: "a table".to_owned() };
+        let known = Material {
+            youngs_modulus: 70e3,
+            poissons_ratio: 0.3,
+            density: 2.7e-9,
+            yield_strength: Some(320.0),
+            ultimate_strength: Some(360.0),
+            fatigue_strength: Some(fatigue),
+        };
+        let unknown = Material {
+            yield_strength: None,
+            ultimate_strength: None,
+            fatigue_strength: None,
+            ..known.clone()
+        };
+        let set = |name: &str, material| ElementSet { name: name.to_owned(), material };
+        let mesh = SectorMesh {
+            sectors: 9,
+            node_ids: Vec::new(),
+            nodes: Vec::new(),
+            axis: ([0.0; 3], [0.0, 0.0, 1.0]),
+            cyclic: Vec::new(),
+            elements: Vec::new(),
+            sets: vec![set("BLADE", known), set("DISK", unknown)],
+        };
+        let found = serde_json::to_value(Strengths::of(&mesh)).unwrap();
+        let expected = serde_json::json!([
+            {"set": "BLADE", "fatigue": 110.0, "ultimate": 360.0, "yield": 320.0, "source": "a table"},
+            {"set": "DISK"},
+        ]);
+        assert_eq!(found, expected);
+    }
 }

@@ -8,6 +8,7 @@ use crate::result::plan::{Estimate, Spent};
 use crate::result::point::Point;
 use crate::result::reduction::{ReductionReport, StiffeningVerdict};
 use crate::result::refinement::Refinement;
+use crate::result::validity::ValidityVerdict;
 use rubmap_wheel::dynamics::sector::Units;
 use rubmap_wheel::response::campbell::{Crossing, DrivenCrossing};
 use rubmap_wheel::response::coincidence::Coincidence;
@@ -100,6 +101,12 @@ pub struct CriticalSpeed {
     /// Peak speed minus the nearest prediction's, rad/s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub distance_rad_s: Option<f64>,
+    /// Largest utilisation at that speed; absent where no stress was recorded or strengths are not known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub utilisation: Option<f64>,
+    /// Whether linear theory holds at that speed; absent of what an earlier version computed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub validity: Option<ValidityVerdict>,
 }
 
 /// Critical speeds of a sweep beside the linear prediction.

@@ -6,6 +6,7 @@ use crate::request::{Sensor, SweepRequest};
 use crate::result::refinement::Refinement;
 use crate::result::sweep::CriticalSpeed;
 use crate::result::tip::TipResponse;
+use crate::result::validity::ValidityVerdict;
 use rubmap_wheel::dynamics::sector::Units;
 use rubmap_wheel::response::settling::Verdict;
 
@@ -65,6 +66,12 @@ pub struct WheelCriticalSpeed {
     pub amplitude_error: Option<f64>,
     /// Steady-state verdict of the speed.
     pub settling: Verdict,
+    /// Largest utilisation at that speed; absent where no stress was recorded or strengths are not known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub utilisation: Option<f64>,
+    /// Whether linear theory holds at that speed; absent of what an earlier version computed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub validity: Option<ValidityVerdict>,
 }
 
 /// What one sensor sees.

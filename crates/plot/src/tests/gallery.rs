@@ -6,11 +6,14 @@ use std::path::{Path, PathBuf};
 
 use super::drawings::{credentials, mm};
 use super::fixtures::{contact, recorded, sector, spectra, worn};
+use super::impeller::{SECTORS, impeller};
+use super::stresses::{of_sweep, stressed_map};
 use super::studies::{RUNS, first_revolutions, study};
 use crate::{
-    ForceQuantity, Frame, HistoryQuantity, SectionView, VerticalAxis, Window, campbell, campbell_fixed_frame,
-    critical_speeds, error_over_step, force_map, histories, interaction_map, map_sheet, png, section,
-    spectrum, speed_histories, trajectories, wear_map, work_precision,
+    ForceQuantity, Frame, HaighColour, HistoryQuantity, SectionView, SurfaceView, VerticalAxis, Window,
+    campbell, campbell_fixed_frame, critical_speeds, error_over_step, force_map, haigh, histories,
+    interaction_map, map_sheet, png, section, spectrum, speed_histories, surface, trajectories, wear_map,
+    work_precision,
 };
 use rubmap_analysis::result::{
     Campbell, CriticalSpeeds, InteractionMap, Quantity, SectorGeometry, SpeedSpectra,
@@ -93,6 +96,17 @@ fn gallery() {
     let geometry: SectorGeometry = read(&demo.join("geometry.json")).unwrap_or_else(|| sector(9));
     for (name, view) in [("section", SectionView::Meridional), ("section-cyclic", SectionView::Cyclic)] {
         save(&folder, name, &section(&geometry, view));
+    }
+
+    for (name, view) in
+        [("front", SurfaceView::Front), ("rear", SurfaceView::Rear), ("meridional", SurfaceView::Meridional)]
+    {
+        save(&folder, &format!("surface-{name}"), &surface(&impeller(0..SECTORS, 12, 2.0), view));
+        save(&folder, &format!("surface-sector-{name}"), &surface(&impeller(0..1, 12, 2.0), view));
+    }
+
+    for (name, by) in [("haigh", HaighColour::Speed), ("haigh-utilisation", HaighColour::Utilisation)] {
+        save(&folder, name, &haigh(&of_sweep(&stressed_map()), by));
     }
 
     let found: WorkPrecision =

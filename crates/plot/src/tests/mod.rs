@@ -3,8 +3,11 @@
 mod drawings;
 mod fixtures;
 mod gallery;
+mod impeller;
 mod report;
+mod stresses;
 mod studies;
+mod surfaces;
 
 use std::f64::consts::TAU;
 

@@ -1,0 +1,59 @@
+//! Stress over the speeds of a sweep.
+
+use serde::{Deserialize, Serialize};
+
+use crate::request::SweepRequest;
+use crate::result::point::Point;
+use crate::result::stress::{PointStress, Strengths, StressCycle};
+use crate::result::validity::Validity;
+use rubmap_wheel::dynamics::sector::Units;
+
+/// Stress of the speeds of a sweep, and what the materials bear.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct SweepStress {
+    /// The speeds whose stress was recorded, in the order of the request.
+    pub speeds: Vec<SpeedStress>,
+    /// What the material of each element set bears.
+    pub strengths: Vec<Strengths>,
+    /// Units of the model; stress is force over length².
+    pub units: Units,
+    /// The whole request as resolved.
+    pub settings: SweepRequest,
+    /// Version of the code.
+    pub version: String,
+}
+
+/// Stress of one speed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct SpeedStress {
+    /// Index of the speed in the sweep.
+    pub index: u32,
+    /// Ω, rad/s.
+    pub speed_rad_s: f64,
+    /// Stress and margin.
+    pub stress: PointStress,
+    /// Whether linear theory holds there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub validity: Option<Validity>,
+}
+
+impl SpeedStress {
+    /// Of a point that has stress.
+    pub fn of(point: &Point) -> Option<Self> {
+        Some(Self {
+            index: point.index,
+            speed_rad_s: point.speed_rad_s,
+            stress: point.stress.clone()?,
+            validity: point.validity.clone(),
+        })
+    }
+}
+
+impl SweepStress {
+    /// Every cycle with its speed.
+    pub fn cycles(&self) -> impl Iterator<Item = (&SpeedStress, &StressCycle)> {
+        self.speeds.iter().flat_map(|speed| speed.stress.cycles.iter().map(move |cycle| (speed, cycle)))
+    }
+}

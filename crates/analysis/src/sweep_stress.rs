@@ -1,0 +1,18 @@
+//! Stress over the speeds of a sweep.
+
+use crate::model::ModelFacts;
+use crate::resolved::ResolvedSweep;
+use crate::result::point::Point;
+use crate::result::sweep_stress::{SpeedStress, SweepStress};
+use rubmap_wheel::revision::VERSION;
+
+/// Stress of those of the points that have any; the model's facts say what its materials bear.
+pub fn sweep_stress(request: &ResolvedSweep, facts: &ModelFacts, points: &[Point]) -> SweepStress {
+    SweepStress {
+        speeds: points.iter().filter_map(SpeedStress::of).collect(),
+        strengths: facts.mesh.as_ref().map_or_else(Vec::new, |mesh| mesh.sets.clone()),
+        units: facts.units.clone(),
+        settings: request.clone().into(),
+        version: VERSION.to_owned(),
+    }
+}

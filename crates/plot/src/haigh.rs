@@ -1,0 +1,288 @@
+//! Haigh diagram: alternating over mean stress, and what the materials bear (Goodman, Mechanics Applied to Engineering, 1899).
+
+use super::axis::{Scale, label, significant, ticks};
+use super::cells::rpm;
+use super::colour::{DASHES, level};
+use super::diagram::Diagram;
+use super::key::Flow;
+use super::labels::Labels;
+use super::svg::{Element, document, group, line, polyline};
+use super::{colour, colour_bar, heading};
+use rubmap_analysis::result::{SpeedStress, Strengths, StressCycle, SweepStress, stress_unit};
+
+const WIDTH: f64 = 1180.0;
+const LEFT: f64 = 100.0;
+const PLOT: (f64, f64) = (900.0, 520.0);
+
+/// Dots that are drawn, the most utilised first.
+const MOST: usize = 3000;
+
+/// Dots that are labelled.
+const LABELLED: usize = 5;
+
+/// Utilisations whose lines are drawn beside the one of 1.
+const LINES: [f64; 3] = [0.25, 0.5, 0.75];
+
+const GOODMAN: &str = "#b01f20";
+const YIELD: &str = "#555555";
+
+/// What colours the dots of a Haigh diagram.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum HaighColour {
+    /// The speed of a cycle.
+    Speed,
+    /// Its utilisation; what has none is grey.
+    Utilisation,
+}
+
+/// Draws the cycles of all speeds in the plane of mean and alternating stress, with Goodman's lines of equal utilisation and the yield
+/// line of every material whose strengths are known. Below a mean of 0 only the alternating part counts. The most utilised places are
+/// labelled.
+pub fn haigh(stress: &SweepStress, by: HaighColour) -> String {
+    let title = "Haigh diagram";
+    let (heading, bottom) = heading::heading(LEFT, title, &words(stress));
+    let cycles = ranked(stress);
+    let diagram = diagram(stress, &cycles, bottom + 28.0);
+    let (x, y) = (ticks(diagram.x.values, 9.0), ticks(diagram.y.values, 8.0));
+    let unit = stress_unit(&stress.units);
+    let mut content = vec![heading, diagram.grid(&x, &y), diagram.region("cycles")];
+    let lines = group().set("clip-path", "url(#cycles)").children(limits(stress, &diagram));
+    content.push(lines);
+    let (scale, colour) = colours(&cycles, by, &diagram);
+    if cycles.is_empty() {
+        content.push(diagram.words("Nothing to draw: no stress was recorded"));
+    }
+    let all = cycles.iter().take(MOST).rev();
+    content.push(group().children(all.filter_map(|cycle| dot(cycle, &diagram, &scale, by, &unit))));
+    content.extend([
+        names(&cycles, &diagram),
+        diagram.frame(),
+        diagram.x_axis(&x, &format!("mean stress (signed von Mises), {unit}")),
+        diagram.y_axis(&y, &format!("alternating stress, {unit}"), 72.0),
+        key(stress, &cycles, diagram.bottom() + 66.0),
+    ]);
+    if !cycles.is_empty() {
+        let stops = (0..=32).map(|i| f64::from(i) / 32.0).map(|share| (share, level(share)));
+        let bar = ticks(scale.values, 8.0);
+        content.push(colour_bar::draw_colours(stops, &scale, diagram.right() + 26.0, &bar, colour));
+    }
+    document(title, WIDTH, diagram.bottom() + 116.0, content)
+}
+
+/// A cycle and its speed.
+type Cycle<'a> = (&'a SpeedStress, &'a StressCycle);
+
+/// All cycles, the most utilised first; of those without utilisation the largest first.
+fn ranked(stress: &SweepStress) -> Vec<Cycle<'_>> {
+    let mut cycles: Vec<Cycle> = stress
+        .cycles()
+        .filter(|(_, cycle)| cycle.mean.is_finite() && cycle.alternating.is_finite())
+        .collect();
+    let rank = |cycle: &StressCycle| cycle.utilisation.filter(|used| used.is_finite()).unwrap_or(-1.0);
+    cycles
+        .sort_by(|(_, a), (_, b)| rank(b).total_cmp(&rank(a)).then(b.alternating.total_cmp(&a.alternating)));
+    cycles
+}
+
+/// What stands below the title.
+fn words(stress: &SweepStress) -> Vec<String> {
+    let cycles = ranked(stress);
+    let unit = stress_unit(&stress.units);
+    let mut words = vec![format!("{} speeds", stress.speeds.len())];
+    if let Some((speed, cycle)) = cycles.first() {
+        let place = format!(
+            "at node {}, blade {}, {} rpm",
+            cycle.node,
+            cycle.sector,
+            label(rpm(speed.speed_rad_s), 0)
+        );
+        words.push(match cycle.utilisation {
+            Some(used) => format!("largest utilisation {} {place}", significant(used)),
+            None => format!("largest alternating stress {} {unit} {place}", significant(cycle.alternating)),
+        });
+    }
+    words.push(heading::origin(&stress.settings.model, &stress.version));
+    let mut paragraphs = vec![words.join(" · ")];
+    if let Some(speed) = stress.speeds.first() {
+        let found = &speed.stress;
+        paragraphs.push(format!(
+            "of every speed the {} places; {} nodes of a sector within {} {} of a contact node are left out",
+            if cycles.iter().any(|(_, cycle)| cycle.utilisation.is_some()) {
+                "most utilised"
+            } else {
+                "most alternating"
+            },
+            found.excluded_nodes,
+            significant(found.excluded_radius),
+            stress.units.length
+        ));
+        paragraphs.extend(found.lacking.as_ref().map(|lacking| format!("no utilisation: {lacking}")));
+    }
+    let sources = stress.strengths.iter().filter_map(|set| Some((set, set.fatigue?, set.source.as_ref()?)));
+    paragraphs.extend(sources.map(|(set, fatigue, source)| {
+        format!("fatigue strength of {}: {} {unit}, {source}", set.set, significant(fatigue))
+    }));
+    paragraphs
+}
+
+/// Axes about all cycles and what the materials bear.
+fn diagram(stress: &SweepStress, cycles: &[Cycle], top: f64) -> Diagram {
+    let bears = |of: fn(&Strengths) -> Option<f64>| {
+        stress.strengths.iter().filter_map(of).filter(|value| value.is_finite()).fold(0.0, f64::max)
+    };
+    let ends = |of: fn(&StressCycle) -> f64| {
+        let values = cycles.iter().map(|(_, cycle)| of(cycle));
+        values.fold((0f64, 0f64), |(low, high), value| (low.min(value), high.max(value)))
+    };
+    let (low, high) = ends(|cycle| cycle.mean);
+    let right = high.max(bears(|set| set.ultimate)).max(bears(|set| set.yield_));
+    let upwards = ends(|cycle| cycle.alternating).1.max(bears(|set| set.fatigue));
+    // An axis from a to b with some room beyond both.
+    let about = |low: f64, high: f64| if low < high { (1.08 * low, 1.08 * high) } else { (0.0, 1.0) };
+    Diagram::new((LEFT, top), PLOT, about(low, right), about(0.0, upwards))
+}
+
+/// Goodman's lines and the yield lines of all materials.
+fn limits(stress: &SweepStress, diagram: &Diagram) -> Vec<Element> {
+    let mut lines = Vec::new();
+    let left = diagram.x.values.0;
+    for (index, set) in stress.strengths.iter().enumerate() {
+        let dashes = DASHES[index % DASHES.len()];
+        if let (Some(fatigue), Some(ultimate)) = (set.fatigue, set.ultimate) {
+            for used in LINES.into_iter().chain([1.0]) {
+                let corners = [(left, used * fatigue), (0.0, used * fatigue), (used * ultimate, 0.0)];
+                let places = corners.map(|(x, y)| Some(diagram.point(x, y)));
+                let whole = used == 1.0;
+                lines.push(
+                    polyline(places)
+                        .set("class", "goodman")
+                        .set("stroke", GOODMAN)
+                        .set("stroke-width", if whole { "1.8" } else { "0.7" })
+                        .set("stroke-dasharray", dashes)
+                        .title(&format!("{}: utilisation {used}", set.set)),
+                );
+                if !whole && index == 0 {
+                    let (x, y) = diagram.point(0.0, used * fatigue);
+                    let words = super::svg::text(x + 5.0, y - 4.0, "start", &format!("{used}"));
+                    lines.push(words.set("fill", GOODMAN).set("font-size", "11").rimmed("white"));
+                }
+            }
+        }
+        if let Some(bears) = set.yield_ {
+            // The largest magnitude of mean ± alternating reaches it.
+            let corners = [(-bears, 0.0), (0.0, bears), (bears, 0.0)];
+            let places = corners.map(|(x, y)| Some(diagram.point(x, y)));
+            let drawn =
+                polyline(places).set("class", "yield").set("stroke", YIELD).set("stroke-width", "1.2");
+            lines.push(drawn.set("stroke-dasharray", dashes).title(&format!("{}: yield", set.set)));
+        }
+    }
+    lines
+}
+
+/// The scale of the dots, as high as the diagram, and what it is of.
+fn colours(cycles: &[Cycle], by: HaighColour, diagram: &Diagram) -> (Scale, &'static str) {
+    let places = (diagram.bottom(), diagram.top);
+    let finite = |values: &mut dyn Iterator<Item = f64>| {
+        values
+            .filter(|value| value.is_finite())
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
+    };
+    match by {
+        HaighColour::Speed => {
+            let (slow, fast) = finite(&mut cycles.iter().map(|(speed, _)| rpm(speed.speed_rad_s)));
+            let speeds = if slow < fast { (slow, fast) } else { (0.0, fast.max(1.0)) };
+            (Scale::linear(speeds, places), "rotational speed Ω, rpm")
+        }
+        HaighColour::Utilisation => {
+            let (_, most) = finite(&mut cycles.iter().filter_map(|(_, cycle)| cycle.utilisation));
+            (Scale::linear((0.0, if most > 0.0 { most } else { 1.0 }), places), "utilisation")
+        }
+    }
+}
+
+fn dot(
+    (speed, cycle): &Cycle,
+    diagram: &Diagram,
+    scale: &Scale,
+    by: HaighColour,
+    unit: &str,
+) -> Option<Element> {
+    let (x, y) = diagram.inside(cycle.mean, cycle.alternating)?;
+    let value = match by {
+        HaighColour::Speed => Some(rpm(speed.speed_rad_s)),
+        HaighColour::Utilisation => cycle.utilisation,
+    };
+    let value = value.filter(|value| value.is_finite());
+    let fill = value.map_or_else(|| "#c8c8c8".to_owned(), |value| colour::hex(level(scale.share(value))));
+    let used =
+        cycle.utilisation.map(|used| format!(", utilisation {}", significant(used))).unwrap_or_default();
+    let words = format!(
+        "{} rpm, node {}, blade {}, {}: {} ± {} {unit}{used}",
+        label(rpm(speed.speed_rad_s), 0),
+        cycle.node,
+        cycle.sector,
+        cycle.set,
+        significant(cycle.mean),
+        significant(cycle.alternating)
+    );
+    let dot = Element::new("circle").set("class", "cycle").number("cx", x).number("cy", y).number("r", 3.4);
+    let dot = dot.set("fill", fill).set("stroke", "#222222").set("stroke-width", "0.5");
+    Some(dot.title(&words))
+}
+
+/// Node and blade of the most utilised places, each place once.
+fn names(cycles: &[Cycle], diagram: &Diagram) -> Element {
+    let mut labels = Labels::inside(diagram);
+    let mut named: Vec<(u64, u32)> = Vec::new();
+    let mut words = group();
+    for (_, cycle) in cycles {
+        let place = (cycle.node, cycle.sector);
+        if named.len() == LABELLED {
+            break;
+        }
+        let Some(at) = diagram.inside(cycle.mean, cycle.alternating).filter(|_| !named.contains(&place))
+        else {
+            continue;
+        };
+        named.push(place);
+        let name = format!("node {}, blade {}", cycle.node, cycle.sector);
+        words = words.children(labels.beside(at, 4.0, &name, 11.0).map(|label| label.rimmed("white")));
+    }
+    words
+}
+
+/// What the marks mean: what is there, and nothing else.
+fn key(stress: &SweepStress, cycles: &[Cycle], y: f64) -> Element {
+    let mut flow = Flow::new(LEFT, WIDTH - 20.0, y);
+    let stroke = |colour: &str, width: &str, dashes: &str| {
+        let stroke = line((0.0, 0.0), (30.0, 0.0)).set("stroke", colour).set("stroke-width", width);
+        stroke.set("stroke-dasharray", dashes)
+    };
+    if !cycles.is_empty() {
+        let dot = Element::new("circle").number("cx", 4.0).number("cy", 0.0).number("r", 3.4);
+        let dot = dot.set("fill", "#c8c8c8").set("stroke", "#222222").set("stroke-width", "0.5");
+        flow = flow.entry(dot, 8.0, "how the stress of a place goes over a revolution");
+    }
+    for (index, set) in stress.strengths.iter().enumerate() {
+        let dashes = DASHES[index % DASHES.len()];
+        if set.fatigue.is_some() && set.ultimate.is_some() {
+            flow = flow.entry(
+                stroke(GOODMAN, "1.8", dashes),
+                30.0,
+                &format!("Goodman, utilisation 1: {}", set.set),
+            );
+        }
+        if set.yield_.is_some() {
+            flow = flow.entry(stroke(YIELD, "1.2", dashes), 30.0, &format!("yield: {}", set.set));
+        }
+    }
+    let lines = stress.strengths.iter().any(|set| set.fatigue.is_some() && set.ultimate.is_some());
+    if lines {
+        flow = flow.entry(stroke(GOODMAN, "0.7", ""), 30.0, "utilisation 0.25, 0.5, 0.75");
+    }
+    if cycles.len() > MOST {
+        flow = flow.entry(group(), 0.0, &format!("{} less utilised ones are not drawn", cycles.len() - MOST));
+    }
+    flow.draw()
+}
