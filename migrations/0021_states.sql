@@ -8,5 +8,5 @@ where type = 'table' and name = 'documents';
 
 pragma writable_schema = reset;
 
-create table schema_changed (nothing integer);
+create table schema_changed (marker integer);
 drop table schema_changed;
