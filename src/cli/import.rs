@@ -10,7 +10,8 @@ use clap::{Args, Subcommand};
 
 use crate::dynamics::sector::Units;
 use crate::package::calculix::{self, CalculixModel, ImportSummary, Normals, SpinFinding};
-use crate::package::raw::{Axis, MatrixFormat, RawPackage};
+use crate::package::raw::{Axis, ManifestMesh, MatrixFormat, RawPackage};
+use crate::solid::material::Material;
 
 /// The program the files come from.
 #[derive(Debug, Subcommand)]
@@ -63,6 +64,10 @@ pub(super) struct CalculixArgs {
     /// CSV of normals, lines node,nx,ny,nz
     #[arg(long)]
     normals: Option<PathBuf>,
+    /// JSON file of strengths by material or element set, {"NAME": {"yield_strength": …, "ultimate_strength": …,
+    /// "fatigue_strength": {"amplitude": …, "source": "…"}}}, which decks do not have [default: none]
+    #[arg(long)]
+    strengths: Option<PathBuf>,
     /// Units of length, force, time and mass in the deck
     #[arg(long, default_value = "mm,N,s,t", value_parser = units)]
     units: Units,
@@ -108,6 +113,7 @@ pub(super) fn import(command: ImportCommand) -> anyhow::Result<()> {
             (None, Some(path)) => Normals::Table(path),
             (None, None) => Normals::ContactNodes,
         },
+        strengths: args.strengths,
         units: args.units,
         name: args.name.unwrap_or(deck_name),
     };
@@ -155,6 +161,14 @@ fn describe(package: &RawPackage, summary: &ImportSummary) -> Result<String, fmt
     if let Some(difference) = summary.sectors_differ {
         writeln!(text, "Sectors of the wheel differ by {difference:.1e} of the largest force")?;
     }
+    match (&manifest.mesh, &summary.no_mesh) {
+        (Some(mesh), _) => {
+            let elements = package.elements.as_ref().map_or(0, Vec::len);
+            writeln!(text, "{elements} elements; {}", materials(mesh))?;
+        }
+        (None, Some(reason)) => writeln!(text, "WITHOUT mesh, and so without stress: {reason}")?,
+        (None, None) => {}
+    }
     for (speed, finding) in &summary.spin {
         writeln!(text, "Stiffness at {speed} rad/s: {}", spin(*finding))?;
     }
@@ -165,6 +179,25 @@ fn describe(package: &RawPackage, summary: &ImportSummary) -> Result<String, fmt
         writeln!(text, "{:>10} {r:10.4} {theta:10.5} {z:10.4} {nr:8.4} {nt:8.4} {nz:8.4}", point.node)?;
     }
     Ok(text)
+}
+
+/// Which strengths each element set has.
+fn materials(mesh: &ManifestMesh) -> String {
+    let of_set = |(name, material): (&String, &Material)| {
+        let known: Vec<&str> = [
+            ("yield", material.yield_strength.is_some()),
+            ("ultimate", material.ultimate_strength.is_some()),
+            ("fatigue", material.fatigue_strength.is_some()),
+        ]
+        .into_iter()
+        .filter_map(|(strength, known)| known.then_some(strength))
+        .collect();
+        match &known[..] {
+            [] => format!("{name} without strengths (--strengths), so without margins"),
+            known => format!("{name} with {} strength", known.join(", ")),
+        }
+    };
+    mesh.sets.iter().map(of_set).collect::<Vec<_>>().join("; ")
 }
 
 fn spin(finding: SpinFinding) -> String {

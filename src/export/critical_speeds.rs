@@ -41,6 +41,8 @@ impl Export for CriticalSpeeds {
             crossings("nearest_crossing_nodal_diameter", |crossing| crossing.nodal_diameter),
             crossings("nearest_crossing_family", |crossing| crossing.family),
             crossings("nearest_crossing_superharmonic", |crossing| crossing.superharmonic),
+            some_reals("utilisation", |speed| speed.utilisation),
+            Array::words("validity", all().map(|speed| speed.validity)),
         ]
     }
 

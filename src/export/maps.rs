@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use super::array::Array;
 use super::{add_to_arrays, csv, npz};
 use crate::analysis::request::{Sensor, SpeedUnit};
-use crate::analysis::result::{InteractionMap, PointStatus};
+use crate::analysis::result::{InteractionMap, Point, PointStatus};
 use crate::package::NpzWriter;
 
 /// Chosen speeds and engine orders of the maps of chosen sensors.
@@ -74,6 +74,12 @@ impl<R: Fn(u32, u32) -> io::Result<Option<Vec<f64>>>> Maps<R> {
             Array::words("status", self.status()),
             Array::reals("engine_orders", map.engine_orders.iter().copied()),
             Array::sensors(self.sensors.iter().map(|(_, sensor)| sensor)),
+            Array::some_reals("utilisation", self.found(Point::utilisation)),
+            Array::some_reals(
+                "largest_von_mises",
+                self.found(|point| Some(point.stress.as_ref()?.largest.von_mises)),
+            ),
+            Array::words("validity", self.found(Point::validity_verdict)),
             Array::json("settings", &map.settings),
             Array::json("units", &map.units),
             Array::text("version", &map.version),
@@ -98,11 +104,16 @@ impl<R: Fn(u32, u32) -> io::Result<Option<Vec<f64>>>> Maps<R> {
 
     /// How the speeds ended; nothing of those that are not finished.
     fn status(&self) -> Vec<Option<PointStatus>> {
-        let of = |index: &u32| {
-            let found = self.map.points.binary_search_by_key(index, |point| point.index);
-            found.ok().map(|place| self.map.points[place].status)
+        self.found(|point| Some(point.status))
+    }
+
+    /// What the points of the speeds say; nothing of those that are not finished.
+    fn found<T>(&self, of: impl Fn(&Point) -> Option<T>) -> Vec<Option<T>> {
+        let found = |index: &u32| {
+            let place = self.map.points.binary_search_by_key(index, |point| point.index).ok()?;
+            of(&self.map.points[place])
         };
-        self.indices.iter().map(of).collect()
+        self.indices.iter().map(found).collect()
     }
 
     /// A row as long as there are engine orders.

@@ -12,6 +12,7 @@ mod npz;
 mod section;
 pub mod spectra;
 mod speed_histories;
+mod stress;
 mod studies;
 mod unit;
 pub mod wear;

@@ -32,6 +32,8 @@ impl Export for WheelCriticalSpeeds {
             reals(format!("prominence_{length}"), |speed| speed.prominence),
             some_reals("amplitude_error".to_owned(), |speed| speed.amplitude_error),
             Array::words("settling", all().map(|speed| speed.settling)),
+            some_reals("utilisation".to_owned(), |speed| speed.utilisation),
+            Array::words("validity", all().map(|speed| speed.validity)),
         ]
     }
 

@@ -84,13 +84,21 @@ pub(super) async fn get_fields(
     let part = field::part(query.sector, &model.facts)?;
     field::check_stress(query.stress, &model.facts)?;
     if query.instant.is_some() && query.engine_order.is_some() {
-        return Err(Problem::parameter("engine_order", "an instant, or an engine order over all of them: not both"));
+        return Err(Problem::parameter(
+            "engine_order",
+            "an instant, or an engine order over all of them: not both",
+        ));
     }
     match query.phase_deg {
         Some(_) if query.engine_order.is_none() => {
-            return Err(Problem::parameter("phase_deg", "only a deflection shape has a phase: name its engine_order"));
+            return Err(Problem::parameter(
+                "phase_deg",
+                "only a deflection shape has a phase: name its engine_order",
+            ));
         }
-        Some(phase) if !phase.is_finite() => return Err(Problem::parameter("phase_deg", "a phase is a number")),
+        Some(phase) if !phase.is_finite() => {
+            return Err(Problem::parameter("phase_deg", "a phase is a number"));
+        }
         _ => {}
     }
     let (document, bytes) = recorded(&state, &job, query.speed).await?;
@@ -147,7 +155,8 @@ async fn recorded(state: &AppState, job: &Job, speed: Option<u32>) -> Result<(Do
     }
     expect_successful(job, "fields are there once the speed is recorded")?;
     let detail = match all.as_slice() {
-        [] => "no state was recorded: post a case study with `state` among the quantities of its record".to_owned(),
+        [] => "no state was recorded: post a case study with `state` among the quantities of its record"
+            .to_owned(),
         some => format!("states were recorded of speeds {some:?}"),
     };
     Err(Problem::new(Kind::HistoryNotRecorded, detail))

@@ -41,6 +41,19 @@ pub(super) struct MapQuery {
     /// Of a drawing: the axis upwards; default `engine_order`. A sheet has engine orders.
     #[param(inline)]
     pub(super) axis: Option<MapAxis>,
+    /// Of a drawing: what the level above the map is coloured by; default `plain`.
+    #[param(inline)]
+    pub(super) colour: Option<MapColour>,
+}
+
+/// What the level of an interaction map is coloured by.
+#[derive(Debug, Clone, Copy, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum MapColour {
+    /// Nothing.
+    Plain,
+    /// The largest utilisation at each speed; critical speeds say theirs.
+    Utilisation,
 }
 
 /// Axis of an interaction map upwards.

@@ -11,7 +11,7 @@ use super::download::{Answer, Download, DownloadQuery, Next, lasting};
 use super::extract::{JobPath, Parameters};
 use super::form::Form;
 use super::map_body::{self, MapBody};
-use super::map_part::{self, MapAxis, MapQuery, Part};
+use super::map_part::{self, MapAxis, MapColour, MapQuery, Part};
 use super::problem::Problem;
 use super::results::{find, sweep};
 use super::spectra::ROW_MEMORY;
@@ -19,7 +19,7 @@ use super::state::AppState;
 use super::stream;
 use crate::analysis::result::CriticalSpeeds;
 use crate::export::maps::Maps;
-use crate::plot::{self, VerticalAxis};
+use crate::plot::{self, LevelColour, VerticalAxis};
 use crate::store::jobs::Job;
 use crate::store::results::Document;
 use crate::tokens::Principal;
@@ -59,7 +59,15 @@ pub(super) async fn get_interaction_map(
         Next::Make(answer) => answer,
     };
     if answer.form.is_drawing() {
-        return draw(&state, job, part, query.axis.unwrap_or(MapAxis::EngineOrder), answer).await;
+        let axis = match query.axis {
+            Some(MapAxis::Frequency) => VerticalAxis::Frequency,
+            Some(MapAxis::EngineOrder) | None => VerticalAxis::EngineOrder,
+        };
+        let colour = match query.colour {
+            Some(MapColour::Utilisation) => LevelColour::Utilisation,
+            Some(MapColour::Plain) | None => LevelColour::Plain,
+        };
+        return draw(&state, job, part, (axis, colour), answer).await;
     }
     if part.sheet {
         return Err(Problem::parameter("nodal_diameters", "a sheet is a drawing: ask for svg or png"));
@@ -89,7 +97,7 @@ async fn draw(
     state: &AppState,
     job: Job,
     mut part: Part,
-    axis: MapAxis,
+    (axis, colour): (VerticalAxis, LevelColour),
     answer: Answer,
 ) -> Result<Response, Problem> {
     let (request, _) = sweep(&job)?;
@@ -108,12 +116,8 @@ async fn draw(
         let critical = runtime.block_on(store.document(job.id, Document::CriticalSpeeds(sensor)))?;
         let critical: Option<CriticalSpeeds> =
             critical.map(|critical| serde_json::from_str(&critical)).transpose()?;
-        let axis = match axis {
-            MapAxis::EngineOrder => VerticalAxis::EngineOrder,
-            MapAxis::Frequency => VerticalAxis::Frequency,
-        };
         Ok(match &maps[..] {
-            [map] if !part.sheet => plot::interaction_map(map, critical.as_ref(), None, axis, window),
+            [map] if !part.sheet => plot::interaction_map(map, critical.as_ref(), None, axis, window, colour),
             maps => plot::map_sheet(maps, window),
         })
     };

@@ -45,6 +45,7 @@ pub mod server;
 mod spectra;
 mod state;
 mod stream;
+mod stress;
 mod studies;
 mod submit;
 mod sweeps;

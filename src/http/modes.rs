@@ -128,7 +128,8 @@ pub(super) async fn get_modes(
     };
     if answer.form == Form::Json {
         let leave = state.answers.leave(&state.jobs, LIST_MEMORY).await;
-        let list = stream::blocking(move || mode_frequencies(&source.reduced().wheel, speed_rad_s, true)).await??;
+        let list =
+            stream::blocking(move || mode_frequencies(&source.reduced().wheel, speed_rad_s, true)).await??;
         let body = serde_json::to_vec(&ModesBody { speed_rad_s, modes_per_speed, nodal_diameters: list })?;
         return Ok(answer.whole(leave, body));
     }

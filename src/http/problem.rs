@@ -116,6 +116,8 @@ kinds! {
     NotReduced = CONFLICT, "not-reduced", "The model has no such reduction";
     /// No histories of that speed were recorded.
     HistoryNotRecorded = NOT_FOUND, "history-not-recorded", "There are no histories of this speed";
+    /// No stress of that speed was recorded.
+    StressNotRecorded = NOT_FOUND, "stress-not-recorded", "There is no stress";
     /// The route knows other methods.
     MethodNotAllowed = METHOD_NOT_ALLOWED, "method-not-allowed", "The method is not allowed here";
     /// The result does not have the form that was asked for.

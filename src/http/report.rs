@@ -144,6 +144,8 @@ impl Found<'_> {
                     forces: forces.as_ref(),
                     histories: &histories,
                     campbell: campbell.as_ref(),
+                    strengths: &facts.strengths,
+                    surfaces: &[],
                 };
                 Ok(report::sweep(&head, &found))
             }

@@ -18,9 +18,9 @@ use utoipa_axum::routes;
 
 use super::state::AppState;
 use super::{
-    access, archive, body, case_studies, contract, extract, fields, forces, health, histories, host, jobs, maps,
-    metrics, modal_analyses, models, modes, openapi, principal, problem, report, results, section, spectra, stream,
-    studies, sweeps, version, wheel,
+    access, archive, body, case_studies, contract, extract, fields, forces, health, histories, host, jobs,
+    maps, metrics, modal_analyses, models, modes, openapi, principal, problem, report, results, section,
+    spectra, stream, stress, studies, sweeps, version, wheel,
 };
 
 /// The routes with their descriptions.
@@ -51,6 +51,7 @@ pub(super) fn routes() -> OpenApiRouter<AppState> {
         .routes(routes!(histories::get_histories, case_studies::create_histories))
         .routes(routes!(fields::get_fields))
         .routes(routes!(forces::get_forces))
+        .routes(routes!(stress::get_stress))
         .routes(routes!(health::get_health))
         .routes(routes!(health::get_readiness))
         .routes(routes!(metrics::get_metrics))

@@ -219,7 +219,7 @@ fn chosen(spectra: SpeedSpectra, sensors: &[u32], orders: Option<&str>) -> Resul
     Ok(SpeedSpectra { engine_orders: part(&engine_orders), sensors })
 }
 
-fn check_index(job: &Job, index: Option<u32>) -> Result<u32, Problem> {
+pub(super) fn check_index(job: &Job, index: Option<u32>) -> Result<u32, Problem> {
     let total = job.speeds.total;
     index.filter(|index| *index < total).ok_or_else(|| {
         Problem::new(Kind::SpeedNotFound, format!("the job has {total} speeds, counted from 0"))

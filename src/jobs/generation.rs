@@ -64,7 +64,7 @@ pub(super) async fn run(
     let path = upload.to_path_buf();
     let read = move || {
         package::read(&path, &Limits::default())
-            .map(|read| (ModelFacts::of(&read.sector).with_mesh(read.mesh.as_ref()), read.digest))
+            .map(|read| (ModelFacts::with_mesh(&read.sector, read.mesh.as_ref()), read.digest))
     };
     let (facts, id) =
         engine.computing.run_parallel(&job.watch, read).await?.map_err(Interruption::generated_package)?;

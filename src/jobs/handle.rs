@@ -288,7 +288,7 @@ impl Jobs {
             let _memory = memory;
             package::read(&path, &limits)
                 .map(|imported| {
-                    (run::ModelFacts::of(&imported.sector).with_mesh(imported.mesh.as_ref()), imported.digest)
+                    (run::ModelFacts::with_mesh(&imported.sector, imported.mesh.as_ref()), imported.digest)
                 })
                 .map_err(Box::new)
         };

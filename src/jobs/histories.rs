@@ -57,7 +57,8 @@ async fn record_one(
     let case = case.clone();
     let compute = move || {
         let mut histories = run::speed_histories(&reduced, &case, place, &monitor)?;
-        let states = histories.states.take().map(|states| states::pack(&states, &reduced.wheel)).transpose()?;
+        let states =
+            histories.states.take().map(|states| states::pack(&states, &reduced.wheel)).transpose()?;
         Ok::<_, Interruption>((serde_json::to_string(&histories)?, states))
     };
     let (text, states) = engine.computing.run(&job.watch, compute).await??;

@@ -39,7 +39,9 @@ pub enum StatesError {
     #[error("the recorded state is damaged: {0}")]
     Damaged(String),
     /// Its coordinates are those of another reduction.
-    #[error("the state was recorded with another reduction of the model than the one that is there: run the job again")]
+    #[error(
+        "the state was recorded with another reduction of the model than the one that is there: run the job again"
+    )]
     OtherReduction,
 }
 

@@ -5,13 +5,13 @@ use serde_json::json;
 use crate::sample::Files;
 
 /// A spoiled package, the message and the place (file, line, field) it must be refused with.
-struct Case {
+pub(crate) struct Case {
     spoil: fn(&mut Files),
     message: &'static str,
     place: (Option<&'static str>, Option<u64>, Option<&'static str>),
 }
 
-const fn case(
+pub(crate) const fn case(
     spoil: fn(&mut Files),
     message: &'static str,
     place: (Option<&'static str>, Option<u64>, Option<&'static str>),
@@ -20,9 +20,14 @@ const fn case(
 }
 
 fn check(cases: &[Case]) {
+    check_on(&Files::good(), cases);
+}
+
+/// Each case, on a copy of `good`.
+pub(crate) fn check_on(good: &Files, cases: &[Case]) {
     let mut wrong = String::new();
     for Case { spoil, message, place } in cases {
-        let mut files = Files::good();
+        let mut files = good.clone();
         spoil(&mut files);
         let (text, found) = match files.import() {
             Ok(_) => ("accepted".to_owned(), (None, None, None)),

@@ -10,6 +10,9 @@ use faer::c64;
 use rubmap::dynamics::sector::{SectorModel, Units};
 use rubmap::package::calculix::{self, CalculixModel, ImportSummary, Normals, SpinFinding};
 use rubmap::package::{self, Limits};
+use rubmap::solid::element::ElementKind;
+use rubmap::solid::load::volumes;
+use rubmap::solid::mesh::SectorMesh;
 
 use crate::sample::shared_models;
 
@@ -27,6 +30,7 @@ pub(crate) fn model(folder: &Path, deck: &str, rest: &str) -> CalculixModel {
         contact_count: None,
         contact_as_listed: false,
         normals: Normals::ContactNodes,
+        strengths: None,
         units: Units { length: "mm".into(), force: "N".into(), time: "s".into(), mass: "t".into() },
         name: "imported".into(),
     }
@@ -211,11 +215,27 @@ fn cyclic_frequencies(folder: &Path, job: &str) -> BTreeMap<usize, Vec<f64>> {
     found
 }
 
-fn imported(model: &CalculixModel) -> (SectorModel, ImportSummary) {
+/// The import, by way of a file.
+fn imported(model: &CalculixModel) -> (SectorModel, ImportSummary, SectorMesh) {
     let (package, summary) = calculix::import(model).expect("imported");
     let file = tempfile::NamedTempFile::new().expect("a file");
     package::write(&package, file.as_file()).expect("written");
-    (package::read(file.path(), &Limits::default()).expect("a good package").sector, summary)
+    let read = package::read(file.path(), &Limits::default()).expect("a good package");
+    let mesh = read.mesh.unwrap_or_else(|| panic!("no mesh: {:?}", summary.no_mesh));
+    assert_eq!(package::read_mesh(file.path(), &Limits::default()).expect("read before"), Some(mesh.clone()));
+    (read.sector, summary, mesh)
+}
+
+/// Whether a mesh is that of one sector of a [`Ring`].
+fn assert_ring(mesh: &SectorMesh) {
+    assert_eq!(mesh.elements.len(), CELLS.iter().product::<usize>());
+    assert_eq!((mesh.sets.len(), &*mesh.sets[0].name), (1, "EALL"));
+    assert_eq!(mesh.cyclic.len(), (CELLS[0] + 1) * (CELLS[2] + 1), "with the clamped pairs at the bore");
+    // Radii 10 and 20, height 2, straight chords; the skew bends what lies between the nodes.
+    let turn = TAU / mesh.sectors as f64 / CELLS[1] as f64;
+    let exact = CELLS[1] as f64 * 0.5 * turn.sin() * (400.0 - 100.0) * 2.0;
+    let volume: f64 = volumes(mesh).iter().sum();
+    assert!((volume / exact - 1.0).abs() < 1e-3, "{volume} {exact}");
 }
 
 #[test]
@@ -236,7 +256,8 @@ fn a_sector_exported_by_calculix_has_the_frequencies_of_its_cyclic_analysis() {
             "{mesh}{tied}*STEP\n*FREQUENCY\n8\n*SELECT CYCLIC SYMMETRY MODES, NMIN=0, NMAX=3\n*END STEP\n"
         ),
     );
-    let (sector, summary) = imported(&model(folder, "deck.inp", "rest"));
+    let (sector, summary, elements) = imported(&model(folder, "deck.inp", "rest"));
+    assert_ring(&elements);
     assert_eq!((sector.sectors, summary.contact.len()), (6, CELLS[0]));
     let reference = cyclic_frequencies(folder, "cyclic");
     assert_eq!(reference.len(), 4);
@@ -285,9 +306,11 @@ fn a_whole_wheel_gives_the_sector_it_is_made_of() {
         high_set: Some("HIGH".into()),
         ..model
     };
-    let (sector, _) = imported(&faces(model(folder, "sector-mesh.inp", "sector")));
+    let (sector, _, mesh) = imported(&faces(model(folder, "sector-mesh.inp", "sector")));
     let cut = CalculixModel { whole_wheel: true, ..faces(model(folder, "wheel-mesh.inp", "wheel")) };
-    let (from_wheel, summary) = imported(&cut);
+    let (from_wheel, summary, of_wheel) = imported(&cut);
+    assert_ring(&mesh);
+    assert_ring(&of_wheel);
     assert!(summary.sectors_differ.is_some_and(|difference| difference < 1e-9), "{summary:?}");
     assert_eq!(from_wheel.contact.len(), sector.contact.len());
     let mut worst: f64 = 0.0;
@@ -335,7 +358,7 @@ fn initial_stresses_give_the_stiffness_of_the_undeformed_geometry() {
     let folder = folder.path();
     let (mesh, tied) = (Ring { sectors: 6, copies: 1 }.deck(), tie(6));
     let model = spun(folder, &mesh, &tied, 10_000.0);
-    let (_, summary) = imported(&model);
+    let (_, summary, _) = imported(&model);
     println!("{:?}", summary.spin);
     for (_, finding) in &summary.spin {
         // Stresses are printed with seven digits.
@@ -372,12 +395,13 @@ fn impeller_a_by_the_same_recipe_is_the_shared_package() {
     let file = std::fs::File::open(models.join("impeller-a.inp.gz")).expect("there");
     std::io::Read::read_to_string(&mut flate2::read::GzDecoder::new(file), &mut deck).expect("text");
     let (mesh, tied) = deck.split_at(deck.find("*SURFACE").expect("the tie"));
-    let (sector, summary) = imported(&spun(folder, mesh, tied, 5000.0));
+    let (sector, summary, mesh) = imported(&spun(folder, mesh, tied, 5000.0));
     println!("{:?}", summary.spin);
     let path: PathBuf = models.join("impeller-a-cartesian.zip");
     let shared = package::read(&path, &Limits::default()).expect("a good package").sector;
     // CalculiX orders DOF as the package does: by node, own ones first but for the high face.
     assert_eq!(sector.own_dofs(), shared.own_dofs());
+    assert_eq!((mesh.elements.len(), mesh.elements[0].kind), (182, ElementKind::C3D20));
     let rows = |sector: &SectorModel| sector.contact.iter().map(|contact| contact.dofs).collect::<Vec<_>>();
     assert_eq!(rows(&sector), rows(&shared));
     let [k0, k2] =

@@ -8,6 +8,7 @@ mod equivalent;
 #[path = "../properties/fixed.rs"]
 mod fixed;
 mod gyroscopic;
+mod mesh;
 mod npz;
 mod sample;
 mod shared_models;

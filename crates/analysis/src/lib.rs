@@ -44,5 +44,7 @@ mod stiffening;
 pub mod stress;
 mod summary;
 mod sweep_stress;
+mod tip_thickness;
 mod tips;
+mod validity;
 mod wheel;

@@ -6,10 +6,13 @@ use serde::{Deserialize, Serialize};
 
 use crate::result::{PreliminaryStiffening, ReductionReport, Strengths};
 use crate::stiffening::preliminary_stiffening;
+use crate::stress::ReducedStress;
+use crate::tip_thickness::tip_thickness;
 use rubmap_solid::mesh::SectorMesh;
+use rubmap_wheel::dynamics::casing::arc_lengths;
 use rubmap_wheel::dynamics::node_rows::NodeRows;
 use rubmap_wheel::dynamics::reduction::ReducedWheel;
-use rubmap_wheel::dynamics::sector::{SectorModel, Units};
+use rubmap_wheel::dynamics::sector::{ContactNode, SectorModel, Units};
 
 /// A reduced sector: all that simulations need of a model. Computed once per (model, `modes_per_speed`) and stored.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -23,6 +26,12 @@ pub struct ReducedSector {
     /// Rows of its basis at nodes that are to be read; kept apart from it.
     #[serde(skip)]
     pub nodes: NodeRows,
+    /// Stress in its coordinates, where that is to be recorded; kept apart from it too.
+    #[serde(skip)]
+    pub stress: Option<Arc<ReducedStress>>,
+    /// Thickness of the blade at its tip, [`MeshFacts::tip_thickness`].
+    #[serde(skip)]
+    pub tip_thickness: Option<f64>,
 }
 
 impl ReducedSector {
@@ -30,6 +39,11 @@ impl ReducedSector {
     pub fn reads(&self, nodes: &[u64]) -> bool {
         let contact = |id| self.wheel.contact.iter().any(|node| node.id == id);
         nodes.iter().all(|&id| self.nodes.find(id).is_some() || contact(id))
+    }
+
+    /// Whether stress can be told outside this radius about the contact nodes.
+    pub fn tells_stress(&self, excluded_radius: f64) -> bool {
+        self.stress.as_ref().is_some_and(|stress| stress.excluded_radius() == excluded_radius)
     }
 }
 
@@ -60,6 +74,10 @@ pub struct ModelFacts {
     /// has kept. The verdict is that of a reduction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stiffening: Option<PreliminaryStiffening>,
+    /// Mean distance of neighbouring contact nodes, in the model's unit of length; absent with a single one, and of models that an
+    /// earlier version has kept.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contact_spacing: Option<f64>,
     /// The elements, if the package has them; without them there are no fields of elements and no stress.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mesh: Option<MeshFacts>,
@@ -73,12 +91,20 @@ pub struct MeshFacts {
     pub elements: u32,
     /// What its element sets bear, in the order of their names.
     pub sets: Vec<Strengths>,
+    /// Smallest thickness of the blade at a contact node, across the blade as a straight line just below the tip goes; absent where
+    /// no such line leaves the mesh on both sides.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tip_thickness: Option<f64>,
 }
 
 impl MeshFacts {
-    /// The facts of `mesh`.
-    pub fn of(mesh: &SectorMesh) -> Self {
-        Self { elements: mesh.elements.len() as u32, sets: Strengths::of(mesh) }
+    /// The facts of the `mesh` of a sector.
+    pub fn of(mesh: &SectorMesh, sector: &SectorModel) -> Self {
+        Self {
+            elements: mesh.elements.len() as u32,
+            sets: Strengths::of(mesh),
+            tip_thickness: tip_thickness(mesh, &sector.contact),
+        }
     }
 }
 
@@ -95,19 +121,27 @@ impl ModelFacts {
             gyroscopic: sector.gyroscopic.is_some(),
             contact_radius: sector.contact.iter().map(|node| node.position[0]).reduce(f64::max),
             stiffening: Some(preliminary_stiffening(sector)),
+            contact_spacing: contact_spacing(&sector.contact),
             mesh: None,
         }
     }
 
-    /// The same of a model whose package has these elements.
-    pub fn with_mesh(self, mesh: Option<&SectorMesh>) -> Self {
-        Self { mesh: mesh.map(MeshFacts::of), ..self }
+    /// The facts of a `sector` whose package has these elements.
+    pub fn with_mesh(sector: &SectorModel, mesh: Option<&SectorMesh>) -> Self {
+        Self { mesh: mesh.map(|mesh| MeshFacts::of(mesh, sector)), ..Self::of(sector) }
     }
 
     /// Whether the model has stiffness at three speeds.
     pub fn has_stiffening(&self) -> bool {
         self.speeds_rad_s.len() == 3
     }
+}
+
+fn contact_spacing(contact: &[ContactNode]) -> Option<f64> {
+    let positions: Vec<_> = contact.iter().map(|node| node.position).collect();
+    let length = arc_lengths(&positions).last().copied()?;
+    let segments = contact.len() - 1;
+    (segments > 0 && length > 0.0).then(|| length / segments as f64)
 }
 
 #[cfg(test)]
@@ -125,6 +159,7 @@ impl ModelFacts {
             gyroscopic: false,
             contact_radius: None,
             stiffening: None,
+            contact_spacing: None,
             mesh: None,
         }
     }

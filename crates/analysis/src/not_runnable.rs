@@ -15,6 +15,9 @@ pub(crate) enum NotRunnable {
     /// A sensor's node of which no rows of the basis were read.
     #[error("the basis of the reduction was not read at node {id}, where a sensor is")]
     UnreadNode { id: u64 },
+    /// Stress of a reduction beside which it was not read.
+    #[error("the stress of the reduction was not read, and this sweep records it")]
+    UnreadStress,
     /// A sensor along the normal of a node that has none.
     #[error("node {id}, where a sensor is, has no normal: only contact nodes have")]
     NoNormal { id: u64 },

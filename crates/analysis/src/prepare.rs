@@ -43,6 +43,8 @@ pub fn prepare(
         wheel: Arc::new(wheel),
         report,
         nodes: NodeRows::default(),
+        stress: None,
+        tip_thickness: None,
     })
 }
 

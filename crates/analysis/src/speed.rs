@@ -18,10 +18,13 @@ use crate::result::{Point, PointStatus, SpeedResult, WearMap};
 use crate::sensed::sensed;
 use crate::start::{initial, perturbed};
 use crate::stepping::Stepping;
+use crate::stress::{Course, stress_of};
+use crate::validity;
 use crate::wheel::wheel_of;
 use rubmap_wheel::dynamics::integrate::{Detail, Outcome, Run, Simulation};
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
 use rubmap_wheel::dynamics::reduction::ReducedWheel;
+use rubmap_wheel::dynamics::states::WheelStates;
 use rubmap_wheel::revision::VERSION;
 
 /// Simulates speed `index` of a sweep, from `start` if it is given: the end of the neighbouring speed of a sweep up or down.
@@ -43,13 +46,17 @@ pub fn run_speed(
     };
     let from = start.map_or(Start::Scene, Start::After);
     let ran = ready(reduced, request, point.speed_rad_s).and_then(|(wheel, stepping)| {
-        let run = simulate(reduced, &wheel, request, &stepping, from, Recording::default(), &watch)?;
+        if request.stress_outside().is_some_and(|radius| !reduced.tells_stress(radius)) {
+            return Err(NotRunnable::UnreadStress);
+        }
+        let run = simulate(reduced, &wheel, request, &stepping, from, Recording::of(request), &watch)?;
         Ok((wheel, stepping, run))
     });
     match ran {
         Err(reason) => point.message = Some(reason.to_string()),
         Ok((wheel, stepping, run)) => {
             recorded = record_run(&mut point, &run, request, &wheel, &stepping, &reduced.wheel.contact)?;
+            judge_run(&mut point, &run, reduced, request, &wheel);
             end_state = end_state_of(&run, &reduced.wheel, &wheel, request);
             wear = run.coating.as_ref().map(WearMap::of);
         }
@@ -61,6 +68,28 @@ pub fn run_speed(
     let (spectra, contact) =
         recorded.map_or((None, None), |Recorded { spectra, contact }| (Some(spectra), contact));
     Ok(SpeedResult { point, spectra, wear, contact, end_state })
+}
+
+/// Writes into `point` what a complete run says of stress and of the theory itself.
+pub(super) fn judge_run(
+    point: &mut Point,
+    run: &Run,
+    reduced: &ReducedSector,
+    request: &ResolvedSweep,
+    wheel: &ModalWheel,
+) {
+    let Outcome::Completed(history) = &run.outcome else { return };
+    let stiffening = request.scene.centrifugal_stiffening;
+    if let (Some(modes), Some(stress)) = (&history.states, &reduced.stress) {
+        let of_states = |states: WheelStates| {
+            let course = Course { harmonics: &reduced.wheel.harmonics, wheel, states: &states, stiffening };
+            stress_of(stress, &course).ok()
+        };
+        // The eigenproblems behind it have been solved at this speed before.
+        let states = WheelStates::of(modes, wheel, &reduced.wheel, stiffening);
+        point.stress = states.ok().and_then(of_states);
+    }
+    point.validity = Some(validity::judge(&history.excursion, point.stress.as_ref(), reduced, request));
 }
 
 /// The wheel of a scene at a speed, and how it is stepped; or why it cannot be.
@@ -155,6 +184,14 @@ pub(super) struct Recording {
     pub(super) detail: Option<Detail>,
     /// Whole revolutions after which recording of all modes begins and ends.
     pub(super) states: Option<(usize, usize)>,
+}
+
+impl Recording {
+    /// What every speed of a sweep needs: the last revolution, if stress is to be told.
+    pub(super) fn of(request: &ResolvedSweep) -> Self {
+        let last = request.integration.revolutions as usize;
+        Self { detail: None, states: request.stress_outside().map(|_| (last - 1, last)) }
+    }
 }
 
 /// Runs a scene on `wheel`; or says why it cannot be.

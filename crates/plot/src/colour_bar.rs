@@ -22,11 +22,17 @@ pub(super) fn draw_colours(
     ticks: &[(f64, String)],
     title: &str,
 ) -> Element {
-    let stops = colours.into_iter().map(|(share, rgb)| {
-        Element::new("stop").set("offset", format!("{share:.4}")).set("stop-color", colour::hex(rgb))
-    });
+    let stops: Vec<(String, String)> =
+        colours.into_iter().map(|(share, rgb)| (format!("{share:.4}"), colour::hex(rgb))).collect();
+    // Drawings share a page: what has another name is another bar, what has the same is the same.
+    let bytes = stops.iter().flat_map(|(share, colour)| share.bytes().chain(colour.bytes()));
+    let sum = bytes.fold(0u32, |sum, byte| sum.wrapping_mul(31).wrapping_add(u32::from(byte)));
+    let id = format!("scale-{sum:x}");
+    let stops = stops
+        .iter()
+        .map(|(share, colour)| Element::new("stop").set("offset", share).set("stop-color", colour));
     let gradient = Element::new("linearGradient")
-        .set("id", "amplitude")
+        .set("id", &id)
         .set("x1", "0")
         .set("x2", "0")
         .set("y1", "1")
@@ -44,7 +50,9 @@ pub(super) fn draw_colours(
     let title = upright(left + f64::max(66.0, WIDTH + widest + 26.0), 0.5 * (bottom + top), "middle", title);
     group()
         .child(Element::new("defs").child(gradient))
-        .child(rectangle(left, top, WIDTH, bottom - top).set("fill", "url(#amplitude)").set("stroke", INK))
+        .child(
+            rectangle(left, top, WIDTH, bottom - top).set("fill", format!("url(#{id})")).set("stroke", INK),
+        )
         .children(marks)
         .child(title.set("font-size", "14"))
 }

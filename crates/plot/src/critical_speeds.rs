@@ -6,7 +6,7 @@ use super::diagram::Diagram;
 use super::key::{Key, MARK_WIDTH};
 use super::labels::Labels;
 use super::svg::{Element, document, group, line, rectangle, text, upright};
-use super::{heading, marks};
+use super::{heading, marks, validity};
 use rubmap_analysis::result::{CriticalSpeed, CriticalSpeeds, Crossing, Verdict};
 
 const WIDTH: f64 = 1180.0;
@@ -82,7 +82,10 @@ impl<'a> View<'a> {
         };
         let tops = peaks.map(|peak| peak.rms * (1.0 + peak.amplitude_error.unwrap_or(0.0)));
         let highest = tops.filter(|top| top.is_finite()).fold(0.0, f64::max);
-        let highest = if highest > 0.0 { 1.7 * highest } else { 1.0 };
+        // The labels stand above the peaks; one with a utilisation is longer.
+        let used = critical.critical_speeds.iter().any(|peak| peak.utilisation.is_some());
+        let room = if used { 2.2 } else { 1.7 };
+        let highest = if highest > 0.0 { room * highest } else { 1.0 };
         let peaks = Diagram::new((LEFT, top), (PLOT_WIDTH, PEAKS_HEIGHT), speeds, (0.0, highest));
         let count = lines.len().max(1) as f64;
         let below = (LEFT, peaks.bottom() + 14.0);
@@ -158,13 +161,15 @@ impl<'a> View<'a> {
         let places: Vec<f64> = shown.iter().map(|(place, _)| place.0).collect();
         let apart = marks::spread(&places, self.peaks.right() - 6.0);
         let drawn = shown.into_iter().zip(apart).map(|((place, peak), x)| {
-            let order = peak.dominant_engine_order.map_or_else(|| "–".to_owned(), marks::order);
+            let order = marks::engine_order(peak);
             let star = if peak.settling == Verdict::NotSettled { " *" } else { "" };
-            let words = format!("{} rpm · EO {order}{star}", label(rpm(peak.speed_rad_s), 0));
+            let used = marks::utilisation(peak);
+            let words = format!("{} rpm · EO {order}{used}{star}", label(rpm(peak.speed_rad_s), 0));
             let lead = line((place.0, place.1 - 6.0), (x, place.1 - 14.0)).set("stroke", "#888888");
             let name = upright(x + 4.0, place.1 - 18.0, "start", &words).set("font-size", "11");
             let mark = peak_mark(place, peak.resolved).title(&words);
-            group().child(lead).child(self.bars(peak)).child(mark).child(name.rimmed("white"))
+            let ring = validity::ring(place, peak.validity, 7.5);
+            group().child(lead).child(self.bars(peak)).child(mark).children(ring).child(name.rimmed("white"))
         });
         group().children(drawn)
     }
@@ -208,6 +213,15 @@ impl<'a> View<'a> {
         }
         if peaks.iter().any(|peak| peak.settling == Verdict::NotSettled) {
             key = key.row(text(middle.0, 4.5, "middle", "*"), "not settled");
+        }
+        if peaks.iter().any(|peak| peak.utilisation.is_some()) {
+            key = key.row(text(middle.0, 4.5, "middle", "U"), "utilisation");
+        }
+        for verdict in validity::MARKED {
+            if peaks.iter().any(|peak| peak.validity == Some(verdict)) {
+                let ring = validity::ring(middle, Some(verdict), 7.5);
+                key = key.row(group().children(ring), validity::words(verdict));
+            }
         }
         if peaks.iter().any(|peak| self.tie(peak).is_some()) {
             let tie = line((2.0, -6.0), (MARK_WIDTH - 2.0, 6.0)).set("stroke", NEAREST);

@@ -40,8 +40,8 @@ pub enum HaighColour {
 /// labelled.
 pub fn haigh(stress: &SweepStress, by: HaighColour) -> String {
     let title = "Haigh diagram";
-    let (heading, bottom) = heading::heading(LEFT, title, &words(stress));
     let cycles = ranked(stress);
+    let (heading, bottom) = heading::heading(LEFT, title, &words(stress, &cycles));
     let diagram = diagram(stress, &cycles, bottom + 28.0);
     let (x, y) = (ticks(diagram.x.values, 9.0), ticks(diagram.y.values, 8.0));
     let unit = stress_unit(&stress.units);
@@ -72,21 +72,15 @@ pub fn haigh(stress: &SweepStress, by: HaighColour) -> String {
 /// A cycle and its speed.
 type Cycle<'a> = (&'a SpeedStress, &'a StressCycle);
 
-/// All cycles, the most utilised first; of those without utilisation the largest first.
+/// All cycles that have a place, the most utilised first.
 fn ranked(stress: &SweepStress) -> Vec<Cycle<'_>> {
-    let mut cycles: Vec<Cycle> = stress
-        .cycles()
-        .filter(|(_, cycle)| cycle.mean.is_finite() && cycle.alternating.is_finite())
-        .collect();
-    let rank = |cycle: &StressCycle| cycle.utilisation.filter(|used| used.is_finite()).unwrap_or(-1.0);
-    cycles
-        .sort_by(|(_, a), (_, b)| rank(b).total_cmp(&rank(a)).then(b.alternating.total_cmp(&a.alternating)));
+    let mut cycles = stress.ranked();
+    cycles.retain(|(_, cycle)| cycle.mean.is_finite() && cycle.alternating.is_finite());
     cycles
 }
 
 /// What stands below the title.
-fn words(stress: &SweepStress) -> Vec<String> {
-    let cycles = ranked(stress);
+fn words(stress: &SweepStress, cycles: &[Cycle]) -> Vec<String> {
     let unit = stress_unit(&stress.units);
     let mut words = vec![format!("{} speeds", stress.speeds.len())];
     if let Some((speed, cycle)) = cycles.first() {

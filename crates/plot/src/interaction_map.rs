@@ -6,10 +6,11 @@ use super::colour::on_dark;
 use super::diagram::Diagram;
 use super::key::Flow;
 use super::labels::Labels;
+use super::level::LevelColour;
 use super::map_view::{DRIVEN, VerticalAxis, View, is_missing, lobes};
 use super::svg::{Element, INK, document, group, line, rectangle, text, upright};
 use super::window::Window;
-use super::{colour_bar, hatching, heat, level, marks, sectors, settling_strip};
+use super::{colour_bar, hatching, heading, heat, level, margin, marks, sectors, settling_strip, validity};
 use rubmap_analysis::result::{
     Campbell, CriticalSpeed, CriticalSpeeds, InteractionMap, StiffeningVerdict, Verdict,
 };
@@ -21,6 +22,8 @@ const LEFT: f64 = 92.0;
 const PLOT_WIDTH: f64 = 946.0;
 const LEVEL_TOP: f64 = 212.0;
 const LEVEL_HEIGHT: f64 = 130.0;
+const VALIDITY_TOP: f64 = 343.5;
+const VALIDITY_HEIGHT: f64 = 7.0;
 const STRIP_TOP: f64 = 352.0;
 const STRIP_HEIGHT: f64 = 9.0;
 const MAP_TOP: f64 = 365.0;
@@ -32,13 +35,15 @@ const WARNING: &str = "#b01f20";
 /// Draws an interaction map or a window of it, with its critical speeds and the linear prediction where they are given.
 ///
 /// Colour is the single-sided amplitude on a logarithmic scale of three decades below the loudest of the window; the mean is left out.
-/// Each spectral line is drawn at least five units high, the loudest wins. Speeds without result are hatched.
+/// Each spectral line is drawn at least five units high, the loudest wins. Speeds without result are hatched. Where linear theory is
+/// doubtful or left, a strip says so.
 pub fn interaction_map(
     map: &InteractionMap,
     critical: Option<&CriticalSpeeds>,
     campbell: Option<&Campbell>,
     axis: VerticalAxis,
     window: Window,
+    level_colour: LevelColour,
 ) -> String {
     let cells = cells(&map.speeds_rad_s);
     let place = ((LEFT, MAP_TOP), (PLOT_WIDTH, MAP_HEIGHT));
@@ -48,8 +53,9 @@ pub fn interaction_map(
     let loudest = heat::loudest(map, &window);
     let mut labels = Labels::inside(&view.diagram);
     let crossings = critical.map(|critical| view.crossings(critical, &mut labels));
-    let mut content = vec![hatching::definition(), heading(map)];
-    content.push(level::draw(map, &cells, &level));
+    let mut content = vec![hatching::definition(), head(map)];
+    content.push(level::draw(map, &cells, &level, level_colour));
+    content.extend(validity::strip(map, &cells, &level, (VALIDITY_TOP, VALIDITY_HEIGHT)));
     content.push(settling_strip::strip(map, &cells, &level, STRIP_TOP, STRIP_HEIGHT));
     content.push(view.amplitudes(map, &cells, loudest));
     if let Some(loudest) = loudest {
@@ -62,12 +68,17 @@ pub fn interaction_map(
     content.push(engine_orders(&view, map, wheel(critical, campbell)));
     content.extend(campbell.map(|campbell| view.natural_frequencies(campbell, &mut labels)));
     content.extend(crossings);
-    content.extend(critical.map(|critical| critical_speeds(critical, &level)).into_iter().flatten());
+    content.extend(
+        critical.map(|critical| critical_speeds(critical, &level, level_colour)).into_iter().flatten(),
+    );
     content.push(level.frame());
     content.push(view.diagram.frame());
     content.extend(axes(&view));
-    content.push(key(map, &cells, &view, critical, campbell));
-    document(&title(map), WIDTH, HEIGHT, content)
+    let flow = key(map, &cells, &view, (critical, campbell), level_colour);
+    // A long key makes the drawing higher.
+    let height = f64::max(HEIGHT, flow.bottom() + 42.0);
+    content.extend([flow.draw(), settling_strip::legend(map, LEFT, height - 18.0), origin(map, height)]);
+    document(&title(map), WIDTH, height, content)
 }
 
 /// Sectors of the wheel, where a reduction tells.
@@ -125,11 +136,11 @@ fn axes(view: &View) -> [Element; 2] {
     [x, y]
 }
 
-fn critical_speeds(critical: &CriticalSpeeds, level: &Diagram) -> Vec<Element> {
+fn critical_speeds(critical: &CriticalSpeeds, level: &Diagram, by: LevelColour) -> Vec<Element> {
     let mut shown: Vec<(f64, &CriticalSpeed)> =
         in_view(critical, level).map(|speed| (level.x.place(rpm(speed.speed_rad_s)), speed)).collect();
     shown.sort_by(|a, b| a.0.total_cmp(&b.0));
-    marks::critical(&shown, level.right(), LEVEL_TOP, MAP_TOP + MAP_HEIGHT)
+    marks::critical(&shown, level.right(), (LEVEL_TOP, MAP_TOP + MAP_HEIGHT), by == LevelColour::Utilisation)
 }
 
 /// Critical speeds that the drawing has room for.
@@ -150,7 +161,7 @@ fn title(map: &InteractionMap) -> String {
     format!("Interaction map: {}{nodal_diameter}", map.sensor)
 }
 
-fn heading(map: &InteractionMap) -> Element {
+fn head(map: &InteractionMap) -> Element {
     let settings = &map.settings;
     let computed = map.amplitude.iter().flatten().count();
     let mut words = vec![format!("{computed} of {} speeds", map.speeds_rad_s.len())];
@@ -169,15 +180,16 @@ fn heading(map: &InteractionMap) -> Element {
         words.push("no contact".to_owned());
     }
     let warning = map.stiffening.and_then(StiffeningVerdict::warning);
-    let model: String = settings.model.chars().take(12).collect();
-    let origin = format!("model {model} · rubmap {}", map.version);
     group()
         .child(text(LEFT, 30.0, "start", &title(map)).set("font-size", "18").set("font-weight", "bold"))
         .child(text(LEFT, 51.0, "start", &words.join(" · ")).set("fill", "#555555"))
         .children(warning.map(|words| text(LEFT, 68.0, "start", words).set("fill", WARNING)))
-        .child(
-            text(WIDTH - 16.0, HEIGHT - 10.0, "end", &origin).set("fill", "#999999").set("font-size", "10"),
-        )
+}
+
+/// Where the numbers come from, in the corner.
+fn origin(map: &InteractionMap, height: f64) -> Element {
+    let words = heading::origin(&map.settings.model, &map.version);
+    text(WIDTH - 16.0, height - 10.0, "end", &words).set("fill", "#999999").set("font-size", "10")
 }
 
 /// What the marks mean, below the map: what is there, and nothing else.
@@ -185,9 +197,9 @@ fn key(
     map: &InteractionMap,
     cells: &[Cell],
     view: &View,
-    critical: Option<&CriticalSpeeds>,
-    campbell: Option<&Campbell>,
-) -> Element {
+    (critical, campbell): (Option<&CriticalSpeeds>, Option<&Campbell>),
+    level_colour: LevelColour,
+) -> Flow {
     let dark = |width: f64| rectangle(0.0, -8.0, width, 16.0).set("fill", "#101010");
     let red = || line((0.0, 0.0), (24.0, 0.0)).set("stroke", "#d62728").set("stroke-width", "1.5");
     let mut flow = Flow::new(LEFT, WIDTH - 20.0, MAP_TOP + MAP_HEIGHT + 66.0);
@@ -199,6 +211,9 @@ fn key(
         if shown.iter().any(|speed| !speed.resolved) {
             let dots = red().set("stroke-dasharray", marks::UNRESOLVED);
             flow = flow.entry(dots, 24.0, "critical speed, peak not resolved");
+        }
+        if level_colour == LevelColour::Utilisation && shown.iter().any(|speed| speed.utilisation.is_some()) {
+            flow = flow.entry(group(), 0.0, "U utilisation");
         }
         if shown.iter().any(|speed| speed.settling == Verdict::NotSettled) {
             flow = flow.entry(group(), 0.0, "* not settled");
@@ -229,6 +244,10 @@ fn key(
         flow = flow.entry(mark, width, "natural frequencies of nodal diameter i");
     }
     flow = View::explained(flow, map, &view.engine_orders(map).1);
+    if level_colour == LevelColour::Utilisation {
+        flow = margin::explained(flow, map, cells);
+    }
+    flow = validity::explained(flow, map, cells, &view.diagram);
     let (low, high) = view.diagram.x.values;
     let seen = |cell: &&Cell| cell.to > low && cell.from < high;
     if cells.iter().filter(seen).any(|cell| is_missing(map, cell)) {
@@ -236,5 +255,5 @@ fn key(
     } else if view.reaches_beyond(map) {
         flow = flow.entry(hatching::mark(), 20.0, "beyond the spectra");
     }
-    group().child(flow.draw()).child(settling_strip::legend(map, LEFT, HEIGHT - 18.0))
+    flow
 }

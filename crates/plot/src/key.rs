@@ -87,6 +87,11 @@ impl Flow {
         self
     }
 
+    /// Where its last line is.
+    pub(super) fn bottom(&self) -> f64 {
+        self.y
+    }
+
     pub(super) fn draw(self) -> Element {
         self.entries
     }

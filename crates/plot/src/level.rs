@@ -4,9 +4,19 @@ use super::axis::{significant, ticks};
 use super::cells::Cell;
 use super::diagram::Diagram;
 use super::svg::{Element, group, line, polyline};
+use super::{margin, validity};
 use rubmap_analysis::result::InteractionMap;
 
 const COLOUR: &str = "#1f4e79";
+
+/// What the level of a map is coloured by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LevelColour {
+    /// Nothing: it is a curve.
+    Plain,
+    /// The largest utilisation at each speed, below the curve; critical speeds say theirs.
+    Utilisation,
+}
 
 /// Root mean square of the map's sensor about its mean, at the speed with this index.
 pub(super) fn rms(map: &InteractionMap, index: usize) -> Option<f64> {
@@ -30,12 +40,14 @@ pub(super) fn diagram(
 }
 
 /// The curve with its axis.
-pub(super) fn draw(map: &InteractionMap, cells: &[Cell], diagram: &Diagram) -> Element {
+pub(super) fn draw(map: &InteractionMap, cells: &[Cell], diagram: &Diagram, by: LevelColour) -> Element {
     let ticks = ticks(diagram.y.values, 4.0);
     let grid = ticks.iter().skip(1).map(|(value, _)| {
         let y = diagram.y.place(*value);
         line((diagram.left, y), (diagram.right(), y)).set("stroke", "#e4e4e4")
     });
+    let area = (by == LevelColour::Utilisation)
+        .then(|| margin::area(map, cells, diagram, |cell| rms(map, cell.index)));
     let points: Vec<_> = cells
         .iter()
         .map(|cell| {
@@ -51,14 +63,21 @@ pub(super) fn draw(map: &InteractionMap, cells: &[Cell], diagram: &Diagram) -> E
     let radius = (0.25 * diagram.width / points.len().max(1) as f64).clamp(0.8, 2.6);
     let dots = points.iter().filter_map(|(cell, point)| {
         let ((x, y), rms) = (*point)?;
-        let dot =
-            Element::new("circle").number("cx", x).number("cy", y).number("r", radius).set("fill", COLOUR);
+        let point = validity::point(map, cell.index);
+        let verdict = point.and_then(|point| point.validity_verdict());
+        let colour = verdict.and_then(validity::colour);
+        let dot = Element::new("circle").number("cx", x).number("cy", y);
+        let dot = dot.number("r", colour.map_or(radius, |_| radius.max(2.0)));
         let unit = map.sensor.unit(&map.units);
-        Some(dot.title(&format!("{:.0} rpm: {} {unit} rms", cell.rpm, significant(rms))))
+        let reason = point.and_then(|point| validity::reason(point.validity.as_ref()?));
+        let reason = reason.map_or_else(String::new, |reason| format!(", {reason}"));
+        let words = format!("{:.0} rpm: {} {unit} rms{reason}", cell.rpm, significant(rms));
+        Some(dot.set("fill", colour.unwrap_or(COLOUR)).title(&words))
     });
     group()
         .child(diagram.background("white"))
         .children(grid)
+        .children(area)
         .child(curve)
         .children(dots)
         .child(diagram.y_axis(&ticks, &format!("level, {} rms", map.sensor.unit(&map.units)), 58.0))

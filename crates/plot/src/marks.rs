@@ -81,17 +81,28 @@ pub(super) fn diamond((x, y): (f64, f64), fill: &str, stroke: &str) -> Element {
 }
 
 /// Dashed lines from `top` to `bottom` at the critical speeds, `x` in the drawing, each with its speed above; dotted where
-/// the speeds of the sweep do not resolve the peak.
-pub(super) fn critical(speeds: &[(f64, &CriticalSpeed)], right: f64, top: f64, bottom: f64) -> Vec<Element> {
+/// the speeds of the sweep do not resolve the peak. Where it is `said`, utilisations stand in
+/// the place of engine orders.
+pub(super) fn critical(
+    speeds: &[(f64, &CriticalSpeed)],
+    right: f64,
+    (top, bottom): (f64, f64),
+    said: bool,
+) -> Vec<Element> {
     let places: Vec<_> = speeds.iter().map(|(x, _)| *x).collect();
     let labels = spread(&places, right);
     let mut out = Vec::new();
     for ((x, speed), label_x) in speeds.iter().zip(labels) {
         let settled = speed.settling != Verdict::NotSettled;
         let words = format!(
-            "{} rpm · EO {}{}",
+            "{} rpm{}{}",
             label(rpm(speed.speed_rad_s), 0),
-            speed.dominant_engine_order.map_or_else(|| "–".to_owned(), order),
+            // There is room for one of both.
+            if said && speed.utilisation.is_some() {
+                utilisation(speed)
+            } else {
+                format!(" · EO {}", engine_order(speed))
+            },
             if settled { "" } else { " *" }
         );
         let (dashes, title) = if speed.resolved {
@@ -114,6 +125,16 @@ pub(super) fn critical(speeds: &[(f64, &CriticalSpeed)], right: f64, top: f64, b
         );
     }
     out
+}
+
+/// The engine order of the largest amplitude at a critical speed.
+pub(super) fn engine_order(speed: &CriticalSpeed) -> String {
+    speed.dominant_engine_order.map_or_else(|| "–".to_owned(), order)
+}
+
+/// The utilisation at a critical speed, to be said after other things.
+pub(super) fn utilisation(speed: &CriticalSpeed) -> String {
+    speed.utilisation.map_or_else(String::new, |used| format!(" · U {}", significant(used)))
 }
 
 /// An engine order without needless decimals.

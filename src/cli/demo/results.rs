@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::analysis::result::{Campbell, CriticalSpeeds, InteractionMap};
 use crate::cli::session::client::{Client, Job};
 use crate::cli::session::save;
-use crate::plot::{self, VerticalAxis, Window};
+use crate::plot::{self, LevelColour, VerticalAxis, Window};
 
 /// What a modal analysis and a sweep found.
 pub(super) struct Results {
@@ -26,7 +26,16 @@ pub(super) async fn download(
         client.download(sweep.link("interaction-map")?, &out.join("interaction-map.json")).await?;
     let critical: CriticalSpeeds =
         client.download(sweep.link("critical-speeds")?, &out.join("critical-speeds.json")).await?;
-    let draw = |axis| plot::interaction_map(&map, Some(&critical), Some(&campbell), axis, Window::default());
+    let draw = |axis| {
+        plot::interaction_map(
+            &map,
+            Some(&critical),
+            Some(&campbell),
+            axis,
+            Window::default(),
+            LevelColour::Plain,
+        )
+    };
     save(&out.join("interaction-map.svg"), &draw(VerticalAxis::EngineOrder))?;
     save(&out.join("interaction-map-frequency.svg"), &draw(VerticalAxis::Frequency))?;
     save(&out.join("campbell.svg"), &plot::campbell(&campbell))?;

@@ -39,9 +39,8 @@ pub(super) fn write(file: &FieldFile, out: &mut dyn Write) -> io::Result<()> {
         })?;
     }
     if of.has_stress() {
-        let stress = |frame: &Frame, sector| {
-            field.stress(of, sector, places, &frame.weights).unwrap_or_default()
-        };
+        let stress =
+            |frame: &Frame, sector| field.stress(of, sector, places, &frame.weights).unwrap_or_default();
         npz.reals_by("stress", &[frames, count, 6], |take| {
             each(&mut |frame, sector| stress(frame, sector).into_iter().flatten().try_for_each(&mut *take))
         })?;

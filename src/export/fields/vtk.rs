@@ -89,9 +89,7 @@ pub(super) fn write_points(
     }
     writeln!(out, "</PointData>\n<Points>")?;
     array::<f64>(out, "Points", (count, 3), |put| {
-        sectors().try_for_each(|sector| {
-            places.iter().try_for_each(|&place| put(&of.position(sector, place)))
-        })
+        sectors().try_for_each(|sector| places.iter().try_for_each(|&place| put(&of.position(sector, place))))
     })?;
     writeln!(out, "</Points>")
 }

@@ -16,10 +16,7 @@ pub(super) fn write(file: &FieldFile, frame: usize, out: &mut dyn Write) -> io::
     let sectors = || of.sectors_of(*part);
     let cells = if of.mesh().is_some() { sectors().len() * elements.len() } else { count };
     begin(out, "UnstructuredGrid", &notes(file))?;
-    writeln!(
-        out,
-        "<UnstructuredGrid>\n<Piece NumberOfPoints=\"{count}\" NumberOfCells=\"{cells}\">"
-    )?;
+    writeln!(out, "<UnstructuredGrid>\n<Piece NumberOfPoints=\"{count}\" NumberOfCells=\"{cells}\">")?;
     write_points(file, &points, frame, out)?;
     let each = |give: &mut dyn FnMut(usize, usize) -> io::Result<()>| {
         sectors().try_for_each(|sector| (0..elements.len()).try_for_each(|element| give(sector, element)))
@@ -55,7 +52,9 @@ pub(super) fn write(file: &FieldFile, frame: usize, out: &mut dyn Write) -> io::
             put(&[end])
         })
     })?;
-    array::<u8>(out, "types", (cells, 1), |put| each(&mut |_, element| put(&[cell(elements[element].kind).0])))?;
+    array::<u8>(out, "types", (cells, 1), |put| {
+        each(&mut |_, element| put(&[cell(elements[element].kind).0]))
+    })?;
     writeln!(out, "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>")
 }
 

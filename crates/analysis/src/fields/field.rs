@@ -109,7 +109,8 @@ impl Field {
         weights: &[(usize, c64)],
     ) -> Option<Vec<[f64; 6]>> {
         let has = of.has_stress();
-        let local = has.then(|| self.sum::<6>(of, sector, places, weights, |harmonic| harmonic.stress.as_ref()))?;
+        let local =
+            has.then(|| self.sum::<6>(of, sector, places, weights, |harmonic| harmonic.stress.as_ref()))?;
         let turned = |(&place, local): (&u32, [f64; 6])| {
             let directions = of.directions(sector, place);
             components(&(directions.transpose() * matrix(local) * directions))

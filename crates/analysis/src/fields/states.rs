@@ -22,7 +22,8 @@ pub fn instants(
 ) -> Result<Field, FieldError> {
     let recorded = states.revolutions.len();
     if let Some(instant) = at.iter().find(|&&instant| instant >= recorded) {
-        let message = format!("{instant} is none of the recorded instants 0 to {}", recorded.saturating_sub(1));
+        let message =
+            format!("{instant} is none of the recorded instants 0 to {}", recorded.saturating_sub(1));
         return Err(FieldError::parameter("instant", message));
     }
     let columns: Vec<(usize, Mat<c64>)> = states

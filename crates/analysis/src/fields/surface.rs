@@ -38,7 +38,9 @@ pub fn surface(
             let (sin, cos) = (theta + of.turn(sector)).sin_cos();
             [r * cos, r * sin, z]
         }));
-        all_faces.extend(faces.iter().map(|face| face.iter().map(|&place| points.number(sector, place) as u32).collect()));
+        all_faces.extend(
+            faces.iter().map(|face| face.iter().map(|&place| points.number(sector, place) as u32).collect()),
+        );
     }
     let colour = match of.has_stress() {
         true => SurfaceColour {

@@ -19,7 +19,7 @@ pub use auto_or::AutoOr;
 pub use case_study::{CaseSpeed, CaseStudyRequest, CaseStudySettings};
 pub use integration::{Integration, SchemeChoice};
 pub use modal_analysis::ModalAnalysisRequest;
-pub use record::{HistoriesRequest, HistorySpeeds, Record, Recorded, RecordedQuantity};
+pub use record::{HistoriesRequest, HistorySpeeds, Record, Recorded, RecordedQuantity, StressRequest};
 pub use scene::Scene;
 pub use sensor::{Component, Gauge, Sensor};
 pub use setting::Setting;

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// What a sweep records beside spectra.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Record {
@@ -11,6 +11,22 @@ pub struct Record {
     /// that is recorded changes a run. A plan counts those that are named by index.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub histories: Option<HistoriesRequest>,
+    /// Stress of every speed, and the margin that it leaves: the largest von Mises stress over the last revolution, and the most
+    /// utilised places. Needs a model with a mesh.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stress: Option<StressRequest>,
+}
+
+/// Stress of every speed; `{}` asks for it.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(deny_unknown_fields)]
+pub struct StressRequest {
+    /// Nodes within this distance of a contact node of any blade are left out, in the model's unit of length: forces act on points
+    /// there, and no stress is claimed. Default: twice the mean distance of neighbouring contact nodes; a model with one contact
+    /// node has no default.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub excluded_radius: Option<f64>,
 }
 
 impl Record {

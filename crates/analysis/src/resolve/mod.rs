@@ -45,6 +45,9 @@ pub fn resolve_sweep(request: SweepRequest, facts: &ModelFacts) -> Result<Resolv
         sweep.sensors = default_sensors(facts);
     }
     check_sensors(&mut found, &sweep.sensors, facts);
+    if let Some(stress) = &mut sweep.record.stress {
+        recorded::resolve_stress(&mut found, stress, "/record/stress", facts);
+    }
     if found.0.is_empty() {
         check_memory(&mut found, &sweep, facts);
         if let Some(histories) = sweep.histories() {

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::discretisation::most_samples;
 use crate::model::ModelFacts;
-use crate::request::{HistoriesRequest, HistorySpeeds, Recorded, RecordedQuantity};
+use crate::request::{HistoriesRequest, HistorySpeeds, Recorded, RecordedQuantity, StressRequest};
 use crate::resolve::findings::Findings;
 use crate::resolved::ResolvedSweep;
 use rubmap_numerics::sector_fourier::harmonic_count;
@@ -86,6 +86,36 @@ pub(super) fn check_recorded(
              revolutions, quantities or sensors"
         ),
     );
+}
+
+/// Spacings of the contact nodes around each of them of which no stress is claimed: the elements that touch it, and their neighbours.
+const EXCLUDED_SPACINGS: f64 = 2.0;
+
+/// Checks stress that a sweep asks for, at `pointer`, and fills in its radius.
+pub(super) fn resolve_stress(
+    found: &mut Findings,
+    request: &mut StressRequest,
+    pointer: &str,
+    facts: &ModelFacts,
+) {
+    found.require(
+        facts.mesh.is_some(),
+        pointer,
+        "this model has no mesh: stress needs elements and materials, which a package gives as `mesh`",
+    );
+    let at = format!("{pointer}/excluded_radius");
+    let usual = facts.contact_spacing.map(|spacing| EXCLUDED_SPACINGS * spacing);
+    request.excluded_radius = request.excluded_radius.or(usual);
+    match request.excluded_radius {
+        Some(radius) => {
+            found.require(radius.is_finite() && radius >= 0.0, &at, "a finite length ≥ 0");
+        }
+        None => found.require(
+            facts.mesh.is_none(),
+            &at,
+            "say how far from its only contact node stress may be claimed: about two elements",
+        ),
+    }
 }
 
 /// Where recording begins and ends: the window, if nothing else is asked for.

@@ -152,6 +152,11 @@ impl ResolvedSweep {
         self.record.histories.as_ref()
     }
 
+    /// Where it asks for stress, the radius about contact nodes within which none is claimed.
+    pub fn stress_outside(&self) -> Option<f64> {
+        self.record.stress.map(|stress| stress.excluded_radius.unwrap_or(0.0))
+    }
+
     /// Speeds that are simulated again at a finer setting.
     pub fn control_speeds(&self) -> usize {
         self.control_speeds as usize

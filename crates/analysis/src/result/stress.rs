@@ -12,6 +12,9 @@ use rubmap_wheel::dynamics::sector::Units;
 pub struct PointStress {
     /// The largest von Mises stress of all places, blades and instants.
     pub largest: StressPeak,
+    /// The largest von Mises stress over yield strength of all places whose material has one; absent where none has.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub largest_over_yield: Option<f64>,
     /// Largest von Mises stress of the centrifugal load alone.
     pub largest_static: f64,
     /// The most utilised places by descending utilisation; without strengths those of the largest alternating stress.

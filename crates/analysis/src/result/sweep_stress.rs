@@ -56,4 +56,14 @@ impl SweepStress {
     pub fn cycles(&self) -> impl Iterator<Item = (&SpeedStress, &StressCycle)> {
         self.speeds.iter().flat_map(|speed| speed.stress.cycles.iter().map(move |cycle| (speed, cycle)))
     }
+
+    /// Every cycle with its speed, the most utilised first, then by descending alternating stress.
+    pub fn ranked(&self) -> Vec<(&SpeedStress, &StressCycle)> {
+        let mut cycles: Vec<_> = self.cycles().collect();
+        let rank = |cycle: &StressCycle| cycle.utilisation.filter(|used| used.is_finite()).unwrap_or(-1.0);
+        cycles.sort_by(|(_, a), (_, b)| {
+            rank(b).total_cmp(&rank(a)).then(b.alternating.total_cmp(&a.alternating))
+        });
+        cycles
+    }
 }

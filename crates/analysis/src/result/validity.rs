@@ -39,20 +39,33 @@ pub struct ValidityCheck {
     pub beyond_above: f64,
 }
 
+impl ValidityCheck {
+    /// What this number alone says.
+    pub fn verdict(&self) -> ValidityVerdict {
+        if self.value > self.beyond_above {
+            ValidityVerdict::Beyond
+        } else if self.value > self.doubtful_above {
+            ValidityVerdict::Doubtful
+        } else {
+            ValidityVerdict::Linear
+        }
+    }
+}
+
 /// What is looked at.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum ValidityMeasure {
-    /// Largest displacement of a tip over the blade's thickness there.
+    /// Largest displacement of a contact node over the blade's thickness there, mean included; of a model with a mesh.
     DisplacementOverThickness,
     /// The same over the length of the contact line.
     DisplacementOverChord,
-    /// Largest rotation of a tip, rad.
+    /// Largest rotation of the line between two neighbouring contact nodes, rad.
     Rotation,
     /// Largest von Mises stress over yield strength.
     StressOverYield,
-    /// How far neighbouring tips come closer, over the distance between them.
+    /// How far the same contact nodes of neighbouring blades come closer tangentially, over the distance between them.
     NeighbourApproach,
     /// Largest tangential displacement of a tip over the length in which the casing's lobes change.
     ContactOverLobe,

@@ -83,6 +83,11 @@ impl ReducedStress {
         })
     }
 
+    /// Nodes within this distance of a contact node are left out.
+    pub fn excluded_radius(&self) -> f64 {
+        self.excluded_radius
+    }
+
     /// Places with stress.
     pub fn places(&self) -> usize {
         self.places.len()

@@ -12,7 +12,7 @@ use super::trajectory::{Path, paths};
 use crate::result::stress::{PointStress, StressCycle, StressPeak};
 use rubmap_numerics::hermitian::EigenError;
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
-use rubmap_wheel::dynamics::reduction::ReducedWheel;
+use rubmap_wheel::dynamics::reduction::ReducedHarmonic;
 use rubmap_wheel::dynamics::states::WheelStates;
 
 /// Places whose cycles are told.
@@ -20,7 +20,8 @@ const CYCLES: usize = 20;
 
 /// A wheel at a speed over a revolution.
 pub(crate) struct Course<'a> {
-    pub(crate) reduced: &'a ReducedWheel,
+    /// Of the whole wheel.
+    pub(crate) harmonics: &'a [ReducedHarmonic],
     /// The simulated part of it.
     pub(crate) wheel: &'a ModalWheel,
     pub(crate) states: &'a WheelStates,
@@ -33,7 +34,7 @@ pub(crate) struct Course<'a> {
 /// If an eigenvalue iteration fails.
 pub(crate) fn stress_of(stress: &ReducedStress, course: &Course<'_>) -> Result<PointStress, EigenError> {
     let fixed = stress.fixed(course.wheel.speed_rad_s, course.stiffening);
-    let paths = paths(course.states, course.reduced)?;
+    let paths = paths(course.states, course.harmonics)?;
     let (weights, lacking) = weights(&stress.sets);
     let blades = (course.wheel.sectors, course.wheel.around());
     let instants = course.states.revolutions.len();
@@ -56,8 +57,12 @@ pub(crate) fn stress_of(stress: &ReducedStress, course: &Course<'_>) -> Result<P
             (bound.largest, search.weights[place].map_or(-1.0, |weights| weights.most(&bound)))
         })
         .collect();
-    let largest = search.best(1, &rough, Largest).first().copied();
-    let utilised = search.best(CYCLES, &rough, Utilised);
+    let largest = search.best(1, &rough, Sought::VonMises(&vec![1.0; stress.places()])).first().copied();
+    let utilised = search.best(CYCLES, &rough, Sought::Utilisation);
+    let over_yield: Vec<f64> = (stress.places.iter())
+        .map(|place| stress.sets[place.set].material.yield_strength.map_or(-1.0, f64::recip))
+        .collect();
+    let yielding = search.best(1, &rough, Sought::VonMises(&over_yield)).first().copied();
     let place = |place: usize| (&stress.places[place], &stress.sets[stress.places[place].set]);
     let peak = largest.map(|at| {
         let followed = search.follow(at);
@@ -92,6 +97,7 @@ pub(crate) fn stress_of(stress: &ReducedStress, course: &Course<'_>) -> Result<P
     let none = StressPeak { von_mises: 0.0, node: 0, position: [0.0; 3], sector: 0, revolution: 0.0 };
     Ok(PointStress {
         largest: peak.unwrap_or(none),
+        largest_over_yield: yielding.map(|at| over_yield[at] * search.follow(at).peak.0),
         largest_static: fixed.iter().map(von_mises).fold(0.0, f64::max),
         cycles,
         excluded_radius: stress.excluded_radius,
@@ -102,50 +108,42 @@ pub(crate) fn stress_of(stress: &ReducedStress, course: &Course<'_>) -> Result<P
 }
 
 /// What is sought.
-trait Sought {
-    fn rough(&self, bound: (f64, f64)) -> f64;
-    fn at_most(&self, seen: &Seen) -> f64;
-    fn at_least(&self, seen: &Seen) -> f64;
-    fn exact(&self, followed: &Followed) -> f64;
+#[derive(Clone, Copy)]
+enum Sought<'a> {
+    /// Von Mises stress times a factor of each place; places with a negative one are passed over.
+    VonMises(&'a [f64]),
+    /// The measure of utilisation.
+    Utilisation,
 }
 
-struct Largest;
-
-impl Sought for Largest {
-    fn rough(&self, bound: (f64, f64)) -> f64 {
-        bound.0
+impl Sought<'_> {
+    /// From `rough` bounds of von Mises stress and the measure.
+    fn rough(self, place: usize, rough: (f64, f64)) -> f64 {
+        match self {
+            Self::VonMises(factors) => factors[place] * rough.0,
+            Self::Utilisation => rough.1,
+        }
     }
 
-    fn at_most(&self, seen: &Seen) -> f64 {
-        seen.largest
+    fn at_most(self, place: usize, seen: &Seen) -> f64 {
+        match self {
+            Self::VonMises(factors) => factors[place] * seen.largest,
+            Self::Utilisation => seen.most,
+        }
     }
 
-    fn at_least(&self, seen: &Seen) -> f64 {
-        seen.largest_at_least
+    fn at_least(self, place: usize, seen: &Seen) -> f64 {
+        match self {
+            Self::VonMises(factors) => factors[place] * seen.largest_at_least,
+            Self::Utilisation => seen.most_at_least,
+        }
     }
 
-    fn exact(&self, followed: &Followed) -> f64 {
-        followed.peak.0
-    }
-}
-
-struct Utilised;
-
-impl Sought for Utilised {
-    fn rough(&self, bound: (f64, f64)) -> f64 {
-        bound.1
-    }
-
-    fn at_most(&self, seen: &Seen) -> f64 {
-        seen.most
-    }
-
-    fn at_least(&self, seen: &Seen) -> f64 {
-        seen.most_at_least
-    }
-
-    fn exact(&self, followed: &Followed) -> f64 {
-        followed.measure
+    fn exact(self, place: usize, followed: &Followed) -> f64 {
+        match self {
+            Self::VonMises(factors) => factors[place] * followed.peak.0,
+            Self::Utilisation => followed.measure,
+        }
     }
 }
 
@@ -177,40 +175,38 @@ struct Search<'a> {
 
 impl Search<'_> {
     /// The `count` places that have most of what is sought, the first of equal ones; `rough` bounds of all.
-    fn best(&mut self, count: usize, rough: &[(f64, f64)], sought: impl Sought) -> Vec<usize> {
-        let mut order: Vec<usize> =
-            (0..rough.len()).filter(|&place| sought.rough(rough[place]) >= 0.0).collect();
-        let descending = |a: f64, b: f64, i: usize, j: usize| match b.total_cmp(&a) {
-            Ordering::Equal => i.cmp(&j),
-            other => other,
-        };
-        order.sort_unstable_by(|&i, &j| descending(sought.rough(rough[i]), sought.rough(rough[j]), i, j));
+    fn best(&mut self, count: usize, rough: &[(f64, f64)], sought: Sought<'_>) -> Vec<usize> {
+        let mut order: Vec<(f64, usize)> = (rough.iter().enumerate())
+            .map(|(place, &rough)| (sought.rough(place, rough), place))
+            .filter(|&(bound, _)| bound >= 0.0)
+            .collect();
+        order.sort_unstable_by(descending);
         let mut floor = Leaders::new(count);
-        let mut candidates: Vec<(f64, usize)> = Vec::new();
+        let mut candidates = Vec::new();
         for batch in order.chunks(BATCH) {
-            if sought.rough(rough[batch[0]]) < floor.least() {
+            if batch[0].0 < floor.least() {
                 break;
             }
-            self.look(batch);
-            for &place in batch {
+            self.look(&batch.iter().map(|&(_, place)| place).collect::<Vec<_>>());
+            for &(_, place) in batch {
                 if let Some(seen) = &self.seen[place] {
-                    floor.add(sought.at_least(seen));
-                    candidates.push((sought.at_most(seen), place));
+                    floor.add(sought.at_least(place, seen));
+                    candidates.push((sought.at_most(place, seen), place));
                 }
             }
         }
-        candidates.sort_unstable_by(|a, b| descending(a.0, b.0, a.1, b.1));
+        candidates.sort_unstable_by(descending);
         let mut exact = Leaders::new(count);
-        let mut found: Vec<(f64, usize)> = Vec::new();
+        let mut found = Vec::new();
         for (at_most, place) in candidates {
             if at_most < floor.least().max(exact.least()) {
                 break;
             }
-            let value = sought.exact(&self.follow(place));
+            let value = sought.exact(place, &self.follow(place));
             exact.add(value);
             found.push((value, place));
         }
-        found.sort_unstable_by(|a, b| descending(a.0, b.0, a.1, b.1));
+        found.sort_unstable_by(descending);
         found.into_iter().take(count).map(|(_, place)| place).collect()
     }
 
@@ -269,6 +265,11 @@ impl Followed {
         }
         self
     }
+}
+
+/// By value, then by place.
+fn descending(a: &(f64, usize), b: &(f64, usize)) -> Ordering {
+    b.0.total_cmp(&a.0).then(a.1.cmp(&b.1))
 }
 
 /// The largest few of some numbers.

@@ -4,7 +4,7 @@ use faer::{Mat, c64};
 
 use super::make::lower;
 use rubmap_numerics::hermitian::{EigenError, eigenpairs};
-use rubmap_wheel::dynamics::reduction::ReducedWheel;
+use rubmap_wheel::dynamics::reduction::ReducedHarmonic;
 use rubmap_wheel::dynamics::states::WheelStates;
 
 /// Share of the largest root energy that those directions leave by which places are bounded: they are few, and what is left is bounded
@@ -29,10 +29,10 @@ pub(super) struct Path {
 }
 
 /// The paths of all nodal diameters that move.
-pub(super) fn paths(states: &WheelStates, reduced: &ReducedWheel) -> Result<Vec<Path>, EigenError> {
+pub(super) fn paths(states: &WheelStates, harmonics: &[ReducedHarmonic]) -> Result<Vec<Path>, EigenError> {
     let mut found = Vec::new();
     for state in &states.harmonics {
-        let lower = lower(&reduced.harmonics[state.harmonic]).ok_or(EigenError::MassNotPositiveDefinite)?;
+        let lower = lower(&harmonics[state.harmonic]).ok_or(EigenError::MassNotPositiveDefinite)?;
         let energy = lower.adjoint() * &state.coordinates;
         if energy.norm_max() == 0.0 {
             continue;

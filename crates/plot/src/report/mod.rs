@@ -4,14 +4,17 @@ mod asked;
 mod credentials;
 mod head;
 mod page;
+mod stress;
 mod tables;
 mod warnings;
 
 use maud::{Markup, html};
-use rubmap_analysis::result::{Campbell, CriticalSpeeds, ForceMap, InteractionMap, SpeedHistories};
+use rubmap_analysis::result::{
+    Campbell, CriticalSpeeds, FieldSurface, ForceMap, InteractionMap, SpeedHistories, Strengths,
+};
 use serde_json::Value;
 
-use super::{ForceQuantity, HistoryQuantity, VerticalAxis, Window, cells};
+use super::{ForceQuantity, HistoryQuantity, LevelColour, VerticalAxis, Window, cells};
 use page::{drawing, page};
 
 pub use head::Head;
@@ -29,22 +32,29 @@ pub struct Sweep<'a> {
     pub histories: &'a [SpeedHistories],
     /// Natural frequencies of the same model, if there are any.
     pub campbell: Option<&'a Campbell>,
+    /// What the materials bear, as far as it is known.
+    pub strengths: &'a [Strengths],
+    /// Surfaces to be shown, each from the front and in the meridional view.
+    pub surfaces: &'a [FieldSurface],
 }
 
 /// The report of a sweep, as HTML. All texts of users are escaped.
 pub fn sweep(head: &Head, sweep: &Sweep) -> String {
-    let Sweep { map, critical, forces, histories, campbell } = *sweep;
+    let Sweep { map, critical, forces, histories, campbell, strengths, surfaces } = *sweep;
     let of_sensor = critical.iter().find(|table| table.sensor == map.sensor);
     let body = html! {
         (asked::sweep(&map.settings))
         (warnings::section(&warnings::sweep(map, critical)))
         (credentials::sweep(map, critical))
         h2 { "Interaction map" }
-        (drawing(&super::interaction_map(map, of_sensor, campbell, VerticalAxis::EngineOrder, Window::default())))
+        (drawing(&super::interaction_map(map, of_sensor, campbell, VerticalAxis::EngineOrder, Window::default(), LevelColour::Plain)))
         h2 { "Critical speeds" }
         (tables::critical_speeds(critical))
         h2 { "Largest responses" }
         (tables::largest_responses(map))
+        (stress::section(map, strengths))
+        (stress::validity_section(map))
+        (stress::pictures(surfaces))
         @if let Some(forces) = forces {
             h2 { "Contact" }
             (drawing(&super::force_map(forces, ForceQuantity::Peak)))

@@ -5,7 +5,9 @@ use rubmap_analysis::result::{
     CriticalSpeed, CriticalSpeeds, DrivenCrossing, InteractionMap, Point, SensorResponse, Verdict,
 };
 
+use crate::axis::significant;
 use crate::cells::rpm;
+use crate::validity;
 
 /// Largest responses that are listed.
 const LISTED: usize = 10;
@@ -29,19 +31,24 @@ pub(super) fn critical_speeds(tables: &[CriticalSpeeds]) -> Markup {
 
 fn of_sensor(table: &CriticalSpeeds) -> Markup {
     let unit = table.sensor.unit(&table.units);
+    let peaks = || table.critical_speeds.iter();
+    let (used, judged) =
+        (peaks().any(|peak| peak.utilisation.is_some()), peaks().any(|peak| peak.validity.is_some()));
     html! {
         table class="numbers" {
             tr {
                 th { "Ω, rpm" } th { "within, rpm" } th { "level, " (unit) " rms" } th { "peak, " (unit) }
                 th { "engine order" } th { "nodal diameter" } th { "steady state" } th { "resolved" }
                 th { "nearest linear (i, j, n)" } th { "at, rpm" } th { "off" }
+                @if used { th { "utilisation" } }
+                @if judged { th { "validity" } }
             }
-            @for peak in &table.critical_speeds { (row(peak)) }
+            @for peak in &table.critical_speeds { (row(peak, used, judged)) }
         }
     }
 }
 
-fn row(peak: &CriticalSpeed) -> Markup {
+fn row(peak: &CriticalSpeed, used: bool, judged: bool) -> Markup {
     html! {
         tr {
             td { (format!("{:.0}", rpm(peak.speed_rad_s))) }
@@ -60,6 +67,8 @@ fn row(peak: &CriticalSpeed) -> Markup {
                 }
                 None => { td { "none in range" } td { "–" } td { "–" } }
             }
+            @if used { td { (peak.utilisation.map_or_else(|| "–".to_owned(), significant)) } }
+            @if judged { td { (peak.validity.map_or("–", validity::words)) } }
         }
     }
 }

@@ -1,9 +1,10 @@
 //! What the numbers are not worth.
 
 use maud::{Markup, html};
-use rubmap_analysis::result::{CriticalSpeeds, InteractionMap, PointStatus, ReductionReport, Verdict};
+use rubmap_analysis::result::{CriticalSpeeds, InteractionMap, Point, PointStatus, ReductionReport, Verdict};
 
 use crate::cells::rpm;
+use crate::validity;
 
 /// Speeds without a result that are named.
 const NAMED: usize = 8;
@@ -43,6 +44,16 @@ pub(super) fn sweep(map: &InteractionMap, critical: &[CriticalSpeeds]) -> Vec<St
         found.push(format!(
             "{unsettled} speeds had not settled at the end of the run: simulate more revolutions."
         ));
+    }
+    for verdict in validity::MARKED {
+        let of_verdict = |point: &&Point| point.validity_verdict() == Some(verdict);
+        let speeds = map.points.iter().filter(of_verdict).count();
+        if speeds > 0 {
+            found.push(format!(
+                "{speeds} speeds: {}; the section on it has the numbers.",
+                validity::words(verdict)
+            ));
+        }
     }
     let unresolved =
         critical.iter().flat_map(|table| &table.critical_speeds).filter(|peak| !peak.resolved).count();

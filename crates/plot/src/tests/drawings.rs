@@ -6,12 +6,15 @@ use rubmap_analysis::result::{ForceMap, Point, Quantity, SpeedHistories, SpeedSp
 use rubmap_wheel::dynamics::sector::Units;
 
 use super::fixtures::{contact, recorded, sector, spectra, worn};
+use super::impeller::{SECTORS, impeller};
+use super::stresses::{of_sweep, stressed_critical, stressed_map};
 use super::studies::{RUNS, first_revolutions, study};
 use super::{critical, decoded, map, modes, point, units, waves};
 use crate::{
-    ForceQuantity, Frame, HistoryQuantity, PngError, SectionView, VerticalAxis, Window, campbell,
-    campbell_fixed_frame, critical_speeds, error_over_step, force_map, histories, interaction_map, map_sheet,
-    png, section, spectrum, speed_histories, trajectories, wear_map, work_precision,
+    ForceQuantity, Frame, HaighColour, HistoryQuantity, LevelColour, PngError, SectionView, SurfaceView,
+    VerticalAxis, Window, campbell, campbell_fixed_frame, critical_speeds, error_over_step, force_map, haigh,
+    histories, interaction_map, map_sheet, png, section, spectrum, speed_histories, surface, trajectories,
+    wear_map, work_precision,
 };
 
 pub(super) fn credentials() -> Point {
@@ -27,7 +30,16 @@ type Drawing = (String, &'static str, &'static [&'static str]);
 
 fn all() -> Vec<Drawing> {
     let (short, spectra) = (recorded([0, 4], 360), spectra(6));
-    let by_speed = |axis| interaction_map(&map(), Some(&critical()), Some(&modes()), axis, Window::default());
+    let by_speed = |axis| {
+        interaction_map(
+            &map(),
+            Some(&critical()),
+            Some(&modes()),
+            axis,
+            Window::default(),
+            LevelColour::Plain,
+        )
+    };
     let history = |what| speed_histories(&short, what, 0);
     let turned = |frame| spectrum(&spectra, &credentials(), &mm(), 0, frame);
     vec![
@@ -134,6 +146,33 @@ fn all() -> Vec<Drawing> {
         ),
         (section(&sector(5), SectionView::Cyclic), "Cyclic faces", &["x, mm", "y, mm"]),
         (
+            surface(&impeller(0..SECTORS, 4, 2.0), SurfaceView::Front),
+            "Nodal diameter 2, mode 1",
+            &["x, mm", "y, mm"],
+        ),
+        (
+            surface(&impeller(0..1, 4, 2.0), SurfaceView::Meridional),
+            "Nodal diameter 2, mode 1",
+            &["axial coordinate z, mm", "radius r, mm"],
+        ),
+        (
+            haigh(&of_sweep(&stressed_map()), HaighColour::Utilisation),
+            "Haigh diagram",
+            &["mean stress (signed von Mises), MPa", "alternating stress, MPa"],
+        ),
+        (
+            interaction_map(
+                &stressed_map(),
+                Some(&stressed_critical()),
+                Some(&modes()),
+                VerticalAxis::EngineOrder,
+                Window::default(),
+                LevelColour::Utilisation,
+            ),
+            "Interaction map",
+            &["rotational speed Ω, rpm", "engine order k"],
+        ),
+        (
             work_precision(&study(&RUNS, true), 0, Quantity::Amplitude),
             "Work and precision: steady amplitude",
             &["relative error: steady amplitude"],
@@ -212,7 +251,14 @@ fn has(keys: &[String], words: &str) -> bool {
 #[test]
 fn a_map_explains_what_is_there_only() {
     let axis = VerticalAxis::EngineOrder;
-    let full = key(&interaction_map(&map(), Some(&critical()), Some(&modes()), axis, Window::default()));
+    let full = key(&interaction_map(
+        &map(),
+        Some(&critical()),
+        Some(&modes()),
+        axis,
+        Window::default(),
+        LevelColour::Plain,
+    ));
     let words = [
         "critical speed",
         "not resolved",
@@ -228,19 +274,29 @@ fn a_map_explains_what_is_there_only() {
     let lines = ["multiples of the lobe count", "other engine orders"];
     let mut healthy = map();
     healthy.amplitude[2] = healthy.amplitude[1].clone();
-    assert_eq!(key(&interaction_map(&healthy, None, None, axis, Window::default())), lines);
-    let bare = key(&interaction_map(&map(), None, None, axis, Window::default()));
+    assert_eq!(
+        key(&interaction_map(&healthy, None, None, axis, Window::default(), LevelColour::Plain)),
+        lines
+    );
+    let bare = key(&interaction_map(&map(), None, None, axis, Window::default(), LevelColour::Plain));
     assert_eq!(bare, [&lines[..], &["no result"]].concat());
     let mut quiet = critical();
     quiet.critical_speeds.clear();
     quiet.driven_crossings.clear();
-    let linear = key(&interaction_map(&healthy, Some(&quiet), None, axis, Window::default()));
+    let linear =
+        key(&interaction_map(&healthy, Some(&quiet), None, axis, Window::default(), LevelColour::Plain));
     assert_eq!(linear, [&["linear criterion (i, j, n) at k = i·n"], &lines[..]].concat());
     // Beyond the window there is nothing to explain.
     let window = Window { speeds_rpm: Some((9_600.0, 10_400.0)), engine_orders: None };
-    assert_eq!(key(&interaction_map(&map(), Some(&critical()), None, axis, window)), lines);
+    assert_eq!(
+        key(&interaction_map(&map(), Some(&critical()), None, axis, window, LevelColour::Plain)),
+        lines
+    );
     let window = Window { engine_orders: Some((2.6, 2.9)), ..window };
-    assert_eq!(key(&interaction_map(&map(), Some(&critical()), None, axis, window)), [""; 0]);
+    assert_eq!(
+        key(&interaction_map(&map(), Some(&critical()), None, axis, window, LevelColour::Plain)),
+        [""; 0]
+    );
 }
 
 #[test]
@@ -379,7 +435,14 @@ fn drawings_of_next_to_nothing_are_drawings() {
     let windows = [(0.0, 0.5), (1e6, 2e6), (5.0, 5.0), (f64::NAN, 1.0), (-1.0, 3.0), (11_000.0, 11_001.0)];
     for (axis, range) in axes.into_iter().flat_map(|axis| windows.map(|range| (axis, range))) {
         let window = Window { speeds_rpm: Some(range), engine_orders: Some(range) };
-        drawings.push(interaction_map(&map(), Some(&critical), Some(&modes), axis, window));
+        drawings.push(interaction_map(
+            &map(),
+            Some(&critical),
+            Some(&modes),
+            axis,
+            window,
+            LevelColour::Plain,
+        ));
         drawings.push(map_sheet(&[map()], window));
     }
 

@@ -7,11 +7,11 @@ use std::path::{Path, PathBuf};
 use super::drawings::{credentials, mm};
 use super::fixtures::{contact, recorded, sector, spectra, worn};
 use super::impeller::{SECTORS, impeller};
-use super::stresses::{of_sweep, stressed_map};
+use super::stresses::{of_sweep, stressed_critical, stressed_map};
 use super::studies::{RUNS, first_revolutions, study};
 use crate::{
-    ForceQuantity, Frame, HaighColour, HistoryQuantity, SectionView, SurfaceView, VerticalAxis, Window,
-    campbell, campbell_fixed_frame, critical_speeds, error_over_step, force_map, haigh, histories,
+    ForceQuantity, Frame, HaighColour, HistoryQuantity, LevelColour, SectionView, SurfaceView, VerticalAxis,
+    Window, campbell, campbell_fixed_frame, critical_speeds, error_over_step, force_map, haigh, histories,
     interaction_map, map_sheet, png, section, spectrum, speed_histories, surface, trajectories, wear_map,
     work_precision,
 };
@@ -50,11 +50,24 @@ fn gallery() {
     let critical: CriticalSpeeds = read(&demo.join("critical-speeds.json")).unwrap_or_else(super::critical);
     let modes: Campbell = read(&demo.join("campbell.json")).unwrap_or_else(super::modes);
     for (name, axis) in [("map", VerticalAxis::EngineOrder), ("map-frequency", VerticalAxis::Frequency)] {
-        let drawing = interaction_map(&map, Some(&critical), Some(&modes), axis, Window::default());
+        let drawing =
+            interaction_map(&map, Some(&critical), Some(&modes), axis, Window::default(), LevelColour::Plain);
         save(&folder, name, &drawing);
     }
     let window = Window { speeds_rpm: Some((18_000.0, 26_000.0)), engine_orders: Some((3.0, 9.0)) };
-    let zoomed = interaction_map(&map, Some(&critical), Some(&modes), VerticalAxis::EngineOrder, window);
+    for (name, by) in [("map-validity", LevelColour::Plain), ("map-utilisation", LevelColour::Utilisation)] {
+        let (map, critical, axis) = (stressed_map(), stressed_critical(), VerticalAxis::EngineOrder);
+        save(&folder, name, &interaction_map(&map, Some(&critical), None, axis, Window::default(), by));
+    }
+    save(&folder, "critical-speeds-validity", &critical_speeds(&stressed_critical()));
+    let zoomed = interaction_map(
+        &map,
+        Some(&critical),
+        Some(&modes),
+        VerticalAxis::EngineOrder,
+        window,
+        LevelColour::Plain,
+    );
     save(&folder, "map-window", &zoomed);
     save(&folder, "campbell", &campbell(&modes));
     save(&folder, "campbell-fixed-frame", &campbell_fixed_frame(&modes));

@@ -14,7 +14,7 @@ use std::f64::consts::TAU;
 use roxmltree::{Document, Node};
 use serde_json::{Value, json};
 
-use super::{VerticalAxis, Window, campbell, interaction_map};
+use super::{LevelColour, VerticalAxis, Window, campbell, interaction_map};
 use rubmap_analysis::result::{Campbell, CriticalSpeeds, InteractionMap, WaveTables};
 
 fn rad_s(rpm: f64) -> f64 {
@@ -131,6 +131,7 @@ fn split_waves_are_drawn_apart() {
                 Some(&modes()),
                 VerticalAxis::EngineOrder,
                 Window::default(),
+                LevelColour::Plain,
             ),
             interaction_map(
                 &map(),
@@ -138,6 +139,7 @@ fn split_waves_are_drawn_apart() {
                 Some(&waves()),
                 VerticalAxis::EngineOrder,
                 Window::default(),
+                LevelColour::Plain,
             ),
         ),
     ] {
@@ -157,7 +159,17 @@ fn unsound_stiffening_stands_above_the_drawing() {
         let verdict = serde_json::from_value(json!(verdict)).unwrap();
         map.stiffening = Some(verdict);
         modes.reduction.stiffening.verdict = verdict;
-        [interaction_map(&map, None, None, VerticalAxis::EngineOrder, Window::default()), campbell(&modes)]
+        [
+            interaction_map(
+                &map,
+                None,
+                None,
+                VerticalAxis::EngineOrder,
+                Window::default(),
+                LevelColour::Plain,
+            ),
+            campbell(&modes),
+        ]
     };
     for (verdict, warned) in [("absent", false), ("sound", false), ("suspect", true), ("unsound", true)] {
         for drawing in drawings(verdict) {
@@ -171,8 +183,14 @@ fn unsound_stiffening_stands_above_the_drawing() {
 fn a_critical_speed_without_a_line_is_labelled_without_one() {
     let mut critical = critical();
     critical.critical_speeds[0].dominant_engine_order = None;
-    let drawing =
-        interaction_map(&map(), Some(&critical), None, VerticalAxis::EngineOrder, Window::default());
+    let drawing = interaction_map(
+        &map(),
+        Some(&critical),
+        None,
+        VerticalAxis::EngineOrder,
+        Window::default(),
+        LevelColour::Plain,
+    );
     assert!(drawing.contains("11,000 rpm · EO –"), "{drawing}");
 }
 
@@ -192,7 +210,14 @@ fn tick(drawing: &Document, label: &str) -> f64 {
 #[test]
 fn critical_speeds_stand_at_their_speeds() {
     for axis in [VerticalAxis::EngineOrder, VerticalAxis::Frequency] {
-        let drawing = interaction_map(&map(), Some(&critical()), Some(&modes()), axis, Window::default());
+        let drawing = interaction_map(
+            &map(),
+            Some(&critical()),
+            Some(&modes()),
+            axis,
+            Window::default(),
+            LevelColour::Plain,
+        );
         let drawing = Document::parse(&drawing).unwrap();
         let lines: Vec<f64> = of_class(&drawing, "critical-speed").map(|line| number(line, "x1")).collect();
         let expected = [tick(&drawing, "11,000"), tick(&drawing, "13,000")];
@@ -213,7 +238,8 @@ fn critical_speeds_stand_at_their_speeds() {
 
 #[test]
 fn a_speed_without_result_is_hatched_and_transparent() {
-    let drawing = interaction_map(&map(), None, None, VerticalAxis::EngineOrder, Window::default());
+    let drawing =
+        interaction_map(&map(), None, None, VerticalAxis::EngineOrder, Window::default(), LevelColour::Plain);
     let drawing = Document::parse(&drawing).unwrap();
     let missing: Vec<_> = of_class(&drawing, "missing").collect();
     assert_eq!(missing.len(), 1);
@@ -243,7 +269,8 @@ fn decode(uri: &str) -> (usize, Vec<u8>) {
 
 #[test]
 fn unsettled_speeds_are_in_the_strip() {
-    let drawing = interaction_map(&map(), None, None, VerticalAxis::EngineOrder, Window::default());
+    let drawing =
+        interaction_map(&map(), None, None, VerticalAxis::EngineOrder, Window::default(), LevelColour::Plain);
     let drawing = Document::parse(&drawing).unwrap();
     let titles: Vec<_> = drawing
         .descendants()
@@ -264,15 +291,29 @@ fn an_empty_map_is_still_a_drawing() {
     map.amplitude = vec![None; 5];
     map.points.clear();
     assert!(
-        Document::parse(&interaction_map(&map, None, None, VerticalAxis::EngineOrder, Window::default()))
-            .is_ok()
+        Document::parse(&interaction_map(
+            &map,
+            None,
+            None,
+            VerticalAxis::EngineOrder,
+            Window::default(),
+            LevelColour::Plain
+        ))
+        .is_ok()
     );
     map.speeds_rad_s.clear();
     map.amplitude.clear();
     map.engine_orders.clear();
     assert!(
-        Document::parse(&interaction_map(&map, None, None, VerticalAxis::Frequency, Window::default()))
-            .is_ok()
+        Document::parse(&interaction_map(
+            &map,
+            None,
+            None,
+            VerticalAxis::Frequency,
+            Window::default(),
+            LevelColour::Plain
+        ))
+        .is_ok()
     );
 }
 
@@ -283,7 +324,11 @@ fn a_long_sweep_stays_small() {
     map.engine_orders = (0..=480).map(|bin| f64::from(bin) / 20.0).collect();
     map.speeds_rad_s = (0..3000).map(|i| rad_s(10_000.0 + f64::from(i))).collect();
     map.amplitude = vec![Some(row); 3000];
-    assert!(interaction_map(&map, None, None, VerticalAxis::Frequency, Window::default()).len() < 2_000_000);
+    assert!(
+        interaction_map(&map, None, None, VerticalAxis::Frequency, Window::default(), LevelColour::Plain)
+            .len()
+            < 2_000_000
+    );
 }
 
 #[test]

@@ -2,8 +2,11 @@
 
 use roxmltree::Document;
 
+use super::impeller::impeller;
+use super::stresses::{strengths, stressed_critical, stressed_map};
 use super::{critical, map, modes};
 use crate::report;
+use rubmap_analysis::result::{CriticalSpeeds, FieldSurface, InteractionMap, Strengths};
 
 /// The page as XML: HTML's elements without an end get one.
 fn as_xml(page: &str) -> String {
@@ -28,6 +31,8 @@ fn a_report_of_a_sweep_says_all_and_needs_nothing() {
             forces: None,
             histories: &[],
             campbell: Some(&campbell),
+            strengths: &[],
+            surfaces: &[],
         },
     );
     let xml = as_xml(&page);
@@ -71,5 +76,68 @@ fn a_report_of_a_modal_analysis_has_its_crossings() {
     assert!(text.contains("Crossings that the lobes can drive") && text.contains("None."), "{text}");
     for crossing in &campbell.driven_crossings {
         assert!(text.contains(&format!("{:.1}", crossing.frequency_hz)));
+    }
+}
+
+fn page(
+    map: &InteractionMap,
+    tables: &[CriticalSpeeds],
+    strengths: &[Strengths],
+    surfaces: &[FieldSurface],
+) -> String {
+    let found = report::Sweep {
+        map,
+        critical: tables,
+        forces: None,
+        histories: &[],
+        campbell: None,
+        strengths,
+        surfaces,
+    };
+    as_xml(&report::sweep(&report::Head::default(), &found))
+}
+
+/// Stress, margin, linear theory and pictures have their sections, with their numbers; without them there are none.
+#[test]
+fn a_report_says_what_is_left_and_what_is_not_valid() {
+    let text = |page: &str| {
+        let read = Document::parse(page).unwrap();
+        read.descendants().filter_map(|node| node.text()).collect::<Vec<_>>().join(" ")
+    };
+    let surfaces = [impeller(0..1, 4, 2.0)];
+    let full = page(&stressed_map(), &[stressed_critical()], &strengths(), &surfaces);
+    let words = text(&full);
+    for expected in [
+        "Stress and margin",
+        "200 MPa (von Mises) at 14000 rpm: node 200 at (1.00, 2.00, 3.00) mm of the first sector, blade 4, revolution 19.25",
+        "210 MPa at this speed",
+        "1.08 at 14000 rpm; at 1 nothing is left",
+        "17 nodes of a sector within 2.50 mm of a contact node",
+        "Haigh diagram",
+        "Is linear theory valid?",
+        "Of 4 speeds: linear theory holds at 2 speeds, linear theory doubtful at 1 speeds, beyond linear theory at 1 speeds.",
+        "14000 rpm: beyond linear theory: largest displacement of a tip over the blade's thickness is 12.9, above 2.00",
+        "1 speeds: beyond linear theory; the section on it has the numbers.",
+        "Shapes and stresses",
+        "Nodal diameter 2, mode 1",
+    ] {
+        assert!(words.contains(expected), "{expected}: {words}");
+    }
+    let read = Document::parse(&full).unwrap();
+    let drawings = read.descendants().filter(|node| node.tag_name().name() == "svg").count();
+    assert_eq!(drawings, 4, "map, Haigh diagram, and a sector from two sides");
+    // Drawings share the page: what has one name is one thing.
+    let mut named = std::collections::BTreeMap::new();
+    for node in
+        read.descendants().filter(|node| node.has_tag_name(("http://www.w3.org/2000/svg", "linearGradient")))
+    {
+        let stops: Vec<_> = node.children().filter_map(|stop| stop.attribute("stop-color")).collect();
+        let known = named.entry(node.attribute("id").unwrap()).or_insert_with(|| stops.clone());
+        assert_eq!(*known, stops);
+    }
+    assert!(named.len() >= 3, "{named:?}");
+    let bare = text(&page(&map(), &[critical()], &[], &[]));
+    for absent in ["Stress", "linear theory", "Shapes", "utilisation"] {
+        assert!(!bare.contains(absent), "{absent}");
     }
 }

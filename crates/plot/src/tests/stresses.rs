@@ -1,11 +1,13 @@
 //! Drawings of stress and validity read back.
 
 use roxmltree::Document;
-use rubmap_analysis::result::{InteractionMap, PointStress, Strengths, SweepStress, Validity};
+use rubmap_analysis::result::{
+    CriticalSpeeds, InteractionMap, PointStress, Strengths, SweepStress, Validity,
+};
 use serde_json::{Value, json};
 
-use super::{level, map, number, of_class, tick, units};
-use crate::{HaighColour, haigh};
+use super::{critical, level, map, number, of_class, tick, units};
+use crate::{HaighColour, LevelColour, VerticalAxis, Window, critical_speeds, haigh, interaction_map};
 
 /// Fatigue strength 120 and ultimate strength 400 of the blade.
 pub(super) fn strengths() -> Vec<Strengths> {
@@ -124,4 +126,104 @@ fn a_haigh_diagram_of_little_is_still_a_drawing() {
             assert!(!drawing.contains("NaN") && !drawing.contains("inf\""));
         }
     }
+}
+
+fn texts(drawing: &str) -> String {
+    let read = Document::parse(drawing).unwrap();
+    read.descendants().filter_map(|node| node.text()).collect::<Vec<_>>().join("|")
+}
+
+/// The critical speeds of the map: 13,000 rpm is doubtful.
+pub(super) fn stressed_critical() -> CriticalSpeeds {
+    let mut critical = critical();
+    let map = stressed_map();
+    for speed in &mut critical.critical_speeds {
+        let point = &map.points[speed.index as usize];
+        (speed.utilisation, speed.validity) = (point.utilisation(), point.validity_verdict());
+    }
+    critical
+}
+
+/// Where linear theory is doubtful or left, the map says so at these speeds, with the number; elsewhere nothing is said.
+#[test]
+fn the_map_marks_where_linear_theory_does_not_hold() {
+    let drawn = |map: &InteractionMap, by| {
+        interaction_map(
+            map,
+            Some(&stressed_critical()),
+            None,
+            VerticalAxis::EngineOrder,
+            Window::default(),
+            by,
+        )
+    };
+    let drawing = drawn(&stressed_map(), LevelColour::Plain);
+    let read = Document::parse(&drawing).unwrap();
+    let marked: Vec<(f64, &str)> = of_class(&read, "validity")
+        .map(|area| {
+            let middle = number(area, "x") + 0.5 * number(area, "width");
+            (middle, area.first_element_child().unwrap().text().unwrap())
+        })
+        .collect();
+    assert_eq!(marked.len(), 2);
+    for ((x, words), (speed, expected)) in marked.iter().zip([
+        ("13,000", "13000 rpm: linear theory doubtful: largest displacement of a tip over the blade's thickness is 1.20, above 0.500"),
+        ("14,000", "14000 rpm: beyond linear theory: largest displacement of a tip over the blade's thickness is 12.9, above 2.00"),
+    ]) {
+        assert!((x - tick(&read, speed)).abs() < 0.1, "{x} {speed}");
+        assert_eq!(*words, expected);
+    }
+    let words = texts(&drawing);
+    assert!(
+        words.contains("|linear theory doubtful|") && words.contains("|beyond linear theory|"),
+        "{words}"
+    );
+    assert!(!words.contains("utilisation"), "it was not asked for");
+    let plain = drawn(&map(), LevelColour::Plain);
+    assert!(!plain.contains("validity") && !plain.contains("linear theory"));
+}
+
+#[test]
+fn the_level_is_coloured_by_utilisation_on_request() {
+    let (map, critical) = (stressed_map(), stressed_critical());
+    let by = LevelColour::Utilisation;
+    let drawing =
+        interaction_map(&map, Some(&critical), None, VerticalAxis::EngineOrder, Window::default(), by);
+    let read = Document::parse(&drawing).unwrap();
+    let found: Vec<&str> =
+        of_class(&read, "utilisation").filter_map(|bar| bar.first_element_child()?.text()).collect();
+    // 100/400 and 20, 40, 80, 100 over 120.
+    let expected = [
+        "10000 rpm: utilisation 0.417",
+        "11000 rpm: utilisation 0.583",
+        "13000 rpm: utilisation 0.917",
+        "14000 rpm: utilisation 1.08",
+    ];
+    assert_eq!(found, expected);
+    let words = texts(&drawing);
+    for words_of_key in
+        ["from 0.25", "from 0.5", "from 0.75", "1 and above", "U utilisation", "11,000 rpm · U 0.583"]
+    {
+        assert!(words.contains(words_of_key), "{words_of_key}: {words}");
+    }
+    assert!(!words.contains("below 0.25"));
+}
+
+#[test]
+fn critical_speeds_say_their_margin_and_validity() {
+    let drawing = critical_speeds(&stressed_critical());
+    let read = Document::parse(&drawing).unwrap();
+    assert_eq!(of_class(&read, "validity").count(), 2, "one peak, and the key");
+    let words = texts(&drawing);
+    for expected in [
+        "11,000 rpm · EO 2 · U 0.583",
+        "13,000 rpm · EO 2 · U 0.917 *",
+        "linear theory doubtful",
+        "|utilisation|",
+    ] {
+        assert!(words.contains(expected), "{expected}: {words}");
+    }
+    assert!(!words.contains("beyond linear theory"));
+    let before = critical_speeds(&critical());
+    assert!(!before.contains("validity") && !before.contains("utilisation"));
 }

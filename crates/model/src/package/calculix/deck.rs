@@ -6,7 +6,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
+use super::card::Card;
 use super::error::{CalculixError, LineProblem};
+use super::solids::{SolidBlock, Solids};
 use super::text::{self, TextLines, normal};
 use crate::package::quote::quoted;
 
@@ -26,6 +28,8 @@ pub(super) struct Deck {
     ties: BTreeMap<String, (String, String)>,
     /// N and the two points on the axis of `*CYCLIC SYMMETRY MODEL`.
     pub(super) cyclic: Option<Cyclic>,
+    /// Elements and materials.
+    pub(super) solids: Solids,
 }
 
 /// `*CYCLIC SYMMETRY MODEL`.
@@ -44,6 +48,7 @@ enum Block {
     NodeSurface { name: String },
     Tie { name: String },
     Axis { sectors: usize, tie: String, numbers: Vec<f64> },
+    Solid(SolidBlock),
     Skip,
 }
 
@@ -132,7 +137,7 @@ impl Deck {
                 Block::Axis { sectors, tie: card.value("TIE").unwrap_or_default(), numbers: Vec::new() }
             }
             "*TRANSFORM" => return Err(LineProblem::Card { card: quoted(&card.keyword) }),
-            _ => Block::Skip,
+            _ => self.solids.start(card).map_or(Block::Skip, Block::Solid),
         })
     }
 
@@ -143,6 +148,7 @@ impl Deck {
         }
         match block {
             Block::Skip => {}
+            Block::Solid(block) => self.solids.data(&words, block)?,
             Block::Nodes { set } => {
                 let Some((&id, position)) = words.split_first().filter(|(_, p)| (1..=3).contains(&p.len()))
                 else {
@@ -219,35 +225,4 @@ impl Deck {
 fn append(to: &mut Vec<u64>, found: Vec<u64>) {
     let mut seen: BTreeSet<u64> = to.iter().copied().collect();
     to.extend(found.into_iter().filter(|node| seen.insert(*node)));
-}
-
-/// A keyword line.
-struct Card {
-    /// `*NSET`, in capitals, without blanks.
-    keyword: String,
-    /// Parameters as written.
-    parameters: Vec<String>,
-}
-
-impl Card {
-    fn parse(line: &str) -> Self {
-        let mut words = line.split(',');
-        let keyword = normal(words.next().unwrap_or_default());
-        Self { keyword, parameters: words.map(|word| word.trim().to_owned()).collect() }
-    }
-
-    fn has(&self, name: &str) -> bool {
-        self.parameters.iter().any(|parameter| normal(parameter) == name)
-    }
-
-    fn value_as_written(&self, name: &str) -> Option<&str> {
-        self.parameters.iter().find_map(|parameter| {
-            let (key, value) = parameter.split_once('=')?;
-            (normal(key) == name).then(|| value.trim().trim_matches('"'))
-        })
-    }
-
-    fn value(&self, name: &str) -> Option<String> {
-        self.value_as_written(name).map(normal)
-    }
 }

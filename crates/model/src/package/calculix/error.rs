@@ -119,6 +119,23 @@ pub enum LineProblem {
 /// What is wrong with the files taken together.
 #[derive(Debug, thiserror::Error)]
 pub enum ModelProblem {
+    /// A file of strengths that is none.
+    #[error("{}: {message}; strengths are {{\"name of a material or element set\": {{\"yield_strength\": …, \"ultimate_strength\": …, \
+             \"fatigue_strength\": {{\"amplitude\": …, \"source\": \"…\"}}}}}}", .file.display())]
+    Strengths {
+        /// The file.
+        file: PathBuf,
+        /// The JSON reader's words.
+        message: String,
+    },
+    /// Strengths of something that the mesh has not.
+    #[error("strengths are given of {name}, which is no material or element set of a *SOLID SECTION; there are: {}", .known.join(", "))]
+    StrengthOfNothing {
+        /// The name.
+        name: String,
+        /// Those there are.
+        known: Vec<String>,
+    },
     /// Nothing says how many sectors there are.
     #[error("the deck has no *CYCLIC SYMMETRY MODEL card: give the number of sectors with --sectors")]
     SectorsUnknown,

@@ -8,14 +8,19 @@
 //! Two routes: the matrices of one sector whose cyclic ties were inactive, or those of a whole wheel, of which one sector
 //! is cut (`wheel`). Components are Cartesian, as CalculiX writes them.
 
+mod card;
 mod contact;
 mod deck;
+mod elements;
 mod error;
 mod faces;
 mod matrices;
 mod model;
+mod no_mesh;
 mod sets;
+mod solids;
 mod spin;
+mod strengths;
 mod text;
 mod wheel;
 
@@ -27,15 +32,21 @@ use nalgebra::Vector3;
 pub use contact::ContactPoint;
 pub use error::{CalculixError, LineProblem, ModelProblem, NoCopy, NoOrder};
 pub use model::{CalculixModel, Normals};
+pub use no_mesh::NoMesh;
 pub use spin::SpinFinding;
 
 use super::by_place;
-use super::raw::{Axis, Frame, Manifest, ManifestContact, RawMatrix, RawNode, RawPackage};
+use super::check;
+use super::raw::{
+    Axis, Frame, Manifest, ManifestContact, ManifestMesh, RawElement, RawMatrix, RawNode, RawPackage,
+};
 use deck::Deck;
 use faces::{check_ties, faces, pair};
 use matrices::DofList;
 use rubmap_solid::frame::AxisFrame;
 use sets::set;
+use solids::DeckElement;
+use strengths::Strengths;
 
 /// What an import found out, for the user to compare with what they know.
 #[derive(Debug, Clone)]
@@ -48,6 +59,8 @@ pub struct ImportSummary {
     pub sectors_differ: Option<f64>,
     /// What each stiffness at speed is.
     pub spin: Vec<(f64, SpinFinding)>,
+    /// Why the package has no mesh, if it has none.
+    pub no_mesh: Option<NoMesh>,
 }
 
 /// Reads the files and makes a package of them, which passes [`to_sector`](super::to_sector).
@@ -61,6 +74,9 @@ pub fn import(model: &CalculixModel) -> Result<(RawPackage, ImportSummary), Calc
     let sectors = sectors.filter(|&sectors| sectors > 0).ok_or(ModelProblem::SectorsUnknown)?;
     let axis = axis(model, &deck);
     let frame = AxisFrame::new(axis.origin, axis.direction).ok_or(ModelProblem::AxisWithoutDirection)?;
+    let strengths = Strengths::read(model.strengths.as_deref())?;
+    let sections = deck.solids.sections.iter();
+    strengths.check(&sections.flat_map(|(set, material)| [set.as_str(), material]).collect::<Vec<_>>())?;
     let rest = DofList::read(&extended(&model.rest, ".dof"))?;
     let positions: HashMap<u64, [f64; 3]> = deck.nodes.iter().map(|(node, at)| (*node, *at)).collect();
     require_coordinates(&positions, rest.dofs.iter().map(|dof| dof.node), &rest.path.display().to_string())?;
@@ -79,8 +95,14 @@ pub fn import(model: &CalculixModel) -> Result<(RawPackage, ImportSummary), Calc
     }
     require_whole(&files, &read)?;
     let mut matrices: Vec<RawMatrix> = read.into_iter().map(|(matrix, _)| matrix).collect();
-    let mut summary =
-        ImportSummary { faces_swapped: false, contact: Vec::new(), sectors_differ: None, spin: Vec::new() };
+    let mut summary = ImportSummary {
+        faces_swapped: false,
+        contact: Vec::new(),
+        sectors_differ: None,
+        spin: Vec::new(),
+        no_mesh: None,
+    };
+    let kept;
     let (pairs, dofs, contact_nodes) = if model.whole_wheel {
         let cut = wheel::cut(&rest, &matrices[1], &positions, &low, sectors, &frame, tolerance)?;
         let mut worst: f64 = 0.0;
@@ -93,15 +115,21 @@ pub fn import(model: &CalculixModel) -> Result<(RawPackage, ImportSummary), Calc
         if contact.is_empty() {
             return Err(ModelProblem::ContactElsewhere { set: model.contact_set.clone() }.into());
         }
+        kept = elements::table(&deck.solids, &strengths, |id, element| cut.has(id, &element.nodes))
+            .and_then(|kept| even(kept, &deck, sectors, |element| cut.moves(&element.nodes)));
         (cut.pairs, cut.dofs, contact)
     } else {
+        kept = elements::table(&deck.solids, &strengths, |_, _| Ok(true));
         let (pairs, swapped) = pair(&low, &high, &positions, &frame, sectors, tolerance)?;
         summary.faces_swapped = swapped;
         check_ties(&pairs, &rest)?;
         (pairs, rest.dofs, contact_set.to_vec())
     };
-    let in_sector: HashSet<u64> =
-        dofs.iter().map(|dof| dof.node).chain(pairs.iter().flatten().copied()).collect();
+    let of_elements = kept.iter().flat_map(|(_, elements)| elements).flat_map(|element| &element.nodes);
+    let in_sector: HashSet<u64> = (dofs.iter().map(|dof| dof.node))
+        .chain(pairs.iter().flatten().copied())
+        .chain(of_elements.copied())
+        .collect();
     let nodes: Vec<RawNode> = (deck.nodes.iter())
         .filter(|(node, _)| !model.whole_wheel || in_sector.contains(node))
         .map(|(id, position)| RawNode { id: *id, position: *position })
@@ -142,7 +170,29 @@ pub fn import(model: &CalculixModel) -> Result<(RawPackage, ImportSummary), Calc
         contact: summary.contact.iter().map(|point| manifest_contact(point, &frame)).collect(),
         mesh: None,
     };
-    Ok((RawPackage { manifest, nodes, dofs, mass, stiffness, gyroscopic: None, elements: None }, summary))
+    let mut package = RawPackage { manifest, nodes, dofs, mass, stiffness, gyroscopic: None, elements: None };
+    let with_mesh = kept.and_then(|(mesh, elements)| {
+        package.manifest.mesh = Some(mesh);
+        package.elements = Some(elements);
+        check::mesh_alone(&package).map_err(|error| NoMesh::Refused { message: error.to_string() })
+    });
+    if let Err(no_mesh) = with_mesh {
+        package.manifest.mesh = None;
+        package.elements = None;
+        summary.no_mesh = Some(no_mesh);
+    }
+    Ok((package, summary))
+}
+
+/// Refuses a wheel whose sectors have different numbers of elements, not counting those that are held.
+fn even(
+    kept: (ManifestMesh, Vec<RawElement>),
+    deck: &Deck,
+    sectors: usize,
+    moves: impl Fn(&DeckElement) -> bool,
+) -> Result<(ManifestMesh, Vec<RawElement>), NoMesh> {
+    let (sector, wheel) = (kept.1.len(), deck.solids.elements.values().filter(|e| moves(e)).count());
+    if sector * sectors == wheel { Ok(kept) } else { Err(NoMesh::Uneven { sector, wheel, sectors }) }
 }
 
 fn manifest_contact(point: &ContactPoint, frame: &AxisFrame) -> ManifestContact {

@@ -32,6 +32,8 @@ pub struct CalculixModel {
     pub contact_as_listed: bool,
     /// Where normals come from.
     pub normals: Normals,
+    /// JSON file of strengths by material or element set; without it the package has none.
+    pub strengths: Option<PathBuf>,
     /// Consistent units of the deck.
     pub units: Units,
     /// Name of the model.

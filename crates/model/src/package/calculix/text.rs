@@ -46,7 +46,12 @@ fn open(path: &Path) -> Result<File, CalculixError> {
 
 /// A node number.
 pub(super) fn node(word: &str) -> Result<u64, LineProblem> {
-    word.parse().map_err(|_| LineProblem::NotA { text: quoted(word), expected: "a node number" })
+    number(word, "a node number")
+}
+
+/// An integer from 0.
+pub(super) fn number(word: &str, expected: &'static str) -> Result<u64, LineProblem> {
+    word.parse().map_err(|_| LineProblem::NotA { text: quoted(word), expected })
 }
 
 /// A name as CalculiX compares it.

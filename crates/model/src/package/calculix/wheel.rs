@@ -17,6 +17,7 @@ use nalgebra::Vector3;
 
 use super::error::{ModelProblem, NoCopy};
 use super::matrices::DofList;
+use super::no_mesh::NoMesh;
 use crate::package::by_place::Places;
 use crate::package::raw::{RawDof, RawMatrix};
 use rubmap_solid::frame::AxisFrame;
@@ -31,6 +32,8 @@ pub(super) struct Cut<'a> {
     frame: &'a AxisFrame,
     /// Pairs of low node and high node.
     pub(super) pairs: Vec<[u64; 2]>,
+    /// Nodes of the low and of the high face.
+    faces: [HashSet<u64>; 2],
     /// Nodes of the sector, the high face not among them.
     pub(super) own: HashSet<u64>,
     /// DOF of the sector: own ones in the order of the wheel, then those of the high face.
@@ -119,10 +122,34 @@ pub(super) fn cut<'a>(
         }
     }
     let pairs = low.iter().zip(&high).map(|(low, high)| [*low, *high]).collect();
-    Ok(Cut { wheel: dofs, sectors, frame, pairs, own, dofs: of_sector, row_of, high_from, next })
+    let faces = [low_set, high_set];
+    Ok(Cut { wheel: dofs, sectors, frame, pairs, faces, own, dofs: of_sector, row_of, high_from, next })
 }
 
 impl Cut<'_> {
+    /// Whether an element can move: some of its nodes are free.
+    pub(super) fn moves(&self, nodes: &[u64]) -> bool {
+        nodes.iter().any(|node| self.next.contains_key(node))
+    }
+
+    /// Whether an element that can move belongs to the sector: it has a free node inside.
+    pub(super) fn has(&self, element: u64, nodes: &[u64]) -> Result<bool, NoMesh> {
+        let [low, high] = self.faces.each_ref().map(|face| |node: &u64| face.contains(node));
+        let mut free = nodes.iter().filter(|node| self.next.contains_key(node)).peekable();
+        if free.peek().is_none() {
+            return Ok(false);
+        }
+        if free.clone().any(|node| self.own.contains(node) && !low(node)) {
+            return Ok(true);
+        }
+        // Between two faces, or at one of them and held elsewhere, it may be on either side.
+        if free.all(|node| low(node) || high(node)) {
+            Err(NoMesh::WhichSector { element })
+        } else {
+            Ok(false)
+        }
+    }
+
     /// The sector's part of a matrix of the wheel, and how much the sectors differ.
     pub(super) fn sector(&self, file: &Path, matrix: &RawMatrix) -> Result<(RawMatrix, f64), ModelProblem> {
         let difference = self.check_cyclic(file, matrix)?;

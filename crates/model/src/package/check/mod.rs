@@ -19,6 +19,17 @@ use super::error::PackageError;
 use super::raw::RawPackage;
 use layout::{Layout, own_of_rows};
 
+/// Checks the elements of a package and what they have to do with its tables.
+pub(super) fn mesh_alone(package: &RawPackage) -> Result<(), PackageError> {
+    let lines = SourceLines::default();
+    let frame = statement::check(&package.manifest)?;
+    let index = tables::node_index(&package.manifest.nodes, &package.nodes, &lines)?;
+    let (_, rows_of_node) = tables::rows(&package.manifest.dofs, &package.dofs, &lines, &index)?;
+    let (high_of, low_of) = cyclic::partners(&package.manifest, package.nodes.len(), &index)?;
+    let faces = mesh::Faces { high_of: &high_of, low_of: &low_of };
+    mesh::check(package, &lines, &frame, &index, &rows_of_node, &faces).map(drop)
+}
+
 /// Checks `package` and sorts its matrices (by column, then row) if they are not.
 pub(super) fn check(package: &mut RawPackage, lines: &SourceLines) -> Result<Layout, PackageError> {
     let frame = statement::check(&package.manifest)?;

@@ -5,6 +5,7 @@ mod decimation;
 mod detail;
 #[cfg(test)]
 mod digests;
+mod excursion;
 mod instant;
 mod obstacle;
 mod recorder;
@@ -22,6 +23,7 @@ use pulp::{Simd, WithSimd};
 
 pub use self::bounds::{TipComponent, TipDisplacement};
 pub use self::detail::DetailHistory;
+pub use self::excursion::Excursion;
 pub use self::run::{Divergence, History, MAX_TABLE_VALUES, Outcome, Run};
 pub use self::simulation::{DIVERGED_SHARE_OF_RADIUS, Detail, SensorRow, Simulation};
 pub use self::states::ModalStates;

@@ -167,6 +167,7 @@ impl Recorder {
     ) {
         self.history.end = modes;
         self.history.tips = self.tips.motions();
+        self.history.excursion = self.tips.excursion();
         self.history.detail = self.detail.take().map(|detail| Box::new(detail.end(steps)));
         let states = self.states.take().map(|states| states.end(&wheel.harmonics, oscillators));
         self.history.states = states.map(Box::new);

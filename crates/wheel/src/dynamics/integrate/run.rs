@@ -2,6 +2,7 @@
 
 use super::bounds::TipDisplacement;
 use super::detail::DetailHistory;
+use super::excursion::Excursion;
 use super::states::ModalStates;
 use super::tally::ContactRecord;
 use super::tips::TipMotion;
@@ -28,6 +29,8 @@ pub struct History {
     pub end: Vec<InitialMode>,
     /// `[sector][contact node][component]`, one after the other: motion of the tips over the window.
     pub tips: Vec<TipMotion>,
+    /// How far they went at once.
+    pub excursion: Excursion,
     /// What was recorded of chosen revolutions, if any were.
     pub detail: Option<Box<DetailHistory>>,
     /// All modes at the samples of chosen revolutions, if they were asked for.

@@ -5,6 +5,7 @@ use pulp::Simd;
 use super::super::direction::Direction;
 use super::super::oscillators::Oscillators;
 use super::super::oscillators::rows::Rows;
+use super::excursion::{Excursion, ExcursionTally};
 use super::residual::ResidualDisplacement;
 use super::simulation::Simulation;
 use rubmap_numerics::sector_fourier::SectorFourier;
@@ -36,6 +37,9 @@ pub(super) struct TipTally {
     looks: u32,
     /// `[sector][node][component]`
     motions: Vec<Sums>,
+    /// The same now.
+    now: Vec<f64>,
+    excursion: ExcursionTally,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -65,6 +69,8 @@ impl TipTally {
             samples: 0,
             looks: 0,
             motions: vec![none; wheel.sectors * directions.len()],
+            now: vec![0.0; wheel.sectors * directions.len()],
+            excursion: ExcursionTally::new(simulation),
             rows,
         }
     }
@@ -88,18 +94,25 @@ impl TipTally {
             self.residual.add(force, force.len() / fourier.sectors(), harmonic, rows.stride);
         }
         let columns = harmonic.chunks_exact(rows.stride);
-        for (sector, blade) in self.motions.chunks_exact_mut(rows.count).enumerate() {
-            for (row, sums) in blade.iter_mut().enumerate() {
+        let blades = self.motions.chunks_exact_mut(rows.count).zip(self.now.chunks_exact_mut(rows.count));
+        for (sector, (blade, now)) in blades.enumerate() {
+            for (row, (sums, now)) in blade.iter_mut().zip(now).enumerate() {
                 let terms = fourier.row(sector).iter().zip(columns.clone());
-                sums.add(terms.map(|(f, column)| f * column[row]).sum(), self.looks == 0);
+                *now = terms.map(|(f, column)| f * column[row]).sum();
+                sums.add(*now, self.looks == 0);
             }
         }
+        self.excursion.look(&self.now);
         self.looks += 1;
     }
 
     /// `[sector][contact node][component]`, one after the other.
     pub(super) fn motions(&self) -> Vec<TipMotion> {
         self.motions.iter().map(|sums| sums.motion(f64::from(self.looks))).collect()
+    }
+
+    pub(super) fn excursion(&self) -> Excursion {
+        self.excursion.found()
     }
 }
 

@@ -100,6 +100,11 @@ pub fn static_response(
 }
 
 impl StaticSpan {
+    /// Of a stiffness at rest alone.
+    pub fn at_rest() -> Self {
+        Self { speeds_rad_s: vec![0.0], stiffness: vec![vec![1.0]], load: vec![1.0] }
+    }
+
     /// Coordinates of the response to Ω² f on the columns of [`StaticResponse::solutions`], with K(Ω) through the given matrices: the
     /// solution itself at the given speeds, the best of their span in energy between them. Without `stiffening` K(0) is taken.
     pub fn at(&self, speed_rad_s: f64, stiffening: bool) -> Vec<f64> {

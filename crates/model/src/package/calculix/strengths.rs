@@ -1,0 +1,66 @@
+//! Strengths, which decks do not have: a JSON file of them by material or element set.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use rubmap_solid::material::{FatigueStrength, Material};
+use serde::Deserialize;
+
+use super::error::{CalculixError, ModelProblem};
+use super::text::normal;
+use crate::package::quote::{bounded_message, quoted};
+
+/// What a material bears, as far as it is known.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Strength {
+    #[serde(default)]
+    yield_strength: Option<f64>,
+    #[serde(default)]
+    ultimate_strength: Option<f64>,
+    #[serde(default)]
+    fatigue_strength: Option<FatigueStrength>,
+}
+
+/// Strengths by the name of a material or an element set, as CalculiX compares names.
+#[derive(Debug, Default)]
+pub(super) struct Strengths(BTreeMap<String, Strength>);
+
+impl Strengths {
+    /// Reads `path`; none without one.
+    pub(super) fn read(path: Option<&Path>) -> Result<Self, CalculixError> {
+        let Some(path) = path else { return Ok(Self::default()) };
+        let text =
+            std::fs::read(path).map_err(|source| CalculixError::Io { path: path.to_owned(), source })?;
+        let mut json = serde_json::Deserializer::from_slice(&text);
+        let read: BTreeMap<String, Strength> =
+            serde_path_to_error::deserialize(&mut json).map_err(|error| ModelProblem::Strengths {
+                file: path.to_owned(),
+                message: bounded_message(&error.to_string()),
+            })?;
+        Ok(Self(read.into_iter().map(|(name, strength)| (normal(&name), strength)).collect()))
+    }
+
+    /// Gives a material what is said of its set, or else of itself.
+    pub(super) fn give(&self, set: &str, material: &str, to: &mut Material) {
+        if let Some(strength) = self.0.get(set).or_else(|| self.0.get(material)) {
+            to.yield_strength = strength.yield_strength;
+            to.ultimate_strength = strength.ultimate_strength;
+            to.fatigue_strength.clone_from(&strength.fatigue_strength);
+        }
+    }
+
+    /// A name that is none of `names`.
+    pub(super) fn check(&self, names: &[&str]) -> Result<(), ModelProblem> {
+        match self.0.keys().find(|name| !names.contains(&name.as_str())) {
+            None => Ok(()),
+            Some(unknown) => Err(ModelProblem::StrengthOfNothing {
+                name: quoted(unknown),
+                known: names.iter().take(MOST_NAMED).map(|name| quoted(name)).collect(),
+            }),
+        }
+    }
+}
+
+/// Names that an error lists.
+const MOST_NAMED: usize = 20;

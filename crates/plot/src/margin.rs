@@ -1,0 +1,79 @@
+//! Utilisation in classes: dark where little is left, whatever the medium.
+
+use super::axis::significant;
+use super::cells::Cell;
+use super::colour;
+use super::diagram::Diagram;
+use super::key::Flow;
+use super::svg::{Element, group, rectangle};
+use super::validity;
+use rubmap_analysis::result::InteractionMap;
+
+/// From which utilisation on a class counts, its colour as a share of the scale of amplitudes, and its words.
+const CLASSES: [(f64, f64, &str); 5] = [
+    (0.0, 0.97, "utilisation below 0.25"),
+    (0.25, 0.83, "from 0.25"),
+    (0.5, 0.66, "from 0.5"),
+    (0.75, 0.42, "from 0.75"),
+    (1.0, 0.12, "1 and above"),
+];
+
+fn class(utilisation: f64) -> usize {
+    CLASSES.iter().rposition(|(from, ..)| utilisation >= *from).unwrap_or(0)
+}
+
+fn fill(class: usize) -> String {
+    colour::hex(colour::amplitude(CLASSES[class].1))
+}
+
+/// The utilisation at the speed with this index.
+fn utilisation(map: &InteractionMap, index: usize) -> Option<f64> {
+    validity::point(map, index)?.utilisation().filter(|value| value.is_finite())
+}
+
+/// The area below a curve over speed, in the colours of the utilisation.
+pub(super) fn area(
+    map: &InteractionMap,
+    cells: &[Cell],
+    diagram: &Diagram,
+    curve: impl Fn(&Cell) -> Option<f64>,
+) -> Element {
+    let (low, high) = diagram.x.values;
+    let seen = cells.iter().filter(|cell| cell.to > low && cell.from < high);
+    let bars = seen.filter_map(|cell| {
+        let used = utilisation(map, cell.index)?;
+        let top = diagram.y.place(curve(cell)?);
+        let (from, to) = (diagram.x.place(cell.from.max(low)), diagram.x.place(cell.to.min(high)));
+        let bar = rectangle(from, top, to - from, diagram.bottom() - top).set("class", "utilisation");
+        Some(bar.set("fill", fill(class(used))).title(&format!(
+            "{:.0} rpm: utilisation {}",
+            cell.rpm,
+            significant(used)
+        )))
+    });
+    group().children(bars)
+}
+
+/// The classes that occur, for a key.
+pub(super) fn explained(mut flow: Flow, map: &InteractionMap, cells: &[Cell]) -> Flow {
+    let found: Vec<usize> =
+        cells.iter().filter_map(|cell| Some(class(utilisation(map, cell.index)?))).collect();
+    if found.is_empty() {
+        return flow.entry(group(), 0.0, "no utilisation is known");
+    }
+    for (place, (.., words)) in CLASSES.iter().enumerate().filter(|(place, _)| found.contains(place)) {
+        let patch = rectangle(0.0, -6.0, 20.0, 12.0).set("fill", fill(place)).set("stroke", "#888888");
+        flow = flow.entry(patch, 20.0, words);
+    }
+    flow
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn classes_begin_where_they_say() {
+        assert_eq!([0.0, 0.249, 0.25, 0.74, 0.99, 1.0, 7.0, f64::NAN].map(class), [0, 0, 1, 2, 3, 4, 4, 0]);
+    }
+}

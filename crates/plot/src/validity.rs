@@ -1,0 +1,141 @@
+//! How it looks where linear theory is doubtful or left, and in which words.
+
+use super::axis::significant;
+use super::cells::Cell;
+use super::diagram::Diagram;
+use super::key::Flow;
+use super::svg::{Element, group, rectangle};
+use rubmap_analysis::result::{
+    InteractionMap, Point, Validity, ValidityCheck, ValidityMeasure, ValidityVerdict,
+};
+
+const DOUBTFUL: &str = "#d9720c";
+const BEYOND: &str = "#8b0f14";
+
+/// What areas are filled with where linear theory is doubtful, once [`definition`] is in the drawing.
+const HATCHED: &str = "url(#doubtful)";
+
+/// Verdicts that are marked.
+pub(super) const MARKED: [ValidityVerdict; 2] = [ValidityVerdict::Doubtful, ValidityVerdict::Beyond];
+
+/// A verdict in words.
+pub(super) fn words(verdict: ValidityVerdict) -> &'static str {
+    match verdict {
+        ValidityVerdict::Linear => "linear theory holds",
+        ValidityVerdict::Doubtful => "linear theory doubtful",
+        ValidityVerdict::Beyond => "beyond linear theory",
+    }
+}
+
+/// Colour of a verdict that is marked.
+pub(super) fn colour(verdict: ValidityVerdict) -> Option<&'static str> {
+    match verdict {
+        ValidityVerdict::Linear => None,
+        ValidityVerdict::Doubtful => Some(DOUBTFUL),
+        ValidityVerdict::Beyond => Some(BEYOND),
+    }
+}
+
+/// What a number is of.
+pub(super) fn measure(what: ValidityMeasure) -> &'static str {
+    match what {
+        ValidityMeasure::DisplacementOverThickness => {
+            "largest displacement of a tip over the blade's thickness"
+        }
+        ValidityMeasure::DisplacementOverChord => {
+            "largest displacement of a tip over the length of the contact line"
+        }
+        ValidityMeasure::Rotation => "largest rotation of a tip, rad",
+        ValidityMeasure::StressOverYield => "largest stress over yield strength",
+        ValidityMeasure::NeighbourApproach => "approach of neighbouring tips over their distance",
+        ValidityMeasure::ContactOverLobe => {
+            "tangential displacement of a tip over the length in which lobes change"
+        }
+    }
+}
+
+/// The verdict with the number that says so; none where linear theory holds.
+pub(super) fn reason(validity: &Validity) -> Option<String> {
+    colour(validity.verdict)?;
+    let check = worst(validity)?;
+    let limit = match validity.verdict {
+        ValidityVerdict::Beyond => check.beyond_above,
+        _ => check.doubtful_above,
+    };
+    Some(format!(
+        "{}: {} is {}, above {}",
+        words(validity.verdict),
+        measure(check.what),
+        significant(check.value),
+        significant(limit)
+    ))
+}
+
+/// The number that is farthest beyond its limits.
+pub(super) fn worst(validity: &Validity) -> Option<&ValidityCheck> {
+    let over = |check: &ValidityCheck| check.value / check.beyond_above;
+    validity.checks.iter().max_by(|a, b| over(a).total_cmp(&over(b)))
+}
+
+/// The point of a speed by its index.
+pub(super) fn point(map: &InteractionMap, index: usize) -> Option<&Point> {
+    map.points.iter().find(|point| point.index as usize == index)
+}
+
+/// A ring about a mark of a speed at which linear theory is doubtful or left.
+pub(super) fn ring((x, y): (f64, f64), verdict: Option<ValidityVerdict>, radius: f64) -> Option<Element> {
+    let colour = colour(verdict?)?;
+    let dashes = if verdict == Some(ValidityVerdict::Beyond) { "" } else { "2.5 2" };
+    let ring = Element::new("circle").set("class", "validity").number("cx", x).number("cy", y);
+    let ring = ring.number("r", radius).set("fill", "none").set("stroke", colour).set("stroke-width", "1.8");
+    Some(ring.set("stroke-dasharray", dashes))
+}
+
+/// A strip, `height` high from `top` on, over the speeds at which linear theory is doubtful or left; none if there are none in view.
+pub(super) fn strip(
+    map: &InteractionMap,
+    cells: &[Cell],
+    diagram: &Diagram,
+    (top, height): (f64, f64),
+) -> Option<Element> {
+    let (low, high) = diagram.x.values;
+    let marked = cells.iter().filter(|cell| cell.to > low && cell.from < high).filter_map(|cell| {
+        let validity = point(map, cell.index)?.validity.as_ref()?;
+        let (from, to) = (diagram.x.place(cell.from.max(low)), diagram.x.place(cell.to.min(high)));
+        let area = rectangle(from, top, to - from, height).set("class", "validity");
+        let fill = fill(validity.verdict)?;
+        Some(area.set("fill", fill).title(&format!("{:.0} rpm: {}", cell.rpm, reason(validity)?)))
+    });
+    let marked: Vec<Element> = marked.collect();
+    (!marked.is_empty()).then(|| group().child(definition()).children(marked))
+}
+
+/// What an area of a verdict is filled with, told apart without colours as well.
+fn fill(verdict: ValidityVerdict) -> Option<&'static str> {
+    colour(verdict).map(|colour| if verdict == ValidityVerdict::Doubtful { HATCHED } else { colour })
+}
+
+fn definition() -> Element {
+    let pattern = Element::new("pattern")
+        .set("id", "doubtful")
+        .set("width", "6")
+        .set("height", "6")
+        .set("patternUnits", "userSpaceOnUse")
+        .set("patternTransform", "rotate(45)")
+        .child(rectangle(0.0, 0.0, 6.0, 6.0).set("fill", "#fbe3c8"))
+        .child(rectangle(0.0, 0.0, 3.0, 6.0).set("fill", DOUBTFUL));
+    Element::new("defs").child(pattern)
+}
+
+/// The verdicts of the strip that are in view, for a key.
+pub(super) fn explained(mut flow: Flow, map: &InteractionMap, cells: &[Cell], diagram: &Diagram) -> Flow {
+    let (low, high) = diagram.x.values;
+    let seen = cells.iter().filter(|cell| cell.to > low && cell.from < high);
+    let seen: Vec<_> = seen.filter_map(|cell| point(map, cell.index)?.validity_verdict()).collect();
+    for verdict in MARKED.into_iter().filter(|verdict| seen.contains(verdict)) {
+        if let Some(fill) = fill(verdict) {
+            flow = flow.entry(rectangle(0.0, -6.0, 20.0, 12.0).set("fill", fill), 20.0, words(verdict));
+        }
+    }
+    flow
+}
