@@ -10,6 +10,7 @@
 //! ```text
 //! crates/numerics ← crates/wheel (dynamics ← response) ← crates/analysis ← src (store ← jobs ← http ← app ← cli)
 //!                        ↑ crates/model (package, impeller)       ↑ crates/plot
+//! crates/solid (mesh, stress) ← model, analysis
 //! ```
 //!
 //! What is absent, and stays absent:

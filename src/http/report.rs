@@ -144,7 +144,7 @@ impl Found<'_> {
                     forces: forces.as_ref(),
                     histories: &histories,
                     campbell: campbell.as_ref(),
-                    strengths: &facts.strengths,
+                    strengths: facts.mesh.as_ref().map_or(&[], |mesh| &mesh.sets),
                     surfaces: &[],
                 };
                 Ok(report::sweep(&head, &found))

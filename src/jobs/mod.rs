@@ -41,6 +41,7 @@ mod prepare;
 mod progress;
 mod reductions;
 mod speed;
+mod stress;
 mod study;
 mod submission;
 mod trials;

@@ -46,6 +46,8 @@ impl PendingReports {
 pub(super) struct Watch {
     job: JobId,
     dismissed: AtomicBool,
+    /// Whether it has been said that linear theory was left.
+    warned: AtomicBool,
     stopping: Arc<AtomicBool>,
     done: Mutex<Done>,
     reports: Arc<PendingReports>,
@@ -76,7 +78,13 @@ impl Watch {
         reports: Arc<PendingReports>,
     ) -> Arc<Self> {
         let done = Mutex::new(Done { speeds, ..Done::default() });
-        Arc::new(Self { job, dismissed: AtomicBool::new(false), stopping, done, reports })
+        let (dismissed, warned) = (AtomicBool::new(false), AtomicBool::new(false));
+        Arc::new(Self { job, dismissed, warned, stopping, done, reports })
+    }
+
+    /// Whether this is the first time that a speed of the job is seen to leave linear theory, since the service began it.
+    pub(super) fn first_to_warn(&self) -> bool {
+        !self.warned.swap(true, Ordering::Relaxed)
     }
 
     /// The job.

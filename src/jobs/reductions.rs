@@ -8,6 +8,7 @@ use super::error::Interruption;
 use super::memory::Memory;
 use super::patience::patiently;
 use super::progress::PhaseMonitor;
+use super::stress::Making;
 use crate::analysis::error::AnalysisError;
 use crate::analysis::monitor::Monitor;
 use crate::analysis::resolved::ResolvedSweep;
@@ -23,6 +24,15 @@ const KEPT: usize = 4;
 
 /// A model and its accuracy dial.
 type Key = (String, u32);
+
+/// What is wanted beside a reduction.
+#[derive(Debug, Default)]
+struct Beside {
+    /// Nodes to be read, by id.
+    nodes: Vec<u64>,
+    /// Stress outside this radius about the contact nodes.
+    stress_outside: Option<f64>,
+}
 
 /// Reduced sectors on demand.
 #[derive(Debug)]
@@ -48,27 +58,28 @@ impl Reductions {
         modes_per_speed: u32,
         monitor: PhaseMonitor,
     ) -> Result<Arc<ReducedSector>, Interruption> {
-        self.reading(model, modes_per_speed, &[], monitor).await
+        self.reading(model, modes_per_speed, &Beside::default(), monitor).await
     }
 
-    /// The reduction that `sweep` runs on, with rows of its basis at the nodes of its sensors.
+    /// The reduction that `sweep` runs on, with rows of its basis at the nodes of its sensors and the stress that it records.
     pub(super) async fn of_sweep(
         &self,
         sweep: &ResolvedSweep,
         monitor: PhaseMonitor,
     ) -> Result<Arc<ReducedSector>, Interruption> {
-        self.reading(sweep.model(), sweep.modes_per_speed(), &sweep.sensor_nodes(), monitor).await
+        let beside = Beside { nodes: sweep.sensor_nodes(), stress_outside: sweep.stress_outside() };
+        self.reading(sweep.model(), sweep.modes_per_speed(), &beside, monitor).await
     }
 
     async fn reading(
         &self,
         model: &str,
         modes_per_speed: u32,
-        nodes: &[u64],
+        beside: &Beside,
         monitor: PhaseMonitor,
     ) -> Result<Arc<ReducedSector>, Interruption> {
         let key = (model.to_owned(), modes_per_speed);
-        if let Some(reduced) = self.recall(&key, nodes) {
+        if let Some(reduced) = self.recall(&key, beside) {
             return Ok(reduced);
         }
         let flight = {
@@ -82,7 +93,7 @@ impl Reductions {
                 flight.lock().await
             }
         };
-        let result = self.obtain(&key, nodes, monitor).await;
+        let result = self.obtain(&key, beside, monitor).await;
         drop(guard);
         let mut flights = self.flights.lock().unwrap_or_else(PoisonError::into_inner);
         // Two handles are the map's and ours; more mean that somebody waits.
@@ -99,47 +110,55 @@ impl Reductions {
         modes_per_speed: u32,
     ) -> Result<Option<Arc<ReducedSector>>, StoreError> {
         let key = (model.to_owned(), modes_per_speed);
-        if let Some(reduced) = self.recall(&key, &[]) {
+        if let Some(reduced) = self.recall(&key, &Beside::default()) {
             return Ok(Some(reduced));
         }
-        let stored = self.store.reduction(model, modes_per_speed).await?;
+        let stored = self.read(&key).await?;
         Ok(stored.map(|reduced| self.remember(&key, reduced)))
+    }
+
+    /// The stored reduction, with what the model says of its tips.
+    async fn read(&self, key: &Key) -> Result<Option<ReducedSector>, StoreError> {
+        let Some(mut reduced) = self.store.reduction(&key.0, key.1).await? else { return Ok(None) };
+        reduced.tip_thickness = self.tip_thickness(&key.0).await?;
+        Ok(Some(reduced))
+    }
+
+    async fn tip_thickness(&self, model: &str) -> Result<Option<f64>, StoreError> {
+        let model = self.store.model(model, None).await?;
+        Ok(model.and_then(|model| model.facts.mesh?.tip_thickness))
     }
 
     /// With the flight's lock held.
     async fn obtain(
         &self,
         key: &Key,
-        nodes: &[u64],
+        beside: &Beside,
         monitor: PhaseMonitor,
     ) -> Result<Arc<ReducedSector>, Interruption> {
-        if let Some(reduced) = self.recall(key, nodes) {
+        if let Some(reduced) = self.recall(key, beside) {
             return Ok(reduced);
         }
         if monitor.is_cancelled() {
             return Err(Interruption::NotWanted);
         }
         let (model, modes_per_speed) = (key.0.as_str(), key.1);
-        let nodes = self.nodes(model, nodes, &monitor).await?;
-        let known = match self.recall(key, &[]) {
+        let nodes = self.nodes(model, &beside.nodes, &monitor).await?;
+        let known = match self.recall(key, &Beside::default()) {
             Some(reduced) => Some(ReducedSector::clone(&reduced)),
-            None => self.store.reduction(model, modes_per_speed).await?,
+            None => self.read(key).await?,
         };
         if let Some(mut reduced) = known {
             tracing::info!(model.id = model, modes_per_speed, "read the stored reduction");
-            if nodes.is_empty() {
-                return Ok(self.remember(key, reduced));
-            }
-            match self.rows(key, &reduced, &nodes, &monitor).await? {
-                Ok(rows) => {
-                    reduced.nodes = rows;
-                    return Ok(self.remember(key, reduced));
-                }
+            match self.beside(key, &mut reduced, &nodes, beside, &monitor).await? {
+                Ok(()) => return Ok(self.remember(key, reduced)),
                 Err(error) => {
                     tracing::warn!(model.id = model, modes_per_speed, %error, "the basis of the stored reduction cannot be read; reducing again");
                 }
             }
         }
+        // Stress of other jobs is read again, if they go on; a reduction wants its memory.
+        self.let_stress_go();
         let dofs = self.store.model(model, None).await?.map_or(0, |model| model.facts.own_dofs.into());
         monitor.progress(0.0, "waiting for memory that other jobs hold");
         let mut allowance = self.memory.claim(dofs).await;
@@ -151,14 +170,70 @@ impl Reductions {
             outcome = self.reduce(key, &nodes, &monitor, allowance.bytes).await?;
         }
         drop(allowance);
-        let reduced = outcome?;
+        let mut reduced = outcome?;
+        reduced.tip_thickness = self.tip_thickness(model).await?;
         let job = monitor.watch().job();
         let write = || self.store.insert_reduction(job, model, modes_per_speed, &reduced);
         patiently(monitor.watch(), write).await?;
         self.computing.acquit(job);
         let wall_time_s = reduced.report.wall_time_s;
         tracing::info!(model.id = model, modes_per_speed, wall_time_s, "reduced");
+        if beside.stress_outside.is_some() {
+            let made = self.stress(key, &mut reduced, beside, &monitor).await?;
+            made.map_err(|error| Interruption::Store(StoreError::File(error)))?;
+        }
         Ok(self.remember(key, reduced))
+    }
+
+    /// Gives `reduced` what is asked for beside it, from the files of its basis.
+    async fn beside(
+        &self,
+        key: &Key,
+        reduced: &mut ReducedSector,
+        nodes: &Arc<[SectorNode]>,
+        beside: &Beside,
+        monitor: &PhaseMonitor,
+    ) -> Result<std::io::Result<()>, Interruption> {
+        if !reduced.reads(&beside.nodes) {
+            match self.rows(key, reduced, nodes, monitor).await? {
+                Ok(rows) => reduced.nodes = rows,
+                Err(error) => return Ok(Err(error)),
+            }
+        }
+        self.stress(key, reduced, beside, monitor).await
+    }
+
+    /// Gives `reduced` the stress that is asked for, if any is; makes it if it is not there.
+    async fn stress(
+        &self,
+        key: &Key,
+        reduced: &mut ReducedSector,
+        beside: &Beside,
+        monitor: &PhaseMonitor,
+    ) -> Result<std::io::Result<()>, Interruption> {
+        let Some(radius) = beside.stress_outside.filter(|&radius| !reduced.tells_stress(radius)) else {
+            return Ok(Ok(()));
+        };
+        let (model, modes_per_speed) = (key.0.as_str(), key.1);
+        let dofs = self.store.model(model, None).await?.map_or(0, |model| model.facts.own_dofs.into());
+        self.let_stress_go();
+        monitor.progress(0.0, "waiting for memory that other jobs hold");
+        let _memory = self.memory.claim(dofs).await;
+        let making = Making {
+            package: self.store.package_path(model),
+            basis: self.store.basis(model, modes_per_speed),
+            wheel: Arc::clone(&reduced.wheel),
+            excluded_radius: radius,
+            monitor: monitor.clone(),
+        };
+        let made = self.computing.run_parallel(monitor.watch(), move || making.stress()).await??;
+        Ok(made.map(|stress| reduced.stress = Some(Arc::new(stress))))
+    }
+
+    /// Forgets reductions with stress: it takes much memory.
+    fn let_stress_go(&self) {
+        let mut recent = self.recent.lock().unwrap_or_else(PoisonError::into_inner);
+        recent.retain(|(_, reduced)| reduced.stress.is_none());
     }
 
     /// Those nodes of `model` with these ids that are no contact nodes, which every reduction reads.
@@ -222,10 +297,13 @@ impl Reductions {
         self.computing.run_parallel(&watch, compute).await?
     }
 
-    /// The latest that can be read at `nodes`.
-    fn recall(&self, key: &Key, nodes: &[u64]) -> Option<Arc<ReducedSector>> {
+    /// The latest that has what is asked for.
+    fn recall(&self, key: &Key, beside: &Beside) -> Option<Arc<ReducedSector>> {
         let mut recent = self.recent.lock().unwrap_or_else(PoisonError::into_inner);
-        let serves = |(known, reduced): &(Key, Arc<ReducedSector>)| known == key && reduced.reads(nodes);
+        let serves = |(known, reduced): &(Key, Arc<ReducedSector>)| {
+            let tells = beside.stress_outside.is_none_or(|radius| reduced.tells_stress(radius));
+            known == key && reduced.reads(&beside.nodes) && tells
+        };
         let position = recent.iter().rposition(serves)?;
         let entry = recent.remove(position)?;
         let reduced = Arc::clone(&entry.1);

@@ -8,6 +8,7 @@ use super::finish;
 use super::patience::patiently;
 use super::progress::{PhaseMonitor, SpeedMonitor};
 use crate::analysis::resolved::ResolvedSweep;
+use crate::analysis::result::{Point, Validity, ValidityVerdict};
 use crate::analysis::run;
 use crate::store::jobs::JobRequest;
 use crate::store::queue::RunSpeed;
@@ -52,12 +53,25 @@ pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) 
     engine.computing.acquit(id);
     job.watch.speeds_finished(finished, Some(speed));
     engine.counters.speed_finished(point.steps);
+    warn_of_theory(&job, &point);
     tracing::info!(
         job.id = %id, speed, speed_rad_s = point.speed_rad_s, status = ?point.status,
         steps = point.steps, wall_time_s = point.wall_time_s,
         "finished speed {finished}/{}", job.speeds
     );
     go_on(engine, &job, request, speed, finished).await
+}
+
+/// Says once per job that linear theory has been left, by the worst number of the first speed that does.
+fn warn_of_theory(job: &Live, point: &Point) {
+    let Some(Validity { verdict, checks }) = &point.validity else { return };
+    let Some(worst) = checks.first().filter(|_| *verdict != ValidityVerdict::Linear) else { return };
+    if job.watch.first_to_warn() {
+        tracing::warn!(
+            job.id = %job.id, speed_rad_s = point.speed_rad_s, verdict = ?verdict, what = ?worst.what, value = worst.value,
+            beyond_above = worst.beyond_above, "the response leaves linear theory; other speeds of this job are not reported"
+        );
+    }
 }
 
 /// What follows a finished speed: the end of the job, if all are `finished` with it, or the next one of a chain. Harmless to

@@ -35,10 +35,10 @@ const FOLDER: &str = "bases";
 const LAYOUT: i64 = 1;
 
 const MAGIC: &[u8; 8] = b"rubbasis";
-const HEADER: usize = 8 + 8 + 8 + 32 + 32;
+pub(super) const HEADER: usize = 8 + 8 + 8 + 32 + 32;
 const COMPLEX: usize = 16;
 /// Bytes of a row's checksum.
-const CHECK: usize = 8;
+pub(super) const CHECK: usize = 8;
 
 /// Rows that are read at once.
 const BLOCK: usize = 256;
@@ -92,13 +92,7 @@ impl BasisFolder {
     pub(super) fn keep(&self, rows: &BasisRows<'_>) {
         let harmonic = rows.harmonic();
         let bytes = (HEADER + rows.dofs() * row_bytes(rows.unknowns())) as u64;
-        let kept = match reserve::free_bytes(&self.data) {
-            Ok(free) if self.reserve.is_taken() || free < bytes.saturating_add(LEFT_FREE) => {
-                Err(ErrorKind::StorageFull.into())
-            }
-            _ => self.write(rows),
-        };
-        match kept {
+        match self.write(rows, bytes) {
             Ok(()) => {
                 tracing::debug!(harmonic, bytes, folder = file_name(&self.folder), "kept a basis");
             }
@@ -113,8 +107,8 @@ impl BasisFolder {
     /// # Errors
     /// Of a file that is not there, is not what was written, or is of another reduction.
     pub fn rows(&self, reduced: &ReducedWheel, nodes: &[SectorNode]) -> io::Result<NodeRows> {
-        let open = |reduced: &ReducedHarmonic| Opened::new(File::open(self.path(reduced.harmonic))?, reduced);
-        let files: Vec<Opened> = reduced.harmonics.iter().map(open).collect::<io::Result<_>>()?;
+        let files = reduced.harmonics.iter().map(|reduced| self.open(reduced));
+        let files: Vec<OpenBasis> = files.collect::<io::Result<_>>()?;
         NodeRows::gather(nodes, reduced, |harmonic, dof| files[harmonic].row(dof))
     }
 
@@ -129,7 +123,7 @@ impl BasisFolder {
         harmonic: usize,
         columns: MatRef<'_, c64>,
     ) -> io::Result<Mat<c64>> {
-        let file = Opened::new(File::open(self.path(harmonic))?, &reduced.harmonics[harmonic])?;
+        let file = self.open(&reduced.harmonics[harmonic])?;
         let mut product = Mat::zeros(file.dofs, columns.ncols());
         file.each(|dof, row| {
             for (unknown, value) in row.chunks_exact(2).enumerate() {
@@ -142,46 +136,76 @@ impl BasisFolder {
         Ok(product)
     }
 
-    fn path(&self, harmonic: usize) -> PathBuf {
-        self.folder.join(format!("{}harmonic-{harmonic}", prefix(LAYOUT)))
+    /// The basis of a nodal diameter.
+    ///
+    /// # Errors
+    /// As of [`Self::rows`].
+    pub fn open(&self, reduced: &ReducedHarmonic) -> io::Result<OpenBasis> {
+        OpenBasis::new(File::open(self.path(reduced.harmonic))?, reduced)
     }
 
-    fn write(&self, rows: &BasisRows<'_>) -> io::Result<()> {
+    fn path(&self, harmonic: usize) -> PathBuf {
+        self.named(&format!("harmonic-{harmonic}"))
+    }
+
+    /// The file of this name.
+    pub(super) fn named(&self, name: &str) -> PathBuf {
+        self.folder.join(format!("{}{name}", prefix(LAYOUT)))
+    }
+
+    fn write(&self, rows: &BasisRows<'_>, bytes: u64) -> io::Result<()> {
+        self.write_file(self.path(rows.harmonic()), bytes, |file| {
+            let mut out = BufWriter::with_capacity(1 << 20, file);
+            out.write_all(&header(MAGIC, rows.dofs(), rows.unknowns(), &rows.mark()))?;
+            let mut row = Vec::with_capacity(row_bytes(rows.unknowns()));
+            for dof in 0..rows.dofs() {
+                row.clear();
+                row.extend(rows.row(dof).flat_map(f64::to_le_bytes));
+                row.extend(check(dof, &row));
+                out.write_all(&row)?;
+            }
+            out.flush()
+        })
+    }
+
+    /// Writes a file of so many bytes, if there is room for it.
+    pub(super) fn write_file(
+        &self,
+        path: PathBuf,
+        bytes: u64,
+        write: impl FnOnce(&File) -> io::Result<()>,
+    ) -> io::Result<()> {
+        if let Ok(free) = reserve::free_bytes(&self.data)
+            && (self.reserve.is_taken() || free < bytes.saturating_add(LEFT_FREE))
+        {
+            return Err(ErrorKind::StorageFull.into());
+        }
         std::fs::create_dir_all(&self.folder)?;
         // Written whole and flushed before it gets its name: a name promises a basis, whenever the power fails.
         let file = unfinished_file(&self.folder, "unfinished-")?;
-        let mut out = BufWriter::with_capacity(1 << 20, file.as_file());
-        out.write_all(&header(rows.dofs(), rows.unknowns(), &rows.mark()))?;
-        let mut row = Vec::with_capacity(row_bytes(rows.unknowns()));
-        for dof in 0..rows.dofs() {
-            row.clear();
-            row.extend(rows.row(dof).flat_map(f64::to_le_bytes));
-            row.extend(check(dof, &row));
-            out.write_all(&row)?;
-        }
-        out.flush()?;
-        drop(out);
+        write(file.as_file())?;
         file.as_file().sync_all()?;
-        file.persist(self.path(rows.harmonic())).map_err(|error| error.error)?;
+        file.persist(path).map_err(|error| error.error)?;
         File::open(&self.folder)?.sync_all()
     }
 }
 
 /// The file of one nodal diameter.
-struct Opened {
+#[derive(Debug)]
+pub struct OpenBasis {
     file: File,
     dofs: usize,
     unknowns: usize,
 }
 
-impl Opened {
+impl OpenBasis {
     /// `file`, if it belongs to `reduced`.
     fn new(file: File, reduced: &ReducedHarmonic) -> io::Result<Self> {
         let mut found = [0; HEADER];
         file.read_exact_at(&mut found, 0)?;
         let dofs = u64::from_le_bytes(std::array::from_fn(|byte| found[8 + byte])) as usize;
         let unknowns = reduced.mass.ncols();
-        if found != header(dofs, unknowns, &reduced.mark()) {
+        if found != header(MAGIC, dofs, unknowns, &reduced.mark()) {
             return Err(damaged("it is not of this reduction"));
         }
         if file.metadata()?.len() != (HEADER + dofs * row_bytes(unknowns)) as u64 {
@@ -190,7 +214,16 @@ impl Opened {
         Ok(Self { file, dofs, unknowns })
     }
 
-    fn row(&self, dof: usize) -> io::Result<Vec<f64>> {
+    /// Own DOF.
+    pub fn dofs(&self) -> usize {
+        self.dofs
+    }
+
+    /// The row of an own DOF: real and imaginary part of every unknown.
+    ///
+    /// # Errors
+    /// If it cannot be read, or is not what was written.
+    pub fn row(&self, dof: usize) -> io::Result<Vec<f64>> {
         if dof >= self.dofs {
             return Err(damaged("it has no such row"));
         }
@@ -229,21 +262,23 @@ fn row_bytes(unknowns: usize) -> usize {
     COMPLEX * unknowns + CHECK
 }
 
-fn header(dofs: usize, unknowns: usize, mark: &[u8; 32]) -> [u8; HEADER] {
+/// What a file of so many rows begins with.
+pub(super) fn header(magic: &[u8; 8], rows: usize, unknowns: usize, mark: &[u8; 32]) -> [u8; HEADER] {
     let mut bytes = Vec::with_capacity(HEADER);
-    bytes.extend(MAGIC);
-    bytes.extend((dofs as u64).to_le_bytes());
+    bytes.extend(magic);
+    bytes.extend((rows as u64).to_le_bytes());
     bytes.extend((unknowns as u64).to_le_bytes());
     bytes.extend(mark);
     bytes.extend(Sha256::digest(&bytes));
     std::array::from_fn(|byte| bytes[byte])
 }
 
-fn check(dof: usize, row: &[u8]) -> [u8; CHECK] {
-    let sum = Sha256::new().chain_update((dof as u64).to_le_bytes()).chain_update(row).finalize();
+/// Tells whether the row of this number is what was written.
+pub(super) fn check(number: usize, row: &[u8]) -> [u8; CHECK] {
+    let sum = Sha256::new().chain_update((number as u64).to_le_bytes()).chain_update(row).finalize();
     std::array::from_fn(|byte| sum[byte])
 }
 
-fn damaged(how: &str) -> io::Error {
+pub(super) fn damaged(how: &str) -> io::Error {
     io::Error::new(ErrorKind::InvalidData, how)
 }

@@ -30,6 +30,7 @@ pub mod results;
 pub mod states;
 pub mod status;
 mod stored_sensor;
+mod stress;
 mod time;
 pub mod trials;
 mod unfinished;

@@ -311,6 +311,7 @@ mod tests {
             gyroscopic: false,
             contact_radius: None,
             stiffening: None,
+            contact_spacing: None,
             mesh: None,
         };
         let upload = store.new_upload().await.unwrap().into_temp_path();

@@ -331,6 +331,45 @@ async fn nonsense_is_refused_in_words() {
     app.stop().await;
 }
 
+/// Columns that came later stand at the end, and are there for models that say nothing of stress, too.
+#[tokio::test]
+async fn utilisation_is_absent_without_stress_and_that_is_said() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(model::package(1.0)).await;
+    let sweep = worn_sweep(api, &model).await;
+    let modal = job(api, "/v1/modal-analyses", &modal_analysis_of(&model)).await;
+    for path in ["critical-speeds", "critical-speeds/wheel"] {
+        let csv = get(api, &format!("/v1/jobs/{sweep}/{path}?format=csv"), &[]).await.good();
+        let rows = table(csv.text());
+        let last =
+            |row: &[&str]| row[row.len() - 2..].iter().map(|cell| (*cell).to_owned()).collect::<Vec<_>>();
+        assert_eq!(last(&rows[0]), ["utilisation", "validity"], "{path}");
+        assert!(rows.len() > 1 && rows[1..].iter().all(|row| last(row)[0].is_empty()), "{path}");
+    }
+    let raw = get(api, &format!("/v1/jobs/{sweep}/interaction-map?format=npz"), &[]).await.good();
+    let file = Npz::read(&raw.body);
+    let speeds = file.array("speeds_rad_s").reals().len();
+    for name in ["utilisation", "largest_von_mises"] {
+        let values = file.array(name).reals();
+        assert!(values.len() == speeds && values.iter().all(|value| value.is_nan()), "{name}");
+    }
+    assert_eq!(file.array("validity").texts().len(), speeds);
+    let map = format!("/v1/jobs/{sweep}/interaction-map?format=svg&colour=utilisation");
+    assert!(get(api, &map, &[]).await.good().text().contains("no utilisation is known"));
+    for (path, status, kind) in [
+        (format!("{sweep}/stress"), 404, "stress-not-recorded"),
+        (format!("{sweep}/stress?speed=1&format=png"), 404, "stress-not-recorded"),
+        (format!("{sweep}/stress?speed=99999"), 404, "speed-not-found"),
+        (format!("{sweep}/stress?colour=mean"), 400, "invalid-parameter"),
+        (format!("{modal}/stress"), 409, "wrong-job-kind"),
+        ("00000000-0000-0000-0000-000000000000/stress".to_owned(), 404, "job-not-found"),
+    ] {
+        api.get(&format!("/v1/jobs/{path}")).await.problem(status, kind);
+    }
+    app.stop().await;
+}
+
 #[tokio::test]
 async fn what_may_change_has_no_tag_and_what_is_missing_no_number() {
     let app = TestApp::start().await;

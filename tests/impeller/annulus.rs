@@ -8,7 +8,14 @@ const INNER: f64 = 0.3;
 const OUTER: f64 = 1.0;
 /// Thin enough for plane stress to hold to 1e-7.
 const THICKNESS: f64 = 1e-3;
-const MATERIAL: Material = Material { youngs_modulus: 1.0, poissons_ratio: 0.3, density: 1.0 };
+const MATERIAL: Material = Material {
+    youngs_modulus: 1.0,
+    poissons_ratio: 0.3,
+    density: 1.0,
+    yield_strength: None,
+    ultimate_strength: None,
+    fatigue_strength: None,
+};
 
 /// One layer on a frictionless plane; nothing turns (θ clamped at the inner edge only).
 fn annulus(order: ElementOrder, sectors: usize, around: usize, radial: usize) -> SectorMesh {

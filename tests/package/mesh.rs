@@ -1,9 +1,13 @@
 //! The elements of a package: read as written, checked, and absent where a package has none.
 
+use std::path::Path;
+
 use rubmap::impeller::mesh::ElementOrder;
 use rubmap::impeller::{AnnulusParameters, Material, annulus};
+use rubmap::package::calculix::{self, CalculixModel, Normals};
 use rubmap::package::raw::RawPackage;
 use rubmap::package::{self, Limits, read_mesh, read_raw, write};
+use rubmap::solid::element::ElementKind;
 use rubmap::solid::material::FatigueStrength;
 use serde_json::json;
 
@@ -281,4 +285,115 @@ fn materials() {
             ),
         ],
     );
+}
+
+/// A deck by hand around the disk: its elements in several cards and sets, with strengths beside it.
+fn deck(folder: &Path, change: impl FnOnce(String) -> String) -> CalculixModel {
+    let package = disk(ElementOrder::Linear);
+    let mut deck = "*NODE\n".to_owned();
+    for node in &package.nodes {
+        let [x, y, z] = node.position;
+        deck += &format!("{}, {x:e}, {y:e}, {z:e}\n", node.id);
+    }
+    deck += "*ELEMENT, TYPE=C3D8, ELSET=inner\n1, 1,2,5,4,\n10,11,14,13\n3,4,5,8,7,13,14,17,16\n\
+             *Element, ELSET = Outer, type = C3D8\n2, 2,3,6,5, 11,12,15,14\n4, 5,6,9,8, 14,15,18,17\n\
+             *ELSET, ELSET=EVEN, GENERATE\n2, 4, 2\n*ELSET, ELSET=ALL\n1, 3, EVEN\n\
+             *NSET, NSET=LOW\n2, 3, 11, 12\n*NSET, NSET=HIGH\n8, 9, 17, 18\n*NSET, NSET=TIP\n6, 15\n\
+             *MATERIAL, NAME=Ti\n*ELASTIC, TYPE=ISO\n1.14E5, .32\n*DENSITY\n4.43D-9\n\
+             *MATERIAL, NAME=STEEL\n*DENSITY\n7.85E-9\n*ELASTIC\n2.1E5, .3, 293.\n\
+             *SOLID SECTION, ELSET=ALL, MATERIAL=Ti\n*SOLID SECTION, MATERIAL=Steel, ELSET=EVEN\n";
+    std::fs::write(folder.join("deck.inp"), change(deck)).unwrap();
+    let dofs: Vec<String> =
+        package.dofs.iter().map(|dof| format!("{}.{}", dof.node, dof.component)).collect();
+    std::fs::write(folder.join("rest.dof"), dofs.join("\n")).unwrap();
+    // CalculiX writes both matrices in one pattern: here only their diagonals, which the mesh does not look at.
+    for (name, matrix) in [("rest.sti", &package.stiffness[0]), ("rest.mas", &package.mass)] {
+        let diagonal = matrix.entries.iter().filter(|(row, column, _)| row == column);
+        let text: String = diagonal.map(|(row, _, value)| format!("{0} {0} {value:e}\n", row + 1)).collect();
+        std::fs::write(folder.join(name), text).unwrap();
+    }
+    let normals = folder.join("normals.csv");
+    std::fs::write(&normals, "6, 1, 0, 0\n15, 1, 0, 0\n").unwrap();
+    CalculixModel {
+        sectors: Some(12),
+        low_set: Some("LOW".into()),
+        high_set: Some("HIGH".into()),
+        contact_as_listed: true,
+        normals: Normals::Table(normals),
+        ..crate::calculix::model(folder, "deck.inp", "rest")
+    }
+}
+
+#[test]
+fn a_deck_has_elements_materials_and_strengths() {
+    let folder = tempfile::tempdir().unwrap();
+    let strengths = folder.path().join("strengths.json");
+    std::fs::write(
+        &strengths,
+        r#"{"ti": {"yield_strength": 880}, "Even": {"ultimate_strength": 600, "fatigue_strength": {"amplitude": 250, "source": "FKM"}}}"#,
+    )
+    .unwrap();
+    let model = CalculixModel { strengths: Some(strengths.clone()), ..deck(folder.path(), |deck| deck) };
+    let (package, summary) = calculix::import(&model).unwrap();
+    assert_eq!(summary.no_mesh, None);
+    let expected = disk(ElementOrder::Linear);
+    let found = package.elements.as_ref().unwrap();
+    assert_eq!(found.iter().map(|e| &*e.set).collect::<Vec<_>>(), ["ALL", "EVEN", "ALL", "EVEN"]);
+    for (found, expected) in found.iter().zip(expected.elements.as_ref().unwrap()) {
+        assert_eq!((found.id, found.kind, &found.nodes), (expected.id, ElementKind::C3D8, &expected.nodes));
+    }
+    let sets = &package.manifest.mesh.as_ref().unwrap().sets;
+    let [all, even] = ["ALL", "EVEN"].map(|name| &sets[name]);
+    assert_eq!((all.youngs_modulus, all.density, all.yield_strength), (1.14e5, 4.43e-9, Some(880.0)));
+    assert_eq!((even.poissons_ratio, even.yield_strength, even.ultimate_strength), (0.3, None, Some(600.0)));
+    assert_eq!(even.fatigue_strength.as_ref().unwrap().source, "FKM");
+
+    std::fs::write(&strengths, r#"{"CAST": {"yield_strength": 880}}"#).unwrap();
+    let refused = calculix::import(&model).unwrap_err().to_string();
+    let said = "strengths are given of CAST, which is no material or element set of a *SOLID SECTION; there are: ALL, TI, EVEN, STEEL";
+    assert_eq!(refused, said);
+    std::fs::write(&strengths, r#"{"TI": {"yield": 880}}"#).unwrap();
+    let refused = calculix::import(&model).unwrap_err().to_string();
+    assert!(refused.contains("strengths.json: TI.yield: unknown field `yield`"), "{refused}");
+}
+
+#[test]
+fn a_deck_that_has_no_usable_mesh_says_why() {
+    type Change = fn(String) -> String;
+    let cases: [(Change, &str); 8] = [
+        (
+            |deck| deck.replace("*Element, ELSET = Outer, type = C3D8", "*ELEMENT, TYPE=C3D8R"),
+            "elements of type C3D8R are not known",
+        ),
+        (
+            |deck| deck.replace("TYPE=ISO", "TYPE=ORTHO"),
+            "the elasticity of material TI is of type ORTHO; only isotropic materials have stress here",
+        ),
+        (
+            |deck| deck.replace(".3, 293.", ".3, 293.\n2.E5, .3, 400."),
+            "material STEEL depends on temperature; give it constants of one temperature",
+        ),
+        (|deck| deck.replace("*DENSITY\n7.85E-9\n", ""), "material STEEL has no *DENSITY"),
+        (|deck| deck.replace("NAME=STEEL", "NAME=IRON"), "the deck has no *MATERIAL, NAME=STEEL"),
+        (
+            |deck| deck.replace("*ELSET, ELSET=ALL\n1, 3, EVEN\n", "*ELSET, ELSET=ALL\n1\n"),
+            "element 3 is in no *SOLID SECTION",
+        ),
+        (|deck| deck.replace("3,4,5,8,7,13,14,17,16", "1,4,5,8,7,13,14,17,16"), "element 1 is defined twice"),
+        (
+            |deck| deck.replace("3,4,5,8,7,13,14,17,16", "3,4,7,8,5,13,16,17,14"),
+            "elements.csv, line 3: element 3 (C3D8) is flipped or degenerate: its Jacobian determinant at node 4 is -6.794e1, not positive; all of it is inside out: list the corners of each of its faces the other way round",
+        ),
+    ];
+    let mut wrong = String::new();
+    for (change, expected) in cases {
+        let folder = tempfile::tempdir().unwrap();
+        let (package, summary) = calculix::import(&deck(folder.path(), change)).unwrap();
+        assert!(package.elements.is_none() && package.manifest.mesh.is_none());
+        let found = summary.no_mesh.unwrap().to_string();
+        if found != expected {
+            wrong += &format!("\n  expected {expected}\n  found    {found}");
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong}");
 }

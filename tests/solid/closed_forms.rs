@@ -1,15 +1,16 @@
 //! Rotating bodies whose stress is known in closed form.
 
 use faer::{Mat, c64};
+use nalgebra::Vector3;
 use rubmap::impeller::mesh::ElementOrder;
 use rubmap::impeller::{
     AnnulusParameters, CantileverParameters, Material, SectorMatrices, annulus, annulus_mesh, cantilever,
-    cantilever_mesh,
+    cantilever_mesh, cylindrical_frame,
 };
 use rubmap::package::{Limits, raw::RawPackage, read_mesh, write};
 use rubmap::solid::load::centrifugal;
 use rubmap::solid::mesh::SectorMesh;
-use rubmap::solid::stress::NodalStress;
+use rubmap::solid::stress::{NodalStress, point_stress};
 
 /// The mesh of a package, by way of its file.
 fn mesh_of(package: &RawPackage) -> SectorMesh {
@@ -120,6 +121,29 @@ fn a_rotating_disk() {
             let middle = mesh.nodes.iter().position(same).unwrap() as u32;
             for (a, b) in at(low).unwrap().iter().zip(at(middle).unwrap()) {
                 assert!((a - b).abs() < 1e-9 * largest, "{low} {middle} {a} {b}");
+            }
+        }
+    }
+}
+
+/// The generator integrates its matrices with elements of its own code; both have the same stress at the same points.
+#[test]
+fn points_have_the_generators_stress() {
+    for order in [ElementOrder::Linear, ElementOrder::Quadratic] {
+        let p =
+            AnnulusParameters { elements: [3, 2, 2], element_order: order, ..AnnulusParameters::default() };
+        let sector = annulus_mesh(&p).unwrap();
+        let mesh = mesh_of(&annulus(&p).unwrap());
+        let spun = SectorMatrices::assemble(&sector, &p.material).unwrap().prestress;
+        for (element, expected) in mesh.elements.iter().zip(&spun.stresses) {
+            let u: Vec<Vector3<f64>> = (element.nodes.iter())
+                .map(|&node| {
+                    let frame = cylindrical_frame(sector.mesh.angle(node as usize));
+                    frame.transpose() * Vector3::from(spun.displacements[node as usize])
+                })
+                .collect();
+            for (found, expected) in point_stress(&mesh, element, &u).iter().zip(expected) {
+                assert!((found - expected).amax() < 1e-11 * expected.amax(), "{order:?} {}", element.id);
             }
         }
     }

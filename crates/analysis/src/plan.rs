@@ -55,6 +55,9 @@ pub fn plan_sweep(
         reduction: state(reduced),
         reduced_unknowns_at_most: reduced_unknowns(facts, reduced, request.modes_per_speed()),
         basis_bytes_at_most: basis_bytes(facts, reduced, request.modes_per_speed()),
+        stress_bytes: request
+            .stress_outside()
+            .map(|_| stress_bytes(facts, reduced, request.modes_per_speed())),
         placed_sensors: Vec::new(),
         speeds: speeds.len() as u32,
         workers: workers as u32,
@@ -166,6 +169,37 @@ fn basis_bytes(facts: &ModelFacts, reduced: Option<&ReducedSector>, modes_per_sp
     reduced.is_none().then(|| u64::from(facts.own_dofs) * per_dof * harmonics)
 }
 
+/// Disk, and memory, that the stress of a reduction will take: single precision, six components at about a node for every three DOF.
+fn stress_bytes(facts: &ModelFacts, reduced: Option<&ReducedSector>, modes_per_speed: u32) -> u64 {
+    let places = u64::from(facts.own_dofs).div_ceil(3);
+    let columns = u64::from(facts.speeds_rad_s.len() as u32) * u64::from(modes_per_speed)
+        + 3 * u64::from(facts.contact_nodes);
+    let unknowns = match reduced {
+        Some(reduced) => reduced.report.unknowns.iter().map(|&n| u64::from(n)).sum(),
+        None => columns.min(facts.own_dofs.into()) * harmonic_count(facts.sectors as usize) as u64,
+    };
+    stress_numbers(places, unknowns) * size_of::<f32>() as u64
+}
+
+/// Real numbers of the stress of so many unknowns over all nodal diameters.
+fn stress_numbers(places: u64, unknowns: u64) -> u64 {
+    6 * 2 * places * unknowns
+}
+
+/// Memory of the stress of one speed, that of the reduction included: its numbers, the states of the last revolution as they are
+/// recorded and in two other coordinates, and what bounds every place.
+fn stress_memory(reduced: &ReducedSector, wheel: &ModalWheel, stepping: &Stepping) -> u64 {
+    /// Directions of a nodal diameter that bound, about.
+    const DIRECTIONS: usize = 12;
+    /// Bounds and static stress of a place.
+    const PLACE: usize = 256;
+    let Some(stress) = &reduced.stress else { return 0 };
+    let unknowns: usize = wheel.harmonics.iter().map(|harmonic| harmonic.omega.len()).sum();
+    let states = 4 * 16 * unknowns * stepping.discretisation.samples;
+    let parts = 6 * 2 * DIRECTIONS * wheel.harmonics.len() * size_of::<f32>() * stress.places();
+    stress.bytes() + (states + parts + PLACE * stress.places()) as u64
+}
+
 /// Cubed unknowns over all nodal diameters that a plan solves three times: about a second.
 const EIGEN_WORK: f64 = 1e8;
 
@@ -236,7 +270,9 @@ fn plan_point(
             free: set_up + steps as f64 * (free + spectra),
             contact: set_up + steps as f64 * (contact + spectra),
         }),
-        memory_bytes: running_bytes(&wheel, request, &stepping, nodes) + histories,
+        memory_bytes: running_bytes(&wheel, request, &stepping, nodes)
+            + stress_memory(reduced, &wheel, &stepping)
+            + histories,
         scheme: Some(stepping.report),
         ..planned
     }
@@ -254,6 +290,7 @@ pub fn trial_memory(reduced: &ReducedSector, request: &TrialRequest) -> u64 {
     // A twin has a history of its own.
     let runs = 1 + u64::from(request.twin);
     runs * running_bytes(&wheel, sweep, &stepping, touching(reduced, sweep))
+        + stress_memory(reduced, &wheel, &stepping)
 }
 
 /// Memory that the speed of this `place` in a case study holds while it is recorded, in bytes: its run, and its histories twice, as

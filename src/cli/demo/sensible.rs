@@ -167,6 +167,7 @@ mod tests {
             gyroscopic: false,
             contact_radius: Some(123.4),
             stiffening: None,
+            contact_spacing: None,
             mesh: None,
         }
     }

@@ -43,7 +43,9 @@ pub fn control_requests(
     let finer = |index: usize| {
         let point = ascending[index];
         let setting = finer_setting(request, sectors, point, most_modes);
-        (point.index, setting, TrialRequest::new(request, point.speed_rad_s, setting))
+        let mut trial = TrialRequest::new(request, point.speed_rad_s, setting);
+        trial.sweep.record.stress = request.record.stress;
+        (point.index, setting, trial)
     };
     chosen.into_iter().map(finer).collect()
 }
@@ -78,6 +80,7 @@ pub fn error_estimate(
                 index: *index,
                 speed_rad_s: point.speed_rad_s,
                 setting: *setting,
+                estimated_stress_error: differences.and_then(|d| Some(SAFETY * d.stress?)),
                 estimated_error: differences.map(|d| estimate(&d).max(d.amplitude_spread.unwrap_or(0.0))),
                 differences,
                 message: trial.point.message.clone(),
@@ -154,7 +157,15 @@ mod tests {
             steps_per_revolution: 1000,
         };
         let speed_rad_s = 100.0 + f64::from(index);
-        Control { index, speed_rad_s, setting, differences: None, estimated_error, message: None }
+        Control {
+            index,
+            speed_rad_s,
+            setting,
+            differences: None,
+            estimated_error,
+            estimated_stress_error: None,
+            message: None,
+        }
     }
 
     #[test]

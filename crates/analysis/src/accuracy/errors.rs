@@ -15,6 +15,8 @@ pub(super) struct Response<'a> {
     pub(super) levels: &'a [Vec<f64>],
     pub(super) repeats: bool,
     pub(super) impulse: f64,
+    /// Largest von Mises stress, where it was recorded.
+    pub(super) stress: Option<f64>,
 }
 
 impl<'a> Response<'a> {
@@ -39,6 +41,7 @@ impl<'a> Response<'a> {
             levels: &[],
             repeats: repeats(point),
             impulse: point.contact_impulse.unwrap_or(0.0),
+            stress: point.stress.as_ref().map(|stress| stress.largest.von_mises),
         }
     }
 
@@ -58,6 +61,7 @@ impl<'a> Response<'a> {
             engine_orders: repeat.then(|| self.error_of_lines(finer)),
             impulse: (self.impulse != 0.0 || finer.impulse != 0.0)
                 .then(|| relative((self.impulse - finer.impulse).abs(), finer.impulse.abs())),
+            stress: self.stress.zip(finer.stress).map(|(a, b)| relative((a - b).abs(), b)),
         }
     }
 
@@ -115,7 +119,14 @@ mod tests {
     use crate::result::Quantity;
 
     fn response(rms: &[f64], lines: &[&[f64]], levels: &[Vec<f64>], repeats: bool) -> Errors {
-        let of = |rms: Vec<f64>, lines: Vec<Vec<f64>>| Response { rms, lines, levels, repeats, impulse: 2.0 };
+        let of = |rms: Vec<f64>, lines: Vec<Vec<f64>>| Response {
+            rms,
+            lines,
+            levels,
+            repeats,
+            impulse: 2.0,
+            stress: None,
+        };
         let run = of(rms.to_vec(), lines.iter().map(|line| line.to_vec()).collect());
         run.errors(&of(vec![1.0, 4.0], vec![vec![0.0, 1.0], vec![3.0, 4.0]]))
     }

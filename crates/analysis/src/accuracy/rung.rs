@@ -268,6 +268,7 @@ mod tests {
             amplitude_spread: spread,
             engine_orders: None,
             impulse: None,
+            stress: None,
         };
         assert_eq!(estimate(&difference(0.02, Some(0.03))), 0.0);
         assert!((estimate(&difference(0.05, Some(0.03))) - 2.5 * 0.02).abs() < 1e-12);

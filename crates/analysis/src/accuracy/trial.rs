@@ -14,7 +14,7 @@ use crate::request::Setting;
 use crate::request::auto_or::MOST_STEPS;
 use crate::resolved::{ResolvedSweep, TrialRequest};
 use crate::result::{Cost, SpeedSpectra, Trial};
-use crate::speed::{Recording, Start, empty_point, ready, simulate};
+use crate::speed::{Recording, Start, empty_point, judge_run, ready, simulate};
 use crate::stepping::Stepping;
 use rubmap_wheel::dynamics::integrate::{Outcome, Run};
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
@@ -75,7 +75,7 @@ pub fn run_trial(
         };
         let ran = ready(reduced, sweep, speed_rad_s).and_then(|(wheel, stepping)| {
             let run =
-                simulate(reduced, &wheel, sweep, &stepping, Start::Scene, Recording::default(), &marked)?;
+                simulate(reduced, &wheel, sweep, &stepping, Start::Scene, Recording::of(sweep), &marked)?;
             Ok((wheel, stepping, run))
         });
         let whole = clock.elapsed();
@@ -104,6 +104,7 @@ pub fn run_trial(
     let samples = stepping.discretisation.samples;
     trial.samples_per_revolution = samples as u32;
     let recorded = record_run(&mut trial.point, &run, sweep, &wheel, &stepping, &reduced.wheel.contact)?;
+    judge_run(&mut trial.point, &run, reduced, sweep, &wheel);
     if let (Outcome::Completed(history), Some(Recorded { spectra, .. })) = (&run.outcome, &recorded) {
         let kept = samples * request.history_revolutions.min(sweep.integration.revolutions) as usize;
         trial.history = history.displacement.iter().map(|line| line[..kept].to_vec()).collect();

@@ -25,6 +25,9 @@ pub struct Errors {
     /// Contact impulse over the whole run. Absent where there is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub impulse: Option<f64>,
+    /// Largest von Mises stress; absent where none was recorded. It converges more slowly with the modes than displacement.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stress: Option<f64>,
 }
 
 impl Errors {
@@ -120,6 +123,9 @@ pub struct Control {
     /// Estimated relative error of the steady response.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub estimated_error: Option<f64>,
+    /// The same of the largest von Mises stress; absent where it was not recorded.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub estimated_stress_error: Option<f64>,
     /// Why the finer run was not completed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub message: Option<String>,

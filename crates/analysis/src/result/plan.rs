@@ -27,6 +27,10 @@ pub struct SweepPlan {
     /// rows of 16 bytes an unknown, one for every DOF and nodal diameter. Absent where the reduction is stored.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub basis_bytes_at_most: Option<u64>,
+    /// Stress in the coordinates of the reduction takes about so many bytes of disk, as long as the model is there, and of memory while
+    /// speeds run; of a sweep that records stress.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stress_bytes: Option<u64>,
     /// Where those sensors stand that name a node or a point.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub placed_sensors: Vec<PlacedSensor>,

@@ -4,14 +4,12 @@ use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Mat, Par, Side, c64};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
-use super::reduced::StaticStress;
+use super::reduced::{HarmonicStress, StaticStress};
 use rubmap_solid::load::centrifugal;
 use rubmap_solid::mesh::SectorMesh;
 use rubmap_solid::stress::NodalStress;
 use rubmap_wheel::dynamics::nodes::SectorNode;
-use rubmap_wheel::dynamics::reduction::{
-    ReducedHarmonic, ReducedWheel, ReductionError, Watch, static_response,
-};
+use rubmap_wheel::dynamics::reduction::{ReducedHarmonic, ReductionError, Watch, static_response};
 use rubmap_wheel::dynamics::sector::SectorModel;
 
 /// Unknowns whose stress is computed together.
@@ -40,8 +38,7 @@ impl<'a> StressMaker<'a> {
         &self.operator
     }
 
-    /// S̃ of a nodal diameter (see [`HarmonicStress`](super::HarmonicStress)), `2·unknowns × 6·places`, in single precision: a
-    /// millionth of the root sum of squares of its unknowns. In parallel over unknowns, on the current rayon pool.
+    /// S̃ of a nodal diameter at all places, in single precision: a millionth of the root sum of squares of its unknowns. In parallel over unknowns, on the current rayon pool.
     ///
     /// # Errors
     /// Those of `row`.
@@ -50,7 +47,7 @@ impl<'a> StressMaker<'a> {
         reduced: &ReducedHarmonic,
         own_dofs: usize,
         row: StressOf<'_, E>,
-    ) -> Result<Mat<f32>, E> {
+    ) -> Result<HarmonicStress, E> {
         let unknowns = reduced.mass.ncols();
         // Υ̂ᴴ, then (Υ̂ L⁻ᴴ)ᴴ = L⁻¹ Υ̂ᴴ.
         let mut adjoint = Mat::<c64>::zeros(unknowns, own_dofs);
@@ -83,7 +80,7 @@ impl<'a> StressMaker<'a> {
                 }
             }
         }
-        Ok(rows)
+        Ok(HarmonicStress::new(rows))
     }
 
     /// Stress of the centrifugal load at all places.
@@ -126,10 +123,4 @@ impl<'a> StressMaker<'a> {
 /// L of K_r(0) = L Lᴴ; every reduction has it.
 pub(super) fn lower(reduced: &ReducedHarmonic) -> Option<Mat<c64>> {
     Some(reduced.stiffness.coefficients[0].llt(Side::Lower).ok()?.L().to_owned())
-}
-
-/// Bytes of the files that [`StressMaker`]'s numbers take, and of the memory of all of them.
-pub fn stress_bytes(reduced: &ReducedWheel, places: u64) -> u64 {
-    let unknowns: usize = reduced.harmonics.iter().map(|harmonic| harmonic.mass.ncols()).sum();
-    6 * places * 2 * size_of::<f32>() as u64 * unknowns as u64
 }

@@ -3,6 +3,8 @@
 //! Stress is linear in the coordinates of the reduction, so one matrix per nodal diameter says all of it; places are bounded first,
 //! and only those that may be the worst are followed over all blades and instants.
 
+#[cfg(test)]
+mod against_full;
 mod bounds;
 mod cycle;
 pub(crate) mod make;
@@ -12,7 +14,7 @@ mod reduced;
 mod search;
 mod trajectory;
 
-pub use make::{StressMaker, StressOf, stress_bytes};
+pub use make::{StressMaker, StressOf};
 pub use reduced::{HarmonicStress, ReducedStress, StaticStress};
 pub(crate) use search::{Course, stress_of};
 

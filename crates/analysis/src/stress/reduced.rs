@@ -116,16 +116,47 @@ impl ReducedStress {
 }
 
 impl HarmonicStress {
-    /// Of `2·unknowns × 6·places` numbers, as [`StressMaker::harmonic`](super::StressMaker::harmonic) makes them.
-    pub fn new(rows: Mat<f32>) -> Self {
+    /// Of its columns, `2·unknowns × 6·places`.
+    pub(super) fn new(rows: Mat<f32>) -> Self {
         let mut this = Self { rows, norms: Vec::new() };
-        this.norms = (0..this.rows.ncols() / 6).map(|place| this.norm(place)).collect();
+        this.norms = (0..this.places()).map(|place| this.norm(place)).collect();
         this
     }
 
-    /// `2·unknowns × 6·places`.
-    pub fn rows(&self) -> &Mat<f32> {
-        &self.rows
+    /// Of so many places, one after the other: `read` gives the numbers of a place as [`Self::of_place`] has them.
+    ///
+    /// # Errors
+    /// Those of `read`.
+    pub fn gather<E>(
+        unknowns: usize,
+        places: usize,
+        mut read: impl FnMut(usize, &mut [f32]) -> Result<(), E>,
+    ) -> Result<Self, E> {
+        let mut rows = Mat::<f32>::zeros(2 * unknowns, 6 * places);
+        let mut numbers = vec![0.0; 12 * unknowns];
+        for place in 0..places {
+            read(place, &mut numbers)?;
+            for (component, numbers) in numbers.chunks_exact((2 * unknowns).max(1)).enumerate() {
+                let column = rows.col_mut(6 * place + component);
+                column.iter_mut().zip(numbers).for_each(|(into, number)| *into = *number);
+            }
+        }
+        Ok(Self::new(rows))
+    }
+
+    /// Number of places.
+    pub fn places(&self) -> usize {
+        self.rows.ncols() / 6
+    }
+
+    /// Unknowns of the reduction.
+    pub fn unknowns(&self) -> usize {
+        self.rows.nrows() / 2
+    }
+
+    /// The numbers of a place: for σ_rr … σ_zr real and imaginary part of every unknown.
+    pub fn of_place(&self, place: usize) -> impl Iterator<Item = f32> + use<'_> {
+        (6 * place..6 * place + 6).flat_map(|column| self.rows.col(column).iter().copied())
     }
 
     fn norm(&self, place: usize) -> Norm {
@@ -140,7 +171,7 @@ impl HarmonicStress {
     }
 
     /// The rows of a place, `6 × unknowns`.
-    pub(super) fn of_place(&self, place: usize) -> Mat<c64> {
+    pub(super) fn matrix(&self, place: usize) -> Mat<c64> {
         let columns = self.columns(place);
         Mat::from_fn(6, self.rows.nrows() / 2, |component, unknown| {
             let column = columns[component];

@@ -226,7 +226,7 @@ impl Search<'_> {
         let weights = self.weights[place].unwrap_or(Weights::ALTERNATING);
         let waves: Vec<(usize, Mat<c64>)> = (self.paths.iter())
             .map(|path| {
-                let rows = self.stress.harmonics[path.harmonic].of_place(place);
+                let rows = self.stress.harmonics[path.harmonic].matrix(place);
                 (path.harmonic, rows * &path.directions * &path.course)
             })
             .collect();

@@ -130,7 +130,7 @@ impl Case {
         let mut found = vec![*fixed; INSTANTS];
         for state in &self.states.harmonics {
             let energy = lower(&self.harmonics[state.harmonic]).unwrap().adjoint() * &state.coordinates;
-            let wave = self.stress.harmonics[state.harmonic].of_place(place) * energy;
+            let wave = self.stress.harmonics[state.harmonic].matrix(place) * energy;
             for (t, stress) in found.iter_mut().enumerate() {
                 for (component, stress) in stress.iter_mut().enumerate() {
                     *stress += (turn(state.harmonic, blade, SECTORS) * wave[(component, t)]).re;

@@ -13,7 +13,7 @@ use super::key::Flow;
 use super::pixels::{self, DENSITY, MISSING};
 use super::svg::{Element, document, group, line, rectangle, text_width};
 use super::{colour, colour_bar, hatching, heading, marks};
-use depths::{Depths, Side};
+use depths::{Depths, Fragment, Side};
 use levels::{Levels, OF_EDGE, OF_INSIDE, OF_REST};
 use shape::Shape;
 use view::{Camera, LARGEST_SHARE};
@@ -128,7 +128,7 @@ impl Picture {
         let levels = Levels::of(values);
         let mut depths = Depths::new(width, height);
         shape.draw(values, &mut depths);
-        let colour = |(index, fragment): (usize, &depths::Fragment)| match fragment.side {
+        let colour = |(index, fragment): (usize, &Fragment)| match fragment.side {
             Side::Nothing => MISSING,
             Side::Inside => levels::shade(OF_INSIDE, f64::from(fragment.light)),
             Side::Outside => {
@@ -191,12 +191,15 @@ impl Picture {
             };
         }
         let fragments = self.depths.fragments();
-        if fragments.iter().any(|seen| seen.side == Side::Outside && seen.value.is_nan()) {
+        let pixels = |of: &dyn Fn(&Fragment) -> bool| fragments.iter().filter(|seen| of(seen)).count();
+        if pixels(&|seen| seen.side == Side::Outside && seen.value.is_nan()) > 0 {
             let words =
                 if self.levels.is_some() { "nothing claimed: near contact nodes" } else { "no values" };
             flow = flow.entry(hatching::mark(), 20.0, words);
         }
-        if fragments.iter().any(|seen| seen.side == Side::Inside) {
+        // At the rim of what is closed single pixels see its far side.
+        let covered = pixels(&|seen| seen.side != Side::Nothing);
+        if 1000 * pixels(&|seen| seen.side == Side::Inside) > covered {
             flow = flow.entry(patch(levels::INSIDE), 20.0, "inside of an open surface");
         }
         if self.rests {

@@ -77,6 +77,23 @@ fn a_drawing_says_what_it_shows() {
     }
 }
 
+/// A sector whose cyclic faces are open shows its inside, where there is one.
+#[test]
+fn open_surfaces_show_their_inside() {
+    let mut sector = impeller(0..1, 5, 2.0);
+    // The faces between hub and core at both ends of the angle.
+    let cyclic = |face: &[u32]| {
+        let angle = |corner: &u32| {
+            let [x, y, _] = sector.nodes[*corner as usize];
+            y.atan2(x)
+        };
+        let half = 0.5 * TAU / SECTORS as f64;
+        face.iter().all(|corner| (angle(corner) - half).abs() < 1e-9)
+    };
+    sector.faces = sector.faces.iter().filter(|face| !cyclic(face)).cloned().collect();
+    assert!(surface(&sector, SurfaceView::Meridional).contains("inside of an open surface"));
+}
+
 /// The largest displacement takes its share of the drawing: two plates, one of which moves by a tenth of a millimetre.
 #[test]
 fn displacement_is_as_large_as_is_said() {

@@ -9,8 +9,8 @@ use super::build::{Bubbles, Row, Rows};
 use crate::frame::AxisFrame;
 use crate::mesh::SectorMesh;
 
-/// Columns computed at once, real and imaginary parts beside each other: what fits into a few vector registers.
-const COLUMNS: usize = 8;
+/// Columns computed at once, real and imaginary parts beside each other: nine derivatives of so many fit into registers.
+const COLUMNS: usize = 2;
 
 /// Real and imaginary parts of a number in each of the columns.
 type Lanes = [f64; 2 * COLUMNS];
@@ -190,6 +190,7 @@ impl NodalStress {
 }
 
 /// `sum += factor · value`.
+#[inline]
 fn add(sum: &mut Lanes, factor: f64, value: &Lanes) {
     for (sum, value) in sum.iter_mut().zip(value) {
         *sum += factor * value;
