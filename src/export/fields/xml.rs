@@ -1,6 +1,6 @@
 //! VTK's XML: data arrays in Base64.
 
-use std::io::{self, Write};
+use std::io::{self, BufWriter, Write};
 
 use base64::engine::general_purpose::STANDARD;
 use base64::write::EncoderWriter;
@@ -51,10 +51,14 @@ pub(super) fn array<T: Number>(
         write!(out, " NumberOfComponents=\"{components}\"")?;
     }
     writeln!(out, " format=\"binary\">")?;
-    let mut encoder = EncoderWriter::new(&mut *out, &STANDARD);
+    // The encoder takes a short write for the end of the file; a buffer takes all.
+    let mut buffer = BufWriter::new(&mut *out);
+    let mut encoder = EncoderWriter::new(&mut buffer, &STANDARD);
     encoder.write_all(&((tuples * components * size_of::<T>()) as u64).to_le_bytes())?;
     give(&mut |numbers| numbers.iter().try_for_each(|number| number.put(&mut encoder)))?;
     encoder.finish()?;
     drop(encoder);
+    buffer.flush()?;
+    drop(buffer);
     writeln!(out, "\n</DataArray>")
 }
