@@ -2,9 +2,12 @@
 
 mod case;
 mod demo;
+mod field_file;
+mod fields;
 pub mod generate;
 mod import;
 mod keeping;
+mod modes;
 mod repeat;
 mod report;
 mod serve;
@@ -35,6 +38,10 @@ enum Command {
     Study(study::StudyArgs),
     /// Show what happens at one speed: motion, forces, energy.
     Case(case::CaseArgs),
+    /// Write where the whole wheel is at one speed, in contact: for ParaView, numpy, or drawn.
+    Fields(fields::FieldsArgs),
+    /// Print natural frequencies, or write a mode shape: for ParaView, numpy, or drawn.
+    Modes(modes::ModesArgs),
     /// Compute the job of an archive again and compare bit by bit.
     Repeat(repeat::RepeatArgs),
     /// Write a job of a running service as one page of HTML.
@@ -62,6 +69,8 @@ impl Cli {
             Command::Demo(_)
             | Command::Study(_)
             | Command::Case(_)
+            | Command::Fields(_)
+            | Command::Modes(_)
             | Command::Repeat(_)
             | Command::Report(_)
             | Command::Backup(_)
@@ -77,6 +86,8 @@ impl Cli {
             Command::Demo(args) => return demo::run(&args),
             Command::Study(args) => return study::run(&args),
             Command::Case(args) => return case::run(&args),
+            Command::Fields(args) => return fields::run(&args),
+            Command::Modes(args) => return modes::run(&args),
             Command::Repeat(args) => return repeat::run(&args),
             Command::Check(args) => return keeping::check(args),
             Command::Report(args) => report::report(args)?,

@@ -5,6 +5,7 @@ mod array;
 mod campbell;
 mod critical_speeds;
 pub mod csv;
+pub mod fields;
 mod force_map;
 pub mod maps;
 mod npz;

@@ -20,14 +20,27 @@ pub(super) enum Form {
     Svg,
     /// A picture.
     Png,
+    /// A field on all elements: VTK's UnstructuredGrid, for ParaView and pyvista.
+    Vtu,
+    /// A field on the skin: VTK's PolyData.
+    Vtp,
+    /// A field over time: a zip with ParaView's list of files and the files.
+    Pvd,
 }
 
 impl Form {
-    /// All that there are. Of what a client takes equally, the first.
+    /// All that most results have. Of what a client takes equally, the first.
     pub(super) const ALL: [Self; 5] = [Self::Json, Self::Csv, Self::Npz, Self::Svg, Self::Png];
 
     /// Those that are no drawings.
     pub(super) const NUMBERS: [Self; 3] = [Self::Json, Self::Csv, Self::Npz];
+
+    /// Those of a field.
+    pub(super) const FIELDS: [Self; 6] = [Self::Vtu, Self::Vtp, Self::Npz, Self::Pvd, Self::Svg, Self::Png];
+
+    /// Those of a field beside a list.
+    pub(super) const LIST_AND_FIELDS: [Self; 7] =
+        [Self::Json, Self::Vtu, Self::Vtp, Self::Npz, Self::Pvd, Self::Svg, Self::Png];
 
     /// Its word in a query.
     pub(super) fn word(self) -> &'static str {
@@ -37,10 +50,13 @@ impl Form {
             Self::Npz => "npz",
             Self::Svg => "svg",
             Self::Png => "png",
+            Self::Vtu => "vtu",
+            Self::Vtp => "vtp",
+            Self::Pvd => "pvd",
         }
     }
 
-    /// Its media type; numpy's files have none that is registered.
+    /// Its media type; those of numpy and VTK have none that is registered.
     pub(super) fn media_type(self) -> &'static str {
         match self {
             Self::Json => "application/json",
@@ -48,6 +64,9 @@ impl Form {
             Self::Npz => "application/x-npz",
             Self::Svg => "image/svg+xml",
             Self::Png => "image/png",
+            Self::Vtu => "application/x-vtu",
+            Self::Vtp => "application/x-vtp",
+            Self::Pvd => super::stream::ZIP,
         }
     }
 
@@ -79,7 +98,7 @@ fn preferred(headers: &HeaderMap, those: &[Form]) -> Result<Form, Problem> {
         headers.get_all(header::ACCEPT).iter().filter_map(|value| value.to_str().ok()).collect();
     let accept = accept.join(",");
     if accept.trim().is_empty() {
-        return Ok(Form::Json);
+        return those.first().copied().ok_or_else(|| not_acceptable("Accept", "", those));
     }
     let ranges: Vec<Range> = accept.split(',').filter_map(Range::parse).collect();
     let quality = |form: Form| {

@@ -112,6 +112,8 @@ kinds! {
     JobNotFound = NOT_FOUND, "job-not-found", "There is no such job";
     /// No such speed in the job, or none computed.
     SpeedNotFound = NOT_FOUND, "speed-not-found", "There is no such speed";
+    /// The model has no such reduction, or its basis is gone.
+    NotReduced = CONFLICT, "not-reduced", "The model has no such reduction";
     /// No histories of that speed were recorded.
     HistoryNotRecorded = NOT_FOUND, "history-not-recorded", "There are no histories of this speed";
     /// No stress of that speed was recorded.

@@ -18,9 +18,9 @@ use utoipa_axum::routes;
 
 use super::state::AppState;
 use super::{
-    access, archive, body, case_studies, contract, extract, forces, health, histories, host, jobs, maps,
-    metrics, modal_analyses, models, openapi, principal, problem, report, results, section, spectra, stream,
-    stress, studies, sweeps, version, wheel,
+    access, archive, body, case_studies, contract, extract, fields, forces, health, histories, host, jobs,
+    maps, metrics, modal_analyses, models, modes, openapi, principal, problem, report, results, section,
+    spectra, stream, stress, studies, sweeps, version, wheel,
 };
 
 /// The routes with their descriptions.
@@ -30,6 +30,7 @@ pub(super) fn routes() -> OpenApiRouter<AppState> {
         .routes(routes!(models::plan_model_generation))
         .routes(routes!(models::get_model, models::label_model, models::delete_model))
         .routes(routes!(section::get_section))
+        .routes(routes!(modes::get_modes))
         .routes(routes!(modal_analyses::create_modal_analysis))
         .routes(routes!(modal_analyses::plan_modal_analysis))
         .routes(routes!(sweeps::create_sweep))
@@ -48,6 +49,7 @@ pub(super) fn routes() -> OpenApiRouter<AppState> {
         .routes(routes!(wheel::get_wheel_critical_speeds))
         .routes(routes!(studies::get_work_precision))
         .routes(routes!(histories::get_histories, case_studies::create_histories))
+        .routes(routes!(fields::get_fields))
         .routes(routes!(forces::get_forces))
         .routes(routes!(stress::get_stress))
         .routes(routes!(health::get_health))

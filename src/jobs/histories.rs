@@ -12,6 +12,7 @@ use crate::analysis::monitor::Monitor;
 use crate::analysis::resolved::ResolvedCaseStudy;
 use crate::analysis::run;
 use crate::store::results::Document;
+use crate::store::states;
 
 /// Simulates the speeds of `case` side by side and keeps the histories of each as soon as they are there: those that are kept already
 /// are not computed again.
@@ -40,7 +41,8 @@ async fn record_one(
     case: &ResolvedCaseStudy,
     place: usize,
 ) -> Result<(), Interruption> {
-    let document = Document::Histories(case.speeds()[place]);
+    let case_speed = case.speeds()[place];
+    let document = Document::Histories(case_speed);
     if engine.store.document_bytes(job.id, document).await?.is_some() {
         return Ok(());
     }
@@ -54,10 +56,17 @@ async fn record_one(
     let _memory = engine.memory.hold(bytes).await.map_err(Interruption::speed_memory)?;
     let case = case.clone();
     let compute = move || {
-        let histories = run::speed_histories(&reduced, &case, place, &monitor)?;
-        Ok::<_, Interruption>(serde_json::to_string(&histories)?)
+        let mut histories = run::speed_histories(&reduced, &case, place, &monitor)?;
+        let states =
+            histories.states.take().map(|states| states::pack(&states, &reduced.wheel)).transpose()?;
+        Ok::<_, Interruption>((serde_json::to_string(&histories)?, states))
     };
-    let text = engine.computing.run(&job.watch, compute).await??;
+    let (text, states) = engine.computing.run(&job.watch, compute).await??;
+    // First, for histories that are there tell that the speed is done.
+    if let Some(states) = states {
+        let document = Document::States(case_speed);
+        patiently(&job.watch, || engine.store.keep_document(job.id, document, &states)).await?;
+    }
     patiently(&job.watch, || engine.store.keep_document(job.id, document, &text)).await?;
     engine.computing.acquit(job.id);
     Ok(())

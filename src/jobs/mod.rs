@@ -27,6 +27,7 @@ mod control;
 mod counters;
 mod engine;
 mod error;
+mod fields;
 mod finish;
 mod generation;
 mod handle;
@@ -48,6 +49,7 @@ mod turns;
 mod work;
 mod workers;
 
+pub use fields::FieldSource;
 pub use handle::{Cancellation, Jobs, SubmitError, generation_of};
 pub use memory::Allowance;
 pub use pool::Panicked;

@@ -16,6 +16,7 @@ use std::io::{self, BufWriter, ErrorKind, Write};
 use std::os::unix::fs::FileExt;
 use std::path::{Path, PathBuf};
 
+use faer::{Mat, MatRef, c64};
 use sha2::{Digest, Sha256};
 
 use super::error::StoreError;
@@ -38,6 +39,9 @@ pub(super) const HEADER: usize = 8 + 8 + 8 + 32 + 32;
 const COMPLEX: usize = 16;
 /// Bytes of a row's checksum.
 pub(super) const CHECK: usize = 8;
+
+/// Rows that are read at once.
+const BLOCK: usize = 256;
 
 /// Room on the disk that a basis leaves to what cannot be computed again.
 const LEFT_FREE: u64 = 4 * reserve::BYTES;
@@ -106,6 +110,30 @@ impl BasisFolder {
         let files = reduced.harmonics.iter().map(|reduced| self.open(reduced));
         let files: Vec<OpenBasis> = files.collect::<io::Result<_>>()?;
         NodeRows::gather(nodes, reduced, |harmonic, dof| files[harmonic].row(dof))
+    }
+
+    /// Υ̂ X of a nodal diameter of `reduced`: `own DOF × columns` of `unknowns × columns`. Rows are read and multiplied in blocks, never
+    /// held.
+    ///
+    /// # Errors
+    /// As of [`Self::rows`].
+    pub fn product(
+        &self,
+        reduced: &ReducedWheel,
+        harmonic: usize,
+        columns: MatRef<'_, c64>,
+    ) -> io::Result<Mat<c64>> {
+        let file = self.open(&reduced.harmonics[harmonic])?;
+        let mut product = Mat::zeros(file.dofs, columns.ncols());
+        file.each(|dof, row| {
+            for (unknown, value) in row.chunks_exact(2).enumerate() {
+                let value = c64::new(value[0], value[1]);
+                for column in 0..columns.ncols() {
+                    product[(dof, column)] += value * columns[(unknown, column)];
+                }
+            }
+        })?;
+        Ok(product)
     }
 
     /// The basis of a nodal diameter.
@@ -202,6 +230,25 @@ impl OpenBasis {
         let length = row_bytes(self.unknowns);
         let mut bytes = vec![0; length];
         self.file.read_exact_at(&mut bytes, (HEADER + dof * length) as u64)?;
+        self.checked(dof, &bytes)
+    }
+
+    /// All rows, one after the other.
+    fn each(&self, mut take: impl FnMut(usize, &[f64])) -> io::Result<()> {
+        let length = row_bytes(self.unknowns);
+        let mut block = vec![0; length * BLOCK];
+        for first in (0..self.dofs).step_by(BLOCK) {
+            let bytes = &mut block[..length * BLOCK.min(self.dofs - first)];
+            self.file.read_exact_at(bytes, (HEADER + first * length) as u64)?;
+            for (dof, row) in (first..).zip(bytes.chunks_exact(length)) {
+                take(dof, &self.checked(dof, row)?);
+            }
+        }
+        Ok(())
+    }
+
+    /// The numbers of a row.
+    fn checked(&self, dof: usize, bytes: &[u8]) -> io::Result<Vec<f64>> {
         let (row, sum) = bytes.split_at(COMPLEX * self.unknowns);
         if sum != check(dof, row) {
             return Err(damaged("its bytes are not those that were written"));

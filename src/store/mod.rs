@@ -27,6 +27,7 @@ mod readiness;
 pub mod reductions;
 mod reserve;
 pub mod results;
+pub mod states;
 pub mod status;
 mod stored_sensor;
 mod stress;

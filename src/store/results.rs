@@ -28,6 +28,8 @@ pub enum Document {
     WorkPrecision,
     /// Histories at the speed of this index.
     Histories(u32),
+    /// Where the whole wheel was at the speed of this index.
+    States(u32),
 }
 
 impl Document {
@@ -40,6 +42,7 @@ impl Document {
             Self::Errors,
             Self::WorkPrecision,
             Self::Histories(part),
+            Self::States(part),
         ];
         let found = all.into_iter().find(|document| document.columns().0 == name);
         found.ok_or_else(|| StoreError::Unknown { column: "documents.name", value: name.to_owned() })
@@ -54,6 +57,7 @@ impl Document {
             Self::Errors => ("errors", 0),
             Self::WorkPrecision => ("work_precision", 0),
             Self::Histories(speed) => ("histories", speed),
+            Self::States(speed) => ("states", speed),
         }
     }
 }

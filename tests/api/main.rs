@@ -9,6 +9,7 @@ mod chains;
 mod checkpoints;
 mod errors;
 mod faults;
+mod fields;
 mod formats;
 mod generation;
 mod idempotency;

@@ -3,6 +3,7 @@
 mod coriolis;
 mod cyclic_structure;
 mod dense_agreement;
+mod fields;
 #[path = "../properties/fixed.rs"]
 mod fixed;
 mod fixtures;

@@ -23,7 +23,7 @@ use std::f64::consts::TAU;
 use crate::fixtures::{TOP_SPEED, WheelRecipe, assembled_wheel, small_impeller, wheel};
 
 /// All nodes of a test wheel, by the number of their first DOF over three.
-fn nodes_of(sector: &SectorModel) -> Vec<SectorNode> {
+pub(crate) fn nodes_of(sector: &SectorModel) -> Vec<SectorNode> {
     let node = |node: usize| SectorNode {
         id: node as u64,
         position: [node as f64, 0.0, 0.0],

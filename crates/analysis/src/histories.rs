@@ -18,6 +18,7 @@ use crate::speed::{Recording, Start, empty_point, ready, run_speed, simulate};
 use crate::summary::critical_indices;
 use rubmap_wheel::dynamics::energy::{EffectWork, EnergyAudit};
 use rubmap_wheel::dynamics::integrate::{Detail, DetailHistory, History, Outcome};
+use rubmap_wheel::dynamics::states::WheelStates;
 use rubmap_wheel::revision::VERSION;
 
 /// The case study of the histories that a sweep asks for, if there is a speed to record, from the points of all its speeds.
@@ -58,7 +59,8 @@ pub fn speed_histories(
     };
     let from_where = start.as_ref().map_or(Start::Scene, Start::After);
     let ran = ready(reduced, sweep, point.speed_rad_s).and_then(|(wheel, stepping)| {
-        let recording = Recording { detail: Some(detail), states: None };
+        let states = record.wants(RecordedQuantity::State).then_some(detail.revolutions);
+        let recording = Recording { detail: Some(detail), states };
         let run = simulate(reduced, &wheel, sweep, &stepping, from_where, recording, &watch)?;
         Ok((wheel, stepping, run))
     });
@@ -74,6 +76,7 @@ pub fn speed_histories(
         units: reduced.units.clone(),
         settings: sweep.clone().into(),
         version: VERSION.to_owned(),
+        states: None,
     };
     match ran {
         Err(reason) => point.message = Some(reason.to_string()),
@@ -84,6 +87,12 @@ pub fn speed_histories(
                 histories.samples_per_revolution = samples as u32;
                 histories.sensors =
                     sensors(reduced, history, sweep, record, samples * from as usize..samples * to as usize);
+                if let Some(states) = &history.states {
+                    let stiffening = sweep.scene.centrifugal_stiffening;
+                    let states = WheelStates::of(states, &wheel, &reduced.wheel, stiffening);
+                    // What the wheel was made of a moment ago can be made again.
+                    histories.states = states.ok().map(Box::new);
+                }
                 if let Some(detail) = &history.detail {
                     histories.contact = detail_contact(detail, wheel.sectors, wheel.repeats);
                     histories.energy = energy(&detail.energy, &point, wheel.repeats);

@@ -19,6 +19,7 @@ mod discretisation;
 pub mod effects;
 pub mod end_state;
 pub mod error;
+pub mod fields;
 mod gauge;
 mod histories;
 mod modal;

@@ -334,7 +334,8 @@ fn recorded_bytes(
     /// Bytes of a number as numbers and as text.
     const NUMBER: usize = 8 + 24;
     let [from, to] = revolutions(record, sweep);
-    let lines = lines(record, sweep, wheel.sectors * nodes);
+    let state = wheel.harmonics.iter().map(|harmonic| 2 * harmonic.omega.len()).sum();
+    let lines = lines(record, sweep, wheel.sectors * nodes, state);
     (NUMBER * lines * stepping.discretisation.samples * (to - from) as usize) as u64
 }
 

@@ -48,7 +48,7 @@ pub struct HistoriesRequest {
     pub revolutions: Option<[u32; 2]>,
     /// As of a case study.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[cfg_attr(feature = "schema", schema(max_items = 5))]
+    #[cfg_attr(feature = "schema", schema(max_items = 6))]
     pub quantities: Vec<RecordedQuantity>,
 }
 
@@ -67,9 +67,9 @@ pub struct Recorded {
     /// Whole revolutions after which recording begins and ends; default: the window.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub revolutions: Option<[u32; 2]>,
-    /// What is recorded; default: everything.
+    /// What is recorded; default: everything but `state`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[cfg_attr(feature = "schema", schema(max_items = 5))]
+    #[cfg_attr(feature = "schema", schema(max_items = 6))]
     pub quantities: Vec<RecordedQuantity>,
 }
 
@@ -88,12 +88,16 @@ pub enum RecordedQuantity {
     Contact,
     /// Energy and its parts.
     Energy,
+    /// Where the whole wheel is, in the coordinates of the reduction: what `GET /v1/jobs/{id}/fields` needs. It is large, and recorded only
+    /// if it is named.
+    State,
 }
 
 impl Recorded {
     /// Whether `quantity` is asked for.
     pub(crate) fn wants(&self, quantity: RecordedQuantity) -> bool {
-        self.quantities.is_empty() || self.quantities.contains(&quantity)
+        let by_default = self.quantities.is_empty() && quantity != RecordedQuantity::State;
+        by_default || self.quantities.contains(&quantity)
     }
 }
 

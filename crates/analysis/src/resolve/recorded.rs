@@ -7,6 +7,7 @@ use crate::model::ModelFacts;
 use crate::request::{HistoriesRequest, HistorySpeeds, Recorded, RecordedQuantity, StressRequest};
 use crate::resolve::findings::Findings;
 use crate::resolved::ResolvedSweep;
+use rubmap_numerics::sector_fourier::harmonic_count;
 
 /// Most numbers of the histories of one speed, and most speeds with histories: they are kept as text.
 const MOST_NUMBERS: usize = 1 << 23;
@@ -71,7 +72,10 @@ pub(super) fn check_recorded(
         found.require(!again, &format!("{pointer}/quantities/{place}"), "is in the list already");
     }
     let sectors = facts.sectors as usize;
-    let lines = lines(record, sweep, sectors * facts.contact_nodes as usize);
+    let unknowns =
+        3 * facts.contact_nodes as usize + facts.speeds_rad_s.len() * sweep.modes_per_speed() as usize;
+    let state = 2 * harmonic_count(sectors) * unknowns.min(facts.own_dofs as usize);
+    let lines = lines(record, sweep, sectors * facts.contact_nodes as usize, state);
     let samples = most_samples(sweep, sectors).saturating_mul(to.saturating_sub(from) as usize);
     let numbers = samples.saturating_mul(lines);
     found.require(
@@ -121,12 +125,13 @@ pub(crate) fn revolutions(record: &Recorded, sweep: &ResolvedSweep) -> [u32; 2] 
     record.revolutions.unwrap_or([run.saturating_sub(sweep.integration.window_revolutions), run])
 }
 
-/// Histories of one speed, with so many pairs of a contact node and a blade.
-pub(crate) fn lines(record: &Recorded, sweep: &ResolvedSweep, pairs: usize) -> usize {
+/// Histories of one speed, with so many pairs of a contact node and a blade, and so many numbers of a state.
+pub(crate) fn lines(record: &Recorded, sweep: &ResolvedSweep, pairs: usize, state: usize) -> usize {
     let of = |quantity, numbers: usize| if record.wants(quantity) { numbers } else { 0 };
     of(RecordedQuantity::Displacement, sweep.sensors.len())
         + of(RecordedQuantity::Velocity, sweep.sensors.len())
         + of(RecordedQuantity::ContactForce, pairs)
         + of(RecordedQuantity::Contact, 2)
         + of(RecordedQuantity::Energy, 8)
+        + of(RecordedQuantity::State, state)
 }

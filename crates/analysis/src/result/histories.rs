@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::request::{Sensor, SweepRequest};
 use crate::result::point::Point;
 use rubmap_wheel::dynamics::sector::Units;
+use rubmap_wheel::dynamics::states::WheelStates;
 
 /// Histories of one speed over chosen revolutions, as downloaded. Sample j = 0, 1, … is at `revolutions[0]` + (j + 1) /
 /// `samples_per_revolution` revolutions after the start. What was not asked for is empty or absent.
@@ -35,6 +36,9 @@ pub struct SpeedHistories {
     pub settings: SweepRequest,
     /// Version of the code.
     pub version: String,
+    /// Where the whole wheel was, if that was asked for; kept apart from the rest.
+    #[serde(skip)]
+    pub states: Option<Box<WheelStates>>,
 }
 
 /// One sensor, `[sample]`.

@@ -14,6 +14,8 @@ use rubmap_solid::frame::AxisFrame;
 /// Nodes of a sector.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Places {
+    /// The axis of rotation: a point on it, and its direction, of any length.
+    pub axis: ([f64; 3], [f64; 3]),
     /// All nodes, in the order of the node table.
     pub nodes: Vec<Place>,
     /// Contact nodes from the leading to the trailing edge: their place in `nodes`, and the outward unit normal, (r, θ, z)
@@ -78,7 +80,8 @@ fn places(manifest: &Manifest, nodes: &[RawNode], dofs: &[RawDof]) -> Places {
         };
         Some((number, normal.into()))
     });
-    Places { contact: contact.collect(), nodes: places }
+    let axis = (manifest.axis.origin, manifest.axis.direction);
+    Places { axis, contact: contact.collect(), nodes: places }
 }
 
 #[cfg(test)]

@@ -1,0 +1,181 @@
+//! A field: displacement and stress of every node, over one or more frames.
+
+use faer::{Mat, MatRef, c64};
+use nalgebra::Vector3;
+
+use super::error::FieldError;
+use super::sector::FieldSector;
+use super::tensor::{components, matrix};
+
+/// Υ̂_i X of nodal diameter i: `own DOF × columns` of `unknowns × columns`.
+pub type BasisProduct<'a> = &'a mut dyn FnMut(usize, MatRef<'_, c64>) -> std::io::Result<Mat<c64>>;
+
+/// A moment of a field.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Frame {
+    /// When: revolutions since the start, or the part of a period.
+    pub time: f64,
+    /// Columns and what each is multiplied by.
+    pub weights: Vec<(usize, c64)>,
+    /// The same a quarter of a period before, where the field goes on periodically: the imaginary part of its complex amplitude.
+    pub before: Vec<(usize, c64)>,
+}
+
+/// A field of the wheel.
+#[derive(Debug)]
+pub struct Field {
+    /// What it is, in words.
+    pub title: String,
+    /// More words, a line each.
+    pub subtitles: Vec<String>,
+    /// Its moments.
+    pub frames: Vec<Frame>,
+    harmonics: Vec<HarmonicField>,
+}
+
+/// One nodal diameter.
+#[derive(Debug)]
+struct HarmonicField {
+    harmonic: usize,
+    /// (r, θ, z), `3·nodes × columns`.
+    displacement: Mat<c64>,
+    /// σ_rr, σ_θθ, σ_zz, σ_rθ, σ_θz, σ_zr, `6·nodes × columns`.
+    stress: Option<Mat<c64>>,
+}
+
+impl Field {
+    /// From columns in the coordinates of the reduction, by nodal diameter.
+    ///
+    /// # Errors
+    /// Those of reading the basis.
+    pub(super) fn new(
+        sector: &FieldSector,
+        columns: &[(usize, Mat<c64>)],
+        frames: Vec<Frame>,
+        basis: BasisProduct<'_>,
+    ) -> Result<Self, FieldError> {
+        let mut harmonics = Vec::with_capacity(columns.len());
+        for (harmonic, columns) in columns {
+            let displacement = sector.at_nodes(*harmonic, basis(*harmonic, columns.as_ref())?.as_ref());
+            let stress = sector.stress(*harmonic, displacement.as_ref());
+            harmonics.push(HarmonicField { harmonic: *harmonic, displacement, stress });
+        }
+        Ok(Self { title: String::new(), subtitles: Vec::new(), frames, harmonics })
+    }
+
+    /// Called so.
+    pub(super) fn titled(self, title: String, subtitles: Vec<String>) -> Self {
+        Self { title, subtitles, ..self }
+    }
+
+    /// Displacement in the user's coordinates of these nodes of a sector, weighted as a frame says.
+    pub fn displacement(
+        &self,
+        of: &FieldSector,
+        sector: usize,
+        places: &[u32],
+        weights: &[(usize, c64)],
+    ) -> Vec<[f64; 3]> {
+        let local = self.sum::<3>(of, sector, places, weights, |harmonic| Some(&harmonic.displacement));
+        let turned = |(&place, local): (&u32, [f64; 3])| {
+            of.directions(sector, place).tr_mul(&Vector3::from(local)).into()
+        };
+        places.iter().zip(local).map(turned).collect()
+    }
+
+    /// The same about the axis, which is z: for drawings.
+    pub(super) fn about_axis(
+        &self,
+        of: &FieldSector,
+        sector: usize,
+        places: &[u32],
+        weights: &[(usize, c64)],
+    ) -> Vec<[f64; 3]> {
+        let local = self.sum::<3>(of, sector, places, weights, |harmonic| Some(&harmonic.displacement));
+        let turned = |(&place, [r, t, z]): (&u32, [f64; 3])| {
+            let (sin, cos) = (of.nodes()[place as usize].coordinates[1] + of.turn(sector)).sin_cos();
+            [r * cos - t * sin, r * sin + t * cos, z]
+        };
+        places.iter().zip(local).map(turned).collect()
+    }
+
+    /// Stress in the user's coordinates, σ_xx, σ_yy, σ_zz, σ_xy, σ_yz, σ_zx, of these nodes of a sector; NaN where there is none. Nothing
+    /// where the field has no stress.
+    pub fn stress(
+        &self,
+        of: &FieldSector,
+        sector: usize,
+        places: &[u32],
+        weights: &[(usize, c64)],
+    ) -> Option<Vec<[f64; 6]>> {
+        let has = of.has_stress();
+        let local =
+            has.then(|| self.sum::<6>(of, sector, places, weights, |harmonic| harmonic.stress.as_ref()))?;
+        let turned = |(&place, local): (&u32, [f64; 6])| {
+            let directions = of.directions(sector, place);
+            components(&(directions.transpose() * matrix(local) * directions))
+        };
+        Some(places.iter().zip(local).map(turned).collect())
+    }
+
+    /// The largest displacement of any node and sector over a whole period of the first frame.
+    pub(super) fn largest_amplitude(&self, of: &FieldSector) -> f64 {
+        let Some(frame) = self.frames.first() else { return 0.0 };
+        let places: Vec<u32> = (0..of.nodes().len() as u32).collect();
+        let of_sector = |sector| {
+            let amplitudes = self.amplitude(of, sector, &places, frame);
+            amplitudes.into_iter().fold(0.0f64, f64::max)
+        };
+        (0..of.sectors()).map(of_sector).fold(0.0, f64::max)
+    }
+
+    /// The largest displacement of each node over a period: the longer half axis of its ellipse.
+    pub fn amplitude(&self, of: &FieldSector, sector: usize, places: &[u32], frame: &Frame) -> Vec<f64> {
+        let real = self.displacement(of, sector, places, &frame.weights);
+        let imaginary = self.displacement(of, sector, places, &frame.before);
+        let longer = |(a, b): ([f64; 3], [f64; 3])| {
+            let dot = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+            let (aa, bb, ab) = (dot(a, a), dot(b, b), dot(a, b));
+            (0.5 * (aa + bb) + 0.5 * (aa - bb).hypot(2.0 * ab)).sqrt()
+        };
+        real.into_iter().zip(imaginary).map(longer).collect()
+    }
+
+    /// All columns of all nodal diameters multiplied by a number.
+    pub(super) fn scale(&mut self, factor: f64) {
+        let factor = c64::new(factor, 0.0);
+        for harmonic in &mut self.harmonics {
+            harmonic.displacement *= faer::Scale(factor);
+            if let Some(stress) = &mut harmonic.stress {
+                *stress *= faer::Scale(factor);
+            }
+        }
+    }
+
+    /// Re Σ_i e^{jisα} Σ_c a_c column_c, K components a node.
+    fn sum<const K: usize>(
+        &self,
+        of: &FieldSector,
+        sector: usize,
+        places: &[u32],
+        weights: &[(usize, c64)],
+        values: impl Fn(&HarmonicField) -> Option<&Mat<c64>>,
+    ) -> Vec<[f64; K]> {
+        let mut sums = vec![[0.0; K]; places.len()];
+        for harmonic in &self.harmonics {
+            let Some(values) = values(harmonic) else { continue };
+            let turn = of.phase(harmonic.harmonic * sector % of.sectors());
+            for &(column, weight) in weights {
+                let factor = turn * weight;
+                let column = values.col(column);
+                for (sum, &place) in sums.iter_mut().zip(places) {
+                    for (component, sum) in sum.iter_mut().enumerate() {
+                        let value = column[K * place as usize + component];
+                        *sum += factor.re * value.re - factor.im * value.im;
+                    }
+                }
+            }
+        }
+        sums
+    }
+}

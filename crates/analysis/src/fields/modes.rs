@@ -1,0 +1,126 @@
+//! Mode shapes and their frequencies.
+
+use std::f64::consts::TAU;
+
+use faer::{Mat, c64};
+use serde::{Deserialize, Serialize};
+
+use super::error::FieldError;
+use super::field::{BasisProduct, Field, Frame};
+use super::sector::FieldSector;
+use rubmap_numerics::sector_fourier::is_single;
+use rubmap_wheel::dynamics::modal_wheel::{mode_shapes, natural_frequencies};
+use rubmap_wheel::dynamics::reduction::ReducedWheel;
+
+/// How a mode moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum Motion {
+    /// Its nodal lines stay where they are on the wheel; the phase turns them about it.
+    Standing,
+    /// It travels around the wheel, in the direction of rotation; the phase says how far.
+    Travelling,
+}
+
+/// Which mode.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ModeRequest {
+    /// Ω, rad/s.
+    pub speed_rad_s: f64,
+    /// K(Ω) instead of the stiffness at rest.
+    pub stiffening: bool,
+    /// Nodal diameter.
+    pub nodal_diameter: usize,
+    /// Mode, from 1, by ascending frequency.
+    pub mode: usize,
+    /// How it moves.
+    pub motion: Motion,
+    /// Phase of the first frame, rad.
+    pub phase: f64,
+    /// Frames over one period.
+    pub frames: usize,
+}
+
+/// Natural frequencies of a nodal diameter.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct ShapeFrequencies {
+    /// Nodal diameter.
+    pub nodal_diameter: u32,
+    /// Frequencies of its modes in the rotating frame, ascending, Hz; above those that were kept they are of the reduction, not of the
+    /// wheel.
+    pub frequencies_hz: Vec<f64>,
+}
+
+/// Frequencies of all modes at a speed.
+///
+/// # Errors
+/// A K(Ω) that is not positive definite.
+pub fn mode_frequencies(
+    reduced: &ReducedWheel,
+    speed_rad_s: f64,
+    stiffening: bool,
+) -> Result<Vec<ShapeFrequencies>, FieldError> {
+    let of = |harmonic| {
+        let omega = natural_frequencies(harmonic, speed_rad_s, stiffening)?;
+        let frequencies_hz = omega.into_iter().map(|omega| omega / TAU).collect();
+        Ok(ShapeFrequencies { nodal_diameter: harmonic.harmonic as u32, frequencies_hz })
+    };
+    reduced.harmonics.iter().map(of).collect()
+}
+
+/// The shape of a mode, its largest displacement over a period 1.
+///
+/// # Errors
+/// A nodal diameter or mode that is not there; a K(Ω) that is not positive definite; a basis that cannot be read.
+pub fn mode_field(
+    reduced: &ReducedWheel,
+    sector: &FieldSector,
+    asked: &ModeRequest,
+    basis: BasisProduct<'_>,
+) -> Result<Field, FieldError> {
+    let most = reduced.harmonics.len() - 1;
+    let Some(harmonic) = reduced.harmonics.get(asked.nodal_diameter) else {
+        let message = format!("the wheel has nodal diameters 0 to {most}");
+        return Err(FieldError::parameter("nodal_diameter", message));
+    };
+    let omega = natural_frequencies(harmonic, asked.speed_rad_s, asked.stiffening)?;
+    let mode = asked.mode.checked_sub(1).filter(|&mode| mode < omega.len()).ok_or_else(|| {
+        let message = format!("nodal diameter {} has modes 1 to {}", asked.nodal_diameter, omega.len());
+        FieldError::parameter("mode", message)
+    })?;
+    if asked.motion == Motion::Travelling && is_single(asked.nodal_diameter, reduced.sectors) {
+        let message = format!("nodal diameter {} cannot travel: its modes are single", asked.nodal_diameter);
+        return Err(FieldError::parameter("motion", message));
+    }
+    let shapes = mode_shapes(reduced, asked.nodal_diameter, asked.speed_rad_s, asked.stiffening)?;
+    let column = Mat::from_fn(shapes.nrows(), 1, |row, _| shapes[(row, mode)]);
+    let frames = (0..asked.frames).map(|k| frame(asked, k as f64 / asked.frames as f64)).collect();
+    let mut field = Field::new(sector, &[(asked.nodal_diameter, column)], frames, basis)?;
+    let largest = field.largest_amplitude(sector);
+    if largest > 0.0 {
+        field.scale(1.0 / largest);
+    }
+    let title = format!(
+        "nodal diameter {}, mode {}, {:.2} Hz at {:.1} rad/s",
+        asked.nodal_diameter,
+        asked.mode,
+        omega[mode] / TAU,
+        asked.speed_rad_s
+    );
+    Ok(field.titled(title, vec!["largest displacement 1, stress for it".to_owned()]))
+}
+
+/// The mode after a part of its period.
+fn frame(asked: &ModeRequest, part: f64) -> Frame {
+    let unit = |angle: f64| c64::new(angle.cos(), angle.sin());
+    let at = |angle: f64| match asked.motion {
+        // The pattern where the phase puts it, up and down.
+        Motion::Standing => unit(asked.phase) * angle.cos(),
+        // e^{j(isα − φ)} moves on to larger angles.
+        Motion::Travelling => unit(-asked.phase - angle),
+    };
+    let angle = TAU * part;
+    Frame { time: part, weights: vec![(0, at(angle))], before: vec![(0, at(angle - TAU / 4.0))] }
+}

@@ -1,0 +1,122 @@
+//! Files of fields that commands write: their form is said by how their names end.
+
+use std::fs::File;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, bail};
+use clap::Args;
+use zip::ZipArchive;
+
+use super::session::client::Client;
+use super::session::save;
+
+/// Which part of the wheel, and where it goes.
+#[derive(Debug, Args)]
+pub(super) struct FieldFileArgs {
+    /// This sector alone, from 0 [default: all]
+    #[arg(long)]
+    sector: Option<u32>,
+    /// Add stress, for which the package needs a mesh
+    #[arg(long)]
+    stress: bool,
+    /// Phase in degrees
+    #[arg(long, allow_negative_numbers = true)]
+    phase: Option<f64>,
+    /// Files of a .pvd over its time [default: 24]
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=96))]
+    frames: Option<u16>,
+    /// Folder in which model and reduction stay, so that a second run need not make them again [default: none stay]
+    #[arg(long)]
+    work: Option<PathBuf>,
+    /// Threads that compute [default: one per core]
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(super) workers: Option<u16>,
+}
+
+/// A folder to work in: one that stays, or one that goes with this.
+pub(super) enum WorkFolder {
+    Kept(PathBuf),
+    Passing(tempfile::TempDir),
+}
+
+impl WorkFolder {
+    pub(super) fn path(&self) -> &Path {
+        match self {
+            Self::Kept(path) => path,
+            Self::Passing(folder) => folder.path(),
+        }
+    }
+}
+
+impl FieldFileArgs {
+    /// The folder to work in.
+    ///
+    /// # Errors
+    /// One that cannot be made.
+    pub(super) fn folder(&self) -> anyhow::Result<WorkFolder> {
+        Ok(match &self.work {
+            Some(path) => WorkFolder::Kept(path.clone()),
+            None => WorkFolder::Passing(tempfile::tempdir().context("cannot make a folder to work in")?),
+        })
+    }
+
+    /// Downloads a field from `path`, to whose query more can be added, into `out`; of a `.pvd` its files beside it.
+    ///
+    /// # Errors
+    /// A file that cannot be written, or what the service refuses.
+    pub(super) async fn save(&self, client: &Client, path: &str, out: &Path) -> anyhow::Result<()> {
+        let form = form(out)?;
+        let mut path = format!("{path}format={form}&stress={}", self.stress);
+        if let Some(sector) = self.sector {
+            path += &format!("&sector={sector}");
+        }
+        if let Some(phase) = self.phase {
+            path += &format!("&phase_deg={phase}");
+        }
+        if let Some(frames) = self.frames.filter(|_| form == "pvd") {
+            path += &format!("&frames={frames}");
+        }
+        if form == "pvd" {
+            let zip = tempfile::NamedTempFile::new().context("cannot make a file to work in")?;
+            client.save(&path, zip.path()).await?;
+            unpack(zip.path(), out)?;
+        } else {
+            client.save(&path, out).await?;
+        }
+        println!("written   {}", out.display());
+        Ok(())
+    }
+}
+
+/// The form that the end of a name says.
+///
+/// # Errors
+/// Any other.
+pub(super) fn form(out: &Path) -> anyhow::Result<&'static str> {
+    let known = ["vtu", "vtp", "npz", "pvd", "svg", "png"];
+    let ending = out.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
+    match known.into_iter().find(|form| *form == ending) {
+        Some(form) => Ok(form),
+        None => bail!("{}: the name must end with one of .{}", out.display(), known.join(", .")),
+    }
+}
+
+/// A series beside `out`: its files begin with the name of the list.
+fn unpack(zip: &Path, out: &Path) -> anyhow::Result<()> {
+    let mut zip = ZipArchive::new(File::open(zip)?)?;
+    let stem = out.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let renamed = |name: &str| name.replacen("series", &stem, 1);
+    for index in 0..zip.len() {
+        let mut entry = zip.by_index(index)?;
+        let name = entry.name().context("a file of the series has no name")?.to_owned();
+        if name.ends_with(".pvd") {
+            let text = std::io::read_to_string(&mut entry)?;
+            save(out, &text.replace("file=\"series", &format!("file=\"{stem}")))?;
+            continue;
+        }
+        let path = out.with_file_name(renamed(&name));
+        let mut file = File::create(&path).with_context(|| format!("cannot create {}", path.display()))?;
+        std::io::copy(&mut entry, &mut file).with_context(|| format!("cannot write {}", path.display()))?;
+    }
+    Ok(())
+}

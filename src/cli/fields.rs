@@ -1,0 +1,67 @@
+//! `rubmap fields`: where the whole wheel is at a speed, in contact.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use anyhow::bail;
+use clap::Args;
+use serde_json::{Value, json};
+
+use super::field_file::{FieldFileArgs, form};
+use super::session::client::Client;
+use super::session::{Session, progress, request, upload};
+
+/// Which field of which run.
+#[derive(Debug, Args)]
+pub(crate) struct FieldsArgs {
+    /// Model package
+    package: PathBuf,
+    /// JSON file with the body of POST /v1/case-studies, whose `model` may be left out
+    request: PathBuf,
+    /// Recorded instant, from 0 [default: that of the largest displacement of a contact node]
+    #[arg(long, conflicts_with = "engine_order")]
+    instant: Option<u32>,
+    /// The deflection shape of this engine order over all recorded revolutions
+    #[arg(long)]
+    engine_order: Option<u32>,
+    #[command(flatten)]
+    file: FieldFileArgs,
+    /// File to write: .vtu, .vtp, .npz, .pvd, .svg or .png
+    #[arg(long)]
+    out: PathBuf,
+}
+
+/// Runs the case study, records the wheel and writes the field.
+///
+/// # Errors
+/// A file that cannot be used, or what the service refuses.
+pub(super) fn run(args: &FieldsArgs) -> anyhow::Result<ExitCode> {
+    form(&args.out)?;
+    let body = recording(request::read(&args.request, "/v1/case-studies")?)?;
+    let folder = args.file.folder()?;
+    Session::begin(folder.path())?.run(args.file.workers, async |client| play(args, client, body).await)
+}
+
+async fn play(args: &FieldsArgs, client: &Client, body: Value) -> anyhow::Result<()> {
+    let model = upload(client, &args.package).await?;
+    let job = client.post_job("/v1/case-studies", &request::of_model(body, &model.id)?).await?;
+    let job = progress::follow(client, &job, "case").await?;
+    let which = match (args.instant, args.engine_order) {
+        (Some(instant), _) => format!("instant={instant}&"),
+        (None, Some(order)) => format!("engine_order={order}&"),
+        (None, None) => String::new(),
+    };
+    args.file.save(client, &format!("/v1/jobs/{}/fields?{which}", job.id), &args.out).await
+}
+
+/// The request with the wheel's state as all that is recorded.
+fn recording(mut body: Value) -> anyhow::Result<Value> {
+    if body.get("record").is_none() {
+        body["record"] = json!({});
+    }
+    match &mut body["record"] {
+        Value::Object(record) => record.insert("quantities".to_owned(), json!(["state"])),
+        _ => bail!("`record` of the request is not a JSON object"),
+    };
+    Ok(body)
+}

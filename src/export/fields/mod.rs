@@ -1,0 +1,60 @@
+//! Fields of the wheel as files: VTK's XML for ParaView and pyvista, and arrays for numpy.
+//!
+//! A writer of our own: the XML is a few tags around arrays, which go out as they are computed, sector by sector; the crate vtkio wants the
+//! whole file in memory. Arrays are Base64 within the XML, which any XML reader reads.
+
+mod npz;
+mod series;
+mod vtk;
+mod vtp;
+mod vtu;
+mod xml;
+
+use std::io::{self, Write};
+
+use crate::analysis::fields::{Field, FieldSector, Part};
+
+/// A field that is written.
+#[derive(Debug)]
+pub struct FieldFile {
+    /// Where.
+    pub sector: FieldSector,
+    /// What.
+    pub field: Field,
+    /// How much of it.
+    pub part: Part,
+}
+
+impl FieldFile {
+    /// All elements, as VTK's UnstructuredGrid; single points where there is no mesh. The first frame.
+    ///
+    /// # Errors
+    /// Those of writing, here and below.
+    pub fn vtu(&self, out: &mut dyn Write) -> io::Result<()> {
+        vtu::write(self, 0, out)
+    }
+
+    /// The skin, as VTK's PolyData; single points where there is no mesh. The first frame.
+    ///
+    /// # Errors
+    /// Those of writing.
+    pub fn vtp(&self, out: &mut dyn Write) -> io::Result<()> {
+        vtp::write(self, 0, out)
+    }
+
+    /// All frames, as arrays of numpy.
+    ///
+    /// # Errors
+    /// Those of writing.
+    pub fn npz(&self, out: &mut dyn Write) -> io::Result<()> {
+        npz::write(self, out)
+    }
+
+    /// All frames, as a zip with ParaView's list of them, `series.pvd`, and a `.vtu` each.
+    ///
+    /// # Errors
+    /// Those of writing.
+    pub fn pvd(&self, out: &mut dyn Write) -> io::Result<()> {
+        series::write(self, out)
+    }
+}

@@ -1,0 +1,135 @@
+//! What questions for fields have in common: which part, how it is written, and what is refused.
+
+use std::io;
+
+use axum::response::Response;
+use serde::Deserialize;
+use utoipa::ToSchema;
+
+use super::download::Answer;
+use super::form::Form;
+use super::problem::{Kind, Problem};
+use super::state::AppState;
+use super::stream;
+use crate::analysis::fields::{FieldError, Part, surface};
+use crate::analysis::run::ModelFacts;
+use crate::dynamics::sector::Units;
+use crate::export::fields::FieldFile;
+use crate::jobs::FieldSource;
+use crate::plot::{self, SurfaceView};
+use crate::store::models::StoredModel;
+
+/// Frames over a period or over the recorded instants, unless somebody says otherwise.
+pub(super) const FRAMES: u32 = 24;
+
+/// From where a drawing looks at the wheel.
+#[derive(Debug, Clone, Copy, Default, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum ViewWord {
+    /// Along the axis, against its direction.
+    #[default]
+    Front,
+    /// Along the axis, in its direction.
+    Rear,
+    /// Across the axis.
+    Meridional,
+}
+
+impl ViewWord {
+    fn view(self) -> SurfaceView {
+        match self {
+            Self::Front => SurfaceView::Front,
+            Self::Rear => SurfaceView::Rear,
+            Self::Meridional => SurfaceView::Meridional,
+        }
+    }
+}
+
+/// The part that a query names: one sector or the wheel.
+pub(super) fn part(sector: Option<u32>, facts: &ModelFacts) -> Result<Part, Problem> {
+    match sector {
+        None => Ok(Part::Wheel),
+        Some(sector) if sector < facts.sectors => Ok(Part::Sector(sector as usize)),
+        Some(_) => {
+            let last = facts.sectors - 1;
+            Err(Problem::parameter("sector", format!("the wheel has sectors 0 to {last}")))
+        }
+    }
+}
+
+/// Refuses stress where there is no mesh to make it of.
+pub(super) fn check_stress(stress: bool, facts: &ModelFacts) -> Result<(), Problem> {
+    if stress && facts.mesh.is_none() {
+        let detail = "the package has no mesh, so nothing is known of stress; displacement comes as points";
+        return Err(Problem::parameter("stress", detail));
+    }
+    Ok(())
+}
+
+/// What fields of a model are made of.
+pub(super) async fn source(
+    state: &AppState,
+    model: &StoredModel,
+    modes_per_speed: u32,
+) -> Result<FieldSource, Problem> {
+    let found = state.jobs.field_source(&model.id, modes_per_speed).await?;
+    found.ok_or_else(|| {
+        let detail = format!(
+            "model {} has no reduction with {modes_per_speed} modes per speed: a sweep or a modal analysis with it makes one",
+            model.id
+        );
+        Problem::new(Kind::NotReduced, detail)
+    })
+}
+
+/// Makes a field and writes it in the form of an answer.
+pub(super) async fn answer(
+    state: &AppState,
+    answer: Answer,
+    bytes: u64,
+    (view, units): (ViewWord, Units),
+    make: impl FnOnce() -> Result<FieldFile, Problem> + Send + 'static,
+) -> Result<Response, Problem> {
+    let leave = state.answers.leave(&state.jobs, bytes + answer.bytes()).await;
+    if answer.form.is_drawing() {
+        let draw = move || {
+            let FieldFile { sector, field, part } = make()?;
+            let surface = surface(&field, &sector, part, 0, &units).ok_or_else(|| {
+                Problem::parameter("format", "the package has no mesh, so there is no surface to draw; vtu, vtp and npz have its nodes")
+            })?;
+            Ok(plot::surface(&surface, view.view()))
+        };
+        return answer.drawn(state, leave, draw).await;
+    }
+    let (file, leave) = stream::blocking(move || Ok::<_, Problem>((make()?, leave))).await??;
+    let form = answer.form;
+    Ok(answer.written(leave, move |out| match form {
+        Form::Vtp => file.vtp(out),
+        Form::Npz => file.npz(out),
+        Form::Pvd => file.pvd(out),
+        _ => file.vtu(out),
+    }))
+}
+
+impl From<FieldError> for Problem {
+    fn from(error: FieldError) -> Self {
+        match error {
+            FieldError::Parameter { parameter, message } => Self::parameter(parameter, message),
+            FieldError::Model(error) => Self::new(Kind::InvalidModel, error.to_string()),
+            FieldError::Basis(error) if is_lost(&error) => {
+                tracing::warn!(%error, "the basis of a stored reduction cannot be read");
+                let detail = "the basis of this reduction is not there: a sweep with a sensor at a node that is no contact node \
+                              reduces once more and keeps it";
+                Self::new(Kind::NotReduced, detail)
+            }
+            FieldError::Basis(error) => error.into(),
+        }
+    }
+}
+
+/// Whether a basis was not kept, or is damaged.
+fn is_lost(error: &io::Error) -> bool {
+    use io::ErrorKind::{InvalidData, NotFound, UnexpectedEof};
+
+    matches!(error.kind(), NotFound | InvalidData | UnexpectedEof)
+}

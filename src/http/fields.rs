@@ -1,0 +1,175 @@
+//! Fields of a recorded run: instants and deflection shapes.
+
+use std::f64::consts::PI;
+
+use axum::extract::State;
+use axum::response::Response;
+use serde::Deserialize;
+use tokio::runtime::Handle;
+use utoipa::IntoParams;
+
+use super::download::{Download, DownloadQuery, Next, lasting};
+use super::extract::{JobPath, Parameters};
+use super::field::{self, FRAMES, ViewWord};
+use super::form::Form;
+use super::forms::READ_MEMORY;
+use super::models::model_not_found;
+use super::problem::{Kind, Problem};
+use super::results::{expect_successful, find, wrong_kind};
+use super::state::AppState;
+use crate::analysis::fields::{deflection_shape, instants, largest_instant};
+use crate::export::fields::FieldFile;
+use crate::store::jobs::{Job, JobKind, JobRequest};
+use crate::store::results::Document;
+use crate::store::states::{self, StatesError};
+use crate::tokens::Principal;
+
+/// Which field to download, and how.
+#[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+pub(super) struct FieldsQuery {
+    /// Index of the speed in the request, of a case study in that of its sweep; default the first that was recorded.
+    speed: Option<u32>,
+    /// Instant, counted from 0 among those recorded; default that of the largest displacement of a contact node.
+    instant: Option<u32>,
+    /// Instead of an instant the deflection shape of this engine order, over all recorded revolutions; 0 is the mean.
+    engine_order: Option<u32>,
+    /// Of a deflection shape: its phase, degrees; default 0.
+    phase_deg: Option<f64>,
+    /// This sector alone, from 0; default all.
+    sector: Option<u32>,
+    /// Adds stress of the vibration, in the model's units; the static part of the centrifugal load is not in it.
+    #[serde(default)]
+    stress: bool,
+    /// Of a drawing: from where the wheel is looked at; default `front`.
+    #[param(inline)]
+    view: Option<ViewWord>,
+    /// Of a pvd: files over one period of a deflection shape, or over all recorded instants; default 24.
+    #[param(minimum = 1, maximum = 96)]
+    frames: Option<u32>,
+}
+
+/// Download the field of a recorded run, of the whole wheel or one sector: an instant, or the deflection shape of an engine order.
+///
+/// `vtu` has all elements, `vtp` the skin, `npz` arrays, `pvd` a zip of files over time, svg and png a drawing of the skin. Of a package
+/// without a mesh there are points only.
+///
+/// A case study, or the histories of a sweep, must have recorded the quantity `state`.
+#[utoipa::path(get, path = "/v1/jobs/{id}/fields", operation_id = "get_fields", tag = "results",
+    params(("id" = String, Path, description = "Id of a case study or sweep."), FieldsQuery, DownloadQuery),
+    responses(
+        (status = 200, description = "The field."),
+        (status = 400, description = "A parameter is not valid.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 404, description = "There is no such job, its model is deleted, or no state was recorded of that speed.",
+            body = Problem, content_type = "application/problem+json"),
+        (status = 409, description = "The job has no states, is not finished, or its reduction is gone.",
+            body = Problem, content_type = "application/problem+json"),
+    ))]
+pub(super) async fn get_fields(
+    state: State<AppState>,
+    whose: Principal,
+    JobPath(id): JobPath,
+    Parameters(query): Parameters<FieldsQuery>,
+    download: Download,
+) -> Result<Response, Problem> {
+    let job = find(&state, &whose, id).await?;
+    let sweep = match &job.request {
+        JobRequest::Sweep(sweep) => sweep.as_ref(),
+        JobRequest::CaseStudy(case) => case.sweep(),
+        _ => return Err(wrong_kind(&job, JobKind::CaseStudy)),
+    };
+    let model = sweep.model();
+    let model = state.store.model(model, whose.only()).await?.ok_or_else(|| model_not_found(model))?;
+    let part = field::part(query.sector, &model.facts)?;
+    field::check_stress(query.stress, &model.facts)?;
+    if query.instant.is_some() && query.engine_order.is_some() {
+        return Err(Problem::parameter(
+            "engine_order",
+            "an instant, or an engine order over all of them: not both",
+        ));
+    }
+    match query.phase_deg {
+        Some(_) if query.engine_order.is_none() => {
+            return Err(Problem::parameter(
+                "phase_deg",
+                "only a deflection shape has a phase: name its engine_order",
+            ));
+        }
+        Some(phase) if !phase.is_finite() => {
+            return Err(Problem::parameter("phase_deg", "a phase is a number"));
+        }
+        _ => {}
+    }
+    let (document, bytes) = recorded(&state, &job, query.speed).await?;
+    let source = field::source(&state, &model, sweep.modes_per_speed()).await?;
+    let answer = match download.begin(&state, lasting(&job), &Form::FIELDS)? {
+        Next::Done(response) => return Ok(response),
+        Next::Make(answer) => answer,
+    };
+    let frames = if answer.form == Form::Pvd { query.frames.unwrap_or(FRAMES) as usize } else { 1 };
+    let columns = if query.engine_order.is_some() { 2 } else { frames };
+    let bytes = READ_MEMORY * bytes + source.memory(model.facts.own_dofs, columns);
+    let (store, runtime) = (state.store.clone(), Handle::current());
+    let view = (query.view.unwrap_or_default(), model.facts.units.clone());
+    field::answer(&state, answer, bytes, view, move || {
+        let text = runtime.block_on(store.document(job.id, document))?.unwrap_or_default();
+        let states = states::unpack(&text, &source.reduced().wheel)?;
+        drop(text);
+        let sector = source.sector(query.stress).map_err(Box::new)?;
+        let field = source.with_basis(|wheel, basis| match query.engine_order {
+            Some(order) => {
+                let phase = query.phase_deg.unwrap_or_default() * PI / 180.0;
+                deflection_shape(&states, &sector, order, (phase, frames), basis)
+            }
+            None => {
+                let count = states.revolutions.len();
+                let at: Vec<usize> = match query.instant {
+                    Some(instant) => vec![instant as usize],
+                    None if frames > 1 => (0..frames).map(|frame| frame * count / frames).collect(),
+                    None => vec![largest_instant(&states, wheel).unwrap_or(0)],
+                };
+                instants(&states, &sector, &at, basis)
+            }
+        })?;
+        Ok(FieldFile { sector, field, part })
+    })
+    .await
+}
+
+/// The document with the states of a speed, and its bytes.
+async fn recorded(state: &AppState, job: &Job, speed: Option<u32>) -> Result<(Document, u64), Problem> {
+    let of_states = |document: &Document| match document {
+        Document::States(index) => Some(*index),
+        _ => None,
+    };
+    let all: Vec<u32> = state.store.documents(job.id).await?.iter().filter_map(of_states).collect();
+    let found = match speed {
+        Some(speed) => all.contains(&speed).then_some(speed),
+        None => all.first().copied(),
+    };
+    if let Some(speed) = found {
+        let document = Document::States(speed);
+        let bytes = state.store.document_bytes(job.id, document).await?.unwrap_or(0);
+        return Ok((document, bytes));
+    }
+    expect_successful(job, "fields are there once the speed is recorded")?;
+    let detail = match all.as_slice() {
+        [] => "no state was recorded: post a case study with `state` among the quantities of its record"
+            .to_owned(),
+        some => format!("states were recorded of speeds {some:?}"),
+    };
+    Err(Problem::new(Kind::HistoryNotRecorded, detail))
+}
+
+impl From<StatesError> for Problem {
+    fn from(error: StatesError) -> Self {
+        match error {
+            StatesError::OtherReduction => Self::new(Kind::ResultUnavailable, error.to_string()),
+            StatesError::Damaged(_) => {
+                tracing::error!(%error, "a recorded state cannot be read");
+                Self::new(Kind::Internal, "the recorded state cannot be read; the service's log says more")
+            }
+        }
+    }
+}

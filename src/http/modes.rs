@@ -1,0 +1,171 @@
+//! Mode shapes of a model.
+
+use std::f64::consts::PI;
+
+use axum::extract::State;
+use axum::response::Response;
+use serde::{Deserialize, Serialize};
+use utoipa::{IntoParams, ToSchema};
+
+use super::download::{Download, DownloadQuery, Next};
+use super::extract::{ModelPath, Parameters};
+use super::field::{self, FRAMES, ViewWord};
+use super::form::Form;
+use super::models::model_not_found;
+use super::problem::{Kind, Problem};
+use super::state::AppState;
+use super::stream;
+use crate::analysis::fields::{ModeRequest, Motion, ShapeFrequencies, mode_field, mode_frequencies};
+use crate::export::fields::FieldFile;
+use crate::store::models::StoredModel;
+use crate::tokens::Principal;
+
+/// Bytes of an answer in JSON and the eigenproblems before it.
+const LIST_MEMORY: u64 = 64 << 20;
+
+/// Which mode to download, and how.
+#[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+pub(super) struct ModesQuery {
+    /// Of which reduction; default the finest that there is.
+    #[param(minimum = 1)]
+    modes_per_speed: Option<u32>,
+    /// Speed of rotation, rad/s; default 0. Modes are those of K(Ω) where the model has it, without Coriolis forces.
+    #[serde(default)]
+    #[param(minimum = 0.0)]
+    speed_rad_s: f64,
+    /// Nodal diameter; a field needs one.
+    nodal_diameter: Option<u32>,
+    /// Mode, from 1 by ascending frequency; default 1.
+    #[param(minimum = 1)]
+    mode: Option<u32>,
+    /// How it moves; default `standing`.
+    #[param(inline)]
+    motion: Option<MotionWord>,
+    /// Phase, degrees; default 0: of a standing mode it turns the pattern about the wheel, of a travelling one it says how far that has
+    /// come.
+    #[serde(default)]
+    phase_deg: f64,
+    /// This sector alone, from 0; default all.
+    sector: Option<u32>,
+    /// Adds stress, in the model's units for a largest displacement of 1.
+    #[serde(default)]
+    stress: bool,
+    /// Of a drawing: from where the wheel is looked at; default `front`.
+    #[param(inline)]
+    view: Option<ViewWord>,
+    /// Of a pvd: files over one period; default 24.
+    #[param(minimum = 1, maximum = 96)]
+    frames: Option<u32>,
+}
+
+/// How a mode moves.
+#[derive(Debug, Clone, Copy, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+enum MotionWord {
+    /// Its nodal lines stay where they are on the wheel.
+    Standing,
+    /// It travels around the wheel in the direction of rotation.
+    Travelling,
+}
+
+/// Natural frequencies at a speed.
+#[derive(Debug, Serialize, ToSchema)]
+pub(super) struct ModesBody {
+    /// Speed of rotation, rad/s.
+    speed_rad_s: f64,
+    /// The reduction they are of.
+    modes_per_speed: u32,
+    /// By nodal diameter.
+    nodal_diameters: Vec<ShapeFrequencies>,
+}
+
+/// Download a mode shape of the whole wheel or one sector, or the frequencies of all.
+///
+/// `vtu` has all elements, `vtp` the skin, `npz` arrays, `pvd` a zip of files over one period, svg and png a drawing of the skin; json lists the frequencies of all nodal
+/// diameters. The largest displacement is 1. Of a package without a mesh there are points only.
+///
+/// The model must have been reduced, which every sweep and modal analysis does.
+#[utoipa::path(get, path = "/v1/models/{id}/modes", operation_id = "get_modes", tag = "models",
+    params(("id" = String, Path, description = "Id of the model."), ModesQuery, DownloadQuery),
+    responses(
+        (status = 200, description = "The mode, or the list.", body = ModesBody),
+        (status = 400, description = "A parameter is not valid.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 404, description = "There is no such model.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 409, description = "The model has no such reduction.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 422, description = "The wheel has no modes at that speed.", body = Problem,
+            content_type = "application/problem+json"),
+    ))]
+pub(super) async fn get_modes(
+    state: State<AppState>,
+    whose: Principal,
+    ModelPath(id): ModelPath,
+    Parameters(query): Parameters<ModesQuery>,
+    download: Download,
+) -> Result<Response, Problem> {
+    let model = state.store.model(&id, whose.only()).await?.ok_or_else(|| model_not_found(&id))?;
+    let modes_per_speed = match query.modes_per_speed {
+        Some(modes) => modes,
+        None => finest(&state, &model).await?,
+    };
+    let part = field::part(query.sector, &model.facts)?;
+    field::check_stress(query.stress, &model.facts)?;
+    let speed_rad_s = query.speed_rad_s;
+    if !(speed_rad_s.is_finite() && speed_rad_s >= 0.0) {
+        return Err(Problem::parameter("speed_rad_s", "a speed is a number from 0 on"));
+    }
+    if !query.phase_deg.is_finite() {
+        return Err(Problem::parameter("phase_deg", "a phase is a number"));
+    }
+    let source = field::source(&state, &model, modes_per_speed).await?;
+    let next = download.begin(&state, Some(format!("model {id}")), &Form::LIST_AND_FIELDS)?;
+    let answer = match next {
+        Next::Done(response) => return Ok(response),
+        Next::Make(answer) => answer,
+    };
+    if answer.form == Form::Json {
+        let leave = state.answers.leave(&state.jobs, LIST_MEMORY).await;
+        let list =
+            stream::blocking(move || mode_frequencies(&source.reduced().wheel, speed_rad_s, true)).await??;
+        let body = serde_json::to_vec(&ModesBody { speed_rad_s, modes_per_speed, nodal_diameters: list })?;
+        return Ok(answer.whole(leave, body));
+    }
+    let most = model.facts.sectors / 2;
+    let Some(nodal_diameter) = query.nodal_diameter else {
+        let detail = format!("a mode shape has a nodal diameter: 0 to {most}");
+        return Err(Problem::parameter("nodal_diameter", detail));
+    };
+    let in_time = matches!(answer.form, Form::Pvd);
+    let asked = ModeRequest {
+        speed_rad_s,
+        stiffening: true,
+        nodal_diameter: nodal_diameter as usize,
+        mode: query.mode.unwrap_or(1) as usize,
+        motion: match query.motion {
+            Some(MotionWord::Travelling) => Motion::Travelling,
+            Some(MotionWord::Standing) | None => Motion::Standing,
+        },
+        phase: query.phase_deg * PI / 180.0,
+        frames: if in_time { query.frames.unwrap_or(FRAMES) as usize } else { 1 },
+    };
+    let bytes = source.memory(model.facts.own_dofs, 1);
+    let view = (query.view.unwrap_or_default(), model.facts.units.clone());
+    field::answer(&state, answer, bytes, view, move || {
+        let sector = source.sector(query.stress).map_err(Box::new)?;
+        let field = source.with_basis(|wheel, basis| mode_field(wheel, &sector, &asked, basis))?;
+        Ok(FieldFile { sector, field, part })
+    })
+    .await
+}
+
+/// Modes per speed of the finest reduction.
+async fn finest(state: &AppState, model: &StoredModel) -> Result<u32, Problem> {
+    let reports = state.store.reduction_reports(&model.id).await?;
+    reports.iter().map(|report| report.modes_per_speed).max().ok_or_else(|| {
+        let detail = format!("model {} has not been reduced: a sweep or a modal analysis does it", model.id);
+        Problem::new(Kind::NotReduced, detail)
+    })
+}

@@ -1,0 +1,80 @@
+//! What fields of a model are made of: its stored reduction, the basis beside it, and its nodes and elements.
+
+use std::io;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use super::handle::Jobs;
+use crate::analysis::fields::{BasisProduct, FieldSector};
+use crate::analysis::run::ReducedSector;
+use crate::dynamics::reduction::ReducedWheel;
+use crate::package::{self, Limits, PackageError};
+use crate::store::StoreError;
+use crate::store::bases::BasisFolder;
+
+/// Bytes for each own DOF: tables of the package as they are read, nodes, the stress operator.
+const DOF_MEMORY: u64 = 6 << 10;
+
+/// Bytes of a column for each own DOF and nodal diameter: what the basis gives, displacement, and stress twice.
+const COLUMN_MEMORY: u64 = 16 * (1 + 1 + 2 * 2);
+
+/// What fields of a model are made of.
+#[derive(Debug, Clone)]
+pub struct FieldSource {
+    reduced: Arc<ReducedSector>,
+    basis: BasisFolder,
+    package: PathBuf,
+}
+
+impl Jobs {
+    /// What fields of `model` are made of, if it has been reduced so.
+    ///
+    /// # Errors
+    /// Those of the store.
+    pub async fn field_source(
+        &self,
+        model: &str,
+        modes_per_speed: u32,
+    ) -> Result<Option<FieldSource>, StoreError> {
+        let store = &self.engine.store;
+        let reduced = self.engine.reductions.stored(model, modes_per_speed).await?;
+        Ok(reduced.map(|reduced| FieldSource {
+            reduced,
+            basis: store.basis(model, modes_per_speed),
+            package: store.package_path(model),
+        }))
+    }
+}
+
+impl FieldSource {
+    /// The reduction.
+    pub fn reduced(&self) -> &ReducedSector {
+        &self.reduced
+    }
+
+    /// Memory that a field with so many columns of each nodal diameter takes while it is made and written.
+    pub fn memory(&self, own_dofs: u32, columns: usize) -> u64 {
+        let harmonics = self.reduced.wheel.harmonics.len() as u64;
+        u64::from(own_dofs) * (DOF_MEMORY + COLUMN_MEMORY * columns as u64 * harmonics)
+    }
+
+    /// Reads nodes and elements, with what stress needs if it is wanted.
+    ///
+    /// # Errors
+    /// Those of reading the package.
+    pub fn sector(&self, stress: bool) -> Result<FieldSector, PackageError> {
+        let limits = Limits::default();
+        let nodes = package::read_nodes(&self.package, &limits)?;
+        let mesh = package::read_mesh(&self.package, &limits)?;
+        let axis = package::read_places(&self.package, &limits)?.axis;
+        let sector = FieldSector::new(self.reduced.wheel.sectors, axis, nodes, mesh)
+            .map_err(|error| PackageError::Io { source: io::Error::other(error) })?;
+        Ok(if stress { sector.with_stress() } else { sector })
+    }
+
+    /// Makes something of the basis.
+    pub fn with_basis<T>(&self, make: impl FnOnce(&ReducedWheel, BasisProduct<'_>) -> T) -> T {
+        let wheel = &self.reduced.wheel;
+        make(wheel, &mut |harmonic, columns| self.basis.product(wheel, harmonic, columns))
+    }
+}

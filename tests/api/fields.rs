@@ -1,0 +1,321 @@
+//! Modes, deflection shapes and instants of the whole wheel as files: VTK's by a strict XML reader, closed wheels, volumes.
+
+use std::collections::HashMap;
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use reqwest::StatusCode;
+use rubmap::impeller::{ImpellerParameters, MeshDensities, generate};
+use rubmap::package;
+use serde_json::{Value, json};
+
+use super::app::{Api, TestApp, sweep_of};
+use super::model;
+use super::npz::Npz;
+
+const SECTORS: usize = 5;
+
+/// A small impeller with a mesh.
+fn impeller() -> package::raw::RawPackage {
+    let mesh = MeshDensities {
+        between_contact_nodes: 1,
+        blade_height: 2,
+        blade_thickness: 1,
+        half_passage: 1,
+        disk: 1,
+    };
+    generate(&ImpellerParameters { sectors: SECTORS, contact_nodes: 4, mesh, ..Default::default() }).unwrap()
+}
+
+async fn raw(api: &Api, path: &str) -> Vec<u8> {
+    let answer = api.request("GET", path).send().await.unwrap();
+    let status = answer.status();
+    let body = answer.bytes().await.unwrap().to_vec();
+    assert_eq!(status, StatusCode::OK, "{path}: {}", String::from_utf8_lossy(&body));
+    body
+}
+
+/// A VTK file, by what its documentation says of the format.
+struct Vtk {
+    text: String,
+}
+
+impl Vtk {
+    fn new(body: Vec<u8>) -> Self {
+        Self { text: String::from_utf8(body).unwrap() }
+    }
+
+    fn attribute(&self, name: &str) -> usize {
+        let document = roxmltree::Document::parse(&self.text).unwrap();
+        let piece = document.descendants().find(|node| node.has_tag_name("Piece")).unwrap();
+        piece.attribute(name).unwrap().parse().unwrap()
+    }
+
+    fn has(&self, name: &str) -> bool {
+        self.text.contains(&format!("Name=\"{name}\""))
+    }
+
+    fn bytes(&self, name: &str, kind: &str) -> Vec<u8> {
+        let document = roxmltree::Document::parse(&self.text).unwrap();
+        let file = document.root_element();
+        assert_eq!(
+            (file.attribute("byte_order"), file.attribute("header_type")),
+            (Some("LittleEndian"), Some("UInt64"))
+        );
+        let array = document.descendants().find(|node| node.attribute("Name") == Some(name)).unwrap();
+        assert_eq!((array.attribute("type"), array.attribute("format")), (Some(kind), Some("binary")));
+        let bytes = STANDARD.decode(array.text().unwrap().trim()).unwrap();
+        let (length, bytes) = bytes.split_at(8);
+        assert_eq!(u64::from_le_bytes(length.try_into().unwrap()), bytes.len() as u64, "{name}");
+        bytes.to_vec()
+    }
+
+    fn reals(&self, name: &str) -> Vec<f64> {
+        let bytes = self.bytes(name, "Float64");
+        bytes.as_chunks::<8>().0.iter().map(|bytes| f64::from_le_bytes(*bytes)).collect()
+    }
+
+    fn whole(&self, name: &str) -> Vec<usize> {
+        let bytes = self.bytes(name, "Int64");
+        bytes.as_chunks::<8>().0.iter().map(|bytes| i64::from_le_bytes(*bytes) as usize).collect()
+    }
+
+    fn vectors(&self, name: &str) -> Vec<[f64; 3]> {
+        self.reals(name).as_chunks::<3>().0.to_vec()
+    }
+
+    /// Points of every cell.
+    fn cells(&self) -> Vec<Vec<usize>> {
+        let connectivity = self.whole("connectivity");
+        let mut begin = 0;
+        let cell = |end: usize| connectivity[std::mem::replace(&mut begin, end)..end].to_vec();
+        let offsets = self.whole("offsets");
+        assert_eq!(offsets.last(), Some(&connectivity.len()));
+        offsets.into_iter().map(cell).collect()
+    }
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+const GAUSS: [f64; 2] = [-0.577_350_269_189_625_8, 0.577_350_269_189_625_8];
+
+/// Of a hexahedron in VTK's order: the determinant of its trilinear map, exact with two points an axis.
+fn volume(corners: [[f64; 3]; 8]) -> f64 {
+    let signs = |k: usize| {
+        let (x, y) = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)][k % 4];
+        [x, y, if k < 4 { -1.0 } else { 1.0 }]
+    };
+    let mut volume = 0.0;
+    for xi in GAUSS {
+        for eta in GAUSS {
+            for zeta in GAUSS {
+                let mut map = [[0.0; 3]; 3];
+                for (k, corner) in corners.iter().enumerate() {
+                    let [a, b, c] = signs(k);
+                    let (x, y, z) = (1.0 + a * xi, 1.0 + b * eta, 1.0 + c * zeta);
+                    for (axis, value) in corner.iter().enumerate() {
+                        map[0][axis] += 0.125 * a * y * z * value;
+                        map[1][axis] += 0.125 * x * b * z * value;
+                        map[2][axis] += 0.125 * x * y * c * value;
+                    }
+                }
+                volume += dot(cross(map[0], map[1]), map[2]);
+            }
+        }
+    }
+    volume
+}
+
+/// Its share of the volume within a closed surface: ∮ x·n dA/3 over a bilinear face.
+fn flux(corners: [[f64; 3]; 4]) -> f64 {
+    let mut flux = 0.0;
+    for xi in GAUSS {
+        for eta in GAUSS {
+            let (mut at, mut along, mut across) = ([0.0; 3], [0.0; 3], [0.0; 3]);
+            for (k, corner) in corners.iter().enumerate() {
+                let (a, b) = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)][k];
+                for (axis, value) in corner.iter().enumerate() {
+                    at[axis] += 0.25 * (1.0 + a * xi) * (1.0 + b * eta) * value;
+                    along[axis] += 0.25 * a * (1.0 + b * eta) * value;
+                    across[axis] += 0.25 * (1.0 + a * xi) * b * value;
+                }
+            }
+            flux += dot(at, cross(along, across)) / 3.0;
+        }
+    }
+    flux
+}
+
+const FACES: [[usize; 4]; 6] =
+    [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]];
+
+#[tokio::test]
+async fn a_wheel_is_closed_and_its_modes_are_where_they_belong() {
+    let app = TestApp::start_with(|config| config.upload_bytes = 64 << 20).await;
+    let api = &app.api;
+    let package = impeller();
+    let mut file = std::io::Cursor::new(Vec::new());
+    package::write(&package, &mut file).unwrap();
+    let model = api.model(file.into_inner()).await;
+    let modes = format!("/v1/models/{model}/modes");
+    api.get(&modes).await.problem(409, "not-reduced");
+    let analysis =
+        json!({"model": model, "modes_per_speed": 4, "speeds": {"values": [0.0], "unit": "rad_s"}});
+    let job = api.post("/v1/modal-analyses", &analysis).await.text("/id");
+    assert_eq!(api.finish(&job).await["status"], "successful");
+
+    let list = api.get(&format!("{modes}?speed_rad_s=1000")).await.body;
+    assert_eq!(list["nodal_diameters"].as_array().unwrap().len(), SECTORS / 2 + 1, "{list}");
+    api.get(&format!("{modes}?modes_per_speed=9")).await.problem(409, "not-reduced");
+    for (query, parameter) in [
+        ("format=vtu", "nodal_diameter"),
+        ("format=vtu&nodal_diameter=3", "nodal_diameter"),
+        ("format=vtu&nodal_diameter=1&mode=999", "mode"),
+        ("format=vtu&nodal_diameter=1&sector=5", "sector"),
+        ("format=vtu&nodal_diameter=0&motion=travelling", "motion"),
+    ] {
+        let problem = api.get(&format!("{modes}?{query}")).await;
+        let items = problem.problem(400, "invalid-parameter");
+        assert_eq!(items[0]["parameter"], parameter, "{query}");
+    }
+    api.get(&format!("{modes}?format=csv")).await.problem(406, "not-acceptable");
+
+    let mode = format!("{modes}?speed_rad_s=1000&nodal_diameter=2&mode=1&motion=travelling&stress=true");
+    let wheel = Vtk::new(raw(api, &format!("{mode}&format=vtu")).await);
+    let (nodes, high) = (package.nodes.len(), package.manifest.cyclic.len());
+    assert_eq!(wheel.attribute("NumberOfPoints"), SECTORS * (nodes - high));
+    let (points, cells) = (wheel.vectors("Points"), wheel.cells());
+    assert_eq!((points.len(), cells.len()), (SECTORS * (nodes - high), wheel.attribute("NumberOfCells")));
+    assert!(wheel.bytes("types", "UInt8").iter().all(|kind| *kind == 12), "hexahedra");
+
+    // Every face is shared by two cells or on the skin.
+    let mut faces: HashMap<Vec<usize>, usize> = HashMap::new();
+    let mut total = 0.0;
+    for cell in &cells {
+        let corners: [[f64; 3]; 8] = std::array::from_fn(|k| points[cell[k]]);
+        let volume = volume(corners);
+        assert!(volume > 0.0);
+        total += volume;
+        for face in FACES {
+            let mut face = face.map(|k| cell[k]).to_vec();
+            face.sort_unstable();
+            *faces.entry(face).or_default() += 1;
+        }
+    }
+    assert!(faces.values().all(|uses| *uses <= 2));
+    let skin = Vtk::new(raw(api, &format!("{mode}&format=vtp")).await);
+    let (corners, polygons) = (skin.vectors("Points"), skin.cells());
+    assert_eq!(polygons.len(), skin.attribute("NumberOfPolys"));
+    assert_eq!(polygons.len(), faces.values().filter(|uses| **uses == 1).count());
+    let within: f64 = polygons.iter().map(|face| flux(std::array::from_fn(|k| corners[face[k]]))).sum();
+    assert!((within / total - 1.0).abs() < 1e-10, "{within} {total}");
+
+    // A travelling wave of two nodal diameters: the amplitude is alike in all sectors, the largest is 1.
+    let amplitude = wheel.reals("displacement_amplitude");
+    let own = nodes - high;
+    for (point, value) in amplitude.iter().enumerate() {
+        assert!((value - amplitude[point % own]).abs() < 1e-12);
+    }
+    assert!((amplitude.iter().copied().fold(0.0, f64::max) - 1.0).abs() < 1e-12);
+    let (stress, von_mises) = (wheel.reals("stress"), wheel.reals("von_mises"));
+    assert_eq!((stress.len(), von_mises.len()), (6 * points.len(), points.len()));
+    assert!(von_mises.iter().all(|value| value.is_finite()) && von_mises.iter().any(|value| *value > 0.0));
+
+    // One sector has its own nodes as the wheel has them, and the high face as the next sector has it.
+    let sector = Vtk::new(raw(api, &format!("{mode}&format=vtu&sector=4")).await);
+    assert_eq!(sector.attribute("NumberOfPoints"), nodes);
+    let (there, here) = (wheel.vectors("displacement"), sector.vectors("displacement"));
+    let close = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-9 * 100.0);
+    let mut met = 0;
+    for (place, at) in sector.vectors("Points").into_iter().enumerate() {
+        let same = points.iter().position(|point| close(*point, at)).unwrap();
+        assert!(there[same].iter().zip(here[place]).all(|(a, b)| (a - b).abs() < 1e-10));
+        met += usize::from(same < own);
+    }
+    assert_eq!(met, high, "the last sector meets the first");
+
+    let arrays = Npz::read(&raw(api, &format!("{mode}&format=npz")).await);
+    assert_eq!(arrays.array("displacement").shape, [1, points.len(), 3]);
+    assert_eq!(arrays.array("displacement").reals(), wheel.reals("displacement"));
+    assert_eq!(arrays.array("connectivity").whole().len(), 8 * cells.len());
+    let series = raw(api, &format!("{mode}&format=pvd&frames=3&sector=0")).await;
+    let series = zip::ZipArchive::new(std::io::Cursor::new(series)).unwrap();
+    let names: Vec<String> = series.file_names().map(|name| name.unwrap().into_owned()).collect();
+    assert_eq!(names.len(), 4);
+    assert!(
+        names.iter().any(|name| name == "series.pvd") && names.iter().any(|name| name == "series_0002.vtu"),
+        "{names:?}"
+    );
+    let svg = String::from_utf8(raw(api, &format!("{mode}&format=svg")).await).unwrap();
+    assert!(roxmltree::Document::parse(&svg).is_ok());
+    app.stop().await;
+}
+
+/// Of a wheel without a mesh: its nodes, and what was recorded of them.
+#[tokio::test]
+async fn a_recorded_run_gives_instants_and_deflection_shapes() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(model::package(1.0)).await;
+    let mut request = sweep_of(&model);
+    let fields = request.as_object_mut().unwrap();
+    fields.remove("speeds");
+    fields.insert("speed".to_owned(), json!({"value": 540.0, "unit": "rad_s"}));
+    let without = api.post("/v1/case-studies", &request).await.text("/id");
+    assert_eq!(api.finish(&without).await["status"], "successful");
+    api.get(&format!("/v1/jobs/{without}/fields")).await.problem(404, "history-not-recorded");
+
+    request["record"] = json!({"revolutions": [8, 10], "quantities": ["displacement", "state"]});
+    // A contact node, whose history the field must repeat.
+    request["sensors"] = json!([{"node": 0, "component": "radial", "sector": 2}]);
+    let answer = api.post("/v1/case-studies", &request).await;
+    let id = answer.text("/id");
+    let job = api.finish(&id).await;
+    assert_eq!(job["status"], "successful", "{job}");
+    let path = format!("/v1/jobs/{id}/fields");
+    let histories: Value = api.get(&format!("/v1/jobs/{id}/histories")).await.body;
+    let history: Vec<f64> = histories["sensors"][0]["displacement"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|value| value.as_f64().unwrap())
+        .collect();
+    for instant in [0, 17, history.len() - 1] {
+        let vtu = Vtk::new(raw(api, &format!("{path}?instant={instant}&format=vtu")).await);
+        assert!(vtu.text.contains("no mesh") && !vtu.has("von_mises"));
+        assert_eq!((vtu.attribute("NumberOfPoints"), vtu.attribute("NumberOfCells")), (16, 16));
+        let (points, moved, ids) = (vtu.vectors("Points"), vtu.vectors("displacement"), vtu.whole("node"));
+        // Node 3 of the sector that is turned by half a turn.
+        let at = (0..16).find(|&k| ids[k] == 3 && points[k][0] < 0.0 && points[k][1] < 0.0).unwrap();
+        let radial = -(moved[at][0] + moved[at][1]) / 2f64.sqrt();
+        let most = history.iter().fold(0.0f64, |most, x| most.max(x.abs()));
+        assert!((radial - history[instant]).abs() < 1e-9 * most, "{radial} {}", history[instant]);
+    }
+    for (query, parameter) in [
+        (format!("instant={}", history.len()), "instant"),
+        ("engine_order=100000".to_owned(), "engine_order"),
+        ("engine_order=1&instant=1".to_owned(), "engine_order"),
+        ("phase_deg=10".to_owned(), "phase_deg"),
+        ("sector=4".to_owned(), "sector"),
+        ("stress=true".to_owned(), "stress"),
+    ] {
+        let items = api.get(&format!("{path}?{query}")).await.problem(400, "invalid-parameter");
+        assert_eq!(items[0]["parameter"], parameter, "{query}");
+    }
+    api.get(&format!("{path}?speed=3")).await.problem(404, "history-not-recorded");
+    api.get(&format!("{path}?format=json")).await.problem(406, "not-acceptable");
+    // The mean of the history is the shape of engine order 0.
+    let mean = Npz::read(&raw(api, &format!("{path}?engine_order=0&sector=2&format=npz")).await);
+    let (u, ids) = (mean.array("displacement").reals(), mean.array("node").whole());
+    let at = ids.iter().position(|id| *id == 3).unwrap();
+    let radial = -(u[3 * at] + u[3 * at + 1]) / 2f64.sqrt();
+    let expected = history.iter().sum::<f64>() / history.len() as f64;
+    assert!((radial - expected).abs() < 1e-10, "{radial} {expected}");
+    app.stop().await;
+}
