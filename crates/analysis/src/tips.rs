@@ -8,7 +8,8 @@ use crate::result::{
     CriticalSpeeds, ErrorEstimate, Point, SensorView, TipResponse, WheelCriticalSpeed, WheelCriticalSpeeds,
 };
 use rubmap_wheel::dynamics::casing::arc_lengths;
-use rubmap_wheel::dynamics::integrate::{COMPONENTS, History};
+use rubmap_wheel::dynamics::direction::COMPONENTS;
+use rubmap_wheel::dynamics::integrate::History;
 use rubmap_wheel::dynamics::sector::ContactNode;
 use rubmap_wheel::response::critical_speed::{Peak, Resolution, peaks};
 

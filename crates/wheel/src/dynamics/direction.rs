@@ -2,6 +2,9 @@
 
 use faer::{MatRef, c64};
 
+/// Components of a node: r, θ, z.
+pub const COMPONENTS: usize = 3;
+
 /// A displacement direction at a contact node in (r, θ, z) components.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Direction {

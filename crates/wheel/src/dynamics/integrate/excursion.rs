@@ -2,8 +2,9 @@
 
 use std::f64::consts::PI;
 
+use super::super::direction::COMPONENTS;
+use super::super::sector::ContactNode;
 use super::simulation::Simulation;
-use super::tips::COMPONENTS;
 
 /// Largest over the window, all blades and contact nodes, at the instants of [`TipMotion`](super::TipMotion); mean included.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -34,7 +35,7 @@ pub(super) struct ExcursionTally {
 impl ExcursionTally {
     pub(super) fn new(simulation: &Simulation<'_>) -> Self {
         let nodes = simulation.contact_nodes;
-        let segment = |pair: &[crate::dynamics::sector::ContactNode]| {
+        let segment = |pair: &[ContactNode]| {
             let (from, to) = (pair[0].position, pair[1].position);
             let turn = to[1] - from[1];
             let way = [to[0] * turn.cos() - from[0], 0.5 * (from[0] + to[0]) * turn.sin(), to[2] - from[2]];
@@ -42,8 +43,7 @@ impl ExcursionTally {
             (way.map(|w| w / length), length)
         };
         let around = simulation.wheel.around();
-        let apart =
-            |node: &crate::dynamics::sector::ContactNode| 2.0 * node.position[0] * (PI / around as f64).sin();
+        let apart = |node: &ContactNode| 2.0 * node.position[0] * (PI / around as f64).sin();
         Self {
             segments: nodes.windows(2).map(segment).collect(),
             apart: if around > 1 { nodes.iter().map(apart).collect() } else { Vec::new() },

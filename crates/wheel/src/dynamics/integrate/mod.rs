@@ -29,7 +29,7 @@ pub use self::simulation::{DIVERGED_SHARE_OF_RADIUS, Detail, SensorRow, Simulati
 pub use self::states::ModalStates;
 use self::stepper::Stepper;
 pub use self::tally::{ContactRecord, PairContact};
-pub use self::tips::{COMPONENTS, TipMotion};
+pub use self::tips::TipMotion;
 #[cfg(test)]
 use super::casing::RestrictionTable;
 

@@ -2,7 +2,7 @@
 
 use pulp::Simd;
 
-use super::super::direction::Direction;
+use super::super::direction::{COMPONENTS, Direction};
 use super::super::oscillators::Oscillators;
 use super::super::oscillators::rows::Rows;
 use super::excursion::{Excursion, ExcursionTally};
@@ -21,9 +21,6 @@ pub struct TipMotion {
 
 /// Instants of a revolution at which tips are looked at, about: enough for levels, few enough to cost next to nothing.
 const INSTANTS: usize = 128;
-
-/// Components of a node: r, θ, z.
-pub const COMPONENTS: usize = 3;
 
 /// Sums over the window.
 #[derive(Debug)]
