@@ -27,6 +27,15 @@ fn impeller() -> package::raw::RawPackage {
     generate(&ImpellerParameters { sectors: SECTORS, contact_nodes: 4, mesh, ..Default::default() }).unwrap()
 }
 
+/// Nodes of the high face, clamped ones too: a sector back there is another.
+fn high_nodes(package: &package::raw::RawPackage) -> usize {
+    let (sin, cos) = (std::f64::consts::TAU / SECTORS as f64).sin_cos();
+    let back = |[x, y, z]: [f64; 3]| [x * cos + y * sin, y * cos - x * sin, z];
+    let near = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-6);
+    let is_high = |at: [f64; 3]| package.nodes.iter().any(|node| near(node.position, back(at)));
+    package.nodes.iter().filter(|node| is_high(node.position)).count()
+}
+
 async fn raw(api: &Api, path: &str) -> Vec<u8> {
     let answer = api.request("GET", path).send().await.unwrap();
     let status = answer.status();
@@ -188,7 +197,7 @@ async fn a_wheel_is_closed_and_its_modes_are_where_they_belong() {
 
     let mode = format!("{modes}?speed_rad_s=1000&nodal_diameter=2&mode=1&motion=travelling&stress=true");
     let wheel = Vtk::new(raw(api, &format!("{mode}&format=vtu")).await);
-    let (nodes, high) = (package.nodes.len(), package.manifest.cyclic.len());
+    let (nodes, high) = (package.nodes.len(), high_nodes(&package));
     assert_eq!(wheel.attribute("NumberOfPoints"), SECTORS * (nodes - high));
     let (points, cells) = (wheel.vectors("Points"), wheel.cells());
     assert_eq!((points.len(), cells.len()), (SECTORS * (nodes - high), wheel.attribute("NumberOfCells")));
@@ -273,7 +282,7 @@ async fn a_recorded_run_gives_instants_and_deflection_shapes() {
 
     request["record"] = json!({"revolutions": [8, 10], "quantities": ["displacement", "state"]});
     // A contact node, whose history the field must repeat.
-    request["sensors"] = json!([{"node": 0, "component": "radial", "sector": 2}]);
+    request["sensors"] = json!([{"node": 3, "component": "radial", "sector": 2}]);
     let answer = api.post("/v1/case-studies", &request).await;
     let id = answer.text("/id");
     let job = api.finish(&id).await;

@@ -83,7 +83,8 @@ async fn a_sweep_tells_stress_margin_and_validity() {
     let thickness = api.get(&format!("/v1/models/{model}")).await.body["mesh"]["tip_thickness"].clone();
     let thickness = thickness.as_f64().unwrap();
     let [tip, root] = [parameters.tip_thickness, parameters.root_thickness];
-    assert!(thickness > 0.9 * tip && thickness < 0.5 * (tip + root), "{thickness} {tip} {root}");
+    // To the facets of a coarse mesh.
+    assert!(thickness > 0.8 * tip && thickness < 0.5 * (tip + root), "{thickness} {tip} {root}");
 
     // Nothing else of the sweep knows of it, and validity needs none of it.
     let without = points(api, &rubbing(&model, None)).await;
