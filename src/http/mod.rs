@@ -31,6 +31,7 @@ mod modes;
 mod openapi;
 mod pace;
 mod page;
+mod pictures;
 mod principal;
 mod probe;
 pub mod problem;

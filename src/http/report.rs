@@ -7,6 +7,7 @@ use tokio::runtime::Handle;
 
 use super::extract::{JobPath, Parameters};
 use super::forms::READ_MEMORY;
+use super::pictures::Pictures;
 use super::problem::{Kind, Problem};
 use super::results::{SensorQuery, check_sensor, expect_successful, find};
 use super::spectra::ROW_MEMORY;
@@ -35,7 +36,7 @@ const MAP_MEMORY: u64 = 3;
 /// Download a job as one page of HTML that needs nothing else, for a browser or for paper.
 ///
 /// What was asked, warnings, credentials, the interaction map at one sensor, critical speeds at all of them, the largest responses,
-/// contact forces, recorded histories of up to three speeds, settings and version; natural frequencies where a modal analysis of the same model was successful, of several the latest.
+/// contact forces, recorded histories of up to three speeds, pictures of up to two whose state was recorded, settings and version; natural frequencies where a modal analysis of the same model was successful, of several the latest.
 #[utoipa::path(get, path = "/v1/jobs/{id}/report", operation_id = "get_report", tag = "results",
     params(("id" = String, Path, description = "Id of a sweep or of a modal analysis."), SensorQuery),
     responses(
@@ -82,9 +83,21 @@ pub(super) async fn get_report(
     for document in &histories {
         recorded += state.store.document_bytes(id, *document).await?.unwrap_or(0);
     }
-    let leave = state.answers.leave(&state.jobs, bytes + READ_MEMORY * (drawn + recorded)).await;
+    let pictures = match (&job.request, &job.facts) {
+        (JobRequest::Sweep(request), Some(facts)) => Pictures::find(&state, &job, request, facts).await?,
+        _ => None,
+    };
+    let drawing = pictures.as_ref().map_or(0, |pictures| pictures.bytes);
+    let leave = state.answers.leave(&state.jobs, bytes + READ_MEMORY * (drawn + recorded) + drawing).await;
     let page = stream::blocking(move || {
-        let found = Found { job: &job, store: &store, runtime: &runtime, campbell, histories: &histories };
+        let found = Found {
+            job: &job,
+            store: &store,
+            runtime: &runtime,
+            campbell,
+            histories: &histories,
+            pictures: pictures.as_ref(),
+        };
         Ok::<_, StoreError>((found.page(query.sensor)?, leave))
     });
     let (page, leave) = page.await??;
@@ -113,6 +126,8 @@ struct Found<'a> {
     campbell: Option<JobId>,
     /// Histories to be drawn.
     histories: &'a [Document],
+    /// Pictures of recorded states.
+    pictures: Option<&'a Pictures>,
 }
 
 impl Found<'_> {
@@ -138,6 +153,8 @@ impl Found<'_> {
                 for document in self.histories {
                     histories.extend(self.document::<SpeedHistories>(self.job.id, *document)?);
                 }
+                let floors = (self.store, self.runtime);
+                let pictures = self.pictures.map(|pictures| pictures.draw(floors, self.job, request, facts));
                 let found = Sweep {
                     map: &map,
                     critical: &critical,
@@ -145,7 +162,7 @@ impl Found<'_> {
                     histories: &histories,
                     campbell: campbell.as_ref(),
                     strengths: facts.mesh.as_ref().map_or(&[], |mesh| &mesh.sets),
-                    surfaces: &[],
+                    surfaces: pictures.as_deref().unwrap_or_default(),
                 };
                 Ok(report::sweep(&head, &found))
             }

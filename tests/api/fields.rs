@@ -266,6 +266,29 @@ async fn a_wheel_is_closed_and_its_modes_are_where_they_belong() {
     app.stop().await;
 }
 
+/// A sweep records the state of a speed; its report shows it.
+#[tokio::test]
+async fn a_report_shows_the_wheel_where_it_moves_most() {
+    let app = TestApp::start_with(|config| config.upload_bytes = 64 << 20).await;
+    let api = &app.api;
+    let mut file = std::io::Cursor::new(Vec::new());
+    package::write(&impeller(), &mut file).unwrap();
+    let model = api.model(file.into_inner()).await;
+    let mut request = sweep_of(&model);
+    request["speeds"] = json!({"values": [1200.0, 1300.0], "unit": "rad_s"});
+    request["record"] = json!({"histories": {"speeds": [1], "quantities": ["state"]}, "stress": {}});
+    let id = api.sweep(&request).await;
+    let job = api.finish(&id).await;
+    assert_eq!(job["status"], "successful", "{job}");
+    let page = String::from_utf8(raw(api, &format!("/v1/jobs/{id}/report")).await).unwrap();
+    assert!(page.contains("12414 rpm, after") && page.contains("Stress and margin"), "{page:.2000}");
+    let picture =
+        raw(api, &format!("/v1/jobs/{id}/fields?speed=1&stress=true&format=png&view=meridional")).await;
+    assert!(picture.starts_with(b"\x89PNG"));
+    api.get(&format!("/v1/jobs/{id}/fields?speed=0")).await.problem(404, "history-not-recorded");
+    app.stop().await;
+}
+
 /// Of a wheel without a mesh: its nodes, and what was recorded of them.
 #[tokio::test]
 async fn a_recorded_run_gives_instants_and_deflection_shapes() {
