@@ -78,21 +78,24 @@ for kind, (_, edges, volume) in ELEMENTS.items():
     model, out = FOLDER / f"{kind}.zip", FOLDER / f"{kind}.vtu"
     package(kind, model)
     rubmap("modes", model, "--modes-per-speed", 2, "--out", out, "--stress")
-    grid, mesh = pyvista.read(out), meshio.read(out)
-    assert grid.n_cells == 1 and len(mesh.cells) == 1, kind
+    grid = pyvista.read(out)
+    assert grid.n_cells == 1 and "von_mises" in grid.point_data, kind
     close(volumes(grid)[0], volume, 1e-9, kind)
-    assert len(mesh.points) == grid.n_points and "von_mises" in mesh.point_data, kind
+    # meshio 5.3.5 has a name for this cell, and no dimension.
+    if kind != "C3D15":
+        mesh = meshio.read(out)
+        assert len(mesh.points) == grid.n_points and "von_mises" in mesh.point_data, kind
     # A node in the middle of an edge lies in the middle of those corners that VTK takes for its ends.
     if edges:
-        points, skin = grid.cell[0].points, grid.cell[0].edges
+        skin = grid.get_cell(0).edges
         for edge in skin:
             a, b, middle = edge.points
             assert np.allclose((a + b) / 2, middle), f"{kind}: {edge.points}"
-    print(f"{kind}: read by both, volume {volumes(grid)[0]:.6f}")
+    print(f"{kind}: volume {volumes(grid)[0]:.6f}")
 
 wheel = FOLDER / "wheel.json"
-for preset, kind in [("small", "hexahedra"), ("medium", "quadratic hexahedra")]:
-    wheel.write_text(json.dumps({"preset": preset, "sectors": 7}))
+for preset, kind in [("linear", "hexahedra"), ("quadratic", "quadratic hexahedra")]:
+    wheel.write_text(json.dumps({"element_order": preset, "sectors": 7}))
     model = FOLDER / f"{preset}.zip"
     rubmap("generate", "--parameters", wheel, "--out", model)
     arguments = ["modes", model, "--modes-per-speed", 4, "--nodal-diameter", 2, "--stress"]
@@ -104,7 +107,8 @@ for preset, kind in [("small", "hexahedra"), ("medium", "quadratic hexahedra")]:
     assert len(meshio.read(FOLDER / f"{preset}.vtu").points) == grid.n_points
     assert (volumes(grid) > 0).all() and grid.n_cells == 7 * one.n_cells
     close(volumes(grid).sum(), 7 * volumes(one).sum(), 1e-9, preset)
-    close(skin.triangulate().volume, volumes(grid).sum(), 2e-3, f"skin of {preset}")
+    # Faces are not plane, and are cut into triangles in two ways.
+    close(skin.triangulate().volume, volumes(grid).sum(), 1e-2, f"skin of {preset}")
     # Closed: no edge of the skin belongs to one face alone, and what is inside is one piece.
     rims = skin.triangulate().clean().extract_feature_edges(
         boundary_edges=True, non_manifold_edges=False, feature_edges=False, manifold_edges=False

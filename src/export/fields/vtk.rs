@@ -12,8 +12,8 @@ pub(super) const VERTEX: u8 = 1;
 
 /// VTK's number of an element, and its nodes in VTK's order, as places in CalculiX's.
 ///
-/// Both number corners and then the middles of edges alike, but for the linear wedge: VTK sees its first triangle from outside,
-/// CalculiX from inside. The quadratic wedge is the same again.
+/// Both number corners and then the middles of edges alike, but for wedges: VTK sees their first triangle from outside, CalculiX from
+/// inside.
 pub(super) fn cell(kind: ElementKind) -> (u8, Vec<usize>) {
     let as_is = || (0..kind.nodes()).collect();
     match kind {
@@ -21,7 +21,7 @@ pub(super) fn cell(kind: ElementKind) -> (u8, Vec<usize>) {
         ElementKind::C3D6 => (13, vec![0, 2, 1, 3, 5, 4]),
         ElementKind::C3D8 | ElementKind::C3D8I | ElementKind::QM6 => (12, as_is()),
         ElementKind::C3D10 => (24, as_is()),
-        ElementKind::C3D15 => (26, as_is()),
+        ElementKind::C3D15 => (26, vec![0, 2, 1, 3, 5, 4, 8, 7, 6, 11, 10, 9, 12, 14, 13]),
         ElementKind::C3D20 | ElementKind::C3D20R => (25, as_is()),
     }
 }
