@@ -3,6 +3,7 @@
 //! A writer of our own: the XML is a few tags around arrays, which go out as they are computed, sector by sector; the crate vtkio wants the
 //! whole file in memory. Arrays are Base64 within the XML, which any XML reader reads.
 
+mod file;
 mod npz;
 mod series;
 mod vtk;
@@ -12,18 +13,7 @@ mod xml;
 
 use std::io::{self, Write};
 
-use crate::analysis::fields::{Field, FieldSector, Part};
-
-/// A field that is written.
-#[derive(Debug)]
-pub struct FieldFile {
-    /// Where.
-    pub sector: FieldSector,
-    /// What.
-    pub field: Field,
-    /// How much of it.
-    pub part: Part,
-}
+pub use file::FieldFile;
 
 impl FieldFile {
     /// All elements, as VTK's UnstructuredGrid; single points where there is no mesh. The first frame.

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::FieldFile;
+use super::file::FieldFile;
 use super::vtk::cell;
 use crate::analysis::fields::{Frame, Points, von_mises};
 use crate::package::NpzWriter;

@@ -5,7 +5,8 @@ use std::io::{self, BufWriter, Write};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
-use super::{FieldFile, vtu};
+use super::file::FieldFile;
+use super::vtu;
 
 /// Writes a zip of all frames.
 pub(super) fn write(file: &FieldFile, out: &mut dyn Write) -> io::Result<()> {

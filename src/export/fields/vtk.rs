@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::FieldFile;
+use super::file::FieldFile;
 use super::xml::array;
 use crate::analysis::fields::{Points, principal, von_mises};
 use crate::solid::element::ElementKind;

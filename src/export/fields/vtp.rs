@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::FieldFile;
+use super::file::FieldFile;
 use super::vtk::{notes, write_points};
 use super::vtu::single_points;
 use super::xml::{array, begin};

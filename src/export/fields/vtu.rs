@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::FieldFile;
+use super::file::FieldFile;
 use super::vtk::{VERTEX, cell, notes, write_points};
 use super::xml::{array, begin};
 use crate::analysis::fields::Points;
