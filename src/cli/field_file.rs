@@ -108,7 +108,7 @@ fn unpack(zip: &Path, out: &Path) -> anyhow::Result<()> {
     let renamed = |name: &str| name.replacen("series", &stem, 1);
     for index in 0..zip.len() {
         let mut entry = zip.by_index(index)?;
-        let name = entry.name().context("a file of the series has no name")?.to_owned();
+        let name = entry.name().context("a file of the series has no name")?.into_owned();
         if name.ends_with(".pvd") {
             let text = std::io::read_to_string(&mut entry)?;
             save(out, &text.replace("file=\"series", &format!("file=\"{stem}")))?;

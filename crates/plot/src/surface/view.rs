@@ -77,7 +77,7 @@ fn middle(nodes: &[[f64; 3]]) -> Option<f64> {
     let (first, last) = (*angles.first()?, *angles.last()?);
     let between = angles.windows(2).map(|pair| (pair[1] - pair[0], pair[1]));
     let (gap, start) = between.fold((first + TAU - last, first), |a, b| if b.0 > a.0 { b } else { a });
-    (gap > PI).then(|| start + 0.5 * (TAU - gap))
+    (gap > PI).then_some(start + 0.5 * (TAU - gap))
 }
 
 /// The largest distance of a node from the axis.
