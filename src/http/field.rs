@@ -26,21 +26,22 @@ pub(super) const FRAMES: u32 = 24;
 #[derive(Debug, Clone, Copy, Default, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum ViewWord {
-    /// Along the axis, against its direction.
+    /// Along the axis, from the side of the casing, where the blades are seen.
     #[default]
     Front,
-    /// Along the axis, in its direction.
+    /// Along the axis, from the other side.
     Rear,
     /// Across the axis.
     Meridional,
 }
 
 impl ViewWord {
-    fn view(self) -> SurfaceView {
-        match self {
-            Self::Front => SurfaceView::Front,
-            Self::Rear => SurfaceView::Rear,
-            Self::Meridional => SurfaceView::Meridional,
+    /// Of what is made of `source`.
+    pub(super) fn of(self, source: &FieldSource) -> SurfaceView {
+        match (self, source.opens_along_axis()) {
+            (Self::Front, true) | (Self::Rear, false) => SurfaceView::Front,
+            (Self::Front, false) | (Self::Rear, true) => SurfaceView::Rear,
+            (Self::Meridional, _) => SurfaceView::Meridional,
         }
     }
 }
@@ -87,7 +88,7 @@ pub(super) async fn answer(
     state: &AppState,
     answer: Answer,
     bytes: u64,
-    (view, units): (ViewWord, Units),
+    (view, units): (SurfaceView, Units),
     make: impl FnOnce() -> Result<FieldFile, Problem> + Send + 'static,
 ) -> Result<Response, Problem> {
     let leave = state.answers.leave(&state.jobs, bytes + answer.bytes()).await;
@@ -97,7 +98,7 @@ pub(super) async fn answer(
             let surface = surface(&field, &sector, part, 0, &units).ok_or_else(|| {
                 Problem::parameter("format", "the package has no mesh, so there is no surface to draw; vtu, vtp and npz have its nodes")
             })?;
-            Ok(plot::surface(&surface, view.view()))
+            Ok(plot::surface(&surface, view))
         };
         return answer.drawn(state, leave, draw).await;
     }

@@ -111,7 +111,7 @@ pub(super) async fn get_fields(
     let columns = if query.engine_order.is_some() { 2 } else { frames };
     let bytes = READ_MEMORY * bytes + source.memory(model.facts.own_dofs, columns);
     let (store, runtime) = (state.store.clone(), Handle::current());
-    let view = (query.view.unwrap_or_default(), model.facts.units.clone());
+    let view = (query.view.unwrap_or_default().of(&source), model.facts.units.clone());
     field::answer(&state, answer, bytes, view, move || {
         let text = runtime.block_on(store.document(job.id, document))?.unwrap_or_default();
         let states = states::unpack(&text, &source.reduced().wheel)?;

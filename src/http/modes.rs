@@ -152,7 +152,7 @@ pub(super) async fn get_modes(
         frames: if in_time { query.frames.unwrap_or(FRAMES) as usize } else { 1 },
     };
     let bytes = source.memory(model.facts.own_dofs, 1);
-    let view = (query.view.unwrap_or_default(), model.facts.units.clone());
+    let view = (query.view.unwrap_or_default().of(&source), model.facts.units.clone());
     field::answer(&state, answer, bytes, view, move || {
         let sector = source.sector(query.stress).map_err(Box::new)?;
         let field = source.with_basis(|wheel, basis| mode_field(wheel, &sector, &asked, basis))?;

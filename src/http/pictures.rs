@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use tokio::runtime::Handle;
 
+use super::field::ViewWord;
 use super::forms::READ_MEMORY;
 use super::problem::Problem;
 use super::state::AppState;
@@ -12,6 +13,7 @@ use crate::analysis::resolved::ResolvedSweep;
 use crate::analysis::result::FieldSurface;
 use crate::analysis::run::ModelFacts;
 use crate::jobs::FieldSource;
+use crate::plot::SurfaceView;
 use crate::store::jobs::Job;
 use crate::store::results::Document;
 use crate::store::{Store, StoreError, states};
@@ -67,12 +69,13 @@ impl Pictures {
         job: &Job,
         sweep: &ResolvedSweep,
         facts: &ModelFacts,
-    ) -> Vec<FieldSurface> {
+    ) -> Vec<(FieldSurface, SurfaceView)> {
+        let front = ViewWord::Front.of(&self.source);
         let drawn = |&speed: &u32| match self.draw_one((store, runtime), job, speed, facts) {
             Ok(surface) => surface.map(|mut surface| {
                 let rad_s = sweep.speeds().rad_s().get(speed as usize).copied().unwrap_or_default();
                 surface.title = format!("{:.0} rpm, {}", 60.0 * rad_s / TAU, surface.title);
-                surface
+                (surface, front)
             }),
             Err(problem) => {
                 tracing::warn!(job.id = %job.id, speed, detail = problem.detail, "left a picture out of a report");

@@ -52,6 +52,11 @@ impl FieldSource {
         &self.reduced
     }
 
+    /// Whether the casing is on the side that the axis points to: the blades are seen from there.
+    pub fn opens_along_axis(&self) -> bool {
+        self.reduced.wheel.contact.iter().map(|node| node.normal[2]).sum::<f64>() >= 0.0
+    }
+
     /// Memory that a field with so many columns of each nodal diameter takes while it is made and written.
     pub fn memory(&self, own_dofs: u32, columns: usize) -> u64 {
         let harmonics = self.reduced.wheel.harmonics.len() as u64;

@@ -119,10 +119,12 @@ pub(super) fn resolve_stress(
     }
 }
 
-/// Where recording begins and ends: the window, if nothing else is asked for.
+/// Where recording begins and ends: the window, if nothing else is asked for, or the last revolution where states are recorded, which are
+/// large.
 pub(crate) fn revolutions(record: &Recorded, sweep: &ResolvedSweep) -> [u32; 2] {
     let run = sweep.integration.revolutions;
-    record.revolutions.unwrap_or([run.saturating_sub(sweep.integration.window_revolutions), run])
+    let last = if record.wants(RecordedQuantity::State) { 1 } else { sweep.integration.window_revolutions };
+    record.revolutions.unwrap_or([run.saturating_sub(last), run])
 }
 
 /// Histories of one speed, with so many pairs of a contact node and a blade, and so many numbers of a state.

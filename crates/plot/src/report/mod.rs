@@ -8,6 +8,7 @@ mod stress;
 mod tables;
 mod warnings;
 
+use crate::SurfaceView;
 use maud::{Markup, html};
 use rubmap_analysis::result::{
     Campbell, CriticalSpeeds, FieldSurface, ForceMap, InteractionMap, SpeedHistories, Strengths,
@@ -35,7 +36,7 @@ pub struct Sweep<'a> {
     /// What the materials bear, as far as it is known.
     pub strengths: &'a [Strengths],
     /// Surfaces to be shown, each from the front and in the meridional view.
-    pub surfaces: &'a [FieldSurface],
+    pub surfaces: &'a [(FieldSurface, SurfaceView)],
 }
 
 /// The report of a sweep, as HTML. All texts of users are escaped.

@@ -186,12 +186,12 @@ fn speeds(judged: &[(&Point, &Validity)]) -> Markup {
 }
 
 /// Pictures of the wheel and its sectors.
-pub(super) fn pictures(surfaces: &[FieldSurface]) -> Markup {
+pub(super) fn pictures(surfaces: &[(FieldSurface, SurfaceView)]) -> Markup {
     html! {
         @if !surfaces.is_empty() {
             h2 { "Shapes and stresses" }
-            @for surface in surfaces {
-                (drawing(&crate::surface(surface, SurfaceView::Front)))
+            @for (surface, front) in surfaces {
+                (drawing(&crate::surface(surface, *front)))
                 (drawing(&crate::surface(surface, SurfaceView::Meridional)))
             }
         }

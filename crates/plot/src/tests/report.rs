@@ -1,5 +1,6 @@
 //! Reports read back.
 
+use crate::SurfaceView;
 use roxmltree::Document;
 
 use super::impeller::impeller;
@@ -83,7 +84,7 @@ fn page(
     map: &InteractionMap,
     tables: &[CriticalSpeeds],
     strengths: &[Strengths],
-    surfaces: &[FieldSurface],
+    surfaces: &[(FieldSurface, SurfaceView)],
 ) -> String {
     let found = report::Sweep {
         map,
@@ -104,7 +105,7 @@ fn a_report_says_what_is_left_and_what_is_not_valid() {
         let read = Document::parse(page).unwrap();
         read.descendants().filter_map(|node| node.text()).collect::<Vec<_>>().join(" ")
     };
-    let surfaces = [impeller(0..1, 4, 2.0)];
+    let surfaces = [(impeller(0..1, 4, 2.0), SurfaceView::Front)];
     let full = page(&stressed_map(), &[stressed_critical()], &strengths(), &surfaces);
     let words = text(&full);
     for expected in [
