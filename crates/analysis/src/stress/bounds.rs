@@ -6,7 +6,8 @@
 //!
 //! Von Mises stress is a seminorm, so |σ_s(t) − σ₀| ≤ Σ_ik |a_ik| max|c_ik| + |S̃| |rest|. Those places that this does not rule out are
 //! looked at where it matters: at knots of the path. Between two knots the path is a straight line, on which a convex function is
-//! largest at its ends, and what each direction strays from it.
+//! largest at its ends, and what each direction strays from it. Before that, all blades at once: |σ_s(t) − σ₀| ≤ Σ_i |w_i(t)|, with
+//! w_i(t) = Σ_k a_ik c_ik(t) of a nodal diameter, loses only the phases between nodal diameters.
 
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, Par, c64};
@@ -39,6 +40,8 @@ pub(super) struct Bounds<'a> {
     rests: Vec<(usize, f64, f64)>,
     /// `2·directions × (blades·knots)`: what each part is multiplied by.
     drive: Mat<f32>,
+    /// Per nodal diameter `2·directions × 2·knots`: what gives real and imaginary part of w_i.
+    waves: Vec<Mat<f32>>,
     knots: usize,
 }
 
@@ -80,7 +83,8 @@ impl<'a> Bounds<'a> {
         let knots = knots(paths, instants);
         let strays = paths.iter().flat_map(|path| path.strays(&knots)).collect();
         let drive = drive(paths, &knots, (blades, around), directions);
-        Self { stress, fixed, parts, reach, strays, rests, drive, knots: knots.len() }
+        let waves = paths.iter().map(|path| wave(path, &knots)).collect();
+        Self { stress, fixed, parts, reach, strays, rests, drive, waves, knots: knots.len() }
     }
 
     /// From the reach of all directions.
@@ -89,6 +93,36 @@ impl<'a> Bounds<'a> {
         let (swing, sway) = self.sums(place, &self.reach);
         let middle = trace(fixed);
         Bound { largest: von_mises(fixed) + swing, swing, sign: Sign::of(middle - sway, middle + sway) }
+    }
+
+    /// From each nodal diameter at knots, of some places, at most [`BATCH`].
+    pub(super) fn tighten(&self, places: &[usize]) -> Vec<Bound> {
+        let mut sums = vec![(0.0f64, 0.0f64); places.len() * self.knots];
+        let mut first = 0;
+        for drive in &self.waves {
+            let parts = Mat::from_fn(drive.nrows(), 6 * places.len(), |row, column| {
+                self.parts[(first + row, 6 * places[column / 6] + column % 6)]
+            });
+            first += drive.nrows();
+            let mut wave = Mat::<f32>::zeros(6 * places.len(), drive.ncols());
+            matmul(wave.as_mut(), Accum::Replace, parts.transpose(), drive, 1.0, Par::Seq);
+            for (at, (size, sway)) in sums.iter_mut().enumerate() {
+                let (slot, knot) = (at / self.knots, at % self.knots);
+                let [re, im] = [2 * knot, 2 * knot + 1].map(|column| -> Stress {
+                    std::array::from_fn(|c| f64::from(wave[(6 * slot + c, column)]))
+                });
+                *size += ellipse(&re, &im);
+                *sway += trace(&re).hypot(trace(&im));
+            }
+        }
+        let bound = |(&place, sums): (&usize, &[(f64, f64)])| {
+            let (error, stray) = self.sums(place, &self.strays);
+            let swing = error + sums.iter().map(|sum| sum.0).fold(0.0, f64::max);
+            let sway = stray + sums.iter().map(|sum| sum.1).fold(0.0, f64::max);
+            let (fixed, middle) = (&self.fixed[place], trace(&self.fixed[place]));
+            Bound { largest: von_mises(fixed) + swing, swing, sign: Sign::of(middle - sway, middle + sway) }
+        };
+        places.iter().zip(sums.chunks_exact(self.knots)).map(bound).collect()
     }
 
     /// Σ |a_ik| amount_ik and the rest, of von Mises stress and of the trace.
@@ -218,6 +252,19 @@ fn drive(paths: &[Path], knots: &[usize], (blades, around): (usize, usize), dire
         first += path.bounding;
     }
     drive
+}
+
+/// Columns of Re w and Im w of a nodal diameter at each knot.
+fn wave(path: &Path, knots: &[usize]) -> Mat<f32> {
+    Mat::from_fn(2 * path.bounding, 2 * knots.len(), |row, column| {
+        let c64 { re, im } = path.course[(row / 2, knots[column / 2])];
+        (match (row % 2, column % 2) {
+            (0, 0) => re,
+            (0, _) => im,
+            (_, 0) => -im,
+            _ => re,
+        }) as f32
+    })
 }
 
 /// e^{jisα}

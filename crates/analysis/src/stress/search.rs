@@ -41,6 +41,7 @@ pub(crate) fn stress_of(stress: &ReducedStress, course: &Course<'_>) -> Result<P
     let bounds = Bounds::new(stress, &fixed, &paths, blades, instants);
     let weights: Vec<Option<Weights>> = stress.places.iter().map(|place| weights[place.set]).collect();
     let mut search = Search {
+        tight: vec![None; stress.places()],
         seen: vec![None; stress.places()],
         followed: vec![None; stress.places()],
         instants,
@@ -169,6 +170,8 @@ struct Search<'a> {
     bounds: Bounds<'a>,
     /// Of every place; none of those that are not ranked.
     weights: Vec<Option<Weights>>,
+    /// Bounds of von Mises stress and the measure, where they were tightened.
+    tight: Vec<Option<(f64, f64)>>,
     seen: Vec<Option<Seen>>,
     followed: Vec<Option<Followed>>,
 }
@@ -182,8 +185,25 @@ impl Search<'_> {
             .collect();
         order.sort_unstable_by(descending);
         let mut floor = Leaders::new(count);
-        let mut candidates = Vec::new();
-        for batch in order.chunks(BATCH) {
+        let (first, others) = order.split_at(BATCH.min(order.len()));
+        self.look(&first.iter().map(|&(_, place)| place).collect::<Vec<_>>());
+        for &(_, place) in first {
+            floor.add(self.seen[place].map_or(f64::NEG_INFINITY, |seen| sought.at_least(place, &seen)));
+        }
+        let mut tight = Vec::new();
+        for batch in others.chunks(BATCH) {
+            if batch[0].0 < floor.least() {
+                break;
+            }
+            self.tighten(&batch.iter().map(|&(_, place)| place).collect::<Vec<_>>());
+            let bound = |place: usize| self.tight[place].map(|bounds| (sought.rough(place, bounds), place));
+            tight.extend(batch.iter().filter_map(|&(_, place)| bound(place)));
+        }
+        tight.sort_unstable_by(descending);
+        let mut candidates: Vec<(f64, usize)> = (first.iter())
+            .filter_map(|&(_, place)| self.seen[place].map(|seen| (sought.at_most(place, &seen), place)))
+            .collect();
+        for batch in tight.chunks(BATCH) {
             if batch[0].0 < floor.least() {
                 break;
             }
@@ -208,6 +228,14 @@ impl Search<'_> {
         }
         found.sort_unstable_by(descending);
         found.into_iter().take(count).map(|(_, place)| place).collect()
+    }
+
+    fn tighten(&mut self, batch: &[usize]) {
+        let new: Vec<usize> = batch.iter().copied().filter(|&place| self.tight[place].is_none()).collect();
+        for (&place, bound) in new.iter().zip(self.bounds.tighten(&new)) {
+            let most = self.weights[place].map_or(-1.0, |weights| weights.most(&bound));
+            self.tight[place] = Some((bound.largest, most));
+        }
     }
 
     fn look(&mut self, batch: &[usize]) {

@@ -211,8 +211,10 @@ fn bounds_are_never_below_what_they_bound() {
             let measure = |cycle: &Cycle| weights.unwrap().of(cycle.alternating, cycle.mean);
             let most = cycles.iter().map(measure).fold(0.0, f64::max);
             let rough = bounds.of(place);
+            let tight = bounds.tighten(&[place])[0];
             let seen = bounds.look(&[place], &[weights])[0];
             assert!(rough.largest >= largest && weights.unwrap().most(&rough) >= most);
+            assert!(tight.largest >= largest && weights.unwrap().most(&tight) >= most);
             assert!(seen.largest >= largest && seen.most >= most, "{seen:?} {largest} {most}");
             assert!(seen.largest_at_least <= largest && seen.most_at_least <= most);
         }
