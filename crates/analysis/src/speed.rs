@@ -81,13 +81,22 @@ pub(super) fn judge_run(
     let Outcome::Completed(history) = &run.outcome else { return };
     let stiffening = request.scene.centrifugal_stiffening;
     if let (Some(modes), Some(stress)) = (&history.states, &reduced.stress) {
-        let of_states = |states: WheelStates| {
-            let course = Course { harmonics: &reduced.wheel.harmonics, wheel, states: &states, stiffening };
-            stress_of(stress, &course).ok()
-        };
-        // The eigenproblems behind it have been solved at this speed before.
-        let states = WheelStates::of(modes, wheel, &reduced.wheel, stiffening);
-        point.stress = states.ok().and_then(of_states);
+        let found = WheelStates::of(modes, wheel, &reduced.wheel, stiffening)
+            .map_err(|error| error.to_string())
+            .and_then(|states| {
+                let course =
+                    Course { harmonics: &reduced.wheel.harmonics, wheel, states: &states, stiffening };
+                stress_of(stress, &course).map_err(|_| "an eigenvalue iteration failed".to_owned())
+            });
+        match found {
+            Ok(found) => point.stress = found,
+            Err(reason) => point.message = Some(format!("stress is not known: {reason}")),
+        }
+        if point.stress.is_none() && point.message.is_none() {
+            let radius = stress.excluded_radius();
+            point.message =
+                Some(format!("stress is not known: every node lies within {radius} of a contact node"));
+        }
     }
     point.validity = Some(validity::judge(&history.excursion, point.stress.as_ref(), reduced, request));
 }

@@ -131,7 +131,7 @@ pub struct Point {
     pub speed_rad_s: f64,
     /// How the run ended.
     pub status: PointStatus,
-    /// Why, for `diverged` and `failed`; and whether a speed of a sweep up or down had to start from rest.
+    /// Why, for `diverged` and `failed`; why stress that was asked for is absent; and whether a speed of a sweep up or down had to start from rest.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub message: Option<String>,
     /// How far the K(Ω) that its numbers rest on can be trusted between the speeds at which the stiffness is given, as the

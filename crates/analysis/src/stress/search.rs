@@ -28,11 +28,17 @@ pub(crate) struct Course<'a> {
     pub(crate) stiffening: bool,
 }
 
-/// Finds them. Exact: a place is left out only if a bound rules it out. On the calling thread; deterministic.
+/// Finds them; none where every node is left out. Exact: a place is left out only if a bound rules it out. On the calling thread; deterministic.
 ///
 /// # Errors
 /// If an eigenvalue iteration fails.
-pub(crate) fn stress_of(stress: &ReducedStress, course: &Course<'_>) -> Result<PointStress, EigenError> {
+pub(crate) fn stress_of(
+    stress: &ReducedStress,
+    course: &Course<'_>,
+) -> Result<Option<PointStress>, EigenError> {
+    if stress.places() == 0 {
+        return Ok(None);
+    }
     let fixed = stress.fixed(course.wheel.speed_rad_s, course.stiffening);
     let paths = paths(course.states, course.harmonics)?;
     let (weights, lacking) = weights(&stress.sets);
@@ -95,9 +101,9 @@ pub(crate) fn stress_of(stress: &ReducedStress, course: &Course<'_>) -> Result<P
         }
     });
     let cycles = cycles.collect();
-    let none = StressPeak { von_mises: 0.0, node: 0, position: [0.0; 3], sector: 0, revolution: 0.0 };
-    Ok(PointStress {
-        largest: peak.unwrap_or(none),
+    let Some(largest) = peak else { return Ok(None) };
+    Ok(Some(PointStress {
+        largest,
         largest_over_yield: yielding.map(|at| over_yield[at] * search.follow(at).peak.0),
         largest_static: fixed.iter().map(von_mises).fold(0.0, f64::max),
         cycles,
@@ -105,7 +111,7 @@ pub(crate) fn stress_of(stress: &ReducedStress, course: &Course<'_>) -> Result<P
         excluded_nodes: stress.excluded_nodes,
         followed_nodes: search.followed.iter().flatten().count() as u32,
         lacking,
-    })
+    }))
 }
 
 /// What is sought.
