@@ -131,7 +131,7 @@ async fn stress_without_elements_is_refused_where_it_is_asked_for() {
 #[tokio::test]
 #[ignore = "measures, on an idle machine"]
 async fn price_of_stress() {
-    let app = TestApp::start().await;
+    let app = TestApp::start_with(|config| config.upload_bytes = 64 << 20).await;
     let api = &app.api;
     for (name, preset) in [("small", Preset::Small), ("medium", Preset::Medium)] {
         if std::env::var("RUBMAP_PRESET").is_ok_and(|only| only != name) {

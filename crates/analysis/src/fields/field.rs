@@ -76,11 +76,8 @@ impl Field {
         places: &[u32],
         weights: &[(usize, c64)],
     ) -> Vec<[f64; 3]> {
-        let local = self.sum::<3>(of, sector, places, weights, |harmonic| Some(&harmonic.displacement));
-        let turned = |(&place, local): (&u32, [f64; 3])| {
-            of.directions(sector, place).tr_mul(&Vector3::from(local)).into()
-        };
-        places.iter().zip(local).map(turned).collect()
+        let turned = |place, local| of.directions(sector, place).tr_mul(&Vector3::<f64>::from(local)).into();
+        self.moved((of, sector), places, weights, turned)
     }
 
     /// The same about the axis, which is z: for drawings.
@@ -91,12 +88,23 @@ impl Field {
         places: &[u32],
         weights: &[(usize, c64)],
     ) -> Vec<[f64; 3]> {
-        let local = self.sum::<3>(of, sector, places, weights, |harmonic| Some(&harmonic.displacement));
-        let turned = |(&place, [r, t, z]): (&u32, [f64; 3])| {
+        let turned = |place: u32, [r, t, z]: [f64; 3]| {
             let (sin, cos) = (of.nodes()[place as usize].coordinates[1] + of.turn(sector)).sin_cos();
             [r * cos - t * sin, r * sin + t * cos, z]
         };
-        places.iter().zip(local).map(turned).collect()
+        self.moved((of, sector), places, weights, turned)
+    }
+
+    /// Displacement of these nodes, from (r, θ, z) as `turned` says.
+    fn moved(
+        &self,
+        (of, sector): (&FieldSector, usize),
+        places: &[u32],
+        weights: &[(usize, c64)],
+        turned: impl Fn(u32, [f64; 3]) -> [f64; 3],
+    ) -> Vec<[f64; 3]> {
+        let local = self.sum::<3>(of, sector, places, weights, |harmonic| Some(&harmonic.displacement));
+        places.iter().zip(local).map(|(&place, local)| turned(place, local)).collect()
     }
 
     /// Stress in the user's coordinates, σ_xx, σ_yy, σ_zz, σ_xy, σ_yz, σ_zx, of these nodes of a sector; NaN where there is none. Nothing
