@@ -68,14 +68,14 @@ impl Weights {
         }
     }
 
-    /// A cycle that goes at least from `low` to `high`, but for `error`, has no less.
-    pub(super) fn least(self, low: f64, high: f64, error: f64) -> f64 {
+    /// What a cycle has at least and at most whose ends lie within `lows` and `highs`.
+    pub(super) fn within(self, lows: (f64, f64), highs: (f64, f64)) -> (f64, f64) {
+        let of = |low: f64, high: f64| self.of(0.5 * (high - low).max(0.0), 0.5 * (high + low));
+        // Convex in both ends, so that it is largest at a corner.
+        let most = of(lows.0, highs.1).max(of(lows.1, highs.1));
         // It grows with the upper end, and falls with the lower one as long as alternating stress weighs more.
-        if self.alternating < self.mean {
-            return 0.0;
-        }
-        let (low, high) = (low + error, high - error);
-        if high < low { 0.0 } else { self.of(0.5 * (high - low), 0.5 * (high + low)) }
+        let least = if self.alternating < self.mean { 0.0 } else { of(lows.1, highs.0) };
+        (least, most)
     }
 }
 
@@ -196,7 +196,10 @@ mod tests {
         let tension = Bound { largest: 140.0, swing: 40.0, sign: Sign::Tension };
         let goodman = Weights { alternating: 1.0 / 200.0, mean: 1.0 / 500.0 };
         assert!((goodman.most(&tension) - 0.4).abs() < 1e-12);
-        assert!((goodman.least(60.0, 140.0, 0.0) - 0.4).abs() < 1e-12);
+        let (least, most) = goodman.within((60.0, 60.0), (140.0, 140.0));
+        assert!((least - 0.4).abs() < 1e-12 && (most - 0.4).abs() < 1e-12);
+        let (least, most) = goodman.within((59.0, 61.0), (139.0, 141.0));
+        assert!(least < 0.4 && most > 0.4 && most - least < 2.0 * (1.0 / 200.0 + 1.0 / 500.0));
         let jumping = Bound { sign: Sign::Either, ..tension };
         assert!(goodman.most(&jumping) >= goodman.of(140.0, 0.0));
         assert_eq!((Sign::of(-1.0, 1.0), Sign::of(0.1, 1.0)), (Sign::Either, Sign::Tension));

@@ -7,6 +7,9 @@
 mod against_full;
 mod bounds;
 mod cycle;
+mod extremes;
+mod follow;
+mod look;
 pub(crate) mod make;
 mod measure;
 mod places;

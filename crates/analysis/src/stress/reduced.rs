@@ -1,6 +1,7 @@
 //! What simulations need of a mesh: stress at its places in the coordinates of a reduction.
 
-use faer::{Mat, c64};
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, Par, Side, c64};
 use serde::{Deserialize, Serialize};
 
 use super::measure::{Stress, von_mises};
@@ -30,6 +31,16 @@ pub struct HarmonicStress {
     pub(super) rows: Mat<f32>,
     /// Of every place.
     pub(super) norms: Vec<Norm>,
+    pub(super) measure: Measure,
+}
+
+/// How much coordinates stress all places together.
+#[derive(Debug, Clone)]
+pub(super) struct Measure {
+    /// F of F Fᴴ = G = Σ aᴴ a + λ: over the rows a of all components of all places, and a little of the energy.
+    pub(super) lower: Mat<c64>,
+    /// λ: x̃ᴴ G x̃ is no less than λ |x̃|².
+    pub(super) least: f64,
 }
 
 /// Stress of the wheel under its centrifugal load.
@@ -115,10 +126,35 @@ impl ReducedStress {
     }
 }
 
+/// Share of the mean of G's eigenvalues that is added to all of them, far above what single precision may take from them.
+const ADDED: f64 = 1e-4;
+
+impl Measure {
+    fn of(rows: &Mat<f32>) -> Self {
+        let mut products = Mat::<f32>::zeros(rows.nrows(), rows.nrows());
+        matmul(products.as_mut(), Accum::Replace, rows, rows.transpose(), 1.0, Par::Seq);
+        let of = |row: usize, column: usize| f64::from(products[(row, column)]);
+        let unknowns = rows.nrows() / 2;
+        let mut gram = Mat::from_fn(unknowns, unknowns, |k, l| {
+            let (re, im) = ([2 * k, 2 * l], [2 * k + 1, 2 * l + 1]);
+            c64::new(of(re[0], re[1]) + of(im[0], im[1]), of(re[0], im[1]) - of(im[0], re[1]))
+        });
+        let mean = (0..unknowns).map(|k| gram[(k, k)].re).sum::<f64>() / unknowns.max(1) as f64;
+        let least = ADDED * mean;
+        (0..unknowns).for_each(|k| gram[(k, k)] += least);
+        gram.llt(Side::Lower).map_or_else(
+            // Nothing is stressed: energy alone orders as well.
+            |_| Self { lower: Mat::identity(unknowns, unknowns), least: 1.0 },
+            |factor| Self { lower: factor.L().to_owned(), least },
+        )
+    }
+}
+
 impl HarmonicStress {
     /// Of its columns, `2·unknowns × 6·places`.
     pub(super) fn new(rows: Mat<f32>) -> Self {
-        let mut this = Self { rows, norms: Vec::new() };
+        let measure = Measure::of(&rows);
+        let mut this = Self { rows, norms: Vec::new(), measure };
         this.norms = (0..this.places()).map(|place| this.norm(place)).collect();
         this
     }

@@ -2,13 +2,15 @@
 
 use std::cmp::Ordering;
 
-use faer::{Mat, c64};
+use num_integer::Integer;
 
-use super::bounds::{BATCH, Bounds, Seen, turn};
+use super::bounds::Bounds;
 use super::cycle::{Cycle, Weights, weights};
-use super::measure::{Stress, von_mises};
+use super::follow::{Follow, Followed};
+use super::look::{BATCH, Look, Seen};
+use super::measure::von_mises;
 use super::reduced::ReducedStress;
-use super::trajectory::{Path, paths};
+use super::trajectory::paths;
 use crate::result::stress::{PointStress, StressCycle, StressPeak};
 use rubmap_numerics::hermitian::EigenError;
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
@@ -40,30 +42,25 @@ pub(crate) fn stress_of(
         return Ok(None);
     }
     let fixed = stress.fixed(course.wheel.speed_rad_s, course.stiffening);
-    let paths = paths(course.states, course.harmonics)?;
+    let paths = paths(course.states, course.harmonics, stress)?;
     let (weights, lacking) = weights(&stress.sets);
-    let blades = (course.wheel.sectors, course.wheel.around());
+    let around = course.wheel.around();
+    // Nodal diameters with a common divisor repeat that often around the wheel.
+    let repeats = paths.iter().fold(around, |common, path| common.gcd(&path.harmonic));
+    let blades = (course.wheel.sectors.min(around / repeats), around);
     let instants = course.states.revolutions.len();
-    let bounds = Bounds::new(stress, &fixed, &paths, blades, instants);
+    let bounds = Bounds::new(stress, &fixed, &paths);
     let weights: Vec<Option<Weights>> = stress.places.iter().map(|place| weights[place.set]).collect();
+    let rough: Vec<(f64, f64)> = (bounds.rough.iter().zip(&weights))
+        .map(|(bound, weights)| (bound.largest, weights.map_or(-1.0, |weights| weights.most(bound))))
+        .collect();
     let mut search = Search {
-        tight: vec![None; stress.places()],
+        look: Look::new(&bounds, &fixed, &paths, blades, instants),
+        follow: Follow { stress, fixed: &fixed, paths: &paths, blades, instants },
         seen: vec![None; stress.places()],
         followed: vec![None; stress.places()],
-        instants,
-        stress,
-        fixed: &fixed,
-        paths: &paths,
-        blades,
-        bounds,
         weights,
     };
-    let rough: Vec<(f64, f64)> = (0..stress.places())
-        .map(|place| {
-            let bound = search.bounds.of(place);
-            (bound.largest, search.weights[place].map_or(-1.0, |weights| weights.most(&bound)))
-        })
-        .collect();
     let largest = search.best(1, &rough, Sought::VonMises(&vec![1.0; stress.places()])).first().copied();
     let utilised = search.best(CYCLES, &rough, Sought::Utilisation);
     let over_yield: Vec<f64> = (stress.places.iter())
@@ -154,30 +151,11 @@ impl Sought<'_> {
     }
 }
 
-/// A place over all blades and instants.
-#[derive(Debug, Clone, Copy)]
-struct Followed {
-    /// Largest von Mises stress, its instant and its blade.
-    peak: (f64, usize),
-    peak_blade: usize,
-    /// Of the blade with the largest measure of utilisation.
-    cycle: Cycle,
-    cycle_blade: usize,
-    measure: f64,
-}
-
 struct Search<'a> {
-    stress: &'a ReducedStress,
-    fixed: &'a [Stress],
-    paths: &'a [Path],
-    /// Told apart, and around the wheel.
-    blades: (usize, usize),
-    instants: usize,
-    bounds: Bounds<'a>,
+    look: Look<'a>,
+    follow: Follow<'a>,
     /// Of every place; none of those that are not ranked.
     weights: Vec<Option<Weights>>,
-    /// Bounds of von Mises stress and the measure, where they were tightened.
-    tight: Vec<Option<(f64, f64)>>,
     seen: Vec<Option<Seen>>,
     followed: Vec<Option<Followed>>,
 }
@@ -191,29 +169,12 @@ impl Search<'_> {
             .collect();
         order.sort_unstable_by(descending);
         let mut floor = Leaders::new(count);
-        let (first, others) = order.split_at(BATCH.min(order.len()));
-        self.look(&first.iter().map(|&(_, place)| place).collect::<Vec<_>>());
-        for &(_, place) in first {
-            floor.add(self.seen[place].map_or(f64::NEG_INFINITY, |seen| sought.at_least(place, &seen)));
-        }
-        let mut tight = Vec::new();
-        for batch in others.chunks(BATCH) {
+        let mut candidates = Vec::new();
+        for batch in order.chunks(BATCH) {
             if batch[0].0 < floor.least() {
                 break;
             }
-            self.tighten(&batch.iter().map(|&(_, place)| place).collect::<Vec<_>>());
-            let bound = |place: usize| self.tight[place].map(|bounds| (sought.rough(place, bounds), place));
-            tight.extend(batch.iter().filter_map(|&(_, place)| bound(place)));
-        }
-        tight.sort_unstable_by(descending);
-        let mut candidates: Vec<(f64, usize)> = (first.iter())
-            .filter_map(|&(_, place)| self.seen[place].map(|seen| (sought.at_most(place, &seen), place)))
-            .collect();
-        for batch in tight.chunks(BATCH) {
-            if batch[0].0 < floor.least() {
-                break;
-            }
-            self.look(&batch.iter().map(|&(_, place)| place).collect::<Vec<_>>());
+            self.look(batch.iter().map(|&(_, place)| place));
             for &(_, place) in batch {
                 if let Some(seen) = &self.seen[place] {
                     floor.add(sought.at_least(place, seen));
@@ -236,68 +197,17 @@ impl Search<'_> {
         found.into_iter().take(count).map(|(_, place)| place).collect()
     }
 
-    fn tighten(&mut self, batch: &[usize]) {
-        let new: Vec<usize> = batch.iter().copied().filter(|&place| self.tight[place].is_none()).collect();
-        for (&place, bound) in new.iter().zip(self.bounds.tighten(&new)) {
-            let most = self.weights[place].map_or(-1.0, |weights| weights.most(&bound));
-            self.tight[place] = Some((bound.largest, most));
-        }
-    }
-
-    fn look(&mut self, batch: &[usize]) {
-        let new: Vec<usize> = batch.iter().copied().filter(|&place| self.seen[place].is_none()).collect();
+    fn look(&mut self, places: impl Iterator<Item = usize>) {
+        let new: Vec<usize> = places.filter(|&place| self.seen[place].is_none()).collect();
         let weights: Vec<_> = new.iter().map(|&place| self.weights[place]).collect();
-        for (&place, seen) in new.iter().zip(self.bounds.look(&new, &weights)) {
+        for (&place, seen) in new.iter().zip(self.look.at(&new, &weights)) {
             self.seen[place] = Some(seen);
         }
     }
 
     fn follow(&mut self, place: usize) -> Followed {
-        if let Some(followed) = self.followed[place] {
-            return followed;
-        }
-        let fixed = &self.fixed[place];
         let weights = self.weights[place].unwrap_or(Weights::ALTERNATING);
-        let waves: Vec<(usize, Mat<c64>)> = (self.paths.iter())
-            .map(|path| {
-                let rows = self.stress.harmonics[path.harmonic].matrix(place);
-                (path.harmonic, rows * &path.directions * &path.course)
-            })
-            .collect();
-        let mut found: Option<Followed> = None;
-        for blade in 0..self.blades.0 {
-            let turns: Vec<c64> =
-                waves.iter().map(|&(harmonic, _)| turn(harmonic, blade, self.blades.1)).collect();
-            let path = (0..self.instants).map(|instant| -> Stress {
-                let mut stress = *fixed;
-                for ((_, wave), turn) in waves.iter().zip(&turns) {
-                    for (component, stress) in stress.iter_mut().enumerate() {
-                        *stress += (turn * wave[(component, instant)]).re;
-                    }
-                }
-                stress
-            });
-            let cycle = Cycle::of(path);
-            let measure = weights.of(cycle.alternating, cycle.mean);
-            let here = Followed { peak: cycle.peak, peak_blade: blade, cycle, cycle_blade: blade, measure };
-            found = Some(found.map_or(here, |before| before.with(&here)));
-        }
-        let found = found.unwrap_or_else(|| unreachable!("a wheel has at least one blade"));
-        self.followed[place] = Some(found);
-        found
-    }
-}
-
-impl Followed {
-    /// With another blade, if it has more.
-    fn with(mut self, other: &Self) -> Self {
-        if other.peak.0 > self.peak.0 {
-            (self.peak, self.peak_blade) = (other.peak, other.peak_blade);
-        }
-        if other.measure > self.measure {
-            (self.cycle, self.cycle_blade, self.measure) = (other.cycle, other.cycle_blade, other.measure);
-        }
-        self
+        *self.followed[place].get_or_insert_with(|| self.follow.place(place, weights))
     }
 }
 

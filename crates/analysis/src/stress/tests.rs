@@ -8,8 +8,9 @@ use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
 use rubmap_wheel::dynamics::reduction::{ReducedHarmonic, StaticSpan};
 use rubmap_wheel::dynamics::states::{HarmonicStates, WheelStates};
 
-use super::bounds::{Bounds, turn};
+use super::bounds::Bounds;
 use super::cycle::{Cycle, weights};
+use super::look::{Look, turn};
 use super::make::lower;
 use super::measure::{Stress, von_mises};
 use super::places::Place;
@@ -200,9 +201,9 @@ fn the_search_finds_what_looking_everywhere_finds() {
 fn bounds_are_never_below_what_they_bound() {
     for case in cases() {
         let fixed = case.stress.fixed(SPEED, false);
-        let paths = paths(&case.states, &case.harmonics).unwrap();
-        let blades = (case.wheel.sectors, SECTORS);
-        let bounds = Bounds::new(&case.stress, &fixed, &paths, blades, INSTANTS);
+        let paths = paths(&case.states, &case.harmonics, &case.stress).unwrap();
+        let bounds = Bounds::new(&case.stress, &fixed, &paths);
+        let look = Look::new(&bounds, &fixed, &paths, (case.wheel.sectors, SECTORS), INSTANTS);
         let (weights, _) = weights(&case.stress.sets);
         for place in 0..PLACES {
             let weights = weights[case.stress.places[place].set];
@@ -210,11 +211,9 @@ fn bounds_are_never_below_what_they_bound() {
             let largest = cycles.iter().map(|cycle| cycle.peak.0).fold(0.0, f64::max);
             let measure = |cycle: &Cycle| weights.unwrap().of(cycle.alternating, cycle.mean);
             let most = cycles.iter().map(measure).fold(0.0, f64::max);
-            let rough = bounds.of(place);
-            let tight = bounds.tighten(&[place])[0];
-            let seen = bounds.look(&[place], &[weights])[0];
-            assert!(rough.largest >= largest && weights.unwrap().most(&rough) >= most);
-            assert!(tight.largest >= largest && weights.unwrap().most(&tight) >= most);
+            let rough = &bounds.rough[place];
+            let seen = look.at(&[place], &[weights])[0];
+            assert!(rough.largest >= largest && weights.unwrap().most(rough) >= most);
             assert!(seen.largest >= largest && seen.most >= most, "{seen:?} {largest} {most}");
             assert!(seen.largest_at_least <= largest && seen.most_at_least <= most);
         }

@@ -1,0 +1,142 @@
+//! A look at places at all instants of all blades by the directions that stress them most; what these leave out is bounded.
+
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, MatMut, Par, c64};
+
+use super::bounds::{Bounds, Error};
+use super::cycle::Weights;
+use super::extremes::{Extremes, LANES, Moved};
+use super::measure::Stress;
+use super::trajectory::Path;
+
+/// Places that are looked at together: their waves stay in the second-level cache.
+pub(super) const BATCH: usize = 8;
+
+/// What a look says of a place, over all blades.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Seen {
+    /// No von Mises stress is more,
+    pub(super) largest: f64,
+    /// and the largest is no less.
+    pub(super) largest_at_least: f64,
+    /// The measure of utilisation is no more,
+    pub(super) most: f64,
+    /// and no less.
+    pub(super) most_at_least: f64,
+}
+
+/// Looks at places.
+pub(super) struct Look<'a> {
+    bounds: &'a Bounds,
+    fixed: &'a [Stress],
+    arch: pulp::Arch,
+    /// Stresses are divided by this, so that their squares have room in single precision.
+    scale: f64,
+    /// Per nodal diameter `2·instants × 2·directions`: what gives the real, then the imaginary part of w_i at all instants.
+    drives: Vec<Mat<f32>>,
+    /// Padded to whole vectors.
+    instants: usize,
+    /// Re and Im of e^{jisα}, `[blade][nodal diameter]`.
+    turns: Vec<(f32, f32)>,
+    blades: usize,
+}
+
+impl<'a> Look<'a> {
+    /// Of the `paths` over `instants` of a wheel of which `blades` are told apart, `around` stand in all.
+    pub(super) fn new(
+        bounds: &'a Bounds,
+        fixed: &'a [Stress],
+        paths: &[Path],
+        (blades, around): (usize, usize),
+        instants: usize,
+    ) -> Self {
+        let scale = bounds.rough.iter().map(|bound| bound.largest).fold(f64::MIN_POSITIVE, f64::max);
+        let padded = instants.next_multiple_of(LANES);
+        let drive = |path: &Path| {
+            Mat::from_fn(2 * padded, 2 * path.looking, |row, column| {
+                // The last instant stands in for those that fill the last vector.
+                let c64 { re, im } = path.course[(column / 2, (row % padded).min(instants - 1))] / scale;
+                (match (row / padded, column % 2) {
+                    (0, 0) => re,
+                    (0, _) => -im,
+                    (_, 0) => im,
+                    _ => re,
+                }) as f32
+            })
+        };
+        let turns = (0..blades).flat_map(|blade| {
+            paths.iter().map(move |path| {
+                let c64 { re, im } = turn(path.harmonic, blade, around);
+                (re as f32, im as f32)
+            })
+        });
+        Self {
+            arch: pulp::Arch::new(),
+            drives: paths.iter().map(drive).collect(),
+            instants: padded,
+            turns: turns.collect(),
+            blades,
+            bounds,
+            fixed,
+            scale,
+        }
+    }
+
+    /// At some places, at most [`BATCH`], with the `weights` of each.
+    pub(super) fn at(&self, places: &[usize], weights: &[Option<Weights>]) -> Vec<Seen> {
+        let width = 2 * self.instants;
+        let waves: Vec<Vec<f32>> = (self.bounds.parts.iter().zip(&self.drives))
+            .map(|(parts, drive)| {
+                let parts = Mat::from_fn(parts.nrows(), 6 * places.len(), |row, column| {
+                    parts[(row, 6 * places[column / 6] + column % 6)]
+                });
+                let mut waves = vec![0.0; width * parts.ncols()];
+                let into = MatMut::from_column_major_slice_mut(&mut waves, width, parts.ncols());
+                matmul(into, Accum::Replace, drive, parts, 1.0, Par::Seq);
+                waves
+            })
+            .collect();
+        let mut extremes = Vec::with_capacity(self.blades);
+        let seen = |(at, (&place, weights)): (usize, (&usize, &Option<Weights>))| {
+            let waves: Vec<&[f32]> =
+                waves.iter().map(|waves| &waves[6 * width * at..][..6 * width]).collect();
+            let error = &self.bounds.errors[place];
+            let moved = Moved {
+                fixed: self.fixed[place].map(|stress| (stress / self.scale) as f32),
+                waves: &waves,
+                instants: self.instants,
+                turns: &self.turns,
+                blades: self.blades,
+                trace_error: (error.trace / self.scale) as f32,
+            };
+            moved.extremes(self.arch, &mut extremes);
+            self.seen(&extremes, error, *weights)
+        };
+        places.iter().zip(weights).enumerate().map(seen).collect()
+    }
+
+    fn seen(&self, extremes: &[Extremes], error: &Error, weights: Option<Weights>) -> Seen {
+        let mut seen = Seen { largest: 0.0, largest_at_least: 0.0, most: -1.0, most_at_least: -1.0 };
+        let root = |square: f32| self.scale * f64::from(square.abs()).sqrt() * f64::from(square.signum());
+        let error = error.von_mises;
+        for blade in extremes {
+            let largest = root(blade.largest);
+            seen.largest = seen.largest.max(largest + error);
+            seen.largest_at_least = seen.largest_at_least.max(largest - error);
+            if let Some(weights) = weights {
+                let highs = (root(blade.high_at_least) - error, root(blade.high_at_most) + error);
+                let lows = (root(blade.low_at_least) - error, root(blade.low_at_most) + error);
+                let (least, most) = weights.within(lows, highs);
+                seen.most = seen.most.max(most);
+                seen.most_at_least = seen.most_at_least.max(least);
+            }
+        }
+        seen
+    }
+}
+
+/// e^{jisα}
+pub(super) fn turn(harmonic: usize, blade: usize, around: usize) -> c64 {
+    let angle = std::f64::consts::TAU * ((harmonic * blade) % around) as f64 / around as f64;
+    c64::new(angle.cos(), angle.sin())
+}
