@@ -7,11 +7,12 @@
 //! Von Mises stress is a seminorm, so |σ_s(t) − σ₀| ≤ Σ_ik |a_ik| max|c_ik| + |S̃| |rest|.
 
 use faer::linalg::matmul::matmul;
-use faer::{Accum, Mat, MatRef, Par, c64};
+use faer::{Accum, MatMut, Par};
 
 use super::cycle::{Bound, Sign};
-use super::measure::{Stress, ellipse, trace, von_mises};
+use super::measure::{Stress, trace, von_mises};
 use super::reduced::ReducedStress;
+use super::sums::{LANES, Sums};
 use super::trajectory::Path;
 
 /// Places whose directions are computed together.
@@ -26,8 +27,6 @@ pub(super) struct Bounds {
     pub(super) rough: Vec<Bound>,
     /// What the directions by which places are looked at leave, and what rounding may have done.
     pub(super) errors: Vec<Error>,
-    /// a of those directions, `2·directions × 6·places`, for every nodal diameter that moves: the real and the imaginary part of each.
-    pub(super) parts: Vec<Mat<f32>>,
 }
 
 /// No more than this is left out.
@@ -44,14 +43,23 @@ impl Bounds {
     pub(super) fn new(stress: &ReducedStress, fixed: &[Stress], paths: &[Path]) -> Self {
         let mut swings = vec![Error::default(); fixed.len()];
         let mut errors: Vec<Error> = fixed.iter().map(rounded).collect();
-        let parts = paths.iter().map(|path| of_path(stress, path, &mut swings, &mut errors)).collect();
+        for path in paths {
+            add(stress, path, &mut swings, &mut errors);
+        }
         let bound = |((fixed, swing), error): ((&Stress, &Error), &Error)| {
             let (size, swing, sway) =
                 (von_mises(fixed), swing.von_mises + error.von_mises, swing.trace + error.trace);
             Bound { largest: size + swing, swing, sign: Sign::of(trace(fixed) - sway, trace(fixed) + sway) }
         };
         let rough = fixed.iter().zip(&swings).zip(&errors).map(bound).collect();
-        Self { rough, errors, parts }
+        Self { rough, errors }
+    }
+}
+
+impl Error {
+    fn add(&mut self, other: Self) {
+        self.von_mises += other.von_mises;
+        self.trace += other.trace;
     }
 }
 
@@ -61,50 +69,30 @@ fn rounded(fixed: &Stress) -> Error {
     Error { von_mises: 3.0 * size, trace: size }
 }
 
-/// The parts of one nodal diameter; what it adds to the swings and the errors of all places.
-fn of_path(stress: &ReducedStress, path: &Path, swings: &mut [Error], errors: &mut [Error]) -> Mat<f32> {
+/// Adds what one nodal diameter does to the swings and the errors of all places.
+fn add(stress: &ReducedStress, path: &Path, swings: &mut [Error], errors: &mut [Error]) {
     let operator = &stress.harmonics[path.harmonic];
-    let turned = parts_of(&path.directions);
-    let terms = (operator.rows.nrows() + turned.ncols()) as f64;
-    let rounding = ROUNDING * terms * path.directions_reach();
-    let mut kept = Mat::<f32>::zeros(2 * path.looking, operator.rows.ncols());
-    let mut all = Mat::<f32>::zeros(turned.ncols(), 6 * BATCH);
+    let padded = path.reach.len().next_multiple_of(LANES);
+    let turned = path.turned(path.reach.len(), padded);
+    let terms = (operator.rows.nrows() + 2 * padded) as f64;
+    let rounding = ROUNDING * terms * path.length();
+    let sums = Sums::new(path, padded);
+    let mut parts = vec![0.0f32; 12 * padded * BATCH];
     for first in (0..stress.places()).step_by(BATCH) {
         let count = BATCH.min(stress.places() - first);
         let rows = operator.rows.subcols(6 * first, 6 * count);
-        let mut all = all.as_mut().subcols_mut(0, 6 * count);
-        matmul(all.as_mut(), Accum::Replace, turned.transpose(), rows, 1.0, Par::Seq);
-        kept.as_mut().subcols_mut(6 * first, 6 * count).copy_from(all.as_ref().subrows(0, 2 * path.looking));
-        for at in 0..count {
-            let (place, parts) = (first + at, all.as_ref().subcols(6 * at, 6));
-            let norm = &operator.norms[place];
-            let error = &mut errors[place];
+        let parts = &mut parts[..12 * padded * count];
+        let into = MatMut::from_column_major_slice_mut(parts, 2 * padded, 6 * count);
+        matmul(into, Accum::Replace, &turned, rows, 1.0, Par::Seq);
+        let of_batch = parts.chunks_exact(12 * padded);
+        for ((parts, norm), (swing, error)) in
+            of_batch.zip(&operator.norms[first..]).zip(swings[first..].iter_mut().zip(&mut errors[first..]))
+        {
+            let [looked, left] = sums.of(parts);
+            swing.add(looked);
+            error.add(left);
             error.von_mises += path.left * norm.von_mises + rounding * norm.whole;
             error.trace += (path.left + rounding) * norm.whole;
-            for (k, &reach) in path.reach.iter().enumerate() {
-                let [re, im] = direction(parts, k);
-                let sum = if k < path.looking { &mut swings[place] } else { &mut errors[place] };
-                sum.von_mises += reach * ellipse(&re, &im);
-                sum.trace += reach * trace(&re).hypot(trace(&im));
-            }
         }
     }
-    kept
-}
-
-fn direction(parts: MatRef<'_, f32>, k: usize) -> [Stress; 2] {
-    [2 * k, 2 * k + 1].map(|row| std::array::from_fn(|component| f64::from(parts[(row, component)])))
-}
-
-/// U for real products: Re and Im of `s·u` from the real and imaginary parts of s, a column each.
-fn parts_of(directions: &Mat<c64>) -> Mat<f32> {
-    Mat::from_fn(2 * directions.nrows(), 2 * directions.ncols(), |row, column| {
-        let c64 { re, im } = directions[(row / 2, column / 2)];
-        (match (column % 2, row % 2) {
-            (0, 0) => re,
-            (0, _) => -im,
-            (_, 0) => im,
-            _ => re,
-        }) as f32
-    })
 }

@@ -2,9 +2,6 @@
 
 use pulp::{Simd, WithSimd};
 
-/// Instants are a multiple of this: the most numbers a vector of any processor holds.
-pub(super) const LANES: usize = 16;
-
 /// What moves a place: σ_s(t) = σ₀ + Σ_i Re( e^{jisα} w_i(t) ).
 pub(super) struct Moved<'a> {
     /// σ₀ of all components.

@@ -5,8 +5,10 @@ use faer::{Accum, Mat, MatMut, Par, c64};
 
 use super::bounds::{Bounds, Error};
 use super::cycle::Weights;
-use super::extremes::{Extremes, LANES, Moved};
+use super::extremes::{Extremes, Moved};
 use super::measure::Stress;
+use super::reduced::{HarmonicStress, ReducedStress};
+use super::sums::LANES;
 use super::trajectory::Path;
 
 /// Places that are looked at together: their waves stay in the second-level cache.
@@ -32,8 +34,7 @@ pub(super) struct Look<'a> {
     arch: pulp::Arch,
     /// Stresses are divided by this, so that their squares have room in single precision.
     scale: f64,
-    /// Per nodal diameter `2·instants × 2·directions`: what gives the real, then the imaginary part of w_i at all instants.
-    drives: Vec<Mat<f32>>,
+    moving: Vec<Moving<'a>>,
     /// Padded to whole vectors.
     instants: usize,
     /// Re and Im of e^{jisα}, `[blade][nodal diameter]`.
@@ -44,6 +45,7 @@ pub(super) struct Look<'a> {
 impl<'a> Look<'a> {
     /// Of the `paths` over `instants` of a wheel of which `blades` are told apart, `around` stand in all.
     pub(super) fn new(
+        stress: &'a ReducedStress,
         bounds: &'a Bounds,
         fixed: &'a [Stress],
         paths: &[Path],
@@ -52,18 +54,6 @@ impl<'a> Look<'a> {
     ) -> Self {
         let scale = bounds.rough.iter().map(|bound| bound.largest).fold(f64::MIN_POSITIVE, f64::max);
         let padded = instants.next_multiple_of(LANES);
-        let drive = |path: &Path| {
-            Mat::from_fn(2 * padded, 2 * path.looking, |row, column| {
-                // The last instant stands in for those that fill the last vector.
-                let c64 { re, im } = path.course[(column / 2, (row % padded).min(instants - 1))] / scale;
-                (match (row / padded, column % 2) {
-                    (0, 0) => re,
-                    (0, _) => -im,
-                    (_, 0) => im,
-                    _ => re,
-                }) as f32
-            })
-        };
         let turns = (0..blades).flat_map(|blade| {
             paths.iter().map(move |path| {
                 let c64 { re, im } = turn(path.harmonic, blade, around);
@@ -72,7 +62,7 @@ impl<'a> Look<'a> {
         });
         Self {
             arch: pulp::Arch::new(),
-            drives: paths.iter().map(drive).collect(),
+            moving: paths.iter().map(|path| Moving::new(stress, path, (instants, padded), scale)).collect(),
             instants: padded,
             turns: turns.collect(),
             blades,
@@ -85,17 +75,7 @@ impl<'a> Look<'a> {
     /// At some places, at most [`BATCH`], with the `weights` of each.
     pub(super) fn at(&self, places: &[usize], weights: &[Option<Weights>]) -> Vec<Seen> {
         let width = 2 * self.instants;
-        let waves: Vec<Vec<f32>> = (self.bounds.parts.iter().zip(&self.drives))
-            .map(|(parts, drive)| {
-                let parts = Mat::from_fn(parts.nrows(), 6 * places.len(), |row, column| {
-                    parts[(row, 6 * places[column / 6] + column % 6)]
-                });
-                let mut waves = vec![0.0; width * parts.ncols()];
-                let into = MatMut::from_column_major_slice_mut(&mut waves, width, parts.ncols());
-                matmul(into, Accum::Replace, drive, parts, 1.0, Par::Seq);
-                waves
-            })
-            .collect();
+        let waves: Vec<Vec<f32>> = self.moving.iter().map(|moving| moving.waves(places)).collect();
         let mut extremes = Vec::with_capacity(self.blades);
         let seen = |(at, (&place, weights)): (usize, (&usize, &Option<Weights>))| {
             let waves: Vec<&[f32]> =
@@ -132,6 +112,44 @@ impl<'a> Look<'a> {
             }
         }
         seen
+    }
+}
+
+/// A nodal diameter that moves.
+struct Moving<'a> {
+    operator: &'a HarmonicStress,
+    /// `2·directions × 2·unknowns`.
+    turned: Mat<f32>,
+    /// `2·instants × 2·directions`: what gives the real, then the imaginary part of w_i at all instants.
+    drive: Mat<f32>,
+}
+
+impl<'a> Moving<'a> {
+    fn new(stress: &'a ReducedStress, path: &Path, (instants, padded): (usize, usize), scale: f64) -> Self {
+        let looking = path.looking;
+        let drive = Mat::from_fn(2 * padded, 2 * looking, |row, column| {
+            // The last instant stands in for those that fill the last vector.
+            let instant = (row % padded).min(instants - 1);
+            let c64 { re, im } = path.course[(column % looking, instant)] / scale;
+            (match (row / padded, column / looking) {
+                (0, 0) => re,
+                (0, _) => -im,
+                (_, 0) => im,
+                _ => re,
+            }) as f32
+        });
+        Self { operator: &stress.harmonics[path.harmonic], turned: path.turned(looking, looking), drive }
+    }
+
+    /// w_i at some places, `[place][component][part][instant]`.
+    fn waves(&self, places: &[usize]) -> Vec<f32> {
+        let rows = self.operator.of_places(places);
+        let mut parts = Mat::<f32>::zeros(self.turned.nrows(), rows.ncols());
+        matmul(parts.as_mut(), Accum::Replace, &self.turned, &rows, 1.0, Par::Seq);
+        let mut waves = vec![0.0; self.drive.nrows() * rows.ncols()];
+        let into = MatMut::from_column_major_slice_mut(&mut waves, self.drive.nrows(), rows.ncols());
+        matmul(into, Accum::Replace, &self.drive, &parts, 1.0, Par::Seq);
+        waves
     }
 }
 

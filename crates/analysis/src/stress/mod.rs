@@ -15,6 +15,7 @@ mod measure;
 mod places;
 mod reduced;
 mod search;
+mod sums;
 mod trajectory;
 
 pub use make::{StressMaker, StressOf};

@@ -206,6 +206,15 @@ impl HarmonicStress {
         Norm { von_mises: form.sqrt(), whole: (3.0 * whole).sqrt() }
     }
 
+    /// The columns of some places, `2·unknowns × 6·places`.
+    pub(super) fn of_places(&self, places: &[usize]) -> Mat<f32> {
+        let mut found = Mat::zeros(self.rows.nrows(), 6 * places.len());
+        for (at, &place) in places.iter().enumerate() {
+            found.subcols_mut(6 * at, 6).copy_from(self.rows.subcols(6 * place, 6));
+        }
+        found
+    }
+
     /// The rows of a place, `6 × unknowns`.
     pub(super) fn matrix(&self, place: usize) -> Mat<c64> {
         let columns = self.columns(place);

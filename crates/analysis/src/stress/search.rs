@@ -55,7 +55,7 @@ pub(crate) fn stress_of(
         .map(|(bound, weights)| (bound.largest, weights.map_or(-1.0, |weights| weights.most(bound))))
         .collect();
     let mut search = Search {
-        look: Look::new(&bounds, &fixed, &paths, blades, instants),
+        look: Look::new(stress, &bounds, &fixed, &paths, blades, instants),
         follow: Follow { stress, fixed: &fixed, paths: &paths, blades, instants },
         seen: vec![None; stress.places()],
         followed: vec![None; stress.places()],

@@ -203,7 +203,7 @@ fn bounds_are_never_below_what_they_bound() {
         let fixed = case.stress.fixed(SPEED, false);
         let paths = paths(&case.states, &case.harmonics, &case.stress).unwrap();
         let bounds = Bounds::new(&case.stress, &fixed, &paths);
-        let look = Look::new(&bounds, &fixed, &paths, (case.wheel.sectors, SECTORS), INSTANTS);
+        let look = Look::new(&case.stress, &bounds, &fixed, &paths, (case.wheel.sectors, SECTORS), INSTANTS);
         let (weights, _) = weights(&case.stress.sets);
         for place in 0..PLACES {
             let weights = weights[case.stress.places[place].set];

@@ -98,8 +98,26 @@ fn left_by(course: &Mat<c64>) -> Vec<f64> {
 }
 
 impl Path {
+    /// The first `count` directions for real products with the real and imaginary parts of a place's rows: Re of every `s·u`, then Im, a
+    /// row each, both padded with nothing to `padded` rows.
+    pub(super) fn turned(&self, count: usize, padded: usize) -> Mat<f32> {
+        Mat::from_fn(2 * padded, 2 * self.directions.nrows(), |row, column| {
+            let k = row % padded;
+            if k >= count {
+                return 0.0;
+            }
+            let c64 { re, im } = self.directions[(column / 2, k)];
+            (match (row / padded, column % 2) {
+                (0, 0) => re,
+                (0, _) => -im,
+                (_, 0) => im,
+                _ => re,
+            }) as f32
+        })
+    }
+
     /// Σ_k |u_k| max|c_k|
-    pub(super) fn directions_reach(&self) -> f64 {
+    pub(super) fn length(&self) -> f64 {
         self.reach.iter().enumerate().map(|(k, reach)| reach * self.directions.col(k).norm_l2()).sum()
     }
 }
