@@ -8,6 +8,7 @@ use std::path::PathBuf;
 use anyhow::{Context, bail};
 use clap::{Args, Subcommand};
 
+use super::speed::speed;
 use crate::dynamics::sector::Units;
 use crate::package::calculix::{self, CalculixModel, ImportSummary, Normals, SpinFinding};
 use crate::package::raw::{Axis, ManifestMesh, MatrixFormat, RawPackage};
@@ -221,15 +222,8 @@ fn spin(finding: SpinFinding) -> String {
 }
 
 fn speed_and_job(text: &str) -> Result<(f64, PathBuf), String> {
-    let (speed, job) = text.split_once('=').ok_or("expected SPEED=JOB, such as 2500=half")?;
-    let speed = speed.trim();
-    let (number, factor) = match speed.strip_suffix("rpm") {
-        Some(number) => (number, std::f64::consts::PI / 30.0),
-        None => (speed.strip_suffix("rad/s").unwrap_or(speed), 1.0),
-    };
-    let number: f64 =
-        number.trim().parse().map_err(|_| format!("\"{speed}\" is no speed in rad/s or rpm"))?;
-    Ok((number * factor, PathBuf::from(job)))
+    let (at, job) = text.split_once('=').ok_or("expected SPEED=JOB, such as 2500=half")?;
+    Ok((speed(at)?, PathBuf::from(job)))
 }
 
 fn axis(text: &str) -> Result<Axis, String> {

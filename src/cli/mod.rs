@@ -13,6 +13,7 @@ mod report;
 mod serve;
 mod session;
 mod signals;
+mod speed;
 mod study;
 mod token;
 

@@ -10,6 +10,7 @@ use serde_json::json;
 use super::field_file::{FieldFileArgs, form};
 use super::session::client::Client;
 use super::session::{Session, progress, upload};
+use super::speed::speed;
 
 /// Which mode of which package.
 #[derive(Debug, Args)]
@@ -89,16 +90,4 @@ async fn play(args: &ModesArgs, client: &Client) -> anyhow::Result<()> {
     let motion = if args.travelling { "travelling" } else { "standing" };
     let path = format!("{path}&nodal_diameter={}&mode={}&motion={motion}&", args.nodal_diameter, args.mode);
     args.file.save(client, &path, out).await
-}
-
-/// A speed in rad/s, or in revolutions per minute.
-fn speed(text: &str) -> Result<f64, String> {
-    let (number, factor) = match text.trim().strip_suffix("rpm") {
-        Some(number) => (number, std::f64::consts::PI / 30.0),
-        None => (text.trim().trim_end_matches("rad/s"), 1.0),
-    };
-    match number.trim().parse::<f64>() {
-        Ok(number) if number.is_finite() && number >= 0.0 => Ok(number * factor),
-        _ => Err(format!("\"{text}\" is no speed in rad/s or rpm")),
-    }
 }

@@ -4,7 +4,8 @@ use std::io;
 
 use axum::response::Response;
 use serde::Deserialize;
-use utoipa::ToSchema;
+use tokio::runtime::Handle;
+use utoipa::{IntoParams, ToSchema};
 
 use super::download::Answer;
 use super::form::Form;
@@ -14,13 +15,64 @@ use super::stream;
 use crate::analysis::fields::{FieldError, Part, surface};
 use crate::analysis::run::ModelFacts;
 use crate::dynamics::sector::Units;
+use crate::dynamics::states::WheelStates;
 use crate::export::fields::FieldFile;
 use crate::jobs::FieldSource;
 use crate::plot::{self, SurfaceView};
+use crate::store::jobs::JobId;
 use crate::store::models::StoredModel;
+use crate::store::results::Document;
+use crate::store::{Store, states};
 
 /// Frames over a period or over the recorded instants, unless somebody says otherwise.
-pub(super) const FRAMES: u32 = 24;
+const FRAMES: u32 = 24;
+
+/// What of a field to download.
+#[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+pub(super) struct ShownQuery {
+    /// This sector alone, from 0; default all.
+    sector: Option<u32>,
+    /// Adds stress, in the model's units: that of the vibration, of a mode for a largest displacement of 1. The static part of the
+    /// centrifugal load is not in it.
+    #[serde(default)]
+    pub(super) stress: bool,
+    /// Of a drawing: from where the wheel is looked at; default `front`.
+    #[param(inline)]
+    view: Option<ViewWord>,
+    /// Of a pvd: files over one period, or over all recorded instants; default 24.
+    #[param(minimum = 1, maximum = 96)]
+    frames: Option<u32>,
+}
+
+impl ShownQuery {
+    /// One sector or the wheel; refuses a sector that is not there, and stress where there is no mesh to make it of.
+    pub(super) fn part(&self, facts: &ModelFacts) -> Result<Part, Problem> {
+        if self.stress && facts.mesh.is_none() {
+            let detail =
+                "the package has no mesh, so nothing is known of stress; displacement comes as points";
+            return Err(Problem::parameter("stress", detail));
+        }
+        match self.sector {
+            None => Ok(Part::Wheel),
+            Some(sector) if sector < facts.sectors => Ok(Part::Sector(sector as usize)),
+            Some(_) => {
+                let last = facts.sectors - 1;
+                Err(Problem::parameter("sector", format!("the wheel has sectors 0 to {last}")))
+            }
+        }
+    }
+
+    /// Frames of an answer in this form.
+    pub(super) fn frames(&self, form: Form) -> usize {
+        if form == Form::Pvd { self.frames.unwrap_or(FRAMES) as usize } else { 1 }
+    }
+
+    /// From where a drawing of what is made of `source` looks at it.
+    pub(super) fn view(&self, source: &FieldSource) -> SurfaceView {
+        self.view.unwrap_or_default().of(source)
+    }
+}
 
 /// From where a drawing looks at the wheel.
 #[derive(Debug, Clone, Copy, Default, Deserialize, ToSchema)]
@@ -44,27 +96,6 @@ impl ViewWord {
             (Self::Meridional, _) => SurfaceView::Meridional,
         }
     }
-}
-
-/// The part that a query names: one sector or the wheel.
-pub(super) fn part(sector: Option<u32>, facts: &ModelFacts) -> Result<Part, Problem> {
-    match sector {
-        None => Ok(Part::Wheel),
-        Some(sector) if sector < facts.sectors => Ok(Part::Sector(sector as usize)),
-        Some(_) => {
-            let last = facts.sectors - 1;
-            Err(Problem::parameter("sector", format!("the wheel has sectors 0 to {last}")))
-        }
-    }
-}
-
-/// Refuses stress where there is no mesh to make it of.
-pub(super) fn check_stress(stress: bool, facts: &ModelFacts) -> Result<(), Problem> {
-    if stress && facts.mesh.is_none() {
-        let detail = "the package has no mesh, so nothing is known of stress; displacement comes as points";
-        return Err(Problem::parameter("stress", detail));
-    }
-    Ok(())
 }
 
 /// What fields of a model are made of.
@@ -110,6 +141,17 @@ pub(super) async fn answer(
         Form::Pvd => file.pvd(out),
         _ => file.vtu(out),
     }))
+}
+
+/// Reads the recorded states of a speed; waits for the database.
+pub(super) fn read_states(
+    (store, runtime): (&Store, &Handle),
+    job: JobId,
+    document: Document,
+    source: &FieldSource,
+) -> Result<WheelStates, Problem> {
+    let text = runtime.block_on(store.document(job, document))?.unwrap_or_default();
+    Ok(states::unpack(&text, &source.reduced().wheel)?)
 }
 
 impl From<FieldError> for Problem {

@@ -1,7 +1,5 @@
 //! Fields of a recorded run: instants and deflection shapes.
 
-use std::f64::consts::PI;
-
 use axum::extract::State;
 use axum::response::Response;
 use serde::Deserialize;
@@ -10,7 +8,7 @@ use utoipa::IntoParams;
 
 use super::download::{Download, DownloadQuery, Next, lasting};
 use super::extract::{JobPath, Parameters};
-use super::field::{self, FRAMES, ViewWord};
+use super::field::{self, ShownQuery};
 use super::form::Form;
 use super::forms::READ_MEMORY;
 use super::models::model_not_found;
@@ -19,9 +17,10 @@ use super::results::{expect_successful, find, wrong_kind};
 use super::state::AppState;
 use crate::analysis::fields::{deflection_shape, instants, largest_instant};
 use crate::export::fields::FieldFile;
-use crate::store::jobs::{Job, JobKind, JobRequest};
+use crate::store::jobs::{Job, JobId, JobKind, JobRequest};
 use crate::store::results::Document;
-use crate::store::states::{self, StatesError};
+use crate::store::states::StatesError;
+use crate::store::{Store, StoreError};
 use crate::tokens::Principal;
 
 /// Which field to download, and how.
@@ -36,17 +35,6 @@ pub(super) struct FieldsQuery {
     engine_order: Option<u32>,
     /// Of a deflection shape: its phase, degrees; default 0.
     phase_deg: Option<f64>,
-    /// This sector alone, from 0; default all.
-    sector: Option<u32>,
-    /// Adds stress of the vibration, in the model's units; the static part of the centrifugal load is not in it.
-    #[serde(default)]
-    stress: bool,
-    /// Of a drawing: from where the wheel is looked at; default `front`.
-    #[param(inline)]
-    view: Option<ViewWord>,
-    /// Of a pvd: files over one period of a deflection shape, or over all recorded instants; default 24.
-    #[param(minimum = 1, maximum = 96)]
-    frames: Option<u32>,
 }
 
 /// Download the field of a recorded run, of the whole wheel or one sector: an instant, or the deflection shape of an engine order.
@@ -56,7 +44,7 @@ pub(super) struct FieldsQuery {
 ///
 /// A case study, or the histories of a sweep, must have recorded the quantity `state`.
 #[utoipa::path(get, path = "/v1/jobs/{id}/fields", operation_id = "get_fields", tag = "results",
-    params(("id" = String, Path, description = "Id of a case study or sweep."), FieldsQuery, DownloadQuery),
+    params(("id" = String, Path, description = "Id of a case study or sweep."), FieldsQuery, ShownQuery, DownloadQuery),
     responses(
         (status = 200, description = "The field."),
         (status = 400, description = "A parameter is not valid.", body = Problem,
@@ -71,6 +59,7 @@ pub(super) async fn get_fields(
     whose: Principal,
     JobPath(id): JobPath,
     Parameters(query): Parameters<FieldsQuery>,
+    Parameters(shown): Parameters<ShownQuery>,
     download: Download,
 ) -> Result<Response, Problem> {
     let job = find(&state, &whose, id).await?;
@@ -81,8 +70,7 @@ pub(super) async fn get_fields(
     };
     let model = sweep.model();
     let model = state.store.model(model, whose.only()).await?.ok_or_else(|| model_not_found(model))?;
-    let part = field::part(query.sector, &model.facts)?;
-    field::check_stress(query.stress, &model.facts)?;
+    let part = shown.part(&model.facts)?;
     if query.instant.is_some() && query.engine_order.is_some() {
         return Err(Problem::parameter(
             "engine_order",
@@ -107,19 +95,17 @@ pub(super) async fn get_fields(
         Next::Done(response) => return Ok(response),
         Next::Make(answer) => answer,
     };
-    let frames = if answer.form == Form::Pvd { query.frames.unwrap_or(FRAMES) as usize } else { 1 };
+    let frames = shown.frames(answer.form);
     let columns = if query.engine_order.is_some() { 2 } else { frames };
     let bytes = READ_MEMORY * bytes + source.memory(model.facts.own_dofs, columns);
     let (store, runtime) = (state.store.clone(), Handle::current());
-    let view = (query.view.unwrap_or_default().of(&source), model.facts.units.clone());
+    let view = (shown.view(&source), model.facts.units.clone());
     field::answer(&state, answer, bytes, view, move || {
-        let text = runtime.block_on(store.document(job.id, document))?.unwrap_or_default();
-        let states = states::unpack(&text, &source.reduced().wheel)?;
-        drop(text);
-        let sector = source.sector(query.stress).map_err(Box::new)?;
+        let states = field::read_states((&store, &runtime), job.id, document, &source)?;
+        let sector = source.sector(shown.stress).map_err(Box::new)?;
         let field = source.with_basis(|wheel, basis| match query.engine_order {
             Some(order) => {
-                let phase = query.phase_deg.unwrap_or_default() * PI / 180.0;
+                let phase = query.phase_deg.unwrap_or_default().to_radians();
                 deflection_shape(&states, &sector, order, (phase, frames), basis)
             }
             None => {
@@ -137,13 +123,18 @@ pub(super) async fn get_fields(
     .await
 }
 
-/// The document with the states of a speed, and its bytes.
-async fn recorded(state: &AppState, job: &Job, speed: Option<u32>) -> Result<(Document, u64), Problem> {
-    let of_states = |document: &Document| match document {
-        Document::States(index) => Some(*index),
+/// Indices of the speeds of which states are recorded.
+pub(super) async fn recorded_speeds(store: &Store, job: JobId) -> Result<Vec<u32>, StoreError> {
+    let of_states = |document| match document {
+        Document::States(speed) => Some(speed),
         _ => None,
     };
-    let all: Vec<u32> = state.store.documents(job.id).await?.iter().filter_map(of_states).collect();
+    Ok(store.documents(job).await?.into_iter().filter_map(of_states).collect())
+}
+
+/// The document with the states of a speed, and its bytes.
+async fn recorded(state: &AppState, job: &Job, speed: Option<u32>) -> Result<(Document, u64), Problem> {
+    let all = recorded_speeds(&state.store, job.id).await?;
     let found = match speed {
         Some(speed) => all.contains(&speed).then_some(speed),
         None => all.first().copied(),

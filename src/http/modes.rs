@@ -1,7 +1,5 @@
 //! Mode shapes of a model.
 
-use std::f64::consts::PI;
-
 use axum::extract::State;
 use axum::response::Response;
 use serde::{Deserialize, Serialize};
@@ -9,7 +7,7 @@ use utoipa::{IntoParams, ToSchema};
 
 use super::download::{Download, DownloadQuery, Next};
 use super::extract::{ModelPath, Parameters};
-use super::field::{self, FRAMES, ViewWord};
+use super::field::{self, ShownQuery};
 use super::form::Form;
 use super::models::model_not_found;
 use super::problem::{Kind, Problem};
@@ -41,32 +39,11 @@ pub(super) struct ModesQuery {
     mode: Option<u32>,
     /// How it moves; default `standing`.
     #[param(inline)]
-    motion: Option<MotionWord>,
+    motion: Option<Motion>,
     /// Phase, degrees; default 0: of a standing mode it turns the pattern about the wheel, of a travelling one it says how far that has
     /// come.
     #[serde(default)]
     phase_deg: f64,
-    /// This sector alone, from 0; default all.
-    sector: Option<u32>,
-    /// Adds stress, in the model's units for a largest displacement of 1.
-    #[serde(default)]
-    stress: bool,
-    /// Of a drawing: from where the wheel is looked at; default `front`.
-    #[param(inline)]
-    view: Option<ViewWord>,
-    /// Of a pvd: files over one period; default 24.
-    #[param(minimum = 1, maximum = 96)]
-    frames: Option<u32>,
-}
-
-/// How a mode moves.
-#[derive(Debug, Clone, Copy, Deserialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-enum MotionWord {
-    /// Its nodal lines stay where they are on the wheel.
-    Standing,
-    /// It travels around the wheel in the direction of rotation.
-    Travelling,
 }
 
 /// Natural frequencies at a speed.
@@ -87,7 +64,7 @@ pub(super) struct ModesBody {
 ///
 /// The model must have been reduced, which every sweep and modal analysis does.
 #[utoipa::path(get, path = "/v1/models/{id}/modes", operation_id = "get_modes", tag = "models",
-    params(("id" = String, Path, description = "Id of the model."), ModesQuery, DownloadQuery),
+    params(("id" = String, Path, description = "Id of the model."), ModesQuery, ShownQuery, DownloadQuery),
     responses(
         (status = 200, description = "The mode, or the list.", body = ModesBody),
         (status = 400, description = "A parameter is not valid.", body = Problem,
@@ -104,6 +81,7 @@ pub(super) async fn get_modes(
     whose: Principal,
     ModelPath(id): ModelPath,
     Parameters(query): Parameters<ModesQuery>,
+    Parameters(shown): Parameters<ShownQuery>,
     download: Download,
 ) -> Result<Response, Problem> {
     let model = state.store.model(&id, whose.only()).await?.ok_or_else(|| model_not_found(&id))?;
@@ -111,8 +89,7 @@ pub(super) async fn get_modes(
         Some(modes) => modes,
         None => finest(&state, &model).await?,
     };
-    let part = field::part(query.sector, &model.facts)?;
-    field::check_stress(query.stress, &model.facts)?;
+    let part = shown.part(&model.facts)?;
     let speed_rad_s = query.speed_rad_s;
     if !(speed_rad_s.is_finite() && speed_rad_s >= 0.0) {
         return Err(Problem::parameter("speed_rad_s", "a speed is a number from 0 on"));
@@ -121,7 +98,8 @@ pub(super) async fn get_modes(
         return Err(Problem::parameter("phase_deg", "a phase is a number"));
     }
     let source = field::source(&state, &model, modes_per_speed).await?;
-    let next = download.begin(&state, Some(format!("model {id}")), &Form::LIST_AND_FIELDS)?;
+    let lasting = format!("model {id}, {modes_per_speed} modes per speed");
+    let next = download.begin(&state, Some(lasting), &Form::LIST_AND_FIELDS)?;
     let answer = match next {
         Next::Done(response) => return Ok(response),
         Next::Make(answer) => answer,
@@ -138,23 +116,19 @@ pub(super) async fn get_modes(
         let detail = format!("a mode shape has a nodal diameter: 0 to {most}");
         return Err(Problem::parameter("nodal_diameter", detail));
     };
-    let in_time = matches!(answer.form, Form::Pvd);
     let asked = ModeRequest {
         speed_rad_s,
         stiffening: true,
         nodal_diameter: nodal_diameter as usize,
         mode: query.mode.unwrap_or(1) as usize,
-        motion: match query.motion {
-            Some(MotionWord::Travelling) => Motion::Travelling,
-            Some(MotionWord::Standing) | None => Motion::Standing,
-        },
-        phase: query.phase_deg * PI / 180.0,
-        frames: if in_time { query.frames.unwrap_or(FRAMES) as usize } else { 1 },
+        motion: query.motion.unwrap_or(Motion::Standing),
+        phase: query.phase_deg.to_radians(),
+        frames: shown.frames(answer.form),
     };
     let bytes = source.memory(model.facts.own_dofs, 1);
-    let view = (query.view.unwrap_or_default().of(&source), model.facts.units.clone());
+    let view = (shown.view(&source), model.facts.units.clone());
     field::answer(&state, answer, bytes, view, move || {
-        let sector = source.sector(query.stress).map_err(Box::new)?;
+        let sector = source.sector(shown.stress).map_err(Box::new)?;
         let field = source.with_basis(|wheel, basis| mode_field(wheel, &sector, &asked, basis))?;
         Ok(FieldFile { sector, field, part })
     })

@@ -4,11 +4,12 @@ use std::f64::consts::TAU;
 
 use tokio::runtime::Handle;
 
-use super::field::ViewWord;
+use super::field::{ViewWord, read_states};
+use super::fields::recorded_speeds;
 use super::forms::READ_MEMORY;
 use super::problem::Problem;
 use super::state::AppState;
-use crate::analysis::fields::{Part, instants, largest_instant, surface};
+use crate::analysis::fields::{FieldSector, Part, instants, largest_instant, surface};
 use crate::analysis::resolved::ResolvedSweep;
 use crate::analysis::result::FieldSurface;
 use crate::analysis::run::ModelFacts;
@@ -16,7 +17,7 @@ use crate::jobs::FieldSource;
 use crate::plot::SurfaceView;
 use crate::store::jobs::Job;
 use crate::store::results::Document;
-use crate::store::{Store, StoreError, states};
+use crate::store::{Store, StoreError};
 
 /// Most speeds of which there are pictures.
 const MOST: usize = 2;
@@ -42,12 +43,8 @@ impl Pictures {
         if facts.mesh.is_none() {
             return Ok(None);
         }
-        let of_states = |document| match document {
-            Document::States(speed) => Some(speed),
-            _ => None,
-        };
-        let recorded = state.store.documents(job.id).await?;
-        let speeds: Vec<u32> = recorded.into_iter().filter_map(of_states).take(MOST).collect();
+        let recorded = recorded_speeds(&state.store, job.id).await?;
+        let speeds: Vec<u32> = recorded.into_iter().take(MOST).collect();
         if speeds.is_empty() {
             return Ok(None);
         }
@@ -70,15 +67,25 @@ impl Pictures {
         sweep: &ResolvedSweep,
         facts: &ModelFacts,
     ) -> Vec<(FieldSurface, SurfaceView)> {
+        let left_out = |speed: Option<u32>, problem: &Problem| {
+            tracing::warn!(job.id = %job.id, speed, detail = problem.detail, "left a picture out of a report");
+        };
+        let sector = match self.source.sector(true).map_err(Box::new) {
+            Ok(sector) => sector,
+            Err(error) => {
+                left_out(None, &error.into());
+                return Vec::new();
+            }
+        };
         let front = ViewWord::Front.of(&self.source);
-        let drawn = |&speed: &u32| match self.draw_one((store, runtime), job, speed, facts) {
+        let drawn = |&speed: &u32| match self.draw_one((store, runtime), job, speed, (&sector, facts)) {
             Ok(surface) => surface.map(|mut surface| {
                 let rad_s = sweep.speeds().rad_s().get(speed as usize).copied().unwrap_or_default();
                 surface.title = format!("{:.0} rpm, {}", 60.0 * rad_s / TAU, surface.title);
                 (surface, front)
             }),
             Err(problem) => {
-                tracing::warn!(job.id = %job.id, speed, detail = problem.detail, "left a picture out of a report");
+                left_out(Some(speed), &problem);
                 None
             }
         };
@@ -90,16 +97,13 @@ impl Pictures {
         (store, runtime): (&Store, &Handle),
         job: &Job,
         speed: u32,
-        facts: &ModelFacts,
+        (sector, facts): (&FieldSector, &ModelFacts),
     ) -> Result<Option<FieldSurface>, Problem> {
-        let text = runtime.block_on(store.document(job.id, Document::States(speed)))?.unwrap_or_default();
-        let states = states::unpack(&text, &self.source.reduced().wheel)?;
-        drop(text);
-        let sector = self.source.sector(true).map_err(Box::new)?;
+        let states = read_states((store, runtime), job.id, Document::States(speed), &self.source)?;
         let field = self.source.with_basis(|wheel, basis| {
             let at = largest_instant(&states, wheel).unwrap_or(0);
-            instants(&states, &sector, &[at], basis)
+            instants(&states, sector, &[at], basis)
         })?;
-        Ok(surface(&field, &sector, Part::Wheel, 0, &facts.units))
+        Ok(surface(&field, sector, Part::Wheel, 0, &facts.units))
     }
 }

@@ -73,7 +73,7 @@ impl FieldSource {
         let mesh = package::read_mesh(&self.package, &limits)?;
         let axis = package::read_places(&self.package, &limits)?.axis;
         let sector = FieldSector::new(self.reduced.wheel.sectors, axis, nodes, mesh)
-            .map_err(|error| PackageError::Io { source: io::Error::other(error) })?;
+            .ok_or_else(|| PackageError::Io { source: io::Error::other("its axis has no direction") })?;
         Ok(if stress { sector.with_stress() } else { sector })
     }
 

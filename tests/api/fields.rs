@@ -182,6 +182,10 @@ async fn a_wheel_is_closed_and_its_modes_are_where_they_belong() {
     let list = api.get(&format!("{modes}?speed_rad_s=1000")).await.body;
     assert_eq!(list["nodal_diameters"].as_array().unwrap().len(), SECTORS / 2 + 1, "{list}");
     api.get(&format!("{modes}?modes_per_speed=9")).await.problem(409, "not-reduced");
+    let tagged = api.request("GET", &modes).send().await.unwrap();
+    let tag = tagged.headers()["etag"].clone();
+    let again = api.request("GET", &modes).header("if-none-match", &tag).send().await.unwrap();
+    assert_eq!(again.status(), StatusCode::NOT_MODIFIED);
     for (query, parameter) in [
         ("format=vtu", "nodal_diameter"),
         ("format=vtu&nodal_diameter=3", "nodal_diameter"),
@@ -263,6 +267,14 @@ async fn a_wheel_is_closed_and_its_modes_are_where_they_belong() {
     );
     let svg = String::from_utf8(raw(api, &format!("{mode}&format=svg")).await).unwrap();
     assert!(roxmltree::Document::parse(&svg).is_ok());
+
+    // Without a number of modes it is the finest reduction: a finer one is another answer.
+    let finer = json!({"model": model, "modes_per_speed": 5, "speeds": {"values": [0.0], "unit": "rad_s"}});
+    let job = api.post("/v1/modal-analyses", &finer).await.text("/id");
+    assert_eq!(api.finish(&job).await["status"], "successful");
+    let changed = api.request("GET", &modes).header("if-none-match", &tag).send().await.unwrap();
+    assert_eq!(changed.status(), StatusCode::OK);
+    assert_eq!(changed.json::<Value>().await.unwrap()["modes_per_speed"], 5);
     app.stop().await;
 }
 

@@ -9,7 +9,7 @@ use super::error::FieldError;
 use super::field::{BasisProduct, Field, Frame};
 use super::sector::FieldSector;
 use rubmap_numerics::sector_fourier::is_single;
-use rubmap_wheel::dynamics::modal_wheel::{mode_shapes, natural_frequencies};
+use rubmap_wheel::dynamics::modal_wheel::{natural_frequencies, natural_modes};
 use rubmap_wheel::dynamics::reduction::ReducedWheel;
 
 /// How a mode moves.
@@ -81,20 +81,19 @@ pub fn mode_field(
     basis: BasisProduct<'_>,
 ) -> Result<Field, FieldError> {
     let most = reduced.harmonics.len() - 1;
-    let Some(harmonic) = reduced.harmonics.get(asked.nodal_diameter) else {
+    if asked.nodal_diameter > most {
         let message = format!("the wheel has nodal diameters 0 to {most}");
         return Err(FieldError::parameter("nodal_diameter", message));
-    };
-    let omega = natural_frequencies(harmonic, asked.speed_rad_s, asked.stiffening)?;
-    let mode = asked.mode.checked_sub(1).filter(|&mode| mode < omega.len()).ok_or_else(|| {
-        let message = format!("nodal diameter {} has modes 1 to {}", asked.nodal_diameter, omega.len());
-        FieldError::parameter("mode", message)
-    })?;
+    }
     if asked.motion == Motion::Travelling && is_single(asked.nodal_diameter, reduced.sectors) {
         let message = format!("nodal diameter {} cannot travel: its modes are single", asked.nodal_diameter);
         return Err(FieldError::parameter("motion", message));
     }
-    let shapes = mode_shapes(reduced, asked.nodal_diameter, asked.speed_rad_s, asked.stiffening)?;
+    let (omega, shapes) = natural_modes(reduced, asked.nodal_diameter, asked.speed_rad_s, asked.stiffening)?;
+    let mode = asked.mode.checked_sub(1).filter(|&mode| mode < omega.len()).ok_or_else(|| {
+        let message = format!("nodal diameter {} has modes 1 to {}", asked.nodal_diameter, omega.len());
+        FieldError::parameter("mode", message)
+    })?;
     let column = Mat::from_fn(shapes.nrows(), 1, |row, _| shapes[(row, mode)]);
     let frames = (0..asked.frames).map(|k| frame(asked, k as f64 / asked.frames as f64)).collect();
     let mut field = Field::new(sector, &[(asked.nodal_diameter, column)], frames, basis)?;

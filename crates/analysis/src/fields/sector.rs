@@ -6,7 +6,6 @@ use std::ops::Range;
 use faer::{Mat, MatRef, c64};
 use nalgebra::Matrix3;
 
-use super::error::FieldError;
 use rubmap_solid::frame::AxisFrame;
 use rubmap_solid::mesh::SectorMesh;
 use rubmap_solid::stress::NodalStress;
@@ -34,23 +33,20 @@ pub struct FieldSector {
 }
 
 impl FieldSector {
-    /// Of the nodes of a package of so many `sectors`, and its mesh if it has one, in the same order.
-    ///
-    /// # Errors
-    /// An axis without direction.
+    /// Of the nodes of a package of so many `sectors`, and its mesh if it has one, in the same order; `None` if the axis has no
+    /// direction.
     pub fn new(
         sectors: usize,
         axis: ([f64; 3], [f64; 3]),
         nodes: Vec<SectorNode>,
         mesh: Option<SectorMesh>,
-    ) -> Result<Self, FieldError> {
-        let no_axis = || FieldError::Basis(std::io::Error::other("the axis has no direction"));
-        let frame = AxisFrame::new(axis.0, axis.1).ok_or_else(no_axis)?;
+    ) -> Option<Self> {
+        let frame = AxisFrame::new(axis.0, axis.1)?;
         let mut low: Vec<u32> = (0..nodes.len() as u32).collect();
         for &(from, to) in mesh.iter().flat_map(|mesh| &mesh.cyclic) {
             low[to as usize] = from;
         }
-        Ok(Self { sectors, frame, nodes, mesh, stress: None, low })
+        Some(Self { sectors, frame, nodes, mesh, stress: None, low })
     }
 
     /// The same with what stress needs, where there is a mesh.

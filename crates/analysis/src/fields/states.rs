@@ -112,7 +112,11 @@ pub fn deflection_shape(
 /// The highest engine order below half the samples of a revolution.
 fn largest_engine_order(states: &WheelStates) -> u32 {
     match states.revolutions[..] {
-        [first, second, ..] if second > first => (0.5 / (second - first)).ceil() as u32 - 1,
+        [first, second, ..] if second > first => {
+            // A whole number but for rounding.
+            let samples = (second - first).recip().round() as u32;
+            samples.saturating_sub(1) / 2
+        }
         _ => 0,
     }
 }
@@ -141,4 +145,22 @@ pub fn largest_instant(states: &WheelStates, reduced: &ReducedWheel) -> Option<u
     };
     let all = (0..states.revolutions.len()).map(|instant| (instant, squared(instant)));
     all.reduce(|a, b| if b.1 > a.1 { b } else { a }).map(|(instant, _)| instant)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An engine order of half the samples is its own negative: it would count twice.
+    #[test]
+    fn engine_orders_stay_below_half_the_samples() {
+        for samples in [1, 2, 3, 8, 9, 300, 360, 500, 1000] {
+            for begin in [0, 7, 29, 149] {
+                let instant = |sample: u32| f64::from(begin) + f64::from(sample) / f64::from(samples);
+                let revolutions = (1..=2 * samples).map(instant).collect();
+                let found = largest_engine_order(&WheelStates { revolutions, harmonics: Vec::new() });
+                assert!(2 * found < samples && samples <= 2 * (found + 1), "{samples} from {begin}: {found}");
+            }
+        }
+    }
 }

@@ -4,7 +4,7 @@ use super::field::Field;
 use super::points::{Points, skin_faces};
 use super::sector::{FieldSector, Part};
 use super::tensor::von_mises;
-use crate::result::{FieldSurface, SurfaceColour};
+use crate::result::{FieldSurface, SurfaceColour, stress_unit};
 use rubmap_wheel::dynamics::nodes::SectorNode;
 use rubmap_wheel::dynamics::sector::Units;
 
@@ -46,11 +46,7 @@ pub fn surface(
         );
     }
     let colour = match of.has_stress() {
-        true => SurfaceColour {
-            quantity: "von Mises stress".to_owned(),
-            unit: format!("{}/{}²", units.force, units.length),
-            values,
-        },
+        true => SurfaceColour { quantity: "von Mises stress".to_owned(), unit: stress_unit(units), values },
         false => SurfaceColour { quantity: "displacement".to_owned(), unit: units.length.clone(), values },
     };
     Some(FieldSurface {

@@ -57,9 +57,10 @@ impl ValidityCheck {
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum ValidityMeasure {
-    /// Largest displacement of a contact node over the blade's thickness there, mean included; of a model with a mesh.
+    /// Largest displacement of a contact node, mean included, over the smallest thickness of the blade at its tip; of a model with a
+    /// mesh.
     DisplacementOverThickness,
-    /// The same over the length of the contact line.
+    /// The same displacement over the length of the contact line.
     DisplacementOverChord,
     /// Largest rotation of the line between two neighbouring contact nodes, rad.
     Rotation,
@@ -67,6 +68,7 @@ pub enum ValidityMeasure {
     StressOverYield,
     /// How far the same contact nodes of neighbouring blades come closer tangentially, over the distance between them.
     NeighbourApproach,
-    /// Largest tangential displacement of a tip over the length in which the casing's lobes change.
+    /// Largest tangential displacement of a contact node over the length of a lobe of the casing at the smallest radius of the contact
+    /// line.
     ContactOverLobe,
 }

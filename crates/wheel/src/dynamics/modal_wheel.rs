@@ -115,6 +115,17 @@ pub fn mode_shapes(
     Ok(eigenpairs(wheel, harmonic, speed_rad_s, stiffening)?.vectors)
 }
 
+/// ω in rad/s, ascending, and Φ of nodal diameter `harmonic` as [`mode_shapes`] has it; errors as of [`ModalWheel::at`].
+pub fn natural_modes(
+    wheel: &ReducedWheel,
+    harmonic: usize,
+    speed_rad_s: f64,
+    stiffening: bool,
+) -> Result<(Vec<f64>, Mat<c64>), ModelError> {
+    let pairs = eigenpairs(wheel, harmonic, speed_rad_s, stiffening)?;
+    Ok((frequencies(&pairs.values, harmonic, speed_rad_s)?, pairs.vectors))
+}
+
 fn eigenpairs(
     wheel: &ReducedWheel,
     harmonic: usize,
@@ -144,14 +155,14 @@ pub(super) fn modal_harmonic(
     effects: RotationEffects,
 ) -> Result<ModalHarmonic, ModelError> {
     let single = is_single(harmonic, wheel.sectors);
-    let pairs = eigenpairs(wheel, harmonic, speed_rad_s, effects.stiffening)?;
+    let (omega, shapes) = natural_modes(wheel, harmonic, speed_rad_s, effects.stiffening)?;
     Ok(ModalHarmonic {
         harmonic,
         single,
-        omega: frequencies(&pairs.values, harmonic, speed_rad_s)?,
-        contact: pairs.vectors.subrows(0, wheel.contact_dofs()).to_owned(),
+        omega,
+        contact: shapes.subrows(0, wheel.contact_dofs()).to_owned(),
         gyroscopic: if effects.coriolis {
-            Some(modal_gyroscopic(&wheel.harmonics[harmonic], &pairs.vectors, single)?)
+            Some(modal_gyroscopic(&wheel.harmonics[harmonic], &shapes, single)?)
         } else {
             None
         },
