@@ -1,6 +1,6 @@
 //! Stress and validity of the speeds of a sweep.
 
-use rubmap::impeller::{ImpellerParameters, Preset, generate};
+use rubmap::impeller::{ImpellerParameters, generate};
 use serde_json::{Value, json};
 
 use super::app::{Api, TestApp, sweep_of};
@@ -124,42 +124,5 @@ async fn stress_without_elements_is_refused_where_it_is_asked_for() {
     assert!(answer.body.to_string().contains("/record/stress"), "{}", answer.body);
     let answer = app.api.post("/v1/sweeps", &rubbing(&model, Some(json!({"excluded_radius": -1.0})))).await;
     assert!(answer.body.to_string().contains("/record/stress/excluded_radius"), "{}", answer.body);
-    app.stop().await;
-}
-
-/// What stress costs: `cargo test --release --test api price_of_stress -- --ignored --nocapture`.
-#[tokio::test]
-#[ignore = "measures, on an idle machine"]
-async fn price_of_stress() {
-    let app = TestApp::start_with(|config| config.upload_bytes = 64 << 20).await;
-    let api = &app.api;
-    for (name, preset) in [("small", Preset::Small), ("medium", Preset::Medium)] {
-        if std::env::var("RUBMAP_PRESET").is_ok_and(|only| only != name) {
-            continue;
-        }
-        let model = api.model(package(&preset.parameters())).await;
-        let mut request = rubbing(&model, None);
-        request["modes_per_speed"] = 20.into();
-        request["speeds"]["count"] = 3.into();
-        request["integration"] =
-            json!({"revolutions": 50, "window_revolutions": 20, "ramp_revolutions": 5.0});
-        request["max_engine_order"] = 30.into();
-        let seconds = |points: &[Value]| -> f64 {
-            points.iter().map(|point| point["wall_time_s"].as_f64().unwrap()).sum::<f64>()
-                / points.len() as f64
-        };
-        let without = points(api, &request).await;
-        request["record"] = json!({"stress": {}});
-        let with = points(api, &request).await;
-        let followed: Vec<&Value> = with.iter().map(|point| &point["stress"]["followed_nodes"]).collect();
-        println!(
-            "{name}: {:.3} s a speed without, {:.3} s with: × {:.3}; followed {followed:?}; contact {:?}, {:?}",
-            seconds(&without),
-            seconds(&with),
-            seconds(&with) / seconds(&without),
-            with.iter().map(|point| &point["contact_share"]).collect::<Vec<_>>(),
-            with[0]["stress"]["largest"]
-        );
-    }
     app.stop().await;
 }

@@ -46,6 +46,7 @@ pub(super) fn principal(stress: &Stress) -> f64 {
 }
 
 /// The largest von Mises stress of Re(e^{jφ} (a + jb)) over φ: half the long axis of an ellipse.
+#[cfg(test)]
 pub(super) fn ellipse(a: &Stress, b: &Stress) -> f64 {
     let (aa, bb, ab) = (form(a, a), form(b, b), form(a, b));
     (0.5 * (aa + bb + (aa - bb).hypot(2.0 * ab))).max(0.0).sqrt()

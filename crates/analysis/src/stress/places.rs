@@ -1,5 +1,7 @@
 //! The places of a mesh at which stress is claimed, and what their material bears.
 
+use std::collections::BTreeSet;
+
 use rubmap_solid::frame::{AxisFrame, distance};
 use rubmap_solid::material::Material;
 use rubmap_solid::mesh::SectorMesh;
@@ -12,28 +14,25 @@ pub(super) struct Place {
     pub(super) node: u64,
     /// Where it is.
     pub(super) position: [f64; 3],
-    /// The element set around it whose strengths count.
+    /// Of the element sets around it the weakest in fatigue.
     pub(super) set: usize,
+    /// The least yield strength of the sets around it.
+    pub(super) yield_strength: Option<f64>,
     /// Distance from the nearest contact node, those of the neighbouring blades included.
     pub(super) from_contact: f64,
 }
 
 /// The places of `operator`, in its order; `contact` are the ids of contact nodes.
 pub(super) fn places(mesh: &SectorMesh, operator: &NodalStress, contact: &[u64]) -> Vec<Place> {
-    let mut set_of = vec![None; mesh.nodes.len()];
+    let mut sets = vec![BTreeSet::new(); mesh.nodes.len()];
     for element in &mesh.elements {
-        let set = element.set as usize;
         for &node in &element.nodes {
-            let weaker = |known: usize| {
-                let strength = |set: usize| borne(&mesh.sets[set].material);
-                if strength(set) < strength(known) { set } else { known }
-            };
-            let known = &mut set_of[node as usize];
-            *known = Some(known.map_or(set, weaker));
+            sets[node as usize].insert(element.set as usize);
         }
     }
     for &(low, high) in &mesh.cyclic {
-        set_of[low as usize] = set_of[low as usize].or(set_of[high as usize]);
+        let across = std::mem::take(&mut sets[high as usize]);
+        sets[low as usize].extend(across);
     }
     let angle = std::f64::consts::TAU / mesh.sectors as f64;
     let frame = AxisFrame::new(mesh.axis.0, mesh.axis.1);
@@ -47,10 +46,17 @@ pub(super) fn places(mesh: &SectorMesh, operator: &NodalStress, contact: &[u64])
     let contact: Vec<[f64; 3]> = own.iter().flat_map(turned).collect();
     let place = |&node: &u32| {
         let position = mesh.nodes[node as usize];
+        let material = |&set: &usize| &mesh.sets[set].material;
+        let around = &sets[node as usize];
+        let weakest = around.iter().min_by(|a, b| borne(material(a)).total_cmp(&borne(material(b))));
         Place {
             node: mesh.node_ids[node as usize],
             position,
-            set: set_of[node as usize].unwrap_or(0),
+            set: weakest.copied().unwrap_or(0),
+            yield_strength: around
+                .iter()
+                .filter_map(|set| material(set).yield_strength)
+                .min_by(f64::total_cmp),
             from_contact: contact.iter().map(|&at| distance(at, position)).fold(f64::INFINITY, f64::min),
         }
     };

@@ -63,9 +63,8 @@ pub(crate) fn stress_of(
     };
     let largest = search.best(1, &rough, Sought::VonMises(&vec![1.0; stress.places()])).first().copied();
     let utilised = search.best(CYCLES, &rough, Sought::Utilisation);
-    let over_yield: Vec<f64> = (stress.places.iter())
-        .map(|place| stress.sets[place.set].material.yield_strength.map_or(-1.0, f64::recip))
-        .collect();
+    let over_yield: Vec<f64> =
+        stress.places.iter().map(|place| place.yield_strength.map_or(-1.0, f64::recip)).collect();
     let yielding = search.best(1, &rough, Sought::VonMises(&over_yield)).first().copied();
     let place = |place: usize| (&stress.places[place], &stress.sets[stress.places[place].set]);
     let peak = largest.map(|at| {
@@ -94,7 +93,7 @@ pub(crate) fn stress_of(
             principal_mean,
             principal_alternating,
             utilisation: Weights::goodman(&set.material).map(|goodman| goodman.of(alternating, mean)),
-            over_yield: set.material.yield_strength.map(|strength| followed.peak.0 / strength),
+            over_yield: place.yield_strength.map(|strength| followed.peak.0 / strength),
         }
     });
     let cycles = cycles.collect();

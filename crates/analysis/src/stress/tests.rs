@@ -106,6 +106,7 @@ fn case(seed: u64, repeats: usize, steady: f64) -> Case {
         node: 100 + node as u64,
         position: [node as f64, 0.0, 0.0],
         set: node % 2,
+        yield_strength: sets[node % 2].material.yield_strength,
         from_contact: 1.0,
     };
     let fixed = StaticStress {
