@@ -15,7 +15,7 @@ mod search;
 mod trajectory;
 
 pub use make::{StressMaker, StressOf};
-pub use reduced::{HarmonicStress, ReducedStress, StaticStress};
+pub use reduced::{HarmonicStress, ReducedStress, StaticStress, StaticWheel};
 pub(crate) use search::{Course, stress_of};
 
 #[cfg(test)]

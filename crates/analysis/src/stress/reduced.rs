@@ -32,6 +32,15 @@ pub struct HarmonicStress {
     pub(super) norms: Vec<Norm>,
 }
 
+/// The wheel under its centrifugal load.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StaticWheel {
+    /// Its stress.
+    pub stress: StaticStress,
+    /// `[own DOF][given speed]`: the solutions at the given speeds per unit Ω².
+    pub displacement: Vec<f64>,
+}
+
 /// Stress of the wheel under its centrifugal load.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StaticStress {
@@ -112,6 +121,15 @@ impl ReducedStress {
             })
         };
         self.fixed.stress.chunks_exact(6 * shares.len()).map(of).collect()
+    }
+}
+
+impl StaticWheel {
+    /// Displacement at a speed, of every own DOF; the same in every sector.
+    pub fn displacement(&self, speed_rad_s: f64, stiffening: bool) -> Vec<f64> {
+        let shares = self.stress.span.at(speed_rad_s, stiffening);
+        let of = |dof: &[f64]| shares.iter().zip(dof).map(|(share, u)| share * u).sum();
+        self.displacement.chunks_exact(shares.len()).map(of).collect()
     }
 }
 
