@@ -1,6 +1,7 @@
 //! Stress and validity of the speeds of a sweep.
 
 use rubmap::impeller::{ImpellerParameters, Preset, generate};
+use rubmap::solid::material::FatigueStrength;
 use serde_json::{Value, json};
 
 use super::app::{Api, TestApp, modal_analysis_of, sweep_of};
@@ -175,6 +176,40 @@ async fn stress_has_errors_of_its_own_in_targets_and_studies() {
     let drawing = api.request("GET", &format!("/v1/jobs/{id}/work-precision?format=svg&quantity=stress"));
     let drawing = drawing.send().await.unwrap().text().await.unwrap();
     assert!(drawing.contains("largest von Mises stress"));
+    app.stop().await;
+}
+
+/// Critical speeds by utilisation, and the column of a map's csv.
+#[tokio::test]
+async fn critical_speeds_are_ranked_by_utilisation_on_request() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let mut parameters = impeller();
+    parameters.material.ultimate_strength = Some(1000.0);
+    parameters.material.fatigue_strength =
+        Some(FatigueStrength { amplitude: 400.0, source: "a test".to_owned() });
+    let model = api.model(package(&parameters)).await;
+    let mut request = rubbing(&model, Some(json!({})));
+    request["speeds"] = json!({"from": 700.0, "to": 1500.0, "count": 7, "unit": "rad_s"});
+    request["peak_prominence"] = json!(0.0);
+    let id = api.sweep(&request).await;
+    assert_eq!(api.finish(&id).await["status"], "successful");
+    for path in ["critical-speeds", "critical-speeds/wheel"] {
+        let table = async |query: &str| {
+            let table = api.get(&format!("/v1/jobs/{id}/{path}{query}")).await.body;
+            table["critical_speeds"].as_array().unwrap().clone()
+        };
+        let (usual, ranked) = (table("").await, table("?rank=utilisation").await);
+        let used: Vec<f64> = ranked.iter().map(|speed| speed["utilisation"].as_f64().unwrap()).collect();
+        println!("{path}: {used:?}");
+        assert!(used.len() > 1 && used.is_sorted_by(|a, b| a >= b), "{path}: {used:?}");
+        assert!(usual.len() == ranked.len() && usual.iter().all(|speed| ranked.contains(speed)), "{path}");
+    }
+    let csv = api.request("GET", &format!("/v1/jobs/{id}/interaction-map?format=csv"));
+    let csv = csv.send().await.unwrap().text().await.unwrap();
+    let rows: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
+    let column = rows[0].iter().position(|name| *name == "utilisation").unwrap();
+    assert!(rows.len() == 8 && rows[1..].iter().all(|row| row[column].parse::<f64>().unwrap() > 0.0));
     app.stop().await;
 }
 

@@ -17,7 +17,6 @@ pub struct Accuracy {
     pub target: f64,
     /// Of a sweep: whose error it is.
     #[serde(default, skip_serializing_if = "AccuracyOf::is_response")]
-    #[cfg_attr(feature = "schema", schema(inline))]
     pub of: AccuracyOf,
 }
 
