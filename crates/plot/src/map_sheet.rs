@@ -3,10 +3,11 @@
 use super::axis::{Scale, label, logarithmic_ticks, ticks};
 use super::cells::{cells, range};
 use super::key::Flow;
+use super::level::LevelColour;
 use super::map_view::{End, QUIETEST, VerticalAxis, View, is_missing};
 use super::svg::{Element, document, group, text};
 use super::window::Window;
-use super::{LevelColour, colour_bar, hatching, heading, heat, margin};
+use super::{colour_bar, hatching, heading, heat, margin};
 use rubmap_analysis::result::InteractionMap;
 
 const WIDTH: f64 = 1180.0;
