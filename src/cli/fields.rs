@@ -24,6 +24,9 @@ pub(crate) struct FieldsArgs {
     /// The deflection shape of this engine order over all recorded revolutions
     #[arg(long)]
     engine_order: Option<u32>,
+    /// Add displacement and stress of the centrifugal load to those of the vibration at an instant
+    #[arg(long = "static", conflicts_with = "engine_order")]
+    with_static: bool,
     #[command(flatten)]
     file: FieldFileArgs,
     /// File to write: .vtu, .vtp, .npz, .pvd, .svg or .png
@@ -51,7 +54,8 @@ async fn play(args: &FieldsArgs, client: &Client, body: Value) -> anyhow::Result
         (None, Some(order)) => format!("engine_order={order}&"),
         (None, None) => String::new(),
     };
-    args.file.save(client, &format!("/v1/jobs/{}/fields?{which}", job.id), &args.out).await
+    let fixed = if args.with_static { "static=include&" } else { "" };
+    args.file.save(client, &format!("/v1/jobs/{}/fields?{which}{fixed}", job.id), &args.out).await
 }
 
 /// The request with the wheel's state as all that is recorded.

@@ -24,19 +24,23 @@ pub struct Maps<R> {
 }
 
 impl<R: Fn(u32, u32) -> io::Result<Option<Vec<f64>>>> Maps<R> {
-    /// A line per sensor and speed, a column per engine order; empty where a speed has no result.
+    /// A line per sensor and speed, a column per engine order; empty where a speed has no result. The utilisation is there if stress was
+    /// asked for.
     ///
     /// # Errors
     /// Those of writing and of reading rows, here and below.
     pub fn csv(&self, unit: Option<SpeedUnit>, out: &mut dyn Write) -> io::Result<()> {
         let (speeds, columns) = (self.indices.len(), self.map.engine_orders.len());
         let left = |sensor: u32| {
-            let left = vec![
+            let mut left = vec![
                 Array::whole("sensor", std::iter::repeat_n(sensor, speeds)),
                 Array::whole("index", self.indices.iter().copied()),
                 Array::reals("speed_rad_s", self.map.speeds_rad_s.iter().copied()),
                 Array::words("status", self.status()),
             ];
+            if self.map.settings.record.stress.is_some() {
+                left.push(Array::some_reals("utilisation", self.found(Point::utilisation)));
+            }
             add_to_arrays(left, unit)
         };
         let unit_of_all = Sensor::common_unit(self.sensors.iter().map(|(_, sensor)| sensor), &self.map.units);

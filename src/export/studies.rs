@@ -38,6 +38,7 @@ impl Export for WorkPrecision {
             Array::some_reals("amplitude_spread", errors().map(|errors| errors?.amplitude_spread)),
             Array::some_reals("engine_orders_error", errors().map(|errors| errors?.engine_orders)),
             Array::some_reals("impulse_error", errors().map(|errors| errors?.impulse)),
+            Array::some_reals("stress_error", errors().map(|errors| errors?.stress)),
             Array::reals("set_up_s", of().map(|run| run.cost.set_up_s)),
             Array::reals("per_revolution_s", of().map(|run| run.cost.per_revolution_s)),
             Array::reals("time_s", of().map(|run| run.time_s)),

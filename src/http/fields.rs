@@ -4,7 +4,7 @@ use axum::extract::State;
 use axum::response::Response;
 use serde::Deserialize;
 use tokio::runtime::Handle;
-use utoipa::IntoParams;
+use utoipa::{IntoParams, ToSchema};
 
 use super::download::{Download, DownloadQuery, Next, lasting};
 use super::extract::{JobPath, Parameters};
@@ -16,7 +16,9 @@ use super::problem::{Kind, Problem};
 use super::results::{expect_successful, find, wrong_kind};
 use super::state::AppState;
 use crate::analysis::fields::{deflection_shape, instants, largest_instant};
+use crate::dynamics::reduction::ReductionError;
 use crate::export::fields::FieldFile;
+use crate::jobs::StaticWheelError;
 use crate::store::jobs::{Job, JobId, JobKind, JobRequest};
 use crate::store::results::Document;
 use crate::store::states::StatesError;
@@ -35,6 +37,21 @@ pub(super) struct FieldsQuery {
     engine_order: Option<u32>,
     /// Of a deflection shape: its phase, degrees; default 0.
     phase_deg: Option<f64>,
+    /// Of an instant: whether displacement and stress are those of the whole load or of the vibration alone; default `leave_out`.
+    #[serde(rename = "static", default)]
+    #[param(inline)]
+    static_part: StaticPart,
+}
+
+/// What becomes of the static part of the centrifugal load.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum StaticPart {
+    /// Displacement and stress are of the vibration alone.
+    #[default]
+    LeaveOut,
+    /// They contain it, as `largest` of a sweep's stress does; files have it apart, too, as `static_displacement` and `static_stress`.
+    Include,
 }
 
 /// Download the field of a recorded run, of the whole wheel or one sector: an instant, or the deflection shape of an engine order.
@@ -89,7 +106,10 @@ pub(super) async fn get_fields(
         }
         _ => {}
     }
-    let (document, bytes) = recorded(&state, &job, query.speed).await?;
+    if query.static_part == StaticPart::Include {
+        check_static(query.engine_order.is_some(), model.facts.mesh.is_some())?;
+    }
+    let (document, speed, bytes) = recorded(&state, &job, query.speed).await?;
     let source = field::source(&state, &model, sweep.modes_per_speed()).await?;
     let answer = match download.begin(&state, lasting(&job), &Form::FIELDS)? {
         Next::Done(response) => return Ok(response),
@@ -98,6 +118,12 @@ pub(super) async fn get_fields(
     let frames = shown.frames(answer.form);
     let columns = if query.engine_order.is_some() { 2 } else { frames };
     let bytes = READ_MEMORY * bytes + source.memory(model.facts.own_dofs, columns);
+    let fixed = match query.static_part {
+        StaticPart::LeaveOut => None,
+        StaticPart::Include => state.jobs.static_wheel(&source, model.facts.own_dofs).await?,
+    };
+    let speed_rad_s = sweep.speeds().rad_s().get(speed as usize).copied().unwrap_or(0.0);
+    let fixed = fixed.map(|fixed| fixed.displacement(speed_rad_s, sweep.is_stiffened()));
     let (store, runtime) = (state.store.clone(), Handle::current());
     let view = (shown.view(&source), model.facts.units.clone());
     field::answer(&state, answer, bytes, view, move || {
@@ -118,9 +144,25 @@ pub(super) async fn get_fields(
                 instants(&states, &sector, &at, basis)
             }
         })?;
+        let field = match fixed {
+            Some(fixed) => field.upon(&sector, &fixed),
+            None => field,
+        };
         Ok(FieldFile { sector, field, part })
     })
     .await
+}
+
+/// Refuses the static part where there is none.
+fn check_static(of_shape: bool, has_mesh: bool) -> Result<(), Problem> {
+    let detail = match (of_shape, has_mesh) {
+        (true, _) => {
+            "a deflection shape is what vibrates at one engine order: the static part goes with an instant"
+        }
+        (_, false) => "the package has no mesh, so nothing is known of where its mass is: leave this away",
+        (false, true) => return Ok(()),
+    };
+    Err(Problem::parameter("static", detail))
 }
 
 /// Indices of the speeds of which states are recorded.
@@ -132,8 +174,8 @@ pub(super) async fn recorded_speeds(store: &Store, job: JobId) -> Result<Vec<u32
     Ok(store.documents(job).await?.into_iter().filter_map(of_states).collect())
 }
 
-/// The document with the states of a speed, and its bytes.
-async fn recorded(state: &AppState, job: &Job, speed: Option<u32>) -> Result<(Document, u64), Problem> {
+/// The document with the states of a speed, the index of that speed in the sweep, and its bytes.
+async fn recorded(state: &AppState, job: &Job, speed: Option<u32>) -> Result<(Document, u32, u64), Problem> {
     let all = recorded_speeds(&state.store, job.id).await?;
     let found = match speed {
         Some(speed) => all.contains(&speed).then_some(speed),
@@ -142,7 +184,7 @@ async fn recorded(state: &AppState, job: &Job, speed: Option<u32>) -> Result<(Do
     if let Some(speed) = found {
         let document = Document::States(speed);
         let bytes = state.store.document_bytes(job.id, document).await?.unwrap_or(0);
-        return Ok((document, bytes));
+        return Ok((document, speed, bytes));
     }
     expect_successful(job, "fields are there once the speed is recorded")?;
     let detail = match all.as_slice() {
@@ -151,6 +193,21 @@ async fn recorded(state: &AppState, job: &Job, speed: Option<u32>) -> Result<(Do
         some => format!("states were recorded of speeds {some:?}"),
     };
     Err(Problem::new(Kind::HistoryNotRecorded, detail))
+}
+
+impl From<StaticWheelError> for Problem {
+    fn from(error: StaticWheelError) -> Self {
+        match error {
+            StaticWheelError::Package(error) => Box::new(error).into(),
+            StaticWheelError::Unsolved(ReductionError::Model(error)) => {
+                Self::new(Kind::InvalidModel, error.to_string())
+            }
+            StaticWheelError::Unsolved(error) => {
+                tracing::error!(%error, "the static part of the centrifugal load cannot be solved");
+                Self::new(Kind::Internal, "the static part cannot be solved; the service's log says more")
+            }
+        }
+    }
 }
 
 impl From<StatesError> for Problem {

@@ -30,21 +30,26 @@ pub(super) const READ_MEMORY: u64 = 6;
 /// Makes the drawing of a result.
 type Draw<T> = Box<dyn FnOnce(&T) -> String + Send>;
 
+/// Changes a result before it is written.
+type Change<T> = Box<dyn FnOnce(&mut T) + Send>;
+
 /// The forms of a result.
 pub(super) struct Forms<T> {
     /// None of a result that is a table and nothing else.
     draw: Option<Draw<T>>,
+    /// What is done to a stored result first.
+    change: Option<Change<T>>,
 }
 
 impl<T: Export + Serialize + Send + 'static> Forms<T> {
     /// Of a result that `draw` draws.
     pub(super) fn drawn_by(draw: impl FnOnce(&T) -> String + Send + 'static) -> Self {
-        Self { draw: Some(Box::new(draw)) }
+        Self { draw: Some(Box::new(draw)), change: None }
     }
 
     /// Of a result that has no drawing.
     pub(super) fn undrawn() -> Self {
-        Self { draw: None }
+        Self { draw: None, change: None }
     }
 
     fn those(&self) -> &'static [Form] {
@@ -85,9 +90,14 @@ impl<T: Export + Serialize + Send + 'static> Forms<T> {
 }
 
 impl<T: Export + Serialize + DeserializeOwned + Send + 'static> Forms<T> {
-    /// Answers with a document that was computed at the end of a job: its JSON as it was stored.
+    /// Of a document that is put into another order first.
+    pub(super) fn changed_by(self, change: impl FnOnce(&mut T) + Send + 'static) -> Self {
+        Self { change: Some(Box::new(change)), ..self }
+    }
+
+    /// Answers with a document that was computed at the end of a job: its JSON as it was stored, unless it is changed.
     pub(super) async fn of_document(
-        self,
+        mut self,
         state: &AppState,
         download: Download,
         job: &Job,
@@ -97,13 +107,22 @@ impl<T: Export + Serialize + DeserializeOwned + Send + 'static> Forms<T> {
         let text = read(state, job.id, document);
         match download.begin(state, lasting(job), self.those())? {
             Next::Done(response) => Ok(response),
-            Next::Make(answer) if answer.form == Form::Json && answer.unit.is_none() => {
+            Next::Make(answer)
+                if answer.form == Form::Json && answer.unit.is_none() && self.change.is_none() =>
+            {
                 let leave = state.answers.leave(&state.jobs, TEXT_MEMORY * bytes).await;
                 let (text, leave) = stream::blocking(move || Ok::<_, Problem>((text()?, leave))).await??;
                 Ok(answer.whole(leave, text))
             }
             Next::Make(answer) => {
-                let read = move || Ok(serde_json::from_str(&text()?)?);
+                let change = self.change.take();
+                let read = move || {
+                    let mut result = serde_json::from_str(&text()?)?;
+                    if let Some(change) = change {
+                        change(&mut result);
+                    }
+                    Ok(result)
+                };
                 self.make(state, answer, READ_MEMORY * bytes, read).await
             }
         }

@@ -41,7 +41,7 @@ pub(super) struct MapQuery {
     /// Of a drawing: the axis upwards; default `engine_order`. A sheet has engine orders.
     #[param(inline)]
     pub(super) axis: Option<MapAxis>,
-    /// Of a drawing: what the level above the map is coloured by; default `plain`.
+    /// Of a drawing: what the level above the map, of a sheet the strip above each map, is coloured by; default `plain`.
     #[param(inline)]
     pub(super) colour: Option<MapColour>,
 }

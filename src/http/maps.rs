@@ -118,7 +118,7 @@ async fn draw(
             critical.map(|critical| serde_json::from_str(&critical)).transpose()?;
         Ok(match &maps[..] {
             [map] if !part.sheet => plot::interaction_map(map, critical.as_ref(), None, axis, window, colour),
-            maps => plot::map_sheet(maps, window),
+            maps => plot::map_sheet(maps, window, colour),
         })
     };
     answer.drawn(state, leave, draw).await

@@ -2,7 +2,8 @@
 
 use axum::extract::State;
 use axum::response::Response;
-use serde::Deserialize;
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
 
 use super::download::{Download, DownloadQuery};
@@ -11,8 +12,9 @@ use super::forms::Forms;
 use super::problem::{Kind, Problem};
 use super::state::AppState;
 use crate::analysis::resolved::{ResolvedSensor, ResolvedSweep};
-use crate::analysis::result::{Campbell, CriticalSpeeds};
+use crate::analysis::result::{Campbell, CriticalSpeeds, most_utilised_first};
 use crate::analysis::run::ModelFacts;
+use crate::export::Export;
 use crate::plot;
 use crate::store::jobs::{Job, JobId, JobKind, JobRequest};
 use crate::store::results::Document;
@@ -28,12 +30,52 @@ pub(super) struct SensorQuery {
     pub(super) sensor: u32,
 }
 
+/// In which order critical speeds come.
+#[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+pub(super) struct RankQuery {
+    /// What critical speeds are ranked by, the largest first; without it those of a sensor ascend in speed, and those of the wheel
+    /// begin with the most severe.
+    #[param(inline)]
+    rank: Option<RankWord>,
+}
+
+/// What critical speeds can be ranked by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, ToSchema)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum RankWord {
+    /// The largest utilisation at the speed; speeds without one come last. Of a sweep that recorded stress.
+    Utilisation,
+}
+
+impl RankQuery {
+    /// The forms of a table of `request`, ranked as it is asked for; `by_utilisation` does so.
+    pub(super) fn ranked<T>(
+        &self,
+        forms: Forms<T>,
+        request: &ResolvedSweep,
+        by_utilisation: fn(&mut T),
+    ) -> Result<Forms<T>, Problem>
+    where
+        T: Export + Serialize + DeserializeOwned + Send + 'static,
+    {
+        match self.rank {
+            None => Ok(forms),
+            Some(RankWord::Utilisation) if request.stress_outside().is_none() => {
+                let detail = "the sweep recorded no stress, so nothing is known of utilisation: ask for \"record\": {\"stress\": {}}";
+                Err(Problem::parameter("rank", detail))
+            }
+            Some(RankWord::Utilisation) => Ok(forms.changed_by(by_utilisation)),
+        }
+    }
+}
+
 /// Download the critical speeds of a sweep beside the linear prediction.
 ///
 /// They are said of all speeds together, once the job is successful. Of a job that is not finished, failed or was dismissed the
 /// interaction map has the speeds that are done.
 #[utoipa::path(get, path = "/v1/jobs/{id}/critical-speeds", operation_id = "get_critical_speeds", tag = "results",
-    params(("id" = String, Path, description = "Id of a sweep."), SensorQuery, DownloadQuery),
+    params(("id" = String, Path, description = "Id of a sweep."), SensorQuery, RankQuery, DownloadQuery),
     responses(
         (status = 200, description = "The table.", body = CriticalSpeeds),
         (status = 400, description = "A parameter is not valid.", body = Problem,
@@ -48,11 +90,16 @@ pub(super) async fn get_critical_speeds(
     whose: Principal,
     JobPath(id): JobPath,
     Parameters(query): Parameters<SensorQuery>,
+    Parameters(rank): Parameters<RankQuery>,
     download: Download,
 ) -> Result<Response, Problem> {
     let job = find(&state, &whose, id).await?;
-    check_sensor(sweep(&job)?.0.sensors(), query.sensor)?;
-    Forms::drawn_by(plot::critical_speeds)
+    let (request, _) = sweep(&job)?;
+    check_sensor(request.sensors(), query.sensor)?;
+    let by_utilisation = |table: &mut CriticalSpeeds| {
+        most_utilised_first(&mut table.critical_speeds, |speed| speed.utilisation);
+    };
+    rank.ranked(Forms::drawn_by(plot::critical_speeds), request, by_utilisation)?
         .of_document(&state, download, &job, Document::CriticalSpeeds(query.sensor))
         .await
 }

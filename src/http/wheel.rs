@@ -4,22 +4,24 @@ use axum::extract::State;
 use axum::response::Response;
 
 use super::download::{Download, DownloadQuery};
-use super::extract::JobPath;
+use super::extract::{JobPath, Parameters};
 use super::forms::Forms;
 use super::problem::Problem;
-use super::results::{find, sweep};
+use super::results::{RankQuery, find, sweep};
 use super::state::AppState;
-use crate::analysis::result::WheelCriticalSpeeds;
+use crate::analysis::result::{WheelCriticalSpeeds, most_utilised_first};
 use crate::store::results::Document;
 use crate::tokens::Principal;
 
-/// Download the critical speeds of the wheel, the most severe first: over all contact nodes, components and blades.
+/// Download the critical speeds of the wheel, the most severe or the most utilised first: over all contact nodes, components and blades.
 ///
 /// The views of the sensors are beside them in json; `critical-speeds` has one of them with the linear prediction, and its drawing.
 #[utoipa::path(get, path = "/v1/jobs/{id}/critical-speeds/wheel", operation_id = "get_wheel_critical_speeds", tag = "results",
-    params(("id" = String, Path, description = "Id of a sweep."), DownloadQuery),
+    params(("id" = String, Path, description = "Id of a sweep."), RankQuery, DownloadQuery),
     responses(
         (status = 200, description = "The table.", body = WheelCriticalSpeeds),
+        (status = 400, description = "A parameter is not valid.", body = Problem,
+            content_type = "application/problem+json"),
         (status = 404, description = "There is no such job.", body = Problem,
             content_type = "application/problem+json"),
         (status = 409, description = "The job is not a sweep, not finished, ended without this result, or is of an earlier version.",
@@ -29,11 +31,15 @@ pub(super) async fn get_wheel_critical_speeds(
     state: State<AppState>,
     whose: Principal,
     JobPath(id): JobPath,
+    Parameters(rank): Parameters<RankQuery>,
     download: Download,
 ) -> Result<Response, Problem> {
     let job = find(&state, &whose, id).await?;
-    sweep(&job)?;
-    Forms::<WheelCriticalSpeeds>::undrawn()
+    let (request, _) = sweep(&job)?;
+    let by_utilisation = |table: &mut WheelCriticalSpeeds| {
+        most_utilised_first(&mut table.critical_speeds, |speed| speed.utilisation);
+    };
+    rank.ranked(Forms::undrawn(), request, by_utilisation)?
         .of_document(&state, download, &job, Document::WheelCriticalSpeeds)
         .await
 }

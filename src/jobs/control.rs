@@ -50,9 +50,9 @@ pub(super) async fn errors(
         })
         .collect();
     let choice = engine.store.job(job.id).await?.and_then(|job| job.choice);
-    let target = match choice {
-        Some(Chosen::Setting(choice)) => choice.accuracy.map(|accuracy| accuracy.target),
+    let accuracy = match choice {
+        Some(Chosen::Setting(choice)) => choice.accuracy,
         Some(Chosen::Modes(_)) | None => None,
     };
-    Ok(Some(run::error_estimate(request, target, points, &finer)))
+    Ok(Some(run::error_estimate(request, accuracy, points, &finer)))
 }

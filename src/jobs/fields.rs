@@ -5,9 +5,11 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::handle::Jobs;
+use super::static_wheel::{self, StaticWheelError};
 use crate::analysis::fields::{BasisProduct, FieldSector};
 use crate::analysis::run::ReducedSector;
-use crate::dynamics::reduction::ReducedWheel;
+use crate::analysis::stress::StaticWheel;
+use crate::dynamics::reduction::{ReducedWheel, ReductionError};
 use crate::package::{self, Limits, PackageError};
 use crate::store::StoreError;
 use crate::store::bases::BasisFolder;
@@ -43,6 +45,26 @@ impl Jobs {
             basis: store.basis(model, modes_per_speed),
             package: store.package_path(model),
         }))
+    }
+
+    /// The wheel under its centrifugal load, solved if nobody has asked for it or for stress before; nothing of a package without a
+    /// mesh.
+    ///
+    /// # Errors
+    /// A package that cannot be read, or not be solved.
+    pub async fn static_wheel(
+        &self,
+        source: &FieldSource,
+        own_dofs: u32,
+    ) -> Result<Option<StaticWheel>, StaticWheelError> {
+        // As much as a reduction, if it must be solved.
+        let memory = self.engine.memory.claim(own_dofs.into()).await;
+        let source = source.clone();
+        let made = tokio::task::spawn_blocking(move || {
+            let _memory = memory;
+            static_wheel::from_package(&source.package, (&source.basis, &source.reduced.wheel))
+        });
+        made.await.unwrap_or(Err(StaticWheelError::Unsolved(ReductionError::Cancelled)))
     }
 }
 

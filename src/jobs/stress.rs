@@ -6,9 +6,10 @@ use std::sync::Arc;
 
 use super::error::Interruption;
 use super::progress::PhaseMonitor;
+use super::static_wheel::{StaticWheelError, static_wheel};
 use crate::analysis::error::AnalysisError;
 use crate::analysis::monitor::Monitor;
-use crate::analysis::stress::{ReducedStress, StaticStress, StressMaker};
+use crate::analysis::stress::{ReducedStress, StressMaker};
 use crate::dynamics::reduction::{ReducedWheel, ReductionError};
 use crate::package::{self, Limits};
 use crate::store::bases::BasisFolder;
@@ -52,39 +53,31 @@ impl Making {
                 return Ok(Err(error));
             }
         }
-        let fixed = match self.basis.static_stress(&self.wheel) {
-            Ok(fixed) => fixed,
-            Err(_) => {
-                let fixed = self.fixed(&maker)?;
-                if let Err(error) = self.basis.keep_static_stress(&self.wheel, &fixed) {
-                    tracing::warn!(%error, "could not keep the static stress; going on without");
-                }
-                fixed
-            }
+        let watch = |share: f64, phase: &str| {
+            self.monitor.progress(share, phase);
+            !self.monitor.is_cancelled()
         };
+        let fixed = static_wheel(&self.package, (&self.basis, &self.wheel), &maker, &watch)?.stress;
         let load = |harmonic: usize, kept: &[usize]| {
             self.basis.stress(&self.wheel.harmonics[harmonic], places, kept)
         };
         Ok(ReducedStress::load(&mesh, maker.operator(), &self.wheel, self.excluded_radius, fixed, load))
     }
+}
 
-    fn fixed(&self, maker: &StressMaker<'_>) -> Result<StaticStress, Interruption> {
-        self.monitor.progress(0.0, "reading the package");
-        let package =
-            package::read(&self.package, &Limits::default()).map_err(Interruption::stored_package)?;
-        let watch = |share: f64, phase: &str| {
-            self.monitor.progress(share, phase);
-            !self.monitor.is_cancelled()
+impl From<StaticWheelError> for Interruption {
+    fn from(error: StaticWheelError) -> Self {
+        let error = match error {
+            StaticWheelError::Package(error) => return Self::stored_package(error),
+            StaticWheelError::Unsolved(error) => error,
         };
-        maker.fixed(&package.sector, &watch).map_err(|error| {
-            match error {
-                ReductionError::Cancelled => AnalysisError::Cancelled,
-                ReductionError::Memory { needed_bytes, allowed_bytes } => {
-                    AnalysisError::Memory { needed_bytes, allowed_bytes }
-                }
-                ReductionError::Model(error) => error.into(),
+        match error {
+            ReductionError::Cancelled => AnalysisError::Cancelled,
+            ReductionError::Memory { needed_bytes, allowed_bytes } => {
+                AnalysisError::Memory { needed_bytes, allowed_bytes }
             }
-            .into()
-        })
+            ReductionError::Model(error) => error.into(),
+        }
+        .into()
     }
 }

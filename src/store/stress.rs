@@ -16,7 +16,7 @@ use std::path::PathBuf;
 use sha2::{Digest, Sha256};
 
 use super::bases::{BasisFolder, CHECK, HEADER, check, damaged, header};
-use crate::analysis::stress::{HarmonicStress, StaticStress};
+use crate::analysis::stress::{HarmonicStress, StaticWheel};
 use crate::dynamics::reduction::{ReducedHarmonic, ReducedWheel};
 
 /// Layout of the files, and order of the places in them: raise it when one of them changes.
@@ -82,11 +82,11 @@ impl BasisFolder {
         })
     }
 
-    /// Keeps the stress of the centrifugal load.
+    /// Keeps the wheel under its centrifugal load.
     ///
     /// # Errors
     /// As of [`Self::keep_stress`].
-    pub fn keep_static_stress(&self, reduced: &ReducedWheel, fixed: &StaticStress) -> io::Result<()> {
+    pub fn keep_static_wheel(&self, reduced: &ReducedWheel, fixed: &StaticWheel) -> io::Result<()> {
         let bytes = postcard::to_stdvec(fixed).map_err(io::Error::other)?;
         let size = (2 * DIGEST + bytes.len()) as u64;
         self.write_file(self.stress_path(STATIC), size, |mut file| {
@@ -96,11 +96,11 @@ impl BasisFolder {
         })
     }
 
-    /// Stress of the centrifugal load.
+    /// The wheel under its centrifugal load.
     ///
     /// # Errors
     /// As of [`Self::stress`].
-    pub fn static_stress(&self, reduced: &ReducedWheel) -> io::Result<StaticStress> {
+    pub fn static_wheel(&self, reduced: &ReducedWheel) -> io::Result<StaticWheel> {
         let bytes = std::fs::read(self.stress_path(STATIC))?;
         let (mark, rest) = bytes.split_at_checked(DIGEST).ok_or_else(|| damaged("it is cut"))?;
         let (sum, numbers) = rest.split_at_checked(DIGEST).ok_or_else(|| damaged("it is cut"))?;

@@ -301,6 +301,64 @@ async fn a_report_shows_the_wheel_where_it_moves_most() {
     app.stop().await;
 }
 
+/// The sweep follows stress in the coordinates of the reduction, the field is made of displacement: with the static part both have the
+/// same largest stress, at the same node, blade and instant.
+#[tokio::test]
+async fn a_field_with_its_static_part_has_the_largest_stress_of_the_sweep() {
+    let app = TestApp::start_with(|config| config.upload_bytes = 64 << 20).await;
+    let api = &app.api;
+    let mut file = std::io::Cursor::new(Vec::new());
+    package::write(&impeller(), &mut file).unwrap();
+    let model = api.model(file.into_inner()).await;
+    let mut request = sweep_of(&model);
+    request["speeds"] = json!({"values": [1200.0, 1300.0], "unit": "rad_s"});
+    request["scene"]["centrifugal_stiffening"] = json!(true);
+    request["record"] = json!({"histories": {"speeds": [1], "quantities": ["state"]}, "stress": {}});
+    let id = api.sweep(&request).await;
+    let job = api.finish(&id).await;
+    assert_eq!(job["status"], "successful", "{job}");
+    let stress = api.get(&format!("/v1/jobs/{id}/stress")).await.body["speeds"][1]["stress"].clone();
+    let largest = &stress["largest"];
+    let fields = format!("/v1/jobs/{id}/fields?speed=1&format=npz&stress=true");
+    let time = async |instant: u32| {
+        Npz::read(&raw(api, &format!("{fields}&instant={instant}")).await).array("time").reals()[0]
+    };
+    let (first, second) = (time(0).await, time(1).await);
+    let revolution = largest["revolution"].as_f64().unwrap();
+    let instant = ((revolution - first) / (second - first)).round();
+    let at = format!("{fields}&instant={instant}");
+    let total = Npz::read(&raw(api, &format!("{at}&static=include")).await);
+    let alone = Npz::read(&raw(api, &at).await);
+    assert!((total.array("time").reals()[0] - revolution).abs() < 1e-9);
+    let (nodes, sectors) = (total.array("node").whole(), total.array("sector").whole());
+    let is_there = |k: &usize| {
+        nodes[*k] as u64 == largest["node"].as_u64().unwrap()
+            && sectors[*k] as u64 == largest["sector"].as_u64().unwrap()
+    };
+    let place = (0..nodes.len()).find(is_there).unwrap();
+    let expected = largest["von_mises"].as_f64().unwrap();
+    let found = total.array("von_mises").reals()[place];
+    // The sweep's rows are in single precision.
+    assert!((found / expected - 1.0).abs() < 1e-5, "{found} {expected}");
+
+    // What is added is the same in every sector, up to its turn, and is what the files have apart.
+    for name in ["displacement", "stress"] {
+        let [sum, vibration] = [&total, &alone].map(|file| file.array(name).reals());
+        let fixed = total.array(&format!("static_{name}")).reals();
+        let most = sum.iter().fold(0.0f64, |most, x| most.max(x.abs()));
+        assert!(fixed.iter().any(|x| x.abs() > 1e-3 * most), "{name}");
+        for ((sum, vibration), fixed) in sum.iter().zip(&vibration).zip(&fixed) {
+            assert!((sum - vibration - fixed).abs() < 1e-12 * most, "{name}: {sum} {vibration} {fixed}");
+        }
+    }
+    let vtu = Vtk::new(raw(api, &format!("{at}&static=include").replace("npz", "vtu")).await);
+    assert!(vtu.has("static_displacement") && vtu.has("static_stress"));
+    assert_eq!(vtu.reals("von_mises"), total.array("von_mises").reals());
+    let shape = api.get(&format!("/v1/jobs/{id}/fields?speed=1&engine_order=1&static=include")).await;
+    assert_eq!(shape.problem(400, "invalid-parameter")[0]["parameter"], "static");
+    app.stop().await;
+}
+
 /// Of a wheel without a mesh: its nodes, and what was recorded of them.
 #[tokio::test]
 async fn a_recorded_run_gives_instants_and_deflection_shapes() {
@@ -348,6 +406,7 @@ async fn a_recorded_run_gives_instants_and_deflection_shapes() {
         ("phase_deg=10".to_owned(), "phase_deg"),
         ("sector=4".to_owned(), "sector"),
         ("stress=true".to_owned(), "stress"),
+        ("static=include".to_owned(), "static"),
     ] {
         let items = api.get(&format!("{path}?{query}")).await.problem(400, "invalid-parameter");
         assert_eq!(items[0]["parameter"], parameter, "{query}");

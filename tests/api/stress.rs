@@ -1,16 +1,28 @@
 //! Stress and validity of the speeds of a sweep.
 
 use rubmap::impeller::{ImpellerParameters, generate};
+use rubmap::solid::material::FatigueStrength;
 use serde_json::{Value, json};
 
-use super::app::{Api, TestApp, sweep_of};
+use super::app::{Api, TestApp, modal_analysis_of, sweep_of};
 use super::generation::coarse;
 use super::model::{self, files_in};
+use super::studies::study_of;
 
 fn package(parameters: &ImpellerParameters) -> Vec<u8> {
     let mut bytes = std::io::Cursor::new(Vec::new());
     rubmap::package::write(&generate(parameters).unwrap(), &mut bytes).unwrap();
     bytes.into_inner()
+}
+
+/// The generator's impeller with a coarse mesh.
+fn impeller() -> ImpellerParameters {
+    let mut given = serde_json::to_value(ImpellerParameters::default()).unwrap();
+    let wanted = coarse();
+    for field in ["contact_nodes", "mesh"] {
+        given[field] = wanted[field].clone();
+    }
+    serde_json::from_value(given).unwrap()
 }
 
 /// A generated impeller rubs at two speeds.
@@ -36,14 +48,7 @@ async fn a_sweep_tells_stress_margin_and_validity() {
     let folder = tempfile::tempdir().unwrap();
     let app = TestApp::start_on(folder.path()).await;
     let api = &app.api;
-    let parameters: ImpellerParameters = {
-        let mut given = serde_json::to_value(ImpellerParameters::default()).unwrap();
-        let wanted = coarse();
-        for field in ["contact_nodes", "mesh"] {
-            given[field] = wanted[field].clone();
-        }
-        serde_json::from_value(given).unwrap()
-    };
+    let parameters = impeller();
     let model = api.model(package(&parameters)).await;
     let request = rubbing(&model, Some(json!({})));
     let plan = api.post("/v1/sweeps/plan", &request).await;
@@ -112,6 +117,122 @@ async fn a_sweep_tells_stress_margin_and_validity() {
         let largest = |point: &Value| point["stress"]["largest"]["von_mises"].as_f64().unwrap();
         assert!(largest(second) <= largest(first));
     }
+    app.stop().await;
+}
+
+#[tokio::test]
+async fn stress_has_errors_of_its_own_in_targets_and_studies() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(package(&impeller())).await;
+
+    let mut request = rubbing(&model, Some(json!({})));
+    request.as_object_mut().unwrap().remove("modes_per_speed");
+    request["scene"]["damping"]["modal_ratio"] = json!(0.05);
+    request["accuracy"] = json!({"target": 0.2, "of": "stress"});
+    let id = api.sweep(&request).await;
+    let job = api.finish(&id).await;
+    assert_eq!(job["status"], "successful", "{job}");
+    let choice = &job["choice"];
+    assert_eq!(choice["accuracy"], request["accuracy"]);
+    assert!(choice["reason"].as_str().unwrap().contains("largest stress"), "{choice}");
+    let map = api.get(&format!("/v1/jobs/{id}/interaction-map")).await.body;
+    let errors = &map["errors"];
+    let largest = errors["largest_of_stress"].as_f64().unwrap();
+    let of = |list: &str| errors[list].as_array().unwrap().clone();
+    let estimated = |entry: &Value| entry["estimated_stress_error"].as_f64().unwrap();
+    assert_eq!(of("points").iter().map(estimated).fold(0.0, f64::max), largest);
+    assert_eq!(errors["target_met"], largest <= 0.2, "{errors}");
+    for control in of("controls") {
+        let difference = control["differences"]["stress"].as_f64().unwrap();
+        assert!((estimated(&control) - 2.5 * difference).abs() < 1e-12);
+    }
+
+    let mut request = study_of(&model);
+    request["speeds"] = json!({"values": [1300.0], "unit": "rad_s"});
+    request["scene"] = rubbing(&model, None)["scene"].clone();
+    request["grid"] =
+        json!({"modes_per_speed": [2, 4], "steps_per_revolution": [720], "schemes": ["exact_modal"]});
+    let study = async |request: &Value| {
+        let id = api.post("/v1/studies", request).await.text("/id");
+        let job = api.finish(&id).await;
+        assert_eq!(job["status"], "successful", "{job}");
+        (api.get(&format!("/v1/jobs/{id}/work-precision")).await.body, id)
+    };
+    let (without, _) = study(&request).await;
+    request["record"] = json!({"stress": {}});
+    let (with, id) = study(&request).await;
+    assert!(with["settings"]["record"]["stress"]["excluded_radius"].as_f64() > Some(0.0));
+    let runs = |study: &Value| study["speeds"][0]["runs"].as_array().unwrap().clone();
+    for (with, without) in runs(&with).iter().zip(&runs(&without)) {
+        assert!(with["errors"]["stress"].as_f64() > Some(0.0), "{with}");
+        assert!(without["errors"].get("stress").is_none(), "{without}");
+        for same in ["history", "amplitude"] {
+            assert_eq!(with["errors"][same], without["errors"][same]);
+        }
+    }
+    let judged = |run: &Value| run["pareto"].as_array().is_some_and(|of| of.contains(&json!("stress")));
+    assert!(runs(&with).iter().any(judged));
+    let drawing = api.request("GET", &format!("/v1/jobs/{id}/work-precision?format=svg&quantity=stress"));
+    let drawing = drawing.send().await.unwrap().text().await.unwrap();
+    assert!(drawing.contains("largest von Mises stress"));
+    app.stop().await;
+}
+
+/// Critical speeds by utilisation, and the column of a map's csv.
+#[tokio::test]
+async fn critical_speeds_are_ranked_by_utilisation_on_request() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let mut parameters = impeller();
+    parameters.material.ultimate_strength = Some(1000.0);
+    parameters.material.fatigue_strength =
+        Some(FatigueStrength { amplitude: 400.0, source: "a test".to_owned() });
+    let model = api.model(package(&parameters)).await;
+    let mut request = rubbing(&model, Some(json!({})));
+    request["speeds"] = json!({"from": 700.0, "to": 1500.0, "count": 7, "unit": "rad_s"});
+    request["peak_prominence"] = json!(0.0);
+    let id = api.sweep(&request).await;
+    assert_eq!(api.finish(&id).await["status"], "successful");
+    for path in ["critical-speeds", "critical-speeds/wheel"] {
+        let table = async |query: &str| {
+            let table = api.get(&format!("/v1/jobs/{id}/{path}{query}")).await.body;
+            table["critical_speeds"].as_array().unwrap().clone()
+        };
+        let (usual, ranked) = (table("").await, table("?rank=utilisation").await);
+        let used: Vec<f64> = ranked.iter().map(|speed| speed["utilisation"].as_f64().unwrap()).collect();
+        println!("{path}: {used:?}");
+        assert!(used.len() > 1 && used.is_sorted_by(|a, b| a >= b), "{path}: {used:?}");
+        assert!(usual.len() == ranked.len() && usual.iter().all(|speed| ranked.contains(speed)), "{path}");
+    }
+    let csv = api.request("GET", &format!("/v1/jobs/{id}/interaction-map?format=csv"));
+    let csv = csv.send().await.unwrap().text().await.unwrap();
+    let rows: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
+    let column = rows[0].iter().position(|name| *name == "utilisation").unwrap();
+    assert!(rows.len() == 8 && rows[1..].iter().all(|row| row[column].parse::<f64>().unwrap() > 0.0));
+    app.stop().await;
+}
+
+#[tokio::test]
+async fn a_target_or_study_of_stress_is_refused_where_there_is_none() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(model::package(1.0)).await;
+    let refused =
+        async |path: &str, request: &Value| api.post(path, request).await.pointers(422, "invalid-request");
+    let mut request = rubbing(&model, None);
+    request.as_object_mut().unwrap().remove("modes_per_speed");
+    request["accuracy"] = json!({"target": 0.2, "of": "stress"});
+    assert_eq!(refused("/v1/sweeps", &request).await, ["/accuracy/of"]);
+    request["record"] = json!({"stress": {"excluded_radius": 1.0}});
+    assert_eq!(refused("/v1/sweeps", &request).await, ["/record/stress"]);
+    let mut request = modal_analysis_of(&model);
+    request.as_object_mut().unwrap().remove("modes_per_speed");
+    request["accuracy"] = json!({"target": 0.2, "of": "stress"});
+    assert_eq!(refused("/v1/modal-analyses", &request).await, ["/accuracy/of"]);
+    let mut request = study_of(&model);
+    request["record"] = json!({"stress": {"excluded_radius": 1.0}});
+    assert_eq!(refused("/v1/studies", &request).await, ["/record/stress"]);
     app.stop().await;
 }
 

@@ -21,13 +21,15 @@ use crate::eigen::{harmonic, hertz, lowest};
 const MODES: usize = 4;
 
 /// What CalculiX printed.
-struct Answer {
+pub(crate) struct Answer {
     /// Frequencies (Hz) per nodal diameter.
     frequencies: Vec<Vec<f64>>,
     /// Nodal displacements in x, y, z.
-    displacements: Vec<[f64; 3]>,
+    pub(crate) displacements: Vec<[f64; 3]>,
     /// Per element and Gauss point: xx, yy, zz, xy, xz, yz.
     stresses: Vec<Vec<[f64; 6]>>,
+    /// Per node: xx, yy, zz, xy, yz, zx of the sector's own elements.
+    pub(crate) nodal_stresses: Vec<[f64; 6]>,
 }
 
 fn set(deck: &mut String, name: &str, nodes: impl Iterator<Item = usize>) {
@@ -110,6 +112,8 @@ EALL, CENTRIF, {square:e}, 0., 0., 0., 0., 0., 1.
 U
 *EL PRINT, ELSET=EALL
 S
+*EL FILE
+S
 *END STEP
 ",
         square = speed * speed,
@@ -119,7 +123,7 @@ S
 }
 
 /// Runs CalculiX; none, with a printed reason, without it.
-fn calculix(sector: &SectorMesh, material: &Material, speed: f64) -> Option<Answer> {
+pub(crate) fn calculix(sector: &SectorMesh, material: &Material, speed: f64) -> Option<Answer> {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("sector.inp"), deck(sector, material, speed)).unwrap();
     let run = Command::new("ccx").args(["-i", "sector"]).current_dir(folder.path()).output();
@@ -132,7 +136,8 @@ fn calculix(sector: &SectorMesh, material: &Material, speed: f64) -> Option<Answ
     };
     let text = std::fs::read_to_string(folder.path().join("sector.dat")).unwrap_or_default();
     assert!(output.status.success() && !text.is_empty(), "{}", String::from_utf8_lossy(&output.stdout));
-    Some(parse(&text, sector))
+    let frd = std::fs::read_to_string(folder.path().join("sector.frd")).unwrap();
+    Some(Answer { nodal_stresses: nodal_stresses(&frd, sector.mesh.nodes.len()), ..parse(&text, sector) })
 }
 
 fn parse(text: &str, sector: &SectorMesh) -> Answer {
@@ -140,6 +145,7 @@ fn parse(text: &str, sector: &SectorMesh) -> Answer {
         frequencies: Vec::new(),
         displacements: vec![[f64::NAN; 3]; sector.mesh.nodes.len()],
         stresses: vec![Vec::new(); sector.mesh.elements.len()],
+        nodal_stresses: Vec::new(),
     };
     let mut block = "";
     for line in text.lines() {
@@ -167,6 +173,26 @@ fn parse(text: &str, sector: &SectorMesh) -> Answer {
         }
     }
     answer
+}
+
+/// The last stresses of a file of results at nodes, which has six digits.
+fn nodal_stresses(frd: &str, nodes: usize) -> Vec<[f64; 6]> {
+    let mut found = vec![[f64::NAN; 6]; nodes];
+    let mut in_stress = false;
+    for line in frd.lines() {
+        if line.starts_with(" -4") {
+            in_stress = line.contains("STRESS");
+        } else if line.starts_with(" -3") {
+            in_stress = false;
+        } else if in_stress && line.starts_with(" -1") {
+            let node: usize = line[3..13].trim().parse().unwrap();
+            let value = |k: usize| line[13 + 12 * k..25 + 12 * k].trim().parse::<f64>().unwrap();
+            if let Some(found) = found.get_mut(node - 1) {
+                *found = std::array::from_fn(value);
+            }
+        }
+    }
+    found
 }
 
 /// Largest difference of the frequencies, relative, over all nodal diameters.

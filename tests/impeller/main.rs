@@ -5,6 +5,7 @@ mod beam;
 mod calculix;
 #[path = "../properties/campaign.rs"]
 mod campaign;
+mod centrifugal;
 mod conformity;
 mod disk;
 mod disk_mesh;

@@ -3,10 +3,11 @@
 use super::axis::{Scale, label, logarithmic_ticks, ticks};
 use super::cells::{cells, range};
 use super::key::Flow;
+use super::level::LevelColour;
 use super::map_view::{End, QUIETEST, VerticalAxis, View, is_missing};
 use super::svg::{Element, document, group, text};
 use super::window::Window;
-use super::{colour_bar, hatching, heading, heat};
+use super::{colour_bar, hatching, heading, heat, margin};
 use rubmap_analysis::result::InteractionMap;
 
 const WIDTH: f64 = 1180.0;
@@ -15,9 +16,13 @@ const LEFT: f64 = 84.0;
 const BAR: f64 = 1076.0;
 const GAP: (f64, f64) = (58.0, 84.0);
 const PANEL_HEIGHT: f64 = 232.0;
+/// Height of the strip above a panel.
+const STRIP: f64 = 7.0;
 
 /// Draws the same window of several maps, a panel each with a common scale of colours: maps of one sensor, restricted to nodal diameters.
-pub fn map_sheet(maps: &[InteractionMap], window: Window) -> String {
+///
+/// With the colours of utilisation there is a strip of them above each map.
+pub fn map_sheet(maps: &[InteractionMap], window: Window, level_colour: LevelColour) -> String {
     let title = title(maps);
     let words = words(maps);
     let (heading, bottom) = heading::heading(LEFT, &title, &[words]);
@@ -46,6 +51,9 @@ pub fn map_sheet(maps: &[InteractionMap], window: Window) -> String {
         ends.extend(view.engine_orders(map).1);
         let below = index + columns >= maps.len();
         content.push(panel(map, &view, loudest, (column == 0, below)));
+        if level_colour == LevelColour::Utilisation {
+            content.push(margin::strip(map, &cells, &view.diagram, STRIP));
+        }
     }
     if let Some(loudest) = loudest {
         let foot = top + rows as f64 * (PANEL_HEIGHT + GAP.1) - GAP.1;
@@ -55,8 +63,10 @@ pub fn map_sheet(maps: &[InteractionMap], window: Window) -> String {
         content.push(colour_bar::draw(&scale, BAR, &ticks, &words));
     }
     let foot = top + rows as f64 * (PANEL_HEIGHT + GAP.1) - 12.0;
-    content.push(key(first, &ends, foot, missing));
-    document(&title, WIDTH, foot + 30.0, content)
+    let flow = key(first, &ends, foot, missing, level_colour);
+    let height = f64::max(foot + 30.0, flow.bottom() + 18.0);
+    content.push(flow.draw());
+    document(&title, WIDTH, height, content)
 }
 
 /// A map with its name; the axes have titles where nothing stands beside or below.
@@ -76,7 +86,7 @@ fn panel(
     let y = ticks(diagram.y.values, 8.0);
     group()
         .set("class", "panel")
-        .child(text(diagram.left, diagram.top - 8.0, "start", &name).set("font-weight", "bold"))
+        .child(text(diagram.left, diagram.top - 8.0 - STRIP, "start", &name).set("font-weight", "bold"))
         .child(view.amplitudes(map, &cells, loudest))
         .child(view.engine_orders(map).0)
         .child(diagram.frame())
@@ -84,9 +94,12 @@ fn panel(
         .child(diagram.y_axis(&y, if leftmost { "engine order k" } else { "" }, 46.0))
 }
 
-fn key(first: &InteractionMap, ends: &[End], y: f64, missing: bool) -> Element {
-    let flow = View::explained(Flow::new(LEFT, WIDTH - 20.0, y), first, ends);
-    if missing { flow.entry(hatching::mark(), 20.0, "no result").draw() } else { flow.draw() }
+fn key(first: &InteractionMap, ends: &[End], y: f64, missing: bool, level_colour: LevelColour) -> Flow {
+    let mut flow = View::explained(Flow::new(LEFT, WIDTH - 20.0, y), first, ends);
+    if level_colour == LevelColour::Utilisation {
+        flow = margin::explained(flow, first, &cells(&first.speeds_rad_s));
+    }
+    if missing { flow.entry(hatching::mark(), 20.0, "no result") } else { flow }
 }
 
 fn title(maps: &[InteractionMap]) -> String {

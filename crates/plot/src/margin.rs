@@ -38,13 +38,28 @@ pub(super) fn area(
     diagram: &Diagram,
     curve: impl Fn(&Cell) -> Option<f64>,
 ) -> Element {
+    bars(map, cells, diagram, |cell| Some((diagram.y.place(curve(cell)?), diagram.bottom())))
+}
+
+/// A strip of so much height upon a diagram, in the same colours.
+pub(super) fn strip(map: &InteractionMap, cells: &[Cell], diagram: &Diagram, height: f64) -> Element {
+    bars(map, cells, diagram, |_| Some((diagram.top - height, diagram.top)))
+}
+
+/// A bar for each cell whose utilisation is known, from its top to its bottom.
+fn bars(
+    map: &InteractionMap,
+    cells: &[Cell],
+    diagram: &Diagram,
+    ends: impl Fn(&Cell) -> Option<(f64, f64)>,
+) -> Element {
     let (low, high) = diagram.x.values;
     let seen = cells.iter().filter(|cell| cell.to > low && cell.from < high);
     let bars = seen.filter_map(|cell| {
         let used = utilisation(map, cell.index)?;
-        let top = diagram.y.place(curve(cell)?);
+        let (top, bottom) = ends(cell)?;
         let (from, to) = (diagram.x.place(cell.from.max(low)), diagram.x.place(cell.to.min(high)));
-        let bar = rectangle(from, top, to - from, diagram.bottom() - top).set("class", "utilisation");
+        let bar = rectangle(from, top, to - from, bottom - top).set("class", "utilisation");
         Some(bar.set("fill", fill(class(used))).title(&format!(
             "{:.0} rpm: utilisation {}",
             cell.rpm,

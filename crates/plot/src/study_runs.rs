@@ -15,6 +15,7 @@ pub(super) fn words(quantity: Quantity, study: &WorkPrecision) -> String {
         Quantity::Amplitude => "steady amplitude".to_owned(),
         Quantity::EngineOrders => "peaks at integer engine orders".to_owned(),
         Quantity::Impulse => "contact impulse".to_owned(),
+        Quantity::Stress => "largest von Mises stress".to_owned(),
     }
 }
 
@@ -119,6 +120,7 @@ pub(super) fn reason(at: &SpeedStudy, quantity: Quantity) -> String {
         (true, _) => "all errors are exactly 0",
         (false, Quantity::EngineOrders) => "the response does not repeat and has no steady peaks",
         (false, Quantity::Impulse) => "there is no contact",
+        (false, Quantity::Stress) => "no stress was recorded",
         (false, Quantity::History | Quantity::Amplitude) => "no run has this error",
     };
     format!("Nothing to draw: {why}")

@@ -7,7 +7,8 @@ use super::vtk::cell;
 use crate::analysis::fields::{Frame, Points, von_mises};
 use crate::package::NpzWriter;
 
-/// Writes all frames: `displacement[frame][point][x, y, z]`, `stress[frame][point][xx, yy, zz, xy, yz, zx]`, elements as in VTK.
+/// Writes all frames: `displacement[frame][point][x, y, z]`, `stress[frame][point][xx, yy, zz, xy, yz, zx]`, their static parts without
+/// frames, elements as in VTK.
 pub(super) fn write(file: &FieldFile, out: &mut dyn Write) -> io::Result<()> {
     let FieldFile { sector: of, field, part } = file;
     let points = Points::all(of, *part);
@@ -37,6 +38,14 @@ pub(super) fn write(file: &FieldFile, out: &mut dyn Write) -> io::Result<()> {
                 moved.into_iter().flatten().try_for_each(&mut *take)
             })
         })?;
+    }
+    if field.has_static() {
+        let of_sectors = || sectors().flat_map(|sector| field.displacement(of, sector, places, &[]));
+        npz.reals("static_displacement", &[count, 3], of_sectors().flatten())?;
+    }
+    if field.has_static() && of.has_stress() {
+        let of_sectors = || sectors().filter_map(|sector| field.stress(of, sector, places, &[]));
+        npz.reals("static_stress", &[count, 6], of_sectors().flatten().flatten())?;
     }
     if of.has_stress() {
         let stress =

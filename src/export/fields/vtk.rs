@@ -57,6 +57,7 @@ pub(super) fn write_points(
     array::<i32>(out, "sector", (count, 1), |put| {
         sectors().try_for_each(|sector| places.iter().try_for_each(|_| put(&[sector as i32])))
     })?;
+    let no_columns = Vec::new();
     let mut moved = |name: &str, weights| {
         array::<f64>(out, name, (count, 3), |put| {
             sectors().try_for_each(|sector| {
@@ -65,6 +66,9 @@ pub(super) fn write_points(
         })
     };
     moved("displacement", &frame.weights)?;
+    if field.has_static() {
+        moved("static_displacement", &no_columns)?;
+    }
     if !frame.before.is_empty() {
         moved("displacement_imaginary", &frame.before)?;
         array::<f64>(out, "displacement_amplitude", (count, 1), |put| {
@@ -76,6 +80,12 @@ pub(super) fn write_points(
         array::<f64>(out, "stress", (count, 6), |put| {
             sectors().try_for_each(|sector| stress(sector).iter().try_for_each(|stress| put(stress)))
         })?;
+        if field.has_static() {
+            let fixed = |sector| field.stress(of, sector, places, &[]).unwrap_or_default();
+            array::<f64>(out, "static_stress", (count, 6), |put| {
+                sectors().try_for_each(|sector| fixed(sector).iter().try_for_each(|stress| put(stress)))
+            })?;
+        }
         array::<f64>(out, "von_mises", (count, 1), |put| {
             sectors().try_for_each(|sector| {
                 stress(sector).into_iter().try_for_each(|stress| put(&[von_mises(stress)]))

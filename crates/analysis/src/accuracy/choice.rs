@@ -9,8 +9,8 @@
 
 use crate::accuracy::rung::{Pilots, Rung, finer_modes, pilot_speeds};
 use crate::error::Violation;
-use crate::request::SweepDirection;
 use crate::request::auto_or::MOST_STEPS;
+use crate::request::{AccuracyOf, SweepDirection};
 use crate::resolved::{Aim, Modes, ResolvedSweep, TrialRequest};
 use crate::result::{Choice, Trial};
 
@@ -110,8 +110,9 @@ impl Climb<'_, '_> {
                 let (estimated, all) = (rung.estimated(), self.pilots.speeds.len());
                 let others = if estimated < all { "; no run was completed at the others" } else { "" };
                 let reason = format!(
-                    "the first setting on the way up whose estimated error at {estimated} of {all} pilot speeds is below \
+                    "the first setting on the way up whose estimated error{} at {estimated} of {all} pilot speeds is below \
                      {target}{others}{}",
+                    if self.pilots.of() == AccuracyOf::Stress { " of the largest stress" } else { "" },
                     beats.map_or(String::new(), |beats| format!("; {beats}, which is not counted"))
                 );
                 return Next::Take(Box::new(self.choice(&rung, steps, rung.error_of_steps, &tried, reason)));

@@ -3,7 +3,7 @@
 use crate::accuracy::errors::Response;
 use crate::accuracy::rung::{SAFETY, estimate, evenly_spread, finer_modes};
 use crate::request::auto_or::MOST_STEPS;
-use crate::request::{AutoOr, SchemeChoice, Setting};
+use crate::request::{Accuracy, AccuracyOf, AutoOr, SchemeChoice, Setting};
 use crate::resolved::{ResolvedSweep, TrialRequest};
 use crate::result::{Control, ErrorEstimate, Point, PointError, PointStatus, SpeedSpectra, Trial};
 use rubmap_wheel::response::critical_speed::peaks;
@@ -43,8 +43,7 @@ pub fn control_requests(
     let finer = |index: usize| {
         let point = ascending[index];
         let setting = finer_setting(request, sectors, point, most_modes);
-        let mut trial = TrialRequest::new(request, point.speed_rad_s, setting);
-        trial.sweep.record.stress = request.record.stress;
+        let trial = TrialRequest::new(request, point.speed_rad_s, setting).with_stress_of(request);
         (point.index, setting, trial)
     };
     chosen.into_iter().map(finer).collect()
@@ -63,10 +62,10 @@ fn finer_setting(request: &ResolvedSweep, sectors: u32, point: &Point, most_mode
 }
 
 /// Estimated errors of all completed speeds from the finer runs of some, each given with the spectra of the speed itself, and
-/// whether they are within `target` if there is one.
+/// whether they are within the accuracy that was asked for, if one was.
 pub fn error_estimate(
     request: &ResolvedSweep,
-    target: Option<f64>,
+    accuracy: Option<Accuracy>,
     points: &[Point],
     controls: &[FinerRun<'_>],
 ) -> ErrorEstimate {
@@ -80,8 +79,10 @@ pub fn error_estimate(
                 index: *index,
                 speed_rad_s: point.speed_rad_s,
                 setting: *setting,
-                estimated_stress_error: differences.and_then(|d| Some(SAFETY * d.stress?)),
-                estimated_error: differences.map(|d| estimate(&d).max(d.amplitude_spread.unwrap_or(0.0))),
+                estimated_stress_error: differences.and_then(|d| estimate(&d, AccuracyOf::Stress)),
+                estimated_error: differences.and_then(|d| {
+                    Some(estimate(&d, AccuracyOf::Response)?.max(d.amplitude_spread.unwrap_or(0.0)))
+                }),
                 differences,
                 message: trial.point.message.clone(),
             })
@@ -92,9 +93,17 @@ pub fn error_estimate(
     let largest = points.iter().map(|point| point.estimated_error).reduce(f64::max);
     let with_modes =
         controls.iter().all(|control| control.setting.modes_per_speed > request.modes_per_speed());
-    let all_known = points.len() == completed;
-    let within = |target: f64| all_known && largest.is_none_or(|largest| largest <= target);
-    let target_met = target.filter(|_| with_modes || !all_known).map(within);
+    let of_stress = points.iter().filter_map(|point| point.estimated_stress_error);
+    let (known_of_stress, largest_of_stress) = (of_stress.clone().count(), of_stress.reduce(f64::max));
+    let target_met = accuracy.and_then(|Accuracy { target, of }| {
+        let (known, largest) = match of {
+            AccuracyOf::Response => (points.len(), largest),
+            AccuracyOf::Stress => (known_of_stress, largest_of_stress),
+        };
+        let all_known = known == completed;
+        let within = all_known && largest.is_none_or(|largest| largest <= target);
+        (with_modes || !all_known).then_some(within)
+    });
     let estimated = controls.iter().filter(|control| control.estimated_error.is_some()).count();
     let ended = match controls.len() - estimated {
         0 => String::new(),
@@ -107,31 +116,40 @@ pub fn error_estimate(
         None => format!("the error of the amplitudes is not known: no control run gave an estimate{ended}"),
         Some(_) => format!(
             "relative error of the steady response{}: {SAFETY} times its difference from finer runs at {estimated} of the speeds, whose \
-             settings are in `controls`; at the others the larger estimate of the nearest on either side{ended}",
-            if with_modes { "" } else { " from the steps alone, since no finer reduction could be made" }
+             settings are in `controls`; at the others the larger estimate of the nearest on either side{}{ended}",
+            if with_modes { "" } else { " from the steps alone, since no finer reduction could be made" },
+            if largest_of_stress.is_some() { "; of the largest stress likewise" } else { "" }
         ),
     };
-    ErrorEstimate { controls, points, largest, target_met, message }
+    ErrorEstimate { controls, points, largest, largest_of_stress, target_met, message }
 }
 
 fn point_errors(points: &[Point], controls: &[Control]) -> Vec<PointError> {
     let of = |point: &Point| {
-        let error = |control: &Control| control.estimated_error;
-        if let Some(control) = controls.iter().find(|control| control.index == point.index) {
-            let estimated_error = error(control)?;
-            return Some(PointError { index: point.index, estimated_error, controlled: true });
-        }
-        let nearest = |side: fn(f64) -> bool| {
-            let distance = |control: &&Control| (control.speed_rad_s - point.speed_rad_s).abs();
-            let here = controls.iter().filter(|control| side(control.speed_rad_s - point.speed_rad_s));
-            here.min_by(|a, b| distance(a).total_cmp(&distance(b)))
-        };
-        // One that told nothing leaves its neighbourhood unknown.
-        let beside = [nearest(|d| d <= 0.0), nearest(|d| d >= 0.0)].into_iter().flatten();
-        let estimated_error = beside.map(error).reduce(|a, b| Some(a?.max(b?)))??;
-        Some(PointError { index: point.index, estimated_error, controlled: false })
+        let told = |error: fn(&Control) -> Option<f64>| around(point, controls, error);
+        Some(PointError {
+            index: point.index,
+            estimated_error: told(|control| control.estimated_error)?,
+            estimated_stress_error: told(|control| control.estimated_stress_error),
+            controlled: controls.iter().any(|control| control.index == point.index),
+        })
     };
     points.iter().filter(|point| point.status == PointStatus::Completed).filter_map(of).collect()
+}
+
+/// What the control run of a point says, or the larger of those nearest on either side; none where one of them says nothing.
+fn around(point: &Point, controls: &[Control], error: fn(&Control) -> Option<f64>) -> Option<f64> {
+    if let Some(control) = controls.iter().find(|control| control.index == point.index) {
+        return error(control);
+    }
+    let nearest = |side: fn(f64) -> bool| {
+        let distance = |control: &&Control| (control.speed_rad_s - point.speed_rad_s).abs();
+        let here = controls.iter().filter(|control| side(control.speed_rad_s - point.speed_rad_s));
+        here.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    };
+    // One that told nothing leaves its neighbourhood unknown.
+    let beside = [nearest(|d| d <= 0.0), nearest(|d| d >= 0.0)].into_iter().flatten();
+    beside.map(error).reduce(|a, b| Some(a?.max(b?)))?
 }
 
 #[cfg(test)]
@@ -170,8 +188,11 @@ mod tests {
 
     #[test]
     fn errors_between_controls_are_the_larger_ones_and_unknown_beside_the_unknown() {
-        let controls = [control(1, Some(0.1)), control(4, Some(0.3)), control(7, None)];
+        let mut controls = [control(1, Some(0.1)), control(4, Some(0.3)), control(7, None)];
+        controls[0].estimated_stress_error = Some(0.9);
         let found = point_errors(&points(9), &controls);
+        let of_stress: Vec<_> = found.iter().map(|p| p.estimated_stress_error).collect();
+        assert_eq!(of_stress, [Some(0.9), Some(0.9), None, None, None], "4 tells none of its stress");
         let found: Vec<_> = found.iter().map(|p| (p.index, p.estimated_error, p.controlled)).collect();
         let expected = [(0, 0.1, false), (1, 0.1, true), (2, 0.3, false), (3, 0.3, false), (4, 0.3, true)];
         assert_eq!(found, expected, "5 to 8 lie beside a control run that ended early");

@@ -64,7 +64,7 @@ impl ResolvedStudy {
         let trial = |setting, twin| TrialRequest {
             history_revolutions: self.history_revolutions,
             twin,
-            ..TrialRequest::new(&self.sweep, speed_rad_s, setting)
+            ..TrialRequest::new(&self.sweep, speed_rad_s, setting).with_stress_of(&self.sweep)
         };
         let reference = trial(self.reference(sectors), true);
         (reference, self.settings(sectors).into_iter().map(|setting| trial(setting, false)).collect())

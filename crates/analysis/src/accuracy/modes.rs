@@ -43,7 +43,7 @@ pub fn next_modes(
         });
         tried.push(found);
         let finer = finer_modes(modes, resources.most_modes).filter(|_| !stalled);
-        if let Some(Accuracy { target }) = accuracy {
+        if let Some(Accuracy { target, .. }) = accuracy {
             if error <= target {
                 let reason =
                     format!("the fewest modes whose frequencies are within {} of the full sector's", target);

@@ -2,9 +2,9 @@
 
 use crate::accuracy::errors::errors;
 use crate::request::auto_or::MOST_STEPS;
-use crate::request::{AutoOr, SchemeChoice, Setting};
+use crate::request::{AccuracyOf, AutoOr, SchemeChoice, Setting};
 use crate::resolve::limits;
-use crate::resolved::{ResolvedSweep, TrialRequest};
+use crate::resolved::{Aim, Modes, ResolvedSweep, TrialRequest};
 use crate::result::{Errors, Pilot, Trial};
 use crate::stepping::steps_for_contact;
 use rubmap_wheel::response::sensitivity::Growth;
@@ -51,10 +51,16 @@ pub(super) fn finer_modes(modes: u32, most: Option<u32>) -> Option<u32> {
 }
 
 /// Estimated error from the difference to a finer run. Of responses that do not repeat, levels differ by chance: what lies within
-/// the standard error of the difference tells nothing and is not multiplied.
-pub(super) fn estimate(difference: &Errors) -> f64 {
-    let amplitude = (difference.amplitude - difference.amplitude_spread.unwrap_or(0.0)).max(0.0);
-    SAFETY * amplitude.max(difference.engine_orders.unwrap_or(0.0))
+/// the standard error of the difference tells nothing and is not multiplied; a largest stress is of one revolution and has no such
+/// error, so all of its difference counts. None of stress that was not recorded.
+pub(super) fn estimate(difference: &Errors, of: AccuracyOf) -> Option<f64> {
+    match of {
+        AccuracyOf::Response => {
+            let amplitude = (difference.amplitude - difference.amplitude_spread.unwrap_or(0.0)).max(0.0);
+            Some(SAFETY * amplitude.max(difference.engine_orders.unwrap_or(0.0)))
+        }
+        AccuracyOf::Stress => Some(SAFETY * difference.stress?),
+    }
 }
 
 /// A setting that was tried: the largest errors of the pilot speeds.
@@ -87,9 +93,16 @@ impl Rung {
     }
 
     /// Adds a pilot speed: the run, and those with more modes and more steps. `before` is the error of fewer modes.
-    fn add(&mut self, speed: f64, [run, more_modes, more_steps]: [&Trial; 3], before: f64, time_s: f64) {
+    fn add(
+        &mut self,
+        speed: f64,
+        [run, more_modes, more_steps]: [&Trial; 3],
+        of: AccuracyOf,
+        before: f64,
+        time_s: f64,
+    ) {
         let error = |finer: &Trial| match (run.is_completed(), finer.is_completed()) {
-            (true, true) => errors(run, finer).as_ref().map(estimate),
+            (true, true) => errors(run, finer).and_then(|difference| estimate(&difference, of)),
             // A speed that ends early at any setting has no response whose error could be told.
             (false, false) => None,
             _ => Some(f64::INFINITY),
@@ -154,8 +167,20 @@ impl<'a> Pilots<'a, '_> {
         Setting::aligned_steps(least.ceil() as u32, self.request, self.sectors)
     }
 
+    /// Whose error is judged.
+    pub(super) fn of(&self) -> AccuracyOf {
+        match self.request.modes {
+            Modes::Sought(Aim::Accuracy(accuracy)) => accuracy.of,
+            Modes::Sought(Aim::Budget(_)) | Modes::Given(_) => AccuracyOf::Response,
+        }
+    }
+
     fn find(&self, speed: f64, setting: Setting) -> Result<&'a Trial, Box<TrialRequest>> {
         let request = TrialRequest::new(self.request, speed, setting);
+        let request = match self.of() {
+            AccuracyOf::Response => request,
+            AccuracyOf::Stress => request.with_stress_of(self.request),
+        };
         (self.trial)(&request).ok_or_else(|| Box::new(request))
     }
 
@@ -186,7 +211,7 @@ impl<'a> Pilots<'a, '_> {
             if let [Ok(run), Ok(more_modes), Ok(more_steps)] = found {
                 let before = below.and_then(|below| below.pilots[index].error_of_modes).unwrap_or(0.0);
                 let time_s = run.cost.of_run(self.request.integration.revolutions);
-                rung.add(speed, [run, more_modes, more_steps], before, time_s);
+                rung.add(speed, [run, more_modes, more_steps], self.of(), before, time_s);
                 let share = 1.0 / self.speeds.len() as f64;
                 rung.set_up_s += share * run.cost.set_up_s;
                 rung.step_s += share * run.cost.per_revolution_s / f64::from(steps);
@@ -270,8 +295,13 @@ mod tests {
             impulse: None,
             stress: None,
         };
-        assert_eq!(estimate(&difference(0.02, Some(0.03))), 0.0);
-        assert!((estimate(&difference(0.05, Some(0.03))) - 2.5 * 0.02).abs() < 1e-12);
-        assert!((estimate(&difference(0.05, None)) - 2.5 * 0.05).abs() < 1e-12);
+        let of_response =
+            |amplitude, spread| estimate(&difference(amplitude, spread), AccuracyOf::Response).unwrap();
+        assert_eq!(of_response(0.02, Some(0.03)), 0.0);
+        assert!((of_response(0.05, Some(0.03)) - 2.5 * 0.02).abs() < 1e-12);
+        assert!((of_response(0.05, None) - 2.5 * 0.05).abs() < 1e-12);
+        assert_eq!(estimate(&difference(0.05, None), AccuracyOf::Stress), None);
+        let with_stress = Errors { stress: Some(0.04), ..difference(0.0, Some(0.1)) };
+        assert_eq!(estimate(&with_stress, AccuracyOf::Stress), Some(2.5 * 0.04));
     }
 }

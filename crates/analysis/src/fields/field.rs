@@ -31,6 +31,8 @@ pub struct Field {
     /// Its moments.
     pub frames: Vec<Frame>,
     harmonics: Vec<HarmonicField>,
+    /// What does not move, part of every sum of columns.
+    fixed: Option<HarmonicField>,
 }
 
 /// One nodal diameter.
@@ -60,7 +62,23 @@ impl Field {
             let stress = sector.stress(*harmonic, displacement.as_ref());
             harmonics.push(HarmonicField { harmonic: *harmonic, displacement, stress });
         }
-        Ok(Self { title: String::new(), subtitles: Vec::new(), frames, harmonics })
+        Ok(Self { title: String::new(), subtitles: Vec::new(), frames, harmonics, fixed: None })
+    }
+
+    /// Upon a displacement of the own DOF that is the same in every sector and moment: that of the centrifugal load.
+    #[must_use]
+    pub fn upon(mut self, sector: &FieldSector, own: &[f64]) -> Self {
+        let own = Mat::from_fn(own.len(), 1, |dof, _| c64::new(own[dof], 0.0));
+        let displacement = sector.at_nodes(0, own.as_ref());
+        let stress = sector.stress(0, displacement.as_ref());
+        self.fixed = Some(HarmonicField { harmonic: 0, displacement, stress });
+        self.subtitles.push("upon the static displacement and stress of the centrifugal load".to_owned());
+        self
+    }
+
+    /// Whether it has a part that does not move: what every sum of no columns gives.
+    pub fn has_static(&self) -> bool {
+        self.fixed.is_some()
     }
 
     /// Called so.
@@ -160,7 +178,7 @@ impl Field {
         }
     }
 
-    /// Re Σ_i e^{jisα} Σ_c a_c column_c, K components a node.
+    /// Re Σ_i e^{jisα} Σ_c a_c column_c and what does not move, K components a node.
     fn sum<const K: usize>(
         &self,
         of: &FieldSector,
@@ -170,7 +188,9 @@ impl Field {
         values: impl Fn(&HarmonicField) -> Option<&Mat<c64>>,
     ) -> Vec<[f64; K]> {
         let mut sums = vec![[0.0; K]; places.len()];
-        for harmonic in &self.harmonics {
+        let one = [(0, c64::new(1.0, 0.0))];
+        let moving = self.harmonics.iter().map(|harmonic| (harmonic, weights));
+        for (harmonic, weights) in moving.chain(self.fixed.iter().map(|fixed| (fixed, &one[..]))) {
             let Some(values) = values(harmonic) else { continue };
             let turn = of.phase(harmonic.harmonic * sector % of.sectors());
             for &(column, weight) in weights {

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// An accuracy to reach.
 ///
-/// Of a sweep: the error of the steady response at the pilot speeds, that is the largest over the sensors of the error of its root
+/// Of a sweep: the error of the steady response at the pilot speeds, unless `of` says otherwise, that is the largest over the sensors of the error of its root
 /// mean square and, where trajectories can be compared, of the error of its lines at integer engine orders (root of the sum of
 /// squares), both relative to the largest sensor's. Of a modal analysis: the largest relative error of the ten lowest natural
 /// frequencies of any nodal diameter.
@@ -15,6 +15,27 @@ pub struct Accuracy {
     /// Relative error.
     #[cfg_attr(feature = "schema", schema(minimum = 1e-9, maximum = 0.5))]
     pub target: f64,
+    /// Of a sweep: whose error it is.
+    #[serde(default, skip_serializing_if = "AccuracyOf::is_response")]
+    pub of: AccuracyOf,
+}
+
+/// Whose error is to stay below a target.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum AccuracyOf {
+    /// The steady response at the sensors.
+    #[default]
+    Response,
+    /// The largest von Mises stress over the last revolution, which converges more slowly with the modes; needs `record.stress`.
+    Stress,
+}
+
+impl AccuracyOf {
+    fn is_response(&self) -> bool {
+        *self == Self::Response
+    }
 }
 
 /// A time to keep.

@@ -14,7 +14,7 @@ pub mod speeds;
 pub mod study;
 pub mod sweep;
 
-pub use accuracy::{Accuracy, Budget};
+pub use accuracy::{Accuracy, AccuracyOf, Budget};
 pub use auto_or::AutoOr;
 pub use case_study::{CaseSpeed, CaseStudyRequest, CaseStudySettings};
 pub use integration::{Integration, SchemeChoice};
@@ -24,5 +24,5 @@ pub use scene::Scene;
 pub use sensor::{Component, Gauge, Sensor};
 pub use setting::Setting;
 pub use speeds::{HIGHEST_SPEED, LOWEST_SPEED, MAX_SPEEDS, SpeedSet, SpeedUnit, Speeds};
-pub use study::{Grid, StudyIntegration, StudyRequest};
+pub use study::{Grid, StudyIntegration, StudyRecord, StudyRequest};
 pub use sweep::{SweepDirection, SweepRequest};

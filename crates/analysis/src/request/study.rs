@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::request::auto_or::AutoOr;
 use crate::request::integration::{Integration, SchemeChoice};
+use crate::request::record::StressRequest;
 use crate::request::scene::Scene;
 use crate::request::sensor::Sensor;
 use crate::request::speeds::Speeds;
@@ -38,6 +39,26 @@ pub struct StudyRequest {
     #[serde(default = "default_max_engine_order")]
     #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 1000))]
     pub max_engine_order: u32,
+    /// What is compared beside displacement and contact.
+    #[serde(default, skip_serializing_if = "StudyRecord::is_nothing")]
+    pub record: StudyRecord,
+}
+
+/// What a study records of every run beside displacement and contact.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(deny_unknown_fields)]
+pub struct StudyRecord {
+    /// Stress, as of a sweep: its largest von Mises stress is compared (`errors.stress`). Needs a model with a mesh. Times are those of
+    /// the simulation without it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stress: Option<StressRequest>,
+}
+
+impl StudyRecord {
+    fn is_nothing(&self) -> bool {
+        *self == Self::default()
+    }
 }
 
 fn default_history_revolutions() -> u32 {

@@ -7,8 +7,8 @@ use crate::error::Violation;
 use crate::model::ModelFacts;
 use crate::request::auto_or::MOST_STEPS;
 use crate::request::{
-    Accuracy, AutoOr, Budget, Component, Integration, ModalAnalysisRequest, SchemeChoice, SweepDirection,
-    SweepRequest,
+    Accuracy, AccuracyOf, AutoOr, Budget, Component, Integration, ModalAnalysisRequest, SchemeChoice,
+    SweepDirection, SweepRequest,
 };
 use crate::resolved::sensor::{Along, Place};
 use crate::resolved::{ResolvedModalAnalysis, ResolvedSensor, ResolvedSpeeds, ResolvedSweep};
@@ -65,6 +65,11 @@ pub fn resolve_modal_analysis(
     let mut found = Findings::default();
     let fixed = request.modes_per_speed != AutoOr::Auto;
     check_choice(&mut found, request.accuracy, request.budget, &[("/modes_per_speed", fixed)]);
+    found.require(
+        request.accuracy.is_none_or(|accuracy| accuracy.of == AccuracyOf::Response),
+        "/accuracy/of",
+        "a modal analysis has no stress: its error is that of its frequencies, so leave this away",
+    );
     let request = ResolvedModalAnalysis::of(request, &mut |violation| found.0.push(violation));
     check_modes(&mut found, request.modes_per_speed());
     check_speeds(&mut found, &request.speeds, facts, facts.has_stiffening(), true);
@@ -112,6 +117,12 @@ fn check_knobs(found: &mut Findings, request: &SweepRequest) {
     ];
     check_choice(found, request.accuracy, request.budget, &fixed);
     found.require(
+        request.record.stress.is_some()
+            || request.accuracy.is_none_or(|accuracy| accuracy.of == AccuracyOf::Response),
+        "/accuracy/of",
+        "stress is judged where it is recorded: ask for it by \"record\": {\"stress\": {}}, which needs a model with a mesh",
+    );
+    found.require(
         (request.accuracy.is_none() && request.budget.is_none())
             || request.integration.window_revolutions >= 2,
         "/integration/window_revolutions",
@@ -144,7 +155,7 @@ fn check_choice(
     budget: Option<Budget>,
     knobs: &[(&str, bool)],
 ) {
-    if let Some(Accuracy { target }) = accuracy {
+    if let Some(Accuracy { target, .. }) = accuracy {
         found.require(
             limits::TARGET.contains(&target),
             "/accuracy/target",

@@ -5,7 +5,8 @@ use serde::Serialize;
 use crate::error::Violation;
 use crate::request::sweep::default_peak_prominence;
 use crate::request::{
-    AutoOr, Grid, Integration, Record, StudyIntegration, StudyRequest, SweepDirection, SweepRequest,
+    AutoOr, Grid, Integration, Record, StudyIntegration, StudyRecord, StudyRequest, SweepDirection,
+    SweepRequest,
 };
 use crate::resolved::sensor::ResolvedSensor;
 use crate::resolved::speeds::ResolvedSpeeds;
@@ -72,7 +73,7 @@ impl StudyRequest {
             accuracy: None,
             budget: None,
             control_speeds: None,
-            record: Record::default(),
+            record: Record { stress: self.record.stress, ..Record::default() },
         }
     }
 }
@@ -90,6 +91,7 @@ impl From<ResolvedStudy> for StudyRequest {
             history_revolutions: study.history_revolutions,
             sensors: sweep.sensors.into_iter().map(Into::into).collect(),
             max_engine_order: sweep.max_engine_order,
+            record: StudyRecord { stress: sweep.record.stress },
         }
     }
 }

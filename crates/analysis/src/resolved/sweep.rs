@@ -114,6 +114,11 @@ impl ResolvedSweep {
         &self.sensors
     }
 
+    /// Whether its wheel stiffens with speed.
+    pub fn is_stiffened(&self) -> bool {
+        self.scene.centrifugal_stiffening
+    }
+
     /// Whether the casing has a coating that wears.
     pub fn is_worn(&self) -> bool {
         self.scene.abradable.is_some()

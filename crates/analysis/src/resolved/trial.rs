@@ -17,9 +17,16 @@ pub struct TrialRequest {
 }
 
 impl TrialRequest {
-    /// `setting` at one speed of `request`, without what chooses settings.
+    /// `setting` at one speed of `request`, without what chooses settings, and without stress.
     pub fn new(request: &ResolvedSweep, speed_rad_s: f64, setting: Setting) -> Self {
         Self { sweep: request.one_speed(speed_rad_s, setting), history_revolutions: 0, twin: false }
+    }
+
+    /// With stress where `request` asks for it.
+    #[must_use]
+    pub(crate) fn with_stress_of(mut self, request: &ResolvedSweep) -> Self {
+        self.sweep.record.stress = request.record.stress;
+        self
     }
 
     /// The sweep of one speed that it is.

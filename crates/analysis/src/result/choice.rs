@@ -18,7 +18,8 @@ pub struct Choice {
     pub budget: Option<Budget>,
     /// The setting.
     pub setting: Setting,
-    /// Estimated relative error of the steady response, the largest of the pilot speeds: the sum of the following parts.
+    /// Estimated relative error of the steady response, or of the stress if `accuracy.of` names it; the largest of the pilot
+    /// speeds: the sum of the following parts.
     pub estimated_error: f64,
     /// Part of it that more modes would remove.
     pub error_of_modes: f64,

@@ -38,6 +38,7 @@ impl Errors {
             Quantity::Amplitude => Some(self.amplitude),
             Quantity::EngineOrders => self.engine_orders,
             Quantity::Impulse => self.impulse,
+            Quantity::Stress => self.stress,
         }
     }
 
@@ -46,7 +47,7 @@ impl Errors {
         let error = self.of(quantity)?;
         Some(match quantity {
             Quantity::Amplitude => error.max(self.amplitude_spread.unwrap_or(0.0)),
-            Quantity::History | Quantity::EngineOrders | Quantity::Impulse => error,
+            Quantity::History | Quantity::EngineOrders | Quantity::Impulse | Quantity::Stress => error,
         })
     }
 }
@@ -64,11 +65,14 @@ pub enum Quantity {
     EngineOrders,
     /// Contact impulse.
     Impulse,
+    /// Largest von Mises stress.
+    Stress,
 }
 
 impl Quantity {
     /// All of them.
-    pub const ALL: [Self; 4] = [Self::History, Self::Amplitude, Self::EngineOrders, Self::Impulse];
+    pub const ALL: [Self; 5] =
+        [Self::History, Self::Amplitude, Self::EngineOrders, Self::Impulse, Self::Stress];
 
     /// The word on the wire.
     pub fn as_str(self) -> &'static str {
@@ -77,6 +81,7 @@ impl Quantity {
             Self::Amplitude => "amplitude",
             Self::EngineOrders => "engine_orders",
             Self::Impulse => "impulse",
+            Self::Stress => "stress",
         }
     }
 }
@@ -92,6 +97,9 @@ pub struct ErrorEstimate {
     /// The largest of them; absent where there are none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub largest: Option<f64>,
+    /// The largest `estimated_stress_error`; absent where there are none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub largest_of_stress: Option<f64>,
     /// Whether all completed speeds are known to be within the accuracy that was asked for, if one was; absent where the modes could
     /// not be refined.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -139,7 +147,10 @@ pub struct PointError {
     pub index: u32,
     /// Relative error of the steady response.
     pub estimated_error: f64,
-    /// Whether this speed was simulated again itself; otherwise the number is the larger one of the nearest that were on either
-    /// side.
+    /// Relative error of the largest von Mises stress; absent where it was not recorded, or no control run tells it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub estimated_stress_error: Option<f64>,
+    /// Whether this speed was simulated again itself; otherwise the numbers are the larger ones of the nearest that were on
+    /// either side.
     pub controlled: bool,
 }

@@ -83,6 +83,12 @@ impl PointStress {
     }
 }
 
+/// The most utilised first, those of which nothing is known last; otherwise in the order that they had.
+pub fn most_utilised_first<T>(all: &mut [T], utilisation: impl Fn(&T) -> Option<f64>) {
+    let rank = |of: &T| utilisation(of).unwrap_or(f64::NEG_INFINITY);
+    all.sort_by(|a, b| rank(b).total_cmp(&rank(a)));
+}
+
 /// What the material of an element set bears, as far as the model says.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
@@ -130,6 +136,13 @@ pub fn stress_unit(units: &Units) -> String {
 mod tests {
     use super::*;
     use rubmap_solid::material::{FatigueStrength, Material};
+
+    #[test]
+    fn ranks_keep_the_order_of_what_is_alike() {
+        let mut speeds = [(1, None), (2, Some(0.5)), (3, Some(1.5)), (4, None), (5, Some(0.5))];
+        most_utilised_first(&mut speeds, |(_, used)| *used);
+        assert_eq!(speeds.map(|(speed, _)| speed), [3, 2, 5, 1, 4]);
+    }
 
     #[test]
     fn strengths_are_those_of_the_sets() {

@@ -73,7 +73,7 @@ impl Impeller {
         let bases = bases.0.into_inner().unwrap();
         let wheel = std::sync::Arc::unwrap_or_clone(reduced.wheel);
         let maker = StressMaker::new(&self.mesh, &self.nodes);
-        let fixed = maker.fixed(&self.sector, &|_, _| true).unwrap();
+        let fixed = maker.fixed(&self.sector, &|_, _| true).unwrap().stress;
         let spacing = ModelFacts::of(&self.sector).contact_spacing.unwrap();
         let made: Vec<HarmonicStress> = wheel
             .harmonics
@@ -227,7 +227,7 @@ fn static_stress_between_the_given_speeds_is_that_of_a_solution_there() {
     let impeller = impeller();
     let sector = &impeller.sector;
     let maker = StressMaker::new(&impeller.mesh, &impeller.nodes);
-    let fixed = maker.fixed(sector, &|_, _| true).unwrap();
+    let fixed = maker.fixed(sector, &|_, _| true).unwrap().stress;
     let mut load = Mat::<c64>::zeros(sector.own_dofs(), 1);
     for (node, force) in impeller.nodes.iter().zip(centrifugal(&impeller.mesh)) {
         for dof in node.dofs.iter().flatten().filter(|_| !node.on_high_face) {

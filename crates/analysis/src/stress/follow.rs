@@ -58,8 +58,7 @@ impl Follow<'_> {
             let here = Followed { peak: cycle.peak, peak_blade: blade, cycle, cycle_blade: blade, measure };
             found = Some(found.map_or(here, |before| before.with(&here)));
         }
-        let found = found.unwrap_or_else(|| unreachable!("a wheel has at least one blade"));
-        found
+        found.unwrap_or_else(|| unreachable!("a wheel has at least one blade"))
     }
 }
 

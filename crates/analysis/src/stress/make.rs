@@ -4,7 +4,7 @@ use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::{Mat, Par, Side, c64};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
-use super::reduced::{HarmonicStress, StaticStress};
+use super::reduced::{HarmonicStress, StaticStress, StaticWheel};
 use rubmap_solid::load::centrifugal;
 use rubmap_solid::mesh::SectorMesh;
 use rubmap_solid::stress::NodalStress;
@@ -83,11 +83,11 @@ impl<'a> StressMaker<'a> {
         Ok(HarmonicStress::new(rows))
     }
 
-    /// Stress of the centrifugal load at all places.
+    /// Displacement under the centrifugal load, and its stress at all places.
     ///
     /// # Errors
     /// Those of [`static_response`].
-    pub fn fixed(&self, sector: &SectorModel, watch: Watch<'_>) -> Result<StaticStress, ReductionError> {
+    pub fn fixed(&self, sector: &SectorModel, watch: Watch<'_>) -> Result<StaticWheel, ReductionError> {
         let mut load = vec![0.0; sector.own_dofs()];
         for (node, force) in self.nodes.iter().zip(centrifugal(self.mesh)) {
             // What acts on a high node is with its low node already.
@@ -100,7 +100,9 @@ impl<'a> StressMaker<'a> {
         let shapes = self.at_nodes(speeds, |dof, speed| c64::new(response.solutions[(dof, speed)], 0.0));
         let stress = self.operator.apply(c64::new(1.0, 0.0), shapes.as_ref());
         let rows = (0..stress.nrows()).flat_map(|row| (0..speeds).map(move |speed| (row, speed)));
-        Ok(StaticStress { stress: rows.map(|at| stress[at].re).collect(), span: response.span })
+        let stress = StaticStress { stress: rows.map(|at| stress[at].re).collect(), span: response.span };
+        let dofs = (0..sector.own_dofs()).flat_map(|dof| (0..speeds).map(move |speed| (dof, speed)));
+        Ok(StaticWheel { stress, displacement: dofs.map(|at| response.solutions[at]).collect() })
     }
 
     /// (r, θ, z) at all nodes of `columns` vectors over the own DOF.

@@ -19,7 +19,7 @@ mod sums;
 mod trajectory;
 
 pub use make::{StressMaker, StressOf};
-pub use reduced::{HarmonicStress, ReducedStress, StaticStress};
+pub use reduced::{HarmonicStress, ReducedStress, StaticStress, StaticWheel};
 pub(crate) use search::{Course, stress_of};
 
 #[cfg(test)]

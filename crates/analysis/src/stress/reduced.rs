@@ -43,6 +43,15 @@ pub(super) struct Measure {
     pub(super) least: f64,
 }
 
+/// The wheel under its centrifugal load.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StaticWheel {
+    /// Its stress.
+    pub stress: StaticStress,
+    /// `[own DOF][given speed]`: the solutions at the given speeds per unit Ω².
+    pub displacement: Vec<f64>,
+}
+
 /// Stress of the wheel under its centrifugal load.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StaticStress {
@@ -147,6 +156,15 @@ impl Measure {
             |_| Self { lower: Mat::identity(unknowns, unknowns), least: 1.0 },
             |factor| Self { lower: factor.L().to_owned(), least },
         )
+    }
+}
+
+impl StaticWheel {
+    /// Displacement at a speed, of every own DOF; the same in every sector.
+    pub fn displacement(&self, speed_rad_s: f64, stiffening: bool) -> Vec<f64> {
+        let shares = self.stress.span.at(speed_rad_s, stiffening);
+        let of = |dof: &[f64]| shares.iter().zip(dof).map(|(share, u)| share * u).sum();
+        self.displacement.chunks_exact(shares.len()).map(of).collect()
     }
 }
 

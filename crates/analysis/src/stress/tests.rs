@@ -236,6 +236,7 @@ fn a_wheel_at_rest_has_its_static_stress() {
 fn without_strengths_the_largest_alternating_stress_leads() {
     let mut case = case(7, 1, 1.0);
     case.stress.sets = vec![set("blade", None), set("disk", None)];
+    case.stress.places.iter_mut().for_each(|place| place.yield_strength = None);
     let found = stress_of(&case.stress, &case.course()).unwrap().unwrap();
     let worst = |place: usize| case.cycles(place).iter().map(|c| c.alternating).fold(0.0, f64::max);
     let largest = (0..PLACES).map(worst).fold(0.0, f64::max);

@@ -8,7 +8,7 @@ use faer::linalg::triangular_solve::solve_upper_triangular_in_place;
 use faer::{Mat, Par, c64};
 
 use super::make::lower;
-use super::reduced::ReducedStress;
+use super::reduced::{Measure, ReducedStress};
 use rubmap_numerics::hermitian::{EigenError, eigenpairs};
 use rubmap_wheel::dynamics::reduction::ReducedHarmonic;
 use rubmap_wheel::dynamics::states::WheelStates;
@@ -31,7 +31,7 @@ pub(super) struct Path {
     pub(super) reach: Vec<f64>,
     /// By so many directions places are looked at.
     pub(super) looking: usize,
-    /// All directions leave no more than this of |x̃| at any instant.
+    /// The directions leave no more than this of |x̃| at any instant.
     pub(super) left: f64,
 }
 
@@ -48,40 +48,19 @@ pub(super) fn paths(
     for state in &states.harmonics {
         let lower = lower(&harmonics[state.harmonic]).ok_or(EigenError::MassNotPositiveDefinite)?;
         let energy = lower.adjoint() * &state.coordinates;
-        if energy.norm_max() == 0.0 {
-            continue;
+        if energy.norm_max() > 0.0 {
+            found.push(Path::new(state.harmonic, &energy, &stress.harmonics[state.harmonic].measure)?);
         }
-        let measure = &stress.harmonics[state.harmonic].measure;
-        let stressing = measure.lower.adjoint() * &energy;
-        let gram = &stressing * stressing.adjoint();
-        let gram =
-            Mat::from_fn(gram.nrows(), gram.ncols(), |i, j| (gram[(i, j)] + gram[(j, i)].conj()) * 0.5);
-        let ascending = eigenpairs(gram.as_ref())?.vectors;
-        let last = ascending.ncols() - 1;
-        let mut directions = Mat::from_fn(ascending.nrows(), last + 1, |row, k| ascending[(row, last - k)]);
-        let course = directions.adjoint() * &stressing;
-        solve_upper_triangular_in_place(measure.lower.adjoint(), directions.as_mut(), Par::Seq);
-        found.push((state.harmonic, measure.least, directions, course));
     }
-    let left: Vec<Vec<f64>> = found.iter().map(|(_, _, _, course)| left_by(course)).collect();
+    let left: Vec<Vec<f64>> = found.iter().map(|path| left_by(&path.course)).collect();
     let largest = left.iter().map(|left| left[0]).fold(0.0, f64::max);
-    let path =
-        |((harmonic, least, directions, course), left): ((usize, f64, Mat<c64>, Mat<c64>), Vec<f64>)| {
-            let enough =
-                |share: f64| left.iter().position(|&left| left <= share * largest).unwrap_or(left.len() - 1);
-            let followed = enough(FOLLOWED);
-            Path {
-                harmonic,
-                directions: directions.subcols(0, followed).to_owned(),
-                course: course.subrows(0, followed).to_owned(),
-                reach: (0..followed)
-                    .map(|k| course.row(k).iter().map(|c| c.norm()).fold(0.0, f64::max))
-                    .collect(),
-                looking: enough(LOOKED),
-                left: left[followed] / least.sqrt(),
-            }
-        };
-    Ok(found.into_iter().zip(left).map(path).filter(|path| !path.reach.is_empty()).collect())
+    for (path, left) in found.iter_mut().zip(left) {
+        let enough =
+            |share: f64| left.iter().position(|&left| left <= share * largest).unwrap_or(left.len() - 1);
+        path.cut(enough(FOLLOWED), enough(LOOKED), &left);
+    }
+    found.retain(|path| !path.reach.is_empty());
+    Ok(found)
 }
 
 /// For every number of directions, how much of the path is left at the instant at which most is.
@@ -98,6 +77,30 @@ fn left_by(course: &Mat<c64>) -> Vec<f64> {
 }
 
 impl Path {
+    /// Of all directions of a path of root energies.
+    fn new(harmonic: usize, energy: &Mat<c64>, measure: &Measure) -> Result<Self, EigenError> {
+        let stressing = measure.lower.adjoint() * energy;
+        let gram = &stressing * stressing.adjoint();
+        let gram =
+            Mat::from_fn(gram.nrows(), gram.ncols(), |i, j| (gram[(i, j)] + gram[(j, i)].conj()) * 0.5);
+        let ascending = eigenpairs(gram.as_ref())?.vectors;
+        let count = ascending.ncols();
+        let mut directions = Mat::from_fn(count, count, |row, k| ascending[(row, count - 1 - k)]);
+        let course = directions.adjoint() * &stressing;
+        solve_upper_triangular_in_place(measure.lower.adjoint(), directions.as_mut(), Par::Seq);
+        let reach = (0..count).map(|k| course.row(k).iter().map(|c| c.norm()).fold(0.0, f64::max)).collect();
+        Ok(Self { harmonic, directions, course, reach, looking: count, left: measure.least.sqrt().recip() })
+    }
+
+    /// Keeps so many directions, and looks by `looking` of them; `left` is what every number of them leaves.
+    fn cut(&mut self, followed: usize, looking: usize, left: &[f64]) {
+        self.directions = self.directions.subcols(0, followed).to_owned();
+        self.course = self.course.subrows(0, followed).to_owned();
+        self.reach.truncate(followed);
+        self.looking = looking;
+        self.left *= left[followed];
+    }
+
     /// The first `count` directions for real products with the real and imaginary parts of a place's rows: Re of every `s·u`, then Im, a
     /// row each, both padded with nothing to `padded` rows.
     pub(super) fn turned(&self, count: usize, padded: usize) -> Mat<f32> {

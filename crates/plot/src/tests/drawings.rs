@@ -54,7 +54,7 @@ fn all() -> Vec<Drawing> {
             &["rotational speed Ω, rpm", "frequency (rotating frame), Hz"],
         ),
         (
-            map_sheet(&vec![map(); 5], Window::default()),
+            map_sheet(&vec![map(); 5], Window::default(), LevelColour::Plain),
             "Maps by nodal diameter",
             &["rotational speed Ω, rpm", "engine order k"],
         ),
@@ -407,7 +407,10 @@ fn trajectories_stand_where_the_tip_is() {
 /// Fewest and emptiest results: each is a drawing, without numbers that are none.
 #[test]
 fn drawings_of_next_to_nothing_are_drawings() {
-    let mut drawings = vec![map_sheet(&[], Window::default()), section(&sector(1), SectionView::Meridional)];
+    let mut drawings = vec![
+        map_sheet(&[], Window::default(), LevelColour::Plain),
+        section(&sector(1), SectionView::Meridional),
+    ];
     for view in [SectionView::Meridional, SectionView::Cyclic] {
         let mut geometry = sector(0);
         drawings.push(section(&geometry, view));
@@ -447,7 +450,7 @@ fn drawings_of_next_to_nothing_are_drawings() {
             window,
             LevelColour::Plain,
         ));
-        drawings.push(map_sheet(&[map()], window));
+        drawings.push(map_sheet(&[map()], window, LevelColour::Plain));
     }
 
     let silent = |orders: Vec<f64>| -> SpeedSpectra {

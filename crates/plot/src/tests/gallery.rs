@@ -76,7 +76,11 @@ fn gallery() {
     let zoom = Window { speeds_rpm: Some((18_000.0, 26_000.0)), engine_orders: Some((1.0, 12.0)) };
     let maps: Option<Vec<InteractionMap>> =
         (0..6).map(|i| read(&demo.join(format!("map-{i}.json")))).collect();
-    save(&folder, "map-sheet", &map_sheet(&maps.unwrap_or_else(|| vec![super::map(); 3]), zoom));
+    save(
+        &folder,
+        "map-sheet",
+        &map_sheet(&maps.unwrap_or_else(|| vec![super::map(); 3]), zoom, LevelColour::Plain),
+    );
     let answer: Option<serde_json::Value> = read(&demo.join("spectra-33.json"));
     let found: Option<SpeedSpectra> =
         answer.and_then(|answer| serde_json::from_value(answer.get("spectra")?.clone()).ok());

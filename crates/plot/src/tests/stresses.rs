@@ -7,7 +7,9 @@ use rubmap_analysis::result::{
 use serde_json::{Value, json};
 
 use super::{critical, level, map, number, of_class, tick, units};
-use crate::{HaighColour, LevelColour, VerticalAxis, Window, critical_speeds, haigh, interaction_map};
+use crate::{
+    HaighColour, LevelColour, VerticalAxis, Window, critical_speeds, haigh, interaction_map, map_sheet,
+};
 
 /// Fatigue strength 120 and ultimate strength 400 of the blade.
 pub(super) fn strengths() -> Vec<Strengths> {
@@ -207,6 +209,17 @@ fn the_level_is_coloured_by_utilisation_on_request() {
         assert!(words.contains(words_of_key), "{words_of_key}: {words}");
     }
     assert!(!words.contains("below 0.25"));
+}
+
+#[test]
+fn a_sheet_has_strips_of_utilisation_on_request() {
+    let maps = vec![stressed_map(); 3];
+    let drawing = map_sheet(&maps, Window::default(), LevelColour::Utilisation);
+    let read = Document::parse(&drawing).unwrap();
+    assert_eq!(of_class(&read, "utilisation").count(), 3 * 4, "of every map what is known");
+    let words = texts(&drawing);
+    assert!(words.contains("1 and above") && !words.contains("below 0.25"), "{words}");
+    assert!(!map_sheet(&maps, Window::default(), LevelColour::Plain).contains("utilisation"));
 }
 
 #[test]
