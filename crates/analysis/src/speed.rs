@@ -86,7 +86,7 @@ pub(super) fn judge_run(
             .and_then(|states| {
                 let course =
                     Course { harmonics: &reduced.wheel.harmonics, wheel, states: &states, stiffening };
-                stress_of(stress, &course).map_err(|_| "an eigenvalue iteration failed".to_owned())
+                stress_of(stress, &course).map_err(|error| error.to_string())
             });
         match found {
             Ok(found) => point.stress = found,

@@ -7,8 +7,10 @@
 mod against_full;
 mod bounds;
 mod cycle;
+mod error;
 mod extremes;
 mod follow;
+mod leaders;
 mod look;
 pub(crate) mod make;
 mod measure;

@@ -1,18 +1,17 @@
 //! The largest stress of a speed, and its most utilised places.
 
-use std::cmp::Ordering;
-
 use num_integer::Integer;
 
 use super::bounds::Bounds;
 use super::cycle::{Cycle, Weights, weights};
+use super::error::StressError;
 use super::follow::{Follow, Followed};
+use super::leaders::{Leaders, descending};
 use super::look::{BATCH, Look, Seen};
 use super::measure::von_mises;
 use super::reduced::ReducedStress;
 use super::trajectory::paths;
 use crate::result::stress::{PointStress, StressCycle, StressPeak};
-use rubmap_numerics::hermitian::EigenError;
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
 use rubmap_wheel::dynamics::reduction::ReducedHarmonic;
 use rubmap_wheel::dynamics::states::WheelStates;
@@ -33,11 +32,11 @@ pub(crate) struct Course<'a> {
 /// Finds them; none where every node is left out. Exact: a place is left out only if a bound rules it out. On the calling thread; deterministic.
 ///
 /// # Errors
-/// If an eigenvalue iteration fails.
+/// If an eigenvalue iteration fails, or a bound is not finite.
 pub(crate) fn stress_of(
     stress: &ReducedStress,
     course: &Course<'_>,
-) -> Result<Option<PointStress>, EigenError> {
+) -> Result<Option<PointStress>, StressError> {
     if stress.places() == 0 {
         return Ok(None);
     }
@@ -50,6 +49,9 @@ pub(crate) fn stress_of(
     let blades = (course.wheel.sectors.min(around / repeats), around);
     let instants = course.states.revolutions.len();
     let bounds = Bounds::new(stress, &fixed, &paths);
+    if bounds.rough.iter().any(|bound| !bound.largest.is_finite()) {
+        return Err(StressError::NotFinite);
+    }
     let weights: Vec<Option<Weights>> = stress.places.iter().map(|place| weights[place.set]).collect();
     let rough: Vec<(f64, f64)> = (bounds.rough.iter().zip(&weights))
         .map(|(bound, weights)| (bound.largest, weights.map_or(-1.0, |weights| weights.most(bound))))
@@ -207,34 +209,5 @@ impl Search<'_> {
     fn follow(&mut self, place: usize) -> Followed {
         let weights = self.weights[place].unwrap_or(Weights::ALTERNATING);
         *self.followed[place].get_or_insert_with(|| self.follow.place(place, weights))
-    }
-}
-
-/// By value, then by place.
-fn descending(a: &(f64, usize), b: &(f64, usize)) -> Ordering {
-    b.0.total_cmp(&a.0).then(a.1.cmp(&b.1))
-}
-
-/// The largest few of some numbers.
-struct Leaders {
-    count: usize,
-    /// Descending.
-    values: Vec<f64>,
-}
-
-impl Leaders {
-    fn new(count: usize) -> Self {
-        Self { count, values: Vec::new() }
-    }
-
-    fn add(&mut self, value: f64) {
-        let place = self.values.partition_point(|&known| known >= value);
-        self.values.insert(place, value);
-        self.values.truncate(self.count);
-    }
-
-    /// What one must have to be among them.
-    fn least(&self) -> f64 {
-        if self.values.len() < self.count { f64::NEG_INFINITY } else { self.values[self.count - 1] }
     }
 }

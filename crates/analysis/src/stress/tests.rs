@@ -10,6 +10,7 @@ use rubmap_wheel::dynamics::states::{HarmonicStates, WheelStates};
 
 use super::bounds::Bounds;
 use super::cycle::{Cycle, weights};
+use super::error::StressError;
 use super::look::{Look, turn};
 use super::make::lower;
 use super::measure::{Stress, von_mises};
@@ -243,4 +244,28 @@ fn without_strengths_the_largest_alternating_stress_leads() {
     assert!((found.cycles[0].alternating - largest).abs() < 1e-5 * largest);
     assert!(found.cycles[0].utilisation.is_none() && found.largest_over_yield.is_none());
     assert!(found.lacking.unwrap().contains("blade, disk"));
+}
+
+#[test]
+fn what_is_not_finite_is_no_stress() {
+    for broken in [f64::NAN, f64::INFINITY] {
+        let mut moved = case(3, 1, 1.0);
+        moved.states.harmonics[0].coordinates[(2, 5)] = c64::new(broken, 0.0);
+        assert_eq!(stress_of(&moved.stress, &moved.course()), Err(StressError::NotFinite));
+        let mut loaded = case(3, 1, 1.0);
+        loaded.stress.fixed.stress[40] = broken;
+        assert_eq!(stress_of(&loaded.stress, &loaded.course()), Err(StressError::NotFinite));
+    }
+}
+
+/// Even nodal diameters of six sectors: three blades differ, and the first of equal ones is told.
+#[test]
+fn blades_that_move_alike_are_looked_at_once() {
+    let mut case = case(4, 1, 0.5);
+    case.states.harmonics.retain(|states| states.harmonic % 2 == 0);
+    let found = stress_of(&case.stress, &case.course()).unwrap().unwrap();
+    let all = (0..PLACES).flat_map(|place| case.cycles(place));
+    let largest = all.map(|cycle| cycle.peak.0).fold(0.0, f64::max);
+    assert!((found.largest.von_mises - largest).abs() < 2e-6 * largest);
+    assert!(found.largest.sector < 3 && found.cycles.iter().all(|cycle| cycle.sector < 3));
 }

@@ -7,6 +7,7 @@
 use faer::linalg::triangular_solve::solve_upper_triangular_in_place;
 use faer::{Mat, Par, c64};
 
+use super::error::StressError;
 use super::make::lower;
 use super::reduced::{Measure, ReducedStress};
 use rubmap_numerics::hermitian::{EigenError, eigenpairs};
@@ -38,16 +39,19 @@ pub(super) struct Path {
 /// The paths of all nodal diameters that move.
 ///
 /// # Errors
-/// If an eigenvalue iteration fails.
+/// If an eigenvalue iteration fails, or a state is not finite.
 pub(super) fn paths(
     states: &WheelStates,
     harmonics: &[ReducedHarmonic],
     stress: &ReducedStress,
-) -> Result<Vec<Path>, EigenError> {
+) -> Result<Vec<Path>, StressError> {
     let mut found = Vec::new();
     for state in &states.harmonics {
         let lower = lower(&harmonics[state.harmonic]).ok_or(EigenError::MassNotPositiveDefinite)?;
         let energy = lower.adjoint() * &state.coordinates;
+        if !energy.is_all_finite() {
+            return Err(StressError::NotFinite);
+        }
         if energy.norm_max() > 0.0 {
             found.push(Path::new(state.harmonic, &energy, &stress.harmonics[state.harmonic].measure)?);
         }
