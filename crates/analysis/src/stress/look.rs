@@ -1,14 +1,15 @@
 //! A look at places at all instants of all blades by the directions that stress them most; what these leave out is bounded.
 
 use faer::linalg::matmul::matmul;
-use faer::{Accum, Mat, MatMut, Par, c64};
+use faer::{Accum, Mat, MatMut, MatRef, Par, c64};
 
-use super::bounds::{Bounds, Error};
-use super::cycle::Weights;
+use super::bounds::{Error, ROUNDING};
+use super::cycle::{Bound, Weights};
 use super::extremes::{Extremes, Moved};
 use super::measure::Stress;
+use super::metric::turned;
 use super::reduced::{HarmonicStress, ReducedStress};
-use super::sums::LANES;
+use super::sums::{LANES, Sums};
 use super::trajectory::Path;
 
 /// Places that are looked at together: their waves stay in the second-level cache.
@@ -29,7 +30,6 @@ pub(super) struct Seen {
 
 /// Looks at places.
 pub(super) struct Look<'a> {
-    bounds: &'a Bounds,
     fixed: &'a [Stress],
     arch: pulp::Arch,
     /// Stresses are divided by this, so that their squares have room in single precision.
@@ -46,13 +46,13 @@ impl<'a> Look<'a> {
     /// Of the `paths` over `instants` of a wheel of which `blades` are told apart, `around` stand in all.
     pub(super) fn new(
         stress: &'a ReducedStress,
-        bounds: &'a Bounds,
+        bounds: &[Bound],
         fixed: &'a [Stress],
         paths: &[Path],
         (blades, around): (usize, usize),
         instants: usize,
     ) -> Self {
-        let scale = bounds.rough.iter().map(|bound| bound.largest).fold(f64::MIN_POSITIVE, f64::max);
+        let scale = bounds.iter().map(|bound| bound.largest).fold(f64::MIN_POSITIVE, f64::max);
         let padded = instants.next_multiple_of(LANES);
         let turns = (0..blades).flat_map(|blade| {
             paths.iter().map(move |path| {
@@ -66,7 +66,6 @@ impl<'a> Look<'a> {
             instants: padded,
             turns: turns.collect(),
             blades,
-            bounds,
             fixed,
             scale,
         }
@@ -75,12 +74,14 @@ impl<'a> Look<'a> {
     /// At some places, at most [`BATCH`], with the `weights` of each.
     pub(super) fn at(&self, places: &[usize], weights: &[Option<Weights>]) -> Vec<Seen> {
         let width = 2 * self.instants;
-        let waves: Vec<Vec<f32>> = self.moving.iter().map(|moving| moving.waves(places)).collect();
+        let mut errors: Vec<Error> = places.iter().map(|&place| Error::rounded(&self.fixed[place])).collect();
+        let waves: Vec<Vec<f32>> =
+            self.moving.iter().map(|moving| moving.waves(places, &mut errors)).collect();
         let mut extremes = Vec::with_capacity(self.blades);
         let seen = |(at, (&place, weights)): (usize, (&usize, &Option<Weights>))| {
             let waves: Vec<&[f32]> =
                 waves.iter().map(|waves| &waves[6 * width * at..][..6 * width]).collect();
-            let error = &self.bounds.errors[place];
+            let error = &errors[at];
             let moved = Moved {
                 fixed: self.fixed[place].map(|stress| (stress / self.scale) as f32),
                 waves: &waves,
@@ -118,10 +119,16 @@ impl<'a> Look<'a> {
 /// A nodal diameter that moves.
 struct Moving<'a> {
     operator: &'a HarmonicStress,
-    /// `2·directions × 2·unknowns`.
+    /// `2·directions × 2·unknowns`, the directions padded.
     turned: Mat<f32>,
-    /// `2·instants × 2·directions`: what gives the real, then the imaginary part of w_i at all instants.
+    /// `2·instants × 2·directions` of those that look: what gives the real, then the imaginary part of w_i at all instants.
     drive: Mat<f32>,
+    /// Of the directions that do not look.
+    sums: Sums,
+    /// What all directions leave of |x̃|_G.
+    left: f64,
+    /// What rounding may have done, of a norm.
+    rounding: f64,
 }
 
 impl<'a> Moving<'a> {
@@ -138,17 +145,44 @@ impl<'a> Moving<'a> {
                 _ => re,
             }) as f32
         });
-        Self { operator: &stress.harmonics[path.harmonic], turned: path.turned(looking, looking), drive }
+        let operator = &stress.harmonics[path.harmonic];
+        let directions = path.reach.len().next_multiple_of(LANES);
+        let terms = (operator.rows.nrows() + 2 * directions) as f64;
+        let mut reach = path.reach.clone();
+        reach[..looking].fill(0.0);
+        Self {
+            operator,
+            turned: turned(path.directions.as_ref(), directions),
+            drive,
+            sums: Sums::new(&reach, directions),
+            left: path.left,
+            rounding: ROUNDING * terms * path.length(path.reach.len()),
+        }
     }
 
-    /// w_i at some places, `[place][component][part][instant]`.
-    fn waves(&self, places: &[usize]) -> Vec<f32> {
+    /// w_i at some places, `[place][component][part][instant]`; adds to their `errors` what it leaves out.
+    fn waves(&self, places: &[usize], errors: &mut [Error]) -> Vec<f32> {
         let rows = self.operator.of_places(places);
-        let mut parts = Mat::<f32>::zeros(self.turned.nrows(), rows.ncols());
-        matmul(parts.as_mut(), Accum::Replace, &self.turned, &rows, 1.0, Par::Seq);
+        let mut parts = vec![0.0f32; self.turned.nrows() * rows.ncols()];
+        let into = MatMut::from_column_major_slice_mut(&mut parts, self.turned.nrows(), rows.ncols());
+        matmul(into, Accum::Replace, &self.turned, &rows, 1.0, Par::Seq);
+        for ((&place, parts), error) in
+            places.iter().zip(parts.chunks_exact(6 * self.turned.nrows())).zip(errors)
+        {
+            let (norm, rest) = (&self.operator.norms[place], self.sums.of(parts).sizes);
+            error.von_mises +=
+                rest[0] + self.left * norm.von_mises_squared.sqrt() + self.rounding * norm.whole;
+            error.trace += rest[1] + self.left * norm.trace_squared.sqrt() + self.rounding * norm.whole;
+        }
+        let parts = MatRef::from_column_major_slice(&parts, self.turned.nrows(), rows.ncols());
+        let looking = self.drive.ncols() / 2;
         let mut waves = vec![0.0; self.drive.nrows() * rows.ncols()];
-        let into = MatMut::from_column_major_slice_mut(&mut waves, self.drive.nrows(), rows.ncols());
-        matmul(into, Accum::Replace, &self.drive, &parts, 1.0, Par::Seq);
+        let mut into = MatMut::from_column_major_slice_mut(&mut waves, self.drive.nrows(), rows.ncols());
+        for (part, accumulate) in [Accum::Replace, Accum::Add].into_iter().enumerate() {
+            let drive = self.drive.subcols(part * looking, looking);
+            let parts = parts.subrows(part * self.turned.nrows() / 2, looking);
+            matmul(into.as_mut(), accumulate, drive, parts, 1.0, Par::Seq);
+        }
         waves
     }
 }

@@ -14,6 +14,7 @@ mod leaders;
 mod look;
 pub(crate) mod make;
 mod measure;
+mod metric;
 mod places;
 mod reduced;
 mod search;

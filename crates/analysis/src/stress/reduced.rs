@@ -1,10 +1,10 @@
 //! What simulations need of a mesh: stress at its places in the coordinates of a reduction.
 
-use faer::linalg::matmul::matmul;
-use faer::{Accum, Mat, Par, Side, c64};
+use faer::{Mat, c64};
 use serde::{Deserialize, Serialize};
 
-use super::measure::{Stress, von_mises};
+use super::measure::Stress;
+use super::metric::{Metric, Norm};
 use super::places::{Place, places};
 use rubmap_solid::mesh::{ElementSet, SectorMesh};
 use rubmap_solid::stress::NodalStress;
@@ -31,16 +31,7 @@ pub struct HarmonicStress {
     pub(super) rows: Mat<f32>,
     /// Of every place.
     pub(super) norms: Vec<Norm>,
-    pub(super) measure: Measure,
-}
-
-/// How much coordinates stress all places together.
-#[derive(Debug, Clone)]
-pub(super) struct Measure {
-    /// F of F Fᴴ = G = Σ aᴴ a + λ: over the rows a of all components of all places, and a little of the energy.
-    pub(super) lower: Mat<c64>,
-    /// λ: x̃ᴴ G x̃ is no less than λ |x̃|².
-    pub(super) least: f64,
+    pub(super) metric: Metric,
 }
 
 /// The wheel under its centrifugal load.
@@ -59,15 +50,6 @@ pub struct StaticStress {
     pub stress: Vec<f64>,
     /// What makes those between them.
     pub span: StaticSpan,
-}
-
-/// How large the columns of a place are.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Norm {
-    /// Root sum of squares of the von Mises stresses of all unknowns: a unit of root energy gives no more.
-    pub(super) von_mises: f64,
-    /// The same of all components, times √3: no von Mises stress or trace is more.
-    pub(super) whole: f64,
 }
 
 impl ReducedStress {
@@ -135,30 +117,6 @@ impl ReducedStress {
     }
 }
 
-/// Share of the mean of G's eigenvalues that is added to all of them, far above what single precision may take from them.
-const ADDED: f64 = 1e-4;
-
-impl Measure {
-    fn of(rows: &Mat<f32>) -> Self {
-        let mut products = Mat::<f32>::zeros(rows.nrows(), rows.nrows());
-        matmul(products.as_mut(), Accum::Replace, rows, rows.transpose(), 1.0, Par::Seq);
-        let of = |row: usize, column: usize| f64::from(products[(row, column)]);
-        let unknowns = rows.nrows() / 2;
-        let mut gram = Mat::from_fn(unknowns, unknowns, |k, l| {
-            let (re, im) = ([2 * k, 2 * l], [2 * k + 1, 2 * l + 1]);
-            c64::new(of(re[0], re[1]) + of(im[0], im[1]), of(re[0], im[1]) - of(im[0], re[1]))
-        });
-        let mean = (0..unknowns).map(|k| gram[(k, k)].re).sum::<f64>() / unknowns.max(1) as f64;
-        let least = ADDED * mean;
-        (0..unknowns).for_each(|k| gram[(k, k)] += least);
-        gram.llt(Side::Lower).map_or_else(
-            // Nothing is stressed: energy alone orders as well.
-            |_| Self { lower: Mat::identity(unknowns, unknowns), least: 1.0 },
-            |factor| Self { lower: factor.L().to_owned(), least },
-        )
-    }
-}
-
 impl StaticWheel {
     /// Displacement at a speed, of every own DOF; the same in every sector.
     pub fn displacement(&self, speed_rad_s: f64, stiffening: bool) -> Vec<f64> {
@@ -171,10 +129,9 @@ impl StaticWheel {
 impl HarmonicStress {
     /// Of its columns, `2·unknowns × 6·places`.
     pub(super) fn new(rows: Mat<f32>) -> Self {
-        let measure = Measure::of(&rows);
-        let mut this = Self { rows, norms: Vec::new(), measure };
-        this.norms = (0..this.places()).map(|place| this.norm(place)).collect();
-        this
+        let metric = Metric::of(&rows);
+        let norms = metric.norms(&rows);
+        Self { rows, norms, metric }
     }
 
     /// Of so many places, one after the other: `read` gives the numbers of a place as [`Self::of_place`] has them.
@@ -211,17 +168,6 @@ impl HarmonicStress {
     /// The numbers of a place: for σ_rr … σ_zr real and imaginary part of every unknown.
     pub fn of_place(&self, place: usize) -> impl Iterator<Item = f32> + use<'_> {
         (6 * place..6 * place + 6).flat_map(|column| self.rows.col(column).iter().copied())
-    }
-
-    fn norm(&self, place: usize) -> Norm {
-        let columns: [&[f32]; 6] = self.columns(place);
-        let (mut form, mut whole) = (0.0, 0.0);
-        for row in 0..self.rows.nrows() {
-            let stress: Stress = columns.map(|column| f64::from(column[row]));
-            form += von_mises(&stress).powi(2);
-            whole += stress.iter().map(|s| s * s).sum::<f64>();
-        }
-        Norm { von_mises: form.sqrt(), whole: (3.0 * whole).sqrt() }
     }
 
     /// The columns of some places, `2·unknowns × 6·places`.

@@ -2,7 +2,7 @@
 
 use num_integer::Integer;
 
-use super::bounds::Bounds;
+use super::bounds::bounds;
 use super::cycle::{Cycle, Weights, weights};
 use super::error::StressError;
 use super::follow::{Follow, Followed};
@@ -48,12 +48,12 @@ pub(crate) fn stress_of(
     let repeats = paths.iter().fold(around, |common, path| common.gcd(&path.harmonic));
     let blades = (course.wheel.sectors.min(around / repeats), around);
     let instants = course.states.revolutions.len();
-    let bounds = Bounds::new(stress, &fixed, &paths);
-    if bounds.rough.iter().any(|bound| !bound.largest.is_finite()) {
+    let bounds = bounds(stress, &fixed, &paths);
+    if bounds.iter().any(|bound| !bound.largest.is_finite()) {
         return Err(StressError::NotFinite);
     }
     let weights: Vec<Option<Weights>> = stress.places.iter().map(|place| weights[place.set]).collect();
-    let rough: Vec<(f64, f64)> = (bounds.rough.iter().zip(&weights))
+    let rough: Vec<(f64, f64)> = (bounds.iter().zip(&weights))
         .map(|(bound, weights)| (bound.largest, weights.map_or(-1.0, |weights| weights.most(bound))))
         .collect();
     let mut search = Search {

@@ -2,9 +2,6 @@
 
 use pulp::{Simd, WithSimd};
 
-use super::bounds::Error;
-use super::trajectory::Path;
-
 /// Numbers are padded to a multiple of this: the most that a vector of any processor holds.
 pub(super) const LANES: usize = 16;
 
@@ -14,34 +11,38 @@ const ROUNDED_UP: f64 = 1.0 + 1e-4;
 /// How far each direction goes.
 pub(super) struct Sums {
     arch: pulp::Arch,
-    /// max|c_k| over the largest of them, of the directions by which places are looked at and of the others, padded.
-    reach: [Vec<f32>; 2],
+    /// Over the largest of them, padded.
+    reach: Vec<f32>,
     largest: f64,
 }
 
+/// Of one place; von Mises stress first, then three times the mean normal stress.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sum {
+    /// Σ |a_k| reach_k, never below it.
+    pub(super) sizes: [f64; 2],
+    /// Σ of the squares of both parts of a_k, whatever their reach.
+    pub(super) squares: [f64; 2],
+}
+
 impl Sums {
-    /// Of a path whose directions are `padded` with none.
-    pub(super) fn new(path: &Path, padded: usize) -> Self {
-        let largest = path.reach.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
-        let of = |looked: bool| {
-            let reach =
-                |k: usize| if (k < path.looking) == looked { path.reach.get(k).copied() } else { None };
-            (0..padded).map(|k| reach(k).map_or(0.0, |reach| (reach / largest) as f32)).collect()
-        };
-        Self { arch: pulp::Arch::new(), reach: [of(true), of(false)], largest }
+    /// Of directions that go so far, `padded` with none.
+    pub(super) fn new(reach: &[f64], padded: usize) -> Self {
+        let largest = reach.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+        let mut shares: Vec<f32> = reach.iter().map(|reach| (reach / largest) as f32).collect();
+        shares.resize(padded, 0.0);
+        Self { arch: pulp::Arch::new(), reach: shares, largest }
     }
 
-    /// Σ |a_k| max|c_k| of the directions by which places are looked at, and of the others; `parts` are those of a place,
-    /// `[component][part][direction]`. No direction is larger than one at any place, so that nothing overflows.
-    pub(super) fn of(&self, parts: &[f32]) -> [Error; 2] {
-        let found = self.arch.dispatch(OfPlace { reach: &self.reach, parts });
-        let up = |sum: f32| f64::from(sum) * self.largest * ROUNDED_UP;
-        found.map(|[size, sway]| Error { von_mises: up(size), trace: up(sway) })
+    /// Of the `parts` of a place, `[component][part][direction]`, so many as it was made for.
+    pub(super) fn of(&self, parts: &[f32]) -> Sum {
+        let found = self.arch.dispatch(OfPlace { reach: &self.reach, parts }).map(|part| part.map(f64::from));
+        Sum { sizes: found[0].map(|size| size * self.largest * ROUNDED_UP), squares: found[1] }
     }
 }
 
 struct OfPlace<'a> {
-    reach: &'a [Vec<f32>; 2],
+    reach: &'a [f32],
     parts: &'a [f32],
 }
 
@@ -50,7 +51,7 @@ impl WithSimd for OfPlace<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        let count = self.reach[0].len();
+        let count = self.reach.len();
         let zero = simd.splat_f32s(0.0);
         let half = simd.splat_f32s(0.5);
         let mut sums = [[zero; 2]; 2];
@@ -76,12 +77,13 @@ impl WithSimd for OfPlace<'_> {
             let size = simd.sqrt_f32s(simd.mul_f32s(half, simd.add_f32s(sum, root)));
             let trace = |a: &[S::f32s; 6]| simd.add_f32s(a[0], simd.add_f32s(a[1], a[2]));
             let (re, im) = (trace(&s[0]), trace(&s[1]));
-            let sway = simd.sqrt_f32s(simd.mul_add_e_f32s(re, re, simd.mul_f32s(im, im)));
-            for (sums, reach) in sums.iter_mut().zip(self.reach) {
-                let reach = load(reach, first);
-                sums[0] = simd.mul_add_e_f32s(reach, size, sums[0]);
-                sums[1] = simd.mul_add_e_f32s(reach, sway, sums[1]);
-            }
+            let squared = simd.mul_add_e_f32s(re, re, simd.mul_f32s(im, im));
+            let sway = simd.sqrt_f32s(squared);
+            let reach = load(self.reach, first);
+            sums[0][0] = simd.mul_add_e_f32s(reach, size, sums[0][0]);
+            sums[0][1] = simd.mul_add_e_f32s(reach, sway, sums[0][1]);
+            sums[1][0] = simd.add_f32s(sums[1][0], sum);
+            sums[1][1] = simd.add_f32s(sums[1][1], squared);
         }
         sums.map(|sums| sums.map(|sum| simd.reduce_sum_f32s(sum)))
     }
@@ -89,26 +91,16 @@ impl WithSimd for OfPlace<'_> {
 
 #[cfg(test)]
 mod tests {
-    use faer::Mat;
-
-    use super::super::measure::{Stress, ellipse, trace};
+    use super::super::measure::{Stress, ellipse, form, trace};
     use super::*;
 
     #[test]
     fn sums_are_those_of_single_directions_and_never_below() {
-        let count = 21;
+        let count = 21usize;
         let value = |component: usize, part: usize, k: usize| {
             0.3 * ((1 + component + 7 * part + 13 * k) as f64).sin() / (1.0 + k as f64)
         };
         let reach: Vec<f64> = (0..count).map(|k| 40.0 / (1.0 + k as f64)).collect();
-        let path = Path {
-            harmonic: 2,
-            directions: Mat::zeros(0, count),
-            course: Mat::zeros(count, 1),
-            reach: reach.clone(),
-            looking: 9,
-            left: 0.0,
-        };
         let padded = count.next_multiple_of(LANES);
         let mut parts = vec![0.0f32; 12 * padded];
         for component in 0..6 {
@@ -118,17 +110,20 @@ mod tests {
                 }
             }
         }
-        let mut expected = [Error::default(); 2];
-        for k in 0..count {
+        let (mut sizes, mut squares) = ([0.0; 2], [0.0; 2]);
+        for (k, reach) in reach.iter().enumerate() {
             let [re, im] = [0, 1].map(|part| -> Stress { std::array::from_fn(|c| value(c, part, k)) });
-            let sum = &mut expected[usize::from(k >= 9)];
-            sum.von_mises += reach[k] * ellipse(&re, &im);
-            sum.trace += reach[k] * trace(&re).hypot(trace(&im));
+            sizes[0] += reach * ellipse(&re, &im);
+            sizes[1] += reach * trace(&re).hypot(trace(&im));
+            squares[0] += form(&re, &re) + form(&im, &im);
+            squares[1] += trace(&re).powi(2) + trace(&im).powi(2);
         }
-        for (found, expected) in Sums::new(&path, padded).of(&parts).iter().zip(expected) {
-            for (found, expected) in [(found.von_mises, expected.von_mises), (found.trace, expected.trace)] {
-                assert!(found >= expected && found < expected * 1.0003, "{found} {expected}");
-            }
+        let found = Sums::new(&reach, padded).of(&parts);
+        for (found, expected) in found.sizes.into_iter().zip(sizes) {
+            assert!(found >= expected && found < expected * 1.0003, "{found} {expected}");
+        }
+        for (found, expected) in found.squares.into_iter().zip(squares) {
+            assert!((found - expected).abs() < 1e-5 * expected, "{found} {expected}");
         }
     }
 }

@@ -8,7 +8,7 @@ use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
 use rubmap_wheel::dynamics::reduction::{ReducedHarmonic, StaticSpan};
 use rubmap_wheel::dynamics::states::{HarmonicStates, WheelStates};
 
-use super::bounds::Bounds;
+use super::bounds::bounds;
 use super::cycle::{Cycle, weights};
 use super::error::StressError;
 use super::look::{Look, turn};
@@ -204,7 +204,7 @@ fn bounds_are_never_below_what_they_bound() {
     for case in cases() {
         let fixed = case.stress.fixed(SPEED, false);
         let paths = paths(&case.states, &case.harmonics, &case.stress).unwrap();
-        let bounds = Bounds::new(&case.stress, &fixed, &paths);
+        let bounds = bounds(&case.stress, &fixed, &paths);
         let look = Look::new(&case.stress, &bounds, &fixed, &paths, (case.wheel.sectors, SECTORS), INSTANTS);
         let (weights, _) = weights(&case.stress.sets);
         for place in 0..PLACES {
@@ -213,7 +213,7 @@ fn bounds_are_never_below_what_they_bound() {
             let largest = cycles.iter().map(|cycle| cycle.peak.0).fold(0.0, f64::max);
             let measure = |cycle: &Cycle| weights.unwrap().of(cycle.alternating, cycle.mean);
             let most = cycles.iter().map(measure).fold(0.0, f64::max);
-            let rough = &bounds.rough[place];
+            let rough = &bounds[place];
             let seen = look.at(&[place], &[weights])[0];
             assert!(rough.largest >= largest && weights.unwrap().most(rough) >= most);
             assert!(seen.largest >= largest && seen.most >= most, "{seen:?} {largest} {most}");

@@ -1,19 +1,22 @@
 //! The path of the wheel over a revolution in few directions, those that stress the wheel most first.
 //!
 //! ```text
-//! x̃(t) ≈ Σ_k u_k c_k(t),   the u_k orthogonal in the measure G of the stress at all places,   |x̃|² twice the energy at rest
+//! x̃(t) ≈ Σ_k u_k c_k(t),   the u_k orthonormal in the measure G of the stress at all places
 //! ```
 
-use faer::linalg::triangular_solve::solve_upper_triangular_in_place;
-use faer::{Mat, Par, c64};
+use faer::{Mat, c64};
 
 use super::error::StressError;
 use super::make::lower;
-use super::reduced::{Measure, ReducedStress};
+use super::metric::Metric;
+use super::reduced::ReducedStress;
+use super::sums::LANES;
 use rubmap_numerics::hermitian::{EigenError, eigenpairs};
 use rubmap_wheel::dynamics::reduction::ReducedHarmonic;
 use rubmap_wheel::dynamics::states::WheelStates;
 
+/// Directions by which places are bounded, a vector of them: twice as many rule out no more.
+const BOUNDING: usize = LANES;
 /// Share of the largest stress, as a mean over places, that those directions leave by which places are looked at: the rest is bounded.
 const LOOKED: f64 = 5e-3;
 /// The same of those by which places are followed: less than single precision leaves of the operator.
@@ -30,9 +33,13 @@ pub(super) struct Path {
     pub(super) course: Mat<c64>,
     /// max|c_k| over the instants.
     pub(super) reach: Vec<f64>,
+    /// By the first so many directions places are bounded,
+    pub(super) bounding: usize,
+    /// which leave no more than this of |x̃|_G at any instant.
+    pub(super) left_by_bounding: f64,
     /// By so many directions places are looked at.
     pub(super) looking: usize,
-    /// The directions leave no more than this of |x̃| at any instant.
+    /// All directions leave no more than this of |x̃|_G at any instant.
     pub(super) left: f64,
 }
 
@@ -53,7 +60,7 @@ pub(super) fn paths(
             return Err(StressError::NotFinite);
         }
         if energy.norm_max() > 0.0 {
-            found.push(Path::new(state.harmonic, &energy, &stress.harmonics[state.harmonic].measure)?);
+            found.push(Path::new(state.harmonic, &energy, &stress.harmonics[state.harmonic].metric)?);
         }
     }
     let left: Vec<Vec<f64>> = found.iter().map(|path| left_by(&path.course)).collect();
@@ -82,8 +89,8 @@ fn left_by(course: &Mat<c64>) -> Vec<f64> {
 
 impl Path {
     /// Of all directions of a path of root energies.
-    fn new(harmonic: usize, energy: &Mat<c64>, measure: &Measure) -> Result<Self, EigenError> {
-        let stressing = measure.lower.adjoint() * energy;
+    fn new(harmonic: usize, energy: &Mat<c64>, metric: &Metric) -> Result<Self, EigenError> {
+        let stressing = metric.lower.adjoint() * energy;
         let gram = &stressing * stressing.adjoint();
         let gram =
             Mat::from_fn(gram.nrows(), gram.ncols(), |i, j| (gram[(i, j)] + gram[(j, i)].conj()) * 0.5);
@@ -91,9 +98,10 @@ impl Path {
         let count = ascending.ncols();
         let mut directions = Mat::from_fn(count, count, |row, k| ascending[(row, count - 1 - k)]);
         let course = directions.adjoint() * &stressing;
-        solve_upper_triangular_in_place(measure.lower.adjoint(), directions.as_mut(), Par::Seq);
+        metric.coordinates(directions.as_mut());
         let reach = (0..count).map(|k| course.row(k).iter().map(|c| c.norm()).fold(0.0, f64::max)).collect();
-        Ok(Self { harmonic, directions, course, reach, looking: count, left: measure.least.sqrt().recip() })
+        let (bounding, looking) = (count, count);
+        Ok(Self { harmonic, directions, course, reach, bounding, left_by_bounding: 0.0, looking, left: 0.0 })
     }
 
     /// Keeps so many directions, and looks by `looking` of them; `left` is what every number of them leaves.
@@ -101,30 +109,15 @@ impl Path {
         self.directions = self.directions.subcols(0, followed).to_owned();
         self.course = self.course.subrows(0, followed).to_owned();
         self.reach.truncate(followed);
+        self.bounding = BOUNDING.min(followed);
+        self.left_by_bounding = left[self.bounding];
         self.looking = looking;
-        self.left *= left[followed];
+        self.left = left[followed];
     }
 
-    /// The first `count` directions for real products with the real and imaginary parts of a place's rows: Re of every `s·u`, then Im, a
-    /// row each, both padded with nothing to `padded` rows.
-    pub(super) fn turned(&self, count: usize, padded: usize) -> Mat<f32> {
-        Mat::from_fn(2 * padded, 2 * self.directions.nrows(), |row, column| {
-            let k = row % padded;
-            if k >= count {
-                return 0.0;
-            }
-            let c64 { re, im } = self.directions[(column / 2, k)];
-            (match (row / padded, column % 2) {
-                (0, 0) => re,
-                (0, _) => -im,
-                (_, 0) => im,
-                _ => re,
-            }) as f32
-        })
-    }
-
-    /// Σ_k |u_k| max|c_k|
-    pub(super) fn length(&self) -> f64 {
-        self.reach.iter().enumerate().map(|(k, reach)| reach * self.directions.col(k).norm_l2()).sum()
+    /// Σ |u_k| max|c_k| of the first `count` directions, in root energies.
+    pub(super) fn length(&self, count: usize) -> f64 {
+        let reach = self.reach[..count].iter().enumerate();
+        reach.map(|(k, reach)| reach * self.directions.col(k).norm_l2()).sum()
     }
 }

@@ -1,0 +1,106 @@
+//! The measure in which directions of the path are told apart: how much they stress all places together.
+
+use faer::linalg::matmul::matmul;
+use faer::linalg::triangular_solve::solve_upper_triangular_in_place;
+use faer::{Accum, Mat, MatMut, MatRef, Par, Side, c64};
+
+use super::sums::{LANES, Sums};
+
+/// Share of the mean of G's eigenvalues that is added to all of them, far above what single precision may take from them.
+const ADDED: f64 = 1e-4;
+
+/// Places whose norms are computed together.
+const BATCH: usize = 64;
+
+/// More than what single precision may take from a norm: G's largest eigenvalue over its least is below a million.
+const ROUNDED_UP: f64 = 1.01;
+
+/// |x̃|_G of coordinates x̃.
+#[derive(Debug, Clone)]
+pub(super) struct Metric {
+    /// F of F Fᴴ = G = Σ aᴴ a + λ: over the rows a of all components of all places, and a little of the energy.
+    pub(super) lower: Mat<c64>,
+}
+
+/// How large the stress of a place may be.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Norm {
+    /// Of coordinates of measure 1, squared: no von Mises stress is more,
+    pub(super) von_mises_squared: f64,
+    /// nor three times the mean normal stress.
+    pub(super) trace_squared: f64,
+    /// Of coordinates of a unit of root energy: no von Mises stress or trace is more.
+    pub(super) whole: f64,
+}
+
+impl Metric {
+    /// Of the columns of a nodal diameter, `2·unknowns × 6·places`.
+    pub(super) fn of(rows: &Mat<f32>) -> Self {
+        let mut products = Mat::<f32>::zeros(rows.nrows(), rows.nrows());
+        matmul(products.as_mut(), Accum::Replace, rows, rows.transpose(), 1.0, Par::Seq);
+        let of = |row: usize, column: usize| f64::from(products[(row, column)]);
+        let unknowns = rows.nrows() / 2;
+        let mut gram = Mat::from_fn(unknowns, unknowns, |k, l| {
+            let (re, im) = ([2 * k, 2 * l], [2 * k + 1, 2 * l + 1]);
+            c64::new(of(re[0], re[1]) + of(im[0], im[1]), of(re[0], im[1]) - of(im[0], re[1]))
+        });
+        let mean = (0..unknowns).map(|k| gram[(k, k)].re).sum::<f64>() / unknowns.max(1) as f64;
+        (0..unknowns).for_each(|k| gram[(k, k)] += ADDED * mean);
+        // Where nothing is stressed, energy alone orders as well.
+        let lower = gram.llt(Side::Lower);
+        Self {
+            lower: lower.map_or_else(|_| Mat::identity(unknowns, unknowns), |factor| factor.L().to_owned()),
+        }
+    }
+
+    /// x̃ of the columns of y = Fᴴ x̃, in place.
+    pub(super) fn coordinates(&self, y: MatMut<'_, c64>) {
+        solve_upper_triangular_in_place(self.lower.adjoint(), y, Par::Seq);
+    }
+
+    /// The norms of all places.
+    pub(super) fn norms(&self, rows: &Mat<f32>) -> Vec<Norm> {
+        let unknowns = rows.nrows() / 2;
+        let mut all = Mat::<c64>::identity(unknowns, unknowns);
+        self.coordinates(all.as_mut());
+        let padded = unknowns.next_multiple_of(LANES);
+        let turned = turned(all.as_ref(), padded);
+        let sums = Sums::new(&vec![1.0; unknowns], padded);
+        let mut parts = vec![0.0f32; 12 * padded * BATCH];
+        let mut norms = Vec::with_capacity(rows.ncols() / 6);
+        for first in (0..rows.ncols()).step_by(6 * BATCH) {
+            let batch = rows.subcols(first, (6 * BATCH).min(rows.ncols() - first));
+            let parts = &mut parts[..2 * padded * batch.ncols()];
+            let into = MatMut::from_column_major_slice_mut(parts, 2 * padded, batch.ncols());
+            matmul(into, Accum::Replace, &turned, batch, 1.0, Par::Seq);
+            for (place, parts) in parts.chunks_exact(12 * padded).enumerate() {
+                let squares = sums.of(parts).squares;
+                let whole = batch.subcols(6 * place, 6).squared_norm_l2();
+                norms.push(Norm {
+                    von_mises_squared: ROUNDED_UP * squares[0],
+                    trace_squared: ROUNDED_UP * squares[1],
+                    whole: (3.0 * f64::from(whole)).sqrt(),
+                });
+            }
+        }
+        norms
+    }
+}
+
+/// What gives s·u for every column u of `directions`, from the real and imaginary parts of a row s: Re of every product, then Im, a row
+/// each, both padded with nothing to `padded` rows.
+pub(super) fn turned(directions: MatRef<'_, c64>, padded: usize) -> Mat<f32> {
+    Mat::from_fn(2 * padded, 2 * directions.nrows(), |row, column| {
+        let k = row % padded;
+        if k >= directions.ncols() {
+            return 0.0;
+        }
+        let c64 { re, im } = directions[(column / 2, k)];
+        (match (row / padded, column % 2) {
+            (0, 0) => re,
+            (0, _) => -im,
+            (_, 0) => im,
+            _ => re,
+        }) as f32
+    })
+}
