@@ -64,6 +64,15 @@ impl Array {
         Self::texts(name, values.into_iter().map(|value| word(&value)))
     }
 
+    /// Of each several words, with a space between them.
+    pub fn word_lists<W: Serialize>(
+        name: impl Into<String>,
+        values: impl IntoIterator<Item = impl AsRef<[W]>>,
+    ) -> Self {
+        let list = |words: &[W]| words.iter().map(word).collect::<Vec<_>>().join(" ");
+        Self::texts(name, values.into_iter().map(|words| list(words.as_ref())))
+    }
+
     /// One number.
     pub fn real(name: impl Into<String>, value: f64) -> Self {
         Self { shape: Vec::new(), ..Self::reals(name, [value]) }

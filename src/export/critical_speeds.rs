@@ -43,6 +43,7 @@ impl Export for CriticalSpeeds {
             crossings("nearest_crossing_superharmonic", |crossing| crossing.superharmonic),
             some_reals("utilisation", |speed| speed.utilisation),
             Array::words("validity", all().map(|speed| speed.validity)),
+            Array::word_lists("validity_lacking", all().map(|speed| &speed.validity_lacking)),
         ]
     }
 

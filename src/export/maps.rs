@@ -72,6 +72,8 @@ impl<R: Fn(u32, u32) -> io::Result<Option<Vec<f64>>>> Maps<R> {
     /// As of [`Maps::csv`].
     pub fn npz(&self, unit: Option<SpeedUnit>, out: &mut dyn Write) -> io::Result<()> {
         let map = &self.map;
+        let lacking =
+            self.found(|point| Some(point.validity_lacking())).into_iter().map(Option::unwrap_or_default);
         let arrays = vec![
             Array::reals("speeds_rad_s", map.speeds_rad_s.iter().copied()),
             Array::whole("speed_indices", self.indices.iter().copied()),
@@ -84,6 +86,7 @@ impl<R: Fn(u32, u32) -> io::Result<Option<Vec<f64>>>> Maps<R> {
                 self.found(|point| Some(point.stress.as_ref()?.largest.von_mises)),
             ),
             Array::words("validity", self.found(Point::validity_verdict)),
+            Array::word_lists("validity_lacking", lacking),
             Array::json("settings", &map.settings),
             Array::json("units", &map.units),
             Array::text("version", &map.version),

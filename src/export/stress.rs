@@ -2,7 +2,7 @@
 
 use super::Export;
 use super::array::Array;
-use crate::analysis::result::{SpeedStress, StressCycle, SweepStress, stress_unit};
+use crate::analysis::result::{SpeedStress, StressCycle, SweepStress, Validity, stress_unit};
 
 /// A cycle and its speed.
 type Line<'a> = (&'a SpeedStress, &'a StressCycle);
@@ -46,6 +46,8 @@ impl Export for SweepStress {
         let speeds = || self.speeds.iter();
         let peaks = || speeds().map(|speed| &speed.stress.largest);
         let positions: Vec<&[f64]> = peaks().map(|peak| &peak.position[..]).collect();
+        let lacking =
+            speeds().map(|speed| speed.validity.as_ref().map(Validity::measures_lacking).unwrap_or_default());
         let mut arrays = self.table();
         arrays.extend([
             Array::reals("speeds_rad_s", speeds().map(|speed| speed.speed_rad_s)),
@@ -61,6 +63,7 @@ impl Export for SweepStress {
                 "validity",
                 speeds().map(|speed| speed.validity.as_ref().map(|found| found.verdict)),
             ),
+            Array::word_lists("validity_lacking", lacking),
             Array::json("strengths", &self.strengths),
             Array::json("settings", &self.settings),
             Array::json("units", &self.units),

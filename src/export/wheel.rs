@@ -34,6 +34,7 @@ impl Export for WheelCriticalSpeeds {
             Array::words("settling", all().map(|speed| speed.settling)),
             some_reals("utilisation".to_owned(), |speed| speed.utilisation),
             Array::words("validity", all().map(|speed| speed.validity)),
+            Array::word_lists("validity_lacking", all().map(|speed| &speed.validity_lacking)),
         ]
     }
 

@@ -304,12 +304,23 @@ pub fn generation_of(request: &ImpellerRequest) -> Result<Submission, SubmitErro
     Ok(Submission::ModelGeneration(Box::new(parameters_of(request)?)))
 }
 
-/// What was found out about a request, or all that is wrong with it.
-fn both<A, B>(a: Result<A, Vec<Violation>>, b: Result<B, Vec<Violation>>) -> Result<(A, B), SubmitError> {
-    match (a, b) {
-        (Ok(a), Ok(b)) => Ok((a, b)),
-        (a, b) => {
-            let found = [a.err(), b.err()].into_iter().flatten().flatten().collect();
+/// What was found out about a request, or all that is wrong with it: of sensors that could not be placed why, and not that they have no
+/// nodes, which follows.
+fn both<A, B>(
+    placed: Result<A, Vec<Violation>>,
+    resolved: Result<B, Vec<Violation>>,
+) -> Result<(A, B), SubmitError> {
+    match (placed, resolved) {
+        (Ok(placed), Ok(resolved)) => Ok((placed, resolved)),
+        (placed, resolved) => {
+            let mut found = placed.err().unwrap_or_default();
+            let follows = |violation: &Violation| {
+                ["/gauge", "/nearest"].iter().any(|place| violation.pointer.ends_with(place))
+                    && found.iter().any(|cause| cause.pointer.starts_with(&violation.pointer))
+            };
+            let others = resolved.err().into_iter().flatten().filter(|violation| !follows(violation));
+            let others: Vec<Violation> = others.collect();
+            found.extend(others);
             Err(SubmitError::Refused(found))
         }
     }

@@ -57,6 +57,7 @@ pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) 
     tracing::info!(
         job.id = %id, speed, speed_rad_s = point.speed_rad_s, status = ?point.status,
         steps = point.steps, wall_time_s = point.wall_time_s,
+        validity = ?point.validity_verdict(), validity_lacking = ?point.validity_lacking(),
         "finished speed {finished}/{}", job.speeds
     );
     go_on(engine, &job, request, speed, finished).await
@@ -64,7 +65,7 @@ pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) 
 
 /// Says once per job that linear theory has been left, by the worst number of the first speed that does.
 fn warn_of_theory(job: &Live, point: &Point) {
-    let Some(Validity { verdict, checks }) = &point.validity else { return };
+    let Some(Validity { verdict, checks, .. }) = &point.validity else { return };
     let Some(worst) = checks.first().filter(|_| *verdict != ValidityVerdict::Linear) else { return };
     if job.watch.first_to_warn() {
         tracing::warn!(

@@ -89,6 +89,11 @@ impl Vtk {
         bytes.as_chunks::<8>().0.iter().map(|bytes| i64::from_le_bytes(*bytes) as usize).collect()
     }
 
+    fn ids(&self, name: &str) -> Vec<u64> {
+        let bytes = self.bytes(name, "UInt64");
+        bytes.as_chunks::<8>().0.iter().map(|bytes| u64::from_le_bytes(*bytes)).collect()
+    }
+
     fn vectors(&self, name: &str) -> Vec<[f64; 3]> {
         self.reals(name).as_chunks::<3>().0.to_vec()
     }
@@ -392,7 +397,7 @@ async fn a_recorded_run_gives_instants_and_deflection_shapes() {
         let vtu = Vtk::new(raw(api, &format!("{path}?instant={instant}&format=vtu")).await);
         assert!(vtu.text.contains("no mesh") && !vtu.has("von_mises"));
         assert_eq!((vtu.attribute("NumberOfPoints"), vtu.attribute("NumberOfCells")), (16, 16));
-        let (points, moved, ids) = (vtu.vectors("Points"), vtu.vectors("displacement"), vtu.whole("node"));
+        let (points, moved, ids) = (vtu.vectors("Points"), vtu.vectors("displacement"), vtu.ids("node"));
         // Node 3 of the sector that is turned by half a turn.
         let at = (0..16).find(|&k| ids[k] == 3 && points[k][0] < 0.0 && points[k][1] < 0.0).unwrap();
         let radial = -(moved[at][0] + moved[at][1]) / 2f64.sqrt();
@@ -415,7 +420,7 @@ async fn a_recorded_run_gives_instants_and_deflection_shapes() {
     api.get(&format!("{path}?format=json")).await.problem(406, "not-acceptable");
     // The mean of the history is the shape of engine order 0.
     let mean = Npz::read(&raw(api, &format!("{path}?engine_order=0&sector=2&format=npz")).await);
-    let (u, ids) = (mean.array("displacement").reals(), mean.array("node").whole());
+    let (u, ids) = (mean.array("displacement").reals(), mean.array("node").ids());
     let at = ids.iter().position(|id| *id == 3).unwrap();
     let radial = -(u[3 * at] + u[3 * at + 1]) / 2f64.sqrt();
     let expected = history.iter().sum::<f64>() / history.len() as f64;

@@ -343,8 +343,8 @@ async fn utilisation_is_absent_without_stress_and_that_is_said() {
         let csv = get(api, &format!("/v1/jobs/{sweep}/{path}?format=csv"), &[]).await.good();
         let rows = table(csv.text());
         let last =
-            |row: &[&str]| row[row.len() - 2..].iter().map(|cell| (*cell).to_owned()).collect::<Vec<_>>();
-        assert_eq!(last(&rows[0]), ["utilisation", "validity"], "{path}");
+            |row: &[&str]| row[row.len() - 3..].iter().map(|cell| (*cell).to_owned()).collect::<Vec<_>>();
+        assert_eq!(last(&rows[0]), ["utilisation", "validity", "validity_lacking"], "{path}");
         let ranked = api.get(&format!("/v1/jobs/{sweep}/{path}?rank=utilisation")).await;
         assert_eq!(ranked.problem(400, "invalid-parameter")[0]["parameter"], "rank");
         assert!(rows.len() > 1 && rows[1..].iter().all(|row| last(row)[0].is_empty()), "{path}");

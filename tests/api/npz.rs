@@ -71,6 +71,12 @@ impl Array {
     }
 
     #[track_caller]
+    pub(crate) fn ids(&self) -> Vec<u64> {
+        assert_eq!(self.descr, "<u8");
+        self.bytes.as_chunks::<8>().0.iter().map(|bytes| u64::from_le_bytes(*bytes)).collect()
+    }
+
+    #[track_caller]
     pub(crate) fn texts(&self) -> Vec<String> {
         let width = 4 * self.descr.strip_prefix("<U").unwrap().parse::<usize>().unwrap();
         let text = |bytes: &[u8]| {

@@ -57,6 +57,7 @@ async fn gauges_are_found_and_refused() {
     assert_eq!((&placed["node"], &placed["end"]["node"]), (&json!(2), &json!(4)), "{placed}");
     let (length, off) = (placed["end"]["length"].as_f64().unwrap(), placed["distance"].as_f64().unwrap());
     assert!((length - 150f64.sqrt()).abs() < 1e-12 && (off - (0.5 * 150f64.sqrt() - 6.0)).abs() < 1e-12);
+    assert!(placed["angle_deg"].as_f64().unwrap() < 1e-9 && placed["asked_length"] == 12.0, "{placed}");
     let settled = &plan.body["settings"]["sensors"];
     assert_eq!(settled[0], json!({"sector": 1, "gauge": {"nodes": [2, 4]}}));
 
@@ -86,10 +87,16 @@ async fn gauges_are_found_and_refused() {
             "/sensors/0/gauge/length",
         ),
         (json!({"gauge": {}}), "/sensors/0/gauge/at"),
+        (json!({"gauge": {"at": [4000, 0, 0], "direction": [1, 0, 0], "length": 5}}), "/sensors/0/gauge/at"),
+        (
+            json!({"gauge": {"at": [42.5, 42.5, 5.0], "direction": [5.0, 5.0, 1.0], "length": 12.0}}),
+            "/sensors/0/gauge/direction",
+        ),
     ] {
         let refused = api.post("/v1/sweeps", &sweep_with(&model, json!([sensor]))).await;
         assert_eq!(refused.status, 422, "{sensor}: {}", refused.body);
         assert_eq!(refused.body["errors"][0]["pointer"], pointer, "{sensor}: {}", refused.body);
+        assert_eq!(refused.body["errors"].as_array().unwrap().len(), 1, "{sensor}: {}", refused.body);
     }
 }
 

@@ -1,5 +1,6 @@
 //! The importer as its users meet it: good packages, bad ones, damaged ones, and what a good one becomes.
 
+mod agreement;
 mod bad;
 mod calculix;
 mod calculix_deck;

@@ -15,7 +15,7 @@ use crate::bad::{case, check_on};
 use crate::sample::Files;
 
 /// A disk of four elements a sector: nodes 1 to 18, the bore 1, 4, 7, … clamped.
-fn disk(element_order: ElementOrder) -> RawPackage {
+pub(crate) fn disk(element_order: ElementOrder) -> RawPackage {
     let material = Material {
         yield_strength: Some(880.0),
         ultimate_strength: Some(950.0),
@@ -208,6 +208,30 @@ fn the_whole() {
                 "elements.csv, line 5: element 9 shares no node with the rest of the mesh; merge nodes that lie in one place, or leave out what does not belong to the wheel",
                 (ELEMENTS, Some(5), None),
             ),
+            // Under a new number, its nodes in another order that is as good.
+            case(
+                |f| {
+                    f.line(
+                        "elements.csv",
+                        4,
+                        "4,QM6,WHEEL,5,6,9,8,14,15,18,17\n5,QM6,WHEEL,3,6,5,2,12,15,14,11",
+                    )
+                },
+                "elements.csv, line 5: element 5 has the nodes of element 2 on line 2; list it once",
+                (ELEMENTS, Some(5), None),
+            ),
+            // A wedge inside element 2, and one that fills what is left of it.
+            case(
+                |f| f.line("elements.csv", 4, "4,QM6,WHEEL,5,6,9,8,14,15,18,17\n5,C3D6,WHEEL,2,3,6,11,12,15"),
+                "elements.csv, line 5: elements 2 and 5 lie on the same side of a face; remove what fills the same space twice",
+                (ELEMENTS, Some(5), None),
+            ),
+            // Half of element 1, which has the face between it and element 2.
+            case(
+                |f| f.line("elements.csv", 4, "4,QM6,WHEEL,5,6,9,8,14,15,18,17\n5,C3D6,WHEEL,2,5,1,11,14,10"),
+                "elements.csv, line 5: element 5 has a face that lies between elements 1 and 2 already; remove what fills the same space twice",
+                (ELEMENTS, Some(5), None),
+            ),
             // The face between nodes 2, 3, 12, 11 is cut into triangles, that of the high face is not.
             case(
                 |f| {
@@ -263,6 +287,24 @@ fn materials() {
                 |f| set(f, "fatigue_strength", json!({"amplitude": 0.0, "source": "test"})),
                 "sector.json, /mesh/sets/WHEEL/fatigue_strength/amplitude: the value is 0; it must be positive",
                 (JSON, None, Some("/mesh/sets/WHEEL/fatigue_strength/amplitude")),
+            ),
+            case(
+                |f| set(f, "ultimate_strength", json!(879.5)),
+                "sector.json, /mesh/sets/WHEEL/ultimate_strength: the ultimate strength 879.5 is below the yield strength 880.0; the first is the larger one",
+                (JSON, None, Some("/mesh/sets/WHEEL/ultimate_strength")),
+            ),
+            case(
+                |f| set(f, "fatigue_strength", json!({"amplitude": 951.0, "source": "test"})),
+                "sector.json, /mesh/sets/WHEEL/fatigue_strength/amplitude: the fatigue strength 951.0 is above the ultimate strength 950.0; it is an amplitude, half of the range",
+                (JSON, None, Some("/mesh/sets/WHEEL/fatigue_strength/amplitude")),
+            ),
+            case(
+                |f| {
+                    let again = "\"sets\": {\"WHEEL\": {\"youngs_modulus\": 1, \"poissons_ratio\": 0.3, \"density\": 1},";
+                    f.replace("sector.json", "\"sets\": {", again);
+                },
+                "sector.json, /mesh/sets: the set \"WHEEL\" has two materials; give it one (line 86, column 5)",
+                (JSON, Some(86), Some("/mesh/sets")),
             ),
             case(
                 |f| set(f, "fatigue_strength", json!({"amplitude": 500.0, "source": " "})),

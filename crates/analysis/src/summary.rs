@@ -169,6 +169,7 @@ fn response_peaks(
             nearest_crossing: nearest,
             utilisation: point.utilisation(),
             validity: point.validity_verdict(),
+            validity_lacking: point.validity_lacking(),
         })
     });
     critical.collect()

@@ -82,6 +82,7 @@ pub fn wheel_critical_speeds(
             settling: point.settling.as_ref()?.verdict,
             utilisation: point.utilisation(),
             validity: point.validity_verdict(),
+            validity_lacking: point.validity_lacking(),
         })
     };
     let mut critical_speeds: Vec<_> =

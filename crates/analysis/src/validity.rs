@@ -2,7 +2,7 @@
 
 use crate::model::ReducedSector;
 use crate::resolved::ResolvedSweep;
-use crate::result::{PointStress, Validity, ValidityCheck, ValidityMeasure, ValidityVerdict};
+use crate::result::{PointStress, Validity, ValidityCheck, ValidityLack, ValidityMeasure, ValidityVerdict};
 use rubmap_wheel::dynamics::casing::arc_lengths;
 use rubmap_wheel::dynamics::integrate::Excursion;
 
@@ -62,5 +62,81 @@ pub(super) fn judge(
     };
     checks.sort_by(order);
     let verdict = checks.first().map_or(ValidityVerdict::Linear, ValidityCheck::verdict);
-    Validity { verdict, checks }
+    let asked = request.stress_outside().is_some();
+    Validity { verdict, checks, lacking: lacking(reduced.tip_thickness, chord, stress, asked) }
+}
+
+/// What decides and is not known, given the thickness of the blade at its tip, the length of the contact line, and the stress, if it was
+/// `asked` for.
+fn lacking(
+    thickness: Option<f64>,
+    chord: Option<f64>,
+    stress: Option<&PointStress>,
+    asked: bool,
+) -> Vec<ValidityLack> {
+    let of_line = chord.is_none().then_some("the contact line is one point");
+    let of_stress = match stress {
+        None if asked => Some("stress is not known at this speed"),
+        None => Some("the sweep records no stress (`record.stress`)"),
+        Some(stress) if stress.largest_over_yield.is_none() => {
+            Some("no element set has a yield strength (`yield_strength` in the package)")
+        }
+        Some(_) => None,
+    };
+    let of_thickness = thickness
+        .is_none()
+        .then_some("the package has no mesh, or none that shows how thick the blade is at its tip");
+    let all = [
+        (ValidityMeasure::DisplacementOverThickness, of_thickness),
+        (ValidityMeasure::DisplacementOverChord, of_line),
+        (ValidityMeasure::Rotation, of_line),
+        (ValidityMeasure::StressOverYield, of_stress),
+    ];
+    let known = all.into_iter().filter_map(|(what, reason)| Some((what, reason?)));
+    known.map(|(what, reason)| ValidityLack { what, reason: reason.to_owned() }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_not_known_is_named() {
+        let stress = |over_yield: Option<f64>| -> PointStress {
+            serde_json::from_value(serde_json::json!({
+                "largest": {"von_mises": 1.0, "node": 1, "position": [1.0, 2.0, 3.0], "sector": 0, "revolution": 1.0},
+                "largest_static": 1.0, "largest_over_yield": over_yield, "cycles": [],
+                "excluded_radius": 1.0, "excluded_nodes": 0, "followed_nodes": 1,
+            }))
+            .unwrap()
+        };
+        let (judged, bare) = (stress(Some(0.5)), stress(None));
+        let named = |lacking: Vec<ValidityLack>| {
+            lacking.into_iter().map(|lack| (lack.what, lack.reason)).collect::<Vec<_>>()
+        };
+        let no_mesh = "the package has no mesh, or none that shows how thick the blade is at its tip";
+        let thickness = (ValidityMeasure::DisplacementOverThickness, no_mesh.to_owned());
+        let of_stress = |reason: &str| (ValidityMeasure::StressOverYield, reason.to_owned());
+        assert_eq!(named(lacking(Some(1.0), Some(1.0), Some(&judged), true)), []);
+        assert_eq!(
+            named(lacking(None, Some(1.0), None, false)),
+            [thickness, of_stress("the sweep records no stress (`record.stress`)")]
+        );
+        assert_eq!(
+            named(lacking(Some(1.0), Some(1.0), Some(&bare), true)),
+            [of_stress("no element set has a yield strength (`yield_strength` in the package)")]
+        );
+        assert_eq!(
+            named(lacking(Some(1.0), Some(1.0), None, true)),
+            [of_stress("stress is not known at this speed")]
+        );
+        assert_eq!(lacking(Some(1.0), None, Some(&judged), true).len(), 2);
+    }
+
+    #[test]
+    fn what_earlier_versions_stored_is_read() {
+        let old = r#"{"verdict":"linear","checks":[]}"#;
+        let read: Validity = serde_json::from_str(old).unwrap();
+        assert_eq!((read.lacking.len(), serde_json::to_string(&read).unwrap()), (0, old.to_owned()));
+    }
 }

@@ -25,6 +25,36 @@ pub(super) fn words(verdict: ValidityVerdict) -> &'static str {
     }
 }
 
+/// The same, of a verdict that was given without some of the numbers that decide.
+pub(super) fn words_without(verdict: ValidityVerdict, lacking: &[ValidityMeasure]) -> &'static str {
+    match verdict {
+        ValidityVerdict::Linear if !lacking.is_empty() => "linear theory holds as far as is known",
+        verdict => words(verdict),
+    }
+}
+
+/// What decides and was not looked at at some of the speeds, each once, with the reason.
+pub(super) fn lacking(map: &InteractionMap) -> Vec<String> {
+    let mut found = Vec::new();
+    for lack in map.points.iter().filter_map(|point| point.validity.as_ref()).flat_map(|found| &found.lacking)
+    {
+        let words = format!("{}: {}", measure(lack.what), lack.reason);
+        if !found.contains(&words) {
+            found.push(words);
+        }
+    }
+    found
+}
+
+/// Whether the number that most often decides, displacement over thickness, is lacking at some of the speeds.
+pub(super) fn without_thickness(map: &InteractionMap) -> bool {
+    let measures = map.points.iter().flat_map(Point::validity_lacking);
+    measures.into_iter().any(|what| what == ValidityMeasure::DisplacementOverThickness)
+}
+
+/// What to say then.
+pub(super) const WITHOUT_THICKNESS: &str = "linear theory is judged without the blade's thickness";
+
 /// Colour of a verdict that is marked.
 pub(super) fn colour(verdict: ValidityVerdict) -> Option<&'static str> {
     match verdict {
@@ -128,6 +158,9 @@ pub(super) fn explained(mut flow: Flow, map: &InteractionMap, cells: &[Cell], di
         if let Some(fill) = fill(verdict) {
             flow = flow.entry(rectangle(0.0, -6.0, 20.0, 12.0).set("fill", fill), 20.0, words(verdict));
         }
+    }
+    if without_thickness(map) {
+        flow = flow.entry(group(), 0.0, WITHOUT_THICKNESS);
     }
     flow
 }

@@ -49,6 +49,11 @@ impl Gradients {
         gradients
     }
 
+    /// `∫ ∇N dV` of a node's function.
+    pub(crate) fn integral(&self, node: usize) -> Vector3<f64> {
+        self.at_points.iter().zip(&self.volumes).map(|(at_point, volume)| at_point[node] * *volume).sum()
+    }
+
     /// How the amplitudes of an element with incompatible modes follow its corners, statically: `α = −K_αα⁻¹ K_αu u`.
     pub(crate) fn recovery(&self, youngs_modulus: f64, poissons_ratio: f64) -> Recovery {
         let (lambda, mu) = lame_constants(youngs_modulus, poissons_ratio);

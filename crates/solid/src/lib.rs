@@ -18,3 +18,4 @@ pub mod shape;
 pub mod skin;
 pub mod stress;
 pub mod topology;
+pub mod uniform;

@@ -18,7 +18,7 @@ pub(super) fn write(file: &FieldFile, out: &mut dyn Write) -> io::Result<()> {
     npz.texts("title", &[], &[&field.title])?;
     npz.reals("time", &[frames], field.frames.iter().map(|frame| frame.time))?;
     let of_nodes = || sectors().flat_map(|sector| places.iter().map(move |&place| (sector, place)));
-    npz.integers("node", &[count], of_nodes().map(|(_, place)| of.nodes()[place as usize].id as i64))?;
+    npz.ids("node", &[count], of_nodes().map(|(_, place)| of.nodes()[place as usize].id))?;
     npz.integers("sector", &[count], of_nodes().map(|(sector, _)| sector as i64))?;
     npz.reals("position", &[count, 3], of_nodes().flat_map(|(sector, place)| of.position(sector, place)))?;
     // Every frame of every sector.
@@ -76,6 +76,6 @@ pub(super) fn write(file: &FieldFile, out: &mut dyn Write) -> io::Result<()> {
     });
     npz.integers("offsets", &[number], ends)?;
     npz.integers("cell_type", &[number], all().map(|(_, element)| i64::from(cells[element].0)))?;
-    npz.integers("element", &[number], all().map(|(_, element)| mesh.elements[element].id as i64))?;
+    npz.ids("element", &[number], all().map(|(_, element)| mesh.elements[element].id))?;
     npz.finish()
 }

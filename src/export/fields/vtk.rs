@@ -49,10 +49,8 @@ pub(super) fn write_points(
     let sectors = || of.sectors_of(*part);
     let count = points.count();
     writeln!(out, "<PointData Vectors=\"displacement\">")?;
-    array::<i64>(out, "node", (count, 1), |put| {
-        sectors().try_for_each(|_| {
-            places.iter().try_for_each(|&place| put(&[of.nodes()[place as usize].id as i64]))
-        })
+    array::<u64>(out, "node", (count, 1), |put| {
+        sectors().try_for_each(|_| places.iter().try_for_each(|&place| put(&[of.nodes()[place as usize].id])))
     })?;
     array::<i32>(out, "sector", (count, 1), |put| {
         sectors().try_for_each(|sector| places.iter().try_for_each(|_| put(&[sector as i32])))

@@ -23,9 +23,7 @@ pub(super) fn write(file: &FieldFile, frame: usize, out: &mut dyn Write) -> io::
     };
     writeln!(out, "<CellData>")?;
     if of.mesh().is_some() {
-        array::<i64>(out, "element", (cells, 1), |put| {
-            each(&mut |_, element| put(&[elements[element].id as i64]))
-        })?;
+        array::<u64>(out, "element", (cells, 1), |put| each(&mut |_, element| put(&[elements[element].id])))?;
         array::<i32>(out, "set", (cells, 1), |put| {
             each(&mut |_, element| put(&[elements[element].set as i32]))
         })?;

@@ -37,7 +37,7 @@ macro_rules! numbers {
     };
 }
 
-numbers!(f64 = "Float64", i64 = "Int64", i32 = "Int32", u8 = "UInt8");
+numbers!(f64 = "Float64", u64 = "UInt64", i64 = "Int64", i32 = "Int32", u8 = "UInt8");
 
 /// Writes an array of so many numbers, `components` to a tuple, which `give` hands over in pieces.
 pub(super) fn array<T: Number>(

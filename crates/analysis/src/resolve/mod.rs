@@ -18,6 +18,7 @@ use self::findings::Findings;
 pub(crate) mod case_study;
 mod effects;
 pub(crate) mod findings;
+mod gauges;
 pub(crate) mod limits;
 pub(crate) mod recorded;
 pub(crate) mod sensors;

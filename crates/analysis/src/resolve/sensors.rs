@@ -1,10 +1,10 @@
 //! Sensors at nodes of the model: which node, and whether it moves.
 
-use crate::component::along;
 use crate::error::Violation;
-use crate::request::{Component, Gauge, Sensor};
+use crate::request::{Component, Sensor};
 use crate::resolve::findings::Findings;
-use crate::result::{GaugeEnd, PlacedSensor};
+use crate::resolve::gauges::place_gauge;
+use crate::result::PlacedSensor;
 use rubmap_wheel::dynamics::nodes::SectorNode;
 
 /// Whether any of `sensors` needs the nodes of the model to be understood.
@@ -53,90 +53,11 @@ pub fn place_sensors(
             contact_node: node.contact,
             distance,
             end: None,
+            angle_deg: None,
+            asked_length: None,
         });
     }
     found.finish(placed)
-}
-
-/// Gives a gauge its nodes, if it names a place. What says too little or too much is refused elsewhere.
-fn place_gauge(
-    found: &mut Findings,
-    index: usize,
-    gauge: &mut Gauge,
-    nodes: &[SectorNode],
-) -> Option<PlacedSensor> {
-    let pointer = |field: &str| format!("/sensors/{index}/gauge/{field}");
-    let (ends, distance) = match *gauge {
-        Gauge { nodes: Some(ids), at: None, direction: None, length: None } => {
-            let find = |found: &mut Findings, place: usize| {
-                let node = nodes.iter().find(|node| node.id == ids[place]);
-                found.require(
-                    node.is_some(),
-                    &pointer(&format!("nodes/{place}")),
-                    "the model has no such node",
-                );
-                node
-            };
-            let (a, b) = (find(found, 0), find(found, 1));
-            ([a?, b?], None)
-        }
-        Gauge { nodes: None, at: Some(at), direction: Some(direction), length: Some(length) } => {
-            let sound = length.is_finite() && length > 0.0;
-            found.require(sound, &pointer("length"), "a gauge has a finite length above 0");
-            let points = direction != [0.0; 3];
-            found.require(
-                points,
-                &pointer("direction"),
-                "this points nowhere: give a direction other than 0, 0, 0",
-            );
-            if !(sound && points) {
-                return None;
-            }
-            let half = along(direction).map(|d| 0.5 * length * d);
-            let end = |sign: f64| {
-                let point = std::array::from_fn(|d| at[d] + sign * half[d]);
-                let nearest = nodes.iter().min_by(|a, b| a.distance(point).total_cmp(&b.distance(point)));
-                nearest.map(|node| (node, node.distance(point)))
-            };
-            let ((a, from_a), (b, from_b)) = (end(-1.0)?, end(1.0)?);
-            ([a, b], Some(from_a.max(from_b)))
-        }
-        Gauge { nodes: None, at, direction, .. } => {
-            let field = if at.is_none() {
-                "at"
-            } else if direction.is_none() {
-                "direction"
-            } else {
-                "length"
-            };
-            found.require(
-                false,
-                &pointer(field),
-                "a gauge has either `nodes`, or `at`, `direction` and `length`: this one is lacking",
-            );
-            return None;
-        }
-        _ => return None,
-    };
-    let [a, b] = ends;
-    let length = a.distance(b.position);
-    let moves = a.is_free() || b.is_free();
-    found.require(moves, &pointer("nodes"), "both nodes are clamped and never move: name others");
-    let field = if distance.is_some() { "length" } else { "nodes" };
-    found.require(
-        length > 0.0,
-        &pointer(field),
-        format!("both ends are at node {}: a gauge lies between two nodes in different places", a.id),
-    );
-    *gauge = Gauge { nodes: Some([a.id, b.id]), ..Gauge::default() };
-    Some(PlacedSensor {
-        sensor: index as u32,
-        node: a.id,
-        position: a.position,
-        contact_node: a.contact,
-        distance,
-        end: Some(GaugeEnd { node: b.id, position: b.position, length }),
-    })
 }
 
 fn check(found: &mut Findings, pointer: &str, field: &str, sensor: &Sensor, node: &SectorNode) {

@@ -47,7 +47,7 @@ pub use sweep::{CriticalSpeed, CriticalSpeeds, InteractionMap};
 pub use sweep_stress::{SpeedStress, SweepStress};
 pub use tip::TipResponse;
 pub use trial::{Cost, Trial};
-pub use validity::{Validity, ValidityCheck, ValidityMeasure, ValidityVerdict};
+pub use validity::{Validity, ValidityCheck, ValidityLack, ValidityMeasure, ValidityVerdict};
 pub use wheel::{SensorView, WheelCriticalSpeed, WheelCriticalSpeeds};
 
 pub use crate::effects::abradable::result::{WearMap, WearReport};

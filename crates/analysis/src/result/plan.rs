@@ -79,6 +79,12 @@ pub struct PlacedSensor {
     /// Of a gauge: its other node.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub end: Option<GaugeEnd>,
+    /// Of a gauge at a place: the angle between it and the direction asked for, in degrees; at most 20.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub angle_deg: Option<f64>,
+    /// Of a gauge at a place: the length asked for, in the model's unit of length; that of the gauge is within a quarter of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub asked_length: Option<f64>,
 }
 
 /// The second node of a strain gauge.

@@ -9,7 +9,7 @@ use crate::result::contact::{ContactForces, ContactSummary};
 use crate::result::reduction::StiffeningVerdict;
 use crate::result::stress::PointStress;
 use crate::result::tip::TipResponse;
-use crate::result::validity::{Validity, ValidityVerdict};
+use crate::result::validity::{Validity, ValidityMeasure, ValidityVerdict};
 use rubmap_wheel::dynamics::energy::{EffectWork, EnergyAudit};
 use rubmap_wheel::response::settling::Settling;
 use rubmap_wheel::response::side_bands::SideBands;
@@ -210,6 +210,11 @@ impl Point {
     /// Whether linear theory holds at the speed, as far as it is known.
     pub fn validity_verdict(&self) -> Option<ValidityVerdict> {
         Some(self.validity.as_ref()?.verdict)
+    }
+
+    /// What decides on linear theory and was not looked at.
+    pub fn validity_lacking(&self) -> Vec<ValidityMeasure> {
+        self.validity.as_ref().map(Validity::measures_lacking).unwrap_or_default()
     }
 }
 

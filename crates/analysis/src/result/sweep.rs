@@ -8,7 +8,7 @@ use crate::result::plan::{Estimate, Spent};
 use crate::result::point::Point;
 use crate::result::reduction::{ReductionReport, StiffeningVerdict};
 use crate::result::refinement::Refinement;
-use crate::result::validity::ValidityVerdict;
+use crate::result::validity::{ValidityMeasure, ValidityVerdict};
 use rubmap_wheel::dynamics::sector::Units;
 use rubmap_wheel::response::campbell::{Crossing, DrivenCrossing};
 use rubmap_wheel::response::coincidence::Coincidence;
@@ -107,6 +107,9 @@ pub struct CriticalSpeed {
     /// Whether linear theory holds at that speed; absent of what an earlier version computed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub validity: Option<ValidityVerdict>,
+    /// What that verdict was given without.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub validity_lacking: Vec<ValidityMeasure>,
 }
 
 /// Critical speeds of a sweep beside the linear prediction.

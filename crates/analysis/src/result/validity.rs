@@ -6,10 +6,30 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Validity {
-    /// The worst of `checks`.
+    /// The worst of `checks`; what is `lacking` may say otherwise.
     pub verdict: ValidityVerdict,
     /// Every number that was looked at, the worst first; what a model cannot tell is not among them.
     pub checks: Vec<ValidityCheck>,
+    /// Numbers that decide and could not be looked at: without them a verdict of `linear` says less than it could.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub lacking: Vec<ValidityLack>,
+}
+
+impl Validity {
+    /// What is lacking, without the reasons.
+    pub fn measures_lacking(&self) -> Vec<ValidityMeasure> {
+        self.lacking.iter().map(|lack| lack.what).collect()
+    }
+}
+
+/// A number that was not looked at.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct ValidityLack {
+    /// What it is.
+    pub what: ValidityMeasure,
+    /// Why, in words.
+    pub reason: String,
 }
 
 /// How far linear theory holds.

@@ -6,7 +6,7 @@ use crate::request::{Sensor, SweepRequest};
 use crate::result::refinement::Refinement;
 use crate::result::sweep::CriticalSpeed;
 use crate::result::tip::TipResponse;
-use crate::result::validity::ValidityVerdict;
+use crate::result::validity::{ValidityMeasure, ValidityVerdict};
 use rubmap_wheel::dynamics::sector::Units;
 use rubmap_wheel::response::settling::Verdict;
 
@@ -72,6 +72,9 @@ pub struct WheelCriticalSpeed {
     /// Whether linear theory holds at that speed; absent of what an earlier version computed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub validity: Option<ValidityVerdict>,
+    /// What that verdict was given without.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub validity_lacking: Vec<ValidityMeasure>,
 }
 
 /// What one sensor sees.

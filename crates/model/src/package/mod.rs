@@ -120,6 +120,9 @@ fn convert(
     let row_names: Vec<u64> = layout.own_rows.iter().map(|&row| package.dofs[row as usize].node).collect();
     let sector = sound(partition::build(package, &layout));
     check::mass::check(&sector, &names.mass, &layout.own_rows, &row_names)?;
+    if let Some(mesh) = &mesh {
+        check::agreement::check(&sector, mesh, &layout, &names)?;
+    }
     let mut parts = sector.into_parts();
     units::count_time_in_seconds(&mut parts);
     Ok((sound(parts), mesh))

@@ -1,12 +1,15 @@
 //! A package's content as its files state it, before any check: what readers produce and writers consume.
 
 use std::collections::BTreeMap;
+use std::fmt;
 use std::sync::Arc;
 
 use rubmap_solid::element::ElementKind;
 use rubmap_solid::material::Material;
+use serde::de::{Error, MapAccess, Visitor};
 use serde::{Deserialize, Serialize};
 
+use super::quote::quoted;
 use rubmap_wheel::dynamics::sector::Units;
 
 /// Most characters of the model's name, and of a file's.
@@ -55,7 +58,32 @@ pub struct ManifestMesh {
     /// File name of the element table.
     pub elements: String,
     /// Material of each element set.
+    #[serde(deserialize_with = "each_set_once")]
     pub sets: BTreeMap<String, Material>,
+}
+
+/// A map whose keys differ: of two materials of one set, which one holds is not ours to guess.
+fn each_set_once<'de, D: serde::Deserializer<'de>>(from: D) -> Result<BTreeMap<String, Material>, D::Error> {
+    struct Sets;
+    impl<'de> Visitor<'de> for Sets {
+        type Value = BTreeMap<String, Material>;
+        fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+            f.write_str("a material for each element set")
+        }
+        fn visit_map<A: MapAccess<'de>>(self, mut entries: A) -> Result<Self::Value, A::Error> {
+            let mut sets = BTreeMap::new();
+            while let Some(name) = entries.next_key::<String>()? {
+                let material = entries.next_value()?;
+                if sets.contains_key(&name) {
+                    let message = format!("the set \"{}\" has two materials; give it one", quoted(&name));
+                    return Err(A::Error::custom(message));
+                }
+                sets.insert(name, material);
+            }
+            Ok(sets)
+        }
+    }
+    from.deserialize_map(Sets)
 }
 
 impl Manifest {

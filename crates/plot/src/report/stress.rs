@@ -126,6 +126,11 @@ pub(super) fn validity_section(map: &InteractionMap) -> Markup {
         @if !judged.is_empty() {
             h2 { "Is linear theory valid?" }
             p { (verdicts(&judged)) }
+            @let lacking = validity::lacking(map);
+            @if !lacking.is_empty() {
+                p { "Not looked at, so that theory may fail where it is said to hold:" }
+                ul { @for words in lacking { li { (words) } } }
+            }
             (measures(&judged))
             (speeds(&judged))
         }
@@ -133,11 +138,16 @@ pub(super) fn validity_section(map: &InteractionMap) -> Markup {
 }
 
 fn verdicts(judged: &[(&Point, &Validity)]) -> String {
-    let count = |verdict| judged.iter().filter(|(_, validity)| validity.verdict == verdict).count();
-    let all = [ValidityVerdict::Linear, ValidityVerdict::Doubtful, ValidityVerdict::Beyond];
-    let counts = all.into_iter().map(|verdict| (count(verdict), validity::words(verdict)));
-    let counts =
-        counts.filter(|(count, _)| *count > 0).map(|(count, words)| format!("{words} at {count} speeds"));
+    let mut counts: Vec<(ValidityVerdict, &str, usize)> = Vec::new();
+    for (_, found) in judged {
+        let words = validity::words_without(found.verdict, &found.measures_lacking());
+        match counts.iter_mut().find(|(_, known, _)| *known == words) {
+            Some((_, _, count)) => *count += 1,
+            None => counts.push((found.verdict, words, 1)),
+        }
+    }
+    counts.sort_by_key(|(verdict, ..)| *verdict);
+    let counts = counts.into_iter().map(|(_, words, count)| format!("{words} at {count} speeds"));
     format!("Of {} speeds: {}.", judged.len(), counts.collect::<Vec<_>>().join(", "))
 }
 

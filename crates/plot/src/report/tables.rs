@@ -68,7 +68,7 @@ fn row(peak: &CriticalSpeed, used: bool, judged: bool) -> Markup {
                 None => { td { "none in range" } td { "–" } td { "–" } }
             }
             @if used { td { (peak.utilisation.map_or_else(|| "–".to_owned(), significant)) } }
-            @if judged { td { (peak.validity.map_or("–", validity::words)) } }
+            @if judged { td { (peak.validity.map_or("–", |verdict| validity::words_without(verdict, &peak.validity_lacking))) } }
         }
     }
 }

@@ -55,6 +55,9 @@ pub(super) fn sweep(map: &InteractionMap, critical: &[CriticalSpeeds]) -> Vec<St
             ));
         }
     }
+    if validity::without_thickness(map) {
+        found.push(format!("At some speeds {}; the section on it says why.", validity::WITHOUT_THICKNESS));
+    }
     let unresolved =
         critical.iter().flat_map(|table| &table.critical_speeds).filter(|peak| !peak.resolved).count();
     if unresolved > 0 {

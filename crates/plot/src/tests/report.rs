@@ -7,7 +7,9 @@ use super::impeller::impeller;
 use super::stresses::{strengths, stressed_critical, stressed_map};
 use super::{critical, map, modes};
 use crate::report;
-use rubmap_analysis::result::{CriticalSpeeds, FieldSurface, InteractionMap, Strengths};
+use rubmap_analysis::result::{
+    CriticalSpeeds, FieldSurface, InteractionMap, Strengths, ValidityMeasure, ValidityVerdict,
+};
 
 /// The page as XML: HTML's elements without an end get one.
 fn as_xml(page: &str) -> String {
@@ -96,6 +98,35 @@ fn page(
         surfaces,
     };
     as_xml(&report::sweep(&report::Head::default(), &found))
+}
+
+/// What was not looked at is named, where linear theory is said to hold and where it is not.
+#[test]
+fn a_report_says_what_validity_lacks() {
+    let mut map = stressed_map();
+    for point in &mut map.points[..2] {
+        let found = point.validity.as_mut().unwrap();
+        found.lacking = serde_json::from_value(serde_json::json!([
+            {"what": "displacement_over_thickness", "reason": "the package has no mesh"},
+        ]))
+        .unwrap();
+    }
+    let mut critical = stressed_critical();
+    critical.critical_speeds[0].validity = Some(ValidityVerdict::Linear);
+    critical.critical_speeds[0].validity_lacking = vec![ValidityMeasure::DisplacementOverThickness];
+    let page = page(&map, &[critical], &strengths(), &[]);
+    let read = Document::parse(&page).unwrap();
+    let texts = read.descendants().filter(|node| node.is_text()).filter_map(|node| node.text());
+    let words = texts.collect::<Vec<_>>().join(" ");
+    for expected in [
+        "Of 4 speeds: linear theory holds as far as is known at 2 speeds, linear theory doubtful at 1 speeds",
+        "largest displacement of a tip over the blade's thickness: the package has no mesh",
+        "At some speeds linear theory is judged without the blade's thickness; the section on it says why.",
+    ] {
+        assert!(words.contains(expected), "{expected}: {words}");
+    }
+    // In the table of critical speeds, too.
+    assert_eq!(words.matches("linear theory holds as far as is known").count(), 2);
 }
 
 /// Stress, margin, linear theory and pictures have their sections, with their numbers; without them there are none.

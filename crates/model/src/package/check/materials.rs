@@ -49,6 +49,19 @@ fn of_one(material: &Material) -> Result<(), (&'static str, ManifestProblem)> {
     if !(*poissons_ratio > -1.0 && *poissons_ratio < 0.5) {
         return Err(("poissons_ratio", ManifestProblem::PoissonsRatio { value: *poissons_ratio }));
     }
+    if let (Some(yields), Some(ultimate)) = (yield_strength, ultimate_strength)
+        && ultimate < yields
+    {
+        let problem = ManifestProblem::BreaksBeforeYielding { ultimate: *ultimate, yields: *yields };
+        return Err(("ultimate_strength", problem));
+    }
+    if let (Some(fatigue), Some(ultimate)) = (fatigue, ultimate_strength)
+        && fatigue.amplitude > *ultimate
+    {
+        let problem =
+            ManifestProblem::FatigueAboveUltimate { amplitude: fatigue.amplitude, ultimate: *ultimate };
+        return Err(("fatigue_strength/amplitude", problem));
+    }
     match fatigue.map(|fatigue| fatigue.source.trim()) {
         Some("") => Err(("fatigue_strength/source", ManifestProblem::NoSource)),
         Some(source) if source.chars().nth(LONGEST_NAME).is_some() => {

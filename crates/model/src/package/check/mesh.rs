@@ -1,4 +1,4 @@
-//! The elements as a whole: what moves has elements, all hang together, and the cyclic faces are meshed alike.
+//! The elements as a whole: what moves has elements, all hang together without overlap, and the cyclic faces are meshed alike.
 
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
@@ -9,6 +9,7 @@ use rubmap_solid::skin::{Cut, skin};
 
 use super::elements;
 use super::layout::NONE;
+use super::overlap;
 use super::tables::NodeIndex;
 use crate::package::by_place::{Places, tolerance};
 use crate::package::content::SourceLines;
@@ -45,6 +46,7 @@ pub(crate) fn check(
     let mesh = made(manifest, stated, elements, &package.nodes, lines, frame, index, rows_of_node, faces)?;
     has_all_that_moves(package, stated, &mesh, lines, index)?;
     hangs_together(stated, &mesh, lines)?;
+    overlap::check(&stated.elements, &mesh, lines)?;
     repeats(stated, &mesh, lines)?;
     Ok(Some(mesh))
 }

@@ -1,8 +1,9 @@
 //! Every check of docs/package.md on a parsed package, each with its own error.
 //!
 //! The order is that of understanding: what `sector.json` says by itself, the tables, the matrices, then the
-//! cyclic faces and the contact nodes. [`mass`] comes last, on the finished sector.
+//! cyclic faces and the contact nodes. [`mass`] and [`agreement`] come last, on the finished sector.
 
+pub(super) mod agreement;
 mod contact;
 pub(super) mod cyclic;
 pub(super) mod elements;
@@ -11,6 +12,7 @@ pub(super) mod mass;
 mod materials;
 mod matrices;
 pub(super) mod mesh;
+mod overlap;
 pub(super) mod statement;
 pub(super) mod tables;
 

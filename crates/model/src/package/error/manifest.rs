@@ -233,6 +233,66 @@ pub enum ManifestProblem {
         /// Value given.
         value: f64,
     },
+    /// An ultimate strength below the yield strength.
+    #[error(
+        "the ultimate strength {ultimate:?} is below the yield strength {yields:?}; the first is the larger one"
+    )]
+    BreaksBeforeYielding {
+        /// Ultimate strength.
+        ultimate: f64,
+        /// Yield strength.
+        yields: f64,
+    },
+    /// A fatigue strength above the ultimate strength.
+    #[error(
+        "the fatigue strength {amplitude:?} is above the ultimate strength {ultimate:?}; it is an amplitude, half of the range"
+    )]
+    FatigueAboveUltimate {
+        /// Amplitude.
+        amplitude: f64,
+        /// Ultimate strength.
+        ultimate: f64,
+    },
+    /// Elastic constants that the stiffness matrix contradicts.
+    #[error(
+        "the elements have Young's modulus {:?} and Poisson's ratio {:?}, but {file} is the stiffness of a material with \
+         {youngs_modulus:.3e} and {poissons_ratio:.3}; give the constants that it was made with, in the package's units \
+         (force/length²)", .stated[0], .stated[1]
+    )]
+    StiffnessDisagrees {
+        /// File name of the stiffness matrix at rest.
+        file: String,
+        /// Young's modulus that its matrix has.
+        youngs_modulus: f64,
+        /// Poisson's ratio that its matrix has.
+        poissons_ratio: f64,
+        /// Both as stated.
+        stated: [f64; 2],
+    },
+    /// A density that the mass matrix contradicts.
+    #[error(
+        "the elements have density {stated:?}, but {file} is the mass of a material with {density:.3e}; give the density that it \
+         was made with, in the package's units (mass/length³)"
+    )]
+    MassDisagrees {
+        /// File name of the mass matrix.
+        file: String,
+        /// Density that its matrix has.
+        density: f64,
+        /// As stated.
+        stated: f64,
+    },
+    /// Materials of thin sets that a matrix contradicts.
+    #[error(
+        "where element sets meet, {file} is {factor:.3e} times what the elements and their materials give; give the materials that \
+         it was made with, in the package's units"
+    )]
+    MeetingSetsDisagree {
+        /// File name of the matrix.
+        file: String,
+        /// Matrix over elements.
+        factor: f64,
+    },
     /// A fatigue strength from nowhere.
     #[error(
         "say where the fatigue strength comes from: standard or test, number of cycles, surface, temperature"

@@ -134,6 +134,37 @@ pub enum TableProblem {
         /// Line of the first definition.
         first_line: u64,
     },
+    /// An element under two numbers.
+    #[error("element {element} has the nodes of element {other} on line {line}; list it once")]
+    ElementTwice {
+        /// Its second number.
+        element: u64,
+        /// Its first number.
+        other: u64,
+        /// Line of the first.
+        line: u64,
+    },
+    /// A face of three elements.
+    #[error(
+        "element {element} has a face that lies between elements {} and {} already; remove what fills the same space twice",
+        .others[0], .others[1]
+    )]
+    FaceOfThree {
+        /// The third.
+        element: u64,
+        /// The others.
+        others: [u64; 2],
+    },
+    /// Two elements on the same side of a face.
+    #[error(
+        "elements {other} and {element} lie on the same side of a face; remove what fills the same space twice"
+    )]
+    OnOneSide {
+        /// The second.
+        element: u64,
+        /// The first.
+        other: u64,
+    },
     /// A Jacobian determinant that is not positive.
     #[error(
         "element {element} ({kind}) is flipped or degenerate: its Jacobian determinant {} is {determinant:.3e}, not positive; {}",

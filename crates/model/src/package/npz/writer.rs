@@ -81,6 +81,15 @@ impl<W: Write + Seek> NpzWriter<W> {
         self.elements(name, CompressionMethod::Deflated, "<i8", shape, values)
     }
 
+    /// An array of uint64: numbers that users gave, which may be larger than int64 holds.
+    ///
+    /// # Errors
+    /// Those of writing.
+    pub fn ids(&mut self, name: &str, shape: &[usize], ids: impl IntoIterator<Item = u64>) -> io::Result<()> {
+        let ids = ids.into_iter().map(u64::to_le_bytes);
+        self.elements(name, CompressionMethod::Deflated, "<u8", shape, ids)
+    }
+
     /// An array of truth values.
     ///
     /// # Errors
