@@ -57,6 +57,11 @@ impl HistoriesRequest {
     pub(crate) fn recorded(&self) -> Recorded {
         Recorded { revolutions: self.revolutions, quantities: self.quantities.clone() }
     }
+
+    /// Whether states are to be recorded.
+    pub(crate) fn wants_states(&self) -> bool {
+        self.recorded().wants(RecordedQuantity::State)
+    }
 }
 
 /// Over which revolutions, and of what.
