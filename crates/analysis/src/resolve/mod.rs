@@ -7,7 +7,7 @@ use crate::error::Violation;
 use crate::model::ModelFacts;
 use crate::request::auto_or::MOST_STEPS;
 use crate::request::{
-    Accuracy, AccuracyOf, AutoOr, Budget, Component, HistoriesRequest, Integration, ModalAnalysisRequest, SchemeChoice,
+    Accuracy, AccuracyOf, AutoOr, Budget, Component, Integration, ModalAnalysisRequest, SchemeChoice,
     SweepDirection, SweepRequest,
 };
 use crate::resolved::sensor::{Along, Place};
@@ -48,8 +48,8 @@ pub fn resolve_sweep(request: SweepRequest, facts: &ModelFacts) -> Result<Resolv
     if let Some(stress) = &mut sweep.record.stress {
         recorded::resolve_stress(&mut found, stress, "/record/stress", facts);
     }
-    let states = sweep.histories().is_some_and(HistoriesRequest::wants_states);
-    recorded::check_fields(&mut found, sweep.fields, states || sweep.record.stress.is_some());
+    let needs = sweep.records_states() || sweep.record.stress.is_some();
+    recorded::check_fields(&mut found, sweep.fields, needs);
     if found.0.is_empty() {
         check_memory(&mut found, &sweep, facts);
         if let Some(histories) = sweep.histories() {

@@ -32,7 +32,12 @@ impl ResolvedCaseStudy {
 
     /// Whether rows of the reduction's basis must be beside it, must not, or are kept where it reduces.
     pub fn fields(&self) -> Option<bool> {
-        if self.record.wants(RecordedQuantity::State) { Some(true) } else { self.sweep.fields() }
+        if self.records_states() { Some(true) } else { self.sweep.fields() }
+    }
+
+    /// Whether states are recorded.
+    pub fn records_states(&self) -> bool {
+        self.record.wants(RecordedQuantity::State)
     }
 
     /// Indices of the speeds in the sweep; at least one.

@@ -166,7 +166,12 @@ impl ResolvedSweep {
 
     /// Whether rows of the reduction's basis must be beside it, must not, or are kept where it reduces.
     pub fn fields(&self) -> Option<bool> {
-        if self.histories().is_some_and(HistoriesRequest::wants_states) { Some(true) } else { self.fields }
+        if self.records_states() { Some(true) } else { self.fields }
+    }
+
+    /// Whether states are among the histories it asks for.
+    pub fn records_states(&self) -> bool {
+        self.record.wants_states()
     }
 
     /// Speeds that are simulated again at a finer setting.
