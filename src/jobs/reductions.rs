@@ -94,8 +94,7 @@ impl Reductions {
         fields: Option<bool>,
         monitor: PhaseMonitor,
     ) -> Result<Arc<ReducedSector>, Interruption> {
-        let beside =
-            Beside { nodes: sweep.sensor_nodes(), stress_outside: sweep.stress_outside(), fields };
+        let beside = Beside { nodes: sweep.sensor_nodes(), stress_outside: sweep.stress_outside(), fields };
         self.reading(sweep.model(), sweep.modes_per_speed(), &beside, monitor).await
     }
 
@@ -361,8 +360,7 @@ impl Reductions {
     /// The latest that has what is asked for.
     fn recall(&self, key: &Key, beside: &Beside) -> Option<Arc<ReducedSector>> {
         let mut recent = self.recent.lock().unwrap_or_else(PoisonError::into_inner);
-        let serves =
-            |(known, reduced): &(Key, Arc<ReducedSector>)| known == key && beside.is_of(reduced);
+        let serves = |(known, reduced): &(Key, Arc<ReducedSector>)| known == key && beside.is_of(reduced);
         let position = recent.iter().rposition(serves)?;
         let entry = recent.remove(position)?;
         let reduced = Arc::clone(&entry.1);

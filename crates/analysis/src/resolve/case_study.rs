@@ -6,7 +6,8 @@ use crate::error::Violation;
 use crate::model::ModelFacts;
 use crate::request::sweep::default_peak_prominence;
 use crate::request::{
-    CaseSpeed, CaseStudyRequest, HistoriesRequest, Record, RecordedQuantity, SpeedSet, Speeds, SweepDirection, SweepRequest,
+    CaseSpeed, CaseStudyRequest, HistoriesRequest, Record, RecordedQuantity, SpeedSet, Speeds,
+    SweepDirection, SweepRequest,
 };
 use crate::resolve::findings::Findings;
 use crate::resolve::recorded::{check_fields, check_histories, check_recorded, wanted};
