@@ -70,7 +70,7 @@ fn beside(data: &Path, part: &str) -> Vec<PathBuf> {
     let folder = root.join(folder);
     files_in(&folder)
         .into_iter()
-        .filter(|name| name.splitn(3, '-').nth(2).unwrap().starts_with(part))
+        .filter(|name| name.splitn(3, '-').nth(2).is_some_and(|name| name.starts_with(part)))
         .map(|name| folder.join(name))
         .collect()
 }
