@@ -134,6 +134,7 @@ impl Scene {
             budget: None,
             control_speeds: None,
             refine: false,
+            fields: None,
             record: request::Record::default(),
         };
         ResolvedSweep::stored(settings, 0).expect("the settings are sound")

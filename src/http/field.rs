@@ -161,8 +161,8 @@ impl From<FieldError> for Problem {
             FieldError::Model(error) => Self::new(Kind::InvalidModel, error.to_string()),
             FieldError::Basis(error) if is_lost(&error) => {
                 tracing::warn!(%error, "the basis of a stored reduction cannot be read");
-                let detail = "the basis of this reduction is not there: a sweep with a sensor at a node that is no contact node \
-                              reduces once more and keeps it";
+                let detail = "the rows of this reduction's basis at the nodes are not there, or damaged: a modal analysis or a sweep \
+                              with the same modes_per_speed and \"fields\": true reduces once more and keeps them; then ask again";
                 Self::new(Kind::NotReduced, detail)
             }
             FieldError::Basis(error) => error.into(),

@@ -7,7 +7,7 @@ use super::problem::Problem;
 use crate::analysis::request::{CaseStudySettings, ModalAnalysisRequest, StudyRequest, SweepRequest};
 use crate::analysis::result::ReductionReport;
 use crate::impeller::ImpellerParameters;
-use crate::store::jobs::{Chosen, JobHead, JobId, JobKind, JobRequest, SpeedCounts};
+use crate::store::jobs::{Chosen, Job, JobHead, JobId, JobKind, JobRequest, SpeedCounts};
 use crate::store::status::JobStatus;
 
 /// A job.
@@ -111,7 +111,8 @@ pub(super) struct Link {
     #[schema(example = "/v1/jobs/0198c5a2-7c1e-7d54-9f3b-2f6d7a6f4b10/interaction-map")]
     href: String,
     /// What it is: `self`, `interaction-map`, `critical-speeds`, `wheel-critical-speeds`, `forces`, `spectra` (with a `{index}` to fill
-    /// in), `campbell`, `work-precision`, `histories`, `report`, `archive` or `model`.
+    /// in), `campbell`, `work-precision`, `histories`, `report`, `archive` or `model`; where it is recorded, and not in lists of jobs,
+    /// `stress` and `fields`.
     rel: &'static str,
 }
 
@@ -127,7 +128,7 @@ impl From<JobHead> for JobBody {
             status: job.status,
             progress: job.progress,
             phase: if job.status == JobStatus::Running { job.phase } else { String::new() },
-            links: links(job.id, kind, job.model.as_deref()),
+            links: links(job.id, kind, job.model.as_deref(), &[]),
             model: job.model,
             speeds: (job.speeds.total > 0).then_some(job.speeds),
             stored_bytes: job.stored_bytes,
@@ -146,8 +147,33 @@ const REPORT: (&str, &str) = ("report", "/report");
 /// Of jobs that can be repeated.
 const ARCHIVE: (&str, &str) = ("archive", "/archive");
 
-/// Links of a job.
-pub(super) fn links(id: JobId, kind: JobKind, model: Option<&str>) -> Vec<Link> {
+/// Of jobs that record stress, and of those that record states.
+pub(super) fn recorded(stress: bool, states: bool) -> Vec<(&'static str, &'static str)> {
+    let stress = stress.then_some(("stress", "/stress"));
+    stress.into_iter().chain(states.then_some(("fields", "/fields"))).collect()
+}
+
+impl JobDetail {
+    /// A job with all its links.
+    pub(super) fn new(job: Job, reduction: Option<ReductionReport>) -> Self {
+        let recorded = match &job.request {
+            JobRequest::Sweep(sweep) => recorded(sweep.stress_outside().is_some(), sweep.records_states()),
+            JobRequest::CaseStudy(case) => recorded(false, case.records_states()),
+            _ => Vec::new(),
+        };
+        let links = links(job.id, job.kind, job.model.as_deref(), &recorded);
+        let body = JobBody { links, ..job.head.into() };
+        Self { job: body, request: job.request.into(), choice: job.choice, reduction }
+    }
+}
+
+/// Links of a job, with those of what it has `recorded` beside the results of its kind.
+pub(super) fn links(
+    id: JobId,
+    kind: JobKind,
+    model: Option<&str>,
+    recorded: &[(&'static str, &str)],
+) -> Vec<Link> {
     let results: &[(&str, &str)] = match kind {
         JobKind::Sweep => &[
             ("interaction-map", "/interaction-map"),
@@ -167,6 +193,7 @@ pub(super) fn links(id: JobId, kind: JobKind, model: Option<&str>) -> Vec<Link> 
     [("self", "")]
         .iter()
         .chain(results)
+        .chain(recorded)
         .map(|(rel, path)| Link { href: format!("/v1/jobs/{id}{path}"), rel })
         .chain(model)
         .collect()

@@ -115,8 +115,7 @@ pub(super) async fn get_job(
         }
         _ => None,
     };
-    let request = job.request.into();
-    Ok(Json(JobDetail { job: job.head.into(), request, choice: job.choice, reduction }))
+    Ok(Json(JobDetail::new(job, reduction)))
 }
 
 /// Call a job otherwise.

@@ -6,9 +6,10 @@ use serde::Serialize;
 use utoipa::ToSchema;
 
 use super::idempotency::{self, IdempotencyKey};
-use super::job_body::{Link, links};
+use super::job_body::{Link, links, recorded};
 use super::problem::Problem;
 use super::state::AppState;
+use crate::analysis::request::RecordedQuantity;
 use crate::jobs::{Submission, SubmitError};
 use crate::store::idempotency::Answer;
 use crate::store::jobs::{JobId, JobKind};
@@ -42,7 +43,13 @@ pub(super) async fn accept(
         return Ok(response);
     }
     let (id, kind) = (JobId::new(), submission.kind());
-    let links = links(id, kind, submission.model());
+    let recorded = match &submission {
+        Submission::Sweep(sweep) => recorded(sweep.record.stress.is_some(), sweep.record.wants_states()),
+        Submission::CaseStudy(case) => recorded(false, case.record.wants(RecordedQuantity::State)),
+        Submission::Histories(of) => recorded(false, of.2.wants_states()),
+        _ => Vec::new(),
+    };
+    let links = links(id, kind, submission.model(), &recorded);
     let receipt = Receipt { id: id.to_string(), kind, status: JobStatus::Accepted, links };
     let answer = Answer {
         owner: whose.owner.clone(),

@@ -99,7 +99,9 @@ pub(super) async fn modal_analysis(
             NextModes::Reduce(modes) => modes,
         };
         let monitor = PhaseMonitor::uncounted(job.watch.clone());
-        match engine.reductions.get(request.model(), modes, monitor).await {
+        // Who needs rows of a basis needs those of the choice.
+        let left_out = request.fields().filter(|wanted| !wanted);
+        match engine.reductions.get((request.model(), modes), left_out, monitor).await {
             Err(Interruption::Failed(failure)) if failure.cause == FailureCause::Memory => {
                 most_modes = Some(largest_below(modes, &resources).ok_or(Interruption::Failed(failure))?);
             }

@@ -4,6 +4,7 @@ use std::io;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use super::engine::Engine;
 use super::handle::Jobs;
 use super::static_wheel::{self, StaticWheelError};
 use crate::analysis::fields::{BasisProduct, FieldSector};
@@ -26,6 +27,8 @@ pub struct FieldSource {
     reduced: Arc<ReducedSector>,
     basis: BasisFolder,
     package: PathBuf,
+    /// The model and its accuracy dial, and who has it in memory.
+    of: (Arc<Engine>, String, u32),
 }
 
 impl Jobs {
@@ -44,6 +47,7 @@ impl Jobs {
             reduced,
             basis: store.basis(model, modes_per_speed),
             package: store.package_path(model),
+            of: (Arc::clone(&self.engine), model.to_owned(), modes_per_speed),
         }))
     }
 
@@ -102,6 +106,11 @@ impl FieldSource {
     /// Makes something of the basis.
     pub fn with_basis<T>(&self, make: impl FnOnce(&ReducedWheel, BasisProduct<'_>) -> T) -> T {
         let wheel = &self.reduced.wheel;
-        make(wheel, &mut |harmonic, columns| self.basis.product(wheel, harmonic, columns))
+        make(wheel, &mut |harmonic, columns| {
+            self.basis.product(wheel, harmonic, columns).inspect_err(|_| {
+                let (engine, model, modes_per_speed) = &self.of;
+                engine.reductions.forget(model, *modes_per_speed);
+            })
+        })
     }
 }

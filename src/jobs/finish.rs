@@ -52,7 +52,10 @@ async fn conclude(
         return Err(Interruption::Failed(failure));
     }
     let monitor = PhaseMonitor::uncounted(job.watch.clone());
-    let reduced = engine.reductions.get(request.model(), request.modes_per_speed(), monitor).await?;
+    let reduced = engine
+        .reductions
+        .get((request.model(), request.modes_per_speed()), request.fields(), monitor)
+        .await?;
     let errors = control::errors(engine, job, request, &points).await?;
     if let Some(case) = run::histories_wanted(request, &points) {
         histories::record(engine, job, &case, PhaseMonitor::uncounted(job.watch.clone())).await?;

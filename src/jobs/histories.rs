@@ -48,7 +48,7 @@ async fn record_one(
     }
     let sweep = case.sweep();
     let monitor = PhaseMonitor::uncounted(job.watch.clone());
-    let reduced = engine.reductions.of_sweep(sweep, monitor.clone()).await?;
+    let reduced = engine.reductions.of_case(sweep, case.fields(), monitor.clone()).await?;
     let asked = (Arc::clone(&reduced), case.clone());
     let bytes =
         engine.computing.run(&job.watch, move || run::histories_memory(&asked.0, &asked.1, place)).await?;

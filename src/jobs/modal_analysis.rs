@@ -12,7 +12,10 @@ use crate::store::results::Document;
 pub(super) async fn run(engine: &Engine, job: &Live) -> Result<(), Interruption> {
     let JobRequest::ModalAnalysis(request) = &job.request else { return Ok(()) };
     let monitor = PhaseMonitor::reduction_of_modal_analysis(job.watch.clone());
-    let reduced = engine.reductions.get(request.model(), request.modes_per_speed(), monitor).await?;
+    let reduced = engine
+        .reductions
+        .get((request.model(), request.modes_per_speed()), request.fields(), monitor)
+        .await?;
     let (settings, monitor) = (request.clone(), PhaseMonitor::modal_analysis(job.watch.clone()));
     let campbell = engine
         .computing

@@ -17,6 +17,7 @@ use crate::dynamics::kept_rows::KeptRows;
 use crate::dynamics::node_rows::NodeRows;
 use crate::dynamics::nodes::SectorNode;
 use crate::package::{self, Limits};
+use crate::store::checkpoints::CheckpointFolder;
 use crate::store::{Store, StoreError};
 
 /// Reduced sectors kept in memory: tens of megabytes each at most, and jobs come in runs on the same model.
@@ -32,6 +33,21 @@ struct Beside {
     nodes: Vec<u64>,
     /// Stress outside this radius about the contact nodes.
     stress_outside: Option<f64>,
+    /// Rows of the basis at all nodes: they must be there, must not, or are kept if it reduces.
+    fields: Option<bool>,
+}
+
+impl Beside {
+    /// Whether the basis itself must be there.
+    fn needs_basis(&self) -> bool {
+        self.fields == Some(true)
+    }
+
+    /// Whether `reduced` has all of it.
+    fn is_of(&self, reduced: &ReducedSector) -> bool {
+        let tells = self.stress_outside.is_none_or(|radius| reduced.tells_stress(radius));
+        tells && reduced.reads(&self.nodes) && (reduced.has_basis || !self.needs_basis())
+    }
 }
 
 /// Reduced sectors on demand.
@@ -51,14 +67,15 @@ impl Reductions {
         Self { store, computing, memory, recent: Mutex::default(), flights: Mutex::default() }
     }
 
-    /// The reduction of `model`; computes and stores it if there is none.
+    /// The reduction of `model`; computes and stores it if there is none. `fields` are rows of its basis: they must be beside it, must
+    /// not, or are kept if it is computed.
     pub(super) async fn get(
         &self,
-        model: &str,
-        modes_per_speed: u32,
+        (model, modes_per_speed): (&str, u32),
+        fields: Option<bool>,
         monitor: PhaseMonitor,
     ) -> Result<Arc<ReducedSector>, Interruption> {
-        self.reading(model, modes_per_speed, &Beside::default(), monitor).await
+        self.reading(model, modes_per_speed, &Beside { fields, ..Beside::default() }, monitor).await
     }
 
     /// The reduction that `sweep` runs on, with rows of its basis at the nodes of its sensors and the stress that it records.
@@ -67,7 +84,17 @@ impl Reductions {
         sweep: &ResolvedSweep,
         monitor: PhaseMonitor,
     ) -> Result<Arc<ReducedSector>, Interruption> {
-        let beside = Beside { nodes: sweep.sensor_nodes(), stress_outside: sweep.stress_outside() };
+        self.of_case(sweep, sweep.fields(), monitor).await
+    }
+
+    /// The same with other wishes for rows of its basis.
+    pub(super) async fn of_case(
+        &self,
+        sweep: &ResolvedSweep,
+        fields: Option<bool>,
+        monitor: PhaseMonitor,
+    ) -> Result<Arc<ReducedSector>, Interruption> {
+        let beside = Beside { nodes: sweep.sensor_nodes(), stress_outside: sweep.stress_outside(), fields };
         self.reading(sweep.model(), sweep.modes_per_speed(), &beside, monitor).await
     }
 
@@ -117,6 +144,12 @@ impl Reductions {
         Ok(stored.map(|reduced| self.remember(&key, reduced)))
     }
 
+    /// Forgets what is in memory of a reduction whose basis could not be read, so that who needs that looks again.
+    pub(super) fn forget(&self, model: &str, modes_per_speed: u32) {
+        let mut recent = self.recent.lock().unwrap_or_else(PoisonError::into_inner);
+        recent.retain(|((of, modes), _)| of != model || *modes != modes_per_speed);
+    }
+
     /// The stored reduction, with what the model says of its tips.
     async fn read(&self, key: &Key) -> Result<Option<ReducedSector>, StoreError> {
         let Some(mut reduced) = self.store.reduction(&key.0, key.1).await? else { return Ok(None) };
@@ -152,6 +185,10 @@ impl Reductions {
             tracing::info!(model.id = model, modes_per_speed, "read the stored reduction");
             match self.beside(key, &mut reduced, &nodes, beside, &monitor).await? {
                 Ok(()) => return Ok(self.remember(key, reduced)),
+                // Reducing again would not help.
+                Err(error) if StoreError::may_pass_of(&error) => {
+                    return Err(StoreError::File(error).into());
+                }
                 Err(error) => {
                     tracing::warn!(model.id = model, modes_per_speed, %error, "the basis of the stored reduction cannot be read; reducing again");
                 }
@@ -159,15 +196,27 @@ impl Reductions {
         }
         // Stress of other jobs is read again, if they go on; a reduction wants its memory.
         self.let_stress_go();
-        let dofs = self.store.model(model, None).await?.map_or(0, |model| model.facts.own_dofs.into());
+        let facts = self.store.model(model, None).await?.map(|model| model.facts);
+        let needs_basis = beside.needs_basis() || beside.stress_outside.is_some();
+        if let Some(facts) = facts.as_ref().filter(|_| needs_basis) {
+            // Before hours of computing end in nothing that can be used.
+            let room = run::most_basis_bytes(facts, modes_per_speed);
+            self.store.basis(model, modes_per_speed).expect_room(room).map_err(StoreError::File)?;
+        }
+        let dofs = facts.map_or(0, |facts| facts.own_dofs.into());
         monitor.progress(0.0, "waiting for memory that other jobs hold");
         let mut allowance = self.memory.claim(dofs).await;
-        let mut outcome = self.reduce(key, &nodes, &monitor, allowance.bytes).await?;
+        let mut checkpoints = self.store.checkpoints(model, modes_per_speed);
+        if beside.fields == Some(false) {
+            checkpoints = checkpoints.without_basis();
+        }
+        let parts = (&checkpoints, &nodes);
+        let mut outcome = self.reduce(key, parts, &monitor, allowance.bytes).await?;
         if matches!(outcome, Err(AnalysisError::Memory { .. })) && !allowance.is_most() {
             // More than its size lets expect.
             drop(allowance);
             allowance = self.memory.claim_most().await;
-            outcome = self.reduce(key, &nodes, &monitor, allowance.bytes).await?;
+            outcome = self.reduce(key, parts, &monitor, allowance.bytes).await?;
         }
         drop(allowance);
         let mut reduced = outcome?;
@@ -178,6 +227,11 @@ impl Reductions {
         self.computing.acquit(job);
         let wall_time_s = reduced.report.wall_time_s;
         tracing::info!(model.id = model, modes_per_speed, wall_time_s, "reduced");
+        match checkpoints.kept_basis() {
+            Ok(kept) => reduced.has_basis = kept,
+            Err(error) if needs_basis => return Err(StoreError::File(error).into()),
+            Err(_) => {}
+        }
         if beside.stress_outside.is_some() {
             let made = self.stress(key, &mut reduced, beside, &monitor).await?;
             made.map_err(|error| Interruption::Store(StoreError::File(error)))?;
@@ -199,6 +253,13 @@ impl Reductions {
                 Ok(rows) => reduced.nodes = rows,
                 Err(error) => return Ok(Err(error)),
             }
+        }
+        if beside.needs_basis() && !reduced.has_basis {
+            let (basis, wheel) = (self.store.basis(&key.0, key.1), Arc::clone(&reduced.wheel));
+            if let Err(error) = self.computing.run(monitor.watch(), move || basis.check(&wheel)).await? {
+                return Ok(Err(error));
+            }
+            reduced.has_basis = true;
         }
         self.stress(key, reduced, beside, monitor).await
     }
@@ -272,7 +333,7 @@ impl Reductions {
     async fn reduce(
         &self,
         key: &Key,
-        nodes: &Arc<[SectorNode]>,
+        (checkpoints, nodes): (&CheckpointFolder, &Arc<[SectorNode]>),
         monitor: &PhaseMonitor,
         memory_bytes: Option<u64>,
     ) -> Result<Result<ReducedSector, AnalysisError>, Interruption> {
@@ -284,8 +345,7 @@ impl Reductions {
         monitor.progress(0.0, "reading the package");
         let path = self.store.package_path(model);
         let watch = Arc::clone(monitor.watch());
-        let (checkpoints, monitor) = (self.store.checkpoints(model, modes_per_speed), monitor.clone());
-        let nodes = Arc::clone(nodes);
+        let (checkpoints, nodes, monitor) = (checkpoints.clone(), Arc::clone(nodes), monitor.clone());
         let compute = move || {
             let package = package::read(&path, &Limits::default()).map_err(Interruption::stored_package)?;
             monitor.progress(0.0, "reducing");
@@ -300,10 +360,7 @@ impl Reductions {
     /// The latest that has what is asked for.
     fn recall(&self, key: &Key, beside: &Beside) -> Option<Arc<ReducedSector>> {
         let mut recent = self.recent.lock().unwrap_or_else(PoisonError::into_inner);
-        let serves = |(known, reduced): &(Key, Arc<ReducedSector>)| {
-            let tells = beside.stress_outside.is_none_or(|radius| reduced.tells_stress(radius));
-            known == key && reduced.reads(&beside.nodes) && tells
-        };
+        let serves = |(known, reduced): &(Key, Arc<ReducedSector>)| known == key && beside.is_of(reduced);
         let position = recent.iter().rposition(serves)?;
         let entry = recent.remove(position)?;
         let reduced = Arc::clone(&entry.1);

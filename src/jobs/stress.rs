@@ -25,8 +25,21 @@ pub(super) struct Making {
 }
 
 impl Making {
-    /// The stress; what has been kept is not made again. The inner error is that of files beside the reduction.
+    /// The stress; what has been kept is not made again unless it is damaged. The inner error is that of files beside the reduction.
     pub(super) fn stress(&self) -> Result<io::Result<ReducedStress>, Interruption> {
+        match self.read_or_make()? {
+            Err(error) if error.kind() == io::ErrorKind::InvalidData => {
+                tracing::warn!(%error, "the stress of a reduction cannot be read; making it again");
+                match self.basis.remove_stress(&self.wheel) {
+                    Ok(()) => self.read_or_make(),
+                    Err(error) => Ok(Err(error)),
+                }
+            }
+            found => Ok(found),
+        }
+    }
+
+    fn read_or_make(&self) -> Result<io::Result<ReducedStress>, Interruption> {
         let limits = Limits::default();
         let mesh = package::read_mesh(&self.package, &limits).map_err(Interruption::stored_package)?;
         let Some(mesh) = mesh else {

@@ -3,13 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use futures::TryStreamExt;
+use serde::de::IgnoredAny;
 use sqlx::sqlite::{SqliteConnectOptions, SqliteConnection};
 use sqlx::{ConnectOptions, Connection, Row};
 
 use super::error::StoreError;
 use super::handle::{DATABASE, PATIENCE};
 use super::packages::{package_path, packages_folder};
-use super::{end_states, jobs, models, results};
+use super::{end_states, jobs, models, results, states};
 use crate::package;
 
 /// What a backup holds.
@@ -193,6 +194,20 @@ async fn check_jobs(database: &mut SqliteConnection, found: &mut Findings) -> Re
                 let (job, speed): (&str, u32) = (row.try_get("job")?, row.try_get("speed")?);
                 found.wrong.push(format!("job {job}, speed {speed}: {error}"));
             }
+        }
+    }
+    drop(rows);
+    let mut rows = sqlx::query_as::<_, (String, String, u32, String)>(
+        "select job, name, part, body from documents where exists (select 1 from jobs where id = job and deleted = 0)",
+    )
+    .fetch(&mut *database);
+    while let Some((job, name, part, body)) = rows.try_next().await? {
+        let read = match name.as_str() {
+            "states" => states::check(&body).map_err(|error| error.to_string()),
+            _ => serde_json::from_str::<IgnoredAny>(&body).map(drop).map_err(|error| error.to_string()),
+        };
+        if let Err(error) = read {
+            found.wrong.push(format!("job {job}, {name} {part}: {error}"));
         }
     }
     drop(rows);

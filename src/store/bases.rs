@@ -88,11 +88,12 @@ impl BasisFolder {
         Self { data: data.to_owned(), folder: data.join(FOLDER).join(name), reserve }
     }
 
-    /// Keeps the basis of a nodal diameter as well as it can: without it a sweep that reads nodes reduces once more.
-    pub(super) fn keep(&self, rows: &BasisRows<'_>) {
+    /// Keeps the basis of a nodal diameter as well as it can: without it who reads nodes reduces once more.
+    pub(super) fn keep(&self, rows: &BasisRows<'_>) -> io::Result<()> {
         let harmonic = rows.harmonic();
         let bytes = (HEADER + rows.dofs() * row_bytes(rows.unknowns())) as u64;
-        match self.write(rows, bytes) {
+        let written = self.write(rows, bytes);
+        match &written {
             Ok(()) => {
                 tracing::debug!(harmonic, bytes, folder = file_name(&self.folder), "kept a basis");
             }
@@ -100,6 +101,28 @@ impl BasisFolder {
                 tracing::warn!(harmonic, bytes, folder = %self.folder.display(), %error, "could not keep a basis; going on without");
             }
         }
+        written
+    }
+
+    /// Refuses to begin what will keep so many bytes where there is no room for them.
+    ///
+    /// # Errors
+    /// A disk that is too full.
+    pub fn expect_room(&self, bytes: u64) -> io::Result<()> {
+        if let Ok(free) = reserve::free_bytes(&self.data)
+            && (self.reserve.is_taken() || free < bytes.saturating_add(LEFT_FREE))
+        {
+            return Err(ErrorKind::StorageFull.into());
+        }
+        Ok(())
+    }
+
+    /// Reads the basis of all nodal diameters of `reduced`.
+    ///
+    /// # Errors
+    /// As of [`Self::rows`].
+    pub fn check(&self, reduced: &ReducedWheel) -> io::Result<()> {
+        reduced.harmonics.iter().try_for_each(|reduced| self.open(reduced)?.each(|_, _| {}))
     }
 
     /// Rows of the basis of `reduced` at `nodes`.
@@ -175,11 +198,7 @@ impl BasisFolder {
         bytes: u64,
         write: impl FnOnce(&File) -> io::Result<()>,
     ) -> io::Result<()> {
-        if let Ok(free) = reserve::free_bytes(&self.data)
-            && (self.reserve.is_taken() || free < bytes.saturating_add(LEFT_FREE))
-        {
-            return Err(ErrorKind::StorageFull.into());
-        }
+        self.expect_room(bytes)?;
         std::fs::create_dir_all(&self.folder)?;
         // Written whole and flushed before it gets its name: a name promises a basis, whenever the power fails.
         let file = unfinished_file(&self.folder, "unfinished-")?;

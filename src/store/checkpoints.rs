@@ -6,6 +6,7 @@
 use std::collections::BTreeSet;
 use std::io::{ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use sha2::{Digest, Sha256};
 
@@ -25,7 +26,10 @@ const HEADER: usize = 8 + 32;
 #[derive(Debug, Clone)]
 pub struct CheckpointFolder {
     folder: PathBuf,
-    basis: BasisFolder,
+    /// Absent where the basis is left out.
+    basis: Option<BasisFolder>,
+    /// Why a part of the basis was not kept.
+    lost: Arc<Mutex<Option<std::io::Error>>>,
     reserve: Reserve,
 }
 
@@ -33,8 +37,8 @@ impl Store {
     /// Checkpoints of the reduction of `model`.
     pub fn checkpoints(&self, model: &str, modes_per_speed: u32) -> CheckpointFolder {
         let folder = self.checkpoint_root().join(folder_name(model, modes_per_speed));
-        let basis = self.basis(model, modes_per_speed);
-        CheckpointFolder { folder, basis, reserve: self.reserve.clone() }
+        let basis = Some(self.basis(model, modes_per_speed));
+        CheckpointFolder { folder, basis, lost: Arc::default(), reserve: self.reserve.clone() }
     }
 
     /// Number of parts of all reductions of `model` that this program can read.
@@ -89,6 +93,21 @@ async fn count_parts(folder: &Path) -> std::io::Result<u32> {
 }
 
 impl CheckpointFolder {
+    /// The same, leaving out the basis.
+    #[must_use]
+    pub fn without_basis(self) -> Self {
+        Self { basis: None, ..self }
+    }
+
+    /// Whether the basis of a reduction that has ended lies beside it now.
+    ///
+    /// # Errors
+    /// Why it was not kept.
+    pub fn kept_basis(&self) -> std::io::Result<bool> {
+        let mut lost = self.lost.lock().unwrap_or_else(PoisonError::into_inner);
+        lost.take().map_or(Ok(self.basis.is_some()), Err)
+    }
+
     /// Number of parts that this program can read.
     pub(super) async fn parts(&self) -> std::io::Result<u32> {
         count_parts(&self.folder).await
@@ -141,7 +160,9 @@ impl Checkpoints for CheckpointFolder {
     }
 
     fn keep_basis(&self, rows: &BasisRows<'_>) {
-        self.basis.keep(rows);
+        if let Some(Err(error)) = self.basis.as_ref().map(|basis| basis.keep(rows)) {
+            *self.lost.lock().unwrap_or_else(PoisonError::into_inner) = Some(error);
+        }
     }
 }
 
@@ -176,7 +197,7 @@ mod tests {
         let folder = root.path().join("checkpoints/model-20");
         let reserve = Reserve::of(root.path());
         let basis = BasisFolder::of(root.path(), "model-20", reserve.clone());
-        (root, CheckpointFolder { folder, basis, reserve })
+        (root, CheckpointFolder { folder, basis: Some(basis), lost: Arc::default(), reserve })
     }
 
     #[test]

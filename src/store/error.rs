@@ -75,6 +75,11 @@ impl StoreError {
         }
     }
 
+    /// [`Self::may_pass`] of a file.
+    pub fn may_pass_of(error: &std::io::Error) -> bool {
+        io_may_pass(error)
+    }
+
     /// Whether the package of a model is not where it was put.
     pub fn is_missing_package(&self) -> bool {
         matches!(self, Self::Package(error) if error.kind() == ErrorKind::NotFound)

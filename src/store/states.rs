@@ -112,6 +112,25 @@ pub fn unpack(text: &str, reduced: &ReducedWheel) -> Result<WheelStates, StatesE
     Ok(WheelStates { revolutions, harmonics })
 }
 
+/// Whether a document is what was written.
+///
+/// # Errors
+/// As of [`unpack`], but for the reduction.
+pub(super) fn check(text: &str) -> Result<(), StatesError> {
+    let stored: Stored =
+        serde_json::from_str(text).map_err(|error| StatesError::Damaged(error.to_string()))?;
+    let mut digest = Sha256::new();
+    let coordinates = stored.harmonics.iter().map(|harmonic| &harmonic.coordinates);
+    for numbers in [&stored.revolutions].into_iter().chain(coordinates) {
+        let bytes = STANDARD.decode(numbers).map_err(|error| StatesError::Damaged(error.to_string()))?;
+        digest.update(bytes);
+    }
+    if hex(&digest.finalize()) == stored.sha256 {
+        return Ok(());
+    }
+    Err(StatesError::Damaged("its numbers are not those that were written".to_owned()))
+}
+
 fn hex(bytes: &[u8]) -> String {
     bytes.iter().fold(String::new(), |mut text, byte| {
         // Writing to a string does not fail.

@@ -82,6 +82,20 @@ impl BasisFolder {
         })
     }
 
+    /// Removes the stress of all nodal diameters of `reduced`.
+    ///
+    /// # Errors
+    /// Those of the disk; what is not there is no error.
+    pub fn remove_stress(&self, reduced: &ReducedWheel) -> io::Result<()> {
+        for reduced in &reduced.harmonics {
+            match std::fs::remove_file(self.stress_path(&reduced.harmonic.to_string())) {
+                Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
     /// Keeps the wheel under its centrifugal load.
     ///
     /// # Errors

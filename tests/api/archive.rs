@@ -17,7 +17,7 @@ use super::studies::study_of;
 
 type Entries = Vec<(String, Vec<u8>)>;
 
-async fn download(api: &Api, id: &str) -> Vec<u8> {
+pub(crate) async fn download(api: &Api, id: &str) -> Vec<u8> {
     let response = api.request("GET", &format!("/v1/jobs/{id}/archive")).send().await.unwrap();
     assert_eq!(response.status(), 200);
     assert_eq!(response.headers()["content-type"], "application/zip");
@@ -82,7 +82,7 @@ fn changed(mut entries: Entries, name: &str, change: impl FnOnce(&mut Value)) ->
 }
 
 /// Whether `rubmap repeat` is content with an archive, and what it says.
-fn repeat(folder: &Path, archive: &[u8]) -> (bool, String) {
+pub(crate) fn repeat(folder: &Path, archive: &[u8]) -> (bool, String) {
     let path = folder.join("archive.zip");
     std::fs::write(&path, archive).unwrap();
     let mut command = Command::new(env!("CARGO_BIN_EXE_rubmap"));

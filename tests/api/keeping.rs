@@ -11,11 +11,11 @@ use super::kill::points;
 use super::model;
 use super::program::Program;
 
-fn rubmap(arguments: &[&str], data: &Path) -> Output {
+pub(crate) fn rubmap(arguments: &[&str], data: &Path) -> Output {
     Command::new(env!("CARGO_BIN_EXE_rubmap")).args(arguments).arg("--data").arg(data).output().unwrap()
 }
 
-fn said(output: &Output) -> String {
+pub(crate) fn said(output: &Output) -> String {
     format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr))
 }
 

@@ -3,6 +3,7 @@
 mod accuracy;
 mod app;
 mod archive;
+mod beside;
 mod bodies;
 mod case_studies;
 mod chains;

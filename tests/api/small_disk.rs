@@ -30,6 +30,13 @@ impl SmallDisk {
         while ballast.write_all(&[1]).is_ok() {}
     }
 
+    /// Fills it but for so much.
+    pub(crate) fn fill_but(&self, mebibytes: u64) {
+        self.fill();
+        let ballast = File::options().write(true).open(self.ballast()).unwrap();
+        ballast.set_len(ballast.metadata().unwrap().len() - (mebibytes << 20)).unwrap();
+    }
+
     pub(crate) fn make_room(&self) {
         std::fs::remove_file(self.ballast()).unwrap();
     }

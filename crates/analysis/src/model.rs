@@ -29,6 +29,9 @@ pub struct ReducedSector {
     /// Stress in its coordinates, where that is to be recorded; kept apart from it too.
     #[serde(skip)]
     pub stress: Option<Arc<ReducedStress>>,
+    /// Whether the rows of its basis at all nodes are known to lie beside it.
+    #[serde(skip)]
+    pub has_basis: bool,
     /// Thickness of the blade at its tip, [`MeshFacts::tip_thickness`].
     #[serde(skip)]
     pub tip_thickness: Option<f64>,

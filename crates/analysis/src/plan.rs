@@ -55,7 +55,7 @@ pub fn plan_sweep(
         },
         reduction: state(reduced),
         reduced_unknowns_at_most: reduced_unknowns(facts, reduced, request.modes_per_speed()),
-        basis_bytes_at_most: basis_bytes(facts, reduced, request.modes_per_speed()),
+        basis_bytes_at_most: basis_bytes(facts, reduced, request.modes_per_speed(), request.fields()),
         stress_bytes: request
             .stress_outside()
             .map(|_| stress_bytes(facts, reduced, request.modes_per_speed(), places)),
@@ -125,7 +125,7 @@ pub fn plan_modal_analysis(
         effects,
         reduction: state(reduced),
         reduced_unknowns_at_most: reduced_unknowns(facts, reduced, request.modes_per_speed()),
-        basis_bytes_at_most: basis_bytes(facts, reduced, request.modes_per_speed()),
+        basis_bytes_at_most: basis_bytes(facts, reduced, request.modes_per_speed(), request.fields()),
         speeds: speeds.len() as u32,
         nodal_diameters: harmonic_count(facts.sectors as usize) as u32,
         computing_time_s: reduced.and_then(one).map(|seconds| seconds * speeds.len() as f64),
@@ -159,15 +159,25 @@ fn reduced_unknowns(facts: &ModelFacts, reduced: Option<&ReducedSector>, modes_p
     reduced.map_or_else(expected, |reduced| reduced.report.wheel_unknowns.into())
 }
 
-/// Disk that the basis of a reduction will take.
-fn basis_bytes(facts: &ModelFacts, reduced: Option<&ReducedSector>, modes_per_speed: u32) -> Option<u64> {
+/// Disk that the basis of a reduction will take; nothing of one that is left out.
+fn basis_bytes(
+    facts: &ModelFacts,
+    reduced: Option<&ReducedSector>,
+    modes_per_speed: u32,
+    fields: Option<bool>,
+) -> Option<u64> {
+    let is_kept = reduced.is_none() && fields != Some(false);
+    is_kept.then(|| most_basis_bytes(facts, modes_per_speed))
+}
+
+/// Most bytes of the basis of a reduction.
+pub fn most_basis_bytes(facts: &ModelFacts, modes_per_speed: u32) -> u64 {
     let columns =
         3 * u64::from(facts.contact_nodes) + facts.speeds_rad_s.len() as u64 * u64::from(modes_per_speed);
     // Nobody has more columns than DOF.
     let columns = columns.min(facts.own_dofs.into());
     let harmonics = harmonic_count(facts.sectors as usize) as u64;
-    let per_dof = columns * 16;
-    reduced.is_none().then(|| u64::from(facts.own_dofs) * per_dof * harmonics)
+    u64::from(facts.own_dofs) * columns * 16 * harmonics
 }
 
 /// Disk, and memory, that the stress of a reduction will take: single precision, six components at about a node for every three DOF.

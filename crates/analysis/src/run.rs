@@ -12,7 +12,7 @@ pub use crate::effects::casing::convert::clearances;
 pub use crate::histories::{histories_wanted, speed_histories};
 pub use crate::modal::modal_analysis;
 pub use crate::model::{MeshFacts, ModelFacts, ReducedSector};
-pub use crate::plan::{histories_memory, plan_modal_analysis, plan_sweep, trial_memory};
+pub use crate::plan::{histories_memory, most_basis_bytes, plan_modal_analysis, plan_sweep, trial_memory};
 pub use crate::prepare::prepare;
 pub use crate::refine::refine;
 pub use crate::request::Setting;

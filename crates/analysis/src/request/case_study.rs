@@ -39,6 +39,9 @@ pub struct CaseStudyRequest {
     /// Over which revolutions is recorded, and what; default: everything over the window.
     #[serde(default)]
     pub record: Recorded,
+    /// Whether rows of the reduction's basis lie beside it, as of a sweep.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fields: Option<bool>,
 }
 
 /// A rotational speed.

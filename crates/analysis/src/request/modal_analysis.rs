@@ -48,6 +48,9 @@ pub struct ModalAnalysisRequest {
     /// A time to keep in place of `modes_per_speed`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub budget: Option<Budget>,
+    /// Whether rows of the reduction's basis lie beside it, as of a sweep.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fields: Option<bool>,
 }
 
 fn default_families() -> u32 {

@@ -30,6 +30,11 @@ pub struct StressRequest {
 }
 
 impl Record {
+    /// Whether states are to be recorded.
+    pub fn wants_states(&self) -> bool {
+        self.histories.as_ref().is_some_and(HistoriesRequest::wants_states)
+    }
+
     pub(crate) fn is_nothing(&self) -> bool {
         *self == Self::default()
     }
@@ -56,6 +61,11 @@ impl HistoriesRequest {
     /// Over which revolutions, and what.
     pub(crate) fn recorded(&self) -> Recorded {
         Recorded { revolutions: self.revolutions, quantities: self.quantities.clone() }
+    }
+
+    /// Whether states are to be recorded.
+    pub fn wants_states(&self) -> bool {
+        self.recorded().wants(RecordedQuantity::State)
     }
 }
 
@@ -95,7 +105,7 @@ pub enum RecordedQuantity {
 
 impl Recorded {
     /// Whether `quantity` is asked for.
-    pub(crate) fn wants(&self, quantity: RecordedQuantity) -> bool {
+    pub fn wants(&self, quantity: RecordedQuantity) -> bool {
         let by_default = self.quantities.is_empty() && quantity != RecordedQuantity::State;
         by_default || self.quantities.contains(&quantity)
     }

@@ -42,6 +42,9 @@ pub struct StudyRequest {
     /// What is compared beside displacement and contact.
     #[serde(default, skip_serializing_if = "StudyRecord::is_nothing")]
     pub record: StudyRecord,
+    /// `false` leaves out the rows of the bases of its reductions, as of a sweep.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fields: Option<bool>,
 }
 
 /// What a study records of every run beside displacement and contact.

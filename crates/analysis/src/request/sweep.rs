@@ -66,6 +66,11 @@ pub struct SweepRequest {
     /// What is recorded beside spectra.
     #[serde(default, skip_serializing_if = "Record::is_nothing")]
     pub record: Record,
+    /// Whether rows of the reduction's basis at all nodes lie beside it, of which modes, fields and stress are made: `true` reduces once
+    /// more if they are not there, `false` leaves them out where this has to reduce, which saves their disk. Default: kept where this
+    /// has to reduce, if there is room.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fields: Option<bool>,
 }
 
 /// Where each speed of a sweep starts from. A response with several branches shows the one that it is led along.

@@ -6,10 +6,11 @@ use crate::error::Violation;
 use crate::model::ModelFacts;
 use crate::request::sweep::default_peak_prominence;
 use crate::request::{
-    CaseSpeed, CaseStudyRequest, HistoriesRequest, Record, SpeedSet, Speeds, SweepDirection, SweepRequest,
+    CaseSpeed, CaseStudyRequest, HistoriesRequest, Record, RecordedQuantity, SpeedSet, Speeds,
+    SweepDirection, SweepRequest,
 };
 use crate::resolve::findings::Findings;
-use crate::resolve::recorded::{check_histories, check_recorded, wanted};
+use crate::resolve::recorded::{check_fields, check_histories, check_recorded, wanted};
 use crate::resolve::resolve_sweep;
 use crate::resolved::{ResolvedCaseStudy, ResolvedSweep};
 
@@ -35,6 +36,7 @@ pub fn resolve_case_study(
         budget: None,
         control_speeds: None,
         record: Record::default(),
+        fields: request.fields,
     };
     let at_its_field = |violation: Violation| match violation.pointer.strip_prefix("/speeds") {
         Some(_) => Violation { pointer: "/speed/value".to_owned(), ..violation },
@@ -44,6 +46,7 @@ pub fn resolve_case_study(
         .map_err(|found| found.into_iter().map(at_its_field).collect::<Vec<_>>())?;
     let mut found = Findings::default();
     check_recorded(&mut found, &record, "/record", &sweep, facts);
+    check_fields(&mut found, sweep.fields, record.wants(RecordedQuantity::State));
     found.finish(ResolvedCaseStudy { sweep, speeds: vec![0], record })
 }
 

@@ -49,6 +49,8 @@ pub fn resolve_sweep(request: SweepRequest, facts: &ModelFacts) -> Result<Resolv
     if let Some(stress) = &mut sweep.record.stress {
         recorded::resolve_stress(&mut found, stress, "/record/stress", facts);
     }
+    let needs = sweep.records_states() || sweep.record.stress.is_some();
+    recorded::check_fields(&mut found, sweep.fields, needs);
     if found.0.is_empty() {
         check_memory(&mut found, &sweep, facts);
         if let Some(histories) = sweep.histories() {

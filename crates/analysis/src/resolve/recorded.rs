@@ -88,6 +88,15 @@ pub(super) fn check_recorded(
     );
 }
 
+/// Refuses to leave out the rows of the basis that something recorded `needs`.
+pub(super) fn check_fields(found: &mut Findings, fields: Option<bool>, needs: bool) {
+    found.require(
+        !needs || fields != Some(false),
+        "/fields",
+        "stress and states are made of these rows: leave this away, or record neither",
+    );
+}
+
 /// Spacings of the contact nodes around each of them of which no stress is claimed: what a row of point forces differs by from a line of
 /// them has died out at a distance of their spacing (Saint-Venant).
 const EXCLUDED_SPACINGS: f64 = 1.0;

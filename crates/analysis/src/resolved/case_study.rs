@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::error::Violation;
-use crate::request::{CaseStudySettings, Recorded};
+use crate::request::{CaseStudySettings, Recorded, RecordedQuantity};
 use crate::resolved::sweep::ResolvedSweep;
 
 /// Speeds of a sweep with what is recorded of each; see [`CaseStudySettings`], as which it is written.
@@ -28,6 +28,16 @@ impl ResolvedCaseStudy {
     /// The sweep of whose speeds it is.
     pub fn sweep(&self) -> &ResolvedSweep {
         &self.sweep
+    }
+
+    /// Whether rows of the reduction's basis must be beside it, must not, or are kept where it reduces.
+    pub fn fields(&self) -> Option<bool> {
+        if self.records_states() { Some(true) } else { self.sweep.fields() }
+    }
+
+    /// Whether states are recorded.
+    pub fn records_states(&self) -> bool {
+        self.record.wants(RecordedQuantity::State)
     }
 
     /// Indices of the speeds in the sweep; at least one.

@@ -19,6 +19,7 @@ pub struct ResolvedModalAnalysis {
     pub(crate) max_engine_order: u32,
     pub(crate) coriolis: bool,
     pub(crate) speeds: ResolvedSpeeds,
+    pub(crate) fields: Option<bool>,
 }
 
 impl ResolvedModalAnalysis {
@@ -37,6 +38,7 @@ impl ResolvedModalAnalysis {
             max_engine_order: asked.max_engine_order,
             coriolis: asked.coriolis,
             speeds,
+            fields: asked.fields,
         }
     }
 
@@ -75,6 +77,11 @@ impl ResolvedModalAnalysis {
         &self.speeds
     }
 
+    /// As of a sweep: whether rows of the reduction's basis must be beside it, must not, or are kept where it reduces.
+    pub fn fields(&self) -> Option<bool> {
+        self.fields
+    }
+
     /// With k.
     pub(crate) fn at(&self, modes_per_speed: u32) -> Self {
         Self { modes: Modes::Given(modes_per_speed), ..self.clone() }
@@ -95,6 +102,7 @@ impl From<ResolvedModalAnalysis> for ModalAnalysisRequest {
             speeds: analysis.speeds.lists().clone(),
             accuracy,
             budget,
+            fields: analysis.fields,
         }
     }
 }

@@ -74,6 +74,7 @@ impl StudyRequest {
             budget: None,
             control_speeds: None,
             record: Record { stress: self.record.stress, ..Record::default() },
+            fields: self.fields,
         }
     }
 }
@@ -92,6 +93,7 @@ impl From<ResolvedStudy> for StudyRequest {
             sensors: sweep.sensors.into_iter().map(Into::into).collect(),
             max_engine_order: sweep.max_engine_order,
             record: StudyRecord { stress: sweep.record.stress },
+            fields: sweep.fields,
         }
     }
 }

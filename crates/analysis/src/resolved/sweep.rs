@@ -33,6 +33,7 @@ pub struct ResolvedSweep {
     /// Speeds that are simulated again at a finer setting.
     pub(crate) control_speeds: u32,
     pub(crate) record: Record,
+    pub(crate) fields: Option<bool>,
 }
 
 impl ResolvedSweep {
@@ -62,6 +63,7 @@ impl ResolvedSweep {
             refine: asked.refine,
             control_speeds: asked.control_speeds.unwrap_or(default_controls(modes, asked.sweep)),
             record: asked.record,
+            fields: asked.fields,
         }
     }
 
@@ -162,6 +164,16 @@ impl ResolvedSweep {
         self.record.stress.map(|stress| stress.excluded_radius.unwrap_or(0.0))
     }
 
+    /// Whether rows of the reduction's basis must be beside it, must not, or are kept where it reduces.
+    pub fn fields(&self) -> Option<bool> {
+        if self.records_states() { Some(true) } else { self.fields }
+    }
+
+    /// Whether states are among the histories it asks for.
+    pub fn records_states(&self) -> bool {
+        self.record.wants_states()
+    }
+
     /// Speeds that are simulated again at a finer setting.
     pub fn control_speeds(&self) -> usize {
         self.control_speeds as usize
@@ -195,6 +207,8 @@ impl ResolvedSweep {
             peak_prominence: default_peak_prominence(),
             control_speeds: 0,
             record: Record::default(),
+            // What is compared needs none.
+            fields: self.fields.filter(|wanted| !wanted),
             ..self.at(setting)
         }
     }
@@ -226,6 +240,7 @@ impl From<ResolvedSweep> for SweepRequest {
             budget,
             control_speeds: Some(sweep.control_speeds).filter(|&speeds| speeds != usual),
             record: sweep.record,
+            fields: sweep.fields,
         }
     }
 }

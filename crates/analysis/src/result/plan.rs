@@ -24,7 +24,8 @@ pub struct SweepPlan {
     /// speeds·k), of which nearly dependent directions will be dropped.
     pub reduced_unknowns_at_most: u64,
     /// The basis of a reduction that has still to be computed takes at most so many bytes of disk, as long as the model is there:
-    /// rows of 16 bytes an unknown, one for every DOF and nodal diameter. Absent where the reduction is stored.
+    /// rows of 16 bytes an unknown, one for every DOF and nodal diameter. Absent where the reduction is stored, and where
+    /// `fields` is false.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub basis_bytes_at_most: Option<u64>,
     /// Stress in the coordinates of the reduction takes about so many bytes of disk, as long as the model is there, and of memory while
