@@ -92,12 +92,25 @@ impl FieldFileArgs {
 ///
 /// # Errors
 /// Any other.
-pub(super) fn form(out: &Path) -> anyhow::Result<&'static str> {
+fn form(out: &Path) -> anyhow::Result<&'static str> {
     let known = ["vtu", "vtp", "npz", "pvd", "svg", "png"];
     let ending = out.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
     match known.into_iter().find(|form| *form == ending) {
         Some(form) => Ok(form),
         None => bail!("{}: the name must end with one of .{}", out.display(), known.join(", .")),
+    }
+}
+
+/// Refuses at once what could not be written in the end: a name that says no form, a folder that is not there.
+///
+/// # Errors
+/// Those two.
+pub(super) fn check(out: &Path) -> anyhow::Result<()> {
+    form(out)?;
+    let folder = out.parent().filter(|folder| !folder.as_os_str().is_empty());
+    match folder.filter(|folder| !folder.is_dir()) {
+        Some(folder) => bail!("cannot write {}: there is no folder {}", out.display(), folder.display()),
+        None => Ok(()),
     }
 }
 

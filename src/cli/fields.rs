@@ -7,7 +7,7 @@ use anyhow::bail;
 use clap::Args;
 use serde_json::{Value, json};
 
-use super::field_file::{FieldFileArgs, form};
+use super::field_file::{FieldFileArgs, check};
 use super::session::client::Client;
 use super::session::{Session, progress, request, upload};
 
@@ -39,7 +39,7 @@ pub(crate) struct FieldsArgs {
 /// # Errors
 /// A file that cannot be used, or what the service refuses.
 pub(super) fn run(args: &FieldsArgs) -> anyhow::Result<ExitCode> {
-    form(&args.out)?;
+    check(&args.out)?;
     let body = recording(request::read(&args.request, "/v1/case-studies")?)?;
     let folder = args.file.folder()?;
     Session::begin(folder.path())?.run(args.file.workers, async |client| play(args, client, body).await)

@@ -7,7 +7,7 @@ use clap::Args;
 use serde::Deserialize;
 use serde_json::json;
 
-use super::field_file::{FieldFileArgs, form};
+use super::field_file::{FieldFileArgs, check};
 use super::session::client::Client;
 use super::session::{Session, progress, upload};
 use super::speed::speed;
@@ -57,7 +57,7 @@ struct List {
 /// A file that cannot be used, or what the service refuses.
 pub(super) fn run(args: &ModesArgs) -> anyhow::Result<ExitCode> {
     if let Some(out) = &args.out {
-        form(out)?;
+        check(out)?;
     }
     let folder = args.file.folder()?;
     Session::begin(folder.path())?.run(args.file.workers, async |client| play(args, client).await)

@@ -147,6 +147,12 @@ impl Answer {
         })
     }
 
+    /// The result as JSON, with speeds in another unit as well if that is wanted.
+    pub(super) fn document(self, leave: Leave, result: impl Serialize + Send + 'static) -> Response {
+        let unit = self.unit;
+        self.written(leave, move |out| json(&result, unit, out))
+    }
+
     /// What `write` writes while it is sent.
     pub(super) fn written(
         self,

@@ -34,13 +34,14 @@ pub(super) struct ShownQuery {
     /// This sector alone, from 0; default all.
     sector: Option<u32>,
     /// Adds stress, in the model's units: that of the vibration, of a mode for a largest displacement of 1. The static part of the
-    /// centrifugal load is not in it.
+    /// centrifugal load is not in it unless `static` says so. Files say with `excluded` where none is claimed, near contact nodes.
     #[serde(default)]
     pub(super) stress: bool,
     /// Of a drawing: from where the wheel is looked at; default `front`.
     #[param(inline)]
     view: Option<ViewWord>,
-    /// Of a pvd: files over one period, or over all recorded instants; default 24.
+    /// Of a pvd: files over one period, or over all recorded instants; default 24. Instants are made at once: more than memory has
+    /// room for are refused with the number that fits.
     #[param(minimum = 1, maximum = 96)]
     frames: Option<u32>,
 }
@@ -60,6 +61,24 @@ impl ShownQuery {
                 let last = facts.sectors - 1;
                 Err(Problem::parameter("sector", format!("the wheel has sectors 0 to {last}")))
             }
+        }
+    }
+
+    /// Refuses what an answer in this form does not have.
+    pub(super) fn check(&self, form: Form) -> Result<(), Problem> {
+        let refused = [
+            ("frames", self.frames.is_some() && form != Form::Pvd, "only a pvd has frames"),
+            ("view", self.view.is_some() && !form.is_drawing(), "only a drawing has a view: svg and png"),
+            ("stress", self.stress && form == Form::Json, "json lists frequencies: stress goes with a shape"),
+            (
+                "sector",
+                self.sector.is_some() && form == Form::Json,
+                "json lists frequencies: they are of the wheel",
+            ),
+        ];
+        match refused.into_iter().find(|(_, refused, _)| *refused) {
+            Some((name, _, detail)) => Err(Problem::parameter(name, detail)),
+            None => Ok(()),
         }
     }
 
@@ -122,6 +141,8 @@ pub(super) async fn answer(
     (view, units): (SurfaceView, Units),
     make: impl FnOnce() -> Result<FieldFile, Problem> + Send + 'static,
 ) -> Result<Response, Problem> {
+    let length = units.length.clone();
+    let make = move || make().map(|file| file.claiming(&length));
     let leave = state.answers.leave(&state.jobs, bytes + answer.bytes()).await;
     if answer.form.is_drawing() {
         let draw = move || {

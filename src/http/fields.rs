@@ -115,20 +115,26 @@ pub(super) async fn get_fields(
         Next::Done(response) => return Ok(response),
         Next::Make(answer) => answer,
     };
+    shown.check(answer.form)?;
     let frames = shown.frames(answer.form);
     let columns = if query.engine_order.is_some() { 2 } else { frames };
-    let bytes = READ_MEMORY * bytes + source.memory(model.facts.own_dofs, columns);
+    let memory = |columns| READ_MEMORY * bytes + source.memory(model.facts.own_dofs, columns);
+    if query.engine_order.is_none() {
+        check_memory(frames, state.jobs.most_memory(), memory)?;
+    }
+    let bytes = memory(columns);
     let fixed = match query.static_part {
         StaticPart::LeaveOut => None,
         StaticPart::Include => state.jobs.static_wheel(&source, model.facts.own_dofs).await?,
     };
     let speed_rad_s = sweep.speeds().rad_s().get(speed as usize).copied().unwrap_or(0.0);
     let fixed = fixed.map(|fixed| fixed.displacement(speed_rad_s, sweep.is_stiffened()));
+    let excluded_radius = sweep.stress_outside();
     let (store, runtime) = (state.store.clone(), Handle::current());
     let view = (shown.view(&source), model.facts.units.clone());
     field::answer(&state, answer, bytes, view, move || {
         let states = field::read_states((&store, &runtime), job.id, document, &source)?;
-        let sector = source.sector(shown.stress).map_err(Box::new)?;
+        let sector = source.sector(shown.stress, excluded_radius).map_err(Box::new)?;
         let field = source.with_basis(|wheel, basis| match query.engine_order {
             Some(order) => {
                 let phase = query.phase_deg.unwrap_or_default().to_radians();
@@ -144,13 +150,24 @@ pub(super) async fn get_fields(
                 instants(&states, &sector, &at, basis)
             }
         })?;
-        let field = match fixed {
-            Some(fixed) => field.upon(&sector, &fixed),
-            None => field,
-        };
+        let field = field.at_speed(speed_rad_s).upon(&sector, fixed.as_deref());
         Ok(FieldFile { sector, field, part })
     })
     .await
+}
+
+/// Refuses more instants than fit into the memory that an answer can get: they are made at once.
+fn check_memory(instants: usize, most: Option<u64>, memory: impl Fn(usize) -> u64) -> Result<(), Problem> {
+    let Some(most) = most.filter(|most| instants > 1 && memory(instants) > *most) else { return Ok(()) };
+    let mib = |bytes: u64| bytes.div_ceil(1 << 20);
+    let fit = (1..instants).rev().find(|&fewer| memory(fewer) <= most).unwrap_or(1);
+    let detail = format!(
+        "{instants} instants take {} MiB of memory and an answer gets {} MiB: {fit} fit; the shape of an engine order takes as much for \
+         any number of frames",
+        mib(memory(instants)),
+        mib(most)
+    );
+    Err(Problem::parameter("frames", detail))
 }
 
 /// Refuses the static part where there is none.
@@ -219,5 +236,21 @@ impl From<StatesError> for Problem {
                 Self::new(Kind::Internal, "the recorded state cannot be read; the service's log says more")
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn more_instants_than_fit_are_refused_with_what_would() {
+        let memory = |instants: usize| (100 + 10 * instants as u64) << 20;
+        for (instants, most) in [(24, None), (24, Some(340 << 20)), (1, Some(0))] {
+            assert!(check_memory(instants, most, memory).is_ok());
+        }
+        let problem = check_memory(24, Some(339 << 20), memory).unwrap_err();
+        assert!(problem.detail.contains("24 instants take 340 MiB"), "{}", problem.detail);
+        assert!(problem.detail.contains("gets 339 MiB: 23 fit"), "{}", problem.detail);
     }
 }

@@ -10,7 +10,7 @@ use super::extract::{ModelPath, Parameters};
 use super::field::{self, ShownQuery};
 use super::form::Form;
 use super::models::model_not_found;
-use super::problem::{Kind, Problem};
+use super::problem::{Kind, Problem, ProblemItem};
 use super::state::AppState;
 use super::stream;
 use crate::analysis::fields::{ModeRequest, Motion, ShapeFrequencies, mode_field, mode_frequencies};
@@ -42,8 +42,26 @@ pub(super) struct ModesQuery {
     motion: Option<Motion>,
     /// Phase, degrees; default 0: of a standing mode it turns the pattern about the wheel, of a travelling one it says how far that has
     /// come.
-    #[serde(default)]
-    phase_deg: f64,
+    phase_deg: Option<f64>,
+}
+
+impl ModesQuery {
+    /// Refuses what belongs to a shape where the frequencies of all are listed.
+    fn check_list(&self) -> Result<(), Problem> {
+        let given = [
+            ("nodal_diameter", self.nodal_diameter.is_some()),
+            ("mode", self.mode.is_some()),
+            ("motion", self.motion.is_some()),
+            ("phase_deg", self.phase_deg.is_some()),
+        ];
+        match given.into_iter().find(|(_, given)| *given) {
+            Some((name, _)) => Err(Problem::parameter(
+                name,
+                "json lists the frequencies of all modes: ask for a shape with `format`",
+            )),
+            None => Ok(()),
+        }
+    }
 }
 
 /// Natural frequencies at a speed.
@@ -89,12 +107,21 @@ pub(super) async fn get_modes(
         Some(modes) => modes,
         None => finest(&state, &model).await?,
     };
+    let modes = modes_per_speed as usize;
     let part = shown.part(&model.facts)?;
     let speed_rad_s = query.speed_rad_s;
     if !(speed_rad_s.is_finite() && speed_rad_s >= 0.0) {
         return Err(Problem::parameter("speed_rad_s", "a speed is a number from 0 on"));
     }
-    if !query.phase_deg.is_finite() {
+    if !model.facts.stiffness_reaches(speed_rad_s) {
+        let detail = model.facts.not_extrapolated();
+        return Err(Problem::new(Kind::InvalidRequest, detail.clone()).with(ProblemItem {
+            parameter: Some("speed_rad_s".to_owned()),
+            detail,
+            ..ProblemItem::default()
+        }));
+    }
+    if !query.phase_deg.unwrap_or_default().is_finite() {
         return Err(Problem::parameter("phase_deg", "a phase is a number"));
     }
     let source = field::source(&state, &model, modes_per_speed).await?;
@@ -104,12 +131,13 @@ pub(super) async fn get_modes(
         Next::Done(response) => return Ok(response),
         Next::Make(answer) => answer,
     };
+    shown.check(answer.form)?;
     if answer.form == Form::Json {
+        query.check_list()?;
         let leave = state.answers.leave(&state.jobs, LIST_MEMORY).await;
-        let list =
-            stream::blocking(move || mode_frequencies(&source.reduced().wheel, speed_rad_s, true)).await??;
-        let body = serde_json::to_vec(&ModesBody { speed_rad_s, modes_per_speed, nodal_diameters: list })?;
-        return Ok(answer.whole(leave, body));
+        let list = move || mode_frequencies(&source.reduced().wheel, speed_rad_s, true, modes);
+        let nodal_diameters = stream::blocking(list).await??;
+        return Ok(answer.document(leave, ModesBody { speed_rad_s, modes_per_speed, nodal_diameters }));
     }
     let most = model.facts.sectors / 2;
     let Some(nodal_diameter) = query.nodal_diameter else {
@@ -120,15 +148,16 @@ pub(super) async fn get_modes(
         speed_rad_s,
         stiffening: true,
         nodal_diameter: nodal_diameter as usize,
+        modes,
         mode: query.mode.unwrap_or(1) as usize,
         motion: query.motion.unwrap_or(Motion::Standing),
-        phase: query.phase_deg.to_radians(),
+        phase: query.phase_deg.unwrap_or_default().to_radians(),
         frames: shown.frames(answer.form),
     };
     let bytes = source.memory(model.facts.own_dofs, 1);
     let view = (shown.view(&source), model.facts.units.clone());
     field::answer(&state, answer, bytes, view, move || {
-        let sector = source.sector(shown.stress).map_err(Box::new)?;
+        let sector = source.sector(shown.stress, None).map_err(Box::new)?;
         let field = source.with_basis(|wheel, basis| mode_field(wheel, &sector, &asked, basis))?;
         Ok(FieldFile { sector, field, part })
     })

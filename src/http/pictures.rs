@@ -1,7 +1,5 @@
 //! Pictures of a report: the wheel when a tip had moved most, at speeds whose states were recorded.
 
-use std::f64::consts::TAU;
-
 use tokio::runtime::Handle;
 
 use super::field::{ViewWord, read_states};
@@ -70,7 +68,7 @@ impl Pictures {
         let left_out = |speed: Option<u32>, problem: &Problem| {
             tracing::warn!(job.id = %job.id, speed, detail = problem.detail, "left a picture out of a report");
         };
-        let sector = match self.source.sector(true).map_err(Box::new) {
+        let sector = match self.source.sector(true, sweep.stress_outside()).map_err(Box::new) {
             Ok(sector) => sector,
             Err(error) => {
                 left_out(None, &error.into());
@@ -78,24 +76,21 @@ impl Pictures {
             }
         };
         let front = ViewWord::Front.of(&self.source);
-        let drawn = |&speed: &u32| match self.draw_one((store, runtime), job, speed, (&sector, facts)) {
-            Ok(surface) => surface.map(|mut surface| {
-                let rad_s = sweep.speeds().rad_s().get(speed as usize).copied().unwrap_or_default();
-                surface.title = format!("{:.0} rpm, {}", 60.0 * rad_s / TAU, surface.title);
-                (surface, front)
-            }),
-            Err(problem) => {
-                left_out(Some(speed), &problem);
-                None
-            }
-        };
+        let drawn =
+            |&speed: &u32| match self.draw_one((store, runtime), (job, sweep), speed, (&sector, facts)) {
+                Ok(surface) => surface.map(|surface| (surface, front)),
+                Err(problem) => {
+                    left_out(Some(speed), &problem);
+                    None
+                }
+            };
         self.speeds.iter().filter_map(drawn).collect()
     }
 
     fn draw_one(
         &self,
         (store, runtime): (&Store, &Handle),
-        job: &Job,
+        (job, sweep): (&Job, &ResolvedSweep),
         speed: u32,
         (sector, facts): (&FieldSector, &ModelFacts),
     ) -> Result<Option<FieldSurface>, Problem> {
@@ -104,6 +99,8 @@ impl Pictures {
             let at = largest_instant(&states, wheel).unwrap_or(0);
             instants(&states, sector, &[at], basis)
         })?;
+        let speed_rad_s = sweep.speeds().rad_s().get(speed as usize).copied().unwrap_or_default();
+        let field = field.at_speed(speed_rad_s).upon(sector, None);
         Ok(surface(&field, sector, Part::Wheel, 0, &facts.units))
     }
 }

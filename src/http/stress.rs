@@ -13,7 +13,7 @@ use super::problem::{Kind, Problem};
 use super::results::{find, sweep};
 use super::spectra::check_index;
 use super::state::AppState;
-use crate::analysis::result::SweepStress;
+use crate::analysis::result::{Point, SweepStress};
 use crate::analysis::run;
 use crate::plot::{self, HaighColour};
 use crate::store::status::JobStatus;
@@ -75,15 +75,23 @@ pub(super) async fn get_stress(
     let read = move || {
         let (request, facts) = sweep(&job)?;
         let points = runtime.block_on(store.points(id))?;
-        recorded(run::sweep_stress(request, facts, &points), speed, job.status)
+        let of_speed = |point: &&Point| speed.is_none_or(|speed| point.index == speed);
+        let reason = points.iter().filter(of_speed).find_map(|point| point.message.clone());
+        let reason = reason.filter(|_| request.stress_outside().is_some());
+        recorded(run::sweep_stress(request, facts, &points), speed, job.status, reason)
     };
     Forms::drawn_by(move |stress: &SweepStress| plot::haigh(stress, by))
         .answer(&state, download, lasting, bytes, read)
         .await
 }
 
-/// The speed that is asked for, or all; the reason if nothing was recorded.
-fn recorded(mut stress: SweepStress, speed: Option<u32>, status: JobStatus) -> Result<SweepStress, Problem> {
+/// The speed that is asked for, or all; why, if nothing was recorded: for this reason if one is known.
+fn recorded(
+    mut stress: SweepStress,
+    speed: Option<u32>,
+    status: JobStatus,
+    reason: Option<String>,
+) -> Result<SweepStress, Problem> {
     if let Some(speed) = speed {
         stress.speeds.retain(|of| of.index == speed);
     }
@@ -94,7 +102,8 @@ fn recorded(mut stress: SweepStress, speed: Option<u32>, status: JobStatus) -> R
     Err(if status.is_final() {
         let needs =
             "it takes a model with a mesh, a sweep that asks for stress, and a speed that was completed";
-        Problem::new(Kind::StressNotRecorded, format!("there is no stress of {of}: {needs}"))
+        let reason = reason.as_deref().unwrap_or(needs);
+        Problem::new(Kind::StressNotRecorded, format!("there is no stress of {of}: {reason}"))
     } else {
         Problem::new(Kind::ResultNotReady, format!("there is no stress of {of} yet"))
     })
@@ -125,7 +134,7 @@ mod tests {
     #[test]
     fn one_speed_can_be_asked_for() {
         let indices = |speed| {
-            let found = recorded(stress(), speed, JobStatus::Running).unwrap();
+            let found = recorded(stress(), speed, JobStatus::Running, None).unwrap();
             found.speeds.iter().map(|speed| speed.index).collect::<Vec<_>>()
         };
         assert_eq!(indices(None), [1, 3]);
@@ -146,11 +155,14 @@ mod tests {
             ),
             (stress(), Some(2), JobStatus::Running, 409, "no stress of speed 2 yet"),
             (nothing.clone(), None, JobStatus::Dismissed, 404, "no stress of any finished speed: it takes"),
-            (nothing, None, JobStatus::Accepted, 409, "no stress of any finished speed yet"),
+            (nothing.clone(), None, JobStatus::Accepted, 409, "no stress of any finished speed yet"),
         ] {
-            let problem = recorded(stress, speed, status).unwrap_err();
+            let problem = recorded(stress, speed, status, None).unwrap_err();
             assert_eq!(problem.status, expected);
             assert!(problem.detail.contains(words), "{}", problem.detail);
         }
+        let reason = "stress is not known: every node lies within 1000 of a contact node";
+        let problem = recorded(nothing, None, JobStatus::Successful, Some(reason.to_owned())).unwrap_err();
+        assert_eq!(problem.detail, format!("there is no stress of any finished speed: {reason}"));
     }
 }

@@ -89,18 +89,19 @@ impl FieldSource {
         u64::from(own_dofs) * (DOF_MEMORY + COLUMN_MEMORY * columns as u64 * harmonics)
     }
 
-    /// Reads nodes and elements, with what stress needs if it is wanted.
+    /// Reads nodes and elements, with what stress needs if it is wanted, claimed outside a radius about contact nodes that is their mean
+    /// distance where none is given.
     ///
     /// # Errors
     /// Those of reading the package.
-    pub fn sector(&self, stress: bool) -> Result<FieldSector, PackageError> {
+    pub fn sector(&self, stress: bool, excluded_radius: Option<f64>) -> Result<FieldSector, PackageError> {
         let limits = Limits::default();
         let nodes = package::read_nodes(&self.package, &limits)?;
         let mesh = package::read_mesh(&self.package, &limits)?;
         let axis = package::read_places(&self.package, &limits)?.axis;
         let sector = FieldSector::new(self.reduced.wheel.sectors, axis, nodes, mesh)
             .ok_or_else(|| PackageError::Io { source: io::Error::other("its axis has no direction") })?;
-        Ok(if stress { sector.with_stress() } else { sector })
+        Ok(if stress { sector.with_stress(excluded_radius) } else { sector })
     }
 
     /// Makes something of the basis.

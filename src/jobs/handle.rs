@@ -270,6 +270,11 @@ impl Jobs {
         self.engine.phase(id)
     }
 
+    /// Memory that one answer can get, in bytes; `None` for no limit.
+    pub fn most_memory(&self) -> Option<u64> {
+        self.engine.memory.most()
+    }
+
     /// Memory for an answer that takes so many bytes while it is made, as soon as it is free.
     pub async fn answer_memory(&self, bytes: u64) -> Allowance {
         self.engine.memory.hold_up_to(bytes).await

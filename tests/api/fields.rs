@@ -186,6 +186,20 @@ async fn a_wheel_is_closed_and_its_modes_are_where_they_belong() {
 
     let list = api.get(&format!("{modes}?speed_rad_s=1000")).await.body;
     assert_eq!(list["nodal_diameters"].as_array().unwrap().len(), SECTORS / 2 + 1, "{list}");
+    for listed in list["nodal_diameters"].as_array().unwrap() {
+        assert_eq!(listed["frequencies_hz"].as_array().unwrap().len(), 4, "as many as are kept: {listed}");
+    }
+    let in_rpm = api.get(&format!("{modes}?speed_rad_s=1000&units=rpm")).await.body;
+    assert!((in_rpm["speed_rpm"].as_f64().unwrap() - 9549.2966).abs() < 1e-3, "{in_rpm}");
+    let highest = api.get(&format!("/v1/models/{model}")).await.body["speeds_rad_s"]
+        .as_array()
+        .unwrap()
+        .last()
+        .cloned();
+    let beyond = format!("{modes}?speed_rad_s={}", highest.unwrap().as_f64().unwrap() * 1.01);
+    let refused = api.get(&beyond).await;
+    assert_eq!(refused.problem(422, "invalid-request")[0]["parameter"], "speed_rad_s");
+    assert!(refused.body["detail"].as_str().unwrap().contains("not extrapolated"), "{}", refused.body);
     api.get(&format!("{modes}?modes_per_speed=9")).await.problem(409, "not-reduced");
     let tagged = api.request("GET", &modes).send().await.unwrap();
     let tag = tagged.headers()["etag"].clone();
@@ -194,7 +208,12 @@ async fn a_wheel_is_closed_and_its_modes_are_where_they_belong() {
     for (query, parameter) in [
         ("format=vtu", "nodal_diameter"),
         ("format=vtu&nodal_diameter=3", "nodal_diameter"),
-        ("format=vtu&nodal_diameter=1&mode=999", "mode"),
+        ("format=vtu&nodal_diameter=1&mode=5", "mode"),
+        ("format=vtu&nodal_diameter=1&frames=3", "frames"),
+        ("format=vtu&nodal_diameter=1&view=front", "view"),
+        ("mode=1", "mode"),
+        ("nodal_diameter=1", "nodal_diameter"),
+        ("stress=true", "stress"),
         ("format=vtu&nodal_diameter=1&sector=5", "sector"),
         ("format=vtu&nodal_diameter=0&motion=travelling", "motion"),
     ] {
@@ -206,6 +225,11 @@ async fn a_wheel_is_closed_and_its_modes_are_where_they_belong() {
 
     let mode = format!("{modes}?speed_rad_s=1000&nodal_diameter=2&mode=1&motion=travelling&stress=true");
     let wheel = Vtk::new(raw(api, &format!("{mode}&format=vtu")).await);
+    assert!(wheel.text.contains("9549 rpm (1000.0 rad/s)"), "{:.500}", wheel.text);
+    assert!(wheel.text.contains("largest displacement 1, stress for it"));
+    let without =
+        Vtk::new(raw(api, &format!("{mode}&format=vtu").replace("stress=true", "stress=false")).await);
+    assert!(!without.text.contains("stress") && !without.has("excluded"), "{:.500}", without.text);
     let (nodes, high) = (package.nodes.len(), high_nodes(&package));
     assert_eq!(wheel.attribute("NumberOfPoints"), SECTORS * (nodes - high));
     let (points, cells) = (wheel.vectors("Points"), wheel.cells());
@@ -298,7 +322,10 @@ async fn a_report_shows_the_wheel_where_it_moves_most() {
     let job = api.finish(&id).await;
     assert_eq!(job["status"], "successful", "{job}");
     let page = String::from_utf8(raw(api, &format!("/v1/jobs/{id}/report")).await).unwrap();
-    assert!(page.contains("12414 rpm, after") && page.contains("Stress and margin"), "{page:.2000}");
+    assert!(
+        page.contains(", 12414 rpm (1300.0 rad/s)") && page.contains("Stress and margin"),
+        "{page:.2000}"
+    );
     let picture =
         raw(api, &format!("/v1/jobs/{id}/fields?speed=1&stress=true&format=png&view=meridional")).await;
     assert!(picture.starts_with(b"\x89PNG"));
@@ -356,7 +383,30 @@ async fn a_field_with_its_static_part_has_the_largest_stress_of_the_sweep() {
             assert!((sum - vibration - fixed).abs() < 1e-12 * most, "{name}: {sum} {vibration} {fixed}");
         }
     }
+    // What the sweep claims is the largest of what is not excluded, and no more than the largest of all.
+    let excluded = total.array("excluded").whole();
+    let von_mises = total.array("von_mises").reals();
+    let claimed = von_mises.iter().zip(&excluded).filter(|(_, excluded)| **excluded == 0);
+    let most = claimed.fold(0.0f64, |most, (value, _)| most.max(*value));
+    assert!((most / expected - 1.0).abs() < 1e-5, "{most} {expected}");
+    assert!(excluded.contains(&1) && excluded[place] == 0);
     let vtu = Vtk::new(raw(api, &format!("{at}&static=include").replace("npz", "vtu")).await);
+    let radius = stress["excluded_radius"].as_f64().unwrap();
+    for words in [
+        format!("no stress is claimed within {radius:.3} mm of a contact node"),
+        "12414 rpm (1300.0 rad/s)".to_owned(),
+        "displacement and stress of the vibration and of the centrifugal load together".to_owned(),
+    ] {
+        assert!(vtu.text.contains(&words), "{words}: {:.600}", vtu.text);
+    }
+    let flags: Vec<i64> = vtu.bytes("excluded", "UInt8").into_iter().map(i64::from).collect();
+    assert_eq!(flags, excluded);
+    let vibration = Vtk::new(raw(api, &at.replace("npz", "vtu")).await);
+    assert!(
+        vibration.text.contains("displacement and stress of the vibration alone"),
+        "{:.600}",
+        vibration.text
+    );
     assert!(vtu.has("static_displacement") && vtu.has("static_stress"));
     assert_eq!(vtu.reals("von_mises"), total.array("von_mises").reals());
     let shape = api.get(&format!("/v1/jobs/{id}/fields?speed=1&engine_order=1&static=include")).await;

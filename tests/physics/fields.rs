@@ -87,6 +87,7 @@ fn mode_shapes_solve_the_assembled_wheel() {
                         speed_rad_s: 0.6 * TOP_SPEED,
                         stiffening: true,
                         nodal_diameter: harmonic.harmonic,
+                        modes: usize::MAX,
                         mode: mode + 1,
                         motion,
                         phase: 0.4,

@@ -134,6 +134,24 @@ impl ModelFacts {
         Self { mesh: mesh.map(|mesh| MeshFacts::of(mesh, sector)), ..Self::of(sector) }
     }
 
+    /// Whether K(Ω) is known at a speed, rad/s. A speed given in rpm may differ from the model's rad/s in the last digits.
+    pub fn stiffness_reaches(&self, omega: f64) -> bool {
+        !self.has_stiffening() || omega <= self.highest_speed() * (1.0 + 1e-6)
+    }
+
+    /// What to say of a speed that it does not reach.
+    pub fn not_extrapolated(&self) -> String {
+        format!(
+            "the model's stiffness is given up to {} rad/s; K(Ω) is not extrapolated: stay below, or export the \
+             stiffness at a higher speed",
+            self.highest_speed()
+        )
+    }
+
+    fn highest_speed(&self) -> f64 {
+        self.speeds_rad_s.last().copied().unwrap_or(0.0)
+    }
+
     /// Whether the model has stiffness at three speeds.
     pub fn has_stiffening(&self) -> bool {
         self.speeds_rad_s.len() == 3

@@ -61,12 +61,22 @@ pub fn haigh(stress: &SweepStress, by: HaighColour) -> String {
         diagram.y_axis(&y, &format!("alternating stress, {unit}"), 72.0),
         key(stress, &cycles, diagram.bottom() + 66.0),
     ]);
-    if !cycles.is_empty() {
+    if tells_apart(&cycles, by) {
         let stops = (0..=32).map(|i| f64::from(i) / 32.0).map(|share| (share, level(share)));
         let bar = ticks(scale.values, 8.0);
         content.push(colour_bar::draw_colours(stops, &scale, diagram.right() + 26.0, &bar, colour));
     }
     document(title, WIDTH, diagram.bottom() + 116.0, content)
+}
+
+/// Whether colours say anything: utilisation where some is known, speeds where there are several.
+fn tells_apart(cycles: &[Cycle], by: HaighColour) -> bool {
+    match by {
+        HaighColour::Speed => cycles.iter().any(|(speed, _)| speed.index != cycles[0].0.index),
+        HaighColour::Utilisation => {
+            cycles.iter().any(|(_, cycle)| cycle.utilisation.is_some_and(f64::is_finite))
+        }
+    }
 }
 
 /// A cycle and its speed.
@@ -82,7 +92,10 @@ fn ranked(stress: &SweepStress) -> Vec<Cycle<'_>> {
 /// What stands below the title.
 fn words(stress: &SweepStress, cycles: &[Cycle]) -> Vec<String> {
     let unit = stress_unit(&stress.units);
-    let mut words = vec![format!("{} speeds", stress.speeds.len())];
+    let mut words = vec![match stress.speeds.len() {
+        1 => "1 speed".to_owned(),
+        count => format!("{count} speeds"),
+    }];
     if let Some((speed, cycle)) = cycles.first() {
         let place = format!(
             "at node {}, blade {}, {} rpm",

@@ -12,3 +12,17 @@ pub struct FieldFile {
     /// How much of it.
     pub part: Part,
 }
+
+impl FieldFile {
+    /// With words on where stress is claimed, in this unit of length.
+    #[must_use]
+    pub fn claiming(mut self, length: &str) -> Self {
+        if let Some(excluded) = self.sector.excluded() {
+            let radius = format!("{:.3}", excluded.radius());
+            self.field
+                .subtitles
+                .push(format!("no stress is claimed within {radius} {length} of a contact node"));
+        }
+        self
+    }
+}

@@ -16,6 +16,8 @@ pub(super) fn write(file: &FieldFile, out: &mut dyn Write) -> io::Result<()> {
     let sectors = || of.sectors_of(*part);
     let mut npz = NpzWriter::stream(out);
     npz.texts("title", &[], &[&field.title])?;
+    let notes: Vec<&str> = field.subtitles.iter().map(String::as_str).collect();
+    npz.texts("notes", &[notes.len()], &notes)?;
     npz.reals("time", &[frames], field.frames.iter().map(|frame| frame.time))?;
     let of_nodes = || sectors().flat_map(|sector| places.iter().map(move |&place| (sector, place)));
     npz.ids("node", &[count], of_nodes().map(|(_, place)| of.nodes()[place as usize].id))?;
@@ -46,6 +48,9 @@ pub(super) fn write(file: &FieldFile, out: &mut dyn Write) -> io::Result<()> {
     if field.has_static() && of.has_stress() {
         let of_sectors = || sectors().filter_map(|sector| field.stress(of, sector, places, &[]));
         npz.reals("static_stress", &[count, 6], of_sectors().flatten().flatten())?;
+    }
+    if let Some(excluded) = of.excluded() {
+        npz.integers("excluded", &[count], of_nodes().map(|(_, place)| i64::from(excluded.contains(place))))?;
     }
     if of.has_stress() {
         let stress =

@@ -30,9 +30,12 @@ pub(super) fn cell(kind: ElementKind) -> (u8, Vec<usize>) {
 pub(super) fn notes(file: &FieldFile) -> Vec<&str> {
     let field = &file.field;
     let lacking = "the package has no mesh: nodes only, without elements and stress";
+    let excluded = "the point array excluded is 1 where no stress is claimed";
+    let excluded = file.sector.excluded().map(|_| excluded);
     let lacking = file.sector.mesh().is_none().then_some(lacking);
     std::iter::once(field.title.as_str())
         .chain(field.subtitles.iter().map(String::as_str))
+        .chain(excluded)
         .chain(lacking)
         .collect()
 }
@@ -71,6 +74,13 @@ pub(super) fn write_points(
         moved("displacement_imaginary", &frame.before)?;
         array::<f64>(out, "displacement_amplitude", (count, 1), |put| {
             sectors().try_for_each(|sector| put(&field.amplitude(of, sector, places, frame)))
+        })?;
+    }
+    if let Some(excluded) = of.excluded() {
+        array::<u8>(out, "excluded", (count, 1), |put| {
+            sectors().try_for_each(|_| {
+                places.iter().try_for_each(|&place| put(&[u8::from(excluded.contains(place))]))
+            })
         })?;
     }
     if of.has_stress() {

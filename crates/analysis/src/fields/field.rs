@@ -1,5 +1,7 @@
 //! A field: displacement and stress of every node, over one or more frames.
 
+use std::f64::consts::TAU;
+
 use faer::{Mat, MatRef, c64};
 use nalgebra::Vector3;
 
@@ -65,14 +67,29 @@ impl Field {
         Ok(Self { title: String::new(), subtitles: Vec::new(), frames, harmonics, fixed: None })
     }
 
-    /// Upon a displacement of the own DOF that is the same in every sector and moment: that of the centrifugal load.
+    /// Upon a displacement of the own DOF that is the same in every sector and moment, that of the centrifugal load, or without it: it says
+    /// which.
     #[must_use]
-    pub fn upon(mut self, sector: &FieldSector, own: &[f64]) -> Self {
+    pub fn upon(mut self, sector: &FieldSector, own: Option<&[f64]>) -> Self {
+        let what = if sector.has_stress() { "displacement and stress" } else { "displacement" };
+        let Some(own) = own else {
+            self.subtitles.push(format!(
+                "{what} of the vibration alone, without the static part of the centrifugal load"
+            ));
+            return self;
+        };
         let own = Mat::from_fn(own.len(), 1, |dof, _| c64::new(own[dof], 0.0));
         let displacement = sector.at_nodes(0, own.as_ref());
         let stress = sector.stress(0, displacement.as_ref());
         self.fixed = Some(HarmonicField { harmonic: 0, displacement, stress });
-        self.subtitles.push("upon the static displacement and stress of the centrifugal load".to_owned());
+        self.subtitles.push(format!("{what} of the vibration and of the centrifugal load together"));
+        self
+    }
+
+    /// At this speed of rotation, which its title says.
+    #[must_use]
+    pub fn at_speed(mut self, rad_s: f64) -> Self {
+        self.title += &format!(", {:.0} rpm ({rad_s:.1} rad/s)", 60.0 * rad_s / TAU);
         self
     }
 

@@ -8,6 +8,7 @@
 //! are held, never the basis.
 
 mod error;
+mod excluded;
 mod field;
 mod modes;
 mod points;
@@ -17,6 +18,7 @@ mod surface;
 mod tensor;
 
 pub use error::FieldError;
+pub use excluded::Excluded;
 pub use field::{BasisProduct, Field, Frame};
 pub use modes::{ModeRequest, Motion, ShapeFrequencies, mode_field, mode_frequencies};
 pub use points::{Points, skin_faces};

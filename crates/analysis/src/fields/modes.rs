@@ -32,6 +32,8 @@ pub struct ModeRequest {
     pub stiffening: bool,
     /// Nodal diameter.
     pub nodal_diameter: usize,
+    /// The lowest so many modes are those of the wheel; above, they are of the reduction alone.
+    pub modes: usize,
     /// Mode, from 1, by ascending frequency.
     pub mode: usize,
     /// How it moves.
@@ -48,12 +50,12 @@ pub struct ModeRequest {
 pub struct ShapeFrequencies {
     /// Nodal diameter.
     pub nodal_diameter: u32,
-    /// Frequencies of its modes in the rotating frame, ascending, Hz; above those that were kept they are of the reduction, not of the
-    /// wheel.
+    /// Frequencies of its modes in the rotating frame, ascending, Hz: of as many as the reduction keeps at each given speed. What it
+    /// has above them is of the reduction, not of the wheel.
     pub frequencies_hz: Vec<f64>,
 }
 
-/// Frequencies of all modes at a speed.
+/// Frequencies of the lowest `modes` of every nodal diameter at a speed.
 ///
 /// # Errors
 /// A K(Ω) that is not positive definite.
@@ -61,10 +63,11 @@ pub fn mode_frequencies(
     reduced: &ReducedWheel,
     speed_rad_s: f64,
     stiffening: bool,
+    modes: usize,
 ) -> Result<Vec<ShapeFrequencies>, FieldError> {
     let of = |harmonic| {
         let omega = natural_frequencies(harmonic, speed_rad_s, stiffening)?;
-        let frequencies_hz = omega.into_iter().map(|omega| omega / TAU).collect();
+        let frequencies_hz = omega.into_iter().take(modes).map(|omega| omega / TAU).collect();
         Ok(ShapeFrequencies { nodal_diameter: harmonic.harmonic as u32, frequencies_hz })
     };
     reduced.harmonics.iter().map(of).collect()
@@ -90,8 +93,9 @@ pub fn mode_field(
         return Err(FieldError::parameter("motion", message));
     }
     let (omega, shapes) = natural_modes(reduced, asked.nodal_diameter, asked.speed_rad_s, asked.stiffening)?;
-    let mode = asked.mode.checked_sub(1).filter(|&mode| mode < omega.len()).ok_or_else(|| {
-        let message = format!("nodal diameter {} has modes 1 to {}", asked.nodal_diameter, omega.len());
+    let most = omega.len().min(asked.modes);
+    let mode = asked.mode.checked_sub(1).filter(|&mode| mode < most).ok_or_else(|| {
+        let message = format!("of nodal diameter {} modes 1 to {most} are known", asked.nodal_diameter);
         FieldError::parameter("mode", message)
     })?;
     let column = Mat::from_fn(shapes.nrows(), 1, |row, _| shapes[(row, mode)]);
@@ -101,14 +105,11 @@ pub fn mode_field(
     if largest > 0.0 {
         field.scale(1.0 / largest);
     }
-    let title = format!(
-        "nodal diameter {}, mode {}, {:.2} Hz at {:.1} rad/s",
-        asked.nodal_diameter,
-        asked.mode,
-        omega[mode] / TAU,
-        asked.speed_rad_s
-    );
-    Ok(field.titled(title, vec!["largest displacement 1, stress for it".to_owned()]))
+    let title =
+        format!("nodal diameter {}, mode {}, {:.2} Hz", asked.nodal_diameter, asked.mode, omega[mode] / TAU);
+    let scaled =
+        if sector.has_stress() { "largest displacement 1, stress for it" } else { "largest displacement 1" };
+    Ok(field.titled(title, vec![scaled.to_owned()]).at_speed(asked.speed_rad_s))
 }
 
 /// The mode after a part of its period.

@@ -6,6 +6,7 @@ use std::ops::Range;
 use faer::{Mat, MatRef, c64};
 use nalgebra::Matrix3;
 
+use super::excluded::Excluded;
 use rubmap_solid::frame::AxisFrame;
 use rubmap_solid::mesh::SectorMesh;
 use rubmap_solid::stress::NodalStress;
@@ -28,6 +29,7 @@ pub struct FieldSector {
     nodes: Vec<SectorNode>,
     mesh: Option<SectorMesh>,
     stress: Option<NodalStress>,
+    excluded: Option<Excluded>,
     /// Per node, the low node that a high one goes with; itself otherwise.
     low: Vec<u32>,
 }
@@ -46,13 +48,16 @@ impl FieldSector {
         for &(from, to) in mesh.iter().flat_map(|mesh| &mesh.cyclic) {
             low[to as usize] = from;
         }
-        Some(Self { sectors, frame, nodes, mesh, stress: None, low })
+        Some(Self { sectors, frame, nodes, mesh, stress: None, excluded: None, low })
     }
 
-    /// The same with what stress needs, where there is a mesh.
+    /// The same with what stress needs, where there is a mesh. None is claimed within a radius of contact nodes, by default their mean
+    /// distance.
     #[must_use]
-    pub fn with_stress(mut self) -> Self {
+    pub fn with_stress(mut self, excluded_radius: Option<f64>) -> Self {
         self.stress = self.mesh.as_ref().map(NodalStress::new);
+        self.excluded =
+            self.mesh.is_some().then(|| Excluded::new(&self.nodes, self.turn(1), excluded_radius));
         self
     }
 
@@ -74,6 +79,11 @@ impl FieldSector {
     /// Whether fields on it have stress.
     pub fn has_stress(&self) -> bool {
         self.stress.is_some()
+    }
+
+    /// Where stress is not claimed, of what has stress.
+    pub fn excluded(&self) -> Option<&Excluded> {
+        self.excluded.as_ref()
     }
 
     /// Sectors of a part.

@@ -199,7 +199,6 @@ fn check_speeds(
     campbell: bool,
 ) {
     found.0.extend(speeds.lists().implausible());
-    let highest = facts.speeds_rad_s.last().copied().unwrap_or(0.0);
     for (pointer, speeds_rad_s) in speeds.by_list() {
         found.require(
             campbell || speeds_rad_s.iter().all(|&omega| omega > 0.0),
@@ -211,15 +210,10 @@ fn check_speeds(
             &pointer,
             "the speeds of a Campbell diagram ascend",
         );
-        // A speed given in rpm may differ from the model's rad/s in the last digits.
         found.require(
-            !(stiffening && facts.has_stiffening())
-                || speeds_rad_s.iter().all(|&omega| omega <= highest * (1.0 + 1e-6)),
+            !stiffening || speeds_rad_s.iter().all(|&omega| facts.stiffness_reaches(omega)),
             &pointer,
-            format!(
-                "the model's stiffness is given up to {highest} rad/s; K(Ω) is not extrapolated: stay below, or \
-                 export the stiffness at a higher speed"
-            ),
+            facts.not_extrapolated(),
         );
     }
 }

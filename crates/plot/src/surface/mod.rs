@@ -60,7 +60,8 @@ pub fn surface(surface: &FieldSurface, view: SurfaceView) -> String {
     }
     content.extend([diagram.frame(), diagram.x_axis(&x, &axes[0]), diagram.y_axis(&y, &axes[1], 66.0)]);
     let levels = picture.as_ref().and_then(|picture| picture.levels.as_ref());
-    content.extend(levels.map(|levels| bar(levels, surface, &diagram)));
+    let differs = largest(&surface.colour.values).is_some();
+    content.extend(levels.filter(|_| differs).map(|levels| bar(levels, surface, &diagram)));
     let widest = words
         .iter()
         .map(|line| text_width(line, 13.0))
@@ -82,7 +83,7 @@ fn paragraphs(surface: &FieldSurface, camera: Camera, stretch: f64) -> Vec<Strin
     } else {
         "nothing is displaced".to_owned()
     };
-    words.push(format!("{} · {drawn}", camera.words()));
+    words.push(format!("{} · {drawn} · darker where a surface turns away", camera.words()));
     words
 }
 
@@ -192,13 +193,14 @@ impl Picture {
         }
         let fragments = self.depths.fragments();
         let pixels = |of: &dyn Fn(&Fragment) -> bool| fragments.iter().filter(|seen| of(seen)).count();
-        if pixels(&|seen| seen.side == Side::Outside && seen.value.is_nan()) > 0 {
+        let covered = pixels(&|seen| seen.side != Side::Nothing);
+        // Single pixels are not seen as hatching.
+        if 1000 * pixels(&|seen| seen.side == Side::Outside && seen.value.is_nan()) > covered {
             let words =
                 if self.levels.is_some() { "nothing claimed: near contact nodes" } else { "no values" };
             flow = flow.entry(hatching::mark(), 20.0, words);
         }
         // At the rim of what is closed single pixels see its far side.
-        let covered = pixels(&|seen| seen.side != Side::Nothing);
         if 1000 * pixels(&|seen| seen.side == Side::Inside) > covered {
             flow = flow.entry(patch(levels::INSIDE), 20.0, "inside of an open surface");
         }
@@ -206,7 +208,7 @@ impl Picture {
             let stroke = line((0.0, 0.0), (24.0, 0.0)).set("stroke", colour::hex(levels::AT_REST));
             flow = flow.entry(stroke.set("stroke-width", "1.2"), 24.0, "outline at rest");
         }
-        flow.entry(group(), 0.0, "darker where a surface turns away").draw()
+        flow.draw()
     }
 }
 
@@ -222,10 +224,12 @@ fn with_unit(value: f64, unit: &str) -> String {
     format!("{} {unit}", significant(value)).trim_end().to_owned()
 }
 
-/// The node with the largest value.
+/// The node with the largest value; none where all is 0.
 fn largest(values: &[Option<f64>]) -> Option<(usize, f64)> {
     let found = values.iter().enumerate().filter_map(|(node, value)| Some((node, (*value)?)));
-    found.filter(|(_, value)| value.is_finite()).max_by(|a, b| a.1.total_cmp(&b.1))
+    let known: Vec<(usize, f64)> = found.filter(|(_, value)| value.is_finite()).collect();
+    let all_zero = known.iter().all(|(_, value)| *value == 0.0);
+    known.into_iter().filter(|_| !all_zero).max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 /// Draws an edge, two pixels wide, where nothing hides it.
