@@ -46,7 +46,7 @@ async fn all_structural_errors_come_at_once_in_words() {
     let mut expected = pairs(&[
         (
             "/colour",
-            "this field does not exist here; those here are accuracy, budget, control_speeds, integration, \
+            "this field does not exist here; those here are accuracy, budget, control_speeds, fields, integration, \
           max_engine_order, model, modes_per_speed, name, notes, peak_prominence, record, refine, scene, sensors, \
           speeds, sweep, tags",
         ),

@@ -362,9 +362,9 @@ async fn a_field_with_its_static_part_has_the_largest_stress_of_the_sweep() {
     let total = Npz::read(&raw(api, &format!("{at}&static=include")).await);
     let alone = Npz::read(&raw(api, &at).await);
     assert!((total.array("time").reals()[0] - revolution).abs() < 1e-9);
-    let (nodes, sectors) = (total.array("node").whole(), total.array("sector").whole());
+    let (nodes, sectors) = (total.array("node").ids(), total.array("sector").whole());
     let is_there = |k: &usize| {
-        nodes[*k] as u64 == largest["node"].as_u64().unwrap()
+        nodes[*k] == largest["node"].as_u64().unwrap()
             && sectors[*k] as u64 == largest["sector"].as_u64().unwrap()
     };
     let place = (0..nodes.len()).find(is_there).unwrap();

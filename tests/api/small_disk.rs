@@ -25,15 +25,14 @@ impl SmallDisk {
 
     /// Fills it to the last byte.
     pub(crate) fn fill(&self) {
-        let mut ballast = File::create(self.ballast()).unwrap();
-        while ballast.write_all(&[1; 4096]).is_ok() {}
-        while ballast.write_all(&[1]).is_ok() {}
+        self.fill_but(0);
     }
 
     /// Fills it but for so much.
     pub(crate) fn fill_but(&self, mebibytes: u64) {
-        self.fill();
-        let ballast = File::options().write(true).open(self.ballast()).unwrap();
+        let mut ballast = File::create(self.ballast()).unwrap();
+        while ballast.write_all(&[1; 4096]).is_ok() {}
+        while ballast.write_all(&[1]).is_ok() {}
         ballast.set_len(ballast.metadata().unwrap().len() - (mebibytes << 20)).unwrap();
     }
 
