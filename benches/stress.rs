@@ -85,7 +85,7 @@ impl Api {
     /// The same as planned, in contact all the time.
     async fn planned(&self, request: &Value) -> anyhow::Result<f64> {
         let plan = self.send("sweeps/plan", |post| post.json(request)).await?;
-        plan["computing_time_s"]["contact"].as_f64().with_context(|| plan.to_string())
+        plan["estimate"]["computing_time_s"]["contact"].as_f64().with_context(|| plan.to_string())
     }
 }
 
@@ -96,10 +96,10 @@ fn sweep(model: &Value, stress: bool) -> Value {
         "modes_per_speed": 20,
         "scene": {
             "centrifugal_stiffening": true,
-            "damping": {"modal_ratio": 0.005},
+            "damping": {"modal_ratio": 0.02},
             "casing": {
-                "clearance": {"leading": 0.1, "trailing": 0.3},
-                "lobes": {"count": 2, "amplitude": 0.6, "width_rad": 0.35},
+                "clearance": {"leading": 0.3, "trailing": 0.25},
+                "lobes": {"count": 2, "amplitude": 0.4, "width_rad": 0.35},
             },
             "contact": {},
         },
