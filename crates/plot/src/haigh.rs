@@ -8,7 +8,7 @@ use super::key::Flow;
 use super::labels::Labels;
 use super::svg::{Element, document, group, line, polyline};
 use super::{colour, colour_bar, heading};
-use rubmap_analysis::result::{SpeedStress, Strengths, StressCycle, SweepStress, stress_unit};
+use rubmap_analysis::result::{SpeedStress, Strengths, StressCycle, SweepStress, drawn_stress_unit};
 
 const WIDTH: f64 = 1180.0;
 const LEFT: f64 = 100.0;
@@ -40,11 +40,11 @@ pub enum HaighColour {
 /// labelled.
 pub fn haigh(stress: &SweepStress, by: HaighColour) -> String {
     let title = "Haigh diagram";
+    let (stress, unit) = &drawn(stress);
     let cycles = ranked(stress);
-    let (heading, bottom) = heading::heading(LEFT, title, &words(stress, &cycles));
+    let (heading, bottom) = heading::heading(LEFT, title, &words(stress, &cycles, unit));
     let diagram = diagram(stress, &cycles, bottom + 28.0);
     let (x, y) = (ticks(diagram.x.values, 9.0), ticks(diagram.y.values, 8.0));
-    let unit = stress_unit(&stress.units);
     let mut content = vec![heading, diagram.grid(&x, &y), diagram.region("cycles")];
     let lines = group().set("clip-path", "url(#cycles)").children(limits(stress, &diagram));
     content.push(lines);
@@ -53,7 +53,7 @@ pub fn haigh(stress: &SweepStress, by: HaighColour) -> String {
         content.push(diagram.words("Nothing to draw: no stress was recorded"));
     }
     let all = cycles.iter().take(MOST).rev();
-    content.push(group().children(all.filter_map(|cycle| dot(cycle, &diagram, &scale, by, &unit))));
+    content.push(group().children(all.filter_map(|cycle| dot(cycle, &diagram, &scale, by, unit))));
     content.extend([
         names(&cycles, &diagram),
         diagram.frame(),
@@ -67,6 +67,24 @@ pub fn haigh(stress: &SweepStress, by: HaighColour) -> String {
         content.push(colour_bar::draw_colours(stops, &scale, diagram.right() + 26.0, &bar, colour));
     }
     document(title, WIDTH, diagram.bottom() + 116.0, content)
+}
+
+/// The same in the unit that it is drawn in.
+fn drawn(stress: &SweepStress) -> (SweepStress, String) {
+    let (unit, factor) = drawn_stress_unit(&stress.units);
+    let mut stress = stress.clone();
+    for cycle in stress.speeds.iter_mut().flat_map(|speed| &mut speed.stress.cycles) {
+        cycle.mean *= factor;
+        cycle.alternating *= factor;
+    }
+    for strength in stress.strengths.iter_mut() {
+        for value in
+            [&mut strength.fatigue, &mut strength.ultimate, &mut strength.yield_].into_iter().flatten()
+        {
+            *value *= factor;
+        }
+    }
+    (stress, unit)
 }
 
 /// Whether colours say anything: utilisation where some is known, speeds where there are several.
@@ -90,8 +108,7 @@ fn ranked(stress: &SweepStress) -> Vec<Cycle<'_>> {
 }
 
 /// What stands below the title.
-fn words(stress: &SweepStress, cycles: &[Cycle]) -> Vec<String> {
-    let unit = stress_unit(&stress.units);
+fn words(stress: &SweepStress, cycles: &[Cycle], unit: &str) -> Vec<String> {
     let mut words = vec![match stress.speeds.len() {
         1 => "1 speed".to_owned(),
         count => format!("{count} speeds"),

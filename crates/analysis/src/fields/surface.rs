@@ -4,7 +4,7 @@ use super::field::Field;
 use super::points::{Points, skin_faces};
 use super::sector::{FieldSector, Part};
 use super::tensor::von_mises;
-use crate::result::{FieldSurface, SurfaceColour, stress_unit};
+use crate::result::{FieldSurface, SurfaceColour, drawn_stress_unit};
 use rubmap_wheel::dynamics::sector::Units;
 
 /// The skin of a part with one frame of a field on it, coloured by von Mises stress where the field has stress and otherwise by
@@ -44,7 +44,11 @@ pub fn surface(
         );
     }
     let colour = match of.has_stress() {
-        true => SurfaceColour { quantity: "von Mises stress".to_owned(), unit: stress_unit(units), values },
+        true => {
+            let (unit, factor) = drawn_stress_unit(units);
+            values.iter_mut().flatten().for_each(|value| *value *= factor);
+            SurfaceColour { quantity: "von Mises stress".to_owned(), unit, values }
+        }
         false => SurfaceColour { quantity: "displacement".to_owned(), unit: units.length.clone(), values },
     };
     Some(FieldSurface {

@@ -38,7 +38,9 @@ pub use reduction::{
     StiffeningVerdict,
 };
 pub use refinement::{Refinement, Unresolvable, Unresolved};
-pub use stress::{PointStress, Strengths, StressCycle, StressPeak, most_utilised_first, stress_unit};
+pub use stress::{
+    PointStress, Strengths, StressCycle, StressPeak, drawn_stress_unit, most_utilised_first, stress_unit,
+};
 pub use study::{
     Histories, HistoryLine, SpeedStudy, StepOrder, StudyReduction, StudyRun, WorkPrecision, front,
 };

@@ -132,6 +132,14 @@ pub fn stress_unit(units: &Units) -> String {
     }
 }
 
+/// What stress is drawn in, and how many of it the model's unit is: megapascals instead of pascals, of which a wheel bears hundreds of millions.
+pub fn drawn_stress_unit(units: &Units) -> (String, f64) {
+    match stress_unit(units).as_str() {
+        "Pa" => ("MPa".to_owned(), 1e-6),
+        unit => (unit.to_owned(), 1.0),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -177,5 +185,18 @@ mod tests {
             {"set": "DISK"},
         ]);
         assert_eq!(found, expected);
+    }
+
+    #[test]
+    fn pascals_are_drawn_as_megapascals() {
+        let units = |force: &str, length: &str| Units {
+            force: force.to_owned(),
+            length: length.to_owned(),
+            time: "s".to_owned(),
+            mass: "t".to_owned(),
+        };
+        assert_eq!(drawn_stress_unit(&units("N", "m")), ("MPa".to_owned(), 1e-6));
+        assert_eq!(drawn_stress_unit(&units("N", "mm")), ("MPa".to_owned(), 1.0));
+        assert_eq!(drawn_stress_unit(&units("lbf", "in")), ("lbf/in²".to_owned(), 1.0));
     }
 }

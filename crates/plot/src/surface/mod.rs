@@ -83,7 +83,8 @@ fn paragraphs(surface: &FieldSurface, camera: Camera, stretch: f64) -> Vec<Strin
     } else {
         "nothing is displaced".to_owned()
     };
-    words.push(format!("{} · {drawn} · darker where a surface turns away", camera.words()));
+    words.push(format!("{} · {drawn}", camera.words()));
+    words.push("darker where a surface turns away".to_owned());
     words
 }
 
