@@ -38,7 +38,8 @@ def package(kind, path):
     corners, edges, _ = ELEMENTS[kind]
     corners = np.array(corners, float) + [5, 0, 0]
     nodes = np.vstack([corners, [(corners[a] + corners[b]) / 2 for a, b in edges]]) if edges else corners
-    rows = 3 * len(nodes)
+    # The last node is held, so that nobody holds these matrices, which are no solid's, against the elements.
+    rows = 3 * (len(nodes) - 1)
     material = {"youngs_modulus": 1e5, "poissons_ratio": 0.3, "density": 1e-9}
     sector = {
         "name": kind, "sectors": 1, "units": {"length": "mm", "force": "N", "time": "s", "mass": "t"},
@@ -56,7 +57,7 @@ def package(kind, path):
     with zipfile.ZipFile(path, "w") as file:
         file.writestr("sector.json", json.dumps(sector))
         file.writestr("nodes.csv", "".join(f"{k + 1},{x},{y},{z}\n" for k, (x, y, z) in enumerate(nodes)))
-        file.writestr("dofs.csv", "".join(f"{k + 1},{c}\n" for k in range(len(nodes)) for c in (1, 2, 3)))
+        file.writestr("dofs.csv", "".join(f"{k + 1},{c}\n" for k in range(len(nodes) - 1) for c in (1, 2, 3)))
         file.writestr("elements.csv", f"1,{kind},ALL,{ids}\n")
         file.writestr("m.mtx", diagonal([1e-9] * rows))
         file.writestr("k.mtx", diagonal([1.0 + k for k in range(rows)]))
