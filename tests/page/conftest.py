@@ -51,7 +51,7 @@ def sweep_of(model, **changes):
             },
             "contact": {},
         },
-        "record": {"histories": {"speeds": [4], "quantities": ["displacement", "force", "state"]}, "stress": {}},
+        "record": {"histories": {"speeds": [4], "quantities": ["displacement", "contact_force", "state"]}, "stress": {}},
     }
     return request | changes
 

@@ -64,7 +64,20 @@ export function count(n, one, many = `${one}s`) {
   return `${n.toLocaleString('en')} ${n === 1 ? one : many}`;
 }
 
-/** First characters of a long id. */
+/** First characters of a model's id, which is long. */
 export function short(id) {
-  return id.length > 40 ? id.slice(0, 12) : id;
+  return id.slice(0, 12);
+}
+
+export const KINDS = {
+  sweep: 'Sweep',
+  modal_analysis: 'Modal analysis',
+  model_generation: 'Model generation',
+  study: 'Study',
+  case_study: 'Case study',
+};
+
+/** What a job is called: its name, or its kind, when it was posted, and the end of its id. */
+export function nameOf(job) {
+  return job.name || `${KINDS[job.kind] ?? job.kind}, ${moment(job.created_at)} (…${job.id.slice(-4)})`;
 }

@@ -2,6 +2,9 @@
 
 import { colour, onTheme } from './theme.js';
 
+/** Pixels of height of a figure that does not say. */
+const HEIGHT = 400;
+
 let loading = null;
 
 /** Plotly. */
@@ -44,7 +47,7 @@ function narrow(element) {
 
 function dressed(element, figure, height) {
   const layout = { ...figure.layout, template: template(), autosize: true };
-  if (height) layout.height = height;
+  layout.height = height ?? layout.height ?? HEIGHT;
   if (narrow(element)) {
     // A key beside the figure would leave no room for it.
     layout.legend = { ...layout.legend, orientation: 'h', y: -0.25, x: 0, yanchor: 'top', xanchor: 'left' };

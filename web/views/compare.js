@@ -2,13 +2,14 @@
 
 import { api } from '../lib/api.js';
 import { h, replace } from '../lib/dom.js';
-import { moment, number, percent, rpm, short, speed } from '../lib/format.js';
+import { nameOf, number, percent, rpm, speed } from '../lib/format.js';
 import { plot } from '../lib/plot.js';
 import { problem } from '../lib/problem.js';
 import { table } from '../lib/table.js';
 import { difference } from './compare/difference.js';
 import { levels } from './compare/levels.js';
 import { measurement, overCampbell } from './compare/measured.js';
+import { analysisOf } from './job/campbell.js';
 
 /** Sweeps that one can choose from. */
 const LISTED = 100;
@@ -33,13 +34,13 @@ async function read(id, signal) {
     api.get(`/v1/jobs/${id}/interaction-map`, { signal }),
     api.get(`/v1/jobs/${id}/critical-speeds`, { signal }),
   ]);
-  return { id, name: job.name || short(id), job, map, critical };
+  return { id, name: nameOf(job), job, map, critical };
 }
 
 function showPicker(element, jobs, chosen) {
   const boxes = jobs.map((job) => {
     const box = h('input', { type: 'checkbox', value: job.id, checked: chosen.includes(job.id) });
-    return h('li', {}, h('label', {}, box, ' ', job.name || short(job.id), h('span', { class: 'quiet small' }, ` ${moment(job.finished_at)}`)));
+    return h('li', {}, h('label', {}, box, ' ', nameOf(job)));
   });
   const list = h('ul', { class: 'plain' }, boxes);
   function go() {
@@ -73,7 +74,13 @@ async function compare(element, jobs, signal) {
   }
   async function showCampbell() {
     try {
-      const figure = await api.figure(`/v1/jobs/${jobs[0].id}/campbell`, {}, { signal });
+      const analysis = await analysisOf(jobs[0].job, signal);
+      if (!analysis) {
+        replace(campbell, h('p', { class: 'note' }, 'There is no modal analysis of this model with the same modes and lobes: ',
+          h('a', { href: `#/jobs/${jobs[0].id}?view=campbell` }, 'the sweep’s page'), ' computes one.'));
+        return;
+      }
+      const figure = await api.figure(`/v1/jobs/${analysis.id}/campbell`, {}, { signal });
       await plot(campbell, overCampbell(figure, measured), { signal, label: 'Campbell diagram' });
     } catch (error) {
       if (!signal.aborted) replace(campbell, problem(error));

@@ -3,16 +3,9 @@
 import { api } from '../lib/api.js';
 import { h, facts, replace } from '../lib/dom.js';
 import { ended, follow, readJob } from '../lib/events.js';
-import { bytes, count, duration, moment, short } from '../lib/format.js';
+import { bytes, count, duration, moment, nameOf } from '../lib/format.js';
 import { problem } from '../lib/problem.js';
 
-export const KINDS = {
-  sweep: 'Sweep',
-  modal_analysis: 'Modal analysis',
-  model_generation: 'Model generation',
-  study: 'Study',
-  case_study: 'Case study',
-};
 export const STATUSES = {
   accepted: 'waiting',
   running: 'running',
@@ -56,7 +49,7 @@ export async function show(main, { id, query }, signal) {
   const place = h('section', { 'aria-label': tab[1] });
   const listeners = [];
   replace(main,
-    h('h1', {}, job.name || `${KINDS[job.kind] ?? job.kind} ${short(job.id)}`),
+    h('h1', {}, nameOf(job)),
     state,
     h('nav', { class: 'tabs', 'aria-label': 'Results' }, tabs.map(([name, words]) => h('a', {
       href: addressOf(id, query, { view: name }),

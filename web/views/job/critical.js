@@ -25,11 +25,11 @@ export async function show(place, context, signal) {
     verdict(found),
     of === 'wheel' ? wheelTable(found, context) : sensorTable(found, context),
     figure);
+  if (of === 'wheel') return;
   try {
-    const read = await api.figure(of === 'wheel' ? `${path}/wheel` : path, asked, { signal });
-    await plot(figure, read, { signal, label: 'Critical speeds' });
+    await plot(figure, await api.figure(path, asked, { signal }), { signal, label: 'Critical speeds' });
   } catch (error) {
-    if (!signal.aborted) replace(figure, error.status === 406 ? null : problem(error));
+    if (!signal.aborted) replace(figure, problem(error));
   }
 }
 

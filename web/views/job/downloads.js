@@ -11,13 +11,16 @@ const ENDINGS = { plotly: 'plotly.json', pvd: 'zip' };
 export async function show(place, { job }, signal) {
   const contract = await openapi();
   const told = h('div', { 'aria-live': 'polite' });
-  const items = job.links.filter((link) => link.rel !== 'self' && !link.rel.includes('plan') && link.rel !== 'events').map((link) => item(link, contract, job, told, signal));
+  const speeds = h('input', { type: 'number', id: 'download-speed', min: 0, max: Math.max(0, (job.speeds?.total ?? 1) - 1), value: 0 });
+  const indexed = job.links.some((link) => link.href.includes('{index}'));
+  const items = job.links.filter((link) => link.rel !== 'self' && !link.rel.includes('plan') && link.rel !== 'events').map((link) => item(link, contract, job, { told, speeds }, signal));
   replace(place,
+    indexed ? h('p', {}, h('label', { for: 'download-speed' }, 'Index of the speed, where a result is of one: '), speeds) : null,
     items.length > 0 ? h('ul', { class: 'cards' }, items) : h('p', { class: 'note' }, 'There is nothing to download yet.'),
     told);
 }
 
-function item(link, contract, job, told, signal) {
+function item(link, contract, job, { told, speeds }, signal) {
   const forms = formsOf(link.href, contract);
   const words = link.rel.replaceAll('-', ' ');
   const button = (form) => h('button', {
@@ -28,7 +31,7 @@ function item(link, contract, job, told, signal) {
     replace(told);
     try {
       const ending = form ? ENDINGS[form] ?? form : link.rel === 'archive' ? 'zip' : 'html';
-      await download(link.href, form ? { format: form } : {}, `${job.id}-${link.rel}.${ending}`, signal);
+      await download(link.href.replace('{index}', speeds.value), form ? { format: form } : {}, `${job.id}-${link.rel}.${ending}`, signal);
     } catch (error) {
       if (!signal.aborted) replace(told, problem(error));
     } finally {

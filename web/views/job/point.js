@@ -83,7 +83,7 @@ async function showHistories(element, context, point, signal) {
   async function start(event) {
     event.target.disabled = true;
     try {
-      const body = { speeds: [point.index], quantities: ['displacement', 'velocity', 'force', 'contact', 'energy', 'state'] };
+      const body = { speeds: [point.index], quantities: ['displacement', 'velocity', 'contact_force', 'contact', 'energy', 'state'] };
       await api.send('POST', `/v1/jobs/${job.id}/histories`, body, { signal });
       dispatchEvent(new HashChangeEvent('hashchange'));
     } catch (error) {
