@@ -1,0 +1,89 @@
+// Fields of a form for values that have no parts.
+
+import { h, newId } from '../dom.js';
+import { help, label, range } from './schema.js';
+
+/** A field with its label, its help and a place for what is wrong with it. */
+export function field(name, schema, control, { extra, words } = {}) {
+  const id = newId('field');
+  const [helpId, errorId] = [`${id}-help`, `${id}-error`];
+  control.id = id;
+  const text = [words ?? help(schema), range(schema)].filter(Boolean).join(' — ');
+  if (text) control.setAttribute('aria-describedby', `${helpId} ${errorId}`);
+  else control.setAttribute('aria-describedby', errorId);
+  const error = h('div', { class: 'error', id: errorId });
+  const heading = h('label', { for: id }, label(name));
+  const element = control.type === 'checkbox'
+    ? h('div', { class: 'field' }, h('div', { class: 'row' }, control, heading, extra), h('div', { class: 'help', id: helpId }, text), error)
+    : h('div', { class: 'field' }, heading, h('div', { class: 'help', id: helpId }, text), h('div', { class: 'row' }, control, extra), error);
+  return {
+    element,
+    control,
+    /** Says what is wrong, or that nothing is. */
+    complain(message) {
+      error.textContent = message ?? '';
+      if (message) control.setAttribute('aria-invalid', 'true');
+      else control.removeAttribute('aria-invalid');
+    },
+  };
+}
+
+/** What a text says as a number; `undefined` for nothing, `null` for what is none. */
+export function readNumber(text) {
+  const words = text.trim().replace(',', '.');
+  if (words === '') return undefined;
+  const value = Number(words);
+  return Number.isFinite(value) ? value : null;
+}
+
+/**
+ * The control of a value without parts, and how it is read: `undefined` means that it is left out.
+ * @returns {{control: any, read: () => any} | null}
+ */
+export function control(kind, schema, value, required) {
+  switch (kind) {
+    case 'switch': {
+      const box = h('input', { type: 'checkbox', checked: value === true });
+      return { control: box, read: () => (box.checked ? true : required || value === false ? false : undefined) };
+    }
+    case 'word': {
+      const options = required ? schema.enum : ['', ...schema.enum];
+      const list = h('select', { value: value ?? schema.default ?? '' }, options.map((one) => h('option', { value: one }, one === '' ? 'default' : String(one).replaceAll('_', ' '))));
+      return { control: list, read: () => (list.value === '' ? undefined : list.value) };
+    }
+    case 'number': {
+      const input = h('input', { type: 'text', inputmode: 'decimal', size: 12, autocomplete: 'off', placeholder: schema.default ?? '', value: value ?? '' });
+      return { control: input, read: () => readNumber(input.value) ?? (input.value.trim() === '' ? undefined : input.value) };
+    }
+    case 'number_or_word': {
+      const input = h('input', { type: 'text', size: 12, autocomplete: 'off', placeholder: 'auto', value: value ?? '' });
+      return { control: input, read: () => readNumber(input.value) ?? (input.value.trim() === '' ? undefined : input.value.trim()) };
+    }
+    case 'text': {
+      const input = h('input', { type: 'text', size: 32, autocomplete: 'off', maxlength: schema.maxLength, value: value ?? '' });
+      return { control: input, read: () => (input.value === '' ? undefined : input.value) };
+    }
+    case 'numbers': {
+      const input = h('input', { type: 'text', size: 32, autocomplete: 'off', value: (value ?? []).join(', ') });
+      return {
+        control: input,
+        read: () => {
+          const words = input.value.split(/[\s;,]+/).filter(Boolean);
+          return words.length === 0 ? undefined : words.map((word) => readNumber(word) ?? word);
+        },
+      };
+    }
+    case 'words': {
+      const input = h('input', { type: 'text', size: 32, autocomplete: 'off', value: (value ?? []).join(', ') });
+      return {
+        control: input,
+        read: () => {
+          const list = input.value.split(',').map((word) => word.trim()).filter(Boolean);
+          return list.length === 0 ? undefined : list;
+        },
+      };
+    }
+    default:
+      return null;
+  }
+}

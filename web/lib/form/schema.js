@@ -1,0 +1,71 @@
+// What a schema of the contract says, in the few shapes that a form knows.
+
+/**
+ * A schema without references and without `null`, which for a form is nothing.
+ * @param {any} schema
+ * @param {Record<string, any>} definitions
+ */
+export function resolve(schema, definitions) {
+  let { description } = schema;
+  let found = schema;
+  for (;;) {
+    if (found.$ref) {
+      found = definitions[found.$ref.split('/').pop()];
+    } else if (found.oneOf && found.oneOf.filter((one) => one.type !== 'null').length === 1) {
+      found = { ...found.oneOf.find((one) => one.type !== 'null'), nullable: true };
+    } else if (found.allOf?.length === 1) {
+      [found] = found.allOf;
+    } else {
+      break;
+    }
+    description ??= found.description;
+  }
+  const type = Array.isArray(found.type) ? found.type.find((one) => one !== 'null') : found.type;
+  return { ...found, type, description: description ?? found.description };
+}
+
+/** What kind of field a resolved schema gets. */
+export function kindOf(schema, definitions) {
+  if (schema.oneOf) {
+    const ones = schema.oneOf.map((one) => resolve(one, definitions));
+    if (ones.some((one) => one.enum) && ones.some((one) => one.type === 'integer')) return 'number_or_word';
+    return 'json';
+  }
+  if (schema.enum) return 'word';
+  if (schema.type === 'boolean') return 'switch';
+  if (schema.type === 'number' || schema.type === 'integer') return 'number';
+  if (schema.type === 'string') return 'text';
+  if (schema.type === 'array') {
+    const items = resolve(schema.items, definitions);
+    if (items.type === 'number' || items.type === 'integer') return 'numbers';
+    if (items.type === 'object' && items.properties) return 'list';
+    if (items.type === 'string') return 'words';
+    return 'json';
+  }
+  if (schema.properties) return 'object';
+  return schema.type === 'object' ? 'object' : 'json';
+}
+
+const UNITS = [['_rad_s', 'rad/s'], ['_rad', 'rad'], ['_deg', 'degrees'], ['_hz', 'Hz'], ['_seconds', 's'], ['_s', 's']];
+
+/** The name of a field in words, with the unit that it ends with. */
+export function label(name) {
+  const found = UNITS.find(([ending]) => name.endsWith(ending) && name !== ending.slice(1));
+  const words = (found ? name.slice(0, -found[0].length) : name).replaceAll('_', ' ');
+  const text = words.charAt(0).toUpperCase() + words.slice(1);
+  return found ? `${text}, ${found[1]}` : text;
+}
+
+/** The first sentence of a description; all of it is in the contract. */
+export function help(schema) {
+  const text = (schema.description ?? '').replace(/\s+/g, ' ').replaceAll('`', '');
+  const end = text.search(/[.;:] [A-Z]|\. /);
+  return end > 0 && text.length > 160 ? text.slice(0, end + 1) : text;
+}
+
+/** What a number may be, in words. */
+export function range(schema) {
+  const low = schema.exclusiveMinimum !== undefined ? `above ${schema.exclusiveMinimum}` : schema.minimum !== undefined ? `at least ${schema.minimum}` : null;
+  const high = schema.exclusiveMaximum !== undefined ? `below ${schema.exclusiveMaximum}` : schema.maximum !== undefined ? `at most ${schema.maximum}` : null;
+  return [low, high].filter(Boolean).join(', ');
+}

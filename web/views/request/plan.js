@@ -1,0 +1,70 @@
+// What a request would do and cost, asked again as it changes.
+
+import { api, Refusal } from '../../lib/api.js';
+import { debounced, facts, h, replace } from '../../lib/dom.js';
+import { bytes, count, duration, number } from '../../lib/format.js';
+import { problem } from '../../lib/problem.js';
+
+/** How long nothing must change before the plan is asked for. */
+const PAUSE_MS = 400;
+
+/** From the cost without any contact to that with contact in every step. */
+export function between(range, words) {
+  if (!range) return null;
+  const [free, contact] = [words(range.free), words(range.contact)];
+  return free === contact ? free : `${free} to ${contact}`;
+}
+
+/**
+ * An aside with the plan. `refresh(request)` asks for it; `tell` hears of the plan, or of the refusal.
+ * @param {string} path
+ * @param {(found: {plan?: any, refusal?: Refusal}) => void} tell
+ * @param {AbortSignal} signal
+ */
+export function planAside(path, tell, signal) {
+  const body = h('div', { role: 'status', 'aria-label': 'Plan' });
+  let asking = new AbortController();
+  const refresh = debounced(async (request) => {
+    asking.abort();
+    asking = new AbortController();
+    const { signal: own } = asking;
+    body.setAttribute('aria-busy', 'true');
+    try {
+      const plan = await api.send('POST', path, request, { signal: AbortSignal.any([signal, own]) });
+      replace(body, shown(plan));
+      tell({ plan });
+    } catch (error) {
+      if (own.aborted || signal.aborted) return;
+      replace(body, error instanceof Refusal ? h('p', { class: 'note' }, `Not complete yet: ${count(Math.max(1, error.errors.length), 'field')} to mend.`) : problem(error));
+      tell(error instanceof Refusal ? { refusal: error } : {});
+    } finally {
+      if (!own.aborted) body.removeAttribute('aria-busy');
+    }
+  }, PAUSE_MS, signal);
+  return { element: h('aside', { class: 'card sticky' }, h('h2', {}, 'What it takes'), body), refresh };
+}
+
+function shown(plan) {
+  const { estimate } = plan;
+  const off = (plan.effects ?? []).filter((effect) => !effect.on).map((effect) => effect.name.replaceAll('_', ' '));
+  return [
+    (plan.warnings ?? []).map((text) => h('p', { class: 'note warning' }, text)),
+    facts([
+      ['Time', estimate ? between(estimate.wall_time_s, duration) : null],
+      ['Computing time', estimate ? between(estimate.computing_time_s, duration) : null],
+      ['Speeds', plan.speeds],
+      ['Steps', estimate ? number(estimate.steps, 3) : null],
+      ['Memory', estimate ? bytes(estimate.memory_bytes) : null],
+      ['Disk', plan.basis_bytes_at_most ? `at most ${bytes(plan.basis_bytes_at_most)}` : null],
+      ['Disk of stress', plan.stress_bytes ? bytes(plan.stress_bytes) : null],
+      ['Reduction', plan.reduction === 'to be computed' ? 'has to be computed first; then its time can be said' : plan.reduction],
+      ['Unknowns', plan.reduced_unknowns_at_most ? `at most ${number(plan.reduced_unknowns_at_most, 9)}` : null],
+      ['Contact pairs', plan.contact_pairs],
+      ['Workers', plan.workers],
+      ['Scheme', plan.points?.[0] ? `${plan.points[0].scheme.name}: ${plan.points[0].scheme.reason}` : null],
+      ['Chosen setting', plan.choice?.reason],
+      ['Pilot runs', plan.pilot_speeds_rad_s ? `${count(plan.pilot_speeds_rad_s.length, 'speed')} first, which choose the setting` : null],
+      ['Left out', off.length > 0 ? off.join(', ') : null],
+    ]),
+  ];
+}

@@ -1,0 +1,58 @@
+// What is asked of a model that nobody has said anything about: speeds and a casing in proportion to the wheel, as `rubmap demo` has it.
+
+import { rpm } from '../../lib/format.js';
+
+/** Running clearance over the radius at which the tips lie: 0.2 to 0.4 mm of wheels with a radius of 100 to 200 mm. */
+const CLEARANCE = 0.002;
+/** Height of a lobe over the clearance: the tips touch at every passage. */
+const LOBE = 1.5;
+/** Speeds of a sweep. */
+const SPEEDS = 40;
+/** Where a sweep begins, over where it ends. */
+const LOWEST = 1 / 3;
+
+/** Two significant digits: who edits it wants numbers that one can read. */
+function round(value) {
+  return Number(value.toPrecision(2));
+}
+
+/** Speeds up to the highest at which the model has its stiffness; of one at rest only, one thousand rpm and up. */
+export function speedsOf(model, count = SPEEDS) {
+  const highest = Math.max(...(model.speeds_rad_s ?? [0]));
+  const to = highest > 0 ? Math.round(rpm(highest)) : 3000;
+  return { from: Math.round(LOWEST * to), to, count, unit: 'rpm' };
+}
+
+/** A scene with contact. */
+export function sceneOf(model) {
+  const clearance = round(CLEARANCE * (model.contact_radius ?? 100));
+  return {
+    centrifugal_stiffening: (model.speeds_rad_s ?? []).length > 1,
+    damping: { modal_ratio: 0.005 },
+    casing: {
+      clearance: { leading: clearance, trailing: clearance },
+      lobes: { count: 2, amplitude: round(LOBE * clearance), width_rad: 0.35 },
+    },
+    contact: {},
+  };
+}
+
+/** What a part of a request begins with that is switched on: numbers in proportion to the model, to be changed. */
+export function beginning(pointer, model) {
+  const radius = model.contact_radius ?? 100;
+  const scene = sceneOf(model);
+  const known = {
+    '/scene/casing': scene.casing,
+    '/scene/casing/lobes': scene.casing.lobes,
+    '/scene/damping': scene.damping,
+    '/scene/friction': { coefficient: 0.15 },
+    '/scene/orbit': { radius: round(0.1 * CLEARANCE * radius) },
+    '/scene/engine_order_excitation/-': { engine_order: 2, nodal_diameter: 2, amplitude: 1 },
+    '/record/stress': {},
+    '/record/histories': { speeds: 'critical' },
+    '/accuracy': { target: 0.01 },
+    '/budget': { seconds: 600 },
+    '/sensors/-': { contact_node: 0, sector: 0, component: 'radial' },
+  };
+  return known[pointer];
+}

@@ -1,0 +1,108 @@
+// The view of a new job: a form made from the contract, its plan, and its JSON.
+
+import { api, openapi, Refusal, submit } from '../../lib/api.js';
+import { h, newId, replace } from '../../lib/dom.js';
+import { form } from '../../lib/form/form.js';
+import { problem } from '../../lib/problem.js';
+import { accuracyDial } from './accuracy.js';
+import { editor } from './editor.js';
+import { planAside } from './plan.js';
+import { prices } from './prices.js';
+import { beginning } from './sensible.js';
+
+/** In which order requests are asked for: what every one needs, and then what has defaults. */
+const GROUPS = [
+  { title: null, names: ['speeds', 'speed', 'scene', 'lobes', 'superharmonics', 'grid'] },
+  { title: 'What is recorded', names: ['sensors', 'record', 'fields'] },
+  { title: 'Name, tags, notes', names: ['name', 'tags', 'notes'] },
+  { title: 'Settings', names: ['budget', 'modes_per_speed', 'integration', 'sweep', 'refine', 'control_speeds', 'max_engine_order', 'peak_prominence'] },
+];
+
+/**
+ * A form for requests of one kind.
+ * @param {HTMLElement} place
+ * @param {{model: any, kind: {schema: string, path: string, plan: string | null, priced: boolean}, value: any, words: string}} what
+ * @param {AbortSignal} signal
+ */
+export async function requestForm(place, { model, kind, value, words }, signal) {
+  const definitions = (await openapi()).components.schemas;
+  const plan = kind.plan ? planAside(kind.plan, planned, signal) : null;
+  const initial = (pointer) => beginning(pointer, model);
+  const cost = kind.priced ? prices(kind.plan, model, signal) : null;
+  const dial = kind.priced ? accuracyDial(kind.plan, chooseAccuracy, signal) : null;
+  const told = h('div');
+  const fields = form({
+    schema: { $ref: `#/components/schemas/${kind.schema}` },
+    definitions, value, initial,
+    skip: ['/model', '/accuracy'].slice(0, kind.priced ? 2 : 1),
+    beside: cost?.beside,
+    groups: GROUPS,
+    open: ['/speeds', '/speed', '/scene', '/grid'],
+    onChange: (now) => changed(now, null),
+  });
+  const json = editor((now) => {
+    fields.set(now);
+    changed(now, json);
+  });
+  const button = h('button', { type: 'submit', class: 'main' }, 'Start');
+  const element = h('form', { novalidate: true, on: { submit: start } }, dial?.element, fields.element, json.element, told, h('div', { class: 'row' }, button));
+  replace(place, words ? h('p', {}, words) : null, h('div', { class: 'columns' }, element, plan?.element));
+  changed(value, null);
+
+  function changed(now, by) {
+    if (by !== json) json.show(now);
+    dial?.show(now);
+    plan?.refresh(now);
+  }
+  function planned({ plan: found, refusal }) {
+    const homeless = fields.complain(refusal?.errors ?? [], false);
+    replace(told, homeless.length > 0 ? problem(Object.assign(refusal, { errors: homeless })) : null);
+    if (!found) return;
+    cost?.refresh(fields.value(), found);
+    dial?.refresh(fields.value());
+  }
+  function chooseAccuracy(target) {
+    const { accuracy, ...rest } = fields.value();
+    const next = target === null ? rest : { ...withoutKnobs(rest), accuracy: { ...accuracy, target } };
+    fields.set(next);
+    changed(next, null);
+  }
+  async function start(event) {
+    event.preventDefault();
+    if (button.disabled) return;
+    button.disabled = true;
+    replace(told);
+    try {
+      const { id } = await submit(kind.path, fields.value(), signal);
+      location.hash = `#/jobs/${id}`;
+    } catch (error) {
+      if (signal.aborted) return;
+      const homeless = error instanceof Refusal ? fields.complain(error.errors, true) : null;
+      replace(told, homeless && homeless.length < error.errors.length && homeless.length === 0
+        ? h('p', { class: 'note bad', role: 'alert' }, 'The service refused this: see the fields that are marked.')
+        : problem(error));
+      button.disabled = false;
+    }
+  }
+}
+
+/** What an accuracy stands in the place of. */
+function withoutKnobs(request) {
+  const { budget, integration = {}, ...rest } = request;
+  const { scheme, kept_modes, steps_per_revolution, ...kept } = integration;
+  const next = { ...rest, modes_per_speed: 'auto' };
+  if (Object.keys(kept).length > 0) next.integration = kept;
+  return next;
+}
+
+/** A choice of the model, where none is given. */
+export async function chooseModel(place, go, signal) {
+  const { models } = await api.get('/v1/models', { query: { limit: 200 }, signal });
+  if (models.length === 0) {
+    replace(place, h('p', { class: 'note' }, 'There is no model yet: ', h('a', { href: '#/models' }, 'upload one'), ' or ', h('a', { href: '#/generate' }, 'generate one'), '.'));
+    return;
+  }
+  const id = newId('model');
+  const list = h('select', { id, value: models[0].id }, models.map((model) => h('option', { value: model.id }, `${model.label ?? model.name} (${model.id.slice(0, 8)})`)));
+  replace(place, h('div', { class: 'field' }, h('label', { for: id }, 'Model'), list), h('button', { type: 'button', class: 'main', on: { click: () => go(list.value) } }, 'Go on'));
+}

@@ -1,0 +1,61 @@
+// A new job of any kind: from a model, or as an earlier job, but ….
+
+import { api } from '../lib/api.js';
+import { h, replace } from '../lib/dom.js';
+import { nameOf } from '../lib/format.js';
+import { select } from './job/choices.js';
+import { chooseModel, requestForm } from './request/view.js';
+import { sceneOf, speedsOf } from './request/sensible.js';
+
+/** Kinds of jobs that are asked for by a form. */
+export const REQUESTS = {
+  sweep: {
+    words: 'Sweep: contact over a range of speeds', schema: 'LabelledSweepRequest', path: '/v1/sweeps', plan: '/v1/sweeps/plan', priced: true,
+    begin: (model) => ({ model: model.id, speeds: speedsOf(model), scene: sceneOf(model) }),
+  },
+  modal_analysis: {
+    words: 'Modal analysis: frequencies over speed', schema: 'LabelledModalAnalysisRequest', path: '/v1/modal-analyses', plan: '/v1/modal-analyses/plan', priced: false,
+    begin: (model) => ({ model: model.id, speeds: { ...speedsOf(model, 25), from: 0 }, lobes: 2 }),
+  },
+  study: {
+    words: 'Study: what accuracy costs', schema: 'LabelledStudyRequest', path: '/v1/studies', plan: null, priced: false,
+    begin: (model) => {
+      const { to } = speedsOf(model);
+      return { model: model.id, speeds: { values: [Math.round(0.6 * to)], unit: 'rpm' }, scene: sceneOf(model) };
+    },
+  },
+  case_study: {
+    words: 'Case study: one speed in detail', schema: 'LabelledCaseStudyRequest', path: '/v1/case-studies', plan: null, priced: false,
+    begin: (model) => ({ model: model.id, speed: { value: Math.round(0.6 * speedsOf(model).to), unit: 'rpm' }, scene: sceneOf(model) }),
+  },
+};
+
+export async function show(main, { query }, signal, first = 'sweep') {
+  const place = h('div');
+  if (query.has('as')) {
+    const job = await api.get(`/v1/jobs/${query.get('as')}`, { signal });
+    const kind = REQUESTS[job.kind];
+    if (!kind) throw new Error(`a job of kind ${job.kind} has no form`);
+    replace(main, h('h1', {}, `As ${nameOf(job)}, but …`), place);
+    const model = await api.get(`/v1/models/${job.model}`, { signal });
+    await requestForm(place, { model, kind, value: { ...job.request, model: job.model }, words: `Model: ${model.name}` }, signal);
+    return;
+  }
+  const name = query.get('kind') ?? first;
+  const kind = REQUESTS[name] ?? REQUESTS.sweep;
+  const go = (changes) => {
+    const next = new URLSearchParams(query);
+    for (const [key, value] of Object.entries(changes)) next.set(key, value);
+    location.hash = `#/${first}?${next}`;
+  };
+  replace(main, h('h1', {}, first === 'study' ? 'New study' : 'New sweep'),
+    h('div', { class: 'row' }, select('Kind of job', Object.entries(REQUESTS).map(([key, one]) => [key, one.words]), name, (chosen) => go({ kind: chosen }))),
+    place);
+  if (!query.has('model')) {
+    await chooseModel(place, (model) => go({ model }), signal);
+    return;
+  }
+  const model = await api.get(`/v1/models/${query.get('model')}`, { signal });
+  const words = `Model: ${model.name}. Speeds and casing are in proportion to it (clearance ${0.2} % of the tips’ radius), to be changed; lengths are in ${model.units.length}.`;
+  await requestForm(place, { model, kind, value: kind.begin(model), words }, signal);
+}
