@@ -9,6 +9,7 @@ COPY crates/analysis/Cargo.toml crates/analysis/
 COPY crates/model/Cargo.toml crates/model/
 COPY crates/numerics/Cargo.toml crates/numerics/
 COPY crates/plot/Cargo.toml crates/plot/
+COPY crates/script/Cargo.toml crates/script/build.rs crates/script/
 COPY crates/solid/Cargo.toml crates/solid/
 COPY crates/wheel/Cargo.toml crates/wheel/
 RUN mkdir src && echo 'fn main() {}' > src/main.rs && touch src/lib.rs \

@@ -1,10 +1,11 @@
-//! Rebuilds the program when a migration changes, which `sqlx::migrate!` embeds, and tells it what it is built from.
+//! Rebuilds the program when a migration or a file of the page comes or goes, which it embeds, and tells it what it is built from.
 
 use std::path::Path;
 use std::process::Command;
 
 fn main() {
     println!("cargo:rerun-if-changed=migrations");
+    println!("cargo:rerun-if-changed=web");
     println!("cargo:rerun-if-env-changed=RUBMAP_COMMIT");
     let commit = commit().or_else(|| std::env::var("RUBMAP_COMMIT").ok().filter(|commit| !commit.is_empty()));
     tell("COMMIT", &commit.unwrap_or_else(|| "unknown".to_owned()));

@@ -7,14 +7,15 @@ use syn::visit::Visit;
 use syn::{ItemMod, ItemUse, UseTree};
 
 /// Crates of the workspace and those of its own that each may use: arrows point one way.
-const CRATES: [(&str, &[&str]); 7] = [
+const CRATES: [(&str, &[&str]); 8] = [
     ("crates/numerics", &[]),
     ("crates/wheel", &["numerics"]),
     ("crates/solid", &[]),
     ("crates/model", &["numerics", "solid", "wheel"]),
     ("crates/analysis", &["numerics", "solid", "wheel"]),
     ("crates/plot", &["analysis", "wheel"]),
-    (".", &["analysis", "model", "numerics", "plot", "solid", "wheel"]),
+    ("crates/script", &[]),
+    (".", &["analysis", "model", "numerics", "plot", "script", "solid", "wheel"]),
 ];
 
 /// What nothing below the service knows: HTTP, SQL, async, dates.

@@ -53,6 +53,7 @@ mod submit;
 mod sweeps;
 mod transport;
 mod version;
+mod web;
 mod wheel;
 
 pub use contract::Contract;

@@ -8,9 +8,10 @@ use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 
 use super::problem::{Kind, Problem};
+use super::web;
 use crate::tokens::{Principal, Scope, Tokens};
 
-/// Paths that tell nothing about anybody, for those who watch over the process.
+/// Paths that tell nothing about anybody, for those who watch over the process. The page is as open.
 const OPEN: [&str; 2] = ["/healthz", "/readyz"];
 
 /// Middleware before every handler: finds out who asks, and refuses who may not.
@@ -21,7 +22,7 @@ pub(super) async fn authenticate(
 ) -> Response {
     let principal = match tokens.0 {
         None => Principal::anybody(),
-        Some(_) if OPEN.contains(&request.uri().path()) => Principal::anybody(),
+        Some(_) if is_open(request.uri().path()) => Principal::anybody(),
         Some(tokens) => match bearer(request.headers()).and_then(|token| tokens.principal(token)) {
             Some(principal) => principal,
             None => return unauthorized(),
@@ -33,6 +34,10 @@ pub(super) async fn authenticate(
     }
     request.extensions_mut().insert(principal);
     next.run(request).await
+}
+
+fn is_open(path: &str) -> bool {
+    OPEN.contains(&path) || web::is_of_page(path)
 }
 
 fn bearer(headers: &HeaderMap) -> Option<&str> {

@@ -232,7 +232,7 @@ impl Problem {
     }
 
     /// The problem that an error answer without a body stands for.
-    fn from_status(status: StatusCode) -> Self {
+    pub(super) fn from_status(status: StatusCode) -> Self {
         let (kind, detail) = match status {
             StatusCode::NOT_FOUND => (Kind::NotFound, "no route matches this path; see /openapi.json"),
             StatusCode::METHOD_NOT_ALLOWED => {

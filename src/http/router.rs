@@ -20,7 +20,7 @@ use super::state::AppState;
 use super::{
     access, archive, body, case_studies, contract, events, extract, fields, forces, health, histories, host,
     jobs, maps, metrics, modal_analyses, models, modes, openapi, principal, problem, report, results,
-    section, spectra, stream, stress, studies, sweeps, version, wheel,
+    section, spectra, stream, stress, studies, sweeps, version, web, wheel,
 };
 
 /// The routes with their descriptions.
@@ -89,7 +89,7 @@ pub fn router(state: AppState) -> Router {
             contract::refuse_unknown_parameters,
         ));
     let (router, _) = routes().split_for_parts();
-    router.fallback(|| async { StatusCode::NOT_FOUND }).layer(layers).with_state(state)
+    router.merge(web::routes()).fallback(|| async { StatusCode::NOT_FOUND }).layer(layers).with_state(state)
 }
 
 /// What pages from `origins`, if there are any, may do: all that other clients may.

@@ -36,3 +36,4 @@ mod stress;
 mod studies;
 mod sweeps;
 mod transport;
+mod web;
