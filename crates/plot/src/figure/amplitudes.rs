@@ -1,6 +1,6 @@
 //! The amplitudes of an interaction map as cells.
 
-use super::cells::{MOST, cells, together};
+use super::cells::{cells, together};
 use super::document::Cells;
 use super::text::escaped;
 use crate::cells::Cell;
@@ -18,18 +18,19 @@ pub(super) struct Amplitudes {
 }
 
 /// The part of a map that a view shows, from the quietest to the loudest amplitude of the colours. Where there are more speeds or rows
-/// than a screen shows, neighbours are one cell with the loudest of them.
+/// than `most`, neighbours are one cell with the loudest of them.
 pub(super) fn amplitudes(
     map: &InteractionMap,
     all: &[Cell],
     view: &View,
     quietest: f64,
     axes: (&str, &str),
+    most: (usize, usize),
 ) -> Amplitudes {
     let (low, high) = view.diagram.x.values;
     let seen: Vec<&Cell> = all.iter().filter(|cell| cell.to > low && cell.from < high).collect();
-    let columns: Vec<&[&Cell]> = seen.chunks(together(seen.len(), MOST.0)).collect();
-    let (rows, bins) = rows(map, view);
+    let columns: Vec<&[&Cell]> = seen.chunks(together(seen.len(), most.0)).collect();
+    let (rows, bins) = rows(map, view, most.1);
     let row_of = |cell: &Cell| map.amplitude.get(cell.index).and_then(Option::as_ref);
     let loudest = |cell: &Cell, band: (f64, f64)| {
         let orders = (view.order(band.0, cell.rpm), view.order(band.1, cell.rpm));
@@ -75,29 +76,29 @@ pub(super) fn amplitudes(
     Amplitudes {
         indices: indices.collect(),
         trace: cells((x, y), (values, told), &words, (axes.0, axes.1, "coloraxis")),
-        thinned: thinned(together(seen.len(), MOST.0), bins),
+        thinned: thinned(together(seen.len(), most.0), bins),
     }
 }
 
 /// Rows from the lowest on: the middle and the band of each, in units of the vertical axis, and how many bins are one.
-fn rows(map: &InteractionMap, view: &View) -> (Vec<(f64, (f64, f64))>, usize) {
+fn rows(map: &InteractionMap, view: &View, most: usize) -> (Vec<(f64, (f64, f64))>, usize) {
     let (low, high) = view.diagram.y.values;
     match view.axis {
         VerticalAxis::EngineOrder => {
             // The mean is no vibration.
             let shown = |order: &&f64| **order > 0.0 && (low..=high).contains(*order);
             let orders: Vec<f64> = map.engine_orders.iter().filter(shown).copied().collect();
-            let bins = together(orders.len(), MOST.1);
+            let bins = together(orders.len(), most);
             let row =
                 |bins: &[f64]| (0.5 * (bins[0] + bins[bins.len() - 1]), (bins[0], bins[bins.len() - 1]));
             (orders.chunks(bins).map(row).collect(), bins)
         }
         VerticalAxis::Frequency => {
-            let step = (high - low) / MOST.1 as f64;
+            let step = (high - low) / most as f64;
             let row = |i: usize| {
                 (low + step * (i as f64 + 0.5), (low + step * i as f64, low + step * (i + 1) as f64))
             };
-            ((0..MOST.1).map(row).collect(), 1)
+            ((0..most).map(row).collect(), 1)
         }
     }
 }

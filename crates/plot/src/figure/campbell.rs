@@ -20,13 +20,13 @@ pub fn campbell(campbell: &Campbell) -> Figure {
         .map(|(found, _)| ((rpm(found.speed_rad_s), found.frequency_hz), linear_words(found)));
     let driven = drawing::driven(campbell, &diagram)
         .map(|(found, _)| ((rpm(found.speed_rad_s), found.frequency_hz), driven_words(found)));
-    let driven_name = format!("driven, k ≤ {HIGHEST_ORDER}: (i, j)");
+    let driven_name = format!("driven, k ≤ {HIGHEST_ORDER} (i, j)");
     let rings = (MarkerSymbol::CircleOpen, 10, NEUTRAL);
     Figure::new("campbell", "Campbell diagram", &drawing::words(campbell))
         .high(600)
         .with_all(rays(campbell, drawing::rays(campbell, &diagram)))
         .with_all(curves(harmonics, drawing::curves(campbell)))
-        .with_all(marks("linear criterion (i, j, n)", linear, rings))
+        .with_all(marks("linear (i, j, n)", linear, rings))
         .with_all(marks(&driven_name, driven, (MarkerSymbol::Diamond, 10, WARNING)))
         .axis("xaxis", axis("rotational speed Ω, rpm").range(ends(diagram.x.values)))
         .axis("yaxis", axis("natural frequency in the rotating frame, Hz").range(ends(diagram.y.values)))

@@ -6,7 +6,7 @@ use plotly::layout::Axis;
 use serde_json::json;
 
 use super::amplitudes::amplitudes;
-use super::cells::logarithmic;
+use super::cells::{MOST, logarithmic};
 use super::document::{Figure, axis};
 use super::level;
 use super::marks::{line, marks, silent, strokes, words};
@@ -18,6 +18,9 @@ use crate::marks::{critical_words, driven_words, known_to, linear_words};
 use crate::window::Window;
 use crate::{heat, interaction_map as drawing, validity};
 use rubmap_analysis::result::{Campbell, CriticalSpeed, CriticalSpeeds, InteractionMap, StiffeningVerdict};
+
+/// Colour of the linear criterion's crossings, which is seen on all amplitudes.
+const LINEAR: &str = "#ff77cc";
 
 /// Pixels of height.
 const HEIGHT: usize = 760;
@@ -42,7 +45,7 @@ pub fn interaction_map(
     let view = View::new(map, &cells, campbell, axis_upwards, &window, ((0.0, 0.0), (1.0, 1.0)));
     let loudest = heat::loudest(map, &window);
     let scale = loudest.map_or((QUIETEST, 1.0), |loudest| (QUIETEST * loudest, loudest));
-    let shown = amplitudes(map, &cells, &view, scale.0, ("x", "y"));
+    let shown = amplitudes(map, &cells, &view, scale.0, ("x", "y"), MOST);
     let unit = map.sensor.unit(&map.units);
     let paragraphs: Vec<String> = [drawing::words(map)]
         .into_iter()
@@ -106,7 +109,7 @@ pub(super) fn engine_orders(map: &InteractionMap, view: &View) -> Vec<Box<Scatte
     let mut traces = Vec::new();
     for (name, lines, pen) in [
         (other_words, &others, ("#b8b8b8", DashType::Dot, 1.0)),
-        ("multiples of the lobe count", &excited, ("#d0d0d0", DashType::Solid, 1.0)),
+        ("engine orders of lobes", &excited, ("#d0d0d0", DashType::Solid, 1.0)),
     ] {
         if lines.is_empty() {
             continue;
@@ -133,7 +136,7 @@ fn natural(campbell: &Campbell, view: &View) -> Vec<Box<Scatter<f64, f64>>> {
         let places = lines.clone().flat_map(|line| line.places.iter().copied().chain([None]));
         let told = lines.flat_map(|line| vec![line.words(); line.places.len() + 1]).collect();
         let pen = (colour(i, harmonics), dash(i), 1.3);
-        words(line(&format!("natural frequencies, nodal diameter {i}"), places, (&pen.0, pen.1, pen.2)), told)
+        words(line(&format!("nodal diameter {i}"), places, (&pen.0, pen.1, pen.2)), told)
     };
     (0..harmonics).map(of).collect()
 }
@@ -152,9 +155,8 @@ fn crossings(critical: &CriticalSpeeds, view: &View) -> Vec<Box<Scatter<f64, f64
     let driven = critical.driven_crossings.iter().filter_map(|crossing| {
         Some((place(crossing.speed_rad_s, crossing.engine_order)?, driven_words(crossing)))
     });
-    let rings =
-        marks("linear criterion (i, j, n) at k = i·n", linear, (MarkerSymbol::CircleOpen, 10, "#ffffff"));
-    let diamonds = marks("driven by the lobes, (i, j)", driven, (MarkerSymbol::Diamond, 9, DRIVEN));
+    let rings = marks("linear (i, j, n)", linear, (MarkerSymbol::CircleOpen, 10, LINEAR));
+    let diamonds = marks("driven (i, j)", driven, (MarkerSymbol::Diamond, 9, DRIVEN));
     rings.into_iter().chain(diamonds).collect()
 }
 
@@ -162,10 +164,9 @@ fn crossings(critical: &CriticalSpeeds, view: &View) -> Vec<Box<Scatter<f64, f64
 fn critical_speeds(critical: &CriticalSpeeds, view: &View, by: LevelColour) -> Vec<Box<Scatter<f64, f64>>> {
     let said = by == LevelColour::Utilisation;
     let mut traces = Vec::new();
-    for (resolved, name, dash) in [
-        (true, "critical speed", DashType::Dash),
-        (false, "critical speed, peak not resolved", DashType::Dot),
-    ] {
+    for (resolved, name, dash) in
+        [(true, "critical speed", DashType::Dash), (false, "critical, not resolved", DashType::Dot)]
+    {
         let of = |speed: &&CriticalSpeed| {
             speed.resolved == resolved && view.diagram.x.contains(rpm(speed.speed_rad_s))
         };

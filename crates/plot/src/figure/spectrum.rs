@@ -107,7 +107,7 @@ fn by_diameter(lines: &Lines, shown: &Shown, point: &Point, unit: &str) -> Vec<B
         });
         let colour = colour(i, lines.harmonics);
         let name =
-            if forward { format!("nodal diameter {i}") } else { format!("nodal diameter {i}, |k − n|") };
+            if forward { format!("nodal diameter {i}") } else { format!("nodal diameter {i}, |k−n|") };
         let trace = marks(&name, told, (symbol(i, forward), 8, &colour))?;
         Some(stems(trace, heights, shown.range.0, &colour))
     };
