@@ -11,6 +11,7 @@ mod checkpoints;
 mod errors;
 mod faults;
 mod fields;
+mod figures;
 mod formats;
 mod generation;
 mod idempotency;

@@ -3,7 +3,7 @@
 use plotly::Scatter;
 use plotly::common::{DashType, MarkerSymbol, Mode, Position};
 
-use super::document::{Figure, axis};
+use super::document::{Figure, axis, speeds};
 use super::interaction_map::ends;
 use super::marks::{line, marks, silent, strokes, words};
 use super::palette::{NEUTRAL, WARNING, colour, dash};
@@ -28,7 +28,7 @@ pub fn campbell(campbell: &Campbell) -> Figure {
         .with_all(curves(harmonics, drawing::curves(campbell)))
         .with_all(marks("linear (i, j, n)", linear, rings))
         .with_all(marks(&driven_name, driven, (MarkerSymbol::Diamond, 10, WARNING)))
-        .axis("xaxis", axis("rotational speed Ω, rpm").range(ends(diagram.x.values)))
+        .axis("xaxis", speeds().range(ends(diagram.x.values)))
         .axis("yaxis", axis("natural frequency in the rotating frame, Hz").range(ends(diagram.y.values)))
         .meta("units", serde_json::json!({"x": "rpm", "y": "Hz"}))
         .meta("speeds_rpm", campbell.speeds_rad_s.iter().map(|speed| rpm(*speed)).collect::<Vec<f64>>())

@@ -3,7 +3,7 @@
 use plotly::Scatter;
 use plotly::common::{DashType, MarkerSymbol};
 
-use super::document::{Figure, axis};
+use super::document::{Figure, axis, speeds};
 use super::interaction_map::ends;
 use super::marks::{line, marks, words};
 use super::palette::{NEUTRAL, colour};
@@ -27,7 +27,7 @@ pub fn campbell_fixed_frame(campbell: &Campbell) -> Figure {
         .high(640)
         .with_all(traces(campbell, &curves))
         .with_all(marks("stands still: (i, j, n)", standing, (MarkerSymbol::CircleOpen, 10, NEUTRAL)))
-        .axis("xaxis", axis("rotational speed Ω, rpm").range(ends(diagram.x.values)))
+        .axis("xaxis", speeds().range(ends(diagram.x.values)))
         .axis("yaxis", axis("frequency in the fixed frame, Hz").range(ends(diagram.y.values)))
         .meta("units", serde_json::json!({"x": "rpm", "y": "Hz"}))
         .meta("speeds_rpm", campbell.speeds_rad_s.iter().map(|speed| rpm(*speed)).collect::<Vec<f64>>())

@@ -5,7 +5,7 @@ use plotly::common::{DashType, ErrorData, ErrorType, MarkerSymbol};
 use plotly::layout::RangeMode;
 use serde_json::json;
 
-use super::document::{Figure, axis};
+use super::document::{Figure, axis, speeds};
 use super::marks::{line, marks, strokes, words};
 use super::palette::{CURVE, NEUTRAL, WARNING};
 use crate::cells::rpm;
@@ -37,7 +37,7 @@ pub fn critical_speeds(critical: &CriticalSpeeds) -> Figure {
             marks(validity::words(verdict), told, (MarkerSymbol::CircleOpen, 16, WARNING))
         }))
         .with_all(crossings(&rows))
-        .axis("xaxis", axis("rotational speed Ω, rpm").anchor("y2"))
+        .axis("xaxis", speeds().anchor("y2"))
         .axis(
             "yaxis",
             axis(&format!("level at the peak, {unit} rms"))

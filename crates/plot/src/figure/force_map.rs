@@ -5,7 +5,7 @@ use plotly::layout::RangeMode;
 use serde_json::json;
 
 use super::cells::{MOST, cells as coloured, linear, together};
-use super::document::{Figure, axis};
+use super::document::{Figure, axis, speeds};
 use super::interaction_map::ends;
 use super::marks::{line, silent, words};
 use super::palette::{CURVE, WARNING, colour, dash};
@@ -47,12 +47,12 @@ pub fn force_map(map: &ForceMap, quantity: ForceQuantity) -> Figure {
     let mut paragraphs = vec![drawing::words(map)];
     paragraphs.extend((one > 1).then(|| format!("{one} speeds are one cell with the largest")));
     let scale = (0.0, if most > 0.0 { most } else { 1.0 });
-    let speeds = extent(&cells);
+    let range = extent(&cells);
     Figure::new("forces", &drawing::title(quantity), &paragraphs)
         .high(640)
         .with(coloured((x, y), (values, data), &words, ("x", "y", "coloraxis")))
         .with_all(curves(map, &cells, quantity))
-        .axis("xaxis", axis("rotational speed Ω, rpm").range(ends(speeds)).anchor("y"))
+        .axis("xaxis", speeds().range(ends(range)).anchor("y"))
         .axis("yaxis", axis(NODES).domain(&[0.0, 0.58]).range(vec![-0.5, nodes.max(1) as f64 - 0.5]))
         .axis(
             "yaxis2",

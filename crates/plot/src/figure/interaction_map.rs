@@ -7,7 +7,7 @@ use serde_json::json;
 
 use super::amplitudes::amplitudes;
 use super::cells::{MOST, logarithmic};
-use super::document::{Figure, axis};
+use super::document::{Figure, axis, speeds};
 use super::level;
 use super::marks::{line, marks, silent, strokes, words};
 use super::palette::{WARNING, colour, dash};
@@ -53,11 +53,12 @@ pub fn interaction_map(
         .chain(validity::without_thickness(map).then(|| validity::WITHOUT_THICKNESS.to_owned()))
         .chain(shown.thinned.clone())
         .collect();
-    let x = axis("rotational speed Ω, rpm").range(ends(view.diagram.x.values)).anchor("y");
+    let x = speeds().range(ends(view.diagram.x.values)).anchor("y");
     let seen = cells.iter().filter(|cell| view.diagram.x.contains(cell.rpm)).copied();
     let seen: Vec<Cell> = seen.collect();
     Figure::new("interaction_map", &drawing::title(map), &paragraphs)
         .high(HEIGHT)
+        .names_wide(132)
         .with(shown.trace)
         .with_all(engine_orders(map, &view))
         .with_all(campbell.map(|campbell| natural(campbell, &view)).into_iter().flatten())

@@ -51,8 +51,12 @@ pub fn map_sheet(maps: &[InteractionMap], window: Window, level_colour: LevelCol
         let across = [left, wide * (column + 1) as f64 - if column + 1 < columns { 0.02 } else { 0.0 }];
         let along = [foot + if row + 1 < rows { 0.25 * high } else { 0.0 }, foot + 0.92 * high];
         let below = index + columns >= maps.len();
-        let title = if below { "rotational speed Ω, rpm" } else { "" };
-        let mut x_axis = axis(title).range(ends(view.diagram.x.values)).domain(&across).anchor(&y);
+        let mut x_axis = axis(if below { "Ω, rpm" } else { "" })
+            .n_ticks(4)
+            .tick_angle(0.0)
+            .range(ends(view.diagram.x.values))
+            .domain(&across)
+            .anchor(&y);
         let mut y_axis = upwards(&view).domain(&along).anchor(&x);
         if column > 0 {
             y_axis = y_axis.title("");

@@ -11,6 +11,9 @@ use crate::outline::outline;
 use crate::section::{self as drawing, Drawing, NO_NODES, SectionView, project};
 use rubmap_analysis::result::{NodeKind, SectorGeometry};
 
+/// What the tips' line is called, and its nodes.
+const LINE: &str = "contact line";
+
 type Trace = Box<Scatter<f64, f64>>;
 
 /// The nodes of the sector, of those that cover each other one, at the same scale in both directions; across the axis with the contact line
@@ -32,7 +35,7 @@ pub fn section(geometry: &SectorGeometry, view: SectionView) -> Figure {
             let told = drawn.seen(look.kind).into_iter().map(|node| {
                 (project(view, node.position), format!("node {}, {}", node.id, look.words(view)))
             });
-            marks(look.words(view), told, style(look.kind))
+            Some(marks(look.words(view), told, style(look.kind))?.legend_group(look.words(view)))
         }))
         .with_all(contact_line(geometry, view))
         .with_all(drawn.wall().map(|wall| {
@@ -71,6 +74,9 @@ fn contact_line(geometry: &SectorGeometry, view: SectionView) -> Option<Trace> {
         });
         format!("contact node {k}: node {}{}", place.id, clearance.unwrap_or_default())
     });
-    let trace = line("contact line", places, (WARNING, DashType::Solid, 2.2));
-    (!geometry.contact.is_empty()).then(|| super::marks::words(trace, told.collect()))
+    let trace = line(LINE, places, (WARNING, DashType::Solid, 2.2));
+    let trace = super::marks::words(trace, told.collect()).legend_group(LINE);
+    // The nodes on it have its name already, if they are known.
+    let named = geometry.nodes.iter().any(|node| node.kind == NodeKind::Contact);
+    (!geometry.contact.is_empty()).then(|| trace.show_legend(!named))
 }

@@ -101,7 +101,8 @@ fn runs(view: &View, scheme: SchemeChoice) -> Option<Trace> {
     let marker = Marker::new().symbol(mark(scheme)).size_array(sizes).color(scheme::colour(scheme));
     let steps = of.iter().map(|drawn| label(drawn.run.setting.steps_per_revolution.into(), 0)).collect();
     let trace = trace.marker(marker).mode(Mode::MarkersText).text_array(steps);
-    let trace = trace.text_position(plotly::common::Position::TopRight).legend_group(name);
+    let trace =
+        trace.text_position(plotly::common::Position::TopRight).legend_group(name).clip_on_axis(false);
     let spreads: Vec<f64> = of.iter().map(|drawn| drawn.spread.unwrap_or(f64::NAN)).collect();
     Some(match view.bars {
         true => trace.error_y(ErrorData::new(ErrorType::Data).array(spreads).color(scheme::colour(scheme))),
