@@ -8,6 +8,9 @@ use crate::heat::loudest_within;
 use crate::map_view::{VerticalAxis, View};
 use rubmap_analysis::result::InteractionMap;
 
+/// Least height of a spectral line, of the height of the map: a bin alone would be a pixel high, below the line of its engine order.
+const LINE_HEIGHT: f64 = 0.012;
+
 /// Speeds and engine orders or frequencies that are one cell, and which speed a column tells of.
 pub(super) struct Amplitudes {
     pub(super) trace: Box<Cells>,
@@ -18,7 +21,8 @@ pub(super) struct Amplitudes {
 }
 
 /// The part of a map that a view shows, from the quietest to the loudest amplitude of the colours. Where there are more speeds or rows
-/// than `most`, neighbours are one cell with the loudest of them.
+/// than `most`, neighbours are one cell with the loudest of them; spectral lines have a
+/// least height.
 pub(super) fn amplitudes(
     map: &InteractionMap,
     all: &[Cell],
@@ -32,7 +36,10 @@ pub(super) fn amplitudes(
     let columns: Vec<&[&Cell]> = seen.chunks(together(seen.len(), most.0)).collect();
     let (rows, bins) = rows(map, view, most.1);
     let row_of = |cell: &Cell| map.amplitude.get(cell.index).and_then(Option::as_ref);
-    let loudest = |cell: &Cell, band: (f64, f64)| {
+    let height = view.diagram.y.values.1 - view.diagram.y.values.0;
+    let loudest = |cell: &Cell, (low, high): (f64, f64)| {
+        let wider = (0.5 * (LINE_HEIGHT * height - (high - low))).max(0.0);
+        let band = (low - wider, high + wider);
         let orders = (view.order(band.0, cell.rpm), view.order(band.1, cell.rpm));
         loudest_within(&map.engine_orders, row_of(cell)?, orders)
     };

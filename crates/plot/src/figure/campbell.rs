@@ -65,7 +65,8 @@ fn rays(campbell: &Campbell, rays: Vec<Ray>) -> Vec<Box<Scatter<f64, f64>>> {
     }
     if !excited.is_empty() {
         let lines = strokes(excited.iter().map(|ray| ray.ends));
-        let numbers = excited.iter().flat_map(|ray| [String::new(), ray.order.to_string(), String::new()]);
+        let number = |ray: &Ray| if ray.numbered { ray.order.to_string() } else { String::new() };
+        let numbers = excited.iter().flat_map(|ray| [String::new(), number(ray), String::new()]);
         let trace = silent(&drawing::excited_words(campbell), lines, (NEUTRAL, DashType::Solid, 1.0));
         traces.push(
             trace.mode(Mode::LinesText).text_array(numbers.collect()).text_position(Position::BottomLeft),

@@ -76,7 +76,7 @@ impl Figure {
         // Below all, as wide as the figure.
         let legend = json!({
             "orientation": Orientation::Horizontal, "x": 0, "xanchor": "left", "xref": "container", "y": 0.0, "yanchor": "bottom",
-            "yref": "container", "font": {"size": 11},
+            "yref": "container", "font": {"size": 11}, "tracegroupgap": 0,
         });
         let more = [("title", title), ("legend", legend), ("meta", json!({"kind": kind}))];
         let layout = Layout::new()
@@ -112,14 +112,6 @@ impl Figure {
     /// With an attribute of the layout.
     pub(super) fn attribute(mut self, name: &str, value: Value) -> Self {
         self.layout.more.insert(name.to_owned(), value);
-        self
-    }
-
-    /// With names in columns of the legend so many pixels wide.
-    pub(super) fn names_wide(mut self, pixels: usize) -> Self {
-        if let Some(legend) = self.layout.more.get_mut("legend") {
-            legend["entrywidth"] = json!(pixels);
-        }
         self
     }
 

@@ -58,7 +58,6 @@ pub fn interaction_map(
     let seen: Vec<Cell> = seen.collect();
     Figure::new("interaction_map", &drawing::title(map), &paragraphs)
         .high(HEIGHT)
-        .names_wide(132)
         .with(shown.trace)
         .with_all(engine_orders(map, &view))
         .with_all(campbell.map(|campbell| natural(campbell, &view)).into_iter().flatten())
@@ -109,8 +108,8 @@ pub(super) fn engine_orders(map: &InteractionMap, view: &View) -> Vec<Box<Scatte
     let other_words = if lobes(map) > 1 { "other engine orders" } else { "engine orders" };
     let mut traces = Vec::new();
     for (name, lines, pen) in [
-        (other_words, &others, ("#b8b8b8", DashType::Dot, 1.0)),
-        ("engine orders of lobes", &excited, ("#d0d0d0", DashType::Solid, 1.0)),
+        (other_words, &others, ("rgba(176, 176, 176, 0.6)", DashType::Dot, 1.0)),
+        ("engine orders of lobes", &excited, ("rgba(176, 176, 176, 0.45)", DashType::Solid, 1.0)),
     ] {
         if lines.is_empty() {
             continue;

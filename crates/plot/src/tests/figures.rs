@@ -1,9 +1,12 @@
 //! Figures: their numbers are those of the results, and they leave to the page what is the page's.
 
+use std::path::{Path, PathBuf};
+
 use serde_json::{Value, json};
 
 use super::drawings::{credentials, mm};
 use super::fixtures::{contact, recorded, sector, spectra, worn};
+use super::gallery::read;
 use super::stresses::{of_sweep, stressed_critical, stressed_map};
 use super::studies::{RUNS, first_revolutions, study};
 use super::{SPEEDS_RPM, critical, map, modes, waves};
@@ -11,7 +14,7 @@ use crate::figure::{self, Figure};
 use crate::{
     ForceQuantity, Frame, HaighColour, HistoryQuantity, LevelColour, SectionView, VerticalAxis, Window,
 };
-use rubmap_analysis::result::Quantity;
+use rubmap_analysis::result::{Campbell, CriticalSpeeds, InteractionMap, Quantity};
 
 /// One of each kind, and what is particular.
 pub(super) fn all() -> Vec<(String, Figure)> {
@@ -88,12 +91,34 @@ fn numbers(value: &Value) -> Vec<f64> {
     value.as_array().unwrap().iter().map(|value| value.as_f64().unwrap_or(f64::NAN)).collect()
 }
 
+/// Figures of what `rubmap demo` left, if it did.
+fn demo(folder: &Path) -> Vec<(String, Figure)> {
+    let (Some(map), Some(critical), Some(modes)) = (
+        read::<InteractionMap>(&folder.join("interaction-map.json")),
+        read::<CriticalSpeeds>(&folder.join("critical-speeds.json")),
+        read::<Campbell>(&folder.join("campbell.json")),
+    ) else {
+        return Vec::new();
+    };
+    let show = |axis| {
+        let (critical, whole) = (Some(&critical), Window::default());
+        figure::interaction_map(&map, critical, Some(&modes), axis, whole, LevelColour::Plain)
+    };
+    vec![
+        ("demo-map".to_owned(), show(VerticalAxis::EngineOrder)),
+        ("demo-map-frequency".to_owned(), show(VerticalAxis::Frequency)),
+        ("demo-critical-speeds".to_owned(), figure::critical_speeds(&critical)),
+        ("demo-campbell".to_owned(), figure::campbell(&modes)),
+        ("demo-campbell-fixed-frame".to_owned(), figure::campbell_fixed_frame(&modes)),
+    ]
+}
+
 #[test]
 #[ignore = "leaves files to be looked at"]
 fn gallery_of_figures() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../target/gallery");
     std::fs::create_dir_all(folder).unwrap();
-    for (name, figure) in all() {
+    for (name, figure) in all().into_iter().chain(demo(&PathBuf::from(folder).join("demo"))) {
         std::fs::write(format!("{folder}/{name}.plotly.json"), serde_json::to_vec(&figure).unwrap()).unwrap();
     }
 }
