@@ -5,7 +5,6 @@ use std::io::IsTerminal;
 use std::process::ExitCode;
 
 use anyhow::Context;
-use clap::Parser;
 use tracing_subscriber::filter::Targets;
 use tracing_subscriber::layer::SubscriberExt;
 use tracing_subscriber::util::SubscriberInitExt;
@@ -16,7 +15,7 @@ use tracing_subscriber::util::SubscriberInitExt;
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
 fn main() -> anyhow::Result<ExitCode> {
-    let cli = rubmap::cli::Cli::parse();
+    let cli = rubmap::cli::Cli::of_arguments();
     let wanted = match std::env::var("RUST_LOG") {
         Err(error @ VarError::NotUnicode(_)) => return Err(error).context("RUST_LOG"),
         wanted => wanted.unwrap_or_default(),

@@ -6,8 +6,9 @@ use std::process::ExitCode;
 use clap::Args;
 use serde_json::{Value, json};
 
-use super::session::client::Client;
-use super::session::{Session, impeller, progress, request, save, upload};
+use super::client::Client;
+use super::session::{Session, impeller, save, upload};
+use super::{progress, request};
 use crate::analysis::result::SpeedHistories;
 use crate::plot::{self, HistoryQuantity};
 

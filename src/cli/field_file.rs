@@ -7,7 +7,7 @@ use anyhow::{Context, bail};
 use clap::Args;
 use zip::ZipArchive;
 
-use super::session::client::Client;
+use super::client::Client;
 use super::session::save;
 
 /// Which part of the wheel, and where it goes.

@@ -7,9 +7,10 @@ use anyhow::bail;
 use clap::Args;
 use serde_json::{Value, json};
 
+use super::client::Client;
 use super::field_file::{FieldFileArgs, check};
-use super::session::client::Client;
-use super::session::{Session, progress, request, upload};
+use super::session::{Session, upload};
+use super::{progress, request};
 
 /// Which field of which run.
 #[derive(Debug, Args)]

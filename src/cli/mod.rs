@@ -1,25 +1,36 @@
 //! The command line: one file per command.
 
 mod case;
+mod client;
 mod demo;
+mod ending;
 mod field_file;
 mod fields;
 pub mod generate;
+mod groups;
 mod import;
 mod keeping;
+mod man;
 mod modes;
+mod progress;
 mod repeat;
 mod report;
+mod request;
 mod serve;
 mod session;
+mod shell;
 mod signals;
+mod size;
 mod speed;
+mod stdout;
 mod study;
+mod terminal;
 mod token;
+mod verb;
 
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::config::Config;
 
@@ -33,6 +44,40 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    /// Send a model package to the service.
+    #[command(after_help = ending::CODES)]
+    Upload(shell::UploadArgs),
+    /// Say what a request would do and cost.
+    #[command(after_help = ending::CODES)]
+    Plan(shell::PlanArgs),
+    /// Ask for a sweep: contact over a range of speeds.
+    #[command(after_help = ending::CODES)]
+    Sweep(shell::SweepArgs),
+    /// Ask for a job of any kind.
+    #[command(after_help = ending::CODES)]
+    Submit(shell::SubmitArgs),
+    /// Follow jobs to their ends.
+    #[command(after_help = ending::CODES)]
+    Watch(shell::WatchArgs),
+    /// List jobs or models.
+    #[command(after_help = ending::CODES)]
+    Ls(shell::LsArgs),
+    /// Download a result, in any of its forms.
+    #[command(after_help = ending::CODES)]
+    Get(shell::GetArgs),
+    /// Open the service's page in a browser, and print its address.
+    #[command(after_help = ending::CODES)]
+    Open(shell::OpenArgs),
+    /// Cancel jobs; speeds that are finished stay readable.
+    #[command(after_help = ending::CODES)]
+    Cancel(shell::CancelArgs),
+    /// Delete jobs that have ended, or models.
+    #[command(after_help = ending::CODES)]
+    Rm(shell::RmArgs),
+    /// Write what a shell completes commands by.
+    Completions(man::CompletionsArgs),
+    /// Write pages for `man`.
+    Man(man::ManArgs),
     /// Show it all on a generated impeller: upload, sweep, map, critical speeds.
     Demo(demo::DemoArgs),
     /// Show what accuracy costs in time: errors of many settings against a finer one.
@@ -45,7 +90,8 @@ enum Command {
     Modes(modes::ModesArgs),
     /// Compute the job of an archive again and compare bit by bit.
     Repeat(repeat::RepeatArgs),
-    /// Write a job of a running service as one page of HTML.
+    /// Write a job as one page of HTML.
+    #[command(after_help = ending::CODES)]
     Report(report::ReportArgs),
     /// Run the HTTP service.
     Serve(Config),
@@ -64,26 +110,39 @@ enum Command {
 }
 
 impl Cli {
+    /// What the command line says; ends the program where it says nothing that makes sense, or asks for help.
+    #[must_use]
+    pub fn of_arguments() -> Self {
+        let matches = groups::grouped(Self::command()).get_matches();
+        Self::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
+    }
+
     /// What is logged unless `RUST_LOG` says otherwise: beside a progress bar only what went wrong.
+    #[must_use]
     pub fn default_log(&self) -> &'static str {
         match self.command {
-            Command::Demo(_)
-            | Command::Study(_)
-            | Command::Case(_)
-            | Command::Fields(_)
-            | Command::Modes(_)
-            | Command::Repeat(_)
-            | Command::Report(_)
-            | Command::Backup(_)
-            | Command::Check(_)
-            | Command::Token(_) => "warn",
             Command::Serve(_) | Command::Generate(_) | Command::Import(_) => "info,apalis_core=warn",
+            _ => "warn",
         }
     }
 
     /// Does what the command line says.
+    ///
+    /// # Errors
+    /// What the command could not do.
     pub fn run(self) -> anyhow::Result<ExitCode> {
         match self.command {
+            Command::Upload(args) => return verb::run(&args),
+            Command::Plan(args) => return verb::run(&args),
+            Command::Sweep(args) => return verb::run(&args),
+            Command::Submit(args) => return verb::run(&args),
+            Command::Watch(args) => return verb::run(&args),
+            Command::Ls(args) => return verb::run(&args),
+            Command::Get(args) => return verb::run(&args),
+            Command::Open(args) => return verb::run(&args),
+            Command::Cancel(args) => return verb::run(&args),
+            Command::Rm(args) => return verb::run(&args),
+            Command::Report(args) => return verb::run(&args),
             Command::Demo(args) => return demo::run(&args),
             Command::Study(args) => return study::run(&args),
             Command::Case(args) => return case::run(&args),
@@ -91,12 +150,13 @@ impl Cli {
             Command::Modes(args) => return modes::run(&args),
             Command::Repeat(args) => return repeat::run(&args),
             Command::Check(args) => return keeping::check(args),
-            Command::Report(args) => report::report(args)?,
             Command::Serve(config) => serve::run(config)?,
             Command::Token(command) => token::token(command)?,
             Command::Backup(args) => keeping::backup(args)?,
             Command::Generate(args) => generate::generate(args)?,
             Command::Import(command) => import::import(command)?,
+            Command::Completions(args) => man::completions(&args, Self::command())?,
+            Command::Man(args) => man::man(&args, Self::command())?,
         }
         Ok(ExitCode::SUCCESS)
     }

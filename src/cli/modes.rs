@@ -7,9 +7,10 @@ use clap::Args;
 use serde::Deserialize;
 use serde_json::json;
 
+use super::client::Client;
 use super::field_file::{FieldFileArgs, check};
-use super::session::client::Client;
-use super::session::{Session, progress, upload};
+use super::progress;
+use super::session::{Session, upload};
 use super::speed::speed;
 
 /// Which mode of which package.

@@ -4,7 +4,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::session::client::Client;
+use super::client::{Client, ServerArgs};
+use super::stdout::print;
+use super::verb::Verb;
 use crate::store::jobs::JobId;
 
 /// Which job, and where it is.
@@ -13,32 +15,27 @@ pub(super) struct ReportArgs {
     /// Id of a sweep or a modal analysis
     #[arg(value_parser = job)]
     job: JobId,
-    /// The service that has it
-    #[arg(long, env = "RUBMAP_SERVER", default_value = "http://127.0.0.1:8080")]
-    server: String,
-    /// Token, if the service wants one
-    #[arg(long, env = "RUBMAP_TOKEN", hide_env_values = true)]
-    token: Option<String>,
     /// Sensor of the map, counted from 0
     #[arg(long, default_value_t = 0)]
     sensor: u32,
     /// File of the page [default: report-JOB.html]
     #[arg(long)]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    server: ServerArgs,
 }
 
-/// Writes the page.
-///
-/// # Errors
-/// A service that does not answer or refuses, a file that cannot be written.
-pub(super) fn report(args: ReportArgs) -> anyhow::Result<()> {
-    let ReportArgs { job, server, token, sensor, out } = args;
-    let out = out.unwrap_or_else(|| PathBuf::from(format!("report-{job}.html")));
-    let client = Client::new(server.trim_end_matches('/').to_owned()).with_token(token);
-    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
-    runtime.block_on(client.save(&format!("/v1/jobs/{job}/report?sensor={sensor}"), &out))?;
-    println!("{}", out.display());
-    Ok(())
+impl Verb for ReportArgs {
+    fn server(&self) -> &ServerArgs {
+        &self.server
+    }
+
+    async fn play(&self, client: &Client) -> anyhow::Result<()> {
+        let Self { job, sensor, .. } = self;
+        let out = self.out.clone().unwrap_or_else(|| PathBuf::from(format!("report-{job}.html")));
+        client.save(&format!("/v1/jobs/{job}/report?sensor={sensor}"), &out).await?;
+        print(&out.display().to_string())
+    }
 }
 
 fn job(text: &str) -> Result<JobId, String> {

@@ -10,8 +10,9 @@ mod sensible;
 use std::path::Path;
 use std::process::ExitCode;
 
-use super::session::client::Client;
-use super::session::{Session, impeller, progress, upload};
+use super::client::Client;
+use super::progress;
+use super::session::{Session, impeller, upload};
 use super::study;
 
 pub(super) use args::DemoArgs;

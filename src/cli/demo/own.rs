@@ -12,8 +12,9 @@ use super::{report, results};
 use crate::analysis::resolved::ResolvedSweep;
 use crate::analysis::result::{Campbell, SweepPlan};
 use crate::analysis::run::ModelFacts;
-use crate::cli::session::client::{Client, Job};
-use crate::cli::session::{Session, progress, request, save, upload};
+use crate::cli::client::{Answer, Client, Job};
+use crate::cli::session::{Session, save, upload};
+use crate::cli::{progress, request};
 
 /// Where the request of the sweep is left.
 const REQUEST: &str = "sweep-request.json";
@@ -83,7 +84,7 @@ async fn play(args: &DemoArgs, client: &Client, package: &Path, given: Option<Va
     Ok(())
 }
 
-async fn post(client: &Client, path: &str, body: &Value, name: &str) -> anyhow::Result<Job> {
+async fn post(client: &Client, path: &str, body: &Value, name: &str) -> anyhow::Result<Answer<Job>> {
     let job = client.post_job(path, body).await?;
     progress::follow(client, &job, name).await
 }

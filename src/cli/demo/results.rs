@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::analysis::result::{Campbell, CriticalSpeeds, InteractionMap};
-use crate::cli::session::client::{Client, Job};
+use crate::cli::client::{Client, Job};
 use crate::cli::session::save;
 use crate::plot::{self, LevelColour, VerticalAxis, Window};
 

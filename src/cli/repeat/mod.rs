@@ -13,8 +13,9 @@ use serde_json::Value;
 
 use self::archive::Archive;
 use self::compare::{Comparison, compare};
-use super::session::client::Client;
-use super::session::{Session, progress, upload};
+use super::client::Client;
+use super::progress;
+use super::session::{Session, upload};
 use crate::analysis::run::{REVISION, vectors};
 use crate::http::archive::manifest::{PACKAGE, REQUEST};
 use crate::store::jobs::JobKind;

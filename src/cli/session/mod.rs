@@ -1,9 +1,6 @@
 //! A service in this process, and a user who works with it over HTTP: what commands that show something have in common.
 
-pub(super) mod client;
 pub(super) mod impeller;
-pub(super) mod progress;
-pub(super) mod request;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -12,7 +9,7 @@ use std::time::Instant;
 use anyhow::{Context, bail};
 use tokio_util::sync::CancellationToken;
 
-use self::client::{Client, Model};
+use super::client::{Answer, Client, Model, UploadLabels};
 use super::signals::stop_signal;
 use crate::app::App;
 use crate::config::Config;
@@ -73,7 +70,7 @@ async fn with_service(
     let stop_signal = stop_signal()?;
     let (data, workers) = (config.data.clone(), config.worker_threads());
     let app = App::build(config).await?;
-    let client = Client::new(format!("http://{}", app.addr()));
+    let client = Client::of_own_service(format!("http://{}", app.addr()))?;
     println!("service   http://{}, {workers} workers, data in {}", app.addr(), data.display());
     let stop = CancellationToken::new();
     let mut service = tokio::spawn(app.run_until_stopped(stop.clone()));
@@ -99,9 +96,9 @@ async fn with_service(
 }
 
 /// Uploads a package and says so.
-pub(super) async fn upload(client: &Client, package: &Path) -> anyhow::Result<Model> {
-    let model = client.upload(package).await?;
-    println!("model     {}{}", model.id, if model.new { "" } else { " (known from an earlier run)" });
+pub(super) async fn upload(client: &Client, package: &Path) -> anyhow::Result<Answer<Model>> {
+    let (model, new) = client.upload(package, &UploadLabels::default()).await?;
+    println!("model     {}{}", model.id, if new { "" } else { " (known from an earlier run)" });
     Ok(model)
 }
 

@@ -9,8 +9,9 @@ use std::process::ExitCode;
 use clap::Args;
 use serde_json::Value;
 
-use super::session::client::Client;
-use super::session::{Session, impeller, progress, request as bodies, save, upload};
+use super::client::Client;
+use super::session::{Session, impeller, save, upload};
+use super::{progress, request as bodies};
 use crate::analysis::result::Quantity;
 use crate::analysis::run::{Histories, WorkPrecision};
 use crate::{export, plot};

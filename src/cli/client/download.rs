@@ -1,0 +1,137 @@
+//! Downloads, however large.
+
+use std::io::{IsTerminal, Write};
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, bail};
+use reqwest::{Method, RequestBuilder, Response, header};
+use serde::de::DeserializeOwned;
+use tempfile::NamedTempFile;
+
+use super::error::ClientError;
+use super::http::Client;
+use crate::cli::stdout;
+
+/// Media types that may be shown on a terminal, beside those of text.
+const SHOWN: [&str; 2] = ["application/json", "image/svg+xml"];
+
+/// Where a download goes.
+#[derive(Debug, Clone)]
+pub(in crate::cli) enum Target {
+    /// The output stream.
+    Stdout,
+    /// A file, which is there when it is whole and not before.
+    File(PathBuf),
+}
+
+impl Client {
+    /// Downloads a result to a file, byte by byte as the service gave it, and reads it.
+    ///
+    /// # Errors
+    /// As [`Client::save`], or what is not what was expected.
+    pub(in crate::cli) async fn download<T: DeserializeOwned>(
+        &self,
+        path: &str,
+        file: &Path,
+    ) -> anyhow::Result<T> {
+        self.save(path, file).await?;
+        let body = std::fs::read(file).with_context(|| format!("cannot read {}", file.display()))?;
+        serde_json::from_slice(&body).with_context(|| format!("cannot understand {path}"))
+    }
+
+    /// Downloads to a file.
+    ///
+    /// # Errors
+    /// A [`ClientError`], or a file that cannot be written.
+    pub(in crate::cli) async fn save(&self, path: &str, file: &Path) -> anyhow::Result<()> {
+        self.fetch(|| self.request(Method::GET, path), &Target::File(file.to_owned())).await.map(drop)
+    }
+
+    /// Downloads what `path` with `query` has; returns how many bytes it is.
+    ///
+    /// # Errors
+    /// As [`Client::save`]; or bytes that are none for a terminal.
+    pub(in crate::cli) async fn get_to(
+        &self,
+        path: &str,
+        query: &[(String, String)],
+        target: &Target,
+    ) -> anyhow::Result<u64> {
+        self.fetch(|| self.request(Method::GET, path).query(query), target).await
+    }
+
+    async fn fetch(&self, request: impl Fn() -> RequestBuilder, target: &Target) -> anyhow::Result<u64> {
+        match target {
+            Target::Stdout => {
+                let response = self.patiently(|| async { self.send(request()).await }).await?;
+                if std::io::stdout().is_terminal() && !is_text(&response) {
+                    let words = "what it would print is no text: give it a file with -o";
+                    return Err(ClientError::Unfit(words.to_owned()).into());
+                }
+                self.copy(response, std::io::stdout(), stdout::failed).await
+            }
+            // A download that broke off begins again.
+            Target::File(file) => {
+                self.patiently(|| async {
+                    let response = self.send(request()).await?;
+                    self.write(response, file).await
+                })
+                .await
+            }
+        }
+    }
+
+    async fn write(&self, response: Response, file: &Path) -> anyhow::Result<u64> {
+        let failed = || format!("cannot write {}", file.display());
+        let refused = |error: std::io::Error| anyhow::Error::new(error).context(failed());
+        let (exists, is_file) = match file.metadata() {
+            Ok(facts) if facts.is_dir() => bail!("cannot write {}: it is a folder", file.display()),
+            Ok(facts) => (true, facts.is_file()),
+            Err(_) => (false, true),
+        };
+        if !is_file {
+            // A pipe or a device: nothing that could take the place of it.
+            let out = std::fs::OpenOptions::new().write(true).open(file).with_context(failed)?;
+            return self.copy(response, out, refused).await;
+        }
+        // Of a link what it leads to.
+        let place = if exists { file.canonicalize().with_context(failed)? } else { file.to_owned() };
+        let folder = place.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let part = new_file(folder).with_context(failed)?;
+        let bytes = self.copy(response, part.as_file(), refused).await?;
+        part.persist(&place).map_err(|error| refused(error.error))?;
+        Ok(bytes)
+    }
+
+    /// Copies a body; returns how many bytes it is.
+    async fn copy(
+        &self,
+        mut response: Response,
+        mut out: impl Write,
+        refused: impl Fn(std::io::Error) -> anyhow::Error,
+    ) -> anyhow::Result<u64> {
+        let mut bytes = 0;
+        loop {
+            let piece = response.chunk().await;
+            let Some(piece) = piece.map_err(|error| ClientError::unreachable(&self.server, &error))? else {
+                out.flush().map_err(&refused)?;
+                return Ok(bytes);
+            };
+            out.write_all(&piece).map_err(&refused)?;
+            bytes += piece.len() as u64;
+        }
+    }
+}
+
+/// A file of its own, readable as files are that are made here.
+fn new_file(folder: &Path) -> std::io::Result<NamedTempFile> {
+    use std::os::unix::fs::PermissionsExt;
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".rubmap-").permissions(std::fs::Permissions::from_mode(0o666)).tempfile_in(folder)
+}
+
+fn is_text(response: &Response) -> bool {
+    let kind = response.headers().get(header::CONTENT_TYPE).and_then(|kind| kind.to_str().ok());
+    let kind = kind.unwrap_or_default().split(';').next().unwrap_or_default();
+    kind.starts_with("text/") || SHOWN.contains(&kind)
+}

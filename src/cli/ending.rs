@@ -1,0 +1,62 @@
+//! How a command that speaks to a service ends: the code that it leaves, and what it says.
+
+use std::process::ExitCode;
+
+use super::client::{ClientError, JobError};
+use super::stdout::{Closed, print_json};
+
+/// A signal ended it.
+#[derive(Debug, thiserror::Error)]
+#[error("interrupted{0}")]
+pub(super) struct Interrupted(pub(super) String);
+
+/// What the codes say, for the help of every command that leaves them.
+pub(super) const CODES: &str = "\
+Exit codes:
+  0    done; with --wait, and of watch: every job is successful
+  1    something here: a file that cannot be read or written, a request that is no JSON or YAML
+  2    the command line is wrong
+  3    the service refuses: what is wrong is said field by field
+  4    a job has failed
+  5    a job was cancelled
+  6    the service cannot be reached, or does not work
+  130  interrupted";
+
+/// What went wrong here.
+const HERE: u8 = 1;
+/// The service refuses.
+const REFUSED: u8 = 3;
+/// A job has failed.
+const FAILED: u8 = 4;
+/// A job was cancelled.
+const CANCELLED: u8 = 5;
+/// The service cannot be reached, or does not work.
+const GAVE_UP: u8 = 6;
+/// A signal ended it, as shells say it.
+const INTERRUPTED: u8 = 130;
+
+/// Says why a command did not do what it should, for scripts also as the document of the problem; returns its code.
+pub(super) fn tell(error: &anyhow::Error, json: bool) -> ExitCode {
+    if error.is::<Closed>() {
+        // Who reads no further has what was wanted, as in `| head`.
+        return ExitCode::SUCCESS;
+    }
+    eprintln!("Error: {error:#}");
+    if let (true, Some(ClientError::Refused { body, .. })) = (json, error.downcast_ref()) {
+        // What is said by the code and on the error stream needs no more words.
+        let _ = print_json(body);
+    }
+    code(error).into()
+}
+
+fn code(error: &anyhow::Error) -> u8 {
+    if let Some(error) = error.downcast_ref::<ClientError>() {
+        return if error.is_refusal() { REFUSED } else { GAVE_UP };
+    }
+    match error.downcast_ref() {
+        Some(JobError::Failed { .. }) => FAILED,
+        Some(JobError::Cancelled(_)) => CANCELLED,
+        None if error.is::<Interrupted>() => INTERRUPTED,
+        None => HERE,
+    }
+}

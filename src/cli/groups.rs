@@ -1,0 +1,57 @@
+//! The commands in groups: the help of the program has a heading for each, which clap does not give commands.
+
+use std::fmt::Write;
+
+use clap::Command;
+use clap::builder::StyledStr;
+
+/// Headings, and the commands under each.
+const GROUPS: [(&str, &[&str]); 4] = [
+    (
+        "Working with a service (--server, or RUBMAP_SERVER and RUBMAP_TOKEN)",
+        &["upload", "plan", "sweep", "submit", "watch", "ls", "get", "report", "open", "cancel", "rm"],
+    ),
+    ("Without a service", &["demo", "study", "case", "fields", "modes", "repeat", "generate", "import"]),
+    ("Running a service", &["serve", "token", "backup", "check"]),
+    ("This program", &["completions", "man", "help"]),
+];
+
+/// The program with its commands under headings.
+pub(super) fn grouped(mut program: Command) -> Command {
+    program.build();
+    let mut list = String::new();
+    let styles = program.get_styles().clone();
+    let (head, literal) = (styles.get_header(), styles.get_literal());
+    let width = program.get_subcommands().map(|command| command.get_name().len()).max().unwrap_or_default();
+    for (heading, names) in GROUPS {
+        // Writing to a string cannot fail.
+        let _ = writeln!(list, "{head}{heading}:{head:#}");
+        for command in names.iter().filter_map(|name| program.find_subcommand(name)) {
+            let about = command.get_about().map(ToString::to_string).unwrap_or_default();
+            let _ = writeln!(list, "  {literal}{:width$}{literal:#}  {about}", command.get_name());
+        }
+        list.push('\n');
+    }
+    program
+        .help_template("{about}\n\n{usage-heading} {usage}\n\n{before-help}Options:\n{options}")
+        .before_help(StyledStr::from(list.trim_end().to_owned()))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use clap::CommandFactory;
+
+    use super::*;
+
+    #[test]
+    fn every_command_has_its_place_and_no_other() {
+        let mut program = crate::cli::Cli::command();
+        program.build();
+        let names: Vec<&str> = GROUPS.iter().flat_map(|(_, names)| *names).copied().collect();
+        let known: BTreeSet<&str> = program.get_subcommands().map(Command::get_name).collect();
+        assert_eq!(names.iter().copied().collect::<BTreeSet<_>>(), known);
+        assert_eq!(names.len(), known.len());
+    }
+}

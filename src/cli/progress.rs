@@ -1,0 +1,31 @@
+//! How far a job is.
+
+use super::client::{Answer, Client, Job};
+
+/// Follows a job to its end and shows how far it is; an error if it did not end well.
+pub(super) async fn follow(client: &Client, job: &Job, name: &str) -> anyhow::Result<Answer<Job>> {
+    let job = follow_any(client, &job.id, name).await?;
+    job.check()?;
+    Ok(job)
+}
+
+/// Follows a job to its end, however that is, and shows how far it is.
+pub(super) async fn follow_any(client: &Client, id: &str, name: &str) -> anyhow::Result<Answer<Job>> {
+    let mut bar = client.terminal.bar(name);
+    client.follow(id, |job| bar.show(job.progress, &words(job), job.status.is_final())).await
+}
+
+/// Counts as soon as there is something to count; before that, what is being prepared. Of a job that did not end well, that.
+fn words(job: &Job) -> String {
+    use crate::store::status::JobStatus::{Accepted, Dismissed, Failed, Running, Successful};
+
+    match job.status {
+        Accepted => "waiting".to_owned(),
+        Failed => "failed".to_owned(),
+        Dismissed => "cancelled".to_owned(),
+        Running | Successful if job.speeds.finished == 0 && !job.phase.is_empty() => job.phase.clone(),
+        Successful if job.speeds.total == 0 => "done".to_owned(),
+        Running if job.speeds.total == 0 => String::new(),
+        Running | Successful => format!("{} of {} speeds", job.speeds.finished, job.speeds.total),
+    }
+}

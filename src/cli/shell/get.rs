@@ -1,0 +1,108 @@
+//! `rubmap get`: results, in all their forms.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::Context;
+use clap::Args;
+
+use super::find;
+use crate::cli::client::{Client, ClientError, ServerArgs, Target};
+use crate::cli::size::size;
+use crate::cli::verb::Verb;
+
+/// Results of models; all others are of jobs.
+const OF_MODELS: [&str; 2] = ["modes", "section"];
+
+/// Forms whose files are called by them.
+const FORMS: [&str; 8] = ["json", "csv", "npz", "svg", "png", "vtu", "vtp", "pvd"];
+
+/// Which result, and where it goes.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct GetArgs {
+    /// Job, or model for its modes and section: an id, the beginning of it, or a name
+    #[arg(value_name = "JOB")]
+    whose: String,
+    /// Result, as its path ends: interaction-map, critical-speeds, critical-speeds/wheel, spectra/20, campbell, forces, stress, histories,
+    /// fields, wear/0, work-precision, report, archive; of a model modes, section
+    #[arg(value_parser = result)]
+    result: String,
+    /// Parameters of the result, such as sensor=1 or units=si; all are in openapi.yaml
+    #[arg(value_name = "NAME=VALUE", value_parser = parameter)]
+    parameters: Vec<(String, String)>,
+    /// Form of the result: json, csv, npz, svg, png … [default: what the name of the file ends with, or else the first that it has]
+    #[arg(long, short)]
+    format: Option<String>,
+    /// File to write, which is there when it is whole and not before [default: the output]
+    #[arg(long, short, value_name = "FILE")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    server: ServerArgs,
+}
+
+impl Verb for GetArgs {
+    fn server(&self) -> &ServerArgs {
+        &self.server
+    }
+
+    async fn play(&self, client: &Client) -> anyhow::Result<()> {
+        let target = match &self.out {
+            Some(file) if file != Path::new("-") => Target::File(file.clone()),
+            _ => Target::Stdout,
+        };
+        let mut query = self.parameters.clone();
+        query.extend(self.form(&target).map(|form| ("format".to_owned(), form)));
+        let of_model = OF_MODELS.contains(&self.result.as_str());
+        let path = if of_model {
+            format!("/v1/models/{}", find::model(client, &self.whose).await?)
+        } else {
+            format!("/v1/jobs/{}", find::job(client, &self.whose).await?)
+        };
+        let got = client.get_to(&format!("{path}/{}", self.result), &query, &target).await;
+        let bytes = match got {
+            Err(error) if !of_model && error.downcast_ref().is_some_and(ClientError::is_no_route) => {
+                return Err(error).context(self.known(client, &path).await?);
+            }
+            got => got?,
+        };
+        if let Target::File(file) = &target {
+            client.terminal.say(&format!("{}: {}", file.display(), size(bytes)));
+        }
+        Ok(())
+    }
+}
+
+impl GetArgs {
+    /// The form that is asked for.
+    fn form(&self, target: &Target) -> Option<String> {
+        let ending = match target {
+            Target::File(file) => file.extension().and_then(|ending| ending.to_str()),
+            Target::Stdout => None,
+        };
+        let named = || ending.filter(|ending| FORMS.contains(ending)).map(ToOwned::to_owned);
+        self.format.clone().or_else(named)
+    }
+
+    /// What there is in place of a result that does not exist.
+    async fn known(&self, client: &Client, path: &str) -> anyhow::Result<String> {
+        let job = client.job(path.trim_start_matches("/v1/jobs/")).await?;
+        Ok(format!("there is no result {}; the job has {}", self.result, job.results().join(", ")))
+    }
+}
+
+/// The path of a result: nothing that leads elsewhere.
+fn result(text: &str) -> Result<String, String> {
+    let is_name = |part: &str| {
+        !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'-')
+    };
+    if text.split('/').all(is_name) {
+        Ok(text.to_owned())
+    } else {
+        Err("a result is called like interaction-map or spectra/20".to_owned())
+    }
+}
+
+/// A parameter and its value.
+fn parameter(text: &str) -> Result<(String, String), String> {
+    let (name, value) = text.split_once('=').ok_or("a parameter is like sensor=1")?;
+    Ok((name.to_owned(), value.to_owned()))
+}

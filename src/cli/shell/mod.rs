@@ -1,0 +1,23 @@
+//! The program as a client of a service: a file per command.
+
+mod cancel;
+mod find;
+mod get;
+mod kind;
+mod ls;
+mod open;
+mod plan;
+mod rm;
+mod submit;
+mod upload;
+mod watch;
+
+pub(super) use cancel::CancelArgs;
+pub(super) use get::GetArgs;
+pub(super) use ls::LsArgs;
+pub(super) use open::OpenArgs;
+pub(super) use plan::PlanArgs;
+pub(super) use rm::RmArgs;
+pub(super) use submit::{SubmitArgs, SweepArgs};
+pub(super) use upload::UploadArgs;
+pub(super) use watch::WatchArgs;

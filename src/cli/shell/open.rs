@@ -1,0 +1,45 @@
+//! `rubmap open`: the service's page in a browser.
+
+use clap::Args;
+
+use super::find;
+use crate::cli::client::{Client, ServerArgs};
+use crate::cli::stdout::print;
+use crate::cli::verb::Verb;
+
+/// What the environment names where there is a display; on a Mac there always is one.
+const DISPLAYS: [&str; 2] = ["DISPLAY", "WAYLAND_DISPLAY"];
+
+/// What is opened.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct OpenArgs {
+    /// Job: its id, the beginning of it, or its name [default: the page as it begins]
+    job: Option<String>,
+    #[command(flatten)]
+    server: ServerArgs,
+}
+
+impl Verb for OpenArgs {
+    fn server(&self) -> &ServerArgs {
+        &self.server
+    }
+
+    async fn play(&self, client: &Client) -> anyhow::Result<()> {
+        let address = match &self.job {
+            Some(called) => {
+                // That it is there is better known before a browser opens.
+                let id = find::job(client, called).await?;
+                format!("{}/#/jobs/{}", client.server, client.job(&id).await?.id)
+            }
+            None => format!("{}/", client.server),
+        };
+        print(&address)?;
+        let shown = |display: &str| std::env::var_os(display).is_some_and(|value| !value.is_empty());
+        if cfg!(target_os = "macos") || DISPLAYS.into_iter().any(shown) {
+            if let Err(error) = opener::open_browser(&address) {
+                client.terminal.say(&format!("no browser could be opened: {error}"));
+            }
+        }
+        Ok(())
+    }
+}

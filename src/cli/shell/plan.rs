@@ -1,0 +1,135 @@
+//! `rubmap plan`: what a request would do and cost.
+
+use std::fmt::Write;
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Args, ValueEnum};
+
+use super::kind::Kind;
+use super::submit::RequestArgs;
+use crate::analysis::result::{ModalAnalysisPlan, PlannedEffect, ReductionState, SweepPlan};
+use crate::cli::client::{Client, ServerArgs};
+use crate::cli::size::size;
+use crate::cli::stdout::{print, print_json};
+use crate::cli::verb::Verb;
+use crate::impeller::GenerationPlan;
+
+/// What is asked for.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct PlanArgs {
+    #[command(flatten)]
+    request: RequestArgs,
+    /// What would be computed
+    #[arg(long, default_value = "sweep", value_parser =
+        PossibleValuesParser::new(["sweep", "modal-analysis", "model-generation"]).try_map(|kind| Kind::from_str(&kind, false)))]
+    kind: Kind,
+    /// Print the plan as JSON
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    server: ServerArgs,
+}
+
+impl Verb for PlanArgs {
+    fn server(&self) -> &ServerArgs {
+        &self.server
+    }
+
+    fn json(&self) -> bool {
+        self.json
+    }
+
+    async fn play(&self, client: &Client) -> anyhow::Result<()> {
+        let body = self.request.body(client, self.kind).await?;
+        let path = format!("{}/plan", self.kind.route());
+        if self.json {
+            return print_json(&client.post(&path, &body).await?);
+        }
+        let words = match self.kind {
+            Kind::ModalAnalysis => modal_analysis(&client.post(&path, &body).await?),
+            Kind::ModelGeneration => generation(&client.post(&path, &body).await?),
+            _ => sweep(&client.post(&path, &body).await?),
+        };
+        print(words.trim_end())
+    }
+}
+
+fn sweep(plan: &SweepPlan) -> String {
+    let mut words = effects(&plan.effects);
+    // Writing to a string cannot fail, here and below.
+    let _ = writeln!(words, "speeds      {}, {} side by side", plan.speeds, plan.workers);
+    reduction(&mut words, plan.reduction, plan.reduced_unknowns_at_most);
+    if let Some(estimate) = &plan.estimate {
+        let (free, contact) = (estimate.wall_time_s.free, estimate.wall_time_s.contact);
+        let _ = writeln!(
+            words,
+            "time        {} if nothing touches, {} if something always does",
+            time(free),
+            time(contact)
+        );
+        let _ = writeln!(words, "steps       {:.3} million", estimate.steps as f64 / 1e6);
+        let _ = writeln!(words, "memory      {}", size(estimate.memory_bytes));
+    }
+    for point in &plan.points {
+        if let Some(message) = &point.message {
+            let _ = writeln!(words, "not         {:.2} rad/s: {message}", point.speed_rad_s);
+        }
+    }
+    for sensor in &plan.placed_sensors {
+        let _ = writeln!(words, "sensor {:<4} node {} at {:?}", sensor.sensor, sensor.node, sensor.position);
+    }
+    warnings(words, &plan.warnings)
+}
+
+fn modal_analysis(plan: &ModalAnalysisPlan) -> String {
+    let mut words = effects(&plan.effects);
+    let _ = writeln!(words, "speeds      {}, {} nodal diameters each", plan.speeds, plan.nodal_diameters);
+    reduction(&mut words, plan.reduction, plan.reduced_unknowns_at_most);
+    if let Some(seconds) = plan.computing_time_s {
+        let _ = writeln!(words, "time        {}", time(seconds));
+    }
+    warnings(words, &plan.warnings)
+}
+
+fn generation(plan: &GenerationPlan) -> String {
+    format!("nodes       {}\nunknowns    {}\nmemory      {}", plan.nodes, plan.dofs, size(plan.memory_bytes))
+}
+
+fn effects(effects: &[PlannedEffect]) -> String {
+    let mut words = String::new();
+    for effect in effects.iter().filter(|effect| effect.on) {
+        let adds = effect.adds.as_deref().map(|adds| format!(": {adds}")).unwrap_or_default();
+        let _ = writeln!(words, "on          {}{adds}", effect.name);
+    }
+    let off: Vec<&str> =
+        effects.iter().filter(|effect| !effect.on).map(|effect| effect.name.as_str()).collect();
+    let _ =
+        writeln!(words, "off         {}", if off.is_empty() { "none".to_owned() } else { off.join(", ") });
+    words
+}
+
+fn reduction(words: &mut String, state: ReductionState, unknowns: u64) {
+    let _ = match state {
+        ReductionState::Stored => writeln!(words, "reduction   there is one, of {unknowns} unknowns"),
+        ReductionState::ToBeComputed => writeln!(
+            words,
+            "reduction   to be computed first, at most {unknowns} unknowns; what the rest takes can be told afterwards"
+        ),
+    };
+}
+
+fn warnings(mut words: String, warnings: &[String]) -> String {
+    for warning in warnings {
+        let _ = writeln!(words, "warning     {warning}");
+    }
+    words
+}
+
+/// A time in the unit that people would say it in.
+fn time(seconds: f64) -> String {
+    match seconds {
+        seconds if seconds < 99.5 => format!("{seconds:.0} s"),
+        seconds if seconds < 99.5 * 60.0 => format!("{:.0} min", seconds / 60.0),
+        seconds => format!("{:.0} h", seconds / 3600.0),
+    }
+}

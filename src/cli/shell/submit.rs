@@ -1,0 +1,123 @@
+//! `rubmap sweep` and `rubmap submit`: a request becomes a job.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use serde_json::{Value, json};
+
+use super::kind::Kind;
+use super::{find, watch};
+use crate::cli::client::{Client, ServerArgs, UploadLabels};
+use crate::cli::request::{Setting, read};
+use crate::cli::stdout::{print, print_json};
+use crate::cli::verb::Verb;
+
+/// What is asked for.
+#[derive(Debug, Args)]
+pub(super) struct RequestArgs {
+    /// File with the request, in JSON or YAML; - is the input
+    request: PathBuf,
+    /// Model in place of the request's: its id, the beginning of it, or its name; or a package.zip, which is uploaded first
+    #[arg(long)]
+    model: Option<String>,
+    /// Change a field of the request, such as /speeds/count=80; may be given several times
+    #[arg(long = "set", value_name = "FIELD=VALUE", value_parser = Setting::parse)]
+    settings: Vec<Setting>,
+}
+
+impl RequestArgs {
+    /// The body, with its model and as it was changed.
+    pub(super) async fn body(&self, client: &Client, kind: Kind) -> anyhow::Result<Value> {
+        let mut body = read(&self.request, kind.route())?;
+        for setting in &self.settings {
+            setting.apply(&mut body)?;
+        }
+        if let Some(model) = &self.model {
+            body["model"] = json!(self.model(client, model).await?);
+        }
+        Ok(body)
+    }
+
+    async fn model(&self, client: &Client, called: &str) -> anyhow::Result<String> {
+        let path = Path::new(called);
+        if path.extension().is_none_or(|ending| ending != "zip") {
+            return find::model(client, called).await;
+        }
+        let (model, _) = client.upload(path, &UploadLabels::default()).await?;
+        client.terminal.say(&format!("model     {}", model.id));
+        Ok(model.id.clone())
+    }
+}
+
+/// A sweep, and what to do about it.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct SweepArgs {
+    #[command(flatten)]
+    request: RequestArgs,
+    /// Follow the job to its end
+    #[arg(long)]
+    wait: bool,
+    /// Print all the service says of the job, as JSON [default: its id]
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    server: ServerArgs,
+}
+
+/// A job of any kind, and what to do about it.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct SubmitArgs {
+    /// What is to be computed
+    #[arg(long, value_enum)]
+    kind: Kind,
+    #[command(flatten)]
+    job: SweepArgs,
+}
+
+impl Verb for SweepArgs {
+    fn server(&self) -> &ServerArgs {
+        &self.server
+    }
+
+    fn json(&self) -> bool {
+        self.json
+    }
+
+    async fn play(&self, client: &Client) -> anyhow::Result<()> {
+        self.submit(client, Kind::Sweep).await
+    }
+}
+
+impl Verb for SubmitArgs {
+    fn server(&self) -> &ServerArgs {
+        &self.job.server
+    }
+
+    fn json(&self) -> bool {
+        self.job.json
+    }
+
+    async fn play(&self, client: &Client) -> anyhow::Result<()> {
+        self.job.submit(client, self.kind).await
+    }
+}
+
+impl SweepArgs {
+    async fn submit(&self, client: &Client, kind: Kind) -> anyhow::Result<()> {
+        let body = self.request.body(client, kind).await?;
+        let mut job = client.post_job(kind.route(), &body).await?;
+        if !self.json {
+            print(&job.id)?;
+        }
+        if self.wait {
+            job = watch::to_the_end(client, &[job.id.clone()]).await?.remove(0);
+        }
+        if self.json {
+            print_json(&job.body)?;
+        }
+        if self.wait {
+            job.check()?;
+        }
+        Ok(())
+    }
+}

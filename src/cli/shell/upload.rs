@@ -1,0 +1,45 @@
+//! `rubmap upload`: a model package goes to a service.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use crate::cli::client::{Client, ServerArgs, UploadLabels};
+use crate::cli::stdout::{print, print_json};
+use crate::cli::verb::Verb;
+
+/// Which package goes where.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct UploadArgs {
+    /// Model package, a zip file
+    package: PathBuf,
+    #[command(flatten)]
+    labels: UploadLabels,
+    /// Print all the service says of the model, as JSON [default: its id]
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    server: ServerArgs,
+}
+
+impl Verb for UploadArgs {
+    fn server(&self) -> &ServerArgs {
+        &self.server
+    }
+
+    fn json(&self) -> bool {
+        self.json
+    }
+
+    async fn play(&self, client: &Client) -> anyhow::Result<()> {
+        let (model, new) = client.upload(&self.package, &self.labels).await?;
+        client.terminal.say(&format!(
+            "{}: {} sectors, {} contact nodes{}",
+            model.name,
+            model.sectors,
+            model.contact_nodes,
+            if new { "" } else { "; the service had it already, and keeps what it is called" }
+        ));
+        if self.json { print_json(&model.body) } else { print(&model.id) }
+    }
+}

@@ -1,0 +1,81 @@
+//! `rubmap watch`: jobs on their way.
+
+use clap::Args;
+use futures::future::try_join_all;
+use serde_json::{Value, json};
+
+use super::find;
+use crate::cli::client::{Answer, Client, Job, ServerArgs};
+use crate::cli::ending::Interrupted;
+use crate::cli::progress::follow_any;
+use crate::cli::signals::stop_signal;
+use crate::cli::stdout::{print, print_json};
+use crate::cli::verb::Verb;
+
+/// Which jobs.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct WatchArgs {
+    /// Jobs: ids, their beginnings, or names
+    #[arg(required = true, value_name = "JOB")]
+    jobs: Vec<String>,
+    /// Print how they ended as JSON, {"jobs": [...]}
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    server: ServerArgs,
+}
+
+impl Verb for WatchArgs {
+    fn server(&self) -> &ServerArgs {
+        &self.server
+    }
+
+    fn json(&self) -> bool {
+        self.json
+    }
+
+    async fn play(&self, client: &Client) -> anyhow::Result<()> {
+        let ids = find::jobs(client, &self.jobs).await?;
+        let jobs = to_the_end(client, &ids).await?;
+        if self.json {
+            let bodies: Vec<&Value> = jobs.iter().map(|job| &job.body).collect();
+            print_json(&json!({"jobs": bodies}))?;
+        } else {
+            jobs.iter().try_for_each(|job| print(&format!("{}  {}", job.id, job.status.as_str())))?;
+        }
+        worst(&jobs)
+    }
+}
+
+/// Follows jobs to their ends, however those are. When a signal comes it says how to go on.
+///
+/// # Errors
+/// [`Interrupted`], or what following them says.
+pub(super) async fn to_the_end(client: &Client, ids: &[String]) -> anyhow::Result<Vec<Answer<Job>>> {
+    let stop = stop_signal()?;
+    let all = try_join_all(ids.iter().map(|id| follow_one(client, id)));
+    tokio::select! {
+        jobs = all => jobs,
+        () = stop => {
+            let ids = ids.join(" ");
+            Err(Interrupted(format!("; the service goes on\n  to follow: rubmap watch {ids}\n  to end it: rubmap cancel {ids}")).into())
+        }
+    }
+}
+
+async fn follow_one(client: &Client, id: &str) -> anyhow::Result<Answer<Job>> {
+    let job = client.job(id).await?;
+    let name = job.name.as_deref().unwrap_or(&job.kind).replace('_', " ");
+    follow_any(client, id, &name).await
+}
+
+/// That a job has failed; that one was cancelled, if none has.
+fn worst(jobs: &[Answer<Job>]) -> anyhow::Result<()> {
+    let wrong: Vec<_> = jobs.iter().filter_map(|job| job.check().err()).collect();
+    let (failed, cancelled): (Vec<_>, Vec<_>) =
+        wrong.into_iter().partition(|error| matches!(error, crate::cli::client::JobError::Failed { .. }));
+    match failed.into_iter().chain(cancelled).next() {
+        Some(error) => Err(error.into()),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,38 @@
+//! The output stream: results, and nothing else.
+
+use std::io::{ErrorKind, Write};
+
+use serde_json::Value;
+
+/// Who read the output has gone: nobody wants more of it.
+#[derive(Debug, thiserror::Error)]
+#[error("nobody reads the output any more")]
+pub(super) struct Closed;
+
+/// Writes a line.
+///
+/// # Errors
+/// [`Closed`], or an output that takes nothing.
+pub(super) fn print(line: &str) -> anyhow::Result<()> {
+    let mut out = std::io::stdout().lock();
+    match writeln!(out, "{line}").and_then(|()| out.flush()) {
+        Ok(()) => Ok(()),
+        Err(error) => Err(failed(error)),
+    }
+}
+
+/// Writes a document for scripts.
+///
+/// # Errors
+/// As [`print`].
+pub(super) fn print_json(document: &Value) -> anyhow::Result<()> {
+    print(&format!("{document:#}"))
+}
+
+/// Why the output takes nothing.
+pub(super) fn failed(error: std::io::Error) -> anyhow::Error {
+    match error.kind() {
+        ErrorKind::BrokenPipe => Closed.into(),
+        _ => anyhow::Error::new(error).context("cannot write the output"),
+    }
+}

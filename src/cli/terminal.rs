@@ -1,0 +1,93 @@
+//! What goes on, for whoever watches: bars on a terminal, lines elsewhere; always on the error stream, so that the other one has
+//! nothing but results.
+
+use std::io::IsTerminal;
+use std::time::{Duration, Instant};
+
+use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
+
+/// Time between two frames of a bar.
+const TICK: Duration = Duration::from_millis(150);
+
+/// Time between two plain lines.
+const LINE_INTERVAL: Duration = Duration::from_secs(5);
+
+/// Where it is told what goes on.
+#[derive(Debug, Default)]
+pub(super) struct Terminal {
+    bars: MultiProgress,
+}
+
+/// How far one thing is.
+#[derive(Debug)]
+pub(super) enum Bar {
+    /// On a terminal.
+    Drawn(ProgressBar),
+    /// Elsewhere.
+    Lines {
+        /// What it is.
+        name: String,
+        /// Since when it is shown.
+        begin: Instant,
+        /// When the last line was written.
+        last: Option<Instant>,
+    },
+}
+
+impl Terminal {
+    /// Writes a line, above the bars.
+    pub(super) fn say(&self, line: &str) {
+        self.bars.suspend(|| eprintln!("{line}"));
+    }
+
+    /// A bar from 0 to 100.
+    pub(super) fn bar(&self, name: &str) -> Bar {
+        let name = format!("{name:<14}");
+        if !std::io::stderr().is_terminal() {
+            return Bar::Lines { name, begin: Instant::now(), last: None };
+        }
+        let bar = self.bars.add(ProgressBar::new(100).with_prefix(name));
+        // The template is a constant; should it ever be wrong, the library's own bar does as well.
+        let style = ProgressStyle::with_template("{prefix} [{bar:36}] {percent:>3} %  {elapsed}  {wide_msg}")
+            .unwrap_or_else(|_| ProgressStyle::default_bar())
+            .progress_chars("=> ");
+        bar.set_style(style);
+        bar.enable_steady_tick(TICK);
+        Bar::Drawn(bar)
+    }
+}
+
+impl Bar {
+    /// Shows how far it is, in percent and in words; the `last` time always.
+    pub(super) fn show(&mut self, percent: u64, words: &str, last: bool) {
+        match self {
+            Self::Drawn(bar) => {
+                bar.set_position(percent);
+                bar.set_message(words.to_owned());
+                if last {
+                    bar.abandon();
+                }
+            }
+            Self::Lines { name, begin, last: written } => {
+                if last || written.is_none_or(|written| written.elapsed() >= LINE_INTERVAL) {
+                    eprintln!("{name} {percent:>3} %  {:>3} s  {words}", begin.elapsed().as_secs());
+                    *written = Some(Instant::now());
+                }
+            }
+        }
+    }
+
+    /// Leaves it as it is: what it shows will not be finished.
+    pub(super) fn abandon(&self) {
+        if let Self::Drawn(bar) = self {
+            bar.abandon();
+        }
+    }
+}
+
+impl Drop for Bar {
+    /// However it ends, what was drawn last stays.
+    fn drop(&mut self) {
+        self.abandon();
+    }
+}
