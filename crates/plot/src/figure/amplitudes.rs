@@ -87,8 +87,11 @@ pub(super) fn amplitudes(
     }
 }
 
+/// The middle of a row, and its band.
+type Row = (f64, (f64, f64));
+
 /// Rows from the lowest on: the middle and the band of each, in units of the vertical axis, and how many bins are one.
-fn rows(map: &InteractionMap, view: &View, most: usize) -> (Vec<(f64, (f64, f64))>, usize) {
+fn rows(map: &InteractionMap, view: &View, most: usize) -> (Vec<Row>, usize) {
     let (low, high) = view.diagram.y.values;
     match view.axis {
         VerticalAxis::EngineOrder => {

@@ -1,11 +1,10 @@
 //! The Campbell diagram in the rotating frame.
 
-use plotly::Scatter;
 use plotly::common::{DashType, MarkerSymbol, Mode, Position};
 
 use super::document::{Figure, axis, speeds};
 use super::interaction_map::ends;
-use super::marks::{line, marks, silent, strokes, words};
+use super::marks::{PointTrace, line, marks, silent, strokes, words};
 use super::palette::{NEUTRAL, WARNING, colour, dash};
 use crate::campbell::{self as drawing, Curve, HIGHEST_ORDER, Ray};
 use crate::cells::rpm;
@@ -35,7 +34,7 @@ pub fn campbell(campbell: &Campbell) -> Figure {
 }
 
 /// Curves of the modes: dashes say the family, forward waves are thin.
-fn curves(harmonics: usize, curves: Vec<Curve>) -> Vec<Box<Scatter<f64, f64>>> {
+fn curves(harmonics: usize, curves: Vec<Curve>) -> Vec<PointTrace> {
     let mut named = vec![false; harmonics];
     let curve = |curve: Curve| {
         let (i, told) = (curve.nodal_diameter, curve.words());
@@ -56,7 +55,7 @@ fn curves(harmonics: usize, curves: Vec<Curve>) -> Vec<Box<Scatter<f64, f64>>> {
 }
 
 /// Engine orders, those of the lobes with their numbers.
-fn rays(campbell: &Campbell, rays: Vec<Ray>) -> Vec<Box<Scatter<f64, f64>>> {
+fn rays(campbell: &Campbell, rays: Vec<Ray>) -> Vec<PointTrace> {
     let (excited, others): (Vec<Ray>, Vec<Ray>) = rays.into_iter().partition(|ray| ray.excited);
     let mut traces = Vec::new();
     if !others.is_empty() {

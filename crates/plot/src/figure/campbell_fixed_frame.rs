@@ -1,11 +1,10 @@
 //! The Campbell diagram as it is seen from beside the wheel.
 
-use plotly::Scatter;
 use plotly::common::{DashType, MarkerSymbol};
 
 use super::document::{Figure, axis, speeds};
 use super::interaction_map::ends;
-use super::marks::{line, marks, words};
+use super::marks::{PointTrace, line, marks, words};
 use super::palette::{NEUTRAL, colour};
 use crate::campbell_fixed_frame::{self as drawing, Curve, Seen};
 use crate::cells::rpm;
@@ -54,7 +53,7 @@ fn kinds(curves: &[Curve]) -> Vec<String> {
     kinds.into_iter().map(|seen| format!("{}: {}", pen(seen).2, seen.words())).collect()
 }
 
-fn traces(campbell: &Campbell, curves: &[Curve]) -> Vec<Box<Scatter<f64, f64>>> {
+fn traces(campbell: &Campbell, curves: &[Curve]) -> Vec<PointTrace> {
     let mut named: Vec<usize> = Vec::new();
     let trace = |curve: &Curve| {
         let (i, told, (dash, width, _)) = (curve.nodal_diameter, curve.words(), pen(curve.seen));

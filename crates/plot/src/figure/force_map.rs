@@ -7,7 +7,7 @@ use serde_json::json;
 use super::cells::{MOST, cells as coloured, linear, together};
 use super::document::{Figure, axis, speeds};
 use super::interaction_map::ends;
-use super::marks::{line, silent, words};
+use super::marks::{PointTrace, line, silent, words};
 use super::palette::{CURVE, WARNING, colour, dash};
 use super::text::escaped;
 use crate::cells::{Cell, cells, extent};
@@ -70,7 +70,7 @@ fn of_node(row: &ForceRow, quantity: ForceQuantity, node: usize) -> Option<f64> 
 }
 
 /// The wheel over speed.
-fn curves(map: &ForceMap, cells: &[Cell], quantity: ForceQuantity) -> Vec<Box<plotly::Scatter<f64, f64>>> {
+fn curves(map: &ForceMap, cells: &[Cell], quantity: ForceQuantity) -> Vec<PointTrace> {
     let all = drawing::curves(map, quantity);
     let count = all.len();
     let trace = |(index, (name, _, value)): (usize, drawing::Curve)| {

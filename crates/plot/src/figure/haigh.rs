@@ -1,18 +1,15 @@
 //! Haigh diagram: alternating over mean stress, and what the materials bear.
 
-use plotly::Scatter;
 use plotly::common::{ColorBar, ColorScale, ColorScalePalette, DashType, Marker, Side, Title};
 use serde_json::json;
 
 use super::document::{Figure, axis};
 use super::interaction_map::ends;
-use super::marks::{marks, silent, strokes};
+use super::marks::{PointTrace, marks, silent, strokes};
 use super::palette::{NEUTRAL, WARNING, dash, symbol};
 use super::text::escaped;
 use crate::haigh::{self as drawing, Cycle, HaighColour, LINES, MOST, NO_STRESS};
 use rubmap_analysis::result::SweepStress;
-
-type Trace = Box<Scatter<f64, f64>>;
 
 /// The cycles of all speeds in the plane of mean and alternating stress, those of a material under one name, with Goodman's lines of equal
 /// utilisation and the yield line of every material whose strengths are known. `customdata` of a cycle is the index of its speed.
@@ -40,7 +37,7 @@ pub fn haigh(stress: &SweepStress, by: HaighColour) -> Figure {
 }
 
 /// Goodman's lines and the yield lines.
-fn limits(stress: &SweepStress, left: f64) -> Vec<Trace> {
+fn limits(stress: &SweepStress, left: f64) -> Vec<PointTrace> {
     let mut traces = Vec::new();
     for (index, set) in stress.strengths.iter().enumerate() {
         if let (Some(fatigue), Some(ultimate)) = (set.fatigue, set.ultimate) {
@@ -68,7 +65,7 @@ fn dots(
     by: HaighColour,
     unit: &str,
     (scale, title): (crate::axis::Scale, &str),
-) -> Vec<Trace> {
+) -> Vec<PointTrace> {
     let mut sets: Vec<&str> = Vec::new();
     for (_, cycle) in cycles {
         if !sets.contains(&cycle.set.as_str()) {

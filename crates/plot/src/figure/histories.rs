@@ -28,7 +28,7 @@ pub fn histories(histories: &Histories, sensor: usize) -> Figure {
             false => (colour.as_str(), dash(index), 2.2),
         };
         let told = format!("{}<br>%{{x:.4f}} revolutions: %{{y:.4~g}}", escaped(&curve.title()));
-        traces.push(line(&curve.size(), places.into_iter().map(Some), pen).hover_template(&template(&told)));
+        traces.push(line(&curve.size(), places.into_iter().map(Some), pen).hover_template(template(&told)));
     }
     let paragraphs: Vec<String> =
         [drawing::words(histories)].into_iter().chain(thinned::words(together)).collect();

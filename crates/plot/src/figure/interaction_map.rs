@@ -1,6 +1,5 @@
 //! The interaction map: level and amplitudes over speed, engine orders, critical speeds, linear prediction.
 
-use plotly::Scatter;
 use plotly::common::{DashType, MarkerSymbol, Mode, Position};
 use plotly::layout::Axis;
 use serde_json::json;
@@ -9,7 +8,7 @@ use super::amplitudes::amplitudes;
 use super::cells::{MOST, logarithmic};
 use super::document::{Figure, axis, speeds};
 use super::level;
-use super::marks::{line, marks, silent, strokes, words};
+use super::marks::{PointTrace, line, marks, silent, strokes, words};
 use super::palette::{WARNING, colour, dash};
 use crate::cells::{Cell, cells, rpm};
 use crate::level::{LevelColour, axis as level_axis};
@@ -78,10 +77,7 @@ pub fn interaction_map(
         .meta("speeds_rpm", cells.iter().map(|cell| cell.rpm).collect::<Vec<f64>>())
         .meta("speed_indices", cells.iter().map(|cell| cell.index).collect::<Vec<usize>>())
         .meta("column_speed_indices", shown.indices)
-        .meta(
-            "amplitude",
-            json!({"trace": 0, "z": "log10", "linear": "customdata[row][column][0]", "range": scale}),
-        )
+        .meta("amplitude", json!({"z": "log10", "linear": "customdata[row][column][0]", "range": scale}))
 }
 
 fn y_unit(axis: VerticalAxis) -> &'static str {
@@ -102,7 +98,7 @@ pub(super) fn ends((low, high): (f64, f64)) -> Vec<f64> {
 }
 
 /// Lines of engine orders, of those that the lobes excite with their numbers where they rise.
-pub(super) fn engine_orders(map: &InteractionMap, view: &View) -> Vec<Box<Scatter<f64, f64>>> {
+pub(super) fn engine_orders(map: &InteractionMap, view: &View) -> Vec<PointTrace> {
     let (excited, others): (Vec<OrderLine>, Vec<OrderLine>) =
         view.order_lines(map).into_iter().partition(|line| line.excited && lobes(map) > 1);
     let other_words = if lobes(map) > 1 { "other engine orders" } else { "engine orders" };
@@ -128,7 +124,7 @@ pub(super) fn engine_orders(map: &InteractionMap, view: &View) -> Vec<Box<Scatte
 }
 
 /// Natural frequencies in the rotating frame, those of a nodal diameter under one name.
-fn natural(campbell: &Campbell, view: &View) -> Vec<Box<Scatter<f64, f64>>> {
+fn natural(campbell: &Campbell, view: &View) -> Vec<PointTrace> {
     let harmonics = campbell.frequencies_hz.first().map_or(0, Vec::len);
     let lines = view.natural(campbell);
     let of = |i: usize| {
@@ -142,7 +138,7 @@ fn natural(campbell: &Campbell, view: &View) -> Vec<Box<Scatter<f64, f64>>> {
 }
 
 /// Where the linear criterion and the lobes' engine orders meet natural frequencies.
-fn crossings(critical: &CriticalSpeeds, view: &View) -> Vec<Box<Scatter<f64, f64>>> {
+fn crossings(critical: &CriticalSpeeds, view: &View) -> Vec<PointTrace> {
     let place = |speed_rad_s: f64, order: u32| {
         let rpm = rpm(speed_rad_s);
         let place = (rpm, view.height(rpm, f64::from(order)));
@@ -161,7 +157,7 @@ fn crossings(critical: &CriticalSpeeds, view: &View) -> Vec<Box<Scatter<f64, f64
 }
 
 /// Lines at critical speeds through both panels, and a mark at the level of each.
-fn critical_speeds(critical: &CriticalSpeeds, view: &View, by: LevelColour) -> Vec<Box<Scatter<f64, f64>>> {
+fn critical_speeds(critical: &CriticalSpeeds, view: &View, by: LevelColour) -> Vec<PointTrace> {
     let said = by == LevelColour::Utilisation;
     let mut traces = Vec::new();
     for (resolved, name, dash) in

@@ -3,7 +3,7 @@
 use plotly::Scatter;
 use plotly::common::{ErrorData, ErrorType, Fill, HoverInfo, Line, MarkerSymbol, Mode};
 
-use super::marks::{columns, marks, strokes, words};
+use super::marks::{PointTrace, columns, marks, strokes, words};
 use super::palette::{CURVE, NEUTRAL, WARNING};
 use super::text::escaped;
 use crate::cells::Cell;
@@ -12,10 +12,8 @@ use crate::settling_strip::Standing;
 use crate::{map_view, margin, validity};
 use rubmap_analysis::result::{InteractionMap, ValidityVerdict, Verdict};
 
-type Traces = Vec<Box<Scatter<f64, f64>>>;
-
 /// The level of some speeds in the panel of these axes.
-pub(super) fn traces(map: &InteractionMap, cells: &[Cell], by: LevelColour, y_axis: &str) -> Traces {
+pub(super) fn traces(map: &InteractionMap, cells: &[Cell], by: LevelColour, y_axis: &str) -> Vec<PointTrace> {
     let below = |cell: &Cell| Some((0.0, rms(map, cell.index)?));
     let mut traces = if by == LevelColour::Utilisation { utilisation(map, cells, below) } else { Vec::new() };
     traces.push(curve(map, cells));
@@ -25,7 +23,7 @@ pub(super) fn traces(map: &InteractionMap, cells: &[Cell], by: LevelColour, y_ax
 }
 
 /// The curve, with error bars where errors were estimated.
-fn curve(map: &InteractionMap, cells: &[Cell]) -> Box<Scatter<f64, f64>> {
+fn curve(map: &InteractionMap, cells: &[Cell]) -> PointTrace {
     let (x, y) = columns(cells.iter().map(|cell| Some((cell.rpm, rms(map, cell.index)?))));
     let pen = Line::new().color(CURVE).width(1.6);
     let curve = Scatter::new(x, y).name("level").mode(Mode::Lines).line(pen).hover_info(HoverInfo::Skip);
@@ -36,7 +34,7 @@ fn curve(map: &InteractionMap, cells: &[Cell]) -> Box<Scatter<f64, f64>> {
 }
 
 /// The speeds of a standing: at their level, or on the axis if they have none.
-fn standings(map: &InteractionMap, cells: &[Cell], standing: Standing) -> Option<Box<Scatter<f64, f64>>> {
+fn standings(map: &InteractionMap, cells: &[Cell], standing: Standing) -> Option<PointTrace> {
     let style = match standing {
         Standing::Settled(Verdict::Periodic) => (MarkerSymbol::Circle, 4, CURVE),
         Standing::Settled(Verdict::Subharmonic) => (MarkerSymbol::Square, 6, "#009e73"),
@@ -60,11 +58,7 @@ fn standings(map: &InteractionMap, cells: &[Cell], standing: Standing) -> Option
 }
 
 /// Rings about the speeds at which linear theory is doubtful or left.
-fn verdicts(
-    map: &InteractionMap,
-    cells: &[Cell],
-    verdict: ValidityVerdict,
-) -> Option<Box<Scatter<f64, f64>>> {
+fn verdicts(map: &InteractionMap, cells: &[Cell], verdict: ValidityVerdict) -> Option<PointTrace> {
     let (symbol, size) = match verdict {
         ValidityVerdict::Beyond => (MarkerSymbol::CircleXOpen, 12),
         _ => (MarkerSymbol::CircleOpen, 12),
@@ -85,7 +79,7 @@ pub(super) fn utilisation(
     map: &InteractionMap,
     cells: &[Cell],
     heights: impl Fn(&Cell) -> Option<(f64, f64)>,
-) -> Traces {
+) -> Vec<PointTrace> {
     let of = |class: usize| {
         let bars = cells.iter().filter_map(|cell| {
             let used = margin::utilisation(map, cell.index)?;

@@ -27,6 +27,7 @@ pub fn map_sheet(maps: &[InteractionMap], window: Window, level_colour: LevelCol
     let scale = if loudest > 0.0 { (QUIETEST * loudest, loudest) } else { (QUIETEST, 1.0) };
     let unit = first.sensor.unit(&first.units);
     let cells = cells(&first.speeds_rad_s);
+    let most = share(maps.len(), columns);
     let mut figure = figure.high(160 + 230 * rows);
     let mut names: Vec<Value> = Vec::new();
     let mut thinned = None;
@@ -34,7 +35,6 @@ pub fn map_sheet(maps: &[InteractionMap], window: Window, level_colour: LevelCol
         let (row, column) = (index / columns, index % columns);
         let view = View::new(map, &cells, None, VerticalAxis::EngineOrder, &window, ((0.0, 0.0), (1.0, 1.0)));
         let (x, y) = (name("x", index), name("y", index));
-        let most = (MOST.0 / columns, MOST.1 * 3 / 4);
         let shown = amplitudes(map, &cells, &view, scale.0, (&x, &y), most);
         thinned = thinned.or(shown.thinned);
         let lines = engine_orders(map, &view).into_iter().map(|trace| trace.show_legend(index == 0));
@@ -81,6 +81,13 @@ pub fn map_sheet(maps: &[InteractionMap], window: Window, level_colour: LevelCol
         .meta("speed_indices", cells.iter().map(|cell| cell.index).collect::<Vec<usize>>())
         .meta("thinned", thinned)
         .meta("amplitude", json!({"z": "log10", "linear": "customdata[row][column][0]", "range": scale}))
+}
+
+/// Speeds and rows of each of so many maps in so many columns: of many maps all together have the cells of two large ones.
+fn share(maps: usize, columns: usize) -> (usize, usize) {
+    let cells = 2 * MOST.0 * MOST.1 / maps.max(1);
+    let rows = (cells * columns / MOST.0).clamp(40, 150);
+    ((cells / rows).clamp(60, MOST.0 / columns), rows)
 }
 
 /// The name by which traces call an axis.

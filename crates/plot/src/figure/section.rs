@@ -1,11 +1,10 @@
 //! Sections of the sector.
 
-use plotly::Scatter;
 use plotly::common::{DashType, MarkerSymbol};
 use serde_json::json;
 
 use super::document::{Figure, axis};
-use super::marks::{line, marks, silent, strokes};
+use super::marks::{PointTrace, line, marks, silent, strokes};
 use super::palette::{CURVE, NEUTRAL, WARNING};
 use crate::outline::outline;
 use crate::section::{self as drawing, Drawing, NO_NODES, SectionView, project};
@@ -13,8 +12,6 @@ use rubmap_analysis::result::{NodeKind, SectorGeometry};
 
 /// What the tips' line is called, and its nodes.
 const LINE: &str = "contact line";
-
-type Trace = Box<Scatter<f64, f64>>;
 
 /// The nodes of the sector, of those that cover each other one, at the same scale in both directions; across the axis with the contact line
 /// and the casing at its clearance.
@@ -57,7 +54,7 @@ fn style(kind: NodeKind) -> (MarkerSymbol, usize, &'static str) {
 }
 
 /// Where what the nodes cover ends, turned into one plane.
-fn rim(geometry: &SectorGeometry, view: SectionView) -> Option<Trace> {
+fn rim(geometry: &SectorGeometry, view: SectionView) -> Option<PointTrace> {
     (view == SectionView::Meridional).then_some(())?;
     let places: Vec<(f64, f64)> = geometry.nodes.iter().map(|node| project(view, node.position)).collect();
     let (_, edges) = outline(&places);
@@ -66,7 +63,7 @@ fn rim(geometry: &SectorGeometry, view: SectionView) -> Option<Trace> {
 }
 
 /// The contact line with the clearance of every node where it is known.
-fn contact_line(geometry: &SectorGeometry, view: SectionView) -> Option<Trace> {
+fn contact_line(geometry: &SectorGeometry, view: SectionView) -> Option<PointTrace> {
     let places = geometry.contact.iter().map(|place| Some(project(view, place.position)));
     let told = geometry.contact.iter().enumerate().map(|(k, place)| {
         let clearance = place.clearance.map(|clearance| {

@@ -40,7 +40,7 @@ pub fn speed_histories(histories: &SpeedHistories, what: HistoryQuantity, index:
             };
             let name = if curve.words.is_empty() { &panel.axis } else { &curve.words };
             let trace = line(name, places.into_iter().map(Some), (&colour, dash(index), 1.5));
-            traces.push(trace.hover_template(&template(&told)).y_axis(&short).show_legend(count > 1));
+            traces.push(trace.hover_template(template(&told)).y_axis(&short).show_legend(count > 1));
         }
     }
     let paragraphs: Vec<String> =

@@ -24,7 +24,7 @@ pub fn trajectories(histories: &SpeedHistories) -> Figure {
         let words = format!("casing, clearance {clearance}");
         let wall =
             line(view.casing_words(), view.wall(*clearance).map(Some), (NEUTRAL, DashType::Solid, 2.0));
-        wall.hover_template(&told(&words)).legend_group("casing").show_legend(index == 0)
+        wall.hover_template(told(&words)).legend_group("casing").show_legend(index == 0)
     });
     let mut together = 1;
     let mut paths = Vec::new();
@@ -40,7 +40,7 @@ pub fn trajectories(histories: &SpeedHistories) -> Figure {
         }
         let colour = colour(index, view.tips.len().max(2));
         let words = tip.words();
-        paths.push(line(&words, places, (&colour, dash(index), 1.3)).hover_template(&told(&words)));
+        paths.push(line(&words, places, (&colour, dash(index), 1.3)).hover_template(told(&words)));
     }
     let mut paragraphs = drawing::words(histories);
     paragraphs.extend(thinned::words(together));

@@ -44,7 +44,7 @@ pub fn wear_map(wear: &WearMap, point: &Point, units: &Units) -> Figure {
         .zip(&x)
         .map(|(column, x)| Some((*x, column.iter().map(|rod| deepest(rod)).fold(0.0, f64::max))));
     let curve = line("deepest", curve, (CURVE, plotly::common::DashType::Solid, 1.6));
-    let curve = curve.hover_template(&template(&format!("%{{x:.1f}}°: %{{y:.4~g}} {length}")));
+    let curve = curve.hover_template(template(&format!("%{{x:.1f}}°: %{{y:.4~g}} {length}")));
     let y = (0..nodes).map(|node| node as f64).collect();
     let told = format!("%{{x:.1f}}°, contact node %{{y}}<br>%{{z:.4~g}} {length}");
     let scale = (0.0, if most > 0.0 { most } else { 1.0 });

@@ -1,12 +1,11 @@
 //! Error over computing time of every setting of a study.
 
-use plotly::Scatter;
 use plotly::common::{DashType, ErrorData, ErrorType, Line, LineShape, Marker, MarkerSymbol, Mode};
 use plotly::layout::{Axis, AxisType};
 use serde_json::json;
 
 use super::document::{Figure, axis};
-use super::marks::{marks, silent};
+use super::marks::{PointTrace, marks, silent};
 use super::palette::{NEUTRAL, symbol};
 use crate::axis::label;
 use crate::cells::rpm;
@@ -16,8 +15,6 @@ use crate::work_precision::{self as drawing, FRONT, TIME, View};
 use rubmap_analysis::request::SchemeChoice;
 use rubmap_analysis::result::{Quantity, SpeedStudy};
 use rubmap_analysis::run::WorkPrecision;
-
-type Trace = Box<Scatter<f64, f64>>;
 
 /// The errors of one quantity over computing time at the speed of index `speed`, both on logarithmic axes: a name for each scheme, marks
 /// larger for more modes, and the Pareto front of all.
@@ -91,7 +88,7 @@ pub(super) fn mark(scheme: SchemeChoice) -> MarkerSymbol {
 }
 
 /// The runs of a scheme with their steps per revolution; bars are the standard error where trajectories are chaotic.
-fn runs(view: &View, scheme: SchemeChoice) -> Option<Trace> {
+fn runs(view: &View, scheme: SchemeChoice) -> Option<PointTrace> {
     let of: Vec<&Drawn> = view.runs.iter().filter(|drawn| drawn.run.setting.scheme == scheme).collect();
     let told = of.iter().map(|drawn| ((drawn.run.time_s, drawn.error), drawn.title()));
     let name = scheme::words(scheme);

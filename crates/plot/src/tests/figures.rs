@@ -1,85 +1,16 @@
 //! Figures: their numbers are those of the results, and they leave to the page what is the page's.
 
-use std::path::{Path, PathBuf};
-
 use serde_json::{Value, json};
 
 use super::drawings::{credentials, mm};
-use super::fixtures::{contact, recorded, sector, spectra, worn};
-use super::gallery::read;
-use super::stresses::{of_sweep, stressed_critical, stressed_map};
-use super::studies::{RUNS, first_revolutions, study};
-use super::{SPEEDS_RPM, critical, map, modes, waves};
-use crate::figure::{self, Figure};
-use crate::{
-    ForceQuantity, Frame, HaighColour, HistoryQuantity, LevelColour, SectionView, VerticalAxis, Window,
-};
-use rubmap_analysis::result::{Campbell, CriticalSpeeds, InteractionMap, Quantity};
-
-/// One of each kind, and what is particular.
-pub(super) fn all() -> Vec<(String, Figure)> {
-    let whole = Window::default();
-    let mut all = Vec::new();
-    for (name, axis) in [("map", VerticalAxis::EngineOrder), ("map-frequency", VerticalAxis::Frequency)] {
-        let (critical, modes) = (critical(), modes());
-        let figure =
-            figure::interaction_map(&map(), Some(&critical), Some(&modes), axis, whole, LevelColour::Plain);
-        all.push((name.to_owned(), figure));
-    }
-    for (name, by) in [("map-validity", LevelColour::Plain), ("map-utilisation", LevelColour::Utilisation)] {
-        let axis = VerticalAxis::EngineOrder;
-        let figure =
-            figure::interaction_map(&stressed_map(), Some(&stressed_critical()), None, axis, whole, by);
-        all.push((name.to_owned(), figure));
-    }
-    all.push(("campbell".to_owned(), figure::campbell(&modes())));
-    all.push(("campbell-waves".to_owned(), figure::campbell(&waves())));
-    all.push(("critical-speeds".to_owned(), figure::critical_speeds(&critical())));
-    all.push(("critical-speeds-validity".to_owned(), figure::critical_speeds(&stressed_critical())));
-    for (name, frame) in [("spectrum", Frame::Rotating), ("spectrum-fixed-frame", Frame::Fixed)] {
-        let figure = figure::spectrum(&spectra(6), &credentials(), &mm(), 0, frame);
-        all.push((name.to_owned(), figure));
-    }
-    let sheet = figure::map_sheet(&vec![map(); 5], whole, LevelColour::Plain);
-    all.push(("map-sheet".to_owned(), sheet));
-    let sheet = figure::map_sheet(&vec![stressed_map(); 2], whole, LevelColour::Utilisation);
-    all.push(("map-sheet-utilisation".to_owned(), sheet));
-    all.push(("campbell-fixed-frame".to_owned(), figure::campbell_fixed_frame(&modes())));
-    for (name, what) in [
-        ("displacement", HistoryQuantity::Displacement),
-        ("velocity", HistoryQuantity::Velocity),
-        ("force", HistoryQuantity::Force),
-        ("contact", HistoryQuantity::Contact),
-        ("energy", HistoryQuantity::Energy),
-    ] {
-        let figure = figure::speed_histories(&recorded([10, 50], 512), what, 0);
-        all.push((format!("history-{name}"), figure));
-    }
-    all.push(("trajectories".to_owned(), figure::trajectories(&recorded([0, 4], 720))));
-    for (name, quantity) in [
-        ("peak", ForceQuantity::Peak),
-        ("impulse", ForceQuantity::Impulse),
-        ("share", ForceQuantity::Share),
-        ("consumption", ForceQuantity::Consumption),
-    ] {
-        all.push((format!("forces-{name}"), figure::force_map(&contact(10), quantity)));
-    }
-    all.push(("wear".to_owned(), figure::wear_map(&worn(2000, 10), &credentials(), &mm())));
-    for (name, view) in [("section", SectionView::Meridional), ("section-cyclic", SectionView::Cyclic)] {
-        all.push((name.to_owned(), figure::section(&sector(9), view)));
-    }
-    for (name, by) in [("haigh", HaighColour::Speed), ("haigh-utilisation", HaighColour::Utilisation)] {
-        all.push((name.to_owned(), figure::haigh(&of_sweep(&stressed_map()), by)));
-    }
-    let found = study(&RUNS, false);
-    for quantity in Quantity::ALL {
-        let name = quantity.as_str();
-        all.push((format!("work-precision-{name}"), figure::work_precision(&found, 0, quantity)));
-        all.push((format!("error-over-step-{name}"), figure::error_over_step(&found, 0, quantity)));
-    }
-    all.push(("histories".to_owned(), figure::histories(&first_revolutions(&[1, 2, 4], 20, 9), 0)));
-    all
-}
+use super::figure_gallery::all;
+use super::fixtures::{contact, recorded, spectra, worn};
+use super::stresses::{of_sweep, stressed_map};
+use super::studies::{RUNS, study};
+use super::{SPEEDS_RPM, critical, map, modes};
+use crate::figure;
+use crate::{ForceQuantity, Frame, HaighColour, HistoryQuantity, LevelColour, VerticalAxis, Window};
+use rubmap_analysis::result::Quantity;
 
 /// The trace of this name.
 fn trace<'a>(figure: &'a Value, name: &str) -> &'a Value {
@@ -89,38 +20,6 @@ fn trace<'a>(figure: &'a Value, name: &str) -> &'a Value {
 
 fn numbers(value: &Value) -> Vec<f64> {
     value.as_array().unwrap().iter().map(|value| value.as_f64().unwrap_or(f64::NAN)).collect()
-}
-
-/// Figures of what `rubmap demo` left, if it did.
-fn demo(folder: &Path) -> Vec<(String, Figure)> {
-    let (Some(map), Some(critical), Some(modes)) = (
-        read::<InteractionMap>(&folder.join("interaction-map.json")),
-        read::<CriticalSpeeds>(&folder.join("critical-speeds.json")),
-        read::<Campbell>(&folder.join("campbell.json")),
-    ) else {
-        return Vec::new();
-    };
-    let show = |axis| {
-        let (critical, whole) = (Some(&critical), Window::default());
-        figure::interaction_map(&map, critical, Some(&modes), axis, whole, LevelColour::Plain)
-    };
-    vec![
-        ("demo-map".to_owned(), show(VerticalAxis::EngineOrder)),
-        ("demo-map-frequency".to_owned(), show(VerticalAxis::Frequency)),
-        ("demo-critical-speeds".to_owned(), figure::critical_speeds(&critical)),
-        ("demo-campbell".to_owned(), figure::campbell(&modes)),
-        ("demo-campbell-fixed-frame".to_owned(), figure::campbell_fixed_frame(&modes)),
-    ]
-}
-
-#[test]
-#[ignore = "leaves files to be looked at"]
-fn gallery_of_figures() {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../target/gallery");
-    std::fs::create_dir_all(folder).unwrap();
-    for (name, figure) in all().into_iter().chain(demo(&PathBuf::from(folder).join("demo"))) {
-        std::fs::write(format!("{folder}/{name}.plotly.json"), serde_json::to_vec(&figure).unwrap()).unwrap();
-    }
 }
 
 #[test]
@@ -228,6 +127,9 @@ fn a_large_map_is_thinned_by_its_largest() {
         let indices = figure["layout"]["meta"]["column_speed_indices"].as_array().unwrap();
         assert!(indices.contains(&json!(777)) && indices.len() == x.len());
     }
+    let sheet = figure::map_sheet(&vec![large; 30], Window::default(), LevelColour::Plain);
+    let text = serde_json::to_vec(&sheet).unwrap();
+    assert!(text.len() < 12 << 20, "{} bytes", text.len());
 }
 
 #[test]
