@@ -3,7 +3,10 @@
 use std::collections::BTreeMap;
 
 use utoipa::openapi::path::Parameter;
-use utoipa::openapi::{ContentBuilder, HeaderBuilder, Object, Ref, RefOr, Response, ResponseBuilder, Type};
+use utoipa::openapi::{
+    ArrayBuilder, ContentBuilder, HeaderBuilder, Object, ObjectBuilder, Ref, RefOr, Response,
+    ResponseBuilder, Type,
+};
 
 use super::form::Form;
 use super::problem::MEDIA_TYPE;
@@ -24,6 +27,16 @@ pub fn document() -> utoipa::openapi::OpenApi {
     document
 }
 
+/// A figure; Plotly's own schema says what is in both.
+fn figure() -> Object {
+    ObjectBuilder::new()
+        .property("data", ArrayBuilder::new().items(Object::with_type(Type::Object)))
+        .property("layout", Object::with_type(Type::Object))
+        .required("data")
+        .required("layout")
+        .build()
+}
+
 /// Whether this parameter says in which form a result is wanted.
 fn has_form(parameter: &RefOr<Parameter>) -> bool {
     matches!(parameter, RefOr::T(parameter) if parameter.name == "format")
@@ -34,7 +47,11 @@ fn add_forms(responses: &mut BTreeMap<String, RefOr<Response>>) {
     if let Some(RefOr::T(answer)) = responses.get_mut("200") {
         for form in Form::ALL.into_iter().filter(|form| *form != Form::Json) {
             // Of what is no text there is nothing more to say (OpenAPI 3.1, 4.8.14).
-            let schema = matches!(form, Form::Csv | Form::Svg).then(|| Object::with_type(Type::String));
+            let schema = match form {
+                Form::Csv | Form::Svg => Some(Object::with_type(Type::String)),
+                Form::Plotly => Some(figure()),
+                _ => None,
+            };
             answer
                 .content
                 .insert(form.media_type().to_owned(), ContentBuilder::new().schema(schema).build().into());

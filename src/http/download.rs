@@ -18,6 +18,7 @@ use super::state::AppState;
 use super::stream::{self, Leave};
 use crate::analysis::request::SpeedUnit;
 use crate::export::{self, Export};
+use crate::plot::figure::Figure;
 use crate::plot::{self, PngError};
 use crate::store::jobs::Job;
 use crate::version;
@@ -27,6 +28,9 @@ const WIDTH: u32 = 1200;
 
 /// Bytes that rendering takes per pixel of a square: the canvas, layers of it, and the file; sheets are higher than wide.
 const BYTES_PER_PIXEL: u64 = 16;
+
+/// Bytes that a figure takes: no more lines, samples and cells are in it than a screen shows.
+const FIGURE_BYTES: u64 = 32 << 20;
 
 /// In which form to download a result.
 #[derive(Debug, Deserialize, IntoParams)]
@@ -130,6 +134,7 @@ impl Answer {
     pub(super) fn bytes(&self) -> u64 {
         match self.form {
             Form::Png => BYTES_PER_PIXEL * u64::from(self.width).pow(2),
+            Form::Plotly => FIGURE_BYTES,
             _ => 0,
         }
     }
@@ -151,6 +156,11 @@ impl Answer {
     pub(super) fn document(self, leave: Leave, result: impl Serialize + Send + 'static) -> Response {
         let unit = self.unit;
         self.written(leave, move |out| json(&result, unit, out))
+    }
+
+    /// The figure that `make` makes.
+    pub(super) fn figure(self, leave: Leave, make: impl FnOnce() -> Figure + Send + 'static) -> Response {
+        self.written(leave, move |out| Ok(serde_json::to_writer(out, &make())?))
     }
 
     /// What `write` writes while it is sent.

@@ -20,6 +20,8 @@ pub(super) enum Form {
     Svg,
     /// A picture.
     Png,
+    /// A figure for Plotly: `data` and `layout`.
+    Plotly,
     /// A field on all elements: VTK's UnstructuredGrid, for ParaView and pyvista.
     Vtu,
     /// A field on the skin: VTK's PolyData.
@@ -30,9 +32,9 @@ pub(super) enum Form {
 
 impl Form {
     /// All that most results have. Of what a client takes equally, the first.
-    pub(super) const ALL: [Self; 5] = [Self::Json, Self::Csv, Self::Npz, Self::Svg, Self::Png];
+    pub(super) const ALL: [Self; 6] = [Self::Json, Self::Csv, Self::Npz, Self::Svg, Self::Png, Self::Plotly];
 
-    /// Those that are no drawings.
+    /// Those that are neither drawings nor figures.
     pub(super) const NUMBERS: [Self; 3] = [Self::Json, Self::Csv, Self::Npz];
 
     /// Those of a field.
@@ -50,6 +52,7 @@ impl Form {
             Self::Npz => "npz",
             Self::Svg => "svg",
             Self::Png => "png",
+            Self::Plotly => "plotly",
             Self::Vtu => "vtu",
             Self::Vtp => "vtp",
             Self::Pvd => "pvd",
@@ -64,6 +67,7 @@ impl Form {
             Self::Npz => "application/x-npz",
             Self::Svg => "image/svg+xml",
             Self::Png => "image/png",
+            Self::Plotly => "application/vnd.plotly.v1+json",
             Self::Vtu => "application/x-vtu",
             Self::Vtp => "application/x-vtp",
             Self::Pvd => super::stream::ZIP,
@@ -81,6 +85,11 @@ impl Form {
     /// Whether it is drawn.
     pub(super) fn is_drawing(self) -> bool {
         matches!(self, Self::Svg | Self::Png)
+    }
+
+    /// Whether it is to be looked at: a drawing, or a figure of the same.
+    pub(super) fn is_shown(self) -> bool {
+        self.is_drawing() || self == Self::Plotly
     }
 
     /// The form of a result that has `those`: what the query asks for, or else what `Accept` prefers.
@@ -174,6 +183,8 @@ mod tests {
             ("IMAGE/PNG;q=0.9, text/csv;q=0.95", Some(Form::Csv)),
             ("application/json;q=0, */*;q=0.1", Some(Form::Csv)),
             ("application/*;q=0.2, application/x-npz", Some(Form::Npz)),
+            ("application/vnd.plotly.v1+json", Some(Form::Plotly)),
+            ("application/vnd.plotly.v1+json;q=0.5, application/json;q=0.4", Some(Form::Plotly)),
             ("text/html, */*;q=0.8", Some(Form::Json)),
             ("text/html", None),
             ("application/json;q=nan", None),
@@ -183,6 +194,7 @@ mod tests {
         }
         assert_eq!(chosen("image/*", &[Form::Json, Form::Png]), Some(Form::Png));
         assert_eq!(chosen("text/csv", &[Form::Json, Form::Png]), None);
+        assert_eq!(chosen("application/vnd.plotly.v1+json", &Form::LIST_AND_FIELDS), None);
     }
 
     #[test]

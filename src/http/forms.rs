@@ -1,9 +1,9 @@
 //! The forms of one kind of result. Every result has its numbers as json, csv and npz, and, but for bare tables, its drawing as svg and
-//! png.
+//! png and the same as a figure for Plotly.
 //!
 //! To add a result: implement [`Export`] for it in `src/export`, take [`Download`] as an argument of its handler and
 //! [`DownloadQuery`](super::download::DownloadQuery) as parameters of its route, and answer with
-//! `Forms::drawn_by(draw).of_document(…)` if it is stored as a document, otherwise with `answer`.
+//! `Forms::drawn_by(draw, figure).of_document(…)` if it is stored as a document, otherwise with `answer`.
 
 use axum::response::Response;
 use serde::Serialize;
@@ -17,6 +17,7 @@ use super::problem::{Kind, Problem};
 use super::state::AppState;
 use super::stream;
 use crate::export::Export;
+use crate::plot::figure::Figure;
 use crate::store::jobs::{Job, JobId, JobRequest};
 use crate::store::results::Document;
 use crate::store::status::JobStatus;
@@ -30,21 +31,27 @@ pub(super) const READ_MEMORY: u64 = 6;
 /// Makes the drawing of a result.
 type Draw<T> = Box<dyn FnOnce(&T) -> String + Send>;
 
+/// Makes the figure of a result.
+type Show<T> = Box<dyn FnOnce(&T) -> Figure + Send>;
+
 /// Changes a result before it is written.
 type Change<T> = Box<dyn FnOnce(&mut T) + Send>;
 
 /// The forms of a result.
 pub(super) struct Forms<T> {
     /// None of a result that is a table and nothing else.
-    draw: Option<Draw<T>>,
+    draw: Option<(Draw<T>, Show<T>)>,
     /// What is done to a stored result first.
     change: Option<Change<T>>,
 }
 
 impl<T: Export + Serialize + Send + 'static> Forms<T> {
-    /// Of a result that `draw` draws.
-    pub(super) fn drawn_by(draw: impl FnOnce(&T) -> String + Send + 'static) -> Self {
-        Self { draw: Some(Box::new(draw)), change: None }
+    /// Of a result that `draw` draws and `figure` shows.
+    pub(super) fn drawn_by(
+        draw: impl FnOnce(&T) -> String + Send + 'static,
+        figure: impl FnOnce(&T) -> Figure + Send + 'static,
+    ) -> Self {
+        Self { draw: Some((Box::new(draw), Box::new(figure))), change: None }
     }
 
     /// Of a result that has no drawing.
@@ -81,11 +88,15 @@ impl<T: Export + Serialize + Send + 'static> Forms<T> {
         read: impl FnOnce() -> Result<T, Problem> + Send + 'static,
     ) -> Result<Response, Problem> {
         let leave = state.answers.leave(&state.jobs, bytes + answer.bytes()).await;
-        if let (true, Some(draw)) = (answer.form.is_drawing(), self.draw) {
+        let (draw, figure) = self.draw.unzip();
+        if let (true, Some(draw)) = (answer.form.is_drawing(), draw) {
             return answer.drawn(state, leave, move || Ok(draw(&read()?))).await;
         }
         let (result, leave) = stream::blocking(move || Ok::<_, Problem>((read()?, leave))).await??;
-        Ok(answer.numbers(leave, result))
+        Ok(match (answer.form, figure) {
+            (Form::Plotly, Some(figure)) => answer.figure(leave, move || figure(&result)),
+            _ => answer.numbers(leave, result),
+        })
     }
 }
 

@@ -100,12 +100,21 @@ pub(super) async fn get_histories(
             check_speed(&job, speed)?;
             check_sensor(study.sensors(), query.sensor)?;
             let draw = move |histories: &Histories| plot::histories(histories, sensor);
-            Forms::drawn_by(draw).of_document(&state, download, &job, document).await
+            let figure = move |histories: &Histories| plot::figure::histories(histories, sensor);
+            Forms::drawn_by(draw, figure).of_document(&state, download, &job, document).await
         }
         JobRequest::Sweep(_) | JobRequest::CaseStudy(_) => {
             check_drawn(&job, &query)?;
-            let draw = move |histories: &SpeedHistories| query.draw(histories);
-            Forms::drawn_by(draw).of_document(&state, download, &job, document).await
+            let (what, index) = query.what();
+            let draw = move |histories: &SpeedHistories| match what {
+                Some(what) => plot::speed_histories(histories, what, index),
+                None => plot::trajectories(histories),
+            };
+            let figure = move |histories: &SpeedHistories| match what {
+                Some(what) => plot::figure::speed_histories(histories, what, index),
+                None => plot::figure::trajectories(histories),
+            };
+            Forms::drawn_by(draw, figure).of_document(&state, download, &job, document).await
         }
         JobRequest::ModalAnalysis(_) | JobRequest::ModelGeneration(_) => {
             Err(wrong_kind(&job, JobKind::CaseStudy))
@@ -138,16 +147,16 @@ fn check_drawn(job: &Job, query: &HistoriesQuery) -> Result<(), Problem> {
 }
 
 impl HistoriesQuery {
-    fn draw(&self, histories: &SpeedHistories) -> String {
+    /// What of a speed is drawn, of which sensor or contact node; no quantity is the trajectories.
+    fn what(&self) -> (Option<HistoryQuantity>, usize) {
         let (sensor, node) = (self.sensor as usize, self.contact_node as usize);
-        let (what, index) = match self.quantity.unwrap_or(Drawn::Displacement) {
-            Drawn::Displacement => (HistoryQuantity::Displacement, sensor),
-            Drawn::Velocity => (HistoryQuantity::Velocity, sensor),
-            Drawn::Force => (HistoryQuantity::Force, node),
-            Drawn::Contact => (HistoryQuantity::Contact, 0),
-            Drawn::Energy => (HistoryQuantity::Energy, 0),
-            Drawn::Trajectories => return plot::trajectories(histories),
-        };
-        plot::speed_histories(histories, what, index)
+        match self.quantity.unwrap_or(Drawn::Displacement) {
+            Drawn::Displacement => (Some(HistoryQuantity::Displacement), sensor),
+            Drawn::Velocity => (Some(HistoryQuantity::Velocity), sensor),
+            Drawn::Force => (Some(HistoryQuantity::Force), node),
+            Drawn::Contact => (Some(HistoryQuantity::Contact), 0),
+            Drawn::Energy => (Some(HistoryQuantity::Energy), 0),
+            Drawn::Trajectories => (None, 0),
+        }
     }
 }

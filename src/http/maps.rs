@@ -58,7 +58,7 @@ pub(super) async fn get_interaction_map(
         Next::Done(response) => return Ok(response),
         Next::Make(answer) => answer,
     };
-    if answer.form.is_drawing() {
+    if answer.form.is_shown() {
         let axis = match query.axis {
             Some(MapAxis::Frequency) => VerticalAxis::Frequency,
             Some(MapAxis::EngineOrder) | None => VerticalAxis::EngineOrder,
@@ -70,7 +70,10 @@ pub(super) async fn get_interaction_map(
         return draw(&state, job, part, (axis, colour), answer).await;
     }
     if part.sheet {
-        return Err(Problem::parameter("nodal_diameters", "a sheet is a drawing: ask for svg or png"));
+        return Err(Problem::parameter(
+            "nodal_diameters",
+            "a sheet is a drawing: ask for svg, png or plotly",
+        ));
     }
     let bytes = ROW_MEMORY * state.store.largest_spectra(id).await?;
     let leave = state.answers.leave(&state.jobs, bytes).await;
@@ -92,7 +95,7 @@ pub(super) async fn get_interaction_map(
     }))
 }
 
-/// A drawing of one map, or a sheet of one per nodal diameter.
+/// A drawing or a figure of one map, or a sheet of one per nodal diameter.
 async fn draw(
     state: &AppState,
     job: Job,
@@ -108,7 +111,7 @@ async fn draw(
     let bytes = ROW_MEMORY * state.store.largest_spectra(job.id).await? + DRAWN_MEMORY * amplitudes;
     let leave = state.answers.leave(&state.jobs, bytes + answer.bytes()).await;
     let (store, runtime) = (state.store.clone(), Handle::current());
-    let draw = move || {
+    let read = move || {
         let [(sensor, _)] = part.sensors[..] else {
             return Err(Problem::parameter("sensors", "a drawing is of one sensor"));
         };
@@ -116,8 +119,22 @@ async fn draw(
         let critical = runtime.block_on(store.document(job.id, Document::CriticalSpeeds(sensor)))?;
         let critical: Option<CriticalSpeeds> =
             critical.map(|critical| serde_json::from_str(&critical)).transpose()?;
+        Ok::<_, Problem>((maps, critical, part.sheet))
+    };
+    if answer.form == Form::Plotly {
+        let read = move || Ok::<_, Problem>((read()?, leave));
+        let ((maps, critical, sheet), leave) = stream::blocking(read).await??;
+        return Ok(answer.figure(leave, move || match &maps[..] {
+            [map] if !sheet => {
+                plot::figure::interaction_map(map, critical.as_ref(), None, axis, window, colour)
+            }
+            maps => plot::figure::map_sheet(maps, window, colour),
+        }));
+    }
+    let draw = move || {
+        let (maps, critical, sheet) = read()?;
         Ok(match &maps[..] {
-            [map] if !part.sheet => plot::interaction_map(map, critical.as_ref(), None, axis, window, colour),
+            [map] if !sheet => plot::interaction_map(map, critical.as_ref(), None, axis, window, colour),
             maps => plot::map_sheet(maps, window, colour),
         })
     };

@@ -99,9 +99,13 @@ pub(super) async fn get_critical_speeds(
     let by_utilisation = |table: &mut CriticalSpeeds| {
         most_utilised_first(&mut table.critical_speeds, |speed| speed.utilisation);
     };
-    rank.ranked(Forms::drawn_by(plot::critical_speeds), request, by_utilisation)?
-        .of_document(&state, download, &job, Document::CriticalSpeeds(query.sensor))
-        .await
+    rank.ranked(
+        Forms::drawn_by(plot::critical_speeds, plot::figure::critical_speeds),
+        request,
+        by_utilisation,
+    )?
+    .of_document(&state, download, &job, Document::CriticalSpeeds(query.sensor))
+    .await
 }
 
 /// Which frequencies over speed to download.
@@ -147,11 +151,13 @@ pub(super) async fn get_campbell(
     if !matches!(job.request, JobRequest::ModalAnalysis(_)) {
         return Err(wrong_kind(&job, JobKind::ModalAnalysis));
     }
-    let draw = match query.frame {
-        Some(FrameWord::Fixed) => plot::campbell_fixed_frame,
-        Some(FrameWord::Rotating) | None => plot::campbell,
+    let forms = match query.frame {
+        Some(FrameWord::Fixed) => {
+            Forms::drawn_by(plot::campbell_fixed_frame, plot::figure::campbell_fixed_frame)
+        }
+        Some(FrameWord::Rotating) | None => Forms::drawn_by(plot::campbell, plot::figure::campbell),
     };
-    Forms::drawn_by(draw).of_document(&state, download, &job, Document::Campbell).await
+    forms.of_document(&state, download, &job, Document::Campbell).await
 }
 
 /// The job `id`, if who asks may see it: jobs of others are as if they were not there.

@@ -79,7 +79,8 @@ pub(super) async fn get_section(
     };
     let path = state.store.package_path(&id);
     let bytes = NODE_MEMORY * u64::from(model.facts.own_dofs);
-    Forms::drawn_by(move |geometry: &SectorGeometry| plot::section(geometry, view))
+    let figure = move |geometry: &SectorGeometry| plot::figure::section(geometry, view);
+    Forms::drawn_by(move |geometry: &SectorGeometry| plot::section(geometry, view), figure)
         .answer(&state, download, Some(format!("model {id}")), bytes, move || {
             let places = read_places(&path, &Limits::default()).map_err(Box::new)?;
             let positions: Vec<[f64; 3]> =

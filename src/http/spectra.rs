@@ -74,6 +74,15 @@ impl Export for SpectraBody {
     }
 }
 
+/// What is drawn of a speed that has none.
+static NO_SPECTRA: SpeedSpectra = SpeedSpectra { engine_orders: Vec::new(), sensors: Vec::new() };
+
+impl SpectraBody {
+    fn known(&self) -> &SpeedSpectra {
+        self.spectra.as_ref().unwrap_or(&NO_SPECTRA)
+    }
+}
+
 /// Wear of an abradable coating at one speed of a sweep.
 #[derive(Debug, Serialize, ToSchema)]
 pub(super) struct WearBody {
@@ -139,11 +148,13 @@ pub(super) async fn get_spectra(
         Some(FrameWord::Fixed) => Frame::Fixed,
         Some(FrameWord::Rotating) | None => Frame::Rotating,
     };
-    let forms = Forms::drawn_by(move |body: &SpectraBody| {
-        let place = body.sensors.iter().position(|sensor| *sensor == drawn).unwrap_or(0);
-        let draw = |spectra| plot::spectrum(spectra, &body.point, &body.units, place, frame);
-        body.spectra.as_ref().map_or_else(String::new, draw)
-    });
+    let place = sensors.iter().position(|sensor| *sensor == drawn).unwrap_or(0);
+    let forms = Forms::drawn_by(
+        move |body: &SpectraBody| plot::spectrum(body.known(), &body.point, &body.units, place, frame),
+        move |body: &SpectraBody| {
+            plot::figure::spectrum(body.known(), &body.point, &body.units, place, frame)
+        },
+    );
     let (form, orders) = (answer.form, query.orders);
     let bytes = ROW_MEMORY * state.store.largest_spectra(id).await?;
     let read = speed(&state, id, index);
@@ -189,7 +200,9 @@ pub(super) async fn get_wear(
     let units = facts.units.clone();
     let bytes = ROW_MEMORY * state.store.largest_spectra(id).await?;
     let read = speed(&state, id, index);
-    Forms::drawn_by(|body: &WearBody| plot::wear_map(&body.wear, &body.point, &body.units))
+    let draw = |body: &WearBody| plot::wear_map(&body.wear, &body.point, &body.units);
+    let figure = |body: &WearBody| plot::figure::wear_map(&body.wear, &body.point, &body.units);
+    Forms::drawn_by(draw, figure)
         .answer(&state, download, lasting(&job), bytes, move || {
             let SpeedResult { point, wear, .. } = read()?;
             let Some(wear) = wear else { return Err(unavailable(&point, "wear")) };

@@ -131,7 +131,11 @@ pub(super) async fn get_work_precision(
         Over::Time => plot::work_precision(found, speed, quantity),
         Over::Step => plot::error_over_step(found, speed, quantity),
     };
-    Forms::drawn_by(draw).of_document(&state, download, &job, Document::WorkPrecision).await
+    let figure = move |found: &WorkPrecision| match over {
+        Over::Time => plot::figure::work_precision(found, speed, quantity),
+        Over::Step => plot::figure::error_over_step(found, speed, quantity),
+    };
+    Forms::drawn_by(draw, figure).of_document(&state, download, &job, Document::WorkPrecision).await
 }
 
 /// The request of a study that has so many speeds.

@@ -6,7 +6,7 @@ use super::app::{Api, TestApp, sweep_of};
 use super::model;
 
 /// A case study of speed 2 of [`sweep_of`].
-fn case_of(model: &str) -> Value {
+pub(super) fn case_of(model: &str) -> Value {
     let sweep = sweep_of(model);
     let values = sweep["speeds"]["values"].as_array();
     let value = match values {

@@ -221,7 +221,9 @@ async fn a_wheel_is_closed_and_its_modes_are_where_they_belong() {
         let items = problem.problem(400, "invalid-parameter");
         assert_eq!(items[0]["parameter"], parameter, "{query}");
     }
-    api.get(&format!("{modes}?format=csv")).await.problem(406, "not-acceptable");
+    for form in ["csv", "plotly"] {
+        api.get(&format!("{modes}?format={form}")).await.problem(406, "not-acceptable");
+    }
 
     let mode = format!("{modes}?speed_rad_s=1000&nodal_diameter=2&mode=1&motion=travelling&stress=true");
     let wheel = Vtk::new(raw(api, &format!("{mode}&format=vtu")).await);
@@ -468,7 +470,9 @@ async fn a_recorded_run_gives_instants_and_deflection_shapes() {
         assert_eq!(items[0]["parameter"], parameter, "{query}");
     }
     api.get(&format!("{path}?speed=3")).await.problem(404, "history-not-recorded");
-    api.get(&format!("{path}?format=json")).await.problem(406, "not-acceptable");
+    for form in ["json", "plotly"] {
+        api.get(&format!("{path}?format={form}")).await.problem(406, "not-acceptable");
+    }
     // The mean of the history is the shape of engine order 0.
     let mean = Npz::read(&raw(api, &format!("{path}?engine_order=0&sector=2&format=npz")).await);
     let (u, ids) = (mean.array("displacement").reals(), mean.array("node").ids());

@@ -1,4 +1,4 @@
-//! Results as JSON, CSV, npz, SVG and PNG: which form is answered, that each can be read, parts of results, speeds in other units.
+//! Results as JSON, CSV, npz, SVG, PNG and figures: which form is answered, that each can be read, parts of results, speeds in other units.
 
 use reqwest::StatusCode;
 use reqwest::header::HeaderMap;
@@ -20,11 +20,15 @@ impl Raw {
         self.headers.get(name).map_or("", |value| value.to_str().unwrap())
     }
 
+    pub(super) fn body(&self) -> &[u8] {
+        &self.body
+    }
+
     pub(super) fn text(&self) -> &str {
         std::str::from_utf8(&self.body).unwrap()
     }
 
-    fn json(&self) -> Value {
+    pub(super) fn json(&self) -> Value {
         serde_json::from_slice(&self.body).unwrap()
     }
 
@@ -46,7 +50,7 @@ pub(super) async fn get(api: &Api, path: &str, headers: &[(&str, &str)]) -> Raw 
 }
 
 /// Lines and columns of a table without quotes.
-fn table(csv: &str) -> Vec<Vec<&str>> {
+pub(super) fn table(csv: &str) -> Vec<Vec<&str>> {
     let lines: Vec<&str> = csv.strip_suffix("\r\n").unwrap().split("\r\n").collect();
     let rows: Vec<Vec<&str>> = lines.iter().map(|line| line.split(',').collect()).collect();
     assert!(rows.iter().all(|row| row.len() == rows[0].len()), "{csv}");
@@ -54,7 +58,7 @@ fn table(csv: &str) -> Vec<Vec<&str>> {
 }
 
 /// A sweep with two sensors and a coating, ended well.
-async fn worn_sweep(api: &Api, model: &str) -> String {
+pub(super) async fn worn_sweep(api: &Api, model: &str) -> String {
     let mut request = sweep_of(model);
     request["scene"]["abradable"] = json!({"modulus": 2e4, "yield_stress": 20.0, "hardening": 500.0, "thickness": 2.0, "rods_around": 90});
     request["sensors"] = json!([
@@ -67,18 +71,19 @@ async fn worn_sweep(api: &Api, model: &str) -> String {
     id
 }
 
-async fn job(api: &Api, path: &str, request: &Value) -> String {
+pub(super) async fn job(api: &Api, path: &str, request: &Value) -> String {
     let id = api.post(path, request).await.text("/id");
     assert_eq!(api.finish(&id).await["status"], "successful");
     id
 }
 
-const FORMS: [(&str, &str); 5] = [
+const FORMS: [(&str, &str); 6] = [
     ("json", "application/json"),
     ("csv", "text/csv; charset=utf-8"),
     ("npz", "application/x-npz"),
     ("svg", "image/svg+xml"),
     ("png", "image/png"),
+    ("plotly", "application/vnd.plotly.v1+json"),
 ];
 
 /// A form must be what it says it is.
@@ -90,6 +95,14 @@ fn assert_reads(form: &str, raw: &Raw) {
         "svg" => {
             let drawing = roxmltree::Document::parse(raw.text()).unwrap();
             assert_eq!(drawing.root_element().tag_name().name(), "svg");
+        }
+        "plotly" => {
+            let figure = raw.json();
+            assert_eq!(figure.as_object().unwrap().keys().collect::<Vec<_>>(), ["data", "layout"]);
+            assert!(
+                !figure["data"].as_array().unwrap().is_empty()
+                    && figure["layout"]["meta"]["kind"].is_string()
+            );
         }
         _ => {
             assert!(raw.body.starts_with(b"\x89PNG\r\n\x1a\n"));

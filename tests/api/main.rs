@@ -12,6 +12,7 @@ mod errors;
 mod events;
 mod faults;
 mod fields;
+mod figures;
 mod formats;
 mod generation;
 mod idempotency;

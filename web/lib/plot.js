@@ -49,8 +49,8 @@ function dressed(element, figure, height) {
   const layout = { ...figure.layout, template: template(), autosize: true };
   layout.height = height ?? layout.height ?? HEIGHT;
   if (narrow(element)) {
-    // A key beside the figure would leave no room for it.
-    layout.legend = { ...layout.legend, orientation: 'h', y: -0.25, x: 0, yanchor: 'top', xanchor: 'left' };
+    // A key beside the figure would leave no room for it; those of the service have theirs below.
+    layout.legend = { orientation: 'h', y: -0.25, x: 0, yanchor: 'top', xanchor: 'left', ...layout.legend };
     layout.margin = { ...layout.margin, l: 48, r: 12 };
     if (layout.title) layout.title = { ...layout.title, font: { size: 13 } };
   }

@@ -118,6 +118,8 @@ pub(super) struct Ray {
     pub(super) order: u32,
     /// Whether the lobes excite it.
     pub(super) excited: bool,
+    /// Whether there is room for its number, if they do.
+    pub(super) numbered: bool,
     /// rpm and Hz where it begins and where it leaves.
     pub(super) ends: [(f64, f64); 2],
 }
@@ -126,10 +128,17 @@ pub(super) struct Ray {
 pub(super) fn rays(campbell: &Campbell, diagram: &Diagram) -> Vec<Ray> {
     let lobes = campbell.settings.lobes.max(1);
     let (slow, fast) = diagram.x.values;
+    let mut last = (f64::NAN, f64::NAN);
     let ray = |order: u32| {
         let slope = f64::from(order) / 60.0;
         let ends = diagram.clipped((slow, slope * slow), (fast, slope * fast))?;
-        Some(Ray { order, excited: order.is_multiple_of(lobes), ends })
+        let excited = order.is_multiple_of(lobes);
+        let to = diagram.point(ends[1].0, ends[1].1);
+        let crowded = (to.0 - last.0).abs() < 18.0 && (to.1 - last.1).abs() < 13.0;
+        if excited && !crowded {
+            last = to;
+        }
+        Some(Ray { order, excited, numbered: excited && !crowded, ends })
     };
     (1..=drawn_orders(campbell)).filter_map(ray).collect()
 }
@@ -137,13 +146,11 @@ pub(super) fn rays(campbell: &Campbell, diagram: &Diagram) -> Vec<Ray> {
 /// The same drawn, those of the lobes darker, labelled where they leave.
 fn engine_orders(campbell: &Campbell, diagram: &Diagram) -> Element {
     let mut rays = group();
-    let mut last_label = (f64::NAN, f64::NAN);
-    for Ray { order, excited, ends } in self::rays(campbell, diagram) {
+    for Ray { order, excited, numbered, ends } in self::rays(campbell, diagram) {
         let [from, to] = ends.map(|(x, y)| diagram.point(x, y));
         let ray = line(from, to).set("stroke", if excited { "#777777" } else { "#cccccc" });
         rays = rays.child(ray.set("stroke-width", if excited { "1" } else { "0.8" }));
-        let crowded = (to.0 - last_label.0).abs() < 18.0 && (to.1 - last_label.1).abs() < 13.0;
-        if excited && !crowded {
+        if numbered {
             let (x, y, anchor) = if to.1 <= diagram.top + 0.5 {
                 (to.0, to.1 - 6.0, "middle")
             } else {
@@ -152,7 +159,6 @@ fn engine_orders(campbell: &Campbell, diagram: &Diagram) -> Element {
             };
             let label = text(x, y, anchor, &format!("{order}")).set("font-size", "11").set("fill", "#555555");
             rays = rays.child(label.rimmed("white"));
-            last_label = to;
         }
     }
     rays

@@ -24,16 +24,8 @@ const SUPERHARMONIC: [&str; 3] = ["6 3", "2 3", "7 3 2 3"];
 /// rotation, |f − iΩ/2π| of those against it, and |f − i·n·Ω/2π| of the superharmonics n of Eq. 11. Where a line comes down to zero the
 /// wave stands still before the casing: the linear criterion's critical speeds.
 pub fn campbell_fixed_frame(campbell: &Campbell) -> String {
-    let title = "Campbell diagram in the fixed frame";
-    let words = format!(
-        "{} modes per speed · {} lobes · {}",
-        campbell.reduction.modes_per_speed,
-        campbell.settings.lobes,
-        heading::origin(&campbell.settings.model, &campbell.version)
-    );
-    let warning = campbell.reduction.stiffening.verdict.warning().map(str::to_owned);
-    let paragraphs: Vec<String> = [words].into_iter().chain(warning).collect();
-    let (heading, bottom) = heading::heading(LEFT, title, &paragraphs);
+    let title = TITLE;
+    let (heading, bottom) = heading::heading(LEFT, title, &words(campbell));
     let curves = curves(campbell);
     let diagram = diagram(campbell, &curves, bottom + 24.0);
     let (x, y) = (ticks(diagram.x.values, 10.0), ticks(diagram.y.values, 10.0));
@@ -52,9 +44,24 @@ pub fn campbell_fixed_frame(campbell: &Campbell) -> String {
     document(title, WIDTH, HEIGHT, content)
 }
 
+/// What the diagram is.
+pub(super) const TITLE: &str = "Campbell diagram in the fixed frame";
+
+/// What stands below the title.
+pub(super) fn words(campbell: &Campbell) -> Vec<String> {
+    let words = format!(
+        "{} modes per speed · {} lobes · {}",
+        campbell.reduction.modes_per_speed,
+        campbell.settings.lobes,
+        heading::origin(&campbell.settings.model, &campbell.version)
+    );
+    let warning = campbell.reduction.stiffening.verdict.warning().map(str::to_owned);
+    [words].into_iter().chain(warning).collect()
+}
+
 /// What is seen of a mode.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Seen {
+pub(super) enum Seen {
     /// f + iΩ/2π.
     Forward,
     /// |f − iΩ/2π|.
@@ -63,17 +70,29 @@ enum Seen {
     Superharmonic(u32),
 }
 
+impl Seen {
+    /// What it is, in words.
+    pub(super) fn words(self) -> String {
+        match self {
+            Self::Backward => "against the rotation: |f − iΩ/2π|".to_owned(),
+            Self::Forward => "with it: f + iΩ/2π".to_owned(),
+            Self::Superharmonic(n) => format!("superharmonic: |f − {n}iΩ/2π|"),
+        }
+    }
+}
+
 /// One line of the diagram.
-struct Curve {
-    nodal_diameter: usize,
-    harmonics: usize,
+pub(super) struct Curve {
+    pub(super) nodal_diameter: usize,
+    pub(super) harmonics: usize,
     family: usize,
-    seen: Seen,
+    pub(super) seen: Seen,
     /// Hz at each speed.
     hz: Vec<Option<f64>>,
 }
 
-fn curves(campbell: &Campbell) -> Vec<Curve> {
+/// All lines.
+pub(super) fn curves(campbell: &Campbell) -> Vec<Curve> {
     let branches = campbell.branches();
     let table = |wanted: Wave| {
         let found = branches.iter().find(|(wave, _)| wave.is_none_or(|wave| wave == wanted));
@@ -114,18 +133,25 @@ fn curves(campbell: &Campbell) -> Vec<Curve> {
 }
 
 impl Curve {
-    fn draw(&self, campbell: &Campbell, diagram: &Diagram) -> Element {
+    /// rpm and Hz along the line, with the places at which it comes down to zero.
+    pub(super) fn places(&self, campbell: &Campbell) -> Vec<Option<(f64, f64)>> {
         let mut points = Vec::new();
         let mut before: Option<(f64, f64)> = None;
         for (speed, hz) in campbell.speeds_rad_s.iter().zip(&self.hz) {
             let now = hz.map(|hz| (rpm(*speed), hz));
             // |f − kΩ/2π| comes down to zero between two speeds whose sum it falls or rises by.
             if let (Some(from), Some(to), true) = (before, now, self.seen != Seen::Forward) {
-                points.extend(self.foot(from, to).map(|rpm| Some(diagram.point(rpm, 0.0))));
+                points.extend(self.foot(from, to).map(|rpm| Some((rpm, 0.0))));
             }
-            points.push(now.map(|(rpm, hz)| diagram.point(rpm, hz)));
+            points.push(now);
             before = now;
         }
+        points
+    }
+
+    fn draw(&self, campbell: &Campbell, diagram: &Diagram) -> Element {
+        let points = self.places(campbell).into_iter();
+        let points = points.map(|place| place.map(|(rpm, hz)| diagram.point(rpm, hz)));
         let (width, dashes, opacity) = self.style();
         polyline(points)
             .set("class", "wave")
@@ -157,7 +183,8 @@ impl Curve {
         }
     }
 
-    fn words(&self) -> String {
+    /// What is seen of which mode, in words.
+    pub(super) fn words(&self) -> String {
         let (i, family) = (self.nodal_diameter, self.family + 1);
         match self.seen {
             Seen::Forward => format!("nodal diameter {i}, family {family}: f + iΩ/2π"),
@@ -167,7 +194,8 @@ impl Curve {
     }
 }
 
-fn diagram(campbell: &Campbell, curves: &[Curve], top: f64) -> Diagram {
+/// The empty diagram, from `top` downwards.
+pub(super) fn diagram(campbell: &Campbell, curves: &[Curve], top: f64) -> Diagram {
     let highest = curves
         .iter()
         .filter(|curve| curve.seen != Seen::Forward)
@@ -223,12 +251,7 @@ fn key(campbell: &Campbell, curves: &[Curve], diagram: &Diagram) -> Element {
         if !kinds.contains(&curve.seen) {
             kinds.push(curve.seen);
             let (width, dashes, _) = curve.style();
-            let words = match curve.seen {
-                Seen::Backward => "against the rotation: |f − iΩ/2π|".to_owned(),
-                Seen::Forward => "with it: f + iΩ/2π".to_owned(),
-                Seen::Superharmonic(n) => format!("superharmonic: |f − {n}iΩ/2π|"),
-            };
-            key = key.row(stroke("#444444", width, dashes), &words);
+            key = key.row(stroke("#444444", width, dashes), &curve.seen.words());
         }
     }
     if campbell.crossings.iter().any(|crossing| diagram.x.contains(rpm(crossing.speed_rad_s))) {

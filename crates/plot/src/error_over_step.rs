@@ -6,7 +6,7 @@ use super::colour::DASHES;
 use super::diagram::Diagram;
 use super::heading::heading;
 use super::key::{Key, MARK_WIDTH};
-use super::study_runs::{Drawn, extent, left_out, origin, reason, words};
+use super::study_runs::{Drawn, error_axis, extent, left_out, origin, reason, words};
 use super::svg::{Element, group, line, polyline, text};
 use super::{scheme, svg};
 use rubmap_analysis::request::SchemeChoice;
@@ -22,7 +22,7 @@ const PLOT_WIDTH: f64 = 790.0;
 /// Draws the errors of one quantity over the time step at the speed of index `speed`, both on logarithmic axes: a line for each scheme
 /// and size of the model, and beside them what an error does that falls with the step or with its square.
 pub fn error_over_step(study: &WorkPrecision, speed: usize, quantity: Quantity) -> String {
-    let title = format!("Error over time step: {}", words(quantity, study));
+    let title = title(study, quantity);
     let Some(at) = study.speeds.get(speed) else {
         let (heading, _) = heading(LEFT, &title, &[format!("the study has no speed of index {speed}")]);
         return svg::document(&title, WIDTH, HEIGHT, vec![heading]);
@@ -36,26 +36,36 @@ pub fn error_over_step(study: &WorkPrecision, speed: usize, quantity: Quantity) 
     svg::document(&title, WIDTH, HEIGHT, content)
 }
 
-/// Runs that differ in their time step only.
-struct Ladder<'a> {
-    modes_per_speed: u32,
-    scheme: SchemeChoice,
-    kept_modes: AutoOr,
-    /// By ascending step, so from the finest on.
-    runs: Vec<Drawn<'a>>,
+/// What is seen.
+pub(super) fn title(study: &WorkPrecision, quantity: Quantity) -> String {
+    format!("Error over time step: {}", words(quantity, study))
 }
 
-struct View<'a> {
+/// What the axis to the right says.
+pub(super) const STEP: &str = "time step, revolutions";
+
+/// Runs that differ in their time step only.
+pub(super) struct Ladder<'a> {
+    pub(super) modes_per_speed: u32,
+    pub(super) scheme: SchemeChoice,
+    kept_modes: AutoOr,
+    /// By ascending step, so from the finest on.
+    pub(super) runs: Vec<Drawn<'a>>,
+}
+
+/// The diagram of one quantity at one speed.
+pub(super) struct View<'a> {
     at: &'a SpeedStudy,
     quantity: Quantity,
-    ladders: Vec<Ladder<'a>>,
+    pub(super) ladders: Vec<Ladder<'a>>,
     /// Modes per speed, ascending.
-    sizes: Vec<u32>,
+    pub(super) sizes: Vec<u32>,
     diagram: Diagram,
 }
 
 impl<'a> View<'a> {
-    fn new(at: &'a SpeedStudy, quantity: Quantity, top: f64) -> Self {
+    /// Whose diagram begins at `top`.
+    pub(super) fn new(at: &'a SpeedStudy, quantity: Quantity, top: f64) -> Self {
         let mut ladders: Vec<Ladder> = Vec::new();
         for drawn in at.runs.iter().filter_map(|run| Drawn::of(run, quantity)) {
             let setting = drawn.run.setting;
@@ -98,8 +108,8 @@ impl<'a> View<'a> {
             self.slopes(),
             group().children(ladders),
             diagram.frame(),
-            diagram.x_axis(&x, "time step, revolutions"),
-            diagram.y_axis(&y, &format!("relative error: {}", words(self.quantity, study)), 64.0),
+            diagram.x_axis(&x, STEP),
+            diagram.y_axis(&y, &error_axis(self.quantity, study), 64.0),
             self.key(),
         ]
     }
@@ -122,14 +132,18 @@ impl<'a> View<'a> {
         group().child(rungs).children(marks)
     }
 
-    /// What falls with the step, and with its square.
-    fn slopes(&self) -> Element {
+    /// What falls with the step, and with its square: from the lower left of the diagram up to where it leaves.
+    pub(super) fn orders(&self) -> [([(f64, f64); 2], &'static str); 2] {
         let (x, y) = (self.diagram.x.values, self.diagram.y.values);
-        let lines = [(1, "h"), (2, "h²")].into_iter().map(|(order, words)| {
-            // From the lower left of the diagram up to where it leaves.
+        [(1, "h"), (2, "h²")].map(|(order, words)| {
             let from = (x.0, 1.3 * y.0);
             let reach = f64::min(x.1 / from.0, (y.1 / from.1).powf(1.0 / f64::from(order)));
-            let to = (from.0 * reach, from.1 * reach.powi(order));
+            ([from, (from.0 * reach, from.1 * reach.powi(order))], words)
+        })
+    }
+
+    fn slopes(&self) -> Element {
+        let lines = self.orders().into_iter().map(|([from, to], words)| {
             let (a, b) = (self.diagram.point(from.0, from.1), self.diagram.point(to.0, to.1));
             let stroke = line(a, b).set("class", "slope").set("stroke", "#bbbbbb").set("stroke-width", "1.2");
             let label = text(b.0 - 8.0, b.1 + 16.0, "end", words).set("fill", "#777777").rimmed("white");
@@ -167,6 +181,6 @@ impl<'a> View<'a> {
 }
 
 /// The time step of a run, in revolutions.
-fn step(drawn: &Drawn) -> f64 {
+pub(super) fn step(drawn: &Drawn) -> f64 {
     1.0 / f64::from(drawn.run.setting.steps_per_revolution.max(1))
 }

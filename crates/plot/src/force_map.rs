@@ -29,7 +29,8 @@ pub enum ForceQuantity {
 }
 
 impl ForceQuantity {
-    fn of(self, row: &ForceRow) -> &[f64] {
+    /// Of every contact node.
+    pub(super) fn of(self, row: &ForceRow) -> &[f64] {
         match self {
             Self::Peak => &row.peak_force,
             Self::Impulse => &row.impulse_per_revolution,
@@ -56,7 +57,7 @@ impl ForceQuantity {
     }
 
     /// What the bar of colours says.
-    fn short(self, map: &ForceMap) -> String {
+    pub(super) fn short(self, map: &ForceMap) -> String {
         let words = match self {
             Self::Peak => "force",
             Self::Impulse => "impulse",
@@ -68,10 +69,15 @@ impl ForceQuantity {
 }
 
 /// A curve over speed: its words, dashes, and value.
-type Curve = (&'static str, &'static str, fn(&ForceRow) -> Option<f64>);
+pub(super) type Curve = (&'static str, &'static str, fn(&ForceRow) -> Option<f64>);
 
-/// The wheel's curves above the map; the first is the worst of the map.
-fn curves(quantity: ForceQuantity) -> Vec<Curve> {
+/// The wheel's curves above the map that have values; the first is the worst of the map.
+pub(super) fn curves(map: &ForceMap, quantity: ForceQuantity) -> Vec<Curve> {
+    let known = |(.., value): &Curve| map.rows.iter().flatten().any(|row| value(row).is_some());
+    all_curves(quantity).into_iter().filter(known).collect()
+}
+
+fn all_curves(quantity: ForceQuantity) -> Vec<Curve> {
     let worst: Curve = match quantity {
         ForceQuantity::Peak => ("worst node", "", |row| largest(&row.peak_force)),
         ForceQuantity::Impulse => ("worst node", "", |row| largest(&row.impulse_per_revolution)),
@@ -91,29 +97,26 @@ fn curves(quantity: ForceQuantity) -> Vec<Curve> {
     }
 }
 
-fn largest(values: &[f64]) -> Option<f64> {
+/// What a consumption of 1 is.
+pub(super) const REACHES: &str = "1: reaches the undeformed casing";
+
+/// What the axis of contact nodes says.
+pub(super) const NODES: &str = "contact node (0: leading edge)";
+
+pub(super) fn largest(values: &[f64]) -> Option<f64> {
     values.iter().copied().filter(|value| value.is_finite()).max_by(f64::total_cmp)
 }
 
 /// Draws contact over speed and contact node, above it the worst node, the whole wheel, and what a linear calculation says where there
 /// are such numbers.
 pub fn force_map(map: &ForceMap, quantity: ForceQuantity) -> String {
-    let title = format!("Contact over speed: {}", quantity.words());
-    let computed = map.rows.iter().flatten().count();
-    let words = format!(
-        "{computed} of {} speeds · of every contact node its worst blade · {}",
-        map.speeds_rad_s.len(),
-        heading::origin(&map.settings.model, &map.version)
-    );
-    let (heading, bottom) = heading::heading(LEFT, &title, &[words]);
+    let title = title(quantity);
+    let (heading, bottom) = heading::heading(LEFT, &title, &[words(map)]);
     let cells = cells(&map.speeds_rad_s);
     let top = bottom + 20.0;
     let speeds = extent(&cells);
     let rows = |cell: &Cell| map.rows.get(cell.index).and_then(Option::as_ref);
-    let curves: Vec<Curve> = curves(quantity)
-        .into_iter()
-        .filter(|(.., value)| cells.iter().any(|cell| rows(cell).and_then(value).is_some()))
-        .collect();
+    let curves = curves(map, quantity);
     let shown = curves
         .iter()
         .flat_map(|(.., value)| cells.iter().filter_map(move |cell| rows(cell).and_then(*value)));
@@ -140,7 +143,7 @@ pub fn force_map(map: &ForceMap, quantity: ForceQuantity) -> String {
     content.push(over_speed(&curves, &cells, &rows, (quantity, map), ((LEFT, top), speeds, highest)));
     content.push(diagram.frame());
     content.push(diagram.x_axis(&x, "rotational speed Ω, rpm"));
-    content.push(diagram.y_axis(&node_ticks(nodes), "contact node (0: leading edge)", 72.0));
+    content.push(diagram.y_axis(&node_ticks(nodes), NODES, 72.0));
     let bar = ticks(scale.values, 8.0);
     content.push(colour_bar::draw(&scale, diagram.right() + 26.0, &bar, &quantity.short(map)));
     let mut flow = Flow::new(LEFT, WIDTH - 20.0, diagram.bottom() + 66.0);
@@ -149,7 +152,7 @@ pub fn force_map(map: &ForceMap, quantity: ForceQuantity) -> String {
     }
     if quantity == ForceQuantity::Consumption && highest >= 1.0 {
         let limit = line((0.0, 0.0), (30.0, 0.0)).set("stroke", "#d62728").set("stroke-width", "1.2");
-        flow = flow.entry(limit, 30.0, "1: reaches the undeformed casing");
+        flow = flow.entry(limit, 30.0, REACHES);
     }
     if cells.iter().any(|cell| rows(cell).is_none()) {
         flow = flow.entry(hatching::mark(), 20.0, "no result");
@@ -158,9 +161,29 @@ pub fn force_map(map: &ForceMap, quantity: ForceQuantity) -> String {
     document(&title, WIDTH, diagram.bottom() + 92.0, content)
 }
 
+/// What the map is of.
+pub(super) fn title(quantity: ForceQuantity) -> String {
+    format!("Contact over speed: {}", quantity.words())
+}
+
+/// What stands below the title.
+pub(super) fn words(map: &ForceMap) -> String {
+    let computed = map.rows.iter().flatten().count();
+    format!(
+        "{computed} of {} speeds · of every contact node its worst blade · {}",
+        map.speeds_rad_s.len(),
+        heading::origin(&map.settings.model, &map.version)
+    )
+}
+
 fn stroke(dashes: &str) -> Element {
     let stroke = line((0.0, 0.0), (30.0, 0.0)).set("stroke", "#1f4e79").set("stroke-width", "1.6");
     stroke.set("stroke-dasharray", dashes)
+}
+
+/// A value of a curve in words.
+pub(super) fn told(rpm: f64, words: &str, value: f64) -> String {
+    format!("{rpm:.0} rpm, {words}: {}", significant(value))
 }
 
 /// The numbers of contact nodes, all of a few.
@@ -187,7 +210,7 @@ fn over_speed<'a>(
         let dots = cells.iter().filter_map(|cell| Some((at(cell)?, rows(cell).and_then(value)?, cell.rpm)));
         let dots = dots.map(|((x, y), value, rpm)| {
             let dot = rectangle(x - 1.5, y - 1.5, 3.0, 3.0).set("fill", "#1f4e79");
-            dot.title(&format!("{rpm:.0} rpm, {words}: {}", significant(value)))
+            dot.title(&told(rpm, words, value))
         });
         group().child(curve).children(dots)
     });

@@ -15,13 +15,13 @@ const LEFT: f64 = 100.0;
 const PLOT: (f64, f64) = (900.0, 520.0);
 
 /// Dots that are drawn, the most utilised first.
-const MOST: usize = 3000;
+pub(super) const MOST: usize = 3000;
 
 /// Dots that are labelled.
 const LABELLED: usize = 5;
 
 /// Utilisations whose lines are drawn beside the one of 1.
-const LINES: [f64; 3] = [0.25, 0.5, 0.75];
+pub(super) const LINES: [f64; 3] = [0.25, 0.5, 0.75];
 
 const GOODMAN: &str = "#b01f20";
 const YIELD: &str = "#555555";
@@ -34,6 +34,9 @@ pub enum HaighColour {
     /// Its utilisation; what has none is grey.
     Utilisation,
 }
+
+/// What is said where there is none.
+pub(super) const NO_STRESS: &str = "Nothing to draw: no stress was recorded";
 
 /// Draws the cycles of all speeds in the plane of mean and alternating stress, with Goodman's lines of equal utilisation and the yield
 /// line of every material whose strengths are known. Below a mean of 0 only the alternating part counts. The most utilised places are
@@ -50,15 +53,15 @@ pub fn haigh(stress: &SweepStress, by: HaighColour) -> String {
     content.push(lines);
     let (scale, colour) = colours(&cycles, by, &diagram);
     if cycles.is_empty() {
-        content.push(diagram.words("Nothing to draw: no stress was recorded"));
+        content.push(diagram.words(NO_STRESS));
     }
     let all = cycles.iter().take(MOST).rev();
     content.push(group().children(all.filter_map(|cycle| dot(cycle, &diagram, &scale, by, unit))));
     content.extend([
         names(&cycles, &diagram),
         diagram.frame(),
-        diagram.x_axis(&x, &format!("mean stress (signed von Mises), {unit}")),
-        diagram.y_axis(&y, &format!("alternating stress, {unit}"), 72.0),
+        diagram.x_axis(&x, &mean_axis(unit)),
+        diagram.y_axis(&y, &alternating_axis(unit), 72.0),
         key(stress, &cycles, diagram.bottom() + 66.0),
     ]);
     if tells_apart(&cycles, by) {
@@ -69,8 +72,18 @@ pub fn haigh(stress: &SweepStress, by: HaighColour) -> String {
     document(title, WIDTH, diagram.bottom() + 116.0, content)
 }
 
+/// What the axis to the right says.
+pub(super) fn mean_axis(unit: &str) -> String {
+    format!("mean stress (signed von Mises), {unit}")
+}
+
+/// What the axis upwards says.
+pub(super) fn alternating_axis(unit: &str) -> String {
+    format!("alternating stress, {unit}")
+}
+
 /// The same in the unit that it is drawn in.
-fn drawn(stress: &SweepStress) -> (SweepStress, String) {
+pub(super) fn drawn(stress: &SweepStress) -> (SweepStress, String) {
     let (unit, factor) = drawn_stress_unit(&stress.units);
     let mut stress = stress.clone();
     for cycle in stress.speeds.iter_mut().flat_map(|speed| &mut speed.stress.cycles) {
@@ -88,7 +101,7 @@ fn drawn(stress: &SweepStress) -> (SweepStress, String) {
 }
 
 /// Whether colours say anything: utilisation where some is known, speeds where there are several.
-fn tells_apart(cycles: &[Cycle], by: HaighColour) -> bool {
+pub(super) fn tells_apart(cycles: &[Cycle], by: HaighColour) -> bool {
     match by {
         HaighColour::Speed => cycles.iter().any(|(speed, _)| speed.index != cycles[0].0.index),
         HaighColour::Utilisation => {
@@ -98,17 +111,17 @@ fn tells_apart(cycles: &[Cycle], by: HaighColour) -> bool {
 }
 
 /// A cycle and its speed.
-type Cycle<'a> = (&'a SpeedStress, &'a StressCycle);
+pub(super) type Cycle<'a> = (&'a SpeedStress, &'a StressCycle);
 
 /// All cycles that have a place, the most utilised first.
-fn ranked(stress: &SweepStress) -> Vec<Cycle<'_>> {
+pub(super) fn ranked(stress: &SweepStress) -> Vec<Cycle<'_>> {
     let mut cycles = stress.ranked();
     cycles.retain(|(_, cycle)| cycle.mean.is_finite() && cycle.alternating.is_finite());
     cycles
 }
 
 /// What stands below the title.
-fn words(stress: &SweepStress, cycles: &[Cycle], unit: &str) -> Vec<String> {
+pub(super) fn words(stress: &SweepStress, cycles: &[Cycle], unit: &str) -> Vec<String> {
     let mut words = vec![match stress.speeds.len() {
         1 => "1 speed".to_owned(),
         count => format!("{count} speeds"),
@@ -150,7 +163,7 @@ fn words(stress: &SweepStress, cycles: &[Cycle], unit: &str) -> Vec<String> {
 }
 
 /// Axes about all cycles and what the materials bear.
-fn diagram(stress: &SweepStress, cycles: &[Cycle], top: f64) -> Diagram {
+pub(super) fn diagram(stress: &SweepStress, cycles: &[Cycle], top: f64) -> Diagram {
     let bears = |of: fn(&Strengths) -> Option<f64>| {
         stress.strengths.iter().filter_map(of).filter(|value| value.is_finite()).fold(0.0, f64::max)
     };
@@ -174,7 +187,7 @@ fn limits(stress: &SweepStress, diagram: &Diagram) -> Vec<Element> {
         let dashes = DASHES[index % DASHES.len()];
         if let (Some(fatigue), Some(ultimate)) = (set.fatigue, set.ultimate) {
             for used in LINES.into_iter().chain([1.0]) {
-                let corners = [(left, used * fatigue), (0.0, used * fatigue), (used * ultimate, 0.0)];
+                let corners = goodman(left, used, (fatigue, ultimate));
                 let places = corners.map(|(x, y)| Some(diagram.point(x, y)));
                 let whole = used == 1.0;
                 lines.push(
@@ -193,9 +206,7 @@ fn limits(stress: &SweepStress, diagram: &Diagram) -> Vec<Element> {
             }
         }
         if let Some(bears) = set.yield_ {
-            // The largest magnitude of mean ± alternating reaches it.
-            let corners = [(-bears, 0.0), (0.0, bears), (bears, 0.0)];
-            let places = corners.map(|(x, y)| Some(diagram.point(x, y)));
+            let places = yields(bears).map(|(x, y)| Some(diagram.point(x, y)));
             let drawn =
                 polyline(places).set("class", "yield").set("stroke", YIELD).set("stroke-width", "1.2");
             lines.push(drawn.set("stroke-dasharray", dashes).title(&format!("{}: yield", set.set)));
@@ -204,8 +215,18 @@ fn limits(stress: &SweepStress, diagram: &Diagram) -> Vec<Element> {
     lines
 }
 
+/// The line of a utilisation from the left of the diagram to its foot, for these fatigue and ultimate strengths.
+pub(super) fn goodman(left: f64, used: f64, (fatigue, ultimate): (f64, f64)) -> [(f64, f64); 3] {
+    [(left, used * fatigue), (0.0, used * fatigue), (used * ultimate, 0.0)]
+}
+
+/// Where the largest magnitude of mean ± alternating reaches the yield strength.
+pub(super) fn yields(bears: f64) -> [(f64, f64); 3] {
+    [(-bears, 0.0), (0.0, bears), (bears, 0.0)]
+}
+
 /// The scale of the dots, as high as the diagram, and what it is of.
-fn colours(cycles: &[Cycle], by: HaighColour, diagram: &Diagram) -> (Scale, &'static str) {
+pub(super) fn colours(cycles: &[Cycle], by: HaighColour, diagram: &Diagram) -> (Scale, &'static str) {
     let places = (diagram.bottom(), diagram.top);
     let finite = |values: &mut dyn Iterator<Item = f64>| {
         values
@@ -225,6 +246,30 @@ fn colours(cycles: &[Cycle], by: HaighColour, diagram: &Diagram) -> (Scale, &'st
     }
 }
 
+/// What colours a cycle, if it is known.
+pub(super) fn value((speed, cycle): &Cycle, by: HaighColour) -> Option<f64> {
+    let value = match by {
+        HaighColour::Speed => Some(rpm(speed.speed_rad_s)),
+        HaighColour::Utilisation => cycle.utilisation,
+    };
+    value.filter(|value| value.is_finite())
+}
+
+/// A cycle in words.
+pub(super) fn told((speed, cycle): &Cycle, unit: &str) -> String {
+    let used =
+        cycle.utilisation.map(|used| format!(", utilisation {}", significant(used))).unwrap_or_default();
+    format!(
+        "{} rpm, node {}, blade {}, {}: {} ± {} {unit}{used}",
+        label(rpm(speed.speed_rad_s), 0),
+        cycle.node,
+        cycle.sector,
+        cycle.set,
+        significant(cycle.mean),
+        significant(cycle.alternating)
+    )
+}
+
 fn dot(
     (speed, cycle): &Cycle,
     diagram: &Diagram,
@@ -233,23 +278,9 @@ fn dot(
     unit: &str,
 ) -> Option<Element> {
     let (x, y) = diagram.inside(cycle.mean, cycle.alternating)?;
-    let value = match by {
-        HaighColour::Speed => Some(rpm(speed.speed_rad_s)),
-        HaighColour::Utilisation => cycle.utilisation,
-    };
-    let value = value.filter(|value| value.is_finite());
+    let value = value(&(speed, cycle), by);
     let fill = value.map_or_else(|| "#c8c8c8".to_owned(), |value| colour::hex(level(scale.share(value))));
-    let used =
-        cycle.utilisation.map(|used| format!(", utilisation {}", significant(used))).unwrap_or_default();
-    let words = format!(
-        "{} rpm, node {}, blade {}, {}: {} ± {} {unit}{used}",
-        label(rpm(speed.speed_rad_s), 0),
-        cycle.node,
-        cycle.sector,
-        cycle.set,
-        significant(cycle.mean),
-        significant(cycle.alternating)
-    );
+    let words = told(&(speed, cycle), unit);
     let dot = Element::new("circle").set("class", "cycle").number("cx", x).number("cy", y).number("r", 3.4);
     let dot = dot.set("fill", fill).set("stroke", "#222222").set("stroke-width", "0.5");
     Some(dot.title(&words))

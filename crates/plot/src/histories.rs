@@ -20,32 +20,16 @@ const PLOT_WIDTH: f64 = 800.0;
 
 /// Draws the displacements of the sensor of index `sensor` over revolutions, one line per size; the reference is thin and black.
 pub fn histories(histories: &Histories, sensor: usize) -> String {
-    let measured =
-        histories.sensors.get(sensor).map_or_else(|| "displacement".to_owned(), ToString::to_string);
-    let curves: Vec<Curve> = histories.lines.iter().filter_map(|line| Curve::of(line, sensor)).collect();
-    let longest = curves.iter().map(|curve| curve.displacement.len()).max().unwrap_or(0);
-    let revolutions = longest as f64 / f64::from(histories.samples_per_revolution.max(1));
-    let title = match revolutions {
-        0.0 => format!("First revolutions: {measured}, {} rpm", label(rpm(histories.speed_rad_s), 0)),
-        _ => format!(
-            "First {} revolutions: {measured}, {} rpm",
-            order(revolutions),
-            label(rpm(histories.speed_rad_s), 0)
-        ),
-    };
-    let words = "one line per size of the model, each at the finest time step that was completed";
-    let words = format!("{words} · rubmap {}", histories.version);
-    let (heading, bottom) = heading(LEFT, &title, &[words]);
+    let title = title(histories, sensor);
+    let curves = curves(histories, sensor);
+    let (heading, bottom) = heading(LEFT, &title, &[words(histories)]);
     let diagram = diagram(&curves, histories.samples_per_revolution, bottom + 24.0);
     let mut content = vec![heading];
     if curves.is_empty() {
-        content.extend([diagram.frame(), diagram.words("Nothing to draw: no run was completed")]);
+        content.extend([diagram.frame(), diagram.words(NOT_COMPLETED)]);
         return svg::document(&title, WIDTH, HEIGHT, content);
     }
-    let axis = match histories.sensors.get(sensor) {
-        Some(sensor) if sensor.gauge.is_some() => sensor.unit(&histories.units).to_owned(),
-        _ => format!("displacement, {}", histories.units.length),
-    };
+    let axis = axis(histories, sensor);
     let (x, y) = (ticks(diagram.x.values, 8.0), ticks(diagram.y.values, 8.0));
     content.push(diagram.grid(&x, &y));
     let mut bands = false;
@@ -66,10 +50,49 @@ pub fn histories(histories: &Histories, sensor: usize) -> String {
     svg::document(&title, WIDTH, HEIGHT, content)
 }
 
+/// What is said where no run has a line.
+pub(super) const NOT_COMPLETED: &str = "Nothing to draw: no run was completed";
+
+/// What is seen.
+pub(super) fn title(histories: &Histories, sensor: usize) -> String {
+    let measured =
+        histories.sensors.get(sensor).map_or_else(|| "displacement".to_owned(), ToString::to_string);
+    let curves = curves(histories, sensor);
+    let longest = curves.iter().map(|curve| curve.displacement.len()).max().unwrap_or(0);
+    let revolutions = longest as f64 / f64::from(histories.samples_per_revolution.max(1));
+    match revolutions {
+        0.0 => format!("First revolutions: {measured}, {} rpm", label(rpm(histories.speed_rad_s), 0)),
+        _ => format!(
+            "First {} revolutions: {measured}, {} rpm",
+            order(revolutions),
+            label(rpm(histories.speed_rad_s), 0)
+        ),
+    }
+}
+
+/// What stands below the title.
+pub(super) fn words(histories: &Histories) -> String {
+    let words = "one line per size of the model, each at the finest time step that was completed";
+    format!("{words} · rubmap {}", histories.version)
+}
+
+/// What the axis upwards says.
+pub(super) fn axis(histories: &Histories, sensor: usize) -> String {
+    match histories.sensors.get(sensor) {
+        Some(sensor) if sensor.gauge.is_some() => sensor.unit(&histories.units).to_owned(),
+        _ => format!("displacement, {}", histories.units.length),
+    }
+}
+
+/// The lines of a sensor.
+pub(super) fn curves(histories: &Histories, sensor: usize) -> Vec<Curve<'_>> {
+    histories.lines.iter().filter_map(|line| Curve::of(line, sensor)).collect()
+}
+
 /// The line of one size at one sensor.
-struct Curve<'a> {
-    line: &'a HistoryLine,
-    displacement: &'a [f64],
+pub(super) struct Curve<'a> {
+    pub(super) line: &'a HistoryLine,
+    pub(super) displacement: &'a [f64],
 }
 
 impl<'a> Curve<'a> {
@@ -78,7 +101,8 @@ impl<'a> Curve<'a> {
         Some(Self { line, displacement })
     }
 
-    fn title(&self) -> String {
+    /// The line in words.
+    pub(super) fn title(&self) -> String {
         let setting = &self.line.setting;
         format!(
             "{}{} modes per speed, {} unknowns, {}, {} steps a revolution",
@@ -87,6 +111,16 @@ impl<'a> Curve<'a> {
             label(self.line.unknowns.into(), 0),
             scheme::words(setting.scheme),
             label(setting.steps_per_revolution.into(), 0)
+        )
+    }
+
+    /// Modes per speed and unknowns.
+    pub(super) fn size(&self) -> String {
+        format!(
+            "{}{} · {} unknowns",
+            if self.line.reference { "reference: " } else { "" },
+            self.line.setting.modes_per_speed,
+            label(self.line.unknowns.into(), 0)
         )
     }
 
@@ -115,13 +149,7 @@ fn key(curves: &[Curve], diagram: &Diagram, bands: bool) -> Element {
     let key = Key::new(diagram.right() + 30.0, diagram.top).heading("modes per speed · unknowns");
     let row = |key: Key, (index, curve): (usize, &Curve)| {
         let mark = curve.pen(index, curves.len() > 2).mark(bands);
-        let words = format!(
-            "{}{} · {} unknowns",
-            if curve.line.reference { "reference: " } else { "" },
-            curve.line.setting.modes_per_speed,
-            label(curve.line.unknowns.into(), 0)
-        );
-        key.row(group().child(mark), &words)
+        key.row(group().child(mark), &curve.size())
     };
     let key = curves.iter().enumerate().fold(key, row);
     if bands { key.heading("bands: from lowest to highest").draw() } else { key.draw() }

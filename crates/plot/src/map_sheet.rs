@@ -19,6 +19,9 @@ const PANEL_HEIGHT: f64 = 232.0;
 /// Height of the strip above a panel.
 const STRIP: f64 = 7.0;
 
+/// What is said where there is no map.
+pub(super) const NO_MAP: &str = "Nothing to draw: no map is given";
+
 /// Draws the same window of several maps, a panel each with a common scale of colours: maps of one sensor, restricted to nodal diameters.
 ///
 /// With the colours of utilisation there is a strip of them above each map.
@@ -27,8 +30,7 @@ pub fn map_sheet(maps: &[InteractionMap], window: Window, level_colour: LevelCol
     let words = words(maps);
     let (heading, bottom) = heading::heading(LEFT, &title, &[words]);
     let Some(first) = maps.first() else {
-        let empty =
-            text(LEFT, bottom + 40.0, "start", "Nothing to draw: no map is given").set("class", "empty");
+        let empty = text(LEFT, bottom + 40.0, "start", NO_MAP).set("class", "empty");
         return document(&title, WIDTH, 160.0, vec![heading, empty]);
     };
     let columns = if maps.len() > 4 { 3 } else { maps.len().min(2) };
@@ -78,10 +80,7 @@ fn panel(
 ) -> Element {
     let diagram = &view.diagram;
     let cells = cells(&map.speeds_rad_s);
-    let name = match map.nodal_diameter {
-        Some(i) => format!("nodal diameter {i}"),
-        None => "all nodal diameters".to_owned(),
-    };
+    let name = name(map);
     let x = ticks(diagram.x.values, (diagram.width / 95.0).max(2.0));
     let y = ticks(diagram.y.values, 8.0);
     group()
@@ -94,6 +93,14 @@ fn panel(
         .child(diagram.y_axis(&y, if leftmost { "engine order k" } else { "" }, 46.0))
 }
 
+/// What a map of a sheet is of.
+pub(super) fn name(map: &InteractionMap) -> String {
+    match map.nodal_diameter {
+        Some(i) => format!("nodal diameter {i}"),
+        None => "all nodal diameters".to_owned(),
+    }
+}
+
 fn key(first: &InteractionMap, ends: &[End], y: f64, missing: bool, level_colour: LevelColour) -> Flow {
     let mut flow = View::explained(Flow::new(LEFT, WIDTH - 20.0, y), first, ends);
     if level_colour == LevelColour::Utilisation {
@@ -102,14 +109,15 @@ fn key(first: &InteractionMap, ends: &[End], y: f64, missing: bool, level_colour
     if missing { flow.entry(hatching::mark(), 20.0, "no result") } else { flow }
 }
 
-fn title(maps: &[InteractionMap]) -> String {
+pub(super) fn title(maps: &[InteractionMap]) -> String {
     match maps.first() {
         Some(map) => format!("Maps by nodal diameter: {}", map.sensor),
         None => "Maps by nodal diameter".to_owned(),
     }
 }
 
-fn words(maps: &[InteractionMap]) -> String {
+/// What stands below the title.
+pub(super) fn words(maps: &[InteractionMap]) -> String {
     let Some(map) = maps.first() else { return String::new() };
     let computed = map.amplitude.iter().flatten().count();
     let (slow, fast) = range(&map.speeds_rad_s);

@@ -30,12 +30,25 @@ pub enum SectionView {
     Cyclic,
 }
 
+/// What is said where there are none.
+pub(super) const NO_NODES: &str = "Nothing to draw: no node is known";
+
 /// What a node looks like and is called.
-struct Look {
-    kind: NodeKind,
+pub(super) struct Look {
+    pub(super) kind: NodeKind,
     words: &'static str,
     colour: &'static str,
     radius: f64,
+}
+
+impl Look {
+    /// What such nodes are called.
+    pub(super) fn words(&self, view: SectionView) -> &'static str {
+        match (view, self.kind) {
+            (SectionView::Meridional, NodeKind::Low) => "cyclic faces",
+            _ => self.words,
+        }
+    }
 }
 
 /// In the order in which they are drawn over each other.
@@ -49,23 +62,9 @@ const LOOKS: [Look; 5] = [
 
 /// Draws the nodes of the sector as dots, at the same scale in both directions.
 pub fn section(geometry: &SectorGeometry, view: SectionView) -> String {
-    let (subject, axes) = match view {
-        SectionView::Meridional => ("Meridional section", ["axial coordinate z", "radius r"]),
-        SectionView::Cyclic => ("Cyclic faces, seen along the axis", ["x", "y"]),
-    };
-    let name = if geometry.name.is_empty() { String::new() } else { format!(": {}", geometry.name) };
-    let title = format!("{subject}{name}");
-    let length = &geometry.units.length;
-    let mut words = format!(
-        "one of {} sectors · {} nodes, {} on the contact line",
-        geometry.sectors,
-        geometry.nodes.len(),
-        geometry.contact.len()
-    );
-    if let (SectionView::Meridional, Some(clearance)) = (view, clearances(geometry)) {
-        words += &format!(" · clearance {clearance} {length}");
-    }
-    let (heading, bottom) = heading(LEFT, &title, &[words]);
+    let title = title(geometry, view);
+    let (heading, bottom) = heading(LEFT, &title, &[words(geometry, view)]);
+    let axes = axes(geometry, view);
     let drawing = Drawing::new(geometry, view, bottom + 24.0);
     let diagram = &drawing.diagram;
     let (x, y) = (ticks(diagram.x.values, 9.0), ticks(diagram.y.values, 8.0));
@@ -75,12 +74,45 @@ pub fn section(geometry: &SectorGeometry, view: SectionView) -> String {
         diagram.region("inside"),
         group().set("clip-path", "url(#inside)").children(drawing.content()),
         diagram.frame(),
-        diagram.x_axis(&x, &format!("{}, {length}", axes[0])),
-        diagram.y_axis(&y, &format!("{}, {length}", axes[1]), 66.0),
+        diagram.x_axis(&x, &axes[0]),
+        diagram.y_axis(&y, &axes[1], 66.0),
         drawing.key(),
     ];
     let width = (diagram.right() + 290.0).max(LEFT + 1.15 * text_width(&title, 18.0)).min(WIDTH);
     document(&title, width, diagram.bottom() + 66.0, content)
+}
+
+/// What is seen.
+pub(super) fn title(geometry: &SectorGeometry, view: SectionView) -> String {
+    let subject = match view {
+        SectionView::Meridional => "Meridional section",
+        SectionView::Cyclic => "Cyclic faces, seen along the axis",
+    };
+    let name = if geometry.name.is_empty() { String::new() } else { format!(": {}", geometry.name) };
+    format!("{subject}{name}")
+}
+
+/// What stands below the title.
+pub(super) fn words(geometry: &SectorGeometry, view: SectionView) -> String {
+    let mut words = format!(
+        "one of {} sectors · {} nodes, {} on the contact line",
+        geometry.sectors,
+        geometry.nodes.len(),
+        geometry.contact.len()
+    );
+    if let (SectionView::Meridional, Some(clearance)) = (view, clearances(geometry)) {
+        words += &format!(" · clearance {clearance} {}", geometry.units.length);
+    }
+    words
+}
+
+/// What the axes say.
+pub(super) fn axes(geometry: &SectorGeometry, view: SectionView) -> [String; 2] {
+    let axes = match view {
+        SectionView::Meridional => ["axial coordinate z", "radius r"],
+        SectionView::Cyclic => ["x", "y"],
+    };
+    axes.map(|axis| format!("{axis}, {}", geometry.units.length))
 }
 
 /// The clearances at both ends of the contact line, in words.
@@ -95,16 +127,18 @@ fn clearances(geometry: &SectorGeometry) -> Option<String> {
     })
 }
 
-struct Drawing<'a> {
+/// A section and where its places are in the drawing.
+pub(super) struct Drawing<'a> {
     geometry: &'a SectorGeometry,
     view: SectionView,
     diagram: Diagram,
     /// How many times as large as it is a clearance is drawn.
-    stretch: f64,
+    pub(super) stretch: f64,
 }
 
 impl<'a> Drawing<'a> {
-    fn new(geometry: &'a SectorGeometry, view: SectionView, top: f64) -> Self {
+    /// Whose diagram begins at `top`.
+    pub(super) fn new(geometry: &'a SectorGeometry, view: SectionView, top: f64) -> Self {
         let nodes = geometry.nodes.iter().map(|node| node.position);
         let places = nodes.chain(geometry.contact.iter().map(|place| place.position));
         let places: Vec<(f64, f64)> = places.map(|position| project(view, position)).collect();
@@ -122,7 +156,7 @@ impl<'a> Drawing<'a> {
     }
 
     /// What is told apart: turned into one plane, both cyclic faces are one.
-    fn looks(&self) -> impl Iterator<Item = &'static Look> {
+    pub(super) fn looks(&self) -> impl Iterator<Item = &'static Look> {
         let view = self.view;
         LOOKS.iter().filter(move |look| view == SectionView::Cyclic || look.kind != NodeKind::High)
     }
@@ -131,23 +165,22 @@ impl<'a> Drawing<'a> {
         self.geometry.nodes.iter().filter(move |node| node.kind == kind)
     }
 
-    /// Places of the nodes of a kind; of those that cover each other one.
-    fn seen(&self, kind: NodeKind) -> Vec<(f64, f64)> {
-        let places = self.of(kind).map(|node| self.place(node.position));
+    /// Nodes of a kind; of those that cover each other one.
+    pub(super) fn seen(&self, kind: NodeKind) -> Vec<&SectorNode> {
         let mut taken = BTreeSet::new();
-        let cell = |(x, y): &(f64, f64)| ((x / COVERED) as i64, (y / COVERED) as i64);
-        places.filter(|place| taken.insert(cell(place))).collect()
+        let cell = |(x, y): (f64, f64)| ((x / COVERED) as i64, (y / COVERED) as i64);
+        self.of(kind).filter(|node| taken.insert(cell(self.place(node.position)))).collect()
     }
 
     fn content(&self) -> Vec<Element> {
         let mut content = Vec::new();
         if self.geometry.nodes.is_empty() && self.geometry.contact.is_empty() {
-            return vec![self.diagram.words("Nothing to draw: no node is known")];
+            return vec![self.diagram.words(NO_NODES)];
         }
         content.extend(self.outline());
         content.extend(self.casing());
         for look in self.looks() {
-            let dots = self.seen(look.kind).into_iter().map(|place| dot(place, look));
+            let dots = self.seen(look.kind).into_iter().map(|node| dot(self.place(node.position), look));
             content.push(group().set("class", class(look.kind)).set("fill", look.colour).children(dots));
         }
         let line = self.geometry.contact.iter().map(|contact| Some(self.place(contact.position)));
@@ -192,16 +225,21 @@ impl<'a> Drawing<'a> {
         }
     }
 
-    /// The casing at its clearance along the normals, with the normals.
-    fn casing(&self) -> Option<Element> {
+    /// Places of the casing along the normals, before each contact node; none where its clearance is not known.
+    pub(super) fn wall(&self) -> Option<Vec<[f64; 3]>> {
         (self.view == SectionView::Meridional).then_some(())?;
-        let contact = &self.geometry.contact;
         let at = |place: &rubmap_analysis::result::ContactPlace| {
             let [r, theta, z] = place.position;
             let away = self.stretch * place.clearance?;
-            Some(self.place([r + away * place.normal[0], theta, z + away * place.normal[2]]))
+            Some([r + away * place.normal[0], theta, z + away * place.normal[2]])
         };
-        let wall: Vec<(f64, f64)> = contact.iter().map(at).collect::<Option<_>>()?;
+        self.geometry.contact.iter().map(at).collect()
+    }
+
+    /// The casing at its clearance along the normals, with the normals.
+    fn casing(&self) -> Option<Element> {
+        let contact = &self.geometry.contact;
+        let wall: Vec<(f64, f64)> = self.wall()?.into_iter().map(|place| self.place(place)).collect();
         let every = contact.len().div_ceil(24).max(1);
         let normals = contact.iter().zip(&wall).step_by(every).map(|(place, wall)| {
             line(self.place(place.position), *wall).set("stroke", "#888888").set("stroke-width", "0.7")
@@ -209,6 +247,11 @@ impl<'a> Drawing<'a> {
         let wall = polyline(wall.iter().copied().map(Some)).set("class", "casing").set("stroke", "#444444");
         let wall = wall.set("stroke-width", "3").title("casing");
         Some(group().children(normals).child(wall))
+    }
+
+    /// How many times as large the clearance is drawn.
+    pub(super) fn stretch_words(&self) -> String {
+        format!("its clearance drawn {} times as large", self.stretch)
     }
 
     fn key(&self) -> Element {
@@ -219,11 +262,7 @@ impl<'a> Drawing<'a> {
                 let mark = dot((0.5 * MARK_WIDTH, 0.0), look).set("fill", look.colour);
                 let stroke = line((2.0, 0.0), (MARK_WIDTH - 2.0, 0.0)).set("stroke", look.colour);
                 let stroke = on_line.then(|| stroke.set("stroke-width", "2.2"));
-                let words = match (self.view, look.kind) {
-                    (SectionView::Meridional, NodeKind::Low) => "cyclic faces",
-                    _ => look.words,
-                };
-                key = key.row(group().children(stroke).child(mark), words);
+                key = key.row(group().children(stroke).child(mark), look.words(self.view));
             }
         }
         if self.outline().is_some() {
@@ -234,7 +273,7 @@ impl<'a> Drawing<'a> {
             let wall = line((0.0, 0.0), (MARK_WIDTH, 0.0)).set("stroke", "#444444").set("stroke-width", "3");
             key = key.row(wall, "casing at rest");
             if self.stretch > 1.0 {
-                key = key.note(&format!("its clearance drawn {} times as large", self.stretch));
+                key = key.note(&self.stretch_words());
             }
         }
         key.draw()
@@ -269,7 +308,7 @@ fn dot((x, y): (f64, f64), look: &Look) -> Element {
 }
 
 /// Cylindrical coordinates as they are seen.
-fn project(view: SectionView, [r, theta, z]: [f64; 3]) -> (f64, f64) {
+pub(super) fn project(view: SectionView, [r, theta, z]: [f64; 3]) -> (f64, f64) {
     match view {
         SectionView::Meridional => (z, r),
         SectionView::Cyclic => (r * theta.cos(), r * theta.sin()),

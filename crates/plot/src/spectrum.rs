@@ -121,12 +121,12 @@ pub(super) const STILL: &str = "Nothing to draw: the sensor does not move";
 /// What is said where no nodal diameter has lines.
 pub(super) const ALL_STILL: &str = "Nothing to draw: no nodal diameter moves";
 
+/// The range of amplitudes, and engine orders with amplitudes.
+type WholeLines = ((f64, f64), Vec<(f64, f64)>);
+
 /// Lines of the sensor itself that are drawn, as engine orders with amplitudes, the largest first, and the range of amplitudes; none
 /// if it does not move.
-pub(super) fn whole_lines(
-    spectra: &SpeedSpectra,
-    found: &SensorSpectrum,
-) -> Option<((f64, f64), Vec<(f64, f64)>)> {
+pub(super) fn whole_lines(spectra: &SpeedSpectra, found: &SensorSpectrum) -> Option<WholeLines> {
     let lines = spectra.engine_orders.iter().copied().zip(found.amplitude.iter().copied());
     let mut shown: Vec<(f64, f64)> = lines.filter(|(order, _)| *order > 0.0).collect();
     let range = range(shown.iter().map(|line| line.1))?;

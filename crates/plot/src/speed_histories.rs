@@ -36,26 +36,16 @@ pub enum HistoryQuantity {
 /// forces; the wheel's contact and energy have none.
 pub fn speed_histories(histories: &SpeedHistories, what: HistoryQuantity, index: usize) -> String {
     let panels = panels(histories, what, index);
-    let [begin, end] = histories.revolutions;
-    let title = format!(
-        "Revolutions {begin} to {end}: {}, {} rpm",
-        subject(histories, what, index),
-        label(rpm(histories.speed_rad_s), 0)
-    );
-    let mut words = vec![origin(&histories.settings.model, &histories.version)];
-    if matches!(what, HistoryQuantity::Force | HistoryQuantity::Contact) {
-        words.insert(0, "means over the interval between two samples".to_owned());
-    }
-    let (heading, bottom) = heading(LEFT, &title, &[words.join(" · ")]);
+    let title = title(histories, what, index);
+    let (heading, bottom) = heading(LEFT, &title, &[words(histories, what)]);
     let top = bottom + 24.0;
     let mut content = vec![heading];
-    let panels: Vec<Panel> = panels.into_iter().filter(|panel| !panel.curves.is_empty()).collect();
     let gap = 34.0;
     let count = panels.len().max(1) as f64;
     let height = (HEIGHT - 64.0 - top - gap * (count - 1.0)) / count;
     if panels.is_empty() {
         let empty = Diagram::new((LEFT, top), (PLOT_WIDTH, height), (0.0, 1.0), (0.0, 1.0));
-        content.extend([empty.frame(), empty.words("Nothing to draw: this was not recorded")]);
+        content.extend([empty.frame(), empty.words(NOT_RECORDED)]);
     }
     for (place, panel) in panels.iter().enumerate() {
         let corner = (LEFT, top + place as f64 * (height + gap));
@@ -64,6 +54,31 @@ pub fn speed_histories(histories: &SpeedHistories, what: HistoryQuantity, index:
         content.push(panel.draw(histories, (corner, (width, height)), (place == 0, last)));
     }
     document(&title, WIDTH, HEIGHT, content)
+}
+
+/// What is said where there is nothing.
+pub(super) const NOT_RECORDED: &str = "Nothing to draw: this was not recorded";
+
+/// What the axis to the right says.
+pub(super) const REVOLUTIONS: &str = "revolutions since the start";
+
+/// What is seen.
+pub(super) fn title(histories: &SpeedHistories, what: HistoryQuantity, index: usize) -> String {
+    let [begin, end] = histories.revolutions;
+    format!(
+        "Revolutions {begin} to {end}: {}, {} rpm",
+        subject(histories, what, index),
+        label(rpm(histories.speed_rad_s), 0)
+    )
+}
+
+/// What stands below the title.
+pub(super) fn words(histories: &SpeedHistories, what: HistoryQuantity) -> String {
+    let mut words = vec![origin(&histories.settings.model, &histories.version)];
+    if matches!(what, HistoryQuantity::Force | HistoryQuantity::Contact) {
+        words.insert(0, "means over the interval between two samples".to_owned());
+    }
+    words.join(" · ")
 }
 
 fn subject(histories: &SpeedHistories, what: HistoryQuantity, index: usize) -> String {
@@ -81,18 +96,25 @@ fn subject(histories: &SpeedHistories, what: HistoryQuantity, index: usize) -> S
 }
 
 /// A curve of a panel.
-struct Curve<'a> {
-    words: String,
-    values: &'a [f64],
+pub(super) struct Curve<'a> {
+    pub(super) words: String,
+    pub(super) values: &'a [f64],
 }
 
 /// Curves over one vertical axis.
-struct Panel<'a> {
-    axis: String,
-    curves: Vec<Curve<'a>>,
+pub(super) struct Panel<'a> {
+    pub(super) axis: String,
+    pub(super) curves: Vec<Curve<'a>>,
 }
 
-fn panels<'a>(histories: &'a SpeedHistories, quantity: HistoryQuantity, index: usize) -> Vec<Panel<'a>> {
+/// The panels that have curves.
+pub(super) fn panels(histories: &SpeedHistories, what: HistoryQuantity, index: usize) -> Vec<Panel<'_>> {
+    let mut panels = all_panels(histories, what, index);
+    panels.retain(|panel| !panel.curves.is_empty());
+    panels
+}
+
+fn all_panels<'a>(histories: &'a SpeedHistories, quantity: HistoryQuantity, index: usize) -> Vec<Panel<'a>> {
     let units = &histories.units;
     let (length, force, time) = (&units.length, &units.force, &units.time);
     let of_sensor = |axis: String, values: fn(&SensorHistory) -> &[f64]| {
@@ -188,7 +210,7 @@ impl Panel<'_> {
             .child(diagram.grid(&x, &y))
             .child(curves)
             .child(diagram.frame())
-            .child(diagram.x_axis(&x, if last { "revolutions since the start" } else { "" }))
+            .child(diagram.x_axis(&x, if last { REVOLUTIONS } else { "" }))
             .child(diagram.y_axis(&y, &self.axis, 72.0))
             .child(self.key(&diagram, bands, first))
     }

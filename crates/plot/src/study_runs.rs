@@ -19,6 +19,11 @@ pub(super) fn words(quantity: Quantity, study: &WorkPrecision) -> String {
     }
 }
 
+/// What the axis of errors says.
+pub(super) fn error_axis(quantity: Quantity, study: &WorkPrecision) -> String {
+    format!("relative error: {}", words(quantity, study))
+}
+
 /// What the runs are held against, and where they come from.
 pub(super) fn origin(study: &WorkPrecision, at: &SpeedStudy) -> String {
     let reference = &at.reference;

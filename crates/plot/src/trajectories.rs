@@ -30,10 +30,28 @@ type Place = (f64, f64);
 /// Draws the outward motion of every tip that a radial or normal sensor records over its angle in the fixed frame, and the casing
 /// that it meets there with its lobes at full height.
 pub fn trajectories(histories: &SpeedHistories) -> String {
-    let title = format!("Tip trajectories before the casing, {} rpm", label(rpm(histories.speed_rad_s), 0));
-    let tips: Vec<Tip> = histories.sensors.iter().filter_map(Tip::of).collect();
+    let title = title(histories);
+    let (heading, bottom) = heading(LEFT, &title, &words(histories));
+    let mut content = vec![heading];
+    let place = ((LEFT, bottom + 24.0), (PLOT_WIDTH, HEIGHT - 90.0 - bottom));
+    content.extend(View::new(histories, place).draw());
+    document(&title, WIDTH, HEIGHT, content)
+}
+
+/// What is seen.
+pub(super) fn title(histories: &SpeedHistories) -> String {
+    format!("Tip trajectories before the casing, {} rpm", label(rpm(histories.speed_rad_s), 0))
+}
+
+/// The first revolution that is drawn.
+fn first(histories: &SpeedHistories) -> u32 {
     let [begin, end] = histories.revolutions;
-    let first = begin.max(end.saturating_sub(MOST_REVOLUTIONS));
+    begin.max(end.saturating_sub(MOST_REVOLUTIONS))
+}
+
+/// What stands below the title.
+pub(super) fn words(histories: &SpeedHistories) -> Vec<String> {
+    let (first, [_, end]) = (first(histories), histories.revolutions);
     let words = format!(
         "revolutions {first} to {end}, over each other · {}",
         origin(&histories.settings.model, &histories.version)
@@ -45,11 +63,15 @@ pub fn trajectories(histories: &SpeedHistories) -> String {
         let words = if ramp == 1.0 { "revolution".to_owned() } else { format!("{ramp} revolutions") };
         paragraphs.push(format!("the lobes, drawn at full height, grow over the first {words}"));
     }
-    let (heading, bottom) = heading(LEFT, &title, &paragraphs);
-    let mut content = vec![heading];
-    let place = ((LEFT, bottom + 24.0), (PLOT_WIDTH, HEIGHT - 90.0 - bottom));
-    content.extend(View::new(histories, tips, first - begin, place).draw());
-    document(&title, WIDTH, HEIGHT, content)
+    paragraphs
+}
+
+/// What the axis to the right says.
+pub(super) const ANGLE: &str = "angle in the fixed frame, in the direction of rotation";
+
+/// What the axis upwards says.
+pub(super) fn outward(length: &str) -> String {
+    format!("outward displacement, {length}")
 }
 
 /// Lobes of the casing.
@@ -64,7 +86,7 @@ fn restriction(histories: &SpeedHistories) -> Option<Restriction> {
 }
 
 /// A tip whose outward motion is known, and where it is.
-struct Tip<'a> {
+pub(super) struct Tip<'a> {
     history: &'a SensorHistory,
     place: TipPlace,
 }
@@ -76,7 +98,8 @@ impl<'a> Tip<'a> {
         Some(Self { history, place })
     }
 
-    fn words(&self) -> String {
+    /// The tip in words.
+    pub(super) fn words(&self) -> String {
         let sensor = &self.history.sensor;
         let component =
             if sensor.component == Some(Component::Normal) { "along its normal" } else { "radially" };
@@ -88,24 +111,27 @@ impl<'a> Tip<'a> {
     }
 }
 
-struct View<'a> {
+/// The tips and the casing before them.
+pub(super) struct View<'a> {
     histories: &'a SpeedHistories,
-    tips: Vec<Tip<'a>>,
+    pub(super) tips: Vec<Tip<'a>>,
     /// Revolutions of the record that are left out.
     skipped: u32,
     lobes: Option<Restriction>,
     /// Clearances of the casing lines.
-    clearances: Vec<f64>,
-    diagram: Diagram,
+    pub(super) clearances: Vec<f64>,
+    pub(super) diagram: Diagram,
 }
 
+/// What is said where no tip can be drawn.
+pub(super) const NO_TIPS: &str =
+    "Nothing to draw: no radial or normal sensor of a tip whose place before the casing is known";
+
 impl<'a> View<'a> {
-    fn new(
-        histories: &'a SpeedHistories,
-        tips: Vec<Tip<'a>>,
-        skipped: u32,
-        (corner, size): ((f64, f64), (f64, f64)),
-    ) -> Self {
+    /// What there is to see, within a rectangle of the drawing.
+    pub(super) fn new(histories: &'a SpeedHistories, (corner, size): ((f64, f64), (f64, f64))) -> Self {
+        let tips: Vec<Tip> = histories.sensors.iter().filter_map(Tip::of).collect();
+        let skipped = first(histories) - histories.revolutions[0];
         let lobes = restriction(histories).filter(|lobes| lobes.count > 0 && lobes.width_rad > 0.0);
         let mut clearances: Vec<f64> = tips.iter().map(|tip| tip.place.clearance).collect();
         clearances.sort_by(f64::total_cmp);
@@ -125,9 +151,7 @@ impl<'a> View<'a> {
     fn draw(&self) -> Vec<Element> {
         let diagram = &self.diagram;
         if self.tips.is_empty() {
-            let words =
-                "Nothing to draw: no radial or normal sensor of a tip whose place before the casing is known";
-            return vec![diagram.frame(), diagram.words(words)];
+            return vec![diagram.frame(), diagram.words(NO_TIPS)];
         }
         let degrees = eighths();
         let y = ticks(diagram.y.values, 8.0);
@@ -141,21 +165,25 @@ impl<'a> View<'a> {
             group().set("clip-path", "url(#casing)").children(casings),
             group().children(paths),
             diagram.frame(),
-            diagram.x_axis(&degrees, "angle in the fixed frame, in the direction of rotation"),
-            diagram.y_axis(&y, &format!("outward displacement, {length}"), 72.0),
+            diagram.x_axis(&degrees, ANGLE),
+            diagram.y_axis(&y, &outward(length), 72.0),
             self.key(),
         ]
     }
 
+    /// The wall before tips of this clearance: angles in degrees, and how far outwards it is.
+    pub(super) fn wall(&self, clearance: f64) -> impl Iterator<Item = (f64, f64)> {
+        const STEPS: u32 = 720;
+        let height = move |angle: f64| clearance - self.lobes.map_or(0.0, |lobes| lobes.height(angle));
+        (0..=STEPS).map(move |i| {
+            let angle = TAU * f64::from(i) / f64::from(STEPS);
+            (angle.to_degrees(), height(angle))
+        })
+    }
+
     /// The casing before tips of this clearance; the first is filled.
     fn casing(&self, index: usize, clearance: f64) -> Element {
-        const STEPS: u32 = 720;
-        let height = |angle: f64| clearance - self.lobes.map_or(0.0, |lobes| lobes.height(angle));
-        let at = |i: u32| {
-            let angle = TAU * f64::from(i) / f64::from(STEPS);
-            self.diagram.point(angle.to_degrees(), height(angle))
-        };
-        let wall: Vec<(f64, f64)> = (0..=STEPS).map(at).collect();
+        let wall: Vec<(f64, f64)> = self.wall(clearance).map(|(x, y)| self.diagram.point(x, y)).collect();
         let stroke = polyline(wall.iter().copied().map(Some)).set("stroke", "#444444");
         let stroke = stroke.set("class", "casing").set("stroke-width", if index == 0 { "1.6" } else { "1" });
         let corners = [(self.diagram.right(), self.diagram.top), (self.diagram.left, self.diagram.top)];
@@ -164,20 +192,29 @@ impl<'a> View<'a> {
         group().child(metal).child(stroke.title(&format!("casing, clearance {clearance}")))
     }
 
-    /// The motion of a tip, a stroke for each revolution.
-    fn path(&self, index: usize, tip: &Tip) -> Element {
+    /// The motion of a tip, with a gap before each revolution: angles in degrees, and how far outwards.
+    pub(super) fn motion(&self, tip: &Tip) -> Vec<Option<(f64, f64)>> {
         let samples = self.histories.samples_per_revolution.max(1);
         let skipped = (self.skipped * samples) as usize;
-        let mut points = Vec::new();
+        let mut places = Vec::new();
         let mut before = f64::NAN;
         for (j, moved) in tip.history.displacement.iter().enumerate().skip(skipped) {
             let turned = (j + 1) as f64 / f64::from(samples);
             let angle = (tip.place.angle_rad / TAU + turned).rem_euclid(1.0) * 360.0;
             if angle < before {
-                points.push(None);
+                places.push(None);
             }
             before = angle;
-            let place = self.diagram.inside(angle, *moved);
+            places.push(Some((angle, *moved)));
+        }
+        places
+    }
+
+    /// The same drawn, a stroke for each revolution.
+    fn path(&self, index: usize, tip: &Tip) -> Element {
+        let mut points: Vec<Option<Place>> = Vec::new();
+        for place in self.motion(tip) {
+            let place = place.and_then(|(x, y)| self.diagram.inside(x, y));
             // A step that cannot be seen says nothing.
             let hidden =
                 points.last().copied().flatten().zip(place).is_some_and(|(last, place): (Place, Place)| {
@@ -208,10 +245,14 @@ impl<'a> View<'a> {
             key = key.row(stroke.set("stroke-dasharray", dashes), &tip.words());
         }
         let metal = rectangle(0.0, -6.0, MARK_WIDTH, 12.0).set("fill", "#9a9a9a").set("fill-opacity", "0.35");
-        let words = match self.clearances.len() {
+        key.row(metal.set("stroke", "#444444"), self.casing_words()).draw()
+    }
+
+    /// What the wall is.
+    pub(super) fn casing_words(&self) -> &'static str {
+        match self.clearances.len() {
             1 => "casing",
             _ => "casing before each tip",
-        };
-        key.row(metal.set("stroke", "#444444"), words).draw()
+        }
     }
 }

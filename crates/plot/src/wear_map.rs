@@ -3,7 +3,7 @@
 use super::axis::{Scale, eighths, label, significant, ticks};
 use super::cells::rpm;
 use super::diagram::Diagram;
-use super::force_map::node_ticks;
+use super::force_map::{NODES, node_ticks};
 use super::pixels::Pixels;
 use super::svg::{document, polyline};
 use super::{colour_bar, heading};
@@ -16,20 +16,19 @@ const LEFT: f64 = 100.0;
 const PLOT_WIDTH: f64 = 930.0;
 const CURVE_HEIGHT: f64 = 130.0;
 
+/// What is said where there is none.
+pub(super) const NO_COATING: &str = "Nothing to draw: there is no coating";
+
+/// What the axis to the right says.
+pub(super) const ANGLE: &str = "angle of the casing from the package's x axis, in the direction of rotation";
+
 /// Draws the depth of wear over the angle of the casing and the contact nodes at the end of one speed, above it the deepest at each
 /// angle.
 pub fn wear_map(wear: &WearMap, point: &Point, units: &Units) -> String {
-    let title = format!("Wear of the coating, {} rpm", label(rpm(point.speed_rad_s), 0));
-    let mut words = Vec::new();
-    if let Some(report) = &point.wear {
-        words.push(format!("{} {}³ removed", significant(report.removed_volume), units.length));
-        words.push(format!("at most {} {} deep", significant(report.deepest), units.length));
-        words.extend(report.reached_metal.then(|| "a tip met the metal behind it".to_owned()));
-    }
-    words.push(format!("rubmap {}", point.version));
-    let (heading, bottom) = heading::heading(LEFT, &title, &[words.join(" · ")]);
-    let deepest = |rod: &Vec<f64>| rod.iter().copied().filter(|depth| depth.is_finite()).fold(0.0, f64::max);
-    let scale_end = wear.depths.iter().map(deepest).fold(0.0, f64::max);
+    let title = title(point);
+    let (heading, bottom) = heading::heading(LEFT, &title, &[words(point, units)]);
+
+    let scale_end = wear.depths.iter().map(|rod| deepest(rod)).fold(0.0, f64::max);
     let scale_end = if scale_end > 0.0 { scale_end } else { 1.0 };
     let nodes = wear.depths.iter().map(Vec::len).max().unwrap_or(0);
     let degrees = eighths();
@@ -41,7 +40,7 @@ pub fn wear_map(wear: &WearMap, point: &Point, units: &Units) -> String {
     let size = (PLOT_WIDTH, HEIGHT - 64.0 - corner.1);
     let diagram = Diagram::new(corner, size, (0.0, 360.0), (-0.5, nodes.max(1) as f64 - 0.5));
     if nodes == 0 {
-        let content = vec![heading, diagram.frame(), diagram.words("Nothing to draw: there is no coating")];
+        let content = vec![heading, diagram.frame(), diagram.words(NO_COATING)];
         return document(&title, WIDTH, HEIGHT, content);
     }
     let scale = Scale::linear((0.0, scale_end), (diagram.bottom(), diagram.top));
@@ -68,9 +67,8 @@ pub fn wear_map(wear: &WearMap, point: &Point, units: &Units) -> String {
         above.y_axis(&y, &format!("deepest, {}", units.length), 72.0),
         pixels.draw(),
         diagram.frame(),
-        diagram
-            .x_axis(&degrees, "angle of the casing from the package's x axis, in the direction of rotation"),
-        diagram.y_axis(&node_ticks(nodes), "contact node (0: leading edge)", 72.0),
+        diagram.x_axis(&degrees, ANGLE),
+        diagram.y_axis(&node_ticks(nodes), NODES, 72.0),
         colour_bar::draw(
             &scale,
             diagram.right() + 26.0,
@@ -79,4 +77,26 @@ pub fn wear_map(wear: &WearMap, point: &Point, units: &Units) -> String {
         ),
     ];
     document(&title, WIDTH, HEIGHT, content)
+}
+
+/// What was worn off, and when.
+pub(super) fn title(point: &Point) -> String {
+    format!("Wear of the coating, {} rpm", label(rpm(point.speed_rad_s), 0))
+}
+
+/// What stands below the title.
+pub(super) fn words(point: &Point, units: &Units) -> String {
+    let mut words = Vec::new();
+    if let Some(report) = &point.wear {
+        words.push(format!("{} {}³ removed", significant(report.removed_volume), units.length));
+        words.push(format!("at most {} {} deep", significant(report.deepest), units.length));
+        words.extend(report.reached_metal.then(|| "a tip met the metal behind it".to_owned()));
+    }
+    words.push(format!("rubmap {}", point.version));
+    words.join(" · ")
+}
+
+/// The deepest at an angle.
+pub(super) fn deepest(rod: &[f64]) -> f64 {
+    rod.iter().copied().filter(|depth| depth.is_finite()).fold(0.0, f64::max)
 }

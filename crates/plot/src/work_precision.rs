@@ -6,7 +6,7 @@ use super::diagram::Diagram;
 use super::heading::heading;
 use super::key::{Key, MARK_WIDTH};
 use super::labels::Labels;
-use super::study_runs::{Drawn, extent, left_out, origin, reason, words};
+use super::study_runs::{Drawn, error_axis, extent, left_out, origin, reason, words};
 use super::svg::{Element, INK, group, line, polyline, text};
 use super::{scheme, svg};
 use rubmap_analysis::request::SchemeChoice;
@@ -28,7 +28,7 @@ const RADII: (f64, f64) = (3.6, 8.0);
 /// that no other run of it beats in time and error; rings and a step line are the Pareto front of all. Where trajectories are
 /// chaotic, bars show the standard error of the amplitude. What has no place on logarithmic axes is counted below.
 pub fn work_precision(study: &WorkPrecision, speed: usize, quantity: Quantity) -> String {
-    let title = format!("Work and precision: {}", words(quantity, study));
+    let title = title(study, quantity);
     let Some(at) = study.speeds.get(speed) else {
         let (heading, _) = heading(LEFT, &title, &[format!("the study has no speed of index {speed}")]);
         return svg::document(&title, WIDTH, HEIGHT, vec![heading]);
@@ -41,21 +41,33 @@ pub fn work_precision(study: &WorkPrecision, speed: usize, quantity: Quantity) -
     svg::document(&title, WIDTH, HEIGHT, content)
 }
 
+/// What is seen.
+pub(super) fn title(study: &WorkPrecision, quantity: Quantity) -> String {
+    format!("Work and precision: {}", words(quantity, study))
+}
+
+/// What the axis to the right says.
+pub(super) const TIME: &str = "CPU time of the whole run with set-up, without reduction, s";
+
+/// What the Pareto front is.
+pub(super) const FRONT: &str = "no run is better in time and error";
+
 /// The diagram of one quantity at one speed.
-struct View<'a> {
+pub(super) struct View<'a> {
     study: &'a WorkPrecision,
     at: &'a SpeedStudy,
     quantity: Quantity,
     /// Whether bars show the spread.
-    bars: bool,
-    runs: Vec<Drawn<'a>>,
+    pub(super) bars: bool,
+    pub(super) runs: Vec<Drawn<'a>>,
     /// Modes per speed, ascending.
     sizes: Vec<u32>,
-    diagram: Diagram,
+    pub(super) diagram: Diagram,
 }
 
 impl<'a> View<'a> {
-    fn new(study: &'a WorkPrecision, at: &'a SpeedStudy, quantity: Quantity, top: f64) -> Self {
+    /// Whose diagram begins at `top`.
+    pub(super) fn new(study: &'a WorkPrecision, at: &'a SpeedStudy, quantity: Quantity, top: f64) -> Self {
         let chaotic = at.sensitivity.is_some_and(|sensitivity| sensitivity.growth == Growth::Chaotic);
         let bars = chaotic && quantity == Quantity::Amplitude;
         let runs: Vec<Drawn> = at.runs.iter().filter_map(|run| Drawn::of(run, quantity)).collect();
@@ -93,8 +105,8 @@ impl<'a> View<'a> {
         content.push(self.steps());
         content.extend([
             diagram.frame(),
-            diagram.x_axis(&x, "CPU time of the whole run with set-up, without reduction, s"),
-            diagram.y_axis(&y, &format!("relative error: {}", words(self.quantity, self.study)), 64.0),
+            diagram.x_axis(&x, TIME),
+            diagram.y_axis(&y, &error_axis(self.quantity, self.study), 64.0),
             self.key(),
             note,
         ]);
@@ -102,12 +114,13 @@ impl<'a> View<'a> {
     }
 
     /// Schemes that are in the drawing.
-    fn schemes(&self) -> impl Iterator<Item = SchemeChoice> {
+    pub(super) fn schemes(&self) -> impl Iterator<Item = SchemeChoice> {
         let drawn = |scheme: &SchemeChoice| self.runs.iter().any(|drawn| drawn.run.setting.scheme == *scheme);
         self.study.settings.grid.schemes.iter().copied().filter(drawn)
     }
 
-    fn radius(&self, modes_per_speed: u32) -> f64 {
+    /// Radius of the marks of a size.
+    pub(super) fn radius(&self, modes_per_speed: u32) -> f64 {
         let rank = self.sizes.iter().position(|&size| size == modes_per_speed).unwrap_or(0);
         let steps = self.sizes.len().saturating_sub(1).max(1);
         RADII.0 + (RADII.1 - RADII.0) * rank as f64 / steps as f64
@@ -129,8 +142,8 @@ impl<'a> View<'a> {
         Some(bar.set("stroke", scheme::colour(drawn.run.setting.scheme)).set("stroke-opacity", "0.7"))
     }
 
-    /// Through the runs of a scheme that no other run of it beats.
-    fn scheme_line(&self, scheme: SchemeChoice) -> Element {
+    /// The runs of a scheme that no other run of it beats, in ascending time.
+    pub(super) fn unbeaten(&self, scheme: SchemeChoice) -> Vec<&Drawn<'a>> {
         let place = |drawn: &Drawn| {
             let here = drawn.run.setting.scheme == scheme;
             Some((drawn.run.time_s, drawn.run.errors.as_ref().filter(|_| here)?.judged(self.quantity)?))
@@ -138,14 +151,18 @@ impl<'a> View<'a> {
         let places: Vec<Option<(f64, f64)>> = self.runs.iter().map(place).collect();
         let mut own: Vec<&Drawn> = front(&places).into_iter().map(|index| &self.runs[index]).collect();
         own.sort_by(|a, b| a.run.time_s.total_cmp(&b.run.time_s));
-        polyline(own.into_iter().map(|drawn| Some(self.place(drawn))))
+        own
+    }
+
+    fn scheme_line(&self, scheme: SchemeChoice) -> Element {
+        polyline(self.unbeaten(scheme).into_iter().map(|drawn| Some(self.place(drawn))))
             .set("class", "scheme")
             .set("stroke", scheme::colour(scheme))
             .set("stroke-width", "1.8")
     }
 
     /// The Pareto front of all runs, in ascending time.
-    fn front(&self) -> Vec<&Drawn<'a>> {
+    pub(super) fn front(&self) -> Vec<&Drawn<'a>> {
         let on = |drawn: &&Drawn| drawn.run.pareto.contains(&self.quantity);
         let mut front: Vec<_> = self.runs.iter().filter(on).collect();
         front.sort_by(|a, b| a.run.time_s.total_cmp(&b.run.time_s));
@@ -201,7 +218,7 @@ impl<'a> View<'a> {
         key = key.note("number: time steps a revolution");
         let dashes = line((0.0, 0.0), (MARK_WIDTH, 0.0)).set("stroke", "#999999");
         let dashes = dashes.set("stroke-dasharray", "6 4");
-        key = key.row(group().child(dashes).child(ring(middle, 4.0)), "no run is better in time and error");
+        key = key.row(group().child(dashes).child(ring(middle, 4.0)), FRONT);
         if self.bars {
             let bar = line((middle.0, -8.0), (middle.0, 8.0)).set("stroke", INK).set("stroke-width", "1.2");
             key = key.row(bar, "± standard error (chaotic)");

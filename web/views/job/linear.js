@@ -4,8 +4,8 @@
 export function linear(figure) {
   const { amplitude, units } = figure.layout.meta ?? {};
   if (!amplitude?.range) return figure;
-  const data = figure.data.map((trace, index) => {
-    if (index !== amplitude.trace || !trace.customdata) return trace;
+  const data = figure.data.map((trace) => {
+    if (trace.coloraxis !== 'coloraxis' || !trace.customdata) return trace;
     return { ...trace, z: trace.customdata.map((row) => row?.map((cell) => cell?.[0] ?? null) ?? null) };
   });
   const bar = figure.layout.coloraxis?.colorbar ?? {};

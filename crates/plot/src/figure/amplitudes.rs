@@ -1,12 +1,15 @@
 //! The amplitudes of an interaction map as cells.
 
-use super::cells::{MOST, cells, together};
+use super::cells::{cells, together};
 use super::document::Cells;
 use super::text::escaped;
 use crate::cells::Cell;
 use crate::heat::loudest_within;
 use crate::map_view::{VerticalAxis, View};
 use rubmap_analysis::result::InteractionMap;
+
+/// Least height of a spectral line, of the height of the map: a bin alone would be a pixel high, below the line of its engine order.
+const LINE_HEIGHT: f64 = 0.012;
 
 /// Speeds and engine orders or frequencies that are one cell, and which speed a column tells of.
 pub(super) struct Amplitudes {
@@ -18,20 +21,25 @@ pub(super) struct Amplitudes {
 }
 
 /// The part of a map that a view shows, from the quietest to the loudest amplitude of the colours. Where there are more speeds or rows
-/// than a screen shows, neighbours are one cell with the loudest of them.
+/// than `most`, neighbours are one cell with the loudest of them; spectral lines have a
+/// least height.
 pub(super) fn amplitudes(
     map: &InteractionMap,
     all: &[Cell],
     view: &View,
     quietest: f64,
     axes: (&str, &str),
+    most: (usize, usize),
 ) -> Amplitudes {
     let (low, high) = view.diagram.x.values;
     let seen: Vec<&Cell> = all.iter().filter(|cell| cell.to > low && cell.from < high).collect();
-    let columns: Vec<&[&Cell]> = seen.chunks(together(seen.len(), MOST.0)).collect();
-    let (rows, bins) = rows(map, view);
+    let columns: Vec<&[&Cell]> = seen.chunks(together(seen.len(), most.0)).collect();
+    let (rows, bins) = rows(map, view, most.1);
     let row_of = |cell: &Cell| map.amplitude.get(cell.index).and_then(Option::as_ref);
-    let loudest = |cell: &Cell, band: (f64, f64)| {
+    let height = view.diagram.y.values.1 - view.diagram.y.values.0;
+    let loudest = |cell: &Cell, (low, high): (f64, f64)| {
+        let wider = (0.5 * (LINE_HEIGHT * height - (high - low))).max(0.0);
+        let band = (low - wider, high + wider);
         let orders = (view.order(band.0, cell.rpm), view.order(band.1, cell.rpm));
         loudest_within(&map.engine_orders, row_of(cell)?, orders)
     };
@@ -75,29 +83,32 @@ pub(super) fn amplitudes(
     Amplitudes {
         indices: indices.collect(),
         trace: cells((x, y), (values, told), &words, (axes.0, axes.1, "coloraxis")),
-        thinned: thinned(together(seen.len(), MOST.0), bins),
+        thinned: thinned(together(seen.len(), most.0), bins),
     }
 }
 
+/// The middle of a row, and its band.
+type Row = (f64, (f64, f64));
+
 /// Rows from the lowest on: the middle and the band of each, in units of the vertical axis, and how many bins are one.
-fn rows(map: &InteractionMap, view: &View) -> (Vec<(f64, (f64, f64))>, usize) {
+fn rows(map: &InteractionMap, view: &View, most: usize) -> (Vec<Row>, usize) {
     let (low, high) = view.diagram.y.values;
     match view.axis {
         VerticalAxis::EngineOrder => {
             // The mean is no vibration.
             let shown = |order: &&f64| **order > 0.0 && (low..=high).contains(*order);
             let orders: Vec<f64> = map.engine_orders.iter().filter(shown).copied().collect();
-            let bins = together(orders.len(), MOST.1);
+            let bins = together(orders.len(), most);
             let row =
                 |bins: &[f64]| (0.5 * (bins[0] + bins[bins.len() - 1]), (bins[0], bins[bins.len() - 1]));
             (orders.chunks(bins).map(row).collect(), bins)
         }
         VerticalAxis::Frequency => {
-            let step = (high - low) / MOST.1 as f64;
+            let step = (high - low) / most as f64;
             let row = |i: usize| {
                 (low + step * (i as f64 + 0.5), (low + step * i as f64, low + step * (i + 1) as f64))
             };
-            ((0..MOST.1).map(row).collect(), 1)
+            ((0..most).map(row).collect(), 1)
         }
     }
 }

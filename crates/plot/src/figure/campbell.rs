@@ -1,11 +1,10 @@
 //! The Campbell diagram in the rotating frame.
 
-use plotly::Scatter;
 use plotly::common::{DashType, MarkerSymbol, Mode, Position};
 
-use super::document::{Figure, axis};
+use super::document::{Figure, axis, speeds};
 use super::interaction_map::ends;
-use super::marks::{line, marks, silent, strokes, words};
+use super::marks::{PointTrace, line, marks, silent, strokes, words};
 use super::palette::{NEUTRAL, WARNING, colour, dash};
 use crate::campbell::{self as drawing, Curve, HIGHEST_ORDER, Ray};
 use crate::cells::rpm;
@@ -20,22 +19,22 @@ pub fn campbell(campbell: &Campbell) -> Figure {
         .map(|(found, _)| ((rpm(found.speed_rad_s), found.frequency_hz), linear_words(found)));
     let driven = drawing::driven(campbell, &diagram)
         .map(|(found, _)| ((rpm(found.speed_rad_s), found.frequency_hz), driven_words(found)));
-    let driven_name = format!("driven, k ≤ {HIGHEST_ORDER}: (i, j)");
+    let driven_name = format!("driven, k ≤ {HIGHEST_ORDER} (i, j)");
     let rings = (MarkerSymbol::CircleOpen, 10, NEUTRAL);
     Figure::new("campbell", "Campbell diagram", &drawing::words(campbell))
         .high(600)
         .with_all(rays(campbell, drawing::rays(campbell, &diagram)))
         .with_all(curves(harmonics, drawing::curves(campbell)))
-        .with_all(marks("linear criterion (i, j, n)", linear, rings))
+        .with_all(marks("linear (i, j, n)", linear, rings))
         .with_all(marks(&driven_name, driven, (MarkerSymbol::Diamond, 10, WARNING)))
-        .axis("xaxis", axis("rotational speed Ω, rpm").range(ends(diagram.x.values)))
+        .axis("xaxis", speeds().range(ends(diagram.x.values)))
         .axis("yaxis", axis("natural frequency in the rotating frame, Hz").range(ends(diagram.y.values)))
         .meta("units", serde_json::json!({"x": "rpm", "y": "Hz"}))
         .meta("speeds_rpm", campbell.speeds_rad_s.iter().map(|speed| rpm(*speed)).collect::<Vec<f64>>())
 }
 
 /// Curves of the modes: dashes say the family, forward waves are thin.
-fn curves(harmonics: usize, curves: Vec<Curve>) -> Vec<Box<Scatter<f64, f64>>> {
+fn curves(harmonics: usize, curves: Vec<Curve>) -> Vec<PointTrace> {
     let mut named = vec![false; harmonics];
     let curve = |curve: Curve| {
         let (i, told) = (curve.nodal_diameter, curve.words());
@@ -56,7 +55,7 @@ fn curves(harmonics: usize, curves: Vec<Curve>) -> Vec<Box<Scatter<f64, f64>>> {
 }
 
 /// Engine orders, those of the lobes with their numbers.
-fn rays(campbell: &Campbell, rays: Vec<Ray>) -> Vec<Box<Scatter<f64, f64>>> {
+fn rays(campbell: &Campbell, rays: Vec<Ray>) -> Vec<PointTrace> {
     let (excited, others): (Vec<Ray>, Vec<Ray>) = rays.into_iter().partition(|ray| ray.excited);
     let mut traces = Vec::new();
     if !others.is_empty() {
@@ -65,7 +64,8 @@ fn rays(campbell: &Campbell, rays: Vec<Ray>) -> Vec<Box<Scatter<f64, f64>>> {
     }
     if !excited.is_empty() {
         let lines = strokes(excited.iter().map(|ray| ray.ends));
-        let numbers = excited.iter().flat_map(|ray| [String::new(), ray.order.to_string(), String::new()]);
+        let number = |ray: &Ray| if ray.numbered { ray.order.to_string() } else { String::new() };
+        let numbers = excited.iter().flat_map(|ray| [String::new(), number(ray), String::new()]);
         let trace = silent(&drawing::excited_words(campbell), lines, (NEUTRAL, DashType::Solid, 1.0));
         traces.push(
             trace.mode(Mode::LinesText).text_array(numbers.collect()).text_position(Position::BottomLeft),

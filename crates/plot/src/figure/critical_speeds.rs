@@ -1,20 +1,17 @@
 //! Critical speeds beside what a linear calculation says.
 
-use plotly::Scatter;
 use plotly::common::{DashType, ErrorData, ErrorType, MarkerSymbol};
 use plotly::layout::RangeMode;
 use serde_json::json;
 
-use super::document::{Figure, axis};
-use super::marks::{line, marks, strokes, words};
+use super::document::{Figure, axis, speeds};
+use super::marks::{PointTrace, line, marks, strokes, words};
 use super::palette::{CURVE, NEUTRAL, WARNING};
 use crate::cells::rpm;
 use crate::critical_speeds::{self as drawing, Kind, Row, linear_row, nearest_words, peak_words};
 use crate::marks::known_to;
 use crate::{map_view, validity};
 use rubmap_analysis::result::{CriticalSpeed, CriticalSpeeds};
-
-type Trace = Box<Scatter<f64, f64>>;
 
 /// The peaks of the response over speed with how far off they may be, and below them the crossings of the linear calculation, a row for
 /// each superharmonic; each peak is tied to the crossing nearest to it. `customdata` of a peak is the index of its speed.
@@ -37,7 +34,7 @@ pub fn critical_speeds(critical: &CriticalSpeeds) -> Figure {
             marks(validity::words(verdict), told, (MarkerSymbol::CircleOpen, 16, WARNING))
         }))
         .with_all(crossings(&rows))
-        .axis("xaxis", axis("rotational speed Ω, rpm").anchor("y2"))
+        .axis("xaxis", speeds().anchor("y2"))
         .axis(
             "yaxis",
             axis(&format!("level at the peak, {unit} rms"))
@@ -59,7 +56,7 @@ pub fn critical_speeds(critical: &CriticalSpeeds) -> Figure {
 }
 
 /// Peaks, open where the speeds of the sweep do not resolve them, with bars to the neighbouring speeds and of the level's error.
-fn peaks(critical: &CriticalSpeeds, resolved: bool) -> Option<Trace> {
+fn peaks(critical: &CriticalSpeeds, resolved: bool) -> Option<PointTrace> {
     let of: Vec<&CriticalSpeed> =
         critical.critical_speeds.iter().filter(|peak| peak.resolved == resolved).collect();
     let told = |peak: &&CriticalSpeed| {
@@ -82,7 +79,7 @@ fn peaks(critical: &CriticalSpeeds, resolved: bool) -> Option<Trace> {
 }
 
 /// From each peak down to its axis, and from there to the crossing nearest to it.
-fn ties(critical: &CriticalSpeeds, rows: &[Row]) -> Vec<Trace> {
+fn ties(critical: &CriticalSpeeds, rows: &[Row]) -> Vec<PointTrace> {
     let tied = critical.critical_speeds.iter().filter_map(|peak| {
         let nearest = peak.nearest_crossing.as_ref()?;
         let row = rows.iter().position(|row| row.name == linear_row(nearest.superharmonic))?;
@@ -104,7 +101,7 @@ fn ties(critical: &CriticalSpeeds, rows: &[Row]) -> Vec<Trace> {
 }
 
 /// Crossings in their rows.
-fn crossings(rows: &[Row]) -> Vec<Trace> {
+fn crossings(rows: &[Row]) -> Vec<PointTrace> {
     let of = |kind: Kind| {
         let here = rows.iter().enumerate().filter(move |(_, row)| row.kind == kind);
         let told = here.flat_map(|(y, row)| {

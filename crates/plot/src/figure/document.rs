@@ -1,15 +1,15 @@
 //! A figure as a whole: its traces, and what is around them.
 
-use plotly::common::{Orientation, Title as AxisTitle};
+use plotly::common::{ExponentFormat, Font, Orientation, Title as AxisTitle};
 use plotly::layout::{Axis, HoverMode, Margin};
 use plotly::{HeatMap, Layout, Scatter};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
-use super::text::{broken, escaped};
+use super::text::broken;
 
-/// Characters of a line above a figure, of the title and of what is below it: what fits into 390 pixels.
-const COLUMNS: (usize, usize) = (44, 64);
+/// Characters of a line of the title, of what is below it, and beside an axis: what fits into 390 pixels.
+const COLUMNS: (usize, usize, usize) = (44, 60, 46);
 
 /// A result as a figure for Plotly: its JSON is `{"data": […], "layout": {…}}`.
 ///
@@ -66,16 +66,17 @@ impl Figure {
         let words: Vec<String> = paragraphs.iter().map(|words| broken(words, COLUMNS.1)).collect();
         let (title, words) = (broken(title, COLUMNS.0), words.join("<br>"));
         let lines = |text: &str| if text.is_empty() { 0 } else { 1 + text.matches("<br>").count() };
-        // Room for the lines of both.
+        // Room for the lines of both. Plotly sets several lines higher than one.
         let top = 24 + 20 * lines(&title) + 15 * lines(&words);
+        let pad = if lines(&title) > 1 { 22 } else { 12 };
         let title = json!({
             "text": title, "font": {"size": 15}, "x": 0.02, "xanchor": "left", "y": 1, "yanchor": "top", "yref": "container",
-            "pad": {"t": 12}, "subtitle": {"text": words, "font": {"size": 11}},
+            "pad": {"t": pad}, "subtitle": {"text": words, "font": {"size": 11}},
         });
         // Below all, as wide as the figure.
         let legend = json!({
             "orientation": Orientation::Horizontal, "x": 0, "xanchor": "left", "xref": "container", "y": 0.0, "yanchor": "bottom",
-            "yref": "container", "font": {"size": 11},
+            "yref": "container", "font": {"size": 11}, "tracegroupgap": 0,
         });
         let more = [("title", title), ("legend", legend), ("meta", json!({"kind": kind}))];
         let layout = Layout::new()
@@ -134,5 +135,11 @@ impl Figure {
 
 /// An axis with a title.
 pub(super) fn axis(title: &str) -> Axis {
-    Axis::new().title(AxisTitle::with_text(escaped(title))).auto_margin(true).separate_thousands(true)
+    let title = AxisTitle::with_text(broken(title, COLUMNS.2)).font(Font::new().size(12));
+    Axis::new().title(title).auto_margin(true).separate_thousands(true)
+}
+
+/// An axis of speeds.
+pub(super) fn speeds() -> Axis {
+    axis("rotational speed Ω, rpm").exponent_format(ExponentFormat::None)
 }

@@ -1,15 +1,14 @@
 //! The interaction map: level and amplitudes over speed, engine orders, critical speeds, linear prediction.
 
-use plotly::Scatter;
 use plotly::common::{DashType, MarkerSymbol, Mode, Position};
 use plotly::layout::Axis;
 use serde_json::json;
 
 use super::amplitudes::amplitudes;
-use super::cells::logarithmic;
-use super::document::{Figure, axis};
+use super::cells::{MOST, logarithmic};
+use super::document::{Figure, axis, speeds};
 use super::level;
-use super::marks::{line, marks, silent, strokes, words};
+use super::marks::{PointTrace, line, marks, silent, strokes, words};
 use super::palette::{WARNING, colour, dash};
 use crate::cells::{Cell, cells, rpm};
 use crate::level::{LevelColour, axis as level_axis};
@@ -18,6 +17,9 @@ use crate::marks::{critical_words, driven_words, known_to, linear_words};
 use crate::window::Window;
 use crate::{heat, interaction_map as drawing, validity};
 use rubmap_analysis::result::{Campbell, CriticalSpeed, CriticalSpeeds, InteractionMap, StiffeningVerdict};
+
+/// Colour of the linear criterion's crossings, which is seen on all amplitudes.
+const LINEAR: &str = "#ff77cc";
 
 /// Pixels of height.
 const HEIGHT: usize = 760;
@@ -42,7 +44,7 @@ pub fn interaction_map(
     let view = View::new(map, &cells, campbell, axis_upwards, &window, ((0.0, 0.0), (1.0, 1.0)));
     let loudest = heat::loudest(map, &window);
     let scale = loudest.map_or((QUIETEST, 1.0), |loudest| (QUIETEST * loudest, loudest));
-    let shown = amplitudes(map, &cells, &view, scale.0, ("x", "y"));
+    let shown = amplitudes(map, &cells, &view, scale.0, ("x", "y"), MOST);
     let unit = map.sensor.unit(&map.units);
     let paragraphs: Vec<String> = [drawing::words(map)]
         .into_iter()
@@ -50,7 +52,7 @@ pub fn interaction_map(
         .chain(validity::without_thickness(map).then(|| validity::WITHOUT_THICKNESS.to_owned()))
         .chain(shown.thinned.clone())
         .collect();
-    let x = axis("rotational speed Ω, rpm").range(ends(view.diagram.x.values)).anchor("y");
+    let x = speeds().range(ends(view.diagram.x.values)).anchor("y");
     let seen = cells.iter().filter(|cell| view.diagram.x.contains(cell.rpm)).copied();
     let seen: Vec<Cell> = seen.collect();
     Figure::new("interaction_map", &drawing::title(map), &paragraphs)
@@ -75,10 +77,7 @@ pub fn interaction_map(
         .meta("speeds_rpm", cells.iter().map(|cell| cell.rpm).collect::<Vec<f64>>())
         .meta("speed_indices", cells.iter().map(|cell| cell.index).collect::<Vec<usize>>())
         .meta("column_speed_indices", shown.indices)
-        .meta(
-            "amplitude",
-            json!({"trace": 0, "z": "log10", "linear": "customdata[row][column][0]", "range": scale}),
-        )
+        .meta("amplitude", json!({"z": "log10", "linear": "customdata[row][column][0]", "range": scale}))
 }
 
 fn y_unit(axis: VerticalAxis) -> &'static str {
@@ -99,14 +98,14 @@ pub(super) fn ends((low, high): (f64, f64)) -> Vec<f64> {
 }
 
 /// Lines of engine orders, of those that the lobes excite with their numbers where they rise.
-pub(super) fn engine_orders(map: &InteractionMap, view: &View) -> Vec<Box<Scatter<f64, f64>>> {
+pub(super) fn engine_orders(map: &InteractionMap, view: &View) -> Vec<PointTrace> {
     let (excited, others): (Vec<OrderLine>, Vec<OrderLine>) =
         view.order_lines(map).into_iter().partition(|line| line.excited && lobes(map) > 1);
     let other_words = if lobes(map) > 1 { "other engine orders" } else { "engine orders" };
     let mut traces = Vec::new();
     for (name, lines, pen) in [
-        (other_words, &others, ("#b8b8b8", DashType::Dot, 1.0)),
-        ("multiples of the lobe count", &excited, ("#d0d0d0", DashType::Solid, 1.0)),
+        (other_words, &others, ("rgba(176, 176, 176, 0.6)", DashType::Dot, 1.0)),
+        ("engine orders of lobes", &excited, ("rgba(176, 176, 176, 0.45)", DashType::Solid, 1.0)),
     ] {
         if lines.is_empty() {
             continue;
@@ -125,7 +124,7 @@ pub(super) fn engine_orders(map: &InteractionMap, view: &View) -> Vec<Box<Scatte
 }
 
 /// Natural frequencies in the rotating frame, those of a nodal diameter under one name.
-fn natural(campbell: &Campbell, view: &View) -> Vec<Box<Scatter<f64, f64>>> {
+fn natural(campbell: &Campbell, view: &View) -> Vec<PointTrace> {
     let harmonics = campbell.frequencies_hz.first().map_or(0, Vec::len);
     let lines = view.natural(campbell);
     let of = |i: usize| {
@@ -133,13 +132,13 @@ fn natural(campbell: &Campbell, view: &View) -> Vec<Box<Scatter<f64, f64>>> {
         let places = lines.clone().flat_map(|line| line.places.iter().copied().chain([None]));
         let told = lines.flat_map(|line| vec![line.words(); line.places.len() + 1]).collect();
         let pen = (colour(i, harmonics), dash(i), 1.3);
-        words(line(&format!("natural frequencies, nodal diameter {i}"), places, (&pen.0, pen.1, pen.2)), told)
+        words(line(&format!("nodal diameter {i}"), places, (&pen.0, pen.1, pen.2)), told)
     };
     (0..harmonics).map(of).collect()
 }
 
 /// Where the linear criterion and the lobes' engine orders meet natural frequencies.
-fn crossings(critical: &CriticalSpeeds, view: &View) -> Vec<Box<Scatter<f64, f64>>> {
+fn crossings(critical: &CriticalSpeeds, view: &View) -> Vec<PointTrace> {
     let place = |speed_rad_s: f64, order: u32| {
         let rpm = rpm(speed_rad_s);
         let place = (rpm, view.height(rpm, f64::from(order)));
@@ -152,20 +151,18 @@ fn crossings(critical: &CriticalSpeeds, view: &View) -> Vec<Box<Scatter<f64, f64
     let driven = critical.driven_crossings.iter().filter_map(|crossing| {
         Some((place(crossing.speed_rad_s, crossing.engine_order)?, driven_words(crossing)))
     });
-    let rings =
-        marks("linear criterion (i, j, n) at k = i·n", linear, (MarkerSymbol::CircleOpen, 10, "#ffffff"));
-    let diamonds = marks("driven by the lobes, (i, j)", driven, (MarkerSymbol::Diamond, 9, DRIVEN));
+    let rings = marks("linear (i, j, n)", linear, (MarkerSymbol::CircleOpen, 10, LINEAR));
+    let diamonds = marks("driven (i, j)", driven, (MarkerSymbol::Diamond, 9, DRIVEN));
     rings.into_iter().chain(diamonds).collect()
 }
 
 /// Lines at critical speeds through both panels, and a mark at the level of each.
-fn critical_speeds(critical: &CriticalSpeeds, view: &View, by: LevelColour) -> Vec<Box<Scatter<f64, f64>>> {
+fn critical_speeds(critical: &CriticalSpeeds, view: &View, by: LevelColour) -> Vec<PointTrace> {
     let said = by == LevelColour::Utilisation;
     let mut traces = Vec::new();
-    for (resolved, name, dash) in [
-        (true, "critical speed", DashType::Dash),
-        (false, "critical speed, peak not resolved", DashType::Dot),
-    ] {
+    for (resolved, name, dash) in
+        [(true, "critical speed", DashType::Dash), (false, "critical, not resolved", DashType::Dot)]
+    {
         let of = |speed: &&CriticalSpeed| {
             speed.resolved == resolved && view.diagram.x.contains(rpm(speed.speed_rad_s))
         };

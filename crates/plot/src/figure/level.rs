@@ -1,21 +1,21 @@
 //! The level over speed, above a map, with what is known of its error, of settling and of linear theory.
 
 use plotly::Scatter;
-use plotly::common::{DashType, ErrorData, ErrorType, Fill, HoverInfo, Line, MarkerSymbol, Mode};
+use plotly::common::{ErrorData, ErrorType, Fill, HoverInfo, Line, MarkerSymbol, Mode};
 
-use super::marks::{columns, marks, strokes, words};
+use super::marks::{PointTrace, columns, marks, strokes, words};
 use super::palette::{CURVE, NEUTRAL, WARNING};
+use super::text::escaped;
 use crate::cells::Cell;
 use crate::level::{self, LevelColour, rms};
 use crate::settling_strip::Standing;
 use crate::{map_view, margin, validity};
 use rubmap_analysis::result::{InteractionMap, ValidityVerdict, Verdict};
 
-type Traces = Vec<Box<Scatter<f64, f64>>>;
-
 /// The level of some speeds in the panel of these axes.
-pub(super) fn traces(map: &InteractionMap, cells: &[Cell], by: LevelColour, y_axis: &str) -> Traces {
-    let mut traces = if by == LevelColour::Utilisation { utilisation(map, cells) } else { Vec::new() };
+pub(super) fn traces(map: &InteractionMap, cells: &[Cell], by: LevelColour, y_axis: &str) -> Vec<PointTrace> {
+    let below = |cell: &Cell| Some((0.0, rms(map, cell.index)?));
+    let mut traces = if by == LevelColour::Utilisation { utilisation(map, cells, below) } else { Vec::new() };
     traces.push(curve(map, cells));
     traces.extend(Standing::ALL.into_iter().filter_map(|standing| standings(map, cells, standing)));
     traces.extend(validity::MARKED.into_iter().filter_map(|verdict| verdicts(map, cells, verdict)));
@@ -23,7 +23,7 @@ pub(super) fn traces(map: &InteractionMap, cells: &[Cell], by: LevelColour, y_ax
 }
 
 /// The curve, with error bars where errors were estimated.
-fn curve(map: &InteractionMap, cells: &[Cell]) -> Box<Scatter<f64, f64>> {
+fn curve(map: &InteractionMap, cells: &[Cell]) -> PointTrace {
     let (x, y) = columns(cells.iter().map(|cell| Some((cell.rpm, rms(map, cell.index)?))));
     let pen = Line::new().color(CURVE).width(1.6);
     let curve = Scatter::new(x, y).name("level").mode(Mode::Lines).line(pen).hover_info(HoverInfo::Skip);
@@ -34,7 +34,7 @@ fn curve(map: &InteractionMap, cells: &[Cell]) -> Box<Scatter<f64, f64>> {
 }
 
 /// The speeds of a standing: at their level, or on the axis if they have none.
-fn standings(map: &InteractionMap, cells: &[Cell], standing: Standing) -> Option<Box<Scatter<f64, f64>>> {
+fn standings(map: &InteractionMap, cells: &[Cell], standing: Standing) -> Option<PointTrace> {
     let style = match standing {
         Standing::Settled(Verdict::Periodic) => (MarkerSymbol::Circle, 4, CURVE),
         Standing::Settled(Verdict::Subharmonic) => (MarkerSymbol::Square, 6, "#009e73"),
@@ -58,11 +58,7 @@ fn standings(map: &InteractionMap, cells: &[Cell], standing: Standing) -> Option
 }
 
 /// Rings about the speeds at which linear theory is doubtful or left.
-fn verdicts(
-    map: &InteractionMap,
-    cells: &[Cell],
-    verdict: ValidityVerdict,
-) -> Option<Box<Scatter<f64, f64>>> {
+fn verdicts(map: &InteractionMap, cells: &[Cell], verdict: ValidityVerdict) -> Option<PointTrace> {
     let (symbol, size) = match verdict {
         ValidityVerdict::Beyond => (MarkerSymbol::CircleXOpen, 12),
         _ => (MarkerSymbol::CircleOpen, 12),
@@ -78,22 +74,26 @@ fn verdicts(
     marks(validity::words(verdict), cells.iter().filter_map(place), (symbol, size, WARNING))
 }
 
-/// Areas below the level in classes of utilisation.
-fn utilisation(map: &InteractionMap, cells: &[Cell]) -> Traces {
+/// Areas in classes of utilisation, over every speed from the lower to the upper of two heights.
+pub(super) fn utilisation(
+    map: &InteractionMap,
+    cells: &[Cell],
+    heights: impl Fn(&Cell) -> Option<(f64, f64)>,
+) -> Vec<PointTrace> {
     let of = |class: usize| {
-        let bars = cells.iter().filter_map(move |cell| {
+        let bars = cells.iter().filter_map(|cell| {
             let used = margin::utilisation(map, cell.index)?;
-            (margin::class(used) == class).then_some((cell, rms(map, cell.index)?, used))
+            (margin::class(used) == class).then_some((cell, heights(cell)?, used))
         });
-        let bars: Vec<(&Cell, f64, f64)> = bars.collect();
-        let corners = bars.iter().map(|(cell, rms, _)| {
-            [(cell.from, 0.0), (cell.from, *rms), (cell.to, *rms), (cell.to, 0.0), (cell.from, 0.0)]
+        let bars: Vec<(&Cell, (f64, f64), f64)> = bars.collect();
+        let corners = bars.iter().map(|(cell, (low, high), _)| {
+            [(cell.from, *low), (cell.from, *high), (cell.to, *high), (cell.to, *low), (cell.from, *low)]
         });
         let (x, y) = columns(strokes(corners));
         let told = bars.iter().flat_map(|(cell, _, used)| vec![margin::words(cell, *used); 6]).collect();
         let fill = margin::fill(class);
-        let pen = Line::new().color(fill.clone()).width(0.0).dash(DashType::Solid);
-        let trace = Scatter::new(x, y).name(margin::CLASSES[class].2).mode(Mode::Lines).line(pen);
+        let pen = Line::new().color(fill.clone()).width(0.0);
+        let trace = Scatter::new(x, y).name(escaped(margin::CLASSES[class].2)).mode(Mode::Lines).line(pen);
         let trace = trace.fill(Fill::ToSelf).fill_color(fill);
         (!bars.is_empty()).then(|| words(trace, told))
     };

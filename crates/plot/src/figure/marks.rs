@@ -5,6 +5,9 @@ use plotly::common::{DashType, HoverInfo, Line, Marker, MarkerSymbol, Mode};
 
 use super::text::escaped;
 
+/// A trace of points, boxed as the crate makes them.
+pub(super) type PointTrace = Box<Scatter<f64, f64>>;
+
 type Places = (Vec<f64>, Vec<f64>);
 
 /// Places as columns; a gap where there is none.
@@ -17,7 +20,7 @@ pub(super) fn line(
     name: &str,
     places: impl IntoIterator<Item = Option<(f64, f64)>>,
     (colour, dash, width): (&str, DashType, f64),
-) -> Box<Scatter<f64, f64>> {
+) -> PointTrace {
     let (x, y) = columns(places);
     let pen = Line::new().color(colour.to_owned()).dash(dash).width(width);
     Scatter::new(x, y).name(escaped(name)).mode(Mode::Lines).line(pen)
@@ -28,12 +31,12 @@ pub(super) fn silent(
     name: &str,
     places: impl IntoIterator<Item = Option<(f64, f64)>>,
     pen: (&str, DashType, f64),
-) -> Box<Scatter<f64, f64>> {
+) -> PointTrace {
     line(name, places, pen).hover_info(HoverInfo::Skip)
 }
 
 /// What the pointer shows at each point.
-pub(super) fn words(trace: Box<Scatter<f64, f64>>, words: Vec<String>) -> Box<Scatter<f64, f64>> {
+pub(super) fn words(trace: PointTrace, words: Vec<String>) -> PointTrace {
     let words = words.iter().map(|words| escaped(words)).collect();
     trace.hover_text_array(words).hover_info(HoverInfo::Text)
 }
@@ -43,7 +46,7 @@ pub(super) fn marks(
     name: &str,
     places: impl IntoIterator<Item = ((f64, f64), String)>,
     (symbol, size, colour): (MarkerSymbol, usize, &str),
-) -> Option<Box<Scatter<f64, f64>>> {
+) -> Option<PointTrace> {
     let (places, told): (Vec<(f64, f64)>, Vec<String>) = places.into_iter().unzip();
     let (x, y): Places = places.into_iter().unzip();
     let marker = Marker::new().symbol(symbol).size(size).color(colour.to_owned());

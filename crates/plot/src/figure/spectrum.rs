@@ -1,12 +1,11 @@
 //! Spectra of one speed.
 
-use plotly::Scatter;
 use plotly::common::{ErrorData, ErrorType};
 use plotly::layout::{Axis, AxisType};
 use serde_json::json;
 
 use super::document::{Figure, axis};
-use super::marks::marks;
+use super::marks::{PointTrace, marks};
 use super::palette::{CURVE, colour, symbol};
 use crate::axis::label;
 use crate::cells::rpm;
@@ -68,12 +67,7 @@ fn hertz(order: f64, point: &Point) -> String {
 }
 
 /// Stems down to the foot of the axis: a bar of error has one end there.
-fn stems(
-    trace: Box<Scatter<f64, f64>>,
-    heights: Vec<f64>,
-    foot: f64,
-    colour: &str,
-) -> Box<Scatter<f64, f64>> {
+fn stems(trace: PointTrace, heights: Vec<f64>, foot: f64, colour: &str) -> PointTrace {
     let down = heights.iter().map(|height| height - foot).collect();
     let bars =
         ErrorData::new(ErrorType::Data).array(vec![0.0; heights.len()]).array_minus(down).symmetric(false);
@@ -87,7 +81,7 @@ fn whole(
     foot: f64,
     point: &Point,
     unit: &str,
-) -> Option<Box<Scatter<f64, f64>>> {
+) -> Option<PointTrace> {
     let told = |(order, amplitude): &(f64, f64)| {
         let words = drawing::whole_words(*order, *amplitude, unit);
         ((*order, *amplitude), format!("{words}{}", hertz(*order, point)))
@@ -97,7 +91,7 @@ fn whole(
 }
 
 /// The lines of every nodal diameter, of each direction of travel a trace.
-fn by_diameter(lines: &Lines, shown: &Shown, point: &Point, unit: &str) -> Vec<Box<Scatter<f64, f64>>> {
+fn by_diameter(lines: &Lines, shown: &Shown, point: &Point, unit: &str) -> Vec<PointTrace> {
     let of = |(i, forward): (usize, bool)| {
         let here = shown.lines.iter().filter(|line| line.nodal_diameter == i && line.forward == forward);
         let heights: Vec<f64> = here.clone().map(|line| line.amplitude).collect();
@@ -107,7 +101,7 @@ fn by_diameter(lines: &Lines, shown: &Shown, point: &Point, unit: &str) -> Vec<B
         });
         let colour = colour(i, lines.harmonics);
         let name =
-            if forward { format!("nodal diameter {i}") } else { format!("nodal diameter {i}, |k − n|") };
+            if forward { format!("nodal diameter {i}") } else { format!("nodal diameter {i}, |k−n|") };
         let trace = marks(&name, told, (symbol(i, forward), 8, &colour))?;
         Some(stems(trace, heights, shown.range.0, &colour))
     };

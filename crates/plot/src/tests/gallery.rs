@@ -1,5 +1,5 @@
 //! Drawings to be looked at: `cargo test --release -p rubmap-plot gallery -- --ignored` leaves all of them in `target/gallery` as SVG,
-//! and as PNG in colour and in grey. Where `rubmap demo` and `rubmap study` left their results in `demo` and `study` in it, those are
+//! and as PNG in colour and in grey, and the figures. Where `rubmap demo` and `rubmap study` left their results in `demo` and `study` in it, those are
 //! drawn.
 
 use std::path::{Path, PathBuf};
@@ -21,7 +21,7 @@ use rubmap_analysis::result::{
 use rubmap_analysis::run::{Histories, WorkPrecision};
 use serde::de::DeserializeOwned;
 
-fn read<T: DeserializeOwned>(path: &Path) -> Option<T> {
+pub(super) fn read<T: DeserializeOwned>(path: &Path) -> Option<T> {
     serde_json::from_slice(&std::fs::read(path).ok()?).ok()
 }
 
