@@ -65,8 +65,7 @@ impl Client {
             Target::Stdout => {
                 let response = self.patiently(|| async { self.send(request()).await }).await?;
                 if std::io::stdout().is_terminal() && !is_text(&response) {
-                    let words = "what it would print is no text: give it a file with -o";
-                    return Err(ClientError::Unfit(words.to_owned()).into());
+                    bail!("what it would print is no text: give it a file with -o");
                 }
                 self.copy(response, std::io::stdout(), stdout::failed).await
             }
