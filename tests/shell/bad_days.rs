@@ -53,6 +53,21 @@ fn who_asks_for_more_patience_than_there_is_gets_none() {
     assert_eq!(stub.asked().len(), 1);
 }
 
+/// DELETE of a job that has ended takes its results away, so that it must not be sent twice.
+#[test]
+fn a_cancellation_whose_answer_is_lost_deletes_nothing() {
+    let stub = Stub::start(|before, request| async move {
+        match (request.method().as_str(), before) {
+            ("DELETE", _) => panic!("the connection breaks"),
+            (_, 0) => Json(job("running", 10)).into_response(),
+            _ => Json(job("dismissed", 10)).into_response(),
+        }
+    });
+    let shell = Shell::of(&stub.address);
+    assert_eq!(shell.json(&format!("cancel {JOB} --json"))["jobs"][0]["status"], "dismissed");
+    assert_eq!(stub.asked().iter().filter(|(what, _)| what.starts_with("DELETE")).count(), 1);
+}
+
 #[test]
 fn what_is_no_rubmap_is_said() {
     let stub = Stub::start(|_, request| async move {

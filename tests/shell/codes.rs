@@ -33,7 +33,7 @@ fn one_is_something_here() {
         ("upload .", &["is a folder"]),
         ("sweep none.yaml", &["none.yaml", "No such file"]),
         ("sweep .", &["Is a directory"]),
-        ("sweep broken.yaml", &["broken.yaml is not YAML", "line 3"]),
+        ("sweep broken.yaml", &["broken.yaml is not YAML", "at line 4"]),
         ("sweep broken.json", &["broken.json is not JSON", "line 2 column"]),
         ("sweep list.yaml", &["is not the body of POST /v1/sweeps"]),
         ("sweep twice.yaml", &["duplicate entry", "scene"]),
