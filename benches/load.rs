@@ -1,11 +1,12 @@
 //! What clients feel, and what sweeps feel of clients: `cargo bench --bench load [-- CLIENTS SECONDS]`. Clients poll jobs, list them and
-//! ask for plans, 200 requests a second together, beside two sweeps on two workers; the same sweeps alone before it, in the same run.
-//! Then a listing of 10,000 jobs in pages. Run it on an otherwise idle machine.
+//! ask for plans, 200 requests a second together, beside two sweeps on two workers; the same sweeps alone before it, in the same run,
+//! and beside open pages that watch one of them. Then a listing of 10,000 jobs in pages. Run it on an otherwise idle machine.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context, bail};
+use futures::StreamExt;
 use reqwest::Client;
 use rubmap::app::App;
 use rubmap::config::Config;
@@ -15,6 +16,12 @@ use tokio_util::sync::CancellationToken;
 
 /// Requests a second, all clients together.
 const RATE: f64 = 200.0;
+
+/// Pages that watch a sweep.
+const PAGES: usize = 20;
+
+/// A page asks for the map that grows at most so often, as `web/` has it.
+const MAP_PAUSE: Duration = Duration::from_secs(5);
 
 /// Jobs that are listed.
 const LISTED: usize = 10_000;
@@ -65,6 +72,12 @@ async fn measure(clients: usize, seconds: u64) -> anyhow::Result<()> {
         alone.as_secs_f64(),
         beside.as_secs_f64(),
         beside.as_secs_f64() / alone.as_secs_f64()
+    );
+    let watched = watched(&client, &base, &model).await?;
+    println!(
+        "beside {PAGES} open pages {:.1} s, ratio {:.3}",
+        watched.as_secs_f64(),
+        watched.as_secs_f64() / alone.as_secs_f64()
     );
     list(&client, &base, &model).await?;
     stop.cancel();
@@ -164,6 +177,43 @@ async fn load(
         errors += failed;
     }
     Ok((latencies, errors))
+}
+
+/// Two sweeps, of which pages watch the one that was posted last.
+async fn watched(client: &Client, base: &str, model: &str) -> anyhow::Result<Duration> {
+    let running = tokio::spawn({
+        let (client, base, model) = (client.clone(), base.to_owned(), model.to_owned());
+        async move { sweeps(&client, &base, &model, 24).await }
+    });
+    let id = loop {
+        let listed: Value =
+            client.get(format!("{base}/v1/jobs?status=running&limit=1")).send().await?.json().await?;
+        match listed["jobs"][0]["id"].as_str() {
+            Some(id) => break id.to_owned(),
+            None => tokio::time::sleep(Duration::from_millis(10)).await,
+        }
+    };
+    let pages: Vec<_> =
+        (0..PAGES).map(|_| tokio::spawn(page(client.clone(), format!("{base}/v1/jobs/{id}")))).collect();
+    for page in pages {
+        page.await??;
+    }
+    running.await?
+}
+
+/// What a page asks for while it shows a job: its events, and the map after them, until the job has ended.
+async fn page(client: Client, job: String) -> anyhow::Result<()> {
+    let mut events = client.get(format!("{job}/events")).send().await?.error_for_status()?.bytes_stream();
+    let mut shown: Option<Instant> = None;
+    while let Some(piece) = events.next().await {
+        piece?;
+        if shown.is_none_or(|at| at.elapsed() > MAP_PAUSE) {
+            let map = client.get(format!("{job}/interaction-map?format=plotly")).send().await?;
+            map.error_for_status()?.bytes().await?;
+            shown = Some(Instant::now());
+        }
+    }
+    Ok(())
 }
 
 /// Ten thousand jobs, cancelled as they come, and all their pages.

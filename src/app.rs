@@ -11,7 +11,7 @@ use tokio_util::sync::CancellationToken;
 
 use crate::config::Config;
 use crate::http::server::{self, descriptors};
-use crate::http::{self, AppState, Contract, LargeAnswers, Transport};
+use crate::http::{self, AppState, Contract, Followed, LargeAnswers, Transport};
 use crate::jobs::{Runner, Settings};
 use crate::store::{Store, StoreError};
 use crate::tokens::{Tokens, TokensError};
@@ -126,6 +126,8 @@ impl App {
             upload_bytes: config.upload_bytes,
             package_limits,
             memory_bytes,
+            followed: Followed::default(),
+            stop: CancellationToken::new(),
             transport: Arc::new(Transport::new(config.transport, addr.ip(), connections)),
             openapi: Arc::from(document.to_json()?),
             contract: Arc::new(Contract::of(&serde_json::to_value(&document)?)),
@@ -143,6 +145,7 @@ impl App {
     pub async fn run_until_stopped(self, stop: CancellationToken) {
         let Self { listener, state, store, runner, _lock, .. } = self;
         let transport = Arc::clone(&state.transport);
+        let state = AppState { stop: stop.clone(), ..state };
         server::serve(listener, http::router(state), &transport.limits, &transport.connections, stop).await;
         tracing::info!("stopping");
         runner.stop().await;

@@ -15,7 +15,8 @@ use super::problem::Problem;
 use super::results::find;
 use super::state::AppState;
 use crate::jobs::Cancellation;
-use crate::store::jobs::{JobDeletion, JobFilter, JobHead, JobId, JobKind};
+use crate::store::StoreError;
+use crate::store::jobs::{Job, JobDeletion, JobFilter, JobHead, JobId, JobKind};
 use crate::store::status::JobStatus;
 use crate::tokens::Principal;
 
@@ -106,8 +107,13 @@ pub(super) async fn get_job(
     whose: Principal,
     JobPath(id): JobPath,
 ) -> Result<Json<JobDetail>, Problem> {
-    let mut job = find(&state, &whose, id).await?;
-    tell_phase(&state, &mut job.head);
+    let job = find(&state, &whose, id).await?;
+    Ok(Json(detail(&state, job).await?))
+}
+
+/// A job with what is known beyond what is stored of it.
+pub(super) async fn detail(state: &AppState, mut job: Job) -> Result<JobDetail, StoreError> {
+    tell_phase(state, &mut job.head);
     let reduction = match (job.request.model(), job.request.modes_per_speed()) {
         (Some(model), Some(modes_per_speed)) => {
             let mut reports = state.store.reduction_reports(model).await?.into_iter();
@@ -115,7 +121,7 @@ pub(super) async fn get_job(
         }
         _ => None,
     };
-    Ok(Json(JobDetail::new(job, reduction)))
+    Ok(JobDetail::new(job, reduction))
 }
 
 /// Call a job otherwise.

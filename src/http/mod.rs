@@ -7,6 +7,7 @@ mod case_studies;
 mod contract;
 mod document;
 mod download;
+mod events;
 mod extract;
 mod field;
 mod fields;
@@ -56,6 +57,7 @@ mod wheel;
 
 pub use contract::Contract;
 pub use document::document;
+pub use events::Followed;
 pub use renderings::Renderings;
 pub use router::router;
 pub use state::AppState;

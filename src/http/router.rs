@@ -18,9 +18,9 @@ use utoipa_axum::routes;
 
 use super::state::AppState;
 use super::{
-    access, archive, body, case_studies, contract, extract, fields, forces, health, histories, host, jobs,
-    maps, metrics, modal_analyses, models, modes, openapi, principal, problem, report, results, section,
-    spectra, stream, stress, studies, sweeps, version, wheel,
+    access, archive, body, case_studies, contract, events, extract, fields, forces, health, histories, host,
+    jobs, maps, metrics, modal_analyses, models, modes, openapi, principal, problem, report, results,
+    section, spectra, stream, stress, studies, sweeps, version, wheel,
 };
 
 /// The routes with their descriptions.
@@ -39,6 +39,7 @@ pub(super) fn routes() -> OpenApiRouter<AppState> {
         .routes(routes!(case_studies::create_case_study))
         .routes(routes!(jobs::list_jobs))
         .routes(routes!(jobs::get_job, jobs::label_job, jobs::delete_job))
+        .routes(routes!(events::follow_job))
         .routes(routes!(archive::get_archive))
         .routes(routes!(report::get_report))
         .routes(routes!(results::get_campbell))

@@ -2,7 +2,10 @@
 
 use std::sync::Arc;
 
+use tokio_util::sync::CancellationToken;
+
 use super::contract::Contract;
+use super::events::Followed;
 use super::renderings::Renderings;
 use super::stream::LargeAnswers;
 use super::transport::Transport;
@@ -33,6 +36,10 @@ pub struct AppState {
     pub package_limits: package::Limits,
     /// Memory that reductions may take together; `None` where nothing is known about it.
     pub memory_bytes: Option<u64>,
+    /// Jobs that somebody follows.
+    pub followed: Followed,
+    /// Told when the service stops: answers that last as long as a job end then.
+    pub stop: CancellationToken,
     /// What connections and requests are subject to and counted by.
     pub transport: Arc<Transport>,
     /// The contract, as JSON.

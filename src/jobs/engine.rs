@@ -123,6 +123,7 @@ impl Engine {
             calibrated: Calibrated::new(store.clone()),
             memory,
             limits,
+            reports: Arc::new(PendingReports::new(store.changes().clone())),
             store,
             queue,
             computing,
@@ -138,7 +139,6 @@ impl Engine {
             new_speeds: Arc::default(),
             stopping: Arc::default(),
             live: Mutex::default(),
-            reports: Arc::default(),
         })
     }
 

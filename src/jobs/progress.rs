@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::analysis::monitor::Monitor;
+use crate::store::Changes;
 use crate::store::jobs::JobId;
 
 /// Percent of a sweep that its reduction counts for.
@@ -22,10 +23,16 @@ pub(super) struct Report {
 /// The latest about each job, until somebody takes it to the store.
 #[derive(Debug, Default)]
 pub(super) struct PendingReports {
+    changes: Changes,
     latest: Mutex<HashMap<JobId, Report>>,
 }
 
 impl PendingReports {
+    /// Tells `changes` of every report.
+    pub(super) fn new(changes: Changes) -> Self {
+        Self { changes, latest: Mutex::default() }
+    }
+
     /// Takes what is new.
     pub(super) fn take(&self) -> HashMap<JobId, Report> {
         std::mem::take(&mut *self.latest.lock().unwrap_or_else(PoisonError::into_inner))
@@ -38,6 +45,7 @@ impl PendingReports {
 
     fn put(&self, job: JobId, report: Report) {
         self.latest.lock().unwrap_or_else(PoisonError::into_inner).insert(job, report);
+        self.changes.tell(job);
     }
 }
 

@@ -11,6 +11,7 @@ use sqlx::sqlite::{
 };
 use sqlx::{ConnectOptions, Connection};
 
+use super::changes::Changes;
 use super::error::StoreError;
 use super::marks::Marks;
 use super::packages::{count_packages, packages_folder};
@@ -36,6 +37,8 @@ pub struct Store {
     pub(super) packages: Arc<tokio::sync::Mutex<()>>,
     /// Room that is kept for deletions.
     pub(super) reserve: Reserve,
+    /// Tells who follows a job that it has changed.
+    pub(super) changes: Changes,
 }
 
 impl Store {
@@ -63,7 +66,13 @@ impl Store {
         let readers = pool().max_connections(READERS).connect_with(options).await?;
         let marks = Marks::new(folder)?;
         let (packages, reserve) = (Arc::default(), Reserve::of(folder));
-        Ok(Self { folder: folder.to_owned(), readers, writer, marks, packages, reserve })
+        let changes = Changes::default();
+        Ok(Self { folder: folder.to_owned(), readers, writer, marks, packages, reserve, changes })
+    }
+
+    /// Changes of jobs, to be followed and told.
+    pub fn changes(&self) -> &Changes {
+        &self.changes
     }
 
     /// Closes all connections, which folds the write-ahead log into the database.

@@ -7,6 +7,7 @@
 mod backup;
 pub mod bases;
 mod calibrations;
+mod changes;
 pub mod checkpoints;
 mod computing;
 mod end_states;
@@ -37,6 +38,7 @@ mod unfinished;
 mod write;
 
 pub use backup::{Backup, Findings, backup, check};
+pub use changes::Changes;
 pub use error::StoreError;
 pub use handle::Store;
 pub use readiness::Backlog;

@@ -141,7 +141,7 @@ impl Store {
             .bind(job.to_string())
             .fetch_optional(&mut *transaction)
             .await?;
-        transaction.commit().await?;
+        transaction.commit_job(job).await?;
         Ok(finished)
     }
 
@@ -261,7 +261,7 @@ impl Store {
                 .execute(&mut *transaction)
                 .await?;
         }
-        transaction.commit().await?;
+        transaction.commit_job(job).await?;
         Ok(())
     }
 

@@ -5,8 +5,10 @@ use std::ops::{Deref, DerefMut};
 use sqlx::pool::PoolConnection;
 use sqlx::{Sqlite, SqliteConnection};
 
+use super::changes::Changes;
 use super::error::StoreError;
 use super::handle::Store;
+use super::jobs::job::JobId;
 
 /// A transaction that holds the lock for writing from its beginning.
 ///
@@ -16,6 +18,7 @@ use super::handle::Store;
 #[derive(Debug)]
 pub(super) struct Write {
     connection: PoolConnection<Sqlite>,
+    changes: Changes,
     ended: bool,
 }
 
@@ -28,7 +31,8 @@ impl Store {
 
     /// The same for what makes room, or ends work that takes it.
     pub(super) async fn write_removal(&self) -> Result<Write, StoreError> {
-        let mut write = Write { connection: self.writer.acquire().await?, ended: false };
+        let mut write =
+            Write { connection: self.writer.acquire().await?, changes: self.changes.clone(), ended: false };
         sqlx::query("begin immediate").execute(&mut *write).await?;
         Ok(write)
     }
@@ -55,6 +59,22 @@ impl Write {
     /// Keeps what was written.
     pub(super) async fn commit(self) -> Result<(), StoreError> {
         self.end("commit").await
+    }
+
+    /// The same of what changes job `id`: who follows it hears of it.
+    pub(super) async fn commit_job(self, id: JobId) -> Result<(), StoreError> {
+        let changes = self.changes.clone();
+        self.end("commit").await?;
+        changes.tell(id);
+        Ok(())
+    }
+
+    /// The same of what may change any job.
+    pub(super) async fn commit_jobs(self) -> Result<(), StoreError> {
+        let changes = self.changes.clone();
+        self.end("commit").await?;
+        changes.tell_all();
+        Ok(())
     }
 
     /// Takes back what was written.

@@ -307,17 +307,23 @@ async fn a_wheel_is_closed_and_its_modes_are_where_they_belong() {
     app.stop().await;
 }
 
-/// A sweep records the state of a speed; its report shows it.
-#[tokio::test]
-async fn a_report_shows_the_wheel_where_it_moves_most() {
-    let app = TestApp::start_with(|config| config.upload_bytes = 64 << 20).await;
-    let api = &app.api;
+/// A sweep of the impeller at two speeds, with stress, and the state of the second.
+async fn sweep_with_states(api: &Api) -> Value {
     let mut file = std::io::Cursor::new(Vec::new());
     package::write(&impeller(), &mut file).unwrap();
     let model = api.model(file.into_inner()).await;
     let mut request = sweep_of(&model);
     request["speeds"] = json!({"values": [1200.0, 1300.0], "unit": "rad_s"});
     request["record"] = json!({"histories": {"speeds": [1], "quantities": ["state"]}, "stress": {}});
+    request
+}
+
+/// A sweep records the state of a speed; its report shows it.
+#[tokio::test]
+async fn a_report_shows_the_wheel_where_it_moves_most() {
+    let app = TestApp::start_with(|config| config.upload_bytes = 64 << 20).await;
+    let api = &app.api;
+    let request = sweep_with_states(api).await;
     let id = api.sweep(&request).await;
     let job = api.finish(&id).await;
     assert_eq!(job["status"], "successful", "{job}");
@@ -339,13 +345,8 @@ async fn a_report_shows_the_wheel_where_it_moves_most() {
 async fn a_field_with_its_static_part_has_the_largest_stress_of_the_sweep() {
     let app = TestApp::start_with(|config| config.upload_bytes = 64 << 20).await;
     let api = &app.api;
-    let mut file = std::io::Cursor::new(Vec::new());
-    package::write(&impeller(), &mut file).unwrap();
-    let model = api.model(file.into_inner()).await;
-    let mut request = sweep_of(&model);
-    request["speeds"] = json!({"values": [1200.0, 1300.0], "unit": "rad_s"});
+    let mut request = sweep_with_states(api).await;
     request["scene"]["centrifugal_stiffening"] = json!(true);
-    request["record"] = json!({"histories": {"speeds": [1], "quantities": ["state"]}, "stress": {}});
     let id = api.sweep(&request).await;
     let job = api.finish(&id).await;
     assert_eq!(job["status"], "successful", "{job}");

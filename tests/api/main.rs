@@ -9,6 +9,7 @@ mod case_studies;
 mod chains;
 mod checkpoints;
 mod errors;
+mod events;
 mod faults;
 mod fields;
 mod formats;

@@ -91,6 +91,7 @@ async fn what_belongs_to_one_owner_is_not_there_for_another() {
     let id = alice.post("/v1/modal-analyses", &modal_analysis_of(&model)).await.text("/id");
     for path in [
         "",
+        "/events",
         "/campbell",
         "/interaction-map",
         "/spectra/0",

@@ -2,12 +2,11 @@
 
 use nalgebra::{Matrix3, Vector3};
 use rubmap::analysis::stress::StressMaker;
-use rubmap::impeller::mesh::ElementOrder;
-use rubmap::impeller::{ImpellerParameters, MeshDensities, Splitter, impeller_sector, to_package};
+use rubmap::impeller::{impeller_sector, to_package};
 use rubmap::package::{self, Limits};
 use rubmap::solid::frame::AxisFrame;
 
-use crate::calculix::calculix;
+use crate::calculix::{calculix, twenty_node_impeller};
 
 /// What it prints of displacements, and of stress at nodes after extrapolation by a table of four digits.
 const PRINTED: [f64; 2] = [1e-6, 1e-4];
@@ -16,20 +15,7 @@ const PRINTED: [f64; 2] = [1e-6, 1e-4];
 /// elements of its sector alone; we do over those of the next, too, as `tests/solid` has it of whole wheels.
 #[test]
 fn the_static_part_of_stress_is_that_of_calculix() {
-    let p = ImpellerParameters {
-        sectors: 7,
-        contact_nodes: 5,
-        element_order: ElementOrder::Quadratic,
-        splitter: Some(Splitter::default()),
-        mesh: MeshDensities {
-            between_contact_nodes: 1,
-            blade_height: 2,
-            blade_thickness: 1,
-            half_passage: 1,
-            disk: 2,
-        },
-        ..ImpellerParameters::default()
-    };
+    let p = twenty_node_impeller();
     let sector = impeller_sector(&p).unwrap();
     let speed = p.top_speed_rad_s;
     let Some(theirs) = calculix(&sector, &p.material, speed) else { return };

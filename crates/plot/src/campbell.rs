@@ -16,7 +16,7 @@ const CORNER: (f64, f64) = (84.0, 86.0);
 const SIZE: (f64, f64) = (820.0, 606.0);
 
 /// Engine orders beyond this crowd the corner of slow speeds; their rays and what they drive are left out.
-const HIGHEST_ORDER: u32 = 30;
+pub(super) const HIGHEST_ORDER: u32 = 30;
 
 /// Line styles of the families; those beyond look like the last.
 const DASHES: [&str; 4] = ["", "9 4", "2 3", "9 3 2 3"];
@@ -40,7 +40,8 @@ pub fn campbell(campbell: &Campbell) -> String {
     document("Campbell diagram", WIDTH, HEIGHT, content)
 }
 
-fn diagram(campbell: &Campbell) -> Diagram {
+/// The empty diagram.
+pub(super) fn diagram(campbell: &Campbell) -> Diagram {
     let branches = campbell.branches();
     let frequencies = branches.iter().flat_map(|(_, table)| table.iter().flatten().flatten()).copied();
     let highest = frequencies.filter(|f| f.is_finite()).fold(0.0, f64::max);
@@ -49,33 +50,56 @@ fn diagram(campbell: &Campbell) -> Diagram {
 }
 
 /// Number of nodal diameters and of families.
-fn counts(campbell: &Campbell) -> (usize, usize) {
+pub(super) fn counts(campbell: &Campbell) -> (usize, usize) {
     let first = campbell.frequencies_hz.first();
     let families = first.into_iter().flatten().map(Vec::len).max();
     (first.map_or(0, Vec::len), families.unwrap_or(0))
 }
 
-fn natural_frequencies(campbell: &Campbell, diagram: &Diagram) -> Element {
+/// The frequency of a mode over speed.
+pub(super) struct Curve {
+    pub(super) nodal_diameter: usize,
+    /// From 0.
+    pub(super) family: usize,
+    pub(super) wave: Option<Wave>,
+    /// rpm and Hz at each speed.
+    pub(super) places: Vec<Option<(f64, f64)>>,
+}
+
+impl Curve {
+    /// The mode in words.
+    pub(super) fn words(&self) -> String {
+        marks::mode(self.nodal_diameter as u32, self.family as u32 + 1, self.wave)
+    }
+}
+
+/// All curves of a diagram.
+pub(super) fn curves(campbell: &Campbell) -> Vec<Curve> {
     let (harmonics, families) = counts(campbell);
-    let mut curves = group();
+    let mut curves = Vec::new();
     for (wave, table) in campbell.branches() {
         for (nodal_diameter, family) in (0..harmonics).flat_map(|i| (0..families).map(move |j| (i, j))) {
-            let points = campbell.speeds_rad_s.iter().zip(table);
-            let curve = polyline(points.map(|(speed, frequencies)| {
-                let hz = frequencies.get(nodal_diameter)?.get(family)?;
-                diagram.inside(rpm(*speed), *hz)
-            }));
-            let words = marks::mode(nodal_diameter as u32, family as u32 + 1, wave);
-            curves = curves.child(
-                curve
-                    .set("stroke", ordinal(nodal_diameter, harmonics))
-                    .set("stroke-width", stroke_width(wave))
-                    .set("stroke-dasharray", DASHES[family.min(DASHES.len() - 1)])
-                    .title(&words),
-            );
+            let place = |(speed, frequencies): (&f64, &Vec<Vec<f64>>)| {
+                Some((rpm(*speed), *frequencies.get(nodal_diameter)?.get(family)?))
+            };
+            let places = campbell.speeds_rad_s.iter().zip(table).map(place).collect();
+            curves.push(Curve { nodal_diameter, family, wave, places });
         }
     }
     curves
+}
+
+fn natural_frequencies(campbell: &Campbell, diagram: &Diagram) -> Element {
+    let (harmonics, _) = counts(campbell);
+    let drawn = curves(campbell).into_iter().map(|curve| {
+        let words = curve.words();
+        polyline(curve.places.into_iter().map(|place| place.and_then(|(x, y)| diagram.inside(x, y))))
+            .set("stroke", ordinal(curve.nodal_diameter, harmonics))
+            .set("stroke-width", stroke_width(curve.wave))
+            .set("stroke-dasharray", DASHES[curve.family.min(DASHES.len() - 1)])
+            .title(&words)
+    });
+    group().children(drawn)
 }
 
 fn stroke_width(wave: Option<Wave>) -> &'static str {
@@ -89,18 +113,33 @@ fn drawn_orders(campbell: &Campbell) -> u32 {
     driven.chain(linear).max().unwrap_or(0).min(HIGHEST_ORDER)
 }
 
-/// Rays f = kΩ/2π for every order that a crossing needs, those of the lobes darker, labelled where they leave.
-fn engine_orders(campbell: &Campbell, diagram: &Diagram) -> Element {
+/// A ray f = kΩ/2π within the diagram.
+pub(super) struct Ray {
+    pub(super) order: u32,
+    /// Whether the lobes excite it.
+    pub(super) excited: bool,
+    /// rpm and Hz where it begins and where it leaves.
+    pub(super) ends: [(f64, f64); 2],
+}
+
+/// Rays of every order that a crossing needs.
+pub(super) fn rays(campbell: &Campbell, diagram: &Diagram) -> Vec<Ray> {
     let lobes = campbell.settings.lobes.max(1);
-    let highest = drawn_orders(campbell);
+    let (slow, fast) = diagram.x.values;
+    let ray = |order: u32| {
+        let slope = f64::from(order) / 60.0;
+        let ends = diagram.clipped((slow, slope * slow), (fast, slope * fast))?;
+        Some(Ray { order, excited: order.is_multiple_of(lobes), ends })
+    };
+    (1..=drawn_orders(campbell)).filter_map(ray).collect()
+}
+
+/// The same drawn, those of the lobes darker, labelled where they leave.
+fn engine_orders(campbell: &Campbell, diagram: &Diagram) -> Element {
     let mut rays = group();
     let mut last_label = (f64::NAN, f64::NAN);
-    for order in 1..=highest {
-        let (slow, fast) = diagram.x.values;
-        let slope = f64::from(order) / 60.0;
-        let Some([from, to]) = diagram.clipped((slow, slope * slow), (fast, slope * fast)) else { continue };
-        let excited = order.is_multiple_of(lobes);
-        let (from, to) = (diagram.point(from.0, from.1), diagram.point(to.0, to.1));
+    for Ray { order, excited, ends } in self::rays(campbell, diagram) {
+        let [from, to] = ends.map(|(x, y)| diagram.point(x, y));
         let ray = line(from, to).set("stroke", if excited { "#777777" } else { "#cccccc" });
         rays = rays.child(ray.set("stroke-width", if excited { "1" } else { "0.8" }));
         let crowded = (to.0 - last_label.0).abs() < 18.0 && (to.1 - last_label.1).abs() < 13.0;
@@ -158,7 +197,7 @@ fn numbers(campbell: &Campbell, diagram: &Diagram) -> Element {
 }
 
 /// Crossings that are driven and in the drawing, with their places.
-fn driven<'a>(
+pub(super) fn driven<'a>(
     campbell: &'a Campbell,
     diagram: &'a Diagram,
 ) -> impl Iterator<Item = (&'a DrivenCrossing, (f64, f64))> {
@@ -169,7 +208,7 @@ fn driven<'a>(
 }
 
 /// Those of the linear criterion.
-fn linear<'a>(
+pub(super) fn linear<'a>(
     campbell: &'a Campbell,
     diagram: &'a Diagram,
 ) -> impl Iterator<Item = (&'a Crossing, (f64, f64))> {
@@ -200,7 +239,8 @@ fn crossings(campbell: &Campbell, diagram: &Diagram) -> Element {
     drawn
 }
 
-fn heading(campbell: &Campbell) -> Element {
+/// What stands below the title.
+pub(super) fn words(campbell: &Campbell) -> Vec<String> {
     let settings = &campbell.settings;
     let model: String = settings.model.chars().take(12).collect();
     let words = format!(
@@ -208,8 +248,21 @@ fn heading(campbell: &Campbell) -> Element {
         campbell.reduction.modes_per_speed, settings.lobes, campbell.version
     );
     let warning = campbell.reduction.stiffening.verdict.warning().map(str::to_owned);
-    let paragraphs: Vec<String> = [words].into_iter().chain(warning).collect();
-    heading::heading(CORNER.0, "Campbell diagram", &paragraphs).0
+    [words].into_iter().chain(warning).collect()
+}
+
+fn heading(campbell: &Campbell) -> Element {
+    heading::heading(CORNER.0, "Campbell diagram", &words(campbell)).0
+}
+
+/// The engine orders of the lobes.
+pub(super) fn excited_words(campbell: &Campbell) -> String {
+    let lobes = campbell.settings.lobes.max(1);
+    if drawn_orders(campbell) >= 2 * lobes {
+        format!("engine order {lobes}, {}, …", 2 * lobes)
+    } else {
+        format!("engine order {lobes}")
+    }
 }
 
 fn legend(campbell: &Campbell, diagram: &Diagram, x: f64) -> Element {
@@ -240,12 +293,7 @@ fn legend(campbell: &Campbell, diagram: &Diagram, x: f64) -> Element {
     let orders = drawn_orders(campbell);
     let lobes = campbell.settings.lobes.max(1);
     if orders >= lobes {
-        let words = if orders >= 2 * lobes {
-            format!("engine order {lobes}, {}, …", 2 * lobes)
-        } else {
-            format!("engine order {lobes}")
-        };
-        key = key.row(stroke("#777777".to_owned(), ""), &words);
+        key = key.row(stroke("#777777".to_owned(), ""), &excited_words(campbell));
     }
     if orders > 0 && lobes > 1 {
         key = key.row(stroke("#cccccc".to_owned(), ""), "other engine orders");

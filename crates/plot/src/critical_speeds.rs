@@ -15,13 +15,30 @@ const PLOT_WIDTH: f64 = 740.0;
 const PEAKS_HEIGHT: f64 = 330.0;
 const ROW_HEIGHT: f64 = 34.0;
 
+/// What is said where there are no peaks.
+pub(super) const NONE: &str = "no critical speed stands out of the response";
+
 const PEAK: &str = "#1f4e79";
 const NEAREST: &str = "#d62728";
 
 /// Draws the peaks of the response over speed, with how far off they may be, and below them the crossings of the linear calculation, a
 /// row for each superharmonic; each peak is tied to the crossing nearest to it.
 pub fn critical_speeds(critical: &CriticalSpeeds) -> String {
-    let title = format!("Critical speeds: {}", critical.sensor);
+    let title = title(critical);
+    let (heading, bottom) = heading::heading(LEFT, &title, &words(critical));
+    let view = View::new(critical, bottom + 26.0);
+    let mut content = vec![heading];
+    content.extend(view.draw());
+    document(&title, WIDTH, view.rows.bottom() + 66.0, content)
+}
+
+/// What the table is of.
+pub(super) fn title(critical: &CriticalSpeeds) -> String {
+    format!("Critical speeds: {}", critical.sensor)
+}
+
+/// What stands below the title.
+pub(super) fn words(critical: &CriticalSpeeds) -> Vec<String> {
     let found = critical.critical_speeds.len();
     let mut words = vec![match found {
         1 => "1 peak".to_owned(),
@@ -32,31 +49,57 @@ pub fn critical_speeds(critical: &CriticalSpeeds) -> String {
     }
     words.push(heading::origin(&critical.settings.model, &critical.version));
     let warning = critical.reduction.stiffening.verdict.warning().map(str::to_owned);
-    let paragraphs: Vec<String> = [words.join(" · ")].into_iter().chain(warning).collect();
-    let (heading, bottom) = heading::heading(LEFT, &title, &paragraphs);
-    let view = View::new(critical, bottom + 26.0);
-    let mut content = vec![heading];
-    content.extend(view.draw());
-    document(&title, WIDTH, view.rows.bottom() + 66.0, content)
+    [words.join(" · ")].into_iter().chain(warning).collect()
 }
 
-/// A row of crossings: its name, and of each crossing its speed, mark and words.
-struct Row<'a> {
-    name: String,
-    marks: Vec<Mark<'a>>,
+/// A row of crossings: its name, and of each crossing its speed and its words, in few and in more.
+pub(super) struct Row {
+    pub(super) name: String,
+    pub(super) kind: Kind,
+    pub(super) marks: Vec<Mark>,
 }
 
-struct Mark<'a> {
-    rpm: f64,
-    words: String,
-    draw: Box<dyn Fn((f64, f64)) -> Element + 'a>,
+/// Whose crossings are in a row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// Of the linear criterion.
+    Linear,
+    /// Of what the lobes drive.
+    Driven,
+    /// Of waves of an elastic casing.
+    Casing,
+}
+
+impl Kind {
+    /// What the marks of a row are.
+    pub(super) fn words(self) -> &'static str {
+        match self {
+            Self::Linear => "linear criterion, (i, j, n)",
+            Self::Driven => "driven by the lobes, (i, j)",
+            Self::Casing => "wave of the casing, (n, i)",
+        }
+    }
+
+    fn mark(self, place: (f64, f64)) -> Element {
+        match self {
+            Self::Linear => marks::ring(place, "black"),
+            Self::Driven => marks::diamond(place, "#ff9d5c", "black"),
+            Self::Casing => square(place),
+        }
+    }
+}
+
+pub(super) struct Mark {
+    pub(super) rpm: f64,
+    pub(super) words: String,
+    pub(super) title: String,
 }
 
 struct View<'a> {
     critical: &'a CriticalSpeeds,
     peaks: Diagram,
     rows: Diagram,
-    lines: Vec<Row<'a>>,
+    lines: Vec<Row>,
 }
 
 impl<'a> View<'a> {
@@ -98,12 +141,11 @@ impl<'a> View<'a> {
         let (x, y) = (ticks(peaks.x.values, 9.0), ticks(peaks.y.values, 6.0));
         let length = self.critical.sensor.unit(&self.critical.units);
         let empty = self.critical.critical_speeds.is_empty();
-        let words = "no critical speed stands out of the response";
         let mut content = vec![peaks.grid(&x, &y), rows.grid(&x, &[])];
         content.extend(self.critical.critical_speeds.iter().filter_map(|peak| self.tie(peak)));
         content.push(self.crossings());
         content.push(self.peaks());
-        content.extend(empty.then(|| peaks.words(words)));
+        content.extend(empty.then(|| peaks.words(NONE)));
         content.extend([peaks.frame(), rows.frame()]);
         content.push(peaks.y_axis(&y, &format!("level at the peak, {length} rms"), 72.0));
         content.push(rows.x_axis(&x, "rotational speed Ω, rpm"));
@@ -121,10 +163,7 @@ impl<'a> View<'a> {
         let tie = group().set("class", "nearest").set("stroke", NEAREST).set("stroke-width", "1.1");
         let down = line(from, foot).set("stroke-opacity", "0.35");
         let tie = tie.child(down).child(line(foot, (x, self.height(row))));
-        let distance = peak
-            .distance_rad_s
-            .map_or_else(String::new, |distance| format!(", {} rpm away", significant(rpm(distance))));
-        Some(tie.title(&format!("nearest linear crossing: {}{distance}", marks::triple(nearest))))
+        Some(tie.title(&nearest_words(peak)?))
     }
 
     /// The middle of a row.
@@ -147,7 +186,7 @@ impl<'a> View<'a> {
                 let place = (self.rows.x.place(mark.rpm), y);
                 let label =
                     labels.level_with(place, 5.0, &mark.words, 10.5).map(|label| label.rimmed("white"));
-                drawn = drawn.child((mark.draw)(place)).children(label);
+                drawn = drawn.child(line.kind.mark(place).title(&mark.title)).children(label);
             }
         }
         drawn
@@ -161,10 +200,7 @@ impl<'a> View<'a> {
         let places: Vec<f64> = shown.iter().map(|(place, _)| place.0).collect();
         let apart = marks::spread(&places, self.peaks.right() - 6.0);
         let drawn = shown.into_iter().zip(apart).map(|((place, peak), x)| {
-            let order = marks::engine_order(peak);
-            let star = if peak.settling == Verdict::NotSettled { " *" } else { "" };
-            let used = marks::utilisation(peak);
-            let words = format!("{} rpm · EO {order}{used}{star}", label(rpm(peak.speed_rad_s), 0));
+            let words = peak_words(peak);
             let lead = line((place.0, place.1 - 6.0), (x, place.1 - 14.0)).set("stroke", "#888888");
             let name = upright(x + 4.0, place.1 - 18.0, "start", &words).set("font-size", "11");
             let mark = peak_mark(place, peak.resolved).title(&words);
@@ -227,63 +263,67 @@ impl<'a> View<'a> {
             let tie = line((2.0, -6.0), (MARK_WIDTH - 2.0, 6.0)).set("stroke", NEAREST);
             key = key.row(tie.set("stroke-width", "1.2"), "to the nearest crossing");
         }
-        if !self.critical.linear_crossings.is_empty() {
-            key = key.row(marks::ring(middle, "black"), "linear criterion, (i, j, n)");
-        }
-        if !self.critical.driven_crossings.is_empty() {
-            key = key.row(marks::diamond(middle, "#ff9d5c", "black"), "driven by the lobes, (i, j)");
-        }
-        if !self.critical.casing_coincidences.is_empty() {
-            key = key.row(square(middle), "wave of the casing, (n, i)");
+        for kind in [Kind::Linear, Kind::Driven, Kind::Casing] {
+            if self.lines.iter().any(|row| row.kind == kind) {
+                key = key.row(kind.mark(middle), kind.words());
+            }
         }
         key.draw()
     }
 }
 
-fn linear_row(superharmonic: u32) -> String {
+/// A peak in words.
+pub(super) fn peak_words(peak: &CriticalSpeed) -> String {
+    let order = marks::engine_order(peak);
+    let star = if peak.settling == Verdict::NotSettled { " *" } else { "" };
+    let used = marks::utilisation(peak);
+    format!("{} rpm · EO {order}{used}{star}", label(rpm(peak.speed_rad_s), 0))
+}
+
+/// The crossing nearest to a peak, in words.
+pub(super) fn nearest_words(peak: &CriticalSpeed) -> Option<String> {
+    let nearest = peak.nearest_crossing.as_ref()?;
+    let distance = peak
+        .distance_rad_s
+        .map_or_else(String::new, |distance| format!(", {} rpm away", significant(rpm(distance))));
+    Some(format!("nearest linear crossing: {}{distance}", marks::triple(nearest)))
+}
+
+/// The name of the row of a superharmonic.
+pub(super) fn linear_row(superharmonic: u32) -> String {
     format!("linear, n = {superharmonic}")
 }
 
-fn rows(critical: &CriticalSpeeds) -> Vec<Row<'_>> {
+/// Rows of crossings: of the linear criterion one for each superharmonic.
+pub(super) fn rows(critical: &CriticalSpeeds) -> Vec<Row> {
     let mut orders: Vec<u32> =
         critical.linear_crossings.iter().map(|crossing| crossing.superharmonic).collect();
     orders.sort_unstable();
     orders.dedup();
     let linear = orders.into_iter().map(|order| {
         let here = critical.linear_crossings.iter().filter(|crossing| crossing.superharmonic == order);
-        let mark = |crossing: &'_ Crossing| {
-            let crossing = crossing.clone();
-            Mark {
-                rpm: rpm(crossing.speed_rad_s),
-                words: marks::triple(&crossing),
-                draw: Box::new(move |place| marks::linear(place, "black", &crossing)) as Box<_>,
-            }
+        let mark = |crossing: &Crossing| Mark {
+            rpm: rpm(crossing.speed_rad_s),
+            words: marks::triple(crossing),
+            title: marks::linear_words(crossing),
         };
-        Row { name: linear_row(order), marks: here.map(mark).collect() }
+        Row { name: linear_row(order), kind: Kind::Linear, marks: here.map(mark).collect() }
     });
-    let mut rows: Vec<Row> = linear.collect();
-    if !critical.driven_crossings.is_empty() {
-        let mark = |crossing: &'_ _| {
-            let words = marks::pair(crossing);
-            let rpm = rpm(crossing.speed_rad_s);
-            let crossing = crossing.clone();
-            let draw = move |place| marks::driven(place, "#ff9d5c", "black", &crossing);
-            Mark { rpm, words, draw: Box::new(draw) as Box<_> }
-        };
-        rows.push(Row {
-            name: "driven".to_owned(),
-            marks: critical.driven_crossings.iter().map(mark).collect(),
-        });
-    }
-    if !critical.casing_coincidences.is_empty() {
-        let mark = |found: &'_ rubmap_analysis::result::Coincidence| {
-            let words = format!("({}, {})", found.casing_nodal_diameter, found.nodal_diameter);
-            Mark { rpm: rpm(found.speed_rad_s), words, draw: Box::new(square) as Box<_> }
-        };
-        let marks = critical.casing_coincidences.iter().map(mark).collect();
-        rows.push(Row { name: "elastic casing".to_owned(), marks });
-    }
-    rows
+    let driven = critical.driven_crossings.iter().map(|crossing| Mark {
+        rpm: rpm(crossing.speed_rad_s),
+        words: marks::pair(crossing),
+        title: marks::driven_words(crossing),
+    });
+    let casing = critical.casing_coincidences.iter().map(|found| {
+        let words = format!("({}, {})", found.casing_nodal_diameter, found.nodal_diameter);
+        let title = format!("wave of the casing, (n, i) = {words}: {} rpm", label(rpm(found.speed_rad_s), 0));
+        Mark { rpm: rpm(found.speed_rad_s), words, title }
+    });
+    let others = [
+        Row { name: "driven".to_owned(), kind: Kind::Driven, marks: driven.collect() },
+        Row { name: "elastic casing".to_owned(), kind: Kind::Casing, marks: casing.collect() },
+    ];
+    linear.chain(others.into_iter().filter(|row| !row.marks.is_empty())).collect()
 }
 
 fn peak_mark((x, y): (f64, f64), resolved: bool) -> Element {

@@ -24,7 +24,7 @@ pub(super) fn origin(model: &str, version: &str) -> String {
 }
 
 /// Lines of at most `columns` characters, unless a single word has more.
-fn broken(words: &str, columns: usize) -> Vec<String> {
+pub(super) fn broken(words: &str, columns: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in words.split_whitespace() {
         match lines.last_mut() {

@@ -57,7 +57,7 @@ pub(super) fn image(
 }
 
 /// The loudest of the bins whose engine order lies in a band or is the nearest to its middle; the mean is no vibration.
-fn loudest_within(orders: &[f64], row: &[f64], (low, high): (f64, f64)) -> Option<f64> {
+pub(super) fn loudest_within(orders: &[f64], row: &[f64], (low, high): (f64, f64)) -> Option<f64> {
     let highest = *orders.last()?;
     if low > highest {
         // Half an engine order above the last one is left dark, so that its line stands out.

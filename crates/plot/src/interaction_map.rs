@@ -82,7 +82,7 @@ pub fn interaction_map(
 }
 
 /// Sectors of the wheel, where a reduction tells.
-fn wheel(critical: Option<&CriticalSpeeds>, campbell: Option<&Campbell>) -> Option<u32> {
+pub(super) fn wheel(critical: Option<&CriticalSpeeds>, campbell: Option<&Campbell>) -> Option<u32> {
     let of_campbell = campbell.map(|campbell| &campbell.reduction);
     sectors::sectors(critical.map(|critical| &critical.reduction).or(of_campbell)?)
 }
@@ -127,12 +127,11 @@ fn engine_orders(view: &View, map: &InteractionMap, wheel: Option<u32>) -> Eleme
 fn axes(view: &View) -> [Element; 2] {
     let diagram = &view.diagram;
     let x = diagram.x_axis(&ticks(diagram.x.values, 9.0), "rotational speed Ω, rpm");
-    let y = match view.axis {
-        VerticalAxis::EngineOrder => diagram.y_axis(&ticks(diagram.y.values, 12.0), "engine order k", 58.0),
-        VerticalAxis::Frequency => {
-            diagram.y_axis(&ticks(diagram.y.values, 10.0), "frequency (rotating frame), Hz", 64.0)
-        }
+    let (wanted, away) = match view.axis {
+        VerticalAxis::EngineOrder => (12.0, 58.0),
+        VerticalAxis::Frequency => (10.0, 64.0),
     };
+    let y = diagram.y_axis(&ticks(diagram.y.values, wanted), view.axis.words(), away);
     [x, y]
 }
 
@@ -156,12 +155,14 @@ fn amplitude_bar(amplitudes: &Scale, left: f64, unit: &str) -> Element {
     colour_bar::draw(amplitudes, left, &ticks, &format!("amplitude, {unit}"))
 }
 
-fn title(map: &InteractionMap) -> String {
+/// What the map is of.
+pub(super) fn title(map: &InteractionMap) -> String {
     let nodal_diameter = map.nodal_diameter.map(|i| format!(", nodal diameter {i} only")).unwrap_or_default();
     format!("Interaction map: {}{nodal_diameter}", map.sensor)
 }
 
-fn head(map: &InteractionMap) -> Element {
+/// How it was computed.
+pub(super) fn words(map: &InteractionMap) -> String {
     let settings = &map.settings;
     let computed = map.amplitude.iter().flatten().count();
     let mut words = vec![format!("{computed} of {} speeds", map.speeds_rad_s.len())];
@@ -179,10 +180,14 @@ fn head(map: &InteractionMap) -> Element {
     if settings.scene.contact.is_none() {
         words.push("no contact".to_owned());
     }
+    words.join(" · ")
+}
+
+fn head(map: &InteractionMap) -> Element {
     let warning = map.stiffening.and_then(StiffeningVerdict::warning);
     group()
         .child(text(LEFT, 30.0, "start", &title(map)).set("font-size", "18").set("font-weight", "bold"))
-        .child(text(LEFT, 51.0, "start", &words.join(" · ")).set("fill", "#555555"))
+        .child(text(LEFT, 51.0, "start", &words(map)).set("fill", "#555555"))
         .children(warning.map(|words| text(LEFT, 68.0, "start", words).set("fill", WARNING)))
 }
 

@@ -63,16 +63,11 @@ pub(super) fn draw(map: &InteractionMap, cells: &[Cell], diagram: &Diagram, by: 
     let radius = (0.25 * diagram.width / points.len().max(1) as f64).clamp(0.8, 2.6);
     let dots = points.iter().filter_map(|(cell, point)| {
         let ((x, y), rms) = (*point)?;
-        let point = validity::point(map, cell.index);
-        let verdict = point.and_then(|point| point.validity_verdict());
+        let verdict = validity::point(map, cell.index).and_then(|point| point.validity_verdict());
         let colour = verdict.and_then(validity::colour);
         let dot = Element::new("circle").number("cx", x).number("cy", y);
         let dot = dot.number("r", colour.map_or(radius, |_| radius.max(2.0)));
-        let unit = map.sensor.unit(&map.units);
-        let reason = point.and_then(|point| validity::reason(point.validity.as_ref()?));
-        let reason = reason.map_or_else(String::new, |reason| format!(", {reason}"));
-        let words = format!("{:.0} rpm: {} {unit} rms{reason}", cell.rpm, significant(rms));
-        Some(dot.set("fill", colour.unwrap_or(COLOUR)).title(&words))
+        Some(dot.set("fill", colour.unwrap_or(COLOUR)).title(&words(map, cell, rms)))
     });
     group()
         .child(diagram.background("white"))
@@ -80,5 +75,18 @@ pub(super) fn draw(map: &InteractionMap, cells: &[Cell], diagram: &Diagram, by: 
         .children(area)
         .child(curve)
         .children(dots)
-        .child(diagram.y_axis(&ticks, &format!("level, {} rms", map.sensor.unit(&map.units)), 58.0))
+        .child(diagram.y_axis(&ticks, &axis(map), 58.0))
+}
+
+/// What the axis of the level says.
+pub(super) fn axis(map: &InteractionMap) -> String {
+    format!("level, {} rms", map.sensor.unit(&map.units))
+}
+
+/// The level of a speed in words, with what is wrong with linear theory there.
+pub(super) fn words(map: &InteractionMap, cell: &Cell, rms: f64) -> String {
+    let point = validity::point(map, cell.index);
+    let reason = point.and_then(|point| validity::reason(point.validity.as_ref()?));
+    let reason = reason.map_or_else(String::new, |reason| format!(", {reason}"));
+    format!("{:.0} rpm: {} {} rms{reason}", cell.rpm, significant(rms), map.sensor.unit(&map.units))
 }

@@ -38,6 +38,7 @@ mod colour_bar;
 mod critical_speeds;
 mod diagram;
 mod error_over_step;
+pub mod figure;
 mod force_map;
 mod haigh;
 mod hatching;

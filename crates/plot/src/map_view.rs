@@ -9,7 +9,7 @@ use super::labels::Labels;
 use super::svg::{Element, group, line, polyline, rectangle, text};
 use super::window::Window;
 use super::{hatching, heat, marks};
-use rubmap_analysis::result::{Campbell, CriticalSpeeds, InteractionMap};
+use rubmap_analysis::result::{Campbell, CriticalSpeeds, InteractionMap, Wave};
 
 /// Amplitudes below this share of the loudest are shown as quiet.
 pub(super) const QUIETEST: f64 = 1e-3;
@@ -24,6 +24,41 @@ pub enum VerticalAxis {
     EngineOrder,
     /// Frequency: engine-order lines f = kΩ/2π rise with speed, natural frequencies hardly do.
     Frequency,
+}
+
+impl VerticalAxis {
+    /// What it says.
+    pub(super) fn words(self) -> &'static str {
+        match self {
+            Self::EngineOrder => "engine order k",
+            Self::Frequency => "frequency (rotating frame), Hz",
+        }
+    }
+}
+
+/// The line of an engine order, from the slowest to the fastest speed at which it is seen: places in the units of the axes.
+pub(super) struct OrderLine {
+    pub(super) order: u32,
+    /// Whether the lobes excite it.
+    pub(super) excited: bool,
+    pub(super) ends: [(f64, f64); 2],
+}
+
+/// How the frequency of a mode lies in a map.
+pub(super) struct Natural {
+    pub(super) nodal_diameter: usize,
+    /// From 0.
+    pub(super) family: usize,
+    pub(super) wave: Option<Wave>,
+    /// At each speed, in the units of the axes.
+    pub(super) places: Vec<Option<(f64, f64)>>,
+}
+
+impl Natural {
+    /// The mode in words.
+    pub(super) fn words(&self) -> String {
+        marks::mode(self.nodal_diameter as u32, self.family as u32 + 1, self.wave)
+    }
 }
 
 /// An engine order, and where its line leaves the diagram.
@@ -67,7 +102,7 @@ impl View {
     }
 
     /// Engine order at a height of the axis.
-    fn order(&self, y: f64, rpm: f64) -> f64 {
+    pub(super) fn order(&self, y: f64, rpm: f64) -> f64 {
         match self.axis {
             VerticalAxis::EngineOrder => y,
             VerticalAxis::Frequency if rpm > 0.0 => y * 60.0 / rpm,
@@ -76,7 +111,7 @@ impl View {
     }
 
     /// Height of an engine order at a speed.
-    fn height(&self, rpm: f64, order: f64) -> f64 {
+    pub(super) fn height(&self, rpm: f64, order: f64) -> f64 {
         match self.axis {
             VerticalAxis::EngineOrder => order,
             VerticalAxis::Frequency => order * rpm / 60.0,
@@ -95,11 +130,9 @@ impl View {
             let (low, high) = self.diagram.x.values;
             let (from, to) = (cell.from.max(low), cell.to.min(high));
             let (left, right) = (self.diagram.x.place(from), self.diagram.x.place(to));
-            let point = map.points.iter().find(|point| point.index as usize == cell.index);
-            let reason = point.and_then(|point| point.message.as_deref()).unwrap_or("no result");
             let area = rectangle(left, self.diagram.top, right - left, self.diagram.height);
             let area = area.set("class", "missing").set("fill", "white").set("fill-opacity", "0");
-            (from < to).then(|| area.title(&format!("{:.0} rpm: {reason}", cell.rpm)))
+            (from < to).then(|| area.title(&missing_words(map, cell)))
         });
         // Where nothing moves, all is as quiet as the colours go.
         let amplitudes = self.scale(loudest.unwrap_or(1.0));
@@ -118,8 +151,8 @@ impl View {
         Scale::logarithmic((QUIETEST * loudest, loudest), (self.diagram.bottom(), self.diagram.top))
     }
 
-    /// Lines of whole engine orders, dotted, multiples of the lobe count drawn through; with where each leaves the diagram.
-    pub(super) fn engine_orders(&self, map: &InteractionMap) -> (Element, Vec<End>) {
+    /// Lines of whole engine orders; of many only some, but all that the lobes excite.
+    pub(super) fn order_lines(&self, map: &InteractionMap) -> Vec<OrderLine> {
         let lobes = lobes(map);
         let highest = map.engine_orders.last().map_or(0, |order| order.floor() as u32);
         let span = match self.axis {
@@ -128,16 +161,22 @@ impl View {
         };
         let rows = span.div_ceil(30).max(1);
         let (slow, fast) = self.diagram.x.values;
-        let (mut lines, mut ends) = (group(), Vec::new());
-        for order in (1..=highest).filter(|order| order.is_multiple_of(rows) || order.is_multiple_of(lobes)) {
+        let shown = (1..=highest).filter(|order| order.is_multiple_of(rows) || order.is_multiple_of(lobes));
+        let line = |order: u32| {
             let k = f64::from(order);
-            let from_to = ((slow, self.height(slow, k)), (fast, self.height(fast, k)));
-            let Some([from, to]) = self.diagram.clipped(from_to.0, from_to.1) else { continue };
-            let excited = order.is_multiple_of(lobes);
-            let end = self.diagram.point(to.0, to.1);
-            let drawn = order_line(self.diagram.point(from.0, from.1), end, excited);
-            lines = lines.child(drawn.set("class", "engine-order"));
-            ends.push((order, end));
+            let ends = self.diagram.clipped((slow, self.height(slow, k)), (fast, self.height(fast, k)))?;
+            Some(OrderLine { order, excited: order.is_multiple_of(lobes), ends })
+        };
+        shown.filter_map(line).collect()
+    }
+
+    /// The same drawn, dotted, multiples of the lobe count through; with where each leaves the diagram.
+    pub(super) fn engine_orders(&self, map: &InteractionMap) -> (Element, Vec<End>) {
+        let (mut lines, mut ends) = (group(), Vec::new());
+        for OrderLine { order, excited, ends: places } in self.order_lines(map) {
+            let [from, to] = places.map(|(x, y)| self.diagram.point(x, y));
+            lines = lines.child(order_line(from, to, excited).set("class", "engine-order"));
+            ends.push((order, to));
         }
         (lines, ends)
     }
@@ -159,42 +198,51 @@ impl View {
         flow
     }
 
-    /// Natural frequencies in the rotating frame, a colour and a number for each nodal diameter.
-    pub(super) fn natural_frequencies(&self, campbell: &Campbell, labels: &mut Labels) -> Element {
+    /// Natural frequencies in the rotating frame.
+    pub(super) fn natural(&self, campbell: &Campbell) -> Vec<Natural> {
         let harmonics = campbell.frequencies_hz.first().map_or(0, Vec::len);
-        let (mut curves, mut words) = (group().set("class", "natural"), group());
+        let mut found = Vec::new();
         for (wave, table) in campbell.branches() {
             let families = |i: usize| (0..campbell.frequencies_hz[0][i].len()).map(move |j| (i, j));
             for (nodal_diameter, family) in (0..harmonics).flat_map(families) {
-                let places: Vec<_> = campbell
-                    .speeds_rad_s
-                    .iter()
-                    .zip(table)
-                    .map(|(speed, frequencies)| {
-                        let hz = frequencies.get(nodal_diameter)?.get(family)?;
-                        let rpm = rpm(*speed);
-                        (rpm > 0.0).then(|| self.diagram.point(rpm, self.height(rpm, hz * 60.0 / rpm)))
-                    })
-                    .collect();
-                let colour = on_dark(nodal_diameter, harmonics);
-                let inside = |place: &&(f64, f64)| self.diagram.encloses(**place);
-                let seen: Vec<(f64, f64)> = places.iter().flatten().filter(inside).copied().collect();
-                let stretches = [0.97, 0.85, 0.7, 0.5, 0.3, 0.1, 0.03];
-                let tried = stretches.map(|share| seen.get((share * seen.len() as f64) as usize).copied());
-                let number = labels.at_first(tried.into_iter().flatten(), &nodal_diameter.to_string(), 11.0);
-                words = words
+                let place = |(speed, frequencies): (&f64, &Vec<Vec<f64>>)| {
+                    let hz = frequencies.get(nodal_diameter)?.get(family)?;
+                    let rpm = rpm(*speed);
+                    (rpm > 0.0).then(|| (rpm, self.height(rpm, hz * 60.0 / rpm)))
+                };
+                let places = campbell.speeds_rad_s.iter().zip(table).map(place).collect();
+                found.push(Natural { nodal_diameter, family, wave, places });
+            }
+        }
+        found
+    }
+
+    /// The same drawn, a colour and a number for each nodal diameter.
+    pub(super) fn natural_frequencies(&self, campbell: &Campbell, labels: &mut Labels) -> Element {
+        let harmonics = campbell.frequencies_hz.first().map_or(0, Vec::len);
+        let (mut curves, mut words) = (group().set("class", "natural"), group());
+        for natural in self.natural(campbell) {
+            let places = natural.places.iter().map(|place| place.map(|(x, y)| self.diagram.point(x, y)));
+            let places: Vec<_> = places.collect();
+            let colour = on_dark(natural.nodal_diameter, harmonics);
+            let inside = |place: &&(f64, f64)| self.diagram.encloses(**place);
+            let seen: Vec<(f64, f64)> = places.iter().flatten().filter(inside).copied().collect();
+            let stretches = [0.97, 0.85, 0.7, 0.5, 0.3, 0.1, 0.03];
+            let tried = stretches.map(|share| seen.get((share * seen.len() as f64) as usize).copied());
+            let number = natural.nodal_diameter.to_string();
+            let number = labels.at_first(tried.into_iter().flatten(), &number, 11.0);
+            words =
+                words
                     .children(number.map(|label| {
                         label.set("fill", &colour).set("font-weight", "bold").rimmed("#101010")
                     }));
-                let name = marks::mode(nodal_diameter as u32, family as u32 + 1, wave);
-                curves = curves.child(
-                    polyline(places)
-                        .set("stroke", colour)
-                        .set("stroke-opacity", "0.85")
-                        .set("stroke-width", "1")
-                        .title(&name),
-                );
-            }
+            curves = curves.child(
+                polyline(places)
+                    .set("stroke", colour)
+                    .set("stroke-opacity", "0.85")
+                    .set("stroke-width", "1")
+                    .title(&natural.words()),
+            );
         }
         let region = format!("view-{:.0}-{:.0}", self.diagram.left, self.diagram.top);
         let clipped = curves.set("clip-path", format!("url(#{region})"));
@@ -260,6 +308,13 @@ fn order_line(from: (f64, f64), to: (f64, f64), excited: bool) -> Element {
 /// Whether a speed has no amplitudes.
 pub(super) fn is_missing(map: &InteractionMap, cell: &Cell) -> bool {
     map.amplitude.get(cell.index).is_none_or(Option::is_none)
+}
+
+/// Why a speed has none.
+pub(super) fn missing_words(map: &InteractionMap, cell: &Cell) -> String {
+    let point = map.points.iter().find(|point| point.index as usize == cell.index);
+    let reason = point.and_then(|point| point.message.as_deref()).unwrap_or("no result");
+    format!("{:.0} rpm: {reason}", cell.rpm)
 }
 
 /// Lobes of the casing, at least 1.

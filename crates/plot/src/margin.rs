@@ -10,7 +10,7 @@ use super::validity;
 use rubmap_analysis::result::InteractionMap;
 
 /// From which utilisation on a class counts, its colour as a share of the scale of amplitudes, and its words.
-const CLASSES: [(f64, f64, &str); 5] = [
+pub(super) const CLASSES: [(f64, f64, &str); 5] = [
     (0.0, 0.97, "utilisation below 0.25"),
     (0.25, 0.83, "from 0.25"),
     (0.5, 0.66, "from 0.5"),
@@ -18,16 +18,18 @@ const CLASSES: [(f64, f64, &str); 5] = [
     (1.0, 0.12, "1 and above"),
 ];
 
-fn class(utilisation: f64) -> usize {
+/// The class of a utilisation.
+pub(super) fn class(utilisation: f64) -> usize {
     CLASSES.iter().rposition(|(from, ..)| utilisation >= *from).unwrap_or(0)
 }
 
-fn fill(class: usize) -> String {
+/// Its colour.
+pub(super) fn fill(class: usize) -> String {
     colour::hex(colour::amplitude(CLASSES[class].1))
 }
 
 /// The utilisation at the speed with this index.
-fn utilisation(map: &InteractionMap, index: usize) -> Option<f64> {
+pub(super) fn utilisation(map: &InteractionMap, index: usize) -> Option<f64> {
     validity::point(map, index)?.utilisation().filter(|value| value.is_finite())
 }
 
@@ -60,13 +62,14 @@ fn bars(
         let (top, bottom) = ends(cell)?;
         let (from, to) = (diagram.x.place(cell.from.max(low)), diagram.x.place(cell.to.min(high)));
         let bar = rectangle(from, top, to - from, bottom - top).set("class", "utilisation");
-        Some(bar.set("fill", fill(class(used))).title(&format!(
-            "{:.0} rpm: utilisation {}",
-            cell.rpm,
-            significant(used)
-        )))
+        Some(bar.set("fill", fill(class(used))).title(&words(cell, used)))
     });
     group().children(bars)
+}
+
+/// The utilisation of a speed in words.
+pub(super) fn words(cell: &Cell, utilisation: f64) -> String {
+    format!("{:.0} rpm: utilisation {}", cell.rpm, significant(utilisation))
 }
 
 /// The classes that occur, for a key.

@@ -13,12 +13,17 @@ pub(super) const UNRESOLVED: &str = "1.5 4";
 
 /// An open circle: the linear criterion's crossing.
 pub(super) fn linear((x, y): (f64, f64), stroke: &str, crossing: &Crossing) -> Element {
-    ring((x, y), stroke).title(&format!(
+    ring((x, y), stroke).title(&linear_words(crossing))
+}
+
+/// The linear criterion's crossing in words.
+pub(super) fn linear_words(crossing: &Crossing) -> String {
+    format!(
         "linear criterion (i, j, n) = {}: {} rpm, {} Hz",
         triple(crossing),
         label(rpm(crossing.speed_rad_s), 0),
         significant(crossing.frequency_hz)
-    ))
+    )
 }
 
 /// An open circle.
@@ -44,13 +49,18 @@ pub(super) fn pair(crossing: &DrivenCrossing) -> String {
 
 /// A filled diamond: a crossing that the lobes can drive.
 pub(super) fn driven((x, y): (f64, f64), fill: &str, stroke: &str, crossing: &DrivenCrossing) -> Element {
+    diamond((x, y), fill, stroke).title(&driven_words(crossing))
+}
+
+/// A crossing that the lobes can drive, in words.
+pub(super) fn driven_words(crossing: &DrivenCrossing) -> String {
     let DrivenCrossing { nodal_diameter, family, engine_order: k, wave, .. } = *crossing;
-    diamond((x, y), fill, stroke).title(&format!(
+    format!(
         "driven: engine order {k}, {}: {} rpm, {} Hz",
         mode(nodal_diameter, family, wave),
         label(rpm(crossing.speed_rad_s), 0),
         significant(crossing.frequency_hz)
-    ))
+    )
 }
 
 /// A mode in words.
@@ -93,24 +103,9 @@ pub(super) fn critical(
     let labels = spread(&places, right);
     let mut out = Vec::new();
     for ((x, speed), label_x) in speeds.iter().zip(labels) {
-        let settled = speed.settling != Verdict::NotSettled;
-        let words = format!(
-            "{} rpm{}{}",
-            label(rpm(speed.speed_rad_s), 0),
-            // There is room for one of both.
-            if said && speed.utilisation.is_some() {
-                utilisation(speed)
-            } else {
-                format!(" · EO {}", engine_order(speed))
-            },
-            if settled { "" } else { " *" }
-        );
-        let (dashes, title) = if speed.resolved {
-            ("7 4", format!("{words}, known to {} rpm", significant(rpm(speed.speed_error_rad_s))))
-        } else {
-            let doubt = "not resolved by the speeds of the sweep, the peak may be higher";
-            (UNRESOLVED, format!("{words}: {doubt}"))
-        };
+        let words = critical_words(speed, said);
+        let (dashes, title) =
+            (if speed.resolved { "7 4" } else { UNRESOLVED }, format!("{words}{}", known_to(speed)));
         out.push(
             line((*x, top), (*x, bottom))
                 .set("class", "critical-speed")
@@ -125,6 +120,30 @@ pub(super) fn critical(
         );
     }
     out
+}
+
+/// A critical speed in a few words; with its utilisation where that is `said` and known, otherwise with its engine order.
+pub(super) fn critical_words(speed: &CriticalSpeed, said: bool) -> String {
+    format!(
+        "{} rpm{}{}",
+        label(rpm(speed.speed_rad_s), 0),
+        // There is room for one of both.
+        if said && speed.utilisation.is_some() {
+            utilisation(speed)
+        } else {
+            format!(" · EO {}", engine_order(speed))
+        },
+        if speed.settling != Verdict::NotSettled { "" } else { " *" }
+    )
+}
+
+/// How well a critical speed is known, to be said after it.
+pub(super) fn known_to(speed: &CriticalSpeed) -> String {
+    if speed.resolved {
+        format!(", known to {} rpm", significant(rpm(speed.speed_error_rad_s)))
+    } else {
+        ": not resolved by the speeds of the sweep, the peak may be higher".to_owned()
+    }
 }
 
 /// The engine order of the largest amplitude at a critical speed.

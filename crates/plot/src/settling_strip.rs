@@ -17,7 +17,7 @@ pub(super) enum Standing {
 }
 
 impl Standing {
-    const ALL: [Self; 6] = [
+    pub(super) const ALL: [Self; 6] = [
         Self::Settled(Verdict::Periodic),
         Self::Settled(Verdict::Subharmonic),
         Self::Settled(Verdict::Aperiodic),

@@ -19,7 +19,7 @@ const PLOT_WIDTH: f64 = 860.0;
 const QUIETEST: f64 = 1e-4;
 
 /// More lines than this are a black area.
-const MOST: usize = 4000;
+pub(super) const MOST: usize = 4000;
 
 /// Who looks at the wheel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,18 +40,8 @@ pub fn spectrum(spectra: &SpeedSpectra, point: &Point, units: &Units, sensor: us
         let (heading, _) = heading::heading(LEFT, &title, &[format!("there is no sensor of index {sensor}")]);
         return document(&title, WIDTH, HEIGHT, vec![heading]);
     };
-    let where_from = match frame {
-        Frame::Rotating => "rotating frame",
-        Frame::Fixed => "fixed frame",
-    };
-    let title = format!("Spectrum in the {where_from}: {}, {speed} rpm", found.sensor);
-    let basis = "amplitudes of nodal diameters are those of the wheel, cosine and sine over all blades together: √N times a blade's";
-    let mut words = vec![verdict(point), basis.to_owned()];
-    if frame == Frame::Fixed {
-        let both = "A wave of nodal diameter n at engine order k of the rotating frame is drawn at k + n, where one that travels with the \
-                    rotation is seen, and at |k − n|, where one that travels against it is: which of both it is, spectra do not tell.";
-        words.push(both.to_owned());
-    }
+    let title = title(point, found, frame);
+    let words = words(point, frame);
     let (heading, bottom) = heading::heading(LEFT, &title, &words);
     let unit = found.sensor.unit(units);
     let lines = Lines::of(spectra, found, frame);
@@ -69,6 +59,27 @@ pub fn spectrum(spectra: &SpeedSpectra, point: &Point, units: &Units, sensor: us
         }
     }
     document(&title, WIDTH, HEIGHT, content)
+}
+
+/// What is seen, and by whom.
+pub(super) fn title(point: &Point, found: &SensorSpectrum, frame: Frame) -> String {
+    let where_from = match frame {
+        Frame::Rotating => "rotating frame",
+        Frame::Fixed => "fixed frame",
+    };
+    format!("Spectrum in the {where_from}: {}, {} rpm", found.sensor, label(rpm(point.speed_rad_s), 0))
+}
+
+/// What stands below the title.
+pub(super) fn words(point: &Point, frame: Frame) -> Vec<String> {
+    let basis = "amplitudes of nodal diameters are those of the wheel, cosine and sine over all blades together: √N times a blade's";
+    let mut words = vec![verdict(point), basis.to_owned()];
+    if frame == Frame::Fixed {
+        let both = "A wave of nodal diameter n at engine order k of the rotating frame is drawn at k + n, where one that travels with the \
+                    rotation is seen, and at |k − n|, where one that travels against it is: which of both it is, spectra do not tell.";
+        words.push(both.to_owned());
+    }
+    words
 }
 
 fn verdict(point: &Point) -> String {
@@ -91,44 +102,54 @@ fn whole(
     unit: &str,
     (corner, size): ((f64, f64), (f64, f64)),
 ) -> Vec<Element> {
-    let lines: Vec<(f64, f64)> = spectra
-        .engine_orders
-        .iter()
-        .zip(&found.amplitude)
-        .filter(|(order, _)| **order > 0.0)
-        .map(|(order, amplitude)| (*order, *amplitude))
-        .collect();
-    let diagram = diagram(lines.iter().map(|line| line.1), highest(spectra), (corner, size));
-    let Some(diagram) = diagram else {
+    let Some((range, shown)) = whole_lines(spectra, found) else {
         let empty = Diagram::new(corner, size, (0.0, 1.0), (0.0, 1.0));
-        return vec![empty.frame(), empty.words("Nothing to draw: the sensor does not move")];
+        return vec![empty.frame(), empty.words(STILL)];
     };
-    let mut shown: Vec<(f64, f64)> =
-        lines.into_iter().filter(|(_, amplitude)| diagram.y.contains(*amplitude)).collect();
-    shown.sort_by(|a, b| b.1.total_cmp(&a.1));
-    shown.truncate(MOST);
+    let diagram = Diagram::upwards_logarithmic(corner, size, (0.0, highest(spectra) + 0.5), range);
     let stems = shown.into_iter().map(|(order, amplitude)| {
-        let words = format!("engine order {}: {} {}", marks::order(order), significant(amplitude), unit);
+        let words = whole_words(order, amplitude, unit);
         stem(&diagram, order, amplitude).set("stroke", INK).set("stroke-width", "1.6").title(&words)
     });
     let title = format!("amplitude, {unit}");
     framed(&diagram, group().set("class", "whole").children(stems), &title, "")
 }
 
+/// What is said of a sensor without lines.
+pub(super) const STILL: &str = "Nothing to draw: the sensor does not move";
+
+/// What is said where no nodal diameter has lines.
+pub(super) const ALL_STILL: &str = "Nothing to draw: no nodal diameter moves";
+
+/// Lines of the sensor itself that are drawn, as engine orders with amplitudes, the largest first, and the range of amplitudes; none
+/// if it does not move.
+pub(super) fn whole_lines(
+    spectra: &SpeedSpectra,
+    found: &SensorSpectrum,
+) -> Option<((f64, f64), Vec<(f64, f64)>)> {
+    let lines = spectra.engine_orders.iter().copied().zip(found.amplitude.iter().copied());
+    let mut shown: Vec<(f64, f64)> = lines.filter(|(order, _)| *order > 0.0).collect();
+    let range = range(shown.iter().map(|line| line.1))?;
+    shown.retain(|(_, amplitude)| (range.0..=range.1).contains(amplitude));
+    shown.sort_by(|a, b| b.1.total_cmp(&a.1));
+    shown.truncate(MOST);
+    Some((range, shown))
+}
+
+/// Such a line in words.
+pub(super) fn whole_words(order: f64, amplitude: f64, unit: &str) -> String {
+    format!("engine order {}: {} {}", marks::order(order), significant(amplitude), unit)
+}
+
 /// Highest engine order of the spectra.
-fn highest(spectra: &SpeedSpectra) -> f64 {
+pub(super) fn highest(spectra: &SpeedSpectra) -> f64 {
     spectra.engine_orders.last().copied().filter(|order| *order > 0.0).unwrap_or(1.0)
 }
 
-fn diagram(
-    amplitudes: impl Iterator<Item = f64>,
-    highest: f64,
-    (corner, size): ((f64, f64), (f64, f64)),
-) -> Option<Diagram> {
+/// The amplitudes that an axis shows; none if all are zero.
+fn range(amplitudes: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     let loudest = amplitudes.filter(|amplitude| amplitude.is_finite()).fold(0.0, f64::max);
-    (loudest > 0.0).then(|| {
-        Diagram::upwards_logarithmic(corner, size, (0.0, highest + 0.5), (QUIETEST * loudest, 1.6 * loudest))
-    })
+    (loudest > 0.0).then_some((QUIETEST * loudest, 1.6 * loudest))
 }
 
 fn stem(diagram: &Diagram, order: f64, amplitude: f64) -> Element {
@@ -148,25 +169,36 @@ fn framed(diagram: &Diagram, content: Element, y_title: &str, x_title: &str) -> 
 }
 
 /// A line of a nodal diameter.
-struct Line {
-    nodal_diameter: usize,
+pub(super) struct Line {
+    pub(super) nodal_diameter: usize,
     /// Engine order in the rotating frame.
-    order: f64,
+    pub(super) order: f64,
     /// Where it is seen; in the fixed frame with the direction of travel.
-    seen: f64,
-    forward: bool,
-    amplitude: f64,
+    pub(super) seen: f64,
+    pub(super) forward: bool,
+    pub(super) amplitude: f64,
 }
 
-struct Lines {
+/// All lines of the nodal diameters.
+pub(super) struct Lines {
     frame: Frame,
     highest: f64,
-    harmonics: usize,
+    pub(super) harmonics: usize,
     lines: Vec<Line>,
 }
 
+/// The lines that are drawn.
+pub(super) struct Shown<'a> {
+    /// Amplitudes of the axis.
+    pub(super) range: (f64, f64),
+    /// The largest first.
+    pub(super) lines: Vec<&'a Line>,
+    /// Whether those are all in the range.
+    pub(super) all: bool,
+}
+
 impl Lines {
-    fn of(spectra: &SpeedSpectra, found: &SensorSpectrum, frame: Frame) -> Self {
+    pub(super) fn of(spectra: &SpeedSpectra, found: &SensorSpectrum, frame: Frame) -> Self {
         let mut lines = Vec::new();
         for (nodal_diameter, row) in found.nodal_diameters.iter().enumerate() {
             for (&order, &amplitude) in spectra.engine_orders.iter().zip(row) {
@@ -186,48 +218,67 @@ impl Lines {
         Self { frame, highest: highest(spectra), harmonics: found.nodal_diameters.len(), lines }
     }
 
-    fn draw(&self, unit: &str, place: ((f64, f64), (f64, f64))) -> Vec<Element> {
-        let widest = match self.frame {
+    /// Highest multiple of the rotational frequency.
+    pub(super) fn widest(&self) -> f64 {
+        match self.frame {
             Frame::Rotating => self.highest,
             Frame::Fixed => self.highest + self.harmonics.saturating_sub(1) as f64,
-        };
-        let x_title = match self.frame {
+        }
+    }
+
+    /// What the axis says.
+    pub(super) fn axis(&self) -> &'static str {
+        match self.frame {
             Frame::Rotating => "engine order k in the rotating frame",
             Frame::Fixed => "multiple of the rotational frequency in the fixed frame",
+        }
+    }
+
+    /// Those that are drawn; none if nothing moves.
+    pub(super) fn shown(&self) -> Option<Shown<'_>> {
+        let range = range(self.lines.iter().map(|line| line.amplitude))?;
+        let inside = |line: &&Line| (range.0..=range.1).contains(&line.amplitude);
+        let mut lines: Vec<&Line> = self.lines.iter().filter(inside).collect();
+        lines.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
+        let all = lines.len() <= MOST;
+        lines.truncate(MOST);
+        Some(Shown { range, lines, all })
+    }
+
+    fn draw(&self, unit: &str, (corner, size): ((f64, f64), (f64, f64))) -> Vec<Element> {
+        let Some(shown) = self.shown() else {
+            let empty = Diagram::new(corner, size, (0.0, 1.0), (0.0, 1.0));
+            return vec![empty.frame(), empty.words(ALL_STILL)];
         };
-        let amplitudes = self.lines.iter().map(|line| line.amplitude);
-        let Some(diagram) = diagram(amplitudes, widest, place) else {
-            let empty = Diagram::new(place.0, place.1, (0.0, 1.0), (0.0, 1.0));
-            return vec![empty.frame(), empty.words("Nothing to draw: no nodal diameter moves")];
-        };
-        let mut shown: Vec<&Line> =
-            self.lines.iter().filter(|line| diagram.y.contains(line.amplitude)).collect();
+        let diagram = Diagram::upwards_logarithmic(corner, size, (0.0, self.widest() + 0.5), shown.range);
         // The smaller in front of the larger.
-        shown.sort_by(|a, b| b.amplitude.total_cmp(&a.amplitude));
-        let all_shown = shown.len() <= MOST;
-        shown.truncate(MOST);
-        let drawn = shown.iter().map(|found| self.line(&diagram, found, unit));
+        let drawn = shown.lines.iter().map(|found| self.line(&diagram, found, unit));
         let content = group().set("class", "lines").children(drawn);
         let title = format!("nodal diameters, {unit}");
-        let mut all = framed(&diagram, content, &title, x_title);
-        all.push(self.key(&diagram, &shown, all_shown));
+        let mut all = framed(&diagram, content, &title, self.axis());
+        all.push(self.key(&diagram, &shown.lines, shown.all));
         all
     }
 
-    fn line(&self, diagram: &Diagram, found: &Line, unit: &str) -> Element {
-        let colour = ordinal(found.nodal_diameter, self.harmonics);
+    /// A line in words.
+    pub(super) fn words(&self, found: &Line, unit: &str) -> String {
         let direction = match (self.frame, found.nodal_diameter, found.forward) {
             (Frame::Rotating, ..) | (_, 0, _) => "",
             (Frame::Fixed, _, true) => ", if it travels forwards",
             (Frame::Fixed, _, false) => ", if it travels backwards",
         };
-        let words = format!(
+        format!(
             "nodal diameter {}, engine order {}: {} {}{direction}",
             found.nodal_diameter,
             marks::order(found.order),
             significant(found.amplitude),
             unit
-        );
+        )
+    }
+
+    fn line(&self, diagram: &Diagram, found: &Line, unit: &str) -> Element {
+        let colour = ordinal(found.nodal_diameter, self.harmonics);
+        let words = self.words(found, unit);
         let stem =
             stem(diagram, found.seen, found.amplitude).set("stroke", &colour).set("stroke-width", "1.4");
         let stem = if found.forward { stem } else { stem.set("stroke-dasharray", "2 2") };

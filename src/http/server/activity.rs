@@ -39,6 +39,8 @@ enum Phase {
     Body,
     /// The next step is the service's.
     Work,
+    /// An answer is under way that lasts as long as there is something to tell.
+    Lasting,
 }
 
 /// Why a connection is closed though its client might want it open.
@@ -53,7 +55,18 @@ pub(super) enum Overdue {
 }
 
 /// How readily a connection is given up for another, the most readily last.
-pub(super) type Dispensability = (bool, Duration);
+pub(super) type Dispensability = (Loss, Duration);
+
+/// What its client loses with a connection, the least last.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Loss {
+    /// An answer that tells it of changes as they come, for which it can ask again.
+    Lasting,
+    /// A request or an answer that does not move.
+    Stalled,
+    /// Nothing.
+    Rest,
+}
 
 impl Activity {
     /// Of a new connection.
@@ -98,6 +111,11 @@ impl Activity {
         state.enter(Phase::Work);
     }
 
+    /// The answer has begun and lasts as long as there is something to tell.
+    pub(super) fn lasts(&self) {
+        self.lock().enter(Phase::Lasting);
+    }
+
     /// The answer is complete, though the system may not have taken all of it.
     pub(super) fn answered(&self) {
         self.lock().enter(Phase::Rest);
@@ -132,22 +150,23 @@ impl Activity {
             (Some(_), _) => (waited > limits.stall).then_some(Overdue::Answer),
             (None, Phase::Head) => (waited > limits.head).then_some(Overdue::Head),
             (None, Phase::Rest) => (waited > limits.idle).then_some(Overdue::Rest),
-            (None, Phase::Body | Phase::Work) => None,
+            (None, Phase::Body | Phase::Work | Phase::Lasting) => None,
         }
     }
 
     /// How readily it is given up for another; `None` as long as its client does nothing unusual. Those at rest go first, then
-    /// the one that has waited longest.
+    /// the one that has waited longest, and of answers that last the one that began first.
     pub(super) fn dispensability(&self, now: Instant) -> Option<Dispensability> {
         let state = self.lock();
-        let patience = match (state.blocked, state.phase) {
-            (Some(_), _) | (None, Phase::Body) => PATIENCE_WITHIN,
-            (None, Phase::Rest | Phase::Head) => PATIENCE_FOR_HEADS,
+        let (loss, patience) = match (state.blocked, state.phase) {
+            (Some(_), _) | (None, Phase::Body) => (Loss::Stalled, PATIENCE_WITHIN),
+            (None, Phase::Head) => (Loss::Stalled, PATIENCE_FOR_HEADS),
+            (None, Phase::Rest) => (Loss::Rest, PATIENCE_FOR_HEADS),
+            (None, Phase::Lasting) => (Loss::Lasting, PATIENCE_WITHIN),
             (None, Phase::Work) => return None,
         };
         let waited = state.waited(now);
-        let at_rest = state.phase == Phase::Rest && state.blocked.is_none();
-        (waited > patience).then_some((at_rest, waited))
+        (waited > patience).then_some((loss, waited))
     }
 
     fn lock(&self) -> MutexGuard<'_, State> {
@@ -232,6 +251,24 @@ mod tests {
         assert_eq!(sending.dispensability(after(2)), None);
         assert!(sending.dispensability(after(6)).is_some());
         assert_eq!(working.dispensability(after(1000)), None);
+    }
+
+    #[test]
+    fn answers_that_last_are_given_up_last() {
+        let (sending, following) = (Activity::new(), Activity::new());
+        for activity in [&sending, &following] {
+            activity.request();
+        }
+        sending.body_expected();
+        following.lasts();
+        assert_eq!(
+            following.overdue(after(100_000), &LIMITS),
+            None,
+            "whoever follows a job may do so for days"
+        );
+        assert_eq!(following.dispensability(after(2)), None);
+        assert!(following.dispensability(after(1000)).is_some());
+        assert!(following.dispensability(after(1000)) < sending.dispensability(after(6)));
     }
 
     #[test]

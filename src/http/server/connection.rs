@@ -24,6 +24,10 @@ use super::stream::ClientStream;
 /// Most bytes of a request's head: far more than any client of this service has to say.
 const HEAD_BYTES: usize = 64 << 10;
 
+/// Extension of answers that tell of changes as they come, for as long as there may be any.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::http) struct Lasting;
+
 /// Serves a connection until it ends, or the request under way when `stop` is told.
 pub(super) async fn serve(
     stream: TcpStream,
@@ -70,6 +74,9 @@ async fn answer(
     let mut request: Request = request.map(|body| Body::new(Awaited { body, activity: awaited }));
     request.extensions_mut().insert(ConnectInfo(peer));
     let response: Response = router.oneshot(request).await?;
+    if response.extensions().get::<Lasting>().is_some() {
+        activity.lasts();
+    }
     Ok(response.map(|body| Outgoing { body, activity }))
 }
 

@@ -3,7 +3,8 @@
 //! `axum::serve` takes every connection and keeps it for as long as its client likes, so a few hundred lazy clients leave no open
 //! file to anybody, the database included. Here there is a bound. Beyond it the newcomer waits, not yet served, until a
 //! connection ends, or one that keeps the service waiting is given up for it: first those at rest between two requests, then
-//! those whose request is not coming. Nobody who keeps sending, or waits for an answer, is given up. There is no share per
+//! those whose request is not coming, then those who follow a job and can ask again. Nobody else who keeps sending, or waits for an
+//! answer, is given up. There is no share per
 //! address: behind a gateway all clients have one.
 
 mod activity;
@@ -27,6 +28,7 @@ use tokio_util::sync::CancellationToken;
 
 use self::activity::{Activity, Overdue};
 
+pub(super) use connection::Lasting;
 pub use figures::Figures;
 pub use limits::Limits;
 

@@ -41,7 +41,7 @@ impl Store {
         if next.is_final() {
             end_states::drop_of(&mut transaction, id).await?;
         }
-        transaction.commit().await?;
+        transaction.commit_job(id).await?;
         Ok(Some(next))
     }
 
@@ -64,7 +64,7 @@ impl Store {
         .bind(vectors())
         .execute(&mut *write)
         .await?;
-        write.commit().await?;
+        write.commit_job(id).await?;
         Ok(begun.rows_affected() == 1)
     }
 
@@ -107,7 +107,7 @@ impl Store {
         .execute(&mut *transaction)
         .await?;
         end_states::drop_of(&mut transaction, id).await?;
-        transaction.commit().await?;
+        transaction.commit_job(id).await?;
         Ok(true)
     }
 }

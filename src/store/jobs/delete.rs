@@ -48,7 +48,7 @@ impl Store {
             .execute(&mut *write)
             .await?;
         forget_answers(&mut write).await?;
-        write.commit().await?;
+        write.commit_job(id).await?;
         Ok(outcome)
     }
 
@@ -64,7 +64,7 @@ impl Store {
             .execute(&mut *write)
             .await?;
         forget_answers(&mut write).await?;
-        write.commit().await?;
+        write.commit_jobs().await?;
         Ok(deleted.rows_affected())
     }
 

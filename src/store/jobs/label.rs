@@ -11,7 +11,7 @@ impl Store {
         let update = changes.update("jobs", "id = ?6 and deleted = 0")?;
         let mut write = self.write().await?;
         let changed = update.bind(id.to_string()).execute(&mut *write).await?;
-        write.commit().await?;
+        write.commit_job(id).await?;
         Ok(changed.rows_affected() == 1)
     }
 }

@@ -20,7 +20,7 @@ impl Store {
         .bind(now())
         .execute(&mut *write)
         .await?;
-        write.commit().await
+        write.commit_job(id).await
     }
 
     /// Keeps the settings that were chosen for a job, and why.
@@ -31,7 +31,7 @@ impl Store {
             .bind(id.to_string())
             .execute(&mut *write)
             .await?;
-        write.commit().await
+        write.commit_job(id).await
     }
 
     /// Keeps what a sweep is expected to cost; the first estimate stays.

@@ -29,7 +29,7 @@ impl Store {
         .bind(now())
         .execute(&mut *write)
         .await?;
-        write.commit().await?;
+        write.commit_job(id).await?;
         Ok(revised.rows_affected() == 1)
     }
 }

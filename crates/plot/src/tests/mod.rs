@@ -1,6 +1,7 @@
 //! Drawings read back: what must be seen is there, where it belongs.
 
 mod drawings;
+mod figures;
 mod fixtures;
 mod gallery;
 mod impeller;

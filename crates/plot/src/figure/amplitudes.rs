@@ -1,0 +1,111 @@
+//! The amplitudes of an interaction map as cells.
+
+use super::cells::{MOST, cells, together};
+use super::document::Cells;
+use super::text::escaped;
+use crate::cells::Cell;
+use crate::heat::loudest_within;
+use crate::map_view::{VerticalAxis, View};
+use rubmap_analysis::result::InteractionMap;
+
+/// Speeds and engine orders or frequencies that are one cell, and which speed a column tells of.
+pub(super) struct Amplitudes {
+    pub(super) trace: Box<Cells>,
+    /// Index of the loudest speed of every column.
+    pub(super) indices: Vec<usize>,
+    /// What was left out, in words.
+    pub(super) thinned: Option<String>,
+}
+
+/// The part of a map that a view shows, from the quietest to the loudest amplitude of the colours. Where there are more speeds or rows
+/// than a screen shows, neighbours are one cell with the loudest of them.
+pub(super) fn amplitudes(
+    map: &InteractionMap,
+    all: &[Cell],
+    view: &View,
+    quietest: f64,
+    axes: (&str, &str),
+) -> Amplitudes {
+    let (low, high) = view.diagram.x.values;
+    let seen: Vec<&Cell> = all.iter().filter(|cell| cell.to > low && cell.from < high).collect();
+    let columns: Vec<&[&Cell]> = seen.chunks(together(seen.len(), MOST.0)).collect();
+    let (rows, bins) = rows(map, view);
+    let row_of = |cell: &Cell| map.amplitude.get(cell.index).and_then(Option::as_ref);
+    let loudest = |cell: &Cell, band: (f64, f64)| {
+        let orders = (view.order(band.0, cell.rpm), view.order(band.1, cell.rpm));
+        loudest_within(&map.engine_orders, row_of(cell)?, orders)
+    };
+    let (mut values, mut told) = (Vec::new(), Vec::new());
+    for (y, band) in &rows {
+        let (mut line, mut words) = (Vec::new(), Vec::new());
+        for column in &columns {
+            let found = column.iter().filter_map(|cell| Some((loudest(cell, *band)?, cell.rpm)));
+            let found = found.max_by(|a, b| a.0.total_cmp(&b.0));
+            line.push(found.map_or(f32::NAN, |(amplitude, _)| amplitude.max(quietest).log10() as f32));
+            words.push(found.map_or_else(Vec::new, |(amplitude, rpm)| {
+                let other = match view.axis {
+                    VerticalAxis::EngineOrder => y * rpm / 60.0,
+                    VerticalAxis::Frequency => view.order(*y, rpm),
+                };
+                [amplitude, other, rpm * std::f64::consts::TAU / 60.0].map(|value| value as f32).to_vec()
+            }));
+        }
+        values.push(line);
+        told.push(words);
+    }
+    let (order, frequency) = match view.axis {
+        VerticalAxis::EngineOrder => ("%{y:.4~g}", "%{customdata[1]:,.1f}"),
+        VerticalAxis::Frequency => ("%{customdata[1]:.3~g}", "%{y:,.1f}"),
+    };
+    let unit = escaped(map.sensor.unit(&map.units));
+    let words = format!(
+        "%{{x:,.1f}} rpm (%{{customdata[2]:,.1f}} rad/s)<br>engine order {order}, {frequency} Hz<br>%{{customdata[0]:.3~g}} {unit}"
+    );
+    let x = match columns[..] {
+        // A single column has its edges: nothing else says how wide it is.
+        [[cell]] => vec![cell.from, cell.to],
+        _ => columns.iter().map(|column| column[column.len() / 2].rpm).collect(),
+    };
+    let y = rows.iter().map(|(y, _)| *y).collect();
+    let peak =
+        |cell: &Cell| row_of(cell).map_or(0.0, |row| row.iter().skip(1).fold(0.0, |m: f64, a| m.max(*a)));
+    let indices = columns
+        .iter()
+        .filter_map(|column| column.iter().max_by(|a, b| peak(a).total_cmp(&peak(b))).map(|cell| cell.index));
+    Amplitudes {
+        indices: indices.collect(),
+        trace: cells((x, y), (values, told), &words, (axes.0, axes.1, "coloraxis")),
+        thinned: thinned(together(seen.len(), MOST.0), bins),
+    }
+}
+
+/// Rows from the lowest on: the middle and the band of each, in units of the vertical axis, and how many bins are one.
+fn rows(map: &InteractionMap, view: &View) -> (Vec<(f64, (f64, f64))>, usize) {
+    let (low, high) = view.diagram.y.values;
+    match view.axis {
+        VerticalAxis::EngineOrder => {
+            // The mean is no vibration.
+            let shown = |order: &&f64| **order > 0.0 && (low..=high).contains(*order);
+            let orders: Vec<f64> = map.engine_orders.iter().filter(shown).copied().collect();
+            let bins = together(orders.len(), MOST.1);
+            let row =
+                |bins: &[f64]| (0.5 * (bins[0] + bins[bins.len() - 1]), (bins[0], bins[bins.len() - 1]));
+            (orders.chunks(bins).map(row).collect(), bins)
+        }
+        VerticalAxis::Frequency => {
+            let step = (high - low) / MOST.1 as f64;
+            let row = |i: usize| {
+                (low + step * (i as f64 + 0.5), (low + step * i as f64, low + step * (i + 1) as f64))
+            };
+            ((0..MOST.1).map(row).collect(), 1)
+        }
+    }
+}
+
+fn thinned(speeds: usize, bins: usize) -> Option<String> {
+    let of = |count: usize, what: &str| (count > 1).then(|| format!("{count} {what}"));
+    let parts: Vec<String> =
+        [of(speeds, "speeds"), of(bins, "lines of the spectra")].into_iter().flatten().collect();
+    (!parts.is_empty())
+        .then(|| format!("{} are one cell with the loudest: choose a part to see each", parts.join(" and ")))
+}

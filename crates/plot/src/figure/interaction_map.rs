@@ -1,0 +1,187 @@
+//! The interaction map: level and amplitudes over speed, engine orders, critical speeds, linear prediction.
+
+use plotly::Scatter;
+use plotly::common::{DashType, MarkerSymbol, Mode, Position};
+use plotly::layout::Axis;
+use serde_json::json;
+
+use super::amplitudes::amplitudes;
+use super::cells::logarithmic;
+use super::document::{Figure, axis};
+use super::level;
+use super::marks::{line, marks, silent, strokes, words};
+use super::palette::{WARNING, colour, dash};
+use crate::cells::{Cell, cells, rpm};
+use crate::level::{LevelColour, axis as level_axis};
+use crate::map_view::{DRIVEN, OrderLine, QUIETEST, VerticalAxis, View, lobes};
+use crate::marks::{critical_words, driven_words, known_to, linear_words};
+use crate::window::Window;
+use crate::{heat, interaction_map as drawing, validity};
+use rubmap_analysis::result::{Campbell, CriticalSpeed, CriticalSpeeds, InteractionMap, StiffeningVerdict};
+
+/// Pixels of height.
+const HEIGHT: usize = 760;
+
+/// From where to where the map and the level reach, of the height between the axes.
+const MAP: [f64; 2] = [0.0, 0.7];
+const LEVEL: [f64; 2] = [0.76, 1.0];
+
+/// An interaction map or a window of it, with its critical speeds and the linear prediction where they are given.
+///
+/// The colours of the map are the logarithms of amplitudes to the base of 10; `customdata` has of every cell the amplitude itself, its
+/// frequency in Hz (upwards frequencies: its engine order), and the speed in rad/s. `layout.meta.amplitude` says how to show it linearly.
+pub fn interaction_map(
+    map: &InteractionMap,
+    critical: Option<&CriticalSpeeds>,
+    campbell: Option<&Campbell>,
+    axis_upwards: VerticalAxis,
+    window: Window,
+    level_colour: LevelColour,
+) -> Figure {
+    let cells = cells(&map.speeds_rad_s);
+    let view = View::new(map, &cells, campbell, axis_upwards, &window, ((0.0, 0.0), (1.0, 1.0)));
+    let loudest = heat::loudest(map, &window);
+    let scale = loudest.map_or((QUIETEST, 1.0), |loudest| (QUIETEST * loudest, loudest));
+    let shown = amplitudes(map, &cells, &view, scale.0, ("x", "y"));
+    let unit = map.sensor.unit(&map.units);
+    let paragraphs: Vec<String> = [drawing::words(map)]
+        .into_iter()
+        .chain(map.stiffening.and_then(StiffeningVerdict::warning).map(str::to_owned))
+        .chain(validity::without_thickness(map).then(|| validity::WITHOUT_THICKNESS.to_owned()))
+        .chain(shown.thinned.clone())
+        .collect();
+    let x = axis("rotational speed Ω, rpm").range(ends(view.diagram.x.values)).anchor("y");
+    let seen = cells.iter().filter(|cell| view.diagram.x.contains(cell.rpm)).copied();
+    let seen: Vec<Cell> = seen.collect();
+    Figure::new("interaction_map", &drawing::title(map), &paragraphs)
+        .high(HEIGHT)
+        .with(shown.trace)
+        .with_all(engine_orders(map, &view))
+        .with_all(campbell.map(|campbell| natural(campbell, &view)).into_iter().flatten())
+        .with_all(level::traces(map, &seen, level_colour, "y2"))
+        .with_all(critical.map(|critical| crossings(critical, &view)).into_iter().flatten())
+        .with_all(
+            critical.map(|critical| critical_speeds(critical, &view, level_colour)).into_iter().flatten(),
+        )
+        .axis("xaxis", x)
+        .axis("yaxis", upwards(&view).domain(&MAP))
+        .axis(
+            "yaxis2",
+            axis(&level_axis(map)).domain(&LEVEL).range_mode(plotly::layout::RangeMode::ToZero).anchor("x"),
+        )
+        .attribute("coloraxis", logarithmic(scale, &format!("amplitude, {unit}"), (MAP[0], MAP[1])))
+        .meta("sensor", map.sensor)
+        .meta("units", json!({"x": "rpm", "y": y_unit(axis_upwards), "amplitude": unit}))
+        .meta("speeds_rpm", cells.iter().map(|cell| cell.rpm).collect::<Vec<f64>>())
+        .meta("speed_indices", cells.iter().map(|cell| cell.index).collect::<Vec<usize>>())
+        .meta("column_speed_indices", shown.indices)
+        .meta(
+            "amplitude",
+            json!({"trace": 0, "z": "log10", "linear": "customdata[row][column][0]", "range": scale}),
+        )
+}
+
+fn y_unit(axis: VerticalAxis) -> &'static str {
+    match axis {
+        VerticalAxis::EngineOrder => "engine_order",
+        VerticalAxis::Frequency => "Hz",
+    }
+}
+
+/// The vertical axis of a view.
+pub(super) fn upwards(view: &View) -> Axis {
+    axis(view.axis.words()).range(ends(view.diagram.y.values))
+}
+
+/// The two ends of an axis.
+pub(super) fn ends((low, high): (f64, f64)) -> Vec<f64> {
+    vec![low, high]
+}
+
+/// Lines of engine orders, of those that the lobes excite with their numbers where they rise.
+pub(super) fn engine_orders(map: &InteractionMap, view: &View) -> Vec<Box<Scatter<f64, f64>>> {
+    let (excited, others): (Vec<OrderLine>, Vec<OrderLine>) =
+        view.order_lines(map).into_iter().partition(|line| line.excited && lobes(map) > 1);
+    let other_words = if lobes(map) > 1 { "other engine orders" } else { "engine orders" };
+    let mut traces = Vec::new();
+    for (name, lines, pen) in [
+        (other_words, &others, ("#b8b8b8", DashType::Dot, 1.0)),
+        ("multiples of the lobe count", &excited, ("#d0d0d0", DashType::Solid, 1.0)),
+    ] {
+        if lines.is_empty() {
+            continue;
+        }
+        let trace = silent(name, strokes(lines.iter().map(|line| line.ends)), pen);
+        let rising = view.axis == VerticalAxis::Frequency;
+        let numbers = lines.iter().flat_map(|line| [String::new(), line.order.to_string(), String::new()]);
+        traces.push(match rising {
+            true => {
+                trace.mode(Mode::LinesText).text_array(numbers.collect()).text_position(Position::BottomLeft)
+            }
+            false => trace,
+        });
+    }
+    traces
+}
+
+/// Natural frequencies in the rotating frame, those of a nodal diameter under one name.
+fn natural(campbell: &Campbell, view: &View) -> Vec<Box<Scatter<f64, f64>>> {
+    let harmonics = campbell.frequencies_hz.first().map_or(0, Vec::len);
+    let lines = view.natural(campbell);
+    let of = |i: usize| {
+        let lines = lines.iter().filter(move |line| line.nodal_diameter == i);
+        let places = lines.clone().flat_map(|line| line.places.iter().copied().chain([None]));
+        let told = lines.flat_map(|line| vec![line.words(); line.places.len() + 1]).collect();
+        let pen = (colour(i, harmonics), dash(i), 1.3);
+        words(line(&format!("natural frequencies, nodal diameter {i}"), places, (&pen.0, pen.1, pen.2)), told)
+    };
+    (0..harmonics).map(of).collect()
+}
+
+/// Where the linear criterion and the lobes' engine orders meet natural frequencies.
+fn crossings(critical: &CriticalSpeeds, view: &View) -> Vec<Box<Scatter<f64, f64>>> {
+    let place = |speed_rad_s: f64, order: u32| {
+        let rpm = rpm(speed_rad_s);
+        let place = (rpm, view.height(rpm, f64::from(order)));
+        view.diagram.inside(place.0, place.1).map(|_| place)
+    };
+    let linear = critical.linear_crossings.iter().filter_map(|crossing| {
+        let order = crossing.nodal_diameter * crossing.superharmonic;
+        Some((place(crossing.speed_rad_s, order)?, linear_words(crossing)))
+    });
+    let driven = critical.driven_crossings.iter().filter_map(|crossing| {
+        Some((place(crossing.speed_rad_s, crossing.engine_order)?, driven_words(crossing)))
+    });
+    let rings =
+        marks("linear criterion (i, j, n) at k = i·n", linear, (MarkerSymbol::CircleOpen, 10, "#ffffff"));
+    let diamonds = marks("driven by the lobes, (i, j)", driven, (MarkerSymbol::Diamond, 9, DRIVEN));
+    rings.into_iter().chain(diamonds).collect()
+}
+
+/// Lines at critical speeds through both panels, and a mark at the level of each.
+fn critical_speeds(critical: &CriticalSpeeds, view: &View, by: LevelColour) -> Vec<Box<Scatter<f64, f64>>> {
+    let said = by == LevelColour::Utilisation;
+    let mut traces = Vec::new();
+    for (resolved, name, dash) in [
+        (true, "critical speed", DashType::Dash),
+        (false, "critical speed, peak not resolved", DashType::Dot),
+    ] {
+        let of = |speed: &&CriticalSpeed| {
+            speed.resolved == resolved && view.diagram.x.contains(rpm(speed.speed_rad_s))
+        };
+        let found: Vec<&CriticalSpeed> = critical.critical_speeds.iter().filter(of).collect();
+        let (low, high) = view.diagram.y.values;
+        let upright = found.iter().map(|speed| rpm(speed.speed_rad_s)).map(|rpm| [(rpm, low), (rpm, high)]);
+        let lines = silent(name, strokes(upright), (WARNING, dash, 1.4));
+        let told = |speed: &&CriticalSpeed| {
+            let words = format!("{}{}", critical_words(speed, said), known_to(speed));
+            ((rpm(speed.speed_rad_s), speed.rms), words)
+        };
+        let symbol = if resolved { MarkerSymbol::TriangleDown } else { MarkerSymbol::TriangleDownOpen };
+        let Some(peaks) = marks(name, found.iter().map(told), (symbol, 11, WARNING)) else { continue };
+        let indices: Vec<u32> = found.iter().map(|speed| speed.index).collect();
+        let peaks = peaks.custom_data(indices).y_axis("y2").show_legend(false);
+        traces.extend([lines.legend_group(name), peaks.legend_group(name)]);
+    }
+    traces
+}

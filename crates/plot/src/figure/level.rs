@@ -1,0 +1,101 @@
+//! The level over speed, above a map, with what is known of its error, of settling and of linear theory.
+
+use plotly::Scatter;
+use plotly::common::{DashType, ErrorData, ErrorType, Fill, HoverInfo, Line, MarkerSymbol, Mode};
+
+use super::marks::{columns, marks, strokes, words};
+use super::palette::{CURVE, NEUTRAL, WARNING};
+use crate::cells::Cell;
+use crate::level::{self, LevelColour, rms};
+use crate::settling_strip::Standing;
+use crate::{map_view, margin, validity};
+use rubmap_analysis::result::{InteractionMap, ValidityVerdict, Verdict};
+
+type Traces = Vec<Box<Scatter<f64, f64>>>;
+
+/// The level of some speeds in the panel of these axes.
+pub(super) fn traces(map: &InteractionMap, cells: &[Cell], by: LevelColour, y_axis: &str) -> Traces {
+    let mut traces = if by == LevelColour::Utilisation { utilisation(map, cells) } else { Vec::new() };
+    traces.push(curve(map, cells));
+    traces.extend(Standing::ALL.into_iter().filter_map(|standing| standings(map, cells, standing)));
+    traces.extend(validity::MARKED.into_iter().filter_map(|verdict| verdicts(map, cells, verdict)));
+    traces.into_iter().map(|trace| trace.y_axis(y_axis)).collect()
+}
+
+/// The curve, with error bars where errors were estimated.
+fn curve(map: &InteractionMap, cells: &[Cell]) -> Box<Scatter<f64, f64>> {
+    let (x, y) = columns(cells.iter().map(|cell| Some((cell.rpm, rms(map, cell.index)?))));
+    let pen = Line::new().color(CURVE).width(1.6);
+    let curve = Scatter::new(x, y).name("level").mode(Mode::Lines).line(pen).hover_info(HoverInfo::Skip);
+    let Some(errors) = map.errors.as_ref().filter(|errors| !errors.points.is_empty()) else { return curve };
+    let error = |cell: &Cell| Some(rms(map, cell.index)? * errors.of(cell.index as u32)?);
+    let bars = cells.iter().map(|cell| error(cell).unwrap_or(f64::NAN)).collect();
+    curve.error_y(ErrorData::new(ErrorType::Data).array(bars).color(CURVE).thickness(1.0).width(2))
+}
+
+/// The speeds of a standing: at their level, or on the axis if they have none.
+fn standings(map: &InteractionMap, cells: &[Cell], standing: Standing) -> Option<Box<Scatter<f64, f64>>> {
+    let style = match standing {
+        Standing::Settled(Verdict::Periodic) => (MarkerSymbol::Circle, 4, CURVE),
+        Standing::Settled(Verdict::Subharmonic) => (MarkerSymbol::Square, 6, "#009e73"),
+        Standing::Settled(Verdict::Aperiodic) => (MarkerSymbol::Diamond, 7, "#cc79a7"),
+        Standing::Settled(Verdict::NotSettled) => (MarkerSymbol::TriangleUp, 8, "#e69f00"),
+        Standing::Missing => (MarkerSymbol::X, 7, NEUTRAL),
+        // Gaps say so.
+        Standing::Pending => return None,
+    };
+    let of = cells.iter().filter(|cell| Standing::of(map, cell.index) == standing);
+    let of: Vec<(&Cell, Option<f64>)> = of.map(|cell| (cell, rms(map, cell.index))).collect();
+    let place = |(cell, rms): &(&Cell, Option<f64>)| {
+        let told = match rms {
+            Some(rms) => format!("{}, {}", level::words(map, cell, *rms), standing.words()),
+            None => map_view::missing_words(map, cell),
+        };
+        ((cell.rpm, rms.unwrap_or(0.0)), told)
+    };
+    let trace = marks(standing.words(), of.iter().map(place), style)?;
+    Some(trace.custom_data(of.iter().map(|(cell, _)| cell.index).collect::<Vec<usize>>()))
+}
+
+/// Rings about the speeds at which linear theory is doubtful or left.
+fn verdicts(
+    map: &InteractionMap,
+    cells: &[Cell],
+    verdict: ValidityVerdict,
+) -> Option<Box<Scatter<f64, f64>>> {
+    let (symbol, size) = match verdict {
+        ValidityVerdict::Beyond => (MarkerSymbol::CircleXOpen, 12),
+        _ => (MarkerSymbol::CircleOpen, 12),
+    };
+    let place = |cell: &Cell| {
+        let found =
+            validity::point(map, cell.index)?.validity.as_ref().filter(|found| found.verdict == verdict)?;
+        Some((
+            (cell.rpm, rms(map, cell.index)?),
+            format!("{:.0} rpm: {}", cell.rpm, validity::reason(found)?),
+        ))
+    };
+    marks(validity::words(verdict), cells.iter().filter_map(place), (symbol, size, WARNING))
+}
+
+/// Areas below the level in classes of utilisation.
+fn utilisation(map: &InteractionMap, cells: &[Cell]) -> Traces {
+    let of = |class: usize| {
+        let bars = cells.iter().filter_map(move |cell| {
+            let used = margin::utilisation(map, cell.index)?;
+            (margin::class(used) == class).then_some((cell, rms(map, cell.index)?, used))
+        });
+        let bars: Vec<(&Cell, f64, f64)> = bars.collect();
+        let corners = bars.iter().map(|(cell, rms, _)| {
+            [(cell.from, 0.0), (cell.from, *rms), (cell.to, *rms), (cell.to, 0.0), (cell.from, 0.0)]
+        });
+        let (x, y) = columns(strokes(corners));
+        let told = bars.iter().flat_map(|(cell, _, used)| vec![margin::words(cell, *used); 6]).collect();
+        let fill = margin::fill(class);
+        let pen = Line::new().color(fill.clone()).width(0.0).dash(DashType::Solid);
+        let trace = Scatter::new(x, y).name(margin::CLASSES[class].2).mode(Mode::Lines).line(pen);
+        let trace = trace.fill(Fill::ToSelf).fill_color(fill);
+        (!bars.is_empty()).then(|| words(trace, told))
+    };
+    (0..margin::CLASSES.len()).filter_map(of).collect()
+}

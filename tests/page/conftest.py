@@ -1,0 +1,122 @@
+"""A service with a finished sweep, a browser, and pages that fail a test for any error in the console and any request elsewhere."""
+
+import os
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import sync_playwright
+from service import Service, package
+
+WIDTHS, THEMES = (1280, 390), ("light", "dark")
+FLAGS = [
+    "--no-sandbox",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--disable-background-networking",
+    "--disable-component-update",
+]
+
+
+@pytest.fixture(scope="session")
+def pictures():
+    folder = Path(os.environ["PAGE_PICTURES"])
+    folder.mkdir(parents=True, exist_ok=True)
+    return folder
+
+
+@pytest.fixture(scope="session")
+def zipped(tmp_path_factory):
+    """A small package."""
+    return package(tmp_path_factory.mktemp("package") / "impeller.zip")
+
+
+@pytest.fixture(scope="session")
+def service(tmp_path_factory):
+    running = Service(tmp_path_factory.mktemp("service"))
+    yield running
+    running.stop()
+
+
+def sweep_of(model, **changes):
+    """A sweep with contact, ten speeds."""
+    request = {
+        "model": model,
+        "speeds": {"from": 12000, "to": 36000, "count": 10, "unit": "rpm"},
+        "scene": {
+            "centrifugal_stiffening": True,
+            "damping": {"modal_ratio": 0.005},
+            "casing": {
+                "clearance": {"leading": 0.30, "trailing": 0.22},
+                "lobes": {"count": 2, "amplitude": 0.425, "width_rad": 0.35},
+            },
+            "contact": {},
+        },
+        "record": {"histories": {"speeds": [4], "quantities": ["displacement", "contact_force", "state"]}, "stress": {}},
+    }
+    return request | changes
+
+
+@pytest.fixture(scope="session")
+def model(service, zipped):
+    return service.call("POST", "/v1/models", zipped.read_bytes())["id"]
+
+
+@pytest.fixture(scope="session")
+def swept(service, model):
+    """Id of a finished sweep."""
+    job = service.call("POST", "/v1/sweeps", sweep_of(model))["id"]
+    assert service.finish(job)["status"] == "successful"
+    return job
+
+
+@pytest.fixture(scope="session")
+def browser():
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path="/usr/bin/chromium", args=FLAGS)
+        yield browser
+        browser.close()
+
+
+class Watch:
+    """What a page said and asked for."""
+
+    def __init__(self, page):
+        self.errors, self.elsewhere, self.expected = [], [], []
+        page.on("console", lambda message: self.heard(message.type, message.text))
+        page.on("pageerror", lambda error: self.errors.append(str(error)))
+        page.on("request", self.asked)
+        self.hosts = set()
+
+    def heard(self, kind, text):
+        if kind in ("error", "warning") and not any(part in text for part in self.expected):
+            self.errors.append(f"{kind}: {text}")
+
+    def asked(self, request):
+        if request.url.startswith(("data:", "blob:")):
+            return
+        if not request.url.startswith(tuple(self.hosts)):
+            self.elsewhere.append(request.url)
+
+
+@pytest.fixture
+def new_page(browser):
+    """Opens a page that is watched; all are judged at the end of the test."""
+    watches, contexts = [], []
+
+    def opened(url, width=1280, theme="light", expected=()):
+        context = browser.new_context(viewport={"width": width, "height": 900}, color_scheme=theme, accept_downloads=True)
+        context.set_default_timeout(20_000)
+        page = context.new_page()
+        watch = Watch(page)
+        watch.hosts.add(url.split("/#")[0].rstrip("/"))
+        watch.expected += expected
+        page.goto(url)
+        watches.append(watch)
+        contexts.append(context)
+        return page
+
+    yield opened
+    for context in contexts:
+        context.close()
+    for watch in watches:
+        assert watch.errors == [] and watch.elsewhere == []

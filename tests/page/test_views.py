@@ -1,0 +1,55 @@
+"""Every view, at both widths and in both themes: nothing in the console, no serious finding of axe, nothing wider than the window."""
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from conftest import THEMES, WIDTHS
+
+VIEWS = {
+    "models": "#/models",
+    "model": "#/models/{model}",
+    "generate": "#/generate",
+    "sweep": "#/sweep?model={model}",
+    "sweep-as": "#/sweep?as={swept}",
+    "study": "#/study?model={model}",
+    "jobs": "#/jobs",
+    "map": "#/jobs/{swept}",
+    "point": "#/jobs/{swept}?view=point&speed=4",
+    "campbell": "#/jobs/{swept}?view=campbell",
+    "critical": "#/jobs/{swept}?view=critical",
+    "stress": "#/jobs/{swept}?view=stress",
+    "fields": "#/jobs/{swept}?view=fields&speed=4",
+    "credentials": "#/jobs/{swept}?view=credentials",
+    "downloads": "#/jobs/{swept}?view=downloads",
+    "compare": "#/compare?jobs={swept},{swept_as_well}",
+    "sign-in": "#/sign-in",
+    "nowhere": "#/nowhere",
+}
+
+
+@pytest.fixture(scope="session")
+def places(service, model, swept):
+    from conftest import sweep_of
+
+    again = sweep_of(model, speeds={"from": 14000, "to": 34000, "count": 8, "unit": "rpm"})
+    job = service.call("POST", "/v1/sweeps", again)["id"]
+    assert service.finish(job)["status"] == "successful"
+    return {"model": model, "swept": swept, "swept_as_well": job}
+
+
+@pytest.mark.parametrize("theme", THEMES)
+@pytest.mark.parametrize("width", WIDTHS)
+@pytest.mark.parametrize("view", VIEWS)
+def test_view(service, places, new_page, pictures, view, width, theme):
+    page = new_page(f"{service.url}/{VIEWS[view].format(**places)}", width=width, theme=theme)
+    page.get_by_role("main").get_by_role("heading", level=1).wait_for()
+    page.wait_for_load_state("networkidle")
+    page.wait_for_function("document.querySelector('main').getAttribute('aria-busy') !== 'true'")
+    page.screenshot(path=pictures / f"{view}-{width}-{theme}.png", full_page=True)
+    overflow = page.evaluate("document.documentElement.scrollWidth - document.documentElement.clientWidth")
+    assert overflow <= 0, f"{overflow} pixels wider than the window"
+    # Rules of WCAG 2.2 AA and below.
+    rules = {"runOnly": ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa"]}
+    found = Axe().run(page, options=rules).response["violations"]
+    serious = [v for v in found if v["impact"] in ("serious", "critical")]
+    told = [f"{v['id']}: {v['help']}: {n['target']} {n.get('failureSummary', '')}" for v in serious for n in v["nodes"]]
+    assert told == []

@@ -1,0 +1,122 @@
+// The service, as openapi.yaml has it.
+
+import { token, signOut } from './session.js';
+import { isBack, isAway } from './away.js';
+
+/** A request that the service refused, in the words of RFC 9457; `errors` has pointers, parameters, files and rows. */
+export class Refusal extends Error {
+  constructor(status, problem) {
+    super(problem.detail ?? problem.title ?? `status ${status}`);
+    this.status = status;
+    this.type = problem.type ?? '';
+    this.title = problem.title ?? `The service answered ${status}`;
+    this.detail = problem.detail ?? '';
+    this.errors = problem.errors ?? [];
+    this.retryAfter = 0;
+  }
+}
+
+/** The service could not be reached. */
+export class Away extends Error {}
+
+/** Headers of every request. */
+export function headers(more = {}) {
+  const own = token();
+  return own ? { Authorization: `Bearer ${own}`, ...more } : more;
+}
+
+/** What a failed answer says. */
+export async function refusal(response) {
+  let problem = {};
+  try {
+    problem = await response.json();
+  } catch {
+    problem = { title: `The service answered ${response.status} ${response.statusText}` };
+  }
+  const refused = new Refusal(response.status, problem);
+  refused.retryAfter = Number(response.headers.get('retry-after')) || 0;
+  if (response.status === 401) signOut();
+  return refused;
+}
+
+/** An address with its parameters; those without a value are left out. */
+export function address(path, query = {}) {
+  const parameters = new URLSearchParams();
+  for (const [name, value] of Object.entries(query ?? {})) {
+    if (value !== null && value !== undefined && value !== '') parameters.set(name, String(value));
+  }
+  const text = parameters.toString();
+  return text ? `${path}${path.includes('?') ? '&' : '?'}${text}` : path;
+}
+
+/** The answer to a request; throws a `Refusal`, or `Away`. */
+export async function request(path, { method = 'GET', query, signal, accept, body, idempotencyKey } = {}) {
+  const head = headers(accept ? { Accept: accept } : {});
+  if (body !== undefined) head['Content-Type'] = 'application/json';
+  if (idempotencyKey) head['Idempotency-Key'] = idempotencyKey;
+  let response;
+  try {
+    response = await fetch(address(path, query), {
+      method,
+      signal,
+      headers: head,
+      body: body === undefined ? undefined : JSON.stringify(body),
+    });
+  } catch (error) {
+    if (signal?.aborted) throw error;
+    isAway();
+    throw new Away('the service cannot be reached');
+  }
+  isBack();
+  if (!response.ok) throw await refusal(response);
+  return response;
+}
+
+export const api = {
+  /** JSON of a path. */
+  async get(path, options = {}) {
+    return (await request(path, { accept: 'application/json', ...options })).json();
+  },
+  /** Sends JSON; JSON of the answer, if it has any. */
+  async send(method, path, body, options = {}) {
+    const text = await (await request(path, { method, body, ...options })).text();
+    return text ? JSON.parse(text) : null;
+  },
+  /** Text of a path. */
+  async text(path, options = {}) {
+    return (await request(path, options)).text();
+  },
+  /** File of a path, with its name. */
+  async blob(path, options = {}) {
+    return (await request(path, options)).blob();
+  },
+  /** A figure of Plotly. */
+  async figure(path, query = {}, options = {}) {
+    return (await request(path, { query: { ...query, format: 'plotly' }, ...options })).json();
+  },
+};
+
+/** Sends a submission until the service has answered; with one key, so that it becomes one job however often it is sent. */
+export async function submit(path, body, signal) {
+  const idempotencyKey = crypto.randomUUID?.() ?? `${Date.now()}-${Math.random()}`;
+  for (let attempt = 0; ; attempt += 1) {
+    try {
+      return await api.send('POST', path, body, { signal, idempotencyKey });
+    } catch (error) {
+      const again = error instanceof Away || (error instanceof Refusal && [429, 503].includes(error.status));
+      if (!again || attempt >= 5) throw error;
+      await new Promise((resolve) => setTimeout(resolve, 1000 * (error.retryAfter || 2 ** attempt)));
+      signal?.throwIfAborted();
+    }
+  }
+}
+
+let contract = null;
+/** The contract; read once. */
+export function openapi() {
+  contract ??= api.get('/openapi.json').catch((error) => {
+    contract = null;
+    throw error;
+  });
+  return contract;
+}

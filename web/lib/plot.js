@@ -1,0 +1,96 @@
+// Figures. Plotly's script is large and is loaded when the first figure is shown.
+
+import { colour, onTheme } from './theme.js';
+
+/** Pixels of height of a figure that does not say. */
+const HEIGHT = 400;
+
+let loading = null;
+
+/** Plotly. */
+export function plotly() {
+  loading ??= new Promise((resolve, reject) => {
+    const script = document.createElement('script');
+    script.src = document.querySelector('meta[name="plotly"]').content;
+    script.addEventListener('load', () => resolve(globalThis.Plotly));
+    script.addEventListener('error', () => {
+      loading = null;
+      reject(new Error('the script that draws figures could not be loaded'));
+    });
+    document.head.append(script);
+  });
+  return loading;
+}
+
+/** Colours of the theme, as a template that figures are drawn on. */
+function template() {
+  const line = colour('line');
+  const axis = { gridcolor: line, linecolor: colour('edge'), zerolinecolor: line, automargin: true };
+  return {
+    layout: {
+      paper_bgcolor: colour('ground'),
+      plot_bgcolor: colour('ground'),
+      font: { color: colour('text'), family: 'system-ui, "Segoe UI", Roboto, "DejaVu Sans", sans-serif', size: 13 },
+      hoverlabel: { bgcolor: colour('raised'), bordercolor: colour('edge'), font: { color: colour('text') } },
+      legend: { bgcolor: 'rgba(0,0,0,0)' },
+      xaxis: axis,
+      yaxis: axis,
+      colorway: ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9', '#8c8c8c'],
+    },
+  };
+}
+
+/** Whether a figure has little room. */
+function narrow(element) {
+  return element.clientWidth > 0 && element.clientWidth < 560;
+}
+
+function dressed(element, figure, height) {
+  const layout = { ...figure.layout, template: template(), autosize: true };
+  layout.height = height ?? layout.height ?? HEIGHT;
+  if (narrow(element)) {
+    // A key beside the figure would leave no room for it.
+    layout.legend = { ...layout.legend, orientation: 'h', y: -0.25, x: 0, yanchor: 'top', xanchor: 'left' };
+    layout.margin = { ...layout.margin, l: 48, r: 12 };
+    if (layout.title) layout.title = { ...layout.title, font: { size: 13 } };
+  }
+  return layout;
+}
+
+const shown = new WeakMap();
+
+/**
+ * Shows a figure, or another in the place of the one that is shown: what was zoomed stays so where the figure has a `uirevision`.
+ * @param {HTMLElement} element
+ * @param {{data: any[], layout: any}} figure
+ * @param {{onClick?: (event: any) => void, height?: number, signal?: AbortSignal, label?: string}} [options]
+ */
+export async function plot(element, figure, { onClick, height, signal, label } = {}) {
+  const Plotly = await plotly();
+  if (signal?.aborted || !element.isConnected) return;
+  const config = { displaylogo: false, responsive: true, topojsonURL: '', modeBarButtonsToRemove: ['sendDataToCloud', 'lasso2d', 'select2d'] };
+  const draw = () => Plotly.react(element, figure.data, dressed(element, figure, height), config);
+  await draw();
+  element.setAttribute('role', 'group');
+  element.setAttribute('aria-label', label ?? titleOf(figure));
+  if (!shown.has(element)) {
+    const state = { draw };
+    shown.set(element, state);
+    onTheme(() => element.isConnected && state.draw(), signal);
+    signal?.addEventListener('abort', () => Plotly.purge(element));
+  }
+  shown.get(element).draw = draw;
+  element.removeAllListeners?.('plotly_click');
+  if (onClick) element.on('plotly_click', onClick);
+}
+
+function titleOf(figure) {
+  const title = figure.layout?.title;
+  return (typeof title === 'string' ? title : title?.text) ?? 'Figure';
+}
+
+/** Changes of the layout of a figure that is shown, as Plotly names them. */
+export async function relayout(element, changes) {
+  const Plotly = await plotly();
+  if (element.data) await Plotly.relayout(element, changes);
+}

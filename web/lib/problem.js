@@ -1,0 +1,28 @@
+// What went wrong, for the user.
+
+import { h } from './dom.js';
+import { Away, Refusal } from './api.js';
+
+/** One of the errors of a refusal: where, and what. */
+function item(error) {
+  const row = error.row ?? error.line;
+  const where = [error.file, row === undefined || row === null ? null : `line ${row}`, error.pointer, error.parameter].filter(Boolean);
+  return h('li', {}, where.length > 0 ? h('strong', {}, `${where.join(', ')}: `) : null, error.detail ?? '');
+}
+
+/** Something that failed, as an alert; a result that is not there yet as a calm note. */
+export function problem(error) {
+  if (error instanceof Away) {
+    return h('p', { class: 'note warning', role: 'status' }, 'The service does not answer; this is read again when it is back.');
+  }
+  if (!(error instanceof Refusal)) {
+    console.error(error);
+    return h('p', { class: 'note bad', role: 'alert' }, `The page failed: ${error.message}`);
+  }
+  if (error.status === 409 || error.type.endsWith('history-not-recorded')) {
+    return h('p', { class: 'note' }, error.detail || error.title);
+  }
+  return h('div', { class: 'note bad', role: 'alert' },
+    h('strong', {}, error.title),
+    error.errors.length > 0 ? h('ul', {}, error.errors.map(item)) : h('p', {}, error.detail));
+}

@@ -1,0 +1,139 @@
+// A job: how far it is, and what it found.
+
+import { api } from '../lib/api.js';
+import { h, facts, replace } from '../lib/dom.js';
+import { ended, follow, readJob } from '../lib/events.js';
+import { bytes, count, duration, moment, nameOf } from '../lib/format.js';
+import { problem } from '../lib/problem.js';
+
+export const STATUSES = {
+  accepted: 'waiting',
+  running: 'running',
+  successful: 'done',
+  failed: 'failed',
+  dismissed: 'cancelled',
+};
+
+/** What there is to see of a kind of job: names of tabs, and where they are loaded from. The first is shown when none is asked for. */
+const TABS = {
+  sweep: [
+    ['map', 'Interaction map', () => import('./job/map.js')],
+    ['point', 'One speed', () => import('./job/point.js')],
+    ['critical', 'Critical speeds', () => import('./job/critical.js')],
+    ['campbell', 'Campbell', () => import('./job/campbell.js')],
+    ['forces', 'Contact forces', () => import('./job/forces.js')],
+    ['stress', 'Stress', () => import('./job/stress.js')],
+    ['fields', 'Wheel in 3D', () => import('./job/fields.js')],
+  ],
+  modal_analysis: [['campbell', 'Campbell', () => import('./job/campbell.js')]],
+  model_generation: [],
+  study: [
+    ['study', 'Work and precision', () => import('./job/study.js')],
+    ['lines', 'Histories', () => import('./job/histories.js')],
+  ],
+  case_study: [
+    ['lines', 'Histories', () => import('./job/histories.js')],
+    ['fields', 'Wheel in 3D', () => import('./job/fields.js')],
+  ],
+};
+const FOR_ALL = [
+  ['credentials', 'Credentials', () => import('./job/credentials.js')],
+  ['downloads', 'Downloads', () => import('./job/downloads.js')],
+];
+
+export async function show(main, { id, query }, signal) {
+  const job = await readJob(id, signal);
+  const tabs = [...(TABS[job.kind] ?? []), ...FOR_ALL];
+  const tab = tabs.find(([name]) => name === query.get('view')) ?? tabs[0];
+  const state = h('div');
+  const place = h('section', { 'aria-label': tab[1] });
+  const listeners = [];
+  replace(main,
+    h('h1', {}, nameOf(job)),
+    state,
+    h('nav', { class: 'tabs', 'aria-label': 'Results' }, tabs.map(([name, words]) => h('a', {
+      href: addressOf(id, query, { view: name }),
+      'aria-current': name === tab[0] ? 'page' : null,
+    }, words))),
+    place);
+  let shown = job;
+  const tell = (now) => {
+    shown = now;
+    showState(state, now, signal);
+    for (const f of listeners) f(now);
+  };
+  tell(job);
+  /** What views of a job get: the job, the query, how to go elsewhere in it, and how to hear of changes. */
+  const context = {
+    job,
+    query,
+    now: () => shown,
+    go: (changes) => { location.hash = addressOf(id, query, changes); },
+    address: (changes) => addressOf(id, query, changes),
+    onChange: (f) => listeners.push(f),
+  };
+  if (!ended(job)) {
+    follow(id, tell, signal).catch((error) => {
+      if (!signal.aborted) state.append(problem(error));
+    });
+  }
+  try {
+    await (await tab[2]()).show(place, context, signal);
+  } catch (error) {
+    if (signal.aborted) return;
+    replace(place, problem(error));
+    // What was not ready may be when the job has ended.
+    if (!ended(job)) listeners.push((now) => ended(now) && dispatchEvent(new HashChangeEvent('hashchange')));
+  }
+}
+
+/** The address of another place in a job: the query with these changes, `null` for what goes. */
+function addressOf(id, query, changes) {
+  const next = new URLSearchParams(query);
+  for (const [name, value] of Object.entries(changes)) {
+    if (value === null || value === undefined || value === '') next.delete(name);
+    else next.set(name, String(value));
+  }
+  const text = next.toString();
+  return `#/jobs/${id}${text ? `?${text}` : ''}`;
+}
+
+/** About how long a job still takes, from what it took so far, s; nothing before that means anything. */
+export function remaining(job) {
+  if (job.status !== 'running' || !job.started_at || job.progress < 3) return null;
+  const spent = (Date.now() - Date.parse(job.started_at)) / 1000;
+  return spent * (100 / job.progress - 1);
+}
+
+function showState(element, job, signal) {
+  const left = remaining(job);
+  const speeds = job.speeds;
+  const bar = h('progress', { max: 100, value: job.progress, 'aria-label': 'Progress' });
+  bar.value = job.progress;
+  const lost = speeds && speeds.diverged + speeds.failed > 0
+    ? `${count(speeds.diverged, 'speed')} diverged, ${speeds.failed} failed: they have no amplitude` : null;
+  const running = job.status === 'running' || job.status === 'accepted';
+  replace(element,
+    h('div', { class: 'row' },
+      h('span', { class: `tag ${{ successful: 'good', failed: 'bad' }[job.status] ?? ''}` }, STATUSES[job.status] ?? job.status),
+      running ? h('span', { role: 'status' }, `${job.progress} %${job.phase ? ` · ${job.phase}` : ''}${left ? ` · about ${duration(left)} left` : ''}`) : null,
+      !running ? h('span', { class: 'quiet' }, `${moment(job.finished_at)} · ${bytes(job.stored_bytes)}`) : null),
+    running ? bar : null,
+    lost ? h('p', { class: 'note warning' }, lost) : null,
+    job.error ? h('div', { class: 'note bad', role: 'alert' }, h('strong', {}, job.error.title), ' ', job.error.detail) : null,
+    h('div', { class: 'row' },
+      job.model ? h('a', { class: 'button', href: `#/models/${job.model}` }, 'Its model') : null,
+      job.kind !== 'model_generation' ? h('a', { class: 'button', href: `#/sweep?as=${job.id}` }, 'As this job, but …') : null,
+      job.kind === 'sweep' ? h('a', { class: 'button', href: `#/compare?jobs=${job.id}` }, 'Compare') : null,
+      running ? h('button', { type: 'button', class: 'bad', on: { click: cancel } }, 'Cancel') : null),
+    job.notes ? facts([['Notes', job.notes], ['Tags', job.tags.join(', ')]]) : null);
+
+  async function cancel(event) {
+    event.target.disabled = true;
+    try {
+      await api.send('DELETE', `/v1/jobs/${job.id}`, undefined, { signal });
+    } catch (error) {
+      if (!signal.aborted) element.append(problem(error));
+    }
+  }
+}

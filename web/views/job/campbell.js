@@ -1,0 +1,70 @@
+// The Campbell diagram with the lobes' crossings: of a modal analysis, and beside a sweep that of its model with the same modes.
+
+import { api } from '../../lib/api.js';
+import { h, replace } from '../../lib/dom.js';
+import { follow } from '../../lib/events.js';
+import { plot } from '../../lib/plot.js';
+import { problem } from '../../lib/problem.js';
+import { select } from './choices.js';
+
+export async function show(place, context, signal) {
+  const { job, query } = context;
+  const analysis = job.kind === 'modal_analysis' ? job : await analysisOf(job, signal);
+  if (!analysis) {
+    offer(place, job, signal);
+    return;
+  }
+  const frame = query.get('frame') ?? 'rotating';
+  const figure = h('div', { class: 'figure tall' });
+  replace(place,
+    h('div', { class: 'row' }, select('Frame', [['rotating', 'rotating, as the blades feel it'], ['fixed', 'fixed, as the casing feels it']], frame, (chosen) => context.go({ frame: chosen }))),
+    figure,
+    analysis === job ? null : h('p', { class: 'quiet small' }, 'Of the ', h('a', { href: `#/jobs/${analysis.id}` }, 'modal analysis'), ' of the same model with the same modes and lobes.'));
+  const read = await api.figure(`/v1/jobs/${analysis.id}/campbell`, { frame }, { signal });
+  await plot(figure, read, { signal, label: 'Campbell diagram' });
+}
+
+/** The newest finished modal analysis that says of a sweep's model what the sweep needs. */
+export async function analysisOf(sweep, signal) {
+  const { jobs } = await api.get('/v1/jobs', { query: { kind: 'modal_analysis', status: 'successful', model: sweep.model, limit: 100 }, signal });
+  for (const { id } of jobs) {
+    const found = await api.get(`/v1/jobs/${id}`, { signal });
+    const wanted = requestOf(sweep);
+    const same = (name) => wanted[name] === undefined || JSON.stringify(found.request[name]) === JSON.stringify(wanted[name]);
+    if (same('modes_per_speed') && same('lobes')) return found;
+  }
+  return null;
+}
+
+/** The modal analysis that belongs to a sweep: its modes, its lobes, and its speeds from rest. */
+function requestOf({ model, request }) {
+  const { speeds, scene } = request;
+  const list = Array.isArray(speeds) ? speeds : [speeds];
+  const top = Math.max(...list.map((some) => some.to ?? Math.max(...(some.values ?? [0]))));
+  return {
+    model,
+    modes_per_speed: Number.isInteger(request.modes_per_speed) ? request.modes_per_speed : undefined,
+    lobes: scene?.casing?.lobes?.count,
+    coriolis: scene?.coriolis ? true : undefined,
+    speeds: { from: 0, to: top, count: 25, unit: list[0].unit },
+  };
+}
+
+/** A button that computes it. */
+function offer(place, job, signal) {
+  const told = h('div', { role: 'status' });
+  const start = async (event) => {
+    event.target.disabled = true;
+    try {
+      const { id } = await api.send('POST', '/v1/modal-analyses', requestOf(job), { signal });
+      await follow(id, (now) => replace(told, `${now.progress} % ${now.phase ?? ''}`), signal);
+      if (!signal.aborted) dispatchEvent(new HashChangeEvent('hashchange'));
+    } catch (error) {
+      event.target.disabled = false;
+      if (!signal.aborted) replace(told, problem(error));
+    }
+  };
+  replace(place,
+    h('p', {}, 'Natural frequencies over speed come from a modal analysis of the same model; there is none with these modes and lobes yet. The reduction is there, so that it takes seconds.'),
+    h('button', { type: 'button', class: 'main', on: { click: start } }, 'Compute the Campbell diagram'), told);
+}

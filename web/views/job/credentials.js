@@ -1,0 +1,39 @@
+// What a job rests on: settings, reduction, choices, code.
+
+import { facts, h, replace } from '../../lib/dom.js';
+import { duration, moment, number } from '../../lib/format.js';
+import { verdicts } from './verdicts.js';
+
+export async function show(place, context, signal) {
+  const { job } = context;
+  const { reduction, choice } = job;
+  const worth = h('div');
+  replace(place,
+    worth,
+    h('h2', {}, 'The job'),
+    facts([
+      ['Id', h('code', {}, job.id)],
+      ['Accepted', moment(job.created_at)],
+      ['Began', moment(job.started_at)],
+      ['Ended', moment(job.finished_at)],
+      ['Tags', (job.tags ?? []).join(', ')],
+      ['Notes', job.notes],
+    ]),
+    reduction ? [
+      h('h2', {}, 'The reduction'),
+      facts([
+        ['Modes per speed', reduction.modes_per_speed],
+        ['Unknowns of the wheel', `${number(reduction.wheel_unknowns, 9)}, of the full model ${number(reduction.unknowns, 9)} a sector`],
+        ['Largest residual of a mode', reduction.largest_mode_residual?.toExponential(1)],
+        ['Modes counted', reduction.counted_modes === null || reduction.counted_modes === undefined ? null : 'none was missed (Sylvester’s law)'],
+        ['Stiffening', reduction.stiffening?.verdict],
+        ['Made in', duration(reduction.wall_time_s)],
+        ['Code', reduction.version],
+      ]),
+    ] : null,
+    choice ? [h('h2', {}, 'The setting that was chosen'), h('pre', { tabindex: '0', 'aria-label': 'Choice' }, JSON.stringify(choice, null, 2))] : null,
+    h('h2', {}, 'The request'),
+    h('pre', { tabindex: '0', 'aria-label': 'Request' }, JSON.stringify(job.request, null, 2)));
+  if (job.kind === 'sweep') await verdicts(worth, context, signal);
+}
+

@@ -1,0 +1,59 @@
+// Every result in every form that it has, as the contract lists them.
+
+import { openapi } from '../../lib/api.js';
+import { h, replace } from '../../lib/dom.js';
+import { download } from '../../lib/download.js';
+import { problem } from '../../lib/problem.js';
+
+/** Endings of files whose form is none of the forms' words. */
+const ENDINGS = { plotly: 'plotly.json', pvd: 'zip' };
+
+export async function show(place, { job }, signal) {
+  const contract = await openapi();
+  const told = h('div', { 'aria-live': 'polite' });
+  const speeds = h('input', { type: 'number', id: 'download-speed', min: 0, max: Math.max(0, (job.speeds?.total ?? 1) - 1), value: 0 });
+  const indexed = job.links.some((link) => link.href.includes('{index}'));
+  const items = job.links.filter((link) => link.rel !== 'self' && !link.rel.includes('plan') && link.rel !== 'events').map((link) => item(link, contract, job, { told, speeds }, signal));
+  replace(place,
+    indexed ? h('p', {}, h('label', { for: 'download-speed' }, 'Index of the speed, where a result is of one: '), speeds) : null,
+    items.length > 0 ? h('ul', { class: 'cards' }, items) : h('p', { class: 'note' }, 'There is nothing to download yet.'),
+    told);
+}
+
+function item(link, contract, job, { told, speeds }, signal) {
+  const forms = formsOf(link.href, contract);
+  const words = link.rel.replaceAll('-', ' ');
+  const button = (form) => h('button', {
+    type: 'button', 'aria-label': `${words} as ${form ?? 'file'}`, on: { click: (event) => start(event.target, form) },
+  }, form ?? 'file');
+  async function start(pressed, form) {
+    pressed.disabled = true;
+    replace(told);
+    try {
+      const ending = form ? ENDINGS[form] ?? form : link.rel === 'archive' ? 'zip' : 'html';
+      await download(link.href.replace('{index}', speeds.value), form ? { format: form } : {}, `${job.id}-${link.rel}.${ending}`, signal);
+    } catch (error) {
+      if (!signal.aborted) replace(told, problem(error));
+    } finally {
+      pressed.disabled = false;
+    }
+  }
+  return h('li', { class: 'card' }, h('h2', {}, words), h('div', { class: 'row' }, forms.length > 0 ? forms.map(button) : button(null)));
+}
+
+/** The forms of a route: the values of its parameter `format` that its answers have, or none where it has no such parameter. */
+function formsOf(href, contract) {
+  const words = href.split('?')[0].split('/');
+  const route = Object.entries(contract.paths).find(([pattern]) => {
+    const parts = pattern.split('/');
+    return parts.length === words.length && parts.every((part, k) => part.startsWith('{') || part === words[k]);
+  });
+  const operation = route?.[1].get;
+  const format = operation?.parameters?.find((parameter) => parameter.name === 'format');
+  if (!format) return [];
+  const fields = /fields$|modes$/.test(words.join('/'));
+  const all = format.schema.enum ?? [];
+  // The contract has one list for all routes; which a route has follows from its kind.
+  const field = ['vtu', 'vtp', 'pvd'];
+  return all.filter((form) => (fields ? !['csv', 'plotly'].includes(form) : !field.includes(form)));
+}

@@ -1,0 +1,108 @@
+// The interaction map: it grows while the job runs, and a click on it opens the speed.
+
+import { api } from '../../lib/api.js';
+import { h, replace } from '../../lib/dom.js';
+import { ended } from '../../lib/events.js';
+import { plot } from '../../lib/plot.js';
+import { problem } from '../../lib/problem.js';
+import { select, sensors } from './choices.js';
+import { linear } from './linear.js';
+import { verdicts } from './verdicts.js';
+
+/** A growing map is read again at most so often. */
+const PAUSE_MS = 5000;
+
+export async function show(place, context, signal) {
+  const { job, query } = context;
+  const path = `/v1/jobs/${job.id}/interaction-map`;
+  const figure = h('div', { class: 'figure tall' });
+  const told = h('div');
+  const summary = h('div');
+  let scale = query.get('scale') ?? 'log';
+  let read = null;
+  replace(place,
+    h('div', { class: 'row' },
+      sensors(job.request, context),
+      select('Upwards', [['engine_order', 'engine order'], ['frequency', 'frequency, Hz']], query.get('axis') ?? 'engine_order', (axis) => context.go({ axis })),
+      select('Amplitude', [['log', 'logarithmic'], ['linear', 'linear']], scale, (chosen) => {
+        scale = chosen;
+        draw();
+      }),
+      select('Nodal diameter', [['', 'all'], ...diameters(context)], query.get('nodal_diameter') ?? '', (nodal_diameter) => context.go({ nodal_diameter })),
+      select('Level coloured by', [['', 'nothing'], ['utilisation', 'utilisation']], query.get('colour') ?? '', (colour) => context.go({ colour }))),
+    told, figure,
+    h('p', { class: 'quiet small' }, 'A click on the map opens that speed; arrow keys of “One speed” go through all.'),
+    summary);
+
+  async function draw() {
+    if (!read) return;
+    await plot(figure, scale === 'linear' ? linear(read) : read, {
+      signal, label: 'Interaction map', onClick: (event) => open(event, read, context),
+    });
+  }
+
+  let last = 0;
+  let reading = false;
+  let again = false;
+  async function refresh() {
+    if (reading) {
+      again = true;
+      return;
+    }
+    reading = true;
+    try {
+      last = Date.now();
+      read = await api.figure(path, {
+        sensor: query.get('sensor'), axis: query.get('axis'), nodal_diameter: query.get('nodal_diameter'), colour: query.get('colour'),
+      }, { signal });
+      // What is zoomed stays so when the map grows.
+      read.layout.uirevision = job.id;
+      replace(told);
+      await draw();
+      if (ended(context.now())) await verdicts(summary, context, signal);
+    } catch (error) {
+      if (!signal.aborted) replace(told, problem(error));
+    } finally {
+      reading = false;
+    }
+    if (again) {
+      again = false;
+      soon();
+    }
+  }
+  let timer = 0;
+  signal.addEventListener('abort', () => clearTimeout(timer));
+  function soon() {
+    clearTimeout(timer);
+    const wait = ended(context.now()) ? 0 : Math.max(0, last + PAUSE_MS - Date.now());
+    timer = setTimeout(() => signal.aborted || document.hidden || refresh(), wait);
+  }
+
+  let finished = job.speeds?.finished ?? 0;
+  context.onChange((now) => {
+    const grown = (now.speeds?.finished ?? 0) > finished;
+    finished = now.speeds?.finished ?? 0;
+    if (grown || ended(now)) soon();
+  });
+  document.addEventListener('visibilitychange', () => !document.hidden && !ended(context.now()) && soon(), { signal });
+  await refresh();
+}
+
+/** Nodal diameters of the model: their number follows from that of the sectors. */
+function diameters({ job }) {
+  const most = job.reduction?.harmonics?.length ?? null;
+  const number = most ?? (Math.floor((job.reduction?.sectors ?? 24) / 2) + 1);
+  return Array.from({ length: number }, (_, n) => [n, String(n)]);
+}
+
+/** Opens the speed that was clicked. */
+function open(event, figure, context) {
+  const point = event.points?.[0];
+  const { speeds_rpm: speeds, speed_indices: indices } = figure.layout.meta ?? {};
+  if (!point || !speeds?.length) return;
+  let nearest = 0;
+  speeds.forEach((speed, k) => {
+    if (Math.abs(speed - point.x) < Math.abs(speeds[nearest] - point.x)) nearest = k;
+  });
+  context.go({ view: 'point', speed: indices[nearest] });
+}

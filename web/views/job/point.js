@@ -1,0 +1,119 @@
+// One speed of a sweep: its credentials, spectrum, histories, forces and stress.
+
+import { api, Refusal } from '../../lib/api.js';
+import { facts, h, replace } from '../../lib/dom.js';
+import { duration, number, percent, speed, speedLong } from '../../lib/format.js';
+import { plot } from '../../lib/plot.js';
+import { problem } from '../../lib/problem.js';
+import { select, sensors } from './choices.js';
+import { QUANTITIES } from './histories.js';
+import { points, SETTLING, VALIDITY } from './verdicts.js';
+
+export async function show(place, context, signal) {
+  const { job, query } = context;
+  const map = await points(job, signal);
+  if (map.points.length === 0) {
+    replace(place, h('p', { class: 'note' }, 'No speed has a result yet.'));
+    return;
+  }
+  const asked = Number(query.get('speed') ?? map.points[0].index);
+  const at = Math.max(0, map.points.findIndex((point) => point.index === asked));
+  const point = map.points[at];
+  const go = (k) => context.go({ view: 'point', speed: map.points[k].index });
+  const step = (by) => at + by >= 0 && at + by < map.points.length && go(at + by);
+  const button = (words, by) => h('button', { type: 'button', disabled: at + by < 0 || at + by >= map.points.length, on: { click: () => step(by) } }, words);
+  const spectrum = h('div', { class: 'figure' });
+  const histories = h('div');
+  const frame = query.get('frame') ?? 'rotating';
+  replace(place,
+    h('div', { class: 'row' },
+      button('Previous speed', -1),
+      select('Speed', map.points.map((each, k) => [k, `${speed(each.speed_rad_s)}${each.status === 'completed' ? '' : ` (${each.status})`}`]), at, (k) => go(Number(k))),
+      button('Next speed', 1),
+      sensors(job.request, context),
+      select('Frame', [['rotating', 'rotating'], ['fixed', 'fixed']], frame, (chosen) => context.go({ frame: chosen }))),
+    h('h2', {}, speedLong(point.speed_rad_s)),
+    point.message ? h('p', { class: 'note warning' }, point.message) : null,
+    h('div', { class: 'columns' }, h('div', {}, h('h3', {}, 'Spectrum'), spectrum, h('h3', {}, 'Histories'), histories),
+      h('aside', {}, h('h3', {}, 'Credentials'), credentials(point, map))));
+  // Arrow keys go from speed to speed, unless they are needed by what has the focus.
+  document.addEventListener('keydown', (event) => {
+    if (event.target.closest('input, select, textarea, canvas, [role="region"], .js-plotly-plot') || event.ctrlKey || event.altKey || event.metaKey) return;
+    if (event.key === 'ArrowLeft') step(-1);
+    if (event.key === 'ArrowRight') step(1);
+  }, { signal });
+
+  if (point.status === 'completed') {
+    await section(spectrum, signal, async () => {
+      const read = await api.figure(`/v1/jobs/${job.id}/spectra/${point.index}`, { sensor: query.get('sensor'), frame }, { signal });
+      await plot(spectrum, read, { signal, label: 'Spectrum' });
+    });
+  } else {
+    replace(spectrum, h('p', { class: 'note' }, 'A speed without a result has no spectrum.'));
+  }
+  await showHistories(histories, context, point, signal);
+}
+
+/** Fills a part of the view; what fails stays in that part. */
+async function section(element, signal, fill) {
+  try {
+    await fill();
+  } catch (error) {
+    if (!signal.aborted) replace(element, problem(error));
+  }
+}
+
+async function showHistories(element, context, point, signal) {
+  const { job, query } = context;
+  const quantity = query.get('quantity') ?? 'displacement';
+  const figure = h('div', { class: 'figure' });
+  replace(element,
+    select('Quantity', QUANTITIES, quantity, (chosen) => context.go({ quantity: chosen })), figure,
+    h('p', {}, h('a', { href: context.address({ view: 'fields', speed: point.index }) }, 'The wheel at this speed in 3D')));
+  try {
+    const asked = { speed: point.index, sensor: query.get('sensor'), quantity };
+    await plot(figure, await api.figure(`/v1/jobs/${job.id}/histories`, asked, { signal }), { signal, label: 'Histories' });
+  } catch (error) {
+    if (signal.aborted) return;
+    replace(figure, problem(error));
+    if (!(error instanceof Refusal) || !error.type.endsWith('history-not-recorded')) return;
+    const record = h('button', { type: 'button', on: { click: start } }, 'Record histories of this speed');
+    figure.append(record);
+  }
+  async function start(event) {
+    event.target.disabled = true;
+    try {
+      const body = { speeds: [point.index], quantities: ['displacement', 'velocity', 'contact_force', 'contact', 'energy', 'state'] };
+      await api.send('POST', `/v1/jobs/${job.id}/histories`, body, { signal });
+      dispatchEvent(new HashChangeEvent('hashchange'));
+    } catch (error) {
+      event.target.disabled = false;
+      if (!signal.aborted) figure.append(problem(error));
+    }
+  }
+}
+
+/** What is known of one speed. */
+function credentials(point, map) {
+  const error = map.errors?.points.find((each) => each.index === point.index);
+  const { length, force } = map.units;
+  const settling = point.settling;
+  return facts([
+    ['Ended as', point.status],
+    ['Steady state', settling ? `${SETTLING[settling.verdict]}${settling.after_revolutions ? `, after ${settling.after_revolutions} revolutions` : ''}` : null],
+    ['Largest change between periods', settling?.largest_change === undefined ? null : percent(settling.largest_change)],
+    ['Linear theory', VALIDITY[point.validity?.verdict]],
+    ['Estimated error', error ? `${percent(error.estimated_error)}${error.controlled ? ', simulated again' : ', from its neighbours'}` : 'not estimated'],
+    ['Energy residual', point.energy_residual?.toExponential(1)],
+    ['Penetration left', point.largest_penetration === null || point.largest_penetration === undefined ? null : `${number(point.largest_penetration, 2)} ${length}`],
+    ['Contact', `${percent(point.contact_share)} of the steps`],
+    ['Largest force on a node', point.contact ? `${number(point.contact.peak_node_force)} ${force}` : null],
+    ['Clearance consumed', point.contact ? percent(point.contact.clearance_consumption) : null],
+    ['Tip that moves most', point.tip ? `blade ${point.tip.sector}, ${point.tip.component}, half peak to peak ${number(point.tip.half_peak_to_peak)} ${length}` : null],
+    ['Largest von Mises stress', point.stress ? `${number(point.stress.largest.von_mises)} ${force}/${length}²` : null],
+    ['Scheme', point.scheme ? `${point.scheme.name}: ${point.scheme.reason}` : null],
+    ['Steps', `${number(point.steps, 9)}, ${point.steps_per_revolution} a revolution`],
+    ['Wall time', duration(point.wall_time_s)],
+    ['Code', point.version],
+  ]);
+}

@@ -1,0 +1,52 @@
+// What the numbers of a sweep are worth, in words: settling, error bars, validity of linear theory.
+
+import { api } from '../../lib/api.js';
+import { h, replace, facts } from '../../lib/dom.js';
+import { count, percent } from '../../lib/format.js';
+
+export const SETTLING = {
+  periodic: 'repeats every revolution',
+  subharmonic: 'repeats after several revolutions',
+  aperiodic: 'does not repeat; its statistics mean something, single values do not',
+  not_settled: 'had not settled when the run ended',
+};
+export const VALIDITY = {
+  linear: 'within linear theory',
+  doubtful: 'linear theory is doubtful',
+  beyond: 'beyond linear theory',
+};
+
+/** How many of `points` have each value of `what`, in words. */
+function tally(points, what, words) {
+  const counts = new Map();
+  for (const point of points) {
+    const value = what(point);
+    if (value) counts.set(value, (counts.get(value) ?? 0) + 1);
+  }
+  return [...counts].map(([value, n]) => `${n} × ${words[value] ?? value}`).join('; ') || null;
+}
+
+/** The points of a sweep; read without amplitudes, which are not needed. */
+export function points(job, signal) {
+  return api.get(`/v1/jobs/${job.id}/interaction-map`, { query: { orders: '0' }, signal });
+}
+
+/** Shows them. */
+export async function verdicts(element, { job }, signal) {
+  const map = await points(job, signal);
+  if (signal.aborted) return;
+  const errors = map.errors;
+  const lost = map.points.filter((point) => point.status !== 'completed');
+  const energy = Math.max(0, ...map.points.map((point) => point.energy_residual ?? 0));
+  replace(element,
+    h('h2', {}, 'What these numbers are worth'),
+    facts([
+      ['Speeds', `${count(map.points.length, 'speed')} with a result${lost.length > 0 ? `, of which ${lost.length} diverged or failed` : ''}`],
+      ['Settling', tally(map.points, (point) => point.settling?.verdict, SETTLING)],
+      ['Linear theory', tally(map.points, (point) => point.validity?.verdict, VALIDITY)],
+      ['Estimated error', errors ? `at most ${percent(errors.largest)}${errors.largest_of_stress ? `, of stress ${percent(errors.largest_of_stress)}` : ''}. ${errors.message}` : 'not estimated: the request asked for no control runs'],
+      ['Energy identity', `violated by at most ${energy.toExponential(1)} of the largest energy`],
+      ['Stiffening', map.stiffening && map.stiffening !== 'sound' && map.stiffening !== 'absent' ? map.stiffening : null],
+      ['Code', map.version],
+    ]));
+}
