@@ -33,7 +33,9 @@ pub(super) fn grouped(mut program: Command) -> Command {
         list.push('\n');
     }
     program
-        .help_template("{about}\n\n{usage-heading} {usage}\n\n{before-help}Options:\n{options}")
+        .help_template(format!(
+            "{{about}}\n\n{{usage-heading}} {{usage}}\n\n{{before-help}}{head}Options:{head:#}\n{{options}}"
+        ))
         .before_help(StyledStr::from(list.trim_end().to_owned()))
 }
 

@@ -6,6 +6,8 @@ use std::time::{Duration, Instant};
 
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 
+use super::size::size;
+
 /// Time between two frames of a bar.
 const TICK: Duration = Duration::from_millis(150);
 
@@ -40,11 +42,20 @@ impl Terminal {
         self.bars.suspend(|| eprintln!("{line}"));
     }
 
-    /// A bar from 0 to 100.
+    /// A bar from 0 to 100 for what takes its time: the first line comes at once.
     pub(super) fn bar(&self, name: &str) -> Bar {
+        self.begin(name, None)
+    }
+
+    /// A bar from 0 to 100 for what is mostly done in a moment: then there is no line.
+    pub(super) fn short_bar(&self, name: &str) -> Bar {
+        self.begin(name, Some(Instant::now()))
+    }
+
+    fn begin(&self, name: &str, last: Option<Instant>) -> Bar {
         let name = format!("{name:<14}");
         if !std::io::stderr().is_terminal() {
-            return Bar::Lines { name, begin: Instant::now(), last: None };
+            return Bar::Lines { name, begin: Instant::now(), last };
         }
         let bar = self.bars.add(ProgressBar::new(100).with_prefix(name));
         // The template is a constant; should it ever be wrong, the library's own bar does as well.
@@ -58,15 +69,12 @@ impl Terminal {
 }
 
 impl Bar {
-    /// Shows how far it is, in percent and in words; the `last` time always.
+    /// Shows how far it is, in percent and in words; what is the `last` of it always.
     pub(super) fn show(&mut self, percent: u64, words: &str, last: bool) {
         match self {
             Self::Drawn(bar) => {
                 bar.set_position(percent);
                 bar.set_message(words.to_owned());
-                if last {
-                    bar.abandon();
-                }
             }
             Self::Lines { name, begin, last: written } => {
                 if last || written.is_none_or(|written| written.elapsed() >= LINE_INTERVAL) {
@@ -77,17 +85,19 @@ impl Bar {
         }
     }
 
-    /// Leaves it as it is: what it shows will not be finished.
-    pub(super) fn abandon(&self) {
-        if let Self::Drawn(bar) = self {
-            bar.abandon();
-        }
+    /// Shows how many bytes have been moved, of how many if that is known.
+    pub(super) fn show_bytes(&mut self, moved: u64, total: Option<u64>) {
+        let percent = total.map_or(0, |total| (100 * moved).checked_div(total).unwrap_or(100));
+        let of = total.map(|total| format!(" of {}", size(total))).unwrap_or_default();
+        self.show(percent, &format!("{}{of}", size(moved)), false);
     }
 }
 
 impl Drop for Bar {
     /// However it ends, what was drawn last stays.
     fn drop(&mut self) {
-        self.abandon();
+        if let Self::Drawn(bar) = self {
+            bar.abandon();
+        }
     }
 }

@@ -4,13 +4,14 @@ use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, bail};
-use reqwest::{Method, RequestBuilder, Response, header};
+use reqwest::{Method, Response, header};
 use serde::de::DeserializeOwned;
 use tempfile::NamedTempFile;
 
 use super::error::ClientError;
 use super::http::Client;
 use crate::cli::stdout;
+use crate::cli::terminal::Bar;
 
 /// Media types that may be shown on a terminal, beside those of text.
 const SHOWN: [&str; 2] = ["application/json", "image/svg+xml"];
@@ -44,7 +45,8 @@ impl Client {
     /// # Errors
     /// A [`ClientError`], or a file that cannot be written.
     pub(in crate::cli) async fn save(&self, path: &str, file: &Path) -> anyhow::Result<()> {
-        self.fetch(|| self.request(Method::GET, path), &Target::File(file.to_owned())).await.map(drop)
+        let request = || self.request(Method::GET, path);
+        self.patiently(|| async { self.write(self.send(request()).await?, file, None).await.map(drop) }).await
     }
 
     /// Downloads what `path` with `query` has; returns how many bytes it is.
@@ -57,31 +59,27 @@ impl Client {
         query: &[(String, String)],
         target: &Target,
     ) -> anyhow::Result<u64> {
-        self.fetch(|| self.request(Method::GET, path).query(query), target).await
-    }
-
-    async fn fetch(&self, request: impl Fn() -> RequestBuilder, target: &Target) -> anyhow::Result<u64> {
+        let request = || self.request(Method::GET, path).query(query);
         match target {
             Target::Stdout => {
                 let response = self.patiently(|| async { self.send(request()).await }).await?;
                 if std::io::stdout().is_terminal() && !is_text(&response) {
-                    let words = "what it would print is no text: give it a file with -o";
-                    return Err(ClientError::Unfit(words.to_owned()).into());
+                    bail!("what it would print is no text: give it a file with -o");
                 }
-                self.copy(response, std::io::stdout(), stdout::failed).await
+                self.copy(response, std::io::stdout(), stdout::failed, None).await
             }
             // A download that broke off begins again.
             Target::File(file) => {
-                self.patiently(|| async {
-                    let response = self.send(request()).await?;
-                    self.write(response, file).await
-                })
-                .await
+                let attempt = || async {
+                    let bar = self.terminal.short_bar("download");
+                    self.write(self.send(request()).await?, file, Some(bar)).await
+                };
+                self.patiently(attempt).await
             }
         }
     }
 
-    async fn write(&self, response: Response, file: &Path) -> anyhow::Result<u64> {
+    async fn write(&self, response: Response, file: &Path, bar: Option<Bar>) -> anyhow::Result<u64> {
         let failed = || format!("cannot write {}", file.display());
         let refused = |error: std::io::Error| anyhow::Error::new(error).context(failed());
         let (exists, is_file) = match file.metadata() {
@@ -92,13 +90,13 @@ impl Client {
         if !is_file {
             // A pipe or a device: nothing that could take the place of it.
             let out = std::fs::OpenOptions::new().write(true).open(file).with_context(failed)?;
-            return self.copy(response, out, refused).await;
+            return self.copy(response, out, refused, bar).await;
         }
         // Of a link what it leads to.
         let place = if exists { file.canonicalize().with_context(failed)? } else { file.to_owned() };
         let folder = place.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let part = new_file(folder).with_context(failed)?;
-        let bytes = self.copy(response, part.as_file(), refused).await?;
+        let bytes = self.copy(response, part.as_file(), refused, bar).await?;
         part.persist(&place).map_err(|error| refused(error.error))?;
         Ok(bytes)
     }
@@ -109,8 +107,9 @@ impl Client {
         mut response: Response,
         mut out: impl Write,
         refused: impl Fn(std::io::Error) -> anyhow::Error,
+        mut bar: Option<Bar>,
     ) -> anyhow::Result<u64> {
-        let mut bytes = 0;
+        let (mut bytes, total) = (0, response.content_length());
         loop {
             let piece = response.chunk().await;
             let Some(piece) = piece.map_err(|error| ClientError::unreachable(&self.server, &error))? else {
@@ -119,6 +118,9 @@ impl Client {
             };
             out.write_all(&piece).map_err(&refused)?;
             bytes += piece.len() as u64;
+            if let Some(bar) = &mut bar {
+                bar.show_bytes(bytes, total);
+            }
         }
     }
 }

@@ -97,6 +97,25 @@ impl Client {
         self.get(&format!("/v1/jobs/{id}")).await
     }
 
+    /// Cancels a job that has not ended; returns it as it is then. Of one that has ended DELETE takes everything away, so that it is
+    /// looked at each time, also when an answer was lost.
+    ///
+    /// # Errors
+    /// [`ClientError`].
+    pub(in crate::cli) async fn cancel(&self, id: &str) -> anyhow::Result<Answer<Job>> {
+        let path = format!("/v1/jobs/{id}");
+        let attempt = || async {
+            let (_, job): (_, Answer<Job>) = self.read(self.request(Method::GET, &path)).await?;
+            if job.status.is_final() {
+                return Ok(job);
+            }
+            self.send(self.request(Method::DELETE, &path)).await?;
+            // Gone is what ended by itself in between.
+            Ok(self.read(self.request(Method::GET, &path)).await?.1)
+        };
+        self.patiently(attempt).await
+    }
+
     /// Sends DELETE.
     pub(in crate::cli) async fn delete(&self, path: &str) -> anyhow::Result<()> {
         self.patiently(|| async { self.send(self.request(Method::DELETE, path)).await.map(drop) }).await
@@ -131,7 +150,7 @@ impl Client {
         for status in [JobStatus::Accepted, JobStatus::Running] {
             let query = format!("status={}&", status.as_str());
             for job in self.list::<Job>("jobs", &query, usize::MAX).await?.0 {
-                self.delete(&format!("/v1/jobs/{}", job.id)).await?;
+                self.cancel(&job.id).await?;
             }
         }
         Ok(())

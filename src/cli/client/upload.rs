@@ -1,7 +1,6 @@
 //! Uploading a package, however large.
 
 use std::path::Path;
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
 
 use anyhow::{Context, bail};
@@ -14,7 +13,6 @@ use uuid::Uuid;
 use super::answer::Answer;
 use super::http::Client;
 use super::job::Model;
-use crate::cli::size::size;
 
 /// Bytes that are read at once.
 const PIECE: usize = 1 << 18;
@@ -53,7 +51,7 @@ impl Client {
     ) -> anyhow::Result<(Answer<Model>, bool)> {
         let key = Uuid::now_v7().to_string();
         let query = labels.query();
-        let bar = Arc::new(Mutex::new(self.terminal.bar("upload")));
+        let bar = Arc::new(Mutex::new(self.terminal.short_bar("upload")));
         let answer = self.patiently(|| async {
             let file = tokio::fs::File::open(package).await;
             let file = file.with_context(|| format!("cannot read {}", package.display()))?;
@@ -62,13 +60,11 @@ impl Client {
                 bail!("{} is a folder; a package is a zip file of what is in it", package.display());
             }
             let total = facts.len();
-            let (sent, bar) = (AtomicU64::new(0), Arc::clone(&bar));
+            let (mut sent, bar) = (0, Arc::clone(&bar));
             let pieces = ReaderStream::with_capacity(file, PIECE).inspect_ok(move |piece| {
-                let bytes = piece.len() as u64;
-                let sent = sent.fetch_add(bytes, Ordering::Relaxed) + bytes;
+                sent += piece.len() as u64;
                 if let Ok(mut bar) = bar.lock() {
-                    let percent = (100 * sent).checked_div(total).unwrap_or(100);
-                    bar.show(percent, &format!("{} of {}", size(sent), size(total)), sent == total);
+                    bar.show_bytes(sent, Some(total));
                 }
             });
             let request = self.request(Method::POST, "/v1/models").query(&query);

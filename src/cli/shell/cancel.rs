@@ -33,15 +33,8 @@ impl Verb for CancelArgs {
     async fn play(&self, client: &Client) -> anyhow::Result<()> {
         let mut bodies = Vec::new();
         for id in find::jobs(client, &self.jobs).await? {
-            let mut job = client.job(&id).await?;
-            // Of a job that has ended DELETE takes everything away.
-            if job.status.is_final() {
-                client.terminal.say(&format!("job {id} has ended: {}", job.status.as_str()));
-            } else {
-                client.delete(&format!("/v1/jobs/{id}")).await?;
-                job = client.job(&id).await?;
-                client.terminal.say(&format!("job {id} is cancelled"));
-            }
+            let job = client.cancel(&id).await?;
+            client.terminal.say(&format!("job {id} has ended: {}", job.status.as_str()));
             bodies.push(job.body);
         }
         if self.json { print_json(&json!({"jobs": bodies})) } else { Ok(()) }

@@ -26,7 +26,7 @@ pub(in crate::cli) struct GetArgs {
     /// fields, wear/0, work-precision, report, archive; of a model modes, section
     #[arg(value_parser = result)]
     result: String,
-    /// Parameters of the result, such as sensor=1 or units=si; all are in openapi.yaml
+    /// Parameters of the result, such as sensor=1 or units=rpm; all are in openapi.yaml
     #[arg(value_name = "NAME=VALUE", value_parser = parameter)]
     parameters: Vec<(String, String)>,
     /// Form of the result: json, csv, npz, svg, png … [default: what the name of the file ends with, or else the first that it has]
