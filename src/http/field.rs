@@ -54,14 +54,7 @@ impl ShownQuery {
                 "the package has no mesh, so nothing is known of stress; displacement comes as points";
             return Err(Problem::parameter("stress", detail));
         }
-        match self.sector {
-            None => Ok(Part::Wheel),
-            Some(sector) if sector < facts.sectors => Ok(Part::Sector(sector as usize)),
-            Some(_) => {
-                let last = facts.sectors - 1;
-                Err(Problem::parameter("sector", format!("the wheel has sectors 0 to {last}")))
-            }
-        }
+        part(self.sector, facts)
     }
 
     /// Refuses what an answer in this form does not have.
@@ -117,6 +110,18 @@ impl ViewWord {
     }
 }
 
+/// This sector, if there is one of that number, or the wheel.
+pub(super) fn part(sector: Option<u32>, facts: &ModelFacts) -> Result<Part, Problem> {
+    match sector {
+        None => Ok(Part::Wheel),
+        Some(sector) if sector < facts.sectors => Ok(Part::Sector(sector as usize)),
+        Some(_) => {
+            let last = facts.sectors - 1;
+            Err(Problem::parameter("sector", format!("the wheel has sectors 0 to {last}")))
+        }
+    }
+}
+
 /// What fields of a model are made of.
 pub(super) async fn source(
     state: &AppState,
@@ -143,8 +148,8 @@ pub(super) async fn answer(
 ) -> Result<Response, Problem> {
     let length = units.length.clone();
     let make = move || make().map(|file| file.claiming(&length));
-    let leave = state.answers.leave(&state.jobs, bytes + answer.bytes()).await;
     if answer.form.is_drawing() {
+        let leave = state.answers.leave(&state.jobs, bytes + answer.bytes()).await;
         let draw = move || {
             let FieldFile { sector, field, part } = make()?;
             let surface = surface(&field, &sector, part, 0, &units).ok_or_else(|| {
@@ -154,6 +159,17 @@ pub(super) async fn answer(
         };
         return answer.drawn(state, leave, draw).await;
     }
+    written(state, answer, bytes, make).await
+}
+
+/// Makes a field and writes it in the form of an answer that is no drawing.
+pub(super) async fn written(
+    state: &AppState,
+    answer: Answer,
+    bytes: u64,
+    make: impl FnOnce() -> Result<FieldFile, Problem> + Send + 'static,
+) -> Result<Response, Problem> {
+    let leave = state.answers.leave(&state.jobs, bytes).await;
     let (file, leave) = stream::blocking(move || Ok::<_, Problem>((make()?, leave))).await??;
     let form = answer.form;
     Ok(answer.written(leave, move |out| match form {

@@ -40,6 +40,9 @@ impl Form {
     /// Those of a field.
     pub(super) const FIELDS: [Self; 6] = [Self::Vtu, Self::Vtp, Self::Npz, Self::Pvd, Self::Svg, Self::Png];
 
+    /// Those of a mesh.
+    pub(super) const MESH: [Self; 3] = [Self::Vtu, Self::Vtp, Self::Npz];
+
     /// Those of a field beside a list.
     pub(super) const LIST_AND_FIELDS: [Self; 7] =
         [Self::Json, Self::Vtu, Self::Vtp, Self::Npz, Self::Pvd, Self::Svg, Self::Png];

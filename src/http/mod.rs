@@ -25,6 +25,7 @@ mod labels;
 mod map_body;
 mod map_part;
 mod maps;
+mod mesh;
 mod metrics;
 mod modal_analyses;
 mod models;

@@ -19,7 +19,7 @@ use utoipa_axum::routes;
 use super::state::AppState;
 use super::{
     access, archive, body, case_studies, contract, events, extract, fields, forces, health, histories, host,
-    jobs, maps, metrics, modal_analyses, models, modes, openapi, principal, problem, report, results,
+    jobs, maps, mesh, metrics, modal_analyses, models, modes, openapi, principal, problem, report, results,
     section, spectra, stream, stress, studies, sweeps, version, web, wheel,
 };
 
@@ -30,6 +30,7 @@ pub(super) fn routes() -> OpenApiRouter<AppState> {
         .routes(routes!(models::plan_model_generation))
         .routes(routes!(models::get_model, models::label_model, models::delete_model))
         .routes(routes!(section::get_section))
+        .routes(routes!(mesh::get_mesh))
         .routes(routes!(modes::get_modes))
         .routes(routes!(modal_analyses::create_modal_analysis))
         .routes(routes!(modal_analyses::plan_modal_analysis))

@@ -1,7 +1,7 @@
 //! What fields of a model are made of: its stored reduction, the basis beside it, and its nodes and elements.
 
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::engine::Engine;
@@ -17,6 +17,24 @@ use crate::store::bases::BasisFolder;
 
 /// Bytes for each own DOF: tables of the package as they are read, nodes, the stress operator.
 const DOF_MEMORY: u64 = 6 << 10;
+
+/// Memory of a sector as [`field_sector`] reads it.
+pub fn sector_memory(own_dofs: u32) -> u64 {
+    u64::from(own_dofs) * DOF_MEMORY
+}
+
+/// Reads nodes and elements of a package of so many `sectors`.
+///
+/// # Errors
+/// Those of reading the package.
+pub fn field_sector(package: &Path, sectors: usize) -> Result<FieldSector, PackageError> {
+    let limits = Limits::default();
+    let nodes = package::read_nodes(package, &limits)?;
+    let mesh = package::read_mesh(package, &limits)?;
+    let axis = package::read_places(package, &limits)?.axis;
+    FieldSector::new(sectors, axis, nodes, mesh)
+        .ok_or_else(|| PackageError::Io { source: io::Error::other("its axis has no direction") })
+}
 
 /// Bytes of a column for each own DOF and nodal diameter: what the basis gives, displacement, and stress twice.
 const COLUMN_MEMORY: u64 = 16 * (1 + 1 + 2 * 2);
@@ -95,12 +113,7 @@ impl FieldSource {
     /// # Errors
     /// Those of reading the package.
     pub fn sector(&self, stress: bool, excluded_radius: Option<f64>) -> Result<FieldSector, PackageError> {
-        let limits = Limits::default();
-        let nodes = package::read_nodes(&self.package, &limits)?;
-        let mesh = package::read_mesh(&self.package, &limits)?;
-        let axis = package::read_places(&self.package, &limits)?.axis;
-        let sector = FieldSector::new(self.reduced.wheel.sectors, axis, nodes, mesh)
-            .ok_or_else(|| PackageError::Io { source: io::Error::other("its axis has no direction") })?;
+        let sector = field_sector(&self.package, self.reduced.wheel.sectors)?;
         Ok(if stress { sector.with_stress(excluded_radius) } else { sector })
     }
 

@@ -50,7 +50,7 @@ mod turns;
 mod work;
 mod workers;
 
-pub use fields::FieldSource;
+pub use fields::{FieldSource, field_sector, sector_memory};
 pub use handle::{Cancellation, Jobs, SubmitError, generation_of};
 pub use memory::Allowance;
 pub use pool::Panicked;

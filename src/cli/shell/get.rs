@@ -11,7 +11,7 @@ use crate::cli::size::size;
 use crate::cli::verb::Verb;
 
 /// Results of models; all others are of jobs.
-const OF_MODELS: [&str; 2] = ["modes", "section"];
+const OF_MODELS: [&str; 3] = ["mesh", "modes", "section"];
 
 /// Forms whose files are called by them.
 const FORMS: [&str; 8] = ["json", "csv", "npz", "svg", "png", "vtu", "vtp", "pvd"];
@@ -19,11 +19,11 @@ const FORMS: [&str; 8] = ["json", "csv", "npz", "svg", "png", "vtu", "vtp", "pvd
 /// Which result, and where it goes.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct GetArgs {
-    /// Job, or model for its modes and section: an id, the beginning of it, or a name
+    /// Job, or model for its mesh, modes and section: an id, the beginning of it, or a name
     #[arg(value_name = "JOB")]
     whose: String,
     /// Result, as its path ends: interaction-map, critical-speeds, critical-speeds/wheel, spectra/20, campbell, forces, stress, histories,
-    /// fields, wear/0, work-precision, report, archive; of a model modes, section
+    /// fields, wear/0, work-precision, report, archive; of a model mesh, modes, section
     #[arg(value_parser = result)]
     result: String,
     /// Parameters of the result, such as sensor=1 or units=rpm; all are in openapi.yaml

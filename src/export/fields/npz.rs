@@ -22,17 +22,20 @@ pub(super) fn write(file: &FieldFile, out: &mut dyn Write) -> io::Result<()> {
     let of_nodes = || sectors().flat_map(|sector| places.iter().map(move |&place| (sector, place)));
     npz.ids("node", &[count], of_nodes().map(|(_, place)| of.nodes()[place as usize].id))?;
     npz.integers("sector", &[count], of_nodes().map(|(sector, _)| sector as i64))?;
+    npz.integers("contact", &[count], of_nodes().map(|(_, place)| i64::from(of.contact(place))))?;
     npz.reals("position", &[count, 3], of_nodes().flat_map(|(sector, place)| of.position(sector, place)))?;
     // Every frame of every sector.
     let each = |take: &mut dyn FnMut(&Frame, usize) -> io::Result<()>| {
         field.frames.iter().try_for_each(|frame| sectors().try_for_each(|sector| take(frame, sector)))
     };
-    npz.reals_by("displacement", &[frames, count, 3], |take| {
-        each(&mut |frame, sector| {
-            let moved = field.displacement(of, sector, places, &frame.weights);
-            moved.into_iter().flatten().try_for_each(&mut *take)
-        })
-    })?;
+    if field.has_displacement() {
+        npz.reals_by("displacement", &[frames, count, 3], |take| {
+            each(&mut |frame, sector| {
+                let moved = field.displacement(of, sector, places, &frame.weights);
+                moved.into_iter().flatten().try_for_each(&mut *take)
+            })
+        })?;
+    }
     if field.frames.iter().all(|frame| !frame.before.is_empty()) {
         npz.reals_by("displacement_imaginary", &[frames, count, 3], |take| {
             each(&mut |frame, sector| {

@@ -51,12 +51,16 @@ pub(super) fn write_points(
     let (frame, places) = (&field.frames[frame], points.places());
     let sectors = || of.sectors_of(*part);
     let count = points.count();
-    writeln!(out, "<PointData Vectors=\"displacement\">")?;
+    let vectors = if field.has_displacement() { " Vectors=\"displacement\"" } else { "" };
+    writeln!(out, "<PointData{vectors}>")?;
     array::<u64>(out, "node", (count, 1), |put| {
         sectors().try_for_each(|_| places.iter().try_for_each(|&place| put(&[of.nodes()[place as usize].id])))
     })?;
     array::<i32>(out, "sector", (count, 1), |put| {
         sectors().try_for_each(|sector| places.iter().try_for_each(|_| put(&[sector as i32])))
+    })?;
+    array::<i32>(out, "contact", (count, 1), |put| {
+        sectors().try_for_each(|_| places.iter().try_for_each(|&place| put(&[of.contact(place) as i32])))
     })?;
     let no_columns = Vec::new();
     let mut moved = |name: &str, weights| {
@@ -66,7 +70,9 @@ pub(super) fn write_points(
             })
         })
     };
-    moved("displacement", &frame.weights)?;
+    if field.has_displacement() {
+        moved("displacement", &frame.weights)?;
+    }
     if field.has_static() {
         moved("static_displacement", &no_columns)?;
     }

@@ -67,6 +67,12 @@ impl Field {
         Ok(Self { title: String::new(), subtitles: Vec::new(), frames, harmonics, fixed: None })
     }
 
+    /// Nothing that moves: the mesh alone.
+    pub fn of_mesh(title: String) -> Self {
+        let still = Frame { time: 0.0, weights: Vec::new(), before: Vec::new() };
+        Self { title, subtitles: Vec::new(), frames: vec![still], harmonics: Vec::new(), fixed: None }
+    }
+
     /// Upon a displacement of the own DOF that is the same in every sector and moment, that of the centrifugal load, or without it: it says
     /// which.
     #[must_use]
@@ -91,6 +97,11 @@ impl Field {
     pub fn at_speed(mut self, rad_s: f64) -> Self {
         self.title += &format!(", {:.0} rpm ({rad_s:.1} rad/s)", 60.0 * rad_s / TAU);
         self
+    }
+
+    /// Whether it says how nodes are displaced; of a mesh alone it does not.
+    pub fn has_displacement(&self) -> bool {
+        !self.harmonics.is_empty() || self.has_static()
     }
 
     /// Whether it has a part that does not move: what every sum of no columns gives.

@@ -99,6 +99,11 @@ impl FieldSector {
         self.frame.turn_point(self.nodes[place as usize].position, self.turn(sector))
     }
 
+    /// Place of a node among the contact nodes, from 1 in the order of the package; 0 of all others.
+    pub fn contact(&self, place: u32) -> u32 {
+        self.nodes[place as usize].contact.map_or(0, |contact| contact + 1)
+    }
+
     /// The directions r, θ, z at a node of a sector, in the user's coordinates.
     pub(super) fn directions(&self, sector: usize, place: u32) -> Matrix3<f64> {
         self.frame.cylindrical(self.nodes[place as usize].coordinates[1] + self.turn(sector))
