@@ -57,7 +57,7 @@ async function stream(id, tell, signal) {
   }
 }
 
-/** Reads something again and again while a view is open and visible; `f` may take as long as it likes. */
+/** Does something again and again while a view is open and visible; `f` may take as long as it likes. `milliseconds` says how long is waited after it. */
 export async function poll(f, milliseconds, signal) {
   while (!signal.aborted) {
     if (!document.hidden) {
@@ -67,7 +67,7 @@ export async function poll(f, milliseconds, signal) {
         if (!(error instanceof Away) && !signal.aborted) throw error;
       }
     }
-    await pause(milliseconds, signal).catch(() => {});
+    await pause(milliseconds(), signal).catch(() => {});
   }
 }
 

@@ -1,10 +1,10 @@
 // A job: how far it is, and what it found.
 
-import { api } from '../lib/api.js';
 import { h, facts, replace } from '../lib/dom.js';
 import { ended, follow, readJob } from '../lib/events.js';
 import { bytes, count, duration, moment, nameOf } from '../lib/format.js';
 import { problem } from '../lib/problem.js';
+import { actions } from './job/actions.js';
 
 export const STATUSES = {
   accepted: 'waiting',
@@ -112,6 +112,7 @@ function showState(element, job, signal) {
   bar.value = job.progress;
   const lost = speeds && speeds.diverged + speeds.failed > 0
     ? `${count(speeds.diverged, 'speed')} diverged, ${speeds.failed} failed: they have no amplitude` : null;
+  const told = h('div');
   const running = job.status === 'running' || job.status === 'accepted';
   replace(element,
     h('div', { class: 'row' },
@@ -123,17 +124,8 @@ function showState(element, job, signal) {
     job.error ? h('div', { class: 'note bad', role: 'alert' }, h('strong', {}, job.error.title), ' ', job.error.detail) : null,
     h('div', { class: 'row' },
       job.model ? h('a', { class: 'button', href: `#/models/${job.model}` }, 'Its model') : null,
-      job.kind !== 'model_generation' ? h('a', { class: 'button', href: `#/sweep?as=${job.id}` }, 'As this job, but …') : null,
       job.kind === 'sweep' ? h('a', { class: 'button', href: `#/compare?jobs=${job.id}` }, 'Compare') : null,
-      running ? h('button', { type: 'button', class: 'bad', on: { click: cancel } }, 'Cancel') : null),
+      actions(job, { told, deleted: () => { location.hash = '#/jobs'; } }, signal)),
+    told,
     job.notes ? facts([['Notes', job.notes], ['Tags', job.tags.join(', ')]]) : null);
-
-  async function cancel(event) {
-    event.target.disabled = true;
-    try {
-      await api.send('DELETE', `/v1/jobs/${job.id}`, undefined, { signal });
-    } catch (error) {
-      if (!signal.aborted) element.append(problem(error));
-    }
-  }
 }

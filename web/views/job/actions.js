@@ -1,0 +1,62 @@
+// What one does with a job as a whole.
+
+import { api, submit } from '../../lib/api.js';
+import { confirmed } from '../../lib/confirm.js';
+import { h } from '../../lib/dom.js';
+import { ended, readJob } from '../../lib/events.js';
+import { nameOf } from '../../lib/format.js';
+import { problem } from '../../lib/problem.js';
+import { REQUESTS } from '../sweep.js';
+
+/**
+ * Buttons of a job: cancel while it runs; again, as it is or otherwise; delete when it has ended.
+ * @param {any} job as a list or its own page has it
+ * @param {{told: any, deleted: () => void}} where `told` is an element that takes what is refused
+ * @param {AbortSignal} signal
+ */
+export function actions(job, { told, deleted }, signal) {
+  const name = nameOf(job);
+  const request = REQUESTS[job.kind];
+  return [
+    request ? h('a', { class: 'button', href: `#/sweep?as=${job.id}`, 'aria-label': `As ${name}, but …` }, 'As this, but …') : null,
+    request && ended(job) ? button('Run again', `Run ${name} again`, again) : null,
+    ended(job)
+      ? button('Delete', `Delete ${name}`, remove, 'bad')
+      : button('Cancel', `Cancel ${name}`, cancel, 'bad'),
+  ];
+
+  function button(words, label, act, kind = null) {
+    const made = h('button', { type: 'button', class: kind, 'aria-label': label }, words);
+    made.addEventListener('click', async () => {
+      made.disabled = true;
+      told.replaceChildren();
+      try {
+        await act();
+      } catch (error) {
+        if (!signal.aborted) told.append(problem(error));
+      } finally {
+        made.disabled = false;
+      }
+    });
+    return made;
+  }
+
+  async function again() {
+    const { request: body, name: called, tags, notes } = await api.get(`/v1/jobs/${job.id}`, { signal });
+    const labels = Object.fromEntries(Object.entries({ name: called, tags, notes }).filter(([, value]) => value?.length > 0));
+    const made = await submit(request.path, { ...body, model: job.model, ...labels }, signal);
+    location.hash = `#/jobs/${made.id}`;
+  }
+
+  async function cancel() {
+    // Of a job that has ended meanwhile the same request would take everything away.
+    if (ended(await readJob(job.id, signal))) return;
+    await api.send('DELETE', `/v1/jobs/${job.id}`, undefined, { signal });
+  }
+
+  async function remove() {
+    if (!await confirmed(`Delete ${name} with all that it found?`, 'Delete it', signal)) return;
+    await api.send('DELETE', `/v1/jobs/${job.id}`, undefined, { signal });
+    deleted();
+  }
+}

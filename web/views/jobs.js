@@ -1,0 +1,137 @@
+// All jobs, kept up to date.
+
+import { api } from '../lib/api.js';
+import { debounced, h, newId, replace } from '../lib/dom.js';
+import { ended, poll } from '../lib/events.js';
+import { bytes, count, duration, KINDS, moment, nameOf } from '../lib/format.js';
+import { problem } from '../lib/problem.js';
+import { remaining, STATUSES } from './job.js';
+import { actions } from './job/actions.js';
+import { select } from './job/choices.js';
+
+/** Jobs of a page. */
+const LIMIT = 50;
+
+/** Milliseconds between two looks: while something runs, and otherwise, for jobs that others post. */
+const PACE = { running: 1500, calm: 10_000 };
+
+const FILTERS = ['status', 'kind', 'model', 'name', 'tag'];
+
+export async function show(main, { query }, signal) {
+  const told = h('div');
+  const rows = h('ul', { class: 'plain jobs' });
+  const pages = h('div', { class: 'row' });
+  const compare = h('button', { type: 'button', disabled: true, on: { click: () => { location.hash = `#/compare?jobs=${[...chosen].join(',')}`; } } }, 'Compare the chosen');
+  const chosen = new Set();
+  replace(main,
+    h('h1', {}, 'Jobs'),
+    filters(query, signal),
+    h('div', { class: 'row' }, compare, h('span', { class: 'quiet small' }, 'Choose two or more finished sweeps to lay them over each other.')),
+    told, rows, pages);
+
+  const shown = new Map();
+  let pace = PACE.calm;
+  const context = {
+    told,
+    signal,
+    refresh,
+    choose(id, on) {
+      if (on) chosen.add(id);
+      else chosen.delete(id);
+      compare.disabled = chosen.size < 2;
+    },
+  };
+
+  async function refresh() {
+    const asked = Object.fromEntries(FILTERS.map((name) => [name, query.get(name)]));
+    const list = await api.get('/v1/jobs', { query: { ...asked, limit: LIMIT, cursor: query.get('cursor') }, signal });
+    pace = list.jobs.some((job) => !ended(job)) ? PACE.running : PACE.calm;
+    update(rows, shown, list.jobs, context);
+    if (list.jobs.length === 0) {
+      const filtered = FILTERS.some((name) => query.get(name));
+      replace(rows, h('li', { class: 'quiet' }, filtered ? 'No job is like that.' : ['There is no job yet. ', h('a', { href: '#/sweep' }, 'Ask for a sweep'), '.']));
+    }
+    const cursor = list.next ? new URLSearchParams(list.next.split('?')[1]).get('cursor') : null;
+    replace(pages,
+      query.get('cursor') ? h('a', { class: 'button', href: addressOf(query, { cursor: null }) }, 'Newest') : null,
+      cursor ? h('a', { class: 'button', href: addressOf(query, { cursor }) }, 'Older') : null);
+  }
+
+  await refresh();
+  poll(refresh, () => pace, signal).catch((error) => {
+    if (!signal.aborted) replace(told, problem(error));
+  });
+}
+
+function addressOf(query, changes) {
+  const next = new URLSearchParams(query);
+  for (const [name, value] of Object.entries(changes)) {
+    if (value) next.set(name, value);
+    else next.delete(name);
+  }
+  const text = next.toString();
+  return `#/jobs${text ? `?${text}` : ''}`;
+}
+
+function filters(query, signal) {
+  const go = (changes) => { location.hash = addressOf(query, { cursor: null, ...changes }); };
+  const all = [['', 'all']];
+  const id = newId('name');
+  const name = h('input', { id, type: 'search', value: query.get('name') ?? '' });
+  name.addEventListener('input', debounced(() => go({ name: name.value }), 500, signal));
+  return h('div', { class: 'row', role: 'search' },
+    select('Status', [...all, ...Object.entries(STATUSES)], query.get('status') ?? '', (status) => go({ status })),
+    select('Kind', [...all, ...Object.entries(KINDS)], query.get('kind') ?? '', (kind) => go({ kind })),
+    h('span', {}, h('label', { for: id }, 'Name has '), name),
+    ['model', 'tag'].filter((one) => query.get(one)).map((one) => h('button', { type: 'button', on: { click: () => go({ [one]: null }) } }, `${one}: ${query.get(one).slice(0, 12)} ✕`)));
+}
+
+/** Draws what is new or has changed, and leaves the rest, where the reader may be. */
+function update(list, shown, jobs, context) {
+  const now = new Set(jobs.map((job) => job.id));
+  for (const [id, { item }] of shown) {
+    if (now.has(id)) continue;
+    item.remove();
+    shown.delete(id);
+    context.choose(id, false);
+  }
+  if (shown.size === 0) list.replaceChildren();
+  let before = null;
+  for (const job of jobs) {
+    const known = shown.get(job.id);
+    const state = known ?? { item: h('li', { class: 'card' }), status: null, progress: h('div') };
+    if (state.status !== job.status) row(state, job, context);
+    state.status = job.status;
+    progress(state.progress, job);
+    if (before ? before.nextSibling !== state.item : list.firstChild !== state.item) {
+      if (before) before.after(state.item);
+      else list.prepend(state.item);
+    }
+    shown.set(job.id, state);
+    before = state.item;
+  }
+}
+
+function row({ item, progress }, job, context) {
+  const box = job.kind === 'sweep' && job.status === 'successful'
+    ? h('input', { type: 'checkbox', 'aria-label': `Compare ${nameOf(job)}`, on: { change: () => context.choose(job.id, box.checked) } }) : null;
+  replace(item,
+    h('div', { class: 'row between' },
+      h('span', {}, box, ' ', h('a', { href: `#/jobs/${job.id}` }, nameOf(job))),
+      h('span', { class: `tag ${{ successful: 'good', failed: 'bad' }[job.status] ?? ''}` }, STATUSES[job.status] ?? job.status)),
+    progress,
+    h('div', { class: 'row' }, actions(job, { told: context.told, deleted: context.refresh }, context.signal)));
+}
+
+function progress(element, job) {
+  const what = [KINDS[job.kind], job.speeds ? count(job.speeds.total, 'speed') : null, (job.tags ?? []).map((tag) => `#${tag}`).join(' ')];
+  if (ended(job)) {
+    const bad = (job.speeds?.diverged ?? 0) + (job.speeds?.failed ?? 0);
+    replace(element, h('p', { class: 'quiet small' }, [...what, moment(job.finished_at), bytes(job.stored_bytes)].filter(Boolean).join(' · '), bad > 0 ? h('span', { class: 'warn' }, ` · ${count(bad, 'speed')} without a result`) : null));
+    return;
+  }
+  const left = remaining(job);
+  const bar = h('progress', { max: 100, value: job.progress, 'aria-label': `Progress of ${nameOf(job)}` });
+  bar.value = job.progress;
+  replace(element, bar, h('p', { class: 'small' }, [...what, `${job.progress} %`, job.phase, left ? `about ${duration(left)} left` : null].filter(Boolean).join(' · ')));
+}
