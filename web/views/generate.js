@@ -1,0 +1,94 @@
+// A parametric impeller, from a preset and what is to be otherwise.
+
+import { api, openapi, Refusal, submit } from '../lib/api.js';
+import { debounced, facts, h, newId, replace } from '../lib/dom.js';
+import { ended, follow } from '../lib/events.js';
+import { form } from '../lib/form/form.js';
+import { bytes, number } from '../lib/format.js';
+import { problem } from '../lib/problem.js';
+
+const PRESETS = {
+  small: 'small: seconds; for trying things out',
+  medium: 'medium: a minute; mesh for real questions',
+  paper: 'paper: the size of the published example',
+};
+
+const GROUPS = [
+  { title: null, names: ['name', 'sectors', 'outlet_radius', 'inlet_tip_radius', 'axial_length', 'outlet_blade_height', 'contact_nodes', 'top_speed_rad_s', 'gyroscopic'] },
+  { title: 'Shape of hub and blade', names: ['bore_radius', 'inlet_hub_radius', 'rim_thickness', 'root_thickness', 'tip_thickness', 'wrap_deg', 'backsweep_deg', 'splitter'] },
+  { title: 'Material, mesh, units', names: ['material', 'element_order', 'mesh', 'units'] },
+  { title: 'Tags, notes', names: ['tags', 'notes'] },
+];
+
+export async function show(main, { query }, signal) {
+  const definitions = (await openapi()).components.schemas;
+  const preset = query.get('preset') in PRESETS ? query.get('preset') : 'small';
+  const aside = h('aside', { 'aria-label': 'What it will be', 'aria-live': 'polite' });
+  const told = h('div');
+  const id = newId('preset');
+  const choice = h('select', { id, value: preset, on: { change: () => { location.hash = `#/generate?preset=${choice.value}`; } } },
+    Object.entries(PRESETS).map(([name, words]) => h('option', { value: name }, words)));
+  const button = h('button', { type: 'submit', class: 'main' }, 'Generate');
+  const fields = h('div', {}, h('p', { class: 'quiet' }, 'Reading the preset …'));
+  replace(main,
+    h('h1', {}, 'Generate an impeller'),
+    h('p', {}, 'A centrifugal impeller on a solid hub, meshed, with stiffness at three speeds: a complete model package, whose size and mesh you choose.'),
+    h('div', { class: 'field' }, h('label', { for: id }, 'Preset'), choice),
+    h('div', { class: 'columns' },
+      h('form', { novalidate: true, on: { submit: start } }, fields, told, h('div', { class: 'row' }, button)),
+      aside));
+  // The plan tells every parameter of the preset.
+  const whole = await api.send('POST', '/v1/models/plan', { preset }, { signal });
+  const value = Object.fromEntries(Object.entries(whole.settings).filter(([, part]) => part !== null));
+  const made = form({
+    schema: { $ref: '#/components/schemas/LabelledImpellerRequest' },
+    definitions, value, groups: GROUPS, skip: ['/preset'],
+    initial: (pointer) => (pointer === '/splitter' ? {} : undefined),
+    onChange: () => plan(),
+  });
+  replace(fields, made.element);
+  showPlan(aside, whole);
+  const plan = debounced(async () => {
+    try {
+      showPlan(aside, await api.send('POST', '/v1/models/plan', request(), { signal }));
+      made.complain([], false);
+      replace(told);
+    } catch (error) {
+      if (!signal.aborted) complain(error, false);
+    }
+  }, 400, signal);
+
+  function request() {
+    return { preset, ...made.value() };
+  }
+  function complain(error, focus) {
+    const homeless = error instanceof Refusal ? made.complain(error.errors, focus) : [error];
+    const marked = error instanceof Refusal && error.errors.length > 0 && homeless.length === 0;
+    replace(told, marked ? h('p', { class: 'note bad', role: 'alert' }, 'See the fields that are marked.') : problem(error));
+  }
+  async function start(event) {
+    event.preventDefault();
+    if (button.disabled) return;
+    button.disabled = true;
+    try {
+      const { id: job } = await submit('/v1/models', request(), signal);
+      await follow(job, (now) => {
+        replace(told, h('p', { role: 'status' }, `${now.progress} %${now.phase ? ` · ${now.phase}` : ''}`));
+        if (now.status === 'successful') location.hash = `#/models/${now.model}`;
+        else if (ended(now)) location.hash = `#/jobs/${job}`;
+      }, signal);
+    } catch (error) {
+      if (!signal.aborted) complain(error, true);
+    } finally {
+      button.disabled = false;
+    }
+  }
+}
+
+function showPlan(element, plan) {
+  replace(element, h('h2', {}, 'What it will be'), facts([
+    ['Nodes of a sector', number(plan.nodes, 7)],
+    ['Unknowns of a sector', number(plan.dofs, 7)],
+    ['Memory to make it', bytes(plan.memory_bytes)],
+  ]));
+}
