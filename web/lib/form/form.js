@@ -92,7 +92,8 @@ function groups(context, schema) {
     const all = index === context.groups.length - 1 ? [...names, ...rest] : names;
     const shown = parts(context, schema, '', all);
     if (shown.length === 0) return null;
-    return title ? h('details', { open }, h('summary', {}, title), h('div', { class: 'fields' }, shown)) : shown;
+    const fields = h('div', { class: 'fields' }, shown);
+    return title ? h('details', { open }, h('summary', {}, title), fields) : fields;
   });
 }
 
