@@ -26,6 +26,10 @@ export function renderer(canvas) {
     gl.enable(gl.DEPTH_TEST);
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
     made = programs(gl);
+    // What a body has not is 0 everywhere; its value is that of its own colour.
+    gl.vertexAttrib3f(ATTRIBUTES.indexOf('real'), 0, 0, 0);
+    gl.vertexAttrib3f(ATTRIBUTES.indexOf('imaginary'), 0, 0, 0);
+    gl.vertexAttrib1f(ATTRIBUTES.indexOf('value'), -1);
     for (const body of bodies) body.buffers = buffers(gl, body);
   }
   canvas.addEventListener('webglcontextlost', (event) => event.preventDefault());
@@ -84,13 +88,7 @@ function buffers(gl, body) {
   gl.bindVertexArray(array);
   const all = [];
   [body.points, body.real, body.imaginary, body.values].forEach((data, place) => {
-    // What a body has not is 0 everywhere; its value is that of its own colour.
-    if (!data) {
-      gl.disableVertexAttribArray(place);
-      if (ATTRIBUTES[place] === 'value') gl.vertexAttrib1f(place, -1);
-      else gl.vertexAttrib3f(place, 0, 0, 0);
-      return;
-    }
+    if (!data) return;
     const buffer = gl.createBuffer();
     all.push(buffer);
     gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
