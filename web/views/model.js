@@ -1,0 +1,63 @@
+// A model: what was sent, and what was found about it.
+
+import { api } from '../lib/api.js';
+import { facts, h, replace } from '../lib/dom.js';
+import { bytes, moment, number, rpm, short } from '../lib/format.js';
+import { problem } from '../lib/problem.js';
+import { deleteButton } from './models.js';
+
+/** What there is to see of a model; the first is shown when none is asked for. */
+const TABS = [
+  ['mesh', 'In its casing', () => import('./model/mesh.js')],
+  ['modes', 'Modes', () => import('./model/modes.js')],
+  ['reductions', 'Reductions', () => import('./model/reductions.js')],
+  ['downloads', 'Downloads', () => import('./model/downloads.js')],
+];
+
+export async function show(main, { id, query }, signal) {
+  const model = await api.get(`/v1/models/${id}`, { signal });
+  const tab = TABS.find(([name]) => name === query.get('view')) ?? TABS[0];
+  const told = h('div');
+  const place = h('section', { 'aria-label': tab[1] });
+  const address = (changes) => addressOf(id, query, changes);
+  replace(main,
+    h('h1', {}, model.name),
+    facts([
+      ['Sectors', model.sectors],
+      ['Unknowns of a sector', number(model.own_dofs, 7)],
+      ['Contact nodes', `${model.contact_nodes}, up to radius ${number(model.contact_radius, 5)} ${model.units.length}`],
+      ['Stiffness at', `${model.speeds_rad_s.map((speed) => number(Math.round(rpm(speed)), 6)).join(', ')} rpm`],
+      ['Units', [model.units.length, model.units.mass, model.units.time, model.units.force].join(', ')],
+      ['Coriolis forces', model.gyroscopic ? 'can be taken into account' : 'cannot: the package has no gyroscopic matrix'],
+      ['Elements', model.mesh ? number(model.mesh.elements, 7) : 'none: nothing is known of stress'],
+      ['Package', `${bytes(model.size_bytes)}, ${moment(model.created_at)}, digest ${short(model.id)}…`],
+      ['Notes', model.notes],
+      ['Tags', model.tags.join(', ')],
+    ]),
+    model.stiffening ? h('p', { class: `note ${model.stiffening.verdict === 'sound' ? '' : 'warning'}` }, model.stiffening.message) : null,
+    h('div', { class: 'row' },
+      h('a', { class: 'button main', href: `#/sweep?model=${id}` }, 'New sweep'),
+      h('a', { class: 'button', href: `#/study?model=${id}` }, 'New study'),
+      h('a', { class: 'button', href: `#/sweep?kind=modal_analysis&model=${id}` }, 'Modal analysis'),
+      h('a', { class: 'button', href: `#/jobs?model=${id}` }, 'Its jobs'),
+      deleteButton(model, { told, deleted: () => { location.hash = '#/models'; } }, signal)),
+    told,
+    h('nav', { class: 'tabs', 'aria-label': 'Parts of the model' }, TABS.map(([name, words]) => h('a', {
+      href: address({ view: name }), 'aria-current': name === tab[0] ? 'page' : null,
+    }, words))),
+    place);
+  try {
+    await (await tab[2]()).show(place, { model, query, go: (changes) => { location.hash = address(changes); } }, signal);
+  } catch (error) {
+    if (!signal.aborted) replace(place, problem(error));
+  }
+}
+
+function addressOf(id, query, changes) {
+  const next = new URLSearchParams(query);
+  for (const [name, value] of Object.entries(changes)) {
+    if (value === null || value === '') next.delete(name);
+    else next.set(name, value);
+  }
+  return `#/models/${id}?${next}`;
+}
