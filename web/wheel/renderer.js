@@ -3,6 +3,9 @@
 import { texels } from './colours.js';
 import { ATTRIBUTES, programs } from './shaders.js';
 
+/** Ends of lines that are drawn while something moves; more wait until it rests. */
+const QUICK = 20_000;
+
 const COMPONENTS = [3, 3, 3, 1];
 
 /**
@@ -48,7 +51,7 @@ export function renderer(canvas) {
       for (const body of bodies) body.buffers?.forget();
       bodies = list.map((body) => ({ ...body, buffers: buffers(gl, body) }));
     },
-    draw({ view, projection, phase, ground, hidden }) {
+    draw({ view, projection, phase, ground, hidden, moving }) {
       if (gl.isContextLost()) return;
       gl.viewport(0, 0, canvas.width, canvas.height);
       gl.clearColor(...ground, 1);
@@ -56,7 +59,7 @@ export function renderer(canvas) {
       for (const body of bodies) {
         gl.bindVertexArray(body.buffers.array);
         body.parts.forEach((part, number) => {
-          if (hidden.has(part.name)) return;
+          if (hidden.has(part.name) || (moving && part.mode === 'lines' && part.indices.length > QUICK)) return;
           const { program, at } = part.mode === 'triangles' ? made.faces : made.lines;
           gl.useProgram(program);
           gl.uniformMatrix4fv(at.view, false, view);
@@ -67,10 +70,13 @@ export function renderer(canvas) {
           gl.uniform4f(at.plain, ...part.colour);
           const translucent = part.colour[3] < 1;
           if (translucent) gl.enable(gl.BLEND);
+          // A skin is closed, and nobody sees its inside.
+          if (!translucent) gl.enable(gl.CULL_FACE);
           gl.depthMask(!translucent);
           gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, body.buffers.indices[number]);
           gl.drawElements({ triangles: gl.TRIANGLES, lines: gl.LINES, points: gl.POINTS }[part.mode], part.indices.length, gl.UNSIGNED_INT, 0);
           gl.disable(gl.BLEND);
+          gl.disable(gl.CULL_FACE);
           gl.depthMask(true);
         });
       }

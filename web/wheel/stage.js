@@ -8,6 +8,9 @@ import { renderer } from './renderer.js';
 /** Revolutions of the phase a second while it is animated. */
 const PACE = 0.8;
 
+/** Milliseconds without a movement after which everything is drawn, also what is slow. */
+const REST = 150;
+
 /** Pixels of the screen for each of the page, at most. */
 const DENSITY = 2;
 
@@ -29,7 +32,7 @@ export function stage({ label, middle, radius, front }, signal) {
   const drawn = renderer(canvas);
   if (!drawn) return null;
   const eye = camera(middle, radius, front);
-  const state = { scale: 0, angle: 0, playing: false, hidden: new Set(), asked: false, last: 0 };
+  const state = { scale: 0, angle: 0, playing: false, hidden: new Set(), asked: false, last: 0, resting: 0 };
   let ground = rgb('ground');
   canvas.dataset.frames = '0';
 
@@ -46,7 +49,7 @@ export function stage({ label, middle, radius, front }, signal) {
       ask();
     }
     const phase = [state.scale * Math.cos(state.angle), state.scale * Math.sin(state.angle)];
-    drawn.draw({ view: eye.view(), projection: eye.projection(width / height), phase, ground, hidden: state.hidden });
+    drawn.draw({ view: eye.view(), projection: eye.projection(width / height), phase, ground, hidden: state.hidden, moving: state.resting !== 0 || state.playing });
     canvas.dataset.frames = String(Number(canvas.dataset.frames) + 1);
   }
   function ask() {
@@ -58,7 +61,15 @@ export function stage({ label, middle, radius, front }, signal) {
     f(...values);
     ask();
   };
-  handle(canvas, { turn: moved(eye.turn), shift: moved(eye.shift), zoom: moved(eye.zoom), reset: moved(eye.reset) });
+  const moving = (f) => moved((...values) => {
+    f(...values);
+    clearTimeout(state.resting);
+    state.resting = setTimeout(() => {
+      state.resting = 0;
+      ask();
+    }, REST);
+  });
+  handle(canvas, { turn: moving(eye.turn), shift: moving(eye.shift), zoom: moving(eye.zoom), reset: moved(eye.reset) });
   const sizes = new ResizeObserver(ask);
   sizes.observe(canvas);
   canvas.addEventListener('redraw', ask);
