@@ -18,8 +18,8 @@ const calm = () => matchMedia('(prefers-reduced-motion: reduce)').matches;
 /**
  * Shows a field: displacement drawn larger than it is, coloured by it or by stress.
  * @param {HTMLElement} element
- * @param {{path: string, query: any, animated: boolean, scalar: 'displacement' | 'von_mises', label: string, units: {length: string}, stressUnit?: string}} what
- *   where the field is read; whether it moves periodically
+ * @param {{path: string, query: any, animated: boolean, scalar: 'displacement' | 'von_mises', words: string, label: string}} what
+ *   where the field is read; whether it moves periodically; what colours show, as a name and in words
  * @param {AbortSignal} signal
  */
 export async function showWheel(element, { path, query, animated, scalar, label, words }, signal) {
@@ -50,7 +50,7 @@ export async function showWheel(element, { path, query, animated, scalar, label,
   replace(element,
     h('ul', { class: 'plain small quiet' }, surface.notes.map((note) => h('li', {}, note))),
     shown.canvas,
-    values ? colourKey(most, words ?? scalar.replace('_', ' ')) : null,
+    values ? colourKey(most, words) : null,
     h('div', { class: 'row' },
       moves ? playButton(shown) : null,
       slider, caption,

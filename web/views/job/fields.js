@@ -1,26 +1,43 @@
 // The wheel in 3D at a speed whose states were recorded: an instant, or the deflection shape of an engine order, with stress.
 
-import { h, replace } from '../../lib/dom.js';
+import { api } from '../../lib/api.js';
+import { h, newId, replace } from '../../lib/dom.js';
 import { showWheel } from '../../wheel/index.js';
 import { select } from './choices.js';
+
+/** What colours show, and what is asked for: stress alone or with that of the centrifugal load, which only instants have. */
+const COLOURS = [
+  ['', 'displacement', {}],
+  ['stress', 'von Mises stress of the vibration', { stress: true }],
+  ['total', 'von Mises stress of the whole load', { stress: true, static: 'include' }],
+];
 
 export async function show(place, context, signal) {
   const { job, query } = context;
   const order = query.get('engine_order') ?? '';
-  const stress = query.get('stress') === 'true';
+  const model = await api.get(`/v1/models/${job.model}`, { signal });
+  const colours = COLOURS.filter(([name]) => name === '' || (model.mesh && (name !== 'total' || order === '')));
+  const [name, words, asked] = colours.find(([one]) => one === query.get('colour')) ?? colours[0];
+  const recorded = job.request.record?.histories?.speeds;
+  const speed = query.get('speed') ?? (Array.isArray(recorded) ? String(recorded[0]) : null);
+  const id = newId('order');
+  const field = h('input', { id, type: 'number', min: 0, step: 1, value: order });
+  field.addEventListener('change', () => context.go({ engine_order: field.value }));
   const wheel = h('div');
-  const field = h('input', { type: 'number', min: 0, step: 'any', size: 6, value: order, id: 'order', on: { change: () => context.go({ engine_order: field.value }) } });
   replace(place,
     h('div', { class: 'row' },
-      h('span', {}, h('label', { for: 'order' }, 'Deflection shape of engine order '), field),
-      select('Colour', [['', 'displacement'], ['true', 'von Mises stress of the vibration']], stress ? 'true' : '', (chosen) => context.go({ stress: chosen }))),
+      Array.isArray(recorded) && recorded.length > 1 ? select('Speed', recorded.map((index) => [String(index), `index ${index}`]), speed, (chosen) => context.go({ speed: chosen })) : null,
+      h('span', {}, h('label', { for: id }, 'Deflection shape of engine order '), field),
+      select('Colour', colours.map(([one, text]) => [one, text]), name, (chosen) => context.go({ colour: chosen }))),
     order === '' ? h('p', { class: 'quiet small' }, 'Without an engine order: the instant at which a tip had moved most.') : null,
     wheel);
+  const { length, force } = model.units;
   await showWheel(wheel, {
     path: `/v1/jobs/${job.id}/fields`,
-    query: { speed: query.get('speed'), engine_order: order, stress: stress || null },
+    query: { speed, engine_order: order, ...asked },
     animated: order !== '',
-    scalar: stress ? 'von_mises' : 'displacement',
+    scalar: asked.stress ? 'von_mises' : 'displacement',
+    words: asked.stress ? `${words}, ${force}/${length}²` : `displacement, ${length}`,
     label: 'Wheel in 3D',
   }, signal);
 }
