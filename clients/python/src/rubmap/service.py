@@ -1,0 +1,116 @@
+"""Requests that are sent until they are answered."""
+
+from __future__ import annotations
+
+import time
+import uuid
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from typing import Any
+
+import httpx
+
+from .errors import Refusal, Unreachable
+
+#: Answers after which the same request may be sent again.
+_AGAIN = (429, 503)
+
+#: Seconds before the second try, and at most before a later one.
+_PAUSES = (0.25, 10.0)
+
+
+class Service:
+    """The service at ``url``.
+
+    Args:
+        url: its address, such as ``http://127.0.0.1:8080``.
+        token: of a service that wants one.
+        patience: seconds for which a request is repeated while the service cannot be reached or has no room.
+    """
+
+    def __init__(self, url: str, token: str | None = None, patience: float = 60.0) -> None:
+        headers = {"authorization": f"Bearer {token}"} if token else {}
+        self.url = url.rstrip("/")
+        self.patience = patience
+        # An answer may be minutes of computing away, a connection not.
+        self._http = httpx.Client(base_url=self.url, headers=headers, timeout=httpx.Timeout(300.0, connect=10.0))
+
+    def close(self) -> None:
+        """Closes the connections."""
+        self._http.close()
+
+    def get(self, path: str, **query: Any) -> Any:
+        """JSON of a path."""
+        return self.read(path, accept="application/json", **query).json()
+
+    def read(self, path: str, accept: str = "*/*", **query: Any) -> httpx.Response:
+        """The answer of a path; parameters that are None are left out."""
+        return self._patiently(lambda: self._http.get(path, params=_given(query), headers={"accept": accept}))
+
+    def post(self, path: str, body: Mapping[str, Any]) -> Any:
+        """Sends JSON that makes something: with one key for all tries, so that it is made once."""
+        headers = {"idempotency-key": str(uuid.uuid4())}
+        return self._patiently(lambda: self._http.post(path, json=body, headers=headers)).json()
+
+    def ask(self, path: str, body: Mapping[str, Any]) -> Any:
+        """Sends JSON that makes nothing, such as for a plan."""
+        return self._patiently(lambda: self._http.post(path, json=body)).json()
+
+    def upload(self, path: str, content: Callable[[], Any], query: Mapping[str, Any]) -> Any:
+        """Sends a zip; ``content`` opens it anew for every try."""
+        headers = {"content-type": "application/zip", "idempotency-key": str(uuid.uuid4())}
+        return self._patiently(
+            lambda: self._http.post(path, content=content(), params=_given(query), headers=headers)
+        ).json()
+
+    def patch(self, path: str, body: Mapping[str, Any]) -> Any:
+        """Changes what something is called."""
+        headers = {"content-type": "application/merge-patch+json"}
+        return self._patiently(lambda: self._http.patch(path, json=body, headers=headers)).json()
+
+    def delete(self, path: str) -> None:
+        """Deletes what is there."""
+        self._patiently(lambda: self._http.delete(path))
+
+    @contextmanager
+    def stream(self, path: str, accept: str = "*/*", **query: Any) -> Iterator[httpx.Response]:
+        """An answer that is read piece by piece; what breaks off is the caller's to begin anew."""
+        with self._http.stream("GET", path, params=_given(query), headers={"accept": accept}) as answer:
+            if answer.is_error:
+                answer.read()
+                raise _refusal(answer)
+            yield answer
+
+    def _patiently(self, attempt: Callable[[], httpx.Response]) -> httpx.Response:
+        end = time.monotonic() + self.patience
+        pause, most = _PAUSES
+        while True:
+            wait = pause
+            try:
+                answer = attempt()
+                if not answer.is_error:
+                    return answer
+                refusal = _refusal(answer)
+                if answer.status_code not in _AGAIN:
+                    raise refusal
+                wait = max(wait, float(answer.headers.get("retry-after", 0)))
+                failure: Exception = refusal
+            except httpx.TransportError as error:
+                failure = Unreachable(f"{self.url} does not answer: {error}")
+                failure.__cause__ = error
+            if time.monotonic() + wait > end:
+                raise failure
+            time.sleep(wait)
+            pause = min(2 * pause, most)
+
+
+def _given(query: Mapping[str, Any]) -> dict[str, Any]:
+    return {name: value for name, value in query.items() if value is not None}
+
+
+def _refusal(answer: httpx.Response) -> Refusal:
+    try:
+        problem = answer.json()
+    except ValueError:
+        problem = {"title": f"the service answered {answer.status_code} {answer.reason_phrase}"}
+    return Refusal(answer.status_code, problem if isinstance(problem, dict) else {})
