@@ -1,0 +1,173 @@
+"""Jobs: asked for, planned, submitted, waited for, cancelled."""
+
+from __future__ import annotations
+
+import json
+import os
+import time
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any, ClassVar, Self
+
+import httpx
+from tqdm.auto import tqdm
+
+from .download import Arrays, arrays, download
+from .errors import JobFailed, Refusal
+from .service import Service
+
+_ENDED = ("successful", "failed", "dismissed")
+
+#: Seconds between two looks at a job whose events cannot be followed.
+_POLL = 1.0
+
+
+class Job:
+    """A job, before or after it is submitted.
+
+    Attributes:
+        request: what is asked for, as the contract's request of this kind.
+        id: of the job once it is submitted, otherwise None.
+    """
+
+    #: What the contract calls this kind, and where it is posted.
+    kind: ClassVar[str]
+    path: ClassVar[str]
+
+    def __init__(self, service: Service, request: Mapping[str, Any], id: str | None = None) -> None:
+        self._service = service
+        self.request = dict(request)
+        self.id = id
+
+    def __repr__(self) -> str:
+        return f"<rubmap {self.kind} {self.id or 'not submitted'}>"
+
+    def submit(self) -> Self:
+        """Posts it, once, however often a connection breaks.
+
+        Raises:
+            Refusal: the service does not take the request; ``errors`` points at what is wrong.
+        """
+        if self.id is not None:
+            raise ValueError(f"{self!r} is submitted already; make another for the same request")
+        self.id = str(self._service.post(self.path, self.request)["id"])
+        return self
+
+    @property
+    def state(self) -> dict[str, Any]:
+        """The job as the service tells of it now: status, progress (%), phase, error, times, links."""
+        found: dict[str, Any] = self._service.get(self._own())
+        return found
+
+    @property
+    def status(self) -> str:
+        """``accepted``, ``running``, ``successful``, ``failed`` or ``dismissed`` (cancelled)."""
+        return str(self.state["status"])
+
+    def wait(self, progress: bool = True, timeout: float | None = None) -> Self:
+        """Waits until it has its result.
+
+        Args:
+            progress: whether a bar shows how far it is.
+            timeout: seconds after which nobody waits any more.
+
+        Raises:
+            JobFailed: it failed or was cancelled.
+            TimeoutError: it had not ended in time; it goes on.
+        """
+        end = None if timeout is None else time.monotonic() + timeout
+        with tqdm(total=100, unit="%", disable=not progress, desc=self.kind) as bar:
+            for state in self._changes(end):
+                bar.set_postfix_str(str(state.get("phase") or state["status"]))
+                bar.update(state["progress"] - bar.n)
+                if state["status"] in _ENDED:
+                    if state["status"] != "successful":
+                        raise JobFailed(state)
+                    return self
+        raise TimeoutError(f"job {self.id} had not ended after {timeout} s; it goes on")
+
+    def cancel(self) -> None:
+        """Stops it; what it has found so far stays. One that has ended stays as it is."""
+        # Of a job that has ended the same request would take everything away.
+        if self.status not in _ENDED:
+            self._service.delete(self._own())
+
+    def delete(self) -> None:
+        """Deletes it with all that it found; one that has not ended is cancelled first."""
+        self.cancel()
+        self._service.delete(self._own())
+
+    def arrays(self, result: str, **query: Any) -> Arrays:
+        """All numbers of a result, such as ``"interaction-map"``, as numpy arrays by the names that the contract gives them."""
+        return arrays(self._service, f"{self._own()}/{result}", **query)
+
+    def json(self, result: str, **query: Any) -> Any:
+        """A result as JSON, with all that is said about it."""
+        return self._service.get(f"{self._own()}/{result}", **query)
+
+    def download(self, result: str, to: str | os.PathLike[str], format: str | None = None, **query: Any) -> Path:
+        """Writes a result to a file; ``format`` by default as the file's name ends: json, csv, npz, svg, png, vtu, vtp …"""
+        ending = Path(to).suffix.lstrip(".")
+        form = format if format is not None else (ending or None)
+        return download(self._service, f"{self._own()}/{result}", to, **({"format": form} | query))
+
+    def report(self, to: str | os.PathLike[str]) -> Path:
+        """Writes the report, one HTML file with figures and tables."""
+        return download(self._service, f"{self._own()}/report", to)
+
+    def archive(self, to: str | os.PathLike[str]) -> Path:
+        """Writes a zip with everything that was found."""
+        return download(self._service, f"{self._own()}/archive", to)
+
+    def _own(self) -> str:
+        if self.id is None:
+            raise ValueError(f"{self!r}: submit() it first")
+        return f"/v1/jobs/{self.id}"
+
+    def _changes(self, end: float | None) -> Iterator[dict[str, Any]]:
+        """The job as it is, and after every change, until it has ended or it is too late."""
+        while end is None or time.monotonic() < end:
+            try:
+                for state in self._events(end):
+                    yield state
+                    if state["status"] in _ENDED:
+                        return
+            except (httpx.TransportError, Refusal) as error:
+                if isinstance(error, Refusal) and error.status in (401, 404):
+                    raise
+                yield self.state
+                time.sleep(_POLL)
+
+    def _events(self, end: float | None) -> Iterator[dict[str, Any]]:
+        with self._service.stream(f"{self._own()}/events", accept="text/event-stream") as answer:
+            for line in answer.iter_lines():
+                if line.startswith("data:"):
+                    yield json.loads(line.removeprefix("data:"))
+                # Comments keep the connection alive, and say that time goes on.
+                if end is not None and time.monotonic() > end:
+                    return
+
+
+class Planned(Job):
+    """A job whose price the service tells beforehand."""
+
+    def plan(self) -> dict[str, Any]:
+        """What it would do and cost, without starting anything: time, memory, steps, effects on and off, warnings.
+
+        Raises:
+            Refusal: the request is not complete or not possible.
+        """
+        found: dict[str, Any] = self._service.ask(f"{self.path}/plan", self.request)
+        return found
+
+
+class ModelGeneration(Planned):
+    """The generation of an impeller from parameters."""
+
+    kind = "model_generation"
+    path = "/v1/models"
+
+    @property
+    def model(self) -> str:
+        """Id of the model, once it is there."""
+        return str(self.state["model"])
