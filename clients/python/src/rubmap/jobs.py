@@ -136,7 +136,7 @@ class Job:
                 if isinstance(error, Refusal) and error.status in (401, 404):
                     raise
                 yield self.state
-                time.sleep(_POLL)
+            time.sleep(_POLL)
 
     def _events(self, end: float | None) -> Iterator[dict[str, Any]]:
         with self._service.stream(f"{self._own()}/events", accept="text/event-stream") as answer:

@@ -1,0 +1,171 @@
+"""Jobs of every kind with what they find."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+
+from .jobs import Job, Planned
+from .tables import RPM, dataset, sensors, speed_axis, table, units
+
+
+class _Recorded(Job):
+    """Jobs that record histories."""
+
+    def histories(self, **query: Any) -> xr.Dataset:
+        """Histories of a recorded speed.
+
+        Dimensions: ``sensor``, ``revolution`` (since the start), ``contact_node``, ``sector``. Variables: ``displacement`` (sensor, revolution), length;
+        ``force`` (sector, contact_node, revolution), where contact forces were recorded. Of a sweep ``speed`` is the index of the speed.
+        """
+        found = self.arrays("histories", **query)
+        unit = units(found)
+        variables: dict[str, Any] = {
+            "displacement": (("sensor", "revolution"), found["displacement"], {"units": unit["length"]}),
+        }
+        if "force" in found:
+            attributes = {"units": unit["force"], "long_name": "contact force"}
+            variables["force"] = (("sector", "contact_node", "revolution"), found["force"], attributes)
+        coordinates = {
+            "sensor": ("sensor", sensors(found)),
+            "revolution": ("revolution", found["revolution"], {"units": "1", "long_name": "revolutions since the start"}),
+            "speed": ((), float(found["speed_rad_s"]), {"units": "rad/s"}),
+        }
+        return dataset(variables, coordinates, found)
+
+
+class Sweep(Planned, _Recorded):
+    """Contact over a range of speeds."""
+
+    kind = "sweep"
+    path = "/v1/sweeps"
+
+    def interaction_map(self, sensor: int | None = None, nodal_diameter: int | None = None, **query: Any) -> xr.Dataset:
+        """The interaction map of a sensor, also while the job runs.
+
+        Dimensions: ``speed`` (rad/s; also ``speed_rpm`` and ``index`` in the request) and ``engine_order``. Variables: ``amplitude`` (speed, engine_order), in the
+        model's unit of length; ``status``, ``utilisation``, ``largest_von_mises`` (the model's unit of stress), ``validity`` by speed. The coordinate
+        ``frequency`` (speed, engine_order) is in Hz, in the rotating frame.
+        """
+        found = self.arrays("interaction-map", sensor=sensor, nodal_diameter=nodal_diameter, **query)
+        unit = units(found)
+        stress = f"{unit['force']}/{unit['length']}^2"
+        orders, speeds = found["engine_orders"], found["speeds_rad_s"]
+        coordinates = speed_axis(speeds, found["speed_indices"])
+        coordinates["engine_order"] = ("engine_order", orders, {"units": "1", "long_name": "engine order"})
+        frequency = np.outer(speeds, orders) / (2.0 * np.pi)
+        coordinates["frequency"] = (("speed", "engine_order"), frequency, {"units": "Hz", "long_name": "frequency"})
+        amplitude = (("speed", "engine_order"), found["amplitude"], {"units": unit["length"], "long_name": "amplitude"})
+        variables: dict[str, Any] = {"amplitude": amplitude, "status": ("speed", found["status"])}
+        for name, attributes in (("utilisation", {"units": "1"}), ("largest_von_mises", {"units": stress}), ("validity", {})):
+            if name in found:
+                variables[name] = ("speed", found[name], attributes)
+        return dataset(variables, coordinates, found).assign_attrs(sensor=sensors(found)[0])
+
+    def points(self, sensor: int | None = None) -> pd.DataFrame:
+        """What is known of every speed: level, settling, errors, energy, contact, wall time; a row a speed, nested names joined by dots."""
+        frame = pd.json_normalize(self.json("interaction-map", sensor=sensor)["points"])
+        frame.insert(2, "speed_rpm", frame["speed_rad_s"] * RPM)
+        return frame
+
+    def spectrum(self, index: int) -> xr.Dataset:
+        """Spectra of all sensors at one speed.
+
+        Dimensions: ``sensor``, ``engine_order``, ``nodal_diameter``. Variables: ``amplitude`` (sensor, engine_order) and ``of_nodal_diameter`` (sensor,
+        nodal_diameter, engine_order), both in the model's unit of length.
+        """
+        found = self.arrays(f"spectra/{index}")
+        length = {"units": units(found)["length"]}
+        orders, speed = found["engine_orders"], float(found["speed_rad_s"])
+        coordinates = {
+            "sensor": ("sensor", sensors(found)),
+            "engine_order": ("engine_order", orders, {"units": "1", "long_name": "engine order"}),
+            "frequency": ("engine_order", orders * speed / (2.0 * np.pi), {"units": "Hz", "long_name": "frequency"}),
+            "speed": ((), speed, {"units": "rad/s"}),
+        }
+        variables: dict[str, Any] = {
+            "amplitude": (("sensor", "engine_order"), found["amplitude"], length),
+            "of_nodal_diameter": (("sensor", "nodal_diameter", "engine_order"), found["nodal_diameters"], length),
+        }
+        return dataset(variables, coordinates, found)
+
+    def critical_speeds(self, sensor: int | None = None, **query: Any) -> pd.DataFrame:
+        """Critical speeds of a sensor beside the linear prediction, the most severe first; units end the columns' names."""
+        return table(self.arrays("critical-speeds", sensor=sensor, **query), "speed_rad_s")
+
+    def wheel_critical_speeds(self, **query: Any) -> pd.DataFrame:
+        """Critical speeds of the wheel as a whole: the worst contact node, component and blade of each."""
+        return table(self.arrays("critical-speeds/wheel", **query), "speed_rad_s")
+
+    def forces(self) -> xr.Dataset:
+        """Contact over ``speed`` and ``contact_node``, of every node its worst blade: peak force, impulse, share of time, clearance consumed."""
+        found = self.arrays("forces")
+        unit = units(found)
+        shape = found["peak_force"].shape
+        of = {
+            "peak_force": unit["force"],
+            "mean_force": unit["force"],
+            "wheel_peak_force": unit["force"],
+            "impulse_per_revolution": f"{unit['force']} {unit['time']}",
+        }
+        variables: dict[str, Any] = {}
+        for name, values in found.items():
+            if values.shape == shape:
+                variables[name] = (("speed", "contact_node"), values, {"units": of.get(name, "1")})
+            elif values.shape == shape[:1] and name != "speeds_rad_s":
+                variables[name] = ("speed", values, {"units": of.get(name, "1")})
+        return dataset(variables, speed_axis(found["speeds_rad_s"]), found)
+
+    def stress(self) -> pd.DataFrame:
+        """Stress at the worst nodes of every speed, where the sweep recorded it: mean and alternating parts in MPa, utilisation."""
+        return table(self.arrays("stress"), "node")
+
+
+class ModalAnalysis(Planned):
+    """Natural frequencies over speed, and where the lobes meet them."""
+
+    kind = "modal_analysis"
+    path = "/v1/modal-analyses"
+
+    def campbell(self) -> xr.Dataset:
+        """Natural frequencies.
+
+        Dimensions: ``speed`` (rad/s), ``nodal_diameter``, ``family`` (from 1). Variable: ``frequency``, Hz, in the rotating frame.
+        """
+        found = self.arrays("campbell")
+        shape = found["frequencies_hz"].shape
+        coordinates = speed_axis(found["speeds_rad_s"])
+        coordinates["nodal_diameter"] = ("nodal_diameter", np.arange(shape[1]), {"units": "1"})
+        coordinates["family"] = ("family", np.arange(1, shape[2] + 1), {"units": "1"})
+        attributes = {"units": "Hz", "long_name": "natural frequency"}
+        variables: dict[str, Any] = {"frequency": (("speed", "nodal_diameter", "family"), found["frequencies_hz"], attributes)}
+        return dataset(variables, coordinates, found)
+
+    def crossings(self) -> pd.DataFrame:
+        """Where superharmonics of the lobes cross natural frequencies: the linear criterion's critical speeds."""
+        found = self.arrays("campbell")
+        begin = "crossings_"
+        frame = pd.DataFrame({name.removeprefix(begin): values for name, values in found.items() if name.startswith(begin)})
+        frame.insert(1, "speed_rpm", frame["speed_rad_s"] * RPM)
+        return frame
+
+
+class CaseStudy(_Recorded):
+    """One speed in detail."""
+
+    kind = "case_study"
+    path = "/v1/case-studies"
+
+
+class Study(_Recorded):
+    """What accuracy costs: schemes and settings against a reference."""
+
+    kind = "study"
+    path = "/v1/studies"
+
+    def work_precision(self) -> pd.DataFrame:
+        """Every run of the study: scheme, settings, steps, wall time, errors; nested names joined by dots."""
+        return pd.json_normalize(self.json("work-precision")["runs"])
