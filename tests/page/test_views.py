@@ -43,7 +43,7 @@ def test_view(service, places, new_page, pictures, view, width, theme):
     page = new_page(f"{service.url}/{VIEWS[view].format(**places)}", width=width, theme=theme)
     page.get_by_role("main").get_by_role("heading", level=1).wait_for()
     page.wait_for_load_state("networkidle")
-    page.wait_for_function("document.querySelector('main').getAttribute('aria-busy') !== 'true'")
+    page.locator("main:not([aria-busy])").wait_for()
     page.screenshot(path=pictures / f"{view}-{width}-{theme}.png", full_page=True)
     overflow = page.evaluate("document.documentElement.scrollWidth - document.documentElement.clientWidth")
     assert overflow <= 0, f"{overflow} pixels wider than the window"

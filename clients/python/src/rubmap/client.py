@@ -1,0 +1,120 @@
+"""The client: models and jobs of a service."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any, Self, cast
+
+from .contract import (
+    LabelledCaseStudyRequest,
+    LabelledImpellerRequest,
+    LabelledModalAnalysisRequest,
+    LabelledStudyRequest,
+    LabelledSweepRequest,
+)
+from .jobs import Job, ModelGeneration
+from .models import Model
+from .results import CaseStudy, ModalAnalysis, Study, Sweep
+from .service import Service
+
+_KINDS: dict[str, type[Job]] = {kind.kind: kind for kind in (Sweep, ModalAnalysis, Study, CaseStudy, ModelGeneration)}
+
+
+class Client:
+    """A service by its address.
+
+    Args:
+        url: such as ``http://127.0.0.1:8080``.
+        token: of a service that wants one; by default ``RUBMAP_TOKEN`` of the environment.
+        patience: seconds for which requests are repeated while the service cannot be reached or has no room.
+    """
+
+    def __init__(self, url: str, token: str | None = None, patience: float = 60.0) -> None:
+        self.service = Service(url, token or os.environ.get("RUBMAP_TOKEN"), patience)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        return f"<rubmap client of {self.service.url}>"
+
+    def close(self) -> None:
+        """Closes the connections."""
+        self.service.close()
+
+    def version(self) -> dict[str, Any]:
+        """Version of the service and of its numerics."""
+        return cast(dict[str, Any], self.service.get("/v1/version"))
+
+    def upload(
+        self, package: str | os.PathLike[str] | bytes, name: str | None = None, tags: str | None = None, notes: str | None = None
+    ) -> Model:
+        """Uploads a model package: a zip by its path, or its bytes. A model that is known is not kept twice.
+
+        Raises:
+            Refusal: something is wrong with the package; ``errors`` says in which file and row.
+        """
+        query = {"name": name, "tags": tags, "notes": notes}
+        if isinstance(package, bytes):
+            return Model(self.service, self.service.upload("/v1/models", lambda: package, query))
+        path = Path(package)
+        path.stat()
+        return Model(self.service, self.service.upload("/v1/models", lambda: _pieces(path), query))
+
+    def generate(self, request: LabelledImpellerRequest) -> ModelGeneration:
+        """A parametric impeller: a job whose ``model`` is the id of the model."""
+        return ModelGeneration(self.service, cast(Mapping[str, Any], request))
+
+    def model(self, id: str) -> Model:
+        """A model by its id."""
+        return Model(self.service, self.service.get(f"/v1/models/{id}"))
+
+    def models(self, **query: Any) -> list[Model]:
+        """All models, newest first; ``name`` and ``tag`` choose among them."""
+        return [Model(self.service, facts) for facts in self._all("models", query)]
+
+    def sweep(self, request: LabelledSweepRequest) -> Sweep:
+        """A sweep over a range of speeds, not submitted yet."""
+        return Sweep(self.service, cast(Mapping[str, Any], request))
+
+    def modal_analysis(self, request: LabelledModalAnalysisRequest) -> ModalAnalysis:
+        """A modal analysis, not submitted yet."""
+        return ModalAnalysis(self.service, cast(Mapping[str, Any], request))
+
+    def study(self, request: LabelledStudyRequest) -> Study:
+        """A study of what accuracy costs, not submitted yet."""
+        return Study(self.service, cast(Mapping[str, Any], request))
+
+    def case_study(self, request: LabelledCaseStudyRequest) -> CaseStudy:
+        """One speed in detail, not submitted yet."""
+        return CaseStudy(self.service, cast(Mapping[str, Any], request))
+
+    def job(self, id: str) -> Job:
+        """A job by its id, as :class:`Sweep`, :class:`ModalAnalysis`, :class:`Study`, :class:`CaseStudy` or :class:`ModelGeneration`."""
+        return self._job(self.service.get(f"/v1/jobs/{id}"))
+
+    def jobs(self, **query: Any) -> list[Job]:
+        """All jobs, newest first; ``kind``, ``status``, ``model``, ``name`` and ``tag`` choose among them."""
+        return [self._job(found) for found in self._all("jobs", query)]
+
+    def _job(self, found: Mapping[str, Any]) -> Job:
+        return _KINDS[found["kind"]](self.service, found.get("request", {}), found["id"])
+
+    def _all(self, what: str, query: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
+        page = self.service.get(f"/v1/{what}", limit=500, **query)
+        while True:
+            yield from page[what]
+            if not page.get("next"):
+                return
+            page = self.service.get(page["next"])
+
+
+def _pieces(path: Path) -> Iterator[bytes]:
+    with path.open("rb") as file:
+        while piece := file.read(1 << 20):
+            yield piece
