@@ -104,8 +104,9 @@ class Service:
             pause = min(2 * pause, most)
 
 
-def _given(query: Mapping[str, Any]) -> dict[str, Any]:
-    return {name: value for name, value in query.items() if value is not None}
+def _given(query: Mapping[str, Any]) -> dict[str, Any] | None:
+    # No parameters are none: an empty mapping would take away those that a link has.
+    return {name: value for name, value in query.items() if value is not None} or None
 
 
 def _refusal(answer: httpx.Response) -> Refusal:

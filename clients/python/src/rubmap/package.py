@@ -1,0 +1,135 @@
+"""Model packages from matrices."""
+
+from __future__ import annotations
+
+import io
+import json
+import os
+import zipfile
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, Literal, cast
+
+import numpy as np
+import numpy.typing as npt
+import scipy.sparse as sparse
+
+from .checks import check
+from .sector import Sector
+
+#: Consistent units that need not be given.
+MILLIMETRES = {"length": "mm", "force": "N", "time": "s", "mass": "t"}
+
+
+def write_package(
+    path: str | os.PathLike[str],
+    *,
+    sectors: int,
+    mass: Any,
+    stiffness: Sequence[Any],
+    speeds_rad_s: Sequence[float],
+    node_ids: npt.ArrayLike,
+    positions: npt.ArrayLike,
+    dofs: npt.ArrayLike,
+    cyclic: npt.ArrayLike,
+    contact: Sequence[int],
+    normals: npt.ArrayLike,
+    name: str = "impeller",
+    units: Mapping[str, str] | None = None,
+    axis: tuple[Sequence[float], Sequence[float]] = ((0.0, 0.0, 0.0), (0.0, 0.0, 1.0)),
+    frame: Literal["cartesian", "cylindrical"] = "cartesian",
+    gyroscopic: Any = None,
+    mesh: Mapping[str, Any] | None = None,
+) -> Path:
+    """Writes one sector as a model package, after the checks that can be made here.
+
+    Args:
+        path: zip to write.
+        sectors: N, the number of identical sectors of the wheel.
+        mass: n × n, symmetric, a scipy sparse matrix or what becomes one.
+        stiffness: K(Ω) on the undeformed geometry, n × n each: one, or three for (0, Ω1/2, Ω1).
+        speeds_rad_s: their speeds in rad/s, ascending, beginning at 0.
+        node_ids: (m,), integers.
+        positions: (m, 3), Cartesian, length.
+        dofs: (n, 2): node id and component 1, 2 or 3 of every row of the matrices; clamped ones are absent.
+        cyclic: (p, 2): ids of low and high nodes; the high one is the low one turned by +2π/N. Empty for a single blade.
+        contact: ids of the nodes that may touch, from the leading to the trailing edge.
+        normals: (len(contact), 3): unit normals out of the blade into the casing, in ``frame``.
+        name: free text.
+        units: of length, force, time, mass, consistent; mm, N, s, t if nothing is said.
+        axis: origin and direction of rotation, positive about the direction.
+        frame: of components and normals: ``"cartesian"``, or ``"cylindrical"`` (r, θ, z about the axis).
+        gyroscopic: G, n × n, skew-symmetric, for Coriolis forces.
+        mesh: ``{"elements": [(id, type, set, [nodes …]), …], "sets": {set: {"youngs_modulus": …, …}}}``, for stress.
+
+    Returns:
+        The path.
+
+    Raises:
+        PackageError: an argument that the service would refuse: which, where, and what to do.
+    """
+    sector = Sector(
+        sectors=int(sectors),
+        mass=_sparse(mass),
+        stiffness=[_sparse(matrix) for matrix in stiffness],
+        speeds=np.asarray(speeds_rad_s, dtype=float),
+        ids=np.asarray(node_ids),
+        positions=np.asarray(positions, dtype=float),
+        dofs=np.asarray(dofs).reshape(-1, 2),
+        cyclic=np.asarray(cyclic, dtype=np.int64).reshape(-1, 2),
+        contact=np.asarray(contact),
+        normals=np.asarray(normals, dtype=float),
+        origin=np.asarray(axis[0], dtype=float),
+        direction=np.asarray(axis[1], dtype=float),
+        frame=frame,
+        gyroscopic=None if gyroscopic is None else _sparse(gyroscopic),
+    )
+    check(sector)
+    files = {f"k{k}.npz": _npz(matrix) for k, matrix in enumerate(sector.stiffness)}
+    files["m.npz"] = _npz(sector.mass)
+    manifest: dict[str, Any] = {
+        "name": name,
+        "sectors": sector.sectors,
+        "units": dict(units or MILLIMETRES),
+        "axis": {"origin": sector.origin.tolist(), "direction": sector.direction.tolist()},
+        "speeds_rad_s": sector.speeds.tolist(),
+        "frame": frame,
+        "mass": "m.npz",
+        "stiffness": [f"k{k}.npz" for k in range(len(sector.stiffness))],
+        "nodes": "nodes.csv",
+        "dofs": "dofs.csv",
+        "cyclic": sector.cyclic.tolist(),
+        "contact": [
+            {"node": int(node), "normal": normal} for node, normal in zip(sector.contact, sector.normals.tolist(), strict=True)
+        ],
+    }
+    if sector.gyroscopic is not None:
+        manifest["gyroscopic"] = "g.npz"
+        files["g.npz"] = _npz(sector.gyroscopic)
+    if mesh is not None:
+        manifest["mesh"] = {"elements": "elements.csv", "sets": dict(mesh["sets"])}
+        files["elements.csv"] = _lines((id, kind, of, *nodes) for id, kind, of, nodes in mesh["elements"])
+    files["nodes.csv"] = _lines((int(id), *map(repr, xyz)) for id, xyz in zip(sector.ids, sector.positions.tolist(), strict=True))
+    files["dofs.csv"] = _lines(map(int, row) for row in sector.dofs)
+    files["sector.json"] = json.dumps(manifest).encode()
+    with zipfile.ZipFile(path, "w") as archive:
+        for file, content in sorted(files.items()):
+            # Arrays are compressed already.
+            archive.writestr(file, content, zipfile.ZIP_STORED if file.endswith(".npz") else zipfile.ZIP_DEFLATED)
+    return Path(path)
+
+
+def _sparse(matrix: Any) -> sparse.csc_array:
+    made = cast(sparse.csc_array, sparse.csc_array(matrix).astype(float))
+    made.sum_duplicates()
+    return made
+
+
+def _npz(matrix: sparse.csc_array) -> bytes:
+    out = io.BytesIO()
+    sparse.save_npz(out, matrix)
+    return out.getvalue()
+
+
+def _lines(rows: Any) -> bytes:
+    return "".join(",".join(map(str, row)) + "\n" for row in rows).encode()
