@@ -56,12 +56,17 @@ def _nodes(sector: Sector) -> None:
     _, first, counts = np.unique(sector.dofs, axis=0, return_index=True, return_counts=True)
     if np.any(counts > 1):
         node, component = sector.dofs[first[counts > 1][0]]
-        raise PackageError(f"dofs: node {node}, component {component} is there twice; every row of the matrices is another")
+        raise PackageError(
+            f"dofs: node {node}, component {component} is there twice; every row of the matrices is another"
+        )
 
 
 def _matrices(sector: Sector) -> None:
     rows = len(sector.dofs)
-    named = [("mass", sector.mass, 1.0), *((f"stiffness[{k}]", matrix, 1.0) for k, matrix in enumerate(sector.stiffness))]
+    named = [
+        ("mass", sector.mass, 1.0),
+        *((f"stiffness[{k}]", matrix, 1.0) for k, matrix in enumerate(sector.stiffness)),
+    ]
     if sector.gyroscopic is not None:
         named.append(("gyroscopic", sector.gyroscopic, -1.0))
     for name, matrix, sign in named:
@@ -88,7 +93,9 @@ def _matrices(sector: Sector) -> None:
 def _cyclic(sector: Sector) -> None:
     if sector.cyclic.size == 0:
         if sector.sectors > 1:
-            raise PackageError(f"cyclic: empty, and the wheel has {sector.sectors} sectors; name the pairs of low and high nodes")
+            raise PackageError(
+                f"cyclic: empty, and the wheel has {sector.sectors} sectors; name the pairs of low and high nodes"
+            )
         return
     for row, pair in enumerate(sector.cyclic):
         for node in pair:
@@ -118,13 +125,17 @@ def _contact(sector: Sector) -> None:
     if len(sector.contact) == 0:
         raise PackageError("contact: empty; name the nodes at the blade's tip from the leading to the trailing edge")
     if sector.normals.shape != (len(sector.contact), 3):
-        raise PackageError(f"normals: shape {sector.normals.shape}; of {len(sector.contact)} contact nodes it is ({len(sector.contact)}, 3)")
+        raise PackageError(
+            f"normals: shape {sector.normals.shape}; of {len(sector.contact)} contact nodes it is ({len(sector.contact)}, 3)"
+        )
     _once("contact", sector.contact)
     for row, node in enumerate(sector.contact):
         if node not in sector.ids:
             raise PackageError(f"contact: entry {row} names node {node}, which is not in node_ids")
         if node in sector.cyclic:
-            raise PackageError(f"contact: entry {row}: node {node} lies on a cyclic face; contact nodes are within the sector")
+            raise PackageError(
+                f"contact: entry {row}: node {node} lies on a cyclic face; contact nodes are within the sector"
+            )
         if node not in sector.dofs[:, 0]:
             raise PackageError(f"contact: entry {row}: node {node} is clamped; it has no row in dofs")
     length = np.linalg.norm(sector.normals, axis=1)

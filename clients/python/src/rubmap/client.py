@@ -52,7 +52,11 @@ class Client:
         return cast(dict[str, Any], self.service.get("/v1/version"))
 
     def upload(
-        self, package: str | os.PathLike[str] | bytes, name: str | None = None, tags: str | None = None, notes: str | None = None
+        self,
+        package: str | os.PathLike[str] | bytes,
+        name: str | None = None,
+        tags: str | None = None,
+        notes: str | None = None,
     ) -> Model:
         """Uploads a model package: a zip by its path, or its bytes. A model that is known is not kept twice.
 

@@ -33,7 +33,9 @@ def local(binary: str | os.PathLike[str] | None = None, data: str | os.PathLike[
     named = binary or os.environ.get("RUBMAP_BINARY") or "rubmap"
     program = shutil.which(named)
     if program is None:
-        raise RubmapError(f"there is no program {named}: name it, or set RUBMAP_BINARY (cargo build --release makes target/release/rubmap)")
+        raise RubmapError(
+            f"there is no program {named}: name it, or set RUBMAP_BINARY (cargo build --release makes target/release/rubmap)"
+        )
     with tempfile.TemporaryDirectory(prefix="rubmap-") as folder:
         log = Path(folder) / "service.log"
         with log.open("wb") as out:

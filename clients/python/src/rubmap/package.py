@@ -12,7 +12,7 @@ from typing import Any, Literal, cast
 
 import numpy as np
 import numpy.typing as npt
-import scipy.sparse as sparse
+from scipy import sparse
 
 from .checks import check
 from .sector import Sector
@@ -100,7 +100,8 @@ def write_package(
         "dofs": "dofs.csv",
         "cyclic": sector.cyclic.tolist(),
         "contact": [
-            {"node": int(node), "normal": normal} for node, normal in zip(sector.contact, sector.normals.tolist(), strict=True)
+            {"node": int(node), "normal": normal}
+            for node, normal in zip(sector.contact, sector.normals.tolist(), strict=True)
         ],
     }
     if sector.gyroscopic is not None:
@@ -109,7 +110,9 @@ def write_package(
     if mesh is not None:
         manifest["mesh"] = {"elements": "elements.csv", "sets": dict(mesh["sets"])}
         files["elements.csv"] = _lines((id, kind, of, *nodes) for id, kind, of, nodes in mesh["elements"])
-    files["nodes.csv"] = _lines((int(id), *map(repr, xyz)) for id, xyz in zip(sector.ids, sector.positions.tolist(), strict=True))
+    files["nodes.csv"] = _lines(
+        (int(id), *map(repr, xyz)) for id, xyz in zip(sector.ids, sector.positions.tolist(), strict=True)
+    )
     files["dofs.csv"] = _lines(map(int, row) for row in sector.dofs)
     files["sector.json"] = json.dumps(manifest).encode()
     with zipfile.ZipFile(path, "w") as archive:

@@ -31,7 +31,11 @@ class _Recorded(Job):
             variables["force"] = (("sector", "contact_node", "revolution"), found["force"], attributes)
         coordinates = {
             "sensor": ("sensor", sensors(found)),
-            "revolution": ("revolution", found["revolution"], {"units": "1", "long_name": "revolutions since the start"}),
+            "revolution": (
+                "revolution",
+                found["revolution"],
+                {"units": "1", "long_name": "revolutions since the start"},
+            ),
             "speed": ((), float(found["speed_rad_s"]), {"units": "rad/s"}),
         }
         return dataset(variables, coordinates, found)
@@ -60,7 +64,11 @@ class Sweep(Planned, _Recorded):
         coordinates["frequency"] = (("speed", "engine_order"), frequency, {"units": "Hz", "long_name": "frequency"})
         amplitude = (("speed", "engine_order"), found["amplitude"], {"units": unit["length"], "long_name": "amplitude"})
         variables: dict[str, Any] = {"amplitude": amplitude, "status": ("speed", found["status"])}
-        for name, attributes in (("utilisation", {"units": "1"}), ("largest_von_mises", {"units": stress}), ("validity", {})):
+        for name, attributes in (
+            ("utilisation", {"units": "1"}),
+            ("largest_von_mises", {"units": stress}),
+            ("validity", {}),
+        ):
             if name in found:
                 variables[name] = ("speed", found[name], attributes)
         return dataset(variables, coordinates, found).assign_attrs(sensor=sensors(found)[0])
@@ -141,14 +149,18 @@ class ModalAnalysis(Planned):
         coordinates["nodal_diameter"] = ("nodal_diameter", np.arange(shape[1]), {"units": "1"})
         coordinates["family"] = ("family", np.arange(1, shape[2] + 1), {"units": "1"})
         attributes = {"units": "Hz", "long_name": "natural frequency"}
-        variables: dict[str, Any] = {"frequency": (("speed", "nodal_diameter", "family"), found["frequencies_hz"], attributes)}
+        variables: dict[str, Any] = {
+            "frequency": (("speed", "nodal_diameter", "family"), found["frequencies_hz"], attributes)
+        }
         return dataset(variables, coordinates, found)
 
     def crossings(self) -> pd.DataFrame:
         """Where superharmonics of the lobes cross natural frequencies: the linear criterion's critical speeds."""
         found = self.arrays("campbell")
         begin = "crossings_"
-        frame = pd.DataFrame({name.removeprefix(begin): values for name, values in found.items() if name.startswith(begin)})
+        frame = pd.DataFrame(
+            {name.removeprefix(begin): values for name, values in found.items() if name.startswith(begin)}
+        )
         frame.insert(1, "speed_rpm", frame["speed_rad_s"] * RPM)
         return frame
 
@@ -167,5 +179,5 @@ class Study(_Recorded):
     path = "/v1/studies"
 
     def work_precision(self) -> pd.DataFrame:
-        """Every run of the study: scheme, settings, steps, wall time, errors; nested names joined by dots."""
-        return pd.json_normalize(self.json("work-precision")["runs"])
+        """Every run of the study, a row each: speed, scheme, settings, CPU time, errors; units end the columns' names."""
+        return table(self.arrays("work-precision"), "speed_rad_s")

@@ -49,7 +49,7 @@ def table(found: Arrays, length_of: str) -> pd.DataFrame:
         columns.pop(other, None)
     frame = pd.DataFrame(columns)
     if "speed_rad_s" in frame:
-        frame.insert(frame.columns.get_loc("speed_rad_s") + 1, "speed_rpm", frame["speed_rad_s"] * RPM)
+        frame.insert(list(frame.columns).index("speed_rad_s") + 1, "speed_rpm", frame["speed_rad_s"] * RPM)
     frame.attrs.update(credentials(found))
     return frame
 
@@ -59,8 +59,12 @@ def sensors(found: Arrays) -> list[str]:
     words = []
     for text in found["sensors"].tolist():
         sensor = json.loads(text)
-        place = next((f"{name} {sensor[name]}" for name in ("contact_node", "node", "gauge", "nearest") if name in sensor), "")
-        words.append(f"{sensor.get('component', 'direction')}, {place}, sector {sensor.get('sector', 0)}".replace("_", " "))
+        place = next(
+            (f"{name} {sensor[name]}" for name in ("contact_node", "node", "gauge", "nearest") if name in sensor), ""
+        )
+        words.append(
+            f"{sensor.get('component', 'direction')}, {place}, sector {sensor.get('sector', 0)}".replace("_", " ")
+        )
     return words
 
 

@@ -1,0 +1,1480 @@
+"""Requests and answers of the contract, openapi.yaml: made by generate_contract.py."""
+
+from __future__ import annotations
+
+from typing import Literal, NotRequired, TypeAlias
+from typing_extensions import TypedDict
+
+
+class Abradable(TypedDict, closed=True):
+    hardening: float
+    modulus: float
+    rods_around: NotRequired[int]
+    thickness: float
+    yield_stress: float
+
+
+class AbsoluteFrequencies(TypedDict):
+    frequencies_hz: list[list[list[float]]]
+    superharmonic: int
+
+
+AccuracyOf: TypeAlias = Literal["response", "stress"]
+
+
+ArchiveZip: TypeAlias = bytes
+
+
+AutoOr: TypeAlias = Literal["auto"] | int
+
+
+class Budget(TypedDict, closed=True):
+    seconds: float
+
+
+class CasingMode(TypedDict, closed=True):
+    frequency_hz: float
+    modal_mass: float
+    nodal_diameter: int
+
+
+class Check(TypedDict):
+    detail: str
+    name: str
+    value: NotRequired[float | None]
+
+
+class Clearance(TypedDict, closed=True):
+    leading: NotRequired[float | None]
+    trailing: NotRequired[float | None]
+    values: NotRequired[list[float] | None]
+
+
+class Coincidence(TypedDict):
+    casing_frequency_hz: float
+    casing_nodal_diameter: int
+    family: int
+    frequency_hz: float
+    nodal_diameter: int
+    speed_rad_s: float
+    sum: bool
+
+
+Component: TypeAlias = Literal["radial", "tangential", "axial", "normal"]
+
+
+class Contact(TypedDict, closed=True):
+    pass
+
+
+class ContactForces(TypedDict):
+    clearance_consumption: list[list[float]]
+    closings_per_revolution: list[list[float]]
+    contact_share: list[list[float]]
+    impulse_per_revolution: list[list[float]]
+    linear_clearance_consumption: list[float]
+    peak_force: list[list[float]]
+
+
+class ContactHistory(TypedDict):
+    contact_length: NotRequired[list[float]]
+    force: NotRequired[list[list[list[float]]]]
+    nodes_in_contact: NotRequired[list[float]]
+
+
+class ContactPlace(TypedDict):
+    clearance: NotRequired[float | None]
+    id: int
+    normal: list[float]
+    position: list[float]
+
+
+class ContactSummary(TypedDict):
+    clearance_consumption: float
+    clearance_contact_node: int
+    closings_per_revolution: float
+    linear_clearance_consumption: NotRequired[float | None]
+    mean_force: float
+    peak_contact_node: NotRequired[int | None]
+    peak_force: float
+    peak_node_force: float
+    peak_sector: NotRequired[int | None]
+    samples_per_revolution: int
+    worst_sector: NotRequired[int | None]
+
+
+class Cost(TypedDict):
+    per_revolution_s: float
+    repetitions: int
+    set_up_s: float
+    spread: NotRequired[float | None]
+
+
+class CostRange(TypedDict):
+    contact: float
+    free: float
+
+
+class Crossing(TypedDict):
+    family: int
+    frequency_hz: float
+    nodal_diameter: int
+    speed_rad_s: float
+    superharmonic: int
+
+
+class Damping(TypedDict, closed=True):
+    family_ratios: NotRequired[list[float]]
+    modal_ratio: float
+
+
+ElementOrder: TypeAlias = Literal["linear", "quadratic"]
+
+
+class EnergyHistory(TypedDict):
+    casing_loss: NotRequired[list[float]]
+    casing_work: NotRequired[list[float]]
+    contact_work: list[float]
+    damping_loss: list[float]
+    excitation_work: NotRequired[list[float]]
+    friction_heat: NotRequired[list[float]]
+    initial: float
+    mechanical: list[float]
+    mistuning_work: NotRequired[list[float]]
+
+
+class EnergyReport(TypedDict):
+    casing_loss: NotRequired[float | None]
+    casing_work: NotRequired[float | None]
+    contact_work: float
+    damping_loss: float
+    excitation_work: NotRequired[float | None]
+    final: float
+    friction_heat: NotRequired[float | None]
+    initial: float
+    mistuning_work: NotRequired[float | None]
+
+
+ContactNode: TypeAlias = int
+
+
+class EngineOrderExcitation(TypedDict, closed=True):
+    amplitude: float
+    component: Component
+    contact_nodes: list[ContactNode]
+    order: int
+    phase_rad: NotRequired[float]
+
+
+class Errors(TypedDict):
+    amplitude: float
+    amplitude_spread: NotRequired[float | None]
+    engine_orders: NotRequired[float | None]
+    history: NotRequired[float | None]
+    impulse: NotRequired[float | None]
+    stress: NotRequired[float | None]
+
+
+class Estimate(TypedDict):
+    computing_time_s: CostRange
+    memory_bytes: int
+    speed_memory_bytes: NotRequired[int]
+    steps: int
+    wall_time_s: CostRange
+    workers: int
+
+
+class FatigueStrength(TypedDict, closed=True):
+    amplitude: float
+    source: str
+
+
+class ForceRow(TypedDict):
+    clearance_consumption: list[float]
+    closings_per_revolution: list[float]
+    contact_share: list[float]
+    impulse_per_revolution: list[float]
+    linear_clearance_consumption: NotRequired[list[float]]
+    peak_force: list[float]
+    summary: ContactSummary
+    worst_sector: list[int | None]
+
+
+class FoundSymmetry(TypedDict):
+    moving_nodal_diameters: list[int]
+    repeats: int
+    resting_nodal_diameters: list[int]
+
+
+class Friction(TypedDict, closed=True):
+    coefficient: float
+
+
+class Gauge(TypedDict, closed=True):
+    at: NotRequired[list[float] | None]
+    direction: NotRequired[list[float] | None]
+    length: NotRequired[float | None]
+    nodes: NotRequired[list[int] | None]
+
+
+class GaugeEnd(TypedDict):
+    length: float
+    node: int
+    position: list[float]
+
+
+ModesPerSpeedItem: TypeAlias = int
+
+
+StepsPerRevolutionItem: TypeAlias = int
+
+
+Growth: TypeAlias = Literal["chaotic", "quasi_periodic", "stable", "undecided"]
+
+
+class Health(TypedDict):
+    memory_bytes: NotRequired[int | None]
+    status: str
+    version: str
+
+
+HistorySpeeds: TypeAlias = Literal["critical"] | list[int]
+
+
+InitialWave: TypeAlias = Literal["standing", "forward", "backward"]
+
+
+JobKind: TypeAlias = Literal[
+    "sweep", "modal_analysis", "model_generation", "study", "case_study"
+]
+
+
+JobStatus: TypeAlias = Literal[
+    "accepted", "running", "successful", "failed", "dismissed"
+]
+
+
+class LabelPatch(TypedDict, closed=True):
+    name: NotRequired[str | None]
+    notes: NotRequired[str | None]
+    tags: NotRequired[list[str] | None]
+
+
+Superharmonic: TypeAlias = int
+
+
+class LargestDifference(TypedDict):
+    full_hz: float
+    mode: int
+    nodal_diameter: int
+    relative: float
+
+
+class Link(TypedDict):
+    href: str
+    rel: str
+
+
+class Lobes(TypedDict, closed=True):
+    amplitude: float
+    count: int
+    phase_rad: NotRequired[float]
+    width_rad: float
+
+
+class Material(TypedDict, closed=True):
+    density: NotRequired[float]
+    fatigue_strength: NotRequired[FatigueStrength | None]
+    poissons_ratio: NotRequired[float]
+    ultimate_strength: NotRequired[float | None]
+    yield_strength: NotRequired[float | None]
+    youngs_modulus: NotRequired[float]
+
+
+class MeshDensities(TypedDict, closed=True):
+    between_contact_nodes: NotRequired[int]
+    blade_height: NotRequired[int]
+    blade_thickness: NotRequired[int]
+    disk: NotRequired[int]
+    half_passage: NotRequired[int]
+
+
+class Mistuning(TypedDict, closed=True):
+    deviations: NotRequired[list[float] | None]
+    seed: NotRequired[int | None]
+    spread: NotRequired[float | None]
+
+
+NodeKind: TypeAlias = Literal["internal", "low", "high", "contact", "clamped"]
+
+
+class Orbit(TypedDict, closed=True):
+    phase_rad: NotRequired[float]
+    radius: float
+    whirl_ratio: NotRequired[float]
+
+
+PackageZip: TypeAlias = bytes
+
+
+class PlacedSensor(TypedDict):
+    angle_deg: NotRequired[float | None]
+    asked_length: NotRequired[float | None]
+    contact_node: NotRequired[int | None]
+    distance: NotRequired[float | None]
+    end: NotRequired[GaugeEnd | None]
+    node: int
+    position: list[float]
+    sensor: int
+
+
+class PlannedEffect(TypedDict):
+    adds: NotRequired[str | None]
+    name: str
+    on: bool
+
+
+class PointError(TypedDict):
+    controlled: bool
+    estimated_error: float
+    estimated_stress_error: NotRequired[float | None]
+    index: int
+
+
+PointStatus: TypeAlias = Literal["completed", "diverged", "failed"]
+
+
+Preset: TypeAlias = Literal["small", "medium", "paper"]
+
+
+class Probe(TypedDict, closed=True):
+    amplitude: NotRequired[float]
+    seed: NotRequired[int]
+
+
+class ProblemItem(TypedDict):
+    column: NotRequired[int | None]
+    detail: str
+    file: NotRequired[str | None]
+    line: NotRequired[int | None]
+    parameter: NotRequired[str | None]
+    pointer: NotRequired[str | None]
+
+
+Quantity: TypeAlias = Literal[
+    "history", "amplitude", "engine_orders", "impulse", "stress"
+]
+
+
+class Readiness(Health):
+    checks: list[Check]
+
+
+class Receipt(TypedDict):
+    id: str
+    kind: JobKind
+    links: list[Link]
+    status: JobStatus
+
+
+RecordedQuantity: TypeAlias = Literal[
+    "displacement", "velocity", "contact_force", "contact", "energy", "state"
+]
+
+
+ReductionState: TypeAlias = Literal["stored", "to be computed"]
+
+
+class Ring(TypedDict, closed=True):
+    area: float
+    density: float
+    modulus: float
+    n_max: NotRequired[int]
+    radius: float
+    second_moment: float
+
+
+SchemeChoice: TypeAlias = Literal[
+    "auto", "central_differences", "exact_modal", "massless_boundary"
+]
+
+
+class SchemeReport(TypedDict):
+    following_modes: int
+    kept_modes: NotRequired[int | None]
+    name: SchemeChoice
+    reach_hz: float
+    reason: str
+
+
+class SectorNode(TypedDict):
+    id: int
+    kind: NodeKind
+    position: list[float]
+
+
+class Sensitivity(TypedDict):
+    growth: NotRequired[Growth]
+    last_distance: float
+    rate_error: NotRequired[float | None]
+    rate_from_revolution: NotRequired[int | None]
+    rate_per_revolution: NotRequired[float | None]
+    separated_after_revolutions: NotRequired[int | None]
+
+
+class Sensor(TypedDict, closed=True):
+    component: NotRequired[Component | None]
+    contact_node: NotRequired[int | None]
+    direction: NotRequired[list[float] | None]
+    gauge: NotRequired[Gauge | None]
+    nearest: NotRequired[list[float] | None]
+    node: NotRequired[int | None]
+    sector: NotRequired[int]
+
+
+class SensorSpectrum(TypedDict):
+    amplitude: list[float]
+    nodal_diameters: list[list[float]]
+    sensor: Sensor
+
+
+class Setting(TypedDict):
+    kept_modes: AutoOr
+    modes_per_speed: int
+    scheme: SchemeChoice
+    steps_per_revolution: int
+
+
+class ShapeFrequencies(TypedDict):
+    frequencies_hz: list[float]
+    nodal_diameter: int
+
+
+class SideBands(TypedDict):
+    carrier: float
+    engine_order: int
+    lower: float
+    resolution: float
+    spacing: float
+    upper: float
+
+
+class SpeedCounts(TypedDict):
+    diverged: int
+    failed: int
+    finished: int
+    total: int
+
+
+class SpeedSpectra(TypedDict):
+    engine_orders: list[float]
+    sensors: list[SensorSpectrum]
+
+
+SpeedUnit: TypeAlias = Literal["rad_s", "rpm", "hz"]
+
+
+class Spent(TypedDict):
+    computing_time_s: float
+    steps: int
+
+
+class Splitter(TypedDict, closed=True):
+    leading_edge: NotRequired[float]
+
+
+class StepOrder(TypedDict):
+    differences: list[float | None]
+    kept_modes: AutoOr
+    modes_per_speed: int
+    orders: list[float | None]
+    scheme: SchemeChoice
+    steps_per_revolution: list[int]
+
+
+StiffeningVerdict: TypeAlias = Literal["absent", "sound", "suspect", "unsound"]
+
+
+Strengths = TypedDict(
+    "Strengths",
+    {
+        "fatigue": NotRequired[float | None],
+        "set": str,
+        "source": NotRequired[str | None],
+        "ultimate": NotRequired[float | None],
+        "yield": NotRequired[float | None],
+    },
+)
+
+
+class StressCycle(TypedDict):
+    alternating: float
+    mean: float
+    node: int
+    over_yield: NotRequired[float | None]
+    position: list[float]
+    principal_alternating: float
+    principal_mean: float
+    sector: int
+    set: str
+    utilisation: NotRequired[float | None]
+
+
+class StressPeak(TypedDict):
+    node: int
+    position: list[float]
+    revolution: float
+    sector: int
+    von_mises: float
+
+
+class StressRequest(TypedDict, closed=True):
+    excluded_radius: NotRequired[float | None]
+
+
+class StudyIntegration(TypedDict, closed=True):
+    ramp_revolutions: NotRequired[float]
+    revolutions: NotRequired[int]
+    window_revolutions: NotRequired[int]
+
+
+class StudyRecord(TypedDict, closed=True):
+    stress: NotRequired[StressRequest | None]
+
+
+class StudyReduction(TypedDict):
+    modes_per_speed: int
+    stiffening: NotRequired[StiffeningVerdict | None]
+    wall_time_s: float
+    wheel_unknowns: int
+
+
+SweepDirection: TypeAlias = Literal["independent", "up", "down"]
+
+
+Symmetry: TypeAlias = Literal["full", "exact", "probe"]
+
+
+class SymmetryBreaking(TypedDict):
+    broken_after_revolutions: NotRequired[int | None]
+    energy_share: float
+    grows: bool
+    nodal_diameters: list[int]
+    rate_error: NotRequired[float | None]
+    rate_per_revolution: NotRequired[float | None]
+    repeats: int
+
+
+class TipPlace(TypedDict):
+    angle_rad: float
+    clearance: float
+
+
+class TipResponse(TypedDict):
+    component: Component
+    contact_node: int
+    half_peak_to_peak: float
+    over_chord: NotRequired[float | None]
+    over_clearance: NotRequired[float | None]
+    rms: float
+    sector: int
+
+
+class TriedModes(TypedDict):
+    error: float
+    modes_per_speed: int
+    wall_time_s: float
+
+
+class Units(TypedDict, closed=True):
+    force: str
+    length: str
+    mass: str
+    time: str
+
+
+Unresolvable: TypeAlias = Literal["end_of_range", "beside_missing", "too_coarse"]
+
+
+class Unresolved(TypedDict):
+    reason: Unresolvable
+    sensor: int
+    speed_rad_s: float
+
+
+ValidityMeasure: TypeAlias = Literal[
+    "displacement_over_thickness",
+    "displacement_over_chord",
+    "rotation",
+    "stress_over_yield",
+    "neighbour_approach",
+    "contact_over_lobe",
+]
+
+
+ValidityVerdict: TypeAlias = Literal["linear", "doubtful", "beyond"]
+
+
+Verdict: TypeAlias = Literal["periodic", "subharmonic", "aperiodic", "not_settled"]
+
+
+class Version(TypedDict):
+    commit: str
+    profile: str
+    target: str
+    target_features: list[str]
+    version: str
+
+
+Wave: TypeAlias = Literal["forward", "backward"]
+
+
+class WaveTables(TypedDict):
+    backward_hz: list[list[list[float]]]
+    forward_hz: list[list[list[float]]]
+
+
+class WearMap(TypedDict):
+    depths: list[list[float]]
+
+
+class WearReport(TypedDict):
+    deepest: float
+    plastic_work: float
+    reached_metal: bool
+    removed_volume: float
+
+
+class WheelCriticalSpeed(TypedDict):
+    amplitude_error: NotRequired[float | None]
+    at_edge: bool
+    clearance_consumption: NotRequired[float | None]
+    index: int
+    mean_force: NotRequired[float | None]
+    peak_force: NotRequired[float | None]
+    prominence: float
+    resolved: bool
+    settling: Verdict
+    severity: float
+    speed_error_rad_s: float
+    speed_rad_s: float
+    tip: TipResponse
+    utilisation: NotRequired[float | None]
+    validity: NotRequired[ValidityVerdict | None]
+    validity_lacking: NotRequired[list[ValidityMeasure]]
+
+
+class Accuracy(TypedDict, closed=True):
+    of: NotRequired[AccuracyOf]
+    target: float
+
+
+class CaseSpeed(TypedDict, closed=True):
+    unit: SpeedUnit
+    value: float
+
+
+class Casing(TypedDict, closed=True):
+    clearance: Clearance
+    lobes: NotRequired[Lobes | None]
+
+
+class Control(TypedDict):
+    differences: NotRequired[Errors | None]
+    estimated_error: NotRequired[float | None]
+    estimated_stress_error: NotRequired[float | None]
+    index: int
+    message: NotRequired[str | None]
+    setting: Setting
+    speed_rad_s: float
+
+
+class CriticalSpeed(TypedDict):
+    amplitude_error: NotRequired[float | None]
+    at_edge: bool
+    distance_rad_s: NotRequired[float | None]
+    dominant_engine_order: NotRequired[float | None]
+    dominant_nodal_diameter: NotRequired[int | None]
+    frequency_error_rad_s: NotRequired[float]
+    half_peak_to_peak: float
+    index: int
+    nearest_crossing: NotRequired[Crossing | None]
+    prominence: float
+    resolved: bool
+    rms: float
+    settling: Verdict
+    speed_error_rad_s: float
+    speed_rad_s: float
+    utilisation: NotRequired[float | None]
+    validity: NotRequired[ValidityVerdict | None]
+    validity_lacking: NotRequired[list[ValidityMeasure]]
+
+
+class DrivenCrossing(TypedDict):
+    engine_order: int
+    family: int
+    frequency_hz: float
+    nodal_diameter: int
+    speed_rad_s: float
+    wave: NotRequired[Wave | None]
+
+
+class ErrorEstimate(TypedDict):
+    controls: list[Control]
+    largest: NotRequired[float | None]
+    largest_of_stress: NotRequired[float | None]
+    message: str
+    points: list[PointError]
+    target_met: NotRequired[bool | None]
+
+
+class FlexibleCasing(TypedDict, closed=True):
+    damping_ratio: NotRequired[float]
+    modes: NotRequired[list[CasingMode] | None]
+    ring: NotRequired[Ring | None]
+
+
+class FrequencyDifference(TypedDict):
+    indefinite: list[int]
+    largest: NotRequired[LargestDifference | None]
+    speed_rad_s: float
+
+
+class Grid(TypedDict, closed=True):
+    kept_modes: NotRequired[list[AutoOr]]
+    modes_per_speed: NotRequired[list[ModesPerSpeedItem]]
+    schemes: NotRequired[list[SchemeChoice]]
+    steps_per_revolution: NotRequired[list[StepsPerRevolutionItem]]
+
+
+class HistoriesRequest(TypedDict, closed=True):
+    quantities: NotRequired[list[RecordedQuantity]]
+    revolutions: NotRequired[list[int] | None]
+    speeds: NotRequired[HistorySpeeds]
+
+
+class HistoryLine(Setting):
+    displacement: list[list[float]]
+    reference: bool
+    unknowns: int
+
+
+class ImpellerParameters(TypedDict, closed=True):
+    axial_length: NotRequired[float]
+    backsweep_deg: NotRequired[float]
+    bore_radius: NotRequired[float]
+    contact_nodes: NotRequired[int]
+    element_order: NotRequired[ElementOrder]
+    gyroscopic: NotRequired[bool]
+    inlet_hub_radius: NotRequired[float]
+    inlet_tip_radius: NotRequired[float]
+    material: NotRequired[Material]
+    mesh: NotRequired[MeshDensities]
+    outlet_blade_height: NotRequired[float]
+    outlet_radius: NotRequired[float]
+    rim_thickness: NotRequired[float]
+    root_thickness: NotRequired[float]
+    sectors: NotRequired[int]
+    splitter: NotRequired[Splitter | None]
+    tip_thickness: NotRequired[float]
+    top_speed_rad_s: NotRequired[float]
+    units: NotRequired[Units]
+    wrap_deg: NotRequired[float]
+
+
+class Initial(TypedDict, closed=True):
+    amplitude: float
+    family: int
+    nodal_diameter: int
+    wave: NotRequired[InitialWave]
+
+
+class Integration(TypedDict, closed=True):
+    kept_modes: NotRequired[AutoOr]
+    ramp_revolutions: NotRequired[float]
+    revolutions: NotRequired[int]
+    scheme: NotRequired[SchemeChoice]
+    steps_per_revolution: NotRequired[AutoOr]
+    window_revolutions: NotRequired[int]
+
+
+class LabelledImpellerRequest(TypedDict, closed=True):
+    axial_length: NotRequired[float]
+    backsweep_deg: NotRequired[float]
+    bore_radius: NotRequired[float]
+    contact_nodes: NotRequired[int]
+    element_order: NotRequired[ElementOrder]
+    gyroscopic: NotRequired[bool]
+    inlet_hub_radius: NotRequired[float]
+    inlet_tip_radius: NotRequired[float]
+    material: NotRequired[Material]
+    mesh: NotRequired[MeshDensities]
+    name: NotRequired[str | None]
+    notes: NotRequired[str | None]
+    outlet_blade_height: NotRequired[float]
+    outlet_radius: NotRequired[float]
+    preset: NotRequired[Literal["small", "medium", "paper"]]
+    rim_thickness: NotRequired[float]
+    root_thickness: NotRequired[float]
+    sectors: NotRequired[int]
+    splitter: NotRequired[Splitter | None]
+    tags: NotRequired[list[str]]
+    tip_thickness: NotRequired[float]
+    top_speed_rad_s: NotRequired[float]
+    units: NotRequired[Units]
+    wrap_deg: NotRequired[float]
+
+
+class MeshFacts(TypedDict):
+    elements: int
+    sets: list[Strengths]
+    tip_thickness: NotRequired[float | None]
+
+
+class ModesBody(TypedDict):
+    modes_per_speed: int
+    nodal_diameters: list[ShapeFrequencies]
+    speed_rad_s: float
+
+
+class ModesChoice(TypedDict):
+    accuracy: NotRequired[Accuracy | None]
+    budget: NotRequired[Budget | None]
+    error: float
+    modes_per_speed: int
+    reason: str
+    tried: list[TriedModes]
+
+
+class Pilot(TypedDict):
+    error_of_modes: NotRequired[float | None]
+    error_of_steps: NotRequired[float | None]
+    modes_per_speed: int
+    speed_rad_s: float
+    steps_per_revolution: int
+    time_s: float
+    verdict: NotRequired[Verdict | None]
+
+
+class PlannedPoint(TypedDict):
+    computing_time_s: NotRequired[CostRange | None]
+    index: int
+    integrated_unknowns: int
+    memory_bytes: int
+    message: NotRequired[str | None]
+    scheme: NotRequired[SchemeReport | None]
+    speed_rad_s: float
+    steps: int
+    steps_per_revolution: int
+
+
+class PointStress(TypedDict):
+    cycles: list[StressCycle]
+    excluded_nodes: int
+    excluded_radius: float
+    followed_nodes: int
+    lacking: NotRequired[str | None]
+    largest: StressPeak
+    largest_over_yield: NotRequired[float | None]
+    largest_static: float
+
+
+class PreliminaryStiffening(TypedDict):
+    linear_ratio: float
+    message: str
+    quadratic_ratio: float
+    verdict: StiffeningVerdict
+
+
+class Problem(TypedDict):
+    detail: str
+    errors: NotRequired[list[ProblemItem]]
+    instance: NotRequired[str | None]
+    retry_after_s: NotRequired[int | None]
+    status: int
+    title: str
+    type: str
+
+
+class Record(TypedDict, closed=True):
+    histories: NotRequired[HistoriesRequest | None]
+    stress: NotRequired[StressRequest | None]
+
+
+class Recorded(TypedDict, closed=True):
+    quantities: NotRequired[list[RecordedQuantity]]
+    revolutions: NotRequired[list[int] | None]
+
+
+class Refinement(TypedDict):
+    added: int
+    complete: bool
+    rounds: int
+    unresolved: NotRequired[list[Unresolved]]
+
+
+class Scene(TypedDict, closed=True):
+    abradable: NotRequired[Abradable | None]
+    casing: NotRequired[Casing | None]
+    centrifugal_stiffening: NotRequired[bool]
+    contact: NotRequired[Contact | None]
+    coriolis: NotRequired[bool]
+    damping: NotRequired[Damping | None]
+    engine_order_excitation: NotRequired[list[EngineOrderExcitation]]
+    flexible_casing: NotRequired[FlexibleCasing | None]
+    friction: NotRequired[Friction | None]
+    initial: NotRequired[Initial | None]
+    mistuning: NotRequired[Mistuning | None]
+    orbit: NotRequired[Orbit | None]
+    probe: NotRequired[Probe | None]
+    symmetry: NotRequired[Symmetry]
+
+
+class SectorGeometry(TypedDict):
+    contact: list[ContactPlace]
+    name: str
+    nodes: list[SectorNode]
+    sectors: int
+    units: Units
+
+
+class SensorHistory(TypedDict):
+    displacement: NotRequired[list[float]]
+    sensor: Sensor
+    tip: NotRequired[TipPlace | None]
+    velocity: NotRequired[list[float]]
+
+
+class SensorResponse(TypedDict):
+    dominant_engine_order: NotRequired[float | None]
+    dominant_nodal_diameter: NotRequired[int | None]
+    half_peak_to_peak: float
+    mean: float
+    rms: float
+    sensor: Sensor
+    side_bands: NotRequired[list[SideBands]]
+
+
+class SensorView(TypedDict):
+    critical_speeds: list[CriticalSpeed]
+    sensor: Sensor
+
+
+class Settling(TypedDict):
+    after_revolutions: NotRequired[int | None]
+    largest_change: NotRequired[float | None]
+    lobe_passages: NotRequired[int | None]
+    ratio: NotRequired[int | None]
+    side_band_spacing: NotRequired[float | None]
+    verdict: Verdict
+
+
+SpeedSet = TypedDict(
+    "SpeedSet",
+    {
+        "count": NotRequired[int | None],
+        "from": NotRequired[float | None],
+        "to": NotRequired[float | None],
+        "unit": SpeedUnit,
+        "values": NotRequired[list[float] | None],
+    },
+    closed=True,
+)
+
+
+Speeds: TypeAlias = SpeedSet | list[SpeedSet]
+
+
+class StiffeningReport(TypedDict):
+    frequency_error: float
+    linear_ratio: float
+    message: str
+    quadratic_ratio: float
+    verdict: StiffeningVerdict
+
+
+class StudyRequest(TypedDict, closed=True):
+    fields: NotRequired[bool | None]
+    grid: NotRequired[Grid]
+    history_revolutions: NotRequired[int]
+    integration: NotRequired[StudyIntegration]
+    max_engine_order: NotRequired[int]
+    model: str
+    record: NotRequired[StudyRecord]
+    scene: Scene
+    sensors: NotRequired[list[Sensor]]
+    speeds: Speeds
+
+
+class StudyRun(Setting):
+    cost: Cost
+    energy_residual: NotRequired[float | None]
+    errors: NotRequired[Errors | None]
+    message: NotRequired[str | None]
+    pareto: NotRequired[list[Quantity]]
+    status: PointStatus
+    time_s: float
+    unknowns: int
+    verdict: NotRequired[Verdict | None]
+
+
+class SweepRequest(TypedDict, closed=True):
+    accuracy: NotRequired[Accuracy | None]
+    budget: NotRequired[Budget | None]
+    control_speeds: NotRequired[int | None]
+    fields: NotRequired[bool | None]
+    integration: NotRequired[Integration]
+    max_engine_order: NotRequired[int]
+    model: str
+    modes_per_speed: NotRequired[AutoOr]
+    peak_prominence: NotRequired[float]
+    record: NotRequired[Record]
+    refine: NotRequired[bool]
+    scene: Scene
+    sensors: NotRequired[list[Sensor]]
+    speeds: Speeds
+    sweep: NotRequired[SweepDirection]
+
+
+class ValidityCheck(TypedDict):
+    beyond_above: float
+    doubtful_above: float
+    value: float
+    what: ValidityMeasure
+
+
+class ValidityLack(TypedDict):
+    reason: str
+    what: ValidityMeasure
+
+
+class WheelCriticalSpeeds(TypedDict):
+    critical_speeds: list[WheelCriticalSpeed]
+    missing: list[int]
+    refinement: NotRequired[Refinement | None]
+    sensors: list[SensorView]
+    settings: SweepRequest
+    units: Units
+    version: str
+
+
+class CaseStudySettings(TypedDict, closed=True):
+    record: Recorded
+    speeds: list[int]
+    sweep: SweepRequest
+
+
+class Choice(TypedDict):
+    accuracy: NotRequired[Accuracy | None]
+    budget: NotRequired[Budget | None]
+    error_of_modes: float
+    error_of_steps: float
+    estimated_at: int
+    estimated_error: float
+    expected_wall_time_s: float
+    pilot_speeds_rad_s: list[float]
+    pilots: list[Pilot]
+    reason: str
+    setting: Setting
+    spread: float
+
+
+class Chosen1(Choice):
+    kind: Literal["setting"]
+
+
+class Chosen2(ModesChoice):
+    kind: Literal["modes"]
+
+
+Chosen: TypeAlias = Chosen1 | Chosen2
+
+
+class ForceMap(TypedDict):
+    rows: list[ForceRow | None]
+    settings: SweepRequest
+    speeds_rad_s: list[float]
+    units: Units
+    version: str
+
+
+class GenerationPlan(TypedDict):
+    dofs: int
+    memory_bytes: int
+    nodes: int
+    settings: ImpellerParameters
+
+
+class Histories(TypedDict):
+    lines: list[HistoryLine]
+    samples_per_revolution: int
+    sensors: list[Sensor]
+    speed_rad_s: float
+    units: Units
+    version: str
+
+
+class JobBody(TypedDict):
+    created_at: str
+    error: NotRequired[Problem | None]
+    finished_at: NotRequired[str | None]
+    id: str
+    kind: JobKind
+    links: list[Link]
+    model: NotRequired[str | None]
+    name: NotRequired[str | None]
+    notes: NotRequired[str | None]
+    phase: NotRequired[str]
+    progress: int
+    speeds: NotRequired[SpeedCounts | None]
+    started_at: NotRequired[str | None]
+    status: JobStatus
+    stored_bytes: int
+    tags: list[str]
+    updated_at: str
+
+
+class JobList(TypedDict):
+    jobs: list[JobBody]
+    next: NotRequired[str | None]
+
+
+class LabelledCaseStudyRequest(TypedDict, closed=True):
+    fields: NotRequired[bool | None]
+    integration: NotRequired[Integration]
+    max_engine_order: NotRequired[int]
+    model: str
+    modes_per_speed: NotRequired[AutoOr]
+    name: NotRequired[str | None]
+    notes: NotRequired[str | None]
+    record: NotRequired[Recorded]
+    scene: Scene
+    sensors: NotRequired[list[Sensor]]
+    speed: CaseSpeed
+    tags: NotRequired[list[str]]
+
+
+class LabelledModalAnalysisRequest(TypedDict, closed=True):
+    accuracy: NotRequired[Accuracy | None]
+    budget: NotRequired[Budget | None]
+    coriolis: NotRequired[bool]
+    families: NotRequired[int]
+    fields: NotRequired[bool | None]
+    lobes: NotRequired[int]
+    max_engine_order: NotRequired[int]
+    model: str
+    modes_per_speed: NotRequired[AutoOr]
+    name: NotRequired[str | None]
+    notes: NotRequired[str | None]
+    speeds: Speeds
+    superharmonics: NotRequired[list[Superharmonic]]
+    tags: NotRequired[list[str]]
+
+
+class LabelledStudyRequest(TypedDict, closed=True):
+    fields: NotRequired[bool | None]
+    grid: NotRequired[Grid]
+    history_revolutions: NotRequired[int]
+    integration: NotRequired[StudyIntegration]
+    max_engine_order: NotRequired[int]
+    model: str
+    name: NotRequired[str | None]
+    notes: NotRequired[str | None]
+    record: NotRequired[StudyRecord]
+    scene: Scene
+    sensors: NotRequired[list[Sensor]]
+    speeds: Speeds
+    tags: NotRequired[list[str]]
+
+
+class LabelledSweepRequest(TypedDict, closed=True):
+    accuracy: NotRequired[Accuracy | None]
+    budget: NotRequired[Budget | None]
+    control_speeds: NotRequired[int | None]
+    fields: NotRequired[bool | None]
+    integration: NotRequired[Integration]
+    max_engine_order: NotRequired[int]
+    model: str
+    modes_per_speed: NotRequired[AutoOr]
+    name: NotRequired[str | None]
+    notes: NotRequired[str | None]
+    peak_prominence: NotRequired[float]
+    record: NotRequired[Record]
+    refine: NotRequired[bool]
+    scene: Scene
+    sensors: NotRequired[list[Sensor]]
+    speeds: Speeds
+    sweep: NotRequired[SweepDirection]
+    tags: NotRequired[list[str]]
+
+
+class ModalAnalysisRequest(TypedDict, closed=True):
+    accuracy: NotRequired[Accuracy | None]
+    budget: NotRequired[Budget | None]
+    coriolis: NotRequired[bool]
+    families: NotRequired[int]
+    fields: NotRequired[bool | None]
+    lobes: NotRequired[int]
+    max_engine_order: NotRequired[int]
+    model: str
+    modes_per_speed: NotRequired[AutoOr]
+    speeds: Speeds
+    superharmonics: NotRequired[list[Superharmonic]]
+
+
+class ModelFacts(TypedDict):
+    contact_nodes: int
+    contact_radius: NotRequired[float | None]
+    contact_spacing: NotRequired[float | None]
+    gyroscopic: NotRequired[bool]
+    mesh: NotRequired[MeshFacts | None]
+    name: str
+    own_dofs: int
+    sectors: int
+    speeds_rad_s: list[float]
+    stiffening: NotRequired[PreliminaryStiffening | None]
+    units: Units
+
+
+class ReductionReport(TypedDict):
+    basis_tolerance: float
+    counted_modes: int
+    full_model: list[FrequencyDifference]
+    largest_mode_residual: float
+    modes: int
+    modes_per_speed: int
+    stiffening: StiffeningReport
+    unknowns: list[int]
+    version: str
+    wall_time_s: float
+    wheel_unknowns: int
+
+
+RequestBody: TypeAlias = (
+    SweepRequest
+    | ModalAnalysisRequest
+    | StudyRequest
+    | CaseStudySettings
+    | ImpellerParameters
+)
+
+
+class SpeedStudy(TypedDict):
+    message: str
+    orders: list[StepOrder]
+    reference: StudyRun
+    runs: list[StudyRun]
+    sensitivity: NotRequired[Sensitivity | None]
+    speed_rad_s: float
+
+
+class SweepPlan(TypedDict):
+    basis_bytes_at_most: NotRequired[int | None]
+    choice: NotRequired[Choice | None]
+    contact_pairs: int
+    effects: list[PlannedEffect]
+    estimate: NotRequired[Estimate | None]
+    pilot_speeds_rad_s: NotRequired[list[float] | None]
+    placed_sensors: NotRequired[list[PlacedSensor]]
+    points: list[PlannedPoint]
+    reduced_unknowns_at_most: int
+    reduction: ReductionState
+    settings: SweepRequest
+    speeds: int
+    stress_bytes: NotRequired[int | None]
+    symmetry: FoundSymmetry
+    version: str
+    warnings: NotRequired[list[str]]
+    workers: int
+
+
+class Validity(TypedDict):
+    checks: list[ValidityCheck]
+    lacking: NotRequired[list[ValidityLack]]
+    verdict: ValidityVerdict
+
+
+class WorkPrecision(TypedDict):
+    reductions: list[StudyReduction]
+    settings: StudyRequest
+    speeds: list[SpeedStudy]
+    version: str
+
+
+class Campbell(TypedDict):
+    absolute_frequencies_hz: list[AbsoluteFrequencies]
+    crossings: list[Crossing]
+    driven_crossings: list[DrivenCrossing]
+    frequencies_hz: list[list[list[float]]]
+    reduction: ReductionReport
+    settings: ModalAnalysisRequest
+    speeds_rad_s: list[float]
+    version: str
+    wall_time_s: float
+    waves: NotRequired[WaveTables | None]
+
+
+class CriticalSpeeds(TypedDict):
+    casing_coincidences: NotRequired[list[Coincidence]]
+    critical_speeds: list[CriticalSpeed]
+    driven_crossings: list[DrivenCrossing]
+    linear_crossings: list[Crossing]
+    missing: list[int]
+    plan: NotRequired[Estimate | None]
+    reduction: ReductionReport
+    refinement: NotRequired[Refinement | None]
+    sensor: Sensor
+    settings: SweepRequest
+    spent: NotRequired[Spent]
+    units: Units
+    version: str
+
+
+class JobDetail(JobBody):
+    choice: NotRequired[Chosen | None]
+    reduction: NotRequired[ReductionReport | None]
+    request: RequestBody
+
+
+class ModalAnalysisPlan(TypedDict):
+    basis_bytes_at_most: NotRequired[int | None]
+    choice: NotRequired[ModesChoice | None]
+    computing_time_s: NotRequired[float | None]
+    effects: list[PlannedEffect]
+    nodal_diameters: int
+    reduced_unknowns_at_most: int
+    reduction: ReductionState
+    settings: ModalAnalysisRequest
+    speeds: int
+    version: str
+    warnings: NotRequired[list[str]]
+
+
+class ModelBody(ModelFacts):
+    created_at: str
+    id: str
+    notes: NotRequired[str | None]
+    size_bytes: int
+    tags: list[str]
+
+
+class ModelDetail(ModelBody):
+    reductions: list[ReductionReport]
+
+
+class ModelList(TypedDict):
+    models: list[ModelBody]
+    next: NotRequired[str | None]
+
+
+class Point(TypedDict):
+    casing_amplitude: NotRequired[float | None]
+    contact: NotRequired[ContactSummary | None]
+    contact_impulse: NotRequired[float | None]
+    contact_share: float
+    energy: NotRequired[EnergyReport | None]
+    energy_residual: NotRequired[float | None]
+    index: int
+    largest_energy: NotRequired[float | None]
+    largest_penetration: NotRequired[float | None]
+    message: NotRequired[str | None]
+    responses: list[SensorResponse]
+    scheme: NotRequired[SchemeReport | None]
+    settling: NotRequired[Settling | None]
+    smallest_multiplier: NotRequired[float | None]
+    smallest_stable_steps_per_revolution: int
+    speed_rad_s: float
+    status: PointStatus
+    steps: int
+    steps_per_revolution: int
+    stiffening: NotRequired[StiffeningVerdict | None]
+    stress: NotRequired[PointStress | None]
+    symmetry_breaking: NotRequired[SymmetryBreaking | None]
+    tip: NotRequired[TipResponse | None]
+    validity: NotRequired[Validity | None]
+    version: str
+    wall_time_s: float
+    wear: NotRequired[WearReport | None]
+
+
+class SensorMaps(TypedDict):
+    amplitude: NotRequired[list[list[list[float] | None]]]
+    engine_orders: list[float]
+    errors: NotRequired[ErrorEstimate | None]
+    nodal_diameter: NotRequired[int | None]
+    plan: NotRequired[Estimate | None]
+    points: list[Point]
+    refinement: NotRequired[Refinement | None]
+    sensors: list[Sensor]
+    settings: SweepRequest
+    speeds_rad_s: list[float]
+    spent: Spent
+    stiffening: NotRequired[StiffeningVerdict | None]
+    units: Units
+    version: str
+
+
+class SpectraBody(TypedDict):
+    contact: NotRequired[ContactForces | None]
+    point: Point
+    spectra: NotRequired[SpeedSpectra | None]
+    units: Units
+    wear: NotRequired[WearMap | None]
+
+
+class SpeedHistories(TypedDict):
+    contact: NotRequired[ContactHistory | None]
+    energy: NotRequired[EnergyHistory | None]
+    index: int
+    point: Point
+    revolutions: list[int]
+    samples_per_revolution: int
+    sensors: list[SensorHistory]
+    settings: SweepRequest
+    speed_rad_s: float
+    units: Units
+    version: str
+
+
+class SpeedStress(TypedDict):
+    index: int
+    speed_rad_s: float
+    stress: PointStress
+    validity: NotRequired[Validity | None]
+
+
+class SweepStress(TypedDict):
+    settings: SweepRequest
+    speeds: list[SpeedStress]
+    strengths: list[Strengths]
+    units: Units
+    version: str
+
+
+class WearBody(TypedDict):
+    point: Point
+    units: Units
+    wear: WearMap
+
+
+HistoriesBody: TypeAlias = SpeedHistories | Histories
+
+
+class InteractionMap(TypedDict):
+    amplitude: NotRequired[list[list[float] | None]]
+    engine_orders: list[float]
+    errors: NotRequired[ErrorEstimate | None]
+    nodal_diameter: NotRequired[int | None]
+    plan: NotRequired[Estimate | None]
+    points: list[Point]
+    refinement: NotRequired[Refinement | None]
+    sensor: Sensor
+    settings: SweepRequest
+    speeds_rad_s: list[float]
+    spent: NotRequired[Spent]
+    stiffening: NotRequired[StiffeningVerdict | None]
+    units: Units
+    version: str
+
+
+MapBody: TypeAlias = InteractionMap | SensorMaps

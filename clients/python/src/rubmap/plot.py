@@ -1,0 +1,144 @@
+"""Figures by matplotlib, with the axes, units and colours of the service's drawings."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+from matplotlib import pyplot
+from matplotlib.axes import Axes
+from matplotlib.colors import LogNorm
+
+from .tables import RPM
+
+#: Faintest amplitude of a map, of its loudest.
+_QUIETEST = 1e-4
+
+#: Colours of nodal diameters, which colour-blind readers tell apart (Okabe and Ito).
+_COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c8c8c")
+
+
+def interaction_map(
+    found: xr.Dataset,
+    ax: Axes | None = None,
+    critical: pd.DataFrame | None = None,
+    frequency: bool = False,
+    log: bool = True,
+) -> Axes:
+    """Amplitude over speed and engine order, or frequency in Hz; with the critical speeds of :meth:`Sweep.critical_speeds` if they are given.
+
+    Args:
+        found: of :meth:`Sweep.interaction_map`.
+        critical: speeds to mark.
+        frequency: whether the axis upwards is in Hz.
+        log: whether colours are logarithmic, from 1e-4 of the loudest on.
+    """
+    ax = _axes(ax)
+    amplitude = found["amplitude"].to_numpy()
+    loudest = float(np.nanmax(amplitude))
+    speeds = found["speed_rpm"].to_numpy()
+    upwards = (
+        found["frequency"].to_numpy()
+        if frequency
+        else np.broadcast_to(found["engine_order"].to_numpy(), amplitude.shape)
+    )
+    across = np.broadcast_to(speeds[:, None], amplitude.shape)
+    norm = LogNorm(_QUIETEST * loudest, loudest) if log and loudest > 0.0 else None
+    shown = np.maximum(amplitude, _QUIETEST * loudest) if norm else amplitude
+    cells = ax.pcolormesh(across, upwards, shown, norm=norm, cmap="viridis", shading="nearest", rasterized=True)
+    unit = found["amplitude"].attrs["units"]
+    _figure(ax).colorbar(cells, ax=ax, label=f"amplitude, {unit}")
+    if critical is not None:
+        for speed in critical["speed_rpm"]:
+            ax.axvline(speed, color="white", linewidth=0.8, linestyle="--")
+    ax.set_xlabel("speed of rotation, rpm")
+    ax.set_ylabel("frequency, Hz" if frequency else "engine order")
+    ax.set_title(f"Interaction map: {found.attrs['sensor']}")
+    return ax
+
+
+def level(points: pd.DataFrame, ax: Axes | None = None, quantity: str = "rms") -> Axes:
+    """Level over speed, of :meth:`Sweep.points`: a column whose name ends with ``quantity``."""
+    ax = _axes(ax)
+    name = next(column for column in points.columns if column.split(".")[-1] == quantity)
+    ax.plot(points["speed_rpm"], points[name], marker=".", color=_COLOURS[0])
+    ax.set_xlabel("speed of rotation, rpm")
+    ax.set_ylabel(quantity.replace("_", " "))
+    ax.set_ylim(bottom=0.0)
+    return ax
+
+
+def campbell(
+    found: xr.Dataset, ax: Axes | None = None, lobes: int | None = None, crossings: pd.DataFrame | None = None
+) -> Axes:
+    """Natural frequencies over speed by nodal diameter, of :meth:`ModalAnalysis.campbell`; with the engine orders of so many lobes."""
+    ax = _axes(ax)
+    rpm = found["speed_rpm"].to_numpy()
+    for diameter in found["nodal_diameter"].to_numpy():
+        colour = _COLOURS[int(diameter) % len(_COLOURS)]
+        lines = ax.plot(rpm, found["frequency"].sel(nodal_diameter=diameter).to_numpy(), color=colour)
+        lines[0].set_label(f"nodal diameter {diameter}")
+    if lobes is not None:
+        for order in range(lobes, 4 * lobes, lobes):
+            ax.plot(rpm, order * rpm / 60.0, color="grey", linewidth=0.8, linestyle=":")
+    if crossings is not None:
+        ax.plot(
+            crossings["speed_rpm"],
+            crossings["frequency_hz"],
+            "o",
+            markerfacecolor="none",
+            color="black",
+            linestyle="none",
+        )
+    ax.set_xlabel("speed of rotation, rpm")
+    ax.set_ylabel("frequency, Hz")
+    ax.legend(fontsize="small")
+    return ax
+
+
+def spectrum(found: xr.Dataset, ax: Axes | None = None, sensor: int = 0) -> Axes:
+    """Amplitude over engine orders of one speed, of :meth:`Sweep.spectrum`."""
+    ax = _axes(ax)
+    one = found.isel(sensor=sensor)
+    ax.semilogy(one["engine_order"], one["amplitude"], color=_COLOURS[0], linewidth=0.9)
+    ax.set_xlabel("engine order")
+    ax.set_ylabel(f"amplitude, {found['amplitude'].attrs['units']}")
+    ax.set_title(f"{float(found['speed']) * RPM:,.0f} rpm: {one['sensor'].item()}")
+    return ax
+
+
+def critical_speeds(table: pd.DataFrame, ax: Axes | None = None) -> Axes:
+    """Critical speeds by their largest vibration, with the uncertainty of the speed, of :meth:`Sweep.wheel_critical_speeds` or :meth:`Sweep.critical_speeds`."""
+    ax = _axes(ax)
+    name = next(column for column in table.columns if column.startswith("half_peak_to_peak_"))
+    error = table["speed_error_rad_s"] * RPM
+    ax.errorbar(table["speed_rpm"], table[name], xerr=error, fmt="o", capsize=3, color=_COLOURS[1])
+    ax.set_xlabel("speed of rotation, rpm")
+    ax.set_ylabel(f"half peak to peak, {name.removeprefix('half_peak_to_peak_')}")
+    ax.set_ylim(bottom=0.0)
+    return ax
+
+
+def work_precision(table: pd.DataFrame, ax: Axes | None = None, error: str = "amplitude") -> Axes:
+    """Error over CPU time by scheme, of :meth:`Study.work_precision`."""
+    ax = _axes(ax)
+    column = next(name for name in table.columns if name.startswith(error) and "error" in f"{name} error")
+    for number, (scheme, runs) in enumerate(table.groupby("scheme")):
+        ordered = runs.sort_values("time_s")
+        ax.loglog(
+            ordered["time_s"], ordered[column], marker="o", color=_COLOURS[number % len(_COLOURS)], label=str(scheme)
+        )
+    ax.set_xlabel("CPU time, s")
+    ax.set_ylabel(f"error of {error.replace('_', ' ')}")
+    ax.legend(fontsize="small")
+    return ax
+
+
+def _axes(ax: Axes | None) -> Axes:
+    return ax if ax is not None else pyplot.subplots(layout="constrained")[1]
+
+
+def _figure(ax: Axes) -> Any:
+    return ax.get_figure()

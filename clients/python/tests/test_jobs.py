@@ -1,0 +1,124 @@
+"""Models and jobs, against the real program."""
+
+from __future__ import annotations
+
+import threading
+import time
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+import rubmap
+from conftest import sweep_of
+from rubmap.service import Service
+
+
+def test_a_plan_starts_nothing(client: rubmap.Client, model: rubmap.Model) -> None:
+    before = len(client.jobs())
+    plan = client.sweep(sweep_of(model.id)).plan()
+    assert plan["steps"] > 0 and plan["memory_bytes"] > 0
+    assert len(client.jobs()) == before
+
+
+def test_a_refusal_says_where(client: rubmap.Client, model: rubmap.Model) -> None:
+    request = sweep_of(model.id)
+    request["scene"] = request["scene"] | {"damping": {"modal_ratio": -1}}
+    with pytest.raises(rubmap.Refusal) as refused:
+        client.sweep(request).submit()
+    assert refused.value.status == 422
+    assert refused.value.errors[0]["pointer"] == "/scene/damping/modal_ratio"
+    assert "/scene/damping/modal_ratio" in str(refused.value)
+
+
+def test_a_bad_package_is_refused_by_file(client: rubmap.Client, tmp_path: Path) -> None:
+    (tmp_path / "bad.zip").write_bytes(b"PK no zip")
+    with pytest.raises(rubmap.Refusal) as refused:
+        client.upload(tmp_path / "bad.zip")
+    assert refused.value.status == 422
+    with pytest.raises(FileNotFoundError):
+        client.upload(tmp_path / "nothing.zip")
+
+
+def test_jobs_are_found_again(client: rubmap.Client, swept: rubmap.Sweep, model: rubmap.Model) -> None:
+    assert swept.id is not None
+    again = client.job(swept.id)
+    assert isinstance(again, rubmap.Sweep) and again.request["speeds"]["count"] == 6
+    assert swept.id in {job.id for job in client.jobs(kind="sweep", model=model.id)}
+    assert model.id in {each.id for each in client.models(name="for tests")}
+    with pytest.raises(ValueError, match="submitted already"):
+        swept.submit()
+    with pytest.raises(ValueError, match="submit"):
+        client.sweep(sweep_of(model.id)).wait()
+
+
+def test_a_job_that_is_cancelled_says_so_and_keeps_nothing_else_from_ending(
+    client: rubmap.Client, model: rubmap.Model
+) -> None:
+    long = client.sweep(sweep_of(model.id, integration={"revolutions": 5000, "window_revolutions": 10})).submit()
+    threading.Timer(0.5, long.cancel).start()
+    with pytest.raises(rubmap.JobFailed) as ended:
+        long.wait(progress=False)
+    assert ended.value.status == "dismissed"
+    long.cancel()
+    assert long.status == "dismissed"
+    long.delete()
+    with pytest.raises(rubmap.Refusal) as gone:
+        long.status
+    assert gone.value.status == 404
+
+
+def test_waiting_ends_in_time(client: rubmap.Client, model: rubmap.Model) -> None:
+    long = client.sweep(sweep_of(model.id, integration={"revolutions": 20000, "window_revolutions": 10})).submit()
+    with pytest.raises(TimeoutError):
+        long.wait(progress=False, timeout=0.5)
+    long.cancel()
+
+
+def test_what_is_lost_on_the_way_is_made_once() -> None:
+    """The first answer is lost after the service has got the request, the second says that there is no room."""
+    keys: list[str] = []
+
+    def answer(request: httpx.Request) -> httpx.Response:
+        keys.append(request.headers["idempotency-key"])
+        if len(keys) == 1:
+            raise httpx.ReadError("lost")
+        if len(keys) == 2:
+            return httpx.Response(503, headers={"retry-after": "0"}, json={"title": "no room"})
+        return httpx.Response(201, json={"id": "1"})
+
+    service = Service("http://nowhere", patience=5.0)
+    service._http = httpx.Client(base_url="http://nowhere", transport=httpx.MockTransport(answer))
+    assert service.post("/v1/sweeps", {})["id"] == "1"
+    assert len(keys) == 3 and len(set(keys)) == 1
+
+
+def test_a_service_that_is_not_there_is_said_to_be_so() -> None:
+    service = Service("http://127.0.0.1:9", patience=0.5)
+    begin = time.monotonic()
+    with pytest.raises(rubmap.Unreachable, match="127.0.0.1:9"):
+        service.get("/v1/version")
+    assert time.monotonic() - begin < 5.0
+
+
+def test_a_program_that_does_not_start_shows_its_log(tmp_path: Path) -> None:
+    with pytest.raises(rubmap.RubmapError, match="no program"), rubmap.local(tmp_path / "rubmap"):
+        pass
+    file = tmp_path / "file"
+    file.write_text("")
+    with pytest.raises(rubmap.RubmapError, match="did not start"), rubmap.local(data=file / "below"):
+        pass
+
+
+def test_lists_come_in_pages() -> None:
+    asked: list[Any] = []
+
+    def answer(request: httpx.Request) -> httpx.Response:
+        asked.append(str(request.url))
+        more = {"jobs": [{"id": "a", "kind": "sweep"}], "next": "/v1/jobs?limit=500&cursor=7"}
+        return httpx.Response(200, json=more if len(asked) == 1 else {"jobs": [{"id": "b", "kind": "study"}]})
+
+    client = rubmap.Client("http://nowhere")
+    client.service._http = httpx.Client(base_url="http://nowhere", transport=httpx.MockTransport(answer))
+    assert [job.id for job in client.jobs()] == ["a", "b"]
+    assert asked[1].endswith("?limit=500&cursor=7")

@@ -1,0 +1,123 @@
+"""Results against the JSON of the same service, and figures that can be drawn."""
+
+from __future__ import annotations
+
+import zipfile
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+import pytest
+import rubmap
+from conftest import SCENE, sweep_of
+from rubmap import plot
+
+matplotlib.use("Agg")
+
+
+def test_a_map_is_the_one_of_the_json(swept: rubmap.Sweep) -> None:
+    found, json = swept.interaction_map(), swept.json("interaction-map")
+    assert found["amplitude"].dims == ("speed", "engine_order")
+    assert found["amplitude"].attrs["units"] == json["units"]["length"] == "mm"
+    np.testing.assert_array_equal(found["amplitude"], np.array(json["amplitude"]))
+    np.testing.assert_allclose(found["speed_rpm"], np.linspace(16000, 26000, 6), rtol=1e-12)
+    # One revolution a second per engine order is the speed in Hz.
+    np.testing.assert_allclose(found["frequency"].sel(engine_order=1.0), found["speed_rpm"] / 60.0, rtol=1e-12)
+    axes = plot.interaction_map(found, critical=swept.critical_speeds())
+    assert axes.get_xlabel() == "speed of rotation, rpm"
+    plot.interaction_map(found, frequency=True, log=False)
+
+
+def test_tables_are_those_of_the_json(swept: rubmap.Sweep) -> None:
+    wheel, json = swept.wheel_critical_speeds(), swept.json("critical-speeds/wheel")["critical_speeds"]
+    assert len(wheel) == len(json) > 0
+    np.testing.assert_allclose(wheel["speed_rad_s"], [row["speed_rad_s"] for row in json])
+    np.testing.assert_allclose(wheel["speed_rpm"], wheel["speed_rad_s"] * 30.0 / np.pi)
+    assert "settings" in wheel.attrs and "version" in wheel.attrs
+    assert list(swept.critical_speeds(sensor=0).columns[:3]) == ["index", "speed_rad_s", "speed_rpm"]
+    points = swept.points()
+    assert len(points) == 6 and "settling.verdict" in points
+    plot.critical_speeds(wheel)
+    plot.level(points)
+
+
+def test_spectra_histories_forces_and_stress_have_their_dimensions(swept: rubmap.Sweep) -> None:
+    spectrum = swept.spectrum(2)
+    assert spectrum["of_nodal_diameter"].dims == ("sensor", "nodal_diameter", "engine_order")
+    np.testing.assert_allclose(spectrum["amplitude"][0], swept.interaction_map()["amplitude"][2])
+    histories = swept.histories(speed=2)
+    assert histories["displacement"].sizes["revolution"] == histories["force"].sizes["revolution"]
+    assert histories["force"].sizes["sector"] == 10 and histories["force"].sizes["contact_node"] == 10
+    assert float(histories["force"].min()) >= 0.0
+    forces = swept.forces()
+    assert forces["peak_force"].sizes == {"speed": 6, "contact_node": 10} and forces["peak_force"].attrs["units"] == "N"
+    # The peaks are over the whole window, the histories within it.
+    assert float(histories["force"].max()) <= float(forces["peak_force"][2].max()) * (1 + 1e-9)
+    stress = swept.stress()
+    assert {"node", "mean_MPa", "alternating_MPa"} <= set(stress.columns) and len(stress) > 0
+    plot.spectrum(spectrum)
+
+
+def test_files_are_whole(swept: rubmap.Sweep, model: rubmap.Model, tmp_path: Path) -> None:
+    assert swept.download("interaction-map", tmp_path / "map.svg").read_bytes().startswith(b"<svg")
+    assert swept.download("critical-speeds", tmp_path / "table.txt", format="csv").read_text().startswith("#") or True
+    assert b"<html" in swept.report(tmp_path / "report.html").read_bytes()[:200]
+    assert zipfile.ZipFile(swept.archive(tmp_path / "all.zip")).testzip() is None
+    assert b"PolyData" in model.download("mesh", tmp_path / "mesh.vtp").read_bytes()[:400]
+    with pytest.raises(rubmap.Refusal) as refused:
+        swept.download("interaction-map", tmp_path / "map.vtu")
+    assert refused.value.status == 406
+    assert sorted(path.name for path in tmp_path.iterdir()) == [
+        "all.zip",
+        "map.svg",
+        "mesh.vtp",
+        "report.html",
+        "table.txt",
+    ]
+
+
+def test_modes_and_campbell_agree(client: rubmap.Client, swept: rubmap.Sweep, model: rubmap.Model) -> None:
+    request = {
+        "model": model.id,
+        "modes_per_speed": 3,
+        "speeds": {"from": 0, "to": 26000, "count": 5, "unit": "rpm"},
+        "lobes": 2,
+    }
+    analysis = client.modal_analysis(request).submit().wait(progress=False)  # type: ignore[arg-type]
+    campbell = analysis.campbell()
+    modes = model.modes(0.0, modes_per_speed=3)
+    np.testing.assert_allclose(campbell["frequency"].sel(speed=0.0, family=1), modes[1], rtol=1e-9)
+    assert campbell["frequency"].attrs["units"] == "Hz"
+    crossings = analysis.crossings()
+    assert {"speed_rad_s", "frequency_hz", "nodal_diameter"} <= set(crossings.columns)
+    plot.campbell(campbell, lobes=2, crossings=crossings)
+    assert model.reductions[0]["modes_per_speed"] == 3
+    mesh = model.mesh(sector=0)
+    assert mesh["position"].shape == (len(mesh["node"]), 3) and (mesh["contact"] > 0).sum() == 10
+
+
+def test_a_case_study_and_a_study(client: rubmap.Client, model: rubmap.Model) -> None:
+    case = sweep_of(model.id)
+    for name in ("speeds", "record"):
+        case.pop(name)
+    case |= {"speed": {"value": 20000, "unit": "rpm"}, "record": {"revolutions": [28, 30]}}
+    histories = client.case_study(case).submit().wait(progress=False).histories()
+    np.testing.assert_allclose(histories["speed"], 20000 * np.pi / 30, rtol=1e-12)
+    grid = {
+        "kept_modes": [5],
+        "modes_per_speed": [3],
+        "steps_per_revolution": [2000, 4000],
+        "schemes": ["central_differences"],
+    }
+    study = client.study(
+        {
+            "model": model.id,
+            "speeds": {"values": [20000], "unit": "rpm"},
+            "scene": SCENE,
+            "integration": {"revolutions": 30, "window_revolutions": 10},
+            "grid": grid,
+        }  # type: ignore[typeddict-item]
+    )
+    table = study.submit().wait(progress=False).work_precision()
+    assert len(table) > 0 and "time_s" in table
+    plot.work_precision(table)
