@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import zipfile
 from pathlib import Path
+from typing import Any
 
 import matplotlib
 import numpy as np
 import pytest
-import rubmap
 from conftest import SCENE, sweep_of
+
+import rubmap
 from rubmap import plot
 
 matplotlib.use("Agg")
@@ -59,8 +61,9 @@ def test_spectra_histories_forces_and_stress_have_their_dimensions(swept: rubmap
 
 
 def test_files_are_whole(swept: rubmap.Sweep, model: rubmap.Model, tmp_path: Path) -> None:
-    assert swept.download("interaction-map", tmp_path / "map.svg").read_bytes().startswith(b"<svg")
-    assert swept.download("critical-speeds", tmp_path / "table.txt", format="csv").read_text().startswith("#") or True
+    assert swept.download("interaction-map", tmp_path / "map.svg").read_bytes().startswith(b"<?xml")
+    lines = swept.download("critical-speeds", tmp_path / "table.txt", format="csv").read_text().splitlines()
+    assert any("speed_rad_s" in line for line in lines)
     assert b"<html" in swept.report(tmp_path / "report.html").read_bytes()[:200]
     assert zipfile.ZipFile(swept.archive(tmp_path / "all.zip")).testzip() is None
     assert b"PolyData" in model.download("mesh", tmp_path / "mesh.vtp").read_bytes()[:400]
@@ -91,7 +94,7 @@ def test_modes_and_campbell_agree(client: rubmap.Client, swept: rubmap.Sweep, mo
     crossings = analysis.crossings()
     assert {"speed_rad_s", "frequency_hz", "nodal_diameter"} <= set(crossings.columns)
     plot.campbell(campbell, lobes=2, crossings=crossings)
-    assert model.reductions[0]["modes_per_speed"] == 3
+    assert 3 in {reduction["modes_per_speed"] for reduction in model.reductions}
     mesh = model.mesh(sector=0)
     assert mesh["position"].shape == (len(mesh["node"]), 3) and (mesh["contact"] > 0).sum() == 10
 
@@ -103,7 +106,7 @@ def test_a_case_study_and_a_study(client: rubmap.Client, model: rubmap.Model) ->
     case |= {"speed": {"value": 20000, "unit": "rpm"}, "record": {"revolutions": [28, 30]}}
     histories = client.case_study(case).submit().wait(progress=False).histories()
     np.testing.assert_allclose(histories["speed"], 20000 * np.pi / 30, rtol=1e-12)
-    grid = {
+    grid: Any = {
         "kept_modes": [5],
         "modes_per_speed": [3],
         "steps_per_revolution": [2000, 4000],
@@ -116,7 +119,7 @@ def test_a_case_study_and_a_study(client: rubmap.Client, model: rubmap.Model) ->
             "scene": SCENE,
             "integration": {"revolutions": 30, "window_revolutions": 10},
             "grid": grid,
-        }  # type: ignore[typeddict-item]
+        }
     )
     table = study.submit().wait(progress=False).work_precision()
     assert len(table) > 0 and "time_s" in table

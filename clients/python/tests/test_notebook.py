@@ -1,0 +1,18 @@
+"""The example runs from its first cell to its last."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import nbclient
+import nbformat
+
+NOTEBOOK = Path(__file__).parent.parent / "examples" / "from_matrices_to_a_verdict.ipynb"
+
+
+def test_the_notebook_comes_to_a_verdict() -> None:
+    notebook = nbformat.read(NOTEBOOK, as_version=4)
+    assert not any(cell.get("outputs") for cell in notebook.cells), "outputs are not kept"
+    done = nbclient.NotebookClient(notebook, timeout=300, resources={"metadata": {"path": str(NOTEBOOK.parent)}}).execute()
+    text = "".join(output.get("text", "") for cell in done.cells for output in cell.get("outputs", []))
+    assert "rpm" in text or "survives" in text
