@@ -38,16 +38,12 @@ def interaction_map(
     ax = _axes(ax)
     amplitude = found["amplitude"].to_numpy()
     loudest = float(np.nanmax(amplitude))
-    speeds = found["speed_rpm"].to_numpy()
-    upwards = (
-        found["frequency"].to_numpy()
-        if frequency
-        else np.broadcast_to(found["engine_order"].to_numpy(), amplitude.shape)
-    )
-    across = np.broadcast_to(speeds[:, None], amplitude.shape)
+    across, orders = _edges(found["speed_rpm"].to_numpy()), _edges(found["engine_order"].to_numpy())
+    upwards = np.outer(across / 60.0, orders) if frequency else np.broadcast_to(orders, (len(across), len(orders)))
     norm = LogNorm(_QUIETEST * loudest, loudest) if log and loudest > 0.0 else None
     shown = np.maximum(amplitude, _QUIETEST * loudest) if norm else amplitude
-    cells = ax.pcolormesh(across, upwards, shown, norm=norm, cmap="viridis", shading="nearest", rasterized=True)
+    corners = np.broadcast_to(across[:, None], upwards.shape)
+    cells = ax.pcolormesh(corners, upwards, shown, norm=norm, cmap="viridis", shading="flat", rasterized=True)
     unit = found["amplitude"].attrs["units"]
     _figure(ax).colorbar(cells, ax=ax, label=f"amplitude, {unit}")
     if critical is not None:
@@ -134,6 +130,14 @@ def work_precision(table: pd.DataFrame, ax: Axes | None = None, error: str = "am
     ax.set_ylabel(f"error of {error.replace('_', ' ')}")
     ax.legend(fontsize="small")
     return ax
+
+
+def _edges(centres: Any) -> Any:
+    """Edges of cells: half way between their centres, and as far beyond the outer ones."""
+    if len(centres) == 1:
+        return np.array([centres[0] - 0.5, centres[0] + 0.5])
+    inner = (centres[1:] + centres[:-1]) / 2.0
+    return np.concatenate([[2.0 * centres[0] - inner[0]], inner, [2.0 * centres[-1] - inner[-1]]])
 
 
 def _axes(ax: Axes | None) -> Axes:
