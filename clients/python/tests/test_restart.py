@@ -27,14 +27,14 @@ def started(folder: Path, address: str) -> tuple[subprocess.Popen[bytes], str]:
 def test_a_script_outlives_the_service(tmp_path: Path) -> None:
     process, address = started(tmp_path, "127.0.0.1:0")
     try:
-        client = rubmap.Client(f"http://{address}")
-        model = client.generate({"preset": "small"}).submit().wait(progress=False).model
-        sweep = client.sweep(sweep_of(model, integration={"revolutions": 400, "window_revolutions": 10})).submit()
-        process.kill()
-        process.wait()
-        process, _ = started(tmp_path, address)
-        assert sweep.wait(progress=False).status == "successful"
-        assert len(client.jobs(kind="sweep")) == 1
+        with rubmap.Client(f"http://{address}") as client:
+            model = client.generate({"preset": "small"}).submit().wait(progress=False).model
+            sweep = client.sweep(sweep_of(model, integration={"revolutions": 400, "window_revolutions": 10})).submit()
+            process.kill()
+            process.wait()
+            process, _ = started(tmp_path, address)
+            assert sweep.wait(progress=False).status == "successful"
+            assert len(client.jobs(kind="sweep")) == 1
     finally:
         process.kill()
         process.wait()
