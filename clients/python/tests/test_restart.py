@@ -16,7 +16,8 @@ import rubmap
 def started(folder: Path, address: str) -> tuple[subprocess.Popen[bytes], str]:
     log = folder / f"{time.monotonic_ns()}.log"
     command = [os.environ["RUBMAP_BINARY"], "serve", "--addr", address, "--data", str(folder / "data")]
-    process = subprocess.Popen(command, stdout=log.open("wb"), stderr=subprocess.STDOUT)
+    with log.open("wb") as out:
+        process = subprocess.Popen(command, stdout=out, stderr=out)
     for _ in range(600):
         if found := re.search(r"listening on http://(\S+)", log.read_text()):
             return process, found[1]

@@ -1,0 +1,202 @@
+"""What people do on the page, from a package to a comparison, as they do it: by labels, names and keys."""
+
+import re
+
+from conftest import sweep_of
+from service import Service, package
+
+
+def open_job(page):
+    """The page of a job, whose id is in the address."""
+    page.wait_for_url(re.compile(r"#/jobs/[0-9a-f-]+"))
+    return re.search(r"#/jobs/([0-9a-f-]+)", page.url)[1]
+
+
+def test_a_package_is_chosen_dropped_and_deleted(service, zipped, tmp_path, new_page):
+    other = package(tmp_path / "other.zip", "--sectors", "7")
+    page = new_page(f"{service.url}/#/models")
+    page.get_by_label("Drop a model package").set_input_files(other)
+    page.get_by_role("heading", name="7 sectors", level=1).wait_for()
+    page.get_by_role("link", name="Models").click()
+    # The same once more, dropped: it is known.
+    data = other.read_bytes()
+    handle = page.evaluate_handle(
+        """bytes => { const data = new DataTransfer(); data.items.add(new File([new Uint8Array(bytes)], 'wheel.zip')); return data; }""",
+        list(data),
+    )
+    page.locator(".drop").dispatch_event("drop", {"dataTransfer": handle})
+    page.get_by_role("heading", name="7 sectors", level=1).wait_for()
+    page.get_by_role("button", name="Delete").click()
+    page.get_by_role("dialog").get_by_role("button", name="Delete it").click()
+    page.wait_for_url("**/#/models")
+    page.get_by_role("heading", name="Models").wait_for()
+    page.locator("main:not([aria-busy])").wait_for()
+    assert page.get_by_role("link", name="7 sectors").count() == 0
+
+
+def test_a_bad_package_is_refused_with_file_and_row(service, tmp_path, zipped, new_page):
+    import zipfile
+
+    bad = tmp_path / "bad.zip"
+    with zipfile.ZipFile(zipped) as good, zipfile.ZipFile(bad, "w") as out:
+        for name in good.namelist():
+            content = good.read(name)
+            if name == "nodes.csv":
+                lines = content.decode().splitlines()
+                lines[5] = lines[5].rsplit(",", 1)[0] + ",far away"
+                content = "\n".join(lines).encode()
+            out.writestr(name, content)
+    page = new_page(f"{service.url}/#/models", expected=["422"])
+    page.get_by_label("Drop a model package").set_input_files(bad)
+    alert = page.get_by_role("alert")
+    alert.wait_for()
+    assert "nodes.csv" in alert.inner_text() and "line 6" in alert.inner_text()
+
+
+def test_a_wheel_is_generated_from_a_preset(service, new_page):
+    page = new_page(f"{service.url}/#/generate", expected=["422"])
+    sectors = page.get_by_label("Sectors")
+    sectors.fill("2")
+    page.get_by_text("at least 3").last.wait_for()
+    page.get_by_role("button", name="Generate").click()
+    page.locator(".error", has_text="3").wait_for()
+    sectors.fill("9")
+    page.get_by_role("button", name="Generate").click()
+    page.get_by_role("heading", name="9 sectors", level=1).wait_for()
+    page.locator("canvas.stage").wait_for()
+
+
+def test_a_sweep_is_planned_asked_for_and_followed(service, model, new_page):
+    page = new_page(f"{service.url}/#/sweep?model={model}", expected=["422"])
+    plan = page.get_by_role("status", name="Plan")
+    plan.get_by_text(re.compile("steps", re.I)).first.wait_for()
+    before = plan.inner_text()
+    page.get_by_label("Count").fill("12")
+    page.wait_for_timeout(1500)
+    assert plan.inner_text() != before
+    # What the form makes is there to be seen, and what is written there the form shows.
+    page.get_by_text("The request as JSON").click()
+    text = page.get_by_label("Request; the form follows what you write")
+    text.fill(text.input_value().replace('"count": 12', '"count": 9'))
+    assert page.get_by_label("Count").input_value() == "9"
+    page.get_by_role("button", name="Start").click()
+    job = open_job(page)
+    page.get_by_text("done", exact=True).wait_for(timeout=120_000)
+    assert service.finish(job)["status"] == "successful"
+    page.locator(".figure .main-svg").first.wait_for()
+    assert service.call("GET", f"/v1/jobs/{job}")["request"]["speeds"]["count"] == 9
+
+
+def test_a_click_on_the_map_opens_that_speed(service, swept, new_page):
+    page = new_page(f"{service.url}/#/jobs/{swept}")
+    drag = page.locator(".figure .nsewdrag.drag").first
+    drag.wait_for()
+    box = drag.bounding_box()
+    # The fifth of ten speeds.
+    page.mouse.click(box["x"] + box["width"] * 0.45, box["y"] + box["height"] * 0.5)
+    page.wait_for_url(re.compile("view=point"))
+    assert "speed=4" in page.url
+    page.locator(".figure .main-svg").first.wait_for()
+    page.get_by_text(re.compile("22,66[67]")).first.wait_for()
+
+
+def test_sweeps_are_compared_and_a_measurement_laid_over(service, swept, model, tmp_path, new_page):
+    job = service.call("POST", "/v1/sweeps", sweep_of(model, name="to compare"))["id"]
+    assert service.finish(job)["status"] == "successful"
+    page = new_page(f"{service.url}/#/jobs")
+    page.get_by_role("checkbox", name="Compare to compare").check()
+    page.get_by_role("checkbox", name=re.compile("^Compare Sweep")).last.check()
+    page.get_by_role("button", name="Compare the chosen").click()
+    page.get_by_role("heading", name="Level over speed").wait_for()
+    page.locator(".figure .main-svg").first.wait_for()
+    measured = tmp_path / "measured.csv"
+    measured.write_text("speed,frequency,amplitude\n14000,800,0.1\n22000,1200,0.3\n")
+    page.locator("input[type=file]").set_input_files(measured)
+    page.get_by_text(re.compile("2 points|2 rows|measured", re.I)).first.wait_for()
+
+
+def test_a_job_is_cancelled_run_again_and_deleted(service, model, new_page):
+    long = sweep_of(model, name="long one", integration={"revolutions": 20000, "window_revolutions": 20}, record={})
+    service.call("POST", "/v1/sweeps", long)
+    page = new_page(f"{service.url}/#/jobs?name=long")
+    page.get_by_role("progressbar", name="Progress of long one").wait_for()
+    page.get_by_role("button", name="Cancel long one").click()
+    page.get_by_text("cancelled", exact=True).last.wait_for()
+    page.get_by_role("button", name="Run long one again").click()
+    job = open_job(page)
+    page.reload()
+    page.get_by_role("heading", name="long one").wait_for()
+    page.get_by_role("button", name="Cancel long one").click()
+    page.get_by_role("button", name="Delete long one").click()
+    page.get_by_role("dialog").get_by_role("button", name="Keep").click()
+    assert service.call("GET", f"/v1/jobs/{job}")["status"] == "dismissed"
+    page.get_by_role("button", name="Delete long one").click()
+    page.get_by_role("dialog").get_by_role("button", name="Delete it").click()
+    page.wait_for_url("**/#/jobs")
+
+
+def test_the_page_outlives_the_service(tmp_path, zipped, new_page):
+    own = Service(tmp_path)
+    try:
+        model = own.call("POST", "/v1/models", zipped.read_bytes())["id"]
+        slow = sweep_of(model, integration={"revolutions": 600, "window_revolutions": 20}, record={})
+        job = own.call("POST", "/v1/sweeps", slow)["id"]
+        page = new_page(f"{own.url}/#/jobs/{job}", expected=["ERR_CONNECTION_REFUSED", "ERR_INCOMPLETE_CHUNKED", "ERR_EMPTY", "ERR_CONNECTION_RESET", "ERR_ABORTED"])
+        page.get_by_text("running", exact=True).wait_for()
+        own.kill()
+        page.get_by_text("The service does not answer. Trying again").wait_for(timeout=30_000)
+        own.start()
+        page.get_by_text("The service does not answer. Trying again").wait_for(state="hidden", timeout=30_000)
+        page.get_by_text("done", exact=True).wait_for(timeout=120_000)
+        page.locator(".figure .main-svg").first.wait_for()
+    finally:
+        own.stop()
+
+
+def test_a_token_opens_the_service_for_this_tab(tmp_path, new_page):
+    import subprocess
+
+    from service import PROGRAM
+
+    tokens = tmp_path / "tokens"
+    made = subprocess.run([PROGRAM, "token", "new", "--tokens", tokens, "--owner", "alice"], capture_output=True, text=True)
+    assert made.returncode == 0, made.stderr
+    token = made.stdout.split()[-1]
+    own = Service(tmp_path, "--tokens", str(tokens))
+    try:
+        page = new_page(f"{own.url}/#/jobs", expected=["401"])
+        page.get_by_label("Token").fill("wrong")
+        page.get_by_role("button", name="Sign in").click()
+        page.get_by_role("alert").wait_for()
+        page.get_by_label("Token").fill(token)
+        page.get_by_role("button", name="Sign in").click()
+        page.get_by_role("heading", name="Jobs").wait_for()
+        page.reload()
+        page.get_by_role("heading", name="Jobs").wait_for()
+        assert page.evaluate("localStorage.length === 0 || !Object.values(localStorage).some((value) => value.length > 20)")
+        page.get_by_role("button", name="Sign out").click()
+        page.get_by_label("Token").wait_for()
+    finally:
+        own.stop()
+
+
+def test_a_wheel_turns_by_mouse_and_keys(service, model, new_page):
+    page = new_page(f"{service.url}/#/models/{model}")
+    stage = page.locator("canvas.stage")
+    stage.wait_for()
+    stage.scroll_into_view_if_needed()
+    page.wait_for_timeout(500)
+
+    def frames():
+        return int(stage.get_attribute("data-frames"))
+
+    before, picture = frames(), stage.screenshot()
+    page.wait_for_timeout(500)
+    assert frames() == before, "what rests is not drawn again"
+    stage.focus()
+    page.keyboard.press("ArrowRight")
+    page.wait_for_timeout(500)
+    assert frames() > before and stage.screenshot() != picture
+    page.keyboard.press("0")
+    page.wait_for_timeout(500)
+    assert stage.screenshot() == picture
