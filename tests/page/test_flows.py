@@ -66,7 +66,7 @@ def test_a_wheel_is_generated_from_a_preset(service, new_page):
     page.locator("canvas.stage").wait_for()
 
 
-def test_a_sweep_is_planned_asked_for_and_followed(service, model, new_page):
+def test_a_sweep_is_planned_asked_for_and_followed(service, model, swept, new_page):
     page = new_page(f"{service.url}/#/sweep?model={model}", expected=["422"])
     plan = page.get_by_role("status", name="Plan")
     plan.get_by_text(re.compile("steps", re.I)).first.wait_for()
@@ -190,10 +190,10 @@ def test_a_wheel_turns_by_mouse_and_keys(service, model, new_page):
     def frames():
         return int(stage.get_attribute("data-frames"))
 
+    stage.focus()
     before, picture = frames(), stage.screenshot()
     page.wait_for_timeout(500)
     assert frames() == before, "what rests is not drawn again"
-    stage.focus()
     page.keyboard.press("ArrowRight")
     page.wait_for_timeout(500)
     assert frames() > before and stage.screenshot() != picture
