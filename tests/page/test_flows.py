@@ -71,14 +71,14 @@ def test_a_sweep_is_planned_asked_for_and_followed(service, model, swept, new_pa
     plan = page.get_by_role("status", name="Plan")
     plan.get_by_text(re.compile("steps", re.I)).first.wait_for()
     before = plan.inner_text()
-    page.get_by_label("Count").fill("12")
+    page.get_by_label("Count").first.fill("12")
     page.wait_for_timeout(1500)
     assert plan.inner_text() != before
     # What the form makes is there to be seen, and what is written there the form shows.
     page.get_by_text("The request as JSON").click()
     text = page.get_by_label("Request; the form follows what you write")
     text.fill(text.input_value().replace('"count": 12', '"count": 9'))
-    assert page.get_by_label("Count").input_value() == "9"
+    assert page.get_by_label("Count").first.input_value() == "9"
     page.get_by_role("button", name="Start").click()
     job = open_job(page)
     page.get_by_text("done", exact=True).wait_for(timeout=120_000)

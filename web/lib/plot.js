@@ -50,7 +50,7 @@ function dressed(element, figure, height) {
   layout.height = height ?? layout.height ?? HEIGHT;
   if (narrow(element)) {
     // A key beside the figure would leave no room for it; those of the service have theirs below.
-    layout.legend = { orientation: 'h', y: -0.25, x: 0, yanchor: 'top', xanchor: 'left', ...layout.legend };
+    layout.legend = { orientation: 'h', y: -0.4, x: 0, yanchor: 'top', xanchor: 'left', ...layout.legend };
     layout.margin = { ...layout.margin, l: 48, r: 12 };
     if (layout.title) layout.title = { ...layout.title, font: { size: 13 } };
   }
