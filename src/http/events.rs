@@ -64,7 +64,9 @@ pub(super) async fn follow_job(
     let stopped = state.stop.clone().cancelled_owned();
     let events = told(state.followed.follow(&state, id)).take_until(stopped);
     let events = Sse::new(events).keep_alive(KeepAlive::new().interval(SILENCE));
-    Ok((Extension(Lasting), events).into_response())
+    // nginx would keep events until it has a buffer full.
+    let unbuffered = [("x-accel-buffering", "no")];
+    Ok((Extension(Lasting), unbuffered, events).into_response())
 }
 
 /// What is told from here on, beginning with the latest.
