@@ -35,10 +35,9 @@ impl Verb for OpenArgs {
         };
         print(&address)?;
         let shown = |display: &str| std::env::var_os(display).is_some_and(|value| !value.is_empty());
-        if cfg!(target_os = "macos") || DISPLAYS.into_iter().any(shown) {
-            if let Err(error) = opener::open_browser(&address) {
-                client.terminal.say(&format!("no browser could be opened: {error}"));
-            }
+        let has_display = cfg!(target_os = "macos") || DISPLAYS.into_iter().any(shown);
+        if has_display && let Err(error) = opener::open_browser(&address) {
+            client.terminal.say(&format!("no browser could be opened: {error}"));
         }
         Ok(())
     }
