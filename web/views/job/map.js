@@ -1,6 +1,6 @@
 // The interaction map: it grows while the job runs, and a click on it opens the speed.
 
-import { api } from '../../lib/api.js';
+import { api, Refusal } from '../../lib/api.js';
 import { h, replace } from '../../lib/dom.js';
 import { ended } from '../../lib/events.js';
 import { plot } from '../../lib/plot.js';
@@ -28,7 +28,7 @@ export async function show(place, context, signal) {
         scale = chosen;
         draw();
       }),
-      select('Nodal diameter', [['', 'all'], ...diameters(context)], query.get('nodal_diameter') ?? '', (nodal_diameter) => context.go({ nodal_diameter })),
+      select('Nodal diameter', [['', 'all'], ...await diameters(job, signal)], query.get('nodal_diameter') ?? '', (nodal_diameter) => context.go({ nodal_diameter })),
       select('Level coloured by', [['', 'nothing'], ['utilisation', 'utilisation']], query.get('colour') ?? '', (colour) => context.go({ colour }))),
     told, figure,
     h('p', { class: 'quiet small' }, 'A click on the map opens that speed; arrow keys of “One speed” go through all.'),
@@ -88,11 +88,15 @@ export async function show(place, context, signal) {
   await refresh();
 }
 
-/** Nodal diameters of the model: their number follows from that of the sectors. */
-function diameters({ job }) {
-  const most = job.reduction?.harmonics?.length ?? null;
-  const number = most ?? (Math.floor((job.reduction?.sectors ?? 24) / 2) + 1);
-  return Array.from({ length: number }, (_, n) => [n, String(n)]);
+/** Nodal diameters to choose from: their number follows from that of the sectors; none where the model is deleted. */
+async function diameters({ model }, signal) {
+  try {
+    const { sectors } = await api.get(`/v1/models/${model}`, { signal });
+    return Array.from({ length: Math.floor(sectors / 2) + 1 }, (_, n) => [String(n), String(n)]);
+  } catch (error) {
+    if (error instanceof Refusal && error.status === 404) return [];
+    throw error;
+  }
 }
 
 /** Opens the speed that was clicked. */

@@ -82,5 +82,6 @@ function changed(request, { name, on }, model) {
 function share(part) {
   const percent = 100 * part;
   if (Math.abs(percent) < 0.5) return 'no time';
+  if (part > 2) return `${number(1 + part, 2)} times the time`;
   return `${percent > 0 ? '+' : '−'}${number(Math.abs(percent), 2)} % time`;
 }
