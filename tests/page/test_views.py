@@ -2,11 +2,13 @@
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
-from conftest import THEMES, WIDTHS
+from conftest import THEMES, WIDTHS, sweep_of
 
 VIEWS = {
     "models": "#/models",
     "model": "#/models/{model}",
+    "modes": "#/models/{model}?view=modes",
+    "reductions": "#/models/{model}?view=reductions",
     "generate": "#/generate",
     "sweep": "#/sweep?model={model}",
     "sweep-as": "#/sweep?as={swept}",
@@ -16,10 +18,13 @@ VIEWS = {
     "point": "#/jobs/{swept}?view=point&speed=4",
     "campbell": "#/jobs/{swept}?view=campbell",
     "critical": "#/jobs/{swept}?view=critical",
+    "forces": "#/jobs/{swept}?view=forces",
     "stress": "#/jobs/{swept}?view=stress",
     "fields": "#/jobs/{swept}?view=fields&speed=4",
     "credentials": "#/jobs/{swept}?view=credentials",
     "downloads": "#/jobs/{swept}?view=downloads",
+    "work-precision": "#/jobs/{study}",
+    "histories": "#/jobs/{case}",
     "compare": "#/compare?jobs={swept},{swept_as_well}",
     "sign-in": "#/sign-in",
     "nowhere": "#/nowhere",
@@ -28,12 +33,19 @@ VIEWS = {
 
 @pytest.fixture(scope="session")
 def places(service, model, swept):
-    from conftest import sweep_of
-
     again = sweep_of(model, speeds={"from": 14000, "to": 34000, "count": 8, "unit": "rpm"})
     job = service.call("POST", "/v1/sweeps", again)["id"]
     assert service.finish(job)["status"] == "successful"
-    return {"model": model, "swept": swept, "swept_as_well": job}
+    quick = {"revolutions": 30, "window_revolutions": 10}
+    scene = again["scene"]
+    grid = {"kept_modes": [5], "modes_per_speed": [3], "steps_per_revolution": [4000, 8000], "schemes": ["central_differences", "exact_modal"]}
+    study = {"model": model, "speeds": {"values": [20000], "unit": "rpm"}, "scene": scene, "integration": quick, "grid": grid}
+    case = {"model": model, "speed": {"value": 20000, "unit": "rpm"}, "scene": scene, "integration": quick, "record": {"revolutions": [28, 30]}}
+    ended = {"model": model, "swept": swept, "swept_as_well": job}
+    for name, path, request in (("study", "/v1/studies", study), ("case", "/v1/case-studies", case)):
+        ended[name] = service.call("POST", path, request)["id"]
+        assert service.finish(ended[name])["status"] == "successful"
+    return ended
 
 
 @pytest.mark.parametrize("theme", THEMES)
