@@ -3,6 +3,7 @@
 import { h, facts, replace } from '../lib/dom.js';
 import { ended, follow, readJob } from '../lib/events.js';
 import { bytes, count, duration, moment, nameOf } from '../lib/format.js';
+import { placeWith } from '../lib/place.js';
 import { problem } from '../lib/problem.js';
 import { actions } from './job/actions.js';
 
@@ -52,7 +53,7 @@ export async function show(main, { id, query }, signal) {
     h('h1', {}, nameOf(job)),
     state,
     h('nav', { class: 'tabs', 'aria-label': 'Results' }, tabs.map(([name, words]) => h('a', {
-      href: addressOf(id, query, { view: name }),
+      href: placeWith(`jobs/${id}`, query, { view: name }),
       'aria-current': name === tab[0] ? 'page' : null,
     }, words))),
     place);
@@ -68,8 +69,8 @@ export async function show(main, { id, query }, signal) {
     job,
     query,
     now: () => shown,
-    go: (changes) => { location.hash = addressOf(id, query, changes); },
-    address: (changes) => addressOf(id, query, changes),
+    go: (changes) => { location.hash = placeWith(`jobs/${id}`, query, changes); },
+    address: (changes) => placeWith(`jobs/${id}`, query, changes),
     onChange: (f) => listeners.push(f),
   };
   if (!ended(job)) {
@@ -85,17 +86,6 @@ export async function show(main, { id, query }, signal) {
     // What was not ready may be when the job has ended.
     if (!ended(job)) listeners.push((now) => ended(now) && dispatchEvent(new HashChangeEvent('hashchange')));
   }
-}
-
-/** The address of another place in a job: the query with these changes, `null` for what goes. */
-function addressOf(id, query, changes) {
-  const next = new URLSearchParams(query);
-  for (const [name, value] of Object.entries(changes)) {
-    if (value === null || value === undefined || value === '') next.delete(name);
-    else next.set(name, String(value));
-  }
-  const text = next.toString();
-  return `#/jobs/${id}${text ? `?${text}` : ''}`;
 }
 
 /** About how long a job still takes, from what it took so far, s; nothing before that means anything. */

@@ -4,6 +4,7 @@ import { api } from '../lib/api.js';
 import { debounced, h, newId, replace } from '../lib/dom.js';
 import { ended, poll } from '../lib/events.js';
 import { bytes, count, duration, KINDS, moment, nameOf } from '../lib/format.js';
+import { cursorOf, placeWith } from '../lib/place.js';
 import { problem } from '../lib/problem.js';
 import { remaining, STATUSES } from './job.js';
 import { actions } from './job/actions.js';
@@ -51,10 +52,10 @@ export async function show(main, { query }, signal) {
       const filtered = FILTERS.some((name) => query.get(name));
       replace(rows, h('li', { class: 'quiet' }, filtered ? 'No job is like that.' : ['There is no job yet. ', h('a', { href: '#/sweep' }, 'Ask for a sweep'), '.']));
     }
-    const cursor = list.next ? new URLSearchParams(list.next.split('?')[1]).get('cursor') : null;
+    const cursor = cursorOf(list);
     replace(pages,
-      query.get('cursor') ? h('a', { class: 'button', href: addressOf(query, { cursor: null }) }, 'Newest') : null,
-      cursor ? h('a', { class: 'button', href: addressOf(query, { cursor }) }, 'Older') : null);
+      query.get('cursor') ? h('a', { class: 'button', href: placeWith('jobs', query, { cursor: null }) }, 'Newest') : null,
+      cursor ? h('a', { class: 'button', href: placeWith('jobs', query, { cursor }) }, 'Older') : null);
   }
 
   await refresh();
@@ -63,18 +64,8 @@ export async function show(main, { query }, signal) {
   });
 }
 
-function addressOf(query, changes) {
-  const next = new URLSearchParams(query);
-  for (const [name, value] of Object.entries(changes)) {
-    if (value) next.set(name, value);
-    else next.delete(name);
-  }
-  const text = next.toString();
-  return `#/jobs${text ? `?${text}` : ''}`;
-}
-
 function filters(query, signal) {
-  const go = (changes) => { location.hash = addressOf(query, { cursor: null, ...changes }); };
+  const go = (changes) => { location.hash = placeWith('jobs', query, { cursor: null, ...changes }); };
   const all = [['', 'all']];
   const id = newId('name');
   const name = h('input', { id, type: 'search', value: query.get('name') ?? '' });

@@ -3,6 +3,7 @@
 import { api } from '../lib/api.js';
 import { facts, h, replace } from '../lib/dom.js';
 import { bytes, moment, number, rpm, short } from '../lib/format.js';
+import { placeWith } from '../lib/place.js';
 import { problem } from '../lib/problem.js';
 import { deleteButton } from './models.js';
 
@@ -19,7 +20,7 @@ export async function show(main, { id, query }, signal) {
   const tab = TABS.find(([name]) => name === query.get('view')) ?? TABS[0];
   const told = h('div');
   const place = h('section', { 'aria-label': tab[1] });
-  const address = (changes) => addressOf(id, query, changes);
+  const address = (changes) => placeWith(`models/${id}`, query, changes);
   replace(main,
     h('h1', {}, model.name),
     facts([
@@ -51,13 +52,4 @@ export async function show(main, { id, query }, signal) {
   } catch (error) {
     if (!signal.aborted) replace(place, problem(error));
   }
-}
-
-function addressOf(id, query, changes) {
-  const next = new URLSearchParams(query);
-  for (const [name, value] of Object.entries(changes)) {
-    if (value === null || value === '') next.delete(name);
-    else next.set(name, value);
-  }
-  return `#/models/${id}?${next}`;
 }

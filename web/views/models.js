@@ -3,7 +3,8 @@
 import { api, Refusal } from '../lib/api.js';
 import { confirmed } from '../lib/confirm.js';
 import { debounced, facts, h, newId, replace } from '../lib/dom.js';
-import { bytes, count, moment, number, percent, rpm } from '../lib/format.js';
+import { bytes, moment, number, percent, rpm } from '../lib/format.js';
+import { cursorOf, placeWith } from '../lib/place.js';
 import { problem } from '../lib/problem.js';
 import { upload } from '../lib/upload.js';
 
@@ -12,38 +13,29 @@ const LIMIT = 50;
 
 export async function show(main, { query }, signal) {
   const told = h('div');
-  const list = h('div');
-  replace(main, h('h1', {}, 'Models'), drop(signal), filter(query, signal), told, list);
+  const shown = h('div');
+  replace(main, h('h1', {}, 'Models'), drop(signal), filter(query, signal), told, shown);
   await read();
 
   async function read() {
     const asked = { name: query.get('name'), tag: query.get('tag'), cursor: query.get('cursor'), limit: LIMIT };
-    const { models, next } = await api.get('/v1/models', { query: asked, signal });
-    const cursor = next ? new URLSearchParams(next.split('?')[1]).get('cursor') : null;
+    const list = await api.get('/v1/models', { query: asked, signal });
+    const { models } = list;
+    const cursor = cursorOf(list);
     const filtered = query.get('name') || query.get('tag');
-    replace(list,
+    replace(shown,
       models.length > 0 ? h('ul', { class: 'plain cards' }, models.map((model) => card(model, { told, read }, signal)))
         : filtered ? h('p', { class: 'quiet' }, 'No model is like that.') : introduction(),
       h('div', { class: 'row' },
-        query.get('cursor') ? h('a', { class: 'button', href: addressOf(query, { cursor: null }) }, 'Newest') : null,
-        cursor ? h('a', { class: 'button', href: addressOf(query, { cursor }) }, 'Older') : null));
+        query.get('cursor') ? h('a', { class: 'button', href: placeWith('models', query, { cursor: null }) }, 'Newest') : null,
+        cursor ? h('a', { class: 'button', href: placeWith('models', query, { cursor }) }, 'Older') : null));
   }
-}
-
-function addressOf(query, changes) {
-  const next = new URLSearchParams(query);
-  for (const [name, value] of Object.entries(changes)) {
-    if (value) next.set(name, value);
-    else next.delete(name);
-  }
-  const text = next.toString();
-  return `#/models${text ? `?${text}` : ''}`;
 }
 
 function filter(query, signal) {
   const id = newId('name');
   const name = h('input', { id, type: 'search', value: query.get('name') ?? '' });
-  name.addEventListener('input', debounced(() => { location.hash = addressOf(query, { name: name.value, cursor: null }); }, 500, signal));
+  name.addEventListener('input', debounced(() => { location.hash = placeWith('models', query, { name: name.value, cursor: null }); }, 500, signal));
   return h('div', { class: 'row', role: 'search' }, h('label', { for: id }, 'Name has'), name);
 }
 

@@ -4,7 +4,7 @@ import { h } from '../lib/dom.js';
 import { number } from '../lib/format.js';
 
 /** From low to high, red, green, blue from 0 to 1, evenly spaced. */
-export const CIVIDIS = [
+const CIVIDIS = [
   [0.000, 0.135, 0.305], [0.000, 0.202, 0.443], [0.208, 0.272, 0.423], [0.318, 0.340, 0.424], [0.404, 0.407, 0.442],
   [0.486, 0.475, 0.471], [0.574, 0.546, 0.475], [0.667, 0.621, 0.458], [0.765, 0.701, 0.422], [0.868, 0.786, 0.359], [0.995, 0.909, 0.218],
 ];

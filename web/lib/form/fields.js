@@ -29,7 +29,7 @@ export function field(name, schema, control, { extra, words } = {}) {
 }
 
 /** What a text says as a number; `undefined` for nothing, `null` for what is none. */
-export function readNumber(text) {
+function readNumber(text) {
   const words = text.trim().replace(',', '.');
   if (words === '') return undefined;
   const value = Number(words);

@@ -11,7 +11,7 @@ export function select(label, options, value, onChange) {
 }
 
 /** What a sensor measures, in words. */
-export function sensorWords(sensor, index) {
+function sensorWords(sensor, index) {
   const place = sensor.gauge ? 'strain gauge'
     : sensor.node !== null && sensor.node !== undefined ? `node ${sensor.node}`
     : sensor.nearest ? `near (${sensor.nearest.join(', ')})`
