@@ -1,6 +1,7 @@
 // The frame: which view an address means, and what stays between views.
 
-import { api, Refusal } from './lib/api.js';
+import { api, Away, Refusal } from './lib/api.js';
+import { onBack } from './lib/away.js';
 import { h, replace } from './lib/dom.js';
 import { problem } from './lib/problem.js';
 import { onSession, signOut, token } from './lib/session.js';
@@ -62,6 +63,7 @@ async function show() {
     if (signal.aborted || (error instanceof Refusal && error.status === 401)) return;
     if (!place.querySelector('h1')) place.prepend(h('h1', {}, 'Something is in the way'));
     place.append(problem(error), h('p', {}, h('button', { type: 'button', on: { click: show } }, 'Try again')));
+    if (error instanceof Away) onBack(show, signal);
   } finally {
     if (!signal.aborted) {
       main.removeAttribute('aria-busy');

@@ -88,9 +88,3 @@ function titleOf(figure) {
   const title = figure.layout?.title;
   return (typeof title === 'string' ? title : title?.text) ?? 'Figure';
 }
-
-/** Changes of the layout of a figure that is shown, as Plotly names them. */
-export async function relayout(element, changes) {
-  const Plotly = await plotly();
-  if (element.data) await Plotly.relayout(element, changes);
-}

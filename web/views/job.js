@@ -1,5 +1,7 @@
 // A job: how far it is, and what it found.
 
+import { Away } from '../lib/api.js';
+import { onBack } from '../lib/away.js';
 import { h, facts, replace } from '../lib/dom.js';
 import { ended, follow, readJob } from '../lib/events.js';
 import { bytes, count, duration, moment, nameOf } from '../lib/format.js';
@@ -83,8 +85,10 @@ export async function show(main, { id, query }, signal) {
   } catch (error) {
     if (signal.aborted) return;
     replace(place, problem(error));
+    const again = () => dispatchEvent(new HashChangeEvent('hashchange'));
+    if (error instanceof Away) onBack(again, signal);
     // What was not ready may be when the job has ended.
-    if (!ended(job)) listeners.push((now) => ended(now) && dispatchEvent(new HashChangeEvent('hashchange')));
+    if (!ended(job)) listeners.push((now) => ended(now) && again());
   }
 }
 
