@@ -8,7 +8,7 @@ import { signOut } from './session.js';
  * @param {File} file
  * @param {(sent: number, all: number) => void} progress
  * @param {AbortSignal} signal
- * @returns {Promise<any>} the model
+ * @returns {Promise<{model: any, known: boolean}>} the model, and whether the service had it already
  */
 export function upload(file, progress, signal) {
   return new Promise((resolve, reject) => {
@@ -25,7 +25,7 @@ export function upload(file, progress, signal) {
       } catch {
         answer = { title: `The service answered ${request.status}` };
       }
-      if (request.status < 300) resolve(answer);
+      if (request.status < 300) resolve({ model: answer, known: request.status === 200 });
       else {
         if (request.status === 401) signOut();
         reject(new Refusal(request.status, answer));

@@ -25,6 +25,8 @@ export async function show(main, { query }, signal) {
   const preset = query.get('preset') in PRESETS ? query.get('preset') : 'small';
   const aside = h('aside', { 'aria-label': 'What it will be', 'aria-live': 'polite' });
   const told = h('div');
+  const bar = h('progress', { max: 100, hidden: true, 'aria-label': 'Progress' });
+  const phase = h('p', { role: 'status' });
   const id = newId('preset');
   const choice = h('select', { id, value: preset, on: { change: () => { location.hash = `#/generate?preset=${choice.value}`; } } },
     Object.entries(PRESETS).map(([name, words]) => h('option', { value: name }, words)));
@@ -35,7 +37,7 @@ export async function show(main, { query }, signal) {
     h('p', {}, 'A centrifugal impeller on a solid hub, meshed, with stiffness at three speeds: a complete model package, whose size and mesh you choose.'),
     h('div', { class: 'field' }, h('label', { for: id }, 'Preset'), choice),
     h('div', { class: 'columns' },
-      h('form', { novalidate: true, on: { submit: start } }, fields, told, h('div', { class: 'row' }, button)),
+      h('form', { novalidate: true, on: { submit: start } }, fields, told, phase, bar, h('div', { class: 'row' }, button)),
       aside));
   // The plan tells every parameter of the preset.
   const whole = await api.send('POST', '/v1/models/plan', { preset }, { signal });
@@ -70,10 +72,12 @@ export async function show(main, { query }, signal) {
     event.preventDefault();
     if (button.disabled) return;
     button.disabled = true;
+    bar.hidden = false;
     try {
       const { id: job } = await submit('/v1/models', request(), signal);
       await follow(job, (now) => {
-        replace(told, h('p', { role: 'status' }, `${now.progress} %${now.phase ? ` · ${now.phase}` : ''}`));
+        bar.value = now.progress;
+        if (phase.textContent !== (now.phase ?? '')) phase.textContent = now.phase ?? '';
         if (now.status === 'successful') location.hash = `#/models/${now.model}`;
         else if (ended(now)) location.hash = `#/jobs/${job}`;
       }, signal);
@@ -81,6 +85,8 @@ export async function show(main, { query }, signal) {
       if (!signal.aborted) complain(error, true);
     } finally {
       button.disabled = false;
+      bar.hidden = true;
+      phase.textContent = '';
     }
   }
 }

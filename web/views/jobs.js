@@ -16,14 +16,16 @@ const LIMIT = 50;
 /** Milliseconds between two looks: while something runs, and otherwise, for jobs that others post. */
 const PACE = { running: 1500, calm: 10_000 };
 
+/** What is chosen to be compared, on whatever page of the list. */
+const chosen = new Set();
+
 const FILTERS = ['status', 'kind', 'model', 'name', 'tag'];
 
 export async function show(main, { query }, signal) {
   const told = h('div');
   const rows = h('ul', { class: 'plain jobs' });
   const pages = h('div', { class: 'row' });
-  const compare = h('button', { type: 'button', disabled: true, on: { click: () => { location.hash = `#/compare?jobs=${[...chosen].join(',')}`; } } }, 'Compare the chosen');
-  const chosen = new Set();
+  const compare = h('button', { type: 'button', disabled: chosen.size < 2, on: { click: () => { location.hash = `#/compare?jobs=${[...chosen].join(',')}`; } } }, 'Compare the chosen');
   replace(main,
     h('h1', {}, 'Jobs'),
     filters(query, signal),
@@ -67,14 +69,18 @@ export async function show(main, { query }, signal) {
 function filters(query, signal) {
   const go = (changes) => { location.hash = placeWith('jobs', query, { cursor: null, ...changes }); };
   const all = [['', 'all']];
-  const id = newId('name');
-  const name = h('input', { id, type: 'search', value: query.get('name') ?? '' });
-  name.addEventListener('input', debounced(() => go({ name: name.value }), 500, signal));
+  const search = (parameter, words) => {
+    const id = newId(parameter);
+    const field = h('input', { id, type: 'search', size: 14, value: query.get(parameter) ?? '' });
+    field.addEventListener('input', debounced(() => go({ [parameter]: field.value }), 500, signal));
+    return h('span', {}, h('label', { for: id }, `${words} `), field);
+  };
   return h('div', { class: 'row', role: 'search' },
     select('Status', [...all, ...Object.entries(STATUSES)], query.get('status') ?? '', (status) => go({ status })),
     select('Kind', [...all, ...Object.entries(KINDS)], query.get('kind') ?? '', (kind) => go({ kind })),
-    h('span', {}, h('label', { for: id }, 'Name has '), name),
-    ['model', 'tag'].filter((one) => query.get(one)).map((one) => h('button', { type: 'button', on: { click: () => go({ [one]: null }) } }, `${one}: ${query.get(one).slice(0, 12)} ✕`)));
+    search('name', 'Name has'),
+    search('tag', 'Tag'),
+    query.get('model') ? h('button', { type: 'button', on: { click: () => go({ model: null }) } }, `Of model ${query.get('model').slice(0, 12)}… ✕`) : null);
 }
 
 /** Draws what is new or has changed, and leaves the rest, where the reader may be. */
@@ -84,7 +90,6 @@ function update(list, shown, jobs, context) {
     if (now.has(id)) continue;
     item.remove();
     shown.delete(id);
-    context.choose(id, false);
   }
   if (shown.size === 0) list.replaceChildren();
   let before = null;
@@ -105,13 +110,16 @@ function update(list, shown, jobs, context) {
 
 function row({ item, progress }, job, context) {
   const box = job.kind === 'sweep' && job.status === 'successful'
-    ? h('input', { type: 'checkbox', 'aria-label': `Compare ${nameOf(job)}`, on: { change: () => context.choose(job.id, box.checked) } }) : null;
+    ? h('input', { type: 'checkbox', checked: chosen.has(job.id), 'aria-label': `Compare ${nameOf(job)}`, on: { change: () => context.choose(job.id, box.checked) } }) : null;
   replace(item,
     h('div', { class: 'row between' },
       h('span', {}, box, ' ', h('a', { href: `#/jobs/${job.id}` }, nameOf(job))),
       h('span', { class: `tag ${{ successful: 'good', failed: 'bad' }[job.status] ?? ''}` }, STATUSES[job.status] ?? job.status)),
     progress,
-    h('div', { class: 'row' }, actions(job, { told: context.told, deleted: context.refresh }, context.signal)));
+    h('div', { class: 'row' }, actions(job, { told: context.told, deleted: () => {
+      context.choose(job.id, false);
+      return context.refresh();
+    } }, context.signal)));
 }
 
 function progress(element, job) {

@@ -20,9 +20,10 @@ export async function show(main, { id, query }, signal) {
   const tab = TABS.find(([name]) => name === query.get('view')) ?? TABS[0];
   const told = h('div');
   const place = h('section', { 'aria-label': tab[1] });
-  const address = (changes) => placeWith(`models/${id}`, query, changes);
+  const address = (changes) => placeWith(`models/${id}`, query, { known: null, ...changes });
   replace(main,
     h('h1', {}, model.name),
+    query.get('known') ? h('p', { class: 'note', role: 'status' }, 'The service had a model with this content already: this is it, with the name that it has.') : null,
     facts([
       ['Sectors', model.sectors],
       ['Unknowns of a sector', number(model.own_dofs, 7)],

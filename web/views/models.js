@@ -82,7 +82,7 @@ export function deleteButton(model, { told, deleted }, signal) {
 /** Where packages are dropped or chosen. */
 function drop(signal) {
   const id = newId('package');
-  const told = h('div', { 'aria-live': 'polite' });
+  const told = h('div');
   const input = h('input', { id, type: 'file', accept: '.zip,application/zip' });
   const place = h('div', { class: 'drop' },
     h('label', { for: id }, 'Drop a model package (zip) here, or choose one: '), input, ' or ', h('a', { href: '#/generate' }, 'generate an impeller'), told);
@@ -110,14 +110,14 @@ function drop(signal) {
     const words = h('span', {}, `${file.name}, ${bytes(file.size)}`);
     replace(told, h('div', { class: 'row' }, bar, words, h('button', { type: 'button', on: { click: () => stop.abort() } }, 'Stop')));
     try {
-      const model = await upload(file, (sent, all) => {
+      const { model, known } = await upload(file, (sent, all) => {
         bar.value = sent;
         words.textContent = sent < all ? `${file.name}: ${percent(sent / all)} of ${bytes(all)}` : `${file.name} is being checked …`;
       }, either);
-      location.hash = `#/models/${model.id}`;
+      location.hash = `#/models/${model.id}${known ? '?known=yes' : ''}`;
     } catch (error) {
       if (signal.aborted) return;
-      replace(told, stop.signal.aborted ? h('p', {}, 'The upload was stopped.') : refused(file, error));
+      replace(told, stop.signal.aborted ? h('p', { role: 'status' }, 'The upload was stopped.') : refused(file, error));
     } finally {
       sending = false;
       input.value = '';

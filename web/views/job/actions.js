@@ -19,7 +19,7 @@ export function actions(job, { told, deleted }, signal) {
   const request = REQUESTS[job.kind];
   return [
     request ? h('a', { class: 'button', href: `#/sweep?as=${job.id}`, 'aria-label': `As ${name}, but …` }, 'As this, but …') : null,
-    request && ended(job) ? button('Run again', `Run ${name} again`, again) : null,
+    ended(job) ? button('Run again', `Run ${name} again`, again) : null,
     ended(job)
       ? button('Delete', `Delete ${name}`, remove, 'bad')
       : button('Cancel', `Cancel ${name}`, cancel, 'bad'),
@@ -44,7 +44,7 @@ export function actions(job, { told, deleted }, signal) {
   async function again() {
     const { request: body, name: called, tags, notes } = await api.get(`/v1/jobs/${job.id}`, { signal });
     const labels = Object.fromEntries(Object.entries({ name: called, tags, notes }).filter(([, value]) => value?.length > 0));
-    const made = await submit(request.path, { ...body, model: job.model, ...labels }, signal);
+    const made = await submit(request ? request.path : '/v1/models', request ? { ...body, model: job.model, ...labels } : { ...body, ...labels }, signal);
     location.hash = `#/jobs/${made.id}`;
   }
 

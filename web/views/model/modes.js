@@ -3,6 +3,7 @@
 import { api, Refusal } from '../../lib/api.js';
 import { h, newId, replace } from '../../lib/dom.js';
 import { number, rpm } from '../../lib/format.js';
+import { problem } from '../../lib/problem.js';
 import { table } from '../../lib/table.js';
 import { showWheel } from '../../wheel/index.js';
 import { select } from '../job/choices.js';
@@ -18,15 +19,24 @@ export async function show(place, { model, query, go }, signal) {
   }
   const path = `/v1/models/${model.id}/modes`;
   const speed = query.get('speed_rad_s') ?? '0';
-  const list = await api.get(path, { query: { speed_rad_s: speed }, signal });
+  const id = newId('speed');
+  const input = h('input', { id, type: 'number', min: 0, max: Math.floor(rpm(model.speeds_rad_s.at(-1))), step: 'any', value: Math.round(rpm(Number(speed))) });
+  input.addEventListener('change', () => go({ speed_rad_s: String(Number(input.value) / rpm(1)) }));
+  const speedField = [h('label', { for: id }, 'Speed, rpm '), input];
+  replace(place, h('div', { class: 'row' }, speedField));
+  let list;
+  try {
+    list = await api.get(path, { query: { speed_rad_s: speed }, signal });
+  } catch (error) {
+    if (!(error instanceof Refusal)) throw error;
+    place.append(problem(error));
+    return;
+  }
   const diameter = Number(query.get('nd') ?? Math.min(2, list.nodal_diameters.length - 1));
   const mode = Number(query.get('mode') ?? 1);
   const stress = query.get('stress') === 'true';
   const single = diameter === 0 || 2 * diameter === model.sectors;
   const motion = single ? 'standing' : query.get('motion') ?? 'travelling';
-  const id = newId('speed');
-  const input = h('input', { id, type: 'number', min: 0, max: rpm(model.speeds_rad_s.at(-1)), step: 'any', value: Math.round(rpm(Number(speed))) });
-  input.addEventListener('change', () => go({ speed_rad_s: String(Number(input.value) / rpm(1)) }));
   const wheel = h('div');
   const rows = list.nodal_diameters.map(({ nodal_diameter, frequencies_hz }) => ({ nodal_diameter, frequencies_hz }));
   const count = Math.min(SHOWN, Math.max(...rows.map((row) => row.frequencies_hz.length)));
@@ -45,7 +55,7 @@ export async function show(place, { model, query, go }, signal) {
   const frequency = rows[diameter]?.frequencies_hz[mode - 1];
   replace(place,
     h('div', { class: 'row' },
-      h('label', { for: id }, 'Speed, rpm '), input,
+      speedField,
       single ? null : select('Motion', [['travelling', 'travelling with the rotation'], ['standing', 'standing']], motion, (chosen) => go({ motion: chosen })),
       model.mesh ? select('Colour', [['', 'displacement'], ['true', 'von Mises stress']], stress ? 'true' : '', (chosen) => go({ stress: chosen })) : null),
     h('p', { class: 'quiet small' }, `In the rotating frame, of the reduction with ${list.modes_per_speed} modes per speed. Choose a frequency to see its shape.`),
