@@ -2,10 +2,10 @@
 
 import { api } from '../lib/api.js';
 import { h, replace } from '../lib/dom.js';
-import { nameOf } from '../lib/format.js';
+import { nameOf, percent } from '../lib/format.js';
 import { select } from './job/choices.js';
 import { chooseModel, requestForm } from './request/view.js';
-import { sceneOf, speedsOf } from './request/sensible.js';
+import { CLEARANCE, sceneOf, speedsOf } from './request/sensible.js';
 
 /** Kinds of jobs that are asked for by a form. */
 export const REQUESTS = {
@@ -56,6 +56,6 @@ export async function show(main, { query }, signal, first = 'sweep') {
     return;
   }
   const model = await api.get(`/v1/models/${query.get('model')}`, { signal });
-  const words = `Model: ${model.name}. Speeds and casing are in proportion to it (clearance ${0.2} % of the tips’ radius), to be changed; lengths are in ${model.units.length}.`;
+  const words = `Model: ${model.name}. Speeds and casing are in proportion to it (clearance ${percent(CLEARANCE)} of the tips’ radius), to be changed; lengths are in ${model.units.length}.`;
   await requestForm(place, { model, kind, value: kind.begin(model), words }, signal);
 }

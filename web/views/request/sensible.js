@@ -3,7 +3,7 @@
 import { rpm } from '../../lib/format.js';
 
 /** Running clearance over the radius at which the tips lie: 0.2 to 0.4 mm of wheels with a radius of 100 to 200 mm. */
-const CLEARANCE = 0.002;
+export const CLEARANCE = 0.002;
 /** Height of a lobe over the clearance: the tips touch at every passage. */
 const LOBE = 1.5;
 /** Speeds of a sweep. */
