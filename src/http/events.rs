@@ -2,10 +2,7 @@
 //!
 //! However many follow a job, it is read and written as JSON once after a change, by a task of its own that lives as long as they do.
 
-use std::collections::HashMap;
-use std::collections::hash_map::Entry;
 use std::convert::Infallible;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use axum::Extension;
@@ -13,10 +10,11 @@ use axum::extract::State;
 use axum::response::sse::{Event, KeepAlive, Sse};
 use axum::response::{IntoResponse, Response};
 use futures::{Stream, StreamExt, stream};
-use tokio::sync::watch::{Receiver, Sender};
+use tokio::sync::watch::Receiver;
 use tokio::time::sleep;
 
 use super::extract::JobPath;
+use super::followed::Teller;
 use super::jobs;
 use super::problem::Problem;
 use super::results::find;
@@ -34,12 +32,6 @@ const BETWEEN_ATTEMPTS: Duration = Duration::from_secs(1);
 
 /// Time without a word after which a comment is sent, so that nobody between the two takes the connection for dead.
 const SILENCE: Duration = Duration::from_secs(15);
-
-/// Jobs that somebody follows.
-#[derive(Debug, Clone, Default)]
-pub struct Followed {
-    jobs: Arc<Mutex<HashMap<JobId, Sender<Option<Event>>>>>,
-}
 
 /// Follow a job as it changes.
 ///
@@ -62,7 +54,11 @@ pub(super) async fn follow_job(
 ) -> Result<Response, Problem> {
     find(&state, &whose, id).await?;
     let stopped = state.stop.clone().cancelled_owned();
-    let events = told(state.followed.follow(&state, id)).take_until(stopped);
+    let (news, teller) = state.followed.follow(id);
+    if let Some(teller) = teller {
+        tokio::spawn(tell(state.0.clone(), teller));
+    }
+    let events = told(news).take_until(stopped);
     let events = Sse::new(events).keep_alive(KeepAlive::new().interval(SILENCE));
     // nginx would keep events until it has a buffer full.
     let unbuffered = [("x-accel-buffering", "no")];
@@ -80,81 +76,32 @@ fn told(mut told: Receiver<Option<Event>>) -> impl Stream<Item = Result<Event, I
     events.filter_map(async |event| event.map(Ok))
 }
 
-impl Followed {
-    fn follow(&self, state: &AppState, id: JobId) -> Receiver<Option<Event>> {
-        match self.lock().entry(id) {
-            Entry::Occupied(followed) => followed.get().subscribe(),
-            Entry::Vacant(place) => {
-                let (sender, receiver) = tokio::sync::watch::channel(None);
-                let teller = Teller { followed: self.clone(), id, told: sender.clone() };
-                place.insert(sender);
-                tokio::spawn(teller.tell(state.clone()));
-                receiver
-            }
-        }
-    }
-
-    fn lock(&self) -> MutexGuard<'_, HashMap<JobId, Sender<Option<Event>>>> {
-        self.jobs.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-}
-
-/// Tells those who follow a job.
-#[derive(Debug)]
-struct Teller {
-    followed: Followed,
-    id: JobId,
-    told: Sender<Option<Event>>,
-}
-
-impl Teller {
-    /// Until the job has ended or is gone, or nobody follows it any more.
-    async fn tell(self, state: AppState) {
-        let change = state.store.changes().of(self.id);
-        let mut latest = String::new();
-        loop {
-            match look(&state, self.id).await {
-                Ok(None) => return,
-                Ok(Some((job, has_ended))) => {
-                    if job != latest {
-                        self.told.send_replace(Some(Event::default().event("job").data(&job)));
-                        latest = job;
-                    }
-                    if has_ended {
-                        return;
-                    }
-                    sleep(BETWEEN_EVENTS).await;
+/// Tells those who follow a job, until it has ended or is gone, or nobody follows it any more.
+async fn tell(state: AppState, teller: Teller) {
+    let change = state.store.changes().of(teller.id());
+    let mut latest = String::new();
+    loop {
+        match look(&state, teller.id()).await {
+            Ok(None) => return,
+            Ok(Some((job, has_ended))) => {
+                if job != latest {
+                    teller.tell(Event::default().event("job").data(&job));
+                    latest = job;
                 }
-                Err(error) => {
-                    tracing::warn!(job.id = %self.id, %error, "could not read a job that is followed");
-                    sleep(BETWEEN_ATTEMPTS).await;
-                    change.notify_one();
+                if has_ended {
+                    return;
                 }
+                sleep(BETWEEN_EVENTS).await;
             }
-            tokio::select! {
-                () = change.notified() => {}
-                () = self.told.closed() => if self.leaves() { return },
+            Err(error) => {
+                tracing::warn!(job.id = %teller.id(), %error, "could not read a job that is followed");
+                sleep(BETWEEN_ATTEMPTS).await;
+                change.notify_one();
             }
         }
-    }
-
-    /// Whether nobody follows the job any more; the next one who does finds another teller.
-    fn leaves(&self) -> bool {
-        let mut followed = self.followed.lock();
-        let alone = self.told.is_closed();
-        if alone {
-            followed.remove(&self.id);
-        }
-        alone
-    }
-}
-
-impl Drop for Teller {
-    /// What was told last is still heard; then the streams end.
-    fn drop(&mut self) {
-        let mut followed = self.followed.lock();
-        if followed.get(&self.id).is_some_and(|told| told.same_channel(&self.told)) {
-            followed.remove(&self.id);
+        tokio::select! {
+            () = change.notified() => {}
+            () = teller.alone() => if teller.leaves() { return },
         }
     }
 }

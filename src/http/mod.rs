@@ -11,6 +11,7 @@ mod events;
 mod extract;
 mod field;
 mod fields;
+mod followed;
 mod forces;
 mod form;
 mod forms;
@@ -59,7 +60,7 @@ mod wheel;
 
 pub use contract::Contract;
 pub use document::document;
-pub use events::Followed;
+pub use followed::Followed;
 pub use renderings::Renderings;
 pub use router::router;
 pub use state::AppState;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use tokio_util::sync::CancellationToken;
 
 use super::contract::Contract;
-use super::events::Followed;
+use super::followed::Followed;
 use super::renderings::Renderings;
 use super::stream::LargeAnswers;
 use super::transport::Transport;
