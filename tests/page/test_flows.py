@@ -97,7 +97,7 @@ def test_a_click_on_the_map_opens_that_speed(service, swept, new_page):
     page.wait_for_url(re.compile("view=point"))
     assert "speed=4" in page.url
     page.locator(".figure .main-svg").first.wait_for()
-    page.get_by_text(re.compile("22,66[67]")).first.wait_for()
+    page.get_by_role("heading", name=re.compile("22,66[67] rpm")).wait_for()
 
 
 def test_sweeps_are_compared_and_a_measurement_laid_over(service, swept, model, tmp_path, new_page):

@@ -47,7 +47,7 @@ fn from_a_package_to_its_critical_speeds() {
     assert_eq!(map["amplitude"].as_array().unwrap().len(), 6);
     let saved = shell.run("get first interaction-map -o map.svg");
     assert!(saved.code == 0 && saved.out.is_empty() && saved.err.contains("map.svg: "), "{saved:?}");
-    assert!(read(&shell.path("map.svg")).starts_with("<svg"), "the name says the form");
+    assert!(read(&shell.path("map.svg")).contains("<svg "), "the name says the form");
     shell.done("get first spectra/3 -o -");
     shell.done("get wheel section -o section.png");
     assert_eq!(shell.done(&format!("report {job} --out page.html")), "page.html");
