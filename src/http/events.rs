@@ -12,6 +12,7 @@ use axum::response::{IntoResponse, Response};
 use futures::{Stream, StreamExt, stream};
 use tokio::sync::watch::Receiver;
 use tokio::time::sleep;
+use utoipa::ToSchema;
 
 use super::extract::JobPath;
 use super::followed::Teller;
@@ -33,6 +34,16 @@ const BETWEEN_ATTEMPTS: Duration = Duration::from_secs(1);
 /// Time without a word after which a comment is sent, so that nobody between the two takes the connection for dead.
 const SILENCE: Duration = Duration::from_secs(15);
 
+/// One of the events of a job.
+#[derive(ToSchema)]
+#[expect(dead_code, reason = "says what a stream has, which is not written from it")]
+struct JobEvent {
+    /// `job`.
+    event: String,
+    /// What `GET /v1/jobs/{id}` says of the job then, as JSON in one line.
+    data: String,
+}
+
 /// Follow a job as it changes.
 ///
 /// Server-sent events: an event `job` at once, and after every change, but no more than three a second. Its data are what
@@ -42,7 +53,7 @@ const SILENCE: Duration = Duration::from_secs(15);
 #[utoipa::path(get, path = "/v1/jobs/{id}/events", operation_id = "follow_job", tag = "jobs",
     params(("id" = String, Path, description = "Id of the job.")),
     responses(
-        (status = 200, description = "The job, each time that it has changed.", body = String,
+        (status = 200, description = "The job, each time that it has changed.", body = JobEvent,
             content_type = "text/event-stream"),
         (status = 404, description = "There is no such job.", body = Problem,
             content_type = "application/problem+json"),

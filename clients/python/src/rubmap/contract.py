@@ -244,6 +244,11 @@ HistorySpeeds: TypeAlias = Literal["critical"] | list[int]
 InitialWave: TypeAlias = Literal["standing", "forward", "backward"]
 
 
+class JobEvent(TypedDict):
+    data: str
+    event: str
+
+
 JobKind: TypeAlias = Literal[
     "sweep", "modal_analysis", "model_generation", "study", "case_study"
 ]
