@@ -56,13 +56,11 @@ impl Store {
             // A 202 is a promise and a speed may have cost minutes: both survive a power cut, at one flush each.
             .synchronous(SqliteSynchronous::Full)
             .foreign_keys(true)
-            .auto_vacuum(SqliteAutoVacuum::Incremental)
             .busy_timeout(PATIENCE);
+        bring_up_to_date(&options).await?;
         // A connection to a file does not break while nobody uses it: no need to ask it each time.
         let pool = || SqlitePoolOptions::new().acquire_timeout(2 * PATIENCE).test_before_acquire(false);
         let writer = pool().max_connections(1).connect_with(options.clone()).await?;
-        sqlx::migrate!().run(&writer).await?;
-        make_shrinkable(&writer).await?;
         let readers = pool().max_connections(READERS).connect_with(options).await?;
         let marks = Marks::new(folder)?;
         let (packages, reserve) = (Arc::default(), Reserve::of(folder));
@@ -119,15 +117,25 @@ async fn knows_models(database: &mut SqliteConnection, any: bool) -> Result<bool
     Ok(sqlx::query_scalar("select exists (select 1 from models)").fetch_one(database).await?)
 }
 
+/// Makes the tables that are not there yet, on a connection of its own: one that says how room is given back writes that into
+/// the database whenever it is opened, and no reader could be opened on a full disk.
+async fn bring_up_to_date(options: &SqliteConnectOptions) -> Result<(), StoreError> {
+    let mut connection = options.clone().auto_vacuum(SqliteAutoVacuum::Incremental).connect().await?;
+    sqlx::migrate!().run(&mut connection).await?;
+    make_shrinkable(&mut connection).await?;
+    connection.close().await?;
+    Ok(())
+}
+
 /// Makes a database anew, once, that an earlier version made such that it cannot give room back.
-async fn make_shrinkable(writer: &SqlitePool) -> Result<(), StoreError> {
+async fn make_shrinkable(connection: &mut SqliteConnection) -> Result<(), StoreError> {
     const INCREMENTAL: i64 = 2;
-    let mode: i64 = sqlx::query_scalar("pragma auto_vacuum").fetch_one(writer).await?;
+    let mode: i64 = sqlx::query_scalar("pragma auto_vacuum").fetch_one(&mut *connection).await?;
     if mode == INCREMENTAL {
         return Ok(());
     }
     tracing::info!("making the database anew, once, so that it can give room back");
-    if let Err(error) = sqlx::query("vacuum").execute(writer).await {
+    if let Err(error) = sqlx::query("vacuum").execute(connection).await {
         tracing::warn!(%error, "could not; deleted jobs leave their room to later ones");
     }
     Ok(())
@@ -208,6 +216,23 @@ mod tests {
         std::fs::copy(&kept, package_path(folder.path(), &"0b".repeat(32))).unwrap();
         let refused = Store::open(folder.path()).await.unwrap_err();
         assert!(matches!(refused, StoreError::LostDatabase { packages: 2, .. }), "{refused}");
+    }
+
+    /// Whatever keeps it from writing, a full disk for one, must not keep it from being opened.
+    #[tokio::test]
+    async fn a_reader_is_opened_while_another_writes() {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::open(folder.path()).await.unwrap();
+        let write = store.write().await.unwrap();
+        let mut opened = Vec::new();
+        for _ in 0..READERS {
+            let mut reader = store.readers.acquire().await.unwrap();
+            let jobs: i64 =
+                sqlx::query_scalar("select count(*) from jobs").fetch_one(&mut *reader).await.unwrap();
+            assert_eq!(jobs, 0);
+            opened.push(reader);
+        }
+        write.rollback().await.unwrap();
     }
 
     #[tokio::test]
