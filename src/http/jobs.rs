@@ -156,14 +156,24 @@ pub(super) async fn label_job(
     get_job(state, whose, JobPath(id)).await
 }
 
+/// What of a job is to go.
+#[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+pub(super) struct DeletionQuery {
+    /// Only cancel: a job that has ended, perhaps while this request was on its way, stays as it is. Such a request can be sent again.
+    #[serde(default)]
+    cancel_only: bool,
+}
+
 /// Cancel a job that has not ended, or delete one that has.
 ///
 /// Computing stops within moments, and speeds that were finished stay readable (200 with the job). Of a job that has ended, cancelled
-/// ones included, everything is deleted and its room given back (204).
+/// ones included, everything is deleted and its room given back (204), unless only cancelling is asked for.
 #[utoipa::path(delete, path = "/v1/jobs/{id}", operation_id = "delete_job", tag = "jobs",
-    params(("id" = String, Path, description = "Id of the job.")),
+    params(("id" = String, Path, description = "Id of the job."), DeletionQuery),
     responses(
-        (status = 200, description = "The job had not ended; it is dismissed.", body = JobDetail),
+        (status = 200, description = "The job had not ended and is dismissed, or is only to be cancelled and has ended.",
+            body = JobDetail),
         (status = 204, description = "The job had ended; it is gone with its results."),
         (status = 404, description = "There is no such job.", body = Problem,
             content_type = "application/problem+json"),
@@ -172,12 +182,15 @@ pub(super) async fn delete_job(
     state: State<AppState>,
     whose: Principal,
     JobPath(id): JobPath,
+    Parameters(query): Parameters<DeletionQuery>,
 ) -> Result<Response, Problem> {
     find(&state, &whose, id).await?;
-    match state.jobs.delete(id).await? {
-        JobDeletion::Deleted => return Ok(StatusCode::NO_CONTENT.into_response()),
-        JobDeletion::Unknown => return Err(job_not_found(&id)),
-        JobDeletion::Unfinished => {}
+    if !query.cancel_only {
+        match state.jobs.delete(id).await? {
+            JobDeletion::Deleted => return Ok(StatusCode::NO_CONTENT.into_response()),
+            JobDeletion::Unknown => return Err(job_not_found(&id)),
+            JobDeletion::Unfinished => {}
+        }
     }
     match state.jobs.cancel(id).await? {
         Cancellation::Unknown => Err(job_not_found(&id)),

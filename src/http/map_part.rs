@@ -5,13 +5,13 @@ use tokio::runtime::Handle;
 use utoipa::{IntoParams, ToSchema};
 
 use super::problem::Problem;
-use super::results::{check_sensor, sweep};
+use super::results::{FrameWord, check_sensor, sweep};
 use super::selection;
 use crate::analysis::request::{Sensor, SpeedUnit};
 use crate::analysis::resolved::ResolvedSweep;
 use crate::analysis::result::{InteractionMap, SpeedSpectra};
 use crate::analysis::run;
-use crate::plot::Window;
+use crate::plot::{Frame, Window};
 use crate::store::jobs::{Job, JobId};
 use crate::store::results::Document;
 use crate::store::{Store, StoreError};
@@ -41,6 +41,10 @@ pub(super) struct MapQuery {
     /// Of a drawing: the axis upwards; default `engine_order`. A sheet has engine orders.
     #[param(inline)]
     pub(super) axis: Option<MapAxis>,
+    /// Of a drawing that is not a sheet: the frame in which the vibration is seen; default `rotating`. In the fixed frame `orders` are
+    /// multiples of the rotational frequency.
+    #[param(inline)]
+    pub(super) frame: Option<FrameWord>,
     /// Of a drawing: what the level above the map, of a sheet the strip above each map, is coloured by; default `plain`.
     #[param(inline)]
     pub(super) colour: Option<MapColour>,
@@ -82,6 +86,8 @@ pub(super) struct Part {
     pub(super) diameters: Vec<Option<u32>>,
     /// Whether these were asked for as several.
     pub(super) sheet: bool,
+    /// Of one map.
+    pub(super) frame: Frame,
 }
 
 impl Part {
@@ -116,6 +122,13 @@ impl Part {
             }
             (nodal_diameter, None) => vec![nodal_diameter],
         };
+        let frame = FrameWord::frame(query.frame);
+        if frame == Frame::Fixed && query.nodal_diameters.is_some() {
+            return Err(Problem::parameter(
+                "frame",
+                "a sheet is in the rotating frame: give one nodal_diameter or none",
+            ));
+        }
         let (grid, orders) = (request.speeds().rad_s(), run::map_engine_orders(request));
         let speeds = query.speeds.as_ref().map(|some| selection::speeds(some, grid)).transpose()?;
         let columns = query.orders.as_ref().map(|some| selection::orders(some, &orders)).transpose()?;
@@ -131,6 +144,7 @@ impl Part {
             columns: columns.unwrap_or(all.1),
             diameters,
             sheet: query.nodal_diameters.is_some(),
+            frame,
         })
     }
 
@@ -168,13 +182,16 @@ impl Part {
         runtime.block_on(store.map_row(job, index, of))
     }
 
-    /// The maps of the first sensor with their rows, one per nodal diameter.
+    /// The maps of the first sensor with their rows, one per nodal diameter, or the one in the fixed frame.
     pub(super) fn maps(
         &self,
         job: &Job,
         store: &Store,
         runtime: &Handle,
     ) -> Result<Vec<InteractionMap>, Problem> {
+        if self.frame == Frame::Fixed {
+            return Ok(vec![self.fixed_frame_map(job, store, runtime)?]);
+        }
         let head = self.head(job, store, runtime)?;
         let empty = vec![None; self.speeds.len()];
         let of = |diameter: &Option<u32>| InteractionMap {
@@ -193,6 +210,29 @@ impl Part {
             }
         }
         Ok(maps)
+    }
+
+    fn fixed_frame_map(&self, job: &Job, store: &Store, runtime: &Handle) -> Result<InteractionMap, Problem> {
+        let (request, _) = sweep(job)?;
+        let head = self.head(job, store, runtime)?;
+        let (sensor, revolutions) = (self.sensors[0].0 as usize, request.window_revolutions());
+        let row =
+            |spectra: &SpeedSpectra| run::fixed_frame_row(spectra, sensor, self.diameters[0], revolutions);
+        let mut amplitude = vec![None; self.speeds.len()];
+        for point in &head.points {
+            let place = self.speeds.partition_point(|index| *index < point.index);
+            amplitude[place] = runtime.block_on(store.map_row(job.id, point.index, row))?;
+        }
+        Ok(InteractionMap { engine_orders: self.seen(job)?, amplitude, ..head })
+    }
+
+    /// Engine orders that a drawing of the whole has: in the fixed frame, multiples of the rotational frequency.
+    pub(super) fn seen(&self, job: &Job) -> Result<Vec<f64>, Problem> {
+        let (request, facts) = sweep(job)?;
+        Ok(match self.frame {
+            Frame::Rotating => run::map_engine_orders(request),
+            Frame::Fixed => run::fixed_frame_orders(request, facts.sectors as usize / 2 + 1),
+        })
     }
 
     /// What a drawing shows: from the slowest to the fastest chosen speed, and from the lowest to the highest engine order.

@@ -19,7 +19,7 @@ use super::state::AppState;
 use super::stream;
 use crate::analysis::result::CriticalSpeeds;
 use crate::export::maps::Maps;
-use crate::plot::{self, LevelColour, VerticalAxis};
+use crate::plot::{self, Frame, LevelColour, VerticalAxis};
 use crate::store::jobs::Job;
 use crate::store::results::Document;
 use crate::tokens::Principal;
@@ -105,9 +105,10 @@ async fn draw(
 ) -> Result<Response, Problem> {
     let (request, _) = sweep(&job)?;
     let window = part.window(request)?;
+    let (sheet, frame) = (part.sheet, part.frame);
     (part.speeds, part.columns) = map_part::whole(request);
     let amplitudes =
-        (part.diameters.len() * part.speeds.len() * part.columns.len() * size_of::<f64>()) as u64;
+        (part.diameters.len() * part.speeds.len() * part.seen(&job)?.len() * size_of::<f64>()) as u64;
     let bytes = ROW_MEMORY * state.store.largest_spectra(job.id).await? + DRAWN_MEMORY * amplitudes;
     let leave = state.answers.leave(&state.jobs, bytes + answer.bytes()).await;
     let (store, runtime) = (state.store.clone(), Handle::current());
@@ -119,23 +120,29 @@ async fn draw(
         let critical = runtime.block_on(store.document(job.id, Document::CriticalSpeeds(sensor)))?;
         let critical: Option<CriticalSpeeds> =
             critical.map(|critical| serde_json::from_str(&critical)).transpose()?;
-        Ok::<_, Problem>((maps, critical, part.sheet))
+        Ok::<_, Problem>((maps, critical))
     };
     if answer.form == Form::Plotly {
         let read = move || Ok::<_, Problem>((read()?, leave));
-        let ((maps, critical, sheet), leave) = stream::blocking(read).await??;
-        return Ok(answer.figure(leave, move || match &maps[..] {
-            [map] if !sheet => {
+        let ((maps, critical), leave) = stream::blocking(read).await??;
+        return Ok(answer.figure(leave, move || match (&maps[..], frame) {
+            ([map], Frame::Fixed) => {
+                plot::figure::fixed_frame_map(map, critical.as_ref(), axis, window, colour)
+            }
+            ([map], Frame::Rotating) if !sheet => {
                 plot::figure::interaction_map(map, critical.as_ref(), None, axis, window, colour)
             }
-            maps => plot::figure::map_sheet(maps, window, colour),
+            (maps, _) => plot::figure::map_sheet(maps, window, colour),
         }));
     }
     let draw = move || {
-        let (maps, critical, sheet) = read()?;
-        Ok(match &maps[..] {
-            [map] if !sheet => plot::interaction_map(map, critical.as_ref(), None, axis, window, colour),
-            maps => plot::map_sheet(maps, window, colour),
+        let (maps, critical) = read()?;
+        Ok(match (&maps[..], frame) {
+            ([map], Frame::Fixed) => plot::fixed_frame_map(map, critical.as_ref(), axis, window, colour),
+            ([map], Frame::Rotating) if !sheet => {
+                plot::interaction_map(map, critical.as_ref(), None, axis, window, colour)
+            }
+            (maps, _) => plot::map_sheet(maps, window, colour),
         })
     };
     answer.drawn(state, leave, draw).await

@@ -15,7 +15,7 @@ use crate::analysis::resolved::{ResolvedSensor, ResolvedSweep};
 use crate::analysis::result::{Campbell, CriticalSpeeds, most_utilised_first};
 use crate::analysis::run::ModelFacts;
 use crate::export::Export;
-use crate::plot;
+use crate::plot::{self, Frame};
 use crate::store::jobs::{Job, JobId, JobKind, JobRequest};
 use crate::store::results::Document;
 use crate::store::status::JobStatus;
@@ -127,6 +127,16 @@ pub(super) enum FrameWord {
     Fixed,
 }
 
+impl FrameWord {
+    /// The frame of a drawing.
+    pub(super) fn frame(asked: Option<Self>) -> Frame {
+        match asked {
+            Some(Self::Fixed) => Frame::Fixed,
+            Some(Self::Rotating) | None => Frame::Rotating,
+        }
+    }
+}
+
 /// Download natural frequencies over speed with the linear criterion's crossings.
 ///
 /// In csv a line is a family of a nodal diameter at a speed; in npz frequencies are `[speed][nodal diameter][family]`, NaN where there
@@ -151,11 +161,9 @@ pub(super) async fn get_campbell(
     if !matches!(job.request, JobRequest::ModalAnalysis(_)) {
         return Err(wrong_kind(&job, JobKind::ModalAnalysis));
     }
-    let forms = match query.frame {
-        Some(FrameWord::Fixed) => {
-            Forms::drawn_by(plot::campbell_fixed_frame, plot::figure::campbell_fixed_frame)
-        }
-        Some(FrameWord::Rotating) | None => Forms::drawn_by(plot::campbell, plot::figure::campbell),
+    let forms = match FrameWord::frame(query.frame) {
+        Frame::Rotating => Forms::drawn_by(plot::campbell, plot::figure::campbell),
+        Frame::Fixed => Forms::drawn_by(plot::campbell_fixed_frame, plot::figure::campbell_fixed_frame),
     };
     forms.of_document(&state, download, &job, Document::Campbell).await
 }

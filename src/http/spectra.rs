@@ -17,7 +17,7 @@ use super::state::AppState;
 use crate::analysis::result::{ContactForces, Point, SpeedResult, SpeedSpectra, WearMap};
 use crate::dynamics::sector::Units;
 use crate::export::{self, Array, Export};
-use crate::plot::{self, Frame};
+use crate::plot;
 use crate::store::jobs::{Job, JobId};
 use crate::tokens::Principal;
 
@@ -144,10 +144,7 @@ pub(super) async fn get_spectra(
         Next::Make(answer) => answer,
     };
     let units = facts.units.clone();
-    let frame = match query.frame {
-        Some(FrameWord::Fixed) => Frame::Fixed,
-        Some(FrameWord::Rotating) | None => Frame::Rotating,
-    };
+    let frame = FrameWord::frame(query.frame);
     let place = sensors.iter().position(|sensor| *sensor == drawn).unwrap_or(0);
     let forms = Forms::drawn_by(
         move |body: &SpectraBody| plot::spectrum(body.known(), &body.point, &body.units, place, frame),

@@ -79,6 +79,40 @@ async fn a_map_has_the_numbers_of_its_arrays() {
     app.stop().await;
 }
 
+/// A wave of nodal diameter n at engine order k is seen at k ± n, of all at one place the largest.
+#[tokio::test]
+async fn a_map_in_the_fixed_frame_has_the_lines_where_they_are_seen() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let sweep = worn_sweep(api, &api.model(model::package(1.0)).await).await;
+    let file = arrays(api, &format!("{sweep}/spectra/3")).await;
+    let (orders, rows) = (file.array("engine_orders").reals(), file.array("nodal_diameters").reals());
+    // Of the first sensor.
+    let diameters = file.array("nodal_diameters").shape[1];
+    let rows: Vec<&[f64]> = rows.chunks(orders.len()).take(diameters).collect();
+    for only in [None, Some(1)] {
+        let chosen = only.map(|n| format!("&nodal_diameter={n}")).unwrap_or_default();
+        let shown = figure(api, &format!("{sweep}/interaction-map?frame=fixed{chosen}")).await;
+        let cells = &shown["data"][0];
+        let y = numbers(&cells["y"]);
+        assert_eq!(*y.last().unwrap(), orders.last().unwrap() + (rows.len() - 1) as f64);
+        for (row, seen) in y.iter().enumerate() {
+            let mut expected: f64 = 0.0;
+            for (n, amplitudes) in rows.iter().enumerate().filter(|(n, _)| only.is_none_or(|only| only == *n))
+            {
+                for (order, amplitude) in orders.iter().zip(*amplitudes).filter(|(order, _)| **order > 0.0) {
+                    let waves = [order + n as f64, (order - n as f64).abs()];
+                    if waves.iter().any(|wave| (wave - seen).abs() < 1e-9) {
+                        expected = expected.max(*amplitude);
+                    }
+                }
+            }
+            assert_near(numbers(&cells["customdata"][row][3])[0], expected);
+        }
+    }
+    app.stop().await;
+}
+
 #[tokio::test]
 async fn spectra_and_critical_speeds_have_the_numbers_of_their_tables() {
     let app = TestApp::start().await;

@@ -23,6 +23,11 @@ async fn a_cancelled_job_stops_and_keeps_its_finished_speeds() {
 
     let cancelled = api.delete(&format!("/v1/jobs/{id}")).await;
     assert_eq!((cancelled.status.as_u16(), cancelled.text("/status")), (200, "dismissed".to_owned()));
+    // As often as an answer is lost.
+    let cancel = format!("/v1/jobs/{id}?cancel_only=true");
+    for _ in 0..2 {
+        assert_eq!(api.delete(&cancel).await.text("/status"), "dismissed");
+    }
 
     // … and after it was cancelled, and the workers are free for others.
     let other = api.sweep(&sweep_of(&model)).await;

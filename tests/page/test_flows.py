@@ -115,6 +115,36 @@ def test_sweeps_are_compared_and_a_measurement_laid_over(service, swept, model, 
     page.get_by_text(re.compile("2 points|2 rows|measured", re.I)).first.wait_for()
 
 
+def test_what_a_job_is_called_is_changed(service, model, new_page):
+    job = service.call("POST", "/v1/sweeps", sweep_of(model, name="before"))["id"]
+    service.finish(job)
+    page = new_page(f"{service.url}/#/jobs/{job}")
+    page.get_by_role("button", name="Name, tags, notes").click()
+    dialog = page.get_by_role("dialog")
+    assert dialog.get_by_label("Name").input_value() == "before"
+    dialog.get_by_label("Name").fill('<b>after</b> & "so on"')
+    dialog.get_by_label("Tags").fill("x" * 51)
+    dialog.get_by_role("button", name="Save").click()
+    dialog.get_by_role("alert").wait_for()
+    dialog.get_by_label("Tags").fill("one, two ,")
+    dialog.get_by_role("button", name="Save").click()
+    page.get_by_role("heading", name='<b>after</b> & "so on"').wait_for()
+    called = service.call("GET", f"/v1/jobs/{job}")
+    assert called["tags"] == ["one", "two"] and "notes" not in called
+
+
+def test_an_impeller_is_generated_as_another_one(service, new_page):
+    first = service.call("POST", "/v1/models", {"name": "five", "sectors": 5, "top_speed_rad_s": 3000})["id"]
+    service.finish(first)
+    page = new_page(f"{service.url}/#/jobs/{first}")
+    page.get_by_role("link", name="As five, but").click()
+    page.get_by_label("Sectors").fill("7")
+    page.get_by_role("button", name="Generate", exact=True).click()
+    page.wait_for_url("**/#/models/*")
+    made = service.call("GET", "/v1/models/" + page.url.rsplit("/", 1)[1].split("?")[0])
+    assert made["sectors"] == 7 and max(made["speeds_rad_s"]) == 3000
+
+
 def test_a_job_is_cancelled_run_again_and_deleted(service, model, new_page):
     long = sweep_of(model, name="long one", integration={"revolutions": 20000, "window_revolutions": 20}, record={})
     service.call("POST", "/v1/sweeps", long)

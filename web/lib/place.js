@@ -20,3 +20,8 @@ export function placeWith(path, query, changes) {
 export function cursorOf(list) {
   return list.next ? new URLSearchParams(list.next.split('?')[1]).get('cursor') : null;
 }
+
+/** Shows the view anew. */
+export function again() {
+  dispatchEvent(new HashChangeEvent('hashchange'));
+}

@@ -4,7 +4,7 @@ import { api, openapi, Refusal, submit } from '../lib/api.js';
 import { debounced, facts, h, newId, replace } from '../lib/dom.js';
 import { ended, follow } from '../lib/events.js';
 import { form } from '../lib/form/form.js';
-import { bytes, number } from '../lib/format.js';
+import { bytes, nameOf, number } from '../lib/format.js';
 import { problem } from '../lib/problem.js';
 
 const PRESETS = {
@@ -22,25 +22,29 @@ const GROUPS = [
 
 export async function show(main, { query }, signal) {
   const definitions = (await openapi()).components.schemas;
+  const earlier = query.has('as') ? await api.get(`/v1/jobs/${query.get('as')}`, { signal }) : null;
   const preset = query.get('preset') in PRESETS ? query.get('preset') : 'small';
+  // What an earlier request does not have is not to come from a preset.
+  const base = earlier ? { splitter: null } : { preset };
   const aside = h('aside', { 'aria-label': 'What it will be', 'aria-live': 'polite' });
   const told = h('div');
   const bar = h('progress', { max: 100, hidden: true, 'aria-label': 'Progress' });
   const phase = h('p', { role: 'status' });
   const id = newId('preset');
-  const choice = h('select', { id, value: preset, on: { change: () => { location.hash = `#/generate?preset=${choice.value}`; } } },
+  const choice = h('select', { id, value: earlier ? '' : preset, on: { change: () => { location.hash = `#/generate?preset=${choice.value}`; } } },
+    earlier ? h('option', { value: '' }, nameOf(earlier)) : null,
     Object.entries(PRESETS).map(([name, words]) => h('option', { value: name }, words)));
   const button = h('button', { type: 'submit', class: 'main' }, 'Generate');
   const fields = h('div', {}, h('p', { class: 'quiet' }, 'Reading the preset …'));
   replace(main,
-    h('h1', {}, 'Generate an impeller'),
+    h('h1', {}, earlier ? `As ${nameOf(earlier)}, but …` : 'Generate an impeller'),
     h('p', {}, 'A centrifugal impeller on a solid hub, meshed, with stiffness at three speeds: a complete model package, whose size and mesh you choose.'),
-    h('div', { class: 'field' }, h('label', { for: id }, 'Preset'), choice),
+    h('div', { class: 'field' }, h('label', { for: id }, 'Begin with'), choice),
     h('div', { class: 'columns' },
       h('form', { novalidate: true, on: { submit: start } }, fields, told, phase, bar, h('div', { class: 'row' }, button)),
       aside));
   // The plan tells every parameter of the preset.
-  const whole = await api.send('POST', '/v1/models/plan', { preset }, { signal });
+  const whole = await api.send('POST', '/v1/models/plan', earlier?.request ?? base, { signal });
   const value = Object.fromEntries(Object.entries(whole.settings).filter(([, part]) => part !== null));
   const made = form({
     schema: { $ref: '#/components/schemas/LabelledImpellerRequest' },
@@ -61,7 +65,7 @@ export async function show(main, { query }, signal) {
   }, 400, signal);
 
   function request() {
-    return { preset, ...made.value() };
+    return { ...base, ...made.value() };
   }
   function complain(error, focus) {
     const homeless = error instanceof Refusal ? made.complain(error.errors, focus) : [error];

@@ -5,7 +5,8 @@ import { onBack } from '../lib/away.js';
 import { h, facts, replace } from '../lib/dom.js';
 import { ended, follow, readJob } from '../lib/events.js';
 import { bytes, count, duration, moment, nameOf } from '../lib/format.js';
-import { placeWith } from '../lib/place.js';
+import { labelsButton } from '../lib/labels.js';
+import { again, placeWith } from '../lib/place.js';
 import { problem } from '../lib/problem.js';
 import { actions } from './job/actions.js';
 
@@ -85,7 +86,6 @@ export async function show(main, { id, query }, signal) {
   } catch (error) {
     if (signal.aborted) return;
     replace(place, problem(error));
-    const again = () => dispatchEvent(new HashChangeEvent('hashchange'));
     if (error instanceof Away) onBack(again, signal);
     // What was not ready may be when the job has ended.
     if (!ended(job)) listeners.push((now) => ended(now) && again());
@@ -119,6 +119,7 @@ function showState(element, job, signal) {
     h('div', { class: 'row' },
       job.model ? h('a', { class: 'button', href: `#/models/${job.model}` }, 'Its model') : null,
       job.kind === 'sweep' ? h('a', { class: 'button', href: `#/compare?jobs=${job.id}` }, 'Compare') : null,
+      labelsButton(`/v1/jobs/${job.id}`, job, again, signal),
       actions(job, { told, deleted: () => { location.hash = '#/jobs'; } }, signal)),
     told,
     job.notes ? facts([['Notes', job.notes], ['Tags', job.tags.join(', ')]]) : null);

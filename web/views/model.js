@@ -3,7 +3,8 @@
 import { api } from '../lib/api.js';
 import { facts, h, replace } from '../lib/dom.js';
 import { bytes, moment, number, rpm, short } from '../lib/format.js';
-import { placeWith } from '../lib/place.js';
+import { labelsButton } from '../lib/labels.js';
+import { again, placeWith } from '../lib/place.js';
 import { problem } from '../lib/problem.js';
 import { deleteButton } from './models.js';
 
@@ -42,6 +43,7 @@ export async function show(main, { id, query }, signal) {
       h('a', { class: 'button', href: `#/study?model=${id}` }, 'New study'),
       h('a', { class: 'button', href: `#/sweep?kind=modal_analysis&model=${id}` }, 'Modal analysis'),
       h('a', { class: 'button', href: `#/jobs?model=${id}` }, 'Its jobs'),
+      labelsButton(`/v1/models/${id}`, model, again, signal),
       deleteButton(model, { told, deleted: () => { location.hash = '#/models'; } }, signal)),
     told,
     h('nav', { class: 'tabs', 'aria-label': 'Parts of the model' }, TABS.map(([name, words]) => h('a', {

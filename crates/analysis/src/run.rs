@@ -27,7 +27,8 @@ pub use crate::result::{
 };
 pub use crate::speed::run_speed;
 pub use crate::summary::{
-    critical_indices, critical_speeds, interaction_map, map_engine_orders, map_row, nothing_completed,
+    critical_indices, critical_speeds, fixed_frame_orders, fixed_frame_row, interaction_map,
+    map_engine_orders, map_row, nothing_completed,
 };
 pub use crate::sweep_stress::sweep_stress;
 pub use crate::tips::wheel_critical_speeds;

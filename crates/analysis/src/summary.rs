@@ -35,6 +35,41 @@ pub fn map_engine_orders(request: &ResolvedSweep) -> Vec<f64> {
     engine_orders(request.integration.window_revolutions, request.max_engine_order)
 }
 
+/// Multiples of the rotational frequency at which the fixed frame sees the lines of a sweep's maps, of a wheel of so many nodal
+/// diameters, 0 among them.
+pub fn fixed_frame_orders(request: &ResolvedSweep, nodal_diameters: usize) -> Vec<f64> {
+    let highest = request.max_engine_order + nodal_diameters.saturating_sub(1) as u32;
+    engine_orders(request.integration.window_revolutions, highest)
+}
+
+/// The row that one speed contributes to the map of `sensor` in the fixed frame, over [`fixed_frame_orders`].
+///
+/// A wave of nodal diameter n at engine order k of the rotating frame is seen at k + n if it travels with the rotation, at |k − n| if
+/// against it (Eq. 11); amplitudes do not tell which, so that it is at both. Of lines at one place the largest counts, of the
+/// wheel's components in all nodal diameters or in one.
+pub fn fixed_frame_row(
+    spectra: &SpeedSpectra,
+    sensor: usize,
+    nodal_diameter: Option<u32>,
+    window_revolutions: u32,
+) -> Option<Vec<f64>> {
+    let rows = &spectra.sensors.get(sensor)?.nodal_diameters;
+    let away = |n: usize| n * window_revolutions as usize;
+    let mut seen = vec![0.0; spectra.engine_orders.len() + away(rows.len().saturating_sub(1))];
+    for (n, row) in rows.iter().enumerate() {
+        if nodal_diameter.is_some_and(|only| only as usize != n) {
+            continue;
+        }
+        // The mean is no vibration.
+        for (bin, &amplitude) in row.iter().enumerate().skip(1) {
+            for place in [bin + away(n), bin.abs_diff(away(n))] {
+                seen[place] = f64::max(seen[place], amplitude);
+            }
+        }
+    }
+    Some(seen)
+}
+
 /// The interaction map of `sensor` from the speeds finished so far, in any order, each with its [`map_row`]; the plan is for
 /// the caller to add.
 pub fn interaction_map(

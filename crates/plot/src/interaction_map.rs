@@ -8,6 +8,7 @@ use super::key::Flow;
 use super::labels::Labels;
 use super::level::LevelColour;
 use super::map_view::{DRIVEN, VerticalAxis, View, is_missing, lobes};
+use super::spectrum::Frame;
 use super::svg::{Element, INK, document, group, line, rectangle, text, upright};
 use super::window::Window;
 use super::{colour_bar, hatching, heading, heat, level, margin, marks, sectors, settling_strip, validity};
@@ -45,15 +46,39 @@ pub fn interaction_map(
     window: Window,
     level_colour: LevelColour,
 ) -> String {
+    draw_in((axis, Frame::Rotating), map, critical, campbell, window, level_colour)
+}
+
+/// Draws a map whose rows are in the fixed frame (`rubmap_analysis::run::fixed_frame_row`), or a window of it: where lines of the spectra
+/// are seen from beside the wheel, whichever way their waves travel. The level is that of the sensor, which turns with the wheel;
+/// engine orders of the rotating frame and what the linear prediction says of them have no place.
+pub fn fixed_frame_map(
+    map: &InteractionMap,
+    critical: Option<&CriticalSpeeds>,
+    axis: VerticalAxis,
+    window: Window,
+    level_colour: LevelColour,
+) -> String {
+    draw_in((axis, Frame::Fixed), map, critical, None, window, level_colour)
+}
+
+fn draw_in(
+    seen: (VerticalAxis, Frame),
+    map: &InteractionMap,
+    critical: Option<&CriticalSpeeds>,
+    campbell: Option<&Campbell>,
+    window: Window,
+    level_colour: LevelColour,
+) -> String {
     let cells = cells(&map.speeds_rad_s);
     let place = ((LEFT, MAP_TOP), (PLOT_WIDTH, MAP_HEIGHT));
-    let view = View::new(map, &cells, campbell, axis, &window, place);
+    let view = View::new(map, &cells, campbell, seen, &window, place);
     let level =
         level::diagram(map, &cells, view.diagram.x.values, (LEFT, LEVEL_TOP), (PLOT_WIDTH, LEVEL_HEIGHT));
     let loudest = heat::loudest(map, &window);
     let mut labels = Labels::inside(&view.diagram);
     let crossings = critical.map(|critical| view.crossings(critical, &mut labels));
-    let mut content = vec![hatching::definition(), head(map)];
+    let mut content = vec![hatching::definition(), head(map, view.frame)];
     content.push(level::draw(map, &cells, &level, level_colour));
     content.extend(validity::strip(map, &cells, &level, (VALIDITY_TOP, VALIDITY_HEIGHT)));
     content.push(settling_strip::strip(map, &cells, &level, STRIP_TOP, STRIP_HEIGHT));
@@ -78,7 +103,7 @@ pub fn interaction_map(
     // A long key makes the drawing higher.
     let height = f64::max(HEIGHT, flow.bottom() + 42.0);
     content.extend([flow.draw(), settling_strip::legend(map, LEFT, height - 18.0), origin(map, height)]);
-    document(&title(map), WIDTH, height, content)
+    document(&title(map, view.frame), WIDTH, height, content)
 }
 
 /// Sectors of the wheel, where a reduction tells.
@@ -131,7 +156,7 @@ fn axes(view: &View) -> [Element; 2] {
         VerticalAxis::EngineOrder => (12.0, 58.0),
         VerticalAxis::Frequency => (10.0, 64.0),
     };
-    let y = diagram.y_axis(&ticks(diagram.y.values, wanted), view.axis.words(), away);
+    let y = diagram.y_axis(&ticks(diagram.y.values, wanted), view.axis_words(), away);
     [x, y]
 }
 
@@ -156,10 +181,18 @@ fn amplitude_bar(amplitudes: &Scale, left: f64, unit: &str) -> Element {
 }
 
 /// What the map is of.
-pub(super) fn title(map: &InteractionMap) -> String {
+pub(super) fn title(map: &InteractionMap, frame: Frame) -> String {
     let nodal_diameter = map.nodal_diameter.map(|i| format!(", nodal diameter {i} only")).unwrap_or_default();
-    format!("Interaction map: {}{nodal_diameter}", map.sensor)
+    let seen = match frame {
+        Frame::Rotating => "",
+        Frame::Fixed => " in the fixed frame",
+    };
+    format!("Interaction map{seen}: {}{nodal_diameter}", map.sensor)
 }
+
+/// What is said of a map in the fixed frame.
+pub(super) const BOTH_WAYS: &str = "nodal diameter n at engine order k is at k + n and |k − n|: which way its wave travels, spectra do not tell · \
+                                    amplitudes are √N times a blade's";
 
 /// How it was computed.
 pub(super) fn words(map: &InteractionMap) -> String {
@@ -183,12 +216,20 @@ pub(super) fn words(map: &InteractionMap) -> String {
     words.join(" · ")
 }
 
-fn head(map: &InteractionMap) -> Element {
+fn head(map: &InteractionMap, frame: Frame) -> Element {
     let warning = map.stiffening.and_then(StiffeningVerdict::warning);
+    let title = title(map, frame);
+    let computed = words(map);
+    let lines = [Some((computed.as_str(), "#555555"))]
+        .into_iter()
+        .chain([(frame == Frame::Fixed).then_some((BOTH_WAYS, "#555555"))])
+        .chain([warning.map(|words| (words, WARNING))]);
+    let line = |(i, (words, colour)): (usize, (&str, &str))| {
+        text(LEFT, 51.0 + 17.0 * i as f64, "start", words).set("fill", colour)
+    };
     group()
-        .child(text(LEFT, 30.0, "start", &title(map)).set("font-size", "18").set("font-weight", "bold"))
-        .child(text(LEFT, 51.0, "start", &words(map)).set("fill", "#555555"))
-        .children(warning.map(|words| text(LEFT, 68.0, "start", words).set("fill", WARNING)))
+        .child(text(LEFT, 30.0, "start", &title).set("font-size", "18").set("font-weight", "bold"))
+        .children(lines.flatten().enumerate().map(line))
 }
 
 /// Where the numbers come from, in the corner.

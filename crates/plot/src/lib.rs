@@ -83,7 +83,7 @@ pub use error_over_step::error_over_step;
 pub use force_map::{ForceQuantity, force_map};
 pub use haigh::{HaighColour, haigh};
 pub use histories::histories;
-pub use interaction_map::interaction_map;
+pub use interaction_map::{fixed_frame_map, interaction_map};
 pub use level::LevelColour;
 pub use map_sheet::map_sheet;
 pub use map_view::VerticalAxis;

@@ -5,6 +5,7 @@ use super::cells::{cells, range};
 use super::key::Flow;
 use super::level::LevelColour;
 use super::map_view::{End, QUIETEST, VerticalAxis, View, is_missing};
+use super::spectrum::Frame;
 use super::svg::{Element, document, group, text};
 use super::window::Window;
 use super::{colour_bar, hatching, heading, heat, margin};
@@ -47,7 +48,7 @@ pub fn map_sheet(maps: &[InteractionMap], window: Window, level_colour: LevelCol
         let corner = (left, top + row as f64 * (PANEL_HEIGHT + GAP.1));
         let cells = cells(&map.speeds_rad_s);
         let place = (corner, (width, PANEL_HEIGHT));
-        let view = View::new(map, &cells, None, VerticalAxis::EngineOrder, &window, place);
+        let view = View::new(map, &cells, None, (VerticalAxis::EngineOrder, Frame::Rotating), &window, place);
         let (low, high) = view.diagram.x.values;
         missing |= cells.iter().any(|cell| cell.to > low && cell.from < high && is_missing(map, cell));
         ends.extend(view.engine_orders(map).1);

@@ -6,6 +6,7 @@ use super::colour::on_dark;
 use super::diagram::Diagram;
 use super::key::Flow;
 use super::labels::Labels;
+use super::spectrum::Frame;
 use super::svg::{Element, group, line, polyline, rectangle, text};
 use super::window::Window;
 use super::{hatching, heat, marks};
@@ -24,16 +25,6 @@ pub enum VerticalAxis {
     EngineOrder,
     /// Frequency: engine-order lines f = kΩ/2π rise with speed, natural frequencies hardly do.
     Frequency,
-}
-
-impl VerticalAxis {
-    /// What it says.
-    pub(super) fn words(self) -> &'static str {
-        match self {
-            Self::EngineOrder => "engine order k",
-            Self::Frequency => "frequency (rotating frame), Hz",
-        }
-    }
 }
 
 /// The line of an engine order, from the slowest to the fastest speed at which it is seen: places in the units of the axes.
@@ -68,6 +59,8 @@ pub(super) type End = (u32, (f64, f64));
 #[derive(Debug)]
 pub(super) struct View {
     pub(super) axis: VerticalAxis,
+    /// Whose engine orders and frequencies those of the axis are.
+    pub(super) frame: Frame,
     pub(super) diagram: Diagram,
 }
 
@@ -77,7 +70,7 @@ impl View {
         map: &InteractionMap,
         cells: &[Cell],
         campbell: Option<&Campbell>,
-        axis: VerticalAxis,
+        (axis, frame): (VerticalAxis, Frame),
         window: &Window,
         (corner, size): ((f64, f64), (f64, f64)),
     ) -> Self {
@@ -98,7 +91,19 @@ impl View {
             }
         };
         let upwards = if upwards.0 < upwards.1 { upwards } else { (0.0, 1.0) };
-        Self { axis, diagram: Diagram::new(corner, size, speeds, upwards) }
+        Self { axis, frame, diagram: Diagram::new(corner, size, speeds, upwards) }
+    }
+
+    /// What the vertical axis says.
+    pub(super) fn axis_words(&self) -> &'static str {
+        match (self.axis, self.frame) {
+            (VerticalAxis::EngineOrder, Frame::Rotating) => "engine order k",
+            (VerticalAxis::EngineOrder, Frame::Fixed) => {
+                "multiple of the rotational frequency in the fixed frame"
+            }
+            (VerticalAxis::Frequency, Frame::Rotating) => "frequency (rotating frame), Hz",
+            (VerticalAxis::Frequency, Frame::Fixed) => "frequency (fixed frame), Hz",
+        }
     }
 
     /// Engine order at a height of the axis.
@@ -118,9 +123,16 @@ impl View {
         }
     }
 
-    /// Place of an engine order at a speed, if it is in the drawing.
+    /// Place in the drawing of an engine order of the rotating frame at a speed, if it is there; the fixed frame has it at two others.
     fn place(&self, rpm: f64, order: f64) -> Option<(f64, f64)> {
-        self.diagram.inside(rpm, self.height(rpm, order))
+        self.seen(rpm, order).and_then(|(rpm, height)| self.diagram.inside(rpm, height))
+    }
+
+    /// The same in the units of the axes.
+    pub(super) fn seen(&self, rpm: f64, order: f64) -> Option<(f64, f64)> {
+        let place = (rpm, self.height(rpm, order));
+        let inside = self.frame == Frame::Rotating && self.diagram.inside(place.0, place.1).is_some();
+        inside.then_some(place)
     }
 
     /// Hatching, with transparent areas over it that say which speeds are without result, and the amplitudes.
@@ -151,8 +163,11 @@ impl View {
         Scale::logarithmic((QUIETEST * loudest, loudest), (self.diagram.bottom(), self.diagram.top))
     }
 
-    /// Lines of whole engine orders; of many only some, but all that the lobes excite.
+    /// Lines of whole engine orders; of many only some, but all that the lobes excite. None in the fixed frame.
     pub(super) fn order_lines(&self, map: &InteractionMap) -> Vec<OrderLine> {
+        if self.frame == Frame::Fixed {
+            return Vec::new();
+        }
         let lobes = lobes(map);
         let highest = map.engine_orders.last().map_or(0, |order| order.floor() as u32);
         let span = match self.axis {

@@ -97,23 +97,13 @@ impl Client {
         self.get(&format!("/v1/jobs/{id}")).await
     }
 
-    /// Cancels a job that has not ended; returns it as it is then. Of one that has ended DELETE takes everything away, so that it is
-    /// looked at each time, also when an answer was lost.
+    /// Cancels a job that has not ended; returns it as it is then.
     ///
     /// # Errors
     /// [`ClientError`].
     pub(in crate::cli) async fn cancel(&self, id: &str) -> anyhow::Result<Answer<Job>> {
-        let path = format!("/v1/jobs/{id}");
-        let attempt = || async {
-            let (_, job): (_, Answer<Job>) = self.read(self.request(Method::GET, &path)).await?;
-            if job.status.is_final() {
-                return Ok(job);
-            }
-            self.send(self.request(Method::DELETE, &path)).await?;
-            // Gone is what ended by itself in between.
-            Ok(self.read(self.request(Method::GET, &path)).await?.1)
-        };
-        self.patiently(attempt).await
+        let path = format!("/v1/jobs/{id}?cancel_only=true");
+        self.patiently(|| async { Ok(self.read(self.request(Method::DELETE, &path)).await?.1) }).await
     }
 
     /// Sends DELETE.

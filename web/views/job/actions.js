@@ -3,7 +3,7 @@
 import { api, submit } from '../../lib/api.js';
 import { confirmed } from '../../lib/confirm.js';
 import { h } from '../../lib/dom.js';
-import { ended, readJob } from '../../lib/events.js';
+import { ended } from '../../lib/events.js';
 import { nameOf } from '../../lib/format.js';
 import { problem } from '../../lib/problem.js';
 import { REQUESTS } from '../sweep.js';
@@ -18,7 +18,7 @@ export function actions(job, { told, deleted }, signal) {
   const name = nameOf(job);
   const request = REQUESTS[job.kind];
   return [
-    request ? h('a', { class: 'button', href: `#/sweep?as=${job.id}`, 'aria-label': `As ${name}, but …` }, 'As this, but …') : null,
+    h('a', { class: 'button', href: `#/${request ? 'sweep' : 'generate'}?as=${job.id}`, 'aria-label': `As ${name}, but …` }, 'As this, but …'),
     ended(job) ? button('Run again', `Run ${name} again`, again) : null,
     ended(job)
       ? button('Delete', `Delete ${name}`, remove, 'bad')
@@ -49,9 +49,7 @@ export function actions(job, { told, deleted }, signal) {
   }
 
   async function cancel() {
-    // Of a job that has ended meanwhile the same request would take everything away.
-    if (ended(await readJob(job.id, signal))) return;
-    await api.send('DELETE', `/v1/jobs/${job.id}`, undefined, { signal });
+    await api.send('DELETE', `/v1/jobs/${job.id}?cancel_only=true`, undefined, { signal });
   }
 
   async function remove() {

@@ -3,6 +3,7 @@
 import { api } from '../../lib/api.js';
 import { h, replace } from '../../lib/dom.js';
 import { follow } from '../../lib/events.js';
+import { again } from '../../lib/place.js';
 import { plot } from '../../lib/plot.js';
 import { problem } from '../../lib/problem.js';
 import { select } from './choices.js';
@@ -58,7 +59,7 @@ function offer(place, job, signal) {
     try {
       const { id } = await api.send('POST', '/v1/modal-analyses', requestOf(job), { signal });
       await follow(id, (now) => replace(told, `${now.progress} % ${now.phase ?? ''}`), signal);
-      if (!signal.aborted) dispatchEvent(new HashChangeEvent('hashchange'));
+      if (!signal.aborted) again();
     } catch (error) {
       event.target.disabled = false;
       if (!signal.aborted) replace(told, problem(error));

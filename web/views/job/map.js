@@ -24,6 +24,7 @@ export async function show(place, context, signal) {
     h('div', { class: 'row' },
       sensors(job.request, context),
       select('Upwards', [['engine_order', 'engine order'], ['frequency', 'frequency, Hz']], query.get('axis') ?? 'engine_order', (axis) => context.go({ axis })),
+      select('Frame', [['rotating', 'rotating'], ['fixed', 'fixed']], query.get('frame') ?? 'rotating', (frame) => context.go({ frame })),
       select('Amplitude', [['log', 'logarithmic'], ['linear', 'linear']], scale, (chosen) => {
         scale = chosen;
         draw();
@@ -53,7 +54,7 @@ export async function show(place, context, signal) {
     try {
       last = Date.now();
       read = await api.figure(path, {
-        sensor: query.get('sensor'), axis: query.get('axis'), nodal_diameter: query.get('nodal_diameter'), colour: query.get('colour'),
+        sensor: query.get('sensor'), axis: query.get('axis'), frame: query.get('frame'), nodal_diameter: query.get('nodal_diameter'), colour: query.get('colour'),
       }, { signal });
       // What is zoomed stays so when the map grows.
       read.layout.uirevision = job.id;

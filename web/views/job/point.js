@@ -3,6 +3,7 @@
 import { api, Refusal } from '../../lib/api.js';
 import { facts, h, replace } from '../../lib/dom.js';
 import { duration, number, percent, speed, speedLong } from '../../lib/format.js';
+import { again } from '../../lib/place.js';
 import { plot } from '../../lib/plot.js';
 import { problem } from '../../lib/problem.js';
 import { select, sensors } from './choices.js';
@@ -85,7 +86,7 @@ async function showHistories(element, context, point, signal) {
     try {
       const body = { speeds: [point.index], quantities: ['displacement', 'velocity', 'contact_force', 'contact', 'energy', 'state'] };
       await api.send('POST', `/v1/jobs/${job.id}/histories`, body, { signal });
-      dispatchEvent(new HashChangeEvent('hashchange'));
+      again();
     } catch (error) {
       event.target.disabled = false;
       if (!signal.aborted) figure.append(problem(error));

@@ -88,9 +88,7 @@ class Job:
 
     def cancel(self) -> None:
         """Stops it; what it has found so far stays. One that has ended stays as it is."""
-        # Of a job that has ended the same request would take everything away.
-        if self.status not in _ENDED:
-            self._service.delete(self._own())
+        self._service.delete(self._own(), cancel_only="true")
 
     def delete(self) -> None:
         """Deletes it with all that it found; one that has not ended is cancelled first."""

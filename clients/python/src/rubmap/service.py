@@ -68,9 +68,9 @@ class Service:
         headers = {"content-type": "application/merge-patch+json"}
         return self._patiently(lambda: self._http.patch(path, json=body, headers=headers)).json()
 
-    def delete(self, path: str) -> None:
+    def delete(self, path: str, **query: Any) -> None:
         """Deletes what is there."""
-        self._patiently(lambda: self._http.delete(path))
+        self._patiently(lambda: self._http.delete(path, params=_given(query)))
 
     @contextmanager
     def stream(self, path: str, accept: str = "*/*", **query: Any) -> Iterator[httpx.Response]:

@@ -6,6 +6,7 @@ use super::text::escaped;
 use crate::cells::Cell;
 use crate::heat::loudest_within;
 use crate::map_view::{VerticalAxis, View};
+use crate::spectrum::Frame;
 use rubmap_analysis::result::InteractionMap;
 
 /// Least height of a spectral line, of the height of the map: a bin alone would be a pixel high, below the line of its engine order.
@@ -66,8 +67,12 @@ pub(super) fn amplitudes(
         VerticalAxis::Frequency => ("%{customdata[1]:.3~g}", "%{y:,.1f}"),
     };
     let unit = escaped(map.sensor.unit(&map.units));
+    let orders = match view.frame {
+        Frame::Rotating => "engine order",
+        Frame::Fixed => "multiple of Ω",
+    };
     let words = format!(
-        "%{{x:,.1f}} rpm (%{{customdata[2]:,.1f}} rad/s)<br>engine order {order}, {frequency} Hz<br>%{{customdata[0]:.3~g}} {unit}"
+        "%{{x:,.1f}} rpm (%{{customdata[2]:,.1f}} rad/s)<br>{orders} {order}, {frequency} Hz<br>%{{customdata[0]:.3~g}} {unit}"
     );
     let x = match columns[..] {
         // A single column has its edges: nothing else says how wide it is.

@@ -14,6 +14,7 @@ use crate::cells::{Cell, cells, rpm};
 use crate::level::{LevelColour, axis as level_axis};
 use crate::map_view::{DRIVEN, OrderLine, QUIETEST, VerticalAxis, View, lobes};
 use crate::marks::{critical_words, driven_words, known_to, linear_words};
+use crate::spectrum::Frame;
 use crate::window::Window;
 use crate::{heat, interaction_map as drawing, validity};
 use rubmap_analysis::result::{Campbell, CriticalSpeed, CriticalSpeeds, InteractionMap, StiffeningVerdict};
@@ -40,14 +41,37 @@ pub fn interaction_map(
     window: Window,
     level_colour: LevelColour,
 ) -> Figure {
+    seen_in((axis_upwards, Frame::Rotating), map, critical, campbell, window, level_colour)
+}
+
+/// A map in the fixed frame, as [`fixed_frame_map`](crate::fixed_frame_map) draws it, with the cells of [`interaction_map`].
+pub fn fixed_frame_map(
+    map: &InteractionMap,
+    critical: Option<&CriticalSpeeds>,
+    axis_upwards: VerticalAxis,
+    window: Window,
+    level_colour: LevelColour,
+) -> Figure {
+    seen_in((axis_upwards, Frame::Fixed), map, critical, None, window, level_colour)
+}
+
+fn seen_in(
+    seen: (VerticalAxis, Frame),
+    map: &InteractionMap,
+    critical: Option<&CriticalSpeeds>,
+    campbell: Option<&Campbell>,
+    window: Window,
+    level_colour: LevelColour,
+) -> Figure {
     let cells = cells(&map.speeds_rad_s);
-    let view = View::new(map, &cells, campbell, axis_upwards, &window, ((0.0, 0.0), (1.0, 1.0)));
+    let view = View::new(map, &cells, campbell, seen, &window, ((0.0, 0.0), (1.0, 1.0)));
     let loudest = heat::loudest(map, &window);
     let scale = loudest.map_or((QUIETEST, 1.0), |loudest| (QUIETEST * loudest, loudest));
     let shown = amplitudes(map, &cells, &view, scale.0, ("x", "y"), MOST);
     let unit = map.sensor.unit(&map.units);
     let paragraphs: Vec<String> = [drawing::words(map)]
         .into_iter()
+        .chain((view.frame == Frame::Fixed).then(|| drawing::BOTH_WAYS.to_owned()))
         .chain(map.stiffening.and_then(StiffeningVerdict::warning).map(str::to_owned))
         .chain(validity::without_thickness(map).then(|| validity::WITHOUT_THICKNESS.to_owned()))
         .chain(shown.thinned.clone())
@@ -55,7 +79,7 @@ pub fn interaction_map(
     let x = speeds().range(ends(view.diagram.x.values)).anchor("y");
     let seen = cells.iter().filter(|cell| view.diagram.x.contains(cell.rpm)).copied();
     let seen: Vec<Cell> = seen.collect();
-    Figure::new("interaction_map", &drawing::title(map), &paragraphs)
+    Figure::new("interaction_map", &drawing::title(map, view.frame), &paragraphs)
         .high(HEIGHT)
         .with(shown.trace)
         .with_all(engine_orders(map, &view))
@@ -73,23 +97,24 @@ pub fn interaction_map(
         )
         .attribute("coloraxis", logarithmic(scale, &format!("amplitude, {unit}"), (MAP[0], MAP[1])))
         .meta("sensor", map.sensor)
-        .meta("units", json!({"x": "rpm", "y": y_unit(axis_upwards), "amplitude": unit}))
+        .meta("units", json!({"x": "rpm", "y": y_unit(&view), "amplitude": unit}))
         .meta("speeds_rpm", cells.iter().map(|cell| cell.rpm).collect::<Vec<f64>>())
         .meta("speed_indices", cells.iter().map(|cell| cell.index).collect::<Vec<usize>>())
         .meta("column_speed_indices", shown.indices)
         .meta("amplitude", json!({"z": "log10", "linear": "customdata[row][column][0]", "range": scale}))
 }
 
-fn y_unit(axis: VerticalAxis) -> &'static str {
-    match axis {
-        VerticalAxis::EngineOrder => "engine_order",
-        VerticalAxis::Frequency => "Hz",
+fn y_unit(view: &View) -> &'static str {
+    match (view.axis, view.frame) {
+        (VerticalAxis::EngineOrder, Frame::Rotating) => "engine_order",
+        (VerticalAxis::EngineOrder, Frame::Fixed) => "rotational_frequency",
+        (VerticalAxis::Frequency, _) => "Hz",
     }
 }
 
 /// The vertical axis of a view.
 pub(super) fn upwards(view: &View) -> Axis {
-    axis(view.axis.words()).range(ends(view.diagram.y.values))
+    axis(view.axis_words()).range(ends(view.diagram.y.values))
 }
 
 /// The two ends of an axis.
@@ -139,11 +164,7 @@ fn natural(campbell: &Campbell, view: &View) -> Vec<PointTrace> {
 
 /// Where the linear criterion and the lobes' engine orders meet natural frequencies.
 fn crossings(critical: &CriticalSpeeds, view: &View) -> Vec<PointTrace> {
-    let place = |speed_rad_s: f64, order: u32| {
-        let rpm = rpm(speed_rad_s);
-        let place = (rpm, view.height(rpm, f64::from(order)));
-        view.diagram.inside(place.0, place.1).map(|_| place)
-    };
+    let place = |speed_rad_s: f64, order: u32| view.seen(rpm(speed_rad_s), f64::from(order));
     let linear = critical.linear_crossings.iter().filter_map(|crossing| {
         let order = crossing.nodal_diameter * crossing.superharmonic;
         Some((place(crossing.speed_rad_s, order)?, linear_words(crossing)))

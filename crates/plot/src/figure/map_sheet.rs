@@ -13,6 +13,7 @@ use crate::heat;
 use crate::level::LevelColour;
 use crate::map_sheet::{self as drawing, NO_MAP};
 use crate::map_view::{QUIETEST, VerticalAxis, View};
+use crate::spectrum::Frame;
 use crate::window::Window;
 use rubmap_analysis::result::InteractionMap;
 
@@ -33,7 +34,14 @@ pub fn map_sheet(maps: &[InteractionMap], window: Window, level_colour: LevelCol
     let mut thinned = None;
     for (index, map) in maps.iter().enumerate() {
         let (row, column) = (index / columns, index % columns);
-        let view = View::new(map, &cells, None, VerticalAxis::EngineOrder, &window, ((0.0, 0.0), (1.0, 1.0)));
+        let view = View::new(
+            map,
+            &cells,
+            None,
+            (VerticalAxis::EngineOrder, Frame::Rotating),
+            &window,
+            ((0.0, 0.0), (1.0, 1.0)),
+        );
         let (x, y) = (name("x", index), name("y", index));
         let shown = amplitudes(map, &cells, &view, scale.0, (&x, &y), most);
         thinned = thinned.or(shown.thinned);

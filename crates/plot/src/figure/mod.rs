@@ -35,7 +35,7 @@ pub use error_over_step::error_over_step;
 pub use force_map::force_map;
 pub use haigh::haigh;
 pub use histories::histories;
-pub use interaction_map::interaction_map;
+pub use interaction_map::{fixed_frame_map, interaction_map};
 pub use map_sheet::map_sheet;
 pub use section::section;
 pub use spectrum::spectrum;

@@ -12,9 +12,9 @@ use super::studies::{RUNS, first_revolutions, study};
 use super::{critical, decoded, map, modes, point, units, waves};
 use crate::{
     ForceQuantity, Frame, HaighColour, HistoryQuantity, LevelColour, PngError, SectionView, SurfaceView,
-    VerticalAxis, Window, campbell, campbell_fixed_frame, critical_speeds, error_over_step, force_map, haigh,
-    histories, interaction_map, map_sheet, png, section, spectrum, speed_histories, surface, trajectories,
-    wear_map, work_precision,
+    VerticalAxis, Window, campbell, campbell_fixed_frame, critical_speeds, error_over_step, fixed_frame_map,
+    force_map, haigh, histories, interaction_map, map_sheet, png, section, spectrum, speed_histories,
+    surface, trajectories, wear_map, work_precision,
 };
 
 pub(super) fn credentials() -> Point {
@@ -52,6 +52,17 @@ fn all() -> Vec<Drawing> {
             by_speed(VerticalAxis::Frequency),
             "Interaction map",
             &["rotational speed Ω, rpm", "frequency (rotating frame), Hz"],
+        ),
+        (
+            fixed_frame_map(
+                &map(),
+                Some(&critical()),
+                VerticalAxis::EngineOrder,
+                Window::default(),
+                LevelColour::Plain,
+            ),
+            "Interaction map in the fixed frame: radial",
+            &["rotational speed Ω, rpm", "multiple of the rotational frequency in the fixed frame"],
         ),
         (
             map_sheet(&vec![map(); 5], Window::default(), LevelColour::Plain),

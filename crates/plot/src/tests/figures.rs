@@ -162,6 +162,28 @@ fn spectra_are_where_they_are_seen() {
     assert_eq!(seen(&fixed, "nodal diameter 2, |k−n|").0, 2.0);
 }
 
+/// Engine orders of the rotating frame are elsewhere in the fixed one: neither their lines nor crossings at them are drawn.
+#[test]
+fn the_fixed_frame_has_no_engine_orders_of_the_wheel() {
+    let names = |figure: Value| -> Vec<String> {
+        let named = figure["data"].as_array().unwrap().iter();
+        named.filter_map(|trace| trace["name"].as_str().map(str::to_owned)).collect()
+    };
+    let (map, critical, whole) = (map(), critical(), Window::default());
+    for axis in [VerticalAxis::EngineOrder, VerticalAxis::Frequency] {
+        let plain = LevelColour::Plain;
+        let rotating = figure::interaction_map(&map, Some(&critical), None, axis, whole, plain);
+        let fixed = json!(figure::fixed_frame_map(&map, Some(&critical), axis, whole, plain));
+        assert!(fixed["data"][0]["hovertemplate"].as_str().unwrap().contains("multiple of Ω"));
+        let only_rotating =
+            ["driven (i, j)", "engine orders of lobes", "linear (i, j, n)", "other engine orders"];
+        let (rotating, fixed) = (names(json!(rotating)), names(fixed));
+        let mut gone: Vec<&String> = rotating.iter().filter(|name| !fixed.contains(name)).collect();
+        gone.sort();
+        assert_eq!(gone, only_rotating);
+    }
+}
+
 #[test]
 fn histories_keep_their_extremes() {
     let long = recorded([10, 50], 512);
