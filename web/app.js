@@ -1,6 +1,6 @@
 // The frame: which view an address means, and what stays between views.
 
-import { api, Away, Refusal } from './lib/api.js';
+import { api, Away, part, Refusal } from './lib/api.js';
 import { onBack } from './lib/away.js';
 import { h, replace } from './lib/dom.js';
 import { problem } from './lib/problem.js';
@@ -26,7 +26,7 @@ let leave = new AbortController();
 /** The view of an address, with its id and parameters. */
 function find(hash) {
   const [path, search] = hash.replace(/^#\/?/, '').split('?', 2);
-  const words = (path || 'models').split('/').filter(Boolean).map(decodeURIComponent);
+  const words = (path || 'models').split('/').filter(Boolean);
   for (const [pattern, load] of VIEWS) {
     const parts = pattern.split('/');
     if (parts.length === words.length && parts.every((part, k) => part === ':id' || part === words[k])) {
@@ -56,7 +56,7 @@ async function show() {
   main.setAttribute('aria-busy', 'true');
   replace(main, place);
   try {
-    const view = await found.load();
+    const view = await part(found.load);
     if (signal.aborted) return;
     await view.show(place, { id: found.id, query: found.query }, signal);
   } catch (error) {

@@ -111,6 +111,18 @@ export async function submit(path, body, signal) {
   }
 }
 
+/** A part of the page that is loaded when it is wanted; the service may be away by then. */
+export async function part(load) {
+  try {
+    return await load();
+  } catch (error) {
+    // Browsers have no name for it: "Failed to fetch dynamically imported module", "error loading …", "Importing a module script failed".
+    if (!(error instanceof TypeError && /import/i.test(error.message))) throw error;
+    isAway();
+    throw new Away(error.message);
+  }
+}
+
 let contract = null;
 /** The contract; read once. */
 export function openapi() {

@@ -1,6 +1,6 @@
 // A job: how far it is, and what it found.
 
-import { Away } from '../lib/api.js';
+import { Away, part } from '../lib/api.js';
 import { onBack } from '../lib/away.js';
 import { h, facts, replace } from '../lib/dom.js';
 import { ended, follow, readJob } from '../lib/events.js';
@@ -82,7 +82,7 @@ export async function show(main, { id, query }, signal) {
     });
   }
   try {
-    await (await tab[2]()).show(place, context, signal);
+    await (await part(tab[2])).show(place, context, signal);
   } catch (error) {
     if (signal.aborted) return;
     replace(place, problem(error));

@@ -1,6 +1,7 @@
 // A model: what was sent, and what was found about it.
 
-import { api } from '../lib/api.js';
+import { api, Away, part } from '../lib/api.js';
+import { onBack } from '../lib/away.js';
 import { facts, h, replace } from '../lib/dom.js';
 import { bytes, moment, number, rpm, short } from '../lib/format.js';
 import { labelsButton } from '../lib/labels.js';
@@ -51,8 +52,10 @@ export async function show(main, { id, query }, signal) {
     }, words))),
     place);
   try {
-    await (await tab[2]()).show(place, { model, query, go: (changes) => { location.hash = address(changes); } }, signal);
+    await (await part(tab[2])).show(place, { model, query, go: (changes) => { location.hash = address(changes); } }, signal);
   } catch (error) {
-    if (!signal.aborted) replace(place, problem(error));
+    if (signal.aborted) return;
+    replace(place, problem(error));
+    if (error instanceof Away) onBack(again, signal);
   }
 }
