@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import threading
 import time
+import warnings
 from pathlib import Path
 from typing import Any
 
 import httpx
+import numpy as np
 import pytest
 from conftest import sweep_of
 
@@ -71,9 +73,33 @@ def test_a_job_that_is_cancelled_says_so_and_keeps_nothing_else_from_ending(
 
 def test_waiting_ends_in_time(client: rubmap.Client, model: rubmap.Model) -> None:
     long = client.sweep(sweep_of(model.id, integration={"revolutions": 20000, "window_revolutions": 10})).submit()
+    # The stream of events is silent for longer.
+    begin = time.monotonic()
     with pytest.raises(TimeoutError):
         long.wait(progress=False, timeout=0.5)
+    assert time.monotonic() - begin < 10.0
+    assert long.points().empty and "speed_rpm" in long.points()
+    with warnings.catch_warnings(action="error"):
+        rubmap.plot.interaction_map(long.interaction_map())
     long.cancel()
+
+
+def test_numbers_of_numpy_are_numbers(client: rubmap.Client, model: rubmap.Model) -> None:
+    grid: Any = {"values": np.linspace(16000, 26000, 3), "unit": "rpm"}
+    plan = client.sweep(sweep_of(model.id, speeds=grid, modes_per_speed=np.int64(3))).plan()
+    assert plan["settings"]["speeds"]["values"] == [16000.0, 21000.0, 26000.0]
+    with pytest.raises(ValueError, match="/speeds/values/1"):
+        client.sweep(sweep_of(model.id, speeds={"values": [1.0, np.nan], "unit": "rpm"})).plan()
+
+
+def test_what_jobs_and_models_are_called_is_changed(
+    client: rubmap.Client, swept: rubmap.Sweep, model: rubmap.Model
+) -> None:
+    state = swept.label(name="first", tags=["a", "b"]).state
+    assert (state["name"], state["tags"]) == ("first", ["a", "b"])
+    assert "name" not in swept.label(name=None).state and swept.state["tags"] == ["a", "b"]
+    assert model.label(notes="of the demo").facts["notes"] == "of the demo"
+    assert model.facts["name"] == "for tests"
 
 
 def test_what_is_lost_on_the_way_is_made_once() -> None:
@@ -96,6 +122,9 @@ def test_what_is_lost_on_the_way_is_made_once() -> None:
 
 def test_a_service_that_is_not_there_is_said_to_be_so() -> None:
     service = Service("http://127.0.0.1:9", patience=0.5)
+    for nonsense in ("nonsense", "ftp://127.0.0.1", "127.0.0.1:8080", ""):
+        with pytest.raises(ValueError, match="no address"):
+            rubmap.Client(nonsense)
     begin = time.monotonic()
     with pytest.raises(rubmap.Unreachable, match="127.0.0.1:9"):
         service.get("/v1/version")

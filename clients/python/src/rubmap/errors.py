@@ -28,9 +28,9 @@ class Refusal(RubmapError):
         self.title = str(problem.get("title", f"the service answered {status}"))
         self.detail = str(problem.get("detail", ""))
         self.errors: list[Mapping[str, Any]] = list(problem.get("errors", []))
-        lines = [f"{self.title} ({status}): {self.detail}" if self.detail else f"{self.title} ({status})"]
-        lines += [f"  {_where(error)}{error.get('detail', '')}" for error in self.errors]
-        super().__init__("\n".join(lines))
+        # The detail joins the errors in one line.
+        said = [f"  {_where(error)}{error.get('detail', '')}" for error in self.errors] or [f"  {self.detail}"]
+        super().__init__("\n".join([f"{self.title} ({status})", *said]).rstrip())
 
 
 def _where(error: Mapping[str, Any]) -> str:

@@ -21,6 +21,9 @@ _ENDED = ("successful", "failed", "dismissed")
 #: Seconds between two looks at a job whose events cannot be followed.
 _POLL = 1.0
 
+#: Seconds after which events that say nothing, not even that the connection lives (every 15 s), are asked for again.
+_SILENCE = 60.0
+
 
 class Job:
     """A job, before or after it is submitted.
@@ -75,6 +78,7 @@ class Job:
             JobFailed: it failed or was cancelled.
             TimeoutError: it had not ended in time; it goes on.
         """
+        self._own()
         end = None if timeout is None else time.monotonic() + timeout
         with tqdm(total=100, unit="%", disable=not progress, desc=self.kind) as bar:
             for state in self._changes(end):
@@ -94,6 +98,11 @@ class Job:
         """Deletes it with all that it found; one that has not ended is cancelled first."""
         self.cancel()
         self._service.delete(self._own())
+
+    def label(self, **changes: Any) -> Self:
+        """Changes ``name``, ``tags`` and ``notes``: what is not given stays, None takes away."""
+        self._service.patch(self._own(), changes)
+        return self
 
     def arrays(self, result: str, **query: Any) -> Arrays:
         """All numbers of a result, such as ``"interaction-map"``, as numpy arrays by the names that the contract gives them."""
@@ -134,16 +143,21 @@ class Job:
                 if isinstance(error, Refusal) and error.status in (401, 404):
                     raise
                 yield self.state
-            time.sleep(_POLL)
+            time.sleep(_left(end, _POLL))
 
     def _events(self, end: float | None) -> Iterator[dict[str, Any]]:
-        with self._service.stream(f"{self._own()}/events", accept="text/event-stream") as answer:
+        silence = _left(end, _SILENCE)
+        with self._service.stream(f"{self._own()}/events", accept="text/event-stream", silence=silence) as answer:
             for line in answer.iter_lines():
                 if line.startswith("data:"):
                     yield json.loads(line.removeprefix("data:"))
-                # Comments keep the connection alive, and say that time goes on.
                 if end is not None and time.monotonic() > end:
                     return
+
+
+def _left(end: float | None, most: float) -> float:
+    """Seconds until ``end``, ``most`` at most; never none at all, which waits for nothing."""
+    return most if end is None else min(most, max(0.01, end - time.monotonic()))
 
 
 class Planned(Job):

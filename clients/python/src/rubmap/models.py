@@ -40,6 +40,11 @@ class Model:
         self.facts = self._service.get(f"/v1/models/{self.id}")
         return self
 
+    def label(self, **changes: Any) -> Model:
+        """Changes ``name``, ``tags`` and ``notes``: what is not given stays, None takes away."""
+        self.facts = self._service.patch(f"/v1/models/{self.id}", changes)
+        return self
+
     @property
     def reductions(self) -> list[dict[str, Any]]:
         """What its reductions found, with their certificates."""

@@ -13,6 +13,8 @@ from matplotlib.colors import LogNorm
 
 from .tables import RPM
 
+__all__ = ["campbell", "critical_speeds", "interaction_map", "level", "spectrum", "work_precision"]
+
 #: Faintest amplitude of a map, of its loudest.
 _QUIETEST = 1e-4
 
@@ -37,7 +39,7 @@ def interaction_map(
     """
     ax = _axes(ax)
     amplitude = found["amplitude"].to_numpy()
-    loudest = float(np.nanmax(amplitude))
+    loudest = float(np.nanmax(amplitude, initial=0.0))
     across, orders = _edges(found["speed_rpm"].to_numpy()), _edges(found["engine_order"].to_numpy())
     upwards = np.outer(across / 60.0, orders) if frequency else np.broadcast_to(orders, (len(across), len(orders)))
     norm = LogNorm(_QUIETEST * loudest, loudest) if log and loudest > 0.0 else None

@@ -76,6 +76,8 @@ class Sweep(Planned, _Recorded):
     def points(self, sensor: int | None = None) -> pd.DataFrame:
         """What is known of every speed: level, settling, errors, energy, contact, wall time; a row a speed, nested names joined by dots."""
         frame = pd.json_normalize(self.json("interaction-map", sensor=sensor)["points"])
+        if frame.empty:
+            frame = pd.DataFrame(columns=["index", "speed_rad_s", "status"])
         frame.insert(2, "speed_rpm", frame["speed_rad_s"] * RPM)
         return frame
 

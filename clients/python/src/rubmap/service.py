@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 import uuid
 from collections.abc import Callable, Iterator, Mapping
@@ -9,6 +10,7 @@ from contextlib import contextmanager
 from typing import Any
 
 import httpx
+import numpy as np
 
 from .errors import Refusal, Unreachable
 
@@ -17,6 +19,10 @@ _AGAIN = (429, 503)
 
 #: Seconds before the second try, and at most before a later one.
 _PAUSES = (0.25, 10.0)
+
+#: Seconds without a byte and without a connection: an answer may be minutes of computing away, a connection not.
+_SILENCE = 300.0
+_CONNECT = 10.0
 
 
 class Service:
@@ -29,11 +35,13 @@ class Service:
     """
 
     def __init__(self, url: str, token: str | None = None, patience: float = 60.0) -> None:
+        address = httpx.URL(url)
+        if address.scheme not in ("http", "https") or not address.host:
+            raise ValueError(f"{url!r} is no address of a service: expected one such as http://127.0.0.1:8080")
         headers = {"authorization": f"Bearer {token}"} if token else {}
         self.url = url.rstrip("/")
         self.patience = patience
-        # An answer may be minutes of computing away, a connection not.
-        self._http = httpx.Client(base_url=self.url, headers=headers, timeout=httpx.Timeout(300.0, connect=10.0))
+        self._http = httpx.Client(base_url=self.url, headers=headers, timeout=httpx.Timeout(_SILENCE, connect=_CONNECT))
 
     def close(self) -> None:
         """Closes the connections."""
@@ -50,11 +58,13 @@ class Service:
     def post(self, path: str, body: Mapping[str, Any]) -> Any:
         """Sends JSON that makes something: with one key for all tries, so that it is made once."""
         headers = {"idempotency-key": str(uuid.uuid4())}
-        return self._patiently(lambda: self._http.post(path, json=body, headers=headers)).json()
+        sent = _plain(body)
+        return self._patiently(lambda: self._http.post(path, json=sent, headers=headers)).json()
 
     def ask(self, path: str, body: Mapping[str, Any]) -> Any:
         """Sends JSON that makes nothing, such as for a plan."""
-        return self._patiently(lambda: self._http.post(path, json=body)).json()
+        sent = _plain(body)
+        return self._patiently(lambda: self._http.post(path, json=sent)).json()
 
     def upload(self, path: str, content: Callable[[], Any], query: Mapping[str, Any]) -> Any:
         """Sends a zip; ``content`` opens it anew for every try."""
@@ -73,9 +83,13 @@ class Service:
         self._patiently(lambda: self._http.delete(path, params=_given(query)))
 
     @contextmanager
-    def stream(self, path: str, accept: str = "*/*", **query: Any) -> Iterator[httpx.Response]:
-        """An answer that is read piece by piece; what breaks off is the caller's to begin anew."""
-        with self._http.stream("GET", path, params=_given(query), headers={"accept": accept}) as answer:
+    def stream(
+        self, path: str, accept: str = "*/*", silence: float = _SILENCE, **query: Any
+    ) -> Iterator[httpx.Response]:
+        """An answer that is read piece by piece, ``silence`` seconds apart at most; what breaks off is the caller's to begin anew."""
+        timeout = httpx.Timeout(silence, connect=_CONNECT)
+        headers = {"accept": accept}
+        with self._http.stream("GET", path, params=_given(query), headers=headers, timeout=timeout) as answer:
             if answer.is_error:
                 answer.read()
                 raise _refusal(answer)
@@ -102,6 +116,19 @@ class Service:
                 raise failure
             time.sleep(wait)
             pause = min(2 * pause, most)
+
+
+def _plain(value: Any, pointer: str = "") -> Any:
+    """A request as JSON has it: arrays and numbers of numpy are lists and numbers."""
+    if isinstance(value, Mapping):
+        return {name: _plain(part, f"{pointer}/{name}") for name, part in value.items()}
+    if isinstance(value, np.ndarray | np.generic):
+        value = value.tolist()
+    if isinstance(value, list | tuple):
+        return [_plain(part, f"{pointer}/{index}") for index, part in enumerate(value)]
+    if isinstance(value, float) and not math.isfinite(value):
+        raise ValueError(f"{pointer}: {value} is no number that a request can have")
+    return value
 
 
 def _given(query: Mapping[str, Any]) -> dict[str, Any] | None:
