@@ -90,7 +90,22 @@ def damaged(parts: Parts, what: str) -> str:
         return "mass: shape .* dofs has"
     if what == "infinite":
         parts["positions"][5, 1] = np.inf
-        return r"positions: the value at \[5, 1\] is not finite"
+        return r"positions: row 5 \(node \d+\) is not finite"
+    if what == "not a number":
+        parts["mass"].data[0] = np.nan
+        return "mass: row 0, column 0 .* is not finite"
+    if what == "complex":
+        parts["stiffness"][0] = parts["stiffness"][0] * (1 + 0.01j)
+        return r"stiffness\[0\]: complex"
+    if what == "half a sector":
+        parts["sectors"] += 0.5
+        return r"sectors: \d+.5 is no whole number"
+    if what == "not a list":
+        parts["stiffness"] = parts["stiffness"][0]
+        return "stiffness: give a list"
+    if what == "units":
+        parts["units"] = {"length": "mm"}
+        return "units: .* one each of length, force, time, mass"
     if what == "massless":
         matrix = parts["mass"].tolil()
         row = int(np.flatnonzero(parts["dofs"][:, 0] == parts["contact"][0])[0])
@@ -128,7 +143,7 @@ def damaged(parts: Parts, what: str) -> str:
     "what",
     [
         "asymmetric", "size", "infinite", "massless", "turned the other way", "contact twice", "contact on a face",
-        "normal", "speeds", "two stiffnesses", "row twice", "unknown node",
+        "normal", "not a number", "complex", "half a sector", "not a list", "units", "speeds", "two stiffnesses", "row twice", "unknown node",
     ],
 )  # fmt: skip
 def test_a_defect_is_found_before_anything_is_written(parts: Parts, what: str, tmp_path: Path) -> None:

@@ -40,7 +40,12 @@ def test_tables_are_those_of_the_json(swept: rubmap.Sweep) -> None:
     points = swept.points()
     assert len(points) == 6 and "settling.verdict" in points
     plot.critical_speeds(wheel)
-    plot.level(points)
+    for sensor in (0, 1):
+        said = [point["responses"][sensor]["rms"] for point in swept.json("interaction-map")["points"]]
+        np.testing.assert_array_equal(swept.points(sensor)["response.rms"], said)
+    assert plot.level(points).get_ylabel() == "level, mm rms"
+    with pytest.raises(ValueError, match="half_peak_to_peak"):
+        plot.level(points, quantity="peak")
 
 
 def test_spectra_histories_forces_and_stress_have_their_dimensions(swept: rubmap.Sweep) -> None:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from .errors import PackageError
@@ -45,7 +43,9 @@ def _nodes(sector: Sector) -> None:
     count = len(sector.ids)
     if sector.positions.shape != (count, 3):
         raise PackageError(f"positions: shape {sector.positions.shape}; of {count} nodes it is ({count}, 3)")
-    _finite("positions", sector.positions)
+    lost = np.flatnonzero(~np.isfinite(sector.positions).all(axis=1))
+    if lost.size:
+        raise PackageError(f"positions: row {lost[0]} (node {sector.ids[lost[0]]}) is not finite")
     _once("node_ids", sector.ids)
     unknown = np.flatnonzero(~np.isin(sector.dofs[:, 0], sector.ids))
     if unknown.size:
@@ -72,7 +72,11 @@ def _matrices(sector: Sector) -> None:
     for name, matrix, sign in named:
         if matrix.shape != (rows, rows):
             raise PackageError(f"{name}: shape {matrix.shape}; dofs has {rows} rows, so it is ({rows}, {rows})")
-        _finite(name, matrix.data)
+        wrong = np.flatnonzero(~np.isfinite(matrix.data))
+        if wrong.size:
+            entries = matrix.tocoo()
+            row, column = entries.row[wrong[0]], entries.col[wrong[0]]
+            raise PackageError(f"{name}: row {row}, column {column} (counted from 0) is not finite")
         apart = abs(matrix - sign * matrix.T).tocoo()
         most = abs(matrix).max() if matrix.nnz else 0.0
         if apart.nnz and apart.data.max() > _SYMMETRY * most:
@@ -142,12 +146,6 @@ def _contact(sector: Sector) -> None:
     wrong = np.flatnonzero(~(np.abs(length - 1.0) <= _UNIT))
     if wrong.size:
         raise PackageError(f"normals: row {wrong[0]} has length {length[wrong[0]]:.6g}; divide it by that")
-
-
-def _finite(name: str, values: Any) -> None:
-    wrong = np.argwhere(~np.isfinite(values))
-    if wrong.size:
-        raise PackageError(f"{name}: the value at {wrong[0].tolist()} is not finite")
 
 
 def _once(name: str, ids: Integers) -> None:

@@ -15,6 +15,7 @@ import numpy.typing as npt
 from scipy import sparse
 
 from .checks import check
+from .errors import PackageError
 from .sector import Sector
 
 #: Consistent units that need not be given.
@@ -47,7 +48,7 @@ def write_package(
         path: zip to write.
         sectors: N, the number of identical sectors of the wheel.
         mass: n × n, symmetric, a scipy sparse matrix or what becomes one.
-        stiffness: K(Ω) on the undeformed geometry, n × n each: one, or three for (0, Ω1/2, Ω1).
+        stiffness: K(Ω) on the undeformed geometry, n × n each: a list of one, or of three for (0, Ω1/2, Ω1).
         speeds_rad_s: their speeds in rad/s, ascending, beginning at 0.
         node_ids: (m,), integers.
         positions: (m, 3), Cartesian, length.
@@ -68,29 +69,36 @@ def write_package(
     Raises:
         PackageError: an argument that the service would refuse: which, where, and what to do.
     """
+    if sparse.issparse(stiffness) or any(np.ndim(matrix) != 2 for matrix in stiffness):
+        raise PackageError("stiffness: give a list of matrices, of one if there is one")
+    if len(axis) != 2:
+        raise PackageError("axis: give an origin and a direction of three numbers each")
     sector = Sector(
-        sectors=int(sectors),
-        mass=_sparse(mass),
-        stiffness=[_sparse(matrix) for matrix in stiffness],
+        sectors=int(_whole("sectors", sectors)),
+        mass=_sparse("mass", mass),
+        stiffness=[_sparse(f"stiffness[{k}]", matrix) for k, matrix in enumerate(stiffness)],
         speeds=np.asarray(speeds_rad_s, dtype=float),
-        ids=np.asarray(node_ids),
+        ids=_whole("node_ids", node_ids),
         positions=np.asarray(positions, dtype=float),
-        dofs=np.asarray(dofs).reshape(-1, 2),
-        cyclic=np.asarray(cyclic, dtype=np.int64).reshape(-1, 2),
-        contact=np.asarray(contact),
+        dofs=_whole("dofs", dofs).reshape(-1, 2),
+        cyclic=_whole("cyclic", cyclic).reshape(-1, 2),
+        contact=_whole("contact", contact),
         normals=np.asarray(normals, dtype=float),
         origin=np.asarray(axis[0], dtype=float),
         direction=np.asarray(axis[1], dtype=float),
         frame=frame,
-        gyroscopic=None if gyroscopic is None else _sparse(gyroscopic),
+        gyroscopic=None if gyroscopic is None else _sparse("gyroscopic", gyroscopic),
     )
     check(sector)
+    units = MILLIMETRES if units is None else units
+    if set(units) != set(MILLIMETRES):
+        raise PackageError(f"units: {dict(units)}; give one each of {', '.join(MILLIMETRES)}")
     files = {f"k{k}.npz": _npz(matrix) for k, matrix in enumerate(sector.stiffness)}
     files["m.npz"] = _npz(sector.mass)
     manifest: dict[str, Any] = {
         "name": name,
         "sectors": sector.sectors,
-        "units": dict(units or MILLIMETRES),
+        "units": dict(units),
         "axis": {"origin": sector.origin.tolist(), "direction": sector.direction.tolist()},
         "speeds_rad_s": sector.speeds.tolist(),
         "frame": frame,
@@ -122,9 +130,20 @@ def write_package(
     return Path(path)
 
 
-def _sparse(matrix: Any) -> sparse.csc_array:
-    made = cast(sparse.csc_array, sparse.csc_array(matrix).astype(float))
+def _sparse(name: str, matrix: Any) -> sparse.csc_array:
+    made = sparse.csc_array(matrix)
+    if np.iscomplexobj(made):
+        raise PackageError(f"{name}: complex; a matrix is real (damping is given as modal_ratio)")
+    made = cast(sparse.csc_array, made.astype(float))
     made.sum_duplicates()
+    return made
+
+
+def _whole(name: str, values: Any) -> npt.NDArray[np.int64]:
+    given = np.asarray(values)
+    made: npt.NDArray[np.int64] = given.astype(np.int64)
+    if not np.array_equal(made, given):
+        raise PackageError(f"{name}: {given[made != given].flat[0]} is no whole number")
     return made
 
 

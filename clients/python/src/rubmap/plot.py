@@ -58,12 +58,15 @@ def interaction_map(
 
 
 def level(points: pd.DataFrame, ax: Axes | None = None, quantity: str = "rms") -> Axes:
-    """Level over speed, of :meth:`Sweep.points`: a column whose name ends with ``quantity``."""
+    """Level over speed, of :meth:`Sweep.points`: ``rms``, ``half_peak_to_peak`` or another part of the sensor's response."""
     ax = _axes(ax)
-    name = next(column for column in points.columns if column.split(".")[-1] == quantity)
-    ax.plot(points["speed_rpm"], points[name], marker=".", color=_COLOURS[0])
+    there = [column.removeprefix("response.") for column in points.columns if column.startswith("response.")]
+    if there and quantity not in there:
+        raise ValueError(f"a response has no {quantity}; it has {', '.join(there)}")
+    if there:
+        ax.plot(points["speed_rpm"], points[f"response.{quantity}"], marker=".", color=_COLOURS[0])
     ax.set_xlabel("speed of rotation, rpm")
-    ax.set_ylabel(quantity.replace("_", " "))
+    ax.set_ylabel(f"level, {points.attrs['unit']} {quantity.replace('_', ' ')}")
     ax.set_ylim(bottom=0.0)
     return ax
 

@@ -41,6 +41,12 @@ class _Recorded(Job):
         return dataset(variables, coordinates, found)
 
 
+def _with_response(point: dict[str, Any], sensor: int) -> dict[str, Any]:
+    """A point with what one sensor says, in place of all that they say; a speed that was not completed has none."""
+    responses = point.pop("responses", [])
+    return point | {"response": responses[sensor]} if responses else point
+
+
 class Sweep(Planned, _Recorded):
     """Contact over a range of speeds."""
 
@@ -74,10 +80,15 @@ class Sweep(Planned, _Recorded):
         return dataset(variables, coordinates, found).assign_attrs(sensor=sensors(found)[0])
 
     def points(self, sensor: int | None = None) -> pd.DataFrame:
-        """What is known of every speed: level, settling, errors, energy, contact, wall time; a row a speed, nested names joined by dots."""
-        frame = pd.json_normalize(self.json("interaction-map", sensor=sensor)["points"])
+        """What is known of every speed: response, settling, errors, energy, contact, wall time; a row a speed, nested names joined by dots.
+
+        ``response.rms`` and what else begins so is of the sensor, the first if none is said, in the unit of ``attrs["unit"]``.
+        """
+        found = self.json("interaction-map", sensor=sensor)
+        frame = pd.json_normalize([_with_response(point, sensor or 0) for point in found["points"]])
         if frame.empty:
             frame = pd.DataFrame(columns=["index", "speed_rad_s", "status"])
+        frame.attrs["unit"] = found["units"]["length"]
         frame.insert(2, "speed_rpm", frame["speed_rad_s"] * RPM)
         return frame
 
