@@ -32,8 +32,6 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
-use crate::config::Config;
-
 /// At which speeds do the blade tips of a centrifugal impeller interact dangerously with their casing?
 #[derive(Debug, Parser)]
 #[command(name = "rubmap", version = crate::version::LINE)]
@@ -94,7 +92,7 @@ enum Command {
     #[command(after_help = ending::CODES)]
     Report(report::ReportArgs),
     /// Run the HTTP service.
-    Serve(Config),
+    Serve(serve::ServeArgs),
     /// Copy a data folder, while a service works on it or not.
     Backup(keeping::BackupArgs),
     /// Read everything in a data folder and say what is not as it was written.
@@ -150,7 +148,7 @@ impl Cli {
             Command::Modes(args) => return modes::run(&args),
             Command::Repeat(args) => return repeat::run(&args),
             Command::Check(args) => return keeping::check(args),
-            Command::Serve(config) => serve::run(config)?,
+            Command::Serve(args) => serve::run(args)?,
             Command::Token(command) => token::token(command)?,
             Command::Backup(args) => keeping::backup(args)?,
             Command::Generate(args) => generate::generate(args)?,

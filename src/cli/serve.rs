@@ -1,6 +1,9 @@
 //! `rubmap serve`: the HTTP service until a signal ends it.
 
+use std::io;
 use std::pin::pin;
+
+use clap::Args;
 
 use crate::app::App;
 use crate::config::Config;
@@ -8,19 +11,36 @@ use tokio_util::sync::CancellationToken;
 
 use super::signals::stop_signal;
 
+/// A service and its end.
+#[derive(Debug, Args)]
+pub(super) struct ServeArgs {
+    #[command(flatten)]
+    config: Config,
+    /// Stop, too, when standard input ends: for a program that starts a service of its own, which then does not outlive it
+    #[arg(long)]
+    until_eof: bool,
+}
+
 /// Runs the service until SIGTERM or SIGINT.
-pub(super) fn run(config: Config) -> anyhow::Result<()> {
+pub(super) fn run(args: ServeArgs) -> anyhow::Result<()> {
+    let ServeArgs { config, until_eof } = args;
     let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build()?;
     let served = runtime.block_on(async {
-        let mut stop_signal = pin!(stop_signal()?);
+        let stop_signal = stop_signal()?;
+        let mut end = pin!(async {
+            tokio::select! {
+                () = stop_signal => {}
+                () = input_ended(), if until_eof => {}
+            }
+        });
         let app = tokio::select! {
             app = App::build(config) => app?,
-            () = &mut stop_signal => return Ok(()),
+            () = &mut end => return Ok(()),
         };
         let stop = CancellationToken::new();
         tracing::info!("listening on http://{}", app.addr());
         let told = async {
-            stop_signal.await;
+            end.await;
             stop.cancel();
         };
         tokio::join!(app.run_until_stopped(stop.clone()), told);
@@ -29,4 +49,9 @@ pub(super) fn run(config: Config) -> anyhow::Result<()> {
     // What still reads or writes a file on another thread is not waited for: all that is kept is kept.
     runtime.shutdown_background();
     served
+}
+
+/// Done when standard input has ended, or cannot be read.
+async fn input_ended() {
+    let _ = tokio::task::spawn_blocking(|| io::copy(&mut io::stdin().lock(), &mut io::sink())).await;
 }

@@ -138,3 +138,25 @@ fn schema_has_every_field() {
     assert_eq!(schema["additionalProperties"], json!(false));
     assert_eq!(schema.get("required"), None);
 }
+
+/// A preset in SI units is the same wheel, not one of 130 metres.
+#[test]
+fn presets_are_told_in_the_units_asked_for() {
+    let of = |given| request(given).resolve();
+    let si = json!({"length": "m", "force": "N", "time": "s", "mass": "kg"});
+    let found = of(json!({"units": si, "outlet_radius": 0.14})).unwrap();
+    assert_eq!((found.outlet_radius, found.sectors, found.wrap_deg), (0.14, 10, 25.0));
+    for (value, expected) in [
+        (found.axial_length, 0.062),
+        (found.tip_thickness, 0.6e-3),
+        (found.material.youngs_modulus, 114e9),
+        (found.material.density, 4430.0),
+    ] {
+        assert!((value / expected - 1.0).abs() < 1e-12, "{value} for {expected}");
+    }
+    let inch = json!({"length": "in", "force": "lbf", "time": "s", "mass": "slinch"});
+    assert!((of(json!({"units": inch})).unwrap().bore_radius * 25.4 / 16.0 - 1.0).abs() < 1e-12);
+    let furlong = json!({"length": "furlong", "force": "N", "time": "s", "mass": "kg"});
+    let refused = of(json!({"units": furlong})).unwrap_err().to_string();
+    assert!(refused.contains("units.length"), "{refused}");
+}

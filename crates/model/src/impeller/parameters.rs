@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::material::Material;
 use super::mesh::ElementOrder;
+use crate::package::units::factors;
 use rubmap_wheel::dynamics::sector::Units;
 
 /// A parametric centrifugal impeller: per sector one main blade, and a splitter if asked for, on a solid hub.
@@ -16,7 +17,7 @@ use rubmap_wheel::dynamics::sector::Units;
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct ImpellerParameters {
-    /// Consistent units of everything below (mm, N, s, t); time in `s`.
+    /// Consistent units of everything below (mm, N, s, t); time in `s`. What is not given comes from the preset, told in these units.
     pub units: Units,
     /// Number of sectors (main blades), at least 3.
     #[cfg_attr(feature = "schema", schema(minimum = 3))]
@@ -147,6 +148,32 @@ impl Default for ImpellerParameters {
 }
 
 impl ImpellerParameters {
+    /// The same impeller in other units of length, force and mass.
+    ///
+    /// # Errors
+    /// The field of a unit whose size is not known.
+    pub(super) fn in_units(mut self, units: &Units) -> Result<Self, &'static str> {
+        let [length, force, mass] = factors(&self.units, units)?;
+        for own in [
+            &mut self.bore_radius,
+            &mut self.inlet_hub_radius,
+            &mut self.inlet_tip_radius,
+            &mut self.outlet_radius,
+            &mut self.axial_length,
+            &mut self.outlet_blade_height,
+            &mut self.rim_thickness,
+            &mut self.root_thickness,
+            &mut self.tip_thickness,
+        ] {
+            *own *= length;
+        }
+        // Presets have no strengths.
+        self.material.youngs_modulus *= force / length.powi(2);
+        self.material.density *= mass / length.powi(3);
+        self.units = units.clone();
+        Ok(self)
+    }
+
     /// Elements along the blade from leading to trailing edge.
     pub fn elements_along_blade(&self) -> usize {
         self.mesh.between_contact_nodes * (self.contact_nodes - 1)

@@ -7,6 +7,7 @@ use super::error::{FieldProblem, ImpellerError};
 use super::parameters::ImpellerParameters;
 use super::preset::Preset;
 use crate::package::quote::{bounded_message, quoted};
+use rubmap_wheel::dynamics::sector::Units;
 
 /// As `{"preset": "paper", "sectors": 13, "mesh": {"disk": 6}}`: fields of [`ImpellerParameters`] beside the name of the
 /// preset that gives all others. Without a name: `small`.
@@ -15,7 +16,7 @@ pub struct ImpellerRequest {
     /// Where everything comes from that is not given.
     #[serde(default)]
     pub preset: Preset,
-    /// What is given, objects in objects field by field, but `units` as a whole.
+    /// What is given, objects in objects field by field, but `units` as a whole, in which the preset is told then.
     #[serde(flatten)]
     pub overrides: Map<String, Value>,
 }
@@ -31,7 +32,19 @@ impl ImpellerRequest {
             let problem = FieldProblem::Syntax { message: bounded_message(&message) };
             Err(ImpellerError::Field { field: quoted(&field), problem })
         };
-        let mut merged = match serde_json::to_value(self.preset.parameters()) {
+        let mut preset = self.preset.parameters();
+        // Units that are none are refused below.
+        if let Some(units) = self.overrides.get("units").and_then(|units| Units::deserialize(units).ok()) {
+            preset = match preset.in_units(&units) {
+                Ok(preset) => preset,
+                Err(field) => {
+                    let words =
+                        "unknown unit: presets cannot be told in it; take one such as m, N, kg or mm, N, t";
+                    return refuse(field.to_owned(), words.to_owned());
+                }
+            };
+        }
+        let mut merged = match serde_json::to_value(preset) {
             Ok(value) => value,
             Err(error) => return refuse("preset".to_owned(), error.to_string()),
         };

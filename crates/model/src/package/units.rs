@@ -136,6 +136,21 @@ pub(crate) fn check(units: &Units) -> Result<(), (&'static str, ManifestProblem)
     Err(("/units", problem))
 }
 
+/// How many of the units `to` make up one of `from`, for length, force and mass.
+///
+/// # Errors
+/// The field of `to` whose unit this module does not know, or that of `from`.
+pub(crate) fn factors(from: &Units, to: &Units) -> Result<[f64; 3], &'static str> {
+    let of = |field, names, from: &str, to: &str| {
+        Ok(size(names, from).ok_or(field)? / size(names, to).ok_or(field)?)
+    };
+    Ok([
+        of("units.length", LENGTH, &from.length, &to.length)?,
+        of("units.force", FORCE, &from.force, &to.force)?,
+        of("units.mass", MASS, &from.mass, &to.mass)?,
+    ])
+}
+
 /// Size of a unit by its exact name, or by its name in other capitals if only one unit has it.
 fn size(names: &[(&[&str], f64)], name: &str) -> Option<f64> {
     let name = name.trim();
