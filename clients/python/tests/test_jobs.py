@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import pickle
+import subprocess
+import sys
 import threading
 import time
 import warnings
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -47,7 +51,12 @@ def test_jobs_are_found_again(client: rubmap.Client, swept: rubmap.Sweep, model:
     assert swept.id is not None
     again = client.job(swept.id)
     assert isinstance(again, rubmap.Sweep) and again.request["speeds"]["count"] == 6
-    assert swept.id in {job.id for job in client.jobs(kind="sweep", model=model.id)}
+    assert again.plan()["settings"]["speeds"] == swept.request["speeds"]
+    listed = client.jobs(kind="sweep", model=model.id)
+    assert swept.id in {job.id for job in listed} and listed[0].request["model"] == model.id
+    assert len(client.jobs(limit=1)) == 1
+    with pytest.raises(rubmap.Refusal, match="no such job"):
+        client.job("../models")
     assert model.id in {each.id for each in client.models(name="for tests")}
     with pytest.raises(ValueError, match="submitted already"):
         swept.submit()
@@ -116,8 +125,124 @@ def test_what_is_lost_on_the_way_is_made_once() -> None:
 
     service = Service("http://nowhere", patience=5.0)
     service._http = httpx.Client(base_url="http://nowhere", transport=httpx.MockTransport(answer))
-    assert service.post("/v1/sweeps", {})["id"] == "1"
+    assert service.post("/v1/sweeps", {}, "one key")["id"] == "1"
     assert len(keys) == 3 and len(set(keys)) == 1
+
+
+def mocked(answer: Callable[[httpx.Request], httpx.Response], patience: float = 5.0) -> rubmap.Client:
+    """A client whose requests ``answer`` answers."""
+    client = rubmap.Client("http://nowhere", patience=patience)
+    client.service._http = httpx.Client(base_url="http://nowhere", transport=httpx.MockTransport(answer))
+    return client
+
+
+def test_a_submission_that_stayed_broken_is_the_same_when_it_is_repeated() -> None:
+    keys: list[str] = []
+
+    def answer(request: httpx.Request) -> httpx.Response:
+        keys.append(request.headers["idempotency-key"])
+        if len(keys) == 1:
+            raise httpx.ReadError("lost")
+        return httpx.Response(202, json={"id": "1"})
+
+    client = mocked(answer, patience=0.0)
+    request: Any = {"model": "m"}
+    job = client.sweep(request)
+    with pytest.raises(rubmap.Unreachable):
+        job.submit()
+    assert job.submit().id == "1"
+    assert keys[0] == keys[1] and client.sweep(request)._key != keys[0]
+
+
+def test_what_stands_between_is_put_up_with() -> None:
+    """A gateway that cannot reach the service for a while, and keeps events to itself."""
+    asked: list[str] = []
+
+    def answer(request: httpx.Request) -> httpx.Response:
+        asked.append(request.url.path)
+        if len(asked) == 1:
+            return httpx.Response(502, text="<html>")
+        if request.url.path.endswith("/events"):
+            return httpx.Response(200, text="")
+        return httpx.Response(200, json={"id": "1", "kind": "sweep", "status": "successful", "progress": 100})
+
+    job = mocked(answer).job("1")
+    asked.clear()
+    asked.append("")
+    job.wait(progress=False, timeout=3.0)
+    assert asked[1:] == ["/v1/jobs/1/events", "/v1/jobs/1"]
+
+
+def test_a_deletion_whose_answer_is_lost_is_done() -> None:
+    asked: list[str] = []
+
+    def answer(request: httpx.Request) -> httpx.Response:
+        asked.append(str(request.url))
+        if len(asked) == 1:
+            raise httpx.ReadError("lost")
+        return httpx.Response(404, json={"title": "There is no such job"})
+
+    client = mocked(answer)
+    client.service.delete("/v1/jobs/1")
+    with pytest.raises(rubmap.Refusal):
+        client.service.delete("/v1/jobs/1")
+
+
+def test_a_time_to_try_again_may_be_a_date() -> None:
+    answers = [
+        httpx.Response(503, headers={"retry-after": "Wed, 21 Oct 2015 07:28:00 GMT"}, json={}),
+        httpx.Response(503, headers={"retry-after": "soon"}, json={}),
+        httpx.Response(200, json={"version": "1"}),
+    ]
+    assert mocked(lambda _: answers.pop(0)).version() == {"version": "1"}
+
+
+def test_another_server_at_the_address_is_said_to_be_none_of_ours() -> None:
+    page = httpx.Response(200, headers={"content-type": "text/html"}, text="<h1>")
+    with pytest.raises(rubmap.RubmapError, match="text/html.*no rubmap service"):
+        mocked(lambda _: page).version()
+
+
+def test_a_token_is_not_shown() -> None:
+    assert (
+        rubmap.Client("http://nowhere", token="rubmap_1\n").service._http.headers["authorization"] == "Bearer rubmap_1"
+    )
+    with pytest.raises(ValueError) as refused:
+        rubmap.Client("http://nowhere", token="rubmap_1\nrubmap_2")
+    assert "rubmap_1" not in str(refused.value)
+
+
+def test_errors_go_to_other_processes() -> None:
+    job = {"id": "1", "status": "failed", "error": {"title": "It failed", "detail": "so"}}
+    refusal = rubmap.Refusal(422, {"title": "no", "errors": [{"pointer": "/a", "detail": "b"}]})
+    for error in (refusal, rubmap.JobFailed(job)):
+        again = pickle.loads(pickle.dumps(error))
+        assert type(again) is type(error) and str(again) == str(error) and vars(again) == vars(error)
+
+
+def test_a_local_service_is_nobody_else_s(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """What the environment says of proxies, logs and other services is not for it."""
+    for name, value in {
+        "HTTP_PROXY": "http://127.0.0.1:9", "RUST_LOG": "off", "RUBMAP_TOKENS": str(tmp_path), "RUBMAP_TOKEN": "rubmap_1",
+    }.items():  # fmt: skip
+        monkeypatch.setenv(name, value)
+    with rubmap.local() as client:
+        assert client.jobs() == []
+
+
+def test_a_local_service_ends_with_its_program() -> None:
+    script = "import rubmap, time\nwith rubmap.local() as c:\n    print(c.service.url, flush=True)\n    time.sleep(60)"
+    with subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True) as program:
+        assert program.stdout
+        url = program.stdout.readline().strip()
+        client = rubmap.Client(url, token="", patience=0.0)
+        client.version()
+        program.kill()
+    end = time.monotonic() + 30.0
+    with pytest.raises(rubmap.Unreachable):
+        while time.monotonic() < end:
+            client.version()
+            time.sleep(0.1)
 
 
 def test_a_service_that_is_not_there_is_said_to_be_so() -> None:

@@ -30,6 +30,17 @@ def test_a_map_is_the_one_of_the_json(swept: rubmap.Sweep) -> None:
     plot.interaction_map(found, frequency=True, log=False)
 
 
+def test_speeds_ascend_whatever_their_order_in_the_request(client: rubmap.Client, model: rubmap.Model) -> None:
+    speeds: Any = {"values": [22000, 16000, 19000], "unit": "rpm"}
+    sweep = client.sweep(sweep_of(model.id, speeds=speeds, record={})).submit().wait(progress=False)
+    found = sweep.interaction_map()
+    assert found["index"].values.tolist() == [1, 2, 0] == sweep.points()["index"].tolist()
+    nearest = found.sel(speed=19000 * np.pi / 30.0, method="nearest")
+    np.testing.assert_array_equal(nearest["amplitude"], sweep.spectrum(2)["amplitude"][0])
+    recorded = sweep.record({"speeds": [1], "quantities": ["displacement", "velocity"]}).wait(progress=False)
+    assert recorded.histories(speed=1)["velocity"].attrs["units"] == "mm/s"
+
+
 def test_tables_are_those_of_the_json(swept: rubmap.Sweep) -> None:
     wheel, json = swept.wheel_critical_speeds(), swept.json("critical-speeds/wheel")["critical_speeds"]
     assert len(wheel) == len(json) > 0

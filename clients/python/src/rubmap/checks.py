@@ -31,7 +31,7 @@ def _numbers(sector: Sector) -> None:
         raise PackageError(
             f"stiffness, speeds_rad_s: {len(sector.stiffness)} matrices and {len(sector.speeds)} speeds; give one of each, or three"
         )
-    if sector.speeds[0] != 0.0 or np.any(np.diff(sector.speeds) <= 0.0):
+    if sector.speeds[0] != 0.0 or not np.all(np.diff(sector.speeds) > 0.0):
         raise PackageError(f"speeds_rad_s: {sector.speeds.tolist()} must ascend and begin at 0")
     if sector.direction.shape != (3,) or sector.origin.shape != (3,) or not np.linalg.norm(sector.direction) > 0.0:
         raise PackageError("axis: give an origin and a direction of three numbers each, the direction not zero")

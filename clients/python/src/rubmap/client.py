@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import islice
 from pathlib import Path
 from typing import Any, Self, cast
+from urllib.parse import quote
 
 from .contract import (
     LabelledCaseStudyRequest,
@@ -14,7 +16,7 @@ from .contract import (
     LabelledStudyRequest,
     LabelledSweepRequest,
 )
-from .jobs import Job, ModelGeneration
+from .jobs import Job, ModelGeneration, asked_of
 from .models import Model
 from .results import CaseStudy, ModalAnalysis, Study, Sweep
 from .service import Service
@@ -32,7 +34,7 @@ class Client:
     """
 
     def __init__(self, url: str, token: str | None = None, patience: float = 60.0) -> None:
-        self.service = Service(url, token or os.environ.get("RUBMAP_TOKEN"), patience)
+        self.service = Service(url, os.environ.get("RUBMAP_TOKEN") if token is None else token, patience)
 
     def __enter__(self) -> Self:
         return self
@@ -55,7 +57,7 @@ class Client:
         self,
         package: str | os.PathLike[str] | bytes,
         name: str | None = None,
-        tags: str | None = None,
+        tags: Sequence[str] | None = None,
         notes: str | None = None,
     ) -> Model:
         """Uploads a model package: a zip by its path, or its bytes. A model that is known is not kept twice.
@@ -63,10 +65,11 @@ class Client:
         Raises:
             Refusal: something is wrong with the package; ``errors`` says in which file and row.
         """
-        query = {"name": name, "tags": tags, "notes": notes}
+        words = tags if isinstance(tags, str) else ",".join(tags or ())
+        query = {"name": name, "tags": words or None, "notes": notes}
         if isinstance(package, bytes):
             return Model(self.service, self.service.upload("/v1/models", lambda: package, query))
-        path = Path(package)
+        path = Path(package).expanduser()
         path.stat()
         return Model(self.service, self.service.upload("/v1/models", lambda: _pieces(path), query))
 
@@ -76,11 +79,11 @@ class Client:
 
     def model(self, id: str) -> Model:
         """A model by its id."""
-        return Model(self.service, self.service.get(f"/v1/models/{id}"))
+        return Model(self.service, self.service.get(f"/v1/models/{quote(id, safe='')}"))
 
-    def models(self, **query: Any) -> list[Model]:
-        """All models, newest first; ``name`` and ``tag`` choose among them."""
-        return [Model(self.service, facts) for facts in self._all("models", query)]
+    def models(self, limit: int | None = None, **query: Any) -> list[Model]:
+        """Models, newest first, ``limit`` at most; ``name`` and ``tag`` choose among them."""
+        return [Model(self.service, facts) for facts in islice(self._all("models", query), limit)]
 
     def sweep(self, request: LabelledSweepRequest) -> Sweep:
         """A sweep over a range of speeds, not submitted yet."""
@@ -100,14 +103,14 @@ class Client:
 
     def job(self, id: str) -> Job:
         """A job by its id, as :class:`Sweep`, :class:`ModalAnalysis`, :class:`Study`, :class:`CaseStudy` or :class:`ModelGeneration`."""
-        return self._job(self.service.get(f"/v1/jobs/{id}"))
+        return self._job(self.service.get(f"/v1/jobs/{quote(id, safe='')}"))
 
-    def jobs(self, **query: Any) -> list[Job]:
-        """All jobs, newest first; ``kind``, ``status``, ``model``, ``name`` and ``tag`` choose among them."""
-        return [self._job(found) for found in self._all("jobs", query)]
+    def jobs(self, limit: int | None = None, **query: Any) -> list[Job]:
+        """Jobs, newest first, ``limit`` at most; ``kind``, ``status``, ``model``, ``name`` and ``tag`` choose among them."""
+        return [self._job(found) for found in islice(self._all("jobs", query), limit)]
 
     def _job(self, found: Mapping[str, Any]) -> Job:
-        return _KINDS[found["kind"]](self.service, found.get("request", {}), found["id"])
+        return _KINDS[found["kind"]](self.service, asked_of(found), found["id"])
 
     def _all(self, what: str, query: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
         page = self.service.get(f"/v1/{what}", limit=500, **query)

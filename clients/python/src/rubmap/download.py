@@ -28,7 +28,7 @@ def arrays(service: Service, path: str, **query: Any) -> Arrays:
 
 def download(service: Service, path: str, to: str | os.PathLike[str], **query: Any) -> Path:
     """Writes a result to a file, which is there when it is whole and not before; a download that breaks off begins anew."""
-    target = Path(to)
+    target = Path(to).expanduser()
     if not target.parent.is_dir():
         raise FileNotFoundError(f"there is no folder {target.parent} for {target.name}")
     end = time.monotonic() + service.patience

@@ -18,12 +18,14 @@ class Refusal(RubmapError):
         kind: the last word of the problem's type, such as ``invalid-request``.
         title: what is wrong, in a few words.
         detail: what is wrong, and what to do.
+        problem: the whole answer.
         errors: one mapping per defect, with ``detail`` and where it is: ``pointer`` (RFC 6901) into the body, ``parameter`` of the
             query, or ``file`` and ``row`` of a package.
     """
 
     def __init__(self, status: int, problem: Mapping[str, Any]) -> None:
         self.status = status
+        self.problem = dict(problem)
         self.kind = str(problem.get("type", "")).rsplit(":", 1)[-1]
         self.title = str(problem.get("title", f"the service answered {status}"))
         self.detail = str(problem.get("detail", ""))
@@ -31,6 +33,9 @@ class Refusal(RubmapError):
         # The detail joins the errors in one line.
         said = [f"  {_where(error)}{error.get('detail', '')}" for error in self.errors] or [f"  {self.detail}"]
         super().__init__("\n".join([f"{self.title} ({status})", *said]).rstrip())
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self.status, self.problem)
 
 
 def _where(error: Mapping[str, Any]) -> str:
@@ -58,6 +63,9 @@ class JobFailed(RubmapError):
         error = job.get("error") or {}
         why = f": {error.get('title', '')} {error.get('detail', '')}".rstrip(": ") if error else ""
         super().__init__(f"job {job['id']} {'was cancelled' if self.status == 'dismissed' else 'failed'}{why}")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self.job,)
 
 
 class PackageError(RubmapError, ValueError):

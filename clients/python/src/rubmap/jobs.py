@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import copy
 import json
 import os
 import time
+import uuid
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, ClassVar, Self
 
@@ -13,8 +16,8 @@ import httpx
 from tqdm.auto import tqdm
 
 from .download import Arrays, arrays, download
-from .errors import JobFailed, Refusal
-from .service import Service
+from .errors import JobFailed, Refusal, Unreachable
+from .service import AGAIN, Service
 
 _ENDED = ("successful", "failed", "dismissed")
 
@@ -22,14 +25,13 @@ _ENDED = ("successful", "failed", "dismissed")
 _POLL = 1.0
 
 #: Seconds after which events that say nothing, not even that the connection lives (every 15 s), are asked for again.
-_SILENCE = 60.0
+_SILENCE = 20.0
 
 
 class Job:
     """A job, before or after it is submitted.
 
     Attributes:
-        request: what is asked for, as the contract's request of this kind.
         id: of the job once it is submitted, otherwise None.
     """
 
@@ -37,23 +39,31 @@ class Job:
     kind: ClassVar[str]
     path: ClassVar[str]
 
-    def __init__(self, service: Service, request: Mapping[str, Any], id: str | None = None) -> None:
+    def __init__(self, service: Service, request: Mapping[str, Any] | None, id: str | None = None) -> None:
         self._service = service
-        self.request = dict(request)
+        self._request = None if request is None else copy.deepcopy(dict(request))
+        self._key = str(uuid.uuid4())
         self.id = id
+
+    @property
+    def request(self) -> dict[str, Any]:
+        """What is asked for, as the contract's request of this kind; of a job found in a list it is read when it is wanted."""
+        if self._request is None:
+            self._request = asked_of(self.state) or {}
+        return self._request
 
     def __repr__(self) -> str:
         return f"<rubmap {self.kind} {self.id or 'not submitted'}>"
 
     def submit(self) -> Self:
-        """Posts it, once, however often a connection breaks.
+        """Posts it, once, however often a connection breaks, and when this is called again after one that stayed broken.
 
         Raises:
             Refusal: the service does not take the request; ``errors`` points at what is wrong.
         """
         if self.id is not None:
             raise ValueError(f"{self!r} is submitted already; make another for the same request")
-        self.id = str(self._service.post(self.path, self.request)["id"])
+        self.id = str(self._service.post(self.path, self.request, self._key)["id"])
         return self
 
     @property
@@ -77,10 +87,12 @@ class Job:
         Raises:
             JobFailed: it failed or was cancelled.
             TimeoutError: it had not ended in time; it goes on.
+            Unreachable: nobody answered for as long as the client's patience lasts.
         """
         self._own()
         end = None if timeout is None else time.monotonic() + timeout
-        with tqdm(total=100, unit="%", disable=not progress, desc=self.kind) as bar:
+        bars = "{desc}: {percentage:3.0f} %|{bar}| {elapsed}{postfix}"
+        with tqdm(total=100, bar_format=bars, disable=not progress, desc=self.kind) as bar:
             for state in self._changes(end):
                 bar.set_postfix_str(str(state.get("phase") or state["status"]))
                 bar.update(state["progress"] - bar.n)
@@ -133,16 +145,22 @@ class Job:
 
     def _changes(self, end: float | None) -> Iterator[dict[str, Any]]:
         """The job as it is, and after every change, until it has ended or it is too late."""
+        answered = time.monotonic()
         while end is None or time.monotonic() < end:
             try:
-                for state in self._events(end):
-                    yield state
-                    if state["status"] in _ENDED:
-                        return
+                # What stands between may end the stream, or keep it to itself: then the job is looked at now and then.
+                with suppress(httpx.TransportError):
+                    for state in self._events(end):
+                        yield state
+                        if state["status"] in _ENDED:
+                            return
+                yield self._service.look(self._own(), _left(end, _SILENCE))
+                answered = time.monotonic()
             except (httpx.TransportError, Refusal) as error:
-                if isinstance(error, Refusal) and error.status in (401, 404):
+                if isinstance(error, Refusal) and error.status not in AGAIN:
                     raise
-                yield self.state
+                if time.monotonic() - answered > self._service.patience:
+                    raise Unreachable(f"{self._service.url} does not answer: {error}") from error
             time.sleep(_left(end, _POLL))
 
     def _events(self, end: float | None) -> Iterator[dict[str, Any]]:
@@ -153,6 +171,14 @@ class Job:
                     yield json.loads(line.removeprefix("data:"))
                 if end is not None and time.monotonic() > end:
                     return
+
+
+def asked_of(found: Mapping[str, Any]) -> dict[str, Any] | None:
+    """The request of a job that the service tells of, which names its model beside it; lists leave it out."""
+    if "request" not in found:
+        return None
+    model = {} if found["kind"] == "model_generation" else {"model": found["model"]}
+    return {**model, **found["request"]}
 
 
 def _left(end: float | None, most: float) -> float:
@@ -182,4 +208,7 @@ class ModelGeneration(Planned):
     @property
     def model(self) -> str:
         """Id of the model, once it is there."""
-        return str(self.state["model"])
+        state = self.state
+        if "model" not in state:
+            raise ValueError(f"the model is not there yet: the job is {state['status']}, at {state['progress']} %")
+        return str(state["model"])

@@ -30,22 +30,29 @@ def local(binary: str | os.PathLike[str] | None = None, data: str | os.PathLike[
     Raises:
         RubmapError: there is no such program, or it did not start; its log says why.
     """
-    named = binary or os.environ.get("RUBMAP_BINARY") or "rubmap"
+    named = os.path.expanduser(binary or os.environ.get("RUBMAP_BINARY") or "rubmap")
     program = shutil.which(named)
     if program is None:
         raise RubmapError(
-            f"there is no program {named}: name it, or set RUBMAP_BINARY (cargo build --release makes target/release/rubmap)"
+            f"there is no program {named} that can be run: name it, or set RUBMAP_BINARY (cargo build --release makes target/release/rubmap)"
         )
     with tempfile.TemporaryDirectory(prefix="rubmap-") as folder:
         log = Path(folder) / "service.log"
         with log.open("wb") as out:
-            command = [program, "serve", "--addr", "127.0.0.1:0", "--data", os.fspath(data or Path(folder) / "data")]
-            process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=out, stderr=out)
+            kept = Path(data).expanduser() if data else Path(folder) / "data"
+            command = [program, "serve", "--until-eof", "--addr", "127.0.0.1:0", "--data", os.fspath(kept)]
+            # It ends with this process, however that ends, and is not what the environment says of others.
+            surrounding = {name: value for name, value in os.environ.items() if not name.startswith("RUBMAP_")}
+            process = subprocess.Popen(
+                command, stdin=subprocess.PIPE, stdout=out, stderr=out, env=surrounding | {"RUST_LOG": "info"}
+            )
         try:
-            with Client(_address(process, log)) as client:
+            with Client(_address(process, log), token="") as client:
                 yield client
         finally:
             process.terminate()
+            if process.stdin:
+                process.stdin.close()
             try:
                 process.wait(30)
             except subprocess.TimeoutExpired:

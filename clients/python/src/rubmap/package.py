@@ -28,16 +28,16 @@ def write_package(
     sectors: int,
     mass: Any,
     stiffness: Sequence[Any],
-    speeds_rad_s: Sequence[float],
+    speeds_rad_s: npt.ArrayLike,
     node_ids: npt.ArrayLike,
     positions: npt.ArrayLike,
     dofs: npt.ArrayLike,
     cyclic: npt.ArrayLike,
-    contact: Sequence[int],
+    contact: npt.ArrayLike,
     normals: npt.ArrayLike,
     name: str = "impeller",
     units: Mapping[str, str] | None = None,
-    axis: tuple[Sequence[float], Sequence[float]] = ((0.0, 0.0, 0.0), (0.0, 0.0, 1.0)),
+    axis: tuple[npt.ArrayLike, npt.ArrayLike] = ((0.0, 0.0, 0.0), (0.0, 0.0, 1.0)),
     frame: Literal["cartesian", "cylindrical"] = "cartesian",
     gyroscopic: Any = None,
     mesh: Mapping[str, Any] | None = None,
@@ -71,21 +71,23 @@ def write_package(
     """
     if sparse.issparse(stiffness) or any(np.ndim(matrix) != 2 for matrix in stiffness):
         raise PackageError("stiffness: give a list of matrices, of one if there is one")
-    if len(axis) != 2:
-        raise PackageError("axis: give an origin and a direction of three numbers each")
+    try:
+        origin, direction = axis
+    except (TypeError, ValueError):
+        raise PackageError("axis: give an origin and a direction of three numbers each") from None
     sector = Sector(
         sectors=int(_whole("sectors", sectors)),
         mass=_sparse("mass", mass),
         stiffness=[_sparse(f"stiffness[{k}]", matrix) for k, matrix in enumerate(stiffness)],
-        speeds=np.asarray(speeds_rad_s, dtype=float),
+        speeds=np.atleast_1d(_real("speeds_rad_s", speeds_rad_s)),
         ids=_whole("node_ids", node_ids),
-        positions=np.asarray(positions, dtype=float),
-        dofs=_whole("dofs", dofs).reshape(-1, 2),
-        cyclic=_whole("cyclic", cyclic).reshape(-1, 2),
+        positions=_real("positions", positions),
+        dofs=_pairs("dofs", dofs),
+        cyclic=_pairs("cyclic", cyclic),
         contact=_whole("contact", contact),
-        normals=np.asarray(normals, dtype=float),
-        origin=np.asarray(axis[0], dtype=float),
-        direction=np.asarray(axis[1], dtype=float),
+        normals=_real("normals", normals),
+        origin=_real("axis", origin),
+        direction=_real("axis", direction),
         frame=frame,
         gyroscopic=None if gyroscopic is None else _sparse("gyroscopic", gyroscopic),
     )
@@ -123,15 +125,19 @@ def write_package(
     )
     files["dofs.csv"] = _lines(map(int, row) for row in sector.dofs)
     files["sector.json"] = json.dumps(manifest).encode()
+    path = Path(path).expanduser()
     with zipfile.ZipFile(path, "w") as archive:
         for file, content in sorted(files.items()):
             # Arrays are compressed already.
             archive.writestr(file, content, zipfile.ZIP_STORED if file.endswith(".npz") else zipfile.ZIP_DEFLATED)
-    return Path(path)
+    return path
 
 
 def _sparse(name: str, matrix: Any) -> sparse.csc_array:
-    made = sparse.csc_array(matrix)
+    try:
+        made = sparse.csc_array(matrix)
+    except (TypeError, ValueError) as error:
+        raise PackageError(f"{name}: no matrix: {error}") from None
     if np.iscomplexobj(made):
         raise PackageError(f"{name}: complex; a matrix is real (damping is given as modal_ratio)")
     made = cast(sparse.csc_array, made.astype(float))
@@ -139,8 +145,24 @@ def _sparse(name: str, matrix: Any) -> sparse.csc_array:
     return made
 
 
+def _real(name: str, values: Any) -> npt.NDArray[np.float64]:
+    try:
+        return np.asarray(values, dtype=float)
+    except (TypeError, ValueError) as error:
+        raise PackageError(f"{name}: no numbers: {error}") from None
+
+
+def _pairs(name: str, values: Any) -> npt.NDArray[np.int64]:
+    made = _whole(name, values)
+    if made.size and (made.ndim != 2 or made.shape[1] != 2):
+        raise PackageError(f"{name}: shape {made.shape}; it is (rows, 2)")
+    return made.reshape(-1, 2)
+
+
 def _whole(name: str, values: Any) -> npt.NDArray[np.int64]:
-    given = np.asarray(values)
+    given = _real(name, values)
+    if not np.isfinite(given).all():
+        raise PackageError(f"{name}: not finite")
     made: npt.NDArray[np.int64] = given.astype(np.int64)
     if not np.array_equal(made, given):
         raise PackageError(f"{name}: {given[made != given].flat[0]} is no whole number")

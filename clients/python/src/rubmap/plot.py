@@ -9,7 +9,7 @@ import pandas as pd
 import xarray as xr
 from matplotlib import pyplot
 from matplotlib.axes import Axes
-from matplotlib.colors import LogNorm
+from matplotlib.colors import LogNorm, Normalize
 
 from .tables import RPM
 
@@ -42,8 +42,10 @@ def interaction_map(
     loudest = float(np.nanmax(amplitude, initial=0.0))
     across, orders = _edges(found["speed_rpm"].to_numpy()), _edges(found["engine_order"].to_numpy())
     upwards = np.outer(across / 60.0, orders) if frequency else np.broadcast_to(orders, (len(across), len(orders)))
-    norm = LogNorm(_QUIETEST * loudest, loudest) if log and loudest > 0.0 else None
-    shown = np.maximum(amplitude, _QUIETEST * loudest) if norm else amplitude
+    logarithmic = log and loudest > 0.0
+    # Where nothing moves, all is as quiet as the colours go.
+    norm = LogNorm(_QUIETEST * loudest, loudest) if logarithmic else Normalize(0.0, loudest or 1.0)
+    shown = np.maximum(amplitude, _QUIETEST * loudest) if logarithmic else amplitude
     corners = np.broadcast_to(across[:, None], upwards.shape)
     cells = ax.pcolormesh(corners, upwards, shown, norm=norm, cmap="viridis", shading="flat", rasterized=True)
     unit = found["amplitude"].attrs["units"]

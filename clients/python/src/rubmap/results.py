@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any
+import uuid
+from collections.abc import Mapping
+from typing import Any, cast
 
 import numpy as np
 import pandas as pd
 import xarray as xr
 
+from .contract import HistoriesRequest
+from .download import Arrays
 from .jobs import Job, Planned
-from .tables import RPM, dataset, sensors, speed_axis, table, units
+from .tables import RPM, credentials, dataset, sensors, speed_axis, table, units
 
 
 class _Recorded(Job):
@@ -18,14 +22,17 @@ class _Recorded(Job):
     def histories(self, **query: Any) -> xr.Dataset:
         """Histories of a recorded speed.
 
-        Dimensions: ``sensor``, ``revolution`` (since the start), ``contact_node``, ``sector``. Variables: ``displacement`` (sensor, revolution), length;
-        ``force`` (sector, contact_node, revolution), where contact forces were recorded. Of a sweep ``speed`` is the index of the speed.
+        Dimensions: ``sensor``, ``revolution`` (since the start), ``contact_node``, ``sector``. Variables: ``displacement`` and ``velocity`` (sensor,
+        revolution) in the units of the model; ``force`` (sector, contact_node, revolution), where contact forces were recorded. Of a sweep ``speed`` is the index of the speed.
         """
         found = self.arrays("histories", **query)
         unit = units(found)
         variables: dict[str, Any] = {
             "displacement": (("sensor", "revolution"), found["displacement"], {"units": unit["length"]}),
         }
+        if "velocity" in found:
+            attributes = {"units": f"{unit['length']}/{unit['time']}"}
+            variables["velocity"] = (("sensor", "revolution"), found["velocity"], attributes)
         if "force" in found:
             attributes = {"units": unit["force"], "long_name": "contact force"}
             variables["force"] = (("sector", "contact_node", "revolution"), found["force"], attributes)
@@ -53,20 +60,32 @@ class Sweep(Planned, _Recorded):
     kind = "sweep"
     path = "/v1/sweeps"
 
-    def interaction_map(self, sensor: int | None = None, nodal_diameter: int | None = None, **query: Any) -> xr.Dataset:
+    def interaction_map(
+        self,
+        sensor: int | None = None,
+        nodal_diameter: int | None = None,
+        speeds: str | None = None,
+        orders: str | None = None,
+    ) -> xr.Dataset:
         """The interaction map of a sensor, also while the job runs.
 
         Dimensions: ``speed`` (rad/s; also ``speed_rpm`` and ``index`` in the request) and ``engine_order``. Variables: ``amplitude`` (speed, engine_order), in the
         model's unit of length; ``status``, ``utilisation``, ``largest_von_mises`` (the model's unit of stress), ``validity`` by speed. The coordinate
-        ``frequency`` (speed, engine_order) is in Hz, in the rotating frame.
+        ``frequency`` (speed, engine_order) is in Hz, in the rotating frame. Speeds ascend, whatever their order in the request.
+
+        Args:
+            speeds: only these, by their indices or in a range, such as ``"0-9,15"`` or ``"24000-28000rpm"``.
+            orders: only these engine orders, such as ``"0-8,12"``.
         """
-        found = self.arrays("interaction-map", sensor=sensor, nodal_diameter=nodal_diameter, **query)
+        found = self.arrays(
+            "interaction-map", sensor=sensor, nodal_diameter=nodal_diameter, speeds=speeds, orders=orders
+        )
         unit = units(found)
         stress = f"{unit['force']}/{unit['length']}^2"
-        orders, speeds = found["engine_orders"], found["speeds_rad_s"]
-        coordinates = speed_axis(speeds, found["speed_indices"])
-        coordinates["engine_order"] = ("engine_order", orders, {"units": "1", "long_name": "engine order"})
-        frequency = np.outer(speeds, orders) / (2.0 * np.pi)
+        lines, omega = found["engine_orders"], found["speeds_rad_s"]
+        coordinates = speed_axis(omega, found["speed_indices"])
+        coordinates["engine_order"] = ("engine_order", lines, {"units": "1", "long_name": "engine order"})
+        frequency = np.outer(omega, lines) / (2.0 * np.pi)
         coordinates["frequency"] = (("speed", "engine_order"), frequency, {"units": "Hz", "long_name": "frequency"})
         amplitude = (("speed", "engine_order"), found["amplitude"], {"units": unit["length"], "long_name": "amplitude"})
         variables: dict[str, Any] = {"amplitude": amplitude, "status": ("speed", found["status"])}
@@ -77,10 +96,11 @@ class Sweep(Planned, _Recorded):
         ):
             if name in found:
                 variables[name] = ("speed", found[name], attributes)
-        return dataset(variables, coordinates, found).assign_attrs(sensor=sensors(found)[0])
+        return dataset(variables, coordinates, found).assign_attrs(sensor=sensors(found)[0]).sortby("speed")
 
     def points(self, sensor: int | None = None) -> pd.DataFrame:
-        """What is known of every speed: response, settling, errors, energy, contact, wall time; a row a speed, nested names joined by dots.
+        """What is known of every speed: response, settling, errors, energy, contact, wall time; a row a speed, ascending; nested names
+        are joined by dots.
 
         ``response.rms`` and what else begins so is of the sensor, the first if none is said, in the unit of ``attrs["unit"]``.
         """
@@ -88,7 +108,8 @@ class Sweep(Planned, _Recorded):
         frame = pd.json_normalize([_with_response(point, sensor or 0) for point in found["points"]])
         if frame.empty:
             frame = pd.DataFrame(columns=["index", "speed_rad_s", "status"])
-        frame.attrs["unit"] = found["units"]["length"]
+        frame = frame.sort_values("speed_rad_s", ignore_index=True)
+        frame.attrs.update(unit=found["units"]["length"], units=found["units"], version=found["version"])
         frame.insert(2, "speed_rpm", frame["speed_rad_s"] * RPM)
         return frame
 
@@ -121,6 +142,16 @@ class Sweep(Planned, _Recorded):
         """Critical speeds of the wheel as a whole: the worst contact node, component and blade of each."""
         return table(self.arrays("critical-speeds/wheel", **query), "speed_rad_s")
 
+    def record(self, request: HistoriesRequest) -> Sweep:
+        """Has histories recorded of a sweep that has ended: by another one, which is returned when it is submitted.
+
+        Raises:
+            Refusal: the sweep was not successful, or has no such speeds.
+        """
+        path = f"{self._own()}/histories"
+        made = self._service.post(path, cast(Mapping[str, Any], request), str(uuid.uuid4()))
+        return Sweep(self._service, None, str(made["id"]))
+
     def forces(self) -> xr.Dataset:
         """Contact over ``speed`` and ``contact_node``, of every node its worst blade: peak force, impulse, share of time, clearance consumed."""
         found = self.arrays("forces")
@@ -138,10 +169,11 @@ class Sweep(Planned, _Recorded):
                 variables[name] = (("speed", "contact_node"), values, {"units": of.get(name, "1")})
             elif values.shape == shape[:1] and name != "speeds_rad_s":
                 variables[name] = ("speed", values, {"units": of.get(name, "1")})
-        return dataset(variables, speed_axis(found["speeds_rad_s"]), found)
+        return dataset(variables, speed_axis(found["speeds_rad_s"]), found).sortby("speed")
 
     def stress(self) -> pd.DataFrame:
-        """Stress at the worst nodes of every speed, where the sweep recorded it: mean and alternating parts in MPa, utilisation."""
+        """Stress at the worst nodes of every speed, where the sweep recorded it: mean and alternating parts, whose unit ends the columns'
+        names, and utilisation."""
         return table(self.arrays("stress"), "node")
 
 
@@ -170,12 +202,19 @@ class ModalAnalysis(Planned):
     def crossings(self) -> pd.DataFrame:
         """Where superharmonics of the lobes cross natural frequencies: the linear criterion's critical speeds."""
         found = self.arrays("campbell")
-        begin = "crossings_"
-        frame = pd.DataFrame(
-            {name.removeprefix(begin): values for name, values in found.items() if name.startswith(begin)}
-        )
-        frame.insert(1, "speed_rpm", frame["speed_rad_s"] * RPM)
-        return frame
+        return _crossings(found, "crossings_")
+
+    def driven_crossings(self) -> pd.DataFrame:
+        """Where engine orders of the lobes meet natural frequencies of the nodal diameter that they drive."""
+        return _crossings(self.arrays("campbell"), "driven_crossings_")
+
+
+def _crossings(found: Arrays, begin: str) -> pd.DataFrame:
+    columns = {name.removeprefix(begin): values for name, values in found.items() if name.startswith(begin)}
+    frame = pd.DataFrame(columns)
+    frame.insert(1, "speed_rpm", frame["speed_rad_s"] * RPM)
+    frame.attrs.update(credentials(found))
+    return frame
 
 
 class CaseStudy(_Recorded):
@@ -185,7 +224,7 @@ class CaseStudy(_Recorded):
     path = "/v1/case-studies"
 
 
-class Study(_Recorded):
+class Study(Job):
     """What accuracy costs: schemes and settings against a reference."""
 
     kind = "study"
