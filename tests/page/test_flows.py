@@ -101,14 +101,16 @@ def test_a_click_on_the_map_opens_that_speed(service, swept, new_page):
 
 
 def test_sweeps_are_compared_and_a_measurement_laid_over(service, swept, model, tmp_path, new_page):
-    job = service.call("POST", "/v1/sweeps", sweep_of(model, name="to compare"))["id"]
+    # Plotly takes some texts for markup.
+    job = service.call("POST", "/v1/sweeps", sweep_of(model, name="to compare <b>& so on"))["id"]
     assert service.finish(job)["status"] == "successful"
     page = new_page(f"{service.url}/#/jobs")
-    page.get_by_role("checkbox", name="Compare to compare").check()
+    page.get_by_role("checkbox", name="Compare to compare <b>& so on").check()
     page.get_by_role("checkbox", name=re.compile("^Compare Sweep")).last.check()
     page.get_by_role("button", name="Compare the chosen").click()
     page.get_by_role("heading", name="Level over speed").wait_for()
     page.locator(".figure .main-svg").first.wait_for()
+    page.locator(".legendtext").get_by_text("to compare <b>& so on", exact=True).first.wait_for()
     measured = tmp_path / "measured.csv"
     measured.write_text("speed,frequency,amplitude\n14000,800,0.1\n22000,1200,0.3\n")
     page.locator("input[type=file]").set_input_files(measured)

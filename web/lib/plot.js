@@ -1,5 +1,7 @@
 // Figures. Plotly's script is large and is loaded when the first figure is shown.
 
+import { Away } from './api.js';
+import { isAway } from './away.js';
 import { colour, onTheme } from './theme.js';
 
 /** Pixels of height of a figure that does not say. */
@@ -15,7 +17,8 @@ export function plotly() {
     script.addEventListener('load', () => resolve(globalThis.Plotly));
     script.addEventListener('error', () => {
       loading = null;
-      reject(new Error('the script that draws figures could not be loaded'));
+      isAway();
+      reject(new Away('the script that draws figures could not be loaded'));
     });
     document.head.append(script);
   });
@@ -38,6 +41,11 @@ function template() {
       colorway: ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9', '#8c8c8c'],
     },
   };
+}
+
+/** A text of a figure in which nothing is markup, as Plotly takes some. */
+export function plain(text) {
+  return text.replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('>', '&gt;');
 }
 
 /** Whether a figure has little room. */

@@ -1,6 +1,7 @@
 // Uploads, with their progress: fetch cannot tell how much was sent.
 
 import { headers, Refusal, Away } from './api.js';
+import { isAway } from './away.js';
 import { signOut } from './session.js';
 
 /**
@@ -32,7 +33,10 @@ export function upload(file, progress, signal) {
       }
     });
     // A service that refuses a body before it has come may close the connection.
-    request.addEventListener('error', () => reject(new Away('the upload was interrupted')));
+    request.addEventListener('error', () => {
+      isAway();
+      reject(new Away('the upload was interrupted'));
+    });
     request.addEventListener('abort', () => reject(signal.reason));
     signal.addEventListener('abort', () => request.abort());
     request.send(file);

@@ -23,7 +23,9 @@ export async function show(main, { query }, signal) {
     api.get('/v1/jobs', { query: { kind: 'sweep', status: 'successful', limit: LISTED }, signal }),
     ...chosen.map((id) => read(id, signal)),
   ]);
-  showPicker(picker, list.jobs, chosen);
+  // What was chosen may be older than what is listed.
+  const others = list.jobs.filter((job) => !chosen.includes(job.id));
+  showPicker(picker, [...jobs.map(({ job }) => job), ...others], chosen);
   if (jobs.length > 0) await compare(result, jobs, signal);
 }
 

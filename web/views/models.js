@@ -1,6 +1,6 @@
 // The models of the service: a new one by upload, and those that are there.
 
-import { api, Refusal } from '../lib/api.js';
+import { api, Away, Refusal } from '../lib/api.js';
 import { confirmed } from '../lib/confirm.js';
 import { debounced, facts, h, newId, replace } from '../lib/dom.js';
 import { bytes, moment, number, percent, rpm } from '../lib/format.js';
@@ -126,6 +126,9 @@ function drop(signal) {
 }
 
 function refused(file, error) {
+  if (error instanceof Away) {
+    return h('p', { class: 'note bad', role: 'alert' }, `The upload of ${file.name} was interrupted. Choose it again once the service answers.`);
+  }
   const heading = error instanceof Refusal ? h('p', {}, `The service refused ${file.name}:`) : null;
   return [heading, problem(error)];
 }

@@ -1,6 +1,7 @@
 // The difference of two interaction maps, where both have speeds and engine orders.
 
 import { rpm, speed } from '../../lib/format.js';
+import { plain } from '../../lib/plot.js';
 
 /** Values of a row at other engine orders; both ascend, and columns are matched where they are equal. */
 function columns(a, b) {
@@ -47,7 +48,7 @@ export function difference(a, b) {
         colorscale: [[0, '#0571b0'], [0.5, '#f7f7f7'], [1, '#ca0020']], zmin: -largest || -1, zmax: largest || 1,
         colorbar: { title: { text: `difference, ${unit}` } }, hovertemplate: `%{x:.0f} rpm, engine order %{y}: %{z:.3g} ${unit}<extra></extra>`,
       }],
-      layout: { title: { text: `${b.name} less ${a.name}` }, xaxis: { title: { text: 'rotational speed Ω, rpm' } }, yaxis: { title: { text: 'engine order' } }, height: 520 },
+      layout: { title: { text: plain(`${b.name} less ${a.name}`) }, xaxis: { title: { text: 'rotational speed Ω, rpm' } }, yaxis: { title: { text: 'engine order' } }, height: 520 },
     },
   };
 }

@@ -1,19 +1,22 @@
 // Levels of several sweeps over speed.
 
 import { rpm } from '../../lib/format.js';
+import { plain } from '../../lib/plot.js';
 
 /** Steady level of the first sensor over speed, with error bars where they are known; and what was measured. */
 export function levels(jobs, measured) {
   const unit = jobs[0].map.units.length;
   const data = jobs.map(({ name, map }) => {
     const errors = new Map((map.errors?.points ?? []).map((point) => [point.index, point.estimated_error]));
+    // In the request a finer range may come after a coarse one.
+    const points = map.points.toSorted((a, b) => a.speed_rad_s - b.speed_rad_s);
     // A speed without a result is a gap.
-    const y = map.points.map((point) => point.responses[0]?.half_peak_to_peak ?? null);
+    const y = points.map((point) => point.responses[0]?.half_peak_to_peak ?? null);
     return {
-      type: 'scatter', mode: 'lines+markers', name, x: map.points.map((point) => rpm(point.speed_rad_s)), y,
+      type: 'scatter', mode: 'lines+markers', name: plain(name), x: points.map((point) => rpm(point.speed_rad_s)), y,
       connectgaps: false, marker: { size: 6 },
       hovertemplate: `%{x:.0f} rpm: %{y:.4g} ${unit}<extra>%{fullData.name}</extra>`,
-      error_y: errors.size > 0 ? { type: 'data', array: map.points.map((point, k) => (y[k] === null ? null : y[k] * (errors.get(point.index) ?? 0))) } : undefined,
+      error_y: errors.size > 0 ? { type: 'data', array: points.map((point, k) => (y[k] === null ? null : y[k] * (errors.get(point.index) ?? 0))) } : undefined,
     };
   });
   if (measured?.some((point) => point.amplitude !== null)) {
