@@ -158,7 +158,11 @@ def test_a_job_is_cancelled_run_again_and_deleted(service, model, new_page):
     job = open_job(page)
     page.reload()
     page.get_by_role("heading", name="long one").wait_for()
-    page.get_by_role("button", name="Cancel long one").click()
+    # By the keyboard, while the progress changes.
+    page.get_by_role("progressbar", name="Progress").wait_for()
+    page.get_by_role("button", name="Cancel long one").focus()
+    page.wait_for_timeout(1500)
+    page.keyboard.press("Enter")
     page.get_by_role("button", name="Delete long one").click()
     page.get_by_role("dialog").get_by_role("button", name="Keep").click()
     assert service.call("GET", f"/v1/jobs/{job}")["status"] == "dismissed"
@@ -183,6 +187,70 @@ def test_the_page_outlives_the_service(tmp_path, zipped, new_page):
         page.locator(".figure .main-svg").first.wait_for()
     finally:
         own.stop()
+
+
+def test_a_form_keeps_what_was_filled_in_and_starts_nothing_else(service, model, new_page):
+    before = len(service.call("GET", "/v1/jobs?limit=500")["jobs"])
+    page = new_page(f"{service.url}/#/sweep?model={model}")
+    page.get_by_role("button", name="Add to engine order excitation").click()
+    page.get_by_label("Plan").get_by_text("Reduction", exact=True).wait_for()
+    page.get_by_label("Count").first.fill("17")
+    page.get_by_role("link", name="Jobs").click()
+    page.get_by_role("heading", name="Jobs").wait_for()
+    page.go_back()
+    page.get_by_text("This is what you had filled in here.").wait_for()
+    assert page.get_by_label("Count").first.input_value() == "17"
+    page.get_by_text("The request as JSON").click()
+    page.get_by_label("Request; the form follows").fill('{"model": ')
+    page.get_by_role("button", name="Start").click()
+    page.locator("[role=alert]", has_text="is not complete").wait_for()
+    assert len(service.call("GET", "/v1/jobs?limit=500")["jobs"]) == before
+    page.get_by_role("button", name="Begin anew").click()
+    page.get_by_text("This is what you had filled in here.").wait_for(state="hidden")
+    assert page.get_by_label("Count").first.input_value() != "17"
+
+
+def test_a_speed_of_which_nothing_was_recorded_is_recorded(service, swept, new_page):
+    page = new_page(f"{service.url}/#/jobs/{swept}?view=point&speed=0", expected=["404", "409"])
+    page.get_by_role("button", name="Record this speed").click()
+    page.wait_for_url(re.compile(f"#/jobs/(?!{swept})"))
+    job = open_job(page)
+    assert service.finish(job)["status"] == "successful"
+    page.locator(".figure .main-svg").first.wait_for()
+
+
+def test_amplitudes_are_compared_in_one_unit(service, swept, new_page):
+    """The same wheel in metres."""
+    units = {"length": "m", "force": "N", "time": "s", "mass": "kg"}
+    generation = service.call("POST", "/v1/models", {"name": "in metres", "units": units})["id"]
+    request = sweep_of(service.finish(generation)["model"], name="in metres", record={})
+    request["scene"]["casing"] = {
+        "clearance": {"leading": 0.30e-3, "trailing": 0.22e-3},
+        "lobes": {"count": 2, "amplitude": 0.425e-3, "width_rad": 0.35},
+    }
+    job = service.call("POST", "/v1/sweeps", request)["id"]
+    assert service.finish(job)["status"] == "successful"
+    page = new_page(f"{service.url}/#/compare?jobs={swept},{job}")
+    page.get_by_text("amplitudes in mm").wait_for()
+    page.locator(".figure .main-svg").first.wait_for()
+    levels = page.evaluate("document.querySelector('.figure').data.map((trace) => trace.y)")
+    assert all(abs(a - b) < 1e-3 * max(levels[0]) for a, b in zip(*levels, strict=True))
+
+
+def test_columns_of_a_measurement_are_found_by_their_names(service, swept, tmp_path, new_page):
+    page = new_page(f"{service.url}/#/compare?jobs={swept}")
+    page.locator(".figure .main-svg").first.wait_for()
+    measured = tmp_path / "measured.csv"
+
+    def read(text, words, role="status"):
+        measured.write_text(text, encoding="utf-8")
+        page.locator("input[type=file]").set_input_files(measured)
+        page.locator(f"[role={role}]", has_text=re.compile(words)).wait_for()
+
+    read("a,b\n1,2\n", "Nothing is taken", "alert")
+    read("amplitude_um,speed_rad_s,frequency_Hz\n50,1600,2000\n", "15279 to 15279 rpm.*in rad/s.*“frequency_Hz”.*in um")
+    read("Drehzahl [1/min];Frequenz [Hz];Amplitude [µm]\n17000;1500,5;3\n", "17000 to 17000 rpm.*in rpm.*in µm")
+    read("14000,800,0.1\n22000,1200,0.3\n", "2 measured points, 14000 to 22000 rpm")
 
 
 def test_a_token_opens_the_service_for_this_tab(tmp_path, new_page):

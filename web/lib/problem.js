@@ -7,7 +7,9 @@ import { Away, Refusal } from './api.js';
 function item(error) {
   const row = error.row ?? error.line;
   const where = [error.file, row === undefined || row === null ? null : `line ${row}`, error.pointer, error.parameter].filter(Boolean);
-  return h('li', {}, where.length > 0 ? h('strong', {}, `${where.join(', ')}: `) : null, error.detail ?? '');
+  // Of a package the detail says it.
+  const said = (error.detail ?? '').startsWith(where[0]);
+  return h('li', {}, where.length > 0 && !said ? h('strong', {}, `${where.join(', ')}: `) : null, error.detail ?? '');
 }
 
 /** Something that failed, as an alert; a result that is not there yet as a calm note. */

@@ -6,10 +6,13 @@ import { nameOf, number, percent, rpm, speed } from '../lib/format.js';
 import { plot } from '../lib/plot.js';
 import { problem } from '../lib/problem.js';
 import { table } from '../lib/table.js';
+import { lengthIn } from '../lib/units.js';
 import { difference } from './compare/difference.js';
 import { levels } from './compare/levels.js';
 import { measurement, overCampbell } from './compare/measured.js';
 import { analysisOf } from './job/campbell.js';
+import { sensorWords } from './job/choices.js';
+import { peakWords } from './job/critical.js';
 
 /** Sweeps that one can choose from. */
 const LISTED = 100;
@@ -19,24 +22,65 @@ export async function show(main, { query }, signal) {
   const picker = h('div');
   const result = h('div');
   replace(main, h('h1', {}, 'Compare sweeps'), picker, result);
-  const [list, ...jobs] = await Promise.all([
+  const [list, ...found] = await Promise.allSettled([
     api.get('/v1/jobs', { query: { kind: 'sweep', status: 'successful', limit: LISTED }, signal }),
-    ...chosen.map((id) => read(id, signal)),
+    ...chosen.map((id) => read(id, 0, signal)),
   ]);
+  if (list.status === 'rejected') throw list.reason;
+  const jobs = found.filter(({ status }) => status === 'fulfilled').map(({ value }) => value);
+  const lost = found.filter(({ status }) => status === 'rejected').map(({ reason }) => problem(reason));
   // What was chosen may be older than what is listed.
-  const others = list.jobs.filter((job) => !chosen.includes(job.id));
+  const others = list.value.jobs.filter((job) => !jobs.some(({ id }) => id === job.id));
   showPicker(picker, [...jobs.map(({ job }) => job), ...others], chosen);
-  if (jobs.length > 0) await compare(result, jobs, signal);
+  replace(result, lost);
+  if (jobs.length > 0) await compare(result, lost, await comparable(jobs, signal), signal);
 }
 
-/** A sweep with what is compared of it. */
-async function read(id, signal) {
+/** A sweep with what is compared of it, seen by the sensor of this index. */
+async function read(id, sensor, signal) {
+  const query = { sensor };
   const [job, map, critical] = await Promise.all([
     api.get(`/v1/jobs/${id}`, { signal }),
-    api.get(`/v1/jobs/${id}/interaction-map`, { signal }),
-    api.get(`/v1/jobs/${id}/critical-speeds`, { signal }),
+    api.get(`/v1/jobs/${id}/interaction-map`, { query, signal }),
+    api.get(`/v1/jobs/${id}/critical-speeds`, { query, signal }),
   ]);
-  return { id, name: nameOf(job), job, map, critical };
+  return { id, name: nameOf(job), job, map, critical, sensor };
+}
+
+/**
+ * Sweeps as they can be compared with the first: by the same sensor and in its unit of length. Those for which there is neither are told.
+ * @returns {Promise<{jobs: any[], warnings: string[]}>}
+ */
+async function comparable([first, ...others], signal) {
+  const jobs = [first];
+  const warnings = [];
+  const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
+  for (const other of others) {
+    const sensor = other.map.settings.sensors.findIndex((each) => same(each, first.map.settings.sensors[first.sensor]));
+    const factor = lengthIn(other.map.units.length, first.map.units.length);
+    if (sensor < 0) {
+      warnings.push(`${other.name} is left out: it has no sensor like the first of ${first.name} (${sensorWords(first.map.sensor, 0)}).`);
+    } else if (factor === null) {
+      warnings.push(`${other.name} is left out: ${other.map.units.length} cannot be told in ${first.map.units.length}.`);
+    } else {
+      jobs.push(scaled(sensor === other.sensor ? other : await read(other.id, sensor, signal), factor, first.map.units.length));
+    }
+  }
+  return { jobs, warnings };
+}
+
+/** A sweep with its amplitudes in another unit of length. */
+function scaled(job, factor, length) {
+  if (factor === 1) return job;
+  const response = (each) => ({ ...each, mean: factor * each.mean, rms: factor * each.rms, half_peak_to_peak: factor * each.half_peak_to_peak });
+  const map = {
+    ...job.map,
+    units: { ...job.map.units, length },
+    amplitude: job.map.amplitude.map((row) => row && row.map((value) => factor * value)),
+    points: job.map.points.map((point) => ({ ...point, responses: point.responses.map(response) })),
+  };
+  const critical = { ...job.critical, critical_speeds: job.critical.critical_speeds.map((each) => ({ ...each, rms: factor * each.rms })) };
+  return { ...job, map, critical };
 }
 
 function showPicker(element, jobs, chosen) {
@@ -54,16 +98,16 @@ function showPicker(element, jobs, chosen) {
     h('button', { type: 'button', class: 'main', on: { click: go } }, 'Compare these')));
 }
 
-async function compare(element, jobs, signal) {
+async function compare(element, lost, { jobs, warnings }, signal) {
   const level = h('div', { class: 'figure' });
   const apart = h('div', { class: 'figure tall' });
   const apartNote = h('div');
   const campbell = h('div', { class: 'figure tall' });
   const told = h('div');
-  const units = new Set(jobs.map(({ map }) => `${map.units.length} ${map.units.force}`));
   replace(element,
-    units.size > 1 ? h('p', { class: 'note warning', role: 'alert' }, 'These sweeps are of models in different units: their amplitudes cannot be compared.') : null,
-    h('h2', {}, 'Level over speed'), level, measuredForm(told, show), told,
+    lost, warnings.map((words) => h('p', { class: 'note warning', role: 'alert' }, words)),
+    h('p', { class: 'quiet' }, `Seen by ${sensorWords(jobs[0].map.sensor, 0)}; amplitudes in ${jobs[0].map.units.length}.`),
+    h('h2', {}, 'Level over speed'), level, measuredForm(told, jobs[0].map.units.length, show), told,
     jobs.length > 1 ? [h('h2', {}, 'Difference of the maps'), apartNote, apart] : null,
     h('h2', {}, 'Critical speeds'), criticalTable(jobs),
     h('h2', {}, `Campbell diagram of ${jobs[0].name}`), campbell);
@@ -112,6 +156,7 @@ function criticalTable(jobs) {
     columns: [
       { name: 'Sweep', cell: ({ of }) => h('a', { href: `#/jobs/${of.id}?view=critical` }, of.name), sort: ({ of }) => of.name },
       { name: 'Speed', cell: ({ each }) => `${speed(each.speed_rad_s)} ± ${number(Math.round(rpm(each.speed_error_rad_s)), 3)}`, sort: ({ each }) => each.speed_rad_s },
+      { name: 'Peak', cell: ({ each }) => peakWords(each), sort: ({ each }) => peakWords(each) },
       { name: 'Engine order', number: true, cell: ({ each }) => number(each.dominant_engine_order), sort: ({ each }) => each.dominant_engine_order },
       { name: 'rms', number: true, cell: ({ of, each }) => `${number(each.rms)} ${of.map.units.length}`, sort: ({ each }) => each.rms },
       { name: 'Error', number: true, cell: ({ each }) => percent(each.amplitude_error), sort: ({ each }) => each.amplitude_error },
@@ -120,21 +165,26 @@ function criticalTable(jobs) {
   });
 }
 
-function measuredForm(told, onPoints) {
+function measuredForm(told, length, onPoints) {
   const file = h('input', { type: 'file', accept: '.csv,text/csv,text/plain', id: 'measured' });
   const unit = h('select', { id: 'measured-unit' }, [['', 'as the header says'], ['rpm', 'rpm'], ['rad_s', 'rad/s'], ['hz', 'Hz']].map(([value, words]) => h('option', { value }, words)));
+  let chosen = null;
   async function read() {
-    const [chosen] = file.files;
     if (!chosen) return;
-    const { points, bad, words } = measurement(await chosen.text(), unit.value);
+    const { points, bad, words } = measurement(await chosen.text(), unit.value, length);
     replace(told,
-      h('p', { role: 'status' }, words),
+      h('p', { class: points.length > 0 ? null : 'note bad', role: points.length > 0 ? 'status' : 'alert' }, `${chosen.name}: ${words}`),
       bad.length > 0 ? h('div', { class: 'note warning' }, h('ul', {}, bad.map((line) => h('li', {}, line)))) : null);
     if (points.length > 0) onPoints(points);
   }
-  file.addEventListener('change', read);
+  file.addEventListener('change', () => {
+    [chosen] = file.files;
+    read();
+    // The same file may be chosen again when it has changed.
+    file.value = '';
+  });
   unit.addEventListener('change', read);
   return h('div', { class: 'row' },
-    h('label', { for: 'measured' }, 'Measured (CSV: speed, frequency in Hz, amplitude)'), file,
+    h('label', { for: 'measured' }, 'Measured (CSV with a header such as speed_rpm, frequency_Hz, amplitude_mm)'), file,
     h('label', { for: 'measured-unit' }, 'Speeds in'), unit);
 }

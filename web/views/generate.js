@@ -69,6 +69,7 @@ export async function show(main, { query }, signal) {
   }
   function complain(error, focus) {
     const homeless = error instanceof Refusal ? made.complain(error.errors, focus) : [error];
+    showPlan(aside, null);
     const marked = error instanceof Refusal && error.errors.length > 0 && homeless.length === 0;
     replace(told, marked ? h('p', { class: 'note bad', role: 'alert' }, 'See the fields that are marked.') : problem(error));
   }
@@ -96,9 +97,9 @@ export async function show(main, { query }, signal) {
 }
 
 function showPlan(element, plan) {
-  replace(element, h('h2', {}, 'What it will be'), facts([
+  replace(element, h('h2', {}, 'What it will be'), plan === null ? h('p', { class: 'note' }, 'Nothing yet: see the fields that are marked.') : facts([
     ['Nodes of a sector', number(plan.nodes, 7)],
-    ['Unknowns of a sector', number(plan.dofs, 7)],
+    ['Rows of its matrices', number(plan.dofs, 7)],
     ['Memory to make it', bytes(plan.memory_bytes)],
   ]));
 }

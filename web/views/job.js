@@ -61,9 +61,10 @@ export async function show(main, { id, query }, signal) {
     }, words))),
     place);
   let shown = job;
+  const stateOf = stateView(state, signal);
   const tell = (now) => {
     shown = now;
-    showState(state, now, signal);
+    stateOf(now);
     for (const f of listeners) f(now);
   };
   tell(job);
@@ -99,28 +100,47 @@ export function remaining(job) {
   return spent * (100 / job.progress - 1);
 }
 
-function showState(element, job, signal) {
-  const left = remaining(job);
-  const speeds = job.speeds;
-  const bar = h('progress', { max: 100, value: job.progress, 'aria-label': 'Progress' });
-  bar.value = job.progress;
-  const lost = speeds && speeds.diverged + speeds.failed > 0
-    ? `${count(speeds.diverged, 'speed')} diverged, ${speeds.failed} failed: they have no amplitude` : null;
-  const told = h('div');
-  const running = job.status === 'running' || job.status === 'accepted';
-  replace(element,
-    h('div', { class: 'row' },
-      h('span', { class: `tag ${{ successful: 'good', failed: 'bad' }[job.status] ?? ''}` }, STATUSES[job.status] ?? job.status),
-      running ? h('span', { role: 'status' }, `${job.progress} %${job.phase ? ` · ${job.phase}` : ''}${left ? ` · about ${duration(left)} left` : ''}`) : null,
-      !running ? h('span', { class: 'quiet' }, `${moment(job.finished_at)} · ${bytes(job.stored_bytes)}`) : null),
-    running ? bar : null,
-    lost ? h('p', { class: 'note warning' }, lost) : null,
-    job.error ? h('div', { class: 'note bad', role: 'alert' }, h('strong', {}, job.error.title), ' ', job.error.detail) : null,
-    h('div', { class: 'row' },
-      job.model ? h('a', { class: 'button', href: `#/models/${job.model}` }, 'Its model') : null,
-      job.kind === 'sweep' ? h('a', { class: 'button', href: `#/compare?jobs=${job.id}` }, 'Compare') : null,
-      labelsButton(`/v1/jobs/${job.id}`, job, again, signal),
-      actions(job, { told, deleted: () => { location.hash = '#/jobs'; } }, signal)),
-    told,
-    job.notes ? facts([['Notes', job.notes], ['Tags', job.tags.join(', ')]]) : null);
+/** Shows how far a job is, again and again. Its buttons are made once for each status: one that has the focus keeps it. */
+function stateView(element, signal) {
+  const words = h('span');
+  const bar = h('progress', { max: 100, 'aria-label': 'Progress' });
+  const lost = h('p', { class: 'note warning' });
+  let status = null;
+  return (job) => {
+    if (job.status !== status) {
+      status = job.status;
+      frame(job);
+    }
+    const { speeds } = job;
+    const left = remaining(job);
+    replace(words, running(job) ? `${job.progress} %${job.phase ? ` · ${job.phase}` : ''}${left ? ` · about ${duration(left)} left` : ''}`
+      : `${moment(job.finished_at)} · ${bytes(job.stored_bytes)}`);
+    bar.value = job.progress;
+    lost.hidden = !speeds || speeds.diverged + speeds.failed === 0;
+    if (!lost.hidden) replace(lost, `${count(speeds.diverged, 'speed')} diverged, ${speeds.failed} failed: they have no amplitude`);
+  };
+
+  function frame(job) {
+    const told = h('div');
+    if (running(job)) words.setAttribute('role', 'status');
+    else words.removeAttribute('role');
+    words.className = running(job) ? '' : 'quiet';
+    replace(element,
+      h('div', { class: 'row' },
+        h('span', { class: `tag ${{ successful: 'good', failed: 'bad' }[job.status] ?? ''}` }, STATUSES[job.status] ?? job.status), words),
+      running(job) ? bar : null,
+      lost,
+      job.error ? h('div', { class: 'note bad', role: 'alert' }, h('strong', {}, job.error.title), ' ', job.error.detail) : null,
+      h('div', { class: 'row' },
+        job.model ? h('a', { class: 'button', href: `#/models/${job.model}` }, 'Its model') : null,
+        job.kind === 'sweep' ? h('a', { class: 'button', href: `#/compare?jobs=${job.id}` }, 'Compare') : null,
+        labelsButton(`/v1/jobs/${job.id}`, job, again, signal),
+        actions(job, { told, deleted: () => { location.hash = '#/jobs'; } }, signal)),
+      told,
+      job.notes ? facts([['Notes', job.notes], ['Tags', job.tags.join(', ')]]) : null);
+  }
+}
+
+function running(job) {
+  return job.status === 'running' || job.status === 'accepted';
 }

@@ -20,6 +20,8 @@ const TABS = [
 export async function show(main, { id, query }, signal) {
   const model = await api.get(`/v1/models/${id}`, { signal });
   const tab = TABS.find(([name]) => name === query.get('view')) ?? TABS[0];
+  // A reduction knows more than the package alone.
+  const stiffening = model.reductions?.at(-1)?.stiffening ?? model.stiffening;
   const told = h('div');
   const place = h('section', { 'aria-label': tab[1] });
   const address = (changes) => placeWith(`models/${id}`, query, { known: null, ...changes });
@@ -38,7 +40,7 @@ export async function show(main, { id, query }, signal) {
       ['Notes', model.notes],
       ['Tags', model.tags.join(', ')],
     ]),
-    model.stiffening ? h('p', { class: `note ${model.stiffening.verdict === 'sound' ? '' : 'warning'}` }, model.stiffening.message) : null,
+    stiffening ? h('p', { class: `note ${stiffening.verdict === 'sound' ? '' : 'warning'}` }, stiffening.message) : null,
     h('div', { class: 'row' },
       h('a', { class: 'button main', href: `#/sweep?model=${id}` }, 'New sweep'),
       h('a', { class: 'button', href: `#/study?model=${id}` }, 'New study'),

@@ -1,6 +1,6 @@
 // Sign-in by a token.
 
-import { api } from '../lib/api.js';
+import { api, Refusal } from '../lib/api.js';
 import { h, replace } from '../lib/dom.js';
 import { problem } from '../lib/problem.js';
 import { signIn } from '../lib/session.js';
@@ -34,7 +34,9 @@ export async function show(main, { query }, signal) {
       // Only to a place of this page.
       location.hash = back.startsWith('#/') ? back : '#/models';
     } catch (error) {
-      if (!signal.aborted) replace(told, problem(error));
+      if (signal.aborted) return;
+      const unknown = error instanceof Refusal && error.status === 401;
+      replace(told, unknown ? h('p', { class: 'note bad', role: 'alert' }, 'The service does not know this token.') : problem(error));
     }
   }
 }

@@ -4,7 +4,7 @@ import { api } from '../lib/api.js';
 import { h, replace } from '../lib/dom.js';
 import { nameOf, percent } from '../lib/format.js';
 import { select } from './job/choices.js';
-import { chooseModel, requestForm } from './request/view.js';
+import { askedOf, chooseModel, requestForm } from './request/view.js';
 import { CLEARANCE, sceneOf, speedsOf } from './request/sensible.js';
 
 /** Kinds of jobs that are asked for by a form. */
@@ -38,7 +38,7 @@ export async function show(main, { query }, signal, first = 'sweep') {
     if (!kind) throw new Error(`a job of kind ${job.kind} has no form`);
     replace(main, h('h1', {}, `As ${nameOf(job)}, but …`), place);
     const model = await api.get(`/v1/models/${job.model}`, { signal });
-    await requestForm(place, { model, kind, value: { ...job.request, model: job.model }, words: `Model: ${model.name}` }, signal);
+    await requestForm(place, { model, kind, value: askedOf(job), words: `Model: ${model.name}` }, signal);
     return;
   }
   const name = query.get('kind') ?? first;

@@ -42,15 +42,18 @@ export function form(what) {
           continue;
         }
         found.complain(error.detail);
+        reveal(found.control);
         first ??= found.control;
       }
-      if (focus && first) {
-        for (let at = first.parentElement; at; at = at.parentElement) if (at.tagName === 'DETAILS') at.open = true;
-        first.focus();
-      }
+      if (focus) first?.focus();
       return homeless;
     },
   };
+}
+
+/** Opens the groups that a field is in. */
+function reveal(control) {
+  for (let at = control.parentElement; at; at = at.parentElement) if (at.tagName === 'DETAILS') at.open = true;
 }
 
 /** The field of a pointer, or of the part around it. */
@@ -137,7 +140,9 @@ function object(context, schema, pointer, name, required) {
   if (required) {
     if (get(context, pointer) === undefined) put(context, pointer, {});
     fill();
-    return group(context, pointer, name, body);
+    const error = h('div', { class: 'error', role: 'alert' });
+    context.places.set(pointer, { control: error, complain: (message) => { error.textContent = message ?? ''; } });
+    return group(context, pointer, name, h('div', {}, error, body));
   }
   const box = h('input', { type: 'checkbox', checked: get(context, pointer) !== undefined && get(context, pointer) !== null });
   const shown = field(name, schema, box, { extra: context.beside?.(pointer), words: help(schema) });

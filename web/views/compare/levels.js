@@ -6,12 +6,12 @@ import { plain } from '../../lib/plot.js';
 /** Steady level of the first sensor over speed, with error bars where they are known; and what was measured. */
 export function levels(jobs, measured) {
   const unit = jobs[0].map.units.length;
-  const data = jobs.map(({ name, map }) => {
+  const data = jobs.map(({ name, map, sensor }) => {
     const errors = new Map((map.errors?.points ?? []).map((point) => [point.index, point.estimated_error]));
     // In the request a finer range may come after a coarse one.
     const points = map.points.toSorted((a, b) => a.speed_rad_s - b.speed_rad_s);
     // A speed without a result is a gap.
-    const y = points.map((point) => point.responses[0]?.half_peak_to_peak ?? null);
+    const y = points.map((point) => point.responses[sensor]?.half_peak_to_peak ?? null);
     return {
       type: 'scatter', mode: 'lines+markers', name: plain(name), x: points.map((point) => rpm(point.speed_rad_s)), y,
       connectgaps: false, marker: { size: 6 },
@@ -29,7 +29,7 @@ export function levels(jobs, measured) {
   return {
     data,
     layout: {
-      title: { text: 'Half peak to peak of the first sensor' }, xaxis: { title: { text: 'rotational speed Ω, rpm' } },
+      title: { text: 'Half peak to peak' }, xaxis: { title: { text: 'rotational speed Ω, rpm' } },
       yaxis: { title: { text: `half peak to peak, ${unit}` }, rangemode: 'tozero' }, showlegend: true,
     },
   };

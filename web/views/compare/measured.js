@@ -1,13 +1,28 @@
-// What was measured: a table of speed, frequency and amplitude.
+// What was measured: a table of speed, frequency and amplitude, with a header that says which column is which.
+
+import { lengthIn } from '../../lib/units.js';
 
 /** What turns a unit of speed into rpm. */
 const TO_RPM = { rpm: 1, rad_s: 60 / (2 * Math.PI), hz: 60 };
+const NAMES = { rpm: 'rpm', rad_s: 'rad/s', hz: 'Hz' };
 
-/** The unit that a header's words name. */
-function unitOf(words) {
+/** Words by which a header names a column; the first that fits counts. */
+const COLUMNS = [
+  ['speed', /speed|rpm|omega|ω|rotation|drehzahl|1\/min|min-1|min⁻¹/i],
+  ['frequency', /freq|^f\b|\bhz\b/i],
+  ['amplitude', /ampl|level|displ|deflection|rms|peak|auslenkung|weg/i],
+];
+
+/** The unit of a speed that a header names. */
+function speedUnit(words) {
   if (/rad/i.test(words)) return 'rad_s';
-  if (/hz|1\/s/i.test(words)) return 'hz';
-  return 'rpm';
+  if (/rpm|1\/min|min-1|min⁻¹|u\/min/i.test(words)) return 'rpm';
+  return /hz|1\/s/i.test(words) ? 'hz' : null;
+}
+
+/** The unit of a length that a header names. */
+function lengthUnit(words) {
+  return /(?:^|[^a-zµμ])(mm|[uµμ]m|m|mil|in)(?:$|[^a-z])/i.exec(words.replaceAll('_', ' '))?.[1] ?? null;
 }
 
 /** Cells of a line. Where columns are parted by semicolons or tabs, a comma is a decimal one. */
@@ -17,40 +32,67 @@ function cellsOf(line) {
   return parting === ',' ? cells : cells.map((cell) => cell.replace(',', '.'));
 }
 
+/** Which column is what by a header, as indices; what nobody named is not there. */
+function columnsOf(header) {
+  const found = {};
+  header.forEach((words, k) => {
+    const name = COLUMNS.find(([, pattern]) => pattern.test(words))?.[0];
+    if (name && !(name in found)) found[name] = k;
+  });
+  return found;
+}
+
 /**
- * Points of a table with or without a header: speed, frequency in Hz, amplitude; an empty cell is nothing.
+ * Points of a table. Columns are found by its header; without one they are speed, frequency in Hz and amplitude. An empty cell is nothing.
  * @param {string} text
  * @param {string} unit of the speeds; empty: what the header names, or rpm
+ * @param {string} length unit of amplitudes in the diagram
  * @returns {{points: {rpm: number, hz: number | null, amplitude: number | null}[], bad: string[], words: string}}
  */
-export function measurement(text, unit) {
-  const lines = text.replace(/^\ufeff/, '').split(/\r\n|\n|\r/);
+export function measurement(text, unit, length) {
+  const lines = text.replace(/^\ufeff/, '').split(/\r\n|\n|\r/).map((line, k) => ({ line, k }))
+    .filter(({ line }) => line.trim() !== '' && !line.startsWith('#'));
+  const first = cellsOf(lines[0]?.line ?? '');
+  const header = first.some((cell) => cell !== '' && Number.isNaN(Number(cell))) ? first : null;
+  const at = header ? columnsOf(header) : { speed: 0, frequency: 1, amplitude: 2 };
+  const failed = (words) => ({ points: [], bad: [], words });
+  if (lines.length === 0) return failed('The file is empty.');
+  if (at.speed === undefined || (at.frequency === undefined && at.amplitude === undefined)) {
+    return failed(`Nothing is taken: the header “${header.join(', ').slice(0, 100)}” does not say which column is the speed and which the frequency or the amplitude. Name them so: speed_rpm, frequency_Hz, amplitude_${length}.`);
+  }
+  const used = unit || (header && speedUnit(header[at.speed])) || 'rpm';
+  const kilo = header && at.frequency !== undefined && /khz/i.test(header[at.frequency]) ? 1000 : 1;
+  const own = header && at.amplitude !== undefined ? lengthUnit(header[at.amplitude]) : null;
+  const factor = own ? lengthIn(own, length) : 1;
   const points = [];
   const bad = [];
-  let used = unit || 'rpm';
-  let begun = false;
-  lines.forEach((line, k) => {
-    if (line.trim() === '' || line.startsWith('#')) return;
+  for (const { line, k } of header ? lines.slice(1) : lines) {
     const cells = cellsOf(line);
-    const value = (cell) => (cell === undefined || cell === '' ? null : Number(cell));
-    const [omega, hz, amplitude] = cells.slice(0, 3).map(value);
-    if (!begun && Number.isNaN(omega)) {
-      if (!unit) used = unitOf(cells[0]);
-      begun = true;
-      return;
-    }
-    begun = true;
-    if (omega === null || [omega, hz, amplitude].some((each) => each !== null && each !== undefined && !Number.isFinite(each))) {
+    const value = (column) => (column === undefined || cells[column] === undefined || cells[column] === '' ? null : Number(cells[column]));
+    const [omega, hz, amplitude] = [value(at.speed), value(at.frequency), value(at.amplitude)];
+    if (omega === null || [omega, hz, amplitude].some((each) => each !== null && !Number.isFinite(each))) {
       bad.push(`line ${k + 1}: expected numbers for speed, frequency and amplitude, not “${line.slice(0, 60)}”`);
     } else if (omega < 0 || (hz ?? 0) < 0) {
       bad.push(`line ${k + 1}: speed and frequency are not negative`);
     } else {
-      points.push({ rpm: omega * TO_RPM[used], hz: hz ?? null, amplitude: amplitude ?? null });
+      points.push({ rpm: omega * TO_RPM[used], hz: hz === null ? null : kilo * hz, amplitude: amplitude === null || factor === null ? null : factor * amplitude });
     }
-  });
-  const shown = { rpm: 'rpm', rad_s: 'rad/s', hz: 'Hz' }[used];
-  const words = `${points.length} measured ${points.length === 1 ? 'point' : 'points'}, speeds in ${shown}${bad.length > 0 ? `; ${bad.length} lines are left out` : ''}.`;
-  return { points, bad: bad.slice(0, 20), words };
+  }
+  return { points, bad: bad.slice(0, 20), words: said({ points, bad, header, at, used, own, factor, length }) };
+}
+
+/** What was taken for what. */
+function said({ points, bad, header, at, used, own, factor, length }) {
+  const column = (name) => (header ? `“${header[at[name]]}”` : `column ${at[name] + 1}`);
+  const taken = [`speed from ${column('speed')} in ${NAMES[used]}`];
+  if (at.frequency !== undefined) taken.push(`frequency from ${column('frequency')}`);
+  if (at.amplitude !== undefined) {
+    taken.push(factor === null ? `no amplitude: ${own} cannot be told in ${length}` : `amplitude from ${column('amplitude')} ${own ? `in ${own}` : `taken for ${length}`}`);
+  }
+  const speeds = points.map((point) => point.rpm);
+  const range = points.length > 0 ? `, ${Math.round(Math.min(...speeds))} to ${Math.round(Math.max(...speeds))} rpm` : '';
+  const left = bad.length > 0 ? ` ${bad.length} ${bad.length === 1 ? 'line is' : 'lines are'} left out.` : '';
+  return `${points.length} measured ${points.length === 1 ? 'point' : 'points'}${range}: ${taken.join('; ')}.${left}`;
 }
 
 /** A Campbell diagram with measured frequencies over it. */

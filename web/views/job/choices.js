@@ -10,8 +10,8 @@ export function select(label, options, value, onChange) {
   return h('span', {}, h('label', { for: id }, `${label} `), list);
 }
 
-/** What a sensor measures, in words. */
-function sensorWords(sensor, index) {
+/** What a sensor measures, in words, with its index. */
+export function sensorWords(sensor, index) {
   const place = sensor.gauge ? 'strain gauge'
     : sensor.node !== null && sensor.node !== undefined ? `node ${sensor.node}`
     : sensor.nearest ? `near (${sensor.nearest.join(', ')})`

@@ -23,7 +23,8 @@ export async function show(place, context, signal) {
       h('h2', {}, 'The reduction'),
       facts([
         ['Modes per speed', reduction.modes_per_speed],
-        ['Unknowns of the wheel', `${number(reduction.wheel_unknowns, 9)}, of the full model ${number(reduction.unknowns, 9)} a sector`],
+        ['Unknowns of the wheel, reduced', number(reduction.wheel_unknowns, 9)],
+        ['Of them by nodal diameter', reduction.unknowns.join(', ')],
         ['Largest residual of a mode', reduction.largest_mode_residual?.toExponential(1)],
         ['Modes counted', reduction.counted_modes === null || reduction.counted_modes === undefined ? null : 'none was missed (Sylvester’s law)'],
         ['Stiffening', reduction.stiffening?.verdict],

@@ -43,10 +43,15 @@ function verdict(found) {
   ];
 }
 
+/** Whether the speeds of the sweep tell where a peak is. */
+export function peakWords(each) {
+  return each.resolved ? 'resolved' : each.at_edge ? 'at an edge' : 'not resolved';
+}
+
 const at = (each) => `${speed(each.speed_rad_s)} ± ${number(Math.round(rpm(each.speed_error_rad_s)), 3)}`;
 const open = (context) => (each) => context.go({ view: 'point', speed: each.index });
 const common = [
-  { name: 'Peak', cell: (each) => (each.resolved ? 'resolved' : each.at_edge ? 'at an edge' : 'not resolved'), sort: (each) => Number(each.resolved) },
+  { name: 'Peak', cell: (each) => peakWords(each), sort: (each) => Number(each.resolved) },
   { name: 'Error', number: true, cell: (each) => percent(each.amplitude_error), sort: (each) => each.amplitude_error },
   { name: 'Settling', cell: (each) => SETTLING[each.settling] ?? each.settling },
   { name: 'Linear theory', cell: (each) => VALIDITY[each.validity] ?? '–' },
@@ -65,8 +70,8 @@ function sensorTable(found, context) {
       { name: 'Nodal diameter', number: true, cell: (each) => each.dominant_nodal_diameter ?? '–', sort: (each) => each.dominant_nodal_diameter },
       { name: `rms, ${unit}`, number: true, cell: (each) => number(each.rms), sort: (each) => each.rms },
       { name: `Half peak to peak, ${unit}`, number: true, cell: (each) => number(each.half_peak_to_peak), sort: (each) => each.half_peak_to_peak },
-      { name: 'From linear', number: true, cell: (each) => (each.distance_rad_s === null || each.distance_rad_s === undefined ? '–' : percent(each.distance_rad_s / each.speed_rad_s)), sort: (each) => each.distance_rad_s },
-      { name: 'Nearest prediction', cell: (each) => predicted(each.nearest_crossing) },
+      { name: 'From it', number: true, cell: (each) => (each.distance_rad_s === null || each.distance_rad_s === undefined ? '–' : percent(each.distance_rad_s / each.speed_rad_s)), sort: (each) => each.distance_rad_s },
+      { name: 'Nearest of the linear criterion', cell: (each) => predicted(each.nearest_crossing) },
       ...common,
     ],
   });

@@ -8,6 +8,9 @@ import { problem } from '../../lib/problem.js';
 /** Endings of files whose form is none of the forms' words. */
 const ENDINGS = { plotly: 'plotly.json', pvd: 'zip' };
 
+/** Endings of files that have one form. */
+const FILES = { archive: 'zip', report: 'html' };
+
 export async function show(place, { job }, signal) {
   const contract = await openapi();
   const told = h('div', { 'aria-live': 'polite' });
@@ -30,8 +33,9 @@ function item(link, contract, job, { told, speeds }, signal) {
     pressed.disabled = true;
     replace(told);
     try {
-      const ending = form ? ENDINGS[form] ?? form : link.rel === 'archive' ? 'zip' : 'html';
-      await download(link.href.replace('{index}', speeds.value), form ? { format: form } : {}, `${job.id}-${link.rel}.${ending}`, signal);
+      const ending = form ? ENDINGS[form] ?? form : FILES[link.rel] ?? 'json';
+      const of = link.href.includes('{index}') ? `-${speeds.value}` : '';
+      await download(link.href.replace('{index}', speeds.value), form ? { format: form } : {}, `${job.id}-${link.rel}${of}.${ending}`, signal);
     } catch (error) {
       if (!signal.aborted) replace(told, problem(error));
     } finally {
@@ -55,5 +59,7 @@ function formsOf(href, contract) {
   const all = format.schema.enum ?? [];
   // The contract has one list for all routes; which a route has follows from its kind.
   const field = ['vtu', 'vtp', 'pvd'];
-  return all.filter((form) => (fields ? !['csv', 'plotly'].includes(form) : !field.includes(form)));
+  const drawn = ['svg', 'png', 'plotly'];
+  const table = /critical-speeds\/wheel$/.test(words.join('/'));
+  return all.filter((form) => (fields ? !['csv', 'plotly'].includes(form) : !field.includes(form) && !(table && drawn.includes(form))));
 }

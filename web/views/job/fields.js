@@ -1,9 +1,11 @@
 // The wheel in 3D at a speed whose states were recorded: an instant, or the deflection shape of an engine order, with stress.
 
-import { api } from '../../lib/api.js';
+import { api, Refusal } from '../../lib/api.js';
 import { h, newId, replace } from '../../lib/dom.js';
+import { problem } from '../../lib/problem.js';
 import { showWheel } from '../../wheel/index.js';
 import { select } from './choices.js';
+import { recorder } from './histories.js';
 
 /** What colours show, and what is asked for: stress alone or with that of the centrifugal load, which only instants have. */
 const COLOURS = [
@@ -32,12 +34,19 @@ export async function show(place, context, signal) {
     order === '' ? h('p', { class: 'quiet small' }, 'Without an engine order: the instant at which a tip had moved most.') : null,
     wheel);
   const { length, force } = model.units;
-  await showWheel(wheel, {
-    path: `/v1/jobs/${job.id}/fields`,
-    query: { speed, engine_order: order, ...asked },
-    animated: order !== '',
-    scalar: asked.stress ? 'von_mises' : 'displacement',
-    words: asked.stress ? `${words}, ${force}/${length}²` : `displacement, ${length}`,
-    label: 'Wheel in 3D',
-  }, signal);
+  try {
+    await showWheel(wheel, {
+      path: `/v1/jobs/${job.id}/fields`,
+      query: { speed, engine_order: order, ...asked },
+      animated: order !== '',
+      scalar: asked.stress ? 'von_mises' : 'displacement',
+      words: asked.stress ? `${words}, ${force}/${length}²` : `displacement, ${length}`,
+      label: 'Wheel in 3D',
+    }, signal);
+  } catch (error) {
+    if (signal.aborted) return;
+    // What is asked for stays there to be changed.
+    const unrecorded = job.kind === 'sweep' && speed !== null && error instanceof Refusal && error.type.endsWith('history-not-recorded');
+    replace(wheel, unrecorded ? recorder(job, Number(speed), 'fields', signal) : problem(error));
+  }
 }

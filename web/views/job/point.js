@@ -3,11 +3,10 @@
 import { api, Refusal } from '../../lib/api.js';
 import { facts, h, replace } from '../../lib/dom.js';
 import { duration, number, percent, speed, speedLong } from '../../lib/format.js';
-import { again } from '../../lib/place.js';
 import { plot } from '../../lib/plot.js';
 import { problem } from '../../lib/problem.js';
 import { select, sensors } from './choices.js';
-import { QUANTITIES } from './histories.js';
+import { QUANTITIES, recorder } from './histories.js';
 import { points, SETTLING, VALIDITY } from './verdicts.js';
 
 export async function show(place, context, signal) {
@@ -76,21 +75,8 @@ async function showHistories(element, context, point, signal) {
     await plot(figure, await api.figure(`/v1/jobs/${job.id}/histories`, asked, { signal }), { signal, label: 'Histories' });
   } catch (error) {
     if (signal.aborted) return;
-    replace(figure, problem(error));
-    if (!(error instanceof Refusal) || !error.type.endsWith('history-not-recorded')) return;
-    const record = h('button', { type: 'button', on: { click: start } }, 'Record histories of this speed');
-    figure.append(record);
-  }
-  async function start(event) {
-    event.target.disabled = true;
-    try {
-      const body = { speeds: [point.index], quantities: ['displacement', 'velocity', 'contact_force', 'contact', 'energy', 'state'] };
-      await api.send('POST', `/v1/jobs/${job.id}/histories`, body, { signal });
-      again();
-    } catch (error) {
-      event.target.disabled = false;
-      if (!signal.aborted) figure.append(problem(error));
-    }
+    if (error instanceof Refusal && error.type.endsWith('history-not-recorded')) replace(figure, recorder(job, point.index, 'lines', signal));
+    else replace(figure, problem(error));
   }
 }
 

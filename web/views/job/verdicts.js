@@ -41,7 +41,7 @@ export async function verdicts(element, { job }, signal) {
   replace(element,
     h('h2', {}, 'What these numbers are worth'),
     facts([
-      ['Speeds', `${count(map.points.length, 'speed')} with a result${lost.length > 0 ? `, of which ${lost.length} diverged or failed` : ''}`],
+      ['Speeds', `${count(map.points.length, 'speed')} finished${lost.length > 0 ? `, of which ${lost.length} diverged or failed and have no amplitude` : ''}`],
       ['Settling', tally(map.points, (point) => point.settling?.verdict, SETTLING)],
       ['Linear theory', tally(map.points, (point) => point.validity?.verdict, VALIDITY)],
       ['Estimated error', errors ? `at most ${percent(errors.largest)}${errors.largest_of_stress ? `, of stress ${percent(errors.largest_of_stress)}` : ''}. ${errors.message}` : 'not estimated: the request asked for no control runs'],

@@ -22,7 +22,9 @@ export async function show(place, { model, query, go }, signal) {
         : h('span', { class: 'quiet' }, 'The casing and its clearance come with the first sweep of this model.'),
       select('Section', [['meridional', 'meridional'], ['cyclic', 'along the axis']], view, (chosen) => go({ section: chosen }))),
     section,
-    h('h2', {}, 'In 3D'), wheel);
+    h('h2', {}, 'In 3D'),
+    model.mesh ? null : h('p', { class: 'note' }, 'The package has no elements: of the wheel only its contact lines can be shown in 3D.'),
+    wheel);
   const path = `/v1/models/${model.id}/section`;
   const [figure, geometry, job] = await Promise.all([
     api.figure(path, { view, sweep }, { signal }),

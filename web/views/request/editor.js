@@ -29,8 +29,18 @@ export function editor(onEdit) {
       text.setAttribute('aria-invalid', 'true');
     }
   });
+  const element = h('details', {}, h('summary', {}, 'The request as JSON'), h('label', { for: id }, 'Request; the form follows what you write'), text, told);
   return {
-    element: h('details', {}, h('summary', {}, 'The request as JSON'), h('label', { for: id }, 'Request; the form follows what you write'), text, told),
+    element,
+    /** Whether there is a text that makes no sense; shows it then. */
+    isBroken() {
+      const broken = text.hasAttribute('aria-invalid');
+      if (broken) {
+        element.open = true;
+        text.focus();
+      }
+      return broken;
+    },
     /** Shows a request, unless it is being written. */
     show(value) {
       if (document.activeElement === text) return;

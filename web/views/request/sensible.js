@@ -47,7 +47,7 @@ export function beginning(pointer, model) {
     '/scene/damping': scene.damping,
     '/scene/friction': { coefficient: 0.15 },
     '/scene/orbit': { radius: round(0.1 * CLEARANCE * radius) },
-    '/scene/engine_order_excitation/-': { engine_order: 2, nodal_diameter: 2, amplitude: 1 },
+    '/scene/engine_order_excitation/-': { order: 2, contact_nodes: [0], component: 'axial', amplitude: 1 },
     '/record/stress': {},
     '/record/histories': { speeds: 'critical' },
     '/accuracy': { target: 0.01 },

@@ -3,6 +3,7 @@
 import { api, openapi, Refusal, submit } from '../../lib/api.js';
 import { h, newId, replace } from '../../lib/dom.js';
 import { form } from '../../lib/form/form.js';
+import { again } from '../../lib/place.js';
 import { problem } from '../../lib/problem.js';
 import { accuracyDial } from './accuracy.js';
 import { editor } from './editor.js';
@@ -26,14 +27,18 @@ const GROUPS = [
  */
 export async function requestForm(place, { model, kind, value, words }, signal) {
   const definitions = (await openapi()).components.schemas;
+  // What was filled in is there again after a reload and when one comes back, in this tab.
+  const draft = `draft ${location.hash}`;
+  const begun = JSON.parse(sessionStorage.getItem(draft) ?? 'null') ?? value;
   const plan = kind.plan ? planAside(kind.plan, planned, signal) : null;
   const initial = (pointer) => beginning(pointer, model);
   const cost = kind.priced ? prices(kind.plan, model, signal) : null;
   const dial = kind.priced ? accuracyDial(kind.plan, chooseAccuracy, signal) : null;
   const told = h('div');
+  const unsent = h('div');
   const fields = form({
     schema: { $ref: `#/components/schemas/${kind.schema}` },
-    definitions, value, initial,
+    definitions, value: begun, initial,
     skip: ['/model', '/accuracy'].slice(0, kind.priced ? 2 : 1),
     beside: cost?.beside,
     groups: GROUPS,
@@ -45,14 +50,20 @@ export async function requestForm(place, { model, kind, value, words }, signal) 
     changed(now, json);
   });
   const button = h('button', { type: 'submit', class: 'main' }, 'Start');
-  const element = h('form', { novalidate: true, on: { submit: start } }, dial?.element, fields.element, json.element, told, h('div', { class: 'row' }, button));
-  replace(place, words ? h('p', {}, words) : null, h('div', { class: 'columns' }, element, plan?.element));
-  changed(value, null);
+  const element = h('form', { novalidate: true, on: { submit: start } }, dial?.element, fields.element, json.element, told, unsent, h('div', { class: 'row' }, button));
+  const anew = h('button', { type: 'button', on: { click: startAnew } }, 'Begin anew');
+  replace(place, begun === value ? null : h('p', { class: 'note', role: 'status' }, 'This is what you had filled in here. ', anew), words ? h('p', {}, words) : null, h('div', { class: 'columns' }, element, plan?.element));
+  changed(begun, null);
 
   function changed(now, by) {
+    if (now !== begun) sessionStorage.setItem(draft, JSON.stringify(now));
     if (by !== json) json.show(now);
     dial?.show(now);
     plan?.refresh(now);
+  }
+  function startAnew() {
+    sessionStorage.removeItem(draft);
+    again();
   }
   function planned({ plan: found, refusal }) {
     const homeless = fields.complain(refusal?.errors ?? [], false);
@@ -70,10 +81,14 @@ export async function requestForm(place, { model, kind, value, words }, signal) 
   async function start(event) {
     event.preventDefault();
     if (button.disabled) return;
+    const broken = json.isBroken();
+    replace(unsent, broken ? h('p', { class: 'note bad', role: 'alert' }, 'The JSON of the request is not complete: mend it, or undo what was written there.') : null);
+    if (broken) return;
     button.disabled = true;
     replace(told);
     try {
       const { id } = await submit(kind.path, fields.value(), signal);
+      sessionStorage.removeItem(draft);
       location.hash = `#/jobs/${id}`;
     } catch (error) {
       if (signal.aborted) return;
@@ -84,6 +99,14 @@ export async function requestForm(place, { model, kind, value, words }, signal) 
       button.disabled = false;
     }
   }
+}
+
+/** What was asked for of a job: an accuracy or a budget in the place of the setting that was chosen for it. */
+export function askedOf(job) {
+  const asked = job.choice ?? {};
+  const request = { ...job.request, model: job.model };
+  if (asked.accuracy) return { ...withoutKnobs(request), accuracy: asked.accuracy };
+  return asked.budget ? { ...withoutKnobs(request), budget: asked.budget } : request;
 }
 
 /** What an accuracy stands in the place of. */

@@ -142,15 +142,15 @@ class Sweep(Planned, _Recorded):
         """Critical speeds of the wheel as a whole: the worst contact node, component and blade of each."""
         return table(self.arrays("critical-speeds/wheel", **query), "speed_rad_s")
 
-    def record(self, request: HistoriesRequest) -> Sweep:
-        """Has histories recorded of a sweep that has ended: by another one, which is returned when it is submitted.
+    def record(self, request: HistoriesRequest) -> CaseStudy:
+        """Has histories recorded of a sweep that has ended: by a case study, which is returned when it is submitted.
 
         Raises:
             Refusal: the sweep was not successful, or has no such speeds.
         """
         path = f"{self._own()}/histories"
         made = self._service.post(path, cast(Mapping[str, Any], request), str(uuid.uuid4()))
-        return Sweep(self._service, None, str(made["id"]))
+        return CaseStudy(self._service, None, str(made["id"]))
 
     def forces(self) -> xr.Dataset:
         """Contact over ``speed`` and ``contact_node``, of every node its worst blade: peak force, impulse, share of time, clearance consumed."""
