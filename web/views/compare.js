@@ -59,7 +59,7 @@ async function comparable([first, ...others], signal) {
     const sensor = other.map.settings.sensors.findIndex((each) => same(each, first.map.settings.sensors[first.sensor]));
     const factor = lengthIn(other.map.units.length, first.map.units.length);
     if (sensor < 0) {
-      warnings.push(`${other.name} is left out: it has no sensor like the first of ${first.name} (${sensorWords(first.map.sensor, 0)}).`);
+      warnings.push(`${other.name} is left out: it has no sensor like the first of ${first.name} (${sensorWords(first.map.sensor)}).`);
     } else if (factor === null) {
       warnings.push(`${other.name} is left out: ${other.map.units.length} cannot be told in ${first.map.units.length}.`);
     } else {
@@ -106,7 +106,7 @@ async function compare(element, lost, { jobs, warnings }, signal) {
   const told = h('div');
   replace(element,
     lost, warnings.map((words) => h('p', { class: 'note warning', role: 'alert' }, words)),
-    h('p', { class: 'quiet' }, `Seen by ${sensorWords(jobs[0].map.sensor, 0)}; amplitudes in ${jobs[0].map.units.length}.`),
+    h('p', { class: 'quiet' }, `Seen by ${sensorWords(jobs[0].map.sensor)}; amplitudes in ${jobs[0].map.units.length}.`),
     h('h2', {}, 'Level over speed'), level, measuredForm(told, jobs[0].map.units.length, show), told,
     jobs.length > 1 ? [h('h2', {}, 'Difference of the maps'), apartNote, apart] : null,
     h('h2', {}, 'Critical speeds'), criticalTable(jobs),
