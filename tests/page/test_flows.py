@@ -117,6 +117,16 @@ def test_sweeps_are_compared_and_a_measurement_laid_over(service, swept, model, 
     page.get_by_text(re.compile("2 points|2 rows|measured", re.I)).first.wait_for()
 
 
+def test_a_search_goes_on_being_written(service, new_page):
+    for view in ("jobs", "models"):
+        page = new_page(f"{service.url}/#/{view}")
+        page.get_by_label("Name has").press_sequentially("no")
+        page.wait_for_url("**name=no")
+        page.keyboard.type("pe")
+        page.wait_for_url("**name=nope")
+        assert page.get_by_label("Name has").input_value() == "nope"
+
+
 def test_what_a_job_is_called_is_changed(service, model, new_page):
     job = service.call("POST", "/v1/sweeps", sweep_of(model, name="before", speeds={"values": [20000], "unit": "rpm"}, record={}))["id"]
     service.finish(job)

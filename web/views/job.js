@@ -100,17 +100,20 @@ export function remaining(job) {
   return spent * (100 / job.progress - 1);
 }
 
-/** Shows how far a job is, again and again. Its buttons are made once for each status: one that has the focus keeps it. */
+/** Shows how far a job is, again and again. Its buttons are made anew only when it has ended: one that has the focus keeps it. */
 function stateView(element, signal) {
+  const tag = h('span');
   const words = h('span');
   const bar = h('progress', { max: 100, 'aria-label': 'Progress' });
   const lost = h('p', { class: 'note warning' });
-  let status = null;
+  let going = null;
   return (job) => {
-    if (job.status !== status) {
-      status = job.status;
+    if (running(job) !== going) {
+      going = running(job);
       frame(job);
     }
+    tag.className = `tag ${{ successful: 'good', failed: 'bad' }[job.status] ?? ''}`;
+    replace(tag, STATUSES[job.status] ?? job.status);
     const { speeds } = job;
     const left = remaining(job);
     replace(words, running(job) ? `${job.progress} %${job.phase ? ` · ${job.phase}` : ''}${left ? ` · about ${duration(left)} left` : ''}`
@@ -126,8 +129,7 @@ function stateView(element, signal) {
     else words.removeAttribute('role');
     words.className = running(job) ? '' : 'quiet';
     replace(element,
-      h('div', { class: 'row' },
-        h('span', { class: `tag ${{ successful: 'good', failed: 'bad' }[job.status] ?? ''}` }, STATUSES[job.status] ?? job.status), words),
+      h('div', { class: 'row' }, tag, words),
       running(job) ? bar : null,
       lost,
       job.error ? h('div', { class: 'note bad', role: 'alert' }, h('strong', {}, job.error.title), ' ', job.error.detail) : null,

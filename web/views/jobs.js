@@ -1,11 +1,12 @@
 // All jobs, kept up to date.
 
 import { api } from '../lib/api.js';
-import { debounced, h, newId, replace } from '../lib/dom.js';
+import { h, replace } from '../lib/dom.js';
 import { ended, poll } from '../lib/events.js';
 import { bytes, count, duration, KINDS, moment, nameOf } from '../lib/format.js';
 import { cursorOf, placeWith } from '../lib/place.js';
 import { problem } from '../lib/problem.js';
+import { searchField } from '../lib/search.js';
 import { remaining, STATUSES } from './job.js';
 import { actions } from './job/actions.js';
 import { select } from './job/choices.js';
@@ -69,12 +70,7 @@ export async function show(main, { query }, signal) {
 function filters(query, signal) {
   const go = (changes) => { location.hash = placeWith('jobs', query, { cursor: null, ...changes }); };
   const all = [['', 'all']];
-  const search = (parameter, words) => {
-    const id = newId(parameter);
-    const field = h('input', { id, type: 'search', size: 14, value: query.get(parameter) ?? '' });
-    field.addEventListener('input', debounced(() => go({ [parameter]: field.value }), 500, signal));
-    return h('span', {}, h('label', { for: id }, `${words} `), field);
-  };
+  const search = (name, label) => searchField({ name, label, value: query.get(name) }, (text) => go({ [name]: text }), signal);
   return h('div', { class: 'row', role: 'search' },
     select('Status', [...all, ...Object.entries(STATUSES)], query.get('status') ?? '', (status) => go({ status })),
     select('Kind', [...all, ...Object.entries(KINDS)], query.get('kind') ?? '', (kind) => go({ kind })),

@@ -2,10 +2,11 @@
 
 import { api, Away, Refusal } from '../lib/api.js';
 import { confirmed } from '../lib/confirm.js';
-import { debounced, facts, h, newId, replace } from '../lib/dom.js';
+import { facts, h, newId, replace } from '../lib/dom.js';
 import { bytes, moment, number, percent, rpm } from '../lib/format.js';
 import { cursorOf, placeWith } from '../lib/place.js';
 import { problem } from '../lib/problem.js';
+import { searchField } from '../lib/search.js';
 import { upload } from '../lib/upload.js';
 
 /** Models of a page. */
@@ -33,10 +34,9 @@ export async function show(main, { query }, signal) {
 }
 
 function filter(query, signal) {
-  const id = newId('name');
-  const name = h('input', { id, type: 'search', value: query.get('name') ?? '' });
-  name.addEventListener('input', debounced(() => { location.hash = placeWith('models', query, { name: name.value, cursor: null }); }, 500, signal));
-  return h('div', { class: 'row', role: 'search' }, h('label', { for: id }, 'Name has'), name);
+  const go = (changes) => { location.hash = placeWith('models', query, { cursor: null, ...changes }); };
+  const search = (name, label) => searchField({ name, label, value: query.get(name) }, (text) => go({ [name]: text }), signal);
+  return h('div', { class: 'row', role: 'search' }, search('name', 'Name has'), search('tag', 'Tag'));
 }
 
 function introduction() {
