@@ -44,7 +44,18 @@ async function read(id, sensor, signal) {
     api.get(`/v1/jobs/${id}/interaction-map`, { query, signal }),
     api.get(`/v1/jobs/${id}/critical-speeds`, { query, signal }),
   ]);
-  return { id, name: nameOf(job), job, map, critical, sensor };
+  return { id, name: nameOf(job), job, map: ascending(map), critical, sensor };
+}
+
+/** A map whose speeds ascend: in a request a finer range may come after a coarse one, and refinement adds speeds at the end. */
+function ascending(map) {
+  const order = map.speeds_rad_s.map((_, k) => k).sort((a, b) => map.speeds_rad_s[a] - map.speeds_rad_s[b]);
+  return {
+    ...map,
+    speeds_rad_s: order.map((k) => map.speeds_rad_s[k]),
+    amplitude: order.map((k) => map.amplitude[k]),
+    points: map.points.toSorted((a, b) => a.speed_rad_s - b.speed_rad_s),
+  };
 }
 
 /**

@@ -139,7 +139,7 @@ function stateView(element, signal) {
         labelsButton(`/v1/jobs/${job.id}`, job, again, signal),
         actions(job, { told, deleted: () => { location.hash = '#/jobs'; } }, signal)),
       told,
-      job.notes ? facts([['Notes', job.notes], ['Tags', job.tags.join(', ')]]) : null);
+      facts([['Notes', job.notes], ['Tags', (job.tags ?? []).join(', ')]]));
   }
 }
 

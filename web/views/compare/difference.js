@@ -36,7 +36,7 @@ export function difference(a, b) {
     const there = between(b.map, omega, other);
     return here === null || there === null ? null : there - here;
   }));
-  const largest = Math.max(0, ...z.flat().map((value) => Math.abs(value ?? 0)));
+  const largest = z.flat().reduce((most, value) => Math.max(most, Math.abs(value ?? 0)), 0);
   const unit = a.map.units.length;
   return {
     words: `${b.name} less ${a.name}, at the ${rows.length} speeds of ${a.name} from ${speed(rows[0][0])} to ${speed(rows.at(-1)[0])} that lie within ${b.name}, and at the engine orders of both; `

@@ -8,8 +8,7 @@ export function levels(jobs, measured) {
   const unit = jobs[0].map.units.length;
   const data = jobs.map(({ name, map, sensor }) => {
     const errors = new Map((map.errors?.points ?? []).map((point) => [point.index, point.estimated_error]));
-    // In the request a finer range may come after a coarse one.
-    const points = map.points.toSorted((a, b) => a.speed_rad_s - b.speed_rad_s);
+    const { points } = map;
     // A speed without a result is a gap.
     const y = points.map((point) => point.responses[sensor]?.half_peak_to_peak ?? null);
     return {

@@ -72,11 +72,16 @@ export async function show(place, context, signal) {
     }
   }
   let timer = 0;
+  // Whether the map has changed while nobody saw it.
+  let missed = false;
   signal.addEventListener('abort', () => clearTimeout(timer));
   function soon() {
     clearTimeout(timer);
     const wait = ended(context.now()) ? 0 : Math.max(0, last + PAUSE_MS - Date.now());
-    timer = setTimeout(() => signal.aborted || document.hidden || refresh(), wait);
+    timer = setTimeout(() => {
+      missed = document.hidden;
+      if (!signal.aborted && !missed) refresh();
+    }, wait);
   }
 
   let finished = job.speeds?.finished ?? 0;
@@ -85,7 +90,7 @@ export async function show(place, context, signal) {
     finished = now.speeds?.finished ?? 0;
     if (grown || ended(now)) soon();
   });
-  document.addEventListener('visibilitychange', () => !document.hidden && !ended(context.now()) && soon(), { signal });
+  document.addEventListener('visibilitychange', () => !document.hidden && missed && soon(), { signal });
   await refresh();
 }
 

@@ -36,6 +36,10 @@ export async function requestForm(place, { model, kind, value, words }, signal) 
   const dial = kind.priced ? accuracyDial(kind.plan, chooseAccuracy, signal) : null;
   const told = h('div');
   const unsent = h('div');
+  const json = editor((now) => {
+    fields.set(now);
+    changed(now, json);
+  });
   const fields = form({
     schema: { $ref: `#/components/schemas/${kind.schema}` },
     definitions, value: begun, initial,
@@ -44,10 +48,6 @@ export async function requestForm(place, { model, kind, value, words }, signal) 
     groups: GROUPS,
     open: ['/speeds', '/speed', '/scene', '/grid'],
     onChange: (now) => changed(now, null),
-  });
-  const json = editor((now) => {
-    fields.set(now);
-    changed(now, json);
   });
   const button = h('button', { type: 'submit', class: 'main' }, 'Start');
   const element = h('form', { novalidate: true, on: { submit: start } }, dial?.element, fields.element, json.element, told, unsent, h('div', { class: 'row' }, button));

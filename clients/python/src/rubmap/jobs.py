@@ -151,6 +151,7 @@ class Job:
                 # What stands between may end the stream, or keep it to itself: then the job is looked at now and then.
                 with suppress(httpx.TransportError):
                     for state in self._events(end):
+                        answered = time.monotonic()
                         yield state
                         if state["status"] in _ENDED:
                             return
