@@ -1,7 +1,7 @@
 // Units of length by their names.
 
 /** Sizes in metres. */
-const LENGTHS = { m: 1, dm: 0.1, cm: 0.01, mm: 1e-3, um: 1e-6, µm: 1e-6, μm: 1e-6, mil: 25.4e-6, in: 0.0254, inch: 0.0254, ft: 0.3048 };
+const LENGTHS = { m: 1, dm: 0.1, cm: 0.01, mm: 1e-3, um: 1e-6, nm: 1e-9, µm: 1e-6, μm: 1e-6, mil: 25.4e-6, in: 0.0254, inch: 0.0254, ft: 0.3048, foot: 0.3048, meter: 1, metre: 1, millimeter: 1e-3, millimetre: 1e-3 };
 
 /** How many of the unit `to` are one of `from`; nothing where a name is not known. */
 export function lengthIn(from, to) {

@@ -28,9 +28,9 @@ export function field(name, schema, control, { extra, words } = {}) {
   };
 }
 
-/** What a text says as a number; `undefined` for nothing, `null` for what is none. */
+/** What a text says as a number; `undefined` for nothing, `null` for what is none: a comma may part thousands or decimals. */
 function readNumber(text) {
-  const words = text.trim().replace(',', '.');
+  const words = text.trim();
   if (words === '') return undefined;
   const value = Number(words);
   return Number.isFinite(value) ? value : null;

@@ -20,15 +20,19 @@ function speedUnit(words) {
   return /hz|1\/s/i.test(words) ? 'hz' : null;
 }
 
-/** The unit of a length that a header names. */
+/** The unit of a length that a header names: what is in brackets, whatever it is, or a unit as its last word. */
 function lengthUnit(words) {
-  return /(?:^|[^a-zµμ])(mm|[uµμ]m|m|mil|in)(?:$|[^a-z])/i.exec(words.replaceAll('_', ' '))?.[1] ?? null;
+  const bracketed = /[[(]\s*(?:in\s+)?([^\])]*?)\s*[\])]/i.exec(words)?.[1];
+  if (bracketed) return bracketed;
+  const last = words.trim().split(/[\s_,]+/).at(-1);
+  return lengthIn(last, 'm') === null ? null : last;
 }
 
-/** Cells of a line. Where columns are parted by semicolons or tabs, a comma is a decimal one. */
+/** Cells of a line, which may be quoted. Where columns are parted by semicolons or tabs, a comma is a decimal one. */
 function cellsOf(line) {
   const parting = line.includes(';') ? ';' : line.includes('\t') ? '\t' : ',';
-  const cells = line.split(parting).map((cell) => cell.trim().replace(/^"|"$/g, ''));
+  const cells = line.match(new RegExp(`(?:^|${parting})(?:\\s*"[^"]*"|[^${parting}]*)`, 'g'))
+    .map((cell, k) => (k > 0 || cell.startsWith(parting) ? cell.slice(1) : cell).trim().replace(/^"|"$/g, ''));
   return parting === ',' ? cells : cells.map((cell) => cell.replace(',', '.'));
 }
 
@@ -88,6 +92,7 @@ function said({ points, bad, header, at, used, own, factor, length }) {
   if (at.frequency !== undefined) taken.push(`frequency from ${column('frequency')}`);
   if (at.amplitude !== undefined) {
     taken.push(factor === null ? `no amplitude: ${own} cannot be told in ${length}` : `amplitude from ${column('amplitude')} ${own ? `in ${own}` : `taken for ${length}`}`);
+    if (header && /rms/i.test(header[at.amplitude])) taken.push('an rms value, beside curves of half peak to peak');
   }
   const speeds = points.map((point) => point.rpm);
   const range = points.length > 0 ? `, ${Math.round(Math.min(...speeds))} to ${Math.round(Math.max(...speeds))} rpm` : '';
