@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use utoipa::openapi::path::Parameter;
 use utoipa::openapi::{
     ArrayBuilder, ContentBuilder, HeaderBuilder, Object, ObjectBuilder, Ref, RefOr, Response,
-    ResponseBuilder, Type,
+    ResponseBuilder, Schema, Type,
 };
 
 use super::form::Form;
@@ -15,11 +15,13 @@ use super::router::routes;
 /// The `OpenAPI` document of the service.
 pub fn document() -> utoipa::openapi::OpenApi {
     let mut document = routes().into_openapi();
-    for path in document.paths.paths.values_mut() {
-        let operations = [&mut path.get, &mut path.post, &mut path.put, &mut path.patch, &mut path.delete];
+    for (path, item) in &mut document.paths.paths {
+        let operations = [&mut item.get, &mut item.post, &mut item.put, &mut item.patch, &mut item.delete];
         for operation in operations.into_iter().flatten() {
-            if operation.parameters.iter().flatten().any(has_form) {
-                add_forms(&mut operation.responses.responses);
+            if let Some(wanted) = operation.parameters.iter_mut().flatten().find_map(form_wanted) {
+                let forms = forms_of(path);
+                wanted.enum_values = Some(forms.iter().map(|form| form.word().into()).collect());
+                add_forms(&mut operation.responses.responses, forms);
             }
             add_common_answers(&mut operation.responses.responses);
         }
@@ -37,15 +39,33 @@ fn figure() -> Object {
         .build()
 }
 
-/// Whether this parameter says in which form a result is wanted.
-fn has_form(parameter: &RefOr<Parameter>) -> bool {
-    matches!(parameter, RefOr::T(parameter) if parameter.name == "format")
+/// What a parameter that says in which form a result is wanted takes.
+fn form_wanted(parameter: &mut RefOr<Parameter>) -> Option<&mut Object> {
+    match parameter {
+        RefOr::T(Parameter { name, schema: Some(RefOr::T(Schema::Object(words))), .. })
+            if name == "format" =>
+        {
+            Some(words)
+        }
+        _ => None,
+    }
+}
+
+/// The forms of a route's result: those that its handler chooses from.
+fn forms_of(path: &str) -> &'static [Form] {
+    match path.rsplit('/').next() {
+        Some("fields") => &Form::FIELDS,
+        Some("modes") => &Form::LIST_AND_FIELDS,
+        Some("mesh") => &Form::MESH,
+        Some("wheel") => &Form::NUMBERS,
+        _ => &Form::ALL,
+    }
 }
 
 /// The forms of a result beside its json, and what goes with them.
-fn add_forms(responses: &mut BTreeMap<String, RefOr<Response>>) {
+fn add_forms(responses: &mut BTreeMap<String, RefOr<Response>>, forms: &[Form]) {
     if let Some(RefOr::T(answer)) = responses.get_mut("200") {
-        for form in Form::ALL.into_iter().filter(|form| *form != Form::Json) {
+        for form in forms.iter().filter(|form| **form != Form::Json) {
             // Of what is no text there is nothing more to say (OpenAPI 3.1, 4.8.14).
             let schema = match form {
                 Form::Csv | Form::Svg => Some(Object::with_type(Type::String)),
@@ -64,7 +84,8 @@ fn add_forms(responses: &mut BTreeMap<String, RefOr<Response>>) {
     let unchanged =
         ResponseBuilder::new().description("The client has it: its `If-None-Match` names the ETag.");
     responses.insert("304".to_owned(), unchanged.build().into());
-    let refused = "The result does not come in the form that `format` or `Accept` asks for; `detail` says in which it does.";
+    let refused =
+        "The result does not come in the form that `Accept` asks for; `detail` says in which it does.";
     responses.insert("406".to_owned(), problem(refused));
 }
 

@@ -36,8 +36,7 @@ const FIGURE_BYTES: u64 = 32 << 20;
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 pub(super) struct DownloadQuery {
-    /// Form of the result; by default the one that the `Accept` header prefers, json if that says nothing. A form that the result does
-    /// not have is refused with 406.
+    /// Form of the result; by default the one that the `Accept` header prefers, and if that says nothing the first.
     #[param(inline)]
     format: Option<Form>,
     /// Of a png: its width in pixels; default 1200.

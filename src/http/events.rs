@@ -26,7 +26,7 @@ use crate::store::jobs::JobId;
 use crate::tokens::Principal;
 
 /// Least time between two events of a job: nobody reads faster.
-const BETWEEN_EVENTS: Duration = Duration::from_millis(300);
+const BETWEEN_EVENTS: Duration = Duration::from_millis(334);
 
 /// Time between two attempts to read a job.
 const BETWEEN_ATTEMPTS: Duration = Duration::from_secs(1);

@@ -148,7 +148,7 @@ async fn a_wheel_is_closed_and_its_modes_are_where_they_belong() {
         assert_eq!(items[0]["parameter"], parameter, "{query}");
     }
     for form in ["csv", "plotly"] {
-        api.get(&format!("{modes}?format={form}")).await.problem(406, "not-acceptable");
+        api.get(&format!("{modes}?format={form}")).await.problem(400, "invalid-parameter");
     }
 
     let mode = format!("{modes}?speed_rad_s=1000&nodal_diameter=2&mode=1&motion=travelling&stress=true");
@@ -397,7 +397,7 @@ async fn a_recorded_run_gives_instants_and_deflection_shapes() {
     }
     api.get(&format!("{path}?speed=3")).await.problem(404, "history-not-recorded");
     for form in ["json", "plotly"] {
-        api.get(&format!("{path}?format={form}")).await.problem(406, "not-acceptable");
+        api.get(&format!("{path}?format={form}")).await.problem(400, "invalid-parameter");
     }
     // The mean of the history is the shape of engine order 0.
     let mean = Npz::read(&raw(api, &format!("{path}?engine_order=0&sector=2&format=npz")).await);

@@ -178,6 +178,37 @@ async fn every_result_comes_in_every_form() {
 }
 
 #[tokio::test]
+async fn the_contract_names_the_forms_that_a_route_has() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(model::package(1.0)).await;
+    let mut request = sweep_of(&model);
+    request["record"] = json!({"histories": {"speeds": [0], "quantities": ["state"]}});
+    let sweep = job(api, "/v1/sweeps", &request).await;
+    let contract = api.get("/openapi.json").await.body;
+    for (route, id, query) in [
+        ("/v1/models/{id}/section", &model, ""),
+        ("/v1/models/{id}/mesh", &model, ""),
+        ("/v1/models/{id}/modes", &model, ""),
+        ("/v1/jobs/{id}/interaction-map", &sweep, ""),
+        ("/v1/jobs/{id}/critical-speeds/wheel", &sweep, ""),
+        ("/v1/jobs/{id}/fields", &sweep, "speed=0&engine_order=2"),
+    ] {
+        let parameters = contract["paths"][route]["get"]["parameters"].as_array().unwrap();
+        let format = parameters.iter().find(|parameter| parameter["name"] == "format").unwrap();
+        let named = format["schema"]["enum"].as_array().unwrap();
+        for form in ["json", "csv", "npz", "svg", "png", "plotly", "vtu", "vtp", "pvd"] {
+            let asked = format!("{}?format={form}&{query}", route.replace("{id}", id));
+            let raw = get(api, &asked, &[]).await;
+            let refused = raw.status == 400 && raw.text().contains("format: expected one of");
+            assert_eq!(!refused, named.iter().any(|word| word == form), "{asked}: {}", raw.status);
+            assert_ne!(raw.status, 406, "{asked}");
+        }
+    }
+    app.stop().await;
+}
+
+#[tokio::test]
 async fn what_is_selected_is_a_part_of_the_whole() {
     let app = TestApp::start().await;
     let api = &app.api;

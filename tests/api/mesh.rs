@@ -44,7 +44,7 @@ async fn a_mesh_is_the_one_of_the_package() {
     assert_eq!(arrays.array("position").reals(), sector.reals("Points"));
     assert_eq!(arrays.array("contact").whole().iter().filter(|place| **place > 0).count(), contact(&sector));
 
-    api.get(&format!("{mesh}?format=svg")).await.problem(406, "not-acceptable");
+    api.get(&format!("{mesh}?format=svg")).await.problem(400, "invalid-parameter");
     api.get(&format!("{mesh}?sector={SECTORS}")).await.problem(400, "invalid-parameter");
     api.get("/v1/models/nothing/mesh").await.problem(404, "model-not-found");
     let tagged = api.request("GET", &mesh).send().await.unwrap();

@@ -2,6 +2,7 @@
 
 import { token, signOut } from './session.js';
 import { isBack, isAway } from './away.js';
+import { pause } from './dom.js';
 
 /** A request that the service refused, in the words of RFC 9457; `errors` has pointers, parameters, files and rows. */
 export class Refusal extends Error {
@@ -86,7 +87,7 @@ export const api = {
   async text(path, options = {}) {
     return (await request(path, options)).text();
   },
-  /** File of a path, with its name. */
+  /** File of a path. */
   async blob(path, options = {}) {
     return (await request(path, options)).blob();
   },
@@ -96,6 +97,11 @@ export const api = {
   },
 };
 
+/** Whether something that failed may succeed when it is asked for again. */
+export function passing(error) {
+  return error instanceof Away || (error instanceof Refusal && [429, 502, 503, 504].includes(error.status));
+}
+
 /** Sends a submission until the service has answered; with one key, so that it becomes one job however often it is sent. */
 export async function submit(path, body, signal) {
   const idempotencyKey = crypto.randomUUID?.() ?? `${Date.now()}-${Math.random()}`;
@@ -103,10 +109,8 @@ export async function submit(path, body, signal) {
     try {
       return await api.send('POST', path, body, { signal, idempotencyKey });
     } catch (error) {
-      const again = error instanceof Away || (error instanceof Refusal && [429, 503].includes(error.status));
-      if (!again || attempt >= 5) throw error;
-      await new Promise((resolve) => setTimeout(resolve, 1000 * (error.retryAfter || 2 ** attempt)));
-      signal?.throwIfAborted();
+      if (!passing(error) || attempt >= 5) throw error;
+      await pause(1000 * (error.retryAfter || 2 ** attempt), signal);
     }
   }
 }
@@ -121,6 +125,16 @@ export async function part(load) {
     isAway();
     throw new Away(error.message);
   }
+}
+
+/** The forms of a result that the contract names, by its path; none where it has one form only. */
+export function formsOf(path, contract) {
+  const words = path.split('?')[0].split('/');
+  const route = Object.entries(contract.paths).find(([pattern]) => {
+    const parts = pattern.split('/');
+    return parts.length === words.length && parts.every((one, k) => one.startsWith('{') || one === words[k]);
+  });
+  return route?.[1].get?.parameters?.find((parameter) => parameter.name === 'format')?.schema.enum ?? [];
 }
 
 let contract = null;

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import zipfile
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import httpx
 import matplotlib
 import numpy as np
 import pytest
@@ -13,6 +15,8 @@ from conftest import SCENE, sweep_of
 
 import rubmap
 from rubmap import plot
+from rubmap.download import download
+from rubmap.service import Service
 
 matplotlib.use("Agg")
 
@@ -85,7 +89,7 @@ def test_files_are_whole(swept: rubmap.Sweep, model: rubmap.Model, tmp_path: Pat
     assert b"PolyData" in model.download("mesh", tmp_path / "mesh.vtp").read_bytes()[:400]
     with pytest.raises(rubmap.Refusal) as refused:
         swept.download("interaction-map", tmp_path / "map.vtu")
-    assert refused.value.status == 406
+    assert refused.value.status == 400
     assert sorted(path.name for path in tmp_path.iterdir()) == [
         "all.zip",
         "map.svg",
@@ -140,3 +144,21 @@ def test_a_case_study_and_a_study(client: rubmap.Client, model: rubmap.Model) ->
     table = study.submit().wait(progress=False).work_precision()
     assert len(table) > 0 and "time_s" in table
     plot.work_precision(table)
+
+
+def test_a_download_is_asked_for_again_and_keeps_what_a_file_is(tmp_path: Path) -> None:
+    """The first answer is of a gateway that does not reach the service, the second breaks off."""
+
+    def broken() -> Iterator[bytes]:
+        yield b"half"
+        raise httpx.ReadError("lost")
+
+    answers = [httpx.Response(502), httpx.Response(200, content=broken()), httpx.Response(200, content=b"whole")]
+    service = Service("http://nowhere", patience=5.0)
+    service._http = httpx.Client(base_url="http://nowhere", transport=httpx.MockTransport(lambda _: answers.pop(0)))
+    (tmp_path / "link").symlink_to(tmp_path / "file")
+    assert download(service, "/v1", tmp_path / "link").read_bytes() == b"whole"
+    assert (tmp_path / "link").is_symlink() and not answers
+    (tmp_path / "another").touch()
+    assert (tmp_path / "file").stat().st_mode == (tmp_path / "another").stat().st_mode
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["another", "file", "link"]

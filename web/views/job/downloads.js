@@ -1,6 +1,6 @@
 // Every result in every form that it has, as the contract lists them.
 
-import { openapi } from '../../lib/api.js';
+import { formsOf, openapi } from '../../lib/api.js';
 import { h, replace } from '../../lib/dom.js';
 import { download } from '../../lib/download.js';
 import { problem } from '../../lib/problem.js';
@@ -16,7 +16,7 @@ export async function show(place, { job }, signal) {
   const told = h('div', { 'aria-live': 'polite' });
   const speeds = h('input', { type: 'number', id: 'download-speed', min: 0, max: Math.max(0, (job.speeds?.total ?? 1) - 1), value: 0 });
   const indexed = job.links.some((link) => link.href.includes('{index}'));
-  const items = job.links.filter((link) => link.rel !== 'self' && !link.rel.includes('plan') && link.rel !== 'events').map((link) => item(link, contract, job, { told, speeds }, signal));
+  const items = job.links.filter((link) => link.rel !== 'self').map((link) => item(link, contract, job, { told, speeds }, signal));
   replace(place,
     indexed ? h('p', {}, h('label', { for: 'download-speed' }, 'Index of the speed, where a result is of one: '), speeds) : null,
     items.length > 0 ? h('ul', { class: 'cards' }, items) : h('p', { class: 'note' }, 'There is nothing to download yet.'),
@@ -43,23 +43,4 @@ function item(link, contract, job, { told, speeds }, signal) {
     }
   }
   return h('li', { class: 'card' }, h('h2', {}, words), h('div', { class: 'row' }, forms.length > 0 ? forms.map(button) : button(null)));
-}
-
-/** The forms of a route: the values of its parameter `format` that its answers have, or none where it has no such parameter. */
-function formsOf(href, contract) {
-  const words = href.split('?')[0].split('/');
-  const route = Object.entries(contract.paths).find(([pattern]) => {
-    const parts = pattern.split('/');
-    return parts.length === words.length && parts.every((part, k) => part.startsWith('{') || part === words[k]);
-  });
-  const operation = route?.[1].get;
-  const format = operation?.parameters?.find((parameter) => parameter.name === 'format');
-  if (!format) return [];
-  const fields = /fields$|modes$/.test(words.join('/'));
-  const all = format.schema.enum ?? [];
-  // The contract has one list for all routes; which a route has follows from its kind.
-  const field = ['vtu', 'vtp', 'pvd'];
-  const drawn = ['svg', 'png', 'plotly'];
-  const table = /critical-speeds\/wheel$/.test(words.join('/'));
-  return all.filter((form) => (fields ? !['csv', 'plotly'].includes(form) : !field.includes(form) && !(table && drawn.includes(form))));
 }

@@ -1,17 +1,16 @@
 // Files of a model.
 
+import { formsOf, openapi } from '../../lib/api.js';
 import { h, replace } from '../../lib/dom.js';
 import { downloadButton } from '../../lib/download.js';
 
-const FILES = [
-  ['Mesh of the wheel', 'mesh', ['vtu', 'vtp', 'npz']],
-  ['Nodes and section', 'section', ['json', 'csv', 'npz', 'svg', 'png']],
-  ['Natural frequencies', 'modes', ['json']],
-];
+const FILES = [['Mesh of the wheel', 'mesh'], ['Nodes and section', 'section']];
 
-export function show(place, { model }, signal) {
-  const files = FILES.filter(([, name]) => name !== 'modes' || model.reductions.length > 0);
-  replace(place, h('ul', { class: 'plain cards' }, files.map(([words, name, forms]) => h('li', { class: 'card' },
-    h('h2', {}, words),
-    h('div', { class: 'row' }, forms.map((form) => downloadButton(form, `/v1/models/${model.id}/${name}`, { format: form }, `${model.id.slice(0, 12)}-${name}.${form}`, signal)))))));
+export async function show(place, { model }, signal) {
+  const contract = await openapi();
+  const file = (name, form) => downloadButton(form, `/v1/models/${model.id}/${name}`, { format: form }, `${model.id.slice(0, 12)}-${name}.${form}`, signal);
+  const cards = FILES.map(([words, name]) => [words, formsOf(`/v1/models/${model.id}/${name}`, contract).map((form) => file(name, form))]);
+  // Files of a mode are on the view of modes.
+  if (model.reductions.length > 0) cards.push(['Natural frequencies', file('modes', 'json')]);
+  replace(place, h('ul', { class: 'plain cards' }, cards.map(([words, buttons]) => h('li', { class: 'card' }, h('h2', {}, words), h('div', { class: 'row' }, buttons)))));
 }
