@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import nbclient
 import nbformat
+
+#: One of the two sentences that it can end with, with its numbers.
+VERDICT = re.compile(r"the blade survives all speeds|up to \d[\d.]* times its strength: do not run near \d[\d,]*")
 
 NOTEBOOK = Path(__file__).parent.parent / "examples" / "from_matrices_to_a_verdict.ipynb"
 
@@ -17,4 +21,4 @@ def test_the_notebook_comes_to_a_verdict() -> None:
         notebook, timeout=300, resources={"metadata": {"path": str(NOTEBOOK.parent)}}
     ).execute()
     text = "".join(output.get("text", "") for cell in done.cells for output in cell.get("outputs", []))
-    assert "rpm" in text or "survives" in text
+    assert VERDICT.search(text), text

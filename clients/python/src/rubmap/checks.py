@@ -8,7 +8,7 @@ from .errors import PackageError
 from .sector import Integers, Sector
 
 #: Largest asymmetry of a matrix, of its largest entry; largest distance of a cyclic pair, of the model's size; of a normal's length from 1.
-_SYMMETRY, _PLACE, _UNIT = 1e-9, 1e-6, 1e-6
+_SYMMETRY, _PLACE, _UNIT = 1e-6, 1e-5, 1e-3
 
 
 def check(sector: Sector) -> None:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import io
 import os
-import tempfile
 import time
+import uuid
 from pathlib import Path
 from typing import Any
 
@@ -13,8 +13,8 @@ import httpx
 import numpy as np
 import numpy.typing as npt
 
-from .errors import Unreachable
-from .service import Service
+from .errors import Refusal, Unreachable
+from .service import AGAIN, Service
 
 Arrays = dict[str, npt.NDArray[Any]]
 
@@ -28,28 +28,28 @@ def arrays(service: Service, path: str, **query: Any) -> Arrays:
 
 def download(service: Service, path: str, to: str | os.PathLike[str], **query: Any) -> Path:
     """Writes a result to a file, which is there when it is whole and not before; a download that breaks off begins anew."""
-    target = Path(to).expanduser()
+    # Of a link what it leads to is written.
+    target = Path(to).expanduser().resolve()
     if not target.parent.is_dir():
         raise FileNotFoundError(f"there is no folder {target.parent} for {target.name}")
-    end = time.monotonic() + service.patience
-    while True:
-        try:
-            return _written(service, path, target, query)
-        except httpx.TransportError as error:
-            if time.monotonic() > end:
-                raise Unreachable(f"{service.url} does not answer: {error}") from error
+    part = target.with_name(f".{target.name}.{uuid.uuid4().hex[:8]}")
+    last = time.monotonic()
+    try:
+        while True:
+            try:
+                with service.stream(path, **query) as answer, part.open("wb") as file:
+                    for piece in answer.iter_bytes():
+                        file.write(piece)
+                        last = time.monotonic()
+                return part.replace(target)
+            except httpx.TransportError as error:
+                failure: Exception = Unreachable(f"{service.url} does not answer: {error}")
+            except Refusal as refusal:
+                if refusal.status not in AGAIN:
+                    raise
+                failure = refusal
+            if time.monotonic() > last + service.patience:
+                raise failure
             time.sleep(0.5)
-
-
-def _written(service: Service, path: str, target: Path, query: dict[str, Any]) -> Path:
-    with service.stream(path, **query) as answer:
-        handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
-        try:
-            with os.fdopen(handle, "wb") as file:
-                for piece in answer.iter_bytes():
-                    file.write(piece)
-            os.replace(name, target)
-        except BaseException:
-            Path(name).unlink(missing_ok=True)
-            raise
-    return target
+    finally:
+        part.unlink(missing_ok=True)

@@ -126,9 +126,8 @@ class Job:
 
     def download(self, result: str, to: str | os.PathLike[str], format: str | None = None, **query: Any) -> Path:
         """Writes a result to a file; ``format`` by default as the file's name ends: json, csv, npz, svg, png, vtu, vtp …"""
-        ending = Path(to).suffix.lstrip(".")
-        form = format if format is not None else (ending or None)
-        return download(self._service, f"{self._own()}/{result}", to, **({"format": form} | query))
+        form = format or Path(to).suffix.lstrip(".") or None
+        return download(self._service, f"{self._own()}/{result}", to, format=form, **query)
 
     def report(self, to: str | os.PathLike[str]) -> Path:
         """Writes the report, one HTML file with figures and tables."""

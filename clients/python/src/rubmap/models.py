@@ -66,8 +66,8 @@ class Model:
 
     def download(self, result: str, to: str | os.PathLike[str], format: str | None = None, **query: Any) -> Path:
         """Writes ``"mesh"``, ``"section"`` or ``"modes"`` to a file, in the form that its name ends with."""
-        form = format if format is not None else Path(to).suffix.lstrip(".")
-        return download(self._service, f"/v1/models/{self.id}/{result}", to, **({"format": form} | query))
+        form = format or Path(to).suffix.lstrip(".") or None
+        return download(self._service, f"/v1/models/{self.id}/{result}", to, format=form, **query)
 
     def delete(self) -> None:
         """Deletes it; jobs keep what they found."""

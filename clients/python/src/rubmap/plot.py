@@ -1,4 +1,4 @@
-"""Figures by matplotlib, with the axes, units and colours of the service's drawings."""
+"""Figures by matplotlib, with the axes and units of the service's drawings."""
 
 from __future__ import annotations
 
@@ -127,7 +127,7 @@ def critical_speeds(table: pd.DataFrame, ax: Axes | None = None) -> Axes:
 def work_precision(table: pd.DataFrame, ax: Axes | None = None, error: str = "amplitude") -> Axes:
     """Error over CPU time by scheme, of :meth:`Study.work_precision`."""
     ax = _axes(ax)
-    column = next(name for name in table.columns if name.startswith(error) and "error" in f"{name} error")
+    column = next(name for name in table.columns if name.startswith(error))
     for number, (scheme, runs) in enumerate(table.groupby("scheme")):
         ordered = runs.sort_values("time_s")
         ax.loglog(

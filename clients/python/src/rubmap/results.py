@@ -13,7 +13,7 @@ import xarray as xr
 from .contract import HistoriesRequest
 from .download import Arrays
 from .jobs import Job, Planned
-from .tables import RPM, credentials, dataset, sensors, speed_axis, table, units
+from .tables import RPM, credentials, dataset, sensor_unit, sensors, speed_axis, table, units
 
 
 class _Recorded(Job):
@@ -28,10 +28,10 @@ class _Recorded(Job):
         found = self.arrays("histories", **query)
         unit = units(found)
         variables: dict[str, Any] = {
-            "displacement": (("sensor", "revolution"), found["displacement"], {"units": unit["length"]}),
+            "displacement": (("sensor", "revolution"), found["displacement"], {"units": sensor_unit(found)}),
         }
         if "velocity" in found:
-            attributes = {"units": f"{unit['length']}/{unit['time']}"}
+            attributes = {"units": f"{sensor_unit(found)}/{unit['time']}"}
             variables["velocity"] = (("sensor", "revolution"), found["velocity"], attributes)
         if "force" in found:
             attributes = {"units": unit["force"], "long_name": "contact force"}
@@ -87,7 +87,11 @@ class Sweep(Planned, _Recorded):
         coordinates["engine_order"] = ("engine_order", lines, {"units": "1", "long_name": "engine order"})
         frequency = np.outer(omega, lines) / (2.0 * np.pi)
         coordinates["frequency"] = (("speed", "engine_order"), frequency, {"units": "Hz", "long_name": "frequency"})
-        amplitude = (("speed", "engine_order"), found["amplitude"], {"units": unit["length"], "long_name": "amplitude"})
+        amplitude = (
+            ("speed", "engine_order"),
+            found["amplitude"],
+            {"units": sensor_unit(found), "long_name": "amplitude"},
+        )
         variables: dict[str, Any] = {"amplitude": amplitude, "status": ("speed", found["status"])}
         for name, attributes in (
             ("utilisation", {"units": "1"}),
@@ -109,7 +113,8 @@ class Sweep(Planned, _Recorded):
         if frame.empty:
             frame = pd.DataFrame(columns=["index", "speed_rad_s", "status"])
         frame = frame.sort_values("speed_rad_s", ignore_index=True)
-        frame.attrs.update(unit=found["units"]["length"], units=found["units"], version=found["version"])
+        unit = "strain" if found["sensor"].get("gauge") else found["units"]["length"]
+        frame.attrs.update(unit=unit, units=found["units"], version=found["version"])
         frame.insert(2, "speed_rpm", frame["speed_rad_s"] * RPM)
         return frame
 
@@ -117,10 +122,10 @@ class Sweep(Planned, _Recorded):
         """Spectra of all sensors at one speed.
 
         Dimensions: ``sensor``, ``engine_order``, ``nodal_diameter``. Variables: ``amplitude`` (sensor, engine_order) and ``of_nodal_diameter`` (sensor,
-        nodal_diameter, engine_order), both in the model's unit of length.
+        nodal_diameter, engine_order), both in the unit that the sensors have: of length, or strain.
         """
         found = self.arrays(f"spectra/{index}")
-        length = {"units": units(found)["length"]}
+        said = {"units": sensor_unit(found)}
         orders, speed = found["engine_orders"], float(found["speed_rad_s"])
         coordinates = {
             "sensor": ("sensor", sensors(found)),
@@ -129,13 +134,13 @@ class Sweep(Planned, _Recorded):
             "speed": ((), speed, {"units": "rad/s"}),
         }
         variables: dict[str, Any] = {
-            "amplitude": (("sensor", "engine_order"), found["amplitude"], length),
-            "of_nodal_diameter": (("sensor", "nodal_diameter", "engine_order"), found["nodal_diameters"], length),
+            "amplitude": (("sensor", "engine_order"), found["amplitude"], said),
+            "of_nodal_diameter": (("sensor", "nodal_diameter", "engine_order"), found["nodal_diameters"], said),
         }
         return dataset(variables, coordinates, found)
 
     def critical_speeds(self, sensor: int | None = None, **query: Any) -> pd.DataFrame:
-        """Critical speeds of a sensor beside the linear prediction, the most severe first; units end the columns' names."""
+        """Critical speeds of a sensor beside the linear prediction, by speed; ``rank="utilisation"`` puts the most utilised first. Units end the columns' names."""
         return table(self.arrays("critical-speeds", sensor=sensor, **query), "speed_rad_s")
 
     def wheel_critical_speeds(self, **query: Any) -> pd.DataFrame:

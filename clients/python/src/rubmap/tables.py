@@ -68,6 +68,14 @@ def sensors(found: Arrays) -> list[str]:
     return words
 
 
+def sensor_unit(found: Arrays) -> str:
+    """The unit of what the sensors say, of length or, of strain gauges, ``strain``; both where they differ."""
+    length = units(found)["length"]
+    return " or ".join(
+        dict.fromkeys("strain" if json.loads(text).get("gauge") else length for text in found["sensors"].tolist())
+    )
+
+
 def dataset(variables: dict[str, Any], coordinates: dict[str, Any], found: Arrays) -> xr.Dataset:
     """A dataset with credentials as attributes."""
     return xr.Dataset(variables, coords=coordinates, attrs=credentials(found))
