@@ -37,6 +37,21 @@ function find(hash) {
   return null;
 }
 
+/** What a control is known by when a view is made anew. */
+function nameOf(control) {
+  return `${control.tagName} ${control.getAttribute('aria-label') ?? control.labels?.[0]?.textContent ?? control.textContent}`;
+}
+
+/** Gives the focus to the control of this name, unless the reader has given it to another. */
+function focusAgain(place, name) {
+  if (document.activeElement !== document.body) return;
+  const control = [...place.querySelectorAll('a, button, input, select, textarea')].find((one) => nameOf(one) === name);
+  control?.focus({ preventScroll: true });
+  // Writing goes on where it was.
+  if (control?.type === 'search') control.setSelectionRange(control.value.length, control.value.length);
+}
+
+/** Shows the view of the address. */
 async function show() {
   leave.abort(new DOMException('the view was left', 'AbortError'));
   leave = new AbortController();
@@ -48,6 +63,7 @@ async function show() {
   }
   const found = find(location.hash);
   const place = h('div');
+  const focused = main.contains(document.activeElement) && document.activeElement !== main ? nameOf(document.activeElement) : null;
   if (!found) {
     document.title = 'Not found · rubmap';
     replace(main, h('h1', {}, 'There is no such page'), h('p', {}, h('a', { href: '#/models' }, 'To the models')));
@@ -58,7 +74,10 @@ async function show() {
   try {
     const view = await part(found.load);
     if (signal.aborted) return;
-    await view.show(place, { id: found.id, query: found.query }, signal);
+    const shown = view.show(place, { id: found.id, query: found.query }, signal);
+    focusAgain(place, focused);
+    await shown;
+    focusAgain(place, focused);
   } catch (error) {
     if (signal.aborted || (error instanceof Refusal && error.status === 401)) return;
     if (!place.querySelector('h1')) place.prepend(h('h1', {}, 'Something is in the way'));

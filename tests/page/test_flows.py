@@ -1,5 +1,6 @@
 """What people do on the page, from a package to a comparison, as they do it: by labels, names and keys."""
 
+import json
 import re
 
 from conftest import sweep_of
@@ -72,7 +73,7 @@ def test_a_sweep_is_planned_asked_for_and_followed(service, model, swept, new_pa
     plan.get_by_text(re.compile("steps", re.I)).first.wait_for()
     before = plan.inner_text()
     page.get_by_label("Count").first.fill("12")
-    page.wait_for_timeout(1500)
+    plan.get_by_text("12", exact=True).wait_for()
     assert plan.inner_text() != before
     # What the form makes is there to be seen, and what is written there the form shows.
     page.get_by_text("The request as JSON").click()
@@ -218,6 +219,36 @@ def test_a_form_keeps_what_was_filled_in_and_starts_nothing_else(service, model,
     page.get_by_role("button", name="Begin anew").click()
     page.get_by_text("This is what you had filled in here.").wait_for(state="hidden")
     assert page.get_by_label("Count").first.input_value() != "17"
+
+
+def test_an_accuracy_gives_the_settings_back_in_whose_place_it_was(service, model, new_page):
+    page = new_page(f"{service.url}/#/sweep?model={model}", expected=["422"])
+    page.get_by_text("The request as JSON").click()
+    text = page.get_by_label("Request; the form follows what you write")
+    text.wait_for()
+    request = json.loads(text.input_value())
+    settings = {"modes_per_speed": 7, "integration": {"steps_per_revolution": 500, "revolutions": 20}}
+    text.fill(json.dumps(request | settings))
+    page.get_by_label("1 %", exact=False).first.check()
+    chosen = json.loads(text.input_value())
+    assert chosen["accuracy"] == {"target": 0.01} and chosen["modes_per_speed"] == "auto"
+    assert chosen["integration"] == {"revolutions": 20}
+    page.get_by_label("as the settings below say").check()
+    assert json.loads(text.input_value()) == request | settings
+    # What no field can show is shown as it is, and the service says what is wrong with it.
+    text.fill(json.dumps(request | {"tags": "one"}))
+    page.get_by_role("textbox", name="Tags").wait_for(state="attached")
+    assert page.get_by_label("Tags", exact=True).input_value() == '"one"'
+    page.locator("[aria-invalid=true]").first.wait_for(state="attached")
+
+
+def test_a_choice_keeps_the_focus(service, swept, new_page):
+    page = new_page(f"{service.url}/#/jobs/{swept}")
+    page.get_by_label("Amplitude").focus()
+    page.get_by_label("Amplitude").select_option("linear")
+    page.wait_for_url("**scale=linear")
+    page.locator(".figure .main-svg").first.wait_for()
+    assert page.get_by_label("Amplitude").evaluate("(one) => one === document.activeElement && one.value === 'linear'")
 
 
 def test_a_speed_of_which_nothing_was_recorded_is_recorded(service, swept, new_page):

@@ -65,10 +65,15 @@ export function debounced(f, milliseconds, signal) {
 /** Waits, or rejects when `signal` is aborted. */
 export function pause(milliseconds, signal) {
   return new Promise((resolve, reject) => {
-    const timer = setTimeout(resolve, milliseconds);
-    signal?.addEventListener('abort', () => {
+    signal?.throwIfAborted();
+    const left = () => {
       clearTimeout(timer);
       reject(signal.reason);
-    });
+    };
+    const timer = setTimeout(() => {
+      signal?.removeEventListener('abort', left);
+      resolve();
+    }, milliseconds);
+    signal?.addEventListener('abort', left);
   });
 }

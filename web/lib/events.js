@@ -1,6 +1,6 @@
 // A job as it goes on.
 
-import { request, api, Away, Refusal } from './api.js';
+import { api, passing, request } from './api.js';
 import { pause } from './dom.js';
 
 const ENDED = new Set(['successful', 'failed', 'dismissed']);
@@ -30,9 +30,8 @@ export async function follow(id, tell, signal) {
       await stream(id, told, signal);
     } catch (error) {
       if (signal.aborted) return;
-      const passing = error instanceof Away || error instanceof TypeError
-        || (error instanceof Refusal && error.status !== 401 && error.status !== 404);
-      if (!passing) throw error;
+      // A stream that breaks off is a TypeError.
+      if (!passing(error) && !(error instanceof TypeError)) throw error;
     }
     if (last && ended(last)) return;
     await pause(wait, signal).catch(() => {});
@@ -64,7 +63,7 @@ export async function poll(f, milliseconds, signal) {
       try {
         await f();
       } catch (error) {
-        if (!(error instanceof Away) && !signal.aborted) throw error;
+        if (!passing(error) && !signal.aborted) throw error;
       }
     }
     await pause(milliseconds(), signal).catch(() => {});

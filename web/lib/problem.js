@@ -15,7 +15,7 @@ function item(error) {
 /** Something that failed, as an alert; a result that is not there yet as a calm note. */
 export function problem(error) {
   if (error instanceof Away) {
-    return h('p', { class: 'note warning', role: 'status' }, 'The service does not answer; this is read again when it is back.');
+    return h('p', { class: 'note warning', role: 'status' }, 'The service does not answer.');
   }
   if (!(error instanceof Refusal)) {
     console.error(error);

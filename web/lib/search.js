@@ -1,12 +1,9 @@
-// A field to search by, which goes on being written in while what it finds is shown.
+// A field to search by.
 
 import { debounced, h, newId } from './dom.js';
 
 /** Milliseconds without a letter after which is searched. */
 const PAUSE = 500;
-
-/** The name of the field that was written in last: showing what it finds makes the view anew. */
-let writing = null;
 
 /**
  * A field with its label.
@@ -17,17 +14,6 @@ let writing = null;
 export function searchField({ name, label, value }, go, signal) {
   const id = newId(name);
   const field = h('input', { id, type: 'search', size: 14, value: value ?? '' });
-  const search = debounced(() => {
-    writing = document.activeElement === field ? name : null;
-    go(field.value);
-  }, PAUSE, signal);
-  field.addEventListener('input', search);
-  if (writing === name) {
-    writing = null;
-    queueMicrotask(() => {
-      field.focus();
-      field.setSelectionRange(field.value.length, field.value.length);
-    });
-  }
+  field.addEventListener('input', debounced(() => go(field.value), PAUSE, signal));
   return h('span', {}, h('label', { for: id }, `${label} `), field);
 }

@@ -5,9 +5,9 @@ import { h, replace } from './dom.js';
 /**
  * A table of rows.
  * @param {{caption: string, columns: {name: string, cell: (row: any) => any, sort?: (row: any) => any, number?: boolean}[],
- *   rows: any[], onChoose?: (row: any) => void, chosen?: (row: any) => boolean}} what
+ *   rows: any[], onChoose?: (row: any) => void}} what
  */
-export function table({ caption, columns, rows, onChoose, chosen }) {
+export function table({ caption, columns, rows, onChoose }) {
   let sorted = rows;
   let by = null;
   let down = false;
@@ -50,7 +50,7 @@ export function table({ caption, columns, rows, onChoose, chosen }) {
         }
         return h('td', { class: column.number ? 'number' : null }, content);
       });
-      return h('tr', { class: chosen?.(row) ? 'chosen' : null }, cells);
+      return h('tr', {}, cells);
     }));
   }
   fill();

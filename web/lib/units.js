@@ -1,4 +1,4 @@
-// Units of length by their names.
+// Units: of what sensors say, and lengths by their names.
 
 /** Sizes in metres. */
 const LENGTHS = { m: 1, dm: 0.1, cm: 0.01, mm: 1e-3, um: 1e-6, nm: 1e-9, µm: 1e-6, μm: 1e-6, mil: 25.4e-6, in: 0.0254, inch: 0.0254, ft: 0.3048, foot: 0.3048, meter: 1, metre: 1, millimeter: 1e-3, millimetre: 1e-3 };
@@ -8,4 +8,9 @@ export function lengthIn(from, to) {
   if (from === to) return 1;
   const [a, b] = [LENGTHS[from.toLowerCase()], LENGTHS[to.toLowerCase()]];
   return a && b ? a / b : null;
+}
+
+/** The unit of what a sensor says: a strain gauge says no length. */
+export function unitOf(sensor, units) {
+  return sensor.gauge ? 'strain' : units.length;
 }

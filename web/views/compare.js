@@ -6,7 +6,7 @@ import { nameOf, number, percent, rpm, speed } from '../lib/format.js';
 import { plot } from '../lib/plot.js';
 import { problem } from '../lib/problem.js';
 import { table } from '../lib/table.js';
-import { lengthIn } from '../lib/units.js';
+import { lengthIn, unitOf } from '../lib/units.js';
 import { difference } from './compare/difference.js';
 import { levels } from './compare/levels.js';
 import { measurement, overCampbell } from './compare/measured.js';
@@ -68,7 +68,7 @@ async function comparable([first, ...others], signal) {
   const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
   for (const other of others) {
     const sensor = other.map.settings.sensors.findIndex((each) => same(each, first.map.settings.sensors[first.sensor]));
-    const factor = lengthIn(other.map.units.length, first.map.units.length);
+    const factor = first.map.sensor.gauge ? 1 : lengthIn(other.map.units.length, first.map.units.length);
     if (sensor < 0) {
       warnings.push(`${other.name} is left out: it has no sensor like the first of ${first.name} (${sensorWords(first.map.sensor)}).`);
     } else if (factor === null) {
@@ -115,10 +115,11 @@ async function compare(element, lost, { jobs, warnings }, signal) {
   const apartNote = h('div');
   const campbell = h('div', { class: 'figure tall' });
   const told = h('div');
+  const unit = unitOf(jobs[0].map.sensor, jobs[0].map.units);
   replace(element,
     lost, warnings.map((words) => h('p', { class: 'note warning', role: 'alert' }, words)),
-    h('p', { class: 'quiet' }, `Seen by ${sensorWords(jobs[0].map.sensor)}; amplitudes in ${jobs[0].map.units.length}.`),
-    h('h2', {}, 'Level over speed'), level, measuredForm(told, jobs[0].map.units.length, show), told,
+    h('p', { class: 'quiet' }, `Seen by ${sensorWords(jobs[0].map.sensor)}; amplitudes in ${unit}.`),
+    h('h2', {}, 'Level over speed'), level, measuredForm(told, unit, show), told,
     jobs.length > 1 ? [h('h2', {}, 'Difference of the maps'), apartNote, apart] : null,
     h('h2', {}, 'Critical speeds'), criticalTable(jobs),
     h('h2', {}, `Campbell diagram of ${jobs[0].name}`), campbell);
@@ -169,7 +170,7 @@ function criticalTable(jobs) {
       { name: 'Speed', cell: ({ each }) => `${speed(each.speed_rad_s)} ± ${number(Math.round(rpm(each.speed_error_rad_s)), 3)}`, sort: ({ each }) => each.speed_rad_s },
       { name: 'Peak', cell: ({ each }) => peakWords(each), sort: ({ each }) => peakWords(each) },
       { name: 'Engine order', number: true, cell: ({ each }) => number(each.dominant_engine_order), sort: ({ each }) => each.dominant_engine_order },
-      { name: 'rms', number: true, cell: ({ of, each }) => `${number(each.rms)} ${of.map.units.length}`, sort: ({ each }) => each.rms },
+      { name: 'rms', number: true, cell: ({ of, each }) => `${number(each.rms)} ${unitOf(of.map.sensor, of.map.units)}`, sort: ({ each }) => each.rms },
       { name: 'Error', number: true, cell: ({ each }) => percent(each.amplitude_error), sort: ({ each }) => each.amplitude_error },
       { name: `From the nearest of ${jobs[0].name}`, number: true, cell: (row) => { const d = nearest(row); return d === null ? '–' : `${number(Math.round(rpm(d)), 4)} rpm`; }, sort: nearest },
     ],
@@ -182,11 +183,16 @@ function measuredForm(told, length, onPoints) {
   let chosen = null;
   async function read() {
     if (!chosen) return;
-    const { points, bad, words } = measurement(await chosen.text(), unit.value, length);
-    replace(told,
-      h('p', { class: points.length > 0 ? null : 'note bad', role: points.length > 0 ? 'status' : 'alert' }, `${chosen.name}: ${words}`),
-      bad.length > 0 ? h('div', { class: 'note warning' }, h('ul', {}, bad.map((line) => h('li', {}, line)))) : null);
-    if (points.length > 0) onPoints(points);
+    try {
+      const { points, bad, words } = measurement(await chosen.text(), unit.value, length);
+      replace(told,
+        h('p', { class: points.length > 0 ? null : 'note bad', role: points.length > 0 ? 'status' : 'alert' }, `${chosen.name}: ${words}`),
+        bad.length > 0 ? h('div', { class: 'note warning' }, h('ul', {}, bad.map((line) => h('li', {}, line)))) : null);
+      if (points.length > 0) await onPoints(points);
+    } catch (error) {
+      // A file may be gone, or not to be read, since it was chosen.
+      replace(told, problem(error));
+    }
   }
   file.addEventListener('change', () => {
     [chosen] = file.files;

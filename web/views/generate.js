@@ -2,6 +2,7 @@
 
 import { api, openapi, Refusal, submit } from '../lib/api.js';
 import { debounced, facts, h, newId, replace } from '../lib/dom.js';
+import { draftHere, draftNote } from '../lib/draft.js';
 import { ended, follow } from '../lib/events.js';
 import { form } from '../lib/form/form.js';
 import { bytes, nameOf, number } from '../lib/format.js';
@@ -45,24 +46,34 @@ export async function show(main, { query }, signal) {
       aside));
   // The plan tells every parameter of the preset.
   const whole = await api.send('POST', '/v1/models/plan', earlier?.request ?? base, { signal });
-  const value = Object.fromEntries(Object.entries(whole.settings).filter(([, part]) => part !== null));
+  const draft = draftHere();
+  const kept = draft.kept();
+  const value = kept ?? Object.fromEntries(Object.entries(whole.settings).filter(([, part]) => part !== null));
   const made = form({
     schema: { $ref: '#/components/schemas/LabelledImpellerRequest' },
     definitions, value, groups: GROUPS, skip: ['/preset'],
     initial: (pointer) => (pointer === '/splitter' ? {} : undefined),
-    onChange: () => plan(),
+    onChange: (now) => {
+      draft.keep(now);
+      plan();
+    },
   });
-  replace(fields, made.element);
-  showPlan(aside, whole);
+  let asking = new AbortController();
   const plan = debounced(async () => {
+    asking.abort();
+    asking = new AbortController();
+    const { signal: own } = asking;
     try {
-      showPlan(aside, await api.send('POST', '/v1/models/plan', request(), { signal }));
+      showPlan(aside, await api.send('POST', '/v1/models/plan', request(), { signal: AbortSignal.any([signal, own]) }));
       made.complain([], false);
       replace(told);
     } catch (error) {
-      if (!signal.aborted) complain(error, false);
+      if (!own.aborted && !signal.aborted) complain(error, false);
     }
   }, 400, signal);
+  replace(fields, kept ? draftNote(draft) : null, made.element);
+  showPlan(aside, whole);
+  if (kept) plan();
 
   function request() {
     return { ...base, ...made.value() };
@@ -80,6 +91,7 @@ export async function show(main, { query }, signal) {
     bar.hidden = false;
     try {
       const { id: job } = await submit('/v1/models', request(), signal);
+      draft.forget();
       await follow(job, (now) => {
         bar.value = now.progress;
         if (phase.textContent !== (now.phase ?? '')) phase.textContent = now.phase ?? '';

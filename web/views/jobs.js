@@ -3,7 +3,7 @@
 import { api } from '../lib/api.js';
 import { h, replace } from '../lib/dom.js';
 import { ended, poll } from '../lib/events.js';
-import { bytes, count, duration, KINDS, moment, nameOf } from '../lib/format.js';
+import { bytes, count, duration, KINDS, moment, nameOf, short } from '../lib/format.js';
 import { cursorOf, placeWith } from '../lib/place.js';
 import { problem } from '../lib/problem.js';
 import { searchField } from '../lib/search.js';
@@ -76,7 +76,7 @@ function filters(query, signal) {
     select('Kind', [...all, ...Object.entries(KINDS)], query.get('kind') ?? '', (kind) => go({ kind })),
     search('name', 'Name has'),
     search('tag', 'Tag'),
-    query.get('model') ? h('button', { type: 'button', on: { click: () => go({ model: null }) } }, `Of model ${query.get('model').slice(0, 12)}… ✕`) : null);
+    query.get('model') ? h('button', { type: 'button', on: { click: () => go({ model: null }) } }, `Of model ${short(query.get('model'))}… ✕`) : null);
 }
 
 /** Draws what is new or has changed, and leaves the rest, where the reader may be. */

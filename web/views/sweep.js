@@ -3,6 +3,7 @@
 import { api } from '../lib/api.js';
 import { h, replace } from '../lib/dom.js';
 import { nameOf, percent } from '../lib/format.js';
+import { placeWith } from '../lib/place.js';
 import { select } from './job/choices.js';
 import { askedOf, chooseModel, requestForm } from './request/view.js';
 import { CLEARANCE, sceneOf, speedsOf } from './request/sensible.js';
@@ -43,11 +44,7 @@ export async function show(main, { query }, signal, first = 'sweep') {
   }
   const name = query.get('kind') ?? first;
   const kind = REQUESTS[name] ?? REQUESTS.sweep;
-  const go = (changes) => {
-    const next = new URLSearchParams(query);
-    for (const [key, value] of Object.entries(changes)) next.set(key, value);
-    location.hash = `#/${first}?${next}`;
-  };
+  const go = (changes) => { location.hash = placeWith(first, query, changes); };
   replace(main, h('h1', {}, first === 'study' ? 'New study' : 'New sweep'),
     h('div', { class: 'row' }, select('Kind of job', Object.entries(REQUESTS).map(([key, one]) => [key, one.words]), name, (chosen) => go({ kind: chosen }))),
     place);

@@ -43,6 +43,11 @@ function readNumber(text) {
 export function control(kind, schema, value, required) {
   switch (kind) {
     case 'switch': {
+      if (schema.nullable) {
+        // Nothing said, yes and no are three.
+        const list = h('select', { value: value ?? '' }, [['', 'default'], ['true', 'yes'], ['false', 'no']].map(([one, words]) => h('option', { value: one }, words)));
+        return { control: list, read: () => (list.value === '' ? undefined : list.value === 'true') };
+      }
       const box = h('input', { type: 'checkbox', checked: value === true });
       return { control: box, read: () => (box.checked ? true : required || value === false ? false : undefined) };
     }

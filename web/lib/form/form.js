@@ -1,8 +1,8 @@
 // A form made from a schema of the contract. Its value is the JSON that is sent; what is not said in it is left to the service.
 
-import { h, newId, replace } from '../dom.js';
+import { h, replace } from '../dom.js';
 import { control, field } from './fields.js';
-import { help, kindOf, label, resolve } from './schema.js';
+import { completed, fits, help, kindOf, label, resolve } from './schema.js';
 
 /**
  * A form.
@@ -13,23 +13,19 @@ import { help, kindOf, label, resolve } from './schema.js';
  *   beside a switch, `open` the pointers of parts that are open at first.
  */
 export function form(what) {
-  const context = { ...what, value: what.value, places: new Map() };
+  const context = { ...what, value: null, places: new Map() };
   const element = h('div');
-  const tell = () => what.onChange(context.value);
-  context.tell = tell;
-  const draw = () => {
+  function set(value) {
+    context.value = completed(value, what.schema, what.definitions);
     context.places.clear();
     replace(element, groups(context, resolve(what.schema, what.definitions)));
-  };
-  draw();
+  }
+  set(what.value);
   return {
     element,
     value: () => context.value,
     /** Shows another value. */
-    set(value) {
-      context.value = value;
-      draw();
-    },
+    set,
     /** Says at each field what the service finds wrong there; returns those errors that have no field. */
     complain(errors, focus) {
       for (const place of context.places.values()) place.complain(null);
@@ -83,8 +79,8 @@ function put(context, pointer, value) {
   } else {
     parent[last] = value;
   }
-  context.value = copy;
-  context.tell();
+  context.value = completed(copy, context.schema, context.definitions);
+  context.onChange(context.value);
 }
 
 /** The properties of the whole in groups; those that no group names are in the last. */
@@ -110,7 +106,8 @@ function parts(context, schema, pointer, names = Object.keys(schema.properties ?
 
 function part(context, whole, pointer, name, required) {
   const schema = one(context, whole, pointer);
-  const kind = kindOf(schema, context.definitions);
+  const wanted = kindOf(schema, context.definitions);
+  const kind = fits(get(context, pointer), wanted) ? wanted : 'json';
   if (kind === 'object') return object(context, schema, pointer, name, required);
   if (kind === 'list') return list(context, schema, pointer, name);
   if (kind === 'json') return json(context, schema, pointer, name);
@@ -138,7 +135,6 @@ function object(context, schema, pointer, name, required) {
   const empty = Object.keys(schema.properties ?? {}).length === 0;
   const fill = () => replace(body, get(context, pointer) === undefined || get(context, pointer) === null ? null : h('div', { class: 'fields' }, parts(context, schema, pointer)));
   if (required) {
-    if (get(context, pointer) === undefined) put(context, pointer, {});
     fill();
     const error = h('div', { class: 'error', role: 'alert' });
     context.places.set(pointer, { control: error, complain: (message) => { error.textContent = message ?? ''; } });
@@ -189,19 +185,18 @@ function list(context, schema, pointer, name) {
   return h('fieldset', {}, h('legend', {}, label(name), ' ', context.beside?.(pointer)), h('p', { class: 'help quiet small' }, help(schema)), error, body, more);
 }
 
-/** What has no fields of its own, as JSON. */
+/** What has no fields of its own, as JSON; what is none goes as a text, which the service refuses where the contract has none. */
 function json(context, schema, pointer, name) {
-  const id = newId('json');
   const value = get(context, pointer);
-  const text = h('textarea', { id, rows: 3, spellcheck: 'false', value: value === undefined ? '' : JSON.stringify(value) });
+  const text = h('textarea', { rows: 3, spellcheck: 'false', value: value === undefined ? '' : JSON.stringify(value) });
   const shown = field(name, schema, text);
   text.addEventListener('input', () => {
+    const words = text.value.trim();
+    shown.complain(null);
     try {
-      const read = text.value.trim() === '' ? undefined : JSON.parse(text.value);
-      shown.complain(null);
-      put(context, pointer, read);
-    } catch (error) {
-      shown.complain(`This is no JSON: ${error.message}`);
+      put(context, pointer, words === '' ? undefined : JSON.parse(words));
+    } catch {
+      put(context, pointer, words);
     }
   });
   context.places.set(pointer, shown);

@@ -21,7 +21,8 @@ export function resolve(schema, definitions) {
     description ??= found.description;
   }
   const type = Array.isArray(found.type) ? found.type.find((one) => one !== 'null') : found.type;
-  return { ...found, type, description: description ?? found.description };
+  const nullable = found.nullable || (Array.isArray(found.type) && found.type.includes('null'));
+  return { ...found, type, nullable, description: description ?? found.description };
 }
 
 /** What kind of field a resolved schema gets. */
@@ -44,6 +45,34 @@ export function kindOf(schema, definitions) {
   }
   if (schema.properties) return 'object';
   return schema.type === 'object' ? 'object' : 'json';
+}
+
+/** Whether a field of this kind can show a value; one written by hand may be anything. */
+export function fits(value, kind) {
+  if (value === undefined || value === null || kind === 'json') return true;
+  const whole = (one) => typeof one === 'object' && one !== null && !Array.isArray(one);
+  switch (kind) {
+    case 'object': return whole(value);
+    case 'list': return Array.isArray(value) && value.every(whole);
+    case 'numbers':
+    case 'words': return Array.isArray(value) && value.every((one) => typeof one !== 'object');
+    case 'switch': return typeof value === 'boolean';
+    default: return typeof value !== 'object';
+  }
+}
+
+/** A value with the objects that a schema requires, empty where they are not there yet. */
+export function completed(value, schema, definitions) {
+  const { properties = {}, required = [] } = resolve(schema, definitions);
+  if (typeof value !== 'object' || value === null || Array.isArray(value)) return value;
+  const whole = { ...value };
+  for (const [name, one] of Object.entries(properties)) {
+    const is = resolve(one, definitions);
+    if (required.includes(name) && kindOf(is, definitions) === 'object') whole[name] ??= {};
+    if (is.type === 'array' && Array.isArray(whole[name])) whole[name] = whole[name].map((each) => completed(each, is.items, definitions));
+    else if (whole[name] !== undefined) whole[name] = completed(whole[name], one, definitions);
+  }
+  return whole;
 }
 
 const UNITS = [['_rad_s', 'rad/s'], ['_rad', 'rad'], ['_deg', 'degrees'], ['_hz', 'Hz'], ['_seconds', 's'], ['_s', 's']];

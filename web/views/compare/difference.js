@@ -2,6 +2,7 @@
 
 import { rpm, speed } from '../../lib/format.js';
 import { plain } from '../../lib/plot.js';
+import { unitOf } from '../../lib/units.js';
 
 /** Values of a row at other engine orders; both ascend, and columns are matched where they are equal. */
 function columns(a, b) {
@@ -37,7 +38,7 @@ export function difference(a, b) {
     return here === null || there === null ? null : there - here;
   }));
   const largest = z.flat().reduce((most, value) => Math.max(most, Math.abs(value ?? 0)), 0);
-  const unit = a.map.units.length;
+  const unit = unitOf(a.map.sensor, a.map.units);
   return {
     words: `${b.name} less ${a.name}, at the ${rows.length} speeds of ${a.name} from ${speed(rows[0][0])} to ${speed(rows.at(-1)[0])} that lie within ${b.name}, and at the engine orders of both; `
       + `${b.name} is interpolated between its speeds.`,

@@ -2,10 +2,11 @@
 
 import { rpm } from '../../lib/format.js';
 import { plain } from '../../lib/plot.js';
+import { unitOf } from '../../lib/units.js';
 
 /** Steady level of the first sensor over speed, with error bars where they are known; and what was measured. */
 export function levels(jobs, measured) {
-  const unit = jobs[0].map.units.length;
+  const unit = unitOf(jobs[0].map.sensor, jobs[0].map.units);
   const data = jobs.map(({ name, map, sensor }) => {
     const errors = new Map((map.errors?.points ?? []).map((point) => [point.index, point.estimated_error]));
     const { points } = map;

@@ -1,9 +1,10 @@
 // What was measured: a table of speed, frequency and amplitude, with a header that says which column is which.
 
+import { rpm } from '../../lib/format.js';
 import { lengthIn } from '../../lib/units.js';
 
 /** What turns a unit of speed into rpm. */
-const TO_RPM = { rpm: 1, rad_s: 60 / (2 * Math.PI), hz: 60 };
+const TO_RPM = { rpm: 1, rad_s: rpm(1), hz: 60 };
 const NAMES = { rpm: 'rpm', rad_s: 'rad/s', hz: 'Hz' };
 
 /** Words by which a header names a column; the first that fits counts. */

@@ -11,7 +11,7 @@ import { REQUESTS } from '../sweep.js';
 /**
  * Buttons of a job: cancel while it runs; again, as it is or otherwise; delete when it has ended.
  * @param {any} job as a list or its own page has it
- * @param {{told: any, deleted: () => void}} where `told` is an element that takes what is refused
+ * @param {{told: any, deleted: () => void | Promise<void>}} where `told` is an element that takes what is refused, `deleted` what is done then
  * @param {AbortSignal} signal
  */
 export function actions(job, { told, deleted }, signal) {
@@ -55,6 +55,6 @@ export function actions(job, { told, deleted }, signal) {
   async function remove() {
     if (!await confirmed(`Delete ${name} with all that it found?`, 'Delete it', signal)) return;
     await api.send('DELETE', `/v1/jobs/${job.id}`, undefined, { signal });
-    deleted();
+    await deleted();
   }
 }

@@ -1,6 +1,6 @@
 // The Campbell diagram with the lobes' crossings: of a modal analysis, and beside a sweep that of its model with the same modes.
 
-import { api } from '../../lib/api.js';
+import { api, submit } from '../../lib/api.js';
 import { h, replace } from '../../lib/dom.js';
 import { follow } from '../../lib/events.js';
 import { again } from '../../lib/place.js';
@@ -20,7 +20,7 @@ export async function show(place, context, signal) {
   replace(place,
     h('div', { class: 'row' }, select('Frame', [['rotating', 'rotating, as the blades feel it'], ['fixed', 'fixed, as the casing feels it']], frame, (chosen) => context.go({ frame: chosen }))),
     figure,
-    analysis === job ? null : h('p', { class: 'quiet small' }, 'Of the ', h('a', { href: `#/jobs/${analysis.id}` }, 'modal analysis'), ' of the same model with the same modes and lobes.'));
+    analysis === job ? null : h('p', { class: 'quiet small' }, 'Of the ', h('a', { href: `#/jobs/${analysis.id}` }, 'modal analysis'), ' of the same model with the same modes, lobes and Coriolis forces.'));
   const read = await api.figure(`/v1/jobs/${analysis.id}/campbell`, { frame }, { signal });
   await plot(figure, read, { signal, label: 'Campbell diagram' });
 }
@@ -31,8 +31,8 @@ export async function analysisOf(sweep, signal) {
   for (const { id } of jobs) {
     const found = await api.get(`/v1/jobs/${id}`, { signal });
     const wanted = requestOf(sweep);
-    const same = (name) => wanted[name] === undefined || JSON.stringify(found.request[name]) === JSON.stringify(wanted[name]);
-    if (same('modes_per_speed') && same('lobes')) return found;
+    const same = (name) => wanted[name] === undefined || found.request[name] === wanted[name];
+    if (same('modes_per_speed') && same('lobes') && Boolean(found.request.coriolis) === Boolean(wanted.coriolis)) return found;
   }
   return null;
 }
@@ -57,13 +57,16 @@ function offer(place, job, signal) {
   const start = async (event) => {
     event.target.disabled = true;
     try {
-      const { id } = await api.send('POST', '/v1/modal-analyses', requestOf(job), { signal });
-      await follow(id, (now) => replace(told, `${now.progress} % ${now.phase ?? ''}`), signal);
-      if (!signal.aborted) again();
+      const { id } = await submit('/v1/modal-analyses', requestOf(job), signal);
+      await follow(id, (now) => {
+        const words = now.status === 'successful' ? null : now.error ? `${now.error.title} ${now.error.detail}` : `${now.progress} % ${now.phase ?? ''}`;
+        replace(told, words, ' ', h('a', { href: `#/jobs/${id}` }, 'The analysis'));
+        if (now.status === 'successful') again();
+      }, signal);
     } catch (error) {
-      event.target.disabled = false;
       if (!signal.aborted) replace(told, problem(error));
     }
+    event.target.disabled = false;
   };
   replace(place,
     h('p', {}, 'Natural frequencies over speed come from a modal analysis of the same model; there is none with these modes and lobes yet. The reduction is there, so that it takes seconds.'),

@@ -1,7 +1,9 @@
 // What a job rests on: settings, reduction, choices, code.
 
 import { facts, h, replace } from '../../lib/dom.js';
+import { ended } from '../../lib/events.js';
 import { duration, moment, number } from '../../lib/format.js';
+import { again } from '../../lib/place.js';
 import { verdicts } from './verdicts.js';
 
 export async function show(place, context, signal) {
@@ -35,6 +37,7 @@ export async function show(place, context, signal) {
     choice ? [h('h2', {}, 'The setting that was chosen'), h('pre', { tabindex: '0', 'aria-label': 'Choice' }, JSON.stringify(choice, null, 2))] : null,
     h('h2', {}, 'The request'),
     h('pre', { tabindex: '0', 'aria-label': 'Request' }, JSON.stringify(job.request, null, 2)));
+  if (!ended(job)) context.onChange((now) => ended(now) && again());
   if (job.kind === 'sweep') await verdicts(worth, context, signal);
 }
 

@@ -6,6 +6,7 @@ import { number, percent, rpm, speed } from '../../lib/format.js';
 import { plot } from '../../lib/plot.js';
 import { problem } from '../../lib/problem.js';
 import { table } from '../../lib/table.js';
+import { unitOf } from '../../lib/units.js';
 import { select, sensors } from './choices.js';
 import { SETTLING, VALIDITY } from './verdicts.js';
 
@@ -59,7 +60,7 @@ const common = [
 ];
 
 function sensorTable(found, context) {
-  const unit = found.units.length;
+  const unit = unitOf(found.sensor, found.units);
   return table({
     caption: 'Critical speeds of a sensor',
     onChoose: open(context),

@@ -18,29 +18,18 @@ export async function show(place, context, signal) {
   const figure = h('div', { class: 'figure tall' });
   const told = h('div');
   const summary = h('div');
-  let scale = query.get('scale') ?? 'log';
-  let read = null;
+  const scale = query.get('scale') ?? 'log';
   replace(place,
     h('div', { class: 'row' },
       sensors(job.request, context),
       select('Upwards', [['engine_order', 'engine order'], ['frequency', 'frequency, Hz']], query.get('axis') ?? 'engine_order', (axis) => context.go({ axis })),
       select('Frame', [['rotating', 'rotating'], ['fixed', 'fixed']], query.get('frame') ?? 'rotating', (frame) => context.go({ frame })),
-      select('Amplitude', [['log', 'logarithmic'], ['linear', 'linear']], scale, (chosen) => {
-        scale = chosen;
-        draw();
-      }),
+      select('Amplitude', [['log', 'logarithmic'], ['linear', 'linear']], scale, (chosen) => context.go({ scale: chosen })),
       select('Nodal diameter', [['', 'all'], ...await diameters(job, signal)], query.get('nodal_diameter') ?? '', (nodal_diameter) => context.go({ nodal_diameter })),
       select('Level coloured by', [['', 'nothing'], ['utilisation', 'utilisation']], query.get('colour') ?? '', (colour) => context.go({ colour }))),
     told, figure,
     h('p', { class: 'quiet small' }, 'A click on the map opens that speed; arrow keys of “One speed” go through all.'),
     summary);
-
-  async function draw() {
-    if (!read) return;
-    await plot(figure, scale === 'linear' ? linear(read) : read, {
-      signal, label: 'Interaction map', onClick: (event) => open(event, read, context),
-    });
-  }
 
   let last = 0;
   let reading = false;
@@ -53,13 +42,15 @@ export async function show(place, context, signal) {
     reading = true;
     try {
       last = Date.now();
-      read = await api.figure(path, {
+      const read = await api.figure(path, {
         sensor: query.get('sensor'), axis: query.get('axis'), frame: query.get('frame'), nodal_diameter: query.get('nodal_diameter'), colour: query.get('colour'),
       }, { signal });
       // What is zoomed stays so when the map grows.
       read.layout.uirevision = job.id;
       replace(told);
-      await draw();
+      await plot(figure, scale === 'linear' ? linear(read) : read, {
+        signal, label: 'Interaction map', onClick: (event) => open(event, read, context),
+      });
       if (ended(context.now())) await verdicts(summary, context, signal);
     } catch (error) {
       if (!signal.aborted) replace(told, problem(error));

@@ -12,23 +12,25 @@ import { points, SETTLING, VALIDITY } from './verdicts.js';
 export async function show(place, context, signal) {
   const { job, query } = context;
   const map = await points(job, signal);
-  if (map.points.length === 0) {
+  // By speed: in a request a finer range may come after a coarse one, and refinement adds speeds at the end.
+  const list = map.points.toSorted((a, b) => a.speed_rad_s - b.speed_rad_s);
+  if (list.length === 0) {
     replace(place, h('p', { class: 'note' }, 'No speed has a result yet.'));
     return;
   }
-  const asked = Number(query.get('speed') ?? map.points[0].index);
-  const at = Math.max(0, map.points.findIndex((point) => point.index === asked));
-  const point = map.points[at];
-  const go = (k) => context.go({ view: 'point', speed: map.points[k].index });
-  const step = (by) => at + by >= 0 && at + by < map.points.length && go(at + by);
-  const button = (words, by) => h('button', { type: 'button', disabled: at + by < 0 || at + by >= map.points.length, on: { click: () => step(by) } }, words);
+  const asked = Number(query.get('speed') ?? list[0].index);
+  const at = Math.max(0, list.findIndex((point) => point.index === asked));
+  const point = list[at];
+  const go = (k) => context.go({ view: 'point', speed: list[k].index });
+  const step = (by) => at + by >= 0 && at + by < list.length && go(at + by);
+  const button = (words, by) => h('button', { type: 'button', disabled: at + by < 0 || at + by >= list.length, on: { click: () => step(by) } }, words);
   const spectrum = h('div', { class: 'figure' });
   const histories = h('div');
   const frame = query.get('frame') ?? 'rotating';
   replace(place,
     h('div', { class: 'row' },
       button('Previous speed', -1),
-      select('Speed', map.points.map((each, k) => [k, `${speed(each.speed_rad_s)}${each.status === 'completed' ? '' : ` (${each.status})`}`]), at, (k) => go(Number(k))),
+      select('Speed', list.map((each, k) => [k, `${speed(each.speed_rad_s)}${each.status === 'completed' ? '' : ` (${each.status})`}`]), at, (k) => go(Number(k))),
       button('Next speed', 1),
       sensors(job.request, context),
       select('Frame', [['rotating', 'rotating'], ['fixed', 'fixed']], frame, (chosen) => context.go({ frame: chosen }))),

@@ -2,8 +2,8 @@
 
 import { api, openapi, Refusal, submit } from '../../lib/api.js';
 import { h, newId, replace } from '../../lib/dom.js';
+import { draftHere, draftNote } from '../../lib/draft.js';
 import { form } from '../../lib/form/form.js';
-import { again } from '../../lib/place.js';
 import { problem } from '../../lib/problem.js';
 import { accuracyDial } from './accuracy.js';
 import { editor } from './editor.js';
@@ -27,9 +27,8 @@ const GROUPS = [
  */
 export async function requestForm(place, { model, kind, value, words }, signal) {
   const definitions = (await openapi()).components.schemas;
-  // What was filled in is there again after a reload and when one comes back, in this tab.
-  const draft = `draft ${location.hash}`;
-  const begun = JSON.parse(sessionStorage.getItem(draft) ?? 'null') ?? value;
+  const draft = draftHere();
+  const begun = draft.kept() ?? value;
   const plan = kind.plan ? planAside(kind.plan, planned, signal) : null;
   const initial = (pointer) => beginning(pointer, model);
   const cost = kind.priced ? prices(kind.plan, model, signal) : null;
@@ -38,7 +37,7 @@ export async function requestForm(place, { model, kind, value, words }, signal) 
   const unsent = h('div');
   const json = editor((now) => {
     fields.set(now);
-    changed(now, json);
+    changed(json);
   });
   const fields = form({
     schema: { $ref: `#/components/schemas/${kind.schema}` },
@@ -47,23 +46,23 @@ export async function requestForm(place, { model, kind, value, words }, signal) 
     beside: cost?.beside,
     groups: GROUPS,
     open: ['/speeds', '/speed', '/scene', '/grid'],
-    onChange: (now) => changed(now, null),
+    onChange: () => changed(),
   });
   const button = h('button', { type: 'submit', class: 'main' }, 'Start');
   const element = h('form', { novalidate: true, on: { submit: start } }, dial?.element, fields.element, json.element, told, unsent, h('div', { class: 'row' }, button));
-  const anew = h('button', { type: 'button', on: { click: startAnew } }, 'Begin anew');
-  replace(place, begun === value ? null : h('p', { class: 'note', role: 'status' }, 'This is what you had filled in here. ', anew), words ? h('p', {}, words) : null, h('div', { class: 'columns' }, element, plan?.element));
-  changed(begun, null);
+  replace(place, begun === value ? null : draftNote(draft), words ? h('p', {}, words) : null, h('div', { class: 'columns' }, element, plan?.element));
+  tell();
 
-  function changed(now, by) {
-    if (now !== begun) sessionStorage.setItem(draft, JSON.stringify(now));
+  function changed(by = null) {
+    draft.keep(fields.value());
+    tell(by);
+  }
+  /** Shows the request everywhere but in what has changed it. */
+  function tell(by = null) {
+    const now = fields.value();
     if (by !== json) json.show(now);
     dial?.show(now);
     plan?.refresh(now);
-  }
-  function startAnew() {
-    sessionStorage.removeItem(draft);
-    again();
   }
   function planned({ plan: found, refusal }) {
     const homeless = fields.complain(refusal?.errors ?? [], false);
@@ -72,11 +71,14 @@ export async function requestForm(place, { model, kind, value, words }, signal) 
     cost?.refresh(fields.value(), found);
     dial?.refresh(fields.value());
   }
+  // The settings in whose place an accuracy was put.
+  let knobs = {};
   function chooseAccuracy(target) {
     const { accuracy, ...rest } = fields.value();
-    const next = target === null ? rest : { ...withoutKnobs(rest), accuracy: { ...accuracy, target } };
+    if (!accuracy) knobs = knobsOf(rest);
+    const next = target === null ? withKnobs(rest, knobs) : { ...withoutKnobs(rest), accuracy: { ...accuracy, target } };
     fields.set(next);
-    changed(next, null);
+    changed();
   }
   async function start(event) {
     event.preventDefault();
@@ -88,7 +90,7 @@ export async function requestForm(place, { model, kind, value, words }, signal) 
     replace(told);
     try {
       const { id } = await submit(kind.path, fields.value(), signal);
-      sessionStorage.removeItem(draft);
+      draft.forget();
       location.hash = `#/jobs/${id}`;
     } catch (error) {
       if (signal.aborted) return;
@@ -109,13 +111,27 @@ export function askedOf(job) {
   return asked.budget ? { ...withoutKnobs(request), budget: asked.budget } : request;
 }
 
-/** What an accuracy stands in the place of. */
+/** What an accuracy stands in the place of: the settings of a request and of its integration. */
+const KNOBS = ['budget', 'modes_per_speed'];
+const INTEGRATION_KNOBS = ['scheme', 'kept_modes', 'steps_per_revolution'];
+
+const only = (value, names) => Object.fromEntries(Object.entries(value).filter(([name]) => names.includes(name)));
+const without = (value, names) => Object.fromEntries(Object.entries(value).filter(([name]) => !names.includes(name)));
+
+function knobsOf(request) {
+  return { ...only(request, KNOBS), integration: only(request.integration ?? {}, INTEGRATION_KNOBS) };
+}
+
 function withoutKnobs(request) {
-  const { budget, integration = {}, ...rest } = request;
-  const { scheme, kept_modes, steps_per_revolution, ...kept } = integration;
-  const next = { ...rest, modes_per_speed: 'auto' };
-  if (Object.keys(kept).length > 0) next.integration = kept;
-  return next;
+  const { integration = {}, ...rest } = without(request, KNOBS);
+  const kept = without(integration, INTEGRATION_KNOBS);
+  return { ...rest, modes_per_speed: 'auto', ...(Object.keys(kept).length > 0 && { integration: kept }) };
+}
+
+/** A request with knobs as they were. */
+function withKnobs(request, { integration: own = {}, ...knobs }) {
+  const integration = { ...request.integration, ...own };
+  return { ...without(request, [...KNOBS, 'integration']), ...knobs, ...(Object.keys(integration).length > 0 && { integration }) };
 }
 
 /** A choice of the model, where none is given. */
@@ -126,6 +142,6 @@ export async function chooseModel(place, go, signal) {
     return;
   }
   const id = newId('model');
-  const list = h('select', { id, value: models[0].id }, models.map((model) => h('option', { value: model.id }, `${model.label ?? model.name} (${model.id.slice(0, 8)})`)));
+  const list = h('select', { id, value: models[0].id }, models.map((model) => h('option', { value: model.id }, `${model.name} (${model.id.slice(0, 8)})`)));
   replace(place, h('div', { class: 'field' }, h('label', { for: id }, 'Model'), list), h('button', { type: 'button', class: 'main', on: { click: () => go(list.value) } }, 'Go on'));
 }
