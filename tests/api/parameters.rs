@@ -56,7 +56,7 @@ async fn parameters_are_refused_in_words() {
         (
             &format!("{job}/histories?format=pdf"),
             "format",
-            "expected one of json, csv, npz, svg, png, plotly, vtu, vtp, pvd, not \"pdf\"",
+            "expected one of json, csv, npz, svg, png, plotly, not \"pdf\"",
         ),
         (
             &format!("{job}/histories?sensor=%FF"),
