@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 
 use futures::TryStreamExt;
 use serde::de::IgnoredAny;
-use sqlx::sqlite::{SqliteConnectOptions, SqliteConnection};
-use sqlx::{ConnectOptions, Connection, Row};
+use sqlx::sqlite::SqliteConnectOptions;
+use sqlx::{AnyConnection, ConnectOptions, Connection, Row};
 
 use super::error::StoreError;
-use super::handle::{DATABASE, PATIENCE};
 use super::packages::{package_path, packages_folder};
+use super::sqlite::{self, DATABASE, PATIENCE};
 use super::{end_states, jobs, models, results, states};
 use crate::package;
 
@@ -49,7 +49,7 @@ pub async fn backup(data: &Path, to: &Path) -> Result<Backup, StoreError> {
     std::fs::create_dir(packages_folder(unfinished.path()))?;
     let mut source = connect(data).read_only(true).connect().await?;
     let copy = unfinished.path().join(DATABASE);
-    sqlx::query("vacuum into ?").bind(copy.to_string_lossy()).execute(&mut source).await?;
+    sqlx::query("vacuum into $1").bind(copy.to_string_lossy()).execute(&mut source).await?;
 
     let mut copied = connect(unfinished.path()).foreign_keys(true).connect().await?;
     let ids: Vec<String> = sqlx::query_scalar("select id from models").fetch_all(&mut copied).await?;
@@ -60,7 +60,7 @@ pub async fn backup(data: &Path, to: &Path) -> Result<Backup, StoreError> {
         match file.await.map_err(std::io::Error::other)? {
             Ok(()) => models += 1,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
-                let there: bool = sqlx::query_scalar("select exists (select 1 from models where id = ?)")
+                let there: bool = sqlx::query_scalar("select exists (select 1 from models where id = $1)")
                     .bind(&id)
                     .fetch_one(&mut source)
                     .await?;
@@ -68,7 +68,7 @@ pub async fn backup(data: &Path, to: &Path) -> Result<Backup, StoreError> {
                     let missing = std::io::Error::new(error.kind(), format!("of model {id}: {error}"));
                     return Err(StoreError::Package(missing));
                 }
-                sqlx::query("delete from models where id = ?").bind(&id).execute(&mut copied).await?;
+                sqlx::query("delete from models where id = $1").bind(&id).execute(&mut copied).await?;
                 dropped += 1;
             }
             Err(error) => return Err(error.into()),
@@ -120,14 +120,14 @@ pub struct Findings {
 pub async fn check(data: &Path) -> Result<Findings, StoreError> {
     expect_data_folder(data)?;
     let mut found = Findings::default();
-    let mut database = connect(data).read_only(true).connect().await?;
+    let mut database = sqlite::address(data, "ro")?.connect().await?;
     let verdicts: Vec<String> = sqlx::query_scalar("pragma integrity_check").fetch_all(&mut database).await?;
     found.wrong.extend(verdicts.into_iter().filter(|verdict| verdict != "ok"));
     for row in sqlx::query("pragma foreign_key_check").fetch_all(&mut database).await? {
         let (table, parent): (String, String) = (row.try_get(0)?, row.try_get(2)?);
         found.wrong.push(format!("a row of {table} belongs to a row of {parent} that is not there"));
     }
-    let known = sqlx::migrate!().iter().map(|migration| migration.version).max();
+    let known = sqlite::MIGRATIONS.iter().map(|migration| migration.version).max();
     let version: Option<i64> =
         sqlx::query_scalar("select max(version) from _sqlx_migrations").fetch_one(&mut database).await?;
     if version != known {
@@ -147,7 +147,7 @@ pub async fn check(data: &Path) -> Result<Findings, StoreError> {
 
 async fn check_models(
     data: &Path,
-    database: &mut SqliteConnection,
+    database: &mut AnyConnection,
     found: &mut Findings,
 ) -> Result<(), StoreError> {
     for row in sqlx::query(models::OWNED).bind(None::<&str>).fetch_all(&mut *database).await? {
@@ -161,12 +161,12 @@ async fn check_models(
             Ok(digest) if digest == id => found.models += 1,
             Ok(_) => found.wrong.push(format!("model {id}: its package has another content")),
             Err(error) => {
-                let there: bool = sqlx::query_scalar("select exists (select 1 from models where id = ?)")
+                let there = sqlx::query("select id from models where id = $1")
                     .bind(&id)
-                    .fetch_one(&mut *database)
+                    .fetch_optional(&mut *database)
                     .await?;
                 // A service may have deleted it meanwhile.
-                if there {
+                if there.is_some() {
                     found.wrong.push(format!("model {id}: {error}"));
                 }
             }
@@ -175,7 +175,7 @@ async fn check_models(
     Ok(())
 }
 
-async fn check_jobs(database: &mut SqliteConnection, found: &mut Findings) -> Result<(), StoreError> {
+async fn check_jobs(database: &mut AnyConnection, found: &mut Findings) -> Result<(), StoreError> {
     let mut rows = sqlx::query("select * from jobs where deleted = 0").fetch(&mut *database);
     while let Some(row) = rows.try_next().await? {
         match jobs::read(&row) {
@@ -191,13 +191,13 @@ async fn check_jobs(database: &mut SqliteConnection, found: &mut Findings) -> Re
         match results::read(&row) {
             Ok(_) => found.speeds += 1,
             Err(error) => {
-                let (job, speed): (&str, u32) = (row.try_get("job")?, row.try_get("speed")?);
+                let (job, speed): (&str, i64) = (row.try_get("job")?, row.try_get("speed")?);
                 found.wrong.push(format!("job {job}, speed {speed}: {error}"));
             }
         }
     }
     drop(rows);
-    let mut rows = sqlx::query_as::<_, (String, String, u32, String)>(
+    let mut rows = sqlx::query_as::<_, (String, String, i64, String)>(
         "select job, name, part, body from documents where exists (select 1 from jobs where id = job and deleted = 0)",
     )
     .fetch(&mut *database);

@@ -9,9 +9,9 @@ impl Store {
     /// What this version of the program measured on a machine with so many processors.
     pub async fn calibration(&self, processors: u32) -> Result<Option<Calibration>, StoreError> {
         let body: Option<String> =
-            sqlx::query_scalar("select body from calibrations where version = ? and processors = ?")
+            sqlx::query_scalar("select body from calibrations where version = $1 and processors = $2")
                 .bind(VERSION)
-                .bind(processors)
+                .bind(i64::from(processors))
                 .fetch_optional(&self.readers)
                 .await?;
         // One that does not read is measured again.
@@ -26,12 +26,12 @@ impl Store {
     ) -> Result<(), StoreError> {
         let mut write = self.write().await?;
         sqlx::query(
-            "insert into calibrations (version, processors, body, created_at) values (?, ?, ?, ?)
+            "insert into calibrations (version, processors, body, created_at) values ($1, $2, $3, $4)
              on conflict (version, processors) do update
              set body = excluded.body, created_at = excluded.created_at",
         )
         .bind(VERSION)
-        .bind(processors)
+        .bind(i64::from(processors))
         .bind(serde_json::to_string(measured)?)
         .bind(now())
         .execute(&mut *write)

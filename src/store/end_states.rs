@@ -1,6 +1,6 @@
 //! End states of sweeps up or down: one a job, that of the speed finished last.
 
-use sqlx::SqliteConnection;
+use sqlx::AnyConnection;
 
 use super::error::StoreError;
 use super::handle::Store;
@@ -11,9 +11,9 @@ impl Store {
     /// Where the wheel was at the end of speed `index` of a job, if that was finished last and left a state.
     pub async fn end_state(&self, job: JobId, index: u32) -> Result<Option<EndState>, StoreError> {
         let state: Option<Vec<u8>> =
-            sqlx::query_scalar("select state from end_states where job = ? and speed = ?")
+            sqlx::query_scalar("select state from end_states where job = $1 and speed = $2")
                 .bind(job.to_string())
-                .bind(index)
+                .bind(i64::from(index))
                 .fetch_optional(&self.readers)
                 .await?;
         state.map(|state| read(&state)).transpose()
@@ -27,7 +27,7 @@ pub(super) fn read(state: &[u8]) -> Result<EndState, StoreError> {
 
 /// Keeps the end state of a speed that has just been finished in place of the one before; if it left none, there is none.
 pub(super) async fn replace(
-    connection: &mut SqliteConnection,
+    connection: &mut AnyConnection,
     job: JobId,
     speed: u32,
     state: Option<&[u8]>,
@@ -36,10 +36,10 @@ pub(super) async fn replace(
     let Some(state) = state else { return Ok(()) };
     sqlx::query(
         "insert into end_states (job, speed, state)
-         select ?1, ?2, ?3 where exists (select 1 from jobs where id = ?1 and status in ('accepted', 'running'))",
+         select $1, $2, $3 where exists (select 1 from jobs where id = $1 and status in ('accepted', 'running'))",
     )
     .bind(job.to_string())
-    .bind(speed)
+    .bind(i64::from(speed))
     .bind(state)
     .execute(connection)
     .await?;
@@ -47,8 +47,8 @@ pub(super) async fn replace(
 }
 
 /// Drops the end state of a job.
-pub(super) async fn drop_of(connection: &mut SqliteConnection, job: JobId) -> Result<(), StoreError> {
-    sqlx::query("delete from end_states where job = ?").bind(job.to_string()).execute(connection).await?;
+pub(super) async fn drop_of(connection: &mut AnyConnection, job: JobId) -> Result<(), StoreError> {
+    sqlx::query("delete from end_states where job = $1").bind(job.to_string()).execute(connection).await?;
     Ok(())
 }
 
@@ -81,7 +81,7 @@ mod tests {
         let job = JobId::new();
         sqlx::query(
             "insert into jobs (id, kind, status, model, modes_per_speed, facts, request, speeds, created_at, updated_at)
-             values (?, 'sweep', 'running', 'm', 20, '{}', '{}', 5, 'a', 'a')",
+             values ($1, 'sweep', 'running', 'm', 20, '{}', '{}', 5, 'a', 'a')",
         )
         .bind(job.to_string())
         .execute(&store.writer)

@@ -1,10 +1,10 @@
 //! Answers to repeat when a POST with an `Idempotency-Key` is repeated.
 
-use sqlx::Row;
-use sqlx::SqliteConnection;
+use sqlx::{AnyConnection, Row};
 
 use super::error::StoreError;
 use super::handle::Store;
+use super::sql::number;
 use super::time::{now, timestamp};
 
 /// Days after which a key may be used for something else.
@@ -31,7 +31,7 @@ impl Store {
     /// The answer given under the `key` of `owner`.
     pub async fn answer(&self, owner: &str, key: &str) -> Result<Option<Answer>, StoreError> {
         let row =
-            sqlx::query("select * from idempotency_keys where owner = ? and key = ? and created_at > ?")
+            sqlx::query("select * from idempotency_keys where owner = $1 and key = $2 and created_at > $3")
                 .bind(owner)
                 .bind(key)
                 .bind(expiry())
@@ -42,7 +42,7 @@ impl Store {
                 owner: row.try_get("owner")?,
                 key: row.try_get("key")?,
                 fingerprint: row.try_get("fingerprint")?,
-                status: row.try_get::<u16, _>("status")?,
+                status: number(&row, "status")?,
                 location: row.try_get("location")?,
                 body: row.try_get("body")?,
             })
@@ -60,19 +60,19 @@ impl Store {
 }
 
 /// Keeps `answer` within a transaction. False if its key was taken meanwhile.
-pub(super) async fn insert(connection: &mut SqliteConnection, answer: &Answer) -> Result<bool, StoreError> {
-    sqlx::query("delete from idempotency_keys where created_at <= ?")
+pub(super) async fn insert(connection: &mut AnyConnection, answer: &Answer) -> Result<bool, StoreError> {
+    sqlx::query("delete from idempotency_keys where created_at <= $1")
         .bind(expiry())
         .execute(&mut *connection)
         .await?;
     let inserted = sqlx::query(
         "insert into idempotency_keys (owner, key, fingerprint, status, location, body, created_at)
-         values (?, ?, ?, ?, ?, ?, ?) on conflict (owner, key) do nothing",
+         values ($1, $2, $3, $4, $5, $6, $7) on conflict (owner, key) do nothing",
     )
     .bind(&answer.owner)
     .bind(&answer.key)
     .bind(&answer.fingerprint)
-    .bind(answer.status)
+    .bind(i64::from(answer.status))
     .bind(&answer.location)
     .bind(&answer.body)
     .bind(now())

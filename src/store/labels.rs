@@ -1,8 +1,8 @@
 //! What users call their jobs and models.
 
+use sqlx::any::{AnyArguments, AnyRow};
 use sqlx::query::Query;
-use sqlx::sqlite::{SqliteArguments, SqliteRow};
-use sqlx::{AssertSqlSafe, Row, Sqlite};
+use sqlx::{Any, AssertSqlSafe, Row};
 
 use super::error::StoreError;
 
@@ -29,15 +29,15 @@ pub struct LabelChanges {
 }
 
 /// Sets the columns of the labels, by parameters 1 to 5.
-const SET: &str = "name = case when ?1 then ?2 else name end, tags = coalesce(?3, tags), notes = case when ?4 then ?5 else notes end";
+const SET: &str = "name = case when $1 then $2 else name end, tags = coalesce($3, tags), notes = case when $4 then $5 else notes end";
 
 impl LabelChanges {
-    /// The statement that makes them in the rows of `table` that `whose` describes, with parameters from ?6 on.
+    /// The statement that makes them in the rows of `table` that `whose` describes, with parameters from $6 on.
     pub(super) fn update(
         self,
         table: &str,
         whose: &str,
-    ) -> Result<Query<'static, Sqlite, SqliteArguments>, StoreError> {
+    ) -> Result<Query<'static, Any, AnyArguments>, StoreError> {
         let tags = self.tags.as_ref().map(serde_json::to_string).transpose()?;
         Ok(sqlx::query(AssertSqlSafe(format!("update {table} set {SET} where {whose}")))
             .bind(self.name.is_some())
@@ -54,7 +54,7 @@ pub(super) fn quoted(tag: &str) -> Result<String, StoreError> {
     Ok(serde_json::to_string(tag)?)
 }
 
-pub(super) fn read(row: &SqliteRow) -> Result<Labels, StoreError> {
+pub(super) fn read(row: &AnyRow) -> Result<Labels, StoreError> {
     Ok(Labels {
         name: row.try_get("name")?,
         tags: serde_json::from_str(row.try_get("tags")?)?,

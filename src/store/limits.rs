@@ -1,6 +1,6 @@
 //! What one owner may have in the store.
 
-use sqlx::SqliteConnection;
+use sqlx::AnyConnection;
 
 use super::error::StoreError;
 
@@ -56,13 +56,13 @@ impl Limits {
     /// Whether `owner` may queue so many speeds more.
     pub(super) async fn allow_speeds(
         self,
-        connection: &mut SqliteConnection,
+        connection: &mut AnyConnection,
         owner: &str,
         asked: u64,
     ) -> Result<Result<(), LimitReached>, StoreError> {
         if let Some(limit) = self.queued_speeds {
-            let sql = "select coalesce(sum(max(speeds - finished, 1)), 0) from jobs
-                       where owner = ? and status in ('accepted', 'running')";
+            let sql = "select cast(coalesce(sum(case when speeds > finished then speeds - finished else 1 end), 0) as bigint) from jobs
+                       where owner = $1 and status in ('accepted', 'running')";
             let queued = count(connection, sql, owner).await?;
             if queued + asked > limit {
                 return Ok(Err(LimitReached::QueuedSpeeds { queued, asked, limit }));
@@ -75,7 +75,7 @@ impl Limits {
     /// Whether `owner` may have one model more, of so many bytes, beside those that are being generated.
     pub(super) async fn allow_model(
         self,
-        connection: &mut SqliteConnection,
+        connection: &mut AnyConnection,
         owner: &str,
         bytes: u64,
     ) -> Result<Result<(), LimitReached>, StoreError> {
@@ -88,12 +88,12 @@ impl Limits {
     /// The same of a model whose bytes nobody knows yet.
     pub(super) async fn allow_generation(
         self,
-        connection: &mut SqliteConnection,
+        connection: &mut AnyConnection,
         owner: &str,
     ) -> Result<Result<(), LimitReached>, StoreError> {
         let Some(limit) = self.models else { return Ok(Ok(())) };
-        let sql = "select (select count(*) from model_owners where owner = ?1)
-                   + (select count(*) from jobs where owner = ?1 and kind = 'model_generation'
+        let sql = "select (select count(*) from model_owners where owner = $1)
+                   + (select count(*) from jobs where owner = $1 and kind = 'model_generation'
                       and status in ('accepted', 'running'))";
         let models = count(connection, sql, owner).await?;
         Ok(if models >= limit { Err(LimitReached::Models { models, limit }) } else { Ok(()) })
@@ -101,21 +101,22 @@ impl Limits {
 
     async fn allow_bytes(
         self,
-        connection: &mut SqliteConnection,
+        connection: &mut AnyConnection,
         owner: &str,
         more: u64,
     ) -> Result<Result<(), LimitReached>, StoreError> {
         let Some(limit) = self.stored_bytes else { return Ok(Ok(())) };
-        let sql = "select (select coalesce(sum(stored_bytes), 0) from jobs where owner = ?1 and deleted = 0)
+        let sql =
+            "select cast((select coalesce(sum(stored_bytes), 0) from jobs where owner = $1 and deleted = 0)
                    + (select coalesce(sum(size_bytes), 0) from models
-                      where id in (select model from model_owners where owner = ?1))";
+                      where id in (select model from model_owners where owner = $1)) as bigint)";
         let stored = count(connection, sql, owner).await?;
         let reached = stored >= limit || stored.saturating_add(more) > limit;
         Ok(if reached { Err(LimitReached::StoredBytes { stored, more, limit }) } else { Ok(()) })
     }
 }
 
-async fn count(connection: &mut SqliteConnection, sql: &'static str, owner: &str) -> Result<u64, StoreError> {
+async fn count(connection: &mut AnyConnection, sql: &'static str, owner: &str) -> Result<u64, StoreError> {
     let count: i64 = sqlx::query_scalar(sql).bind(owner).fetch_one(connection).await?;
     Ok(count.unsigned_abs())
 }

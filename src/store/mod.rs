@@ -28,6 +28,8 @@ mod readiness;
 pub mod reductions;
 mod reserve;
 pub mod results;
+mod sql;
+mod sqlite;
 pub mod states;
 pub mod status;
 mod stored_sensor;

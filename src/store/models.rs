@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use sqlx::sqlite::SqliteRow;
+use sqlx::any::AnyRow;
 use sqlx::{AssertSqlSafe, Row};
 
 use super::error::StoreError;
@@ -47,14 +47,14 @@ pub struct ModelFilter {
     pub before: Option<i64>,
 }
 
-/// All models of the owner ?1, or of all; a condition may follow.
+/// All models of the owner $1, or of all; a condition may follow.
 pub(super) const OWNED: &str = "select models.rowid as number, models.id, facts, size_bytes,
-        case when ?1 is null then models.created_at else owned.created_at end as since,
+        case when $1 is null then models.created_at else owned.created_at end as since,
         owned.name, coalesce(owned.tags, '[]') as tags, owned.notes
     from models left join model_owners as owned on owned.rowid =
-        (select rowid from model_owners where model = models.id and (?1 is null or owner = ?1)
+        (select rowid from model_owners where model = models.id and ($1 is null or owner = $1)
          order by created_at, rowid limit 1)
-    where (?1 is null or owned.rowid is not null)";
+    where ($1 is null or owned.rowid is not null)";
 
 /// What became of a model that was to be deleted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -116,7 +116,7 @@ impl Store {
             .map_err(std::io::Error::other)??;
         let mut write = self.write().await?;
         sqlx::query(
-            "insert into models (id, name, facts, size_bytes, created_at) values (?, ?, ?, ?, ?)
+            "insert into models (id, name, facts, size_bytes, created_at) values ($1, $2, $3, $4, $5)
              on conflict (id) do nothing",
         )
         .bind(id)
@@ -127,7 +127,7 @@ impl Store {
         .execute(&mut *write)
         .await?;
         let owned = sqlx::query(
-            "insert into model_owners (model, owner, created_at, name, tags, notes) values (?, ?, ?, ?, ?, ?)
+            "insert into model_owners (model, owner, created_at, name, tags, notes) values ($1, $2, $3, $4, $5, $6)
              on conflict do nothing",
         )
         .bind(id)
@@ -145,7 +145,7 @@ impl Store {
 
     /// The model `id`, if `owner` has it; `None` asks for anybody's.
     pub async fn model(&self, id: &str, owner: Option<&str>) -> Result<Option<StoredModel>, StoreError> {
-        sqlx::query(AssertSqlSafe(format!("{OWNED} and models.id = ?2")))
+        sqlx::query(AssertSqlSafe(format!("{OWNED} and models.id = $2")))
             .bind(owner)
             .bind(id)
             .fetch_optional(&self.readers)
@@ -157,16 +157,16 @@ impl Store {
     /// Up to `limit` models that pass `filter`, newest first.
     pub async fn models(&self, filter: ModelFilter, limit: u32) -> Result<Vec<StoredModel>, StoreError> {
         sqlx::query(AssertSqlSafe(format!(
-            "{OWNED} and (?2 is null or models.rowid < ?2)
-                 and (?3 is null or instr(lower(coalesce(owned.name, models.name)), lower(?3)) > 0)
-                 and (?4 is null or instr(owned.tags, ?4) > 0)
-             order by models.rowid desc limit ?5"
+            "{OWNED} and ($2 is null or models.rowid < $2)
+                 and ($3 is null or instr(lower(coalesce(owned.name, models.name)), $3) > 0)
+                 and ($4 is null or instr(owned.tags, $4) > 0)
+             order by models.rowid desc limit $5"
         )))
         .bind(filter.owner)
         .bind(filter.before)
-        .bind(filter.name)
+        .bind(filter.name.as_deref().map(str::to_ascii_lowercase))
         .bind(filter.tag.as_deref().map(quoted).transpose()?)
-        .bind(limit)
+        .bind(i64::from(limit))
         .fetch_all(&self.readers)
         .await?
         .iter()
@@ -181,7 +181,7 @@ impl Store {
         owner: Option<&str>,
         changes: LabelChanges,
     ) -> Result<bool, StoreError> {
-        let update = changes.update("model_owners", "model = ?6 and (?7 is null or owner = ?7)")?;
+        let update = changes.update("model_owners", "model = $6 and ($7 is null or owner = $7)")?;
         let mut write = self.write().await?;
         let changed =
             update.bind(id.to_owned()).bind(owner.map(ToOwned::to_owned)).execute(&mut *write).await?;
@@ -233,9 +233,9 @@ impl Store {
         let mut transaction = self.write_removal().await?;
         let users: i64 = sqlx::query_scalar(
             "select count(*) from jobs
-             where model = ?1 and status in ('accepted', 'running')
-                 and (?2 is null or owner = ?2
-                      or not exists (select 1 from model_owners where model = ?1 and owner <> ?2))",
+             where model = $1 and status in ('accepted', 'running')
+                 and ($2 is null or owner = $2
+                      or not exists (select 1 from model_owners where model = $1 and owner <> $2))",
         )
         .bind(id)
         .bind(owner)
@@ -245,19 +245,19 @@ impl Store {
             transaction.rollback().await?;
             return Ok((Deletion::InUse(users.unsigned_abs()), false));
         }
-        sqlx::query("delete from model_owners where model = ?1 and (?2 is null or owner = ?2)")
+        sqlx::query("delete from model_owners where model = $1 and ($2 is null or owner = $2)")
             .bind(id)
             .bind(owner)
             .execute(&mut *transaction)
             .await?;
         // Nobody is to be told again that it is there.
-        sqlx::query("delete from idempotency_keys where location = '/v1/models/' || ?1 and (?2 is null or owner = ?2)")
+        sqlx::query("delete from idempotency_keys where location = '/v1/models/' || $1 and ($2 is null or owner = $2)")
             .bind(id)
             .bind(owner)
             .execute(&mut *transaction)
             .await?;
         let deleted = sqlx::query(
-            "delete from models where id = ?1 and not exists (select 1 from model_owners where model = ?1)",
+            "delete from models where id = $1 and not exists (select 1 from model_owners where model = $1)",
         )
         .bind(id)
         .execute(&mut *transaction)
@@ -267,7 +267,7 @@ impl Store {
     }
 }
 
-pub(super) fn read(row: &SqliteRow) -> Result<StoredModel, StoreError> {
+pub(super) fn read(row: &AnyRow) -> Result<StoredModel, StoreError> {
     Ok(StoredModel {
         number: row.try_get("number")?,
         id: row.try_get("id")?,

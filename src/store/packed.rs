@@ -185,7 +185,7 @@ mod tests {
         let (job, written) = (crate::store::jobs::JobId::new(), spectra(&[(0, 0), (0, 1)]));
         sqlx::query(
             "insert into jobs (id, kind, status, model, modes_per_speed, facts, request, speeds, created_at, updated_at)
-             values (?, 'sweep', 'running', 'm', 20, '{}', '{}', 2, 'a', 'a')",
+             values ($1, 'sweep', 'running', 'm', 20, '{}', '{}', 2, 'a', 'a')",
         )
         .bind(job.to_string())
         .execute(&store.writer)
@@ -205,7 +205,7 @@ mod tests {
         {
             sqlx::query(
                 "insert into speed_results (job, speed, status, point, spectra, unpacked_bytes, created_at)
-                 values (?, ?, 'completed', '{}', ?, ?, 'a')",
+                 values ($1, $2, 'completed', '{}', $3, $4, 'a')",
             )
             .bind(job.to_string())
             .bind(speed)

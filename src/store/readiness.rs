@@ -21,7 +21,7 @@ impl Store {
     pub async fn probe(&self) -> Result<(), StoreError> {
         let written = uuid::Uuid::now_v7().to_string();
         let mut write = self.write().await?;
-        sqlx::query("insert or replace into readiness (id, mark) values (1, ?)")
+        sqlx::query("insert into readiness (id, mark) values (1, $1) on conflict (id) do update set mark = excluded.mark")
             .bind(&written)
             .execute(&mut *write)
             .await?;
@@ -41,7 +41,7 @@ impl Store {
     pub async fn backlog(&self) -> Result<Backlog, StoreError> {
         let (jobs_accepted, jobs_running, speeds_unfinished) = sqlx::query_as::<_, (i64, i64, i64)>(
             "select count(*) filter (where status = 'accepted'), count(*) filter (where status = 'running'),
-                 coalesce(sum(speeds - finished) filter (where kind = 'sweep'), 0)
+                 cast(coalesce(sum(speeds - finished) filter (where kind = 'sweep'), 0) as bigint)
              from jobs where status in ('accepted', 'running')",
         )
         .fetch_one(&self.readers)

@@ -3,6 +3,7 @@
 use super::error::StoreError;
 use super::handle::Store;
 use super::jobs::job::JobId;
+use super::sql::of;
 use super::time::now;
 use crate::analysis::result::ReductionReport;
 use crate::analysis::run::{REVISION, ReducedSector};
@@ -22,10 +23,10 @@ impl Store {
         modes_per_speed: u32,
     ) -> Result<Option<ReducedSector>, StoreError> {
         let blob: Option<Vec<u8>> = sqlx::query_scalar(
-            "select reduced from reductions where model = ? and modes_per_speed = ? and layout = ?",
+            "select reduced from reductions where model = $1 and modes_per_speed = $2 and layout = $3",
         )
         .bind(model)
-        .bind(modes_per_speed)
+        .bind(i64::from(modes_per_speed))
         .bind(FORM)
         .fetch_optional(&self.readers)
         .await?;
@@ -42,7 +43,7 @@ impl Store {
     /// `modes_per_speed`.
     pub async fn reduction_reports(&self, model: &str) -> Result<Vec<ReductionReport>, StoreError> {
         let reports: Vec<String> = sqlx::query_scalar(
-            "select report from reductions where model = ? and layout = ? order by modes_per_speed",
+            "select report from reductions where model = $1 and layout = $2 order by modes_per_speed",
         )
         .bind(model)
         .bind(FORM)
@@ -53,10 +54,15 @@ impl Store {
 
     /// Model and `modes_per_speed` of all stored reductions that this version of the program can read.
     pub(super) async fn stored_reductions(&self) -> Result<Vec<(String, u32)>, StoreError> {
-        Ok(sqlx::query_as("select model, modes_per_speed from reductions where layout = ?")
-            .bind(FORM)
-            .fetch_all(&self.readers)
-            .await?)
+        let stored: Vec<(String, i64)> =
+            sqlx::query_as("select model, modes_per_speed from reductions where layout = $1")
+                .bind(FORM)
+                .fetch_all(&self.readers)
+                .await?;
+        stored
+            .into_iter()
+            .map(|(model, modes)| Ok((model, of("reductions.modes_per_speed", modes)?)))
+            .collect()
     }
 
     /// Keeps the reduction of `model` that `job` made, and drops its checkpoints. A model deleted meanwhile keeps nothing.
@@ -70,20 +76,20 @@ impl Store {
         let mut write = self.write().await?;
         let kept = sqlx::query(
             "insert into reductions (model, modes_per_speed, layout, reduced, report, created_at)
-             select ?1, ?2, ?3, ?4, ?5, ?6 where exists (select 1 from models where id = ?1)
+             select $1, $2, $3, $4, $5, $6 where exists (select 1 from models where id = $1)
              on conflict (model, modes_per_speed) do update
              set layout = excluded.layout, reduced = excluded.reduced, report = excluded.report,
                  created_at = excluded.created_at",
         )
         .bind(model)
-        .bind(modes_per_speed)
+        .bind(i64::from(modes_per_speed))
         .bind(FORM)
         .bind(postcard::to_stdvec(reduced)?)
         .bind(serde_json::to_string(&reduced.report)?)
         .bind(now())
         .execute(&mut *write)
         .await?;
-        sqlx::query("update jobs set crashes = 0 where id = ? and crashes > 0")
+        sqlx::query("update jobs set crashes = 0 where id = $1 and crashes > 0")
             .bind(job.to_string())
             .execute(&mut *write)
             .await?;
@@ -105,7 +111,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let store = Store::open(folder.path()).await.unwrap();
         sqlx::query(
-            "insert into models (id, name, facts, size_bytes, created_at) values (?, 'm', '{}', 1, 'a')",
+            "insert into models (id, name, facts, size_bytes, created_at) values ($1, 'm', '{}', 1, 'a')",
         )
         .bind("m".repeat(64))
         .execute(&store.writer)
@@ -116,9 +122,9 @@ mod tests {
             "linear_ratio": 0, "quadratic_ratio": 0, "frequency_error": 0, "message": "none"}, "wall_time_s": 1.5, "version": "0.1.0"}"#;
         let rows = [(10, FORM - 1, r#"{"modes_per_speed": 10, "checked_modes": 5}"#), (20, FORM, report)];
         for (modes_per_speed, layout, report) in rows {
-            sqlx::query("insert into reductions values (?, ?, ?, x'00', ?, 'a')")
+            sqlx::query("insert into reductions values ($1, $2, $3, x'00', $4, 'a')")
                 .bind("m".repeat(64))
-                .bind(modes_per_speed)
+                .bind(i64::from(modes_per_speed))
                 .bind(layout)
                 .bind(report)
                 .execute(&store.writer)

@@ -4,11 +4,12 @@ use std::collections::BTreeSet;
 
 use futures::TryStreamExt;
 use sqlx::Row;
-use sqlx::sqlite::SqliteRow;
+use sqlx::any::AnyRow;
 
 use super::error::StoreError;
 use super::handle::Store;
 use super::jobs::job::JobId;
+use super::sql::{number, of};
 use super::time::now;
 use super::{end_states, packed};
 use crate::analysis::result::{ContactForces, Point, PointStatus, SpeedResult, SpeedSpectra, WearMap};
@@ -105,68 +106,70 @@ impl Store {
         let mut transaction = self.write().await?;
         let inserted = sqlx::query(
             "insert into speed_results (job, speed, status, point, spectra, unpacked_bytes, wear, contact, created_at)
-             select ?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9 where exists (select 1 from jobs where id = ?1 and deleted = 0)
+             select $1, $2, $3, $4, $5, $6, $7, $8, $9 where exists (select 1 from jobs where id = $1 and deleted = 0)
              on conflict (job, speed) do nothing",
         )
         .bind(job.to_string())
-        .bind(speed.index)
+        .bind(i64::from(speed.index))
         .bind(match speed.status {
             PointStatus::Completed => "completed",
             PointStatus::Diverged => "diverged",
             PointStatus::Failed => "failed",
         })
         .bind(&speed.point)
-        .bind(speed.spectra.as_ref().map(|(bytes, _)| bytes))
+        .bind(speed.spectra.as_ref().map(|(bytes, _)| &bytes[..]))
         .bind(speed.spectra.as_ref().map(|(_, unpacked)| *unpacked as i64))
-        .bind(&speed.wear)
-        .bind(&speed.contact)
+        .bind(speed.wear.as_deref())
+        .bind(speed.contact.as_deref())
         .bind(now())
         .execute(&mut *transaction)
         .await?;
         if inserted.rows_affected() == 1 {
             end_states::replace(&mut transaction, job, speed.index, speed.end_state.as_deref()).await?;
             sqlx::query(
-                "update jobs set crashes = 0, finished = finished + 1, diverged = diverged + ?2, failed = failed + ?3,
-                     stored_bytes = stored_bytes + ?4
-                 where id = ?1",
+                "update jobs set crashes = 0, finished = finished + 1, diverged = diverged + $2, failed = failed + $3,
+                     stored_bytes = stored_bytes + $4
+                 where id = $1",
             )
             .bind(job.to_string())
-            .bind(speed.status == PointStatus::Diverged)
-            .bind(speed.status == PointStatus::Failed)
+            .bind(i64::from(speed.status == PointStatus::Diverged))
+            .bind(i64::from(speed.status == PointStatus::Failed))
             .bind(speed.bytes() as i64)
             .execute(&mut *transaction)
             .await?;
         }
-        let finished = sqlx::query_scalar("select finished from jobs where id = ? and deleted = 0")
-            .bind(job.to_string())
-            .fetch_optional(&mut *transaction)
-            .await?;
+        let finished: Option<i64> =
+            sqlx::query_scalar("select finished from jobs where id = $1 and deleted = 0")
+                .bind(job.to_string())
+                .fetch_optional(&mut *transaction)
+                .await?;
         transaction.commit_job(job).await?;
-        Ok(finished)
+        finished.map(|finished| of("jobs.finished", finished)).transpose()
     }
 
     /// Indices of the finished speeds of a job.
     pub async fn finished_speeds(&self, job: JobId) -> Result<BTreeSet<u32>, StoreError> {
-        let speeds: Vec<u32> = sqlx::query_scalar("select speed from speed_results where job = ?")
+        let speeds: Vec<i64> = sqlx::query_scalar("select speed from speed_results where job = $1")
             .bind(job.to_string())
             .fetch_all(&self.readers)
             .await?;
-        Ok(speeds.into_iter().collect())
+        speeds.into_iter().map(|speed| of("speed_results.speed", speed)).collect()
     }
 
     /// Whether speed `index` of a job is finished.
     pub async fn is_speed_finished(&self, job: JobId, index: u32) -> Result<bool, StoreError> {
-        Ok(sqlx::query_scalar("select exists (select 1 from speed_results where job = ? and speed = ?)")
+        let found = sqlx::query("select speed from speed_results where job = $1 and speed = $2")
             .bind(job.to_string())
-            .bind(index)
-            .fetch_one(&self.readers)
-            .await?)
+            .bind(i64::from(index))
+            .fetch_optional(&self.readers)
+            .await?;
+        Ok(found.is_some())
     }
 
     /// Credentials of all finished speeds of a job, in the order of the request.
     pub async fn points(&self, job: JobId) -> Result<Vec<Point>, StoreError> {
         let points: Vec<String> =
-            sqlx::query_scalar("select point from speed_results where job = ? order by speed")
+            sqlx::query_scalar("select point from speed_results where job = $1 order by speed")
                 .bind(job.to_string())
                 .fetch_all(&self.readers)
                 .await?;
@@ -184,9 +187,9 @@ impl Store {
         row: impl Fn(&SpeedSpectra) -> Option<Vec<f64>>,
     ) -> Result<Option<Vec<f64>>, StoreError> {
         let found =
-            sqlx::query("select spectra, unpacked_bytes from speed_results where job = ? and speed = ?")
+            sqlx::query("select spectra, unpacked_bytes from speed_results where job = $1 and speed = $2")
                 .bind(job.to_string())
-                .bind(index)
+                .bind(i64::from(index))
                 .fetch_one(&self.readers)
                 .await?;
         Ok(spectra(&found)?.and_then(|spectra| row(&spectra)))
@@ -195,7 +198,7 @@ impl Store {
     /// Bytes that the spectra of one speed of a job take unpacked, at most.
     pub async fn largest_spectra(&self, job: JobId) -> Result<u64, StoreError> {
         let bytes: i64 = sqlx::query_scalar(
-            "select coalesce(max(coalesce(unpacked_bytes, length(spectra))), 0) from speed_results where job = ?",
+            "select coalesce(max(coalesce(unpacked_bytes, length(spectra))), 0) from speed_results where job = $1",
         )
         .bind(job.to_string())
         .fetch_one(&self.readers)
@@ -206,10 +209,10 @@ impl Store {
     /// Speed `index` of a job, if it is finished.
     pub async fn speed_result(&self, job: JobId, index: u32) -> Result<Option<SpeedResult>, StoreError> {
         sqlx::query(
-            "select point, spectra, unpacked_bytes, wear, contact from speed_results where job = ? and speed = ?",
+            "select point, spectra, unpacked_bytes, wear, contact from speed_results where job = $1 and speed = $2",
         )
         .bind(job.to_string())
-        .bind(index)
+        .bind(i64::from(index))
         .fetch_optional(&self.readers)
         .await?
         .map(|row| read(&row))
@@ -223,7 +226,7 @@ impl Store {
         row: impl Fn(&Point, &ContactForces) -> Option<T>,
     ) -> Result<Vec<(u32, T)>, StoreError> {
         let mut speeds = sqlx::query(
-            "select speed, point, contact from speed_results where job = ? and contact is not null order by speed",
+            "select speed, point, contact from speed_results where job = $1 and contact is not null order by speed",
         )
         .bind(job.to_string())
         .fetch(&self.readers);
@@ -231,7 +234,7 @@ impl Store {
         while let Some(speed) = speeds.try_next().await? {
             let point = serde_json::from_str(speed.try_get("point")?)?;
             if let Some(taken) = contact(&speed)?.and_then(|contact| row(&point, &contact)) {
-                found.push((speed.try_get("speed")?, taken));
+                found.push((number(&speed, "speed")?, taken));
             }
         }
         Ok(found)
@@ -244,18 +247,18 @@ impl Store {
         let mut transaction = self.write().await?;
         let inserted = sqlx::query(
             "insert into documents (job, name, part, body, created_at)
-             select ?1, ?2, ?3, ?4, ?5 where exists (select 1 from jobs where id = ?1 and deleted = 0)
+             select $1, $2, $3, $4, $5 where exists (select 1 from jobs where id = $1 and deleted = 0)
              on conflict (job, name, part) do nothing",
         )
         .bind(job.to_string())
         .bind(name)
-        .bind(part)
+        .bind(i64::from(part))
         .bind(body)
         .bind(now())
         .execute(&mut *transaction)
         .await?;
         if inserted.rows_affected() == 1 {
-            sqlx::query("update jobs set crashes = 0, stored_bytes = stored_bytes + ?2 where id = ?1")
+            sqlx::query("update jobs set crashes = 0, stored_bytes = stored_bytes + $2 where id = $1")
                 .bind(job.to_string())
                 .bind(body.len() as i64)
                 .execute(&mut *transaction)
@@ -269,11 +272,11 @@ impl Store {
     pub async fn document_bytes(&self, job: JobId, document: Document) -> Result<Option<u64>, StoreError> {
         let (name, part) = document.columns();
         let bytes: Option<i64> = sqlx::query_scalar(
-            "select octet_length(body) from documents where job = ? and name = ? and part = ?",
+            "select octet_length(body) from documents where job = $1 and name = $2 and part = $3",
         )
         .bind(job.to_string())
         .bind(name)
-        .bind(part)
+        .bind(i64::from(part))
         .fetch_optional(&self.readers)
         .await?;
         Ok(bytes.map(i64::unsigned_abs))
@@ -281,38 +284,38 @@ impl Store {
 
     /// Documents of a finished job.
     pub async fn documents(&self, job: JobId) -> Result<Vec<Document>, StoreError> {
-        let rows = sqlx::query("select name, part from documents where job = ? order by name, part")
+        let rows = sqlx::query("select name, part from documents where job = $1 order by name, part")
             .bind(job.to_string())
             .fetch_all(&self.readers)
             .await?;
-        rows.iter().map(|row| Document::from_columns(row.try_get("name")?, row.try_get("part")?)).collect()
+        rows.iter().map(|row| Document::from_columns(row.try_get("name")?, number(row, "part")?)).collect()
     }
 
     /// A document of a finished job, as JSON text.
     pub async fn document(&self, job: JobId, document: Document) -> Result<Option<String>, StoreError> {
         let (name, part) = document.columns();
-        Ok(sqlx::query_scalar("select body from documents where job = ? and name = ? and part = ?")
+        Ok(sqlx::query_scalar("select body from documents where job = $1 and name = $2 and part = $3")
             .bind(job.to_string())
             .bind(name)
-            .bind(part)
+            .bind(i64::from(part))
             .fetch_optional(&self.readers)
             .await?)
     }
 }
 
-fn contact(row: &SqliteRow) -> Result<Option<ContactForces>, StoreError> {
+fn contact(row: &AnyRow) -> Result<Option<ContactForces>, StoreError> {
     let contact: Option<&[u8]> = row.try_get("contact")?;
     Ok(contact.map(postcard::from_bytes).transpose()?)
 }
 
-pub(super) fn read(row: &SqliteRow) -> Result<SpeedResult, StoreError> {
+pub(super) fn read(row: &AnyRow) -> Result<SpeedResult, StoreError> {
     let wear: Option<&[u8]> = row.try_get("wear")?;
     let wear: Option<WearMap> = wear.map(postcard::from_bytes).transpose()?;
     let point = serde_json::from_str(row.try_get("point")?)?;
     Ok(SpeedResult { point, spectra: spectra(row)?, wear, contact: contact(row)?, end_state: None })
 }
 
-fn spectra(row: &SqliteRow) -> Result<Option<SpeedSpectra>, StoreError> {
+fn spectra(row: &AnyRow) -> Result<Option<SpeedSpectra>, StoreError> {
     let Some(bytes) = row.try_get::<Option<&[u8]>, _>("spectra")? else { return Ok(None) };
     // Earlier versions did not pack them.
     let packed = row.try_get::<Option<i64>, _>("unpacked_bytes")?.is_some();

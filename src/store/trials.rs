@@ -20,7 +20,7 @@ pub fn key(request: &TrialRequest) -> Result<String, StoreError> {
 impl Store {
     /// The trial of this key, if it was run before.
     pub async fn trial(&self, key: &str) -> Result<Option<Trial>, StoreError> {
-        let body: Option<String> = sqlx::query_scalar("select body from trials where key = ?")
+        let body: Option<String> = sqlx::query_scalar("select body from trials where key = $1")
             .bind(key)
             .fetch_optional(&self.readers)
             .await?;
@@ -39,7 +39,7 @@ impl Store {
         let mut transaction = self.write().await?;
         sqlx::query(
             "insert into trials (key, model, version, body, created_at)
-             select ?1, ?2, ?3, ?4, ?5 where exists (select 1 from models where id = ?2)
+             select $1, $2, $3, $4, $5 where exists (select 1 from models where id = $2)
              on conflict (key) do update set body = excluded.body, created_at = excluded.created_at",
         )
         .bind(key)
@@ -49,7 +49,7 @@ impl Store {
         .bind(now())
         .execute(&mut *transaction)
         .await?;
-        sqlx::query("update jobs set crashes = 0 where id = ? and crashes > 0")
+        sqlx::query("update jobs set crashes = 0 where id = $1 and crashes > 0")
             .bind(job.to_string())
             .execute(&mut *transaction)
             .await?;
@@ -59,7 +59,7 @@ impl Store {
     /// Drops the trials of other versions of the program.
     pub(super) async fn remove_stale_trials(&self) -> Result<(), StoreError> {
         let mut write = self.write().await?;
-        sqlx::query("delete from trials where version <> ?").bind(VERSION).execute(&mut *write).await?;
+        sqlx::query("delete from trials where version <> $1").bind(VERSION).execute(&mut *write).await?;
         write.commit().await
     }
 }

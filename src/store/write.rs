@@ -3,7 +3,7 @@
 use std::ops::{Deref, DerefMut};
 
 use sqlx::pool::PoolConnection;
-use sqlx::{Sqlite, SqliteConnection};
+use sqlx::{Any, AnyConnection};
 
 use super::changes::Changes;
 use super::error::StoreError;
@@ -17,7 +17,7 @@ use super::jobs::job::JobId;
 /// ended the transaction by itself or not, and a connection that is wrong about that takes all later writes with it.
 #[derive(Debug)]
 pub(super) struct Write {
-    connection: PoolConnection<Sqlite>,
+    connection: PoolConnection<Any>,
     changes: Changes,
     ended: bool,
 }
@@ -90,15 +90,15 @@ impl Write {
 }
 
 impl Deref for Write {
-    type Target = SqliteConnection;
+    type Target = AnyConnection;
 
-    fn deref(&self) -> &SqliteConnection {
+    fn deref(&self) -> &AnyConnection {
         &self.connection
     }
 }
 
 impl DerefMut for Write {
-    fn deref_mut(&mut self) -> &mut SqliteConnection {
+    fn deref_mut(&mut self) -> &mut AnyConnection {
         &mut self.connection
     }
 }

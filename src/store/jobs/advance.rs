@@ -27,9 +27,9 @@ impl Store {
         }
         let time = now();
         sqlx::query(
-            "update jobs set status = ?2, error = ?3, updated_at = ?4,
-                 finished_at = case when ?5 then ?4 end
-             where id = ?1",
+            "update jobs set status = $2, error = $3, updated_at = $4,
+                 finished_at = case when $5 then $4 end
+             where id = $1",
         )
         .bind(id.to_string())
         .bind(next.as_str())
@@ -54,10 +54,10 @@ impl Store {
     pub async fn begin_job(&self, id: JobId) -> Result<bool, StoreError> {
         let mut write = self.write().await?;
         let begun = sqlx::query(
-            "update jobs set status = 'running', updated_at = ?2,
-                 started_at = coalesce(started_at, ?2),
-                 vectors = case when coalesce(vectors, ?3) = ?3 then ?3 else 'several' end
-             where id = ?1 and status in ('accepted', 'running')",
+            "update jobs set status = 'running', updated_at = $2,
+                 started_at = coalesce(started_at, $2),
+                 vectors = case when coalesce(vectors, $3) = $3 then $3 else 'several' end
+             where id = $1 and status in ('accepted', 'running')",
         )
         .bind(id.to_string())
         .bind(now())
@@ -85,20 +85,22 @@ impl Store {
         let time = now();
         for (document, body) in documents {
             let (name, part) = document.columns();
-            sqlx::query("insert into documents (job, name, part, body, created_at) values (?, ?, ?, ?, ?)")
-                .bind(id.to_string())
-                .bind(name)
-                .bind(part)
-                .bind(body)
-                .bind(&time)
-                .execute(&mut *transaction)
-                .await?;
+            sqlx::query(
+                "insert into documents (job, name, part, body, created_at) values ($1, $2, $3, $4, $5)",
+            )
+            .bind(id.to_string())
+            .bind(name)
+            .bind(i64::from(part))
+            .bind(body)
+            .bind(&time)
+            .execute(&mut *transaction)
+            .await?;
         }
         let bytes: usize = documents.iter().map(|(_, body)| body.len()).sum();
         sqlx::query(
-            "update jobs set status = 'successful', progress = 100, phase = '', stored_bytes = stored_bytes + ?4,
-                 finished_at = ?2, updated_at = ?2, model = coalesce(?3, model)
-             where id = ?1",
+            "update jobs set status = 'successful', progress = 100, phase = '', stored_bytes = stored_bytes + $4,
+                 finished_at = $2, updated_at = $2, model = coalesce($3, model)
+             where id = $1",
         )
         .bind(id.to_string())
         .bind(time)

@@ -1,7 +1,7 @@
 //! Deleting jobs, and giving their room back to the file system.
 
 use chrono::{TimeDelta, Utc};
-use sqlx::SqliteConnection;
+use sqlx::AnyConnection;
 
 use super::job::JobId;
 use super::row::status_of;
@@ -10,7 +10,7 @@ use crate::store::handle::Store;
 use crate::store::time::timestamp;
 
 /// Speeds that one transaction deletes: others get to write in between.
-const SPEEDS_AT_ONCE: u32 = 64;
+const SPEEDS_AT_ONCE: i64 = 64;
 
 /// Pages of the database given back at once.
 const PAGES_AT_ONCE: u32 = 1024;
@@ -43,7 +43,7 @@ impl Store {
             write.rollback().await?;
             return Ok(outcome);
         }
-        sqlx::query("update jobs set deleted = 1 where id = ?")
+        sqlx::query("update jobs set deleted = 1 where id = $1")
             .bind(id.to_string())
             .execute(&mut *write)
             .await?;
@@ -59,7 +59,7 @@ impl Store {
 
     async fn mark_older_deleted(&self, days: u32) -> Result<u64, StoreError> {
         let mut write = self.write_removal().await?;
-        let deleted = sqlx::query("update jobs set deleted = 1 where deleted = 0 and finished_at < ?")
+        let deleted = sqlx::query("update jobs set deleted = 1 where deleted = 0 and finished_at < $1")
             .bind(timestamp(Utc::now() - TimeDelta::days(days.into())))
             .execute(&mut *write)
             .await?;
@@ -83,8 +83,8 @@ impl Store {
             loop {
                 let mut write = self.write_removal().await?;
                 let removed = sqlx::query(
-                    "delete from speed_results where job = ?1 and speed in
-                         (select speed from speed_results where job = ?1 limit ?2)",
+                    "delete from speed_results where job = $1 and speed in
+                         (select speed from speed_results where job = $1 limit $2)",
                 )
                 .bind(id)
                 .bind(SPEEDS_AT_ONCE)
@@ -92,7 +92,7 @@ impl Store {
                 .await?;
                 let last = removed.rows_affected() == 0;
                 if last {
-                    sqlx::query("delete from jobs where id = ?").bind(id).execute(&mut *write).await?;
+                    sqlx::query("delete from jobs where id = $1").bind(id).execute(&mut *write).await?;
                 }
                 write.commit().await?;
                 if last {
@@ -130,7 +130,7 @@ impl Store {
 }
 
 /// Nobody is to be told again that a deleted job is accepted: its idempotency key is free.
-async fn forget_answers(connection: &mut SqliteConnection) -> Result<(), StoreError> {
+async fn forget_answers(connection: &mut AnyConnection) -> Result<(), StoreError> {
     sqlx::query(
         "delete from idempotency_keys where location in (select '/v1/jobs/' || id from jobs where deleted = 1)",
     )
@@ -155,7 +155,7 @@ mod tests {
             sqlx::query(
                 "insert into jobs (id, kind, status, model, modes_per_speed, facts, request, speeds, created_at,
                      finished_at, updated_at)
-                 values (?, 'sweep', ?, 'm', 20, '{}', '{}', 300, 'a', ?, 'a')",
+                 values ($1, 'sweep', $2, 'm', 20, '{}', '{}', 300, 'a', $3, 'a')",
             )
             .bind(id.to_string())
             .bind(status)
@@ -167,7 +167,7 @@ mod tests {
         for speed in 0..300 {
             sqlx::query(
                 "insert into speed_results (job, speed, status, point, spectra, created_at)
-                 values (?, ?, 'completed', '{}', zeroblob(10000), 'a')",
+                 values ($1, $2, 'completed', '{}', zeroblob(10000), 'a')",
             )
             .bind(gone.to_string())
             .bind(speed)
@@ -199,7 +199,7 @@ mod tests {
             sqlx::query(
                 "insert into jobs (id, kind, status, model, modes_per_speed, facts, request, speeds, created_at,
                      finished_at, updated_at)
-                 values (?, 'sweep', ?, 'm', 20, '{}', '{}', 1, 'a', ?, 'a')",
+                 values ($1, 'sweep', $2, 'm', 20, '{}', '{}', 1, 'a', $3, 'a')",
             )
             .bind(JobId::new().to_string())
             .bind(status)

@@ -31,15 +31,15 @@ pub struct JobFilter {
 
 /// Ids of the jobs of a page, all of it answered by one index.
 const PAGE: &str = "select id from jobs indexed by job_list
-    where deleted = 0 and (?1 is null or status = ?1) and (?2 is null or kind = ?2) and id < coalesce(?3, '~')
-        and (?5 is null or owner = ?5) and (?6 is null or model = ?6)
-        and (?7 is null or instr(lower(name), lower(?7)) > 0) and (?8 is null or instr(tags, ?8) > 0)
-    order by id desc limit ?4";
+    where deleted = 0 and ($1 is null or status = $1) and ($2 is null or kind = $2) and id < coalesce($3, '~')
+        and ($5 is null or owner = $5) and ($6 is null or model = $6)
+        and ($7 is null or instr(lower(name), $7) > 0) and ($8 is null or instr(tags, $8) > 0)
+    order by id desc limit $4";
 
 impl Store {
     /// The job `id`.
     pub async fn job(&self, id: JobId) -> Result<Option<Job>, StoreError> {
-        sqlx::query("select * from jobs where id = ? and deleted = 0")
+        sqlx::query("select * from jobs where id = $1 and deleted = 0")
             .bind(id.to_string())
             .fetch_optional(&self.readers)
             .await?
@@ -53,10 +53,10 @@ impl Store {
             .bind(filter.status.map(JobStatus::as_str))
             .bind(filter.kind.map(JobKind::as_str))
             .bind(filter.before.map(|id| id.to_string()))
-            .bind(limit)
+            .bind(i64::from(limit))
             .bind(filter.owner)
             .bind(filter.model)
-            .bind(filter.name)
+            .bind(filter.name.as_deref().map(str::to_ascii_lowercase))
             .bind(filter.tag.as_deref().map(quoted).transpose()?)
             .fetch_all(&self.readers)
             .await?
@@ -84,7 +84,7 @@ mod tests {
         for index in 0..JOBS {
             sqlx::query(
                 "insert into jobs (id, kind, model, modes_per_speed, facts, request, speeds, created_at, updated_at, name, tags)
-                 values (?, 'sweep', 'm', 20, '{}', json_object('a', hex(zeroblob(5000))), 4, 'a', 'a', ?, ?)",
+                 values ($1, 'sweep', 'm', 20, '{}', json_object('a', hex(zeroblob(5000))), 4, 'a', 'a', $2, $3)",
             )
             .bind(JobId::new().to_string())
             .bind(format!("Wheel {index}"))

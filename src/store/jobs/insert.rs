@@ -59,19 +59,19 @@ impl Store {
         let inserted = sqlx::query(
             "insert into jobs (id, kind, model, modes_per_speed, facts, request, speeds, created_at, updated_at, owner,
                  revision, name, tags, notes)
-             select ?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?8, ?9, ?10, ?11, ?12, ?13
-             where ?3 is null or exists (select 1 from models where id = ?3)",
+             select $1, $2, $3, $4, $5, $6, $7, $8, $8, $9, $10, $11, $12, $13
+             where $3 is null or exists (select 1 from models where id = $3)",
         )
         .bind(id.to_string())
         .bind(request.kind().as_str())
         .bind(request.model())
-        .bind(request.modes_per_speed())
+        .bind(request.modes_per_speed().map(i64::from))
         .bind(facts.map(serde_json::to_string).transpose()?)
         .bind(request.to_json()?)
-        .bind(speeds)
+        .bind(i64::from(speeds))
         .bind(time)
         .bind(owner)
-        .bind(REVISION)
+        .bind(i64::from(REVISION))
         .bind(&labels.name)
         .bind(serde_json::to_string(&labels.tags)?)
         .bind(&labels.notes)
@@ -88,10 +88,10 @@ impl Store {
 
     /// Whether others can read a job that was just kept: only then may its client be told so.
     async fn seen(&self, id: JobId) -> Result<(), StoreError> {
-        let seen: bool = sqlx::query_scalar("select exists (select 1 from jobs where id = ?)")
+        let seen = sqlx::query("select id from jobs where id = $1")
             .bind(id.to_string())
-            .fetch_one(&self.readers)
+            .fetch_optional(&self.readers)
             .await?;
-        if seen { Ok(()) } else { Err(StoreError::Unseen) }
+        if seen.is_some() { Ok(()) } else { Err(StoreError::Unseen) }
     }
 }

@@ -11,11 +11,11 @@ impl Store {
     pub async fn record_progress(&self, id: JobId, percent: u8, phase: &str) -> Result<(), StoreError> {
         let mut write = self.write().await?;
         sqlx::query(
-            "update jobs set progress = max(progress, min(?2, 99)), phase = ?3, updated_at = ?4
-             where id = ?1 and status = 'running'",
+            "update jobs set progress = case when progress < $2 then $2 else progress end, phase = $3, updated_at = $4
+             where id = $1 and status = 'running'",
         )
         .bind(id.to_string())
-        .bind(percent)
+        .bind(i64::from(percent.min(99)))
         .bind(phase)
         .bind(now())
         .execute(&mut *write)
@@ -26,7 +26,7 @@ impl Store {
     /// Keeps the settings that were chosen for a job, and why.
     pub async fn record_choice(&self, id: JobId, choice: &Chosen) -> Result<(), StoreError> {
         let mut write = self.write().await?;
-        sqlx::query("update jobs set choice = ? where id = ?")
+        sqlx::query("update jobs set choice = $1 where id = $2")
             .bind(serde_json::to_string(choice)?)
             .bind(id.to_string())
             .execute(&mut *write)
@@ -37,7 +37,7 @@ impl Store {
     /// Keeps what a sweep is expected to cost; the first estimate stays.
     pub async fn record_plan(&self, id: JobId, estimate: &Estimate) -> Result<(), StoreError> {
         let mut write = self.write().await?;
-        sqlx::query("update jobs set plan = ? where id = ? and plan is null")
+        sqlx::query("update jobs set plan = $1 where id = $2 and plan is null")
             .bind(serde_json::to_string(estimate)?)
             .bind(id.to_string())
             .execute(&mut *write)

@@ -18,14 +18,14 @@ impl Store {
     ) -> Result<bool, StoreError> {
         let mut write = self.write().await?;
         let revised = sqlx::query(
-            "update jobs set request = ?3, modes_per_speed = ?4, speeds = ?5, updated_at = ?6
-             where id = ?1 and kind = ?2 and status = 'running' and speeds <= ?5",
+            "update jobs set request = $3, modes_per_speed = $4, speeds = $5, updated_at = $6
+             where id = $1 and kind = $2 and status = 'running' and speeds <= $5",
         )
         .bind(id.to_string())
         .bind(request.kind().as_str())
         .bind(request.to_json()?)
-        .bind(request.modes_per_speed())
-        .bind(speeds)
+        .bind(request.modes_per_speed().map(i64::from))
+        .bind(i64::from(speeds))
         .bind(now())
         .execute(&mut *write)
         .await?;
@@ -57,7 +57,7 @@ mod tests {
         let store = Store::open(folder.path()).await.unwrap();
         let job = JobId::new();
         let insert = "insert into jobs (id, kind, model, modes_per_speed, facts, request, speeds, created_at, updated_at)
-            values (?, 'sweep', 'm', 20, '{}', ?, 4, 'a', 'a')";
+            values ($1, 'sweep', 'm', 20, '{}', $2, 4, 'a', 'a')";
         sqlx::query(insert)
             .bind(job.to_string())
             .bind(sweep(20, 4).to_json().unwrap())
@@ -71,7 +71,7 @@ mod tests {
         // Twice is as once.
         assert!(revise(30, 6).await && revise(30, 6).await);
         assert!(!revise(20, 5).await, "it has six by now");
-        let kept: (String, u32, u32) = sqlx::query_as("select request, modes_per_speed, speeds from jobs")
+        let kept: (String, i64, i64) = sqlx::query_as("select request, modes_per_speed, speeds from jobs")
             .fetch_one(&store.readers)
             .await
             .unwrap();

@@ -1,20 +1,21 @@
 //! Rows of jobs as jobs.
 
 use sqlx::Row;
-use sqlx::sqlite::SqliteRow;
+use sqlx::any::AnyRow;
 
 use super::job::{Job, JobHead, JobId, SpeedCounts};
 use super::job_kind::JobKind;
 use super::job_request::JobRequest;
 use crate::store::error::StoreError;
 use crate::store::labels;
+use crate::store::sql::number;
 use crate::store::status::JobStatus;
 
 pub(super) async fn status_of(
-    connection: &mut sqlx::SqliteConnection,
+    connection: &mut sqlx::AnyConnection,
     id: JobId,
 ) -> Result<Option<JobStatus>, StoreError> {
-    let status: Option<String> = sqlx::query_scalar("select status from jobs where id = ? and deleted = 0")
+    let status: Option<String> = sqlx::query_scalar("select status from jobs where id = $1 and deleted = 0")
         .bind(id.to_string())
         .fetch_optional(connection)
         .await?;
@@ -29,14 +30,14 @@ pub(super) fn read_id(text: &str) -> Result<JobId, StoreError> {
 pub(super) const HEAD: &str = "id, owner, kind, status, model, progress, phase, speeds, finished, diverged, failed, stored_bytes, error,
     created_at, started_at, finished_at, updated_at, name, tags, notes";
 
-pub(super) fn read_head(row: &SqliteRow) -> Result<JobHead, StoreError> {
+pub(super) fn read_head(row: &AnyRow) -> Result<JobHead, StoreError> {
     let kind = JobKind::from_column(row.try_get("kind")?)?;
     let status = JobStatus::from_column(row.try_get("status")?)?;
-    let total = row.try_get("speeds")?;
+    let total = number(row, "speeds")?;
     let finished = match (kind, status) {
         // These compute their speeds together.
         (JobKind::ModalAnalysis | JobKind::Study | JobKind::CaseStudy, JobStatus::Successful) => total,
-        _ => row.try_get("finished")?,
+        _ => number(row, "finished")?,
     };
     Ok(JobHead {
         id: read_id(row.try_get("id")?)?,
@@ -45,13 +46,13 @@ pub(super) fn read_head(row: &SqliteRow) -> Result<JobHead, StoreError> {
         labels: labels::read(row)?,
         status,
         model: row.try_get("model")?,
-        progress: row.try_get("progress")?,
+        progress: number(row, "progress")?,
         phase: row.try_get("phase")?,
         speeds: SpeedCounts {
             total,
             finished,
-            diverged: row.try_get("diverged")?,
-            failed: row.try_get("failed")?,
+            diverged: number(row, "diverged")?,
+            failed: number(row, "failed")?,
         },
         stored_bytes: row.try_get::<i64, _>("stored_bytes")?.unsigned_abs(),
         failure: row.try_get::<Option<&str>, _>("error")?.map(serde_json::from_str).transpose()?,
@@ -62,14 +63,14 @@ pub(super) fn read_head(row: &SqliteRow) -> Result<JobHead, StoreError> {
     })
 }
 
-pub(crate) fn read(row: &SqliteRow) -> Result<Job, StoreError> {
+pub(crate) fn read(row: &AnyRow) -> Result<Job, StoreError> {
     let head = read_head(row)?;
     Ok(Job {
         request: JobRequest::from_json(head.kind, row.try_get("request")?)?,
         facts: row.try_get::<Option<&str>, _>("facts")?.map(serde_json::from_str).transpose()?,
         plan: row.try_get::<Option<&str>, _>("plan")?.map(serde_json::from_str).transpose()?,
         choice: row.try_get::<Option<&str>, _>("choice")?.map(serde_json::from_str).transpose()?,
-        revision: row.try_get("revision")?,
+        revision: number(row, "revision")?,
         vectors: row.try_get("vectors")?,
         head,
     })

@@ -7,6 +7,7 @@ use super::row::read_id;
 use crate::analysis::run::REVISION;
 use crate::store::error::StoreError;
 use crate::store::handle::Store;
+use crate::store::sql::of;
 
 /// A job that still wants work.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -30,23 +31,25 @@ impl Store {
         }
         let mut transaction = self.write().await?;
         for id in marked {
-            let found: Option<(Option<String>, Option<u32>)> = sqlx::query_as(
-                "select model, modes_per_speed from jobs where id = ? and status in ('accepted', 'running')",
+            let found: Option<(Option<String>, Option<i64>)> = sqlx::query_as(
+                "select model, modes_per_speed from jobs where id = $1 and status in ('accepted', 'running')",
             )
             .bind(id.to_string())
             .fetch_optional(&mut *transaction)
             .await?;
             let Some((model, modes_per_speed)) = found else { continue };
             let parts = match (model, modes_per_speed) {
-                (Some(model), Some(modes)) => self.checkpoints(&model, modes).parts().await?,
+                (Some(model), Some(modes)) => {
+                    self.checkpoints(&model, of("jobs.modes_per_speed", modes)?).parts().await?
+                }
                 // Of many reductions, or of one not chosen yet.
                 (Some(model), None) => self.parts_of_model(&model).await?,
                 (None, _) => 0,
             };
             sqlx::query(
-                "update jobs set crashes = case when ?1 > parts then 0 else crashes + 1 end, parts = ?1 where id = ?2",
+                "update jobs set crashes = case when $1 > parts then 0 else crashes + 1 end, parts = $1 where id = $2",
             )
-            .bind(parts)
+            .bind(i64::from(parts))
             .bind(id.to_string())
             .execute(&mut *transaction)
             .await?;
@@ -58,22 +61,24 @@ impl Store {
     /// Lets unfinished jobs begin anew that another revision of the numerics began: all speeds of a sweep are of one. Settings that
     /// were chosen and speeds that were added before stay, as if they had been asked for. For a service that starts.
     pub async fn restart_outdated(&self) -> Result<(), StoreError> {
-        const OUTDATED: &str = "status in ('accepted', 'running') and revision <> ?1";
-        let any = format!("select exists (select 1 from jobs where {OUTDATED})");
-        if !sqlx::query_scalar(AssertSqlSafe(any)).bind(REVISION).fetch_one(&self.readers).await? {
+        const OUTDATED: &str = "status in ('accepted', 'running') and revision <> $1";
+        let any = format!("select id from jobs where {OUTDATED} limit 1");
+        let any = sqlx::query(AssertSqlSafe(any)).bind(i64::from(REVISION));
+        if any.fetch_optional(&self.readers).await?.is_none() {
             return Ok(());
         }
         let mut transaction = self.write().await?;
         for table in ["speed_results", "end_states", "documents"] {
             let begun = format!("delete from {table} where job in (select id from jobs where {OUTDATED})");
-            sqlx::query(AssertSqlSafe(begun)).bind(REVISION).execute(&mut *transaction).await?;
+            sqlx::query(AssertSqlSafe(begun)).bind(i64::from(REVISION)).execute(&mut *transaction).await?;
         }
         let restart = format!(
             "update jobs set finished = 0, diverged = 0, failed = 0, stored_bytes = 0, progress = 0, phase = '', plan = null,
-                 revision = ?1
+                 revision = $1
              where {OUTDATED}"
         );
-        let restarted = sqlx::query(AssertSqlSafe(restart)).bind(REVISION).execute(&mut *transaction).await?;
+        let restarted =
+            sqlx::query(AssertSqlSafe(restart)).bind(i64::from(REVISION)).execute(&mut *transaction).await?;
         transaction.commit().await?;
         tracing::info!(jobs = restarted.rows_affected(), "begin anew: their numbers were of another version");
         Ok(())
@@ -81,13 +86,15 @@ impl Store {
 
     /// All jobs that still want work, oldest first.
     pub async fn unfinished_jobs(&self) -> Result<Vec<Unfinished>, StoreError> {
-        let jobs: Vec<(String, String, u32)> = sqlx::query_as(
+        let jobs: Vec<(String, String, i64)> = sqlx::query_as(
             "select id, owner, crashes from jobs where status in ('accepted', 'running') order by id",
         )
         .fetch_all(&self.readers)
         .await?;
         jobs.into_iter()
-            .map(|(id, owner, crashes)| Ok(Unfinished { id: read_id(&id)?, owner, crashes }))
+            .map(|(id, owner, crashes)| {
+                Ok(Unfinished { id: read_id(&id)?, owner, crashes: of("jobs.crashes", crashes)? })
+            })
             .collect()
     }
 }
@@ -104,7 +111,7 @@ mod tests {
         let job = JobId::new();
         sqlx::query(
             "insert into jobs (id, kind, status, model, modes_per_speed, facts, request, speeds, created_at, updated_at)
-             values (?, 'sweep', 'running', 'm', 20, '{}', '{}', 1, 'a', 'a')",
+             values ($1, 'sweep', 'running', 'm', 20, '{}', '{}', 1, 'a', 'a')",
         )
         .bind(job.to_string())
         .execute(&store.writer)
@@ -140,17 +147,17 @@ mod tests {
             sqlx::query(
                 "insert into jobs (id, kind, status, model, modes_per_speed, facts, request, speeds, created_at, updated_at,
                      finished, stored_bytes, revision, finished_at)
-                 values (?, 'sweep', ?, 'm', 20, '{}', '{}', 2, 'a', 'a', 1, 2, ?, ?)",
+                 values ($1, 'sweep', $2, 'm', 20, '{}', '{}', 2, 'a', 'a', 1, 2, $3, $4)",
             )
             .bind(job.to_string())
             .bind(status)
-            .bind(revision)
+            .bind(i64::from(revision))
             .bind((status == "successful").then_some("a"))
             .execute(&store.writer)
             .await
             .unwrap();
             sqlx::query(
-                "insert into speed_results (job, speed, status, point, created_at) values (?, 1, 'completed', '{}', 'a')",
+                "insert into speed_results (job, speed, status, point, created_at) values ($1, 1, 'completed', '{}', 'a')",
             )
             .bind(job.to_string())
             .execute(&store.writer)
@@ -162,13 +169,13 @@ mod tests {
         let others = [insert("running", REVISION).await, insert("successful", REVISION - 1).await];
         store.restart_outdated().await.unwrap();
         assert!(store.finished_speeds(outdated).await.unwrap().is_empty());
-        let counted: (u32, u32, u32) =
-            sqlx::query_as("select finished, stored_bytes, revision from jobs where id = ?")
+        let counted: (i64, i64, i64) =
+            sqlx::query_as("select finished, stored_bytes, revision from jobs where id = $1")
                 .bind(outdated.to_string())
                 .fetch_one(&store.readers)
                 .await
                 .unwrap();
-        assert_eq!(counted, (0, 0, REVISION));
+        assert_eq!(counted, (0, 0, i64::from(REVISION)));
         for job in others {
             assert_eq!(store.finished_speeds(job).await.unwrap().len(), 1);
         }

@@ -1,0 +1,315 @@
+//! The `SQLite` file of a data folder: found or made, brought up to date, and opened.
+
+use std::io::{self, ErrorKind};
+use std::path::Path;
+use std::time::Duration;
+
+use sqlx::any::{AnyConnectOptions, AnyPoolOptions, install_default_drivers};
+use sqlx::migrate::Migrator;
+use sqlx::sqlite::{
+    SqliteAutoVacuum, SqliteConnectOptions, SqliteConnection, SqliteJournalMode, SqliteSynchronous,
+};
+use sqlx::{AnyPool, ConnectOptions, Connection};
+
+use super::error::StoreError;
+use super::packages::count_packages;
+
+/// Name of the database in its folder.
+pub(super) const DATABASE: &str = "rubmap.sqlite";
+
+/// Connections for readers; more than the requests a database on one disk serves well at once.
+const READERS: u32 = 8;
+
+/// How long a statement waits for a lock that another program holds (a backup, `vacuum`), and a request for a connection. The
+/// first is also sqlx's own choice, which connections have that are opened by their address.
+pub(super) const PATIENCE: Duration = Duration::from_secs(5);
+
+/// What made the tables, one after the other.
+pub(super) static MIGRATIONS: Migrator = sqlx::migrate!("migrations/sqlite");
+
+/// Opens the database in `folder` for readers and for the one that writes, and brings its tables up to date.
+///
+/// A 202 is a promise and a speed may have cost minutes: both survive a power cut, at one flush each. The file itself remembers
+/// that it has a write-ahead log; that every commit is flushed and references are checked is what connections begin with. Saying
+/// so in `after_connect` would read the file, and the pool tries again for seconds where that fails instead of telling why.
+pub(super) async fn open(folder: &Path) -> Result<(AnyPool, AnyPool), StoreError> {
+    expect_database(folder).await?;
+    bring_up_to_date(folder).await?;
+    let address = address(folder, "rwc")?;
+    // A connection to a file does not break while nobody uses it: no need to ask it each time.
+    let pool = || AnyPoolOptions::new().acquire_timeout(2 * PATIENCE).test_before_acquire(false);
+    let writer = pool().max_connections(1).connect_with(address.clone()).await?;
+    let readers = pool().max_connections(READERS).connect_with(address).await?;
+    Ok((readers, writer))
+}
+
+/// The address of the database in `folder`, in a mode of `SQLite`'s: `ro`, `rw` or `rwc`.
+pub(super) fn address(folder: &Path, mode: &str) -> Result<AnyConnectOptions, StoreError> {
+    install_default_drivers();
+    // In an address a relative path would begin with the name of a machine, and `..` not look where links lead.
+    let folder = folder.canonicalize()?;
+    let Some(path) = folder.to_str() else {
+        return Err(io::Error::new(ErrorKind::InvalidInput, "its path is no UTF-8 text").into());
+    };
+    let mut options: AnyConnectOptions = format!("sqlite:///?mode={mode}").parse()?;
+    if let Ok(mut segments) = options.database_url.path_segments_mut() {
+        segments.clear().extend(path.split('/').filter(|name| !name.is_empty())).push(DATABASE);
+    }
+    Ok(options)
+}
+
+/// Refuses a folder whose packages have lost their database: it is not there, or knows no models, as after its write-ahead log was
+/// lost or only the file copied. A single package may be of the first upload ever, which broke off.
+async fn expect_database(folder: &Path) -> Result<(), StoreError> {
+    let database = folder.join(DATABASE);
+    if database.is_dir() {
+        return Err(io::Error::new(ErrorKind::IsADirectory, format!("{DATABASE} is a folder")).into());
+    }
+    let packages = count_packages(folder)?;
+    if packages == 0 {
+        return Ok(());
+    }
+    let length = match std::fs::metadata(&database) {
+        Err(error) if error.kind() != ErrorKind::NotFound => return Err(error.into()),
+        found => found.map_or(0, |file| file.len()),
+    };
+    if length > 0 {
+        let options = SqliteConnectOptions::new().filename(&database).busy_timeout(PATIENCE);
+        let mut connection = options.connect().await?;
+        let known = knows_models(&mut connection, packages > 1).await?;
+        connection.close().await?;
+        if known {
+            return Ok(());
+        }
+    }
+    Err(StoreError::LostDatabase { database, packages })
+}
+
+/// Whether a database has the table of models, and, if need be, any in it.
+async fn knows_models(database: &mut SqliteConnection, any: bool) -> Result<bool, StoreError> {
+    let table = "select exists (select 1 from sqlite_master where type = 'table' and name = 'models')";
+    let is_there: bool = sqlx::query_scalar(table).fetch_one(&mut *database).await?;
+    if !is_there || !any {
+        return Ok(is_there);
+    }
+    Ok(sqlx::query_scalar("select exists (select 1 from models)").fetch_one(database).await?)
+}
+
+/// Makes the tables that are not there yet, on a connection of its own: one that says how room is given back writes that into
+/// the database whenever it is opened, and no reader could be opened on a full disk.
+async fn bring_up_to_date(folder: &Path) -> Result<(), StoreError> {
+    let mut connection = SqliteConnectOptions::new()
+        .filename(folder.join(DATABASE))
+        .create_if_missing(true)
+        .journal_mode(SqliteJournalMode::Wal)
+        .synchronous(SqliteSynchronous::Full)
+        .auto_vacuum(SqliteAutoVacuum::Incremental)
+        .busy_timeout(PATIENCE)
+        .connect()
+        .await?;
+    MIGRATIONS.run(&mut connection).await?;
+    make_shrinkable(&mut connection).await?;
+    connection.close().await?;
+    Ok(())
+}
+
+/// Makes a database anew, once, that an earlier version made such that it cannot give room back.
+async fn make_shrinkable(connection: &mut SqliteConnection) -> Result<(), StoreError> {
+    const INCREMENTAL: i64 = 2;
+    let mode: i64 = sqlx::query_scalar("pragma auto_vacuum").fetch_one(&mut *connection).await?;
+    if mode == INCREMENTAL {
+        return Ok(());
+    }
+    tracing::info!("making the database anew, once, so that it can give room back");
+    if let Err(error) = sqlx::query("vacuum").execute(connection).await {
+        tracing::warn!(%error, "could not; deleted jobs leave their room to later ones");
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use sqlx::SqlitePool;
+
+    use super::*;
+    use crate::store::Store;
+    use crate::store::jobs::JobId;
+    use crate::store::packages::{package_path, packages_folder};
+    use crate::store::results::Document;
+
+    /// A data folder as the program made it with the migrations before `version`, with one finished sweep.
+    async fn older_folder(job: JobId, version: i64) -> tempfile::TempDir {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("rubmap.sqlite");
+        let options = SqliteConnectOptions::new().filename(file).create_if_missing(true).foreign_keys(true);
+        let pool = SqlitePool::connect_with(options).await.unwrap();
+        let older = MIGRATIONS.iter().filter(|migration| migration.version < version).cloned().collect();
+        Migrator::with_migrations(older).run(&pool).await.unwrap();
+        sqlx::query(
+            "insert into jobs (id, kind, status, model, modes_per_speed, facts, request, speeds, created_at,
+                 finished_at, updated_at)
+             values ($1, 'sweep', 'successful', 'm', 20, '{}', '{}', 1, 'a', 'b', 'c')",
+        )
+        .bind(job.to_string())
+        .execute(&pool)
+        .await
+        .unwrap();
+        for result in [
+            "insert into speed_results (job, speed, status, point, created_at) values ($1, 7, 'failed', '{}', 'a')",
+            "insert into documents (job, name, part, body, created_at) values ($1, 'campbell', 0, '[1]', 'a')",
+        ] {
+            sqlx::query(result).bind(job.to_string()).execute(&pool).await.unwrap();
+        }
+        pool.close().await;
+        folder
+    }
+
+    /// A database that was moved away, emptied or copied without its log took every package with it: nothing knew them any more.
+    #[tokio::test]
+    async fn packages_without_a_database_are_not_leftovers() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::create_dir(packages_folder(folder.path())).unwrap();
+        let package = package_path(folder.path(), &"0a".repeat(32));
+        std::fs::write(&package, "package").unwrap();
+        let database = folder.path().join(DATABASE);
+        let of_another = folder.path().join("another");
+        let options = SqliteConnectOptions::new().filename(&of_another).create_if_missing(true);
+        let mut another = options.connect().await.unwrap();
+        sqlx::query("create table theirs (a)").execute(&mut another).await.unwrap();
+        another.close().await.unwrap();
+        let contents = [None, Some(Vec::new()), Some(vec![b'x']), Some(std::fs::read(of_another).unwrap())];
+        for content in contents {
+            if let Some(content) = &content {
+                std::fs::write(&database, content).unwrap();
+            }
+            let refused = Store::open(folder.path()).await.unwrap_err();
+            assert!(matches!(refused, StoreError::LostDatabase { packages: 1, .. }), "{refused}");
+            assert!(!refused.may_pass());
+            assert_eq!(database.exists(), content.is_some());
+            assert!(package.exists());
+        }
+        std::fs::remove_file(&database).unwrap();
+        std::fs::create_dir(&database).unwrap();
+        assert!(!Store::open(folder.path()).await.unwrap_err().may_pass(), "a folder is nothing to wait for");
+        std::fs::remove_dir(&database).unwrap();
+        // Elsewhere they stand in nobody's way.
+        let kept = folder.path().join("kept.zip");
+        std::fs::rename(&package, &kept).unwrap();
+        Store::open(folder.path()).await.unwrap().close().await;
+        // One may be of an upload that broke off; several are not.
+        std::fs::copy(&kept, &package).unwrap();
+        Store::open(folder.path()).await.unwrap().close().await;
+        std::fs::copy(&kept, package_path(folder.path(), &"0b".repeat(32))).unwrap();
+        let refused = Store::open(folder.path()).await.unwrap_err();
+        assert!(matches!(refused, StoreError::LostDatabase { packages: 2, .. }), "{refused}");
+    }
+
+    /// None of it is said when a pool opens a connection.
+    #[tokio::test]
+    async fn every_connection_waits_flushes_and_checks_references() {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::open(folder.path()).await.unwrap();
+        for pool in [&store.writer, &store.readers] {
+            let mut found = Vec::new();
+            for setting in ["synchronous", "foreign_keys", "busy_timeout"] {
+                let pragma = sqlx::AssertSqlSafe(format!("pragma {setting}"));
+                found.push(sqlx::query_scalar::<_, i64>(pragma).fetch_one(pool).await.unwrap());
+            }
+            assert_eq!(found, [2, 1, PATIENCE.as_millis() as i64]);
+            let mode: String = sqlx::query_scalar("pragma journal_mode").fetch_one(pool).await.unwrap();
+            assert_eq!(mode, "wal");
+        }
+    }
+
+    #[tokio::test]
+    async fn a_data_folder_may_be_called_anything() {
+        let folder = tempfile::tempdir().unwrap();
+        for name in ["a b", "50%25", "?mode=ro", "#1", "größe", "a\\b:c@d", "..."] {
+            let data = folder.path().join(name);
+            std::fs::create_dir(&data).unwrap();
+            let store = Store::open(&data.join("../").join(name)).await.unwrap();
+            store.probe().await.unwrap();
+            store.close().await;
+            assert!(data.join(DATABASE).exists(), "{name}");
+        }
+    }
+
+    /// Whatever keeps it from writing, a full disk for one, must not keep it from being opened.
+    #[tokio::test]
+    async fn a_reader_is_opened_while_another_writes() {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::open(folder.path()).await.unwrap();
+        let write = store.write().await.unwrap();
+        let mut opened = Vec::new();
+        for _ in 0..READERS {
+            let mut reader = store.readers.acquire().await.unwrap();
+            let jobs: i64 =
+                sqlx::query_scalar("select count(*) from jobs").fetch_one(&mut *reader).await.unwrap();
+            assert_eq!(jobs, 0);
+            opened.push(reader);
+        }
+        write.rollback().await.unwrap();
+    }
+
+    #[tokio::test]
+    async fn a_full_disk_is_told_from_other_failures() {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::open(folder.path()).await.unwrap();
+        // SQLite refuses to grow beyond so many pages as it does on a full disk.
+        sqlx::query("pragma max_page_count = 1").execute(&store.writer).await.unwrap();
+        let large = "insert into idempotency_keys values ('', 'k', 'f', 200, 'l', json_quote(hex(zeroblob(100000))), 'a')";
+        let full = StoreError::from(sqlx::query(large).execute(&store.writer).await.unwrap_err());
+        assert!(full.is_disk_full(), "{full}");
+        let wrong = StoreError::from(
+            sqlx::query("insert into jobs (id) values (1)").execute(&store.writer).await.unwrap_err(),
+        );
+        assert!(!wrong.is_disk_full(), "{wrong}");
+    }
+
+    /// A service that dies between a script without a transaction and the note that it ran runs it again.
+    #[tokio::test]
+    async fn scripts_without_a_transaction_may_run_again() {
+        for version in [4, 9] {
+            let job = JobId::new();
+            let folder = older_folder(job, version + 1).await;
+            let options = SqliteConnectOptions::new().filename(folder.path().join(DATABASE));
+            let pool = SqlitePool::connect_with(options).await.unwrap();
+            sqlx::query("delete from _sqlx_migrations where version = $1")
+                .bind(version)
+                .execute(&pool)
+                .await
+                .unwrap();
+            pool.close().await;
+            let store = Store::open(folder.path()).await.unwrap();
+            assert_eq!(store.finished_speeds(job).await.unwrap().len(), 1);
+            store.close().await;
+        }
+    }
+
+    #[tokio::test]
+    async fn results_of_older_versions_stay_when_the_table_of_jobs_is_made_anew() {
+        for version in [4, 9] {
+            stays(version).await;
+        }
+    }
+
+    async fn stays(version: i64) {
+        let job = JobId::new();
+        let folder = older_folder(job, version).await;
+        let store = Store::open(folder.path()).await.unwrap();
+        assert_eq!(store.finished_speeds(job).await.unwrap().into_iter().collect::<Vec<_>>(), [7]);
+        assert_eq!(store.document(job, Document::Campbell).await.unwrap().as_deref(), Some("[1]"));
+        let kept: (String, i64) = sqlx::query_as("select updated_at, modes_per_speed from jobs")
+            .fetch_one(&store.readers)
+            .await
+            .unwrap();
+        assert_eq!(kept, ("c".to_owned(), 20));
+
+        // References are checked as before, towards the new table.
+        let lost =
+            "insert into documents (job, name, part, body, created_at) values ('x', 'campbell', 0, '1', 'a')";
+        assert!(sqlx::query(lost).execute(&store.writer).await.is_err());
+        sqlx::query("delete from jobs").execute(&store.writer).await.unwrap();
+        assert!(store.finished_speeds(job).await.unwrap().is_empty());
+    }
+}
