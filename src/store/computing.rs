@@ -25,7 +25,11 @@ impl Store {
     /// The jobs that the last service died under.
     pub(super) fn marked(&self) -> Result<Vec<JobId>, StoreError> {
         let files = self.marks.files()?;
-        Ok(files.iter().filter_map(|file| JobId::parse(file.file_name()?.to_str()?)).collect())
+        let mut jobs: Vec<JobId> =
+            files.iter().filter_map(|file| JobId::parse(file.file_name()?.to_str()?)).collect();
+        // Machines that died together guard the same jobs in the same order.
+        jobs.sort_unstable();
+        Ok(jobs)
     }
 
     /// Forgets what the last service died under, once it is counted.

@@ -60,6 +60,7 @@ mod tests {
     use crate::analysis::result::SpeedResult;
     use crate::store::results::PackedSpeed;
     use crate::store::status::JobStatus;
+    use crate::store::testing::stores;
 
     /// A finished speed that ended at `state`.
     fn result(index: u32, state: Option<f64>) -> SpeedResult {
@@ -96,33 +97,33 @@ mod tests {
 
     #[tokio::test]
     async fn the_state_of_the_last_speed_is_kept_until_the_job_is_final() {
-        let folder = tempfile::tempdir().unwrap();
-        let store = Store::open(folder.path()).await.unwrap();
-        let (job, other) = (running_job(&store).await, running_job(&store).await);
-        let state = async |index| store.end_state(job, index).await.unwrap();
-        let first = result(4, Some(1.0));
-        keep(&store, job, &first).await;
-        keep(&store, other, &result(4, Some(7.0))).await;
-        assert_eq!(state(4).await, first.end_state, "to the bit");
-        assert_eq!(state(3).await, None);
-        // Of a speed that is there already nothing changes.
-        keep(&store, job, &result(4, Some(2.0))).await;
-        assert_eq!(state(4).await, first.end_state);
-        let second = result(3, Some(3.0));
-        keep(&store, job, &second).await;
-        assert_eq!((state(4).await, state(3).await), (None, second.end_state));
-        // A speed that diverged leaves nothing to the next.
-        keep(&store, job, &result(2, None)).await;
-        assert_eq!((state(3).await, state(2).await), (None, None));
+        for store in stores().await {
+            let (job, other) = (running_job(&store).await, running_job(&store).await);
+            let state = async |index| store.end_state(job, index).await.unwrap();
+            let first = result(4, Some(1.0));
+            keep(&store, job, &first).await;
+            keep(&store, other, &result(4, Some(7.0))).await;
+            assert_eq!(state(4).await, first.end_state, "to the bit");
+            assert_eq!(state(3).await, None);
+            // Of a speed that is there already nothing changes.
+            keep(&store, job, &result(4, Some(2.0))).await;
+            assert_eq!(state(4).await, first.end_state);
+            let second = result(3, Some(3.0));
+            keep(&store, job, &second).await;
+            assert_eq!((state(4).await, state(3).await), (None, second.end_state));
+            // A speed that diverged leaves nothing to the next.
+            keep(&store, job, &result(2, None)).await;
+            assert_eq!((state(3).await, state(2).await), (None, None));
 
-        keep(&store, job, &result(1, Some(4.0))).await;
-        store.advance_job(job, JobStatus::Dismissed, None).await.unwrap();
-        assert_eq!(state(1).await, None);
-        // What was still being computed then comes too late.
-        keep(&store, job, &result(0, Some(5.0))).await;
-        assert_eq!(state(0).await, None);
-        assert!(store.end_state(other, 4).await.unwrap().is_some());
-        assert!(store.complete_job(other, &[], None).await.unwrap());
-        assert_eq!(store.end_state(other, 4).await.unwrap(), None);
+            keep(&store, job, &result(1, Some(4.0))).await;
+            store.advance_job(job, JobStatus::Dismissed, None).await.unwrap();
+            assert_eq!(state(1).await, None);
+            // What was still being computed then comes too late.
+            keep(&store, job, &result(0, Some(5.0))).await;
+            assert_eq!(state(0).await, None);
+            assert!(store.end_state(other, 4).await.unwrap().is_some());
+            assert!(store.complete_job(other, &[], None).await.unwrap());
+            assert_eq!(store.end_state(other, 4).await.unwrap(), None);
+        }
     }
 }

@@ -5,6 +5,8 @@ use std::path::PathBuf;
 
 use sqlx::migrate::MigrateError;
 
+use super::refusal::{Refusal, refusal};
+
 /// A failure of the database, the disk or of something stored there.
 #[derive(Debug, thiserror::Error)]
 pub enum StoreError {
@@ -58,18 +60,11 @@ pub enum StoreError {
     },
 }
 
-/// Primary result codes of `SQLite` for what may succeed later: `BUSY`, `LOCKED`, `NOMEM`, `READONLY`, `IOERR`, `FULL`,
-/// `CANTOPEN` and `PROTOCOL`. The others are verdicts on the statement or on the file.
-const PASSING: [u32; 8] = [5, 6, 7, 8, 10, SQLITE_FULL, 14, 15];
-
-/// For a write that found no room.
-const SQLITE_FULL: u32 = 13;
-
 impl StoreError {
     /// Whether it was refused for want of room on the disk.
     pub fn is_disk_full(&self) -> bool {
         match self {
-            Self::Database(error) => result_code(error) == Some(SQLITE_FULL),
+            Self::Database(error) => refusal(error) == Some(Refusal::DiskFull),
             Self::File(error) | Self::Package(error) => is_no_room(error),
             _ => false,
         }
@@ -89,7 +84,8 @@ impl StoreError {
     /// descriptors or memory that others have taken. No verdict on what was to be done.
     pub fn may_pass(&self) -> bool {
         match self {
-            Self::Database(sqlx::Error::Io(error)) | Self::File(error) => io_may_pass(error),
+            Self::Database(sqlx::Error::Io(error)) => io_may_pass(error) || is_connection(error),
+            Self::File(error) => io_may_pass(error),
             // One that is not there may be put back, or uploaded again.
             Self::Package(error) => io_may_pass(error) || self.is_missing_package(),
             // A connection that was lost is replaced.
@@ -100,7 +96,7 @@ impl StoreError {
             | Self::Unseen => true,
             Self::Database(error)
             | Self::Migration(MigrateError::Execute(error) | MigrateError::ExecuteMigration(error, _)) => {
-                result_code(error).is_some_and(|code| PASSING.contains(&code))
+                refusal(error).is_some()
             }
             Self::Migration(_)
             | Self::LostDatabase { .. }
@@ -112,14 +108,24 @@ impl StoreError {
     }
 }
 
-/// Primary result code; sqlx tells the extended one, whose low byte it is.
-fn result_code(error: &sqlx::Error) -> Option<u32> {
-    let code: u32 = error.as_database_error()?.code()?.parse().ok()?;
-    Some(code & 0xff)
-}
-
 fn is_no_room(error: &std::io::Error) -> bool {
     matches!(error.kind(), ErrorKind::StorageFull | ErrorKind::QuotaExceeded)
+}
+
+/// Whether a server went away, or is not there yet.
+fn is_connection(error: &std::io::Error) -> bool {
+    matches!(
+        error.kind(),
+        ErrorKind::ConnectionRefused
+            | ErrorKind::ConnectionReset
+            | ErrorKind::ConnectionAborted
+            | ErrorKind::NotConnected
+            | ErrorKind::BrokenPipe
+            | ErrorKind::UnexpectedEof
+            | ErrorKind::HostUnreachable
+            | ErrorKind::NetworkUnreachable
+            | ErrorKind::NetworkDown
+    )
 }
 
 /// Whether an operation on a file may succeed later.
@@ -156,6 +162,10 @@ mod tests {
         }
         assert!(os(28).is_disk_full() && os(122).is_disk_full() && !os(24).is_disk_full());
         assert!(StoreError::Database(sqlx::Error::PoolTimedOut).may_pass());
+        // ECONNREFUSED of a server; no file says so.
+        let refused = || std::io::Error::from_raw_os_error(111);
+        assert!(StoreError::Database(sqlx::Error::Io(refused())).may_pass());
+        assert!(!StoreError::File(refused()).may_pass());
         assert!(!StoreError::Database(sqlx::Error::RowNotFound).may_pass());
     }
 }

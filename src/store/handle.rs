@@ -1,4 +1,4 @@
-//! The store itself: the database of one data folder, opened and brought up to date.
+//! The store itself: its database, opened and brought up to date, and the data folder.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -6,16 +6,18 @@ use std::sync::Arc;
 use sqlx::AnyPool;
 
 use super::changes::Changes;
+use super::dialect::Dialect;
 use super::error::StoreError;
 use super::marks::Marks;
 use super::packages::packages_folder;
 use super::reserve::Reserve;
-use super::sqlite;
+use super::{postgres, sqlite};
 
-/// The database of one data folder and the packages beside it.
+/// The database and the data folder, which has the packages.
 #[derive(Debug, Clone)]
 pub struct Store {
     pub(super) folder: PathBuf,
+    pub(super) dialect: Dialect,
     pub(super) readers: AnyPool,
     pub(super) writer: AnyPool,
     pub(super) marks: Marks,
@@ -28,17 +30,32 @@ pub struct Store {
 }
 
 impl Store {
-    /// Opens the store in `folder`, which must exist, and brings its tables up to date.
+    /// Opens the store in `folder`, which must exist, with its tables in a file there, and brings them up to date.
     ///
     /// # Errors
     /// Also where packages of models lie beside a database that knows none: it would make leftovers of them.
     pub async fn open(folder: &Path) -> Result<Self, StoreError> {
         std::fs::create_dir_all(packages_folder(folder))?;
         let (readers, writer) = sqlite::open(folder).await?;
+        Self::with(folder, Dialect::Sqlite, readers, writer)
+    }
+
+    /// Opens the store whose tables are on the PostgreSQL server at `url`, with `folder`, which must exist, for the rest, and brings its
+    /// tables up to date.
+    ///
+    /// # Errors
+    /// Also where the program was built without the feature `cluster`.
+    pub async fn connect(folder: &Path, url: &str) -> Result<Self, StoreError> {
+        std::fs::create_dir_all(packages_folder(folder))?;
+        let pool = postgres::open(url).await?;
+        Self::with(folder, Dialect::Postgres, pool.clone(), pool)
+    }
+
+    fn with(folder: &Path, dialect: Dialect, readers: AnyPool, writer: AnyPool) -> Result<Self, StoreError> {
         let marks = Marks::new(folder)?;
         let (packages, reserve) = (Arc::default(), Reserve::of(folder));
         let changes = Changes::default();
-        Ok(Self { folder: folder.to_owned(), readers, writer, marks, packages, reserve, changes })
+        Ok(Self { folder: folder.to_owned(), dialect, readers, writer, marks, packages, reserve, changes })
     }
 
     /// Changes of jobs, to be followed and told.
@@ -46,7 +63,7 @@ impl Store {
         &self.changes
     }
 
-    /// Closes all connections, which folds the write-ahead log into the database.
+    /// Closes all connections, which folds the write-ahead log into the file.
     pub async fn close(&self) {
         self.readers.close().await;
         self.writer.close().await;

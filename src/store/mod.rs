@@ -1,8 +1,9 @@
-//! What is remembered: models, reductions, jobs and results in one `SQLite` file, packages, checkpoints and bases as files
-//! beside it. The only SQL in the program.
+//! What is remembered: models, reductions, jobs and results in one `SQLite` file or on a PostgreSQL server, packages, checkpoints and
+//! bases as files. The only SQL in the program.
 //!
-//! One function per question; rows become domain types here. All writes go through one connection, so transactions
-//! never meet a busy database, and readers never wait for writers (WAL).
+//! One function per question, asked of both databases in the same words but for [`dialect`]; rows become domain types here. All
+//! writes to the file go through one connection, so transactions never meet a busy database, and readers never wait for writers
+//! (WAL). On a server they meet those of other processes: what one reads and then writes by what it found, it guards.
 
 mod backup;
 pub mod bases;
@@ -10,6 +11,9 @@ mod calibrations;
 mod changes;
 pub mod checkpoints;
 mod computing;
+#[cfg(test)]
+mod contract;
+mod dialect;
 mod end_states;
 mod error;
 mod folders;
@@ -23,9 +27,11 @@ pub mod marks;
 pub mod models;
 mod packages;
 mod packed;
+mod postgres;
 pub mod queue;
 mod readiness;
 pub mod reductions;
+mod refusal;
 mod reserve;
 pub mod results;
 mod sql;
@@ -34,6 +40,8 @@ pub mod states;
 pub mod status;
 mod stored_sensor;
 mod stress;
+#[cfg(test)]
+mod testing;
 mod time;
 pub mod trials;
 mod unfinished;

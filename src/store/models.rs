@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use sqlx::any::AnyRow;
 use sqlx::{AssertSqlSafe, Row};
 
+use super::dialect::Guarded;
 use super::error::StoreError;
 use super::handle::Store;
 use super::labels::{self, LabelChanges, Labels, quoted};
@@ -115,6 +116,7 @@ impl Store {
             .await
             .map_err(std::io::Error::other)??;
         let mut write = self.write().await?;
+        write.guard(Guarded::Model(id)).await?;
         sqlx::query(
             "insert into models (id, name, facts, size_bytes, created_at) values ($1, $2, $3, $4, $5)
              on conflict (id) do nothing",
@@ -231,6 +233,7 @@ impl Store {
             return Ok((Deletion::Unknown, false));
         }
         let mut transaction = self.write_removal().await?;
+        transaction.guard(Guarded::Model(id)).await?;
         let users: i64 = sqlx::query_scalar(
             "select count(*) from jobs
              where model = $1 and status in ('accepted', 'running')

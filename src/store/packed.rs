@@ -132,6 +132,7 @@ pub(super) fn read_unpacked(bytes: &[u8]) -> Result<SpeedSpectra, StoreError> {
 mod tests {
     use super::*;
     use crate::analysis::request::{Component, Sensor};
+    use crate::store::testing::stores;
 
     /// Spectra of `sensors`, which decay over the engine orders as those of a tip do; waves by contact node.
     fn spectra(sensors: &[(u32, u32)]) -> SpeedSpectra {
@@ -180,49 +181,49 @@ mod tests {
 
     #[tokio::test]
     async fn spectra_of_an_earlier_version_are_read_as_they_were_written() {
-        let folder = tempfile::tempdir().unwrap();
-        let store = crate::store::Store::open(folder.path()).await.unwrap();
-        let (job, written) = (crate::store::jobs::JobId::new(), spectra(&[(0, 0), (0, 1)]));
-        sqlx::query(
-            "insert into jobs (id, kind, status, model, modes_per_speed, facts, request, speeds, created_at, updated_at)
-             values ($1, 'sweep', 'running', 'm', 20, '{}', '{}', 2, 'a', 'a')",
-        )
-        .bind(job.to_string())
-        .execute(&store.writer)
-        .await
-        .unwrap();
-        let (packed, unpacked) = pack(&written).unwrap();
-        let unpacked_then = Unpacked {
-            engine_orders: written.engine_orders.clone(),
-            sensors: (written.sensors.iter())
-                .map(|s| {
-                    (StoredSensor::of(&s.sensor).unwrap(), s.amplitude.clone(), s.nodal_diameters.clone())
-                })
-                .collect(),
-        };
-        for (speed, bytes, unpacked) in
-            [(0, postcard::to_stdvec(&unpacked_then).unwrap(), None), (1, packed, Some(unpacked as i64))]
-        {
+        for store in stores().await {
+            let (job, written) = (crate::store::jobs::JobId::new(), spectra(&[(0, 0), (0, 1)]));
             sqlx::query(
-                "insert into speed_results (job, speed, status, point, spectra, unpacked_bytes, created_at)
-                 values ($1, $2, 'completed', '{}', $3, $4, 'a')",
+                "insert into jobs (id, kind, status, model, modes_per_speed, facts, request, speeds, created_at, updated_at)
+                 values ($1, 'sweep', 'running', 'm', 20, '{}', '{}', 2, 'a', 'a')",
             )
             .bind(job.to_string())
-            .bind(speed)
-            .bind(bytes)
-            .bind(unpacked)
             .execute(&store.writer)
             .await
             .unwrap();
-        }
-        for speed in [0, 1] {
-            let row = |read: &SpeedSpectra| {
-                assert_eq!(read, &written);
-                Some(Vec::new())
+            let (packed, unpacked) = pack(&written).unwrap();
+            let unpacked_then = Unpacked {
+                engine_orders: written.engine_orders.clone(),
+                sensors: (written.sensors.iter())
+                    .map(|s| {
+                        (StoredSensor::of(&s.sensor).unwrap(), s.amplitude.clone(), s.nodal_diameters.clone())
+                    })
+                    .collect(),
             };
-            assert_eq!(store.map_row(job, speed, row).await.unwrap(), Some(Vec::new()));
+            for (speed, bytes, unpacked) in
+                [(0, postcard::to_stdvec(&unpacked_then).unwrap(), None), (1, packed, Some(unpacked as i64))]
+            {
+                sqlx::query(
+                    "insert into speed_results (job, speed, status, point, spectra, unpacked_bytes, created_at)
+                     values ($1, $2, 'completed', '{}', $3, $4, 'a')",
+                )
+                .bind(job.to_string())
+                .bind(speed)
+                .bind(bytes)
+                .bind(unpacked)
+                .execute(&store.writer)
+                .await
+                .unwrap();
+            }
+            for speed in [0, 1] {
+                let row = |read: &SpeedSpectra| {
+                    assert_eq!(read, &written);
+                    Some(Vec::new())
+                };
+                assert_eq!(store.map_row(job, speed, row).await.unwrap(), Some(Vec::new()));
+            }
+            assert!(store.largest_spectra(job).await.unwrap() >= unpacked);
         }
-        assert!(store.largest_spectra(job).await.unwrap() >= unpacked);
     }
 
     #[test]

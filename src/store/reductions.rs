@@ -1,5 +1,6 @@
 //! Reduced sectors, one per (model, `modes_per_speed`).
 
+use super::dialect::Guarded;
 use super::error::StoreError;
 use super::handle::Store;
 use super::jobs::job::JobId;
@@ -74,6 +75,7 @@ impl Store {
         reduced: &ReducedSector,
     ) -> Result<(), StoreError> {
         let mut write = self.write().await?;
+        write.guard(Guarded::Model(model)).await?;
         let kept = sqlx::query(
             "insert into reductions (model, modes_per_speed, layout, reduced, report, created_at)
              select $1, $2, $3, $4, $5, $6 where exists (select 1 from models where id = $1)
@@ -105,33 +107,35 @@ impl Store {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::store::testing::stores;
 
     #[tokio::test]
     async fn a_reduction_of_other_numbers_is_not_there() {
-        let folder = tempfile::tempdir().unwrap();
-        let store = Store::open(folder.path()).await.unwrap();
-        sqlx::query(
-            "insert into models (id, name, facts, size_bytes, created_at) values ($1, 'm', '{}', 1, 'a')",
-        )
-        .bind("m".repeat(64))
-        .execute(&store.writer)
-        .await
-        .unwrap();
-        let report = r#"{"modes_per_speed": 20, "unknowns": [7], "wheel_unknowns": 40, "largest_mode_residual": 1e-9,
-            "modes": 60, "counted_modes": 60, "full_model": [], "basis_tolerance": 1e-5, "stiffening": {"verdict": "absent",
-            "linear_ratio": 0, "quadratic_ratio": 0, "frequency_error": 0, "message": "none"}, "wall_time_s": 1.5, "version": "0.1.0"}"#;
-        let rows = [(10, FORM - 1, r#"{"modes_per_speed": 10, "checked_modes": 5}"#), (20, FORM, report)];
-        for (modes_per_speed, layout, report) in rows {
-            sqlx::query("insert into reductions values ($1, $2, $3, x'00', $4, 'a')")
-                .bind("m".repeat(64))
-                .bind(i64::from(modes_per_speed))
-                .bind(layout)
-                .bind(report)
-                .execute(&store.writer)
-                .await
-                .unwrap();
+        for store in stores().await {
+            sqlx::query(
+                "insert into models (id, name, facts, size_bytes, created_at) values ($1, 'm', '{}', 1, 'a')",
+            )
+            .bind("m".repeat(64))
+            .execute(&store.writer)
+            .await
+            .unwrap();
+            let report = r#"{"modes_per_speed": 20, "unknowns": [7], "wheel_unknowns": 40, "largest_mode_residual": 1e-9,
+                "modes": 60, "counted_modes": 60, "full_model": [], "basis_tolerance": 1e-5, "stiffening": {"verdict": "absent",
+                "linear_ratio": 0, "quadratic_ratio": 0, "frequency_error": 0, "message": "none"}, "wall_time_s": 1.5, "version": "0.1.0"}"#;
+            let rows = [(10, FORM - 1, r#"{"modes_per_speed": 10, "checked_modes": 5}"#), (20, FORM, report)];
+            for (modes_per_speed, layout, report) in rows {
+                sqlx::query("insert into reductions values ($1, $2, $3, $4, $5, 'a')")
+                    .bind("m".repeat(64))
+                    .bind(i64::from(modes_per_speed))
+                    .bind(layout)
+                    .bind([0].as_slice())
+                    .bind(report)
+                    .execute(&store.writer)
+                    .await
+                    .unwrap();
+            }
+            let reports = store.reduction_reports(&"m".repeat(64)).await.unwrap();
+            assert_eq!(reports.iter().map(|report| report.modes_per_speed).collect::<Vec<_>>(), [20]);
         }
-        let reports = store.reduction_reports(&"m".repeat(64)).await.unwrap();
-        assert_eq!(reports.iter().map(|report| report.modes_per_speed).collect::<Vec<_>>(), [20]);
     }
 }

@@ -6,6 +6,7 @@ use futures::TryStreamExt;
 use sqlx::Row;
 use sqlx::any::AnyRow;
 
+use super::dialect::Guarded;
 use super::error::StoreError;
 use super::handle::Store;
 use super::jobs::job::JobId;
@@ -104,6 +105,7 @@ impl Store {
     /// Returns how many speeds of the job are finished now; `None` if it was deleted.
     pub async fn insert_speed(&self, job: JobId, speed: &PackedSpeed) -> Result<Option<u32>, StoreError> {
         let mut transaction = self.write().await?;
+        transaction.guard(Guarded::Job(job)).await?;
         let inserted = sqlx::query(
             "insert into speed_results (job, speed, status, point, spectra, unpacked_bytes, wear, contact, created_at)
              select $1, $2, $3, $4, $5, $6, $7, $8, $9 where exists (select 1 from jobs where id = $1 and deleted = 0)
@@ -245,6 +247,7 @@ impl Store {
     pub async fn keep_document(&self, job: JobId, document: Document, body: &str) -> Result<(), StoreError> {
         let (name, part) = document.columns();
         let mut transaction = self.write().await?;
+        transaction.guard(Guarded::Job(job)).await?;
         let inserted = sqlx::query(
             "insert into documents (job, name, part, body, created_at)
              select $1, $2, $3, $4, $5 where exists (select 1 from jobs where id = $1 and deleted = 0)

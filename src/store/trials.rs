@@ -2,6 +2,7 @@
 
 use sha2::{Digest, Sha256};
 
+use super::dialect::Guarded;
 use super::error::StoreError;
 use super::handle::Store;
 use super::jobs::job::JobId;
@@ -37,6 +38,7 @@ impl Store {
         trial: &Trial,
     ) -> Result<(), StoreError> {
         let mut transaction = self.write().await?;
+        transaction.guard(Guarded::Model(model)).await?;
         sqlx::query(
             "insert into trials (key, model, version, body, created_at)
              select $1, $2, $3, $4, $5 where exists (select 1 from models where id = $2)

@@ -1,4 +1,4 @@
-//! The one way to write: a transaction on the only connection that writes.
+//! The one way to write: a transaction.
 
 use std::ops::{Deref, DerefMut};
 
@@ -6,11 +6,12 @@ use sqlx::pool::PoolConnection;
 use sqlx::{Any, AnyConnection};
 
 use super::changes::Changes;
+use super::dialect::{Dialect, Guarded};
 use super::error::StoreError;
 use super::handle::Store;
 use super::jobs::job::JobId;
 
-/// A transaction that holds the lock for writing from its beginning.
+/// A transaction. In `SQLite` it holds the lock for writing from its beginning.
 ///
 /// Ended by [`Write::commit`] or [`Write::rollback`]. In every other case (an error, a request whose client is gone) the
 /// connection is closed and with it whatever it was in the middle of: after a full disk or an I/O error `SQLite` may have
@@ -18,12 +19,13 @@ use super::jobs::job::JobId;
 #[derive(Debug)]
 pub(super) struct Write {
     connection: PoolConnection<Any>,
+    dialect: Dialect,
     changes: Changes,
     ended: bool,
 }
 
 impl Store {
-    /// Begins to write, once nobody else does. While deletions have the last room, the disk is full for all others.
+    /// Begins to write. While deletions have the last room, the disk is full for all others.
     pub(super) async fn write(&self) -> Result<Write, StoreError> {
         self.reserve.expect_room().await?;
         self.write_removal().await
@@ -31,24 +33,24 @@ impl Store {
 
     /// The same for what makes room, or ends work that takes it.
     pub(super) async fn write_removal(&self) -> Result<Write, StoreError> {
-        let mut write =
-            Write { connection: self.writer.acquire().await?, changes: self.changes.clone(), ended: false };
-        sqlx::query("begin immediate").execute(&mut *write).await?;
+        let mut write = Write {
+            connection: self.writer.acquire().await?,
+            dialect: self.dialect,
+            changes: self.changes.clone(),
+            ended: false,
+        };
+        sqlx::query(self.dialect.begin()).execute(&mut *write).await?;
         Ok(write)
     }
 
-    /// Runs `remove`, and on a full disk once more with the room of the reserve.
+    /// Runs `remove`, and on a full disk once more with the room of the reserve, if that disk has the database.
     pub(super) async fn with_reserve<T, F>(&self, remove: impl Fn() -> F) -> Result<T, StoreError>
     where
         F: Future<Output = Result<T, StoreError>>,
     {
         match remove().await {
-            Err(error) if error.is_disk_full() => {
-                if self.reserve.take().await {
-                    remove().await
-                } else {
-                    Err(error)
-                }
+            Err(error) if error.is_disk_full() && self.dialect == Dialect::Sqlite => {
+                if self.reserve.take().await { remove().await } else { Err(error) }
             }
             outcome => outcome,
         }
@@ -56,6 +58,11 @@ impl Store {
 }
 
 impl Write {
+    /// Waits until nobody else writes by what they found of this, and lets others wait.
+    pub(super) async fn guard(&mut self, what: Guarded<'_>) -> Result<(), StoreError> {
+        self.dialect.guard(&mut self.connection, what).await
+    }
+
     /// Keeps what was written.
     pub(super) async fn commit(self) -> Result<(), StoreError> {
         self.end("commit").await

@@ -3,6 +3,7 @@
 use super::job::{Failure, JobId};
 use super::row::status_of;
 use crate::analysis::run::vectors;
+use crate::store::dialect::Guarded;
 use crate::store::end_states;
 use crate::store::error::StoreError;
 use crate::store::handle::Store;
@@ -20,6 +21,7 @@ impl Store {
         failure: Option<&Failure>,
     ) -> Result<Option<JobStatus>, StoreError> {
         let mut transaction = self.write_removal().await?;
+        transaction.guard(Guarded::Job(id)).await?;
         let status = status_of(&mut transaction, id).await?;
         if !status.is_some_and(|status| status.may_become(next)) {
             transaction.rollback().await?;
@@ -77,6 +79,7 @@ impl Store {
         made: Option<&str>,
     ) -> Result<bool, StoreError> {
         let mut transaction = self.write().await?;
+        transaction.guard(Guarded::Job(id)).await?;
         let status = status_of(&mut transaction, id).await?;
         if !status.is_some_and(|status| status.may_become(JobStatus::Successful)) {
             transaction.rollback().await?;

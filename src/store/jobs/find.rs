@@ -5,6 +5,7 @@ use sqlx::AssertSqlSafe;
 use super::job::{Job, JobHead, JobId};
 use super::job_kind::JobKind;
 use super::row::{HEAD, read, read_head};
+use crate::store::dialect::Dialect;
 use crate::store::error::StoreError;
 use crate::store::handle::Store;
 use crate::store::labels::quoted;
@@ -30,11 +31,16 @@ pub struct JobFilter {
 }
 
 /// Ids of the jobs of a page, all of it answered by one index.
-const PAGE: &str = "select id from jobs indexed by job_list
-    where deleted = 0 and ($1 is null or status = $1) and ($2 is null or kind = $2) and id < coalesce($3, '~')
-        and ($5 is null or owner = $5) and ($6 is null or model = $6)
-        and ($7 is null or instr(lower(name), $7) > 0) and ($8 is null or instr(tags, $8) > 0)
-    order by id desc limit $4";
+fn page(dialect: Dialect) -> String {
+    format!(
+        "select id from jobs {}
+         where deleted = 0 and ($1 is null or status = $1) and ($2 is null or kind = $2) and id < coalesce($3, '~')
+             and ($5 is null or owner = $5) and ($6 is null or model = $6)
+             and ($7 is null or instr(lower(name), $7) > 0) and ($8 is null or instr(tags, $8) > 0)
+         order by id desc limit $4",
+        dialect.by_job_list()
+    )
+}
 
 impl Store {
     /// The job `id`.
@@ -49,7 +55,8 @@ impl Store {
 
     /// Up to `limit` jobs that pass `filter`, newest first.
     pub async fn jobs(&self, filter: JobFilter, limit: u32) -> Result<Vec<JobHead>, StoreError> {
-        sqlx::query(AssertSqlSafe(format!("select {HEAD} from jobs where id in ({PAGE}) order by id desc")))
+        let page = page(self.dialect);
+        sqlx::query(AssertSqlSafe(format!("select {HEAD} from jobs where id in ({page}) order by id desc")))
             .bind(filter.status.map(JobStatus::as_str))
             .bind(filter.kind.map(JobKind::as_str))
             .bind(filter.before.map(|id| id.to_string()))
@@ -94,7 +101,7 @@ mod tests {
             .unwrap();
         }
         write.commit().await.unwrap();
-        let plan = sqlx::query(AssertSqlSafe(format!("explain query plan {PAGE}")))
+        let plan = sqlx::query(AssertSqlSafe(format!("explain query plan {}", page(store.dialect))))
             .fetch_all(&store.readers)
             .await
             .unwrap();

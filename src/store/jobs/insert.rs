@@ -4,6 +4,7 @@ use super::job::JobId;
 use super::job_kind::JobKind;
 use super::job_request::JobRequest;
 use crate::analysis::run::{ModelFacts, REVISION};
+use crate::store::dialect::Guarded;
 use crate::store::error::StoreError;
 use crate::store::handle::Store;
 use crate::store::idempotency::{self, Answer};
@@ -37,6 +38,10 @@ impl Store {
         answer: Option<&Answer>,
     ) -> Result<Insertion, StoreError> {
         let mut transaction = self.write().await?;
+        transaction.guard(Guarded::Owner(owner)).await?;
+        if let Some(model) = request.model() {
+            transaction.guard(Guarded::Model(model)).await?;
+        }
         if let Some(answer) = answer
             && !idempotency::insert(&mut transaction, answer).await?
         {

@@ -90,7 +90,7 @@ impl JobRequest {
         }
     }
 
-    pub(super) fn from_json(kind: JobKind, json: &str) -> Result<Self, StoreError> {
+    pub(in crate::store) fn from_json(kind: JobKind, json: &str) -> Result<Self, StoreError> {
         Ok(match kind {
             JobKind::Sweep => {
                 let (request, rounds) = read(json)?;

@@ -41,6 +41,7 @@ mod tests {
     use super::*;
     use crate::store::jobs::JobKind;
     use crate::store::status::JobStatus;
+    use crate::store::testing::stores;
 
     fn sweep(modes_per_speed: u32, speeds: u32) -> JobRequest {
         let request = json!({
@@ -53,31 +54,32 @@ mod tests {
 
     #[tokio::test]
     async fn a_running_job_takes_another_request_and_no_fewer_speeds() {
-        let folder = tempfile::tempdir().unwrap();
-        let store = Store::open(folder.path()).await.unwrap();
-        let job = JobId::new();
-        let insert = "insert into jobs (id, kind, model, modes_per_speed, facts, request, speeds, created_at, updated_at)
-            values ($1, 'sweep', 'm', 20, '{}', $2, 4, 'a', 'a')";
-        sqlx::query(insert)
-            .bind(job.to_string())
-            .bind(sweep(20, 4).to_json().unwrap())
-            .execute(&store.writer)
-            .await
-            .unwrap();
-        let revise =
-            async |modes, speeds| store.revise_request(job, &sweep(modes, speeds), speeds).await.unwrap();
-        assert!(!revise(20, 6).await, "nobody has it in hand");
-        assert!(store.begin_job(job).await.unwrap());
-        // Twice is as once.
-        assert!(revise(30, 6).await && revise(30, 6).await);
-        assert!(!revise(20, 5).await, "it has six by now");
-        let kept: (String, i64, i64) = sqlx::query_as("select request, modes_per_speed, speeds from jobs")
-            .fetch_one(&store.readers)
-            .await
-            .unwrap();
-        assert_eq!(kept, (sweep(30, 6).to_json().unwrap(), 30, 6));
-        store.advance_job(job, JobStatus::Dismissed, None).await.unwrap();
-        assert!(!revise(30, 8).await, "it has ended");
-        assert!(!store.revise_request(JobId::new(), &sweep(30, 8), 8).await.unwrap());
+        for store in stores().await {
+            let job = JobId::new();
+            let insert = "insert into jobs (id, kind, model, modes_per_speed, facts, request, speeds, created_at, updated_at)
+                values ($1, 'sweep', 'm', 20, '{}', $2, 4, 'a', 'a')";
+            sqlx::query(insert)
+                .bind(job.to_string())
+                .bind(sweep(20, 4).to_json().unwrap())
+                .execute(&store.writer)
+                .await
+                .unwrap();
+            let revise =
+                async |modes, speeds| store.revise_request(job, &sweep(modes, speeds), speeds).await.unwrap();
+            assert!(!revise(20, 6).await, "nobody has it in hand");
+            assert!(store.begin_job(job).await.unwrap());
+            // Twice is as once.
+            assert!(revise(30, 6).await && revise(30, 6).await);
+            assert!(!revise(20, 5).await, "it has six by now");
+            let kept: (String, i64, i64) =
+                sqlx::query_as("select request, modes_per_speed, speeds from jobs")
+                    .fetch_one(&store.readers)
+                    .await
+                    .unwrap();
+            assert_eq!(kept, (sweep(30, 6).to_json().unwrap(), 30, 6));
+            store.advance_job(job, JobStatus::Dismissed, None).await.unwrap();
+            assert!(!revise(30, 8).await, "it has ended");
+            assert!(!store.revise_request(JobId::new(), &sweep(30, 8), 8).await.unwrap());
+        }
     }
 }

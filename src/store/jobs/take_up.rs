@@ -5,6 +5,7 @@ use sqlx::AssertSqlSafe;
 use super::job::JobId;
 use super::row::read_id;
 use crate::analysis::run::REVISION;
+use crate::store::dialect::Guarded;
 use crate::store::error::StoreError;
 use crate::store::handle::Store;
 use crate::store::sql::of;
@@ -31,6 +32,7 @@ impl Store {
         }
         let mut transaction = self.write().await?;
         for id in marked {
+            transaction.guard(Guarded::Job(id)).await?;
             let found: Option<(Option<String>, Option<i64>)> = sqlx::query_as(
                 "select model, modes_per_speed from jobs where id = $1 and status in ('accepted', 'running')",
             )
@@ -103,81 +105,82 @@ impl Store {
 mod tests {
     use super::*;
     use crate::dynamics::reduction::Checkpoints;
+    use crate::store::testing::stores;
 
     #[tokio::test]
     async fn a_crash_after_a_part_of_the_reduction_was_kept_is_the_first_again() {
-        let folder = tempfile::tempdir().unwrap();
-        let store = Store::open(folder.path()).await.unwrap();
-        let job = JobId::new();
-        sqlx::query(
-            "insert into jobs (id, kind, status, model, modes_per_speed, facts, request, speeds, created_at, updated_at)
-             values ($1, 'sweep', 'running', 'm', 20, '{}', '{}', 1, 'a', 'a')",
-        )
-        .bind(job.to_string())
-        .execute(&store.writer)
-        .await
-        .unwrap();
-        let crash = async || {
-            // What a service leaves that dies while it computes.
-            std::fs::write(folder.path().join("computing").join(job.to_string()), "").unwrap();
-            store.count_crashes().await.unwrap();
-            let jobs = store.unfinished_jobs().await.unwrap();
-            assert_eq!(jobs[0].id, job);
-            jobs[0].crashes
-        };
-        assert_eq!(crash().await, 1);
-        assert_eq!(crash().await, 2);
-        store.checkpoints("m", 20).save("harmonic-0", vec![1]);
-        store.checkpoints("another", 20).save("harmonic-1", vec![1]);
-        assert_eq!(crash().await, 0);
-        assert_eq!(crash().await, 1, "nothing new was kept");
-        store.checkpoints("m", 20).save("harmonic-1", vec![1]);
-        assert_eq!(crash().await, 0);
-        // The reduction is finished: its parts are gone.
-        store.remove_checkpoints("m", Some(20)).await;
-        assert_eq!(crash().await, 1);
+        for store in stores().await {
+            let job = JobId::new();
+            sqlx::query(
+                "insert into jobs (id, kind, status, model, modes_per_speed, facts, request, speeds, created_at, updated_at)
+                 values ($1, 'sweep', 'running', 'm', 20, '{}', '{}', 1, 'a', 'a')",
+            )
+            .bind(job.to_string())
+            .execute(&store.writer)
+            .await
+            .unwrap();
+            let crash = async || {
+                // What a service leaves that dies while it computes.
+                std::fs::write(store.folder.path().join("computing").join(job.to_string()), "").unwrap();
+                store.count_crashes().await.unwrap();
+                let jobs = store.unfinished_jobs().await.unwrap();
+                assert_eq!(jobs[0].id, job);
+                jobs[0].crashes
+            };
+            assert_eq!(crash().await, 1);
+            assert_eq!(crash().await, 2);
+            store.checkpoints("m", 20).save("harmonic-0", vec![1]);
+            store.checkpoints("another", 20).save("harmonic-1", vec![1]);
+            assert_eq!(crash().await, 0);
+            assert_eq!(crash().await, 1, "nothing new was kept");
+            store.checkpoints("m", 20).save("harmonic-1", vec![1]);
+            assert_eq!(crash().await, 0);
+            // The reduction is finished: its parts are gone.
+            store.remove_checkpoints("m", Some(20)).await;
+            assert_eq!(crash().await, 1);
+        }
     }
 
     #[tokio::test]
     async fn unfinished_work_of_other_numbers_begins_anew() {
-        let folder = tempfile::tempdir().unwrap();
-        let store = Store::open(folder.path()).await.unwrap();
-        let insert = async |status: &str, revision: u32| {
-            let job = JobId::new();
-            sqlx::query(
-                "insert into jobs (id, kind, status, model, modes_per_speed, facts, request, speeds, created_at, updated_at,
-                     finished, stored_bytes, revision, finished_at)
-                 values ($1, 'sweep', $2, 'm', 20, '{}', '{}', 2, 'a', 'a', 1, 2, $3, $4)",
-            )
-            .bind(job.to_string())
-            .bind(status)
-            .bind(i64::from(revision))
-            .bind((status == "successful").then_some("a"))
-            .execute(&store.writer)
-            .await
-            .unwrap();
-            sqlx::query(
-                "insert into speed_results (job, speed, status, point, created_at) values ($1, 1, 'completed', '{}', 'a')",
-            )
-            .bind(job.to_string())
-            .execute(&store.writer)
-            .await
-            .unwrap();
-            job
-        };
-        let outdated = insert("running", REVISION - 1).await;
-        let others = [insert("running", REVISION).await, insert("successful", REVISION - 1).await];
-        store.restart_outdated().await.unwrap();
-        assert!(store.finished_speeds(outdated).await.unwrap().is_empty());
-        let counted: (i64, i64, i64) =
-            sqlx::query_as("select finished, stored_bytes, revision from jobs where id = $1")
-                .bind(outdated.to_string())
-                .fetch_one(&store.readers)
+        for store in stores().await {
+            let insert = async |status: &str, revision: u32| {
+                let job = JobId::new();
+                sqlx::query(
+                    "insert into jobs (id, kind, status, model, modes_per_speed, facts, request, speeds, created_at, updated_at,
+                         finished, stored_bytes, revision, finished_at)
+                     values ($1, 'sweep', $2, 'm', 20, '{}', '{}', 2, 'a', 'a', 1, 2, $3, $4)",
+                )
+                .bind(job.to_string())
+                .bind(status)
+                .bind(i64::from(revision))
+                .bind((status == "successful").then_some("a"))
+                .execute(&store.writer)
                 .await
                 .unwrap();
-        assert_eq!(counted, (0, 0, i64::from(REVISION)));
-        for job in others {
-            assert_eq!(store.finished_speeds(job).await.unwrap().len(), 1);
+                sqlx::query(
+                    "insert into speed_results (job, speed, status, point, created_at) values ($1, 1, 'completed', '{}', 'a')",
+                )
+                .bind(job.to_string())
+                .execute(&store.writer)
+                .await
+                .unwrap();
+                job
+            };
+            let outdated = insert("running", REVISION - 1).await;
+            let others = [insert("running", REVISION).await, insert("successful", REVISION - 1).await];
+            store.restart_outdated().await.unwrap();
+            assert!(store.finished_speeds(outdated).await.unwrap().is_empty());
+            let counted: (i64, i64, i64) =
+                sqlx::query_as("select finished, stored_bytes, revision from jobs where id = $1")
+                    .bind(outdated.to_string())
+                    .fetch_one(&store.readers)
+                    .await
+                    .unwrap();
+            assert_eq!(counted, (0, 0, i64::from(REVISION)));
+            for job in others {
+                assert_eq!(store.finished_speeds(job).await.unwrap().len(), 1);
+            }
         }
     }
 }

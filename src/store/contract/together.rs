@@ -1,0 +1,163 @@
+//! Several processes that write at once. On `SQLite` they are one, as its data folder allows no more.
+
+use futures::future::join_all;
+
+use super::{keep, labels, model_id, queue, result, sweep, upload};
+use crate::store::Store;
+use crate::store::idempotency::Answer;
+use crate::store::jobs::{Insertion, JobDeletion, JobId};
+use crate::store::labels::Labels;
+use crate::store::limits::{LimitReached, Limits};
+use crate::store::models::Deletion;
+use crate::store::results::Document;
+use crate::store::status::JobStatus;
+use crate::store::testing::stores;
+
+/// Processes.
+const PROCESSES: usize = 4;
+
+#[tokio::test(flavor = "multi_thread")]
+async fn every_speed_counts_once() {
+    for store in stores().await {
+        let processes = store.processes(PROCESSES).await;
+        upload(&store, "", 'a', &Labels::default()).await;
+        let job = queue(&store, "", 'a', 16, &Labels::default()).await;
+        assert!(join_all(processes.iter().map(|store| store.begin_job(job))).await.iter().all(Result::is_ok));
+        // Each speed twice, by two of them.
+        let speeds = (0..32).map(|i: u32| (&processes[i as usize % PROCESSES], result((i + i / 16) % 16)));
+        join_all(speeds.map(async |(store, result)| keep(store, job, &result).await)).await;
+        let done = store.job(job).await.unwrap().unwrap();
+        assert_eq!((done.speeds.finished, store.finished_speeds(job).await.unwrap().len()), (16, 16));
+        let apart = store.processes(1).await;
+        let alone = queue(&apart[0], "", 'a', 16, &Labels::default()).await;
+        for speed in 0..16 {
+            keep(&apart[0], alone, &result(speed)).await;
+        }
+        let alone = apart[0].job(alone).await.unwrap().unwrap();
+        assert_eq!(done.stored_bytes, alone.stored_bytes);
+        close(processes.into_iter().chain(apart)).await;
+    }
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_job_ends_once() {
+    for store in stores().await {
+        let processes = store.processes(PROCESSES).await;
+        upload(&store, "", 'a', &Labels::default()).await;
+        for _ in 0..8 {
+            let job = queue(&store, "", 'a', 4, &Labels::default()).await;
+            store.begin_job(job).await.unwrap();
+            let document = [(Document::Errors, "[1]".to_owned())];
+            let last = result(3);
+            let (done, also_done, dismissed, last) = tokio::join!(
+                processes[0].complete_job(job, &document, None),
+                processes[1].complete_job(job, &document, None),
+                processes[2].dismiss_job(job),
+                keep(&processes[3], job, &last),
+            );
+            let done = [done.unwrap(), also_done.unwrap()].iter().filter(|&&done| done).count();
+            let status = store.job(job).await.unwrap().unwrap().status;
+            let expected = if done == 1 { JobStatus::Successful } else { JobStatus::Dismissed };
+            assert_eq!((status, dismissed.unwrap(), last), (expected, Some(expected), Some(1)));
+            assert!(done < 2);
+            assert_eq!(store.end_state(job, 3).await.unwrap(), None, "it has ended");
+        }
+        close(processes).await;
+    }
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn limits_hold_for_all_processes() {
+    for store in stores().await {
+        let processes = store.processes(PROCESSES).await;
+        upload(&store, "eve", 'a', &Labels::default()).await;
+        let limits = Limits { queued_speeds: Some(5), ..Limits::default() };
+        let facts = super::facts("m");
+        let request = sweep('a', 2);
+        let insert = async |store: &Store| {
+            let labels = labels("n", &[]);
+            store.insert_job(JobId::new(), ("eve", limits), &request, &labels, Some(&facts), None).await
+        };
+        let inserted = join_all((0..12).map(|i| insert(&processes[i % PROCESSES]))).await;
+        let accepted = inserted.iter().filter(|one| matches!(one, Ok(Insertion::Accepted))).count();
+        let refused = inserted
+            .iter()
+            .filter(|one| matches!(one, Ok(Insertion::Limit(LimitReached::QueuedSpeeds { queued: 4, .. }))))
+            .count();
+        assert_eq!((accepted, refused), (2, 10), "{inserted:?}");
+        close(processes).await;
+    }
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_key_is_taken_once() {
+    for store in stores().await {
+        let processes = store.processes(PROCESSES).await;
+        upload(&store, "eve", 'a', &Labels::default()).await;
+        let (request, facts) = (sweep('a', 2), super::facts("m"));
+        let insert = async |store: &Store| {
+            let id = JobId::new();
+            let text = |text: &str| text.to_owned();
+            let (owner, key, fingerprint, body) = (text("eve"), text("k"), text("f"), text("{}"));
+            let answer =
+                Answer { owner, key, fingerprint, status: 202, location: format!("/v1/jobs/{id}"), body };
+            let whose = ("eve", Limits::default());
+            store.insert_job(id, whose, &request, &Labels::default(), Some(&facts), Some(&answer)).await
+        };
+        let inserted = join_all((0..8).map(|i| insert(&processes[i % PROCESSES]))).await;
+        let count = |what| inserted.iter().filter(|one| one.as_ref().unwrap() == &what).count();
+        assert_eq!((count(Insertion::Accepted), count(Insertion::KeyTaken)), (1, 7), "{inserted:?}");
+        close(processes).await;
+    }
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn no_job_is_left_without_its_model() {
+    for store in stores().await {
+        let processes = store.processes(PROCESSES).await;
+        let (facts, request) = (super::facts("m"), sweep('a', 2));
+        for _ in 0..8 {
+            upload(&store, "", 'a', &Labels::default()).await;
+            let id = JobId::new();
+            let (labels, model) = (Labels::default(), model_id('a'));
+            let whose = ("", Limits::default());
+            let (inserted, deleted) = tokio::join!(
+                processes[0].insert_job(id, whose, &request, &labels, Some(&facts), None),
+                processes[1].delete_model(&model, None),
+            );
+            match (inserted.unwrap(), deleted.unwrap()) {
+                (Insertion::Accepted, Deletion::InUse(1)) | (Insertion::UnknownModel, Deletion::Deleted) => {}
+                both => panic!("{both:?}"),
+            }
+            store.dismiss_job(id).await.unwrap();
+        }
+        close(processes).await;
+    }
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn deleted_jobs_go_once_and_whole() {
+    for store in stores().await {
+        let processes = store.processes(PROCESSES).await;
+        upload(&store, "", 'a', &Labels::default()).await;
+        let job = queue(&store, "", 'a', 200, &Labels::default()).await;
+        for speed in 0..200 {
+            keep(&store, job, &result(speed)).await;
+        }
+        store.dismiss_job(job).await.unwrap();
+        let deleted = join_all(processes.iter().map(|store| store.delete_job(job))).await;
+        let count = |what| deleted.iter().filter(|one| one.as_ref().unwrap() == &what).count();
+        assert_eq!((count(JobDeletion::Deleted), count(JobDeletion::Unknown)), (1, PROCESSES - 1));
+        for purged in join_all(processes.iter().map(Store::purge)).await {
+            purged.unwrap();
+        }
+        assert!(store.finished_speeds(job).await.unwrap().is_empty());
+        close(processes).await;
+    }
+}
+
+async fn close(stores: impl IntoIterator<Item = Store>) {
+    for store in stores {
+        store.close().await;
+    }
+}

@@ -1,0 +1,69 @@
+//! What a database means by the code of an error.
+
+use sqlx::sqlite::SqliteError;
+
+/// A refusal that is no verdict on the statement or on the database.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Refusal {
+    /// There is no room on its disk.
+    DiskFull,
+    /// Another reason that may pass.
+    Passing,
+}
+
+/// Why the database refused, if the same may succeed later.
+pub(super) fn refusal(error: &sqlx::Error) -> Option<Refusal> {
+    let error = error.as_database_error()?;
+    let code = error.code()?;
+    match error.try_downcast_ref::<SqliteError>() {
+        Some(_) => of_result_code(code.parse().ok()?),
+        None => of_sqlstate(&code),
+    }
+}
+
+/// By a result code of `SQLite`: `BUSY`, `LOCKED`, `NOMEM`, `READONLY`, `IOERR`, `CANTOPEN` and `PROTOCOL` pass, as does `FULL`. It is
+/// the low byte of the extended one, which sqlx tells.
+fn of_result_code(extended: u32) -> Option<Refusal> {
+    match extended & 0xff {
+        13 => Some(Refusal::DiskFull),
+        5 | 6 | 7 | 8 | 10 | 14 | 15 => Some(Refusal::Passing),
+        _ => None,
+    }
+}
+
+/// By a SQLSTATE of PostgreSQL: lost connections, want of resources, a server that stops or starts or only reads, and transactions
+/// that met others or waited for too long.
+fn of_sqlstate(code: &str) -> Option<Refusal> {
+    /// `lock_not_available`, `admin_shutdown`, `crash_shutdown`, `cannot_connect_now`, `idle_session_timeout`,
+    /// `idle_in_transaction_session_timeout`, `read_only_sql_transaction`, `io_error`.
+    const PASSING: [&str; 8] = ["55P03", "57P01", "57P02", "57P03", "57P05", "25P03", "25006", "58030"];
+    match code {
+        "53100" => Some(Refusal::DiskFull),
+        _ if PASSING.contains(&code) => Some(Refusal::Passing),
+        // Connections, transactions that were rolled back, resources.
+        _ if ["08", "40", "53"].iter().any(|class| code.starts_with(class)) => Some(Refusal::Passing),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_may_pass_is_told_from_verdicts() {
+        // SQLITE_FULL; SQLITE_BUSY_SNAPSHOT, SQLITE_IOERR_WRITE; SQLITE_CONSTRAINT_UNIQUE, SQLITE_CORRUPT.
+        let [full, passing, verdict] = [Some(Refusal::DiskFull), Some(Refusal::Passing), None];
+        for (code, expected) in [(13, full), (517, passing), (778, passing), (2067, verdict), (11, verdict)] {
+            assert_eq!(of_result_code(code), expected, "{code}");
+        }
+        // A full disk; too many connections, a deadlock, a broken connection, a shutdown; unique, syntax, damage.
+        for code in ["53300", "40P01", "08006", "57P01"] {
+            assert_eq!(of_sqlstate(code), passing, "{code}");
+        }
+        assert_eq!(of_sqlstate("53100"), full);
+        for code in ["23505", "42601", "XX001"] {
+            assert_eq!(of_sqlstate(code), verdict, "{code}");
+        }
+    }
+}

@@ -1,0 +1,53 @@
+//! Empty stores for tests, on every database that the program was built for.
+
+#[cfg(feature = "cluster")]
+mod server;
+
+use std::ops::Deref;
+
+use super::Store;
+
+/// A store with a data folder of its own.
+pub(super) struct TestStore {
+    store: Store,
+    /// Of the server, if it is on one.
+    url: Option<String>,
+    /// The data folder, gone with the store.
+    pub(super) folder: tempfile::TempDir,
+}
+
+impl Deref for TestStore {
+    type Target = Store;
+
+    fn deref(&self) -> &Store {
+        &self.store
+    }
+}
+
+impl TestStore {
+    /// The same store as so many processes have it; in a data folder that is one.
+    pub(super) async fn processes(&self, count: usize) -> Vec<Store> {
+        let mut processes = Vec::with_capacity(count);
+        for _ in 0..count {
+            processes.push(match &self.url {
+                Some(url) => Store::connect(self.folder.path(), url).await.unwrap(),
+                None => self.store.clone(),
+            });
+        }
+        processes
+    }
+}
+
+/// One on `SQLite`, and one on PostgreSQL where there is one.
+pub(super) async fn stores() -> Vec<TestStore> {
+    let folder = tempfile::tempdir().unwrap();
+    #[cfg_attr(not(feature = "cluster"), expect(unused_mut, reason = "there is no other"))]
+    let mut stores = vec![TestStore { store: Store::open(folder.path()).await.unwrap(), url: None, folder }];
+    #[cfg(feature = "cluster")]
+    if let Some(url) = server::database().await {
+        let folder = tempfile::tempdir().unwrap();
+        let store = Store::connect(folder.path(), &url).await.unwrap();
+        stores.push(TestStore { store, url: Some(url), folder });
+    }
+    stores
+}
