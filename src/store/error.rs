@@ -84,13 +84,15 @@ impl StoreError {
     /// descriptors or memory that others have taken. No verdict on what was to be done.
     pub fn may_pass(&self) -> bool {
         match self {
-            Self::Database(sqlx::Error::Io(error)) => io_may_pass(error) || is_connection(error),
             Self::File(error) => io_may_pass(error),
             // One that is not there may be put back, or uploaded again.
             Self::Package(error) => io_may_pass(error) || self.is_missing_package(),
-            // A connection that was lost is replaced.
+            // A connection that was lost is replaced, and a server that does not answer, or has no name yet, comes back.
             Self::Database(
-                sqlx::Error::PoolTimedOut | sqlx::Error::PoolClosed | sqlx::Error::WorkerCrashed,
+                sqlx::Error::Io(_)
+                | sqlx::Error::PoolTimedOut
+                | sqlx::Error::PoolClosed
+                | sqlx::Error::WorkerCrashed,
             )
             | Self::Queue(_)
             | Self::Unseen => true,
@@ -110,22 +112,6 @@ impl StoreError {
 
 fn is_no_room(error: &std::io::Error) -> bool {
     matches!(error.kind(), ErrorKind::StorageFull | ErrorKind::QuotaExceeded)
-}
-
-/// Whether a server went away, or is not there yet.
-fn is_connection(error: &std::io::Error) -> bool {
-    matches!(
-        error.kind(),
-        ErrorKind::ConnectionRefused
-            | ErrorKind::ConnectionReset
-            | ErrorKind::ConnectionAborted
-            | ErrorKind::NotConnected
-            | ErrorKind::BrokenPipe
-            | ErrorKind::UnexpectedEof
-            | ErrorKind::HostUnreachable
-            | ErrorKind::NetworkUnreachable
-            | ErrorKind::NetworkDown
-    )
 }
 
 /// Whether an operation on a file may succeed later.
@@ -162,10 +148,8 @@ mod tests {
         }
         assert!(os(28).is_disk_full() && os(122).is_disk_full() && !os(24).is_disk_full());
         assert!(StoreError::Database(sqlx::Error::PoolTimedOut).may_pass());
-        // ECONNREFUSED of a server; no file says so.
-        let refused = || std::io::Error::from_raw_os_error(111);
-        assert!(StoreError::Database(sqlx::Error::Io(refused())).may_pass());
-        assert!(!StoreError::File(refused()).may_pass());
+        // ENOENT, of a server's socket.
+        assert!(StoreError::Database(sqlx::Error::Io(std::io::Error::from_raw_os_error(2))).may_pass());
         assert!(!StoreError::Database(sqlx::Error::RowNotFound).may_pass());
     }
 }

@@ -1,7 +1,7 @@
 //! What is remembered: models, reductions, jobs and results in one `SQLite` file or on a PostgreSQL server, packages, checkpoints and
 //! bases as files. The only SQL in the program.
 //!
-//! One function per question, asked of both databases in the same words but for [`dialect`]; rows become domain types here. All
+//! One function per question, asked of both databases in the same words but for what `dialect` has; rows become domain types here. All
 //! writes to the file go through one connection, so transactions never meet a busy database, and readers never wait for writers
 //! (WAL). On a server they meet those of other processes: what one reads and then writes by what it found, it guards.
 
