@@ -16,11 +16,11 @@ use super::patience::{BETWEEN_ATTEMPTS, patiently};
 use super::pool::CpuPool;
 use super::progress::{PendingReports, PhaseMonitor, Watch};
 use super::reductions::Reductions;
-use super::turns::Turns;
+use super::tasks::Tasks;
 use crate::analysis::monitor::Monitor;
 use crate::store::jobs::{Chosen, Failure, FailureCause, Job, JobHead, JobId, JobRequest};
 use crate::store::limits::Limits;
-use crate::store::queue::{Queue, RunSpeed};
+use crate::store::queue::Queue;
 use crate::store::status::JobStatus;
 use crate::store::{Store, StoreError};
 
@@ -31,7 +31,7 @@ const MISSING_PACKAGE: Duration = Duration::from_secs(600);
 #[derive(Debug)]
 pub(super) struct Engine {
     pub(super) store: Store,
-    pub(super) queue: Queue,
+    pub(super) tasks: Tasks,
     pub(super) computing: Arc<Computing>,
     /// Reads and writes packages, so that uploads do not wait behind speeds.
     pub(super) importer: CpuPool,
@@ -44,16 +44,6 @@ pub(super) struct Engine {
     pub(super) counters: Counters,
     /// What one owner may have.
     pub(super) limits: Limits,
-    /// Jobs to be prepared.
-    pub(super) preparations: Turns<()>,
-    /// Speeds to be run.
-    pub(super) speeds: Turns<u32>,
-    /// Notified when a task was added or has ended: perhaps one can be handed out.
-    pub(super) turn: Notify,
-    /// Notified when there is something new to prepare in the queue.
-    pub(super) new_preparation: Arc<Notify>,
-    /// Notified when there are new speeds in the queue.
-    pub(super) new_speeds: Arc<Notify>,
     /// Notified when a job was deleted, whose room can be given back.
     pub(super) deleted: Notify,
     /// Set when the service stops: computations end, their jobs stay as they are.
@@ -87,14 +77,6 @@ impl Live {
     }
 }
 
-/// Pushes a task until the queue takes it, which it does at once unless memory is short.
-async fn until_taken<P: Future<Output = Result<(), StoreError>>>(push: impl Fn() -> P) {
-    while let Err(error) = push().await {
-        tracing::error!(%error, "the queue failed");
-        tokio::time::sleep(BETWEEN_ATTEMPTS).await;
-    }
-}
-
 /// The chain of a sweep up or down.
 fn chain(request: &JobRequest) -> Option<Vec<u32>> {
     match request {
@@ -113,10 +95,9 @@ impl Engine {
         (pool, importer, planner): (CpuPool, CpuPool, CpuPool),
         memory: Memory,
         limits: Limits,
-        preparations: usize,
     ) -> Arc<Self> {
         let memory = Arc::new(memory);
-        let threads = pool.threads();
+        let tasks = Tasks::new(queue, pool.threads());
         let computing = Arc::new(Computing::new(store.clone(), pool));
         Arc::new(Self {
             reductions: Reductions::new(store.clone(), Arc::clone(&computing), Arc::clone(&memory)),
@@ -125,18 +106,12 @@ impl Engine {
             limits,
             reports: Arc::new(PendingReports::new(store.changes().clone())),
             store,
-            queue,
+            tasks,
             computing,
             importer,
             planner,
-            preparations: Turns::new(4 * preparations, preparations),
-            // One for each thread to take as soon as it is done with another.
-            speeds: Turns::new(2 * threads, 2 * threads),
-            turn: Notify::new(),
             deleted: Notify::new(),
             counters: Counters::default(),
-            new_preparation: Arc::default(),
-            new_speeds: Arc::default(),
             stopping: Arc::default(),
             live: Mutex::default(),
         })
@@ -210,34 +185,9 @@ impl Engine {
         self.revise(job, request, job.speeds).await
     }
 
-    /// Has a job prepared, when it is its turn.
-    pub(super) fn queue_preparation(&self, owner: &str, job: JobId) {
-        self.preparations.add(owner, job, [()]);
-        self.turn.notify_one();
-    }
-
-    /// Has speeds of a job run in this order, when it is their turn.
-    pub(super) fn queue_speeds(&self, job: &Live, speeds: impl IntoIterator<Item = u32>) {
-        self.speeds.add(&job.owner, job.id, speeds);
-        self.turn.notify_one();
-    }
-
-    /// Gives the queue the tasks whose turn it is.
-    pub(super) async fn hand_out(&self) {
-        while let Some((job, ())) = self.preparations.next() {
-            until_taken(|| self.queue.push_preparation(job)).await;
-            self.new_preparation.notify_one();
-        }
-        while let Some((job, speed)) = self.speeds.next() {
-            until_taken(|| self.queue.push_speed(RunSpeed { job, speed })).await;
-            self.new_speeds.notify_one();
-        }
-    }
-
     /// Stops all computations of a job that has become final and drops its waiting tasks.
     pub(super) fn retire(&self, id: JobId) {
-        self.preparations.withdraw(id);
-        self.speeds.withdraw(id);
+        self.tasks.withdraw(id);
         self.computing.acquit(id);
         self.forget(id);
     }

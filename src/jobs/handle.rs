@@ -131,7 +131,7 @@ impl Jobs {
                 engine.store.insert_job(id, whose, &request, &labels, facts.as_ref(), answer.as_ref()).await;
             // Also where nobody knows whether it was kept: a job that is not there harms nobody.
             if matches!(kept, Ok(Insertion::Accepted) | Err(_)) {
-                engine.queue_preparation(&owner, id);
+                engine.tasks.prepare(&owner, id);
             }
             kept
         });

@@ -45,6 +45,7 @@ mod static_wheel;
 mod stress;
 mod study;
 mod submission;
+mod tasks;
 mod trials;
 mod turns;
 mod work;

@@ -52,6 +52,6 @@ async fn prepare_sweep(engine: &Engine, job: &Live) -> Result<(), Interruption> 
     if missing.is_empty() {
         return finish::sweep(engine, job, request).await;
     }
-    engine.queue_speeds(job, missing);
+    engine.tasks.run(&job.owner, job.id, missing);
     Ok(())
 }

@@ -1,6 +1,5 @@
 //! The workers that take tasks from the queues, from start to stop.
 
-use std::hash::Hash;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::task::{Context, Poll};
@@ -21,16 +20,11 @@ use super::handle::Jobs;
 use super::memory::Memory;
 use super::pool::CpuPool;
 use super::progress::PendingReports;
-use super::turns::Turns;
 use super::{error, prepare, speed};
-use crate::store::jobs::{JobId, Unfinished};
+use crate::store::jobs::Unfinished;
 use crate::store::limits::Limits;
 use crate::store::queue::{PrepareJob, Queue, RunSpeed};
 use crate::store::{Store, StoreError};
-
-/// Preparations of one owner under way at once, beyond one per thread: those that wait for another job's reduction take no
-/// thread, and must not keep others from theirs. All owners together have four times as many.
-const WAITING_PREPARATIONS: usize = 16;
 
 /// How often a queue is asked for tasks without having been notified.
 const IDLE_POLL: Duration = Duration::from_millis(500);
@@ -73,9 +67,8 @@ impl Runner {
         let pool = |name, threads| CpuPool::start(name, threads, settings.workers);
         let pools = (pool("compute", settings.workers)?, pool("import", settings.workers)?, pool("plan", 1)?);
         let memory = Memory::new(settings.memory_bytes);
-        let preparations = settings.workers + WAITING_PREPARATIONS;
-        let engine = Engine::new(store.clone(), queue, pools, memory, settings.limits, preparations);
-        let all_preparations = engine.preparations.most();
+        let engine = Engine::new(store.clone(), queue, pools, memory, settings.limits);
+        let all_preparations = engine.tasks.preparations.most();
         if let Err(error) = store.count_crashes().await {
             // Counted at the next start.
             tracing::warn!(%error, "could not count what the last service ended under");
@@ -89,12 +82,12 @@ impl Runner {
             engine.computing.suspect(id, crashes);
             let pause = pause(crashes);
             if pause.is_zero() {
-                engine.queue_preparation(&owner, id);
+                engine.tasks.prepare(&owner, id);
             } else {
                 let engine = Arc::clone(&engine);
                 tokio::spawn(async move {
                     tokio::time::sleep(pause).await;
-                    engine.queue_preparation(&owner, id);
+                    engine.tasks.prepare(&owner, id);
                 });
             }
         }
@@ -111,7 +104,10 @@ impl Runner {
         ];
         let helpers = vec![
             tokio::spawn(record_progress(store, Arc::clone(&engine.reports))),
-            tokio::spawn(hand_out(Arc::clone(&engine))),
+            tokio::spawn({
+                let engine = Arc::clone(&engine);
+                async move { engine.tasks.hand_out().await }
+            }),
             tokio::spawn(keep_house(Arc::clone(&engine), settings.keep_days)),
         ];
         Ok(Self { engine, stop, workers, helpers })
@@ -140,15 +136,7 @@ impl Runner {
         }
         self.engine.store.stop_marking();
         self.helpers.iter().for_each(JoinHandle::abort);
-        self.engine.queue.close().await;
-    }
-}
-
-/// Hands out tasks, one after the other ends.
-async fn hand_out(engine: Arc<Engine>) {
-    loop {
-        engine.hand_out().await;
-        engine.turn.notified().await;
+        self.engine.tasks.queue.close().await;
     }
 }
 
@@ -178,21 +166,6 @@ async fn keep_house(engine: Arc<Engine>, keep_days: Option<u32>) {
     }
 }
 
-/// Makes place for the next task when this one has ended, however it did.
-struct Ended<'a, T: Copy + Eq + Hash> {
-    turns: &'a Turns<T>,
-    turn: &'a Notify,
-    job: JobId,
-    task: T,
-}
-
-impl<T: Copy + Eq + Hash> Drop for Ended<'_, T> {
-    fn drop(&mut self) {
-        self.turns.done(self.job, self.task);
-        self.turn.notify_one();
-    }
-}
-
 fn prepare_jobs(
     name: String,
     engine: Arc<Engine>,
@@ -200,12 +173,12 @@ fn prepare_jobs(
     stop: CancellationToken,
 ) -> BoxFuture<'static, Result<(), WorkerError>> {
     async fn handle(task: PrepareJob, engine: Data<Arc<Engine>>) -> Result<(), BoxDynError> {
-        let _ended = Ended { turns: &engine.preparations, turn: &engine.turn, job: task.job, task: () };
+        let _place = engine.tasks.preparing(task.job);
         engine.attend(task.job, || prepare::prepare(&engine, task.job)).await;
         Ok(())
     }
-    let backend =
-        engine.queue.preparations().poll_with_strategy(NotifyStrategy::new(&engine.new_preparation));
+    let tasks = &engine.tasks;
+    let backend = tasks.queue.preparations().poll_with_strategy(NotifyStrategy::new(&tasks.new_preparation));
     WorkerBuilder::new(name)
         .backend(backend)
         .concurrency(concurrency)
@@ -222,11 +195,12 @@ fn run_speeds(
     stop: CancellationToken,
 ) -> BoxFuture<'static, Result<(), WorkerError>> {
     async fn handle(task: RunSpeed, engine: Data<Arc<Engine>>) -> Result<(), BoxDynError> {
-        let _ended = Ended { turns: &engine.speeds, turn: &engine.turn, job: task.job, task: task.speed };
+        let _place = engine.tasks.running(task);
         engine.attend(task.job, || speed::run(&engine, task)).await;
         Ok(())
     }
-    let backend = engine.queue.speeds().poll_with_strategy(NotifyStrategy::new(&engine.new_speeds));
+    let tasks = &engine.tasks;
+    let backend = tasks.queue.speeds().poll_with_strategy(NotifyStrategy::new(&tasks.new_speeds));
     WorkerBuilder::new(name)
         .backend(backend)
         .concurrency(concurrency)
