@@ -23,11 +23,21 @@ const BETWEEN_ATTEMPTS: Duration = Duration::from_secs(1);
 /// Large answers that are made at once.
 const LARGE_ANSWERS: usize = 4;
 
+/// What a process is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Role {
+    /// It takes requests.
+    Service,
+    /// It computes what others are asked for.
+    Worker,
+}
+
 /// The service, bound to its address, with its workers running.
 #[derive(Debug)]
 pub struct App {
     listener: TcpListener,
     addr: SocketAddr,
+    role: Role,
     state: AppState,
     store: Store,
     runner: Runner,
@@ -81,6 +91,11 @@ pub enum StartError {
         /// The limit.
         limit: u64,
     },
+    /// Nobody would compute.
+    #[error(
+        "--workers 0: nobody would compute, because no other process has the data folder; leave it out, or name a --database that others work on"
+    )]
+    NoWorkers,
     /// The contract does not serialise: a defect.
     #[error("the OpenAPI document: {0}")]
     Contract(#[from] serde_json::Error),
@@ -89,15 +104,23 @@ pub enum StartError {
 impl App {
     /// Opens the data folder, binds the address and resumes unfinished jobs.
     pub async fn build(config: Config) -> Result<Self, StartError> {
+        Self::build_as(Role::Service, config).await
+    }
+
+    /// The same for a process of this role.
+    pub async fn build_as(role: Role, config: Config) -> Result<Self, StartError> {
         let limit = descriptors::raise_limit();
         let connections = descriptors::connections(config.transport.connections, limit)
             .ok_or(StartError::OpenFiles { limit: limit.unwrap_or_default() })?;
+        if config.worker_threads() == 0 && !config.is_shared() {
+            return Err(StartError::NoWorkers);
+        }
         let lock = lock(&config.data)?;
         let tokens = config.tokens.as_deref().map(Tokens::read).transpose()?;
         if tokens.is_none() && !config.open && !config.addr.ip().is_loopback() {
             return Err(StartError::Exposed(config.addr));
         }
-        let store = open_store(&config.data).await?;
+        let store = open_store(&config).await?;
         store.remove_leftovers().await;
         let bind = |source| StartError::Bind { addr: config.addr, source };
         let listener = TcpListener::bind(config.addr).await.map_err(bind)?;
@@ -132,7 +155,7 @@ impl App {
             openapi: Arc::from(document.to_json()?),
             contract: Arc::new(Contract::of(&serde_json::to_value(&document)?)),
         };
-        Ok(Self { listener, addr, state, store, runner, _lock: lock })
+        Ok(Self { listener, addr, role, state, store, runner, _lock: lock })
     }
 
     /// The address it listens on.
@@ -143,10 +166,14 @@ impl App {
     /// Serves until `stop`; then ends requests, interrupts computations, which resume at the next start, and closes
     /// the data folder.
     pub async fn run_until_stopped(self, stop: CancellationToken) {
-        let Self { listener, state, store, runner, _lock, .. } = self;
+        let Self { listener, role, state, store, runner, _lock, .. } = self;
         let transport = Arc::clone(&state.transport);
         let state = AppState { stop: stop.clone(), ..state };
-        server::serve(listener, http::router(state), &transport.limits, &transport.connections, stop).await;
+        let router = match role {
+            Role::Service => http::router(state),
+            Role::Worker => http::observation(state),
+        };
+        server::serve(listener, router, &transport.limits, &transport.connections, stop).await;
         tracing::info!("stopping");
         runner.stop().await;
         // A lock that another program holds would keep it for longer than who stops the service waits.
@@ -159,10 +186,10 @@ impl App {
 
 /// Opens the store, again and again while the disk is full or another program has the database: who starts the service may
 /// not come back to it.
-async fn open_store(folder: &Path) -> Result<Store, StoreError> {
+async fn open_store(config: &Config) -> Result<Store, StoreError> {
     let mut warned = false;
     loop {
-        match Store::open(folder).await {
+        match open_once(config).await {
             Err(error) if error.may_pass() => {
                 if !warned {
                     tracing::error!(%error, "the service starts as soon as the data folder can be used");
@@ -173,6 +200,14 @@ async fn open_store(folder: &Path) -> Result<Store, StoreError> {
             opened => return opened,
         }
     }
+}
+
+async fn open_once(config: &Config) -> Result<Store, StoreError> {
+    #[cfg(feature = "cluster")]
+    if let Some(database) = &config.database {
+        return Store::connect(&config.data, database.expose()).await;
+    }
+    Store::open(&config.data).await
 }
 
 /// Makes the data folder if need be and takes it for this process.

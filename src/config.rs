@@ -1,5 +1,7 @@
 //! Settings of the service, from the command line or the environment.
 
+#[cfg(feature = "cluster")]
+mod database;
 mod memory;
 mod transport;
 
@@ -11,6 +13,8 @@ use clap::Args;
 use crate::package::Limits;
 use crate::store::limits as owner;
 
+#[cfg(feature = "cluster")]
+pub use database::DatabaseUrl;
 pub use transport::TransportConfig;
 
 /// Largest package accepted unless told otherwise, in bytes as sent.
@@ -27,8 +31,13 @@ pub struct Config {
     #[arg(long, env = "RUBMAP_DATA", default_value = "./data")]
     pub data: PathBuf,
 
-    /// Threads that compute [default: one per core].
-    #[arg(long, env = "RUBMAP_WORKERS", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    /// PostgreSQL database for models, jobs, results and queue, which several processes share [default: a file in the data folder].
+    #[cfg(feature = "cluster")]
+    #[arg(long, env = "RUBMAP_DATABASE", hide_env_values = true, value_name = "postgres://USER@HOST/NAME")]
+    pub database: Option<DatabaseUrl>,
+
+    /// Threads that compute; 0 leaves that to others of the same --database [default: one per core].
+    #[arg(long, env = "RUBMAP_WORKERS", value_parser = clap::value_parser!(u16).range(0..=1024))]
     pub workers: Option<u16>,
 
     /// Largest model package accepted, in bytes as sent.
@@ -78,6 +87,8 @@ impl Config {
         Self {
             addr: ([127, 0, 0, 1], 0).into(),
             data: data.to_owned(),
+            #[cfg(feature = "cluster")]
+            database: None,
             workers: None,
             upload_bytes: UPLOAD_BYTES,
             expanded_bytes: None,
@@ -90,6 +101,14 @@ impl Config {
             memory_bytes: None,
             transport: TransportConfig::default(),
         }
+    }
+
+    /// Whether other processes may compute what this one is asked for.
+    pub fn is_shared(&self) -> bool {
+        #[cfg(feature = "cluster")]
+        return self.database.is_some();
+        #[cfg(not(feature = "cluster"))]
+        false
     }
 
     /// Threads that compute.

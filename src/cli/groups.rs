@@ -12,7 +12,10 @@ const GROUPS: [(&str, &[&str]); 4] = [
         &["upload", "plan", "sweep", "submit", "watch", "ls", "get", "report", "open", "cancel", "rm"],
     ),
     ("Without a service", &["demo", "study", "case", "fields", "modes", "repeat", "generate", "import"]),
+    #[cfg(not(feature = "cluster"))]
     ("Running a service", &["serve", "token", "backup", "check"]),
+    #[cfg(feature = "cluster")]
+    ("Running a service", &["serve", "worker", "token", "backup", "check"]),
     ("This program", &["completions", "man", "help"]),
 ];
 

@@ -27,10 +27,15 @@ mod study;
 mod terminal;
 mod token;
 mod verb;
+#[cfg(feature = "cluster")]
+mod worker;
 
 use std::process::ExitCode;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+
+/// What a service says without being asked.
+const SERVICE_LOG: &str = "info,apalis_core=warn";
 
 /// At which speeds do the blade tips of a centrifugal impeller interact dangerously with their casing?
 #[derive(Debug, Parser)]
@@ -93,6 +98,9 @@ enum Command {
     Report(report::ReportArgs),
     /// Run the HTTP service.
     Serve(serve::ServeArgs),
+    /// Compute what services on the same PostgreSQL database are asked for.
+    #[cfg(feature = "cluster")]
+    Worker(worker::WorkerArgs),
     /// Copy a data folder, while a service works on it or not.
     Backup(keeping::BackupArgs),
     /// Read everything in a data folder and say what is not as it was written.
@@ -119,7 +127,9 @@ impl Cli {
     #[must_use]
     pub fn default_log(&self) -> &'static str {
         match self.command {
-            Command::Serve(_) | Command::Generate(_) | Command::Import(_) => "info,apalis_core=warn",
+            #[cfg(feature = "cluster")]
+            Command::Worker(_) => SERVICE_LOG,
+            Command::Serve(_) | Command::Generate(_) | Command::Import(_) => SERVICE_LOG,
             _ => "warn",
         }
     }
@@ -149,6 +159,8 @@ impl Cli {
             Command::Repeat(args) => return repeat::run(&args),
             Command::Check(args) => return keeping::check(args),
             Command::Serve(args) => serve::run(args)?,
+            #[cfg(feature = "cluster")]
+            Command::Worker(args) => worker::run(args)?,
             Command::Token(command) => token::token(command)?,
             Command::Backup(args) => keeping::backup(args)?,
             Command::Generate(args) => generate::generate(args)?,

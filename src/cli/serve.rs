@@ -5,7 +5,7 @@ use std::pin::pin;
 
 use clap::Args;
 
-use crate::app::App;
+use crate::app::{App, Role};
 use crate::config::Config;
 use tokio_util::sync::CancellationToken;
 
@@ -23,7 +23,11 @@ pub(super) struct ServeArgs {
 
 /// Runs the service until SIGTERM or SIGINT.
 pub(super) fn run(args: ServeArgs) -> anyhow::Result<()> {
-    let ServeArgs { config, until_eof } = args;
+    until_told(args.config, Role::Service, args.until_eof)
+}
+
+/// Runs a process of this role until a signal or, if that counts, the end of standard input.
+pub(super) fn until_told(config: Config, role: Role, until_eof: bool) -> anyhow::Result<()> {
     let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().build()?;
     let served = runtime.block_on(async {
         let stop_signal = stop_signal()?;
@@ -34,7 +38,7 @@ pub(super) fn run(args: ServeArgs) -> anyhow::Result<()> {
             }
         });
         let app = tokio::select! {
-            app = App::build(config) => app?,
+            app = App::build_as(role, config) => app?,
             () = &mut end => return Ok(()),
         };
         let stop = CancellationToken::new();

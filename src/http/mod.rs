@@ -62,7 +62,7 @@ pub use contract::Contract;
 pub use document::document;
 pub use followed::Followed;
 pub use renderings::Renderings;
-pub use router::router;
+pub use router::{observation, router};
 pub use state::AppState;
 pub use stream::LargeAnswers;
 pub use transport::Transport;

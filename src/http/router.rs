@@ -6,6 +6,7 @@ use axum::Router;
 use axum::extract::DefaultBodyLimit;
 use axum::http::{HeaderName, HeaderValue, Method, StatusCode, header};
 use axum::middleware;
+use axum::routing::get;
 use tower::ServiceBuilder;
 use tower_http::catch_panic::CatchPanicLayer;
 use tower_http::compression::CompressionLayer;
@@ -59,6 +60,17 @@ pub(super) fn routes() -> OpenApiRouter<AppState> {
         .routes(routes!(metrics::get_metrics))
         .routes(routes!(version::get_version))
         .routes(routes!(openapi::get_openapi))
+}
+
+/// What can be asked of a process that serves nobody's jobs: whether it lives and can work, and its numbers.
+pub fn observation(state: AppState) -> Router {
+    Router::new()
+        .route("/healthz", get(health::get_health))
+        .route("/readyz", get(health::get_readiness))
+        .route("/metrics", get(metrics::get_metrics))
+        .fallback(|| async { StatusCode::NOT_FOUND })
+        .layer(middleware::from_fn(problem::complete))
+        .with_state(state)
 }
 
 /// The service. From outside to inside: what holds for every answer, what may refuse a request before its route sees it, and the

@@ -1,6 +1,7 @@
 //! What all tasks share.
 
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
@@ -20,7 +21,6 @@ use super::tasks::Tasks;
 use crate::analysis::monitor::Monitor;
 use crate::store::jobs::{Chosen, Failure, FailureCause, Job, JobHead, JobId, JobRequest};
 use crate::store::limits::Limits;
-use crate::store::queue::Queue;
 use crate::store::status::JobStatus;
 use crate::store::{Store, StoreError};
 
@@ -91,13 +91,12 @@ fn chain(request: &JobRequest) -> Option<Vec<u32>> {
 impl Engine {
     pub(super) fn new(
         store: Store,
-        queue: Queue,
+        tasks: Tasks,
         (pool, importer, planner): (CpuPool, CpuPool, CpuPool),
         memory: Memory,
         limits: Limits,
     ) -> Arc<Self> {
         let memory = Arc::new(memory);
-        let tasks = Tasks::new(queue, pool.threads());
         let computing = Arc::new(Computing::new(store.clone(), pool));
         Arc::new(Self {
             reductions: Reductions::new(store.clone(), Arc::clone(&computing), Arc::clone(&memory)),
@@ -122,27 +121,45 @@ impl Engine {
         if self.stopping.load(Ordering::Relaxed) {
             return Err(Interruption::NotWanted);
         }
-        if let Some(live) = self.lock_live().get(&id) {
-            return Ok(Some(Arc::clone(live)));
+        let known = self.lock_live().get(&id).cloned();
+        // Where others work on the job, they may have given it other settings or more speeds.
+        if known.is_some() && !self.tasks.are_shared() {
+            return Ok(known);
         }
         let Some(Job { head, request, plan, .. }) = self.store.job(id).await? else {
+            self.forget(id);
             return Ok(None);
         };
         let JobHead { owner, status, speeds, .. } = head;
         if status.is_final() {
+            self.forget(id);
             return Ok(None);
         }
-        let watch = Watch::new(id, speeds.total, Arc::clone(&self.stopping), Arc::clone(&self.reports));
+        let watch = known.map(|live| Arc::clone(&live.watch)).unwrap_or_else(|| {
+            Watch::new(id, speeds.total, Arc::clone(&self.stopping), Arc::clone(&self.reports))
+        });
+        watch.expect_speeds(speeds.total);
         let chain = chain(&request);
         let speed_bytes = AtomicU64::new(plan.map_or(0, |plan| plan.speed_memory_bytes));
         let live = Live { id, owner, request, speeds: speeds.total, chain, speed_bytes, watch };
-        let live = Arc::clone(self.lock_live().entry(id).or_insert_with(|| Arc::new(live)));
+        let live = self.keep(live);
         // A dismissal between the two lines above found nobody to tell.
         if self.store.job(id).await?.is_none_or(|job| job.status.is_final()) {
             self.forget(id);
             return Ok(None);
         }
         Ok(Some(live))
+    }
+
+    /// Keeps a job in memory, unless another task was faster; what is newer takes the place of what others may have changed.
+    fn keep(&self, live: Live) -> Arc<Live> {
+        let mut all = self.lock_live();
+        let kept = all.entry(live.id);
+        if let (Entry::Occupied(known), false) = (&kept, self.tasks.are_shared()) {
+            return Arc::clone(known.get());
+        }
+        let kept = kept.insert_entry(Arc::new(live));
+        Arc::clone(kept.get())
     }
 
     /// Gives a running job another request with so many `speeds`, at once in the store and in memory: tasks that begin from
@@ -238,6 +255,25 @@ impl Engine {
             }
             self.tell(id, error::waiting_for(&error));
             tokio::time::sleep(BETWEEN_ATTEMPTS).await;
+        }
+    }
+
+    /// Jobs in memory.
+    #[cfg(feature = "cluster")]
+    pub(super) fn live_jobs(&self) -> Vec<JobId> {
+        self.lock_live().keys().copied().collect()
+    }
+
+    /// Ends what is computed for a job in memory that has ended elsewhere.
+    #[cfg(feature = "cluster")]
+    pub(super) async fn look_at(&self, id: JobId) {
+        if !self.lock_live().contains_key(&id) {
+            return;
+        }
+        if let Ok(found) = self.store.job(id).await
+            && found.is_none_or(|job| job.status.is_final())
+        {
+            self.retire(id);
         }
     }
 

@@ -40,6 +40,8 @@ mod pool;
 mod prepare;
 mod progress;
 mod reductions;
+#[cfg(feature = "cluster")]
+mod share;
 mod speed;
 mod static_wheel;
 mod stress;

@@ -6,6 +6,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use super::computing::Computing;
 use super::error::Interruption;
 use super::memory::Memory;
+#[cfg(feature = "cluster")]
+use super::patience::BETWEEN_ATTEMPTS;
 use super::patience::patiently;
 use super::progress::PhaseMonitor;
 use super::stress::Making;
@@ -19,6 +21,8 @@ use crate::dynamics::nodes::SectorNode;
 use crate::package::{self, Limits};
 use crate::store::checkpoints::CheckpointFolder;
 use crate::store::{Store, StoreError};
+#[cfg(feature = "cluster")]
+use crate::store::{claims::Claim, shared_queue::SharedQueue};
 
 /// Reduced sectors kept in memory: tens of megabytes each at most, and jobs come in runs on the same model.
 const KEPT: usize = 4;
@@ -120,7 +124,7 @@ impl Reductions {
                 flight.lock().await
             }
         };
-        let result = self.obtain(&key, beside, monitor).await;
+        let result = self.alone(&key, beside, monitor).await;
         drop(guard);
         let mut flights = self.flights.lock().unwrap_or_else(PoisonError::into_inner);
         // Two handles are the map's and ours; more mean that somebody waits.
@@ -160,6 +164,43 @@ impl Reductions {
     async fn tip_thickness(&self, model: &str) -> Result<Option<f64>, StoreError> {
         let model = self.store.model(model, None).await?;
         Ok(model.and_then(|model| model.facts.mesh?.tip_thickness))
+    }
+
+    /// With the flight's lock held. A reduction that is not there yet only one process makes at a time.
+    async fn alone(
+        &self,
+        key: &Key,
+        beside: &Beside,
+        monitor: PhaseMonitor,
+    ) -> Result<Arc<ReducedSector>, Interruption> {
+        #[cfg(feature = "cluster")]
+        let _claim = match self.store.shared_queue() {
+            Some(queue) => self.claim(queue, key, &monitor).await?,
+            None => None,
+        };
+        self.obtain(key, beside, monitor).await
+    }
+
+    /// The right to make a reduction, once no other process does; none where it has been made meanwhile.
+    #[cfg(feature = "cluster")]
+    async fn claim(
+        &self,
+        queue: &SharedQueue,
+        (model, modes_per_speed): &Key,
+        monitor: &PhaseMonitor,
+    ) -> Result<Option<Claim>, Interruption> {
+        let name = format!("reduction {model} {modes_per_speed}");
+        while !self.store.has_reduction(model, *modes_per_speed).await? {
+            if let Some(claim) = queue.claim(&name).await? {
+                return Ok(Some(claim));
+            }
+            if monitor.is_cancelled() {
+                return Err(Interruption::NotWanted);
+            }
+            monitor.progress(0.0, "waiting for a reduction that is being made");
+            tokio::time::sleep(BETWEEN_ATTEMPTS).await;
+        }
+        Ok(None)
     }
 
     /// With the flight's lock held.

@@ -39,11 +39,6 @@ impl<T: Copy + Eq + Hash> Turns<T> {
         Self { most, most_of_one, lines: Mutex::new(lines) }
     }
 
-    /// Tasks that may be out at once.
-    pub(super) fn most(&self) -> usize {
-        self.most
-    }
-
     /// Adds tasks of a job, to be handed out in this order. Those that wait or are out already are not added again.
     pub(super) fn add(&self, owner: &str, job: JobId, tasks: impl IntoIterator<Item = T>) {
         let Lines { owners, out } = &mut *self.lock();

@@ -2,14 +2,10 @@
 
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
-use std::task::{Context, Poll};
 use std::time::Duration;
 
-use apalis::prelude::{
-    BackendExt, BoxDynError, Data, PollSnapshot, PollStrategy, WorkerBuilder, WorkerBuilderExt, WorkerError,
-};
+use apalis::prelude::{BoxDynError, Data, WorkerBuilder, WorkerBuilderExt, WorkerError};
 use futures::{FutureExt, future::BoxFuture};
-use tokio::sync::Notify;
 use tokio::task::JoinHandle;
 use tokio::time::MissedTickBehavior;
 use tokio_util::sync::CancellationToken;
@@ -20,14 +16,14 @@ use super::handle::Jobs;
 use super::memory::Memory;
 use super::pool::CpuPool;
 use super::progress::PendingReports;
+#[cfg(feature = "cluster")]
+use super::share;
+use super::tasks::{self, Tasks};
 use super::{error, prepare, speed};
 use crate::store::jobs::Unfinished;
 use crate::store::limits::Limits;
-use crate::store::queue::{PrepareJob, Queue, RunSpeed};
+use crate::store::queue::{PrepareJob, RunSpeed};
 use crate::store::{Store, StoreError};
-
-/// How often a queue is asked for tasks without having been notified.
-const IDLE_POLL: Duration = Duration::from_millis(500);
 
 /// How long tasks may take to notice that the service stops: those that compute look many times a second.
 const LAST_TASKS: Duration = Duration::from_secs(1);
@@ -41,7 +37,7 @@ const BETWEEN_CLEANINGS: Duration = Duration::from_secs(60);
 /// How the runner is set up.
 #[derive(Debug, Clone)]
 pub struct Settings {
-    /// Threads that compute.
+    /// Threads that compute; 0 where others do, of a database that is shared.
     pub workers: usize,
     /// Memory that computations, uploads and large downloads may take together; `None` for no limit.
     pub memory_bytes: Option<u64>,
@@ -61,55 +57,43 @@ pub struct Runner {
 }
 
 impl Runner {
-    /// Starts the workers and queues all unfinished jobs of the store. Only one runner may run on a data folder.
+    /// Starts the workers; on a data folder of their own with all unfinished jobs of the store. Only one runner may run on a data folder.
     pub async fn start(store: Store, settings: Settings) -> Result<Self, StoreError> {
-        let queue = Queue::create().await?;
-        let pool = |name, threads| CpuPool::start(name, threads, settings.workers);
-        let pools = (pool("compute", settings.workers)?, pool("import", settings.workers)?, pool("plan", 1)?);
+        let threads = settings.workers.max(1);
+        let pool = |name, size| CpuPool::start(name, size, threads);
+        let pools = (pool("compute", threads)?, pool("import", threads)?, pool("plan", 1)?);
         let memory = Memory::new(settings.memory_bytes);
-        let engine = Engine::new(store.clone(), queue, pools, memory, settings.limits);
-        let all_preparations = engine.tasks.preparations.most();
+        let tasks = Tasks::of(&store, threads).await?;
+        let engine = Engine::new(store.clone(), tasks, pools, memory, settings.limits);
         if let Err(error) = store.count_crashes().await {
             // Counted at the next start.
             tracing::warn!(%error, "could not count what the last service ended under");
         }
-        store.restart_outdated().await?;
-        for Unfinished { id, owner, crashes } in store.unfinished_jobs().await? {
-            if crashes >= MOST_CRASHES && engine.fail(id, &error::crashed(crashes)).await.is_ok() {
-                continue;
-            }
-            tracing::info!(job.id = %id, crashes, "resuming");
-            engine.computing.suspect(id, crashes);
-            let pause = pause(crashes);
-            if pause.is_zero() {
-                engine.tasks.prepare(&owner, id);
-            } else {
-                let engine = Arc::clone(&engine);
-                tokio::spawn(async move {
-                    tokio::time::sleep(pause).await;
-                    engine.tasks.prepare(&owner, id);
-                });
-            }
-        }
-        let stop = CancellationToken::new();
-        let workers = vec![
-            tokio::spawn(supervise("prepare", Arc::clone(&engine), stop.clone(), {
-                let (engine, stop) = (Arc::clone(&engine), stop.clone());
-                move |name| prepare_jobs(name, Arc::clone(&engine), all_preparations, stop.clone())
-            })),
-            tokio::spawn(supervise("speeds", Arc::clone(&engine), stop.clone(), {
-                let (engine, stop) = (Arc::clone(&engine), stop.clone());
-                move |name| run_speeds(name, Arc::clone(&engine), settings.workers, stop.clone())
-            })),
-        ];
-        let helpers = vec![
-            tokio::spawn(record_progress(store, Arc::clone(&engine.reports))),
-            tokio::spawn({
-                let engine = Arc::clone(&engine);
-                async move { engine.tasks.hand_out().await }
-            }),
+        let mut helpers = vec![
+            tokio::spawn(record_progress(store.clone(), Arc::clone(&engine.reports))),
             tokio::spawn(keep_house(Arc::clone(&engine), settings.keep_days)),
         ];
+        match &engine.tasks {
+            Tasks::Own(_) => {
+                store.restart_outdated().await?;
+                resume(&engine).await?;
+                let engine = Arc::clone(&engine);
+                helpers.push(tokio::spawn(async move { engine.tasks.hand_out().await }));
+            }
+            #[cfg(feature = "cluster")]
+            Tasks::Shared(_) => helpers.extend(share::start(&engine)),
+        }
+        let stop = CancellationToken::new();
+        let mut workers = Vec::new();
+        if settings.workers > 0 {
+            for (queue, work) in [("prepare", prepare_jobs as StartWorker), ("speeds", run_speeds)] {
+                let start = {
+                    let (engine, stop) = (Arc::clone(&engine), stop.clone());
+                    move |name| work(name, Arc::clone(&engine), threads, stop.clone())
+                };
+                workers.push(tokio::spawn(supervise(queue, Arc::clone(&engine), stop.clone(), start)));
+            }
+        }
         Ok(Self { engine, stop, workers, helpers })
     }
 
@@ -136,8 +120,30 @@ impl Runner {
         }
         self.engine.store.stop_marking();
         self.helpers.iter().for_each(JoinHandle::abort);
-        self.engine.tasks.queue.close().await;
+        self.engine.tasks.close().await;
     }
+}
+
+/// Has all unfinished jobs prepared: at once, or later those that the service died under again and again.
+async fn resume(engine: &Arc<Engine>) -> Result<(), StoreError> {
+    for Unfinished { id, owner, crashes } in engine.store.unfinished_jobs().await? {
+        if crashes >= MOST_CRASHES && engine.fail(id, &error::crashed(crashes)).await.is_ok() {
+            continue;
+        }
+        tracing::info!(job.id = %id, crashes, "resuming");
+        engine.computing.suspect(id, crashes);
+        let pause = pause(crashes);
+        if pause.is_zero() {
+            engine.tasks.prepare(&owner, id);
+        } else {
+            let engine = Arc::clone(engine);
+            tokio::spawn(async move {
+                tokio::time::sleep(pause).await;
+                engine.tasks.prepare(&owner, id);
+            });
+        }
+    }
+    Ok(())
 }
 
 /// Deletes jobs that have been kept long enough, and gives the room of deleted ones back.
@@ -166,10 +172,28 @@ async fn keep_house(engine: Arc<Engine>, keep_days: Option<u32>) {
     }
 }
 
+/// Starts a worker of this name, with so many threads.
+type StartWorker =
+    fn(String, Arc<Engine>, usize, CancellationToken) -> BoxFuture<'static, Result<(), WorkerError>>;
+
+/// A worker that hands the tasks of a source to a handler until it is told to stop; a macro, because the types of sources share nothing
+/// that can be written down.
+macro_rules! worker {
+    ($name:expr, $source:expr, $concurrency:expr, $engine:expr, $stop:expr, $handler:expr) => {
+        WorkerBuilder::new($name)
+            .backend($source)
+            .concurrency($concurrency)
+            .data($engine)
+            .build($handler)
+            .run_until(stopped($stop))
+            .boxed()
+    };
+}
+
 fn prepare_jobs(
     name: String,
     engine: Arc<Engine>,
-    concurrency: usize,
+    threads: usize,
     stop: CancellationToken,
 ) -> BoxFuture<'static, Result<(), WorkerError>> {
     async fn handle(task: PrepareJob, engine: Data<Arc<Engine>>) -> Result<(), BoxDynError> {
@@ -177,21 +201,18 @@ fn prepare_jobs(
         engine.attend(task.job, || prepare::prepare(&engine, task.job)).await;
         Ok(())
     }
-    let tasks = &engine.tasks;
-    let backend = tasks.queue.preparations().poll_with_strategy(NotifyStrategy::new(&tasks.new_preparation));
-    WorkerBuilder::new(name)
-        .backend(backend)
-        .concurrency(concurrency)
-        .data(engine)
-        .build(handle)
-        .run_until(stopped(stop))
-        .boxed()
+    let most = tasks::preparations_at_once(threads);
+    match &Arc::clone(&engine).tasks {
+        Tasks::Own(tasks) => worker!(name, tasks.preparations(), 4 * most, engine, stop, handle),
+        #[cfg(feature = "cluster")]
+        Tasks::Shared(tasks) => worker!(tasks.name(&name), tasks.preparations(), most, engine, stop, handle),
+    }
 }
 
 fn run_speeds(
     name: String,
     engine: Arc<Engine>,
-    concurrency: usize,
+    threads: usize,
     stop: CancellationToken,
 ) -> BoxFuture<'static, Result<(), WorkerError>> {
     async fn handle(task: RunSpeed, engine: Data<Arc<Engine>>) -> Result<(), BoxDynError> {
@@ -199,15 +220,11 @@ fn run_speeds(
         engine.attend(task.job, || speed::run(&engine, task)).await;
         Ok(())
     }
-    let tasks = &engine.tasks;
-    let backend = tasks.queue.speeds().poll_with_strategy(NotifyStrategy::new(&tasks.new_speeds));
-    WorkerBuilder::new(name)
-        .backend(backend)
-        .concurrency(concurrency)
-        .data(engine)
-        .build(handle)
-        .run_until(stopped(stop))
-        .boxed()
+    match &Arc::clone(&engine).tasks {
+        Tasks::Own(tasks) => worker!(name, tasks.speeds(), threads, engine, stop, handle),
+        #[cfg(feature = "cluster")]
+        Tasks::Shared(tasks) => worker!(tasks.name(&name), tasks.speeds(), threads, engine, stop, handle),
+    }
 }
 
 async fn stopped(stop: CancellationToken) -> Result<(), WorkerError> {
@@ -252,31 +269,5 @@ async fn record_progress(store: Store, reports: Arc<PendingReports>) {
                 reports.put_back(job, report);
             }
         }
-    }
-}
-
-/// Wakes a worker when it is notified, and now and then without: a notification that arrives while the worker is asking
-/// the queue would otherwise be lost.
-struct NotifyStrategy {
-    notifications: std::pin::Pin<Box<dyn futures::Stream<Item = ()> + Send + Sync>>,
-    interval: tokio::time::Interval,
-}
-
-impl NotifyStrategy {
-    fn new(notify: &Arc<Notify>) -> Self {
-        let notifications = futures::stream::unfold(Arc::clone(notify), |notify| async move {
-            notify.notified().await;
-            Some(((), notify))
-        });
-        Self { notifications: Box::pin(notifications), interval: tokio::time::interval(IDLE_POLL) }
-    }
-}
-
-impl PollStrategy for NotifyStrategy {
-    /// Only arranges to be woken: the worker asks its queue whenever it is polled.
-    fn poll_drive(&mut self, cx: &mut Context<'_>, _: &PollSnapshot) -> Poll<Option<()>> {
-        while self.notifications.as_mut().poll_next(cx).is_ready() {}
-        while self.interval.poll_tick(cx).is_ready() {}
-        Poll::Pending
     }
 }

@@ -36,7 +36,7 @@ impl Changes {
     }
 
     /// Any job may have changed.
-    pub(super) fn tell_all(&self) {
+    pub fn tell_all(&self) {
         self.lock().values().filter_map(Weak::upgrade).for_each(|change| change.notify_one());
     }
 

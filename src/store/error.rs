@@ -19,6 +19,10 @@ pub enum StoreError {
     /// The queue's tables refused.
     #[error("queue: {0}")]
     Queue(#[from] apalis_sqlite::Error),
+    /// The tables of the queue that machines share refused.
+    #[cfg(feature = "cluster")]
+    #[error("queue: {0}")]
+    SharedQueue(#[from] apalis_postgres::Error),
     /// Packages of models, and nothing that knows them.
     #[error(
         "{} is missing or holds nothing of this program, and beside it lie packages of models ({packages}), which it \
@@ -96,6 +100,8 @@ impl StoreError {
             )
             | Self::Queue(_)
             | Self::Unseen => true,
+            #[cfg(feature = "cluster")]
+            Self::SharedQueue(_) => true,
             Self::Database(error)
             | Self::Migration(MigrateError::Execute(error) | MigrateError::ExecuteMigration(error, _)) => {
                 refusal(error).is_some()

@@ -11,6 +11,8 @@ use super::error::StoreError;
 use super::marks::Marks;
 use super::packages::packages_folder;
 use super::reserve::Reserve;
+#[cfg(feature = "cluster")]
+use super::shared_queue::SharedQueue;
 use super::{postgres, sqlite};
 
 /// The database and the data folder, which has the packages.
@@ -27,6 +29,8 @@ pub struct Store {
     pub(super) reserve: Reserve,
     /// Tells who follows a job that it has changed.
     pub(super) changes: Changes,
+    #[cfg(feature = "cluster")]
+    tasks: Option<SharedQueue>,
 }
 
 impl Store {
@@ -48,14 +52,34 @@ impl Store {
     pub async fn connect(folder: &Path, url: &str) -> Result<Self, StoreError> {
         std::fs::create_dir_all(packages_folder(folder))?;
         let pool = postgres::open(url).await?;
-        Self::with(folder, Dialect::Postgres, pool.clone(), pool)
+        let store = Self::with(folder, Dialect::Postgres, pool.clone(), pool)?;
+        #[cfg(feature = "cluster")]
+        let store = Self { tasks: Some(SharedQueue::open(url).await?), ..store };
+        Ok(store)
+    }
+
+    /// The tasks that processes share which have the tables in common; none of a data folder.
+    #[cfg(feature = "cluster")]
+    pub fn shared_queue(&self) -> Option<&SharedQueue> {
+        self.tasks.as_ref()
     }
 
     fn with(folder: &Path, dialect: Dialect, readers: AnyPool, writer: AnyPool) -> Result<Self, StoreError> {
         let marks = Marks::new(folder)?;
         let (packages, reserve) = (Arc::default(), Reserve::of(folder));
         let changes = Changes::default();
-        Ok(Self { folder: folder.to_owned(), dialect, readers, writer, marks, packages, reserve, changes })
+        Ok(Self {
+            folder: folder.to_owned(),
+            dialect,
+            readers,
+            writer,
+            marks,
+            packages,
+            reserve,
+            changes,
+            #[cfg(feature = "cluster")]
+            tasks: None,
+        })
     }
 
     /// Changes of jobs, to be followed and told.
@@ -67,5 +91,9 @@ impl Store {
     pub async fn close(&self) {
         self.readers.close().await;
         self.writer.close().await;
+        #[cfg(feature = "cluster")]
+        if let Some(tasks) = &self.tasks {
+            tasks.close().await;
+        }
     }
 }

@@ -10,6 +10,8 @@ pub mod bases;
 mod calibrations;
 mod changes;
 pub mod checkpoints;
+#[cfg(feature = "cluster")]
+pub mod claims;
 mod computing;
 #[cfg(test)]
 mod contract;
@@ -34,6 +36,8 @@ pub mod reductions;
 mod refusal;
 mod reserve;
 pub mod results;
+#[cfg(feature = "cluster")]
+pub mod shared_queue;
 mod sql;
 mod sqlite;
 pub mod states;

@@ -1,5 +1,6 @@
 //! Whether what is written can be read, how much room there is, and how much work is waiting.
 
+use super::dialect::Dialect;
 use super::error::StoreError;
 use super::handle::Store;
 use super::reserve::free_bytes;
@@ -29,7 +30,9 @@ impl Store {
         let read: Option<String> = sqlx::query_scalar("select mark from readiness where id = 1")
             .fetch_optional(&self.readers)
             .await?;
-        if read.as_ref() == Some(&written) { Ok(()) } else { Err(StoreError::Unseen) }
+        // Of a server other processes may have written theirs meanwhile.
+        let is_seen = read.is_some_and(|read| read == written || self.dialect == Dialect::Postgres);
+        if is_seen { Ok(()) } else { Err(StoreError::Unseen) }
     }
 
     /// Room on the disk of the data folder for this process, in bytes.

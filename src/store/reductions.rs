@@ -53,6 +53,14 @@ impl Store {
         Ok(reports.iter().map(|report| serde_json::from_str(report)).collect::<Result<_, _>>()?)
     }
 
+    /// Whether there is a reduction of `model` that this version of the program can read.
+    #[cfg(feature = "cluster")]
+    pub async fn has_reduction(&self, model: &str, modes_per_speed: u32) -> Result<bool, StoreError> {
+        let stored = "select 1 from reductions where model = $1 and modes_per_speed = $2 and layout = $3";
+        let stored = sqlx::query(stored).bind(model).bind(i64::from(modes_per_speed)).bind(FORM);
+        Ok(stored.fetch_optional(&self.readers).await?.is_some())
+    }
+
     /// Model and `modes_per_speed` of all stored reductions that this version of the program can read.
     pub(super) async fn stored_reductions(&self) -> Result<Vec<(String, u32)>, StoreError> {
         let stored: Vec<(String, i64)> =

@@ -23,9 +23,14 @@ impl Program {
 
     /// By a command that runs the program with the arguments it gets.
     pub(crate) fn run(mut command: Command, data: &Path) -> Self {
+        command.args(["serve", "--workers", "2", "--data"]).arg(data);
+        Self::start(command)
+    }
+
+    /// A command that says all but the address.
+    pub(crate) fn start(mut command: Command) -> Self {
         let mut child = command
-            .args(["serve", "--addr", "127.0.0.1:0", "--workers", "2", "--data"])
-            .arg(data)
+            .args(["--addr", "127.0.0.1:0"])
             .env("RUST_LOG", "info")
             .env("NO_COLOR", "1")
             .stderr(Stdio::piped())

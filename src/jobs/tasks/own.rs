@@ -1,40 +1,36 @@
-//! Tasks on their way to the workers of this process.
+//! Tasks of this process alone: they wait here for their turn, and the queue has those whose turn it is.
 
-use std::hash::Hash;
 use std::sync::Arc;
 
+use apalis::prelude::{BackendExt, PollWith};
+use apalis_sqlite::SqliteStorage;
 use tokio::sync::Notify;
 
-use super::patience::BETWEEN_ATTEMPTS;
-use super::turns::Turns;
-use crate::store::StoreError;
+use super::{Awake, Place, preparations_at_once, until_taken};
+use crate::jobs::turns::Turns;
 use crate::store::jobs::JobId;
-use crate::store::queue::{Queue, RunSpeed};
-
-/// Preparations of one owner under way at once, beyond one per thread: those that wait for another job's reduction take no
-/// thread, and must not keep others from theirs. All owners together have four times as many.
-const WAITING_PREPARATIONS: usize = 16;
+use crate::store::queue::{PrepareJob, Queue, RunSpeed};
 
 /// Tasks that wait for their turn, and the queue that has those whose turn it is.
 #[derive(Debug)]
-pub(super) struct Tasks {
-    pub(super) queue: Queue,
+pub(in crate::jobs) struct OwnTasks {
+    queue: Queue,
     /// Jobs to be prepared.
-    pub(super) preparations: Turns<()>,
+    preparations: Turns<()>,
     /// Speeds to be run.
-    pub(super) speeds: Turns<u32>,
+    speeds: Turns<u32>,
     /// Notified when a task was added or has ended: perhaps one can be handed out.
     turn: Notify,
     /// Notified when there is something new to prepare in the queue.
-    pub(super) new_preparation: Arc<Notify>,
+    new_preparation: Arc<Notify>,
     /// Notified when there are new speeds in the queue.
-    pub(super) new_speeds: Arc<Notify>,
+    new_speeds: Arc<Notify>,
 }
 
-impl Tasks {
-    /// For so many threads that compute.
+impl OwnTasks {
+    /// For so many threads that compute. All owners together have four times as many preparations under way as one.
     pub(super) fn new(queue: Queue, threads: usize) -> Self {
-        let preparations = threads + WAITING_PREPARATIONS;
+        let preparations = preparations_at_once(threads);
         Self {
             queue,
             preparations: Turns::new(4 * preparations, preparations),
@@ -46,35 +42,43 @@ impl Tasks {
         }
     }
 
-    /// Has a job prepared, when it is its turn.
+    /// Where a worker takes jobs to be prepared from.
+    pub(in crate::jobs) fn preparations(&self) -> PollWith<SqliteStorage<PrepareJob>, Awake> {
+        self.queue.preparations().poll_with_strategy(Awake::by(&self.new_preparation))
+    }
+
+    /// Where a worker takes speeds from.
+    pub(in crate::jobs) fn speeds(&self) -> PollWith<SqliteStorage<RunSpeed>, Awake> {
+        self.queue.speeds().poll_with_strategy(Awake::by(&self.new_speeds))
+    }
+
+    pub(super) async fn close(&self) {
+        self.queue.close().await;
+    }
+
     pub(super) fn prepare(&self, owner: &str, job: JobId) {
         self.preparations.add(owner, job, [()]);
         self.turn.notify_one();
     }
 
-    /// Has speeds of a job run in this order, when it is their turn.
     pub(super) fn run(&self, owner: &str, job: JobId, speeds: impl IntoIterator<Item = u32>) {
         self.speeds.add(owner, job, speeds);
         self.turn.notify_one();
     }
 
-    /// Drops the waiting tasks of a job.
     pub(super) fn withdraw(&self, job: JobId) {
         self.preparations.withdraw(job);
         self.speeds.withdraw(job);
     }
 
-    /// Makes place for the next preparation when what this returns is dropped.
     pub(super) fn preparing(&self, job: JobId) -> Place<'_, ()> {
         Place { turns: &self.preparations, turn: &self.turn, job, task: () }
     }
 
-    /// The same of a speed.
     pub(super) fn running(&self, RunSpeed { job, speed }: RunSpeed) -> Place<'_, u32> {
         Place { turns: &self.speeds, turn: &self.turn, job, task: speed }
     }
 
-    /// Hands out tasks, one after the other ends.
     pub(super) async fn hand_out(&self) {
         loop {
             while let Some((job, ())) = self.preparations.next() {
@@ -87,28 +91,5 @@ impl Tasks {
             }
             self.turn.notified().await;
         }
-    }
-}
-
-/// The place of a task that is out.
-pub(super) struct Place<'a, T: Copy + Eq + Hash> {
-    turns: &'a Turns<T>,
-    turn: &'a Notify,
-    job: JobId,
-    task: T,
-}
-
-impl<T: Copy + Eq + Hash> Drop for Place<'_, T> {
-    fn drop(&mut self) {
-        self.turns.done(self.job, self.task);
-        self.turn.notify_one();
-    }
-}
-
-/// Pushes a task until the queue takes it, which it does at once unless memory is short.
-async fn until_taken<P: Future<Output = Result<(), StoreError>>>(push: impl Fn() -> P) {
-    while let Err(error) = push().await {
-        tracing::error!(%error, "the queue failed");
-        tokio::time::sleep(BETWEEN_ATTEMPTS).await;
     }
 }

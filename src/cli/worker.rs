@@ -1,0 +1,48 @@
+//! `rubmap worker`: computes what others are asked for, until a signal ends it.
+
+use std::net::SocketAddr;
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::serve;
+use crate::app::Role;
+use crate::config::{Config, DatabaseUrl};
+
+/// A worker.
+#[derive(Debug, Args)]
+pub(super) struct WorkerArgs {
+    /// Address of /healthz, /readyz and /metrics; port 0 takes any free port.
+    #[arg(long, env = "RUBMAP_ADDR", default_value = "127.0.0.1:0")]
+    addr: SocketAddr,
+    /// Folder of this worker alone; made if missing.
+    #[arg(long, env = "RUBMAP_DATA", default_value = "./data")]
+    data: PathBuf,
+    /// PostgreSQL database that it shares with the service.
+    #[arg(long, env = "RUBMAP_DATABASE", hide_env_values = true, value_name = "postgres://USER@HOST/NAME")]
+    database: DatabaseUrl,
+    /// Threads that compute [default: one per core].
+    #[arg(long, env = "RUBMAP_WORKERS", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    workers: Option<u16>,
+    /// Memory that computations may take together, in bytes [default: three quarters of what the machine or container leaves].
+    #[arg(long, env = "RUBMAP_MEMORY_BYTES", value_parser = clap::value_parser!(u64).range(1 << 20..))]
+    memory_bytes: Option<u64>,
+    /// Stop, too, when standard input ends
+    #[arg(long)]
+    until_eof: bool,
+}
+
+/// Works until SIGTERM or SIGINT.
+pub(super) fn run(args: WorkerArgs) -> anyhow::Result<()> {
+    let WorkerArgs { addr, data, database, workers, memory_bytes, until_eof } = args;
+    let config = Config {
+        addr,
+        database: Some(database),
+        workers,
+        memory_bytes,
+        // What it answers is not about anybody's jobs.
+        open: true,
+        ..Config::local(&data)
+    };
+    serve::until_told(config, Role::Worker, until_eof)
+}

@@ -1,0 +1,47 @@
+//! Which database several processes share.
+
+use std::fmt;
+use std::str::FromStr;
+
+/// The address of a PostgreSQL database; it may have a password in it, which nothing shows.
+#[derive(Clone, PartialEq, Eq)]
+pub struct DatabaseUrl(String);
+
+impl DatabaseUrl {
+    /// The address with all that is in it.
+    pub fn expose(&self) -> &str {
+        &self.0
+    }
+}
+
+impl fmt::Debug for DatabaseUrl {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("postgres://…")
+    }
+}
+
+impl FromStr for DatabaseUrl {
+    type Err = &'static str;
+
+    fn from_str(url: &str) -> Result<Self, Self::Err> {
+        let is_one = ["postgres://", "postgresql://"].iter().any(|scheme| url.starts_with(scheme));
+        is_one
+            .then(|| Self(url.to_owned()))
+            .ok_or("expected an address such as postgres://user@host/database")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_password_is_not_shown() {
+        let url: DatabaseUrl = "postgres://me:secret@db/rubmap".parse().unwrap();
+        assert_eq!(
+            (format!("{url:?}").as_str(), url.expose()),
+            ("postgres://…", "postgres://me:secret@db/rubmap")
+        );
+        assert!("mysql://me@db/rubmap".parse::<DatabaseUrl>().is_err());
+    }
+}

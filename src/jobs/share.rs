@@ -1,0 +1,96 @@
+//! What a process does beside its tasks where others share the database: it hears of what they do, ends what is not wanted any more,
+//! and makes tasks again that were lost.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use tokio::task::JoinHandle;
+
+use super::computing::MOST_CRASHES;
+use super::engine::Engine;
+use super::error;
+use super::tasks::{SharedTasks, Tasks};
+use crate::store::StoreError;
+use crate::store::jobs::{JobId, Unfinished};
+use crate::store::shared_queue::Told;
+
+/// Time between two looks at what one should have been told of.
+const BETWEEN_LOOKS: Duration = Duration::from_secs(2);
+
+/// Looks after which lost tasks are made again and ended ones forgotten: every process does it, and one would be enough.
+const LOOKS_BETWEEN_REPAIRS: u32 = 5;
+
+/// Starts both.
+pub(super) fn start(engine: &Arc<Engine>) -> [JoinHandle<()>; 2] {
+    [tokio::spawn(hear(Arc::clone(engine))), tokio::spawn(look(Arc::clone(engine)))]
+}
+
+fn shared(engine: &Engine) -> Option<&SharedTasks> {
+    match &engine.tasks {
+        Tasks::Shared(tasks) => Some(tasks),
+        Tasks::Own(_) => None,
+    }
+}
+
+/// Hears of new tasks and of jobs that have changed, as long as the database can be reached, and again when it can.
+async fn hear(engine: Arc<Engine>) {
+    let Some(tasks) = shared(&engine) else { return };
+    loop {
+        if let Err(error) = hear_once(&engine, tasks).await {
+            tracing::warn!(%error, "hears nothing of other processes; looking every {} s", BETWEEN_LOOKS.as_secs());
+        }
+        tokio::time::sleep(BETWEEN_LOOKS).await;
+    }
+}
+
+async fn hear_once(engine: &Engine, tasks: &SharedTasks) -> Result<(), StoreError> {
+    let mut news = tasks.queue().listen().await?;
+    // What was said before nobody heard.
+    tasks.wake();
+    engine.store.changes().tell_all();
+    while let Some(told) = news.next().await? {
+        match told {
+            Told::Tasks => tasks.wake(),
+            Told::Job(job) => {
+                engine.store.changes().tell(job);
+                engine.look_at(job).await;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Looks after what nobody may have told of.
+async fn look(engine: Arc<Engine>) {
+    let Some(tasks) = shared(&engine) else { return };
+    let mut interval = tokio::time::interval(BETWEEN_LOOKS);
+    interval.set_missed_tick_behavior(tokio::time::MissedTickBehavior::Delay);
+    for look in 0u32.. {
+        interval.tick().await;
+        for job in engine.live_jobs() {
+            engine.look_at(job).await;
+        }
+        if look % LOOKS_BETWEEN_REPAIRS == 0
+            && let Err(error) = repair(&engine, tasks).await
+        {
+            tracing::debug!(%error, "could not look for lost tasks; trying again later");
+        }
+    }
+}
+
+async fn repair(engine: &Engine, tasks: &SharedTasks) -> Result<(), StoreError> {
+    if !tasks.queue().has_other_revisions().await? {
+        engine.store.restart_outdated().await?;
+    }
+    for Unfinished { id, crashes, .. } in engine.store.unfinished_jobs().await? {
+        if crashes >= MOST_CRASHES {
+            engine.fail(id, &error::crashed(crashes)).await?;
+        }
+    }
+    for (id, owner) in tasks.queue().jobs_without_tasks().await? {
+        if let Some(job) = JobId::parse(&id) {
+            engine.tasks.prepare(&owner, job);
+        }
+    }
+    tasks.queue().tidy().await
+}

@@ -1,0 +1,79 @@
+//! What one process does for all that share a database: others wait until it is done, or has been silent for a while.
+
+use std::time::Duration;
+
+use sqlx::PgPool;
+use tokio::task::JoinHandle;
+
+use super::error::StoreError;
+
+/// Time between two signs that a claim is still held.
+const RENEWAL: Duration = Duration::from_secs(5);
+
+/// Seconds without such a sign after which another may have it.
+const SILENCE: i32 = 30;
+
+/// The sole right of this process to something, until it is dropped.
+#[derive(Debug)]
+pub struct Claim {
+    pool: PgPool,
+    name: String,
+    holder: String,
+    renewal: JoinHandle<()>,
+}
+
+impl Claim {
+    /// The right to `name`, unless another process has it.
+    pub(super) async fn of(pool: &PgPool, name: &str) -> Result<Option<Self>, StoreError> {
+        let holder = uuid::Uuid::now_v7().to_string();
+        if !take(pool, name, &holder).await? {
+            return Ok(None);
+        }
+        let renewal = tokio::spawn({
+            let (pool, name, holder) = (pool.clone(), name.to_owned(), holder.clone());
+            async move {
+                loop {
+                    tokio::time::sleep(RENEWAL).await;
+                    match take(&pool, &name, &holder).await {
+                        Ok(true) => {}
+                        Ok(false) => tracing::warn!(
+                            name,
+                            "another process does the same: this one was silent for too long"
+                        ),
+                        Err(error) => tracing::debug!(name, %error, "could not renew a claim"),
+                    }
+                }
+            }
+        });
+        Ok(Some(Self { pool: pool.clone(), name: name.to_owned(), holder, renewal }))
+    }
+}
+
+impl Drop for Claim {
+    fn drop(&mut self) {
+        self.renewal.abort();
+        let (pool, name, holder) =
+            (self.pool.clone(), std::mem::take(&mut self.name), std::mem::take(&mut self.holder));
+        // Where this fails, silence says it.
+        tokio::spawn(async move {
+            let given =
+                sqlx::query("delete from claims where name = $1 and holder = $2").bind(name).bind(holder);
+            let _ = given.execute(&pool).await;
+        });
+    }
+}
+
+/// Takes or keeps it, by the clock of the database.
+async fn take(pool: &PgPool, name: &str, holder: &str) -> Result<bool, StoreError> {
+    let taken = sqlx::query(
+        "insert into claims (name, holder, until) values ($1, $2, now() + make_interval(secs => $3))
+         on conflict (name) do update set holder = excluded.holder, until = excluded.until
+         where claims.holder = excluded.holder or claims.until < now()",
+    )
+    .bind(name)
+    .bind(holder)
+    .bind(f64::from(SILENCE))
+    .execute(pool)
+    .await?;
+    Ok(taken.rows_affected() == 1)
+}

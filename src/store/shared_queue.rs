@@ -1,0 +1,279 @@
+//! Tasks in PostgreSQL, from which workers on any number of machines take them: the tables of `apalis-postgres`.
+//!
+//! What is true stands in the tables of jobs and results, as on one machine. A task that was lost is made again
+//! ([`SharedQueue::jobs_without_tasks`]), and one that runs twice does no harm.
+
+use std::time::Duration;
+
+use apalis::prelude::TaskBuilder;
+use apalis_postgres::{Config, PgTask, PostgresStorage, queries};
+use serde::Serialize;
+use sqlx::PgPool;
+use sqlx::postgres::{PgConnection, PgListener, PgPoolOptions};
+
+use super::claims::Claim;
+use super::error::StoreError;
+use super::jobs::job::JobId;
+use super::queue::{PrepareJob, RunSpeed};
+use super::sqlite::PATIENCE;
+use crate::analysis::run::REVISION;
+
+/// Time between two signs of life of a worker, and how many may be missing before others get its tasks. Said here, because what
+/// the crate takes by default is not what it says it takes.
+const HEARTBEAT: Duration = Duration::from_secs(5);
+const MISSED: usize = 6;
+
+/// Connections of one process: for signs of life and results of two queues, and one that listens.
+const CONNECTIONS: u32 = 4;
+
+/// Times that a task may be begun; what a job dies of is counted by ourselves.
+const ATTEMPTS: usize = 1_000_000;
+
+/// Priority of the task whose turn comes first; larger goes before smaller.
+const FIRST: i32 = 1_000_000_000;
+
+/// Channel on which workers are told of new tasks.
+const TASKS: &str = "rubmap_tasks";
+
+/// Channel on which the ids of jobs come that have changed: the tables tell them.
+const JOBS: &str = "rubmap_jobs";
+
+/// What a process is told by others.
+#[derive(Debug)]
+pub struct News(PgListener);
+
+/// One thing that it is told.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Told {
+    /// There are new tasks.
+    Tasks,
+    /// A job has changed.
+    Job(JobId),
+}
+
+impl News {
+    /// The next, once there is one; `None` where the connection was lost.
+    pub async fn next(&mut self) -> Result<Option<Told>, StoreError> {
+        while let Some(said) = self.0.try_recv().await? {
+            if said.channel() == TASKS {
+                return Ok(Some(Told::Tasks));
+            }
+            if let Some(job) = JobId::parse(said.payload()) {
+                return Ok(Some(Told::Job(job)));
+            }
+        }
+        Ok(None)
+    }
+}
+
+/// Tasks of all machines.
+#[derive(Debug, Clone)]
+pub struct SharedQueue {
+    pool: PgPool,
+}
+
+impl SharedQueue {
+    /// The queue of the database at `url`, whose other tables are up to date; makes its own.
+    pub(super) async fn open(url: &str) -> Result<Self, StoreError> {
+        let pool = PgPoolOptions::new()
+            .max_connections(CONNECTIONS)
+            .acquire_timeout(2 * PATIENCE)
+            .connect(url)
+            .await?;
+        PostgresStorage::setup(&pool).await?;
+        Ok(Self { pool })
+    }
+
+    pub(super) async fn close(&self) {
+        self.pool.close().await;
+    }
+
+    /// Tasks that prepare jobs.
+    pub fn preparations(&self) -> PostgresStorage<PrepareJob> {
+        PostgresStorage::new(&self.pool).with_config(config(&preparations()))
+    }
+
+    /// Tasks that compute speeds.
+    pub fn speeds(&self) -> PostgresStorage<RunSpeed> {
+        PostgresStorage::new(&self.pool).with_config(config(&speeds()))
+    }
+
+    /// Hears of new tasks and of jobs that have changed, from now on.
+    pub async fn listen(&self) -> Result<News, StoreError> {
+        let mut listener = PgListener::connect_with(&self.pool).await?;
+        listener.listen_all([TASKS, JOBS]).await?;
+        Ok(News(listener))
+    }
+
+    /// Queues the preparation of a job, unless it is there already.
+    pub async fn push_preparation(&self, job: JobId) -> Result<(), StoreError> {
+        self.push(&preparations(), [(job.to_string(), PrepareJob { job })]).await
+    }
+
+    /// Queues speeds of a job, those that are not there already.
+    pub async fn push_speeds(&self, job: JobId, speed: &[u32]) -> Result<(), StoreError> {
+        let tasks = speed.iter().map(|&speed| (format!("{job}:{speed:010}"), RunSpeed { job, speed }));
+        self.push(&speeds(), tasks).await
+    }
+
+    async fn push<T: Serialize>(
+        &self,
+        queue: &str,
+        tasks: impl IntoIterator<Item = (String, T)>,
+    ) -> Result<(), StoreError> {
+        let (keys, tasks): (Vec<String>, Vec<T>) = tasks.into_iter().unzip();
+        let mut transaction = self.pool.begin().await?;
+        // One at a time: two that push the same would not see each other's.
+        sqlx::query("select pg_advisory_xact_lock(hashtext($1))")
+            .bind(queue)
+            .execute(&mut *transaction)
+            .await?;
+        // What has ended may come again.
+        sqlx::query(
+            "delete from apalis.jobs
+             where job_type = $1 and idempotency_key = any($2) and status in ('Done', 'Failed', 'Killed')",
+        )
+        .bind(queue)
+        .bind(&keys)
+        .execute(&mut *transaction)
+        .await?;
+        let known: Vec<String> = sqlx::query_scalar(
+            "select idempotency_key from apalis.jobs where job_type = $1 and idempotency_key = any($2)",
+        )
+        .bind(queue)
+        .bind(&keys)
+        .fetch_all(&mut *transaction)
+        .await?;
+        let new = keys.into_iter().zip(tasks).filter(|(key, _)| !known.contains(key));
+        let new = new.map(|(key, task)| {
+            let task = TaskBuilder::new(serde_json::to_vec(&task)?)
+                .idempotency_key(key)
+                .max_attempts(ATTEMPTS)
+                // At once by whatever clock: those of machines may differ.
+                .run_at_timestamp(1)
+                .build();
+            Ok(task)
+        });
+        let new: Vec<PgTask> = new.collect::<Result<_, serde_json::Error>>()?;
+        if !new.is_empty() {
+            queries::push_tasks(&mut *transaction, queue, new).await?;
+            take_turns(&mut transaction, queue).await?;
+            sqlx::query("select pg_notify($1, '')").bind(TASKS).execute(&mut *transaction).await?;
+        }
+        transaction.commit().await?;
+        Ok(())
+    }
+
+    /// Drops the waiting tasks of a job.
+    pub async fn withdraw(&self, job: JobId) -> Result<(), StoreError> {
+        sqlx::query(
+            "delete from apalis.jobs where status = 'Pending' and split_part(idempotency_key, ':', 1) = $1",
+        )
+        .bind(job.to_string())
+        .execute(&self.pool)
+        .await?;
+        Ok(())
+    }
+
+    /// Gives the tasks of workers that have ended to others.
+    pub async fn give_back(&self, workers: &[String]) -> Result<(), StoreError> {
+        sqlx::query(
+            "update apalis.jobs set status = 'Pending', lock_by = null, lock_at = null
+             where lock_by = any($1) and status in ('Queued', 'Running')",
+        )
+        .bind(workers)
+        .execute(&self.pool)
+        .await?;
+        self.tell_of_tasks().await
+    }
+
+    /// Unfinished jobs, with their owners, for which there is no task: what should have made one has died before it did.
+    pub async fn jobs_without_tasks(&self) -> Result<Vec<(String, String)>, StoreError> {
+        Ok(sqlx::query_as(
+            "with busy as (
+                 select distinct split_part(idempotency_key, ':', 1) as job from apalis.jobs
+                 where status in ('Pending', 'Queued', 'Running')
+             )
+             select id, owner from jobs
+             where status in ('accepted', 'running') and revision = $1 and id not in (select job from busy)
+             order by id",
+        )
+        .bind(i64::from(REVISION))
+        .fetch_all(&self.pool)
+        .await?)
+    }
+
+    /// The right of this process to do what `name` says for all, unless another has it.
+    pub async fn claim(&self, name: &str) -> Result<Option<Claim>, StoreError> {
+        Claim::of(&self.pool, name).await
+    }
+
+    /// Whether there are workers of another revision of the numerics, which go on with jobs that they began.
+    pub async fn has_other_revisions(&self) -> Result<bool, StoreError> {
+        let own = [preparations(), speeds()];
+        let others = "select exists (select 1 from apalis.workers
+                          where last_seen > now() - interval '1 minute' and worker_type <> all($1))";
+        Ok(sqlx::query_scalar(others).bind(&own[..]).fetch_one(&self.pool).await?)
+    }
+
+    /// Forgets tasks that have ended, and workers that have been away for a day.
+    pub async fn tidy(&self) -> Result<(), StoreError> {
+        sqlx::query("delete from apalis.jobs where status in ('Done', 'Failed', 'Killed')")
+            .execute(&self.pool)
+            .await?;
+        sqlx::query(
+            "delete from apalis.workers as worker where last_seen < now() - interval '1 day'
+                 and not exists (select 1 from apalis.jobs where lock_by = worker.id)",
+        )
+        .execute(&self.pool)
+        .await?;
+        Ok(())
+    }
+
+    async fn tell_of_tasks(&self) -> Result<(), StoreError> {
+        sqlx::query("select pg_notify($1, '')").bind(TASKS).execute(&self.pool).await?;
+        Ok(())
+    }
+}
+
+/// Puts what waits in order: owners take turns, and of one owner its jobs.
+async fn take_turns(connection: &mut PgConnection, queue: &str) -> Result<(), StoreError> {
+    sqlx::query(
+        "with nth as (
+             select id, split_part(idempotency_key, ':', 1) as job,
+                 row_number() over (partition by split_part(idempotency_key, ':', 1) order by idempotency_key) as place
+             from apalis.jobs where status = 'Pending' and job_type = $1
+         ), turn as (
+             select nth.id, row_number() over (partition by owner order by nth.place, jobs.id) as turn
+             from nth join jobs on jobs.id = nth.job
+         )
+         update apalis.jobs as task set priority = $2 - turn.turn
+         from turn where task.id = turn.id and task.priority <> $2 - turn.turn",
+    )
+    .bind(queue)
+    .bind(FIRST)
+    .execute(connection)
+    .await?;
+    Ok(())
+}
+
+// A worker takes what is of its own revision of the numerics: all speeds of a job are of one.
+
+fn preparations() -> String {
+    format!("prepare-{REVISION}")
+}
+
+fn speeds() -> String {
+    format!("speeds-{REVISION}")
+}
+
+fn config(queue: &str) -> Config {
+    Config::default()
+        .queue(queue)
+        // A worker that fetches ten tasks of a minute each keeps nine from the others.
+        .batch_size(1)
+        .heartbeat_interval(HEARTBEAT)
+        .missed_heartbeats(MISSED)
+        // A fetched task counts as taken already; locking it again would be one more write per speed.
+        .lock_tasks(false)
+}

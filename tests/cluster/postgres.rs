@@ -1,0 +1,119 @@
+//! A PostgreSQL server of the test's own, which can be stopped and started again.
+
+use std::os::unix::fs::{MetadataExt, chown};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+/// Longest time until it takes connections.
+const START: Duration = Duration::from_secs(60);
+
+/// Who it runs as where the test is root's, which it refuses to be: nobody.
+const NOBODY: u32 = 65_534;
+
+/// The server.
+pub(crate) struct Postgres {
+    binaries: PathBuf,
+    folder: tempfile::TempDir,
+    process: Option<Child>,
+}
+
+impl Postgres {
+    /// A new server with an empty database; none, saying why, where PostgreSQL is not installed.
+    pub(crate) fn new() -> Option<Self> {
+        let Some(binaries) = binaries() else {
+            eprintln!("skipped: PostgreSQL is not installed");
+            return None;
+        };
+        let folder = tempfile::Builder::new().prefix("rubmap-cluster-").tempdir().unwrap();
+        if folder.path().metadata().unwrap().uid() == 0 {
+            chown(folder.path(), Some(NOBODY), Some(NOBODY)).unwrap();
+        }
+        let mut server = Self { binaries, folder, process: None };
+        let made = server
+            .command("initdb")
+            .args(["-U", "rubmap", "-A", "trust", "-E", "UTF8", "--no-sync", "-D"])
+            .arg(server.data())
+            .stdout(Stdio::null())
+            .status()
+            .unwrap();
+        assert!(made.success(), "initdb failed");
+        server.start();
+        Some(server)
+    }
+
+    /// The address of its database.
+    pub(crate) fn url(&self) -> String {
+        format!("postgres:///postgres?user=rubmap&host={}", self.folder.path().display())
+    }
+
+    /// Starts it, and waits until it takes connections.
+    pub(crate) fn start(&mut self) {
+        let process = self
+            .command("postgres")
+            .arg("-D")
+            .arg(self.data())
+            .arg("-k")
+            .arg(self.folder.path())
+            .args(["-c", "listen_addresses=", "-c", "max_connections=200"])
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        self.process = Some(process);
+        let begin = Instant::now();
+        while !self
+            .command("pg_isready")
+            .arg("-q")
+            .arg("-h")
+            .arg(self.folder.path())
+            .status()
+            .unwrap()
+            .success()
+        {
+            assert!(begin.elapsed() < START, "PostgreSQL does not start");
+            std::thread::sleep(Duration::from_millis(50));
+        }
+    }
+
+    /// Ends it as a crash would: what it has promised is in its log, and nobody is told.
+    pub(crate) fn crash(&mut self) {
+        let Some(mut process) = self.process.take() else { return };
+        let _ = Command::new("kill").args(["-QUIT", &process.id().to_string()]).status();
+        process.wait().unwrap();
+    }
+
+    fn data(&self) -> PathBuf {
+        self.folder.path().join("data")
+    }
+
+    fn command(&self, program: &str) -> Command {
+        let program = self.binaries.join(program);
+        if self.folder.path().metadata().unwrap().uid() != NOBODY {
+            return Command::new(program);
+        }
+        let mut command = Command::new("setpriv");
+        let nobody = NOBODY.to_string();
+        command.args(["--reuid", &nobody, "--regid", &nobody, "--clear-groups", "--"]).arg(program);
+        command.current_dir(self.folder.path());
+        command
+    }
+}
+
+impl Drop for Postgres {
+    fn drop(&mut self) {
+        self.crash();
+    }
+}
+
+/// Where its programs are: where Debian puts them, or on the path.
+fn binaries() -> Option<PathBuf> {
+    let debian = std::fs::read_dir("/usr/lib/postgresql").into_iter().flatten().flatten();
+    let mut folders: Vec<PathBuf> = debian.map(|version| version.path().join("bin")).collect();
+    folders.extend(std::env::split_paths(&std::env::var_os("PATH").unwrap_or_default()));
+    folders.into_iter().find(|folder| has_server(folder))
+}
+
+fn has_server(folder: &Path) -> bool {
+    folder.join("initdb").exists() && folder.join("postgres").exists()
+}
