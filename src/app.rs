@@ -204,9 +204,17 @@ async fn open_store(config: &Config) -> Result<Store, StoreError> {
 
 async fn open_once(config: &Config) -> Result<Store, StoreError> {
     #[cfg(feature = "cluster")]
-    if let Some(database) = &config.database {
-        return Store::connect(&config.data, database.expose()).await;
+    {
+        let store = match &config.database {
+            Some(database) => Store::connect(&config.data, database.expose()).await?,
+            None => Store::open(&config.data).await?,
+        };
+        match &config.objects {
+            Some(address) => store.sharing(address).await,
+            None => Ok(store),
+        }
     }
+    #[cfg(not(feature = "cluster"))]
     Store::open(&config.data).await
 }
 

@@ -11,6 +11,8 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use crate::package::Limits;
+#[cfg(feature = "cluster")]
+use crate::store::Address;
 use crate::store::limits as owner;
 
 #[cfg(feature = "cluster")]
@@ -35,6 +37,11 @@ pub struct Config {
     #[cfg(feature = "cluster")]
     #[arg(long, env = "RUBMAP_DATABASE", hide_env_values = true, value_name = "postgres://USER@HOST/NAME")]
     pub database: Option<DatabaseUrl>,
+
+    /// Object storage for files of the data folder, which several processes share: s3://bucket/prefix, or a folder that all see [default: the data folder alone].
+    #[cfg(feature = "cluster")]
+    #[arg(long, env = "RUBMAP_OBJECTS", value_name = "s3://BUCKET/PREFIX")]
+    pub objects: Option<Address>,
 
     /// Threads that compute; 0 leaves that to others of the same --database [default: one per core].
     #[arg(long, env = "RUBMAP_WORKERS", value_parser = clap::value_parser!(u16).range(0..=1024))]
@@ -89,6 +96,8 @@ impl Config {
             data: data.to_owned(),
             #[cfg(feature = "cluster")]
             database: None,
+            #[cfg(feature = "cluster")]
+            objects: None,
             workers: None,
             upload_bytes: UPLOAD_BYTES,
             expanded_bytes: None,

@@ -8,6 +8,7 @@ use clap::Args;
 use super::serve;
 use crate::app::Role;
 use crate::config::{Config, DatabaseUrl};
+use crate::store::Address;
 
 /// A worker.
 #[derive(Debug, Args)]
@@ -21,6 +22,9 @@ pub(super) struct WorkerArgs {
     /// PostgreSQL database that it shares with the service.
     #[arg(long, env = "RUBMAP_DATABASE", hide_env_values = true, value_name = "postgres://USER@HOST/NAME")]
     database: DatabaseUrl,
+    /// Object storage that it shares with the service: s3://bucket/prefix, or a folder that both see.
+    #[arg(long, env = "RUBMAP_OBJECTS", value_name = "s3://BUCKET/PREFIX")]
+    objects: Address,
     /// Threads that compute [default: one per core].
     #[arg(long, env = "RUBMAP_WORKERS", value_parser = clap::value_parser!(u16).range(1..=1024))]
     workers: Option<u16>,
@@ -34,10 +38,11 @@ pub(super) struct WorkerArgs {
 
 /// Works until SIGTERM or SIGINT.
 pub(super) fn run(args: WorkerArgs) -> anyhow::Result<()> {
-    let WorkerArgs { addr, data, database, workers, memory_bytes, until_eof } = args;
+    let WorkerArgs { addr, data, database, objects, workers, memory_bytes, until_eof } = args;
     let config = Config {
         addr,
         database: Some(database),
+        objects: Some(objects),
         workers,
         memory_bytes,
         // What it answers is not about anybody's jobs.

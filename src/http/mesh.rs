@@ -51,7 +51,7 @@ pub(super) async fn get_mesh(
         Next::Done(response) => return Ok(response),
         Next::Make(answer) => answer,
     };
-    let path = state.store.package_path(&id);
+    let path = state.store.package(&id).await?;
     let bytes = jobs::sector_memory(model.facts.own_dofs);
     field::written(&state, answer, bytes, move || {
         let sector = jobs::field_sector(&path, model.facts.sectors as usize).map_err(Box::new)?;

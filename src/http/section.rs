@@ -77,7 +77,7 @@ pub(super) async fn get_section(
         Some(ViewWord::Cyclic) => SectionView::Cyclic,
         Some(ViewWord::Meridional) | None => SectionView::Meridional,
     };
-    let path = state.store.package_path(&id);
+    let path = state.store.package(&id).await?;
     let bytes = NODE_MEMORY * u64::from(model.facts.own_dofs);
     let figure = move |geometry: &SectorGeometry| plot::figure::section(geometry, view);
     Forms::drawn_by(move |geometry: &SectorGeometry| plot::section(geometry, view), figure)

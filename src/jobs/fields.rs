@@ -61,10 +61,11 @@ impl Jobs {
     ) -> Result<Option<FieldSource>, StoreError> {
         let store = &self.engine.store;
         let reduced = self.engine.reductions.stored(model, modes_per_speed).await?;
-        Ok(reduced.map(|reduced| FieldSource {
+        let Some(reduced) = reduced else { return Ok(None) };
+        Ok(Some(FieldSource {
             reduced,
             basis: store.basis(model, modes_per_speed),
-            package: store.package_path(model),
+            package: store.package(model).await?,
             of: (Arc::clone(&self.engine), model.to_owned(), modes_per_speed),
         }))
     }

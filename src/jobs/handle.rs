@@ -191,7 +191,7 @@ impl Jobs {
         if !run::name_nodes(sensors) {
             return Ok(Ok(Vec::new()));
         }
-        let path = self.engine.store.package_path(model);
+        let path = self.engine.store.package(model).await?;
         let mut placed = sensors.to_vec();
         let place = move || {
             let nodes = package::read_nodes(&path, &package::Limits::default())?;

@@ -263,6 +263,8 @@ impl Reductions {
         let mut reduced = outcome?;
         reduced.tip_thickness = self.tip_thickness(model).await?;
         let job = monitor.watch().job();
+        let share = || self.store.share_basis(model, modes_per_speed, &reduced.wheel);
+        patiently(monitor.watch(), share).await?;
         let write = || self.store.insert_reduction(job, model, modes_per_speed, &reduced);
         patiently(monitor.watch(), write).await?;
         self.computing.acquit(job);
@@ -322,7 +324,7 @@ impl Reductions {
         monitor.progress(0.0, "waiting for memory that other jobs hold");
         let _memory = self.memory.claim(dofs).await;
         let making = Making {
-            package: self.store.package_path(model),
+            package: self.store.package(model).await?,
             basis: self.store.basis(model, modes_per_speed),
             wheel: Arc::clone(&reduced.wheel),
             excluded_radius: radius,
@@ -348,7 +350,7 @@ impl Reductions {
         if ids.is_empty() {
             return Ok(Arc::default());
         }
-        let (path, ids) = (self.store.package_path(model), ids.to_vec());
+        let (path, ids) = (self.store.package(model).await?, ids.to_vec());
         let read = move || package::read_nodes(&path, &Limits::default());
         let mut nodes =
             self.computing.run(monitor.watch(), read).await?.map_err(Interruption::stored_package)?;
@@ -384,7 +386,7 @@ impl Reductions {
         let (model, modes_per_speed) = (key.0.as_str(), key.1);
         tracing::info!(model.id = model, modes_per_speed, memory_bytes, "reducing");
         monitor.progress(0.0, "reading the package");
-        let path = self.store.package_path(model);
+        let path = self.store.package(model).await?;
         let watch = Arc::clone(monitor.watch());
         let (checkpoints, nodes, monitor) = (checkpoints.clone(), Arc::clone(nodes), monitor.clone());
         let compute = move || {

@@ -22,8 +22,9 @@ use sha2::{Digest, Sha256};
 use super::error::StoreError;
 use super::folders::{file_name, folder_name, model_of, prefix, remove_files_but, remove_folders};
 use super::handle::Store;
-use super::reserve::{self, Reserve};
-use super::unfinished::unfinished_file;
+use super::objects::Objects;
+use super::reserve::Reserve;
+use super::unfinished::{UNFINISHED, unfinished_file};
 use crate::dynamics::node_rows::NodeRows;
 use crate::dynamics::nodes::SectorNode;
 use crate::dynamics::reduction::{BasisRows, ReducedHarmonic, ReducedWheel};
@@ -43,21 +44,41 @@ pub(super) const CHECK: usize = 8;
 /// Rows that are read at once.
 const BLOCK: usize = 256;
 
-/// Room on the disk that a basis leaves to what cannot be computed again.
-const LEFT_FREE: u64 = 4 * reserve::BYTES;
-
 /// The basis of one reduction.
 #[derive(Debug, Clone)]
 pub struct BasisFolder {
-    data: PathBuf,
     folder: PathBuf,
     reserve: Reserve,
+    pub(super) objects: Objects,
 }
 
 impl Store {
     /// The basis of the reduction of `model`.
     pub fn basis(&self, model: &str, modes_per_speed: u32) -> BasisFolder {
-        BasisFolder::of(&self.folder, &folder_name(model, modes_per_speed), self.reserve.clone())
+        let folder =
+            BasisFolder::of(&self.folder, &folder_name(model, modes_per_speed), self.reserve.clone());
+        BasisFolder { objects: self.objects.clone(), ..folder }
+    }
+
+    /// Puts the basis of a reduction where others find it, as far as it was kept: before its row says that it is there.
+    pub async fn share_basis(
+        &self,
+        model: &str,
+        modes_per_speed: u32,
+        reduced: &ReducedWheel,
+    ) -> Result<(), StoreError> {
+        if !self.objects.are_shared() {
+            return Ok(());
+        }
+        let basis = self.basis(model, modes_per_speed);
+        for reduced in &reduced.harmonics {
+            // Another file there is of an earlier reduction.
+            if basis.open_here(reduced).is_ok() {
+                let path = basis.path(reduced.harmonic);
+                self.objects.publish(&path).await.map_err(StoreError::Objects)?;
+            }
+        }
+        Ok(())
     }
 
     fn bases_root(&self) -> PathBuf {
@@ -66,7 +87,12 @@ impl Store {
 
     /// Removes the bases of all reductions of a model that is gone. What cannot be removed is left to the next start.
     pub(super) async fn remove_bases(&self, model: &str) {
-        if let Err(error) = remove_folders(&self.bases_root(), |name| model_of(name) == model).await {
+        let gone = |name: &str| model_of(name) == model;
+        let removed = async {
+            remove_folders(&self.bases_root(), gone).await?;
+            self.objects.remove_folders(&self.bases_root(), gone).await
+        };
+        if let Err(error) = removed.await {
             tracing::warn!(model.id = model, %error, "could not remove the bases of its reductions");
         }
     }
@@ -85,7 +111,7 @@ impl Store {
 impl BasisFolder {
     /// The folder `name` in the data folder `data`.
     pub(super) fn of(data: &Path, name: &str, reserve: Reserve) -> Self {
-        Self { data: data.to_owned(), folder: data.join(FOLDER).join(name), reserve }
+        Self { folder: data.join(FOLDER).join(name), reserve, objects: Objects::default() }
     }
 
     /// Keeps the basis of a nodal diameter as well as it can: without it who reads nodes reduces once more.
@@ -109,12 +135,7 @@ impl BasisFolder {
     /// # Errors
     /// A disk that is too full.
     pub fn expect_room(&self, bytes: u64) -> io::Result<()> {
-        if let Ok(free) = reserve::free_bytes(&self.data)
-            && (self.reserve.is_taken() || free < bytes.saturating_add(LEFT_FREE))
-        {
-            return Err(ErrorKind::StorageFull.into());
-        }
-        Ok(())
+        self.reserve.expect_room_for(bytes)
     }
 
     /// Reads the basis of all nodal diameters of `reduced`.
@@ -122,7 +143,10 @@ impl BasisFolder {
     /// # Errors
     /// As of [`Self::rows`].
     pub fn check(&self, reduced: &ReducedWheel) -> io::Result<()> {
-        reduced.harmonics.iter().try_for_each(|reduced| self.open(reduced)?.each(|_, _| {}))
+        reduced.harmonics.iter().try_for_each(|reduced| {
+            let check = || self.open_here(reduced)?.each(|_, _| {});
+            self.objects.reading(&[self.path(reduced.harmonic)], check)
+        })
     }
 
     /// Rows of the basis of `reduced` at `nodes`.
@@ -130,9 +154,13 @@ impl BasisFolder {
     /// # Errors
     /// Of a file that is not there, is not what was written, or is of another reduction.
     pub fn rows(&self, reduced: &ReducedWheel, nodes: &[SectorNode]) -> io::Result<NodeRows> {
-        let files = reduced.harmonics.iter().map(|reduced| self.open(reduced));
-        let files: Vec<OpenBasis> = files.collect::<io::Result<_>>()?;
-        NodeRows::gather(nodes, reduced, |harmonic, dof| files[harmonic].row(dof))
+        let paths: Vec<PathBuf> =
+            reduced.harmonics.iter().map(|reduced| self.path(reduced.harmonic)).collect();
+        self.objects.reading(&paths, || {
+            let files = reduced.harmonics.iter().map(|reduced| self.open_here(reduced));
+            let files: Vec<OpenBasis> = files.collect::<io::Result<_>>()?;
+            NodeRows::gather(nodes, reduced, |harmonic, dof| files[harmonic].row(dof))
+        })
     }
 
     /// Υ̂ X of a nodal diameter of `reduced`: `own DOF × columns` of `unknowns × columns`. Rows are read and multiplied in blocks, never
@@ -146,17 +174,20 @@ impl BasisFolder {
         harmonic: usize,
         columns: MatRef<'_, c64>,
     ) -> io::Result<Mat<c64>> {
-        let file = self.open(&reduced.harmonics[harmonic])?;
-        let mut product = Mat::zeros(file.dofs, columns.ncols());
-        file.each(|dof, row| {
-            for (unknown, value) in row.chunks_exact(2).enumerate() {
-                let value = c64::new(value[0], value[1]);
-                for column in 0..columns.ncols() {
-                    product[(dof, column)] += value * columns[(unknown, column)];
+        let reduced = &reduced.harmonics[harmonic];
+        self.objects.reading(&[self.path(reduced.harmonic)], || {
+            let file = self.open_here(reduced)?;
+            let mut product = Mat::zeros(file.dofs, columns.ncols());
+            file.each(|dof, row| {
+                for (unknown, value) in row.chunks_exact(2).enumerate() {
+                    let value = c64::new(value[0], value[1]);
+                    for column in 0..columns.ncols() {
+                        product[(dof, column)] += value * columns[(unknown, column)];
+                    }
                 }
-            }
-        })?;
-        Ok(product)
+            })?;
+            Ok(product)
+        })
     }
 
     /// The basis of a nodal diameter.
@@ -164,6 +195,10 @@ impl BasisFolder {
     /// # Errors
     /// As of [`Self::rows`].
     pub fn open(&self, reduced: &ReducedHarmonic) -> io::Result<OpenBasis> {
+        self.objects.reading(&[self.path(reduced.harmonic)], || self.open_here(reduced))
+    }
+
+    fn open_here(&self, reduced: &ReducedHarmonic) -> io::Result<OpenBasis> {
         OpenBasis::new(File::open(self.path(reduced.harmonic))?, reduced)
     }
 
@@ -201,7 +236,7 @@ impl BasisFolder {
         self.expect_room(bytes)?;
         std::fs::create_dir_all(&self.folder)?;
         // Written whole and flushed before it gets its name: a name promises a basis, whenever the power fails.
-        let file = unfinished_file(&self.folder, "unfinished-")?;
+        let file = unfinished_file(&self.folder, UNFINISHED)?;
         write(file.as_file())?;
         file.as_file().sync_all()?;
         file.persist(path).map_err(|error| error.error)?;

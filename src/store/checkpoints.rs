@@ -6,6 +6,7 @@
 use std::collections::BTreeSet;
 use std::io::{ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
+use std::slice;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use sha2::{Digest, Sha256};
@@ -14,9 +15,10 @@ use super::bases::BasisFolder;
 use super::error::StoreError;
 use super::folders::{self, entries, file_name, folder_name, model_of, remove_files_but, remove_folders};
 use super::handle::Store;
+use super::objects::Objects;
 use super::reductions;
 use super::reserve::Reserve;
-use super::unfinished::unfinished_file;
+use super::unfinished::{UNFINISHED, unfinished_file};
 use crate::dynamics::reduction::{BasisRows, Checkpoints};
 
 /// Before the bytes of a part stand their number (little-endian) and their SHA-256.
@@ -31,6 +33,7 @@ pub struct CheckpointFolder {
     /// Why a part of the basis was not kept.
     lost: Arc<Mutex<Option<std::io::Error>>>,
     reserve: Reserve,
+    objects: Objects,
 }
 
 impl Store {
@@ -38,7 +41,8 @@ impl Store {
     pub fn checkpoints(&self, model: &str, modes_per_speed: u32) -> CheckpointFolder {
         let folder = self.checkpoint_root().join(folder_name(model, modes_per_speed));
         let basis = Some(self.basis(model, modes_per_speed));
-        CheckpointFolder { folder, basis, lost: Arc::default(), reserve: self.reserve.clone() }
+        let (reserve, objects) = (self.reserve.clone(), self.objects.clone());
+        CheckpointFolder { folder, basis, lost: Arc::default(), reserve, objects }
     }
 
     /// Number of parts of all reductions of `model` that this program can read.
@@ -64,7 +68,11 @@ impl Store {
             Some(modes_per_speed) => name == folder_name(model, modes_per_speed),
             None => model_of(name) == model,
         };
-        if let Err(error) = remove_folders(&self.checkpoint_root(), unused).await {
+        let removed = async {
+            remove_folders(&self.checkpoint_root(), unused).await?;
+            self.objects.remove_folders(&self.checkpoint_root(), unused).await
+        };
+        if let Err(error) = removed.await {
             tracing::warn!(model.id = model, %error, "could not remove checkpoints");
         }
     }
@@ -120,20 +128,22 @@ impl CheckpointFolder {
     fn write(&self, part: &str, bytes: &[u8]) -> std::io::Result<()> {
         std::fs::create_dir_all(&self.folder)?;
         // Written whole and flushed before it gets its name: a name promises a part, whenever the power fails.
-        let mut file = unfinished_file(&self.folder, "unfinished-")?;
+        let mut file = unfinished_file(&self.folder, UNFINISHED)?;
         file.write_all(&(bytes.len() as u64).to_le_bytes())?;
         file.write_all(&Sha256::digest(bytes))?;
         file.write_all(bytes)?;
         file.as_file().sync_all()?;
-        file.persist(self.path(part)).map_err(|error| error.error)?;
-        std::fs::File::open(&self.folder)?.sync_all()
+        let path = self.path(part);
+        file.persist(&path).map_err(|error| error.error)?;
+        std::fs::File::open(&self.folder)?.sync_all()?;
+        self.objects.publish_blocking(&path)
     }
 }
 
 impl Checkpoints for CheckpointFolder {
     fn load(&self, part: &str) -> Option<Vec<u8>> {
         let path = self.path(part);
-        match read(&path) {
+        match self.objects.reading(slice::from_ref(&path), || read(&path)) {
             Ok(bytes) => {
                 tracing::info!(part, folder = file_name(&self.folder), "continuing from a checkpoint");
                 Some(bytes)
@@ -197,7 +207,16 @@ mod tests {
         let folder = root.path().join("checkpoints/model-20");
         let reserve = Reserve::of(root.path());
         let basis = BasisFolder::of(root.path(), "model-20", reserve.clone());
-        (root, CheckpointFolder { folder, basis: Some(basis), lost: Arc::default(), reserve })
+        (
+            root,
+            CheckpointFolder {
+                folder,
+                basis: Some(basis),
+                lost: Arc::default(),
+                reserve,
+                objects: Objects::default(),
+            },
+        )
     }
 
     #[test]

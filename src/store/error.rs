@@ -39,6 +39,9 @@ pub enum StoreError {
     /// A file beside the database could not be written or read.
     #[error("data folder: {0}")]
     File(#[from] std::io::Error),
+    /// An object could not be put into the object store, or fetched from there.
+    #[error("{0}")]
+    Objects(#[source] std::io::Error),
     /// The package of a model cannot be accessed.
     #[error("package: {0}")]
     Package(#[source] std::io::Error),
@@ -69,7 +72,7 @@ impl StoreError {
     pub fn is_disk_full(&self) -> bool {
         match self {
             Self::Database(error) => refusal(error) == Some(Refusal::DiskFull),
-            Self::File(error) | Self::Package(error) => is_no_room(error),
+            Self::File(error) | Self::Objects(error) | Self::Package(error) => is_no_room(error),
             _ => false,
         }
     }
@@ -88,7 +91,7 @@ impl StoreError {
     /// descriptors or memory that others have taken. No verdict on what was to be done.
     pub fn may_pass(&self) -> bool {
         match self {
-            Self::File(error) => io_may_pass(error),
+            Self::File(error) | Self::Objects(error) => io_may_pass(error),
             // One that is not there may be put back, or uploaded again.
             Self::Package(error) => io_may_pass(error) || self.is_missing_package(),
             // A connection that was lost is replaced, and a server that does not answer, or has no name yet, comes back.
@@ -133,6 +136,8 @@ fn io_may_pass(error: &std::io::Error) -> bool {
                 | ErrorKind::OutOfMemory
                 | ErrorKind::ResourceBusy
                 | ErrorKind::ReadOnlyFilesystem
+                // An object store that is away.
+                | ErrorKind::HostUnreachable
         )
         || error.raw_os_error().is_some_and(|number| NUMBERS.contains(&number))
 }

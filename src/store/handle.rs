@@ -9,6 +9,7 @@ use super::changes::Changes;
 use super::dialect::Dialect;
 use super::error::StoreError;
 use super::marks::Marks;
+use super::objects::{Address, Objects};
 use super::packages::packages_folder;
 use super::reserve::Reserve;
 #[cfg(feature = "cluster")]
@@ -29,6 +30,9 @@ pub struct Store {
     pub(super) reserve: Reserve,
     /// Tells who follows a job that it has changed.
     pub(super) changes: Changes,
+    /// Files that other processes share.
+    pub(super) objects: Objects,
+    /// Tasks that other processes share.
     #[cfg(feature = "cluster")]
     tasks: Option<SharedQueue>,
 }
@@ -67,7 +71,7 @@ impl Store {
     fn with(folder: &Path, dialect: Dialect, readers: AnyPool, writer: AnyPool) -> Result<Self, StoreError> {
         let marks = Marks::new(folder)?;
         let (packages, reserve) = (Arc::default(), Reserve::of(folder));
-        let changes = Changes::default();
+        let (changes, objects) = (Changes::default(), Objects::default());
         Ok(Self {
             folder: folder.to_owned(),
             dialect,
@@ -77,9 +81,16 @@ impl Store {
             packages,
             reserve,
             changes,
+            objects,
             #[cfg(feature = "cluster")]
             tasks: None,
         })
+    }
+
+    /// The same with the files of the data folder in an object store; it must be there and let us in.
+    pub async fn sharing(self, address: &Address) -> Result<Self, StoreError> {
+        let objects = Objects::open(address, &self.folder, self.reserve.clone()).await;
+        Ok(Self { objects: objects.map_err(StoreError::Objects)?, ..self })
     }
 
     /// Changes of jobs, to be followed and told.

@@ -1,5 +1,6 @@
 //! Uploaded models: a row of facts each, and the package as a file.
 
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use sqlx::any::AnyRow;
@@ -12,8 +13,9 @@ use super::labels::{self, LabelChanges, Labels, quoted};
 use super::limits::{LimitReached, Limits};
 use super::packages::{self, packages_folder};
 use super::time::now;
-use super::unfinished::unfinished_file;
+use super::unfinished::{UNFINISHED, unfinished_file};
 use crate::analysis::run::ModelFacts;
+use crate::package::{self as packaging, Limits as PackageLimits, PackageError};
 
 /// What names of packages on their way in begin with.
 const UPLOAD_PREFIX: &str = "upload-";
@@ -76,9 +78,29 @@ impl Store {
         unfinished_file(&packages_folder(&self.folder), UPLOAD_PREFIX)
     }
 
-    /// Where the package of `model` lies.
-    pub fn package_path(&self, model: &str) -> PathBuf {
+    /// Where the package of `model` lies in the data folder.
+    pub(super) fn package_path(&self, model: &str) -> PathBuf {
         packages::package_path(&self.folder, model)
+    }
+
+    /// The package of `model` in the data folder, fetched if others have put it into the object store. Where it is nowhere, who reads
+    /// it sees that.
+    pub async fn package(&self, model: &str) -> Result<PathBuf, StoreError> {
+        let path = self.package_path(model);
+        if self.objects.are_shared() && !tokio::fs::try_exists(&path).await? {
+            let model = model.to_owned();
+            let accept = move |came: &Path| expect_digest(came, &model);
+            self.objects.fetch(&path, accept).await.map_err(StoreError::Objects)?;
+        }
+        Ok(path)
+    }
+
+    /// Whether the package at `path` is where it is to stay.
+    async fn has_package(&self, path: &Path) -> Result<bool, StoreError> {
+        if self.objects.are_shared() {
+            return self.objects.have(path).await.map_err(StoreError::Objects);
+        }
+        Ok(tokio::fs::try_exists(path).await?)
     }
 
     /// Keeps the package at `upload`, a file from [`Self::new_upload`], as model `id` of `owner`, within `limits`. Returns the
@@ -98,7 +120,7 @@ impl Store {
         let target = self.package_path(id);
         if let Some(known) = self.model(id, Some(owner)).await? {
             // A package that got lost is there again with the next upload.
-            if tokio::fs::try_exists(&target).await? {
+            if self.has_package(&target).await? {
                 return Ok(Ok((known, false)));
             }
         } else {
@@ -111,10 +133,11 @@ impl Store {
             }
         }
         self.reserve.expect_room().await?;
-        let upload = upload.to_owned();
-        let size_bytes = tokio::task::spawn_blocking(move || keep_file(&upload, &target))
+        let (upload, kept) = (upload.to_owned(), target.clone());
+        let size_bytes = tokio::task::spawn_blocking(move || keep_file(&upload, &kept))
             .await
             .map_err(std::io::Error::other)??;
+        self.objects.publish(&target).await.map_err(StoreError::Objects)?;
         let mut write = self.write().await?;
         write.guard(Guarded::Model(id)).await?;
         sqlx::query(
@@ -198,7 +221,7 @@ impl Store {
             let Ok(name) = file.file_name().into_string() else { continue };
             let stale = match packages::model_of(&name) {
                 Some(id) => self.model(id, None).await?.is_none(),
-                None => name.starts_with(UPLOAD_PREFIX),
+                None => name.starts_with(UPLOAD_PREFIX) || name.starts_with(UNFINISHED),
             };
             if stale {
                 tracing::warn!(
@@ -219,7 +242,9 @@ impl Store {
         if was_last {
             self.remove_checkpoints(id, None).await;
             self.remove_bases(id).await;
-            match tokio::fs::remove_file(self.package_path(id)).await {
+            let package = self.package_path(id);
+            self.objects.remove(&package).await.map_err(StoreError::Objects)?;
+            match tokio::fs::remove_file(package).await {
                 Err(error) if error.kind() != std::io::ErrorKind::NotFound => return Err(error.into()),
                 _ => {}
             }
@@ -292,6 +317,21 @@ fn keep_file(upload: &Path, target: &Path) -> Result<u64, std::io::Error> {
         }
     }
     Ok(target.metadata()?.len())
+}
+
+/// Refuses a package that came from the object store and is not that of its name.
+fn expect_digest(came: &Path, model: &str) -> std::io::Result<()> {
+    let found = packaging::read_digest(came, &PackageLimits::default());
+    let wrong = match found {
+        Ok(digest) if digest == model => return Ok(()),
+        Ok(digest) => format!("its content is that of {digest}"),
+        Err(PackageError::Io { source }) => return Err(source),
+        Err(error) => error.to_string(),
+    };
+    let refusal = format!(
+        "the object store has another package under the name of model {model}: {wrong}; upload that model again"
+    );
+    Err(std::io::Error::new(ErrorKind::InvalidData, refusal))
 }
 
 #[cfg(test)]

@@ -16,6 +16,9 @@ pub(super) const BYTES: u64 = 4 << 20;
 /// It is made only where so much is left beside it.
 const BESIDE: u64 = 1 << 20;
 
+/// Room that is left to what cannot be computed or fetched again.
+const LEFT_FREE: u64 = 4 * BYTES;
+
 /// A file that is removed when a deletion finds no room. From then on the disk is full for all else that is written, until there
 /// is room for a new one: work that goes on would take it before the next deletion does.
 #[derive(Debug, Clone)]
@@ -40,6 +43,16 @@ impl Reserve {
     /// Refuses to write while deletions have the last room.
     pub(super) async fn expect_room(&self) -> io::Result<()> {
         if self.is_taken() && !self.keep().await? { Err(ErrorKind::StorageFull.into()) } else { Ok(()) }
+    }
+
+    /// Refuses to write so many bytes that can be computed or fetched again, where they would leave too little room to what cannot.
+    pub(super) fn expect_room_for(&self, bytes: u64) -> io::Result<()> {
+        if let Ok(free) = free_bytes(&self.data)
+            && (self.is_taken() || free < bytes.saturating_add(LEFT_FREE))
+        {
+            return Err(ErrorKind::StorageFull.into());
+        }
+        Ok(())
     }
 
     /// Keeps the file if it is not there and there is room for it. Returns whether it is there.

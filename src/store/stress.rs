@@ -11,11 +11,13 @@
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::os::unix::fs::FileExt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::slice;
 
 use sha2::{Digest, Sha256};
 
 use super::bases::{BasisFolder, CHECK, HEADER, check, damaged, header};
+use super::folders::file_name;
 use crate::analysis::stress::{HarmonicStress, StaticWheel};
 use crate::dynamics::reduction::{ReducedHarmonic, ReducedWheel};
 
@@ -30,7 +32,7 @@ const COMPONENTS: usize = 6;
 impl BasisFolder {
     /// Whether the stress of a nodal diameter is there, of so many places.
     pub fn has_stress(&self, reduced: &ReducedHarmonic, places: usize) -> bool {
-        self.open_stress(reduced, places).is_ok()
+        self.objects.reading(&[self.harmonic_path(reduced)], || self.open_stress(reduced, places)).is_ok()
     }
 
     /// Keeps the stress of a nodal diameter at all places.
@@ -40,7 +42,8 @@ impl BasisFolder {
     pub fn keep_stress(&self, reduced: &ReducedHarmonic, stress: &HarmonicStress) -> io::Result<()> {
         let (unknowns, places) = (stress.unknowns(), stress.places());
         let bytes = HEADER + places * place_bytes(unknowns);
-        self.write_file(self.stress_path(&reduced.harmonic.to_string()), bytes as u64, |file| {
+        let path = self.harmonic_path(reduced);
+        self.write_file(path.clone(), bytes as u64, |file| {
             let mut out = BufWriter::with_capacity(1 << 20, file);
             out.write_all(&header(MAGIC, places, unknowns, &reduced.mark()))?;
             let mut numbers = Vec::with_capacity(place_bytes(unknowns));
@@ -51,7 +54,9 @@ impl BasisFolder {
                 out.write_all(&numbers)?;
             }
             out.flush()
-        })
+        })?;
+        self.share(&path);
+        Ok(())
     }
 
     /// Stress of a nodal diameter at those `kept` of its places.
@@ -64,21 +69,23 @@ impl BasisFolder {
         places: usize,
         kept: &[usize],
     ) -> io::Result<HarmonicStress> {
-        let file = self.open_stress(reduced, places)?;
         let unknowns = reduced.mass.ncols();
         let length = place_bytes(unknowns);
         let mut bytes = vec![0; length];
-        HarmonicStress::gather(unknowns, kept.len(), |slot, numbers| {
-            let place = kept[slot];
-            file.read_exact_at(&mut bytes, (HEADER + place * length) as u64)?;
-            let (found, sum) = bytes.split_at(length - CHECK);
-            if sum != check(place, found) {
-                return Err(damaged("its bytes are not those that were written"));
-            }
-            for (number, bytes) in numbers.iter_mut().zip(found.chunks_exact(size_of::<f32>())) {
-                *number = f32::from_le_bytes(std::array::from_fn(|byte| bytes[byte]));
-            }
-            Ok(())
+        self.objects.reading(&[self.harmonic_path(reduced)], || {
+            let file = self.open_stress(reduced, places)?;
+            HarmonicStress::gather(unknowns, kept.len(), |slot, numbers| {
+                let place = kept[slot];
+                file.read_exact_at(&mut bytes, (HEADER + place * length) as u64)?;
+                let (found, sum) = bytes.split_at(length - CHECK);
+                if sum != check(place, found) {
+                    return Err(damaged("its bytes are not those that were written"));
+                }
+                for (number, bytes) in numbers.iter_mut().zip(found.chunks_exact(size_of::<f32>())) {
+                    *number = f32::from_le_bytes(std::array::from_fn(|byte| bytes[byte]));
+                }
+                Ok(())
+            })
         })
     }
 
@@ -88,9 +95,10 @@ impl BasisFolder {
     /// Those of the disk; what is not there is no error.
     pub fn remove_stress(&self, reduced: &ReducedWheel) -> io::Result<()> {
         for reduced in &reduced.harmonics {
-            match std::fs::remove_file(self.stress_path(&reduced.harmonic.to_string())) {
+            let path = self.harmonic_path(reduced);
+            match std::fs::remove_file(&path) {
                 Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
-                _ => {}
+                _ => self.objects.remove_blocking(&path)?,
             }
         }
         Ok(())
@@ -103,11 +111,14 @@ impl BasisFolder {
     pub fn keep_static_wheel(&self, reduced: &ReducedWheel, fixed: &StaticWheel) -> io::Result<()> {
         let bytes = postcard::to_stdvec(fixed).map_err(io::Error::other)?;
         let size = (2 * DIGEST + bytes.len()) as u64;
-        self.write_file(self.stress_path(STATIC), size, |mut file| {
+        let path = self.stress_path(STATIC);
+        self.write_file(path.clone(), size, |mut file| {
             file.write_all(&reduced.harmonics[0].mark())?;
             file.write_all(&Sha256::digest(&bytes))?;
             file.write_all(&bytes)
-        })
+        })?;
+        self.share(&path);
+        Ok(())
     }
 
     /// The wheel under its centrifugal load.
@@ -115,24 +126,27 @@ impl BasisFolder {
     /// # Errors
     /// As of [`Self::stress`].
     pub fn static_wheel(&self, reduced: &ReducedWheel) -> io::Result<StaticWheel> {
-        let bytes = std::fs::read(self.stress_path(STATIC))?;
-        let (mark, rest) = bytes.split_at_checked(DIGEST).ok_or_else(|| damaged("it is cut"))?;
-        let (sum, numbers) = rest.split_at_checked(DIGEST).ok_or_else(|| damaged("it is cut"))?;
-        if mark != reduced.harmonics[0].mark() {
-            return Err(damaged("it is not of this reduction"));
+        let path = self.stress_path(STATIC);
+        self.objects.reading(slice::from_ref(&path), || read_static(&path, reduced))
+    }
+
+    /// Puts a file where others find it. Who does not makes it again.
+    fn share(&self, path: &Path) {
+        if let Err(error) = self.objects.publish_blocking(path) {
+            tracing::warn!(file = file_name(path), %error, "stress stays in the data folder of this process");
         }
-        if sum != &Sha256::digest(numbers)[..] {
-            return Err(damaged("its bytes are not those that were written"));
-        }
-        postcard::from_bytes(numbers).map_err(|_| damaged("it does not read"))
     }
 
     fn stress_path(&self, part: &str) -> PathBuf {
         self.named(&format!("stress-{LAYOUT}-{part}"))
     }
 
+    fn harmonic_path(&self, reduced: &ReducedHarmonic) -> PathBuf {
+        self.stress_path(&reduced.harmonic.to_string())
+    }
+
     fn open_stress(&self, reduced: &ReducedHarmonic, places: usize) -> io::Result<File> {
-        let file = File::open(self.stress_path(&reduced.harmonic.to_string()))?;
+        let file = File::open(self.harmonic_path(reduced))?;
         let unknowns = reduced.mass.ncols();
         let mut found = [0; HEADER];
         file.read_exact_at(&mut found, 0)?;
@@ -147,6 +161,19 @@ impl BasisFolder {
 }
 
 const STATIC: &str = "static";
+
+fn read_static(path: &Path, reduced: &ReducedWheel) -> io::Result<StaticWheel> {
+    let bytes = std::fs::read(path)?;
+    let (mark, rest) = bytes.split_at_checked(DIGEST).ok_or_else(|| damaged("it is cut"))?;
+    let (sum, numbers) = rest.split_at_checked(DIGEST).ok_or_else(|| damaged("it is cut"))?;
+    if mark != reduced.harmonics[0].mark() {
+        return Err(damaged("it is not of this reduction"));
+    }
+    if sum != &Sha256::digest(numbers)[..] {
+        return Err(damaged("its bytes are not those that were written"));
+    }
+    postcard::from_bytes(numbers).map_err(|_| damaged("it does not read"))
+}
 
 fn place_bytes(unknowns: usize) -> usize {
     COMPONENTS * 2 * size_of::<f32>() * unknowns + CHECK

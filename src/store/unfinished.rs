@@ -7,6 +7,9 @@ use std::path::Path;
 
 use tempfile::NamedTempFile;
 
+/// What names of files begin with that are being written.
+pub(super) const UNFINISHED: &str = "unfinished-";
+
 /// An empty file in `folder` whose name begins with `prefix`, removed when dropped.
 ///
 /// Opened here: `tempfile` wraps what the system says, and of a lack of descriptors only its number tells that it passes.

@@ -64,11 +64,7 @@ impl Cluster {
             .arg(self.path(folder))
             .env("RUBMAP_DATABASE", self.database.url())
             .env("RUBMAP_OBJECTS", self.path("objects"));
-        std::fs::create_dir_all(self.path(folder)).unwrap();
-        for shared in ["models", "bases", "checkpoints"] {
-            std::fs::create_dir_all(self.path(shared)).unwrap();
-            let _ = std::os::unix::fs::symlink(self.path(shared), self.path(folder).join(shared));
-        }
+        std::fs::create_dir_all(self.path("objects")).unwrap();
         command
     }
 

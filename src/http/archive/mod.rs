@@ -60,7 +60,7 @@ pub(super) async fn get_archive(
     let (model, request) = repeatable(&job)?;
     // A file that is open stays readable when its model is deleted.
     let package = match state.store.model(&model, Some(&job.owner)).await? {
-        Some(_) => tokio::fs::File::open(state.store.package_path(&model)).await?.into_std().await,
+        Some(_) => tokio::fs::File::open(state.store.package(&model).await?).await?.into_std().await,
         None => {
             let detail = "its model is deleted, and without it nobody can repeat the job; the results are there one by one";
             return Err(Problem::new(Kind::ResultUnavailable, detail));

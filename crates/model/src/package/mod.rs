@@ -91,6 +91,15 @@ pub fn read(path: &Path, limits: &Limits) -> Result<Imported, PackageError> {
     Ok(Imported { sector, digest, mesh })
 }
 
+/// [`Imported::digest`] of the package at `path`, without its matrices in memory where they are text.
+///
+/// # Errors
+///
+/// Those of the archive, `sector.json` and the tables: what the matrices say is not looked at.
+pub fn read_digest(path: &Path, limits: &Limits) -> Result<String, PackageError> {
+    zip_package::load_digest(path, limits)
+}
+
 /// Reads the package at `path` as its files state it: the inverse of [`write()`]. Matrices come sorted by column, then
 /// row.
 ///

@@ -1,0 +1,162 @@
+//! Object storage that several processes share: what is true of packages, bases, stress and checkpoints; the data folder of each
+//! process is a cache of it. Without it the data folder is all there is.
+//!
+//! Objects have the names that files have in the data folder. A file is written whole and flushed here before it is put there, and
+//! fetched into an unfinished file before it gets its name here: neither place ever shows a part of one.
+
+#[cfg(not(feature = "cluster"))]
+mod absent;
+mod address;
+#[cfg(feature = "cluster")]
+mod error;
+#[cfg(feature = "cluster")]
+mod remote;
+
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use tokio::runtime::Handle;
+
+pub use self::address::{Address, AddressError};
+use super::folders::file_name;
+use super::reserve::Reserve;
+use super::unfinished::{UNFINISHED, unfinished_file};
+
+#[cfg(not(feature = "cluster"))]
+use self::absent::Remote;
+#[cfg(feature = "cluster")]
+use self::remote::Remote;
+
+/// The object store of a data folder, if it has one.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Objects {
+    shared: Option<Arc<Shared>>,
+}
+
+#[derive(Debug)]
+struct Shared {
+    data: PathBuf,
+    reserve: Reserve,
+    remote: Remote,
+    /// For threads that compute.
+    runtime: Handle,
+}
+
+impl Objects {
+    /// That at `address`, of which the data folder `data` is a cache.
+    pub(super) async fn open(address: &Address, data: &Path, reserve: Reserve) -> io::Result<Self> {
+        let remote = Remote::open(address).await?;
+        let shared = Shared { data: data.to_owned(), reserve, remote, runtime: Handle::current() };
+        Ok(Self { shared: Some(Arc::new(shared)) })
+    }
+
+    /// Whether there is one.
+    pub(super) fn are_shared(&self) -> bool {
+        self.shared.is_some()
+    }
+
+    /// Puts a file of the data folder there.
+    pub(super) async fn publish(&self, path: &Path) -> io::Result<()> {
+        let Some(shared) = &self.shared else { return Ok(()) };
+        shared.remote.put(&shared.name(path)?, path).await
+    }
+
+    /// [`Self::publish`], on a thread that computes.
+    pub(super) fn publish_blocking(&self, path: &Path) -> io::Result<()> {
+        let Some(shared) = &self.shared else { return Ok(()) };
+        shared.runtime.block_on(self.publish(path))
+    }
+
+    /// Fetches a file of the data folder from there, if `accept` takes what came. False if it is not there.
+    pub(super) async fn fetch(
+        &self,
+        path: &Path,
+        accept: impl FnOnce(&Path) -> io::Result<()> + Send + 'static,
+    ) -> io::Result<bool> {
+        let Some(shared) = &self.shared else { return Ok(false) };
+        let folder = path.parent().unwrap_or(&shared.data).to_owned();
+        let mut unfinished = None;
+        let make = |bytes| {
+            shared.reserve.expect_room_for(bytes)?;
+            std::fs::create_dir_all(&folder)?;
+            let file = unfinished.insert(unfinished_file(&folder, UNFINISHED)?);
+            Ok(tokio::fs::File::from_std(file.reopen()?))
+        };
+        if !shared.remote.get(&shared.name(path)?, make).await? {
+            return Ok(false);
+        }
+        let Some(file) = unfinished else { return Ok(false) };
+        let target = path.to_owned();
+        let keep = move || {
+            accept(file.path())?;
+            file.as_file().sync_all()?;
+            file.persist(&target).map_err(|error| error.error)?;
+            std::fs::File::open(&folder)?.sync_all()
+        };
+        tokio::task::spawn_blocking(keep).await.map_err(io::Error::other)??;
+        tracing::debug!(file = file_name(path), "fetched from the object store");
+        Ok(true)
+    }
+
+    /// What `read` makes of files of the data folder, on a thread that computes. Those that are not here are fetched, and all where
+    /// they are not what they should be: they may be of an earlier reduction, or damaged.
+    pub(super) fn reading<T>(
+        &self,
+        paths: &[PathBuf],
+        mut read: impl FnMut() -> io::Result<T>,
+    ) -> io::Result<T> {
+        let (shared, error) = match (&self.shared, read()) {
+            (Some(shared), Err(error)) => (shared, error),
+            (_, found) => return found,
+        };
+        let is_absent = error.kind() == ErrorKind::NotFound;
+        if !is_absent && !matches!(error.kind(), ErrorKind::InvalidData | ErrorKind::UnexpectedEof) {
+            return Err(error);
+        }
+        for path in paths.iter().filter(|path| !is_absent || !path.exists()) {
+            if !shared.runtime.block_on(self.fetch(path, |_| Ok(())))? {
+                return Err(error);
+            }
+        }
+        read()
+    }
+
+    /// Whether a file of the data folder is there.
+    pub(super) async fn have(&self, path: &Path) -> io::Result<bool> {
+        let Some(shared) = &self.shared else { return Ok(false) };
+        shared.remote.has(&shared.name(path)?).await
+    }
+
+    /// Removes a file of the data folder there.
+    pub(super) async fn remove(&self, path: &Path) -> io::Result<()> {
+        let Some(shared) = &self.shared else { return Ok(()) };
+        shared.remote.remove(&shared.name(path)?).await
+    }
+
+    /// [`Self::remove`], on a thread that computes.
+    pub(super) fn remove_blocking(&self, path: &Path) -> io::Result<()> {
+        let Some(shared) = &self.shared else { return Ok(()) };
+        shared.runtime.block_on(self.remove(path))
+    }
+
+    /// Removes the folders in `root`, a folder of the data folder, whose names are so, there.
+    pub(super) async fn remove_folders(&self, root: &Path, which: impl Fn(&str) -> bool) -> io::Result<()> {
+        let Some(shared) = &self.shared else { return Ok(()) };
+        let root = shared.name(root)?;
+        for folder in shared.remote.folders(&root).await?.iter().filter(|folder| which(folder)) {
+            shared.remote.remove_folder(&format!("{root}/{folder}")).await?;
+        }
+        Ok(())
+    }
+}
+
+impl Shared {
+    /// The name of an object: that of the file in the data folder.
+    fn name(&self, path: &Path) -> io::Result<String> {
+        let name = path.strip_prefix(&self.data).ok().and_then(Path::to_str);
+        name.map(ToOwned::to_owned).ok_or_else(|| {
+            io::Error::new(ErrorKind::InvalidInput, format!("{} is not in the data folder", path.display()))
+        })
+    }
+}

@@ -1,0 +1,229 @@
+//! Objects of a bucket or of a shared folder.
+
+use std::io;
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Duration;
+
+use futures::{StreamExt, TryStreamExt};
+use object_store::aws::{AmazonS3Builder, AmazonS3ConfigKey};
+use object_store::local::LocalFileSystem;
+use object_store::path::Path as Name;
+use object_store::prefix::PrefixStore;
+use object_store::{
+    ClientConfigKey, Error, ObjectStore, ObjectStoreExt, PutPayload, RetryConfig, WriteMultipart,
+};
+use tokio::io::{AsyncReadExt, AsyncWriteExt};
+
+use super::address::Address;
+use super::error::Failure;
+
+/// What is sent at once. Larger files go in parts of so many bytes, or of a [`MOST_PARTS`]th of their length.
+const PART: u64 = 8 << 20;
+
+/// S3 takes 10,000 parts.
+const MOST_PARTS: u64 = 9_000;
+
+/// Parts of one file that are on their way at once.
+const PARTS_AT_ONCE: usize = 2;
+
+/// Time for a part to be taken, or for the next bytes to come.
+const SILENCE: &str = "30 seconds";
+
+/// Attempts after the first; who asks has a patience of its own.
+const RETRIES: usize = 2;
+
+/// Time after which nothing is tried again: two silences and what lies between them.
+const RETRYING: Duration = Duration::from_secs(90);
+
+/// An object store. Its settings and keys come from the environment (`AWS_…`).
+pub(super) struct Remote {
+    address: Address,
+    store: Arc<dyn ObjectStore>,
+}
+
+/// Without the store: it has the keys.
+impl std::fmt::Debug for Remote {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Remote").field("address", &self.address).finish_non_exhaustive()
+    }
+}
+
+impl Remote {
+    /// The store at `address`, which answers.
+    pub(super) async fn open(address: &Address) -> io::Result<Self> {
+        let store = connect(address).map_err(|failure| failure.of(address, None))?;
+        let remote = Self { address: address.clone(), store };
+        // One page of names: keys and bucket are right.
+        let first = remote.store.list(None).next().await;
+        first.transpose().map_err(|error| failure(error).of(address, None))?;
+        Ok(remote)
+    }
+
+    /// Puts the file at `path` there, whole or not at all.
+    pub(super) async fn put(&self, name: &str, path: &Path) -> io::Result<()> {
+        let mut file = tokio::fs::File::open(path).await?;
+        let length = file.metadata().await?.len();
+        if length <= PART {
+            let mut bytes = Vec::with_capacity(length as usize);
+            file.read_to_end(&mut bytes).await?;
+            self.store
+                .put(&Name::from(name), PutPayload::from(bytes))
+                .await
+                .map_err(|e| self.error(name, e))?;
+            return Ok(());
+        }
+        let upload = self.store.put_multipart(&Name::from(name)).await.map_err(|e| self.error(name, e))?;
+        let part = PART.max(length.div_ceil(MOST_PARTS)) as usize;
+        let mut upload = WriteMultipart::new_with_chunk_size(upload, part);
+        match self.send(name, file, &mut upload).await {
+            Ok(()) => upload.finish().await.map(drop).map_err(|e| self.error(name, e)),
+            Err(error) => {
+                // What was sent would be kept and paid for. That it cannot be dropped says no more than `error` does.
+                let _ = upload.abort().await;
+                Err(error)
+            }
+        }
+    }
+
+    async fn send(
+        &self,
+        name: &str,
+        mut file: tokio::fs::File,
+        upload: &mut WriteMultipart,
+    ) -> io::Result<()> {
+        let mut block = vec![0; 1 << 20];
+        loop {
+            let read = file.read(&mut block).await?;
+            if read == 0 {
+                return Ok(());
+            }
+            upload.wait_for_capacity(PARTS_AT_ONCE).await.map_err(|e| self.error(name, e))?;
+            upload.write(&block[..read]);
+        }
+    }
+
+    /// Writes an object into the file that `make` opens once it knows its length. False if there is no such object.
+    pub(super) async fn get(
+        &self,
+        name: &str,
+        make: impl FnOnce(u64) -> io::Result<tokio::fs::File>,
+    ) -> io::Result<bool> {
+        let found = match self.store.get(&Name::from(name)).await {
+            Err(Error::NotFound { .. }) => return Ok(false),
+            found => found.map_err(|error| self.error(name, error))?,
+        };
+        let expected = found.meta.size;
+        let mut file = make(expected)?;
+        let mut written = 0;
+        let mut blocks = found.into_stream();
+        while let Some(block) = blocks.try_next().await.map_err(|error| self.error(name, error))? {
+            file.write_all(&block).await?;
+            written += block.len() as u64;
+        }
+        file.flush().await?;
+        if written != expected {
+            return Err(Failure::Cut { found: written, expected }.of(&self.address, Some(name)));
+        }
+        Ok(true)
+    }
+
+    pub(super) async fn has(&self, name: &str) -> io::Result<bool> {
+        match self.store.head(&Name::from(name)).await {
+            Ok(_) => Ok(true),
+            Err(Error::NotFound { .. }) => Ok(false),
+            Err(error) => Err(self.error(name, error)),
+        }
+    }
+
+    /// Names of the folders in a folder.
+    pub(super) async fn folders(&self, folder: &str) -> io::Result<Vec<String>> {
+        let found = self.store.list_with_delimiter(Some(&Name::from(folder))).await;
+        let found = found.map_err(|error| self.error(folder, error))?;
+        Ok(found.common_prefixes.iter().filter_map(|name| Some(name.filename()?.to_owned())).collect())
+    }
+
+    /// Removes an object, if it is there.
+    pub(super) async fn remove(&self, name: &str) -> io::Result<()> {
+        match self.store.delete(&Name::from(name)).await {
+            Ok(()) | Err(Error::NotFound { .. }) => Ok(()),
+            Err(error) => Err(self.error(name, error)),
+        }
+    }
+
+    /// Removes all objects in a folder.
+    pub(super) async fn remove_folder(&self, folder: &str) -> io::Result<()> {
+        let names = self.store.list(Some(&Name::from(folder))).map_ok(|object| object.location).boxed();
+        let mut removed = self.store.delete_stream(names);
+        while let Some(removed) = removed.next().await {
+            match removed {
+                // Somebody else was faster.
+                Ok(_) | Err(Error::NotFound { .. }) => {}
+                Err(error) => return Err(self.error(folder, error)),
+            }
+        }
+        Ok(())
+    }
+
+    fn error(&self, name: &str, error: Error) -> io::Error {
+        failure(error).of(&self.address, Some(name))
+    }
+}
+
+fn connect(address: &Address) -> Result<Arc<dyn ObjectStore>, Failure> {
+    match address {
+        Address::Folder(folder) => {
+            if !folder.is_dir() {
+                let absent = "there is no such folder: mount it, or make it";
+                return Err(Failure::Settings(absent.to_owned()));
+            }
+            let store = LocalFileSystem::new_with_prefix(folder).map_err(failure)?;
+            Ok(Arc::new(store.with_fsync(true).with_automatic_cleanup(true)))
+        }
+        Address::Bucket { bucket, prefix } => {
+            // The client for HTTP has no library for TLS of its own choice; a second call changes nothing.
+            let _ = rustls::crypto::ring::default_provider().install_default();
+            let retry =
+                RetryConfig { max_retries: RETRIES, retry_timeout: RETRYING, ..RetryConfig::default() };
+            let store = AmazonS3Builder::from_env()
+                .with_bucket_name(bucket)
+                // A large object takes what it takes, as long as it comes.
+                .with_config(AmazonS3ConfigKey::Client(ClientConfigKey::Timeout), "1 day")
+                .with_config(AmazonS3ConfigKey::Client(ClientConfigKey::ReadTimeout), SILENCE)
+                .with_retry(retry)
+                .build()
+                .map_err(|error| Failure::Settings(format!("the settings AWS_… do not fit: {error}")))?;
+            if prefix.is_empty() {
+                return Ok(Arc::new(store));
+            }
+            Ok(Arc::new(PrefixStore::new(store, prefix.as_str())))
+        }
+    }
+}
+
+/// What an error of the library means.
+fn failure(error: Error) -> Failure {
+    match error {
+        Error::NotFound { .. } => Failure::Absent,
+        Error::PermissionDenied { .. } | Error::Unauthenticated { .. } => Failure::Denied,
+        error => match of_file(&error) {
+            Some(io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded) => {
+                Failure::Full(error.to_string())
+            }
+            Some(io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem) => Failure::Denied,
+            _ => Failure::Away(error.to_string()),
+        },
+    }
+}
+
+/// What the system said, of a folder.
+fn of_file(error: &Error) -> Option<io::ErrorKind> {
+    let mut cause: Option<&(dyn std::error::Error + 'static)> = Some(error);
+    while let Some(error) = cause {
+        if let Some(error) = error.downcast_ref::<io::Error>() {
+            return Some(error.kind());
+        }
+        cause = error.source();
+    }
+    None
+}
