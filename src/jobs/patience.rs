@@ -33,6 +33,14 @@ where
     }
 }
 
+/// Pushes a task until the queue takes it, which it does at once unless memory is short.
+pub(super) async fn until_taken<P: Future<Output = Result<(), StoreError>>>(push: impl Fn() -> P) {
+    while let Err(error) = push().await {
+        tracing::error!(%error, "the queue failed");
+        tokio::time::sleep(BETWEEN_ATTEMPTS).await;
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use std::io::{Error, ErrorKind};

@@ -1,33 +1,19 @@
 //! Tasks on their way to the workers: those of this process, or of all machines that share a database.
 
+mod awake;
 mod own;
+mod place;
 #[cfg(feature = "cluster")]
 mod shared;
 
-use std::hash::Hash;
-use std::pin::Pin;
-use std::sync::Arc;
-use std::task::{Context, Poll};
-use std::time::Duration;
-
-use apalis::prelude::{PollSnapshot, PollStrategy};
-use tokio::sync::Notify;
-
-use super::patience::BETWEEN_ATTEMPTS;
-use super::turns::Turns;
+use self::place::Place;
 use crate::store::jobs::JobId;
 use crate::store::queue::{Queue, RunSpeed};
 use crate::store::{Store, StoreError};
 
-pub(super) use own::OwnTasks;
+pub(super) use self::own::{OwnTasks, preparations_at_once};
 #[cfg(feature = "cluster")]
-pub(super) use shared::SharedTasks;
-
-/// Preparations beyond one per thread.
-const WAITING_PREPARATIONS: usize = 16;
-
-/// How often a queue is asked for tasks without having been notified.
-const IDLE_POLL: Duration = Duration::from_millis(500);
+pub(super) use self::shared::SharedTasks;
 
 /// Tasks on their way to the workers.
 #[derive(Debug)]
@@ -37,12 +23,6 @@ pub(super) enum Tasks {
     /// Of all machines that share a database.
     #[cfg(feature = "cluster")]
     Shared(SharedTasks),
-}
-
-/// Preparations of one owner under way at once, with so many threads that compute: those that wait for another job's reduction take no
-/// thread, and must not keep others from theirs.
-pub(super) fn preparations_at_once(threads: usize) -> usize {
-    threads + WAITING_PREPARATIONS
 }
 
 impl Tasks {
@@ -123,54 +103,5 @@ impl Tasks {
             #[cfg(feature = "cluster")]
             Self::Shared(tasks) => tasks.withdraw(job),
         }
-    }
-}
-
-/// The place of a task that is out.
-pub(super) struct Place<'a, T: Copy + Eq + Hash> {
-    turns: &'a Turns<T>,
-    turn: &'a Notify,
-    job: JobId,
-    task: T,
-}
-
-impl<T: Copy + Eq + Hash> Drop for Place<'_, T> {
-    fn drop(&mut self) {
-        self.turns.done(self.job, self.task);
-        self.turn.notify_one();
-    }
-}
-
-/// Pushes a task until the queue takes it, which it does at once unless memory is short.
-async fn until_taken<P: Future<Output = Result<(), StoreError>>>(push: impl Fn() -> P) {
-    while let Err(error) = push().await {
-        tracing::error!(%error, "the queue failed");
-        tokio::time::sleep(BETWEEN_ATTEMPTS).await;
-    }
-}
-
-/// Wakes a worker when it is notified, and now and then without: a notification that arrives while the worker is asking
-/// the queue would otherwise be lost.
-pub(super) struct Awake {
-    notifications: Pin<Box<dyn futures::Stream<Item = ()> + Send + Sync>>,
-    interval: tokio::time::Interval,
-}
-
-impl Awake {
-    fn by(notify: &Arc<Notify>) -> Self {
-        let notifications = futures::stream::unfold(Arc::clone(notify), |notify| async move {
-            notify.notified().await;
-            Some(((), notify))
-        });
-        Self { notifications: Box::pin(notifications), interval: tokio::time::interval(IDLE_POLL) }
-    }
-}
-
-impl PollStrategy for Awake {
-    /// Only arranges to be woken: the worker asks its queue whenever it is polled.
-    fn poll_drive(&mut self, cx: &mut Context<'_>, _: &PollSnapshot) -> Poll<Option<()>> {
-        while self.notifications.as_mut().poll_next(cx).is_ready() {}
-        while self.interval.poll_tick(cx).is_ready() {}
-        Poll::Pending
     }
 }

@@ -6,10 +6,21 @@ use apalis::prelude::{BackendExt, PollWith};
 use apalis_sqlite::SqliteStorage;
 use tokio::sync::Notify;
 
-use super::{Awake, Place, preparations_at_once, until_taken};
+use super::awake::Awake;
+use super::place::Place;
+use crate::jobs::patience::until_taken;
 use crate::jobs::turns::Turns;
 use crate::store::jobs::JobId;
 use crate::store::queue::{PrepareJob, Queue, RunSpeed};
+
+/// Preparations beyond one per thread.
+const WAITING_PREPARATIONS: usize = 16;
+
+/// Preparations of one owner under way at once, with so many threads that compute: those that wait for another job's reduction take no
+/// thread, and must not keep others from theirs.
+pub(in crate::jobs) fn preparations_at_once(threads: usize) -> usize {
+    threads + WAITING_PREPARATIONS
+}
 
 /// Tasks that wait for their turn, and the queue that has those whose turn it is.
 #[derive(Debug)]

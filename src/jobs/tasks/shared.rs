@@ -6,7 +6,8 @@ use apalis::prelude::{BackendExt, PollWith};
 use apalis_postgres::PostgresStorage;
 use tokio::sync::Notify;
 
-use super::{Awake, until_taken};
+use super::awake::Awake;
+use crate::jobs::patience::until_taken;
 use crate::store::jobs::JobId;
 use crate::store::queue::{PrepareJob, RunSpeed};
 use crate::store::shared_queue::SharedQueue;
