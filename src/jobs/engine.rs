@@ -17,7 +17,7 @@ use super::patience::{BETWEEN_ATTEMPTS, patiently};
 use super::pool::CpuPool;
 use super::progress::{PendingReports, PhaseMonitor, Watch};
 use super::reductions::Reductions;
-use super::tasks::Tasks;
+use super::tasks::{Tasks, Whose};
 use crate::analysis::monitor::Monitor;
 use crate::store::jobs::{Chosen, Failure, FailureCause, Job, JobHead, JobId, JobRequest};
 use crate::store::limits::Limits;
@@ -68,6 +68,16 @@ pub(super) struct Live {
 }
 
 impl Live {
+    /// It, as far as its tasks go.
+    pub(super) fn whose(&self) -> Whose<'_> {
+        Whose {
+            owner: &self.owner,
+            job: self.id,
+            #[cfg(feature = "cluster")]
+            one_kind: self.request.is_of_one_kind(),
+        }
+    }
+
     /// The speeds before and after `speed` in the chain, if there are such.
     pub(super) fn neighbours(&self, speed: u32) -> (Option<u32>, Option<u32>) {
         let Some(chain) = &self.chain else { return (None, None) };

@@ -36,7 +36,7 @@ async fn more_speeds(engine: &Engine, job: &Live, request: ResolvedSweep) -> Res
     let revised = engine.revise(job, JobRequest::Sweep(Box::new(request)), speeds).await?;
     tracing::info!(job.id = %job.id, speeds, added = speeds - job.speeds, "refining");
     let added = job.speeds..revised.speeds;
-    engine.tasks.run(&revised.owner, revised.id, added);
+    engine.tasks.run(revised.whose(), added);
     Ok(())
 }
 

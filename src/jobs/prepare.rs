@@ -7,13 +7,18 @@ use super::error::Interruption;
 use super::progress::PhaseMonitor;
 use super::{case_study, choice, finish, generation, modal_analysis, plans, study};
 use crate::analysis::run;
-use crate::store::jobs::{JobId, JobRequest};
+use crate::store::jobs::{Begun, JobId, JobRequest};
 
 /// Prepares job `id`. Harmless to repeat: what is stored is not computed again.
 pub(super) async fn prepare(engine: &Engine, id: JobId) -> Result<(), Interruption> {
     let Some(job) = engine.live(id).await? else { return Ok(()) };
-    if !engine.store.begin_job(id).await? {
-        return Ok(());
+    match engine.store.begin_job(id, &run::vectors()).await? {
+        Begun::Yes => {}
+        Begun::Unwanted => return Ok(()),
+        Begun::Elsewhere(vectors) => {
+            engine.tasks.prepare_elsewhere(id, &vectors);
+            return Ok(());
+        }
     }
     match &job.request {
         JobRequest::Sweep(request) => {
@@ -52,6 +57,6 @@ async fn prepare_sweep(engine: &Engine, job: &Live) -> Result<(), Interruption> 
     if missing.is_empty() {
         return finish::sweep(engine, job, request).await;
     }
-    engine.tasks.run(&job.owner, job.id, missing);
+    engine.tasks.run(job.whose(), missing);
     Ok(())
 }

@@ -87,7 +87,7 @@ async fn go_on(
     if finished == job.speeds {
         finish::sweep(engine, job, request).await?;
     } else if let (_, Some(next)) = job.neighbours(speed) {
-        engine.tasks.run(&job.owner, job.id, [next]);
+        engine.tasks.run(job.whose(), [next]);
     }
     Ok(())
 }

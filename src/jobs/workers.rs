@@ -18,7 +18,7 @@ use super::pool::CpuPool;
 use super::progress::PendingReports;
 #[cfg(feature = "cluster")]
 use super::share;
-use super::tasks::{self, Tasks};
+use super::tasks::{self, Kind, Tasks};
 use super::{error, prepare, speed};
 use crate::store::jobs::Unfinished;
 use crate::store::limits::Limits;
@@ -87,11 +87,14 @@ impl Runner {
         let mut workers = Vec::new();
         if settings.workers > 0 {
             for (queue, work) in [("prepare", prepare_jobs as StartWorker), ("speeds", run_speeds)] {
-                let start = {
-                    let (engine, stop) = (Arc::clone(&engine), stop.clone());
-                    move |name| work(name, Arc::clone(&engine), threads, stop.clone())
-                };
-                workers.push(tokio::spawn(supervise(queue, Arc::clone(&engine), stop.clone(), start)));
+                for &kind in engine.tasks.kinds() {
+                    let start = {
+                        let (engine, stop) = (Arc::clone(&engine), stop.clone());
+                        move |name| work((name, kind), Arc::clone(&engine), threads, stop.clone())
+                    };
+                    let queue = format!("{queue}-{kind:?}");
+                    workers.push(tokio::spawn(supervise(queue, Arc::clone(&engine), stop.clone(), start)));
+                }
             }
         }
         Ok(Self { engine, stop, workers, helpers })
@@ -172,9 +175,9 @@ async fn keep_house(engine: Arc<Engine>, keep_days: Option<u32>) {
     }
 }
 
-/// Starts a worker of this name, with so many threads.
+/// Starts a worker of this name for such tasks, with so many threads.
 type StartWorker =
-    fn(String, Arc<Engine>, usize, CancellationToken) -> BoxFuture<'static, Result<(), WorkerError>>;
+    fn((String, Kind), Arc<Engine>, usize, CancellationToken) -> BoxFuture<'static, Result<(), WorkerError>>;
 
 /// A worker that hands the tasks of a source to a handler until it is told to stop; a macro, because the types of sources share nothing
 /// that can be written down.
@@ -191,7 +194,7 @@ macro_rules! worker {
 }
 
 fn prepare_jobs(
-    name: String,
+    (name, kind): (String, Kind),
     engine: Arc<Engine>,
     threads: usize,
     stop: CancellationToken,
@@ -202,15 +205,17 @@ fn prepare_jobs(
         Ok(())
     }
     let most = tasks::preparations_at_once(threads);
-    match &Arc::clone(&engine).tasks {
-        Tasks::Own(tasks) => worker!(name, tasks.preparations(), 4 * most, engine, stop, handle),
+    match (&Arc::clone(&engine).tasks, kind) {
+        (Tasks::Own(tasks), _) => worker!(name, tasks.preparations(), 4 * most, engine, stop, handle),
         #[cfg(feature = "cluster")]
-        Tasks::Shared(tasks) => worker!(tasks.name(&name), tasks.preparations(), most, engine, stop, handle),
+        (Tasks::Shared(tasks), kind) => {
+            worker!(tasks.name(&name), tasks.preparations(kind), most, engine, stop, handle)
+        }
     }
 }
 
 fn run_speeds(
-    name: String,
+    (name, kind): (String, Kind),
     engine: Arc<Engine>,
     threads: usize,
     stop: CancellationToken,
@@ -220,10 +225,12 @@ fn run_speeds(
         engine.attend(task.job, || speed::run(&engine, task)).await;
         Ok(())
     }
-    match &Arc::clone(&engine).tasks {
-        Tasks::Own(tasks) => worker!(name, tasks.speeds(), threads, engine, stop, handle),
+    match (&Arc::clone(&engine).tasks, kind) {
+        (Tasks::Own(tasks), _) => worker!(name, tasks.speeds(), threads, engine, stop, handle),
         #[cfg(feature = "cluster")]
-        Tasks::Shared(tasks) => worker!(tasks.name(&name), tasks.speeds(), threads, engine, stop, handle),
+        (Tasks::Shared(tasks), kind) => {
+            worker!(tasks.name(&name), tasks.speeds(kind), threads, engine, stop, handle)
+        }
     }
 }
 
@@ -234,7 +241,7 @@ async fn stopped(stop: CancellationToken) -> Result<(), WorkerError> {
 
 /// Keeps a worker of `queue` going: one that its backend lets down is replaced, under a name not used before, because
 /// `apalis` refuses a name that was seen alive a moment ago.
-async fn supervise<F>(queue: &'static str, engine: Arc<Engine>, stop: CancellationToken, worker: F)
+async fn supervise<F>(queue: String, engine: Arc<Engine>, stop: CancellationToken, worker: F)
 where
     F: Fn(String) -> BoxFuture<'static, Result<(), WorkerError>>,
 {

@@ -69,6 +69,7 @@ impl Document {
 pub struct PackedSpeed {
     index: u32,
     status: PointStatus,
+    vectors: Option<String>,
     point: String,
     /// With the bytes that they take unpacked.
     spectra: Option<(Vec<u8>, u64)>,
@@ -83,6 +84,7 @@ impl PackedSpeed {
         Ok(Self {
             index: result.point.index,
             status: result.point.status,
+            vectors: result.point.vectors.clone(),
             point: serde_json::to_string(&result.point)?,
             spectra: result.spectra.as_ref().map(packed::pack).transpose()?,
             wear: result.wear.as_ref().map(postcard::to_stdvec).transpose()?,
@@ -130,13 +132,15 @@ impl Store {
             end_states::replace(&mut transaction, job, speed.index, speed.end_state.as_deref()).await?;
             sqlx::query(
                 "update jobs set crashes = 0, finished = finished + 1, diverged = diverged + $2, failed = failed + $3,
-                     stored_bytes = stored_bytes + $4
+                     stored_bytes = stored_bytes + $4,
+                     vectors = case when coalesce(vectors, $5) = coalesce($5, vectors) then coalesce(vectors, $5) else 'several' end
                  where id = $1",
             )
             .bind(job.to_string())
             .bind(i64::from(speed.status == PointStatus::Diverged))
             .bind(i64::from(speed.status == PointStatus::Failed))
             .bind(speed.bytes() as i64)
+            .bind(speed.vectors.as_deref())
             .execute(&mut *transaction)
             .await?;
         }

@@ -32,6 +32,10 @@ const ATTEMPTS: usize = 1_000_000;
 /// Priority of the task whose turn comes first; larger goes before smaller.
 const FIRST: i32 = 1_000_000_000;
 
+/// What names of queues begin with.
+const PREPARE: &str = "prepare";
+const SPEEDS: &str = "speeds";
+
 /// Channel on which workers are told of new tasks.
 const TASKS: &str = "rubmap_tasks";
 
@@ -88,14 +92,14 @@ impl SharedQueue {
         self.pool.close().await;
     }
 
-    /// Tasks that prepare jobs.
-    pub fn preparations(&self) -> PostgresStorage<PrepareJob> {
-        PostgresStorage::new(&self.pool).with_config(config(&preparations()))
+    /// Tasks that prepare jobs: those for any machine, or for processors with these `vectors`.
+    pub fn preparations(&self, vectors: Option<&str>) -> PostgresStorage<PrepareJob> {
+        PostgresStorage::new(&self.pool).with_config(config(&queue(PREPARE, vectors)))
     }
 
-    /// Tasks that compute speeds.
-    pub fn speeds(&self) -> PostgresStorage<RunSpeed> {
-        PostgresStorage::new(&self.pool).with_config(config(&speeds()))
+    /// Tasks that compute speeds, in the same way.
+    pub fn speeds(&self, vectors: Option<&str>) -> PostgresStorage<RunSpeed> {
+        PostgresStorage::new(&self.pool).with_config(config(&queue(SPEEDS, vectors)))
     }
 
     /// Hears of new tasks and of jobs that have changed, from now on.
@@ -106,14 +110,19 @@ impl SharedQueue {
     }
 
     /// Queues the preparation of a job, unless it is there already.
-    pub async fn push_preparation(&self, job: JobId) -> Result<(), StoreError> {
-        self.push(&preparations(), [(job.to_string(), PrepareJob { job })]).await
+    pub async fn push_preparation(&self, job: JobId, vectors: Option<&str>) -> Result<(), StoreError> {
+        self.push(&queue(PREPARE, vectors), [(job.to_string(), PrepareJob { job })]).await
     }
 
     /// Queues speeds of a job, those that are not there already.
-    pub async fn push_speeds(&self, job: JobId, speed: &[u32]) -> Result<(), StoreError> {
+    pub async fn push_speeds(
+        &self,
+        job: JobId,
+        vectors: Option<&str>,
+        speed: &[u32],
+    ) -> Result<(), StoreError> {
         let tasks = speed.iter().map(|&speed| (format!("{job}:{speed:010}"), RunSpeed { job, speed }));
-        self.push(&speeds(), tasks).await
+        self.push(&queue(SPEEDS, vectors), tasks).await
     }
 
     async fn push<T: Serialize>(
@@ -210,10 +219,9 @@ impl SharedQueue {
 
     /// Whether there are workers of another revision of the numerics, which go on with jobs that they began.
     pub async fn has_other_revisions(&self) -> Result<bool, StoreError> {
-        let own = [preparations(), speeds()];
         let others = "select exists (select 1 from apalis.workers
-                          where last_seen > now() - interval '1 minute' and worker_type <> all($1))";
-        Ok(sqlx::query_scalar(others).bind(&own[..]).fetch_one(&self.pool).await?)
+                          where last_seen > now() - interval '1 minute' and split_part(worker_type, '-', 2) <> $1)";
+        Ok(sqlx::query_scalar(others).bind(REVISION.to_string()).fetch_one(&self.pool).await?)
     }
 
     /// Forgets tasks that have ended, and workers that have been away for a day.
@@ -257,14 +265,13 @@ async fn take_turns(connection: &mut PgConnection, queue: &str) -> Result<(), St
     Ok(())
 }
 
-// A worker takes what is of its own revision of the numerics: all speeds of a job are of one.
-
-fn preparations() -> String {
-    format!("prepare-{REVISION}")
-}
-
-fn speeds() -> String {
-    format!("speeds-{REVISION}")
+/// The name of a queue. A worker takes what is of its own revision of the numerics: all speeds of a job are of one. Some are of one kind
+/// of vectors as well.
+fn queue(tasks: &str, vectors: Option<&str>) -> String {
+    match vectors {
+        Some(vectors) => format!("{tasks}-{REVISION}-{vectors}"),
+        None => format!("{tasks}-{REVISION}"),
+    }
 }
 
 fn config(queue: &str) -> Config {

@@ -26,6 +26,7 @@ use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
 use rubmap_wheel::dynamics::reduction::ReducedWheel;
 use rubmap_wheel::dynamics::states::WheelStates;
 use rubmap_wheel::revision::VERSION;
+use rubmap_wheel::vectors::vectors;
 
 /// Simulates speed `index` of a sweep, from `start` if it is given: the end of the neighbouring speed of a sweep up or down.
 /// Deterministic; runs on the calling thread. A speed that diverges or cannot be
@@ -183,6 +184,7 @@ pub(super) fn empty_point(
         responses: Vec::new(),
         wall_time_s: 0.0,
         version: VERSION.to_owned(),
+        vectors: Some(vectors()),
     }
 }
 

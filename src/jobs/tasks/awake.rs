@@ -8,9 +8,6 @@ use std::time::Duration;
 use apalis::prelude::{PollSnapshot, PollStrategy};
 use tokio::sync::Notify;
 
-/// How often a queue is asked for tasks without having been notified.
-const IDLE_POLL: Duration = Duration::from_millis(500);
-
 /// Wakes a worker when it is notified, and now and then without: a notification that arrives while the worker is asking
 /// the queue would otherwise be lost.
 pub(in crate::jobs) struct Awake {
@@ -19,12 +16,12 @@ pub(in crate::jobs) struct Awake {
 }
 
 impl Awake {
-    pub(super) fn by(notify: &Arc<Notify>) -> Self {
+    pub(super) fn by(notify: &Arc<Notify>, idle: Duration) -> Self {
         let notifications = futures::stream::unfold(Arc::clone(notify), |notify| async move {
             notify.notified().await;
             Some(((), notify))
         });
-        Self { notifications: Box::pin(notifications), interval: tokio::time::interval(IDLE_POLL) }
+        Self { notifications: Box::pin(notifications), interval: tokio::time::interval(idle) }
     }
 }
 

@@ -7,6 +7,8 @@ mod place;
 mod shared;
 
 use self::place::Place;
+#[cfg(feature = "cluster")]
+use crate::analysis::run::vectors;
 use crate::store::jobs::JobId;
 use crate::store::queue::{Queue, RunSpeed};
 use crate::store::{Store, StoreError};
@@ -14,6 +16,34 @@ use crate::store::{Store, StoreError};
 pub(super) use self::own::{OwnTasks, preparations_at_once};
 #[cfg(feature = "cluster")]
 pub(super) use self::shared::SharedTasks;
+
+/// Which tasks a worker takes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// Of jobs that any processor may compute.
+    Any,
+    /// Of jobs that belong to processors with the vectors of this one.
+    #[cfg(feature = "cluster")]
+    OfThisProcessor,
+}
+
+#[cfg(feature = "cluster")]
+impl Kind {
+    /// The vectors that a processor must have; none where any will do.
+    fn vectors(self) -> Option<String> {
+        (self == Self::OfThisProcessor).then(vectors)
+    }
+}
+
+/// A job, as far as its tasks go.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Whose<'a> {
+    pub(super) owner: &'a str,
+    pub(super) job: JobId,
+    /// Whether only processors with the vectors of this one may take its speeds.
+    #[cfg(feature = "cluster")]
+    pub(super) one_kind: bool,
+}
 
 /// Tasks on their way to the workers.
 #[derive(Debug)]
@@ -35,6 +65,15 @@ impl Tasks {
         #[cfg(not(feature = "cluster"))]
         let _ = store;
         Ok(Self::Own(OwnTasks::new(Queue::create().await?, threads)))
+    }
+
+    /// Kinds of tasks there are, each with workers of its own.
+    pub(super) fn kinds(&self) -> &'static [Kind] {
+        match self {
+            Self::Own(_) => &[Kind::Any],
+            #[cfg(feature = "cluster")]
+            Self::Shared(_) => &[Kind::Any, Kind::OfThisProcessor],
+        }
     }
 
     /// Whether other processes have tasks of the same jobs.
@@ -65,16 +104,27 @@ impl Tasks {
         match self {
             Self::Own(tasks) => tasks.prepare(owner, job),
             #[cfg(feature = "cluster")]
-            Self::Shared(tasks) => tasks.prepare(job),
+            Self::Shared(tasks) => tasks.prepare(job, None),
+        }
+    }
+
+    /// Has a job prepared on a machine with these vectors.
+    pub(super) fn prepare_elsewhere(&self, job: JobId, vectors: &str) {
+        match self {
+            Self::Own(_) => {
+                tracing::warn!(job.id = %job, vectors, "of another kind of processor: begins anew at the next start");
+            }
+            #[cfg(feature = "cluster")]
+            Self::Shared(tasks) => tasks.prepare(job, Some(vectors.to_owned())),
         }
     }
 
     /// Has speeds of a job run in this order, when it is their turn.
-    pub(super) fn run(&self, owner: &str, job: JobId, speeds: impl IntoIterator<Item = u32>) {
+    pub(super) fn run(&self, whose: Whose<'_>, speeds: impl IntoIterator<Item = u32>) {
         match self {
-            Self::Own(tasks) => tasks.run(owner, job, speeds),
+            Self::Own(tasks) => tasks.run(whose.owner, whose.job, speeds),
             #[cfg(feature = "cluster")]
-            Self::Shared(tasks) => tasks.run(job, speeds.into_iter().collect()),
+            Self::Shared(tasks) => tasks.run(whose, speeds.into_iter().collect()),
         }
     }
 

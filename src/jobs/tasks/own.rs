@@ -1,6 +1,7 @@
 //! Tasks of this process alone: they wait here for their turn, and the queue has those whose turn it is.
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use apalis::prelude::{BackendExt, PollWith};
 use apalis_sqlite::SqliteStorage;
@@ -12,6 +13,9 @@ use crate::jobs::patience::until_taken;
 use crate::jobs::turns::Turns;
 use crate::store::jobs::JobId;
 use crate::store::queue::{PrepareJob, Queue, RunSpeed};
+
+/// How often a queue is asked for tasks without having been notified.
+const IDLE_POLL: Duration = Duration::from_millis(500);
 
 /// Preparations beyond one per thread.
 const WAITING_PREPARATIONS: usize = 16;
@@ -55,12 +59,12 @@ impl OwnTasks {
 
     /// Where a worker takes jobs to be prepared from.
     pub(in crate::jobs) fn preparations(&self) -> PollWith<SqliteStorage<PrepareJob>, Awake> {
-        self.queue.preparations().poll_with_strategy(Awake::by(&self.new_preparation))
+        self.queue.preparations().poll_with_strategy(Awake::by(&self.new_preparation, IDLE_POLL))
     }
 
     /// Where a worker takes speeds from.
     pub(in crate::jobs) fn speeds(&self) -> PollWith<SqliteStorage<RunSpeed>, Awake> {
-        self.queue.speeds().poll_with_strategy(Awake::by(&self.new_speeds))
+        self.queue.speeds().poll_with_strategy(Awake::by(&self.new_speeds, IDLE_POLL))
     }
 
     pub(super) async fn close(&self) {

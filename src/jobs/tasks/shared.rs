@@ -1,16 +1,22 @@
 //! Tasks of all machines that share a database. Owners take turns there, too: [`SharedQueue`] puts them in order.
 
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
 
 use apalis::prelude::{BackendExt, PollWith};
 use apalis_postgres::PostgresStorage;
 use tokio::sync::Notify;
 
 use super::awake::Awake;
+use super::{Kind, Whose};
+use crate::analysis::run::vectors;
 use crate::jobs::patience::until_taken;
 use crate::store::jobs::JobId;
 use crate::store::queue::{PrepareJob, RunSpeed};
 use crate::store::shared_queue::SharedQueue;
+
+/// How often a queue is asked for tasks without having been told of any.
+const IDLE_POLL: Duration = Duration::from_secs(2);
 
 /// Tasks of all machines, as one process sees them.
 #[derive(Debug)]
@@ -20,10 +26,10 @@ pub(in crate::jobs) struct SharedTasks {
     process: String,
     /// What its workers are called, those that ended as well.
     workers: Mutex<Vec<String>>,
-    /// Notified when there may be something new to prepare.
-    new_preparation: Arc<Notify>,
+    /// Notified when there may be something new to prepare, by [`Kind`].
+    new_preparation: [Arc<Notify>; 2],
     /// Notified when there may be new speeds.
-    new_speeds: Arc<Notify>,
+    new_speeds: [Arc<Notify>; 2],
 }
 
 impl SharedTasks {
@@ -33,8 +39,8 @@ impl SharedTasks {
             queue,
             process,
             workers: Mutex::default(),
-            new_preparation: Arc::default(),
-            new_speeds: Arc::default(),
+            new_preparation: Default::default(),
+            new_speeds: Default::default(),
         }
     }
 
@@ -59,35 +65,37 @@ impl SharedTasks {
     }
 
     /// Where a worker takes jobs to be prepared from.
-    pub(in crate::jobs) fn preparations(&self) -> PollWith<PostgresStorage<PrepareJob>, Awake> {
-        self.queue.preparations().poll_with_strategy(Awake::by(&self.new_preparation))
+    pub(in crate::jobs) fn preparations(&self, of: Kind) -> PollWith<PostgresStorage<PrepareJob>, Awake> {
+        self.queue
+            .preparations(of.vectors().as_deref())
+            .poll_with_strategy(Awake::by(&self.new_preparation[of as usize], IDLE_POLL))
     }
 
     /// Where a worker takes speeds from.
-    pub(in crate::jobs) fn speeds(&self) -> PollWith<PostgresStorage<RunSpeed>, Awake> {
-        self.queue.speeds().poll_with_strategy(Awake::by(&self.new_speeds))
+    pub(in crate::jobs) fn speeds(&self, of: Kind) -> PollWith<PostgresStorage<RunSpeed>, Awake> {
+        self.queue
+            .speeds(of.vectors().as_deref())
+            .poll_with_strategy(Awake::by(&self.new_speeds[of as usize], IDLE_POLL))
     }
 
     /// There may be new tasks.
     pub(in crate::jobs) fn wake(&self) {
-        self.new_preparation.notify_one();
-        self.new_speeds.notify_one();
+        for new in self.new_preparation.iter().chain(&self.new_speeds) {
+            new.notify_one();
+        }
     }
 
-    pub(super) fn prepare(&self, job: JobId) {
-        let (queue, wake) = (self.queue.clone(), Arc::clone(&self.new_preparation));
-        tokio::spawn(async move {
-            until_taken(|| queue.push_preparation(job)).await;
-            wake.notify_one();
-        });
+    pub(super) fn prepare(&self, job: JobId, vectors: Option<String>) {
+        let queue = self.queue.clone();
+        // The queue tells all machines of it, this one among them.
+        tokio::spawn(async move { until_taken(|| queue.push_preparation(job, vectors.as_deref())).await });
     }
 
-    pub(super) fn run(&self, job: JobId, speeds: Vec<u32>) {
-        let (queue, wake) = (self.queue.clone(), Arc::clone(&self.new_speeds));
-        tokio::spawn(async move {
-            until_taken(|| queue.push_speeds(job, &speeds)).await;
-            wake.notify_one();
-        });
+    pub(super) fn run(&self, Whose { job, one_kind, .. }: Whose<'_>, speeds: Vec<u32>) {
+        let (queue, vectors) = (self.queue.clone(), one_kind.then(vectors));
+        tokio::spawn(
+            async move { until_taken(|| queue.push_speeds(job, vectors.as_deref(), &speeds)).await },
+        );
     }
 
     pub(super) fn withdraw(&self, job: JobId) {

@@ -2,11 +2,16 @@
 
 use serde_json::json;
 
-use super::{facts, keep, labels, model_id, point, queue, result, sweep, upload};
+use super::{
+    begin, facts, keep, labels, model_id, point, queue, queue_request, result, sweep, sweep_on, upload,
+};
 use crate::analysis::result::{SpeedResult, Trial};
 use crate::analysis::run::{Calibration, Estimate, ReducedSector};
+use crate::store::dialect::Dialect;
 use crate::store::idempotency::Answer;
-use crate::store::jobs::{Chosen, Failure, FailureCause, Insertion, JobDeletion, JobFilter, JobId, JobKind};
+use crate::store::jobs::{
+    Begun, Chosen, Failure, FailureCause, Insertion, JobDeletion, JobFilter, JobId, JobKind,
+};
 use crate::store::labels::{LabelChanges, Labels};
 use crate::store::limits::{LimitReached, Limits};
 use crate::store::models::{Deletion, ModelFilter};
@@ -108,7 +113,7 @@ async fn jobs_are_listed_as_they_are_asked_for() {
             jobs.push(queue(&store, owner, letter, 2, &labels(name, tags)).await);
         }
         let [first, second, third] = jobs[..] else { panic!("{jobs:?}") };
-        assert!(store.begin_job(third).await.unwrap());
+        assert!(begin(&store, third).await);
         let text = |text: &str| Some(text.to_owned());
         let all = JobFilter::default;
         for (filter, found) in [
@@ -140,6 +145,44 @@ async fn jobs_are_listed_as_they_are_asked_for() {
 }
 
 #[tokio::test]
+async fn a_job_of_one_kind_stays_with_the_processors_that_began_it() {
+    for store in stores().await {
+        upload(&store, "", 'a', &Labels::default()).await;
+        let job =
+            async |one_kind| queue_request(&store, "", &sweep_on('a', 2, one_kind), &Labels::default()).await;
+        let (any, one) = (job(false).await, job(true).await);
+        let kind = async |job| store.job(job).await.unwrap().unwrap().vectors;
+        for (job, on, begun) in [
+            (any, "here", Begun::Yes),
+            (one, "here", Begun::Yes),
+            (any, "here", Begun::Yes),
+            (one, "there", Begun::Elsewhere("here".to_owned())),
+            (one, "here", Begun::Yes),
+        ] {
+            assert_eq!(store.begin_job(job, on).await.unwrap(), begun);
+            assert_eq!(kind(job).await.as_deref(), Some("here"));
+        }
+        for (job, on) in [(any, "there"), (one, "here")] {
+            let mut speed = result(0);
+            speed.point.vectors = Some(on.to_owned());
+            keep(&store, job, &speed).await;
+        }
+        assert_eq!(kind(any).await.as_deref(), Some("several"));
+        assert_eq!(kind(one).await.as_deref(), Some("here"));
+
+        // Alone, a machine of another kind takes it up from the beginning; otherwise its own may come back.
+        store.restart_outdated().await.unwrap();
+        let left = async |job| store.finished_speeds(job).await.unwrap().len();
+        let is_alone = store.dialect == Dialect::Sqlite;
+        assert_eq!((left(any).await, left(one).await), (1, usize::from(!is_alone)));
+        let begun = if is_alone { Begun::Yes } else { Begun::Elsewhere("here".to_owned()) };
+        assert_eq!(store.begin_job(one, "there").await.unwrap(), begun);
+        store.dismiss_job(one).await.unwrap();
+        assert_eq!(store.begin_job(one, "there").await.unwrap(), Begun::Unwanted);
+    }
+}
+
+#[tokio::test]
 async fn a_job_from_its_beginning_to_its_end() {
     for store in stores().await {
         upload(&store, "", 'a', &Labels::default()).await;
@@ -148,7 +191,7 @@ async fn a_job_from_its_beginning_to_its_end() {
         assert_eq!((waiting.status, waiting.speeds.total), (JobStatus::Accepted, 4));
         assert_eq!((waiting.request.clone(), waiting.started_at.clone()), (sweep('a', 4), None));
         assert_eq!(waiting.facts, Some(facts("m")));
-        assert!(store.begin_job(job).await.unwrap());
+        assert!(begin(&store, job).await);
 
         for (percent, expected) in [(40, 40), (30, 40), (120, 99)] {
             store.record_progress(job, percent, "sweeping").await.unwrap();
@@ -238,7 +281,7 @@ async fn a_job_that_failed_says_why() {
         assert_eq!(advance(JobStatus::Failed, Some(&failure)).await, Some(JobStatus::Failed));
         assert_eq!(advance(JobStatus::Running, None).await, Some(JobStatus::Failed));
         assert_eq!(store.job(job).await.unwrap().unwrap().failure, Some(failure));
-        assert!(!store.begin_job(job).await.unwrap());
+        assert!(!begin(&store, job).await);
     }
 }
 

@@ -6,7 +6,7 @@ mod together;
 use serde_json::json;
 
 use super::Store;
-use super::jobs::{Insertion, JobId, JobKind, JobRequest};
+use super::jobs::{Begun, Insertion, JobId, JobKind, JobRequest};
 use super::labels::Labels;
 use super::limits::Limits;
 use super::results::PackedSpeed;
@@ -43,10 +43,15 @@ async fn upload(store: &Store, owner: &str, letter: char, labels: &Labels) -> bo
 }
 
 fn sweep(letter: char, speeds: u32) -> JobRequest {
+    sweep_on(letter, speeds, false)
+}
+
+/// The same, on one kind of processor or on any.
+fn sweep_on(letter: char, speeds: u32, one_kind: bool) -> JobRequest {
     let values: Vec<u32> = (1..=speeds).collect();
     let request = json!({
         "model": model_id(letter), "modes_per_speed": 20, "scene": {},
-        "speeds": {"values": values, "unit": "hz"},
+        "speeds": {"values": values, "unit": "hz"}, "reproducible": one_kind,
     });
     let kept = json!({"schema": 1, "rounds": 0, "request": request});
     JobRequest::from_json(JobKind::Sweep, &kept.to_string()).unwrap()
@@ -54,9 +59,13 @@ fn sweep(letter: char, speeds: u32) -> JobRequest {
 
 /// Queues a sweep over the model of this letter.
 async fn queue(store: &Store, owner: &str, letter: char, speeds: u32, labels: &Labels) -> JobId {
+    queue_request(store, owner, &sweep(letter, speeds), labels).await
+}
+
+async fn queue_request(store: &Store, owner: &str, request: &JobRequest, labels: &Labels) -> JobId {
     let id = JobId::new();
-    let (whose, request) = ((owner, Limits::default()), sweep(letter, speeds));
-    let inserted = store.insert_job(id, whose, &request, labels, Some(&facts("m")), None).await.unwrap();
+    let whose = (owner, Limits::default());
+    let inserted = store.insert_job(id, whose, request, labels, Some(&facts("m")), None).await.unwrap();
     assert_eq!(inserted, Insertion::Accepted);
     id
 }
@@ -84,6 +93,11 @@ fn result(index: u32) -> SpeedResult {
         contact: Some(ContactForces { peak_force: vec![vec![2.5]], ..ContactForces::default() }),
         end_state: Some(EndState(vec![f64::from(index)])),
     }
+}
+
+/// Takes a job in hand, on one kind of processor. Whether it wants work.
+async fn begin(store: &Store, job: JobId) -> bool {
+    store.begin_job(job, "V3").await.unwrap() == Begun::Yes
 }
 
 /// Keeps a finished speed. How many there are now.

@@ -2,7 +2,7 @@
 
 use futures::future::join_all;
 
-use super::{keep, labels, model_id, queue, result, sweep, upload};
+use super::{begin, keep, labels, model_id, queue, result, sweep, upload};
 use crate::store::Store;
 use crate::store::idempotency::Answer;
 use crate::store::jobs::{Insertion, JobDeletion, JobId};
@@ -22,7 +22,9 @@ async fn every_speed_counts_once() {
         let processes = store.processes(PROCESSES).await;
         upload(&store, "", 'a', &Labels::default()).await;
         let job = queue(&store, "", 'a', 16, &Labels::default()).await;
-        assert!(join_all(processes.iter().map(|store| store.begin_job(job))).await.iter().all(Result::is_ok));
+        assert!(
+            join_all(processes.iter().map(|store| begin(store, job))).await.into_iter().all(|begun| begun)
+        );
         // Each speed twice, by two of them.
         let speeds = (0..32).map(|i: u32| (&processes[i as usize % PROCESSES], result((i + i / 16) % 16)));
         join_all(speeds.map(async |(store, result)| keep(store, job, &result).await)).await;
@@ -46,7 +48,7 @@ async fn a_job_ends_once() {
         upload(&store, "", 'a', &Labels::default()).await;
         for _ in 0..8 {
             let job = queue(&store, "", 'a', 4, &Labels::default()).await;
-            store.begin_job(job).await.unwrap();
+            assert!(begin(&store, job).await);
             let document = [(Document::Errors, "[1]".to_owned())];
             let last = result(3);
             let (done, also_done, dismissed, last) = tokio::join!(

@@ -2,7 +2,6 @@
 
 use super::job::{Failure, JobId};
 use super::row::status_of;
-use crate::analysis::run::vectors;
 use crate::store::dialect::Guarded;
 use crate::store::end_states;
 use crate::store::error::StoreError;
@@ -10,6 +9,17 @@ use crate::store::handle::Store;
 use crate::store::results::Document;
 use crate::store::status::JobStatus;
 use crate::store::time::now;
+
+/// What came of taking a job in hand.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Begun {
+    /// It is running from here on.
+    Yes,
+    /// It wants no work any more.
+    Unwanted,
+    /// It belongs to processors with this other kind of vectors.
+    Elsewhere(String),
+}
 
 impl Store {
     /// Moves a job on, if the transition table allows it. Returns the status it has now; `None` if there is no
@@ -52,22 +62,33 @@ impl Store {
         self.with_reserve(|| self.advance_job(id, JobStatus::Dismissed, None)).await
     }
 
-    /// Takes a job in hand: it is running from here on. False if it wants no work any more.
-    pub async fn begin_job(&self, id: JobId) -> Result<bool, StoreError> {
+    /// Takes a job in hand on a processor with this kind of vectors.
+    pub async fn begin_job(&self, id: JobId, vectors: &str) -> Result<Begun, StoreError> {
         let mut write = self.write().await?;
         let begun = sqlx::query(
             "update jobs set status = 'running', updated_at = $2,
                  started_at = coalesce(started_at, $2),
                  vectors = case when coalesce(vectors, $3) = $3 then $3 else 'several' end
-             where id = $1 and status in ('accepted', 'running')",
+             where id = $1 and status in ('accepted', 'running')
+                 and (one_kind = 0 or coalesce(vectors, $3) = $3)",
         )
         .bind(id.to_string())
         .bind(now())
-        .bind(vectors())
+        .bind(vectors)
         .execute(&mut *write)
         .await?;
-        write.commit_job(id).await?;
-        Ok(begun.rows_affected() == 1)
+        if begun.rows_affected() == 1 {
+            write.commit_job(id).await?;
+            return Ok(Begun::Yes);
+        }
+        let kept: Option<Option<String>> = sqlx::query_scalar(
+            "select vectors from jobs where id = $1 and status in ('accepted', 'running')",
+        )
+        .bind(id.to_string())
+        .fetch_optional(&mut *write)
+        .await?;
+        write.rollback().await?;
+        Ok(kept.flatten().map_or(Begun::Unwanted, Begun::Elsewhere))
     }
 
     /// Ends a running job well: keeps the `documents` computed at its end (as JSON) or the id of the model it `made`,

@@ -63,8 +63,8 @@ impl Store {
         let time = now();
         let inserted = sqlx::query(
             "insert into jobs (id, kind, model, modes_per_speed, facts, request, speeds, created_at, updated_at, owner,
-                 revision, name, tags, notes)
-             select $1, $2, $3, $4, $5, $6, $7, $8, $8, $9, $10, $11, $12, $13
+                 revision, name, tags, notes, one_kind)
+             select $1, $2, $3, $4, $5, $6, $7, $8, $8, $9, $10, $11, $12, $13, $14
              where $3 is null or exists (select 1 from models where id = $3)",
         )
         .bind(id.to_string())
@@ -80,6 +80,7 @@ impl Store {
         .bind(&labels.name)
         .bind(serde_json::to_string(&labels.tags)?)
         .bind(&labels.notes)
+        .bind(i64::from(request.is_of_one_kind()))
         .execute(&mut *transaction)
         .await?;
         if inserted.rows_affected() == 0 {

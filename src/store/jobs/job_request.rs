@@ -48,6 +48,11 @@ impl JobRequest {
         }
     }
 
+    /// Whether all of it must be computed on processors with one kind of vectors.
+    pub fn is_of_one_kind(&self) -> bool {
+        matches!(self, Self::Sweep(request) if request.is_of_one_kind())
+    }
+
     /// The model it computes from, if it does.
     pub fn model(&self) -> Option<&str> {
         match self {

@@ -13,6 +13,7 @@ mod revise;
 mod row;
 mod take_up;
 
+pub use advance::Begun;
 pub use delete::JobDeletion;
 pub use find::JobFilter;
 pub use insert::Insertion;

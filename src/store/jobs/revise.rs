@@ -39,7 +39,7 @@ mod tests {
     use serde_json::json;
 
     use super::*;
-    use crate::store::jobs::JobKind;
+    use crate::store::jobs::{Begun, JobKind};
     use crate::store::status::JobStatus;
     use crate::store::testing::stores;
 
@@ -67,7 +67,7 @@ mod tests {
             let revise =
                 async |modes, speeds| store.revise_request(job, &sweep(modes, speeds), speeds).await.unwrap();
             assert!(!revise(20, 6).await, "nobody has it in hand");
-            assert!(store.begin_job(job).await.unwrap());
+            assert_eq!(store.begin_job(job, "V3").await.unwrap(), Begun::Yes);
             // Twice is as once.
             assert!(revise(30, 6).await && revise(30, 6).await);
             assert!(!revise(20, 5).await, "it has six by now");

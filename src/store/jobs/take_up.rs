@@ -4,8 +4,8 @@ use sqlx::AssertSqlSafe;
 
 use super::job::JobId;
 use super::row::read_id;
-use crate::analysis::run::REVISION;
-use crate::store::dialect::Guarded;
+use crate::analysis::run::{REVISION, vectors};
+use crate::store::dialect::{Dialect, Guarded};
 use crate::store::error::StoreError;
 use crate::store::handle::Store;
 use crate::store::sql::of;
@@ -60,29 +60,42 @@ impl Store {
         self.forget_marked()
     }
 
-    /// Lets unfinished jobs begin anew that another revision of the numerics began: all speeds of a sweep are of one. Settings that
+    /// Lets unfinished jobs begin anew that another revision of the numerics began: all speeds of a sweep are of one. The same of those
+    /// of one kind of vectors that another kind began, unless there may be machines of that one. Settings that
     /// were chosen and speeds that were added before stay, as if they had been asked for. For a service that starts.
     pub async fn restart_outdated(&self) -> Result<(), StoreError> {
-        const OUTDATED: &str = "status in ('accepted', 'running') and revision <> $1";
+        const OUTDATED: &str =
+            "status in ('accepted', 'running') and (revision <> $1 or one_kind = 1 and vectors <> $2)";
+        let own = (self.dialect == Dialect::Sqlite).then(vectors);
         let any = format!("select id from jobs where {OUTDATED} limit 1");
-        let any = sqlx::query(AssertSqlSafe(any)).bind(i64::from(REVISION));
+        let any = sqlx::query(AssertSqlSafe(any)).bind(i64::from(REVISION)).bind(&own);
         if any.fetch_optional(&self.readers).await?.is_none() {
             return Ok(());
         }
         let mut transaction = self.write().await?;
         for table in ["speed_results", "end_states", "documents"] {
             let begun = format!("delete from {table} where job in (select id from jobs where {OUTDATED})");
-            sqlx::query(AssertSqlSafe(begun)).bind(i64::from(REVISION)).execute(&mut *transaction).await?;
+            sqlx::query(AssertSqlSafe(begun))
+                .bind(i64::from(REVISION))
+                .bind(&own)
+                .execute(&mut *transaction)
+                .await?;
         }
         let restart = format!(
             "update jobs set finished = 0, diverged = 0, failed = 0, stored_bytes = 0, progress = 0, phase = '', plan = null,
-                 revision = $1
+                 revision = $1, vectors = null
              where {OUTDATED}"
         );
-        let restarted =
-            sqlx::query(AssertSqlSafe(restart)).bind(i64::from(REVISION)).execute(&mut *transaction).await?;
+        let restarted = sqlx::query(AssertSqlSafe(restart))
+            .bind(i64::from(REVISION))
+            .bind(&own)
+            .execute(&mut *transaction)
+            .await?;
         transaction.commit().await?;
-        tracing::info!(jobs = restarted.rows_affected(), "begin anew: their numbers were of another version");
+        tracing::info!(
+            jobs = restarted.rows_affected(),
+            "begin anew: their numbers were of another version or kind of processor"
+        );
         Ok(())
     }
 

@@ -52,6 +52,10 @@ pub struct SweepRequest {
     /// `speeds`, one list a round. An end of the range is not refined, and no sweep up or down.
     #[serde(default, skip_serializing_if = "is_false")]
     pub refine: bool,
+    /// Whether all speeds are computed on processors with one kind of vectors, those of the one that begins, whichever machines take
+    /// part: others may round differently. A sweep up or down always is.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub reproducible: bool,
     /// An accuracy to reach in place of the knobs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub accuracy: Option<Accuracy>,

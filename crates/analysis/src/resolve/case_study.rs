@@ -32,6 +32,7 @@ pub fn resolve_case_study(
         peak_prominence: default_peak_prominence(),
         sweep: SweepDirection::Independent,
         refine: false,
+        reproducible: false,
         accuracy: None,
         budget: None,
         control_speeds: None,

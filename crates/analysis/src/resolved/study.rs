@@ -70,6 +70,7 @@ impl StudyRequest {
             peak_prominence: default_peak_prominence(),
             sweep: SweepDirection::Independent,
             refine: false,
+            reproducible: false,
             accuracy: None,
             budget: None,
             control_speeds: None,

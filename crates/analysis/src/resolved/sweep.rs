@@ -30,6 +30,7 @@ pub struct ResolvedSweep {
     pub(crate) peak_prominence: f64,
     pub(crate) sweep: SweepDirection,
     pub(crate) refine: bool,
+    pub(crate) reproducible: bool,
     /// Speeds that are simulated again at a finer setting.
     pub(crate) control_speeds: u32,
     pub(crate) record: Record,
@@ -61,6 +62,7 @@ impl ResolvedSweep {
             peak_prominence: asked.peak_prominence,
             sweep: asked.sweep,
             refine: asked.refine,
+            reproducible: asked.reproducible,
             control_speeds: asked.control_speeds.unwrap_or(default_controls(modes, asked.sweep)),
             record: asked.record,
             fields: asked.fields,
@@ -154,6 +156,11 @@ impl ResolvedSweep {
         self.refine
     }
 
+    /// Whether all of it must be computed on processors with one kind of vectors.
+    pub fn is_of_one_kind(&self) -> bool {
+        self.reproducible || self.sweep != SweepDirection::Independent
+    }
+
     /// The histories it asks for.
     pub fn histories(&self) -> Option<&HistoriesRequest> {
         self.record.histories.as_ref()
@@ -236,6 +243,7 @@ impl From<ResolvedSweep> for SweepRequest {
             peak_prominence: sweep.peak_prominence,
             sweep: sweep.sweep,
             refine: sweep.refine,
+            reproducible: sweep.reproducible,
             accuracy,
             budget,
             control_speeds: Some(sweep.control_speeds).filter(|&speeds| speeds != usual),

@@ -199,6 +199,10 @@ pub struct Point {
     pub wall_time_s: f64,
     /// Version of the code that computed it.
     pub version: String,
+    /// Kind of vectors of the processor that computed it: another may round differently. Absent of speeds that an earlier version
+    /// computed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub vectors: Option<String>,
 }
 
 impl Point {
