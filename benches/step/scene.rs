@@ -134,6 +134,7 @@ impl Scene {
             budget: None,
             control_speeds: None,
             refine: false,
+            reproducible: false,
             fields: None,
             record: request::Record::default(),
         };

@@ -10,7 +10,7 @@ use super::probe::PATIENCE;
 use super::problem::{Kind, Problem, ProblemItem};
 use super::server::descriptors;
 use super::state::AppState;
-use crate::jobs::QUEUES;
+use crate::jobs::Work;
 use crate::store::StoreError;
 
 /// A sign of life.
@@ -146,7 +146,10 @@ fn files() -> Check {
 }
 
 fn workers(state: &AppState) -> Check {
-    let workers = state.jobs.work().workers;
-    let detail = format!("{workers} of {QUEUES} queues are being worked on");
-    Check::new("workers", workers == QUEUES, detail, Some(f64::from(workers)))
+    let Work { workers, queues, .. } = state.jobs.work();
+    let detail = match queues {
+        0 => "other processes compute".to_owned(),
+        _ => format!("{workers} of {queues} queues are being worked on"),
+    };
+    Check::new("workers", workers == queues, detail, Some(f64::from(workers)))
 }

@@ -100,7 +100,9 @@ async fn snapshot(state: &AppState) -> Snapshot {
     }
 
     let work = state.jobs.work();
-    now.gauge("workers", "Queues that are being worked on, of two", u64::from(work.workers));
+    now.gauge("workers", "Queues that are being worked on", u64::from(work.workers));
+    now.gauge("queues", "Queues that shall be worked on", u64::from(work.queues));
+    now.gauge("threads", "Threads that compute", work.threads as u64);
     now.gauge("speeds_running", "Speeds being computed", work.speeds_running);
     now.counter("speeds_finished", "Speeds finished since the start", work.speeds_finished);
     now.counter("steps", "Time steps of the speeds finished since the start", work.steps);

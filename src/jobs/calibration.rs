@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use tokio::sync::OnceCell;
 
+use super::machine;
 use super::pool::{CpuPool, Panicked};
 use crate::analysis::run::Calibration;
 use crate::store::{Store, StoreError};
@@ -28,13 +29,13 @@ impl Calibrated {
         let known = self
             .known
             .get_or_try_init(|| async {
-                let processors = std::thread::available_parallelism().map_or(1, |n| n.get() as u32);
-                if let Some(kept) = self.store.calibration(processors).await? {
+                let machine = machine::kind(&machine::here());
+                if let Some(kept) = self.store.calibration(&machine).await? {
                     return Ok::<_, E>(Arc::new(kept));
                 }
                 let measured = pool.run(Calibration::measure).await?;
-                tracing::info!(processors, ?measured, "measured what a step costs");
-                if let Err(error) = self.store.insert_calibration(processors, &measured).await {
+                tracing::info!(machine, ?measured, "measured what a step costs");
+                if let Err(error) = self.store.insert_calibration(&machine, &measured).await {
                     tracing::warn!(%error, "could not keep what a step costs; the next start measures again");
                 }
                 Ok(Arc::new(measured))

@@ -5,7 +5,10 @@ use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
 /// What is counted as it happens.
 #[derive(Debug, Default)]
 pub(super) struct Counters {
+    /// Queues that are being worked on.
     pub(super) workers: AtomicU32,
+    /// Those that shall be.
+    pub(super) queues: AtomicU32,
     pub(super) speeds_running: AtomicU64,
     pub(super) speeds_finished: AtomicU64,
     pub(super) steps: AtomicU64,

@@ -5,11 +5,15 @@ use std::sync::atomic::Ordering;
 
 use super::engine::{Engine, Live};
 use super::error::Interruption;
+use super::machine;
 use super::patience::patiently;
 use super::pool::Panicked;
 use crate::analysis::resolved::{ResolvedModalAnalysis, ResolvedSweep};
-use crate::analysis::run::{self, ModalAnalysisPlan, ModelFacts, ReducedSector, SweepPlan};
+use crate::analysis::result::Machine;
+use crate::analysis::run::{self, Calibration, ModalAnalysisPlan, ModelFacts, ReducedSector, SweepPlan};
 use crate::store::StoreError;
+#[cfg(feature = "cluster")]
+use crate::store::machines::WorkerProcess;
 
 /// Plans a resolved sweep.
 pub(super) async fn sweep<E: From<StoreError> + From<Panicked>>(
@@ -18,10 +22,33 @@ pub(super) async fn sweep<E: From<StoreError> + From<Panicked>>(
     facts: ModelFacts,
     reduced: Option<Arc<ReducedSector>>,
 ) -> Result<SweepPlan, E> {
-    let calibration = engine.calibrated.get::<E>(&engine.planner).await?;
-    let workers = engine.computing.threads();
-    let plan = move || run::plan_sweep(&request, &facts, reduced.as_deref(), &calibration, workers);
-    Ok(engine.planner.run(plan).await?)
+    let Capacity { machine, costs, threads } = capacity::<E>(engine).await?;
+    let plan = move || run::plan_sweep(&request, &facts, reduced.as_deref(), &costs, threads);
+    Ok(SweepPlan { machine: Some(machine), ..engine.planner.run(plan).await? })
+}
+
+/// What computes a sweep.
+struct Capacity {
+    /// One of its machines.
+    machine: Machine,
+    /// What steps cost there.
+    costs: Arc<Calibration>,
+    /// Threads of all machines.
+    threads: usize,
+}
+
+/// All machines that share the work, as fast as the one with most threads; this one where there is no other.
+async fn capacity<E: From<StoreError> + From<Panicked>>(engine: &Engine) -> Result<Capacity, E> {
+    #[cfg(feature = "cluster")]
+    if let Some(queue) = engine.store.shared_queue() {
+        let processes = queue.worker_processes().await?;
+        let threads = processes.iter().map(|process| process.threads as usize).sum();
+        if let Some(WorkerProcess { machine, costs, .. }) = processes.into_iter().next() {
+            return Ok(Capacity { machine, costs: Arc::new(costs), threads });
+        }
+    }
+    let costs = engine.calibrated.get::<E>(&engine.planner).await?;
+    Ok(Capacity { machine: machine::here(), costs, threads: engine.computing.threads() })
 }
 
 /// Plans a resolved modal analysis.

@@ -8,10 +8,12 @@ use tokio::task::JoinHandle;
 
 use super::computing::MOST_CRASHES;
 use super::engine::Engine;
-use super::error;
+use super::error::{self, Interruption};
+use super::machine;
 use super::tasks::{SharedTasks, Tasks};
 use crate::store::StoreError;
 use crate::store::jobs::{JobId, Unfinished};
+use crate::store::machines::WorkerProcess;
 use crate::store::shared_queue::Told;
 
 /// Time between two looks at what one should have been told of.
@@ -20,9 +22,16 @@ const BETWEEN_LOOKS: Duration = Duration::from_secs(2);
 /// Looks after which lost tasks are made again and ended ones forgotten: every process does it, and one would be enough.
 const LOOKS_BETWEEN_REPAIRS: u32 = 5;
 
-/// Starts both.
-pub(super) fn start(engine: &Arc<Engine>) -> [JoinHandle<()>; 2] {
-    [tokio::spawn(hear(Arc::clone(engine))), tokio::spawn(look(Arc::clone(engine)))]
+/// Time between two signs that this process computes.
+const BETWEEN_ANNOUNCEMENTS: Duration = Duration::from_secs(10);
+
+/// Starts both, and if this process computes, lets others know.
+pub(super) fn start(engine: &Arc<Engine>, computes: bool) -> Vec<JoinHandle<()>> {
+    let mut helpers = vec![tokio::spawn(hear(Arc::clone(engine))), tokio::spawn(look(Arc::clone(engine)))];
+    if computes {
+        helpers.push(tokio::spawn(announce(Arc::clone(engine))));
+    }
+    helpers
 }
 
 fn shared(engine: &Engine) -> Option<&SharedTasks> {
@@ -58,6 +67,25 @@ async fn hear_once(engine: &Engine, tasks: &SharedTasks) -> Result<(), StoreErro
         }
     }
     Ok(())
+}
+
+/// Lets others know what this process computes on.
+async fn announce(engine: Arc<Engine>) {
+    let Some(tasks) = shared(&engine) else { return };
+    let mut interval = tokio::time::interval(BETWEEN_ANNOUNCEMENTS);
+    interval.set_missed_tick_behavior(tokio::time::MissedTickBehavior::Delay);
+    loop {
+        interval.tick().await;
+        let announced = async {
+            let costs = engine.calibrated.get::<Interruption>(&engine.planner).await?;
+            let threads = engine.computing.threads() as u32;
+            let worker = WorkerProcess { machine: machine::here(), costs: (*costs).clone(), threads };
+            Ok::<_, Interruption>(tasks.announce(&worker).await?)
+        };
+        if let Err(error) = announced.await {
+            tracing::debug!(?error, "could not say what this process computes on; trying again later");
+        }
+    }
 }
 
 /// Looks after what nobody may have told of.

@@ -4,14 +4,15 @@ use std::sync::atomic::Ordering;
 
 use super::handle::Jobs;
 
-/// Queues that are worked on while the service is well.
-pub const QUEUES: u32 = 2;
-
 /// The work of this process in numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Work {
-    /// Queues that are being worked on, of [`QUEUES`].
+    /// Queues that are being worked on.
     pub workers: u32,
+    /// Queues that are worked on while the process is well; none where others compute.
+    pub queues: u32,
+    /// Threads that compute; none where others do.
+    pub threads: usize,
     /// Speeds being computed.
     pub speeds_running: u64,
     /// Speeds finished since the start.
@@ -26,8 +27,11 @@ impl Jobs {
     /// The work of this process in numbers.
     pub fn work(&self) -> Work {
         let counters = &self.engine.counters;
+        let queues = counters.queues.load(Ordering::Relaxed);
         Work {
             workers: counters.workers.load(Ordering::Relaxed),
+            queues,
+            threads: if queues > 0 { self.engine.computing.threads() } else { 0 },
             speeds_running: counters.speeds_running.load(Ordering::Relaxed),
             speeds_finished: counters.speeds_finished.load(Ordering::Relaxed),
             steps: counters.steps.load(Ordering::Relaxed),

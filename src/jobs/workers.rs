@@ -81,7 +81,7 @@ impl Runner {
                 helpers.push(tokio::spawn(async move { engine.tasks.hand_out().await }));
             }
             #[cfg(feature = "cluster")]
-            Tasks::Shared(_) => helpers.extend(share::start(&engine)),
+            Tasks::Shared(_) => helpers.extend(share::start(&engine, settings.workers > 0)),
         }
         let stop = CancellationToken::new();
         let mut workers = Vec::new();
@@ -92,6 +92,7 @@ impl Runner {
                         let (engine, stop) = (Arc::clone(&engine), stop.clone());
                         move |name| work((name, kind), Arc::clone(&engine), threads, stop.clone())
                     };
+                    engine.counters.queues.fetch_add(1, Ordering::Relaxed);
                     let queue = format!("{queue}-{kind:?}");
                     workers.push(tokio::spawn(supervise(queue, Arc::clone(&engine), stop.clone(), start)));
                 }

@@ -6,12 +6,12 @@ use super::time::now;
 use crate::analysis::run::{Calibration, VERSION};
 
 impl Store {
-    /// What this version of the program measured on a machine with so many processors.
-    pub async fn calibration(&self, processors: u32) -> Result<Option<Calibration>, StoreError> {
+    /// What this version of the program measured on such a machine.
+    pub async fn calibration(&self, machine: &str) -> Result<Option<Calibration>, StoreError> {
         let body: Option<String> =
-            sqlx::query_scalar("select body from calibrations where version = $1 and processors = $2")
+            sqlx::query_scalar("select body from calibrations where version = $1 and machine = $2")
                 .bind(VERSION)
-                .bind(i64::from(processors))
+                .bind(machine)
                 .fetch_optional(&self.readers)
                 .await?;
         // One that does not read is measured again.
@@ -19,19 +19,15 @@ impl Store {
     }
 
     /// Keeps it, in place of an earlier one.
-    pub async fn insert_calibration(
-        &self,
-        processors: u32,
-        measured: &Calibration,
-    ) -> Result<(), StoreError> {
+    pub async fn insert_calibration(&self, machine: &str, measured: &Calibration) -> Result<(), StoreError> {
         let mut write = self.write().await?;
         sqlx::query(
-            "insert into calibrations (version, processors, body, created_at) values ($1, $2, $3, $4)
-             on conflict (version, processors) do update
+            "insert into calibrations (version, machine, body, created_at) values ($1, $2, $3, $4)
+             on conflict (version, machine) do update
              set body = excluded.body, created_at = excluded.created_at",
         )
         .bind(VERSION)
-        .bind(i64::from(processors))
+        .bind(machine)
         .bind(serde_json::to_string(measured)?)
         .bind(now())
         .execute(&mut *write)

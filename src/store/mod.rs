@@ -25,6 +25,8 @@ pub mod jobs;
 pub mod labels;
 mod leftovers;
 pub mod limits;
+#[cfg(feature = "cluster")]
+pub mod machines;
 pub mod marks;
 pub mod models;
 mod objects;

@@ -26,8 +26,8 @@ use rubmap_wheel::dynamics::casing::RestrictionTable;
 use rubmap_wheel::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use rubmap_wheel::revision::VERSION;
 
-/// Plans a resolved sweep on `workers` threads; without `reduced`, what can be said without it. The choice and where sensors stand
-/// are for the caller to add.
+/// Plans a resolved sweep on `workers` threads; without `reduced`, what can be said without it. The choice, where sensors stand
+/// and which machine was measured are for the caller to add.
 pub fn plan_sweep(
     request: &ResolvedSweep,
     facts: &ModelFacts,
@@ -62,6 +62,7 @@ pub fn plan_sweep(
         placed_sensors: Vec::new(),
         speeds: speeds.len() as u32,
         workers: workers as u32,
+        machine: None,
         estimate: reduced.and_then(|reduced| {
             let all = estimate(&points, speeds, workers, reduced_bytes(reduced))?;
             let recorded = recorded_speeds(request);

@@ -58,6 +58,13 @@ fn sweep(plan: &SweepPlan) -> String {
     let mut words = effects(&plan.effects);
     // Writing to a string cannot fail, here and below.
     let _ = writeln!(words, "speeds      {}, {} side by side", plan.speeds, plan.workers);
+    if let Some(machine) = &plan.machine {
+        let _ = writeln!(
+            words,
+            "times of    {}: {} processors, {}",
+            machine.name, machine.processors, machine.processor
+        );
+    }
     reduction(&mut words, plan.reduction, plan.reduced_unknowns_at_most);
     if let Some(estimate) = &plan.estimate {
         let (free, contact) = (estimate.wall_time_s.free, estimate.wall_time_s.contact);

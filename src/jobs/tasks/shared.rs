@@ -11,7 +11,9 @@ use super::awake::Awake;
 use super::{Kind, Whose};
 use crate::analysis::run::vectors;
 use crate::jobs::patience::until_taken;
+use crate::store::StoreError;
 use crate::store::jobs::JobId;
+use crate::store::machines::WorkerProcess;
 use crate::store::queue::{PrepareJob, RunSpeed};
 use crate::store::shared_queue::SharedQueue;
 
@@ -56,10 +58,19 @@ impl SharedTasks {
         name
     }
 
+    /// Says which machine this process computes on.
+    pub(in crate::jobs) async fn announce(&self, worker: &WorkerProcess) -> Result<(), StoreError> {
+        self.queue.announce(&self.process, worker).await
+    }
+
     /// Gives others what the workers of this process have not done, once they have ended.
-    pub(in crate::jobs) async fn give_back(&self) {
+    pub(super) async fn give_back(&self) {
         let workers = self.workers.lock().unwrap_or_else(PoisonError::into_inner).clone();
-        if let Err(error) = self.queue.give_back(&workers).await {
+        let given = async {
+            self.queue.give_back(&workers).await?;
+            self.queue.leave(&self.process).await
+        };
+        if let Err(error) = given.await {
             tracing::warn!(%error, "could not give tasks back; others take them when this process has been silent for a while");
         }
     }

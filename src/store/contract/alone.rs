@@ -365,10 +365,10 @@ fn reduced(modes_per_speed: u32) -> ReducedSector {
 async fn what_can_be_computed_again_is_kept_with_its_model() {
     for store in stores().await {
         for cost in [1.0, 2.0] {
-            store.insert_calibration(8, &calibration(cost)).await.unwrap();
+            store.insert_calibration("eight", &calibration(cost)).await.unwrap();
         }
-        assert_eq!(store.calibration(8).await.unwrap(), Some(calibration(2.0)));
-        assert_eq!(store.calibration(4).await.unwrap(), None);
+        assert_eq!(store.calibration("eight").await.unwrap(), Some(calibration(2.0)));
+        assert_eq!(store.calibration("four").await.unwrap(), None);
 
         upload(&store, "", 'a', &Labels::default()).await;
         let (model, job) = (model_id('a'), queue(&store, "", 'a', 1, &Labels::default()).await);

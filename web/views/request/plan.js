@@ -61,6 +61,7 @@ function shown(plan) {
       ['Unknowns', plan.reduced_unknowns_at_most ? `at most ${number(plan.reduced_unknowns_at_most, 9)}` : null],
       ['Contact pairs', plan.contact_pairs],
       ['Workers', plan.workers],
+      ['Times are of', plan.machine ? `${plan.machine.name}: ${plan.machine.processors} × ${plan.machine.processor}` : null],
       ['Scheme', plan.points?.[0] ? `${plan.points[0].scheme.name}: ${plan.points[0].scheme.reason}` : null],
       ['Chosen setting', plan.choice?.reason],
       ['Pilot runs', plan.pilot_speeds_rad_s ? `${count(plan.pilot_speeds_rad_s.length, 'speed')} first, which choose the setting` : null],

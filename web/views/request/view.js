@@ -16,7 +16,7 @@ const GROUPS = [
   { title: null, names: ['speeds', 'speed', 'scene', 'lobes', 'superharmonics', 'grid'] },
   { title: 'What is recorded', names: ['sensors', 'record', 'fields'] },
   { title: 'Name, tags, notes', names: ['name', 'tags', 'notes'] },
-  { title: 'Settings', names: ['budget', 'modes_per_speed', 'integration', 'sweep', 'refine', 'control_speeds', 'max_engine_order', 'peak_prominence'] },
+  { title: 'Settings', names: ['budget', 'modes_per_speed', 'integration', 'sweep', 'refine', 'reproducible', 'control_speeds', 'max_engine_order', 'peak_prominence'] },
 ];
 
 /**

@@ -287,6 +287,13 @@ class Lobes(TypedDict, closed=True):
     width_rad: float
 
 
+class Machine(TypedDict):
+    name: str
+    processor: str
+    processors: int
+    vectors: str
+
+
 class Material(TypedDict, closed=True):
     density: NotRequired[float]
     fatigue_strength: NotRequired[FatigueStrength | None]
@@ -1035,6 +1042,7 @@ class SweepRequest(TypedDict, closed=True):
     peak_prominence: NotRequired[float]
     record: NotRequired[Record]
     refine: NotRequired[bool]
+    reproducible: NotRequired[bool]
     scene: Scene
     sensors: NotRequired[list[Sensor]]
     speeds: Speeds
@@ -1206,6 +1214,7 @@ class LabelledSweepRequest(TypedDict, closed=True):
     peak_prominence: NotRequired[float]
     record: NotRequired[Record]
     refine: NotRequired[bool]
+    reproducible: NotRequired[bool]
     scene: Scene
     sensors: NotRequired[list[Sensor]]
     speeds: Speeds
@@ -1279,6 +1288,7 @@ class SweepPlan(TypedDict):
     contact_pairs: int
     effects: list[PlannedEffect]
     estimate: NotRequired[Estimate | None]
+    machine: NotRequired[Machine | None]
     pilot_speeds_rad_s: NotRequired[list[float] | None]
     placed_sensors: NotRequired[list[PlacedSensor]]
     points: list[PlannedPoint]
@@ -1397,6 +1407,7 @@ class Point(TypedDict):
     symmetry_breaking: NotRequired[SymmetryBreaking | None]
     tip: NotRequired[TipResponse | None]
     validity: NotRequired[Validity | None]
+    vectors: NotRequired[str | None]
     version: str
     wall_time_s: float
     wear: NotRequired[WearReport | None]

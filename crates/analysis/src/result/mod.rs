@@ -27,7 +27,7 @@ pub use errors::{Control, ErrorEstimate, Errors, PointError, Quantity};
 pub use geometry::{ContactPlace, NodeKind, SectorGeometry, SectorNode};
 pub use histories::{ContactHistory, EnergyHistory, SensorHistory, SpeedHistories, TipPlace};
 pub use plan::{
-    CostRange, Estimate, GaugeEnd, ModalAnalysisPlan, PlacedSensor, PlannedEffect, PlannedPoint,
+    CostRange, Estimate, GaugeEnd, Machine, ModalAnalysisPlan, PlacedSensor, PlannedEffect, PlannedPoint,
     ReductionState, Spent, SweepPlan,
 };
 pub use point::{

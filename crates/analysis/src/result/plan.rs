@@ -37,8 +37,11 @@ pub struct SweepPlan {
     pub placed_sensors: Vec<PlacedSensor>,
     /// Speeds to simulate, those of the request.
     pub speeds: u32,
-    /// Threads that compute speeds side by side; one where each starts from the end of another.
+    /// Threads that compute speeds side by side, on all machines; one where each starts from the end of another.
     pub workers: u32,
+    /// The machine whose steps were measured for the times below.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub machine: Option<Machine>,
     /// Every speed if there are no more than three, otherwise the slowest, the middle and the fastest one; of wheels with
     /// large eigenproblems the slowest alone, which usually takes most steps.
     pub points: Vec<PlannedPoint>,
@@ -59,6 +62,20 @@ pub struct SweepPlan {
     pub settings: SweepRequest,
     /// Version of the code.
     pub version: String,
+}
+
+/// A machine that computes.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct Machine {
+    /// Its name.
+    pub name: String,
+    /// Its processor, as the system calls it.
+    pub processor: String,
+    /// Processors that the system gives to the program.
+    pub processors: u32,
+    /// Kind of vectors of the processor.
+    pub vectors: String,
 }
 
 /// Where a sensor stands.
