@@ -54,6 +54,7 @@ pub(super) fn check(CheckArgs { data }: CheckArgs) -> anyhow::Result<ExitCode> {
     Ok(if found.wrong.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
-fn runtime() -> std::io::Result<tokio::runtime::Runtime> {
+/// What a command runs on that waits for the store.
+pub(super) fn runtime() -> std::io::Result<tokio::runtime::Runtime> {
     tokio::runtime::Builder::new_current_thread().enable_all().build()
 }

@@ -11,6 +11,8 @@ mod groups;
 mod import;
 mod keeping;
 mod man;
+#[cfg(feature = "cluster")]
+mod migrate;
 mod modes;
 mod progress;
 mod repeat;
@@ -101,6 +103,10 @@ enum Command {
     /// Compute what services on the same PostgreSQL database are asked for.
     #[cfg(feature = "cluster")]
     Worker(worker::WorkerArgs),
+    /// Bring the tables of a PostgreSQL database up to date, and end.
+    #[cfg(feature = "cluster")]
+    #[command(after_help = migrate::ACCOUNTS)]
+    Migrate(migrate::MigrateArgs),
     /// Copy a data folder, while a service works on it or not.
     Backup(keeping::BackupArgs),
     /// Read everything in a data folder and say what is not as it was written.
@@ -161,6 +167,8 @@ impl Cli {
             Command::Serve(args) => serve::run(args)?,
             #[cfg(feature = "cluster")]
             Command::Worker(args) => worker::run(args)?,
+            #[cfg(feature = "cluster")]
+            Command::Migrate(args) => migrate::run(args)?,
             Command::Token(command) => token::token(command)?,
             Command::Backup(args) => keeping::backup(args)?,
             Command::Generate(args) => generate::generate(args)?,

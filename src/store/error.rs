@@ -16,6 +16,26 @@ pub enum StoreError {
     /// The tables could not be brought up to date.
     #[error("migration: {0}")]
     Migration(#[from] sqlx::migrate::MigrateError),
+    /// Tables that this account may not bring up to date.
+    #[error(
+        "the tables of the database are missing, of an earlier version or closed to this account, which may not change them ({0}): run \
+         `rubmap migrate --database postgres://OWNER@HOST/NAME` with the account that owns them; `rubmap migrate --help` says what an \
+         account must be granted that serves or computes"
+    )]
+    NotUpToDate(#[source] sqlx::Error),
+    /// Tables of a later program.
+    #[error(
+        "the tables of {part} have version {found}, which a later rubmap has made; this one knows no more than {known}: take the program \
+         that made them, or a later one"
+    )]
+    NewerTables {
+        /// What is in them.
+        part: &'static str,
+        /// Their version.
+        found: i64,
+        /// The last that this program knows.
+        known: i64,
+    },
     /// The queue's tables refused.
     #[error("queue: {0}")]
     Queue(#[from] apalis_sqlite::Error),
@@ -110,6 +130,8 @@ impl StoreError {
                 refusal(error).is_some()
             }
             Self::Migration(_)
+            | Self::NotUpToDate(_)
+            | Self::NewerTables { .. }
             | Self::LostDatabase { .. }
             | Self::Json(_)
             | Self::Numbers(_)

@@ -52,6 +52,7 @@ mod testing;
 mod time;
 pub mod trials;
 mod unfinished;
+mod upgrade;
 mod write;
 
 pub use backup::{Backup, Findings, backup, check};
@@ -59,4 +60,6 @@ pub use changes::Changes;
 pub use error::StoreError;
 pub use handle::Store;
 pub use objects::{Address, AddressError};
+pub use postgres::migrate;
 pub use readiness::Backlog;
+pub use upgrade::Upgrade;

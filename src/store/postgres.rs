@@ -4,10 +4,13 @@ use std::time::Duration;
 
 use sqlx::any::{AnyConnectOptions, AnyPoolOptions, install_default_drivers};
 use sqlx::migrate::Migrator;
-use sqlx::{AnyPool, Executor};
+use sqlx::{AnyConnection, AnyPool, Connection, Executor};
 
 use super::error::StoreError;
+#[cfg(feature = "cluster")]
+use super::shared_queue;
 use super::sqlite::PATIENCE;
+use super::upgrade::{Part, Upgrade};
 
 /// Connections of one process. A server has a hundred for all, unless told otherwise.
 const CONNECTIONS: u32 = 8;
@@ -20,23 +23,50 @@ static MIGRATIONS: Migrator = sqlx::migrate!("migrations/postgres");
 
 /// Opens the database at `url` and brings its tables up to date, while other processes that want the same wait.
 pub(super) async fn open(url: &str) -> Result<AnyPool, StoreError> {
-    install_default_drivers();
-    let options: AnyConnectOptions = url.parse()?;
+    migrate(url).await?;
     let pool = AnyPoolOptions::new()
         .acquire_timeout(2 * PATIENCE)
         .max_connections(CONNECTIONS)
-        .after_connect(|connection, _| {
-            let settings = format!(
-                "set lock_timeout = {}; set idle_in_transaction_session_timeout = {}",
-                PATIENCE.as_millis(),
-                IDLE.as_millis(),
-            );
-            Box::pin(async move { connection.execute(sqlx::AssertSqlSafe(settings)).await.map(drop) })
-        })
-        .connect_with(options)
+        .after_connect(|connection, _| Box::pin(set_up(connection)))
+        .connect_with(options(url)?)
         .await?;
-    MIGRATIONS.run(&pool).await?;
     Ok(pool)
+}
+
+/// Brings all tables of the database at `url` up to date. Where they are, it needs no right to change them.
+///
+/// # Errors
+/// Also of an account that may not change tables that are not up to date.
+pub async fn migrate(url: &str) -> Result<Vec<Upgrade>, StoreError> {
+    // Of its own: its end gives up the lock that keeps others waiting, however it ends.
+    let mut connection = AnyConnection::connect_with(&options(url)?).await?;
+    set_up(&mut connection).await?;
+    let ours = Part { name: "jobs and results", history: "_sqlx_migrations", migrations: &MIGRATIONS };
+    #[cfg_attr(not(feature = "cluster"), expect(unused_mut, reason = "there is no other part"))]
+    let mut upgrades = vec![ours.bring_up_to_date(&mut connection).await?];
+    #[cfg(feature = "cluster")]
+    {
+        let migrations = shared_queue::migrations();
+        let queue = Part { name: "the queue", history: "apalis._sqlx_migrations", migrations: &migrations };
+        upgrades.push(queue.bring_up_to_date(&mut connection).await?);
+    }
+    connection.close().await?;
+    Ok(upgrades)
+}
+
+fn options(url: &str) -> Result<AnyConnectOptions, StoreError> {
+    install_default_drivers();
+    Ok(url.parse()?)
+}
+
+/// What every connection begins with.
+async fn set_up(connection: &mut AnyConnection) -> Result<(), sqlx::Error> {
+    let settings = format!(
+        "set lock_timeout = {}; set idle_in_transaction_session_timeout = {}",
+        PATIENCE.as_millis(),
+        IDLE.as_millis(),
+    );
+    connection.execute(sqlx::AssertSqlSafe(settings)).await.map(drop)
 }
 
 #[cfg(all(test, feature = "cluster"))]

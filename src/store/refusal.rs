@@ -21,6 +21,11 @@ pub(super) fn refusal(error: &sqlx::Error) -> Option<Refusal> {
     }
 }
 
+/// Whether an account has no right to what it wanted (`insufficient_privilege`).
+pub(super) fn is_forbidden(error: &sqlx::Error) -> bool {
+    error.as_database_error().and_then(|error| error.code()).is_some_and(|code| code == "42501")
+}
+
 /// By a result code of `SQLite`: `BUSY`, `LOCKED`, `NOMEM`, `READONLY`, `IOERR`, `CANTOPEN` and `PROTOCOL` pass, as does `FULL`. It is
 /// the low byte of the extended one, which sqlx tells.
 fn of_result_code(extended: u32) -> Option<Refusal> {

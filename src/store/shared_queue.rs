@@ -9,6 +9,7 @@ use apalis::prelude::TaskBuilder;
 use apalis_postgres::{Config, PgTask, PostgresStorage, queries};
 use serde::Serialize;
 use sqlx::PgPool;
+use sqlx::migrate::Migrator;
 use sqlx::postgres::{PgConnection, PgListener, PgPoolOptions};
 
 use super::claims::Claim;
@@ -77,14 +78,13 @@ pub struct SharedQueue {
 }
 
 impl SharedQueue {
-    /// The queue of the database at `url`, whose other tables are up to date; makes its own.
+    /// The queue of the database at `url`, whose tables are up to date.
     pub(super) async fn open(url: &str) -> Result<Self, StoreError> {
         let pool = PgPoolOptions::new()
             .max_connections(CONNECTIONS)
             .acquire_timeout(2 * PATIENCE)
             .connect(url)
             .await?;
-        PostgresStorage::setup(&pool).await?;
         Ok(Self { pool })
     }
 
@@ -267,6 +267,11 @@ async fn take_turns(connection: &mut PgConnection, queue: &str) -> Result<(), St
     .execute(connection)
     .await?;
     Ok(())
+}
+
+/// What made the tables of the queue, one after the other.
+pub(super) fn migrations() -> Migrator {
+    PostgresStorage::<()>::migrations()
 }
 
 /// The name of a queue. A worker takes what is of its own revision of the numerics: all speeds of a job are of one. Some are of one kind
