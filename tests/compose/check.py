@@ -5,6 +5,7 @@ import os
 import re
 import secrets
 import shlex
+import shutil
 import signal
 import subprocess
 import sys
@@ -15,7 +16,7 @@ from pathlib import Path
 
 import yaml
 
-BINARY, FOLDER = sys.argv[1], Path(sys.argv[2])
+BINARY, FOLDER = sys.argv[1], Path(sys.argv[2], "run")
 PROJECT = Path(__file__).resolve().parents[2]
 POSTGRES = sorted(Path("/usr/lib/postgresql").glob("*/bin"))[-1]
 AS_NOBODY = ["setpriv", "--reuid", "65534", "--regid", "65534", "--clear-groups", "--"]
@@ -212,6 +213,8 @@ def expect_no_secrets():
 
 
 def main():
+    shutil.rmtree(FOLDER, ignore_errors=True)
+    FOLDER.mkdir()
     compose = read_compose()
     services = services_of(compose)
     hosts = FOLDER / "hosts"
