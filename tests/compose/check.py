@@ -21,6 +21,8 @@ PROJECT = Path(__file__).resolve().parents[2]
 POSTGRES = sorted(Path("/usr/lib/postgresql").glob("*/bin"))[-1]
 AS_NOBODY = ["setpriv", "--reuid", "65534", "--regid", "65534", "--clear-groups", "--"]
 SECRETS = {name: secrets.token_hex(16) for name in ["OWNER_PASSWORD", "DATABASE_PASSWORD", "OBJECTS_KEY", "OBJECTS_SECRET"]}
+# For documentation, and of nobody: on a loopback address the service would be more careful than it is in a container.
+NETWORK = "192.0.2"
 # Long enough for a start, for a job that a worker leaves behind, and for a sweep.
 PATIENCE_SECONDS = 180
 
@@ -121,7 +123,7 @@ def services_of(compose):
     for name, said in compose["services"].items():
         for k in range(said.get("scale", 1)):
             label = f"{name}-{k + 1}" if "scale" in said else name
-            found[label] = Service(label, said, f"127.0.18.{len(found) + 1}")
+            found[label] = Service(label, said, f"{NETWORK}.{len(found) + 1}")
     return found
 
 
@@ -137,7 +139,9 @@ def start_postgres(service, accounts):
     def run(program, *arguments, **options):
         subprocess.run([*AS_NOBODY, POSTGRES / program, *arguments], check=True, stdout=subprocess.DEVNULL, cwd="/tmp", **options)
 
-    run("initdb", "-U", user, "--auth-local=trust", "--auth-host=scram-sha-256", f"--pwfile={password}", "--no-sync", "-D", folder / "data")
+    run("initdb", "-U", user, "--auth-local=trust", f"--pwfile={password}", "--no-sync", "-D", folder / "data")
+    with (folder / "data/pg_hba.conf").open("a") as rules:
+        rules.write("host all all all scram-sha-256\n")
     server = [POSTGRES / "postgres", "-D", folder / "data", "-k", folder, "-c", f"listen_addresses={service.address}"]
     service.start([*AS_NOBODY, *server])
     until("PostgreSQL", lambda: subprocess.run([POSTGRES / "pg_isready", "-q", "-h", folder]).returncode == 0)
@@ -221,6 +225,8 @@ def main():
     names = [f"{service.address} {service.name}" for service in services.values()]
     hosts.write_text("\n".join(["127.0.0.1 localhost", *names, ""]))
     subprocess.run(["ip", "link", "set", "lo", "up"], check=True)
+    for service in services.values():
+        subprocess.run(["ip", "address", "add", service.address, "dev", "lo"], check=True)
     subprocess.run(["mount", "--bind", hosts, "/etc/hosts"], check=True)
     with ExitStack() as ends:
         for service in services.values():
