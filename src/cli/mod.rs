@@ -105,7 +105,7 @@ enum Command {
     Worker(worker::WorkerArgs),
     /// Bring the tables of a PostgreSQL database up to date, and end.
     #[cfg(feature = "cluster")]
-    #[command(after_help = migrate::ACCOUNTS)]
+    #[command(after_help = crate::store::ACCOUNTS)]
     Migrate(migrate::MigrateArgs),
     /// Copy a data folder, while a service works on it or not.
     Backup(keeping::BackupArgs),

@@ -62,4 +62,4 @@ pub use handle::Store;
 pub use objects::{Address, AddressError};
 pub use postgres::migrate;
 pub use readiness::Backlog;
-pub use upgrade::Upgrade;
+pub use upgrade::{ACCOUNTS, Upgrade};

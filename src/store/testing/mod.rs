@@ -1,7 +1,7 @@
 //! Empty stores for tests, on every database that the program was built for.
 
 #[cfg(feature = "cluster")]
-mod server;
+pub(super) mod server;
 
 use std::ops::Deref;
 
