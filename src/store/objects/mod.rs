@@ -128,6 +128,20 @@ impl Objects {
         shared.remote.has(&shared.name(path)?).await
     }
 
+    /// The length of a file of the data folder there.
+    #[cfg(feature = "cluster")]
+    pub(super) async fn size(&self, path: &Path) -> io::Result<Option<u64>> {
+        let Some(shared) = &self.shared else { return Ok(None) };
+        shared.remote.size(&shared.name(path)?).await
+    }
+
+    /// SHA-256 of a file of the data folder there, as it is read back.
+    #[cfg(feature = "cluster")]
+    pub(super) async fn sha256(&self, path: &Path) -> io::Result<Option<[u8; 32]>> {
+        let Some(shared) = &self.shared else { return Ok(None) };
+        shared.remote.sha256(&shared.name(path)?).await
+    }
+
     /// Removes a file of the data folder there.
     pub(super) async fn remove(&self, path: &Path) -> io::Result<()> {
         let Some(shared) = &self.shared else { return Ok(()) };

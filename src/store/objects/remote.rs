@@ -13,6 +13,7 @@ use object_store::prefix::PrefixStore;
 use object_store::{
     ClientConfigKey, Error, ObjectStore, ObjectStoreExt, PutPayload, RetryConfig, WriteMultipart,
 };
+use sha2::{Digest, Sha256};
 use tokio::io::{AsyncReadExt, AsyncWriteExt};
 
 use super::address::Address;
@@ -129,11 +130,30 @@ impl Remote {
     }
 
     pub(super) async fn has(&self, name: &str) -> io::Result<bool> {
+        Ok(self.size(name).await?.is_some())
+    }
+
+    /// The length of an object, if it is there.
+    pub(super) async fn size(&self, name: &str) -> io::Result<Option<u64>> {
         match self.store.head(&Name::from(name)).await {
-            Ok(_) => Ok(true),
-            Err(Error::NotFound { .. }) => Ok(false),
+            Ok(object) => Ok(Some(object.size)),
+            Err(Error::NotFound { .. }) => Ok(None),
             Err(error) => Err(self.error(name, error)),
         }
+    }
+
+    /// SHA-256 of an object, if it is there.
+    pub(super) async fn sha256(&self, name: &str) -> io::Result<Option<[u8; 32]>> {
+        let found = match self.store.get(&Name::from(name)).await {
+            Err(Error::NotFound { .. }) => return Ok(None),
+            found => found.map_err(|error| self.error(name, error))?,
+        };
+        let mut sum = Sha256::new();
+        let mut blocks = found.into_stream();
+        while let Some(block) = blocks.try_next().await.map_err(|error| self.error(name, error))? {
+            sum.update(&block);
+        }
+        Ok(Some(sum.finalize().into()))
     }
 
     /// Names of the folders in a folder.
