@@ -421,3 +421,15 @@ async fn ask(store: &Store, text: &str) -> Vec<crate::store::jobs::JobHead> {
     let filter = JobFilter { name: text.clone(), tag: text.clone(), owner: text, ..JobFilter::default() };
     store.jobs(filter, 1).await.unwrap()
 }
+
+#[tokio::test]
+async fn a_text_with_a_nul_is_kept_or_refused_as_such() {
+    for store in stores().await {
+        upload(&store, "", 'a', &Labels::default()).await;
+        let notes = LabelChanges { notes: Some(Some("a\0b".to_owned())), ..LabelChanges::default() };
+        match store.label_model(&model_id('a'), None, notes).await {
+            Ok(_) => assert_eq!(store.dialect, Dialect::Sqlite),
+            Err(error) => assert!(error.is_no_text() && !error.may_pass(), "{error}"),
+        }
+    }
+}
