@@ -67,7 +67,7 @@ impl Cluster {
     /// None where there is no PostgreSQL.
     fn start() -> Option<Self> {
         let database = Postgres::new()?;
-        let to_database = Proxy::to(database.port());
+        let to_database = Proxy::to(database.port);
         let storage = S3::new().map(|server| {
             let proxy = Proxy::to(server.port());
             (server, proxy)
@@ -90,7 +90,7 @@ impl Cluster {
             .arg(role)
             .arg("--data")
             .arg(self.path(folder))
-            .env("RUBMAP_DATABASE", self.database.url_by(self.to_database.port()));
+            .env("RUBMAP_DATABASE", self.database.url_by(self.to_database.port));
         match &self.storage {
             Some((_, proxy)) => command.envs(s3::environment(proxy.port())),
             None => command.env("RUBMAP_OBJECTS", self.path("objects")),

@@ -16,7 +16,8 @@ const NOBODY: u32 = 65_534;
 pub(crate) struct Postgres {
     binaries: PathBuf,
     folder: tempfile::TempDir,
-    port: u16,
+    /// The port of this machine at which it listens.
+    pub(crate) port: u16,
     process: Option<Child>,
 }
 
@@ -42,11 +43,6 @@ impl Postgres {
         assert!(made.success(), "initdb failed");
         server.start();
         Some(server)
-    }
-
-    /// The port of this machine at which it listens.
-    pub(crate) fn port(&self) -> u16 {
-        self.port
     }
 
     /// The address of its database, by way of a port.

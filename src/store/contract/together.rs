@@ -181,7 +181,7 @@ async fn a_job_of_one_kind_says_that_it_waits_for_it() {
             queue.tell_who_waits().await.unwrap();
             let mut phases = Vec::new();
             for job in [pinned, other, new] {
-                phases.push(store.job(job).await.unwrap().unwrap().phase);
+                phases.push(store.job(job).await.unwrap().unwrap().phase.clone());
             }
             phases
         };
