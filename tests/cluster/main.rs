@@ -8,6 +8,7 @@
 mod app;
 #[path = "../chaos/catalogue.rs"]
 mod catalogue;
+mod copy;
 #[path = "../api/model.rs"]
 #[expect(dead_code, reason = "shared with tests that need more of it")]
 mod model;
