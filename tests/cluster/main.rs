@@ -8,6 +8,7 @@
 mod app;
 #[path = "../chaos/catalogue.rs"]
 mod catalogue;
+mod copy;
 #[path = "../api/model.rs"]
 #[expect(dead_code, reason = "shared with tests that need more of it")]
 mod model;
@@ -18,6 +19,7 @@ mod program;
 mod proxy;
 #[path = "../chaos/random.rs"]
 mod random;
+#[expect(dead_code, reason = "shared with tests that need more of it")]
 mod s3;
 
 use std::collections::BTreeMap;
@@ -69,7 +71,7 @@ impl Cluster {
         let database = Postgres::new()?;
         let to_database = Proxy::to(database.port);
         let storage = S3::new().map(|server| {
-            let proxy = Proxy::to(server.port());
+            let proxy = Proxy::to(server.port);
             (server, proxy)
         });
         if !Path::new(FAKETIME).exists() {
@@ -92,7 +94,7 @@ impl Cluster {
             .arg(self.path(folder))
             .env("RUBMAP_DATABASE", self.database.url_by(self.to_database.port));
         match &self.storage {
-            Some((_, proxy)) => command.envs(s3::environment(proxy.port())),
+            Some((_, proxy)) => command.envs(storage_at(proxy.port())),
             None => command.env("RUBMAP_OBJECTS", self.path("objects")),
         };
         command
@@ -191,6 +193,18 @@ impl Cluster {
             self.workers[k].as_ref().unwrap().signal("CONT");
         }
     }
+}
+
+/// The environment of who finds the bucket of the test by way of a port.
+fn storage_at(port: u16) -> [(&'static str, String); 6] {
+    [
+        ("RUBMAP_OBJECTS", format!("s3://{}/rubmap", S3::BUCKET)),
+        ("AWS_ENDPOINT", format!("http://127.0.0.1:{port}")),
+        ("AWS_ALLOW_HTTP", "true".to_owned()),
+        ("AWS_REGION", "us-east-1".to_owned()),
+        ("AWS_ACCESS_KEY_ID", "test".to_owned()),
+        ("AWS_SECRET_ACCESS_KEY", "test".to_owned()),
+    ]
 }
 
 fn variable(name: &str, default: u64) -> u64 {

@@ -11,6 +11,8 @@ mod address;
 mod error;
 #[cfg(feature = "cluster")]
 mod remote;
+#[cfg(all(test, feature = "cluster"))]
+mod tests;
 
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
@@ -46,9 +48,12 @@ struct Shared {
 impl Objects {
     /// That at `address`, of which the data folder `data` is a cache.
     pub(super) async fn open(address: &Address, data: &Path, reserve: Reserve) -> io::Result<Self> {
-        let remote = Remote::open(address).await?;
+        Ok(Self::over(Remote::open(address).await?, data, reserve))
+    }
+
+    fn over(remote: Remote, data: &Path, reserve: Reserve) -> Self {
         let shared = Shared { data: data.to_owned(), reserve, remote, runtime: Handle::current() };
-        Ok(Self { shared: Some(Arc::new(shared)) })
+        Self { shared: Some(Arc::new(shared)) }
     }
 
     /// Whether there is one.

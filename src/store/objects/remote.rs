@@ -54,6 +54,10 @@ impl Remote {
     /// The store at `address`, which answers.
     pub(super) async fn open(address: &Address) -> io::Result<Self> {
         let store = connect(address).map_err(|failure| failure.of(address, None))?;
+        Self::over(address, store).await
+    }
+
+    pub(super) async fn over(address: &Address, store: Arc<dyn ObjectStore>) -> io::Result<Self> {
         let remote = Self { address: address.clone(), store };
         // One page of names: keys and bucket are right.
         let first = remote.store.list(None).next().await;
@@ -200,25 +204,31 @@ fn connect(address: &Address) -> Result<Arc<dyn ObjectStore>, Failure> {
             let store = LocalFileSystem::new_with_prefix(folder).map_err(failure)?;
             Ok(Arc::new(store.with_fsync(true).with_automatic_cleanup(true)))
         }
-        Address::Bucket { bucket, prefix } => {
-            // The client for HTTP has no library for TLS of its own choice; a second call changes nothing.
-            let _ = rustls::crypto::ring::default_provider().install_default();
-            let retry =
-                RetryConfig { max_retries: RETRIES, retry_timeout: RETRYING, ..RetryConfig::default() };
-            let store = AmazonS3Builder::from_env()
-                .with_bucket_name(bucket)
-                // A large object takes what it takes, as long as it comes.
-                .with_config(AmazonS3ConfigKey::Client(ClientConfigKey::Timeout), "1 day")
-                .with_config(AmazonS3ConfigKey::Client(ClientConfigKey::ReadTimeout), SILENCE)
-                .with_retry(retry)
-                .build()
-                .map_err(|error| Failure::Settings(format!("the settings AWS_… do not fit: {error}")))?;
-            if prefix.is_empty() {
-                return Ok(Arc::new(store));
-            }
-            Ok(Arc::new(PrefixStore::new(store, prefix.as_str())))
-        }
+        Address::Bucket { bucket, prefix } => connect_bucket(AmazonS3Builder::from_env(), bucket, prefix),
     }
+}
+
+/// A bucket by what `settings` say beside.
+pub(super) fn connect_bucket(
+    settings: AmazonS3Builder,
+    bucket: &str,
+    prefix: &str,
+) -> Result<Arc<dyn ObjectStore>, Failure> {
+    // The client for HTTP has no library for TLS of its own choice; a second call changes nothing.
+    let _ = rustls::crypto::ring::default_provider().install_default();
+    let retry = RetryConfig { max_retries: RETRIES, retry_timeout: RETRYING, ..RetryConfig::default() };
+    let store = settings
+        .with_bucket_name(bucket)
+        // A large object takes what it takes, as long as it comes.
+        .with_config(AmazonS3ConfigKey::Client(ClientConfigKey::Timeout), "1 day")
+        .with_config(AmazonS3ConfigKey::Client(ClientConfigKey::ReadTimeout), SILENCE)
+        .with_retry(retry)
+        .build()
+        .map_err(|error| Failure::Settings(format!("the settings AWS_… do not fit: {error}")))?;
+    if prefix.is_empty() {
+        return Ok(Arc::new(store));
+    }
+    Ok(Arc::new(PrefixStore::new(store, prefix)))
 }
 
 /// What an error of the library means.
