@@ -92,7 +92,7 @@ impl Cluster {
             .arg(role)
             .arg("--data")
             .arg(self.path(folder))
-            .env("RUBMAP_DATABASE", self.database.url_by(self.to_database.port));
+            .env("RUBMAP_DATABASE", self.database.url_by(self.to_database.port()));
         match &self.storage {
             Some((_, proxy)) => command.envs(storage_at(proxy.port())),
             None => command.env("RUBMAP_OBJECTS", self.path("objects")),
