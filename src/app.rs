@@ -13,7 +13,7 @@ use crate::config::Config;
 use crate::http::server::{self, descriptors};
 use crate::http::{self, AppState, Contract, Followed, LargeAnswers, Transport};
 use crate::jobs::{Runner, Settings};
-use crate::store::{Store, StoreError};
+use crate::store::{LOCK, Store, StoreError};
 use crate::tokens::{Tokens, TokensError};
 use crate::version;
 
@@ -222,7 +222,7 @@ async fn open_once(config: &Config) -> Result<Store, StoreError> {
 fn lock(folder: &Path) -> Result<File, StartError> {
     let failed = |source| StartError::Folder { folder: folder.to_owned(), source };
     std::fs::create_dir_all(folder).map_err(failed)?;
-    let file = File::create(folder.join("lock")).map_err(failed)?;
+    let file = File::create(folder.join(LOCK)).map_err(failed)?;
     match file.try_lock() {
         Ok(()) => Ok(file),
         Err(TryLockError::WouldBlock) => Err(StartError::InUse(folder.to_owned())),

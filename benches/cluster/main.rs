@@ -137,7 +137,7 @@ async fn overhead(database: &Postgres) {
 /// How much faster two workers are than one.
 async fn two_over_one(database: &Postgres) {
     const SPEEDS: u32 = 48;
-    const REVOLUTIONS: u32 = 4000;
+    const REVOLUTIONS: u32 = 600;
     let (mut one, mut two) = (f64::INFINITY, f64::INFINITY);
     for _ in 0..TIMES {
         for (workers, fastest) in [(1, &mut one), (2, &mut two)] {

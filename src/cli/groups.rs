@@ -15,7 +15,7 @@ const GROUPS: [(&str, &[&str]); 4] = [
     #[cfg(not(feature = "cluster"))]
     ("Running a service", &["serve", "token", "backup", "check"]),
     #[cfg(feature = "cluster")]
-    ("Running a service", &["serve", "worker", "migrate", "token", "backup", "check"]),
+    ("Running a service", &["serve", "worker", "migrate", "copy", "token", "backup", "check"]),
     ("This program", &["completions", "man", "help"]),
 ];
 

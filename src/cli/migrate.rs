@@ -7,18 +7,6 @@ use super::keeping::runtime;
 use crate::config::DatabaseUrl;
 use crate::store;
 
-/// What accounts need, for the help.
-pub(super) const ACCOUNTS: &str = "\
-The account that runs this owns the tables. It needs the right to create in the database (a schema, the extension hstore) and in its schema
-public; the owner of the database has both. An account SERVICE for `serve` and `worker` needs no more than this, which the owner grants:
-
-  grant usage on schema public, apalis to SERVICE;
-  grant select, insert, update, delete on all tables in schema public, apalis to SERVICE;
-  revoke insert, update, delete on public._sqlx_migrations, apalis._sqlx_migrations from SERVICE;
-  alter default privileges in schema public, apalis grant select, insert, update, delete on tables to SERVICE;
-
-The last line is about tables of later versions.";
-
 /// A database.
 #[derive(Debug, Args)]
 pub(super) struct MigrateArgs {

@@ -2,6 +2,8 @@
 
 mod case;
 mod client;
+#[cfg(feature = "cluster")]
+mod copy;
 mod demo;
 mod ending;
 mod field_file;
@@ -105,8 +107,12 @@ enum Command {
     Worker(worker::WorkerArgs),
     /// Bring the tables of a PostgreSQL database up to date, and end.
     #[cfg(feature = "cluster")]
-    #[command(after_help = migrate::ACCOUNTS)]
+    #[command(after_help = crate::store::ACCOUNTS)]
     Migrate(migrate::MigrateArgs),
+    /// Copy a data folder into the database and the object storage of a cluster.
+    #[cfg(feature = "cluster")]
+    #[command(after_help = copy::EFFECTS)]
+    Copy(copy::CopyArgs),
     /// Copy a data folder, while a service works on it or not.
     Backup(keeping::BackupArgs),
     /// Read everything in a data folder and say what is not as it was written.
@@ -169,6 +175,8 @@ impl Cli {
             Command::Worker(args) => worker::run(args)?,
             #[cfg(feature = "cluster")]
             Command::Migrate(args) => migrate::run(args)?,
+            #[cfg(feature = "cluster")]
+            Command::Copy(args) => copy::run(args)?,
             Command::Token(command) => token::token(command)?,
             Command::Backup(args) => keeping::backup(args)?,
             Command::Generate(args) => generate::generate(args)?,

@@ -271,6 +271,12 @@ impl From<Violation> for ProblemItem {
 
 impl From<StoreError> for Problem {
     fn from(error: StoreError) -> Self {
+        if error.is_no_text() {
+            return Self::new(
+                Kind::InvalidRequest,
+                "a text of the request has the character U+0000; leave it out",
+            );
+        }
         tracing::error!(%error, "store failed");
         if error.is_disk_full() {
             let detail = "the disk of the data folder is full; nothing was kept of this request: send it again once there is room";

@@ -1,5 +1,6 @@
 //! A full disk, a locked database, no descriptors left: what was asked for or computed waits until that has passed.
 
+use std::io::ErrorKind;
 use std::time::Duration;
 
 use super::error::{Interruption, waiting_for};
@@ -9,6 +10,9 @@ use crate::store::StoreError;
 /// Time between two attempts.
 pub(super) const BETWEEN_ATTEMPTS: Duration = Duration::from_secs(1);
 
+/// Longest time that a write may take. A server that was cut off in the middle of one never answers, and nobody says so.
+const LONGEST_WRITE: Duration = Duration::from_secs(300);
+
 /// Writes a result, again and again while the store cannot take it, unless the job is not wanted any more: what was
 /// computed is not computed again. What costs nothing to repeat is repeated with its whole task.
 pub(super) async fn patiently<T, W>(watch: &Watch, mut write: impl FnMut() -> W) -> Result<T, Interruption>
@@ -17,7 +21,7 @@ where
 {
     let mut waiting = None;
     loop {
-        match write().await {
+        match in_time(LONGEST_WRITE, write()).await {
             Err(error) if error.may_pass() => {
                 if watch.is_cancelled() {
                     return Err(Interruption::NotWanted);
@@ -33,6 +37,14 @@ where
     }
 }
 
+async fn in_time<T>(
+    limit: Duration,
+    write: impl Future<Output = Result<T, StoreError>>,
+) -> Result<T, StoreError> {
+    let written = tokio::time::timeout(limit, write).await;
+    written.unwrap_or_else(|_| Err(StoreError::File(ErrorKind::TimedOut.into())))
+}
+
 /// Pushes a task until the queue takes it, which it does at once unless memory is short.
 pub(super) async fn until_taken<P: Future<Output = Result<(), StoreError>>>(push: impl Fn() -> P) {
     while let Err(error) = push().await {
@@ -43,7 +55,7 @@ pub(super) async fn until_taken<P: Future<Output = Result<(), StoreError>>>(push
 
 #[cfg(test)]
 mod tests {
-    use std::io::{Error, ErrorKind};
+    use std::io::Error;
     use std::sync::Arc;
 
     use super::*;
@@ -62,6 +74,12 @@ mod tests {
         };
         assert!(matches!(patiently(&watch(), &mut write).await, Err(Interruption::Store(_))));
         assert!(matches!(patiently(&watch(), &mut write).await, Ok(7)));
+    }
+
+    #[tokio::test]
+    async fn what_is_never_answered_may_be_said_again() {
+        let answer = in_time(Duration::from_millis(1), std::future::pending::<Result<(), _>>()).await;
+        assert!(answer.unwrap_err().may_pass());
     }
 
     #[tokio::test]

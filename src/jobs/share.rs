@@ -120,5 +120,6 @@ async fn repair(engine: &Engine, tasks: &SharedTasks) -> Result<(), StoreError> 
             engine.tasks.prepare(&owner, job);
         }
     }
+    tasks.queue().tell_who_waits().await?;
     tasks.queue().tidy().await
 }

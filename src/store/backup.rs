@@ -89,7 +89,7 @@ pub async fn backup(data: &Path, to: &Path) -> Result<Backup, StoreError> {
 }
 
 /// Refuses a folder without a database.
-fn expect_data_folder(data: &Path) -> Result<(), StoreError> {
+pub(super) fn expect_data_folder(data: &Path) -> Result<(), StoreError> {
     if data.join(DATABASE).try_exists()? {
         return Ok(());
     }
@@ -127,15 +127,11 @@ pub async fn check(data: &Path) -> Result<Findings, StoreError> {
         let (table, parent): (String, String) = (row.try_get(0)?, row.try_get(2)?);
         found.wrong.push(format!("a row of {table} belongs to a row of {parent} that is not there"));
     }
-    let known = sqlite::MIGRATIONS.iter().map(|migration| migration.version).max();
-    let version: Option<i64> =
-        sqlx::query_scalar("select max(version) from _sqlx_migrations").fetch_one(&mut database).await?;
+    let (version, known) = (sqlite::version(&mut database).await?, sqlite::known_version());
     if version != known {
-        let version = version.unwrap_or(0);
         found.wrong.push(format!(
-            "the database has version {version}, this program knows {}: start the service once to bring it up to date, or \
-             take the program that wrote it",
-            known.unwrap_or(0)
+            "the database has version {version}, this program knows {known}: start the service once to bring it up to date, or \
+             take the program that wrote it"
         ));
         return Ok(found);
     }

@@ -52,6 +52,12 @@ pub struct BasisFolder {
     pub(super) objects: Objects,
 }
 
+/// The folder that has them all, in the data folder, and what names of files in its folders begin with that this program can read.
+#[cfg(feature = "cluster")]
+pub(super) fn place() -> (&'static str, String) {
+    (FOLDER, prefix(LAYOUT))
+}
+
 impl Store {
     /// The basis of the reduction of `model`.
     pub fn basis(&self, model: &str, modes_per_speed: u32) -> BasisFolder {

@@ -21,6 +21,9 @@ use super::reserve::Reserve;
 use super::unfinished::{UNFINISHED, unfinished_file};
 use crate::dynamics::reduction::{BasisRows, Checkpoints};
 
+/// Name of the folder that has them all, in the data folder.
+const FOLDER: &str = "checkpoints";
+
 /// Before the bytes of a part stand their number (little-endian) and their SHA-256.
 const HEADER: usize = 8 + 32;
 
@@ -34,6 +37,12 @@ pub struct CheckpointFolder {
     lost: Arc<Mutex<Option<std::io::Error>>>,
     reserve: Reserve,
     objects: Objects,
+}
+
+/// The folder that has them all, in the data folder, and what names of files in its folders begin with that this program can read.
+#[cfg(feature = "cluster")]
+pub(super) fn place() -> (&'static str, String) {
+    (FOLDER, prefix())
 }
 
 impl Store {
@@ -57,7 +66,7 @@ impl Store {
     }
 
     fn checkpoint_root(&self) -> PathBuf {
-        self.folder.join("checkpoints")
+        self.folder.join(FOLDER)
     }
 
     /// Removes the checkpoints of one reduction, or of all reductions of a model.

@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use sqlx::PgPool;
+use tokio::runtime::Handle;
 use tokio::task::JoinHandle;
 
 use super::error::StoreError;
@@ -19,6 +20,8 @@ pub struct Claim {
     pool: PgPool,
     name: String,
     holder: String,
+    /// Where it is renewed and given up: it may be dropped on a thread that is none of the runtime's.
+    runtime: Handle,
     renewal: JoinHandle<()>,
 }
 
@@ -29,7 +32,8 @@ impl Claim {
         if !take(pool, name, &holder).await? {
             return Ok(None);
         }
-        let renewal = tokio::spawn({
+        let runtime = Handle::current();
+        let renewal = runtime.spawn({
             let (pool, name, holder) = (pool.clone(), name.to_owned(), holder.clone());
             async move {
                 loop {
@@ -45,7 +49,7 @@ impl Claim {
                 }
             }
         });
-        Ok(Some(Self { pool: pool.clone(), name: name.to_owned(), holder, renewal }))
+        Ok(Some(Self { pool: pool.clone(), name: name.to_owned(), holder, runtime, renewal }))
     }
 }
 
@@ -55,7 +59,7 @@ impl Drop for Claim {
         let (pool, name, holder) =
             (self.pool.clone(), std::mem::take(&mut self.name), std::mem::take(&mut self.holder));
         // Where this fails, silence says it.
-        tokio::spawn(async move {
+        self.runtime.spawn(async move {
             let given =
                 sqlx::query("delete from claims where name = $1 and holder = $2").bind(name).bind(holder);
             let _ = given.execute(&pool).await;

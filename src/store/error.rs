@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use sqlx::migrate::MigrateError;
 
-use super::refusal::{Refusal, refusal};
+use super::refusal::{Refusal, is_no_text, refusal};
 
 /// A failure of the database, the disk or of something stored there.
 #[derive(Debug, thiserror::Error)]
@@ -100,6 +100,11 @@ impl StoreError {
     /// [`Self::may_pass`] of a file.
     pub fn may_pass_of(error: &std::io::Error) -> bool {
         io_may_pass(error)
+    }
+
+    /// Whether a text of the request has a character in it that the database cannot keep: U+0000.
+    pub fn is_no_text(&self) -> bool {
+        matches!(self, Self::Database(error) if is_no_text(error))
     }
 
     /// Whether the package of a model is not where it was put.

@@ -16,6 +16,9 @@ use super::reserve::Reserve;
 use super::shared_queue::SharedQueue;
 use super::{postgres, sqlite};
 
+/// Name of the file in a data folder that is locked by the process which has the folder.
+pub const LOCK: &str = "lock";
+
 /// The database and the data folder, which has the packages.
 #[derive(Debug, Clone)]
 pub struct Store {

@@ -57,6 +57,23 @@ impl SharedQueue {
             .collect()
     }
 
+    /// Says of unfinished jobs of one kind of processor that they wait, if nobody is there who may go on with them.
+    pub async fn tell_who_waits(&self) -> Result<(), StoreError> {
+        sqlx::query(
+            "update jobs set phase = 'waiting for a worker with ' || vectors || ' vectors, on which it was begun'
+             where status in ('accepted', 'running') and one_kind = 1 and phase not like 'waiting for a worker with %'
+                 and not exists (
+                     select 1 from machines where seen > now() - make_interval(secs => $1)
+                         and machine::jsonb ->> 'vectors' = jobs.vectors
+                 )
+                 and vectors is not null",
+        )
+        .bind(SILENCE)
+        .execute(self.pool())
+        .await?;
+        Ok(())
+    }
+
     /// Says that a process has ended.
     pub async fn leave(&self, process: &str) -> Result<(), StoreError> {
         sqlx::query("delete from machines where process = $1").bind(process).execute(self.pool()).await?;

@@ -15,6 +15,8 @@ pub mod claims;
 mod computing;
 #[cfg(test)]
 mod contract;
+#[cfg(feature = "cluster")]
+mod copy;
 mod dialect;
 mod end_states;
 mod error;
@@ -57,9 +59,11 @@ mod write;
 
 pub use backup::{Backup, Findings, backup, check};
 pub use changes::Changes;
+#[cfg(feature = "cluster")]
+pub use copy::{Copied, CopyError, CopyProgress, copy};
 pub use error::StoreError;
-pub use handle::Store;
+pub use handle::{LOCK, Store};
 pub use objects::{Address, AddressError};
 pub use postgres::migrate;
 pub use readiness::Backlog;
-pub use upgrade::Upgrade;
+pub use upgrade::{ACCOUNTS, Upgrade};

@@ -39,8 +39,7 @@ pub(super) async fn open(url: &str) -> Result<AnyPool, StoreError> {
 /// Also of an account that may not change tables that are not up to date.
 pub async fn migrate(url: &str) -> Result<Vec<Upgrade>, StoreError> {
     // Of its own: its end gives up the lock that keeps others waiting, however it ends.
-    let mut connection = AnyConnection::connect_with(&options(url)?).await?;
-    set_up(&mut connection).await?;
+    let mut connection = connect(url).await?;
     let ours = Part { name: "jobs and results", history: "_sqlx_migrations", migrations: &MIGRATIONS };
     #[cfg_attr(not(feature = "cluster"), expect(unused_mut, reason = "there is no other part"))]
     let mut upgrades = vec![ours.bring_up_to_date(&mut connection).await?];
@@ -52,6 +51,13 @@ pub async fn migrate(url: &str) -> Result<Vec<Upgrade>, StoreError> {
     }
     connection.close().await?;
     Ok(upgrades)
+}
+
+/// One connection to the database at `url`.
+pub(super) async fn connect(url: &str) -> Result<AnyConnection, StoreError> {
+    let mut connection = AnyConnection::connect_with(&options(url)?).await?;
+    set_up(&mut connection).await?;
+    Ok(connection)
 }
 
 fn options(url: &str) -> Result<AnyConnectOptions, StoreError> {

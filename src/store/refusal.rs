@@ -26,6 +26,11 @@ pub(super) fn is_forbidden(error: &sqlx::Error) -> bool {
     error.as_database_error().and_then(|error| error.code()).is_some_and(|code| code == "42501")
 }
 
+/// Whether a text has a character that PostgreSQL has in none: U+0000 (`character_not_in_repertoire`).
+pub(super) fn is_no_text(error: &sqlx::Error) -> bool {
+    error.as_database_error().and_then(|error| error.code()).is_some_and(|code| code == "22021")
+}
+
 /// By a result code of `SQLite`: `BUSY`, `LOCKED`, `NOMEM`, `READONLY`, `IOERR`, `CANTOPEN` and `PROTOCOL` pass, as does `FULL`. It is
 /// the low byte of the extended one, which sqlx tells.
 fn of_result_code(extended: u32) -> Option<Refusal> {

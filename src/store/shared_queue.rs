@@ -3,6 +3,7 @@
 //! What is true stands in the tables of jobs and results, as on one machine. A task that was lost is made again
 //! ([`SharedQueue::jobs_without_tasks`]), and one that runs twice does no harm.
 
+use std::io::ErrorKind;
 use std::time::Duration;
 
 use apalis::prelude::TaskBuilder;
@@ -33,6 +34,9 @@ const ATTEMPTS: usize = 1_000_000;
 /// Priority of the task whose turn comes first; larger goes before smaller.
 const FIRST: i32 = 1_000_000_000;
 
+/// Time without news after which the server is asked whether it is there.
+const SILENCE: Duration = Duration::from_secs(30);
+
 /// What names of queues begin with.
 const PREPARE: &str = "prepare";
 const SPEEDS: &str = "speeds";
@@ -59,7 +63,12 @@ pub enum Told {
 impl News {
     /// The next, once there is one; `None` where the connection was lost.
     pub async fn next(&mut self) -> Result<Option<Told>, StoreError> {
-        while let Some(said) = self.0.try_recv().await? {
+        loop {
+            let Ok(said) = tokio::time::timeout(SILENCE, self.0.try_recv()).await else {
+                self.expect_answer().await?;
+                continue;
+            };
+            let Some(said) = said? else { return Ok(None) };
             if said.channel() == TASKS {
                 return Ok(Some(Told::Tasks));
             }
@@ -67,7 +76,13 @@ impl News {
                 return Ok(Some(Told::Job(job)));
             }
         }
-        Ok(None)
+    }
+
+    /// Who only listens does not notice that the other end is gone.
+    async fn expect_answer(&mut self) -> Result<(), StoreError> {
+        let answer = tokio::time::timeout(PATIENCE, sqlx::query("select 1").execute(&mut self.0)).await;
+        answer.map_err(|_| sqlx::Error::Io(ErrorKind::TimedOut.into()))??;
+        Ok(())
     }
 }
 

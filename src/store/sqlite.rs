@@ -9,7 +9,7 @@ use sqlx::migrate::{MigrateError, Migrator};
 use sqlx::sqlite::{
     SqliteAutoVacuum, SqliteConnectOptions, SqliteConnection, SqliteJournalMode, SqliteSynchronous,
 };
-use sqlx::{AnyPool, ConnectOptions, Connection};
+use sqlx::{AnyConnection, AnyPool, ConnectOptions, Connection};
 
 use super::error::StoreError;
 use super::packages::count_packages;
@@ -25,7 +25,7 @@ const READERS: u32 = 8;
 pub(super) const PATIENCE: Duration = Duration::from_secs(5);
 
 /// What made the tables, one after the other.
-pub(super) static MIGRATIONS: Migrator = sqlx::migrate!("migrations/sqlite");
+static MIGRATIONS: Migrator = sqlx::migrate!("migrations/sqlite");
 
 /// Opens the database in `folder` for readers and for the one that writes, and brings its tables up to date.
 ///
@@ -109,14 +109,25 @@ async fn bring_up_to_date(folder: &Path) -> Result<(), StoreError> {
         .await?;
     MIGRATIONS.run(&mut connection).await.map_err(|error| match error {
         MigrateError::VersionMissing(found) => {
-            let known = MIGRATIONS.iter().map(|migration| migration.version).max().unwrap_or_default();
-            StoreError::NewerTables { part: "the data folder", found, known }
+            StoreError::NewerTables { part: "the data folder", found, known: known_version() }
         }
         error => error.into(),
     })?;
     make_shrinkable(&mut connection).await?;
     connection.close().await?;
     Ok(())
+}
+
+/// The version that this program brings tables to.
+pub(super) fn known_version() -> i64 {
+    MIGRATIONS.iter().map(|migration| migration.version).max().unwrap_or_default()
+}
+
+/// The version of the tables of `database`, which has some.
+pub(super) async fn version(database: &mut AnyConnection) -> Result<i64, StoreError> {
+    let version: Option<i64> =
+        sqlx::query_scalar("select max(version) from _sqlx_migrations").fetch_one(database).await?;
+    Ok(version.unwrap_or_default())
 }
 
 /// Makes a database anew, once, that an earlier version made such that it cannot give room back.

@@ -10,6 +10,18 @@ use sqlx::{AnyConnection, AssertSqlSafe};
 use super::error::StoreError;
 use super::refusal::is_forbidden;
 
+/// What accounts need that bring tables up to date, and those that use them.
+pub const ACCOUNTS: &str = "\
+The account that runs this owns the tables. It needs the right to create in the database (a schema, the extension hstore) and in its schema
+public; the owner of the database has both. An account SERVICE for `serve` and `worker` needs no more than this, which the owner grants:
+
+  grant usage on schema public, apalis to SERVICE;
+  grant select, insert, update, delete on all tables in schema public, apalis to SERVICE;
+  revoke insert, update, delete on public._sqlx_migrations, apalis._sqlx_migrations from SERVICE;
+  alter default privileges in schema public, apalis grant select, insert, update, delete on tables to SERVICE;
+
+The last line is about tables of later versions.";
+
 /// Tables that are made by the same migrations.
 #[derive(Debug)]
 pub(super) struct Part<'a> {
@@ -86,5 +98,81 @@ impl Part<'_> {
 
     fn newer(&self, found: i64) -> StoreError {
         StoreError::NewerTables { part: self.name, found, known: self.version() }
+    }
+}
+
+#[cfg(all(test, feature = "cluster"))]
+mod tests {
+    use sqlx::{AnyConnection, AssertSqlSafe, Connection, Executor};
+
+    use super::ACCOUNTS;
+    use crate::store::jobs::JobId;
+    use crate::store::postgres::migrate;
+    use crate::store::testing::server;
+    use crate::store::{Store, StoreError};
+
+    /// The lines of [`ACCOUNTS`] that the owner says, for one account.
+    fn grants(account: &str) -> String {
+        let lines: Vec<&str> = ACCOUNTS.lines().filter(|line| line.starts_with("  ")).collect();
+        assert_eq!(lines.len(), 4);
+        lines.join("\n").replace("SERVICE", account)
+    }
+
+    #[tokio::test]
+    async fn a_service_needs_no_right_to_change_tables_that_are_up_to_date() {
+        let Some(owner) = server::database().await else { return };
+        let mut connection = AnyConnection::connect(&owner).await.unwrap();
+        let account = format!("service_{}", uuid::Uuid::now_v7().simple());
+        connection.execute(AssertSqlSafe(format!("create role {account} login"))).await.unwrap();
+        let service = owner.replace("user=rubmap", &format!("user={account}"));
+        assert_ne!(service, owner);
+        let folder = tempfile::tempdir().unwrap();
+        let open = async || Store::connect(folder.path(), &service).await;
+
+        // Nothing is there, then nothing may be read.
+        assert!(matches!(open().await, Err(StoreError::NotUpToDate(_))));
+        let upgrades = migrate(&owner).await.unwrap();
+        assert!(upgrades.len() == 2 && upgrades.iter().all(|upgrade| upgrade.steps > 0), "{upgrades:?}");
+        assert!(matches!(open().await, Err(StoreError::NotUpToDate(_))));
+
+        connection.execute(AssertSqlSafe(grants(&account))).await.unwrap();
+        let upgrades = migrate(&owner).await.unwrap();
+        assert!(upgrades.iter().all(|upgrade| upgrade.steps == 0), "{upgrades:?}");
+        let store = open().await.unwrap();
+        store.probe().await.unwrap();
+        let queue = store.shared_queue().unwrap();
+        queue.push_preparation(JobId::new(), None).await.unwrap();
+        queue.tidy().await.unwrap();
+        assert!(queue.claim("anything").await.unwrap().is_some());
+
+        // A step is missing, which the account may not take, and the owner takes.
+        connection
+            .execute(
+                "delete from _sqlx_migrations where version = (select max(version) from _sqlx_migrations)",
+            )
+            .await
+            .unwrap();
+        assert!(matches!(open().await, Err(StoreError::NotUpToDate(_))));
+    }
+
+    #[tokio::test]
+    async fn tables_of_a_later_program_are_left_alone() {
+        let Some(url) = server::database().await else { return };
+        let known = migrate(&url).await.unwrap();
+        let mut connection = AnyConnection::connect(&url).await.unwrap();
+        for (history, part) in [("_sqlx_migrations", &known[0]), ("apalis._sqlx_migrations", &known[1])] {
+            let later = format!(
+                "insert into {history} (version, description, success, checksum, execution_time)
+                 values (99999999999999, 'later', true, '', 0)"
+            );
+            connection.execute(AssertSqlSafe(later)).await.unwrap();
+            let refused = migrate(&url).await.unwrap_err();
+            let StoreError::NewerTables { part: whose, found, known } = refused else { panic!("{refused}") };
+            assert_eq!((whose, found, known), (part.part, 99_999_999_999_999, part.version));
+            connection
+                .execute(AssertSqlSafe(format!("delete from {history} where version = {found}")))
+                .await
+                .unwrap();
+        }
     }
 }

@@ -1,5 +1,9 @@
 //! The service under test, in this process, with words for what tests do to it.
 
+#[cfg(feature = "cluster")]
+#[path = "servers.rs"]
+pub(crate) mod servers;
+
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -42,7 +46,10 @@ impl TestApp {
         Self::run(config(data)).await
     }
 
-    async fn run(config: Config) -> Self {
+    #[cfg_attr(not(feature = "cluster"), expect(unused_mut, reason = "there are no servers"))]
+    async fn run(mut config: Config) -> Self {
+        #[cfg(feature = "cluster")]
+        servers::share(&mut config);
         let data = config.data.clone();
         let app = App::build(config).await.unwrap();
         let api = Api::new(&format!("http://{}", app.addr()));

@@ -24,6 +24,8 @@ impl Program {
     /// By a command that runs the program with the arguments it gets.
     pub(crate) fn run(mut command: Command, data: &Path) -> Self {
         command.args(["serve", "--workers", "2", "--data"]).arg(data);
+        #[cfg(feature = "cluster")]
+        command.envs(super::app::servers::of(data).into_iter().flatten());
         Self::start(command)
     }
 

@@ -1,5 +1,6 @@
 //! A PostgreSQL server of the test's own, which can be stopped and started again.
 
+use std::net::TcpListener;
 use std::os::unix::fs::{MetadataExt, chown};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
@@ -15,6 +16,8 @@ const NOBODY: u32 = 65_534;
 pub(crate) struct Postgres {
     binaries: PathBuf,
     folder: tempfile::TempDir,
+    /// The port of this machine at which it listens.
+    pub(crate) port: u16,
     process: Option<Child>,
 }
 
@@ -29,7 +32,7 @@ impl Postgres {
         if folder.path().metadata().unwrap().uid() == 0 {
             chown(folder.path(), Some(NOBODY), Some(NOBODY)).unwrap();
         }
-        let mut server = Self { binaries, folder, process: None };
+        let mut server = Self { binaries, folder, port: free_port(), process: None };
         let made = server
             .command("initdb")
             .args(["-U", "rubmap", "-A", "trust", "-E", "UTF8", "--no-sync", "-D"])
@@ -42,9 +45,14 @@ impl Postgres {
         Some(server)
     }
 
+    /// The address of its database, by way of a port.
+    pub(crate) fn url_by(&self, port: u16) -> String {
+        format!("postgres://rubmap@127.0.0.1:{port}/postgres")
+    }
+
     /// The address of its database.
     pub(crate) fn url(&self) -> String {
-        format!("postgres:///postgres?user=rubmap&host={}", self.folder.path().display())
+        self.url_by(self.port)
     }
 
     /// Starts it, and waits until it takes connections.
@@ -55,7 +63,14 @@ impl Postgres {
             .arg(self.data())
             .arg("-k")
             .arg(self.folder.path())
-            .args(["-c", "listen_addresses=", "-c", "max_connections=200"])
+            .args([
+                "-p",
+                &self.port.to_string(),
+                "-c",
+                "listen_addresses=127.0.0.1",
+                "-c",
+                "max_connections=200",
+            ])
             .stdout(Stdio::null())
             .stderr(Stdio::null())
             .spawn()
@@ -64,9 +79,7 @@ impl Postgres {
         let begin = Instant::now();
         while !self
             .command("pg_isready")
-            .arg("-q")
-            .arg("-h")
-            .arg(self.folder.path())
+            .args(["-q", "-h", "127.0.0.1", "-p", &self.port.to_string()])
             .status()
             .unwrap()
             .success()
@@ -116,4 +129,9 @@ fn binaries() -> Option<PathBuf> {
 
 fn has_server(folder: &Path) -> bool {
     folder.join("initdb").exists() && folder.join("postgres").exists()
+}
+
+/// A port of this machine that nobody listens at.
+pub(crate) fn free_port() -> u16 {
+    TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port()
 }

@@ -1,49 +1,21 @@
 //! Tasks on their way to the workers: those of this process, or of all machines that share a database.
 
 mod awake;
+mod kind;
 mod own;
 mod place;
 #[cfg(feature = "cluster")]
 mod shared;
 
 use self::place::Place;
-#[cfg(feature = "cluster")]
-use crate::analysis::run::vectors;
 use crate::store::jobs::JobId;
 use crate::store::queue::{Queue, RunSpeed};
 use crate::store::{Store, StoreError};
 
+pub(super) use self::kind::{Kind, Whose};
 pub(super) use self::own::{OwnTasks, preparations_at_once};
 #[cfg(feature = "cluster")]
 pub(super) use self::shared::SharedTasks;
-
-/// Which tasks a worker takes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
-    /// Of jobs that any processor may compute.
-    Any,
-    /// Of jobs that belong to processors with the vectors of this one.
-    #[cfg(feature = "cluster")]
-    OfThisProcessor,
-}
-
-#[cfg(feature = "cluster")]
-impl Kind {
-    /// The vectors that a processor must have; none where any will do.
-    fn vectors(self) -> Option<String> {
-        (self == Self::OfThisProcessor).then(vectors)
-    }
-}
-
-/// A job, as far as its tasks go.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Whose<'a> {
-    pub(super) owner: &'a str,
-    pub(super) job: JobId,
-    /// Whether only processors with the vectors of this one may take its speeds.
-    #[cfg(feature = "cluster")]
-    pub(super) one_kind: bool,
-}
 
 /// Tasks on their way to the workers.
 #[derive(Debug)]

@@ -8,7 +8,7 @@ use apalis_postgres::PostgresStorage;
 use tokio::sync::Notify;
 
 use super::awake::Awake;
-use super::{Kind, Whose};
+use super::kind::{Kind, Whose};
 use crate::analysis::run::vectors;
 use crate::jobs::patience::until_taken;
 use crate::store::StoreError;

@@ -20,7 +20,7 @@ use crate::store::status::JobStatus;
 use crate::store::testing::stores;
 use crate::store::{Backlog, Store};
 
-fn answer(owner: &str, key: &str) -> Answer {
+pub(super) fn answer(owner: &str, key: &str) -> Answer {
     let (owner, key) = (owner.to_owned(), key.to_owned());
     let (fingerprint, location) = ("f".to_owned(), format!("/v1/models/{}", model_id('a')));
     Answer { owner, key, fingerprint, status: 202, location, body: "{}".to_owned() }
@@ -327,7 +327,7 @@ async fn limits_and_keys_refuse_what_is_too_much() {
 }
 
 /// A calibration in which all costs are `cost`.
-fn calibration(cost: f64) -> Calibration {
+pub(super) fn calibration(cost: f64) -> Calibration {
     let step = json!({"fixed": cost, "per_product": cost, "per_transform": cost});
     let mut effects = json!({});
     loop {
@@ -345,7 +345,7 @@ fn calibration(cost: f64) -> Calibration {
     }
 }
 
-fn reduced(modes_per_speed: u32) -> ReducedSector {
+pub(super) fn reduced(modes_per_speed: u32) -> ReducedSector {
     let stiffening = json!({"verdict": "absent", "linear_ratio": 0.0, "quadratic_ratio": 0.0,
         "frequency_error": 0.0, "message": "none"});
     let report = json!({
@@ -420,4 +420,16 @@ async fn ask(store: &Store, text: &str) -> Vec<crate::store::jobs::JobHead> {
     let text = Some(text.to_owned());
     let filter = JobFilter { name: text.clone(), tag: text.clone(), owner: text, ..JobFilter::default() };
     store.jobs(filter, 1).await.unwrap()
+}
+
+#[tokio::test]
+async fn a_text_with_a_nul_is_kept_or_refused_as_such() {
+    for store in stores().await {
+        upload(&store, "", 'a', &Labels::default()).await;
+        let notes = LabelChanges { notes: Some(Some("a\0b".to_owned())), ..LabelChanges::default() };
+        match store.label_model(&model_id('a'), None, notes).await {
+            Ok(_) => assert_eq!(store.dialect, Dialect::Sqlite),
+            Err(error) => assert!(error.is_no_text() && !error.may_pass(), "{error}"),
+        }
+    }
 }

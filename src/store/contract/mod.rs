@@ -1,6 +1,8 @@
 //! What the store answers, on every database that the program was built for.
 
 mod alone;
+#[cfg(feature = "cluster")]
+mod copied;
 mod together;
 
 use serde_json::json;

@@ -3,6 +3,8 @@
 use futures::future::join_all;
 
 use super::{begin, keep, labels, model_id, queue, result, sweep, upload};
+#[cfg(feature = "cluster")]
+use super::{queue_request, sweep_on};
 use crate::store::Store;
 use crate::store::idempotency::Answer;
 use crate::store::jobs::{Insertion, JobDeletion, JobId};
@@ -161,5 +163,33 @@ async fn deleted_jobs_go_once_and_whole() {
 async fn close(stores: impl IntoIterator<Item = Store>) {
     for store in stores {
         store.close().await;
+    }
+}
+
+#[cfg(feature = "cluster")]
+#[tokio::test]
+async fn a_job_of_one_kind_says_that_it_waits_for_it() {
+    for store in stores().await.iter().filter(|store| store.shared_queue().is_some()) {
+        let queue = store.shared_queue().unwrap();
+        upload(store, "", 'a', &Labels::default()).await;
+        let [pinned, other, new] = [true, false, true].map(|one_kind| sweep_on('a', 4, one_kind));
+        let pinned = queue_request(store, "", &pinned, &Labels::default()).await;
+        let other = queue_request(store, "", &other, &Labels::default()).await;
+        let new = queue_request(store, "", &new, &Labels::default()).await;
+        assert!(begin(store, pinned).await && begin(store, other).await);
+        let phases = async || {
+            queue.tell_who_waits().await.unwrap();
+            let mut phases = Vec::new();
+            for job in [pinned, other, new] {
+                phases.push(store.job(job).await.unwrap().unwrap().phase.clone());
+            }
+            phases
+        };
+        let announce = r#"insert into machines (process, machine, costs, threads, seen)
+             values ('one', '{"name": "m", "processor": "p", "processors": 1, "vectors": "V3"}', '{}', 1, now())"#;
+        sqlx::query(announce).execute(&store.writer).await.unwrap();
+        assert_eq!(phases().await, [""; 3]);
+        queue.leave("one").await.unwrap();
+        assert_eq!(phases().await, ["waiting for a worker with V3 vectors, on which it was begun", "", ""]);
     }
 }

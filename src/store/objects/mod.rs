@@ -11,6 +11,8 @@ mod address;
 mod error;
 #[cfg(feature = "cluster")]
 mod remote;
+#[cfg(all(test, feature = "cluster"))]
+mod tests;
 
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
@@ -46,9 +48,12 @@ struct Shared {
 impl Objects {
     /// That at `address`, of which the data folder `data` is a cache.
     pub(super) async fn open(address: &Address, data: &Path, reserve: Reserve) -> io::Result<Self> {
-        let remote = Remote::open(address).await?;
+        Ok(Self::over(Remote::open(address).await?, data, reserve))
+    }
+
+    fn over(remote: Remote, data: &Path, reserve: Reserve) -> Self {
         let shared = Shared { data: data.to_owned(), reserve, remote, runtime: Handle::current() };
-        Ok(Self { shared: Some(Arc::new(shared)) })
+        Self { shared: Some(Arc::new(shared)) }
     }
 
     /// Whether there is one.
@@ -126,6 +131,20 @@ impl Objects {
     pub(super) async fn have(&self, path: &Path) -> io::Result<bool> {
         let Some(shared) = &self.shared else { return Ok(false) };
         shared.remote.has(&shared.name(path)?).await
+    }
+
+    /// The length of a file of the data folder there.
+    #[cfg(feature = "cluster")]
+    pub(super) async fn size(&self, path: &Path) -> io::Result<Option<u64>> {
+        let Some(shared) = &self.shared else { return Ok(None) };
+        shared.remote.size(&shared.name(path)?).await
+    }
+
+    /// SHA-256 of a file of the data folder there, as it is read back.
+    #[cfg(feature = "cluster")]
+    pub(super) async fn sha256(&self, path: &Path) -> io::Result<Option<[u8; 32]>> {
+        let Some(shared) = &self.shared else { return Ok(None) };
+        shared.remote.sha256(&shared.name(path)?).await
     }
 
     /// Removes a file of the data folder there.

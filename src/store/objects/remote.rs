@@ -13,6 +13,7 @@ use object_store::prefix::PrefixStore;
 use object_store::{
     ClientConfigKey, Error, ObjectStore, ObjectStoreExt, PutPayload, RetryConfig, WriteMultipart,
 };
+use sha2::{Digest, Sha256};
 use tokio::io::{AsyncReadExt, AsyncWriteExt};
 
 use super::address::Address;
@@ -53,6 +54,10 @@ impl Remote {
     /// The store at `address`, which answers.
     pub(super) async fn open(address: &Address) -> io::Result<Self> {
         let store = connect(address).map_err(|failure| failure.of(address, None))?;
+        Self::over(address, store).await
+    }
+
+    pub(super) async fn over(address: &Address, store: Arc<dyn ObjectStore>) -> io::Result<Self> {
         let remote = Self { address: address.clone(), store };
         // One page of names: keys and bucket are right.
         let first = remote.store.list(None).next().await;
@@ -129,11 +134,30 @@ impl Remote {
     }
 
     pub(super) async fn has(&self, name: &str) -> io::Result<bool> {
+        Ok(self.size(name).await?.is_some())
+    }
+
+    /// The length of an object, if it is there.
+    pub(super) async fn size(&self, name: &str) -> io::Result<Option<u64>> {
         match self.store.head(&Name::from(name)).await {
-            Ok(_) => Ok(true),
-            Err(Error::NotFound { .. }) => Ok(false),
+            Ok(object) => Ok(Some(object.size)),
+            Err(Error::NotFound { .. }) => Ok(None),
             Err(error) => Err(self.error(name, error)),
         }
+    }
+
+    /// SHA-256 of an object, if it is there.
+    pub(super) async fn sha256(&self, name: &str) -> io::Result<Option<[u8; 32]>> {
+        let found = match self.store.get(&Name::from(name)).await {
+            Err(Error::NotFound { .. }) => return Ok(None),
+            found => found.map_err(|error| self.error(name, error))?,
+        };
+        let mut sum = Sha256::new();
+        let mut blocks = found.into_stream();
+        while let Some(block) = blocks.try_next().await.map_err(|error| self.error(name, error))? {
+            sum.update(&block);
+        }
+        Ok(Some(sum.finalize().into()))
     }
 
     /// Names of the folders in a folder.
@@ -180,25 +204,31 @@ fn connect(address: &Address) -> Result<Arc<dyn ObjectStore>, Failure> {
             let store = LocalFileSystem::new_with_prefix(folder).map_err(failure)?;
             Ok(Arc::new(store.with_fsync(true).with_automatic_cleanup(true)))
         }
-        Address::Bucket { bucket, prefix } => {
-            // The client for HTTP has no library for TLS of its own choice; a second call changes nothing.
-            let _ = rustls::crypto::ring::default_provider().install_default();
-            let retry =
-                RetryConfig { max_retries: RETRIES, retry_timeout: RETRYING, ..RetryConfig::default() };
-            let store = AmazonS3Builder::from_env()
-                .with_bucket_name(bucket)
-                // A large object takes what it takes, as long as it comes.
-                .with_config(AmazonS3ConfigKey::Client(ClientConfigKey::Timeout), "1 day")
-                .with_config(AmazonS3ConfigKey::Client(ClientConfigKey::ReadTimeout), SILENCE)
-                .with_retry(retry)
-                .build()
-                .map_err(|error| Failure::Settings(format!("the settings AWS_… do not fit: {error}")))?;
-            if prefix.is_empty() {
-                return Ok(Arc::new(store));
-            }
-            Ok(Arc::new(PrefixStore::new(store, prefix.as_str())))
-        }
+        Address::Bucket { bucket, prefix } => connect_bucket(AmazonS3Builder::from_env(), bucket, prefix),
     }
+}
+
+/// A bucket by what `settings` say beside.
+pub(super) fn connect_bucket(
+    settings: AmazonS3Builder,
+    bucket: &str,
+    prefix: &str,
+) -> Result<Arc<dyn ObjectStore>, Failure> {
+    // The client for HTTP has no library for TLS of its own choice; a second call changes nothing.
+    let _ = rustls::crypto::ring::default_provider().install_default();
+    let retry = RetryConfig { max_retries: RETRIES, retry_timeout: RETRYING, ..RetryConfig::default() };
+    let store = settings
+        .with_bucket_name(bucket)
+        // A large object takes what it takes, as long as it comes.
+        .with_config(AmazonS3ConfigKey::Client(ClientConfigKey::Timeout), "1 day")
+        .with_config(AmazonS3ConfigKey::Client(ClientConfigKey::ReadTimeout), SILENCE)
+        .with_retry(retry)
+        .build()
+        .map_err(|error| Failure::Settings(format!("the settings AWS_… do not fit: {error}")))?;
+    if prefix.is_empty() {
+        return Ok(Arc::new(store));
+    }
+    Ok(Arc::new(PrefixStore::new(store, prefix)))
 }
 
 /// What an error of the library means.

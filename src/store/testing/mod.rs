@@ -1,7 +1,7 @@
 //! Empty stores for tests, on every database that the program was built for.
 
 #[cfg(feature = "cluster")]
-mod server;
+pub(super) mod server;
 
 use std::ops::Deref;
 
@@ -11,7 +11,7 @@ use super::Store;
 pub(super) struct TestStore {
     store: Store,
     /// Of the server, if it is on one.
-    url: Option<String>,
+    pub(super) url: Option<String>,
     /// The data folder, gone with the store.
     pub(super) folder: tempfile::TempDir,
 }

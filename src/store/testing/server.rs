@@ -39,7 +39,7 @@ static SERVER: LazyLock<Option<Server>> = LazyLock::new(|| {
 });
 
 /// The address of a new database, if there is a server.
-pub(super) async fn database() -> Option<String> {
+pub(in crate::store) async fn database() -> Option<String> {
     static DATABASES: AtomicU32 = AtomicU32::new(0);
     let server = SERVER.as_ref()?;
     let address = |name: &str| format!("postgres:///{name}?user=rubmap&host={}", server.folder.display());
