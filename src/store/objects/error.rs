@@ -29,6 +29,9 @@ pub(super) enum Failure {
     /// There is nothing of that name.
     #[error("it is not there")]
     Absent,
+    /// There is no store.
+    #[error("there is no such bucket: make it, or correct its name")]
+    NoBucket,
     /// A shared folder has no room.
     #[error("there is no room left: {0}")]
     Full(String),
@@ -51,7 +54,7 @@ impl Failure {
         let kind = match &self {
             Self::Away(_) | Self::Cut { .. } => ErrorKind::HostUnreachable,
             Self::Denied => ErrorKind::PermissionDenied,
-            Self::Absent => ErrorKind::NotFound,
+            Self::Absent | Self::NoBucket => ErrorKind::NotFound,
             Self::Full(_) => ErrorKind::StorageFull,
             Self::Settings(_) => ErrorKind::InvalidInput,
         };

@@ -241,8 +241,19 @@ fn failure(error: Error) -> Failure {
                 Failure::Full(error.to_string())
             }
             Some(io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem) => Failure::Denied,
-            _ => Failure::Away(error.to_string()),
+            _ => of_answer(error.to_string()),
         },
+    }
+}
+
+/// What the store said, of a listing: the library tells its refusals by nothing but words.
+fn of_answer(said: String) -> Failure {
+    if said.contains("<Code>NoSuchBucket</Code>") {
+        Failure::NoBucket
+    } else if ["401", "403"].iter().any(|code| said.contains(&format!("status code: {code} "))) {
+        Failure::Denied
+    } else {
+        Failure::Away(said)
     }
 }
 

@@ -118,7 +118,8 @@ async fn what_is_wrong_is_said_without_secrets() {
     assert!(refused.to_string().contains("there is no such folder"), "{refused}");
     if let Some(s3) = S3::new() {
         let refused = open(&s3, &bucket("wheel"), data.path()).await.unwrap_err();
-        assert_eq!(refused.to_string(), "object store s3://wheel/a/b: it is not there");
+        let said = "object store s3://wheel/a/b: there is no such bucket: make it, or correct its name";
+        assert_eq!(refused.to_string(), said);
         assert!(!StoreError::may_pass_of(&refused));
     }
     if let Some(s3) = S3::strict() {
