@@ -18,7 +18,7 @@ import yaml
 
 BINARY, FOLDER = sys.argv[1], Path(sys.argv[2], "run")
 PROJECT = Path(__file__).resolve().parents[2]
-POSTGRES = sorted(Path("/usr/lib/postgresql").glob("*/bin"))[-1]
+POSTGRES = max(Path("/usr/lib/postgresql").glob("*/bin"))
 AS_NOBODY = ["setpriv", "--reuid", "65534", "--regid", "65534", "--clear-groups", "--"]
 SECRETS = {name: secrets.token_hex(16) for name in ["OWNER_PASSWORD", "DATABASE_PASSWORD", "OBJECTS_KEY", "OBJECTS_SECRET"]}
 # For documentation, and of nobody: on a loopback address the service would be more careful than it is in a container.
