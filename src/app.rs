@@ -192,7 +192,7 @@ async fn open_store(config: &Config) -> Result<Store, StoreError> {
         match open_once(config).await {
             Err(error) if error.may_pass() => {
                 if !warned {
-                    tracing::error!(%error, "the service starts as soon as the data folder can be used");
+                    tracing::error!(%error, "this process starts as soon as what it needs can be used");
                     warned = true;
                 }
                 tokio::time::sleep(BETWEEN_ATTEMPTS).await;

@@ -14,8 +14,15 @@ const DONE: &str = "update apalis.jobs set status = 'Done', done_at = now() wher
 
 /// Measures with so many connections at once and so many tasks that wait.
 pub(crate) async fn measure(url: &str) {
-    let pool = PgPoolOptions::new().max_connections(64).connect(url).await.unwrap();
     rubmap::store::migrate(url).await.unwrap();
+    let pool = PgPoolOptions::new()
+        .max_connections(64)
+        .after_connect(|connection, _| {
+            Box::pin(async move { connection.execute(rubmap::store::shared_queue::TAKE_ONE).await.map(drop) })
+        })
+        .connect(url)
+        .await
+        .unwrap();
     for waiting in [1_000, 100_000] {
         for workers in [1, 8, 64] {
             let claims = claims(&pool, workers, waiting).await;

@@ -9,9 +9,9 @@ use std::time::Duration;
 use apalis::prelude::TaskBuilder;
 use apalis_postgres::{Config, PgTask, PostgresStorage, queries};
 use serde::Serialize;
-use sqlx::PgPool;
 use sqlx::migrate::Migrator;
 use sqlx::postgres::{PgConnection, PgListener, PgPoolOptions};
+use sqlx::{Executor, PgPool};
 
 use super::claims::Claim;
 use super::error::StoreError;
@@ -36,6 +36,9 @@ const FIRST: i32 = 1_000_000_000;
 
 /// Time without news after which the server is asked whether it is there.
 const SILENCE: Duration = Duration::from_secs(30);
+
+/// The server expects a tenth of a queue where one task is taken, and would read all of it to join that.
+pub const TAKE_ONE: &str = "set enable_hashjoin = off; set enable_mergejoin = off";
 
 /// What names of queues begin with.
 const PREPARE: &str = "prepare";
@@ -98,6 +101,9 @@ impl SharedQueue {
         let pool = PgPoolOptions::new()
             .max_connections(CONNECTIONS)
             .acquire_timeout(2 * PATIENCE)
+            .after_connect(|connection, _| {
+                Box::pin(async move { connection.execute(TAKE_ONE).await.map(drop) })
+            })
             .connect(url)
             .await?;
         Ok(Self { pool })
@@ -265,6 +271,7 @@ impl SharedQueue {
 
 /// Puts what waits in order: owners take turns, and of one owner its jobs.
 async fn take_turns(connection: &mut PgConnection, queue: &str) -> Result<(), StoreError> {
+    connection.execute("set local enable_hashjoin = on").await?;
     sqlx::query(
         "with nth as (
              select id, split_part(idempotency_key, ':', 1) as job,

@@ -214,6 +214,14 @@ pub(super) fn connect_bucket(
     bucket: &str,
     prefix: &str,
 ) -> Result<Arc<dyn ObjectStore>, Failure> {
+    // The library would say at each request, as of an outage, that it could not be made.
+    let set = |key| settings.get_config_value(&key).unwrap_or_default();
+    let endpoints = [AmazonS3ConfigKey::Endpoint, AmazonS3ConfigKey::S3Endpoint].map(set);
+    let may_be_plain = set(AmazonS3ConfigKey::Client(ClientConfigKey::AllowHttp)) == "true";
+    if !may_be_plain && endpoints.iter().any(|endpoint| endpoint.starts_with("http://")) {
+        let plain = "its address begins with http://, so that keys and objects could be read on the way: give it https://, or set AWS_ALLOW_HTTP=true";
+        return Err(Failure::Settings(plain.to_owned()));
+    }
     // The client for HTTP has no library for TLS of its own choice; a second call changes nothing.
     let _ = rustls::crypto::ring::default_provider().install_default();
     let retry = RetryConfig { max_retries: RETRIES, retry_timeout: RETRYING, ..RetryConfig::default() };

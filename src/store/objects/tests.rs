@@ -116,6 +116,12 @@ async fn what_is_wrong_is_said_without_secrets() {
     let nowhere = Address::Folder(data.path().join("nowhere"));
     let refused = Objects::open(&nowhere, data.path(), Reserve::of(data.path())).await.unwrap_err();
     assert!(refused.to_string().contains("there is no such folder"), "{refused}");
+    for (allowed, expected) in [(false, true), (true, false)] {
+        let plain = AmazonS3Builder::new().with_endpoint("http://s3.example").with_allow_http(allowed);
+        let refused =
+            connect_bucket(plain, "wheels", "").err().map(|failure| failure.of(&nowhere, None).to_string());
+        assert_eq!(refused.is_some_and(|said| said.contains("AWS_ALLOW_HTTP=true")), expected);
+    }
     if let Some(s3) = S3::new() {
         let refused = open(&s3, &bucket("wheel"), data.path()).await.unwrap_err();
         let said = "object store s3://wheel/a/b: there is no such bucket: make it, or correct its name";
