@@ -58,6 +58,7 @@ mod tests {
 
     use super::*;
     use crate::analysis::result::SpeedResult;
+    use crate::analysis::run::REVISION;
     use crate::store::results::PackedSpeed;
     use crate::store::status::JobStatus;
     use crate::store::testing::stores;
@@ -81,10 +82,11 @@ mod tests {
     async fn running_job(store: &Store) -> JobId {
         let job = JobId::new();
         sqlx::query(
-            "insert into jobs (id, kind, status, model, modes_per_speed, facts, request, speeds, created_at, updated_at)
-             values ($1, 'sweep', 'running', 'm', 20, '{}', '{}', 5, 'a', 'a')",
+            "insert into jobs (id, kind, status, model, modes_per_speed, facts, request, speeds, created_at, updated_at, revision)
+             values ($1, 'sweep', 'running', 'm', 20, '{}', '{}', 5, 'a', 'a', $2)",
         )
         .bind(job.to_string())
+        .bind(i64::from(REVISION))
         .execute(&store.writer)
         .await
         .unwrap();

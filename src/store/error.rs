@@ -16,6 +16,9 @@ pub enum StoreError {
     /// The tables could not be brought up to date.
     #[error("migration: {0}")]
     Migration(#[from] sqlx::migrate::MigrateError),
+    /// The address of a database that is none.
+    #[error("the address of the database is none: expected one such as postgres://user@host/database")]
+    NoAddress,
     /// Tables that this account may not bring up to date.
     #[error(
         "the tables of the database are missing, of an earlier version or closed to this account, which may not change them ({0}): run \
@@ -135,6 +138,7 @@ impl StoreError {
                 refusal(error).is_some()
             }
             Self::Migration(_)
+            | Self::NoAddress
             | Self::NotUpToDate(_)
             | Self::NewerTables { .. }
             | Self::LostDatabase { .. }

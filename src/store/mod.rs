@@ -41,6 +41,7 @@ pub mod reductions;
 mod refusal;
 mod reserve;
 pub mod results;
+mod session;
 #[cfg(feature = "cluster")]
 pub mod shared_queue;
 mod sql;

@@ -1,12 +1,11 @@
 //! A PostgreSQL server: opened, and its tables brought up to date.
 
-use std::time::Duration;
-
 use sqlx::any::{AnyConnectOptions, AnyPoolOptions, install_default_drivers};
 use sqlx::migrate::Migrator;
 use sqlx::{AnyConnection, AnyPool, Connection, Executor};
 
 use super::error::StoreError;
+use super::session;
 #[cfg(feature = "cluster")]
 use super::shared_queue;
 use super::sqlite::PATIENCE;
@@ -14,9 +13,6 @@ use super::upgrade::{Part, Upgrade};
 
 /// Connections of one process. A server has a hundred for all, unless told otherwise.
 const CONNECTIONS: u32 = 8;
-
-/// How long a transaction may do nothing: a process that hangs within one must not keep others from the same job for ever.
-const IDLE: Duration = Duration::from_secs(30);
 
 /// What made the tables, one after the other.
 static MIGRATIONS: Migrator = sqlx::migrate!("migrations/postgres");
@@ -62,17 +58,14 @@ pub(super) async fn connect(url: &str) -> Result<AnyConnection, StoreError> {
 
 fn options(url: &str) -> Result<AnyConnectOptions, StoreError> {
     install_default_drivers();
+    if !["postgres://", "postgresql://"].iter().any(|scheme| url.starts_with(scheme)) {
+        return Err(StoreError::NoAddress);
+    }
     Ok(url.parse()?)
 }
 
-/// What every connection begins with.
 async fn set_up(connection: &mut AnyConnection) -> Result<(), sqlx::Error> {
-    let settings = format!(
-        "set lock_timeout = {}; set idle_in_transaction_session_timeout = {}",
-        PATIENCE.as_millis(),
-        IDLE.as_millis(),
-    );
-    connection.execute(sqlx::AssertSqlSafe(settings)).await.map(drop)
+    connection.execute(sqlx::AssertSqlSafe(session::settings())).await.map(drop)
 }
 
 #[cfg(all(test, feature = "cluster"))]

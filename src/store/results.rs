@@ -14,6 +14,7 @@ use super::sql::{number, of};
 use super::time::now;
 use super::{end_states, packed};
 use crate::analysis::result::{ContactForces, Point, PointStatus, SpeedResult, SpeedSpectra, WearMap};
+use crate::analysis::run::REVISION;
 
 /// A document computed at the end of a job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -103,14 +104,18 @@ impl PackedSpeed {
 
 impl Store {
     /// Keeps a finished speed in a transaction of its own, with its end state in place of the last one's if the job still
-    /// wants work. A speed that is there already stays as it is.
+    /// wants work. A speed that is there already stays as it is, and one of other numerics, or of another kind of processor where all have
+    /// to be of one, is dropped.
     /// Returns how many speeds of the job are finished now; `None` if it was deleted.
     pub async fn insert_speed(&self, job: JobId, speed: &PackedSpeed) -> Result<Option<u32>, StoreError> {
         let mut transaction = self.write().await?;
         transaction.guard(Guarded::Job(job)).await?;
         let inserted = sqlx::query(
             "insert into speed_results (job, speed, status, point, spectra, unpacked_bytes, wear, contact, created_at)
-             select $1, $2, $3, $4, $5, $6, $7, $8, $9 where exists (select 1 from jobs where id = $1 and deleted = 0)
+             select $1, $2, $3, $4, $5, $6, $7, $8, $9 where exists (
+                 select 1 from jobs where id = $1 and deleted = 0 and revision = $10
+                     and (one_kind = 0 or coalesce(vectors, $11, '') = coalesce($11, vectors, ''))
+             )
              on conflict (job, speed) do nothing",
         )
         .bind(job.to_string())
@@ -126,6 +131,8 @@ impl Store {
         .bind(speed.wear.as_deref())
         .bind(speed.contact.as_deref())
         .bind(now())
+        .bind(i64::from(REVISION))
+        .bind(speed.vectors.as_deref())
         .execute(&mut *transaction)
         .await?;
         if inserted.rows_affected() == 1 {

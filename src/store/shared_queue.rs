@@ -11,12 +11,13 @@ use apalis_postgres::{Config, PgTask, PostgresStorage, queries};
 use serde::Serialize;
 use sqlx::migrate::Migrator;
 use sqlx::postgres::{PgConnection, PgListener, PgPoolOptions};
-use sqlx::{Executor, PgPool};
+use sqlx::{AssertSqlSafe, Executor, PgPool};
 
 use super::claims::Claim;
 use super::error::StoreError;
 use super::jobs::job::JobId;
 use super::queue::{PrepareJob, RunSpeed};
+use super::session;
 use super::sqlite::PATIENCE;
 use crate::analysis::run::REVISION;
 
@@ -102,7 +103,8 @@ impl SharedQueue {
             .max_connections(CONNECTIONS)
             .acquire_timeout(2 * PATIENCE)
             .after_connect(|connection, _| {
-                Box::pin(async move { connection.execute(TAKE_ONE).await.map(drop) })
+                let settings = format!("{}; {TAKE_ONE}", session::settings());
+                Box::pin(async move { connection.execute(AssertSqlSafe(settings)).await.map(drop) })
             })
             .connect(url)
             .await?;
@@ -226,7 +228,7 @@ impl SharedQueue {
         Ok(sqlx::query_as(
             "with busy as (
                  select distinct split_part(idempotency_key, ':', 1) as job from apalis.jobs
-                 where status in ('Pending', 'Queued', 'Running')
+                 where status in ('Pending', 'Queued', 'Running') and split_part(job_type, '-', 2) = $1::bigint::text
              )
              select id, owner from jobs
              where status in ('accepted', 'running') and revision = $1 and id not in (select job from busy)
@@ -249,8 +251,15 @@ impl SharedQueue {
         Ok(sqlx::query_scalar(others).bind(REVISION.to_string()).fetch_one(&self.pool).await?)
     }
 
-    /// Forgets tasks that have ended, and workers that have been away for a day.
+    /// Forgets tasks that have ended, those of jobs that other numerics compute by now, and workers that have been away for a day.
     pub async fn tidy(&self) -> Result<(), StoreError> {
+        sqlx::query(
+            "delete from apalis.jobs as task using jobs
+             where jobs.id = split_part(task.idempotency_key, ':', 1)
+                 and split_part(task.job_type, '-', 2) <> jobs.revision::text",
+        )
+        .execute(&self.pool)
+        .await?;
         sqlx::query("delete from apalis.jobs where status in ('Done', 'Failed', 'Killed')")
             .execute(&self.pool)
             .await?;

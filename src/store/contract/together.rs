@@ -5,7 +5,9 @@ use futures::future::join_all;
 use super::{begin, keep, labels, model_id, queue, result, sweep, upload};
 #[cfg(feature = "cluster")]
 use super::{queue_request, sweep_on};
+use crate::analysis::run::REVISION;
 use crate::store::Store;
+use crate::store::dialect::Dialect;
 use crate::store::idempotency::Answer;
 use crate::store::jobs::{Insertion, JobDeletion, JobId};
 use crate::store::labels::Labels;
@@ -157,6 +159,79 @@ async fn deleted_jobs_go_once_and_whole() {
         }
         assert!(store.finished_speeds(job).await.unwrap().is_empty());
         close(processes).await;
+    }
+}
+
+#[tokio::test]
+async fn numerics_do_not_mix_within_a_job() {
+    for store in stores().await {
+        upload(&store, "", 'a', &Labels::default()).await;
+        let job = queue(&store, "", 'a', 4, &Labels::default()).await;
+        assert!(begin(&store, job).await);
+        assert_eq!(keep(&store, job, &result(0)).await, Some(1));
+        let is_of = async |revision: u32| {
+            let update = "update jobs set revision = $1";
+            sqlx::query(update).bind(i64::from(revision)).execute(&store.writer).await.unwrap();
+        };
+        let kept = async || store.finished_speeds(job).await.unwrap().len();
+        for other in [REVISION - 1, REVISION + 1] {
+            is_of(other).await;
+            assert!(!begin(&store, job).await, "it is not ours");
+            assert_eq!(keep(&store, job, &result(1)).await, Some(1), "nor what we computed for it");
+            assert_eq!(kept().await, 1);
+        }
+        // Later programs may be at work on a server; a data folder is of one program, also of an older one that came back.
+        store.restart_outdated().await.unwrap();
+        assert_eq!(kept().await, usize::from(store.dialect == Dialect::Postgres));
+        is_of(REVISION - 1).await;
+        store.restart_outdated().await.unwrap();
+        assert_eq!(kept().await, 0);
+        assert!(begin(&store, job).await);
+        assert_eq!(keep(&store, job, &result(1)).await, Some(1));
+    }
+}
+
+#[tokio::test]
+async fn kinds_of_processors_do_not_mix_within_a_job_that_asks_for_one() {
+    for store in stores().await {
+        upload(&store, "", 'a', &Labels::default()).await;
+        let computed_on = |vectors: &str, index| {
+            let mut result = result(index);
+            result.point.vectors = Some(vectors.to_owned());
+            result
+        };
+        for (one_kind, kept) in [(true, 1), (false, 2)] {
+            let request = sweep_on('a', 4, one_kind);
+            let job = queue_request(&store, "", &request, &Labels::default()).await;
+            assert!(begin(&store, job).await, "on V3");
+            assert_eq!(keep(&store, job, &computed_on("V3", 0)).await, Some(1));
+            assert_eq!(keep(&store, job, &computed_on("V4", 1)).await, Some(kept));
+        }
+    }
+}
+
+#[cfg(feature = "cluster")]
+#[tokio::test]
+async fn a_task_of_other_numerics_is_no_work_for_a_job() {
+    for store in stores().await.iter().filter(|store| store.shared_queue().is_some()) {
+        let tasks = store.shared_queue().unwrap();
+        upload(store, "", 'a', &Labels::default()).await;
+        let job = queue(store, "", 'a', 4, &Labels::default()).await;
+        let idle = async || {
+            let idle = tasks.jobs_without_tasks().await.unwrap();
+            idle.iter().any(|(id, _)| *id == job.to_string())
+        };
+        tasks.push_speeds(job, None, &[0]).await.unwrap();
+        assert!(!idle().await);
+        let older = "update apalis.jobs set job_type = 'speeds-0'";
+        sqlx::query(older).execute(&store.writer).await.unwrap();
+        assert!(idle().await);
+        tasks.tidy().await.unwrap();
+        let left: i64 =
+            sqlx::query_scalar("select count(*) from apalis.jobs").fetch_one(&store.readers).await.unwrap();
+        assert_eq!(left, 0);
+        tasks.push_speeds(job, None, &[0]).await.unwrap();
+        assert!(!idle().await);
     }
 }
 

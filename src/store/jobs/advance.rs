@@ -2,6 +2,7 @@
 
 use super::job::{Failure, JobId};
 use super::row::status_of;
+use crate::analysis::run::REVISION;
 use crate::store::dialect::Guarded;
 use crate::store::end_states;
 use crate::store::error::StoreError;
@@ -62,19 +63,20 @@ impl Store {
         self.with_reserve(|| self.advance_job(id, JobStatus::Dismissed, None)).await
     }
 
-    /// Takes a job in hand on a processor with this kind of vectors.
+    /// Takes a job in hand on a processor with this kind of vectors; of other numerics it is unwanted here.
     pub async fn begin_job(&self, id: JobId, vectors: &str) -> Result<Begun, StoreError> {
         let mut write = self.write().await?;
         let begun = sqlx::query(
             "update jobs set status = 'running', updated_at = $2,
                  started_at = coalesce(started_at, $2),
                  vectors = case when coalesce(vectors, $3) = $3 then $3 else 'several' end
-             where id = $1 and status in ('accepted', 'running')
+             where id = $1 and status in ('accepted', 'running') and revision = $4
                  and (one_kind = 0 or coalesce(vectors, $3) = $3)",
         )
         .bind(id.to_string())
         .bind(now())
         .bind(vectors)
+        .bind(i64::from(REVISION))
         .execute(&mut *write)
         .await?;
         if begun.rows_affected() == 1 {
@@ -82,9 +84,10 @@ impl Store {
             return Ok(Begun::Yes);
         }
         let kept: Option<Option<String>> = sqlx::query_scalar(
-            "select vectors from jobs where id = $1 and status in ('accepted', 'running')",
+            "select vectors from jobs where id = $1 and status in ('accepted', 'running') and revision = $2",
         )
         .bind(id.to_string())
+        .bind(i64::from(REVISION))
         .fetch_optional(&mut *write)
         .await?;
         write.rollback().await?;

@@ -39,6 +39,7 @@ mod tests {
     use serde_json::json;
 
     use super::*;
+    use crate::analysis::run::REVISION;
     use crate::store::jobs::{Begun, JobKind};
     use crate::store::status::JobStatus;
     use crate::store::testing::stores;
@@ -56,11 +57,12 @@ mod tests {
     async fn a_running_job_takes_another_request_and_no_fewer_speeds() {
         for store in stores().await {
             let job = JobId::new();
-            let insert = "insert into jobs (id, kind, model, modes_per_speed, facts, request, speeds, created_at, updated_at)
-                values ($1, 'sweep', 'm', 20, '{}', $2, 4, 'a', 'a')";
+            let insert = "insert into jobs (id, kind, model, modes_per_speed, facts, request, speeds, created_at, updated_at, revision)
+                values ($1, 'sweep', 'm', 20, '{}', $2, 4, 'a', 'a', $3)";
             sqlx::query(insert)
                 .bind(job.to_string())
                 .bind(sweep(20, 4).to_json().unwrap())
+                .bind(i64::from(REVISION))
                 .execute(&store.writer)
                 .await
                 .unwrap();

@@ -61,11 +61,11 @@ impl Store {
     }
 
     /// Lets unfinished jobs begin anew that another revision of the numerics began: all speeds of a sweep are of one. The same of those
-    /// of one kind of vectors that another kind began, unless there may be machines of that one. Settings that
+    /// of one kind of vectors that another kind began, unless there may be machines of that one: on a server, which may have later programs
+    /// as well, whose jobs are left to them. Settings that
     /// were chosen and speeds that were added before stay, as if they had been asked for. For a service that starts.
     pub async fn restart_outdated(&self) -> Result<(), StoreError> {
-        const OUTDATED: &str =
-            "status in ('accepted', 'running') and (revision <> $1 or one_kind = 1 and vectors <> $2)";
+        const OUTDATED: &str = "status in ('accepted', 'running') and (revision < $1 or $2 is not null and (revision > $1 or one_kind = 1 and vectors <> $2))";
         let own = (self.dialect == Dialect::Sqlite).then(vectors);
         let any = format!("select id from jobs where {OUTDATED} limit 1");
         let any = sqlx::query(AssertSqlSafe(any)).bind(i64::from(REVISION)).bind(&own);
@@ -73,6 +73,15 @@ impl Store {
             return Ok(());
         }
         let mut transaction = self.write().await?;
+        let all = format!("select id from jobs where {OUTDATED} order by id");
+        let all: Vec<String> = sqlx::query_scalar(AssertSqlSafe(all))
+            .bind(i64::from(REVISION))
+            .bind(&own)
+            .fetch_all(&mut *transaction)
+            .await?;
+        for id in all {
+            transaction.guard(Guarded::Job(read_id(&id)?)).await?;
+        }
         for table in ["speed_results", "end_states", "documents"] {
             let begun = format!("delete from {table} where job in (select id from jobs where {OUTDATED})");
             sqlx::query(AssertSqlSafe(begun))
