@@ -35,12 +35,18 @@ pub struct Config {
 
     /// PostgreSQL database for models, jobs, results and queue, which several processes share [default: a file in the data folder].
     #[cfg(feature = "cluster")]
-    #[arg(long, env = "RUBMAP_DATABASE", hide_env_values = true, value_name = "postgres://USER@HOST/NAME")]
+    #[arg(
+        long,
+        env = "RUBMAP_DATABASE",
+        requires = "objects",
+        hide_env_values = true,
+        value_name = "postgres://USER@HOST/NAME"
+    )]
     pub database: Option<DatabaseUrl>,
 
     /// Object storage for files of the data folder, which several processes share: s3://bucket/prefix, or a folder that all see [default: the data folder alone].
     #[cfg(feature = "cluster")]
-    #[arg(long, env = "RUBMAP_OBJECTS", value_name = "s3://BUCKET/PREFIX")]
+    #[arg(long, env = "RUBMAP_OBJECTS", requires = "database", value_name = "s3://BUCKET/PREFIX")]
     pub objects: Option<Address>,
 
     /// Threads that compute; 0 leaves that to others of the same --database [default: one per core].

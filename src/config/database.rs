@@ -1,5 +1,6 @@
 //! Which database several processes share.
 
+use std::convert::Infallible;
 use std::fmt;
 use std::str::FromStr;
 
@@ -20,14 +21,12 @@ impl fmt::Debug for DatabaseUrl {
     }
 }
 
+/// Takes anything: who refuses an address here has it shown.
 impl FromStr for DatabaseUrl {
-    type Err = &'static str;
+    type Err = Infallible;
 
-    fn from_str(url: &str) -> Result<Self, Self::Err> {
-        let is_one = ["postgres://", "postgresql://"].iter().any(|scheme| url.starts_with(scheme));
-        is_one
-            .then(|| Self(url.to_owned()))
-            .ok_or("expected an address such as postgres://user@host/database")
+    fn from_str(url: &str) -> Result<Self, Infallible> {
+        Ok(Self(url.to_owned()))
     }
 }
 
@@ -42,6 +41,5 @@ mod tests {
             (format!("{url:?}").as_str(), url.expose()),
             ("postgres://…", "postgres://me:secret@db/rubmap")
         );
-        assert!("mysql://me@db/rubmap".parse::<DatabaseUrl>().is_err());
     }
 }
