@@ -165,9 +165,12 @@ impl Engine {
     fn keep(&self, live: Live) -> Arc<Live> {
         let mut all = self.lock_live();
         let kept = all.entry(live.id);
-        if let (Entry::Occupied(known), false) = (&kept, self.tasks.are_shared()) {
-            return Arc::clone(known.get());
-        }
+        let live = match &kept {
+            Entry::Occupied(known) if !self.tasks.are_shared() => return Arc::clone(known.get()),
+            // Tasks that run are told by the watch that they have.
+            Entry::Occupied(known) => Live { watch: Arc::clone(&known.get().watch), ..live },
+            Entry::Vacant(_) => live,
+        };
         let kept = kept.insert_entry(Arc::new(live));
         Arc::clone(kept.get())
     }

@@ -9,7 +9,7 @@ use tempfile::TempPath;
 use super::engine::{Engine, Live};
 use super::error::Interruption;
 use super::finish;
-use super::patience::patiently;
+use super::patience::{patiently, until_written};
 use super::pool::Panicked;
 use super::progress::PhaseMonitor;
 use crate::analysis::monitor::Monitor;
@@ -57,7 +57,7 @@ pub(super) async fn run(
     wanted(0.5, "writing the package")?;
     let package = Arc::new(package);
     let write = || write(engine, Arc::clone(&package));
-    let upload = patiently(&job.watch, write).await??;
+    let upload = until_written(&job.watch, write).await??;
     drop(package);
 
     wanted(0.8, "checking the package")?;
@@ -76,7 +76,7 @@ pub(super) async fn run(
     let find = || engine.store.job(job.id);
     let labels = patiently(&job.watch, find).await?.map(|job| job.head.labels).unwrap_or_default();
     let keep = || engine.store.insert_model(owner, &id, &facts, &labels, &upload);
-    let (_, new) = patiently(&job.watch, keep).await?.map_err(Interruption::limit)?;
+    let (_, new) = until_written(&job.watch, keep).await?.map_err(Interruption::limit)?;
     tracing::info!(job.id = %job.id, model.id = id, name = facts.name, new, "generated a model");
     finish::complete(engine, job, &[], Some(&id)).await
 }

@@ -19,9 +19,20 @@ pub(super) async fn patiently<T, W>(watch: &Watch, mut write: impl FnMut() -> W)
 where
     W: Future<Output = Result<T, StoreError>>,
 {
+    until_written(watch, || in_time(LONGEST_WRITE, write())).await
+}
+
+/// The same of files, which take what they take: their store gives up by itself what does not go on.
+pub(super) async fn until_written<T, W>(
+    watch: &Watch,
+    mut write: impl FnMut() -> W,
+) -> Result<T, Interruption>
+where
+    W: Future<Output = Result<T, StoreError>>,
+{
     let mut waiting = None;
     loop {
-        match in_time(LONGEST_WRITE, write()).await {
+        match write().await {
             Err(error) if error.may_pass() => {
                 if watch.is_cancelled() {
                     return Err(Interruption::NotWanted);
@@ -47,7 +58,7 @@ async fn in_time<T>(
 
 /// Pushes a task until the queue takes it, which it does at once unless memory is short.
 pub(super) async fn until_taken<P: Future<Output = Result<(), StoreError>>>(push: impl Fn() -> P) {
-    while let Err(error) = push().await {
+    while let Err(error) = in_time(LONGEST_WRITE, push()).await {
         tracing::error!(%error, "the queue failed");
         tokio::time::sleep(BETWEEN_ATTEMPTS).await;
     }

@@ -8,7 +8,7 @@ use super::error::Interruption;
 use super::memory::Memory;
 #[cfg(feature = "cluster")]
 use super::patience::BETWEEN_ATTEMPTS;
-use super::patience::patiently;
+use super::patience::{patiently, until_written};
 use super::progress::PhaseMonitor;
 use super::stress::Making;
 use crate::analysis::error::AnalysisError;
@@ -264,7 +264,7 @@ impl Reductions {
         reduced.tip_thickness = self.tip_thickness(model).await?;
         let job = monitor.watch().job();
         let share = || self.store.share_basis(model, modes_per_speed, &reduced.wheel);
-        patiently(monitor.watch(), share).await?;
+        until_written(monitor.watch(), share).await?;
         let write = || self.store.insert_reduction(job, model, modes_per_speed, &reduced);
         patiently(monitor.watch(), write).await?;
         self.computing.acquit(job);

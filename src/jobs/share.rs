@@ -101,7 +101,7 @@ async fn look(engine: Arc<Engine>) {
         if look % LOOKS_BETWEEN_REPAIRS == 0
             && let Err(error) = repair(&engine, tasks).await
         {
-            tracing::debug!(%error, "could not look for lost tasks; trying again later");
+            tracing::warn!(%error, "could not look for lost tasks; trying again later");
         }
     }
 }
@@ -112,7 +112,8 @@ async fn repair(engine: &Engine, tasks: &SharedTasks) -> Result<(), StoreError> 
     }
     for Unfinished { id, crashes, .. } in engine.store.unfinished_jobs().await? {
         if crashes >= MOST_CRASHES {
-            engine.fail(id, &error::crashed(crashes)).await?;
+            // Others may be lost, too.
+            let _ = engine.fail(id, &error::crashed(crashes)).await;
         }
     }
     for (id, owner) in tasks.queue().jobs_without_tasks().await? {

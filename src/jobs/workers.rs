@@ -108,8 +108,10 @@ impl Runner {
 
     /// Ends running computations without finishing their jobs, which the next start resumes.
     pub async fn stop(self) {
-        self.engine.stopping.store(true, Ordering::Relaxed);
         self.stop.cancel();
+        // Before they end, which would be taken for having done what they had.
+        self.engine.tasks.give_back().await;
+        self.engine.stopping.store(true, Ordering::Relaxed);
         let mut workers = self.workers;
         let ended = async {
             for worker in &mut workers {
@@ -201,9 +203,12 @@ fn prepare_jobs(
     stop: CancellationToken,
 ) -> BoxFuture<'static, Result<(), WorkerError>> {
     async fn handle(task: PrepareJob, engine: Data<Arc<Engine>>) -> Result<(), BoxDynError> {
-        let _place = engine.tasks.preparing(task.job);
-        engine.attend(task.job, || prepare::prepare(&engine, task.job)).await;
-        Ok(())
+        let engine = Arc::clone(&engine);
+        outliving(async move {
+            let _place = engine.tasks.preparing(task.job);
+            engine.attend(task.job, || prepare::prepare(&engine, task.job)).await;
+        })
+        .await
     }
     let most = tasks::preparations_at_once(threads);
     match (&Arc::clone(&engine).tasks, kind) {
@@ -222,9 +227,12 @@ fn run_speeds(
     stop: CancellationToken,
 ) -> BoxFuture<'static, Result<(), WorkerError>> {
     async fn handle(task: RunSpeed, engine: Data<Arc<Engine>>) -> Result<(), BoxDynError> {
-        let _place = engine.tasks.running(task);
-        engine.attend(task.job, || speed::run(&engine, task)).await;
-        Ok(())
+        let engine = Arc::clone(&engine);
+        outliving(async move {
+            let _place = engine.tasks.running(task);
+            engine.attend(task.job, || speed::run(&engine, task)).await;
+        })
+        .await
     }
     match (&Arc::clone(&engine).tasks, kind) {
         (Tasks::Own(tasks), _) => worker!(name, tasks.speeds(), threads, engine, stop, handle),
@@ -233,6 +241,12 @@ fn run_speeds(
             worker!(tasks.name(&name), tasks.speeds(kind), threads, engine, stop, handle)
         }
     }
+}
+
+/// Does the work of a task to its end, even if the worker that has it is replaced: `apalis` gives one up, with all that it waits for, as
+/// soon as its backend cannot be reached.
+async fn outliving(work: impl Future<Output = ()> + Send + 'static) -> Result<(), BoxDynError> {
+    Ok(tokio::spawn(work).await?)
 }
 
 async fn stopped(stop: CancellationToken) -> Result<(), WorkerError> {

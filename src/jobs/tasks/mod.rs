@@ -62,6 +62,15 @@ impl Tasks {
         }
     }
 
+    /// Gives others what this process has of tasks that are shared.
+    pub(super) async fn give_back(&self) {
+        match self {
+            Self::Own(_) => {}
+            #[cfg(feature = "cluster")]
+            Self::Shared(tasks) => tasks.give_back().await,
+        }
+    }
+
     /// Ends it: this process takes no more tasks, and others get those that it has.
     pub(super) async fn close(&self) {
         match self {

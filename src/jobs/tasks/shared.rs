@@ -20,6 +20,9 @@ use crate::store::shared_queue::SharedQueue;
 /// How often a queue is asked for tasks without having been told of any.
 const IDLE_POLL: Duration = Duration::from_secs(2);
 
+/// Longest time to give tasks back: a process that is told to stop has little.
+const GIVING_BACK: Duration = Duration::from_secs(1);
+
 /// Tasks of all machines, as one process sees them.
 #[derive(Debug)]
 pub(in crate::jobs) struct SharedTasks {
@@ -70,8 +73,11 @@ impl SharedTasks {
             self.queue.give_back(&workers).await?;
             self.queue.leave(&self.process).await
         };
-        if let Err(error) = given.await {
-            tracing::warn!(%error, "could not give tasks back; others take them when this process has been silent for a while");
+        let silent = "others take the tasks of this process when it has been silent for a while";
+        match tokio::time::timeout(GIVING_BACK, given).await {
+            Ok(Ok(())) => {}
+            Ok(Err(error)) => tracing::warn!(%error, "could not give tasks back: {silent}"),
+            Err(_) => tracing::warn!("could not give tasks back in time: {silent}"),
         }
     }
 
