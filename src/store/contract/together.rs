@@ -2,9 +2,7 @@
 
 use futures::future::join_all;
 
-use super::{begin, keep, labels, model_id, queue, result, sweep, upload};
-#[cfg(feature = "cluster")]
-use super::{queue_request, sweep_on};
+use super::{begin, keep, labels, model_id, queue, queue_request, result, sweep, sweep_on, upload};
 use crate::analysis::run::REVISION;
 use crate::store::Store;
 use crate::store::dialect::Dialect;
