@@ -31,6 +31,10 @@ pub(super) struct WorkerArgs {
     /// Memory that computations may take together, in bytes [default: three quarters of what the machine or container leaves].
     #[arg(long, env = "RUBMAP_MEMORY_BYTES", value_parser = clap::value_parser!(u64).range(1 << 20..))]
     memory_bytes: Option<u64>,
+    /// Bytes of models and results that one owner may have stored, as the gateways say: a generated model has its size once it is made
+    /// [default: no limit].
+    #[arg(long, env = "RUBMAP_OWNER_BYTES")]
+    owner_bytes: Option<u64>,
     /// Stop, too, when standard input ends
     #[arg(long)]
     until_eof: bool,
@@ -38,13 +42,14 @@ pub(super) struct WorkerArgs {
 
 /// Works until SIGTERM or SIGINT.
 pub(super) fn run(args: WorkerArgs) -> anyhow::Result<()> {
-    let WorkerArgs { addr, data, database, objects, workers, memory_bytes, until_eof } = args;
+    let WorkerArgs { addr, data, database, objects, workers, memory_bytes, owner_bytes, until_eof } = args;
     let config = Config {
         addr,
         database: Some(database),
         objects: Some(objects),
         workers,
         memory_bytes,
+        owner_bytes,
         // What it answers is not about anybody's jobs.
         open: true,
         ..Config::local(&data)

@@ -115,11 +115,18 @@ impl StoreError {
         matches!(self, Self::Package(error) if error.kind() == ErrorKind::NotFound)
     }
 
+    /// Whether the object store refuses this process's credentials.
+    pub fn is_denied(&self) -> bool {
+        matches!(self, Self::Objects(error) if error.kind() == ErrorKind::PermissionDenied)
+    }
+
     /// Whether the same may succeed later without anybody changing a word of it: a full disk, a lock that somebody holds,
     /// descriptors or memory that others have taken. No verdict on what was to be done.
     pub fn may_pass(&self) -> bool {
         match self {
-            Self::File(error) | Self::Objects(error) => io_may_pass(error),
+            Self::File(error) => io_may_pass(error),
+            // Credentials run out and are renewed.
+            Self::Objects(error) => io_may_pass(error) || self.is_denied(),
             // One that is not there may be put back, or uploaded again.
             Self::Package(error) => io_may_pass(error) || self.is_missing_package(),
             // A connection that was lost is replaced, and a server that does not answer, or has no name yet, comes back.

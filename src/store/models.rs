@@ -2,10 +2,14 @@
 
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
+#[cfg(feature = "cluster")]
+use std::time::Duration;
 
 use sqlx::any::AnyRow;
 use sqlx::{AssertSqlSafe, Row};
 
+#[cfg(feature = "cluster")]
+use super::claims::Claim;
 use super::dialect::Guarded;
 use super::error::StoreError;
 use super::handle::Store;
@@ -19,6 +23,17 @@ use crate::package::{self as packaging, Limits as PackageLimits, PackageError};
 
 /// What names of packages on their way in begin with.
 const UPLOAD_PREFIX: &str = "upload-";
+
+/// Time between two attempts to become the only one that keeps or removes a package.
+#[cfg(feature = "cluster")]
+const BETWEEN_CLAIMS: Duration = Duration::from_millis(100);
+
+/// The right to keep or remove a package, until it is dropped.
+struct PackageWriter<'a> {
+    _here: tokio::sync::MutexGuard<'a, ()>,
+    #[cfg(feature = "cluster")]
+    _everywhere: Option<Claim>,
+}
 
 /// A stored model.
 #[derive(Debug, Clone)]
@@ -116,7 +131,7 @@ impl Store {
         labels: &Labels,
         upload: &Path,
     ) -> Result<Result<(StoredModel, bool), LimitReached>, StoreError> {
-        let _packages = self.packages.lock().await;
+        let _mine = self.only_package_writer(id).await?;
         let target = self.package_path(id);
         if let Some(known) = self.model(id, Some(owner)).await? {
             // A package that got lost is there again with the next upload.
@@ -139,7 +154,17 @@ impl Store {
             .map_err(std::io::Error::other)??;
         self.objects.publish(&target).await.map_err(StoreError::Objects)?;
         let mut write = self.write().await?;
+        write.guard(Guarded::Owner(owner)).await?;
         write.guard(Guarded::Model(id)).await?;
+        // Again: what was allowed before the upload may have been used up elsewhere. A package that nobody has is a leftover.
+        let owns = "select 1 from model_owners where model = $1 and owner = $2";
+        let owns = sqlx::query(owns).bind(id).bind(owner).fetch_optional(&mut *write).await?;
+        if owns.is_none()
+            && let Err(reached) = limits.allow_model(&mut write, owner, size_bytes).await?
+        {
+            write.rollback().await?;
+            return Ok(Err(reached));
+        }
         sqlx::query(
             "insert into models (id, name, facts, size_bytes, created_at) values ($1, $2, $3, $4, $5)
              on conflict (id) do nothing",
@@ -237,7 +262,7 @@ impl Store {
     /// Takes model `id` from `owner` (`None`: from all), unless an unfinished job of theirs needs it, or of anybody when there
     /// is no other owner. With its last owner it is deleted, and its reductions with it.
     pub async fn delete_model(&self, id: &str, owner: Option<&str>) -> Result<Deletion, StoreError> {
-        let _packages = self.packages.lock().await;
+        let _mine = self.only_package_writer(id).await?;
         let (deletion, was_last) = self.with_reserve(|| self.remove_model(id, owner)).await?;
         if was_last {
             self.remove_checkpoints(id, None).await;
@@ -250,6 +275,28 @@ impl Store {
             }
         }
         Ok(deletion)
+    }
+
+    /// The right to keep or remove the package of `model`, among all that share it.
+    async fn only_package_writer(&self, model: &str) -> Result<PackageWriter<'_>, StoreError> {
+        let here = self.packages.lock().await;
+        #[cfg(feature = "cluster")]
+        let everywhere = match self.shared_queue() {
+            Some(queue) => loop {
+                if let Some(claim) = queue.claim(&format!("package {model}")).await? {
+                    break Some(claim);
+                }
+                tokio::time::sleep(BETWEEN_CLAIMS).await;
+            },
+            None => None,
+        };
+        #[cfg(not(feature = "cluster"))]
+        let _ = model;
+        Ok(PackageWriter {
+            _here: here,
+            #[cfg(feature = "cluster")]
+            _everywhere: everywhere,
+        })
     }
 
     /// In the database. Returns also whether nobody has it any more.

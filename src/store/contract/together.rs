@@ -94,6 +94,30 @@ async fn limits_hold_for_all_processes() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
+async fn models_within_a_limit_are_counted_by_all_processes() {
+    for store in stores().await {
+        let processes = store.processes(PROCESSES).await;
+        let limits = Limits { models: Some(2), ..Limits::default() };
+        let insert = async |store: &Store, letter: char| {
+            let upload = store.new_upload().await.unwrap().into_temp_path();
+            std::fs::write(&upload, "package").unwrap();
+            let (id, facts) = (model_id(letter), super::facts("m"));
+            let inserted =
+                store.insert_model(("eve", limits), &id, &facts, &Labels::default(), &upload).await;
+            match inserted.unwrap() {
+                Ok(_) => true,
+                Err(LimitReached::Models { models: 2, limit: 2 }) => false,
+                Err(other) => panic!("{other:?}"),
+            }
+        };
+        let inserted =
+            join_all(processes.iter().zip("abcd".chars()).map(|(store, letter)| insert(store, letter))).await;
+        assert_eq!(inserted.iter().filter(|&&accepted| accepted).count(), 2);
+        close(processes).await;
+    }
+}
+
+#[tokio::test(flavor = "multi_thread")]
 async fn a_key_is_taken_once() {
     for store in stores().await {
         let processes = store.processes(PROCESSES).await;
