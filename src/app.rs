@@ -185,12 +185,12 @@ impl App {
 }
 
 /// Opens the store, again and again while the disk is full or another program has the database: who starts the service may
-/// not come back to it.
+/// not come back to it. Credentials that are refused from the beginning were never right.
 async fn open_store(config: &Config) -> Result<Store, StoreError> {
     let mut warned = false;
     loop {
         match open_once(config).await {
-            Err(error) if error.may_pass() => {
+            Err(error) if error.may_pass() && !error.is_denied() => {
                 if !warned {
                     tracing::error!(%error, "this process starts as soon as what it needs can be used");
                     warned = true;

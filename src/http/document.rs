@@ -100,9 +100,9 @@ fn add_common_answers(responses: &mut BTreeMap<String, RefOr<Response>>) {
             "429",
             "The owner has too many models, bytes or waiting speeds; Retry-After says when to try again.",
         ),
-        ("503", "The data folder cannot be used for the moment; Retry-After says when to try again."),
-        ("507", "The disk of the data folder is full; Retry-After says when to try again."),
-        ("500", "A defect, or the data folder failed: the service's log says more."),
+        ("503", "The storage cannot be used for the moment; Retry-After says when to try again."),
+        ("507", "The storage is full; Retry-After says when to try again."),
+        ("500", "A defect, or the storage failed: the service's log says more."),
     ] {
         responses.entry(status.to_owned()).or_insert_with(|| problem(description));
     }

@@ -279,14 +279,14 @@ impl From<StoreError> for Problem {
         }
         tracing::error!(%error, "store failed");
         if error.is_disk_full() {
-            let detail = "the disk of the data folder is full; nothing was kept of this request: send it again once there is room";
+            let detail = "the storage is full (the disk of the data folder, or that of a server in its place); nothing was kept of this request: send it again once there is room";
             return Self::new(Kind::DiskFull, detail).retry_after(FULL_DISK_S);
         }
         if error.may_pass() {
-            let detail = "the data folder cannot be used for the moment (a lock, no descriptors left); send the request again";
+            let detail = "the storage cannot be used for the moment (a lock, no descriptors left, a server that is away); send the request again";
             return Self::new(Kind::Unavailable, detail).retry_after(BUSY_S);
         }
-        Self::new(Kind::Internal, "the data folder failed; the service's log says more")
+        Self::new(Kind::Internal, "the storage failed; the service's log says more")
     }
 }
 

@@ -263,7 +263,7 @@ impl Engine {
                 return;
             }
             if !warned {
-                tracing::error!(job.id = %id, %error, "a job waits until the data folder works again");
+                tracing::error!(job.id = %id, %error, "a job waits until the storage works again");
                 warned = true;
             }
             self.tell(id, error::waiting_for(&error));

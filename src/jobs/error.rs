@@ -79,23 +79,24 @@ impl Interruption {
 /// What a job waits for whose task the store has let down, in words.
 pub(super) fn waiting_for(error: &StoreError) -> &'static str {
     if error.is_disk_full() {
-        "waiting for room on the disk of the data folder"
+        "waiting for room in the storage"
     } else if error.is_missing_package() {
-        "waiting for the package of its model, which is not in the data folder: upload it again"
+        "waiting for the package of its model, which is not in the storage: upload it again"
     } else {
-        "waiting for the data folder, which cannot be used for the moment"
+        "waiting for the storage, which cannot be used for the moment"
     }
 }
 
 /// The package of a job's model has been missing for too long.
 pub(super) fn lost_package() -> Failure {
-    let message = "the package of its model is not in the data folder any more; upload the model and send the job again";
+    let message =
+        "the package of its model is not in the storage any more; upload the model and send the job again";
     Failure { cause: FailureCause::Package, message: message.to_owned(), violations: Vec::new() }
 }
 
 /// Something stored does not read back.
 pub(super) fn unreadable() -> Failure {
-    let message = "the data folder holds something that cannot be read; the service's log says more";
+    let message = "the storage holds something that cannot be read; the service's log says more";
     Failure { cause: FailureCause::Storage, message: message.to_owned(), violations: Vec::new() }
 }
 

@@ -38,7 +38,7 @@ where
                     return Err(Interruption::NotWanted);
                 }
                 if waiting.is_none() {
-                    tracing::error!(%error, "a result waits until the data folder takes it");
+                    tracing::error!(%error, "a result waits until the storage takes it");
                     waiting = Some(watch.waits_for(waiting_for(&error)));
                 }
                 tokio::time::sleep(BETWEEN_ATTEMPTS).await;
