@@ -79,7 +79,7 @@ impl Interruption {
 /// What a job waits for whose task the store has let down, in words.
 pub(super) fn waiting_for(error: &StoreError) -> &'static str {
     if error.is_disk_full() {
-        "waiting for room in the storage"
+        "waiting for room on the disk of the storage"
     } else if error.is_missing_package() {
         "waiting for the package of its model, which is not in the storage: upload it again"
     } else {
