@@ -4,12 +4,14 @@
 //! many threads a machine has.
 
 pub mod aligned;
+pub mod anderson;
 pub mod block_lanczos;
 pub mod complementarity;
 pub mod convergence;
 #[cfg(test)]
 #[path = "../../../tests/properties/fixed.rs"]
 mod fixed;
+pub mod gmres;
 pub mod hermitian;
 pub mod matrix_serde;
 pub mod multifrontal;

@@ -19,6 +19,8 @@ pub mod mistuning;
 pub mod modal_wheel;
 pub mod node_rows;
 pub mod nodes;
+#[cfg(test)]
+mod numbers;
 pub mod orbit;
 pub mod oscillators;
 pub mod reduction;
@@ -26,5 +28,6 @@ pub mod schemes;
 pub mod sector;
 pub mod states;
 pub mod statistics;
+pub mod steady;
 pub mod symmetry;
 pub mod waves;

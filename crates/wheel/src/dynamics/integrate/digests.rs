@@ -9,6 +9,7 @@ use super::super::direction::Direction;
 use super::super::effects::Effects;
 use super::super::initial::InitialMode;
 use super::super::modal_wheel::{ModalHarmonic, ModalWheel};
+use super::super::numbers::Numbers;
 use super::super::oscillators::ModalDamping;
 use super::super::schemes::Scheme;
 use super::super::sector::ContactNode;
@@ -19,18 +20,6 @@ use crate::revision::REVISION;
 const SECTORS: usize = 5;
 const NODES: usize = 3;
 const MODES: usize = 11;
-
-/// Numbers in [−1, 1) whose bits depend on no library.
-struct Numbers(u64);
-
-impl Numbers {
-    fn next(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 12) as f64 / (1u64 << 51) as f64 - 1.0
-    }
-}
 
 fn wheel() -> ModalWheel {
     let mut numbers = Numbers(0x9E37_79B9_7F4A_7C15);

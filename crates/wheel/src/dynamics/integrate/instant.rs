@@ -11,6 +11,11 @@ pub(super) struct Instant {
 }
 
 impl Instant {
+    /// The beginning of a revolution.
+    pub(super) fn beginning(revolution: usize) -> Self {
+        Self { step: 0, revolutions: revolution as f64, before: revolution as f64 }
+    }
+
     /// The end of `step`, counted from 1, of the `steps` of a revolution.
     #[inline(always)]
     pub(super) fn new(revolution: usize, step: usize, steps: usize) -> Self {

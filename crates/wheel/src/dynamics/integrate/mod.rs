@@ -8,6 +8,7 @@ mod digests;
 mod excursion;
 mod instant;
 mod obstacle;
+mod passage;
 mod recorder;
 mod residual;
 mod run;
@@ -18,18 +19,21 @@ mod stepper;
 mod surroundings;
 mod tally;
 mod tips;
+mod trace;
 
 use pulp::{Simd, WithSimd};
 
 pub use self::bounds::{TipComponent, TipDisplacement};
 pub use self::detail::DetailHistory;
 pub use self::excursion::Excursion;
+pub use self::passage::{Passage, PassageError, Unknown};
 pub use self::run::{Divergence, History, MAX_TABLE_VALUES, Outcome, Run};
 pub use self::simulation::{DIVERGED_SHARE_OF_RADIUS, Detail, SensorRow, Simulation};
 pub use self::states::ModalStates;
 use self::stepper::Stepper;
 pub use self::tally::{ContactRecord, PairContact};
 pub use self::tips::TipMotion;
+pub use self::trace::{Touching, Trace};
 #[cfg(test)]
 use super::casing::RestrictionTable;
 

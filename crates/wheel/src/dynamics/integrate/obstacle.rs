@@ -18,8 +18,9 @@ use super::simulation::Simulation;
 use super::step_flexibility::{is_turned, step_flexibility, symmetric_flexibility};
 use super::surroundings::{Law, Surroundings};
 use super::tally::{ContactInterval, ContactTally};
-use rubmap_numerics::complementarity::ComplementarityError;
+use super::trace::Trace;
 use rubmap_numerics::complementarity::active_set::ActiveSetSolver;
+use rubmap_numerics::complementarity::{ComplementarityError, ContactOperator};
 use rubmap_numerics::sector_fourier::SectorFourier;
 
 /// Penetration that the ridge of a singular W may leave, relative to clearance and restriction. Nodes that W cannot tell
@@ -238,6 +239,27 @@ impl Obstacle {
             statistics.contact_impulse += impulse;
         }
         Ok(())
+    }
+
+    /// Predicts the gaps of a state that no step led to; whether all are open.
+    #[inline(always)]
+    pub(super) fn look<S: Simd>(
+        &mut self,
+        simd: S,
+        oscillators: &Oscillators,
+        fourier: &SectorFourier,
+        now: Instant,
+    ) -> bool {
+        self.clear_forces(fourier);
+        oscillators.project(simd, &self.rows, &mut self.harmonic);
+        self.predict_gaps(simd, fourier, now, None) >= 0.0
+    }
+
+    /// Adds to `trace` what the last solution has touch at the end of `step`; for a rigid casing.
+    pub(super) fn trace(&self, step: usize, trace: &mut Trace) {
+        let active = self.solver.active();
+        let places = active.iter().map(|&index| self.delassus.place(index));
+        trace.touch(step, places, |i, j| self.delassus.entry(active[i], active[j]));
     }
 
     /// Largest penetration of the state as it is `now`, the instant of the last gaps.

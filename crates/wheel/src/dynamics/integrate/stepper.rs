@@ -27,6 +27,7 @@ use super::recorder::Recorder;
 use super::run::{Divergence, Outcome, Run};
 use super::simulation::Simulation;
 use super::surroundings::Surroundings;
+use super::trace::Trace;
 use rubmap_numerics::sector_fourier::SectorFourier;
 
 /// Steps between two looks at progress and cancellation: some tens of milliseconds.
@@ -181,6 +182,80 @@ impl Stepper {
         }
         self.end(simulation);
         Ok(())
+    }
+
+    /// Takes `steps` steps from the state the oscillators are in, the beginning of `revolution`, without recording anything but what
+    /// touches. For scenes whose state is that of the oscillators.
+    #[inline(always)]
+    pub(super) fn flow<S: Simd>(
+        &mut self,
+        simd: S,
+        (revolution, steps): (usize, usize),
+        simulation: &Simulation<'_>,
+        trace: &mut Trace,
+    ) -> Result<(), Box<Outcome>> {
+        match &self.obstacle {
+            None => self.flow_by::<S, Free>(simd, (revolution, steps), simulation, trace),
+            Some(_) if self.massless => {
+                self.flow_by::<S, Massless>(simd, (revolution, steps), simulation, trace)
+            }
+            Some(_) => self.flow_by::<S, Completing>(simd, (revolution, steps), simulation, trace),
+        }
+    }
+
+    #[inline(always)]
+    fn flow_by<S: Simd, M: Motion>(
+        &mut self,
+        simd: S,
+        (revolution, steps): (usize, usize),
+        simulation: &Simulation<'_>,
+        trace: &mut Trace,
+    ) -> Result<(), Box<Outcome>> {
+        let Self { oscillators, fourier, obstacle, .. } = self;
+        if let Some(obstacle) = obstacle {
+            let start = Instant::beginning(revolution);
+            // Forces that act from an instant on belong to its state.
+            if !obstacle.look(simd, oscillators, fourier, start) && self.massless {
+                self.solve_tracing::<M>(start, 0, trace)?;
+            }
+        }
+        for step in 1..=steps {
+            let now = Instant::new(revolution, step, simulation.steps_per_revolution);
+            M::predict(self, simd, now);
+            if !self.gaps::<S, M>(simd, now) {
+                self.solve_tracing::<M>(now, step, trace)?;
+            }
+        }
+        M::apply(self, simd);
+        let revolutions = revolution as f64 + steps as f64 / simulation.steps_per_revolution as f64;
+        self.check_bounds(self.oscillators.energy(), revolutions)
+    }
+
+    #[inline(always)]
+    fn solve_tracing<M: Motion>(
+        &mut self,
+        now: Instant,
+        step: usize,
+        trace: &mut Trace,
+    ) -> Result<(), Box<Outcome>> {
+        self.solve::<M>(now)?;
+        if let Some(obstacle) = &self.obstacle {
+            obstacle.trace(step, trace);
+        }
+        Ok(())
+    }
+
+    pub(super) fn oscillators(&self) -> &Oscillators {
+        &self.oscillators
+    }
+
+    pub(super) fn oscillators_mut(&mut self) -> &mut Oscillators {
+        &mut self.oscillators
+    }
+
+    /// Whether the oscillators are all there is to the state, and the casing is rigid.
+    pub(super) fn is_plain(&self) -> bool {
+        self.drive.is_none() && self.surroundings.is_none()
     }
 
     /// Predicts the gaps (Eq. 9); whether all are open.

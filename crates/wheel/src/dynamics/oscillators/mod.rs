@@ -280,6 +280,17 @@ impl Oscillators {
         c64::new(at(segment.state), if segment.single { 0.0 } else { at(segment.state + segment.length) })
     }
 
+    /// Where z and d of mode `family` of nodal diameter `harmonic` are in [`Self::state_mut`]: of a pair both parts.
+    pub(crate) fn places(&self, harmonic: usize, family: usize) -> impl Iterator<Item = usize> + use<> {
+        self.segments[harmonic].parts().map(move |start| start + family)
+    }
+
+    /// z and d of every mode, for a state that is none of a run's: what the last step exchanged is forgotten.
+    pub(crate) fn state_mut(&mut self) -> (&mut [f64], &mut [f64]) {
+        self.state.swing.fill(0.0);
+        (&mut self.state.z, &mut self.state.d)
+    }
+
     /// z and ż of every mode, `velocity(harmonic, family, z, d)` being the scheme's.
     pub(crate) fn modal_state(&self, velocity: impl Fn(usize, usize, f64, f64) -> f64) -> Vec<InitialMode> {
         let mut modes = Vec::new();

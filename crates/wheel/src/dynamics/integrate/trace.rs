@@ -1,0 +1,52 @@
+//! What touched when: all that the linearised flow needs to know of a passage.
+
+use faer::linalg::solvers::DenseSolveCore;
+use faer::{Mat, Side};
+
+/// Contact nodes that touched together.
+#[derive(Debug, Clone)]
+pub struct Touching {
+    /// (sector, contact node) of each.
+    pub places: Vec<(usize, usize)>,
+    /// Forces per penetration that was predicted, W⁻¹ among them.
+    pub stiffness: Mat<f64>,
+}
+
+/// Contact of a passage, step by step.
+#[derive(Debug, Clone, Default)]
+pub struct Trace {
+    /// Sets of nodes, in the order in which they touched.
+    pub sets: Vec<Touching>,
+    /// Steps at whose end some touched, counted from 1 (0: the start), with the set of each.
+    pub instants: Vec<(usize, usize)>,
+}
+
+impl Trace {
+    pub(super) fn clear(&mut self) {
+        self.sets.clear();
+        self.instants.clear();
+    }
+
+    /// That these touched at the end of `step`, `w` being W among them.
+    pub(super) fn touch(
+        &mut self,
+        step: usize,
+        places: impl Iterator<Item = (usize, usize)>,
+        w: impl Fn(usize, usize) -> f64,
+    ) {
+        let places: Vec<_> = places.collect();
+        if places.is_empty() {
+            return;
+        }
+        if self.sets.last().is_none_or(|last| last.places != places) {
+            let w = Mat::from_fn(places.len(), places.len(), w);
+            let stiffness = match w.llt(Side::Lower) {
+                Ok(factor) => factor.inverse(),
+                // As far from definite as round-off.
+                Err(_) => w.partial_piv_lu().inverse(),
+            };
+            self.sets.push(Touching { places, stiffness });
+        }
+        self.instants.push((step, self.sets.len() - 1));
+    }
+}

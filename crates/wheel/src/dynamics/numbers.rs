@@ -1,0 +1,13 @@
+//! Numbers in [−1, 1) whose bits depend on no library.
+
+/// Where the sequence is.
+pub(super) struct Numbers(pub(super) u64);
+
+impl Numbers {
+    pub(super) fn next(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 12) as f64 / (1u64 << 51) as f64 - 1.0
+    }
+}

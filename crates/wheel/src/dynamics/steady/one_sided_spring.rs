@@ -1,0 +1,215 @@
+//! A mass on a spring that a shaken stop with a spring of its own meets from one side: what one mode is with a boundary without mass.
+//!
+//! ```text
+//! η̈ + 2ζω η̇ + ω² η = −φ λ,   λ = max(0, (φη + p − c)/F),   p = A cos Ωt
+//! ```
+//!
+//! Two linear phases, each with a solution in closed form, that meet where λ = 0. Force and velocity are continuous there, so that the
+//! derivative of the flow over a period is the product of the phases' own.
+
+use std::f64::consts::TAU;
+
+use faer::{Mat, c64};
+
+use super::multipliers::multipliers;
+use super::periodic::{Search, find};
+use super::tangent::Tangent;
+use crate::dynamics::casing::{Casing, RestrictionTable};
+use crate::dynamics::effects::Effects;
+use crate::dynamics::integrate::{Passage, Simulation};
+use crate::dynamics::modal_wheel::{ModalHarmonic, ModalWheel};
+use crate::dynamics::oscillators::ModalDamping;
+use crate::dynamics::schemes::Scheme;
+use crate::dynamics::sector::ContactNode;
+
+const OMEGA: f64 = 1.0;
+const ZETA: f64 = 0.05;
+const SHAPE: f64 = 1.0;
+/// 1/F: the stop is three times as stiff as the spring.
+const STOP: f64 = 3.0;
+const CLEARANCE: f64 = 0.3;
+const AMPLITUDE: f64 = 0.5;
+
+/// η and η̇.
+type State = [f64; 2];
+type Matrix = [[f64; 2]; 2];
+
+fn product(a: &Matrix, b: &Matrix) -> Matrix {
+    let entry = |i: usize, j: usize| a[i][0] * b[0][j] + a[i][1] * b[1][j];
+    [[entry(0, 0), entry(0, 1)], [entry(1, 0), entry(1, 1)]]
+}
+
+fn times(a: &Matrix, x: State) -> State {
+    [a[0][0] * x[0] + a[0][1] * x[1], a[1][0] * x[0] + a[1][1] * x[1]]
+}
+
+/// One of the phases, at a speed Ω of the stop.
+struct Phase {
+    speed: f64,
+    stiffness: f64,
+    /// Force at rest and amplitude of the harmonic one.
+    force: (f64, f64),
+}
+
+impl Phase {
+    fn new(speed: f64, touching: bool) -> Self {
+        let (stiffness, force) = if touching {
+            (OMEGA * OMEGA + SHAPE * SHAPE * STOP, (SHAPE * STOP * CLEARANCE, -SHAPE * STOP * AMPLITUDE))
+        } else {
+            (OMEGA * OMEGA, (0.0, 0.0))
+        };
+        Self { speed, stiffness, force }
+    }
+
+    /// The motion that the forces alone keep up.
+    fn forced(&self, t: f64) -> State {
+        let transfer = c64::new(self.stiffness - self.speed.powi(2), 2.0 * ZETA * OMEGA * self.speed);
+        let x = c64::from_polar(self.force.1, self.speed * t) / transfer;
+        [x.re + self.force.0 / self.stiffness, (x * c64::new(0.0, self.speed)).re]
+    }
+
+    /// What a disturbance becomes after `t`.
+    fn transition(&self, t: f64) -> Matrix {
+        let decay = ZETA * OMEGA;
+        let damped = (self.stiffness - decay * decay).sqrt();
+        let (sin, cos) = (damped * t).sin_cos();
+        let factor = (-decay * t).exp();
+        [
+            [factor * (cos + decay / damped * sin), factor * sin / damped],
+            [-factor * self.stiffness / damped * sin, factor * (cos - decay / damped * sin)],
+        ]
+    }
+
+    fn after(&self, (x, from): (State, f64), t: f64) -> State {
+        let (start, end) = (self.forced(from), self.forced(from + t));
+        let moved = times(&self.transition(t), [x[0] - start[0], x[1] - start[1]]);
+        [moved[0] + end[0], moved[1] + end[1]]
+    }
+}
+
+/// Whether the stop is met, and by how much.
+fn overlap(x: State, speed: f64, t: f64) -> f64 {
+    SHAPE * x[0] + AMPLITUDE * (speed * t).cos() - CLEARANCE
+}
+
+/// The state after a period, and its derivative.
+fn flow(mut x: State, speed: f64) -> (State, Matrix) {
+    let period = TAU / speed;
+    let (mut t, mut derivative) = (0.0, [[1.0, 0.0], [0.0, 1.0]]);
+    while t < period {
+        let touching = overlap(x, speed, t) > 0.0;
+        let phase = Phase::new(speed, touching);
+        let goes_on = |dt: f64| (overlap(phase.after((x, t), dt), speed, t + dt) > 0.0) == touching;
+        // Past the present instant, which may lie between two phases; then to where this one ends.
+        let least = 1e-9 * period;
+        let (mut held, mut next) = (least, least);
+        while t + next < period && (next == least || goes_on(next)) {
+            held = next;
+            next += period / 4096.0;
+        }
+        if t + next >= period && goes_on(period - t) {
+            held = period - t;
+        } else {
+            let mut ended = next.min(period - t);
+            while ended - held > 1e-14 * period {
+                let middle = 0.5 * (held + ended);
+                if goes_on(middle) { held = middle } else { ended = middle }
+            }
+            held = ended;
+        }
+        x = phase.after((x, t), held);
+        derivative = product(&phase.transition(held), &derivative);
+        t += held;
+    }
+    (x, derivative)
+}
+
+/// The periodic response near `x`, with its multipliers' sum and product, by Newton's method on the closed forms.
+fn exact(mut x: State, speed: f64) -> (State, f64, f64) {
+    for _ in 0..40 {
+        let (end, d) = flow(x, speed);
+        let (a, b, c, e) = (1.0 - d[0][0], -d[0][1], -d[1][0], 1.0 - d[1][1]);
+        let (f, g) = (end[0] - x[0], end[1] - x[1]);
+        let determinant = a * e - b * c;
+        x = [x[0] + (e * f - b * g) / determinant, x[1] + (a * g - c * f) / determinant];
+    }
+    let (end, d) = flow(x, speed);
+    assert!((end[0] - x[0]).abs() + (end[1] - x[1]).abs() < 1e-10, "{speed}: {end:?} {x:?}");
+    (x, d[0][0] + d[1][1], d[0][0] * d[1][1] - d[0][1] * d[1][0])
+}
+
+/// The same as a wheel of one sector with a second mode that does not move but yields.
+fn stopped_mode(speed: f64) -> ModalWheel {
+    let stiff = 1e3;
+    let yielding = (STOP.recip()).sqrt() * stiff;
+    ModalWheel {
+        speed_rad_s: speed,
+        sectors: 1,
+        repeats: 1,
+        harmonics: vec![ModalHarmonic {
+            harmonic: 0,
+            single: true,
+            omega: vec![OMEGA, stiff],
+            contact: Mat::from_fn(3, 2, |row, mode| {
+                c64::new(
+                    if row > 0 {
+                        0.0
+                    } else if mode == 0 {
+                        SHAPE
+                    } else {
+                        yielding
+                    },
+                    0.0,
+                )
+            }),
+            gyroscopic: None,
+        }],
+    }
+}
+
+#[test]
+fn response_and_multipliers_are_those_of_the_closed_forms() {
+    let node = [ContactNode { id: 1, position: [1e9, 0.0, 0.0], normal: [1.0, 0.0, 0.0], dofs: [0, 1, 2] }];
+    let damping = ModalDamping { modal_ratio: ZETA, family_ratios: Vec::new() };
+    let casing = Casing { clearance: vec![CLEARANCE], restriction: None, ramp_revolutions: 0.0 };
+    for speed in [0.45, 0.8, 1.2, 1.9] {
+        let wheel = stopped_mode(speed);
+        for steps in [8_000, 64_000] {
+            let simulation = Simulation {
+                wheel: &wheel,
+                contact_nodes: &node,
+                damping: Some(&damping),
+                casing: Some(&casing),
+                effects: Effects::default(),
+                initial: &[],
+                sensors: &[],
+                scheme: Scheme::MasslessBoundary { kept_modes: 1 },
+                steps_per_revolution: steps,
+                samples_per_revolution: 1,
+                revolutions: 1,
+                window_revolutions: 0,
+                detail: None,
+                states: None,
+            };
+            let shaken = RestrictionTable::new(|angle: f64| AMPLITUDE * angle.cos(), &[0.0], steps, 1, 8);
+            let mut passage = Passage::over_lobes(&simulation, 1).unwrap().against(shaken);
+            let search = Search { tolerance: 1e-12, marched: 20, most: 1000 };
+            let found = find(&mut passage, &[0.0, 0.0], &search).unwrap();
+            passage.map(&found.state).unwrap();
+            assert!(!passage.trace().instants.is_empty(), "{speed}: the stop is not met");
+            let pair = multipliers(&Tangent::of(&passage), 2);
+            let (sum, product) = (pair[0].value + pair[1].value, pair[0].value * pair[1].value);
+            // d/h is the velocity half a step before, which changes the state's numbers but not those of the derivative.
+            let (x, exact_sum, exact_product) = exact([found.state[0] / OMEGA, found.state[1]], speed);
+            // Damping acts alike in both phases.
+            assert!((exact_product - (-2.0 * ZETA * OMEGA * TAU / speed).exp()).abs() < 1e-9);
+            assert!((product - exact_product).norm() < 1e-9, "{speed}");
+            // Of second order, and of first where phases end within a step.
+            let step = 1.0 / steps as f64;
+            let off = (found.state[0] / OMEGA - x[0]).abs();
+            assert!(off < 10.0 * step * step, "{speed} {steps}: {off:e}");
+            let off = (sum - exact_sum).norm();
+            assert!(off < 6.0 * step, "{speed} {steps}: {off:e}");
+        }
+    }
+}

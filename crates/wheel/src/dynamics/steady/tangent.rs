@@ -1,0 +1,163 @@
+//! The derivative of the map over a [`Passage`].
+//!
+//! Within one sequence of sets of nodes that touch, a step is affine in the state. With mass at the contact,
+//!
+//! ```text
+//! δd = keep·δd − pull·δz,  δz += δd,   δλ_A = W_AA⁻¹ A δz,   δz −= R Aᵀ δλ_A,  δd alike
+//! ```
+//!
+//! A being the normal displacement of the nodes that touch per unit of every mode, R the receptances; without, δλ acts on the step
+//! after. Exact as long as no state nearby lets another set touch; where one does, the derivative jumps, and this is the one on the side
+//! that was traced. Sets change at steps, so that what it
+//! says of the motion in continuous time is of first order in the step, where the response itself is of second.
+
+use std::f64::consts::TAU;
+
+use faer::linalg::matmul::matmul;
+use faer::prelude::{Reborrow, ReborrowMut};
+use faer::{Accum, Mat, MatMut, MatRef, Par, c64};
+
+use crate::dynamics::contact::flexibility::outward_normals;
+use crate::dynamics::integrate::{Passage, Trace, Unknown};
+use crate::dynamics::schemes::Scheme;
+
+/// The derivative at a state that was mapped.
+#[derive(Debug)]
+pub struct Tangent<'a> {
+    passage: &'a Passage<'a>,
+    /// Keep, pull and receptance of every unknown.
+    keep: Vec<f64>,
+    pull: Vec<f64>,
+    receptance: Vec<f64>,
+    /// A of all contact nodes, `unknowns × (sector, node)`.
+    rows: Mat<f64>,
+    nodes: usize,
+    massless: bool,
+}
+
+impl<'a> Tangent<'a> {
+    /// At the last state that `passage` mapped.
+    pub fn of(passage: &'a Passage<'a>) -> Self {
+        let simulation = passage.simulation();
+        let (wheel, touching) = (simulation.wheel, simulation.casing.is_some());
+        let step = passage.step_s();
+        let mode_step = |unknown: &Unknown| {
+            let omega = wheel.harmonics[unknown.harmonic].omega[unknown.family];
+            let zeta = simulation.damping.map_or(0.0, |damping| damping.ratio(unknown.family));
+            (omega, simulation.scheme.mode_step(omega, zeta, step, touching))
+        };
+        let steps: Vec<_> = passage.unknowns().iter().map(mode_step).collect();
+        let normals = outward_normals(simulation.contact_nodes);
+        let (nodes, sectors) = (normals.len(), wheel.sectors);
+        let rows = Mat::from_fn(steps.len(), if touching { sectors * nodes } else { 0 }, |i, place| {
+            let unknown = passage.unknowns()[i];
+            let harmonic = &wheel.harmonics[unknown.harmonic];
+            let weight = if harmonic.single { 1.0 } else { 2.0 } / sectors as f64;
+            let (sector, node) = (place / nodes, place % nodes);
+            let turns = (unknown.harmonic * sector) % sectors;
+            let angle = TAU * turns as f64 / sectors as f64;
+            let shape = normals[node].of(harmonic.contact.as_ref(), unknown.family);
+            let shape = shape * c64::new(angle.cos(), angle.sin()) * weight.sqrt();
+            if unknown.imaginary { -shape.im } else { shape.re }
+        });
+        Self {
+            passage,
+            keep: steps.iter().map(|(_, step)| step.keep).collect(),
+            pull: steps.iter().map(|(omega, step)| omega * omega * step.receptance).collect(),
+            receptance: steps.iter().map(|(_, step)| step.receptance).collect(),
+            rows,
+            nodes,
+            massless: matches!(simulation.scheme, Scheme::MasslessBoundary { .. }),
+        }
+    }
+
+    /// Rows and columns.
+    pub fn size(&self) -> usize {
+        self.passage.size()
+    }
+
+    /// Sums of `of` every number of a state, nodal diameter by nodal diameter.
+    pub(super) fn shares(&self, of: impl Fn(usize) -> f64) -> Vec<f64> {
+        let n = self.keep.len();
+        let mut shares = vec![0.0; self.passage.simulation().wheel.harmonics.len()];
+        for (i, unknown) in self.passage.unknowns().iter().enumerate() {
+            shares[unknown.harmonic] += of(i) + of(n + i);
+        }
+        shares
+    }
+
+    /// What becomes of these states, one a column, in the unknowns of the passage.
+    pub fn apply(&self, mut states: MatMut<'_, f64>) {
+        let n = self.keep.len();
+        let step = self.passage.step_s();
+        self.scale(states.rb_mut(), |scale| 1.0 / scale, step);
+        let (mut z, mut d) = states.rb_mut().split_at_row_mut(n);
+        let Trace { sets, instants } = self.passage.trace();
+        // What each set reads of every mode.
+        let read: Vec<Mat<f64>> = sets
+            .iter()
+            .map(|set| {
+                let place = |&(sector, node): &(usize, usize)| sector * self.nodes + node;
+                Mat::from_fn(n, set.places.len(), |i, j| self.rows[(i, place(&set.places[j]))])
+            })
+            .collect();
+        let moved = |z: MatRef<'_, f64>, set: usize| {
+            let read = read[set].as_ref();
+            let mut force = &sets[set].stiffness * (read.transpose() * z);
+            force *= faer::Scale(-1.0);
+            let mut moved = Mat::zeros(n, z.ncols());
+            matmul(moved.as_mut(), Accum::Replace, read, force.as_ref(), 1.0, Par::Seq);
+            moved
+        };
+        let mut instants = instants.iter().copied().peekable();
+        let mut pushed = instants.next_if(|&(step, _)| step == 0).map(|(_, set)| moved(z.rb(), set));
+        for step in 1..=self.passage.steps() {
+            for column in 0..z.ncols() {
+                let z = z.rb_mut().col_mut(column).try_as_col_major_mut().map(|z| z.as_slice_mut());
+                let d = d.rb_mut().col_mut(column).try_as_col_major_mut().map(|d| d.as_slice_mut());
+                let (Some(z), Some(d)) = (z, d) else { unreachable!("states are kept column by column") };
+                for i in 0..n {
+                    d[i] = self.keep[i] * d[i] - self.pull[i] * z[i];
+                    z[i] += d[i];
+                }
+            }
+            if let Some(force) = pushed.take() {
+                self.push(z.rb_mut(), d.rb_mut(), force.as_ref());
+            }
+            if let Some((_, set)) = instants.next_if(|&(instant, _)| instant == step) {
+                let force = moved(z.rb(), set);
+                if self.massless {
+                    pushed = Some(force);
+                } else {
+                    self.push(z.rb_mut(), d.rb_mut(), force.as_ref());
+                }
+            }
+        }
+        self.scale(states.rb_mut(), |scale| scale, 1.0 / step);
+        for column in states.col_iter_mut() {
+            if let Some(column) = column.try_as_col_major_mut() {
+                self.passage.renumber(column.as_slice_mut());
+            }
+        }
+    }
+
+    fn push(&self, mut z: MatMut<'_, f64>, mut d: MatMut<'_, f64>, force: MatRef<'_, f64>) {
+        for column in 0..z.ncols() {
+            for (i, receptance) in self.receptance.iter().enumerate() {
+                let moved = receptance * force[(i, column)];
+                z[(i, column)] += moved;
+                d[(i, column)] += moved;
+            }
+        }
+    }
+
+    fn scale(&self, mut states: MatMut<'_, f64>, of: impl Fn(f64) -> f64, increments: f64) {
+        let n = self.keep.len();
+        for column in 0..states.ncols() {
+            for (i, unknown) in self.passage.unknowns().iter().enumerate() {
+                states[(i, column)] *= of(unknown.scale);
+                states[(n + i, column)] *= increments;
+            }
+        }
+    }
+}

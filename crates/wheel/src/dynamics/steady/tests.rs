@@ -1,0 +1,246 @@
+use std::f64::consts::TAU;
+
+use faer::{Mat, MatMut, c64};
+
+use super::multipliers::multipliers;
+use super::periodic::{Search, find};
+use super::tangent::Tangent;
+use crate::dynamics::casing::{Casing, Restriction};
+use crate::dynamics::effects::Effects;
+use crate::dynamics::initial::InitialMode;
+use crate::dynamics::integrate::{Outcome, Passage, PassageError, Simulation};
+use crate::dynamics::modal_wheel::{ModalHarmonic, ModalWheel};
+use crate::dynamics::numbers::Numbers;
+use crate::dynamics::oscillators::ModalDamping;
+use crate::dynamics::schemes::Scheme;
+use crate::dynamics::sector::ContactNode;
+
+const NODES: usize = 2;
+const MODES: usize = 5;
+const SPEED: f64 = 1000.0;
+const STEPS: usize = 3600;
+const SCHEMES: [Scheme; 3] =
+    [Scheme::CentralDifferences, Scheme::ExactModal, Scheme::MasslessBoundary { kept_modes: 3 }];
+
+fn wheel(sectors: usize) -> ModalWheel {
+    let mut numbers = Numbers(0x9E37_79B9_7F4A_7C15);
+    let harmonic = |harmonic: usize| {
+        let single = harmonic == 0 || 2 * harmonic == sectors;
+        let omega = (0..MODES).map(|m| 2700.0 * (1 + m) as f64 + 300.0 * harmonic as f64).collect();
+        let contact = Mat::from_fn(3 * NODES, MODES, |_, _| {
+            let (re, im) = (numbers.next(), numbers.next());
+            c64::new(50.0 * re, if single { 0.0 } else { 50.0 * im })
+        });
+        ModalHarmonic { harmonic, single, omega, contact, gyroscopic: None }
+    };
+    let harmonics = (0..=sectors / 2).map(harmonic).collect();
+    ModalWheel { speed_rad_s: SPEED, sectors, repeats: 1, harmonics }
+}
+
+/// A scene that owns what a simulation borrows.
+struct Scene {
+    wheel: ModalWheel,
+    nodes: Vec<ContactNode>,
+    casing: Option<Casing>,
+    damping: ModalDamping,
+    scheme: Scheme,
+}
+
+impl Scene {
+    fn new(sectors: usize, lobes: u32, damping: f64, scheme: Scheme) -> Self {
+        let node = |k: usize| ContactNode {
+            id: k as u64,
+            position: [100.0, 0.03 * k as f64, 4.0 * k as f64],
+            normal: [0.8, 0.0, 0.6],
+            dofs: [3 * k, 3 * k + 1, 3 * k + 2],
+        };
+        let restriction = Restriction { count: lobes, amplitude: 0.3, width_rad: 0.3, phase_rad: 0.1 };
+        Self {
+            wheel: wheel(sectors),
+            nodes: (0..NODES).map(node).collect(),
+            casing: Some(Casing {
+                clearance: vec![0.25, 0.26],
+                restriction: Some(restriction),
+                ramp_revolutions: 2.0,
+            }),
+            damping: ModalDamping { modal_ratio: damping, family_ratios: Vec::new() },
+            scheme,
+        }
+    }
+
+    fn simulation(&self) -> Simulation<'_> {
+        Simulation {
+            wheel: &self.wheel,
+            contact_nodes: &self.nodes,
+            damping: Some(&self.damping),
+            casing: self.casing.as_ref(),
+            effects: Effects::default(),
+            initial: &[],
+            sensors: &[],
+            scheme: self.scheme,
+            steps_per_revolution: STEPS,
+            samples_per_revolution: 36,
+            revolutions: 5,
+            window_revolutions: 1,
+            detail: None,
+            states: None,
+        }
+    }
+
+    /// The end of a march from rest.
+    fn march(&self, revolutions: usize) -> Vec<InitialMode> {
+        let run = Simulation { revolutions, ..self.simulation() }.run(&|_| true);
+        match run.outcome {
+            Outcome::Completed(history) => history.end,
+            other => panic!("{other:?}"),
+        }
+    }
+}
+
+const SEARCH: Search = Search { tolerance: 1e-13, marched: 20, most: 4000 };
+
+fn length(x: &[f64]) -> f64 {
+    x.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a - b).collect()
+}
+
+/// Without contact a mode comes back by e^{λT} after a passage, turned by its nodal diameter where sectors change their numbers.
+#[test]
+fn a_wheel_in_free_motion_has_the_multipliers_of_its_modes() {
+    let zeta = 0.01;
+    for scheme in [Scheme::ExactModal, Scheme::MasslessBoundary { kept_modes: 3 }] {
+        let mut scene = Scene::new(6, 2, zeta, scheme);
+        if let Some(casing) = &mut scene.casing {
+            casing.clearance.fill(10.0);
+        }
+        let kept = scheme.integrated_modes(MODES);
+        for whole in [false, true] {
+            let simulation = scene.simulation();
+            let mut passage = if whole {
+                Passage::over_lobes(&simulation, 1).unwrap()
+            } else {
+                Passage::shortest(&simulation).unwrap()
+            };
+            passage.map(&vec![0.0; passage.size()]).unwrap();
+            let duration = TAU / SPEED * passage.steps() as f64 / STEPS as f64;
+            let found = multipliers(&Tangent::of(&passage), passage.size());
+            assert_eq!(found.len(), passage.size());
+            for modes in &scene.wheel.harmonics {
+                for &omega in &modes.omega[..kept] {
+                    let turn = if whole { 0.0 } else { TAU * modes.harmonic as f64 / 6.0 };
+                    for sign in [1.0, -1.0] {
+                        let angle = sign * omega * (1.0 - zeta * zeta).sqrt() * duration - turn;
+                        let exact = c64::from_polar((-zeta * omega * duration).exp(), angle);
+                        let nearest =
+                            found.iter().map(|one| (one.value - exact).norm()).fold(f64::INFINITY, f64::min);
+                        assert!(nearest < 1e-9, "{scheme:?} {omega} {nearest}");
+                    }
+                }
+            }
+            assert!(found.iter().all(|one| one.residual < 1e-8));
+        }
+    }
+}
+
+/// The derivative against differences, where contact lasts, opens and closes; of maps with and without renumbering, with odd and even N.
+#[test]
+fn the_tangent_is_the_limit_of_differences() {
+    for scheme in SCHEMES {
+        for (sectors, lobes) in [(6, 2), (5, 2), (1, 1)] {
+            let scene = Scene::new(sectors, lobes, 0.02, scheme);
+            let simulation = scene.simulation();
+            let mut passage = Passage::shortest(&simulation).unwrap();
+            let state = passage.state(&scene.march(4));
+            let image = passage.map(&state).unwrap();
+            let (touched, instants) = (passage.trace().sets.len(), passage.trace().instants.clone());
+            assert!(touched > 0, "nothing touches");
+            let mut numbers = Numbers(7);
+            let direction: Vec<f64> = state.iter().map(|_| numbers.next()).collect();
+            let mut moved = direction.clone();
+            let rows = moved.len();
+            Tangent::of(&passage).apply(MatMut::from_column_major_slice_mut(&mut moved, rows, 1));
+            let epsilon = 1e-7 * length(&state) / length(&direction);
+            let aside = |passage: &mut Passage<'_>, by: f64| {
+                let state: Vec<f64> = state.iter().zip(&direction).map(|(x, v)| x + by * v).collect();
+                let image = passage.map(&state).unwrap();
+                (image, passage.trace().instants == instants)
+            };
+            let (ahead, same_ahead) = aside(&mut passage, epsilon);
+            let (behind, same_behind) = aside(&mut passage, -epsilon);
+            assert!(same_ahead && same_behind, "a set changed: another direction is needed");
+            let slope: Vec<f64> = difference(&ahead, &behind).iter().map(|x| x / (2.0 * epsilon)).collect();
+            let off = length(&difference(&slope, &moved)) / length(&moved);
+            assert!(off < 1e-6, "{scheme:?} {sectors} {lobes}: {off:e}; {}", length(&image));
+        }
+    }
+}
+
+/// A response that is called stable is where a long march ends, and attracts what starts a thousandth away as fast as its largest
+/// multiplier says; one that is called unstable repels what starts near it so. The map over whole lobes says the same.
+#[test]
+fn what_starts_near_a_response_leaves_or_joins_it_as_its_multipliers_say() {
+    let (mut stable, mut unstable) = (0, 0);
+    for scheme in SCHEMES {
+        for (sectors, lobes) in [(6, 2), (5, 2)] {
+            let scene = Scene::new(sectors, lobes, 0.1, scheme);
+            let simulation = scene.simulation();
+            let mut passage = Passage::shortest(&simulation).unwrap();
+            let rest = vec![0.0; passage.size()];
+            let found = find(&mut passage, &rest, &SEARCH).unwrap();
+            passage.map(&found.state).unwrap();
+            let growth = multipliers(&Tangent::of(&passage), 4)[0].value.norm();
+
+            let start = if growth < 1.0 { 1e-3 } else { 1e-9 };
+            let mut numbers = Numbers(3);
+            let aside: Vec<f64> = found.state.iter().map(|_| numbers.next()).collect();
+            let share = start * length(&found.state) / length(&aside);
+            let mut state: Vec<f64> =
+                found.state.iter().zip(&aside).map(|(x, aside)| x + share * aside).collect();
+            let mut sizes = Vec::new();
+            // From where the leading one is alone to where round-off or the next set of nodes begins.
+            let (from, to) = if growth < 1.0 { (1e-6, 1e-10) } else { (1e-7, 1e-5) };
+            let is_beyond = |size: f64, mark: f64| if growth < 1.0 { size < mark } else { size > mark };
+            while sizes.last().is_none_or(|&last| !is_beyond(last, to)) {
+                assert!(sizes.len() < 1000, "{scheme:?} {sectors}: {growth}");
+                state = passage.map(&state).unwrap();
+                sizes.push(length(&difference(&state, &found.state)) / length(&found.state));
+            }
+            let from = sizes.iter().position(|&size| is_beyond(size, from)).unwrap();
+            let last = sizes.len() - 1;
+            let rate = (sizes[last] / sizes[from]).powf(1.0 / (last - from) as f64);
+            assert!((rate / growth - 1.0).abs() < 0.05, "{scheme:?} {sectors}: {rate} for {growth}");
+
+            let marched = passage.state(&scene.march(60));
+            let off = length(&difference(&marched, &found.state)) / length(&found.state);
+            if growth < 1.0 {
+                stable += 1;
+                assert!(off < 1e-8, "{scheme:?} {sectors}: {off:e}");
+            } else {
+                unstable += 1;
+                assert!(off > 1e-3, "{scheme:?} {sectors}: {off:e}");
+            }
+
+            let mut whole = Passage::over_lobes(&simulation, lobes as usize).unwrap();
+            let image = whole.map(&found.state).unwrap();
+            assert!(length(&difference(&image, &found.state)) < 1e-8 * length(&found.state));
+            let again = multipliers(&Tangent::of(&whole), 1)[0].value.norm();
+            let passages = whole.steps() as f64 / passage.steps() as f64;
+            assert!((again / growth.powf(passages) - 1.0).abs() < 1e-6, "{again} {growth}");
+        }
+    }
+    assert!(stable > 2 && unstable > 0, "{stable} stable and {unstable} unstable responses");
+}
+
+#[test]
+fn steps_that_do_not_divide_a_passage_and_effects_are_refused() {
+    let scene = Scene::new(7, 2, 0.01, Scheme::ExactModal);
+    let refused = Passage::shortest(&scene.simulation()).unwrap_err();
+    assert_eq!(refused, PassageError::Steps { steps: STEPS, parts: 14 });
+    let deviations = [0.01; 7];
+    let effects = Effects { mistuning: Some(&deviations), ..Effects::default() };
+    let refused = Passage::over_lobes(&Simulation { effects, ..scene.simulation() }, 1).unwrap_err();
+    assert_eq!(refused, PassageError::Effects);
+}
