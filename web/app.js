@@ -1,9 +1,8 @@
 // The frame: which view an address means, and what stays between views.
 
-import { api, Away, part, Refusal } from './lib/api.js';
-import { onBack } from './lib/away.js';
+import { api, part, Refusal } from './lib/api.js';
 import { h, replace } from './lib/dom.js';
-import { problem } from './lib/problem.js';
+import { unread } from './lib/problem.js';
 import { onSession, signOut, token } from './lib/session.js';
 import { apply, choice, choose } from './lib/theme.js';
 
@@ -81,8 +80,7 @@ async function show() {
   } catch (error) {
     if (signal.aborted || (error instanceof Refusal && error.status === 401)) return;
     if (!place.querySelector('h1')) place.prepend(h('h1', {}, 'Something is in the way'));
-    place.append(problem(error), h('p', {}, h('button', { type: 'button', on: { click: show } }, 'Try again')));
-    if (error instanceof Away) onBack(show, signal);
+    place.append(unread(error, signal), h('p', {}, h('button', { type: 'button', on: { click: show } }, 'Try again')));
   } finally {
     if (!signal.aborted) {
       main.removeAttribute('aria-busy');

@@ -100,16 +100,18 @@ class Watch:
 
 @pytest.fixture
 def new_page(browser):
-    """Opens a page that is watched; all are judged at the end of the test."""
+    """Opens a page that is watched; all are judged at the end of the test. The first request like `lost` fails."""
     watches, contexts = [], []
 
-    def opened(url, width=1280, theme="light", expected=()):
+    def opened(url, width=1280, theme="light", expected=(), lost=None):
         context = browser.new_context(viewport={"width": width, "height": 900}, color_scheme=theme, accept_downloads=True)
         context.set_default_timeout(20_000)
         page = context.new_page()
         watch = Watch(page)
         watch.hosts.add(url.split("/#")[0].rstrip("/"))
         watch.expected += expected
+        if lost:
+            page.route(lost, lambda route: route.abort("connectionrefused"), times=1)
         page.goto(url)
         watches.append(watch)
         contexts.append(context)

@@ -200,6 +200,15 @@ def test_the_page_outlives_the_service(tmp_path, zipped, new_page):
         own.stop()
 
 
+def test_what_could_not_be_had_is_had_again(service, swept, new_page):
+    job = f"/v1/jobs/{swept}"
+    view, inner, map_of = "/page/views/job.js", "/page/views/job/linear.js", f"{job}/interaction-map[?]format=plotly"
+    for lost in (view, inner, "/page/plotly-*.js", job, "/v1/models/*", map_of):
+        page = new_page(f"{service.url}/#/jobs/{swept}", expected=["ERR_CONNECTION_REFUSED"], lost=service.url + lost)
+        page.locator(".figure .main-svg").first.wait_for()
+        page.get_by_text("The service does not answer").first.wait_for(state="hidden")
+
+
 def test_a_form_keeps_what_was_filled_in_and_starts_nothing_else(service, model, new_page):
     before = len(service.call("GET", "/v1/jobs?limit=500")["jobs"])
     page = new_page(f"{service.url}/#/sweep?model={model}")

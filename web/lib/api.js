@@ -1,7 +1,7 @@
 // The service, as openapi.yaml has it.
 
 import { token, signOut } from './session.js';
-import { isBack, isAway } from './away.js';
+import { isBack, isAway, onBack } from './away.js';
 import { pause } from './dom.js';
 
 /** A request that the service refused, in the words of RFC 9457; `errors` has pointers, parameters, files and rows. */
@@ -122,7 +122,8 @@ export async function part(load) {
   } catch (error) {
     // Browsers have no name for it: "Failed to fetch dynamically imported module", "error loading …", "Importing a module script failed".
     if (!(error instanceof TypeError && /import/i.test(error.message))) throw error;
-    isAway();
+    // Browsers never ask for a module again that they could not have.
+    onBack(() => location.reload());
     throw new Away(error.message);
   }
 }

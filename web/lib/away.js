@@ -29,11 +29,12 @@ export function isBack() {
   clearInterval(asking);
   asking = 0;
   line().hidden = true;
-  for (const f of [...waiting]) f();
+  for (const f of waiting) f();
 }
 
-/** Calls `f` whenever the service is back, until `signal` is aborted. */
+/** Something could not be had: asks for the service, and calls `f` whenever it answers until `signal` is aborted. */
 export function onBack(f, signal) {
+  isAway();
   waiting.add(f);
   signal?.addEventListener('abort', () => waiting.delete(f));
 }

@@ -1,7 +1,6 @@
 // Figures. Plotly's script is large and is loaded when the first figure is shown.
 
 import { Away } from './api.js';
-import { isAway } from './away.js';
 import { colour, onTheme } from './theme.js';
 
 /** Pixels of height of a figure that does not say. */
@@ -17,7 +16,6 @@ export function plotly() {
     script.addEventListener('load', () => resolve(globalThis.Plotly));
     script.addEventListener('error', () => {
       loading = null;
-      isAway();
       reject(new Away('the script that draws figures could not be loaded'));
     });
     document.head.append(script);

@@ -2,6 +2,8 @@
 
 import { h } from './dom.js';
 import { Away, Refusal } from './api.js';
+import { onBack } from './away.js';
+import { again } from './place.js';
 
 /** One of the errors of a refusal: where, and what. */
 function item(error) {
@@ -27,4 +29,15 @@ export function problem(error) {
   return h('div', { class: 'note bad', role: 'alert' },
     h('strong', {}, error.title),
     error.errors.length > 0 ? h('ul', {}, error.errors.map(item)) : h('p', {}, error.detail));
+}
+
+/**
+ * Something that could not be read, in its place: it is read again when the service answers, by `retry` or with the view as a whole.
+ * @param {any} error
+ * @param {AbortSignal} signal
+ * @param {() => void} [retry]
+ */
+export function unread(error, signal, retry = again) {
+  if (error instanceof Away) onBack(retry, signal);
+  return problem(error);
 }

@@ -4,7 +4,7 @@ import { api } from '../lib/api.js';
 import { h, replace } from '../lib/dom.js';
 import { nameOf, number, percent, rpm, speed } from '../lib/format.js';
 import { plot } from '../lib/plot.js';
-import { problem } from '../lib/problem.js';
+import { problem, unread } from '../lib/problem.js';
 import { table } from '../lib/table.js';
 import { lengthIn, unitOf } from '../lib/units.js';
 import { difference } from './compare/difference.js';
@@ -28,7 +28,7 @@ export async function show(main, { query }, signal) {
   ]);
   if (list.status === 'rejected') throw list.reason;
   const jobs = found.filter(({ status }) => status === 'fulfilled').map(({ value }) => value);
-  const lost = found.filter(({ status }) => status === 'rejected').map(({ reason }) => problem(reason));
+  const lost = found.filter(({ status }) => status === 'rejected').map(({ reason }) => unread(reason, signal));
   // What was chosen may be older than what is listed.
   const others = list.value.jobs.filter((job) => !jobs.some(({ id }) => id === job.id));
   showPicker(picker, [...jobs.map(({ job }) => job), ...others], chosen);
@@ -141,7 +141,7 @@ async function compare(element, lost, { jobs, warnings }, signal) {
       const figure = await api.figure(`/v1/jobs/${analysis.id}/campbell`, {}, { signal });
       await plot(campbell, overCampbell(figure, measured), { signal, label: 'Campbell diagram' });
     } catch (error) {
-      if (!signal.aborted) replace(campbell, problem(error));
+      if (!signal.aborted) replace(campbell, unread(error, signal));
     }
   }
   await plot(level, levels(jobs, null), { signal, label: 'Level over speed' });

@@ -1,13 +1,12 @@
 // A job: how far it is, and what it found.
 
-import { Away, part } from '../lib/api.js';
-import { onBack } from '../lib/away.js';
+import { part } from '../lib/api.js';
 import { h, facts, replace } from '../lib/dom.js';
 import { ended, follow, readJob } from '../lib/events.js';
 import { bytes, count, duration, moment, nameOf } from '../lib/format.js';
 import { labelsButton } from '../lib/labels.js';
 import { again, placeWith } from '../lib/place.js';
-import { problem } from '../lib/problem.js';
+import { problem, unread } from '../lib/problem.js';
 import { actions } from './job/actions.js';
 
 export const STATUSES = {
@@ -86,8 +85,7 @@ export async function show(main, { id, query }, signal) {
     await (await part(tab[2])).show(place, context, signal);
   } catch (error) {
     if (signal.aborted) return;
-    replace(place, problem(error));
-    if (error instanceof Away) onBack(again, signal);
+    replace(place, unread(error, signal));
     // What was not ready may be when the job has ended.
     if (!ended(job)) listeners.push((now) => ended(now) && again());
   }

@@ -1,12 +1,11 @@
 // A model: what was sent, and what was found about it.
 
-import { api, Away, part } from '../lib/api.js';
-import { onBack } from '../lib/away.js';
+import { api, part } from '../lib/api.js';
 import { facts, h, replace } from '../lib/dom.js';
 import { bytes, moment, number, rpm, short } from '../lib/format.js';
 import { labelsButton } from '../lib/labels.js';
 import { again, placeWith } from '../lib/place.js';
-import { problem } from '../lib/problem.js';
+import { unread } from '../lib/problem.js';
 import { deleteButton } from './models.js';
 
 /** What there is to see of a model; the first is shown when none is asked for. */
@@ -57,7 +56,6 @@ export async function show(main, { id, query }, signal) {
     await (await part(tab[2])).show(place, { model, query, go: (changes) => { location.hash = address(changes); } }, signal);
   } catch (error) {
     if (signal.aborted) return;
-    replace(place, problem(error));
-    if (error instanceof Away) onBack(again, signal);
+    replace(place, unread(error, signal));
   }
 }

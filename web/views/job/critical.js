@@ -4,7 +4,7 @@ import { api } from '../../lib/api.js';
 import { h, replace } from '../../lib/dom.js';
 import { number, percent, rpm, speed } from '../../lib/format.js';
 import { plot } from '../../lib/plot.js';
-import { problem } from '../../lib/problem.js';
+import { unread } from '../../lib/problem.js';
 import { table } from '../../lib/table.js';
 import { unitOf } from '../../lib/units.js';
 import { select, sensors } from './choices.js';
@@ -30,7 +30,7 @@ export async function show(place, context, signal) {
   try {
     await plot(figure, await api.figure(path, asked, { signal }), { signal, label: 'Critical speeds' });
   } catch (error) {
-    if (!signal.aborted) replace(figure, problem(error));
+    if (!signal.aborted) replace(figure, unread(error, signal));
   }
 }
 

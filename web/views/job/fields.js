@@ -2,7 +2,7 @@
 
 import { api, Refusal } from '../../lib/api.js';
 import { h, newId, replace } from '../../lib/dom.js';
-import { problem } from '../../lib/problem.js';
+import { unread } from '../../lib/problem.js';
 import { showWheel } from '../../wheel/index.js';
 import { select } from './choices.js';
 import { recorder } from './histories.js';
@@ -47,6 +47,6 @@ export async function show(place, context, signal) {
     if (signal.aborted) return;
     // What is asked for stays there to be changed.
     const unrecorded = job.kind === 'sweep' && speed !== null && error instanceof Refusal && error.type.endsWith('history-not-recorded');
-    replace(wheel, unrecorded ? recorder(job, Number(speed), 'fields', signal) : problem(error));
+    replace(wheel, unrecorded ? recorder(job, Number(speed), 'fields', signal) : unread(error, signal));
   }
 }

@@ -4,7 +4,7 @@ import { api, Refusal } from '../../lib/api.js';
 import { h, replace } from '../../lib/dom.js';
 import { ended } from '../../lib/events.js';
 import { plot } from '../../lib/plot.js';
-import { problem } from '../../lib/problem.js';
+import { unread } from '../../lib/problem.js';
 import { select, sensors } from './choices.js';
 import { linear } from './linear.js';
 import { verdicts } from './verdicts.js';
@@ -53,7 +53,7 @@ export async function show(place, context, signal) {
       });
       if (ended(context.now())) await verdicts(summary, context, signal);
     } catch (error) {
-      if (!signal.aborted) replace(told, problem(error));
+      if (!signal.aborted) replace(told, unread(error, signal));
     } finally {
       reading = false;
     }

@@ -4,7 +4,7 @@ import { api, Refusal } from '../../lib/api.js';
 import { facts, h, replace } from '../../lib/dom.js';
 import { duration, number, percent, speed, speedLong } from '../../lib/format.js';
 import { plot } from '../../lib/plot.js';
-import { problem } from '../../lib/problem.js';
+import { unread } from '../../lib/problem.js';
 import { select, sensors } from './choices.js';
 import { QUANTITIES, recorder } from './histories.js';
 import { points, SETTLING, VALIDITY } from './verdicts.js';
@@ -61,7 +61,7 @@ async function section(element, signal, fill) {
   try {
     await fill();
   } catch (error) {
-    if (!signal.aborted) replace(element, problem(error));
+    if (!signal.aborted) replace(element, unread(error, signal));
   }
 }
 
@@ -78,7 +78,7 @@ async function showHistories(element, context, point, signal) {
   } catch (error) {
     if (signal.aborted) return;
     if (error instanceof Refusal && error.type.endsWith('history-not-recorded')) replace(figure, recorder(job, point.index, 'lines', signal));
-    else replace(figure, problem(error));
+    else replace(figure, unread(error, signal));
   }
 }
 

@@ -3,7 +3,7 @@
 import { api, Refusal } from '../../lib/api.js';
 import { debounced, facts, h, replace } from '../../lib/dom.js';
 import { bytes, count, duration, number } from '../../lib/format.js';
-import { problem } from '../../lib/problem.js';
+import { unread } from '../../lib/problem.js';
 
 /** How long nothing must change before the plan is asked for. */
 const PAUSE_MS = 400;
@@ -35,7 +35,7 @@ export function planAside(path, tell, signal) {
       tell({ plan });
     } catch (error) {
       if (own.aborted || signal.aborted) return;
-      replace(body, error instanceof Refusal ? h('p', { class: 'note' }, `Not complete yet: ${count(Math.max(1, error.errors.length), 'field')} to mend.`) : problem(error));
+      replace(body, error instanceof Refusal ? h('p', { class: 'note' }, `Not complete yet: ${count(Math.max(1, error.errors.length), 'field')} to mend.`) : unread(error, signal, () => refresh(request)));
       tell(error instanceof Refusal ? { refusal: error } : {});
     } finally {
       if (!own.aborted) body.removeAttribute('aria-busy');
