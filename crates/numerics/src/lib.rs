@@ -5,6 +5,7 @@
 
 pub mod aligned;
 pub mod anderson;
+pub mod arnoldi;
 pub mod block_lanczos;
 pub mod complementarity;
 pub mod convergence;
