@@ -30,7 +30,7 @@ pub use self::passage::{Passage, PassageError, Unknown};
 pub use self::run::{Divergence, History, MAX_TABLE_VALUES, Outcome, Run};
 pub use self::simulation::{DIVERGED_SHARE_OF_RADIUS, Detail, SensorRow, Simulation};
 pub use self::states::ModalStates;
-use self::stepper::Stepper;
+use self::stepper::{Beginning, Stepper};
 pub use self::tally::{ContactRecord, PairContact};
 pub use self::tips::TipMotion;
 pub use self::trace::{Touching, Trace};
@@ -45,13 +45,21 @@ impl Simulation<'_> {
     /// If the sample count does not divide the step count, the window or the revolutions of [`Self::detail`] or [`Self::states`]
     /// exceed the run, or an initial mode is not integrated.
     pub fn run(&self, watch: &dyn Fn(f64) -> bool) -> Run {
-        self.dispatch(pulp::Arch::new(), Stepper::new(self), watch)
+        self.dispatch(pulp::Arch::new(), (Stepper::new(self), Beginning::Free), watch)
+    }
+
+    /// Runs the simulation from a state that another motion has come to: forces that act at its instant are part of it.
+    ///
+    /// # Panics
+    /// As [`Self::run`].
+    pub fn go_on(&self, watch: &dyn Fn(f64) -> bool) -> Run {
+        self.dispatch(pulp::Arch::new(), (Stepper::new(self), Beginning::UnderWay), watch)
     }
 
     /// Runs on vectors of a given kind.
     #[cfg(test)]
     fn run_on(&self, arch: pulp::Arch, watch: &dyn Fn(f64) -> bool) -> Run {
-        self.dispatch(arch, Stepper::new(self), watch)
+        self.dispatch(arch, (Stepper::new(self), Beginning::Free), watch)
     }
 
     /// Runs against a restriction of any shape instead of the casing's lobes.
@@ -59,17 +67,22 @@ impl Simulation<'_> {
     pub(super) fn run_against(&self, restriction: RestrictionTable, watch: &dyn Fn(f64) -> bool) -> Run {
         let mut stepper = Stepper::new(self);
         stepper.replace_restriction(restriction);
-        self.dispatch(pulp::Arch::new(), stepper, watch)
+        self.dispatch(pulp::Arch::new(), (stepper, Beginning::Free), watch)
     }
 
-    fn dispatch(&self, arch: pulp::Arch, mut stepper: Stepper, watch: &dyn Fn(f64) -> bool) -> Run {
+    fn dispatch(
+        &self,
+        arch: pulp::Arch,
+        (mut stepper, beginning): (Stepper, Beginning),
+        watch: &dyn Fn(f64) -> bool,
+    ) -> Run {
         assert!(self.steps_per_revolution.is_multiple_of(self.samples_per_revolution));
         assert!(self.window_revolutions <= self.revolutions);
         let recorded = self.detail.map(|detail| detail.revolutions).into_iter().chain(self.states);
         recorded.for_each(|(from, to)| assert!(from < to && to <= self.revolutions));
         // Who does not want the run says so again soon.
         watch(0.0);
-        arch.dispatch(Loop { simulation: self, stepper: &mut stepper, watch })
+        arch.dispatch(Loop { simulation: self, stepper: &mut stepper, beginning, watch })
     }
 }
 
@@ -77,6 +90,7 @@ impl Simulation<'_> {
 struct Loop<'a> {
     simulation: &'a Simulation<'a>,
     stepper: &'a mut Stepper,
+    beginning: Beginning,
     watch: &'a dyn Fn(f64) -> bool,
 }
 
@@ -85,6 +99,6 @@ impl WithSimd for Loop<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Run {
-        self.stepper.run(simd, self.simulation, self.watch)
+        self.stepper.run(simd, self.simulation, self.beginning, self.watch)
     }
 }

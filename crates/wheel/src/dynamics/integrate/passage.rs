@@ -93,9 +93,14 @@ impl<'a> Passage<'a> {
     /// As of [`Self::shortest`].
     pub fn over_lobes(simulation: &Simulation<'a>, count: usize) -> Result<Self, PassageError> {
         let lobes = lobes(simulation).unwrap_or(1);
-        let mut this = Self::new(simulation, lobes, 0)?;
-        this.steps *= count;
-        Ok(this)
+        Ok(Self::new(simulation, lobes, 0)?.repeated(count))
+    }
+
+    /// `times` of it, one after the other.
+    #[must_use]
+    pub fn repeated(self, times: usize) -> Self {
+        let sectors = self.simulation.wheel.sectors;
+        Self { steps: times * self.steps, turn: (times * self.turn) % sectors, ..self }
     }
 
     fn new(simulation: &Simulation<'a>, parts: usize, turn: usize) -> Result<Self, PassageError> {
@@ -149,6 +154,11 @@ impl<'a> Passage<'a> {
         self
     }
 
+    /// Lobes that pass in a revolution; 1 where there are none.
+    pub fn lobes(&self) -> usize {
+        lobes(&self.simulation).unwrap_or(1)
+    }
+
     /// Numbers of a state.
     pub fn size(&self) -> usize {
         2 * self.unknowns.len()
@@ -196,6 +206,32 @@ impl<'a> Passage<'a> {
             state[n + i] = scheme.first_increment(omega, zeta, step, z, v) / step;
         }
         state
+    }
+
+    /// The modes of a state: what a run starts from that goes on where it is, at the beginning of a revolution.
+    pub fn modes(&self, state: &[f64]) -> Vec<InitialMode> {
+        let Simulation { wheel, scheme, damping, casing, .. } = self.simulation;
+        let (n, step) = (self.unknowns.len(), self.simulation.step_s());
+        let mut modes: Vec<InitialMode> = Vec::new();
+        for (i, unknown) in self.unknowns.iter().enumerate() {
+            let omega = wheel.harmonics[unknown.harmonic].omega[unknown.family];
+            let zeta = damping.map_or(0.0, |damping| damping.ratio(unknown.family));
+            let (z, d) = (state[i] / unknown.scale, state[n + i] * step);
+            let v = scheme.velocity(omega, zeta, step, z, d, casing.is_some());
+            match modes.last_mut() {
+                Some(mode) if unknown.imaginary => {
+                    mode.displacement.im = z;
+                    mode.velocity.im = v;
+                }
+                _ => modes.push(InitialMode {
+                    harmonic: unknown.harmonic,
+                    family: unknown.family,
+                    displacement: faer::c64::new(z, 0.0),
+                    velocity: faer::c64::new(v, 0.0),
+                }),
+            }
+        }
+        modes
     }
 
     /// P of a state.

@@ -82,5 +82,25 @@ pub struct Run {
     pub contact: Option<ContactRecord>,
 }
 
+impl Run {
+    /// Of one revolution of a periodic motion, all of it recorded: as if it had gone on for `revolutions`, the last `window` of
+    /// them recorded. What was counted stays that of one.
+    #[must_use]
+    pub fn repeated(mut self, revolutions: usize, window: usize) -> Self {
+        if let Outcome::Completed(history) = &mut self.outcome {
+            history.displacement.iter_mut().for_each(|line| *line = line.repeat(revolutions));
+            history.window.iter_mut().for_each(|line| *line = line.repeat(window));
+            history.harmonics.iter_mut().flatten().for_each(|line| *line = line.repeat(window));
+            history.energies = vec![history.energies.as_slice(); revolutions].concat();
+        }
+        for pair in self.contact.iter_mut().flat_map(|contact| &mut contact.pairs) {
+            pair.impulse *= window as f64;
+            pair.steps *= window as u64;
+            pair.closings *= window as u64;
+        }
+        self
+    }
+}
+
 /// A restriction table larger than this many values (2 GiB) is refused.
 pub const MAX_TABLE_VALUES: usize = 1 << 28;

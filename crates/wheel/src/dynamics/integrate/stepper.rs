@@ -59,6 +59,15 @@ pub(super) struct Stepper {
     last_energy: Option<f64>,
 }
 
+/// Whether forces act when a run begins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Beginning {
+    /// None: the wheel touches nothing yet.
+    Free,
+    /// Those of the state it begins with.
+    UnderWay,
+}
+
 impl Stepper {
     pub(super) fn new(simulation: &Simulation<'_>) -> Self {
         let (wheel, scheme) = (simulation.wheel, simulation.scheme);
@@ -124,10 +133,13 @@ impl Stepper {
         &mut self,
         simd: S,
         simulation: &Simulation<'_>,
+        beginning: Beginning,
         watch: &dyn Fn(f64) -> bool,
     ) -> Run {
         let effects = self.drive.is_some() || self.surroundings.is_some();
+        let begun = self.begin(simd, beginning);
         let ended = match &self.obstacle {
+            _ if begun.is_err() => begun,
             _ if effects => self.integrate::<S, Affected>(simd, simulation, watch),
             None => self.integrate::<S, Free>(simd, simulation, watch),
             Some(_) if self.massless => self.integrate::<S, Massless>(simd, simulation, watch),
@@ -141,6 +153,21 @@ impl Stepper {
         let coating = self.surroundings.as_ref().and_then(Surroundings::coating).cloned();
         let contact = self.obstacle.as_ref().map(|obstacle| obstacle.tally.record().clone());
         Run { outcome, statistics: self.statistics, energy: self.energy, coating, contact }
+    }
+
+    #[inline(always)]
+    fn begin<S: Simd>(&mut self, simd: S, beginning: Beginning) -> Result<(), Box<Outcome>> {
+        let start = Instant::beginning(0);
+        if beginning == Beginning::UnderWay && self.touches_at(simd, start) {
+            // Of the step before the first: nothing of it counts.
+            let statistics = self.statistics;
+            self.solve::<Massless>(start)?;
+            self.statistics = statistics;
+            if let Some(obstacle) = &mut self.obstacle {
+                obstacle.tally.sample(|_, _| 0.0, None);
+            }
+        }
+        Ok(())
     }
 
     #[inline(always)]
@@ -211,13 +238,9 @@ impl Stepper {
         simulation: &Simulation<'_>,
         trace: &mut Trace,
     ) -> Result<(), Box<Outcome>> {
-        let Self { oscillators, fourier, obstacle, .. } = self;
-        if let Some(obstacle) = obstacle {
-            let start = Instant::beginning(revolution);
-            // Forces that act from an instant on belong to its state.
-            if !obstacle.look(simd, oscillators, fourier, start) && self.massless {
-                self.solve_tracing::<M>(start, 0, trace)?;
-            }
+        let start = Instant::beginning(revolution);
+        if self.touches_at(simd, start) {
+            self.solve_tracing::<M>(start, 0, trace)?;
         }
         for step in 1..=steps {
             let now = Instant::new(revolution, step, simulation.steps_per_revolution);
@@ -229,6 +252,14 @@ impl Stepper {
         M::apply(self, simd);
         let revolutions = revolution as f64 + steps as f64 / simulation.steps_per_revolution as f64;
         self.check_bounds(self.oscillators.energy(), revolutions)
+    }
+
+    /// Whether forces act from `start` on: they belong to the state there, as those that complete a step do not.
+    #[inline(always)]
+    fn touches_at<S: Simd>(&mut self, simd: S, start: Instant) -> bool {
+        let Self { oscillators, fourier, obstacle, .. } = self;
+        let open = obstacle.as_mut().is_none_or(|obstacle| obstacle.look(simd, oscillators, fourier, start));
+        !open && self.massless
     }
 
     #[inline(always)]

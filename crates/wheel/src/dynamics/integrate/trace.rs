@@ -22,6 +22,12 @@ pub struct Trace {
 }
 
 impl Trace {
+    /// Whether the same nodes touched at the same steps: from one such state to another the flow is affine.
+    pub fn is_alike(&self, other: &Self) -> bool {
+        let places = |trace: &Self| trace.sets.iter().map(|set| set.places.clone()).collect::<Vec<_>>();
+        self.instants == other.instants && places(self) == places(other)
+    }
+
     pub(super) fn clear(&mut self) {
         self.sets.clear();
         self.instants.clear();

@@ -1,21 +1,25 @@
 //! Floquet multipliers: the eigenvalues of the derivative of the map at a periodic motion, by which what disturbs it grows from one
 //! passage to the next.
 
-use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
-use faer::matrix_free::LinOp;
-use faer::matrix_free::eigen::{PartialEigenParams, partial_eigen, partial_eigen_scratch};
-use faer::{Col, Mat, MatMut, MatRef, Par, c64};
+use faer::{Mat, c64};
 
 use super::tangent::Tangent;
+use rubmap_numerics::arnoldi;
 
 /// Numbers of a state up to which all multipliers are found at once.
-const DENSE: usize = 300;
+const DENSE: usize = 100;
 
-/// Residual, relative to the vector, at which a multiplier counts as found.
-const FOUND: f64 = 1e-9;
+/// Of every unknown in the vector that the search begins with, over the largest of the hint.
+const EVENLY: f64 = 1e-3;
 
-/// Restarts of the search for the largest.
-const RESTARTS: usize = 60;
+/// Residual, relative to the value, at which the leading pair counts as found; what follows is told to a tenth of that.
+const TOLD: f64 = 1e-3;
+
+/// The same, relative to its distance from what neither grows nor decays.
+const CERTAIN: f64 = 0.05;
+
+/// Most products of the search for the largest.
+pub const MOST_PRODUCTS: usize = 200;
 
 /// A multiplier with its credentials.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,87 +32,60 @@ pub struct Multiplier {
     pub shares: Vec<f64>,
 }
 
-/// Up to `count` multipliers, the largest first; fewer where they did not converge.
-pub fn multipliers(tangent: &Tangent<'_>, count: usize) -> Vec<Multiplier> {
+/// The `count` largest multipliers, or one more, as far as they were found; their residuals say. `hint`: a state with a share of what grows most.
+pub fn multipliers(tangent: &Tangent<'_>, count: usize, hint: &[f64]) -> Vec<Multiplier> {
     let size = tangent.size();
-    let (values, vectors) = if size <= DENSE { all(tangent) } else { largest(tangent, count) };
-    let mut found: Vec<_> =
-        values.iter().enumerate().map(|(j, &value)| multiplier(tangent, value, vectors.col(j))).collect();
+    if size == 0 {
+        return Vec::new();
+    }
+    let pairs = if size <= DENSE { all(tangent) } else { largest(tangent, count, hint) };
+    let mut found: Vec<_> = pairs.into_iter().map(|(value, v)| multiplier(tangent, value, v)).collect();
     found.sort_by(|a, b| b.value.norm().total_cmp(&a.value.norm()));
-    found.truncate(count);
+    let half = found.get(count).is_some_and(|next| next.value == found[count - 1].value.conj());
+    found.truncate(count + usize::from(half));
     found
 }
 
-fn all(tangent: &Tangent<'_>) -> (Vec<c64>, Mat<c64>) {
+fn all(tangent: &Tangent<'_>) -> Vec<(c64, Vec<c64>)> {
     let mut matrix = Mat::<f64>::identity(tangent.size(), tangent.size());
     tangent.apply(matrix.as_mut());
-    match matrix.eigen() {
-        Ok(pairs) => (pairs.S().column_vector().iter().copied().collect(), pairs.U().to_owned()),
-        Err(_) => (Vec::new(), Mat::zeros(tangent.size(), 0)),
-    }
+    let Ok(pairs) = matrix.eigen() else { return Vec::new() };
+    let vectors = pairs.U().col_iter().map(|vector| vector.iter().copied().collect());
+    pairs.S().column_vector().iter().copied().zip(vectors).collect()
 }
 
-fn largest(tangent: &Tangent<'_>, count: usize) -> (Vec<c64>, Mat<c64>) {
-    let size = tangent.size();
-    let params = PartialEigenParams {
-        min_dim: 4 * count,
-        max_dim: 8 * count,
-        max_restarts: RESTARTS,
-        ..Default::default()
+fn largest(tangent: &Tangent<'_>, count: usize, hint: &[f64]) -> Vec<(c64, Vec<c64>)> {
+    // And all unknowns alike: none of them is left out.
+    let scale = hint.iter().fold(f64::MIN_POSITIVE, |most, x| most.max(x.abs()));
+    let start: Vec<f64> = hint.iter().map(|x| x / scale + EVENLY).collect();
+    let product = |x: &[f64]| {
+        let mut image = x.to_vec();
+        tangent.follow(&mut image);
+        image
     };
-    let mut memory = MemBuffer::new(partial_eigen_scratch(tangent, count, Par::Seq, params));
-    let (mut values, mut vectors) = (vec![c64::ZERO; count], Mat::zeros(size, count));
-    // All unknowns alike: none of them is left out.
-    let start = Col::from_fn(size, |_| 1.0 / (size as f64).sqrt());
-    let info = partial_eigen(
-        vectors.as_mut(),
-        &mut values,
-        tangent,
-        start.as_ref(),
-        FOUND,
-        Par::Seq,
-        MemStack::new(&mut memory),
-        params,
-    );
-    values.truncate(info.n_converged_eigen);
-    (values, vectors)
+    let enough = |place: usize, value: c64, residual: f64| {
+        let told = TOLD * value.norm();
+        residual <= if place < 2 { told.min(CERTAIN * (1.0 - value.norm()).abs()) } else { 10.0 * told }
+    };
+    let found = arnoldi::largest(product, &start, (count, MOST_PRODUCTS), enough);
+    found.into_iter().map(|pair| (pair.value, pair.vector)).collect()
 }
 
-fn multiplier(tangent: &Tangent<'_>, value: c64, vector: faer::ColRef<'_, c64>) -> Multiplier {
-    let size = tangent.size();
-    let mut mapped = Mat::from_fn(size, 2, |i, part| if part == 0 { vector[i].re } else { vector[i].im });
-    tangent.apply(mapped.as_mut());
-    let left = |i: usize| c64::new(mapped[(i, 0)], mapped[(i, 1)]) - value * vector[i];
-    let squared = |of: &dyn Fn(usize) -> c64| (0..size).map(|i| of(i).norm_sqr()).sum::<f64>();
-    let whole = squared(&|i| vector[i]);
-    Multiplier {
-        value,
-        residual: (squared(&left) / whole).sqrt(),
-        shares: tangent.shares(|i| vector[i].norm_sqr()).into_iter().map(|share| share / whole).collect(),
-    }
+fn multiplier(tangent: &Tangent<'_>, value: c64, vector: Vec<c64>) -> Multiplier {
+    let image = image(tangent, &vector);
+    let left: Vec<c64> = vector.iter().zip(&image).map(|(v, image)| image - value * v).collect();
+    let whole = squared(&vector);
+    let shares = tangent.shares(|i| vector[i].norm_sqr()).into_iter().map(|share| share / whole).collect();
+    Multiplier { value, residual: (squared(&left) / whole).sqrt(), shares }
 }
 
-impl LinOp<f64> for Tangent<'_> {
-    fn apply_scratch(&self, _: usize, _: Par) -> StackReq {
-        StackReq::EMPTY
-    }
+fn image(tangent: &Tangent<'_>, vector: &[c64]) -> Vec<c64> {
+    let mut parts =
+        Mat::from_fn(vector.len(), 2, |i, part| if part == 0 { vector[i].re } else { vector[i].im });
+    tangent.apply(parts.as_mut());
+    (0..vector.len()).map(|i| c64::new(parts[(i, 0)], parts[(i, 1)])).collect()
+}
 
-    fn nrows(&self) -> usize {
-        self.size()
-    }
-
-    fn ncols(&self) -> usize {
-        self.size()
-    }
-
-    fn apply(&self, mut out: MatMut<'_, f64>, rhs: MatRef<'_, f64>, _: Par, _: &mut MemStack) {
-        // Column by column, whatever the layout of what is asked for.
-        let mut states = rhs.to_owned();
-        Tangent::apply(self, states.as_mut());
-        out.copy_from(states);
-    }
-
-    fn conj_apply(&self, out: MatMut<'_, f64>, rhs: MatRef<'_, f64>, par: Par, stack: &mut MemStack) {
-        LinOp::apply(self, out, rhs, par, stack);
-    }
+fn squared(vector: &[c64]) -> f64 {
+    vector.iter().map(|value| value.norm_sqr()).sum()
 }

@@ -194,10 +194,10 @@ fn response_and_multipliers_are_those_of_the_closed_forms() {
             let shaken = RestrictionTable::new(|angle: f64| AMPLITUDE * angle.cos(), &[0.0], steps, 1, 8);
             let mut passage = Passage::over_lobes(&simulation, 1).unwrap().against(shaken);
             let search = Search { tolerance: 1e-12, marched: 20, most: 1000 };
-            let found = find(&mut passage, &[0.0, 0.0], &search).unwrap();
+            let found = find(&mut passage, &[0.0, 0.0], &search, &|| true).unwrap();
             passage.map(&found.state).unwrap();
             assert!(!passage.trace().instants.is_empty(), "{speed}: the stop is not met");
-            let pair = multipliers(&Tangent::of(&passage), 2);
+            let pair = multipliers(&Tangent::of(&passage), 2, &[1.0; 2]);
             let (sum, product) = (pair[0].value + pair[1].value, pair[0].value * pair[1].value);
             // d/h is the velocity half a step before, which changes the state's numbers but not those of the derivative.
             let (x, exact_sum, exact_product) = exact([found.state[0] / OMEGA, found.state[1]], speed);

@@ -3,18 +3,16 @@
 //! Anderson acceleration first, which asks for nothing but the map; where it stalls, Newton's method with the exact derivative, whose
 //! equations are solved by their products.
 
-use faer::MatMut;
-
 use super::tangent::Tangent;
 use crate::dynamics::integrate::{Passage, PassageError};
 use rubmap_numerics::anderson::Anderson;
 use rubmap_numerics::gmres;
 
 /// Differences that Anderson acceleration looks back at.
-const DEPTH: usize = 30;
+const DEPTH: usize = 60;
 
 /// Passages within which the residual has to halve, or acceleration has stalled.
-const PATIENCE: usize = 40;
+const PATIENCE: usize = 60;
 
 /// What the equations of a Newton step are solved to, and their most products.
 const SOLVED: f64 = 1e-4;
@@ -58,9 +56,22 @@ pub enum NotFound {
         /// That were taken.
         passages: usize,
     },
+    /// The caller asked to stop.
+    #[error("cancelled")]
+    Cancelled,
     /// The map has no value where the search went.
     #[error(transparent)]
     Passage(#[from] PassageError),
+}
+
+impl NotFound {
+    /// Passages that were taken before; 0 where the map ended the search.
+    pub(super) fn passages(&self) -> usize {
+        match self {
+            Self::Stalled { passages, .. } => *passages,
+            Self::Cancelled | Self::Passage(_) => 0,
+        }
+    }
 }
 
 /// The best state so far.
@@ -70,20 +81,28 @@ struct Best {
     residual: f64,
 }
 
-/// The periodic response that the search from `start` comes to.
+/// The periodic response that the search from `start` comes to. `go_on` is asked before every passage.
 ///
 /// # Errors
 /// [`NotFound`].
-pub fn find(passage: &mut Passage<'_>, start: &[f64], search: &Search) -> Result<Periodic, NotFound> {
+pub fn find(
+    passage: &mut Passage<'_>,
+    start: &[f64],
+    search: &Search,
+    go_on: &dyn Fn() -> bool,
+) -> Result<Periodic, NotFound> {
     let mut state = start.to_vec();
     let mut passages = 0;
     for _ in 0..search.marched {
         state = passage.map(&state)?;
         passages += 1;
     }
-    let mut best = accelerate(passage, state, search, &mut passages)?;
+    let mut best = accelerate(passage, state, search, &mut passages, go_on)?;
     let mut products = 0;
     while best.residual > search.tolerance {
+        if !go_on() {
+            return Err(NotFound::Cancelled);
+        }
         let stalled = NotFound::Stalled { residual: best.residual, passages: passages + products };
         if passages + products >= search.most {
             return Err(stalled);
@@ -101,13 +120,17 @@ fn accelerate(
     mut state: Vec<f64>,
     search: &Search,
     passages: &mut usize,
-) -> Result<Best, PassageError> {
+    go_on: &dyn Fn() -> bool,
+) -> Result<Best, NotFound> {
     let mut anderson = Anderson::new(DEPTH);
     let mut image = passage.map(&state)?;
     *passages += 1;
     let mut best = Best { residual: repeats(&state, &image), state: state.clone(), image: image.clone() };
     let (mut since, mut wanted) = (0, 0.5 * best.residual);
     while best.residual > search.tolerance && since < PATIENCE && *passages < search.most {
+        if !go_on() {
+            return Err(NotFound::Cancelled);
+        }
         state = anderson.next(&state, &image);
         image = match passage.map(&state) {
             Ok(image) => image,
@@ -139,8 +162,7 @@ fn newton_step(passage: &mut Passage<'_>, at: &Best, products: &mut usize) -> Re
     let off: Vec<f64> = at.image.iter().zip(&at.state).map(|(image, x)| image - x).collect();
     let product = |x: &[f64]| {
         let mut moved = x.to_vec();
-        let rows = moved.len();
-        tangent.apply(MatMut::from_column_major_slice_mut(&mut moved, rows, 1));
+        tangent.follow(&mut moved);
         x.iter().zip(moved).map(|(x, moved)| x - moved).collect()
     };
     let solution = gmres::solve(product, &off, SOLVED, PRODUCTS);
@@ -163,7 +185,7 @@ fn along(passage: &mut Passage<'_>, from: &Best, step: &[f64], passages: &mut us
 }
 
 /// ‖P(x) − x‖ / ‖x‖; 0 at rest.
-fn repeats(state: &[f64], image: &[f64]) -> f64 {
+pub(super) fn repeats(state: &[f64], image: &[f64]) -> f64 {
     let off: f64 = state.iter().zip(image).map(|(x, image)| (image - x).powi(2)).sum();
     let size: f64 = image.iter().map(|x| x * x).sum();
     if off == 0.0 { 0.0 } else { (off / size).sqrt() }

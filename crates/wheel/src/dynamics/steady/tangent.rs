@@ -12,6 +12,7 @@
 //! says of the motion in continuous time is of first order in the step, where the response itself is of second.
 
 use std::f64::consts::TAU;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use faer::linalg::matmul::matmul;
 use faer::prelude::{Reborrow, ReborrowMut};
@@ -33,6 +34,8 @@ pub struct Tangent<'a> {
     rows: Mat<f64>,
     nodes: usize,
     massless: bool,
+    /// States that it was applied to.
+    products: AtomicUsize,
 }
 
 impl<'a> Tangent<'a> {
@@ -68,7 +71,13 @@ impl<'a> Tangent<'a> {
             rows,
             nodes,
             massless: matches!(simulation.scheme, Scheme::MasslessBoundary { .. }),
+            products: AtomicUsize::new(0),
         }
+    }
+
+    /// States that it was applied to so far.
+    pub fn products(&self) -> usize {
+        self.products.load(Ordering::Relaxed)
     }
 
     /// Rows and columns.
@@ -88,6 +97,7 @@ impl<'a> Tangent<'a> {
 
     /// What becomes of these states, one a column, in the unknowns of the passage.
     pub fn apply(&self, mut states: MatMut<'_, f64>) {
+        self.products.fetch_add(states.ncols(), Ordering::Relaxed);
         let n = self.keep.len();
         let step = self.passage.step_s();
         self.scale(states.rb_mut(), |scale| 1.0 / scale, step);
@@ -139,6 +149,12 @@ impl<'a> Tangent<'a> {
                 self.passage.renumber(column.as_slice_mut());
             }
         }
+    }
+
+    /// The same of one.
+    pub fn follow(&self, state: &mut [f64]) {
+        let rows = state.len();
+        self.apply(MatMut::from_column_major_slice_mut(state, rows, 1));
     }
 
     fn push(&self, mut z: MatMut<'_, f64>, mut d: MatMut<'_, f64>, force: MatRef<'_, f64>) {

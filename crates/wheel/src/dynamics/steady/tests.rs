@@ -4,11 +4,14 @@ use faer::{Mat, MatMut, c64};
 
 use super::multipliers::multipliers;
 use super::periodic::{Search, find};
+use super::response::{record, seek};
+use super::stability::Stability;
 use super::tangent::Tangent;
 use crate::dynamics::casing::{Casing, Restriction};
+use crate::dynamics::direction::Direction;
 use crate::dynamics::effects::Effects;
 use crate::dynamics::initial::InitialMode;
-use crate::dynamics::integrate::{Outcome, Passage, PassageError, Simulation};
+use crate::dynamics::integrate::{Detail, Outcome, Passage, PassageError, Run, SensorRow, Simulation};
 use crate::dynamics::modal_wheel::{ModalHarmonic, ModalWheel};
 use crate::dynamics::numbers::Numbers;
 use crate::dynamics::oscillators::ModalDamping;
@@ -126,7 +129,7 @@ fn a_wheel_in_free_motion_has_the_multipliers_of_its_modes() {
             };
             passage.map(&vec![0.0; passage.size()]).unwrap();
             let duration = TAU / SPEED * passage.steps() as f64 / STEPS as f64;
-            let found = multipliers(&Tangent::of(&passage), passage.size());
+            let found = multipliers(&Tangent::of(&passage), passage.size(), &vec![1.0; passage.size()]);
             assert_eq!(found.len(), passage.size());
             for modes in &scene.wheel.harmonics {
                 for &omega in &modes.omega[..kept] {
@@ -189,9 +192,9 @@ fn what_starts_near_a_response_leaves_or_joins_it_as_its_multipliers_say() {
             let simulation = scene.simulation();
             let mut passage = Passage::shortest(&simulation).unwrap();
             let rest = vec![0.0; passage.size()];
-            let found = find(&mut passage, &rest, &SEARCH).unwrap();
+            let found = find(&mut passage, &rest, &SEARCH, &|| true).unwrap();
             passage.map(&found.state).unwrap();
-            let growth = multipliers(&Tangent::of(&passage), 4)[0].value.norm();
+            let growth = multipliers(&Tangent::of(&passage), 4, &rest)[0].value.norm();
 
             let start = if growth < 1.0 { 1e-3 } else { 1e-9 };
             let mut numbers = Numbers(3);
@@ -226,7 +229,7 @@ fn what_starts_near_a_response_leaves_or_joins_it_as_its_multipliers_say() {
             let mut whole = Passage::over_lobes(&simulation, lobes as usize).unwrap();
             let image = whole.map(&found.state).unwrap();
             assert!(length(&difference(&image, &found.state)) < 1e-8 * length(&found.state));
-            let again = multipliers(&Tangent::of(&whole), 1)[0].value.norm();
+            let again = multipliers(&Tangent::of(&whole), 1, &rest)[0].value.norm();
             let passages = whole.steps() as f64 / passage.steps() as f64;
             assert!((again / growth.powf(passages) - 1.0).abs() < 1e-6, "{again} {growth}");
         }
@@ -243,4 +246,111 @@ fn steps_that_do_not_divide_a_passage_and_effects_are_refused() {
     let effects = Effects { mistuning: Some(&deviations), ..Effects::default() };
     let refused = Passage::over_lobes(&Simulation { effects, ..scene.simulation() }, 1).unwrap_err();
     assert_eq!(refused, PassageError::Effects);
+}
+
+/// Scenes drawn at random: whatever is called stable, and reached by a march, is where a long march ends; sensors show the same.
+#[test]
+fn what_is_stable_and_reached_is_where_long_marches_end() {
+    let mut numbers = Numbers(11);
+    let mut aside = Numbers(5);
+    let mut within = |low: f64, high: f64| low + 0.5 * (numbers.next() + 1.0) * (high - low);
+    let (mut reached, mut others) = (0, 0);
+    for case in 0..24 {
+        let scheme = SCHEMES[case % 3];
+        let (sectors, lobes) = [(6, 2), (5, 2), (8, 4), (1, 1)][case % 4];
+        let mut scene = Scene::new(sectors, lobes, within(0.02, 0.2), scheme);
+        scene.wheel.speed_rad_s = within(600.0, 2000.0);
+        if let Some(casing) = &mut scene.casing {
+            casing.clearance = vec![within(0.2, 0.3), within(0.2, 0.3)];
+        }
+        let normal = Direction { node: 0, components: [0.8, 0.0, 0.6] };
+        let sensors = [SensorRow { direction: normal, sector: 0 }];
+        let simulation = Simulation { sensors: &sensors, samples_per_revolution: 360, ..scene.simulation() };
+        let sought = seek(&simulation, 60, true, &|| true);
+        let Ok(response) = sought.response else {
+            others += 1;
+            continue;
+        };
+        assert!(sought.revolutions > 3.0);
+        if response.floquet.stability == Stability::Stable {
+            let mut passage = Passage::over_lobes(&simulation, 1).unwrap();
+            let orbit = passage.state(&response.modes);
+            let aside: Vec<f64> = orbit.iter().map(|_| aside.next()).collect();
+            let share = 1e-3 * length(&orbit) / length(&aside);
+            let mut state: Vec<f64> = orbit.iter().zip(&aside).map(|(x, aside)| x + share * aside).collect();
+            for _ in 0..400 * lobes {
+                state = passage.map(&state).unwrap();
+            }
+            let off = length(&difference(&state, &orbit)) / length(&orbit);
+            assert!(off < 1e-6, "{case} {scheme:?} {sectors} {lobes}: {off:e}");
+        }
+        if response.arrives != Some(true) {
+            others += 1;
+            continue;
+        }
+        reached += 1;
+        assert_eq!(response.floquet.stability, Stability::Stable);
+        let ends = |run: Run| match run.outcome {
+            Outcome::Completed(history) => history,
+            other => panic!("{other:?}"),
+        };
+        let long = ends(Simulation { revolutions: 400, ..simulation }.run(&|_| true));
+        let recorded = ends(record(&simulation, &response.modes, &|_| true));
+        assert_eq!(recorded.displacement[0].len(), 5 * 360);
+        assert_eq!(recorded.window[0].len(), 360);
+        let largest = long.window[0].iter().fold(0.0f64, |most, x| most.max(x.abs()));
+        for (from, to) in [(&long.displacement, &recorded.displacement), (&long.window, &recorded.window)] {
+            let last = |line: &[f64]| line[line.len() - 360..].to_vec();
+            let off = difference(&last(&from[0]), &last(&to[0]));
+            let off = off.into_iter().fold(0.0f64, |most, x| most.max(x.abs()));
+            assert!(off < 1e-6 * largest, "{case} {scheme:?} {sectors} {lobes}: {off:e} of {largest:e}");
+        }
+    }
+    assert!(reached >= 8 && others > 0, "{reached} reached, {others} not");
+}
+
+/// What is recorded of chosen revolutions is what a march records of them once it repeats.
+#[test]
+fn details_of_a_response_are_those_of_its_march() {
+    for scheme in SCHEMES {
+        let scene = Scene::new(6, 2, 0.1, scheme);
+        let sensors =
+            [SensorRow { direction: Direction { node: 1, components: [1.0, 0.0, 0.0] }, sector: 2 }];
+        let detail = |revolutions| {
+            Some(Detail { revolutions, velocity: true, contact: true, forces: true, energy: false })
+        };
+        let base = Simulation { sensors: &sensors, samples_per_revolution: 360, ..scene.simulation() };
+        let of = |revolutions: usize| Simulation {
+            revolutions,
+            detail: detail((revolutions - 2, revolutions)),
+            states: Some((revolutions - 2, revolutions)),
+            ..base
+        };
+        let Ok(response) = seek(&base, 60, true, &|| true).response else {
+            panic!("{scheme:?}: no response")
+        };
+        assert_eq!(response.arrives, Some(true), "{scheme:?}");
+        let (marched, solved) = (of(200).run(&|_| true), record(&of(40), &response.modes, &|_| true));
+        let (Outcome::Completed(marched), Outcome::Completed(solved)) = (marched.outcome, solved.outcome)
+        else {
+            panic!("not completed")
+        };
+        let (Some(a), Some(b)) = (marched.detail, solved.detail) else { panic!("no detail") };
+        let close = |a: &[f64], b: &[f64], what: &str| {
+            assert_eq!(a.len(), b.len());
+            // A mean force begins and ends within a step: it follows the state by the stiffness of what touches.
+            let largest = a.iter().fold(0.0f64, |most, x| most.max(x.abs()));
+            let off = difference(a, b).iter().fold(0.0f64, |most, x| most.max(x.abs()));
+            assert!(off <= 1e-5 * largest, "{scheme:?} {what}: {off:e} of {largest:e}");
+        };
+        close(&a.velocity[0], &b.velocity[0], "velocity");
+        close(&a.nodes_in_contact, &b.nodes_in_contact, "nodes");
+        for (a, b) in a.force.iter().zip(&b.force) {
+            close(a, b, "force");
+        }
+        let (Some(a), Some(b)) = (marched.states, solved.states) else { panic!("no states") };
+        assert_eq!(b.revolutions.first().map(|first| first.floor()), Some(38.0));
+        assert_eq!(a.harmonics[2].ncols(), b.harmonics[2].ncols());
+        assert!((&a.harmonics[2] - &b.harmonics[2]).norm_max() < 1e-6 * a.harmonics[2].norm_max());
+    }
 }

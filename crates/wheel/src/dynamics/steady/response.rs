@@ -1,0 +1,229 @@
+//! The periodic response of a scene: sought from where its march begins, judged, and reached or not.
+
+use super::periodic::{NotFound, Periodic, Search, find};
+use super::stability::{Floquet, Stability};
+use crate::dynamics::casing::Casing;
+use crate::dynamics::initial::InitialMode;
+use crate::dynamics::integrate::{Outcome, Passage, PassageError, Run, Simulation, Trace};
+
+/// ‖P(x) − x‖ / ‖x‖ at which a response is found.
+const FOUND: f64 = 1e-8;
+
+/// Revolutions that are taken as they come before acceleration begins.
+const MARCHED: usize = 3;
+
+/// Multipliers that are told.
+const MULTIPLIERS: usize = 4;
+
+/// Fewest revolutions of a search after the ramp, with the multipliers and the revolution that is recorded.
+pub const LEAST_REVOLUTIONS: u64 = 10;
+
+/// ‖x − x*‖ / ‖x*‖ from where a march has to come back to a response that is called stable.
+const BESIDE: f64 = 1e-3;
+
+/// Revolutions for which the same has to touch: one that repeats after some of them may look alike in between.
+const LASTING: usize = 8;
+
+/// Share of the way there that is left of one that is coming back, but slowly.
+const COMING: f64 = 0.25;
+
+/// A periodic response with its credentials.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Response {
+    /// The modes at the beginning of a revolution.
+    pub modes: Vec<InitialMode>,
+    /// ‖P(x) − x‖ / ‖x‖ over the passage of the search, in the norm of energies.
+    pub residual: f64,
+    /// Whether it lasts.
+    pub floquet: Floquet,
+    /// Whether the march from where the scene begins comes to it; none if nobody asked, or it does not last.
+    pub arrives: Option<bool>,
+}
+
+/// What a search came to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sought {
+    /// The response, or why there is none.
+    pub response: Result<Response, NotFound>,
+    /// Revolutions of the wheel that it took, all passages and products of derivatives counted.
+    pub revolutions: f64,
+}
+
+/// Seeks the periodic response of the scene of `simulation`, as it is recorded there being of no matter, in at most `limit`
+/// revolutions; with `control`, whether a march comes to it in as many. `go_on` is asked now and then.
+pub fn seek(simulation: &Simulation<'_>, limit: usize, control: bool, go_on: &dyn Fn() -> bool) -> Sought {
+    let mut revolutions = 0.0;
+    let response = respond(simulation, (limit, control), &mut revolutions, go_on);
+    Sought { response, revolutions }
+}
+
+fn respond(
+    simulation: &Simulation<'_>,
+    (limit, control): (usize, bool),
+    revolutions: &mut f64,
+    go_on: &dyn Fn() -> bool,
+) -> Result<Response, NotFound> {
+    let mut passage = match Passage::shortest(simulation) {
+        Err(PassageError::Steps { .. }) => Passage::over_lobes(simulation, 1)?,
+        passage => passage?,
+    };
+    // Short ones look back over too little of a revolution, long ones are few: about half of one, so that some make a whole.
+    let steps = simulation.steps_per_revolution;
+    let parts = steps / passage.steps();
+    let times = (1..=parts / 2).rev().find(|&times| parts.is_multiple_of(times)).unwrap_or(1);
+    passage = passage.repeated(times);
+    let share = passage.steps() as f64 / steps as f64;
+    let per_revolution = parts / times;
+    let start = begin(simulation, &passage, revolutions, go_on)?;
+    let search = Search { tolerance: FOUND, marched: MARCHED * per_revolution, most: limit * per_revolution };
+    let found = find(&mut passage, &start, &search, go_on);
+    *revolutions += share * found.as_ref().map_or_else(NotFound::passages, |found| found.passages) as f64;
+    let Periodic { state, residual, .. } = found?;
+    let hint: Vec<f64> = start.iter().zip(&state).map(|(a, b)| a - b).collect();
+    let mut floquet = Floquet::of(&passage, (&state, &hint), MULTIPLIERS)?;
+    *revolutions += floquet.revolutions;
+    let mut arrives = None;
+    if floquet.stability == Stability::Stable {
+        passage.map(&state)?;
+        let orbit = Orbit { state: &state, trace: passage.trace().clone(), per_revolution };
+        let most = limit * per_revolution;
+        let mut passages = 1;
+        if control {
+            arrives = Some(orbit.attracts(&mut passage, start, most, (&mut passages, go_on))?);
+        }
+        if arrives != Some(true) && length(&hint) > 0.0 {
+            let share = BESIDE * length(&state) / length(&hint);
+            let beside = state.iter().zip(&hint).map(|(x, hint)| x + share * hint).collect();
+            if !orbit.attracts(&mut passage, beside, most, (&mut passages, go_on))? {
+                floquet.stability = Stability::Narrow;
+            }
+        }
+        *revolutions += share * passages as f64;
+    }
+    Ok(Response { modes: passage.modes(&state), residual, floquet, arrives })
+}
+
+/// The state at the end of the ramp, marched from where the scene begins.
+fn begin(
+    simulation: &Simulation<'_>,
+    passage: &Passage<'_>,
+    revolutions: &mut f64,
+    go_on: &dyn Fn() -> bool,
+) -> Result<Vec<f64>, NotFound> {
+    let ramp = simulation.casing.map_or(0.0, |casing| casing.ramp_revolutions).ceil() as usize;
+    if ramp == 0 {
+        return Ok(passage.state(simulation.initial));
+    }
+    let run = unrecorded(simulation, ramp).run(&|_| go_on());
+    *revolutions += run.statistics.steps as f64 / simulation.steps_per_revolution as f64;
+    match run.outcome {
+        Outcome::Completed(history) => Ok(passage.state(&history.end)),
+        Outcome::Diverged(divergence) => Err(PassageError::Diverged(divergence).into()),
+        Outcome::ContactFailed { error, .. } => Err(PassageError::Contact(error).into()),
+        Outcome::Cancelled => Err(NotFound::Cancelled),
+    }
+}
+
+fn unrecorded<'a>(simulation: &Simulation<'a>, revolutions: usize) -> Simulation<'a> {
+    Simulation {
+        sensors: &[],
+        samples_per_revolution: 1,
+        revolutions,
+        window_revolutions: 0,
+        detail: None,
+        states: None,
+        ..*simulation
+    }
+}
+
+/// A response, and what touches on its way.
+struct Orbit<'a> {
+    state: &'a [f64],
+    trace: Trace,
+    per_revolution: usize,
+}
+
+impl Orbit<'_> {
+    /// Whether a march from `x` comes to it in `most` passages: until, for some revolutions, what touches is what touches on it, from where on
+    /// multipliers tell the rest. One that has still to come so far, but has come closer from a thousandth beside, does.
+    fn attracts(
+        &self,
+        passage: &mut Passage<'_>,
+        mut x: Vec<f64>,
+        most: usize,
+        (passages, go_on): (&mut usize, &dyn Fn() -> bool),
+    ) -> Result<bool, NotFound> {
+        let size = length(self.state);
+        // Passages that were alike up to now, and how far away the first of them was.
+        let (mut alike, mut entered) = (0, f64::INFINITY);
+        for _ in 0..most {
+            if !go_on() {
+                return Err(NotFound::Cancelled);
+            }
+            let before = self.away(&x);
+            x = passage.map(&x)?;
+            *passages += 1;
+            if !passage.trace().is_alike(&self.trace) {
+                alike = 0;
+                continue;
+            }
+            if alike == 0 {
+                entered = before;
+            }
+            alike += 1;
+            let now = self.away(&x);
+            if now <= FOUND * size || (alike >= LASTING * self.per_revolution && now < entered) {
+                return Ok(true);
+            }
+        }
+        Ok(self.away(&x) <= COMING * BESIDE * size)
+    }
+
+    fn away(&self, x: &[f64]) -> f64 {
+        x.iter().zip(self.state).map(|(x, y)| (x - y).powi(2)).sum::<f64>().sqrt()
+    }
+}
+
+fn length(x: &[f64]) -> f64 {
+    x.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// Runs `simulation` on the response `modes` instead of from where its scene begins: one revolution, repeated for all that it asks for;
+/// what it records of chosen revolutions is of as many from the first on.
+pub fn record(simulation: &Simulation<'_>, modes: &[InitialMode], watch: &dyn Fn(f64) -> bool) -> Run {
+    let casing = simulation.casing.map(|casing| Casing { ramp_revolutions: 0.0, ..casing.clone() });
+    let from_first = |(from, to): (usize, usize)| (0, to - from);
+    let of = |revolutions: usize| Simulation {
+        casing: casing.as_ref(),
+        initial: modes,
+        revolutions,
+        window_revolutions: 1,
+        detail: None,
+        states: None,
+        ..*simulation
+    };
+    let mut run = of(1).go_on(watch);
+    let asked = simulation.detail.map(|detail| detail.revolutions).or(simulation.states);
+    if let (Some(asked), Outcome::Completed(history)) = (asked, &mut run.outcome) {
+        let (_, revolutions) = from_first(asked);
+        let recorded = Simulation {
+            detail: simulation.detail.map(|mut detail| {
+                detail.revolutions = from_first(detail.revolutions);
+                detail
+            }),
+            states: simulation.states.map(from_first),
+            ..of(revolutions)
+        };
+        match recorded.go_on(watch).outcome {
+            Outcome::Completed(recorded) => {
+                history.detail = recorded.detail;
+                history.states = recorded.states;
+                for instant in history.states.iter_mut().flat_map(|states| &mut states.revolutions) {
+                    *instant += asked.0 as f64;
+                }
+            }
+            other => run.outcome = other,
+        }
+    }
+    run.repeated(simulation.revolutions, simulation.window_revolutions)
+}
