@@ -7,7 +7,7 @@ use rubmap::analysis::monitor::Unwatched;
 use rubmap::analysis::request::auto_or::AutoOr;
 use rubmap::analysis::request::speeds::{SpeedSet, SpeedUnit, Speeds};
 use rubmap::analysis::request::{
-    self, Component, Integration, SchemeChoice, Sensor, SweepDirection, SweepRequest,
+    self, Component, Integration, SchemeChoice, Sensor, SteadyChoice, SweepDirection, SweepRequest,
 };
 use rubmap::analysis::resolved::ResolvedSweep;
 use rubmap::analysis::result::PointStatus;
@@ -125,6 +125,7 @@ impl Scene {
                 revolutions: revolutions as u32,
                 ramp_revolutions: casing.ramp_revolutions,
                 window_revolutions: 1,
+                steady: SteadyChoice::March,
             },
             sensors: vec![sensor(0), sensor(last)],
             max_engine_order: 24,

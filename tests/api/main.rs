@@ -34,6 +34,7 @@ mod refine;
 mod report;
 mod sensors;
 mod small_disk;
+mod steady;
 mod stress;
 mod studies;
 mod sweeps;

@@ -15,6 +15,7 @@ use crate::result::{
     ContactHistory, EnergyHistory, Point, PointStatus, SensorHistory, SpeedHistories, TipPlace,
 };
 use crate::speed::{Recording, Start, empty_point, ready, run_speed, simulate};
+use crate::steady::Simulated;
 use crate::summary::critical_indices;
 use rubmap_wheel::dynamics::energy::{EffectWork, EnergyAudit};
 use rubmap_wheel::dynamics::integrate::{Detail, DetailHistory, History, Outcome};
@@ -61,8 +62,8 @@ pub fn speed_histories(
     let ran = ready(reduced, sweep, point.speed_rad_s).and_then(|(wheel, stepping)| {
         let states = record.wants(RecordedQuantity::State).then_some(detail.revolutions);
         let recording = Recording { detail: Some(detail), states };
-        let run = simulate(reduced, &wheel, sweep, &stepping, from_where, recording, &watch)?;
-        Ok((wheel, stepping, run))
+        let simulated = simulate(reduced, &wheel, sweep, &stepping, from_where, recording, &watch)?;
+        Ok((wheel, stepping, simulated))
     });
     let mut histories = SpeedHistories {
         index: index as u32,
@@ -80,7 +81,8 @@ pub fn speed_histories(
     };
     match ran {
         Err(reason) => point.message = Some(reason.to_string()),
-        Ok((wheel, stepping, run)) => {
+        Ok((wheel, stepping, Simulated { run, steady })) => {
+            point.steady = steady;
             record_run(&mut point, &run, sweep, &wheel, &stepping, &reduced.wheel.contact)?;
             if let (PointStatus::Completed, Outcome::Completed(history)) = (point.status, &run.outcome) {
                 let samples = stepping.discretisation.samples;

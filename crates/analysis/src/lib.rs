@@ -39,6 +39,7 @@ pub mod run;
 mod sensed;
 mod speed;
 mod start;
+mod steady;
 mod stepping;
 mod stiffening;
 pub mod stress;

@@ -20,6 +20,7 @@ use crate::result::{
 };
 use crate::speed::ready;
 use crate::start::initial;
+use crate::steady::revolutions_taken;
 use crate::stepping::Stepping;
 use rubmap_numerics::sector_fourier::harmonic_count;
 use rubmap_wheel::dynamics::casing::RestrictionTable;
@@ -279,7 +280,10 @@ fn plan_point(
         Err(reason) => return PlannedPoint { message: Some(reason.to_string()), ..planned },
     };
     let unknowns = stepping.scheme.integrated_unknowns(&wheel);
-    let steps = stepping.discretisation.per_revolution as u64 * u64::from(request.integration.revolutions);
+    let marched = u64::from(request.integration.revolutions);
+    let [least, most] = revolutions_taken(request);
+    let per_revolution = stepping.discretisation.per_revolution as u64;
+    let steps = per_revolution * marched;
     let nodes = touching(reduced, request);
     let size = StepSize { sectors: wheel.sectors, nodes, unknowns };
     let effects = EffectSizes::of(&request.scene, &wheel, stepping.scheme, nodes);
@@ -296,8 +300,8 @@ fn plan_point(
         steps_per_revolution: stepping.discretisation.per_revolution as u32,
         steps,
         computing_time_s: Some(CostRange {
-            free: set_up + stress + steps as f64 * (free + spectra),
-            contact: set_up + stress + steps as f64 * (contact + spectra),
+            free: set_up + stress + (per_revolution * least) as f64 * free + steps as f64 * spectra,
+            contact: set_up + stress + (per_revolution * most) as f64 * contact + steps as f64 * spectra,
         }),
         memory_bytes: running_bytes(&wheel, request, &stepping, nodes)
             + stress_memory(places, &wheel, &stepping)

@@ -44,7 +44,7 @@ pub(super) fn record_run(
     point.smallest_stable_steps_per_revolution = stepping.smallest as u32;
     point.steps_per_revolution = steps.per_revolution as u32;
     point.scheme = Some(stepping.report.clone());
-    point.steps = run.statistics.steps;
+    point.steps = run.statistics.steps + searched(point, steps.per_revolution);
     point.contact_share = run.statistics.contact_share();
     // A run that overflowed has sums that are no numbers; JSON has no word for them.
     let finite = |value: f64| value.is_finite().then_some(value);
@@ -84,6 +84,12 @@ pub(super) fn record_run(
     let ran = Ran { run, request, parts, repeats };
     named(&request.scene).filter_map(|effect| effect.record).for_each(|record| record(point, &ran));
     Ok(recorded)
+}
+
+/// Steps that the search of a periodic response took.
+fn searched(point: &Point, steps_per_revolution: usize) -> u64 {
+    let revolutions = point.steady.as_ref().map_or(0.0, |steady| steady.revolutions);
+    (revolutions * steps_per_revolution as f64).round() as u64
 }
 
 /// Contact over the window, in short and in full; none of a scene without.

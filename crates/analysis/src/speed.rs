@@ -17,6 +17,7 @@ use crate::resolved::ResolvedSweep;
 use crate::result::{Point, PointStatus, SpeedResult, WearMap};
 use crate::sensed::sensed;
 use crate::start::{initial, perturbed};
+use crate::steady::{Simulated, run_steady};
 use crate::stepping::Stepping;
 use crate::stress::{Course, stress_of};
 use crate::validity;
@@ -50,12 +51,13 @@ pub fn run_speed(
         if request.stress_outside().is_some_and(|radius| !reduced.tells_stress(radius)) {
             return Err(NotRunnable::UnreadStress);
         }
-        let run = simulate(reduced, &wheel, request, &stepping, from, Recording::of(request), &watch)?;
-        Ok((wheel, stepping, run))
+        let simulated = simulate(reduced, &wheel, request, &stepping, from, Recording::of(request), &watch)?;
+        Ok((wheel, stepping, simulated))
     });
     match ran {
         Err(reason) => point.message = Some(reason.to_string()),
-        Ok((wheel, stepping, run)) => {
+        Ok((wheel, stepping, Simulated { run, steady })) => {
+            point.steady = steady;
             recorded = record_run(&mut point, &run, request, &wheel, &stepping, &reduced.wheel.contact)?;
             judge_run(&mut point, &run, reduced, request, &wheel);
             end_state = end_state_of(&run, &reduced.wheel, &wheel, request);
@@ -163,6 +165,7 @@ pub(super) fn empty_point(
         message: None,
         stiffening: stiffening.then_some(reduced.report.stiffening.verdict),
         settling: None,
+        steady: None,
         scheme: None,
         steps_per_revolution: 0,
         smallest_stable_steps_per_revolution: 0,
@@ -214,7 +217,7 @@ pub(super) fn simulate(
     start: Start<'_>,
     recording: Recording,
     watch: &dyn Fn(f64) -> bool,
-) -> Result<Run, NotRunnable> {
+) -> Result<Simulated, NotRunnable> {
     let (scene, reduced) = (&request.scene, &*sector.wheel);
     let Stepping { scheme, discretisation: steps, .. } = stepping;
     let scheme = *scheme;
@@ -242,7 +245,7 @@ pub(super) fn simulate(
         ),
     };
     let (wheel, sensors) = sensed(sector, wheel, request)?;
-    Ok(Simulation {
+    let simulation = Simulation {
         wheel: &wheel,
         contact_nodes: &reduced.contact,
         damping: damping.as_ref(),
@@ -257,6 +260,6 @@ pub(super) fn simulate(
         window_revolutions: request.integration.window_revolutions as usize,
         detail: recording.detail,
         states: recording.states,
-    }
-    .run(watch))
+    };
+    Ok(run_steady(&simulation, request, watch))
 }

@@ -7,7 +7,7 @@ import { plot } from '../../lib/plot.js';
 import { unread } from '../../lib/problem.js';
 import { select, sensors } from './choices.js';
 import { QUANTITIES, recorder } from './histories.js';
-import { points, SETTLING, VALIDITY } from './verdicts.js';
+import { points, SETTLING, STABILITY, VALIDITY } from './verdicts.js';
 
 export async function show(place, context, signal) {
   const { job, query } = context;
@@ -82,6 +82,19 @@ async function showHistories(element, context, point, signal) {
   }
 }
 
+/** How the periodic response was found, whether it lasts, and how fast what disturbs it grows or decays. */
+function steadyWords(steady) {
+  if (!steady) return null;
+  const stability = STABILITY[steady.stability];
+  const leading = steady.multipliers?.[0];
+  return [
+    steady.taken ? 'taken' : `not taken: ${steady.reason}`,
+    stability,
+    leading ? `|μ| = ${number(leading.modulus)} a passage, nodal diameter ${leading.nodal_diameter}, lines ${number(leading.order_offset)} orders aside` : null,
+    `${number(steady.revolutions, 3)} revolutions`,
+  ].filter(Boolean).join('; ');
+}
+
 /** What is known of one speed. */
 function credentials(point, map) {
   const error = map.errors?.points.find((each) => each.index === point.index);
@@ -90,6 +103,7 @@ function credentials(point, map) {
   return facts([
     ['Ended as', point.status],
     ['Steady state', settling ? `${SETTLING[settling.verdict]}${settling.after_revolutions ? `, after ${settling.after_revolutions} revolutions` : ''}` : null],
+    ['Periodic response', steadyWords(point.steady)],
     ['Largest change between periods', settling?.largest_change === undefined ? null : percent(settling.largest_change)],
     ['Linear theory', VALIDITY[point.validity?.verdict]],
     ['Estimated error', error ? `${percent(error.estimated_error)}${error.controlled ? ', simulated again' : ', from its neighbours'}` : 'not estimated'],

@@ -10,6 +10,14 @@ export const SETTLING = {
   aperiodic: 'does not repeat; its statistics mean something, single values do not',
   not_settled: 'had not settled when the run ended',
 };
+export const STABILITY = {
+  stable: 'stable',
+  narrow: 'stable against very small disturbances only',
+  flip: 'unstable: its period doubles',
+  fold: 'unstable: another response of the same period takes over',
+  neimark_sacker: 'unstable: a second frequency appears',
+  undecided: 'it could not be told whether it is stable',
+};
 export const VALIDITY = {
   linear: 'within linear theory',
   doubtful: 'linear theory is doubtful',

@@ -189,6 +189,16 @@ class FatigueStrength(TypedDict, closed=True):
     source: str
 
 
+class FloquetMultiplier(TypedDict):
+    imaginary: float
+    modulus: float
+    nodal_diameter: int
+    order_offset: float
+    real: float
+    residual: float
+    share: float
+
+
 class ForceRow(TypedDict):
     clearance_consumption: list[float]
     closings_per_revolution: list[float]
@@ -493,6 +503,25 @@ class Spent(TypedDict):
 
 class Splitter(TypedDict, closed=True):
     leading_edge: NotRequired[float]
+
+
+Stability: TypeAlias = Literal[
+    "stable", "narrow", "flip", "fold", "neimark_sacker", "undecided"
+]
+
+
+SteadyChoice: TypeAlias = Literal["march", "periodic", "auto"]
+
+
+class SteadyReport(TypedDict):
+    half_peak_to_peak: NotRequired[list[float]]
+    lobe_passages: NotRequired[int | None]
+    multipliers: NotRequired[list[FloquetMultiplier]]
+    reason: NotRequired[str | None]
+    residual: NotRequired[float | None]
+    revolutions: float
+    stability: NotRequired[Stability | None]
+    taken: bool
 
 
 class StepOrder(TypedDict):
@@ -806,6 +835,7 @@ class Integration(TypedDict, closed=True):
     ramp_revolutions: NotRequired[float]
     revolutions: NotRequired[int]
     scheme: NotRequired[SchemeChoice]
+    steady: NotRequired[SteadyChoice]
     steps_per_revolution: NotRequired[AutoOr]
     window_revolutions: NotRequired[int]
 
@@ -1400,6 +1430,7 @@ class Point(TypedDict):
     smallest_stable_steps_per_revolution: int
     speed_rad_s: float
     status: PointStatus
+    steady: NotRequired[SteadyReport | None]
     steps: int
     steps_per_revolution: int
     stiffening: NotRequired[StiffeningVerdict | None]

@@ -13,8 +13,9 @@ use crate::record::{Recorded, record_run};
 use crate::request::Setting;
 use crate::request::auto_or::MOST_STEPS;
 use crate::resolved::{ResolvedSweep, TrialRequest};
-use crate::result::{Cost, SpeedSpectra, Trial};
+use crate::result::{Cost, SpeedSpectra, SteadyReport, Trial};
 use crate::speed::{Recording, Start, empty_point, judge_run, ready, simulate};
+use crate::steady::Simulated;
 use crate::stepping::Stepping;
 use rubmap_wheel::dynamics::integrate::{Outcome, Run};
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
@@ -74,9 +75,9 @@ pub fn run_trial(
             watch(fraction)
         };
         let ran = ready(reduced, sweep, speed_rad_s).and_then(|(wheel, stepping)| {
-            let run =
+            let Simulated { run, steady } =
                 simulate(reduced, &wheel, sweep, &stepping, Start::Scene, Recording::of(sweep), &marked)?;
-            Ok((wheel, stepping, run))
+            Ok((wheel, stepping, run, steady))
         });
         let whole = clock.elapsed();
         if monitor.is_cancelled() {
@@ -85,10 +86,12 @@ pub fn run_trial(
         spent += whole;
         // One that was never set up ran no revolution.
         let set_up = set_up.get().unwrap_or(whole);
-        // A run that diverged made fewer than were asked for.
-        let made = |(_, stepping, run): &(ModalWheel, Stepping, Run)| {
-            run.statistics.steps as f64 / stepping.discretisation.per_revolution as f64
-        };
+        // A run that diverged made fewer than were asked for; one that was solved for is as dear as the march in whose place it is.
+        let made =
+            |(_, stepping, run, steady): &(ModalWheel, Stepping, Run, Option<SteadyReport>)| match steady {
+                Some(_) => f64::from(sweep.integration.revolutions),
+                None => run.statistics.steps as f64 / stepping.discretisation.per_revolution as f64,
+            };
         let revolutions = ran.as_ref().map_or(0.0, made);
         let running = (whole - set_up).as_secs_f64();
         let per_revolution = if revolutions > 0.0 { running / revolutions } else { 0.0 };
@@ -99,7 +102,8 @@ pub fn run_trial(
         }
     }
     trial.cost = Cost::of(repetitions);
-    let Some((wheel, stepping, run)) = first else { return Ok(trial) };
+    let Some((wheel, stepping, run, steady)) = first else { return Ok(trial) };
+    trial.point.steady = steady;
     trial.unknowns = stepping.scheme.integrated_unknowns(&wheel) as u32;
     let samples = stepping.discretisation.samples;
     trial.samples_per_revolution = samples as u32;
@@ -112,10 +116,11 @@ pub fn run_trial(
         trial.levels =
             history.displacement.iter().map(|line| levels(&line[line.len() - window..], samples)).collect();
         trial.lines = lines(spectra, sweep);
-        if request.twin {
+        // What was solved for has no past that chance could have changed.
+        if request.twin && trial.point.steady.as_ref().is_none_or(|steady| !steady.taken) {
             let twin =
                 simulate(reduced, &wheel, sweep, &stepping, Start::Perturbed, Recording::default(), &watch);
-            if let Ok(Run { outcome: Outcome::Completed(twin), .. }) = twin {
+            if let Ok(Simulated { run: Run { outcome: Outcome::Completed(twin), .. }, .. }) = twin {
                 let from = sweep.integration.ramp_revolutions.ceil() as usize;
                 let (run, twin) = (&history.displacement, &twin.displacement);
                 let settling = trial.point.settling.as_ref();

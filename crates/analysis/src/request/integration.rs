@@ -24,6 +24,8 @@ pub struct Integration {
     /// Revolutions at the end of the run that spectra are computed from.
     #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 100_000))]
     pub window_revolutions: u32,
+    /// How the steady response is found.
+    pub steady: SteadyChoice,
 }
 
 impl Default for Integration {
@@ -35,8 +37,23 @@ impl Default for Integration {
             revolutions: 50,
             ramp_revolutions: 1.0,
             window_revolutions: 20,
+            steady: SteadyChoice::March,
         }
     }
+}
+
+/// How the steady response of a speed is found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum SteadyChoice {
+    /// From where the scene begins, over all revolutions; the window is their end.
+    March,
+    /// Solved for, whether it lasts or not: a motion that repeats with the lobes, of which one revolution is recorded. Where none is found
+    /// the speed is marched, and says why.
+    Periodic,
+    /// The same where it lasts and a march comes to it; elsewhere marched, the periodic response being told beside.
+    Auto,
 }
 
 /// How time is stepped.

@@ -17,7 +17,7 @@ pub mod sweep;
 pub use accuracy::{Accuracy, AccuracyOf, Budget};
 pub use auto_or::AutoOr;
 pub use case_study::{CaseSpeed, CaseStudyRequest, CaseStudySettings};
-pub use integration::{Integration, SchemeChoice};
+pub use integration::{Integration, SchemeChoice, SteadyChoice};
 pub use modal_analysis::ModalAnalysisRequest;
 pub use record::{HistoriesRequest, HistorySpeeds, Record, Recorded, RecordedQuantity, StressRequest};
 pub use scene::Scene;

@@ -226,6 +226,7 @@ fn check_integration(found: &mut Findings, integration: &Integration, max_engine
         revolutions,
         ramp_revolutions,
         window_revolutions,
+        steady: _,
     } = *integration;
     if let AutoOr::Fixed(kept) = kept_modes {
         found.require(

@@ -10,6 +10,7 @@ pub mod plan;
 pub mod point;
 pub mod reduction;
 pub mod refinement;
+pub mod steady;
 pub mod stress;
 pub mod study;
 pub mod surface;
@@ -38,6 +39,7 @@ pub use reduction::{
     StiffeningVerdict,
 };
 pub use refinement::{Refinement, Unresolvable, Unresolved};
+pub use steady::{FloquetMultiplier, Stability, SteadyReport};
 pub use stress::{
     PointStress, Strengths, StressCycle, StressPeak, drawn_stress_unit, most_utilised_first, stress_unit,
 };

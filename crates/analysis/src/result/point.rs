@@ -7,6 +7,7 @@ use crate::end_state::EndState;
 use crate::request::{SchemeChoice, Sensor};
 use crate::result::contact::{ContactForces, ContactSummary};
 use crate::result::reduction::StiffeningVerdict;
+use crate::result::steady::SteadyReport;
 use crate::result::stress::PointStress;
 use crate::result::tip::TipResponse;
 use crate::result::validity::{Validity, ValidityMeasure, ValidityVerdict};
@@ -141,6 +142,9 @@ pub struct Point {
     /// Steady-state verdict; absent without a complete run.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub settling: Option<Settling>,
+    /// The periodic response; absent unless the request's `integration.steady` asks for it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub steady: Option<SteadyReport>,
     /// How time was stepped; absent where nothing was integrated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scheme: Option<SchemeReport>,
@@ -148,7 +152,7 @@ pub struct Point {
     pub steps_per_revolution: u32,
     /// Smallest stable number of steps per revolution at this speed; 1 for a scheme without a limit.
     pub smallest_stable_steps_per_revolution: u32,
-    /// Steps taken.
+    /// Steps taken, those of the search for a periodic response among them.
     pub steps: u64,
     /// Share of the steps with a contact force.
     pub contact_share: f64,
