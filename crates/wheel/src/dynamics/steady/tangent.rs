@@ -19,7 +19,7 @@ use faer::prelude::{Reborrow, ReborrowMut};
 use faer::{Accum, Mat, MatMut, MatRef, Par, c64};
 
 use crate::dynamics::contact::flexibility::outward_normals;
-use crate::dynamics::integrate::{Passage, Trace, Unknown};
+use crate::dynamics::integrate::{Passage, Touching, Trace, Unknown};
 use crate::dynamics::schemes::Scheme;
 
 /// The derivative at a state that was mapped.
@@ -30,9 +30,8 @@ pub struct Tangent<'a> {
     keep: Vec<f64>,
     pull: Vec<f64>,
     receptance: Vec<f64>,
-    /// A of all contact nodes, `unknowns × (sector, node)`.
-    rows: Mat<f64>,
-    nodes: usize,
+    /// A of every set of nodes that touches, `unknowns × nodes of the set`.
+    read: Vec<Mat<f64>>,
     massless: bool,
     /// States that it was applied to.
     products: AtomicUsize,
@@ -63,13 +62,17 @@ impl<'a> Tangent<'a> {
             let shape = shape * c64::new(angle.cos(), angle.sin()) * weight.sqrt();
             if unknown.imaginary { -shape.im } else { shape.re }
         });
+        let read = |set: &Touching| {
+            let place = |&(sector, node): &(usize, usize)| sector * nodes + node;
+            Mat::from_fn(steps.len(), set.places.len(), |i, j| rows[(i, place(&set.places[j]))])
+        };
+        let read = passage.trace().sets.iter().map(read).collect();
         Self {
             passage,
             keep: steps.iter().map(|(_, step)| step.keep).collect(),
             pull: steps.iter().map(|(omega, step)| omega * omega * step.receptance).collect(),
             receptance: steps.iter().map(|(_, step)| step.receptance).collect(),
-            rows,
-            nodes,
+            read,
             massless: matches!(simulation.scheme, Scheme::MasslessBoundary { .. }),
             products: AtomicUsize::new(0),
         }
@@ -103,16 +106,8 @@ impl<'a> Tangent<'a> {
         self.scale(states.rb_mut(), |scale| 1.0 / scale, step);
         let (mut z, mut d) = states.rb_mut().split_at_row_mut(n);
         let Trace { sets, instants } = self.passage.trace();
-        // What each set reads of every mode.
-        let read: Vec<Mat<f64>> = sets
-            .iter()
-            .map(|set| {
-                let place = |&(sector, node): &(usize, usize)| sector * self.nodes + node;
-                Mat::from_fn(n, set.places.len(), |i, j| self.rows[(i, place(&set.places[j]))])
-            })
-            .collect();
         let moved = |z: MatRef<'_, f64>, set: usize| {
-            let read = read[set].as_ref();
+            let read = self.read[set].as_ref();
             let mut force = &sets[set].stiffness * (read.transpose() * z);
             force *= faer::Scale(-1.0);
             let mut moved = Mat::zeros(n, z.ncols());
