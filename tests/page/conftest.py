@@ -1,5 +1,6 @@
 """A service with a finished sweep, a browser, and pages that fail a test for any error in the console and any request elsewhere."""
 
+import json
 import os
 from pathlib import Path
 
@@ -98,12 +99,25 @@ class Watch:
             self.elsewhere.append(request.url)
 
 
+# Playwright answers whole or not at all.
+BREAKS_OFF = """
+const asked = window.fetch;
+let left = 1;
+window.fetch = async (path, options) => {
+  const answer = await asked(path, options);
+  if (!String(path).endsWith(broken) || left-- <= 0) return answer;
+  return new Response(new ReadableStream({ start: (body) => body.error(new TypeError('network error')) }), answer);
+};
+"""
+
+
 @pytest.fixture
 def new_page(browser):
-    """Opens a page that is watched; all are judged at the end of the test. The first request like `lost` fails."""
+    """Opens a page that is watched; all are judged at the end of the test. The first request like `lost` fails; the first answer to a path
+    that ends like `broken` breaks off."""
     watches, contexts = [], []
 
-    def opened(url, width=1280, theme="light", expected=(), lost=None):
+    def opened(url, width=1280, theme="light", expected=(), lost=None, broken=None):
         context = browser.new_context(viewport={"width": width, "height": 900}, color_scheme=theme, accept_downloads=True)
         context.set_default_timeout(20_000)
         page = context.new_page()
@@ -112,6 +126,8 @@ def new_page(browser):
         watch.expected += expected
         if lost:
             page.route(lost, lambda route: route.abort("connectionrefused"), times=1)
+        if broken:
+            page.add_init_script(f"const broken = {json.dumps(broken)};" + BREAKS_OFF)
         page.goto(url)
         watches.append(watch)
         contexts.append(context)

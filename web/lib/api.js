@@ -50,24 +50,29 @@ export function address(path, query = {}) {
   return text ? `${path}${path.includes('?') ? '&' : '?'}${text}` : path;
 }
 
-/** The answer to a request; throws a `Refusal`, or `Away`. */
+/** What is awaited of the service; throws `Away` where it does not come. */
+async function reached(coming) {
+  try {
+    return await coming;
+  } catch (error) {
+    // Browsers have no other name for it: "Failed to fetch", "network error", "Load failed", "Error in body stream".
+    if (!(error instanceof TypeError)) throw error;
+    isAway();
+    throw new Away('the service cannot be reached');
+  }
+}
+
+/** The answer to a request, whose body is yet to come; throws a `Refusal`, or `Away`. */
 export async function request(path, { method = 'GET', query, signal, accept, body, idempotencyKey } = {}) {
   const head = headers(accept ? { Accept: accept } : {});
   if (body !== undefined) head['Content-Type'] = 'application/json';
   if (idempotencyKey) head['Idempotency-Key'] = idempotencyKey;
-  let response;
-  try {
-    response = await fetch(address(path, query), {
-      method,
-      signal,
-      headers: head,
-      body: body === undefined ? undefined : JSON.stringify(body),
-    });
-  } catch (error) {
-    if (signal?.aborted) throw error;
-    isAway();
-    throw new Away('the service cannot be reached');
-  }
+  const response = await reached(fetch(address(path, query), {
+    method,
+    signal,
+    headers: head,
+    body: body === undefined ? undefined : JSON.stringify(body),
+  }));
   isBack();
   if (!response.ok) throw await refusal(response);
   return response;
@@ -76,24 +81,24 @@ export async function request(path, { method = 'GET', query, signal, accept, bod
 export const api = {
   /** JSON of a path. */
   async get(path, options = {}) {
-    return (await request(path, { accept: 'application/json', ...options })).json();
+    return reached((await request(path, { accept: 'application/json', ...options })).json());
   },
   /** Sends JSON; JSON of the answer, if it has any. */
   async send(method, path, body, options = {}) {
-    const text = await (await request(path, { method, body, ...options })).text();
+    const text = await reached((await request(path, { method, body, ...options })).text());
     return text ? JSON.parse(text) : null;
   },
   /** Text of a path. */
   async text(path, options = {}) {
-    return (await request(path, options)).text();
+    return reached((await request(path, options)).text());
   },
   /** File of a path. */
   async blob(path, options = {}) {
-    return (await request(path, options)).blob();
+    return reached((await request(path, options)).blob());
   },
   /** A figure of Plotly. */
   async figure(path, query = {}, options = {}) {
-    return (await request(path, { query: { ...query, format: 'plotly' }, ...options })).json();
+    return reached((await request(path, { query: { ...query, format: 'plotly' }, ...options })).json());
   },
 };
 
