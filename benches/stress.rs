@@ -1,15 +1,13 @@
 //! What stress costs a sweep: `cargo bench --bench stress [-- PRESET …]`: three speeds in contact with and without it, in turn, through the
 //! service on two workers; measured beside planned. Run it on an otherwise idle machine.
 
-use std::time::Duration;
+mod service;
 
-use anyhow::{Context, bail};
-use reqwest::Client;
-use rubmap::app::App;
-use rubmap::config::Config;
-use rubmap::impeller::{Preset, generate};
+use anyhow::Context;
+use rubmap::impeller::Preset;
 use serde_json::{Value, json};
-use tokio_util::sync::CancellationToken;
+
+use service::Service;
 
 const ROUNDS: usize = 3;
 
@@ -27,66 +25,30 @@ fn main() -> anyhow::Result<()> {
 
 /// One wheel in a service of its own.
 async fn compare(name: &str, preset: Preset) -> anyhow::Result<()> {
-    let folder = tempfile::tempdir()?;
-    let config = Config { workers: Some(2), upload_bytes: 1 << 30, ..Config::local(folder.path()) };
-    let app = App::build(config).await?;
-    let (base, stop) = (format!("http://{}", app.addr()), CancellationToken::new());
-    let service = tokio::spawn(app.run_until_stopped(stop.clone()));
-    let mut package = std::io::Cursor::new(Vec::new());
-    rubmap::package::write(&generate(&preset.parameters())?, &mut package)?;
-    let api = Api { client: Client::new(), base };
-    let model =
-        api.send("models", |post| post.header("content-type", "application/zip").body(package.into_inner()));
-    let model = model.await?["id"].clone();
+    let service = Service::start(2, &preset.parameters()).await?;
+    let model = service.model.clone();
     let (mut without, mut with) = (f64::INFINITY, f64::INFINITY);
     for _ in 0..ROUNDS {
-        without = without.min(api.seconds(&sweep(&model, false)).await?);
-        with = with.min(api.seconds(&sweep(&model, true)).await?);
+        without = without.min(seconds(&service, &sweep(&model, false)).await?);
+        with = with.min(seconds(&service, &sweep(&model, true)).await?);
     }
-    let planned = api.planned(&sweep(&model, true)).await? / api.planned(&sweep(&model, false)).await?;
+    let planned =
+        planned(&service, &sweep(&model, true)).await? / planned(&service, &sweep(&model, false)).await?;
     println!("{name:>8}  {without:>9.3}  {with:>9.3}  {:>6.3}  {planned:>7.3}", with / without);
-    stop.cancel();
-    service.await?;
-    Ok(())
+    service.stop().await
 }
 
-struct Api {
-    client: Client,
-    base: String,
+/// Mean computing time of a speed.
+async fn seconds(service: &Service, request: &Value) -> anyhow::Result<f64> {
+    let points = service.points(request).await?;
+    let seconds = points.iter().filter_map(|point| point["wall_time_s"].as_f64());
+    Ok(seconds.sum::<f64>() / points.len() as f64)
 }
 
-impl Api {
-    async fn send(
-        &self,
-        path: &str,
-        fill: impl FnOnce(reqwest::RequestBuilder) -> reqwest::RequestBuilder,
-    ) -> anyhow::Result<Value> {
-        Ok(fill(self.client.post(format!("{}/v1/{path}", self.base))).send().await?.json().await?)
-    }
-
-    /// Mean computing time of a speed.
-    async fn seconds(&self, request: &Value) -> anyhow::Result<f64> {
-        let posted = self.send("sweeps", |post| post.json(request)).await?;
-        let path = format!("{}/v1/jobs/{}", self.base, posted["id"].as_str().context(posted.to_string())?);
-        loop {
-            let job: Value = self.client.get(&path).send().await?.json().await?;
-            match job["status"].as_str() {
-                Some("accepted" | "running") => tokio::time::sleep(Duration::from_millis(50)).await,
-                Some("successful") => break,
-                _ => bail!("{job}"),
-            }
-        }
-        let map: Value = self.client.get(format!("{path}/interaction-map")).send().await?.json().await?;
-        let points = map["points"].as_array().context("no points")?;
-        let seconds = points.iter().filter_map(|point| point["wall_time_s"].as_f64());
-        Ok(seconds.sum::<f64>() / points.len() as f64)
-    }
-
-    /// The same as planned, in contact all the time.
-    async fn planned(&self, request: &Value) -> anyhow::Result<f64> {
-        let plan = self.send("sweeps/plan", |post| post.json(request)).await?;
-        plan["estimate"]["computing_time_s"]["contact"].as_f64().with_context(|| plan.to_string())
-    }
+/// The same as planned, in contact all the time.
+async fn planned(service: &Service, request: &Value) -> anyhow::Result<f64> {
+    let plan = service.post("sweeps/plan", request).await?;
+    plan["estimate"]["computing_time_s"]["contact"].as_f64().with_context(|| plan.to_string())
 }
 
 fn sweep(model: &Value, stress: bool) -> Value {
