@@ -1,19 +1,18 @@
 //! Steady responses solved for and marched to: `cargo bench --bench steady [-- DAMPING …]`: the demo's sweep, speed by speed on one worker of the
 //! service. Run it on an otherwise idle machine.
 //!
-//! A march takes 50 revolutions as the demo does, and beside that as many as it needs until every revolution shows the amplitude of a stable
+//! A march takes 50 revolutions as the demo does, or as many as it takes until it repeats (`"revolutions": "auto"`), and beside that as many as it needs until every revolution shows the amplitude of a stable
 //! response to a thousandth, up to [`LONG`].
 
+mod service;
+
 use std::collections::BTreeMap;
-use std::time::Duration;
 
 use anyhow::{Context, bail};
-use reqwest::Client;
-use rubmap::app::App;
-use rubmap::config::Config;
-use rubmap::impeller::{Preset, generate};
+use rubmap::impeller::Preset;
 use serde_json::{Value, json};
-use tokio_util::sync::CancellationToken;
+
+use service::Service;
 
 const SPEEDS: usize = 24;
 const REVOLUTIONS: u64 = 50;
@@ -27,29 +26,23 @@ fn main() -> anyhow::Result<()> {
 }
 
 async fn measure(dampings: &[f64]) -> anyhow::Result<()> {
-    let folder = tempfile::tempdir()?;
-    let app = App::build(Config { workers: Some(1), ..Config::local(folder.path()) }).await?;
-    let (base, stop) = (format!("http://{}", app.addr()), CancellationToken::new());
-    let service = tokio::spawn(app.run_until_stopped(stop.clone()));
-    let mut package = std::io::Cursor::new(Vec::new());
-    rubmap::package::write(&generate(&Preset::Small.parameters())?, &mut package)?;
-    let api = Api { client: Client::new(), base };
-    let model =
-        api.send("models", |post| post.header("content-type", "application/zip").body(package.into_inner()));
-    let model = model.await?["id"].clone();
+    let service = Service::start(1, &Preset::Small.parameters()).await?;
     println!(
         "{SPEEDS} speeds; times are sums over all of them, of stable responses over those that a march comes to.\n"
     );
     println!(
-        "| damping | found | of these | taken by `auto` | marched {REVOLUTIONS} rev, s | `periodic`, s | ratio | `auto`, s | stable: marched to 1e-3, s | `periodic`, s | ratio |"
+        "| damping | found | of these | taken by `auto` | marched {REVOLUTIONS} rev, s | marched until it repeats | of these, s | all, s | `periodic`, s | ratio | `auto`, s | stable: marched to 1e-3, s | `periodic`, s | ratio |"
     );
-    println!("|---|---|---|---|---|---|---|---|---|---|---|");
+    println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
     for &damping in dampings {
         let mut points = Vec::new();
         for how in ["march", "periodic", "auto"] {
-            points.push(api.points(&sweep(&model, damping, how, REVOLUTIONS)).await?);
+            points.push(service.points(&sweep(&service.model, damping, how, &json!(REVOLUTIONS))).await?);
         }
         let [marched, periodic, auto] = &points[..] else { bail!("three sweeps") };
+        let until = service.points(&sweep(&service.model, damping, "march", &json!("auto"))).await?;
+        let (repeating, _): (Vec<Value>, Vec<Value>) =
+            until.iter().cloned().partition(|point| point["march"]["period_revolutions"].is_u64());
         let seconds =
             |points: &[Value]| points.iter().filter_map(|point| point["wall_time_s"].as_f64()).sum::<f64>();
         let mut kinds = BTreeMap::<&str, usize>::new();
@@ -66,7 +59,7 @@ async fn measure(dampings: &[f64]) -> anyhow::Result<()> {
                 continue;
             }
             let Some(amplitude) = steady["half_peak_to_peak"][0].as_f64() else { continue };
-            let Some(revolutions) = api.settles(&model, damping, &marched[index], amplitude).await? else {
+            let Some(revolutions) = settles(&service, damping, &marched[index], amplitude).await? else {
                 continue;
             };
             let time = |point: &Value| point["wall_time_s"].as_f64().unwrap_or(0.0);
@@ -75,88 +68,48 @@ async fn measure(dampings: &[f64]) -> anyhow::Result<()> {
         }
         let (marched, periodic, auto) = (seconds(marched), seconds(periodic), seconds(auto));
         println!(
-            "| {damping} | {found} | {} | {taken} | {marched:.1} | {periodic:.1} | {:.1} | {auto:.1} | {long:.1} | {solved:.1} | {:.1} |",
+            "| {damping} | {found} | {} | {taken} | {marched:.1} | {} | {:.1} | {:.1} | {periodic:.1} | {:.1} | {auto:.1} | {long:.1} | {solved:.1} | {:.1} |",
             kinds.join(", "),
+            repeating.len(),
+            seconds(&repeating),
+            seconds(&until),
             marched / periodic,
             long / solved
         );
     }
-    stop.cancel();
-    service.await?;
-    Ok(())
+    service.stop().await
 }
 
-struct Api {
-    client: Client,
-    base: String,
+/// Revolutions after which a march shows this amplitude; none if it does not in [`LONG`].
+async fn settles(
+    service: &Service,
+    damping: f64,
+    point: &Value,
+    amplitude: f64,
+) -> anyhow::Result<Option<u64>> {
+    let mut case = sweep(&service.model, damping, "march", &json!(LONG));
+    let fields = case.as_object_mut().context("no object")?;
+    fields.remove("speeds");
+    fields.insert("speed".to_owned(), json!({"value": point["speed_rad_s"], "unit": "rad_s"}));
+    fields.insert("record".to_owned(), json!({"revolutions": [0, LONG], "quantities": ["displacement"]}));
+    let path = service.done("case-studies", &case).await?;
+    let histories = service.get(&format!("{path}/histories")).await?;
+    let line: Vec<f64> = histories["sensors"][0]["displacement"]
+        .as_array()
+        .context("no history")?
+        .iter()
+        .filter_map(Value::as_f64)
+        .collect();
+    let off = |revolution: &[f64]| {
+        let (low, high) = revolution.iter().fold((f64::MAX, f64::MIN), |(l, h), &x| (l.min(x), h.max(x)));
+        (0.5 * (high - low) / amplitude - 1.0).abs() > SETTLED
+    };
+    let last = line.chunks_exact(line.len() / LONG as usize).rposition(off).map_or(0, |last| last as u64 + 1);
+    // And one to read it from.
+    Ok((last < LONG - 1).then_some(last + 1))
 }
 
-impl Api {
-    async fn send(
-        &self,
-        path: &str,
-        fill: impl FnOnce(reqwest::RequestBuilder) -> reqwest::RequestBuilder,
-    ) -> anyhow::Result<Value> {
-        Ok(fill(self.client.post(format!("{}/v1/{path}", self.base))).send().await?.json().await?)
-    }
-
-    async fn get(&self, path: &str) -> anyhow::Result<Value> {
-        Ok(self.client.get(format!("{}{path}", self.base)).send().await?.json().await?)
-    }
-
-    /// Path of the job when it is done.
-    async fn done(&self, kind: &str, request: &Value) -> anyhow::Result<String> {
-        let posted = self.send(kind, |post| post.json(request)).await?;
-        let path = format!("/v1/jobs/{}", posted["id"].as_str().context(posted.to_string())?);
-        loop {
-            let job = self.get(&path).await?;
-            match job["status"].as_str() {
-                Some("accepted" | "running") => tokio::time::sleep(Duration::from_millis(50)).await,
-                Some("successful") => return Ok(path),
-                _ => bail!("{job}"),
-            }
-        }
-    }
-
-    async fn points(&self, request: &Value) -> anyhow::Result<Vec<Value>> {
-        let path = self.done("sweeps", request).await?;
-        let map = self.get(&format!("{path}/interaction-map")).await?;
-        Ok(map["points"].as_array().context("no points")?.clone())
-    }
-
-    /// Revolutions after which a march shows this amplitude; none if it does not in [`LONG`].
-    async fn settles(
-        &self,
-        model: &Value,
-        damping: f64,
-        point: &Value,
-        amplitude: f64,
-    ) -> anyhow::Result<Option<u64>> {
-        let mut case = sweep(model, damping, "march", LONG);
-        let fields = case.as_object_mut().context("no object")?;
-        fields.remove("speeds");
-        fields.insert("speed".to_owned(), json!({"value": point["speed_rad_s"], "unit": "rad_s"}));
-        fields.insert("record".to_owned(), json!({"revolutions": [0, LONG], "quantities": ["displacement"]}));
-        let path = self.done("case-studies", &case).await?;
-        let histories = self.get(&format!("{path}/histories")).await?;
-        let line: Vec<f64> = histories["sensors"][0]["displacement"]
-            .as_array()
-            .context("no history")?
-            .iter()
-            .filter_map(Value::as_f64)
-            .collect();
-        let off = |revolution: &[f64]| {
-            let (low, high) = revolution.iter().fold((f64::MAX, f64::MIN), |(l, h), &x| (l.min(x), h.max(x)));
-            (0.5 * (high - low) / amplitude - 1.0).abs() > SETTLED
-        };
-        let last =
-            line.chunks_exact(line.len() / LONG as usize).rposition(off).map_or(0, |last| last as u64 + 1);
-        // And one to read it from.
-        Ok((last < LONG - 1).then_some(last + 1))
-    }
-}
-
-fn sweep(model: &Value, damping: f64, how: &str, revolutions: u64) -> Value {
+fn sweep(model: &Value, damping: f64, how: &str, revolutions: &Value) -> Value {
     json!({
         "model": model,
         "modes_per_speed": 20,

@@ -7,7 +7,7 @@ use rubmap::analysis::monitor::Unwatched;
 use rubmap::analysis::request::auto_or::AutoOr;
 use rubmap::analysis::request::speeds::{SpeedSet, SpeedUnit, Speeds};
 use rubmap::analysis::request::{
-    self, Component, Integration, SchemeChoice, Sensor, SteadyChoice, SweepDirection, SweepRequest,
+    self, Component, Integration, SchemeChoice, Sensor, SweepDirection, SweepRequest,
 };
 use rubmap::analysis::resolved::ResolvedSweep;
 use rubmap::analysis::result::PointStatus;
@@ -122,10 +122,10 @@ impl Scene {
                 scheme,
                 kept_modes,
                 steps_per_revolution: AutoOr::Auto,
-                revolutions: revolutions as u32,
+                revolutions: AutoOr::Fixed(revolutions as u32),
                 ramp_revolutions: casing.ramp_revolutions,
                 window_revolutions: 1,
-                steady: SteadyChoice::March,
+                ..Integration::default()
             },
             sensors: vec![sensor(0), sensor(last)],
             max_engine_order: 24,
@@ -186,6 +186,7 @@ impl Scene {
             samples_per_revolution: (192..steps).find(|s| steps.is_multiple_of(*s)).unwrap_or(steps),
             revolutions: 1,
             window_revolutions: 1,
+            repeats: None,
             detail: None,
             states: None,
         }

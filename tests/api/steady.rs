@@ -70,7 +70,6 @@ async fn effects_that_have_no_map_are_marched_and_say_so() {
     }
 }
 
-/// Speed by speed, with histories of the periodic response beside.
 #[tokio::test]
 async fn histories_of_a_periodic_response_are_recorded_from_it() {
     let app = TestApp::start().await;
@@ -102,4 +101,80 @@ async fn histories_of_a_periodic_response_are_recorded_from_it() {
     assert!((0.5 * (high - low) - amplitude(&map["points"][0])).abs() < 1e-12 * high.abs());
     let fields = api.request("GET", &format!("/v1/jobs/{id}/fields?speed=0")).send().await.unwrap();
     assert_eq!(fields.status(), 200);
+}
+
+#[tokio::test]
+async fn marches_end_once_they_repeat() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(model::package(1.0)).await;
+    let mut long = steady_sweep(&model, "march");
+    long["integration"]["revolutions"] = json!(400);
+    let expected = points(api, &long).await;
+    let mut sweep = steady_sweep(&model, "march");
+    sweep["integration"]["revolutions"] = json!("auto");
+    sweep["record"] =
+        json!({"histories": {"speeds": [0], "quantities": ["displacement", "velocity", "state"]}});
+    let plan = api.post("/v1/sweeps/plan", &sweep).await.body;
+    let time = &plan["estimate"]["computing_time_s"];
+    assert!(time["free"].as_f64() < time["contact"].as_f64(), "{plan}");
+    let id = api.sweep(&sweep).await;
+    assert_eq!(api.finish(&id).await["status"], "successful");
+    let map = api.get(&format!("/v1/jobs/{id}/interaction-map")).await.body;
+    let mut repeating = 0;
+    for (point, expected) in map["points"].as_array().unwrap().iter().zip(&expected) {
+        let march = &point["march"];
+        let (taken, steps) = (march["revolutions"].as_u64().unwrap(), point["steps"].as_u64().unwrap());
+        assert_eq!(steps, taken * point["steps_per_revolution"].as_u64().unwrap());
+        let Some(remaining) = march["remaining_change"].as_f64() else {
+            assert_eq!((taken, &march["reason"]), (100, &json!("the motion was not found to repeat")));
+            continue;
+        };
+        repeating += 1;
+        assert!(remaining <= 1e-3 && taken < 80, "{march}");
+        let (found, expected) = (amplitude(point), amplitude(expected));
+        assert!((found - expected).abs() <= 1e-3 * expected, "{found} {expected}: {march}");
+    }
+    assert!(repeating > 0, "{map}");
+
+    // Histories are of the last period.
+    let march = &map["points"][0]["march"];
+    let (taken, period) =
+        (march["revolutions"].as_u64().unwrap(), march["period_revolutions"].as_u64().unwrap());
+    let histories = api.get(&format!("/v1/jobs/{id}/histories?speed=0")).await.body;
+    assert_eq!(histories["revolutions"], json!([taken - 1, taken]), "a state is one revolution: {period}");
+    assert_eq!(histories["point"]["march"], *march);
+    let samples = histories["samples_per_revolution"].as_u64().unwrap() as usize;
+    for quantity in ["displacement", "velocity"] {
+        assert_eq!(histories["sensors"][0][quantity].as_array().unwrap().len(), samples);
+    }
+
+    // A march goes on as long as histories are asked of it.
+    sweep["record"]["histories"]["revolutions"] = json!([60, 61]);
+    let point = &points(api, &sweep).await[0];
+    assert!(point["march"]["revolutions"].as_u64() >= Some(61), "{point}");
+}
+
+#[tokio::test]
+async fn marches_that_never_repeat_say_why_and_what_cannot_end_is_refused() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(model::package(1.0)).await;
+    let mut sweep = steady_sweep(&model, "march");
+    sweep["integration"] = json!({"revolutions": "auto", "most_revolutions": 12, "window_revolutions": 2});
+    sweep["scene"]["symmetry"] = json!("probe");
+    for point in points(api, &sweep).await {
+        let march = json!({"revolutions": 12, "reason": "a probe of the symmetry takes all revolutions"});
+        assert_eq!(point["march"], march);
+    }
+    for (field, value) in
+        [("most_revolutions", json!(0)), ("settled_to", json!(0.0)), ("settled_to", json!(0.5))]
+    {
+        let mut sweep = steady_sweep(&model, "march");
+        sweep["integration"]["revolutions"] = json!("auto");
+        sweep["integration"][field] = value;
+        let refused = api.post("/v1/sweeps", &sweep).await;
+        assert_eq!(refused.status, 422, "{}", refused.body);
+        assert!(refused.body.to_string().contains(&format!("/integration/{field}")), "{}", refused.body);
+    }
 }

@@ -299,6 +299,7 @@ impl Scene {
             samples_per_revolution: self.samples,
             revolutions: self.revolutions,
             window_revolutions: self.revolutions,
+            repeats: None,
             detail: None,
             states: None,
         }

@@ -119,7 +119,7 @@ fn refused(violations: &[Violation], request: &Value) -> End {
 /// Upper bound of steps × sensors over all speeds.
 fn work(reduced: &ReducedSector, request: &SweepRequest, speeds: &[f64]) -> f64 {
     let integration = &request.integration;
-    let per_step = f64::from(integration.revolutions) * request.sensors.len() as f64;
+    let per_step = f64::from(integration.revolutions()) * request.sensors.len() as f64;
     // A speed costs its eigenvalues at least.
     let mut work = speeds.len() as f64 * 1000.0;
     for &speed in speeds {
@@ -188,7 +188,7 @@ fn sound(result: &SpeedResult, request: &SweepRequest) {
         scheme.name != SchemeChoice::Auto && !scheme.reason.is_empty() && scheme.reach_hz >= 0.0,
         "{point:?}"
     );
-    let revolutions = u64::from(request.integration.revolutions);
+    let revolutions = u64::from(request.integration.revolutions());
     assert_eq!(point.steps, revolutions * u64::from(point.steps_per_revolution), "{point:?}");
     assert!(point.steps_per_revolution >= point.smallest_stable_steps_per_revolution, "{point:?}");
     assert!(point.contact_impulse.unwrap() >= 0.0 && point.largest_energy.unwrap() >= 0.0, "{point:?}");

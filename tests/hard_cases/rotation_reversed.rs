@@ -144,6 +144,7 @@ fn turns_backwards(scheme: Scheme, sectors: usize) {
         samples_per_revolution: steps,
         revolutions: 1,
         window_revolutions: 1,
+        repeats: None,
         detail: None,
         states: None,
     }

@@ -63,6 +63,7 @@ fn agree_by(scheme: Scheme, recipe: WheelRecipe, damping_ratio: f64, lobes: u32,
         samples_per_revolution: steps,
         revolutions: 1,
         window_revolutions: 1,
+        repeats: None,
         detail: None,
         states: None,
     }

@@ -6,7 +6,7 @@ use faer::c64;
 use rubmap::dynamics::casing::{Casing, Restriction};
 use rubmap::dynamics::direction::Direction;
 use rubmap::dynamics::effects::Effects;
-use rubmap::dynamics::integrate::{Detail, History, Outcome, Run, SensorRow, Simulation};
+use rubmap::dynamics::integrate::{Detail, History, Outcome, Revolutions, Run, SensorRow, Simulation};
 use rubmap::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use rubmap::dynamics::oscillators::ModalDamping;
 use rubmap::dynamics::reduction::{NoCheckpoints, ReducedWheel, ReductionOptions, reduce};
@@ -82,7 +82,8 @@ impl Scene {
             revolutions: 1,
             window_revolutions: 1,
             detail,
-            states: Some((0, 1)),
+            repeats: None,
+            states: Some(Revolutions::Last(1)),
         }
         .run(&|_| true)
     }
@@ -110,7 +111,7 @@ fn completed(run: &Run) -> &History {
 }
 
 const WHOLE: Detail =
-    Detail { revolutions: (0, 1), velocity: true, contact: true, forces: true, energy: true };
+    Detail { revolutions: Revolutions::Last(1), velocity: true, contact: true, forces: true, energy: true };
 
 /// Displacement of component `d` of contact node `node` of `sector`, read from the states of the whole wheel.
 fn of_states(states: &WheelStates, sectors: usize, (sector, node, d): (usize, usize, usize)) -> Vec<f64> {

@@ -63,6 +63,7 @@ impl Scene {
             samples_per_revolution: samples,
             revolutions: self.revolutions,
             window_revolutions: self.revolutions.min(2),
+            repeats: None,
             detail: None,
             states: None,
         }

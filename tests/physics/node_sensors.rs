@@ -207,6 +207,7 @@ fn rows_of_a_contact_node_read_what_it_reads() {
             samples_per_revolution: 512,
             revolutions: 2,
             window_revolutions: 1,
+            repeats: None,
             detail: None,
             states: None,
         }

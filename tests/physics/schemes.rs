@@ -86,6 +86,7 @@ impl Scene {
             samples_per_revolution: SAMPLES,
             revolutions: self.revolutions,
             window_revolutions: 1,
+            repeats: None,
             detail: None,
             states: None,
         }
@@ -217,6 +218,7 @@ fn a_mass_bounces_off_a_stop_at_the_frequency_of_restitution_one() {
             samples_per_revolution: steps,
             revolutions: 2,
             window_revolutions: 1,
+            repeats: None,
             detail: None,
             states: None,
         }

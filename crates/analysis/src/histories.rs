@@ -8,14 +8,14 @@ use crate::model::ReducedSector;
 use crate::monitor::Monitor;
 use crate::record::record_run;
 use crate::request::{Recorded, RecordedQuantity};
-use crate::resolve::recorded::{revolutions, wanted};
+use crate::resolve::recorded::{asked, revolutions, wanted};
 use crate::resolved::sensor::{Along, Place};
 use crate::resolved::{ResolvedCaseStudy, ResolvedSensor, ResolvedSweep};
 use crate::result::{
     ContactHistory, EnergyHistory, Point, PointStatus, SensorHistory, SpeedHistories, TipPlace,
 };
 use crate::speed::{Recording, Start, empty_point, ready, run_speed, simulate};
-use crate::steady::Simulated;
+use crate::steady::{Simulated, marched};
 use crate::summary::critical_indices;
 use rubmap_wheel::dynamics::energy::{EffectWork, EnergyAudit};
 use rubmap_wheel::dynamics::integrate::{Detail, DetailHistory, History, Outcome};
@@ -45,10 +45,10 @@ pub fn speed_histories(
     let index = case.speeds[place] as usize;
     let start = state_before(reduced, sweep, index, monitor)?;
     let mut point = empty_point(reduced, sweep, index, sweep.speeds.rad_s()[index]);
-    let [from, to] = revolutions(record, sweep);
+    let asked = asked(record, sweep);
     let touches = sweep.scene.contact.is_some();
     let detail = Detail {
-        revolutions: (from as usize, to as usize),
+        revolutions: asked,
         velocity: record.wants(RecordedQuantity::Velocity),
         contact: touches && record.wants(RecordedQuantity::Contact),
         forces: touches && record.wants(RecordedQuantity::ContactForce),
@@ -69,7 +69,7 @@ pub fn speed_histories(
         index: index as u32,
         speed_rad_s: point.speed_rad_s,
         samples_per_revolution: 0,
-        revolutions: [from, to],
+        revolutions: whole(revolutions(record, sweep)),
         sensors: Vec::new(),
         contact: None,
         energy: None,
@@ -82,13 +82,14 @@ pub fn speed_histories(
     match ran {
         Err(reason) => point.message = Some(reason.to_string()),
         Ok((wheel, stepping, Simulated { run, steady })) => {
-            point.steady = steady;
+            (point.march, point.steady) = (marched(sweep, &run, steady.as_ref()), steady);
             record_run(&mut point, &run, sweep, &wheel, &stepping, &reduced.wheel.contact)?;
             if let (PointStatus::Completed, Outcome::Completed(history)) = (point.status, &run.outcome) {
                 let samples = stepping.discretisation.samples;
                 histories.samples_per_revolution = samples as u32;
-                histories.sensors =
-                    sensors(reduced, history, sweep, record, samples * from as usize..samples * to as usize);
+                let (from, to) = asked.of(sweep.integration.revolutions() as usize, history.repeated);
+                histories.revolutions = whole((from, to));
+                histories.sensors = sensors(reduced, history, sweep, record, samples * from..samples * to);
                 if let Some(states) = &history.states {
                     let stiffening = sweep.scene.centrifugal_stiffening;
                     let states = WheelStates::of(states, &wheel, &reduced.wheel, stiffening);
@@ -104,6 +105,10 @@ pub fn speed_histories(
     }
     histories.point = point;
     Ok(histories)
+}
+
+fn whole((from, to): (usize, usize)) -> [u32; 2] {
+    [from as u32, to as u32]
 }
 
 /// Where the speed before `index` in a sweep up or down ends.

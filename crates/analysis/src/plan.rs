@@ -20,7 +20,7 @@ use crate::result::{
 };
 use crate::speed::ready;
 use crate::start::initial;
-use crate::steady::revolutions_taken;
+use crate::steady::{self, revolutions_taken};
 use crate::stepping::Stepping;
 use rubmap_numerics::sector_fourier::harmonic_count;
 use rubmap_wheel::dynamics::casing::RestrictionTable;
@@ -280,10 +280,8 @@ fn plan_point(
         Err(reason) => return PlannedPoint { message: Some(reason.to_string()), ..planned },
     };
     let unknowns = stepping.scheme.integrated_unknowns(&wheel);
-    let marched = u64::from(request.integration.revolutions);
-    let [least, most] = revolutions_taken(request);
     let per_revolution = stepping.discretisation.per_revolution as u64;
-    let steps = per_revolution * marched;
+    let [least, most] = revolutions_taken(request).map(|revolutions| per_revolution * revolutions);
     let nodes = touching(reduced, request);
     let size = StepSize { sectors: wheel.sectors, nodes, unknowns };
     let effects = EffectSizes::of(&request.scene, &wheel, stepping.scheme, nodes);
@@ -291,17 +289,16 @@ fn plan_point(
     let histories = request
         .histories()
         .map_or(0, |asked| recorded_bytes(&asked.recorded(), request, &wheel, &stepping, nodes));
-    let window =
-        f64::from(request.integration.window_revolutions) / f64::from(request.integration.revolutions);
-    let spectra = window * calibration.spectra_seconds(size, request.sensors.len());
+    let windowed = per_revolution * u64::from(request.integration.window_revolutions);
+    let spectra = windowed as f64 * calibration.spectra_seconds(size, request.sensors.len());
     let stress = calibration.stress_seconds(stress_numbers(places, modes(&wheel)));
     PlannedPoint {
         integrated_unknowns: unknowns as u32,
         steps_per_revolution: stepping.discretisation.per_revolution as u32,
-        steps,
+        steps: most,
         computing_time_s: Some(CostRange {
-            free: set_up + stress + (per_revolution * least) as f64 * free + steps as f64 * spectra,
-            contact: set_up + stress + (per_revolution * most) as f64 * contact + steps as f64 * spectra,
+            free: set_up + stress + least as f64 * free + spectra,
+            contact: set_up + stress + most as f64 * contact + spectra,
         }),
         memory_bytes: running_bytes(&wheel, request, &stepping, nodes)
             + stress_memory(places, &wheel, &stepping)
@@ -348,10 +345,10 @@ fn recorded_bytes(
 ) -> u64 {
     /// Bytes of a number as numbers and as text.
     const NUMBER: usize = 8 + 24;
-    let [from, to] = revolutions(record, sweep);
+    let (from, to) = revolutions(record, sweep);
     let state = wheel.harmonics.iter().map(|harmonic| 2 * harmonic.omega.len()).sum();
     let lines = lines(record, sweep, wheel.sectors * nodes, state);
-    (NUMBER * lines * stepping.discretisation.samples * (to - from) as usize) as u64
+    (NUMBER * lines * stepping.discretisation.samples * (to - from)) as u64
 }
 
 /// What a speed holds while it runs: its modes with what their eigenproblems took, the casing's table, the histories,
@@ -361,7 +358,7 @@ fn running_bytes(wheel: &ModalWheel, request: &ResolvedSweep, stepping: &Steppin
     const COMPLEX: usize = 2 * REAL;
     let steps = &stepping.discretisation;
     let (revolutions, window) =
-        (request.integration.revolutions as usize, request.integration.window_revolutions as usize);
+        (request.integration.revolutions() as usize, request.integration.window_revolutions as usize);
     let sizes = wheel.harmonics.iter().map(|h| h.omega.len());
     let eigen = COMPLEX * 6 * sizes.clone().max().unwrap_or(0).pow(2);
     let shapes: usize = wheel.harmonics.iter().map(|h| COMPLEX * h.contact.nrows() * h.contact.ncols()).sum();
@@ -378,7 +375,8 @@ fn running_bytes(wheel: &ModalWheel, request: &ResolvedSweep, stepping: &Steppin
     let spectrum = 4 * COMPLEX * steps.samples * window;
     let bins = request.max_engine_order as usize * window + 1;
     let spectra = 4 * REAL * request.sensors.len() * (1 + wheel.harmonics.len()) * bins;
-    (eigen + shapes + table + rows + history + spectrum + spectra) as u64
+    let search = steady::memory(request, stepping.scheme.integrated_unknowns(wheel), wheel.sectors * nodes);
+    (eigen + shapes + table + rows + history + spectrum + spectra) as u64 + search
 }
 
 /// Mass and stiffness of every nodal diameter.

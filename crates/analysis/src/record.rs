@@ -172,9 +172,6 @@ fn responses(history: &History, request: &ResolvedSweep, spectra: &SpeedSpectra)
         let window = &whole[whole.len() - window_samples..];
         let mean = window.iter().sum::<f64>() / window.len() as f64;
         let variance = window.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / window.len() as f64;
-        let (low, high) = window
-            .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &x| (low.min(x), high.max(x)));
         let spectrum = &spectra.sensors[index];
         let bin = largest_bin(&spectrum.amplitude[1..]) + 1;
         let carried: Vec<f64> = spectrum.nodal_diameters.iter().map(|line| line[bin]).collect();
@@ -183,7 +180,7 @@ fn responses(history: &History, request: &ResolvedSweep, spectra: &SpeedSpectra)
             sensor: sensor.into(),
             mean,
             rms: variance.sqrt(),
-            half_peak_to_peak: 0.5 * (high - low),
+            half_peak_to_peak: half_peak_to_peak(window),
             dominant_engine_order: stands_out.then(|| spectra.engine_orders[bin]),
             dominant_nodal_diameter: stands_out.then(|| largest_bin(&carried) as u32),
             side_bands: side_bands(
@@ -194,6 +191,13 @@ fn responses(history: &History, request: &ResolvedSweep, spectra: &SpeedSpectra)
         }
     };
     request.sensors.iter().enumerate().map(of).collect()
+}
+
+/// Half the way from the lowest to the highest.
+pub(super) fn half_peak_to_peak(line: &[f64]) -> f64 {
+    let ends = (f64::INFINITY, f64::NEG_INFINITY);
+    let (low, high) = line.iter().fold(ends, |(low, high), &x| (low.min(x), high.max(x)));
+    0.5 * (high - low)
 }
 
 /// The strongest pair at the sensor with the largest response.

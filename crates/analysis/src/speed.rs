@@ -17,12 +17,12 @@ use crate::resolved::ResolvedSweep;
 use crate::result::{Point, PointStatus, SpeedResult, WearMap};
 use crate::sensed::sensed;
 use crate::start::{initial, perturbed};
-use crate::steady::{Simulated, run_steady};
+use crate::steady::{Simulated, marched, repeats, run_steady};
 use crate::stepping::Stepping;
 use crate::stress::{Course, stress_of};
 use crate::validity;
 use crate::wheel::wheel_of;
-use rubmap_wheel::dynamics::integrate::{Detail, Outcome, Run, Simulation};
+use rubmap_wheel::dynamics::integrate::{Detail, Outcome, Revolutions, Run, Simulation};
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
 use rubmap_wheel::dynamics::reduction::ReducedWheel;
 use rubmap_wheel::dynamics::states::WheelStates;
@@ -57,7 +57,7 @@ pub fn run_speed(
     match ran {
         Err(reason) => point.message = Some(reason.to_string()),
         Ok((wheel, stepping, Simulated { run, steady })) => {
-            point.steady = steady;
+            (point.march, point.steady) = (marched(request, &run, steady.as_ref()), steady);
             recorded = record_run(&mut point, &run, request, &wheel, &stepping, &reduced.wheel.contact)?;
             judge_run(&mut point, &run, reduced, request, &wheel);
             end_state = end_state_of(&run, &reduced.wheel, &wheel, request);
@@ -165,6 +165,7 @@ pub(super) fn empty_point(
         message: None,
         stiffening: stiffening.then_some(reduced.report.stiffening.verdict),
         settling: None,
+        march: None,
         steady: None,
         scheme: None,
         steps_per_revolution: 0,
@@ -196,15 +197,14 @@ pub(super) fn empty_point(
 pub(super) struct Recording {
     /// Details of chosen revolutions.
     pub(super) detail: Option<Detail>,
-    /// Whole revolutions after which recording of all modes begins and ends.
-    pub(super) states: Option<(usize, usize)>,
+    /// Revolutions of which all modes are recorded.
+    pub(super) states: Option<Revolutions>,
 }
 
 impl Recording {
     /// What every speed of a sweep needs: the last revolution, if stress is to be told.
     pub(super) fn of(request: &ResolvedSweep) -> Self {
-        let last = request.integration.revolutions as usize;
-        Self { detail: None, states: request.stress_outside().map(|_| (last - 1, last)) }
+        Self { detail: None, states: request.stress_outside().map(|_| Revolutions::Last(1)) }
     }
 }
 
@@ -233,17 +233,19 @@ pub(super) fn simulate(
     let surroundings =
         Surroundings { contact_nodes: &reduced.contact, sectors: wheel.around(), ramp_revolutions };
     let effects = SceneEffects::of(scene, &surroundings)?;
-    let initial = match start {
+    let mut initial = match start {
         Start::After(state) => state
             .modes(wheel, reduced, scene.centrifugal_stiffening, scheme)?
             .ok_or(NotRunnable::OtherReduction)?,
-        Start::Scene => initial(request, wheel, &reduced.contact, casing.as_ref(), stepping)?,
-        Start::Perturbed => perturbed(
-            initial(request, wheel, &reduced.contact, casing.as_ref(), stepping)?,
-            wheel,
-            casing.as_ref(),
-        ),
+        Start::Scene | Start::Perturbed => {
+            initial(request, wheel, &reduced.contact, casing.as_ref(), stepping)?
+        }
     };
+    let repeats = repeats(request, recording.detail, wheel.around());
+    // What breaks a symmetry must not have to grow out of round-off where a march ends early.
+    if matches!(start, Start::Perturbed) || repeats.is_some_and(|repeats| repeats.symmetry > 1) {
+        initial = perturbed(initial, wheel, casing.as_ref());
+    }
     let (wheel, sensors) = sensed(sector, wheel, request)?;
     let simulation = Simulation {
         wheel: &wheel,
@@ -256,7 +258,8 @@ pub(super) fn simulate(
         sensors: &sensors,
         steps_per_revolution: steps.per_revolution,
         samples_per_revolution: steps.samples,
-        revolutions: request.integration.revolutions as usize,
+        revolutions: request.integration.revolutions() as usize,
+        repeats,
         window_revolutions: request.integration.window_revolutions as usize,
         detail: recording.detail,
         states: recording.states,

@@ -1,13 +1,17 @@
 //! The steady response of a speed: marched to, or solved for.
 
+use crate::effects::symmetry::repeats::repeats as scene_repeats;
 use crate::effects::symmetry::request::Symmetry;
-use crate::request::{Integration, SteadyChoice};
+use crate::record::half_peak_to_peak;
+use crate::request::{AutoOr, Integration, SteadyChoice};
 use crate::resolved::ResolvedSweep;
-use crate::result::{FloquetMultiplier, Stability, SteadyReport};
-use rubmap_wheel::dynamics::integrate::{Outcome, Run, Simulation};
+use crate::result::{FloquetMultiplier, MarchReport, Stability, SteadyReport};
+use rubmap_wheel::dynamics::integrate::{
+    Detail, LEAST_MARCHED, Outcome, Repeated, Repeats, Revolutions, Run, Simulation,
+};
 use rubmap_wheel::dynamics::steady::multipliers::{MOST_PRODUCTS, Multiplier};
 use rubmap_wheel::dynamics::steady::periodic::NotFound;
-use rubmap_wheel::dynamics::steady::response::{LEAST_REVOLUTIONS, Response, Sought, record, seek};
+use rubmap_wheel::dynamics::steady::response::{self, LEAST_REVOLUTIONS, Response, Sought, record, seek};
 use rubmap_wheel::dynamics::steady::stability::Floquet;
 
 /// Most revolutions of a search, and of the march that controls it, as a multiple of those that are asked for.
@@ -16,15 +20,82 @@ const LIMIT: u32 = 4;
 /// Fewest and most revolutions that a speed takes.
 pub(super) fn revolutions_taken(request: &ResolvedSweep) -> [u64; 2] {
     let Integration { revolutions, ramp_revolutions, steady, .. } = request.integration;
-    let (marched, limit) = (u64::from(revolutions), u64::from(LIMIT * revolutions));
+    let marched = u64::from(request.integration.revolutions());
+    let limit = u64::from(LIMIT) * marched;
     let lobes = request.scene.touched_lobes().map_or(1, |lobes| u64::from(lobes.count.max(1)));
     // Each product is of a lobe.
     let multipliers = MOST_PRODUCTS as u64 / lobes;
     let least = ramp_revolutions.ceil() as u64 + LEAST_REVOLUTIONS;
     match steady {
-        SteadyChoice::March => [marched, marched],
+        SteadyChoice::March => match revolutions {
+            AutoOr::Fixed(_) => [marched, marched],
+            AutoOr::Auto => [(ramp_revolutions.ceil() as u64 + LEAST_MARCHED).min(marched), marched],
+        },
         SteadyChoice::Periodic => [least, limit + multipliers + marched],
         SteadyChoice::Auto => [least, 2 * limit + multipliers + marched],
+    }
+}
+
+/// Whether the march of a scene may end once it repeats.
+pub(super) fn repeats(request: &ResolvedSweep, detail: Option<Detail>, sectors: usize) -> Option<Repeats> {
+    let Integration { revolutions: AutoOr::Auto, settled_to, .. } = request.integration else { return None };
+    if goes_on(request).is_some() {
+        return None;
+    }
+    let asked = request.histories().and_then(|histories| histories.revolutions).map(|[_, to]| to as usize);
+    let recorded = match detail.map(|detail| detail.revolutions) {
+        Some(Revolutions::Between(_, to)) => Some(to),
+        _ => None,
+    };
+    let symmetry = match request.scene.symmetry {
+        Symmetry::Full => scene_repeats(&request.scene, sectors as u32) as usize,
+        Symmetry::Exact | Symmetry::Probe => 1,
+    };
+    Some(Repeats { share: settled_to, least: asked.max(recorded).unwrap_or(0), symmetry })
+}
+
+/// Why a march of a scene does not end before its limit.
+fn goes_on(request: &ResolvedSweep) -> Option<&'static str> {
+    if request.is_worn() {
+        return Some("a coating that wears changes the motion for as long as it is touched");
+    }
+    (request.scene.symmetry == Symmetry::Probe).then_some("a probe of the symmetry takes all revolutions")
+}
+
+/// How long a complete run was marched, where it was to end once it repeats.
+pub(super) fn marched(
+    request: &ResolvedSweep,
+    run: &Run,
+    steady: Option<&SteadyReport>,
+) -> Option<MarchReport> {
+    let Integration { revolutions: AutoOr::Auto, most_revolutions, .. } = request.integration else {
+        return None;
+    };
+    let Outcome::Completed(history) = &run.outcome else { return None };
+    if steady.is_some_and(|steady| steady.taken) {
+        return None;
+    }
+    Some(match history.repeated {
+        Some(Repeated { after, period, remaining }) => MarchReport {
+            revolutions: (after + period) as u32,
+            period_revolutions: Some(period as u32),
+            remaining_change: Some(remaining),
+            reason: None,
+        },
+        None => MarchReport {
+            revolutions: most_revolutions,
+            period_revolutions: None,
+            remaining_change: None,
+            reason: Some(goes_on(request).unwrap_or("the motion was not found to repeat").to_owned()),
+        },
+    })
+}
+
+/// Memory that the search of a speed holds beside its run, in bytes.
+pub(super) fn memory(request: &ResolvedSweep, unknowns: usize, pairs: usize) -> u64 {
+    match request.integration.steady {
+        SteadyChoice::March => 0,
+        SteadyChoice::Periodic | SteadyChoice::Auto => response::memory(unknowns, pairs) as u64,
     }
 }
 
@@ -49,7 +120,7 @@ pub(super) fn run_steady(
         return march(simulation, SteadyReport { reason: Some(reason), ..nothing(0.0) }, watch);
     }
     watch(0.0);
-    let limit = (LIMIT * request.integration.revolutions) as usize;
+    let limit = (LIMIT * request.integration.revolutions()) as usize;
     let go_on = || watch(0.0);
     let Sought { response, revolutions } = seek(simulation, limit, choice == SteadyChoice::Auto, &go_on);
     let response = match response {
@@ -60,11 +131,11 @@ pub(super) fn run_steady(
         }
     };
     let run = record(simulation, &response.modes, watch);
-    let reason = why_not(choice, &response);
+    let reason = why_not(choice, &response, &run);
     let report = SteadyReport {
         taken: reason.is_none(),
         reason,
-        half_peak_to_peak: half_peak_to_peak(&run),
+        half_peak_to_peak: amplitudes(&run),
         ..found(&response, simulation, revolutions)
     };
     if report.taken { Simulated { run, steady: Some(report) } } else { march(simulation, report, watch) }
@@ -75,7 +146,10 @@ fn march(simulation: &Simulation<'_>, report: SteadyReport, watch: &dyn Fn(f64) 
 }
 
 /// Why the periodic response is not what the speed tells.
-fn why_not(choice: SteadyChoice, response: &Response) -> Option<String> {
+fn why_not(choice: SteadyChoice, response: &Response, run: &Run) -> Option<String> {
+    if !matches!(run.outcome, Outcome::Completed(_) | Outcome::Cancelled) {
+        return Some("the periodic response could not be followed for a revolution".to_owned());
+    }
     if choice == SteadyChoice::Periodic {
         return None;
     }
@@ -110,8 +184,7 @@ fn nothing(revolutions: f64) -> SteadyReport {
 
 fn found(response: &Response, simulation: &Simulation<'_>, revolutions: f64) -> SteadyReport {
     let Response { residual, floquet, .. } = response;
-    let lobes = simulation.casing.and_then(|casing| casing.restriction).map_or(1, |found| found.count.max(1));
-    let multiplier = |one: &_| multiplier(floquet, one, simulation, lobes as usize);
+    let multiplier = |one: &_| multiplier(floquet, one, simulation);
     SteadyReport {
         residual: Some(*residual),
         stability: Some(floquet.stability),
@@ -121,12 +194,7 @@ fn found(response: &Response, simulation: &Simulation<'_>, revolutions: f64) -> 
     }
 }
 
-fn multiplier(
-    floquet: &Floquet,
-    one: &Multiplier,
-    simulation: &Simulation<'_>,
-    lobes: usize,
-) -> FloquetMultiplier {
+fn multiplier(floquet: &Floquet, one: &Multiplier, simulation: &Simulation<'_>) -> FloquetMultiplier {
     let (index, &share) =
         (one.shares.iter().enumerate()).max_by(|(_, a), (_, b)| a.total_cmp(b)).unwrap_or((0, &0.0));
     FloquetMultiplier {
@@ -134,18 +202,14 @@ fn multiplier(
         imaginary: one.value.im,
         modulus: one.value.norm(),
         residual: one.residual,
-        order_offset: floquet.order_offset(one, lobes),
+        order_offset: floquet.order_offset(one),
         nodal_diameter: simulation.wheel.harmonics[index].harmonic as u32,
         share,
     }
 }
 
-/// Of every sensor over the window.
-fn half_peak_to_peak(run: &Run) -> Vec<f64> {
+/// Of every sensor.
+fn amplitudes(run: &Run) -> Vec<f64> {
     let Outcome::Completed(history) = &run.outcome else { return Vec::new() };
-    let of = |line: &Vec<f64>| {
-        let low = line.iter().copied().fold(f64::INFINITY, f64::min);
-        0.5 * (line.iter().copied().fold(f64::NEG_INFINITY, f64::max) - low)
-    };
-    history.displacement.iter().map(of).collect()
+    history.displacement.iter().map(|line| half_peak_to_peak(line)).collect()
 }

@@ -12,6 +12,7 @@ use super::spectrum::Frame;
 use super::svg::{Element, INK, document, group, line, rectangle, text, upright};
 use super::window::Window;
 use super::{colour_bar, hatching, heading, heat, level, margin, marks, sectors, settling_strip, validity};
+use rubmap_analysis::request::AutoOr;
 use rubmap_analysis::result::{
     Campbell, CriticalSpeed, CriticalSpeeds, InteractionMap, StiffeningVerdict, Verdict,
 };
@@ -200,10 +201,13 @@ pub(super) fn words(map: &InteractionMap) -> String {
     let computed = map.amplitude.iter().flatten().count();
     let mut words = vec![format!("{computed} of {} speeds", map.speeds_rad_s.len())];
     let integration = &settings.integration;
-    words.push(format!(
-        "{} revolutions, the last {} shown",
-        integration.revolutions, integration.window_revolutions
-    ));
+    let window = integration.window_revolutions;
+    words.push(match integration.revolutions {
+        AutoOr::Fixed(revolutions) => format!("{revolutions} revolutions, the last {window} shown"),
+        AutoOr::Auto => {
+            format!("revolutions until it repeats, at most {}, {window} shown", integration.most_revolutions)
+        }
+    });
     if let Some(damping) = &settings.scene.damping {
         words.push(format!("modal damping {} %", 100.0 * damping.modal_ratio));
     }

@@ -9,7 +9,7 @@ use rubmap_wheel::dynamics::direction::Direction;
 use rubmap_wheel::dynamics::effects::{Effects, Friction};
 use rubmap_wheel::dynamics::excitation::EngineOrderExcitation;
 use rubmap_wheel::dynamics::flexible_casing::{CasingWave, FlexibleCasing};
-use rubmap_wheel::dynamics::integrate::{Outcome, SensorRow, Simulation};
+use rubmap_wheel::dynamics::integrate::{Outcome, Revolutions, SensorRow, Simulation};
 use rubmap_wheel::dynamics::modal_wheel::{ModalHarmonic, ModalWheel};
 use rubmap_wheel::dynamics::orbit::Orbit;
 use rubmap_wheel::dynamics::oscillators::ModalDamping;
@@ -75,8 +75,9 @@ fn allocations(scheme: Scheme, effects: Effects<'_>, revolutions: usize) -> u64 
         samples_per_revolution: 120,
         revolutions,
         window_revolutions: 1,
+        repeats: None,
         detail: None,
-        states: Some((0, 1)),
+        states: Some(Revolutions::Last(1)),
     };
     let mut run = None;
     let counted = measure(|| run = Some(simulation.run(&|_| true)));

@@ -208,6 +208,7 @@ impl Case {
             samples_per_revolution: steps,
             revolutions: REVOLUTIONS,
             window_revolutions: 1,
+            repeats: None,
             detail: None,
             states: None,
         }

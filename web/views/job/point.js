@@ -95,6 +95,13 @@ function steadyWords(steady) {
   ].filter(Boolean).join('; ');
 }
 
+/** How long a speed was marched that was to end once it repeats. */
+function marchWords(march) {
+  if (!march) return null;
+  const ended = march.reason ?? `repeats every ${march.period_revolutions === 1 ? 'revolution' : `${march.period_revolutions} revolutions`}, to ${percent(march.remaining_change)}`;
+  return `${march.revolutions} revolutions; ${ended}`;
+}
+
 /** What is known of one speed. */
 function credentials(point, map) {
   const error = map.errors?.points.find((each) => each.index === point.index);
@@ -103,6 +110,7 @@ function credentials(point, map) {
   return facts([
     ['Ended as', point.status],
     ['Steady state', settling ? `${SETTLING[settling.verdict]}${settling.after_revolutions ? `, after ${settling.after_revolutions} revolutions` : ''}` : null],
+    ['Marched', marchWords(point.march)],
     ['Periodic response', steadyWords(point.steady)],
     ['Largest change between periods', settling?.largest_change === undefined ? null : percent(settling.largest_change)],
     ['Linear theory', VALIDITY[point.validity?.verdict]],

@@ -304,6 +304,13 @@ class Machine(TypedDict):
     vectors: str
 
 
+class MarchReport(TypedDict):
+    period_revolutions: NotRequired[int | None]
+    reason: NotRequired[str | None]
+    remaining_change: NotRequired[float | None]
+    revolutions: int
+
+
 class Material(TypedDict, closed=True):
     density: NotRequired[float]
     fatigue_strength: NotRequired[FatigueStrength | None]
@@ -832,9 +839,11 @@ class Initial(TypedDict, closed=True):
 
 class Integration(TypedDict, closed=True):
     kept_modes: NotRequired[AutoOr]
+    most_revolutions: NotRequired[int]
     ramp_revolutions: NotRequired[float]
-    revolutions: NotRequired[int]
+    revolutions: NotRequired[AutoOr]
     scheme: NotRequired[SchemeChoice]
+    settled_to: NotRequired[float]
     steady: NotRequired[SteadyChoice]
     steps_per_revolution: NotRequired[AutoOr]
     window_revolutions: NotRequired[int]
@@ -1422,6 +1431,7 @@ class Point(TypedDict):
     index: int
     largest_energy: NotRequired[float | None]
     largest_penetration: NotRequired[float | None]
+    march: NotRequired[MarchReport | None]
     message: NotRequired[str | None]
     responses: list[SensorResponse]
     scheme: NotRequired[SchemeReport | None]

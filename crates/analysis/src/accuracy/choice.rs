@@ -231,7 +231,7 @@ impl Climb<'_, '_> {
 
     /// Computing time of a run at a rung's modes.
     fn run_s(&self, rung: &Rung, steps: u32) -> f64 {
-        rung.set_up_s + rung.step_s * f64::from(steps) * f64::from(self.request.integration.revolutions)
+        rung.set_up_s + rung.step_s * f64::from(steps)
     }
 
     /// Wall time of `runs` that take `seconds` each.

@@ -34,7 +34,7 @@ impl Tried<'_> {
             energy_residual: point.energy_residual,
             errors: reference.and_then(|reference| errors(self.trial, reference)),
             cost: self.trial.cost,
-            time_s: self.trial.cost.of_run(revolutions),
+            time_s: self.trial.cost.of_run(f64::from(revolutions)),
             pareto: Vec::new(),
         }
     }
@@ -72,7 +72,7 @@ pub fn work_precision<'a>(
 }
 
 fn speed_study(request: &ResolvedStudy, speed_rad_s: f64, reference: &Tried, tried: &[Tried]) -> SpeedStudy {
-    let revolutions = request.sweep.integration.revolutions;
+    let revolutions = request.sweep.integration.revolutions();
     let mut runs: Vec<StudyRun> =
         tried.iter().map(|tried| tried.run(Some(reference.trial), revolutions)).collect();
     // Trajectories that have separated differ by chance.

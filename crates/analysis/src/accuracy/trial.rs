@@ -15,7 +15,7 @@ use crate::request::auto_or::MOST_STEPS;
 use crate::resolved::{ResolvedSweep, TrialRequest};
 use crate::result::{Cost, SpeedSpectra, SteadyReport, Trial};
 use crate::speed::{Recording, Start, empty_point, judge_run, ready, simulate};
-use crate::steady::Simulated;
+use crate::steady::{Simulated, marched};
 use crate::stepping::Stepping;
 use rubmap_wheel::dynamics::integrate::{Outcome, Run};
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
@@ -89,7 +89,7 @@ pub fn run_trial(
         // A run that diverged made fewer than were asked for; one that was solved for is as dear as the march in whose place it is.
         let made =
             |(_, stepping, run, steady): &(ModalWheel, Stepping, Run, Option<SteadyReport>)| match steady {
-                Some(_) => f64::from(sweep.integration.revolutions),
+                Some(_) => f64::from(sweep.integration.revolutions()),
                 None => run.statistics.steps as f64 / stepping.discretisation.per_revolution as f64,
             };
         let revolutions = ran.as_ref().map_or(0.0, made);
@@ -103,14 +103,14 @@ pub fn run_trial(
     }
     trial.cost = Cost::of(repetitions);
     let Some((wheel, stepping, run, steady)) = first else { return Ok(trial) };
-    trial.point.steady = steady;
+    (trial.point.march, trial.point.steady) = (marched(sweep, &run, steady.as_ref()), steady);
     trial.unknowns = stepping.scheme.integrated_unknowns(&wheel) as u32;
     let samples = stepping.discretisation.samples;
     trial.samples_per_revolution = samples as u32;
     let recorded = record_run(&mut trial.point, &run, sweep, &wheel, &stepping, &reduced.wheel.contact)?;
     judge_run(&mut trial.point, &run, reduced, sweep, &wheel);
     if let (Outcome::Completed(history), Some(Recorded { spectra, .. })) = (&run.outcome, &recorded) {
-        let kept = samples * request.history_revolutions.min(sweep.integration.revolutions) as usize;
+        let kept = samples * request.history_revolutions.min(sweep.integration.revolutions()) as usize;
         trial.history = history.displacement.iter().map(|line| line[..kept].to_vec()).collect();
         let window = samples * sweep.integration.window_revolutions as usize;
         trial.levels =
@@ -160,7 +160,7 @@ mod tests {
     fn medians_stand_for_repetitions() {
         let cost = Cost::of(vec![(3.0, 1.0), (1.0, 1.2), (2.0, 0.8)]);
         assert_eq!((cost.set_up_s, cost.per_revolution_s, cost.repetitions), (2.0, 1.0, 3));
-        assert!((cost.spread.unwrap() - 0.2).abs() < 1e-12 && (cost.of_run(10) - 12.0).abs() < 1e-12);
+        assert!((cost.spread.unwrap() - 0.2).abs() < 1e-12 && (cost.of_run(10.0) - 12.0).abs() < 1e-12);
     }
 
     #[test]

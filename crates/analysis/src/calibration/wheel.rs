@@ -127,6 +127,7 @@ impl Wheel {
             samples_per_revolution: SAMPLES,
             revolutions,
             window_revolutions: spectra.window_revolutions,
+            repeats: None,
             detail: None,
             states: None,
         };

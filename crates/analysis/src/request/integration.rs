@@ -15,9 +15,16 @@ pub struct Integration {
     pub kept_modes: AutoOr,
     /// Time steps per revolution, or `"auto"` for a safe number at each speed.
     pub steps_per_revolution: AutoOr,
-    /// Revolutions to simulate.
+    /// Revolutions to simulate, or `"auto"`: until the motion repeats, of which one period is then the window, and at most
+    /// `most_revolutions`.
+    pub revolutions: AutoOr,
+    /// Revolutions after which a motion that does not repeat is left, with `revolutions: "auto"`.
     #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 100_000))]
-    pub revolutions: u32,
+    pub most_revolutions: u32,
+    /// Share of the motion by which it may still change where it is said to repeat, with `revolutions: "auto"`; a tenth of
+    /// `accuracy.target` if that is less.
+    #[cfg_attr(feature = "schema", schema(exclusive_minimum = 0, maximum = 0.01))]
+    pub settled_to: f64,
     /// Revolutions over which the restriction grows from zero to its full height.
     #[cfg_attr(feature = "schema", schema(minimum = 0))]
     pub ramp_revolutions: f64,
@@ -34,10 +41,22 @@ impl Default for Integration {
             scheme: SchemeChoice::Auto,
             kept_modes: AutoOr::Auto,
             steps_per_revolution: AutoOr::Auto,
-            revolutions: 50,
+            revolutions: AutoOr::Fixed(50),
+            most_revolutions: 100,
+            settled_to: 1e-3,
             ramp_revolutions: 1.0,
             window_revolutions: 20,
             steady: SteadyChoice::March,
+        }
+    }
+}
+
+impl Integration {
+    /// Most revolutions of a march.
+    pub fn revolutions(&self) -> u32 {
+        match self.revolutions {
+            AutoOr::Fixed(revolutions) => revolutions,
+            AutoOr::Auto => self.most_revolutions,
         }
     }
 }

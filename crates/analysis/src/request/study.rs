@@ -127,7 +127,7 @@ pub struct StudyIntegration {
 
 impl Default for StudyIntegration {
     fn default() -> Self {
-        let Integration { revolutions, ramp_revolutions, window_revolutions, .. } = Integration::default();
-        Self { revolutions, ramp_revolutions, window_revolutions }
+        let Integration { ramp_revolutions, window_revolutions, .. } = Integration::default();
+        Self { revolutions: 50, ramp_revolutions, window_revolutions }
     }
 }

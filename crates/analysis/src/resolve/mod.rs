@@ -218,16 +218,22 @@ fn check_speeds(
     }
 }
 
+/// Share that a motion may still change by where it is said to repeat, at most: what the verdict on its window asks for.
+const MOST_UNSETTLED: f64 = 1e-2;
+
 fn check_integration(found: &mut Findings, integration: &Integration, max_engine_order: u32) {
     let Integration {
         scheme,
         kept_modes,
         steps_per_revolution,
-        revolutions,
+        revolutions: _,
+        most_revolutions,
+        settled_to,
         ramp_revolutions,
         window_revolutions,
         steady: _,
     } = *integration;
+    let revolutions = integration.revolutions();
     if let AutoOr::Fixed(kept) = kept_modes {
         found.require(
             scheme == SchemeChoice::MasslessBoundary,
@@ -258,6 +264,16 @@ fn check_integration(found: &mut Findings, integration: &Integration, max_engine
         format!("between 1 and {} revolutions", limits::REVOLUTIONS),
     );
     found.require(
+        (1..=limits::REVOLUTIONS).contains(&most_revolutions),
+        "/integration/most_revolutions",
+        format!("between 1 and {} revolutions", limits::REVOLUTIONS),
+    );
+    found.require(
+        settled_to > 0.0 && settled_to <= MOST_UNSETTLED,
+        "/integration/settled_to",
+        format!("a share above 0 and up to {MOST_UNSETTLED}"),
+    );
+    found.require(
         (1..=revolutions).contains(&window_revolutions),
         "/integration/window_revolutions",
         format!("the window is part of the run: between 1 and {revolutions} revolutions"),
@@ -285,7 +301,8 @@ fn check_integration(found: &mut Findings, integration: &Integration, max_engine
 /// The displacement over the whole run and the Fourier coordinates of all sectors over the window are held in memory.
 fn check_memory(found: &mut Findings, request: &ResolvedSweep, facts: &ModelFacts) {
     let sectors = facts.sectors as usize;
-    let Integration { revolutions, window_revolutions, .. } = request.integration;
+    let (revolutions, window_revolutions) =
+        (request.integration.revolutions(), request.integration.window_revolutions);
     let per_sensor = revolutions as usize + window_revolutions as usize * sectors;
     let nodes = facts.contact_nodes as usize;
     found.require(

@@ -8,6 +8,7 @@ use crate::request::{HistoriesRequest, HistorySpeeds, Recorded, RecordedQuantity
 use crate::resolve::findings::Findings;
 use crate::resolved::ResolvedSweep;
 use rubmap_numerics::sector_fourier::harmonic_count;
+use rubmap_wheel::dynamics::integrate::Revolutions;
 
 /// Most numbers of the histories of one speed, and most speeds with histories: they are kept as text.
 const MOST_NUMBERS: usize = 1 << 23;
@@ -58,13 +59,13 @@ pub(super) fn check_recorded(
     sweep: &ResolvedSweep,
     facts: &ModelFacts,
 ) {
-    let run = sweep.integration.revolutions;
-    let [from, to] = revolutions(record, sweep);
+    let run = sweep.integration.revolutions();
+    let (from, to) = revolutions(record, sweep);
     let at = format!("{pointer}/revolutions");
     let message =
         format!("the run has {run} revolutions: name where recording begins and ends, such as [0, {run}]");
-    found.require(from < to && to <= run, &at, message);
-    if !(from < to && to <= run) {
+    found.require(from < to && to <= run as usize, &at, message);
+    if !(from < to && to <= run as usize) {
         return;
     }
     for (place, quantity) in record.quantities.iter().enumerate() {
@@ -76,7 +77,7 @@ pub(super) fn check_recorded(
         3 * facts.contact_nodes as usize + facts.speeds_rad_s.len() * sweep.modes_per_speed() as usize;
     let state = 2 * harmonic_count(sectors) * unknowns.min(facts.own_dofs as usize);
     let lines = lines(record, sweep, sectors * facts.contact_nodes as usize, state);
-    let samples = most_samples(sweep, sectors).saturating_mul(to.saturating_sub(from) as usize);
+    let samples = most_samples(sweep, sectors).saturating_mul(to - from);
     let numbers = samples.saturating_mul(lines);
     found.require(
         numbers <= MOST_NUMBERS,
@@ -130,10 +131,21 @@ pub(super) fn resolve_stress(
 
 /// Where recording begins and ends: the window, if nothing else is asked for, or the last revolution where states are recorded, which are
 /// large.
-pub(crate) fn revolutions(record: &Recorded, sweep: &ResolvedSweep) -> [u32; 2] {
-    let run = sweep.integration.revolutions;
+pub(crate) fn asked(record: &Recorded, sweep: &ResolvedSweep) -> Revolutions {
     let last = if record.wants(RecordedQuantity::State) { 1 } else { sweep.integration.window_revolutions };
-    record.revolutions.unwrap_or([run.saturating_sub(last), run])
+    match record.revolutions {
+        Some([from, to]) => Revolutions::Between(from as usize, to as usize),
+        None => Revolutions::Last(last as usize),
+    }
+}
+
+/// The same in whole revolutions of the longest run.
+pub(crate) fn revolutions(record: &Recorded, sweep: &ResolvedSweep) -> (usize, usize) {
+    let run = sweep.integration.revolutions() as usize;
+    match asked(record, sweep) {
+        Revolutions::Last(last) => (run.saturating_sub(last), run),
+        between @ Revolutions::Between(..) => between.of(run, None),
+    }
 }
 
 /// Histories of one speed, with so many pairs of a contact node and a blade, and so many numbers of a state.

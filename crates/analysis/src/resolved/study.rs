@@ -60,7 +60,7 @@ impl StudyRequest {
             speeds: self.speeds.clone(),
             scene: self.scene.clone(),
             integration: Integration {
-                revolutions: self.integration.revolutions,
+                revolutions: AutoOr::Fixed(self.integration.revolutions),
                 ramp_revolutions: self.integration.ramp_revolutions,
                 window_revolutions: self.integration.window_revolutions,
                 ..Integration::default()
@@ -83,7 +83,8 @@ impl StudyRequest {
 impl From<ResolvedStudy> for StudyRequest {
     fn from(study: ResolvedStudy) -> Self {
         let sweep = study.sweep;
-        let Integration { revolutions, ramp_revolutions, window_revolutions, .. } = sweep.integration;
+        let Integration { ramp_revolutions, window_revolutions, .. } = sweep.integration;
+        let revolutions = sweep.integration.revolutions();
         Self {
             model: sweep.model,
             speeds: sweep.speeds.lists().clone(),

@@ -5,13 +5,16 @@ use serde::Serialize;
 use crate::error::Violation;
 use crate::request::speeds::Speeds;
 use crate::request::{
-    AutoOr, HistoriesRequest, Integration, Record, Setting, SweepDirection, SweepRequest,
+    Accuracy, AutoOr, HistoriesRequest, Integration, Record, Setting, SweepDirection, SweepRequest,
     sweep::default_peak_prominence,
 };
 use crate::resolved::knobs::Modes;
 use crate::resolved::scene::Scene;
 use crate::resolved::sensor::{Place, ResolvedSensor};
 use crate::resolved::speeds::ResolvedSpeeds;
+
+/// Share of an error that is asked for by which a motion may still change where it is said to repeat.
+const SETTLED_SHARE: f64 = 0.1;
 
 /// Control runs where the service chooses the knobs.
 const DEFAULT_CONTROL_SPEEDS: u32 = 5;
@@ -51,12 +54,17 @@ impl ResolvedSweep {
             .map(|(index, asked)| ResolvedSensor::of(asked, index, refuse))
             .collect();
         let sensors = sensors.into_iter().collect::<Option<_>>().unwrap_or_default();
+        let settled_to = match asked.accuracy {
+            Some(Accuracy { target, .. }) => asked.integration.settled_to.min(SETTLED_SHARE * target),
+            None => asked.integration.settled_to,
+        };
+        let integration = Integration { settled_to, ..asked.integration };
         Self {
             model: asked.model,
             modes,
             speeds,
             scene: Scene::of(asked.scene, refuse),
-            integration: asked.integration,
+            integration,
             sensors,
             max_engine_order: asked.max_engine_order,
             peak_prominence: asked.peak_prominence,

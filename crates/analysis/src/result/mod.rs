@@ -39,7 +39,7 @@ pub use reduction::{
     StiffeningVerdict,
 };
 pub use refinement::{Refinement, Unresolvable, Unresolved};
-pub use steady::{FloquetMultiplier, Stability, SteadyReport};
+pub use steady::{FloquetMultiplier, MarchReport, Stability, SteadyReport};
 pub use stress::{
     PointStress, Strengths, StressCycle, StressPeak, drawn_stress_unit, most_utilised_first, stress_unit,
 };

@@ -147,7 +147,7 @@ pub struct PlannedPoint {
     pub scheme: Option<SchemeReport>,
     /// Steps per revolution.
     pub steps_per_revolution: u32,
-    /// Steps of the whole run.
+    /// Steps of the whole run; at most, where a periodic response is solved for.
     pub steps: u64,
     /// Computing time of this speed, s.
     #[serde(default, skip_serializing_if = "Option::is_none")]

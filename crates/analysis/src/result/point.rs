@@ -7,7 +7,7 @@ use crate::end_state::EndState;
 use crate::request::{SchemeChoice, Sensor};
 use crate::result::contact::{ContactForces, ContactSummary};
 use crate::result::reduction::StiffeningVerdict;
-use crate::result::steady::SteadyReport;
+use crate::result::steady::{MarchReport, SteadyReport};
 use crate::result::stress::PointStress;
 use crate::result::tip::TipResponse;
 use crate::result::validity::{Validity, ValidityMeasure, ValidityVerdict};
@@ -142,6 +142,9 @@ pub struct Point {
     /// Steady-state verdict; absent without a complete run.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub settling: Option<Settling>,
+    /// How long it was marched; absent unless the request's `integration.revolutions` is `auto`, and where nothing was marched to its end.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub march: Option<MarchReport>,
     /// The periodic response; absent unless the request's `integration.steady` asks for it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub steady: Option<SteadyReport>,

@@ -25,6 +25,24 @@ pub struct FloquetMultiplier {
     pub share: f64,
 }
 
+/// How a march ended that was to go on until its motion repeats.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct MarchReport {
+    /// Revolutions that it took.
+    pub revolutions: u32,
+    /// Revolutions after which the motion is the same again: the last ones, which all numbers over the window are of. Absent where it was not
+    /// found to repeat.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub period_revolutions: Option<u32>,
+    /// Share of the motion by which it may still change, by the rate at which its changes die out; absent likewise.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub remaining_change: Option<f64>,
+    /// Why all revolutions were taken.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+}
+
 /// What was found of the periodic response of a speed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::request::Integration;
 use crate::result::point::{Point, PointStatus};
 use rubmap_wheel::response::sensitivity::Sensitivity;
 use rubmap_wheel::response::settling::Verdict;
@@ -24,8 +25,8 @@ pub struct Cost {
 
 impl Cost {
     /// Of a run of `revolutions`, s.
-    pub fn of_run(&self, revolutions: u32) -> f64 {
-        self.set_up_s + f64::from(revolutions) * self.per_revolution_s
+    pub fn of_run(&self, revolutions: f64) -> f64 {
+        self.set_up_s + revolutions * self.per_revolution_s
     }
 
     /// From (set-up, per revolution) of every repetition.
@@ -68,6 +69,12 @@ impl Trial {
     /// Whether it was integrated to its end.
     pub(crate) fn is_completed(&self) -> bool {
         self.point.status == PointStatus::Completed
+    }
+
+    /// Revolutions of a run like it.
+    pub(crate) fn revolutions(&self, asked: &Integration) -> f64 {
+        let marched = self.point.march.as_ref().map(|march| march.revolutions);
+        f64::from(marched.unwrap_or(asked.revolutions()))
     }
 
     /// Whether the steady response repeats.

@@ -255,6 +255,14 @@ impl CasingMotion {
         0.5 * self.waves.iter().map(of).sum::<f64>()
     }
 
+    /// Where it is and how it moves, in numbers whose squares are energies.
+    pub(crate) fn state(&self) -> impl Iterator<Item = f64> {
+        self.waves.iter().flat_map(|wave| {
+            let numbers = |part: &Part| [wave.stiffness.sqrt() * part.z, wave.inertia.sqrt() * part.d];
+            wave.parts.iter().flat_map(numbers)
+        })
+    }
+
     /// Largest amplitude of any wave so far, length.
     pub(crate) fn largest_amplitude(&self) -> f64 {
         self.largest

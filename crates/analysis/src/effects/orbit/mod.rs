@@ -16,7 +16,7 @@ pub(crate) const EFFECT: Effect = Effect {
     chain: Chain::Moves(Break {
         what: "orbit",
         when: |request| {
-            let revolutions = f64::from(request.integration.revolutions);
+            let revolutions = f64::from(request.integration.revolutions());
             request.scene.orbit.as_ref().is_some_and(|orbit| (orbit.whirl_ratio * revolutions).fract() != 0.0)
         },
         why: "its axis would jump, for whirl_ratio × revolutions is not whole",

@@ -153,6 +153,7 @@ impl Bar {
             samples_per_revolution: steps,
             revolutions: 1,
             window_revolutions: 1,
+            repeats: None,
             detail: None,
             states: None,
         };

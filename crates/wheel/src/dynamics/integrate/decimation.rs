@@ -41,6 +41,12 @@ impl Decimation {
         Self { weights, width, samples, sums: vec![0.0; width * samples], steps: 0 }
     }
 
+    /// To so many samples instead, before any step is added.
+    pub(super) fn shorten(&mut self, samples: usize) {
+        self.samples = samples;
+        self.sums.truncate(self.width * samples);
+    }
+
     /// Adds the next step.
     #[inline(always)]
     pub(super) fn add(&mut self, step: &[f64]) {

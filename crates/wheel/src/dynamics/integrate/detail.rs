@@ -1,6 +1,7 @@
 //! Histories beyond displacements, of chosen revolutions.
 
 use super::super::energy::EnergyAudit;
+use super::repetition::Repeated;
 use super::simulation::{Detail, Simulation};
 use super::tally::ContactInterval;
 
@@ -24,6 +25,8 @@ pub struct DetailHistory {
 #[derive(Debug)]
 pub(super) struct DetailRecorder {
     detail: Detail,
+    /// Whole revolutions after which it begins and ends.
+    revolutions: (usize, usize),
     steps_per_revolution: usize,
     sampling: usize,
     step_s: f64,
@@ -36,7 +39,8 @@ pub(super) struct DetailRecorder {
 impl DetailRecorder {
     /// `interval` as the tally of the run fills it; of no pairs where nothing can be touched.
     pub(super) fn new(simulation: &Simulation<'_>, detail: Detail, interval: ContactInterval) -> Self {
-        let samples = simulation.samples_per_revolution * (detail.revolutions.1 - detail.revolutions.0);
+        let revolutions = detail.revolutions.of(simulation.revolutions, None);
+        let samples = simulation.samples_per_revolution * (revolutions.1 - revolutions.0);
         let line = |wanted: bool| Vec::with_capacity(if wanted { samples } else { 0 });
         let sensors = simulation.sensors.len();
         let lines =
@@ -50,6 +54,7 @@ impl DetailRecorder {
                 energy: Vec::with_capacity(if detail.energy { samples } else { 0 }),
             },
             detail,
+            revolutions,
             steps_per_revolution: simulation.steps_per_revolution,
             sampling: simulation.steps_per_revolution / simulation.samples_per_revolution,
             step_s: simulation.step_s(),
@@ -58,10 +63,15 @@ impl DetailRecorder {
         }
     }
 
+    /// The run ends because its motion repeats.
+    pub(super) fn end_after(&mut self, repeated: Repeated) {
+        self.revolutions = self.detail.revolutions.of(0, Some(repeated));
+    }
+
     /// Whether a sample at the end of this step, counted from the start, is recorded.
     fn holds(&self, step: u64) -> bool {
         let end = |revolutions: usize| (revolutions * self.steps_per_revolution) as u64;
-        let (from, to) = self.detail.revolutions;
+        let (from, to) = self.revolutions;
         end(from) < step && step <= end(to) && step.is_multiple_of(self.sampling as u64)
     }
 
@@ -76,7 +86,7 @@ impl DetailRecorder {
 
     /// Whether the last sample has this step two before it.
     fn closes(&self, step: u64) -> bool {
-        let end = (self.detail.revolutions.1 * self.steps_per_revolution) as u64;
+        let end = (self.revolutions.1 * self.steps_per_revolution) as u64;
         step + 2 == end
     }
 

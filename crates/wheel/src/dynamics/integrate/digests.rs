@@ -75,6 +75,7 @@ fn digest(arch: Arch, scheme: Scheme, damped: bool, touching: bool) -> String {
         samples_per_revolution: 120,
         revolutions: 2,
         window_revolutions: 1,
+        repeats: None,
         detail: None,
         states: None,
     }

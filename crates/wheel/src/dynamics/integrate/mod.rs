@@ -10,6 +10,7 @@ mod instant;
 mod obstacle;
 mod passage;
 mod recorder;
+mod repetition;
 mod residual;
 mod run;
 mod simulation;
@@ -27,8 +28,9 @@ pub use self::bounds::{TipComponent, TipDisplacement};
 pub use self::detail::DetailHistory;
 pub use self::excursion::Excursion;
 pub use self::passage::{Passage, PassageError, Unknown};
+pub use self::repetition::{LEAST_MARCHED, Repeated};
 pub use self::run::{Divergence, History, MAX_TABLE_VALUES, Outcome, Run};
-pub use self::simulation::{DIVERGED_SHARE_OF_RADIUS, Detail, SensorRow, Simulation};
+pub use self::simulation::{DIVERGED_SHARE_OF_RADIUS, Detail, Repeats, Revolutions, SensorRow, Simulation};
 pub use self::states::ModalStates;
 use self::stepper::{Beginning, Stepper};
 pub use self::tally::{ContactRecord, PairContact};
@@ -79,7 +81,10 @@ impl Simulation<'_> {
         assert!(self.steps_per_revolution.is_multiple_of(self.samples_per_revolution));
         assert!(self.window_revolutions <= self.revolutions);
         let recorded = self.detail.map(|detail| detail.revolutions).into_iter().chain(self.states);
-        recorded.for_each(|(from, to)| assert!(from < to && to <= self.revolutions));
+        recorded.for_each(|recorded| {
+            let (from, to) = recorded.of(self.revolutions, None);
+            assert!(from < to && to <= self.revolutions);
+        });
         // Who does not want the run says so again soon.
         watch(0.0);
         arch.dispatch(Loop { simulation: self, stepper: &mut stepper, beginning, watch })

@@ -11,6 +11,7 @@
 //! imaginary parts: their squares are twice the energies.
 
 use std::f64::consts::TAU;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use num_integer::lcm;
 use pulp::{Simd, WithSimd};
@@ -70,6 +71,7 @@ pub struct Passage<'a> {
     steps: usize,
     turn: usize,
     trace: Trace,
+    taken: AtomicUsize,
 }
 
 impl<'a> Passage<'a> {
@@ -110,6 +112,7 @@ impl<'a> Passage<'a> {
             samples_per_revolution: 1,
             revolutions: 1,
             window_revolutions: 0,
+            repeats: None,
             detail: None,
             states: None,
             ..*simulation
@@ -144,6 +147,7 @@ impl<'a> Passage<'a> {
             steps: steps / parts,
             turn,
             trace: Trace::default(),
+            taken: AtomicUsize::new(0),
         })
     }
 
@@ -182,6 +186,20 @@ impl<'a> Passage<'a> {
     /// Steps that it takes.
     pub fn steps(&self) -> usize {
         self.steps
+    }
+
+    /// How often it was taken up to now, by states or, linearised, by what disturbs them; [`Self::take`] counts the latter.
+    pub fn taken(&self) -> usize {
+        self.taken.load(Ordering::Relaxed)
+    }
+
+    /// The same in revolutions of the wheel.
+    pub fn revolutions(&self) -> f64 {
+        (self.taken() * self.steps) as f64 / self.simulation.steps_per_revolution as f64
+    }
+
+    pub(in crate::dynamics) fn take(&self, times: usize) {
+        self.taken.fetch_add(times, Ordering::Relaxed);
     }
 
     /// What touched on the way of the last state that was mapped.
@@ -248,6 +266,7 @@ impl<'a> Passage<'a> {
             d[place] = state[n + i] * step;
         }
         self.trace.clear();
+        self.take(1);
         let flow = Flow { passage: self };
         pulp::Arch::new().dispatch(flow).map_err(|ended| match *ended {
             Outcome::ContactFailed { error, .. } => PassageError::Contact(error),

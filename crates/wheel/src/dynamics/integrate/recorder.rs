@@ -9,6 +9,7 @@ use super::super::oscillators::Oscillators;
 use super::super::oscillators::rows::Rows;
 use super::decimation::Decimation;
 use super::detail::DetailRecorder;
+use super::repetition::Repeated;
 use super::residual::ResidualDisplacement;
 use super::run::History;
 use super::simulation::Simulation;
@@ -22,6 +23,7 @@ pub(super) struct Recorder {
     rows: Rows,
     sectors: Vec<usize>,
     energies: bool,
+    samples_per_revolution: usize,
     /// What contact forces add to the sensors that no integrated mode has.
     residual: ResidualDisplacement,
     /// Displacements in Fourier coordinates as they were read last, `[column][sensor]`, sensors padded.
@@ -55,6 +57,7 @@ impl Recorder {
             reading: vec![0.0; width],
             decimation: Decimation::new(width, sampling, samples * simulation.window_revolutions),
             energies: simulation.effects.energies,
+            samples_per_revolution: samples,
             sectors: simulation.sensors.iter().map(|sensor| sensor.sector).collect(),
             residual: ResidualDisplacement::until_applied(simulation, oscillators, &directions),
             tips: TipTally::new(simulation),
@@ -149,6 +152,18 @@ impl Recorder {
     #[inline(always)]
     pub(super) fn contact_interval(&mut self, step: u64) -> Option<&mut ContactInterval> {
         self.detail.as_mut()?.interval(step)
+    }
+
+    /// The run ends because its motion repeats, of which one period is to be recorded from now on.
+    pub(super) fn end_after(&mut self, repeated: Repeated) {
+        self.history.repeated = Some(repeated);
+        self.decimation.shorten(self.samples_per_revolution * repeated.period);
+        if let Some(detail) = &mut self.detail {
+            detail.end_after(repeated);
+        }
+        if let Some(states) = &mut self.states {
+            states.end_after(repeated);
+        }
     }
 
     pub(super) fn end_revolution(&mut self, oscillators: &Oscillators) {

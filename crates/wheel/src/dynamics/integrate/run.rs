@@ -3,6 +3,7 @@
 use super::bounds::TipDisplacement;
 use super::detail::DetailHistory;
 use super::excursion::Excursion;
+use super::repetition::Repeated;
 use super::states::ModalStates;
 use super::tally::ContactRecord;
 use super::tips::TipMotion;
@@ -25,6 +26,8 @@ pub struct History {
     pub window: Vec<Vec<f64>>,
     /// `[revolution][nodal diameter]`: mechanical energy at its end, if asked for.
     pub energies: Vec<Vec<f64>>,
+    /// Where the run ended because its motion repeats; what it left is then as if it had gone on for a whole window.
+    pub repeated: Option<Repeated>,
     /// All modes at the end of the run.
     pub end: Vec<InitialMode>,
     /// `[sector][contact node][component]`, one after the other: motion of the tips over the window.
@@ -83,20 +86,24 @@ pub struct Run {
 }
 
 impl Run {
-    /// Of one revolution of a periodic motion, all of it recorded: as if it had gone on for `revolutions`, the last `window` of
-    /// them recorded. What was counted stays that of one.
+    /// Of a run whose window is the `period` of a motion that repeats: as if it had gone on for `revolutions` in all, the last `window` of
+    /// them recorded. What was counted stays that of the revolutions that were taken.
     #[must_use]
-    pub fn repeated(mut self, revolutions: usize, window: usize) -> Self {
+    pub fn repeated(mut self, period: usize, revolutions: usize, window: usize) -> Self {
+        let times = window / period;
         if let Outcome::Completed(history) = &mut self.outcome {
-            history.displacement.iter_mut().for_each(|line| *line = line.repeat(revolutions));
-            history.window.iter_mut().for_each(|line| *line = line.repeat(window));
-            history.harmonics.iter_mut().flatten().for_each(|line| *line = line.repeat(window));
-            history.energies = vec![history.energies.as_slice(); revolutions].concat();
+            for (line, window) in history.displacement.iter_mut().zip(&history.window) {
+                let missing = revolutions * window.len() / period - line.len();
+                let last = line.split_off(line.len() - window.len());
+                line.extend(last.iter().cycle().take(last.len() + missing));
+            }
+            history.window.iter_mut().for_each(|line| *line = line.repeat(times));
+            history.harmonics.iter_mut().flatten().for_each(|line| *line = line.repeat(times));
         }
         for pair in self.contact.iter_mut().flat_map(|contact| &mut contact.pairs) {
-            pair.impulse *= window as f64;
-            pair.steps *= window as u64;
-            pair.closings *= window as u64;
+            pair.impulse *= times as f64;
+            pair.steps *= times as u64;
+            pair.closings *= times as u64;
         }
         self
     }

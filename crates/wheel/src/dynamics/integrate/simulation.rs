@@ -11,6 +11,8 @@ use crate::dynamics::oscillators::ModalDamping;
 use crate::dynamics::schemes::Scheme;
 use crate::dynamics::sector::ContactNode;
 
+use super::repetition::Repeated;
+
 /// One simulation of the wheel at its speed.
 #[derive(Debug, Clone, Copy)]
 pub struct Simulation<'a> {
@@ -34,21 +36,57 @@ pub struct Simulation<'a> {
     pub steps_per_revolution: usize,
     /// Recorded samples per revolution, a divisor of S.
     pub samples_per_revolution: usize,
-    /// Revolutions to simulate.
+    /// Revolutions to simulate, at most.
     pub revolutions: usize,
+    /// Whether fewer may do; absent: all are taken.
+    pub repeats: Option<Repeats>,
     /// Revolutions at the end for which nodal-diameter coordinates are recorded.
     pub window_revolutions: usize,
     /// Revolutions of which more is recorded.
     pub detail: Option<Detail>,
-    /// Whole revolutions after which recording of all modes begins and ends, at every sample.
-    pub states: Option<(usize, usize)>,
+    /// Revolutions of which all modes are recorded, at every sample.
+    pub states: Option<Revolutions>,
+}
+
+/// When a run may end before all its revolutions are taken: where its motion repeats, one period of it being the window.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Repeats {
+    /// Share of the motion by which it may still change (docs/method.md, Steady states).
+    pub share: f64,
+    /// Revolutions that are taken in any case.
+    pub least: usize,
+    /// How often the scene repeats itself around the wheel: nodal diameters that are no multiples of it have to die out. They must move at
+    /// the start to show whether they do.
+    pub symmetry: usize,
+}
+
+/// Some revolutions of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Revolutions {
+    /// From the end of this one to the end of that one.
+    Between(usize, usize),
+    /// So many at the end; a period at most, where the run ends because its motion repeats.
+    Last(usize),
+}
+
+impl Revolutions {
+    /// Whole revolutions after which they begin and end in a run of `all`, or in one that ended because it repeats.
+    pub fn of(self, all: usize, repeated: Option<Repeated>) -> (usize, usize) {
+        match (self, repeated) {
+            (Self::Between(from, to), _) => (from, to),
+            (Self::Last(count), None) => (all - count, all),
+            (Self::Last(count), Some(Repeated { after, period, .. })) => {
+                (after + period - count.min(period), after + period)
+            }
+        }
+    }
 }
 
 /// What a run records of chosen revolutions, at every sample.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Detail {
-    /// Whole revolutions after which recording begins and ends.
-    pub revolutions: (usize, usize),
+    /// Which.
+    pub revolutions: Revolutions,
     /// Velocities of the sensors.
     pub velocity: bool,
     /// How much touches.

@@ -5,8 +5,9 @@ use faer::{Mat, c64};
 use super::super::modal_wheel::ModalHarmonic;
 use super::super::oscillators::Oscillators;
 use super::super::schemes::Scheme;
+use super::repetition::Repeated;
 use super::residual::applied;
-use super::simulation::Simulation;
+use super::simulation::{Revolutions, Simulation};
 use rubmap_numerics::sector_fourier::SectorFourier;
 
 /// Modal coordinates at some instants.
@@ -21,6 +22,8 @@ pub struct ModalStates {
 /// Records them.
 #[derive(Debug)]
 pub(super) struct StateRecorder {
+    asked: Revolutions,
+    /// Whole revolutions after which recording begins and ends.
     revolutions: (usize, usize),
     steps_per_revolution: usize,
     following: Vec<Following>,
@@ -44,11 +47,8 @@ struct Following {
 }
 
 impl StateRecorder {
-    pub(super) fn new(
-        simulation: &Simulation<'_>,
-        revolutions: (usize, usize),
-        oscillators: &Oscillators,
-    ) -> Self {
+    pub(super) fn new(simulation: &Simulation<'_>, asked: Revolutions, oscillators: &Oscillators) -> Self {
+        let revolutions = asked.of(simulation.revolutions, None);
         let (wheel, scheme) = (simulation.wheel, simulation.scheme);
         let samples = simulation.samples_per_revolution * (revolutions.1 - revolutions.0);
         let follows = matches!(scheme, Scheme::MasslessBoundary { .. }) && simulation.casing.is_some();
@@ -68,6 +68,7 @@ impl StateRecorder {
         let following = following.collect();
         let forces = wheel.sectors * directions.len();
         Self {
+            asked,
             revolutions,
             steps_per_revolution: simulation.steps_per_revolution,
             following,
@@ -76,6 +77,11 @@ impl StateRecorder {
             modes: Vec::with_capacity(samples * oscillators.positions().len()),
             force: Vec::with_capacity(samples * forces),
         }
+    }
+
+    /// The run ends because its motion repeats.
+    pub(super) fn end_after(&mut self, repeated: Repeated) {
+        self.revolutions = self.asked.of(0, Some(repeated));
     }
 
     /// Keeps the modes at a sample after `step`, if they are wanted; `force` as of

@@ -24,6 +24,7 @@ use super::bounds::Bounds;
 use super::instant::Instant;
 use super::obstacle::Obstacle;
 use super::recorder::Recorder;
+use super::repetition::{Repeated, Repetition};
 use super::run::{Divergence, Outcome, Run};
 use super::simulation::Simulation;
 use super::surroundings::Surroundings;
@@ -53,6 +54,8 @@ pub(super) struct Stepper {
     /// Of a wheel that may touch something.
     bounds: Option<Bounds>,
     recorder: Recorder,
+    /// Of a run that may end because its motion repeats.
+    repetition: Option<Repetition>,
     statistics: RunStatistics,
     energy: EnergyAudit,
     /// Energy at the end of the last whole revolution.
@@ -99,7 +102,9 @@ impl Stepper {
             drive.start(wheel, simulation.initial, &mut oscillators);
         }
         let effects = drive.is_some() || surroundings.is_some();
+        let repetition = simulation.repeats.map(|repeats| Repetition::new(simulation, repeats, &oscillators));
         Self {
+            repetition,
             massless: matches!(scheme, Scheme::MasslessBoundary { .. }),
             decays: effects || oscillators.dissipates(),
             recorder: Recorder::new(
@@ -152,7 +157,18 @@ impl Stepper {
         self.statistics.casing_amplitude = self.flexible_casing().map(CasingMotion::largest_amplitude);
         let coating = self.surroundings.as_ref().and_then(Surroundings::coating).cloned();
         let contact = self.obstacle.as_ref().map(|obstacle| obstacle.tally.record().clone());
-        Run { outcome, statistics: self.statistics, energy: self.energy, coating, contact }
+        let repeated = match &outcome {
+            Outcome::Completed(history) => history.repeated,
+            _ => None,
+        };
+        let run = Run { outcome, statistics: self.statistics, energy: self.energy, coating, contact };
+        match repeated {
+            Some(Repeated { after, period, .. }) => {
+                let window = simulation.window_revolutions;
+                run.repeated(period, after + window, window)
+            }
+            None => run,
+        }
     }
 
     #[inline(always)]
@@ -177,13 +193,16 @@ impl Stepper {
         simulation: &Simulation<'_>,
         watch: &dyn Fn(f64) -> bool,
     ) -> Result<(), Box<Outcome>> {
-        let Simulation { revolutions, window_revolutions, steps_per_revolution: steps, .. } = *simulation;
+        let steps = simulation.steps_per_revolution;
         let sampling = steps / simulation.samples_per_revolution;
         if self.recorder.reads(0, false) {
             self.read(simd, false);
         }
-        for revolution in 0..revolutions {
-            let windowed = revolution >= revolutions - window_revolutions;
+        let mut end = simulation.revolutions;
+        let mut window = end - simulation.window_revolutions..end;
+        let mut revolution = 0;
+        while revolution < end {
+            let windowed = window.contains(&revolution);
             if windowed && let Some(obstacle) = &mut self.obstacle {
                 obstacle.tally.begin_window();
             }
@@ -196,7 +215,7 @@ impl Stepper {
                 }
                 self.statistics.steps += 1;
                 self.quench::<M>();
-                self.look_up(watch, now.revolutions / revolutions as f64)?;
+                self.look_up(watch, now.revolutions / end as f64)?;
                 if step % sampling == 0 {
                     M::apply(self, simd);
                     self.record::<S, M>(simd, now, windowed)?;
@@ -206,8 +225,19 @@ impl Stepper {
             }
             self.last_energy = Some(self.mechanical_energy());
             self.recorder.end_revolution(&self.oscillators);
+            revolution += 1;
+            if revolution < window.start
+                && let Some(repeated) = self.repeats(revolution)
+            {
+                end = revolution + repeated.period;
+                window = revolution..end;
+                self.recorder.end_after(repeated);
+                if self.recorder.reads(self.statistics.steps, false) {
+                    self.read(simd, false);
+                }
+            }
         }
-        self.end(simulation);
+        self.end(simulation, end);
         Ok(())
     }
 
@@ -370,14 +400,20 @@ impl Stepper {
     }
 
     /// Keeps the state at the end, as free motion would have it.
-    fn end(&mut self, simulation: &Simulation<'_>) {
+    fn end(&mut self, simulation: &Simulation<'_>, revolutions: usize) {
         if let Some(drive) = &mut self.drive {
             let read = |oscillators: &Oscillators| modal_state(simulation, oscillators);
-            drive.end(simulation.wheel, simulation.revolutions as f64, &mut self.oscillators, read);
+            drive.end(simulation.wheel, revolutions as f64, &mut self.oscillators, read);
         }
         let modes = modal_state(simulation, &self.oscillators);
         let end = (modes, self.statistics.steps);
         self.recorder.end(simulation.wheel, &self.oscillators, &self.fourier, end);
+    }
+
+    /// Whether the motion was found to repeat after `revolution`, if anybody wants to know.
+    fn repeats(&mut self, revolution: usize) -> Option<Repeated> {
+        let casing = self.surroundings.as_ref().and_then(|surroundings| surroundings.casing.as_ref());
+        self.repetition.as_mut()?.look(revolution, &self.oscillators, casing)
     }
 
     fn mechanical_energy(&self) -> f64 {

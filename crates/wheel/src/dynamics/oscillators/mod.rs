@@ -285,7 +285,12 @@ impl Oscillators {
         self.segments[harmonic].parts().map(move |start| start + family)
     }
 
-    /// z and d of every mode, for a state that is none of a run's: what the last step exchanged is forgotten.
+    /// z and d of every mode, at its [`Self::places`].
+    pub(crate) fn state(&self) -> (&[f64], &[f64]) {
+        (&self.state.z, &self.state.d)
+    }
+
+    /// The same, for a state that is none of a run's: what the last step exchanged is forgotten.
     pub(crate) fn state_mut(&mut self) -> (&mut [f64], &mut [f64]) {
         self.state.swing.fill(0.0);
         (&mut self.state.z, &mut self.state.d)

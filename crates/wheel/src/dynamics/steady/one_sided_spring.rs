@@ -188,6 +188,7 @@ fn response_and_multipliers_are_those_of_the_closed_forms() {
                 samples_per_revolution: 1,
                 revolutions: 1,
                 window_revolutions: 0,
+                repeats: None,
                 detail: None,
                 states: None,
             };

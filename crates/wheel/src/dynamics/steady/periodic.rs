@@ -9,7 +9,7 @@ use rubmap_numerics::anderson::Anderson;
 use rubmap_numerics::gmres;
 
 /// Differences that Anderson acceleration looks back at.
-const DEPTH: usize = 60;
+pub(super) const DEPTH: usize = 60;
 
 /// Passages within which the residual has to halve, or acceleration has stalled.
 const PATIENCE: usize = 60;
@@ -39,10 +39,6 @@ pub struct Periodic {
     pub state: Vec<f64>,
     /// ‖P(x) − x‖ / ‖x‖.
     pub residual: f64,
-    /// Passages that it took.
-    pub passages: usize,
-    /// Products of the derivative among them.
-    pub products: usize,
 }
 
 /// None was found.
@@ -64,16 +60,6 @@ pub enum NotFound {
     Passage(#[from] PassageError),
 }
 
-impl NotFound {
-    /// Passages that were taken before; 0 where the map ended the search.
-    pub(super) fn passages(&self) -> usize {
-        match self {
-            Self::Stalled { passages, .. } => *passages,
-            Self::Cancelled | Self::Passage(_) => 0,
-        }
-    }
-}
-
 /// The best state so far.
 struct Best {
     state: Vec<f64>,
@@ -91,46 +77,45 @@ pub fn find(
     search: &Search,
     go_on: &dyn Fn() -> bool,
 ) -> Result<Periodic, NotFound> {
+    let before = passage.taken();
     let mut state = start.to_vec();
-    let mut passages = 0;
     for _ in 0..search.marched {
+        asked(go_on)?;
         state = passage.map(&state)?;
-        passages += 1;
     }
-    let mut best = accelerate(passage, state, search, &mut passages, go_on)?;
-    let mut products = 0;
+    let mut best = accelerate(passage, state, (search, before + search.most), go_on)?;
     while best.residual > search.tolerance {
-        if !go_on() {
-            return Err(NotFound::Cancelled);
+        asked(go_on)?;
+        let stalled = |passage: &Passage<'_>| NotFound::Stalled {
+            residual: best.residual,
+            passages: passage.taken() - before,
+        };
+        if passage.taken() - before >= search.most {
+            return Err(stalled(passage));
         }
-        let stalled = NotFound::Stalled { residual: best.residual, passages: passages + products };
-        if passages + products >= search.most {
-            return Err(stalled);
-        }
-        let step = newton_step(passage, &best, &mut products)?;
-        passages += 1;
-        let Some(better) = along(passage, &best, &step, &mut passages) else { return Err(stalled) };
+        let step = newton_step(passage, &best)?;
+        let Some(better) = along(passage, &best, &step) else { return Err(stalled(passage)) };
         best = better;
     }
-    Ok(Periodic { state: best.state, residual: best.residual, passages: passages + products, products })
+    Ok(Periodic { state: best.state, residual: best.residual })
+}
+
+fn asked(go_on: &dyn Fn() -> bool) -> Result<(), NotFound> {
+    if go_on() { Ok(()) } else { Err(NotFound::Cancelled) }
 }
 
 fn accelerate(
     passage: &mut Passage<'_>,
     mut state: Vec<f64>,
-    search: &Search,
-    passages: &mut usize,
+    (search, last): (&Search, usize),
     go_on: &dyn Fn() -> bool,
 ) -> Result<Best, NotFound> {
     let mut anderson = Anderson::new(DEPTH);
     let mut image = passage.map(&state)?;
-    *passages += 1;
     let mut best = Best { residual: repeats(&state, &image), state: state.clone(), image: image.clone() };
     let (mut since, mut wanted) = (0, 0.5 * best.residual);
-    while best.residual > search.tolerance && since < PATIENCE && *passages < search.most {
-        if !go_on() {
-            return Err(NotFound::Cancelled);
-        }
+    while best.residual > search.tolerance && since < PATIENCE && passage.taken() < last {
+        asked(go_on)?;
         state = anderson.next(&state, &image);
         image = match passage.map(&state) {
             Ok(image) => image,
@@ -141,7 +126,6 @@ fn accelerate(
                 best.image.clone()
             }
         };
-        *passages += 1;
         since += 1;
         let residual = repeats(&state, &image);
         if residual < best.residual {
@@ -155,7 +139,7 @@ fn accelerate(
 }
 
 /// (I − T)⁻¹ (P(x) − x).
-fn newton_step(passage: &mut Passage<'_>, at: &Best, products: &mut usize) -> Result<Vec<f64>, PassageError> {
+fn newton_step(passage: &mut Passage<'_>, at: &Best) -> Result<Vec<f64>, PassageError> {
     // What touches on its way is to be that of this state.
     passage.map(&at.state)?;
     let tangent = Tangent::of(passage);
@@ -165,16 +149,13 @@ fn newton_step(passage: &mut Passage<'_>, at: &Best, products: &mut usize) -> Re
         tangent.follow(&mut moved);
         x.iter().zip(moved).map(|(x, moved)| x - moved).collect()
     };
-    let solution = gmres::solve(product, &off, SOLVED, PRODUCTS);
-    *products += solution.products;
-    Ok(solution.x)
+    Ok(gmres::solve(product, &off, SOLVED, PRODUCTS).x)
 }
 
 /// The largest share of `step` that comes closer.
-fn along(passage: &mut Passage<'_>, from: &Best, step: &[f64], passages: &mut usize) -> Option<Best> {
+fn along(passage: &mut Passage<'_>, from: &Best, step: &[f64]) -> Option<Best> {
     for share in SHARES {
         let state: Vec<f64> = from.state.iter().zip(step).map(|(x, step)| x + share * step).collect();
-        *passages += 1;
         let Ok(image) = passage.map(&state) else { continue };
         let residual = repeats(&state, &image);
         if residual < (1.0 - 0.1 * share) * from.residual {

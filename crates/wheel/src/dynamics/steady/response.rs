@@ -1,10 +1,13 @@
 //! The periodic response of a scene: sought from where its march begins, judged, and reached or not.
 
-use super::periodic::{NotFound, Periodic, Search, find};
+use super::multipliers::MOST_PRODUCTS;
+use super::periodic::{DEPTH, NotFound, Periodic, Search, find};
 use super::stability::{Floquet, Stability};
 use crate::dynamics::casing::Casing;
 use crate::dynamics::initial::InitialMode;
-use crate::dynamics::integrate::{Outcome, Passage, PassageError, Run, Simulation, Trace};
+use crate::dynamics::integrate::{
+    Detail, Outcome, Passage, PassageError, Revolutions, Run, Simulation, Trace,
+};
 
 /// ‖P(x) − x‖ / ‖x‖ at which a response is found.
 const FOUND: f64 = 1e-8;
@@ -49,56 +52,67 @@ pub struct Sought {
     pub revolutions: f64,
 }
 
+/// Memory that a search holds, in bytes, beside that of a run: of so many unknowns (numbers z) and pairs of sector and contact node.
+pub fn memory(unknowns: usize, pairs: usize) -> usize {
+    let state = 2 * unknowns;
+    // Differences of residuals and images with two copies for their least squares, or the vectors of the multipliers; A of all pairs.
+    size_of::<f64>() * (state * (4 * DEPTH).max(MOST_PRODUCTS) + unknowns * pairs)
+}
+
 /// Seeks the periodic response of the scene of `simulation`, as it is recorded there being of no matter, in at most `limit`
 /// revolutions; with `control`, whether a march comes to it in as many. `go_on` is asked now and then.
 pub fn seek(simulation: &Simulation<'_>, limit: usize, control: bool, go_on: &dyn Fn() -> bool) -> Sought {
     let mut revolutions = 0.0;
-    let response = respond(simulation, (limit, control), &mut revolutions, go_on);
+    let response = match about_half(simulation) {
+        Ok(mut passage) => {
+            let response = respond(&mut passage, simulation, (limit, control), (&mut revolutions, go_on));
+            revolutions += passage.revolutions();
+            response
+        }
+        Err(reason) => Err(reason.into()),
+    };
     Sought { response, revolutions }
 }
 
-fn respond(
-    simulation: &Simulation<'_>,
-    (limit, control): (usize, bool),
-    revolutions: &mut f64,
-    go_on: &dyn Fn() -> bool,
-) -> Result<Response, NotFound> {
-    let mut passage = match Passage::shortest(simulation) {
+/// The map over about half a revolution, some of which make a whole: short ones look back over too little, long ones are few.
+fn about_half<'a>(simulation: &Simulation<'a>) -> Result<Passage<'a>, PassageError> {
+    let passage = match Passage::shortest(simulation) {
         Err(PassageError::Steps { .. }) => Passage::over_lobes(simulation, 1)?,
         passage => passage?,
     };
-    // Short ones look back over too little of a revolution, long ones are few: about half of one, so that some make a whole.
-    let steps = simulation.steps_per_revolution;
-    let parts = steps / passage.steps();
+    let parts = simulation.steps_per_revolution / passage.steps();
     let times = (1..=parts / 2).rev().find(|&times| parts.is_multiple_of(times)).unwrap_or(1);
-    passage = passage.repeated(times);
-    let share = passage.steps() as f64 / steps as f64;
-    let per_revolution = parts / times;
-    let start = begin(simulation, &passage, revolutions, go_on)?;
-    let search = Search { tolerance: FOUND, marched: MARCHED * per_revolution, most: limit * per_revolution };
-    let found = find(&mut passage, &start, &search, go_on);
-    *revolutions += share * found.as_ref().map_or_else(NotFound::passages, |found| found.passages) as f64;
-    let Periodic { state, residual, .. } = found?;
+    Ok(passage.repeated(times))
+}
+
+fn respond(
+    passage: &mut Passage<'_>,
+    simulation: &Simulation<'_>,
+    (limit, control): (usize, bool),
+    (revolutions, go_on): (&mut f64, &dyn Fn() -> bool),
+) -> Result<Response, NotFound> {
+    let per_revolution = simulation.steps_per_revolution / passage.steps();
+    let most = limit * per_revolution;
+    let start = begin(simulation, passage, revolutions, go_on)?;
+    let search = Search { tolerance: FOUND, marched: MARCHED * per_revolution, most };
+    let Periodic { state, residual } = find(passage, &start, &search, go_on)?;
     let hint: Vec<f64> = start.iter().zip(&state).map(|(a, b)| a - b).collect();
-    let mut floquet = Floquet::of(&passage, (&state, &hint), MULTIPLIERS)?;
+    let mut floquet = Floquet::of(passage, (&state, &hint), MULTIPLIERS)?;
     *revolutions += floquet.revolutions;
     let mut arrives = None;
     if floquet.stability == Stability::Stable {
         passage.map(&state)?;
         let orbit = Orbit { state: &state, trace: passage.trace().clone(), per_revolution };
-        let most = limit * per_revolution;
-        let mut passages = 1;
         if control {
-            arrives = Some(orbit.attracts(&mut passage, start, most, (&mut passages, go_on))?);
+            arrives = Some(orbit.attracts(passage, start, most, go_on)?);
         }
         if arrives != Some(true) && length(&hint) > 0.0 {
             let share = BESIDE * length(&state) / length(&hint);
             let beside = state.iter().zip(&hint).map(|(x, hint)| x + share * hint).collect();
-            if !orbit.attracts(&mut passage, beside, most, (&mut passages, go_on))? {
+            if !orbit.attracts(passage, beside, most, go_on)? {
                 floquet.stability = Stability::Narrow;
             }
         }
-        *revolutions += share * passages as f64;
     }
     Ok(Response { modes: passage.modes(&state), residual, floquet, arrives })
 }
@@ -114,25 +128,23 @@ fn begin(
     if ramp == 0 {
         return Ok(passage.state(simulation.initial));
     }
-    let run = unrecorded(simulation, ramp).run(&|_| go_on());
+    let unrecorded = Simulation {
+        sensors: &[],
+        samples_per_revolution: 1,
+        revolutions: ramp,
+        window_revolutions: 0,
+        repeats: None,
+        detail: None,
+        states: None,
+        ..*simulation
+    };
+    let run = unrecorded.run(&|_| go_on());
     *revolutions += run.statistics.steps as f64 / simulation.steps_per_revolution as f64;
     match run.outcome {
         Outcome::Completed(history) => Ok(passage.state(&history.end)),
         Outcome::Diverged(divergence) => Err(PassageError::Diverged(divergence).into()),
         Outcome::ContactFailed { error, .. } => Err(PassageError::Contact(error).into()),
         Outcome::Cancelled => Err(NotFound::Cancelled),
-    }
-}
-
-fn unrecorded<'a>(simulation: &Simulation<'a>, revolutions: usize) -> Simulation<'a> {
-    Simulation {
-        sensors: &[],
-        samples_per_revolution: 1,
-        revolutions,
-        window_revolutions: 0,
-        detail: None,
-        states: None,
-        ..*simulation
     }
 }
 
@@ -151,7 +163,7 @@ impl Orbit<'_> {
         passage: &mut Passage<'_>,
         mut x: Vec<f64>,
         most: usize,
-        (passages, go_on): (&mut usize, &dyn Fn() -> bool),
+        go_on: &dyn Fn() -> bool,
     ) -> Result<bool, NotFound> {
         let size = length(self.state);
         // Passages that were alike up to now, and how far away the first of them was.
@@ -162,7 +174,6 @@ impl Orbit<'_> {
             }
             let before = self.away(&x);
             x = passage.map(&x)?;
-            *passages += 1;
             if !passage.trace().is_alike(&self.trace) {
                 alike = 0;
                 continue;
@@ -192,26 +203,29 @@ fn length(x: &[f64]) -> f64 {
 /// what it records of chosen revolutions is of as many from the first on.
 pub fn record(simulation: &Simulation<'_>, modes: &[InitialMode], watch: &dyn Fn(f64) -> bool) -> Run {
     let casing = simulation.casing.map(|casing| Casing { ramp_revolutions: 0.0, ..casing.clone() });
-    let from_first = |(from, to): (usize, usize)| (0, to - from);
+    let count = |asked: Revolutions| {
+        let (from, to) = asked.of(simulation.revolutions, None);
+        to - from
+    };
+    let first = |asked: Revolutions| Revolutions::Between(0, count(asked));
     let of = |revolutions: usize| Simulation {
         casing: casing.as_ref(),
         initial: modes,
         revolutions,
         window_revolutions: 1,
+        repeats: None,
         detail: None,
         states: None,
         ..*simulation
     };
+    let states_from = simulation.states.map_or(0, |asked| asked.of(simulation.revolutions, None).0);
     let mut run = of(1).go_on(watch);
-    let asked = simulation.detail.map(|detail| detail.revolutions).or(simulation.states);
-    if let (Some(asked), Outcome::Completed(history)) = (asked, &mut run.outcome) {
-        let (_, revolutions) = from_first(asked);
+    let detail = simulation.detail;
+    let asked = detail.map(|detail| detail.revolutions).into_iter().chain(simulation.states);
+    if let (Some(revolutions), Outcome::Completed(history)) = (asked.map(count).max(), &mut run.outcome) {
         let recorded = Simulation {
-            detail: simulation.detail.map(|mut detail| {
-                detail.revolutions = from_first(detail.revolutions);
-                detail
-            }),
-            states: simulation.states.map(from_first),
+            detail: detail.map(|detail| Detail { revolutions: first(detail.revolutions), ..detail }),
+            states: simulation.states.map(first),
             ..of(revolutions)
         };
         match recorded.go_on(watch).outcome {
@@ -219,11 +233,11 @@ pub fn record(simulation: &Simulation<'_>, modes: &[InitialMode], watch: &dyn Fn
                 history.detail = recorded.detail;
                 history.states = recorded.states;
                 for instant in history.states.iter_mut().flat_map(|states| &mut states.revolutions) {
-                    *instant += asked.0 as f64;
+                    *instant += states_from as f64;
                 }
             }
             other => run.outcome = other,
         }
     }
-    run.repeated(simulation.revolutions, simulation.window_revolutions)
+    run.repeated(1, simulation.revolutions, simulation.window_revolutions)
 }

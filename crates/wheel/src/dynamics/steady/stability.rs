@@ -38,7 +38,9 @@ pub struct Floquet {
     pub multipliers: Vec<Multiplier>,
     /// What they say.
     pub stability: Stability,
-    /// Passages that are taken in all, as shares of a revolution: products of the derivative among them.
+    /// Engine orders of what repeats with these passages: all multiples of this.
+    pub orders: f64,
+    /// Revolutions that it took to find them.
     pub revolutions: f64,
 }
 
@@ -55,33 +57,27 @@ impl Floquet {
         (state, hint): (&[f64], &[f64]),
         count: usize,
     ) -> Result<Self, PassageError> {
-        let mut revolutions = 0.0;
-        for lobes in [1, passage.lobes()] {
-            let mut longer = Passage::over_lobes(passage.simulation(), lobes)?;
-            let image = longer.map(state)?;
-            let share = longer.steps() as f64 / passage.simulation().steps_per_revolution as f64;
-            revolutions += share;
-            if lobes < passage.lobes() && repeats(state, &image) > REPEATS {
-                continue;
-            }
-            let tangent = Tangent::of(&longer);
-            let multipliers = multipliers(&tangent, count, hint);
-            revolutions += share * tangent.products() as f64;
-            return Ok(Self {
-                lobes,
-                stability: judge(&multipliers, passage.size()),
-                multipliers,
-                revolutions,
-            });
-        }
-        unreachable!("a response repeats after a revolution")
+        let mut once = Passage::over_lobes(passage.simulation(), 1)?;
+        let image = once.map(state)?;
+        let mut revolutions = once.revolutions();
+        let (lobes, passage) = if repeats(state, &image) <= REPEATS {
+            (1, once)
+        } else {
+            let mut whole = Passage::over_lobes(passage.simulation(), passage.lobes())?;
+            whole.map(state)?;
+            (passage.lobes(), whole)
+        };
+        let multipliers = multipliers(&Tangent::of(&passage), count, hint);
+        revolutions += passage.revolutions();
+        let orders = passage.lobes() as f64 / lobes as f64;
+        let stability = judge(&multipliers, passage.size());
+        Ok(Self { lobes, stability, multipliers, orders, revolutions })
     }
 
-    /// Distance of the lines that what this multiplier belongs to adds, from those of the response: an engine order, and from any of its
-    /// multiples by `lobe_count / self.lobes` (docs/method.md, Steady states).
-    pub fn order_offset(&self, multiplier: &Multiplier, lobe_count: usize) -> f64 {
-        let orders = lobe_count as f64 / self.lobes as f64;
-        multiplier.value.arg().abs() / TAU * orders
+    /// Distance, in engine orders, of the lines that a disturbance of this multiplier adds from those of the response, and from all
+    /// multiples of [`Self::orders`] (docs/method.md, Steady states).
+    pub fn order_offset(&self, multiplier: &Multiplier) -> f64 {
+        multiplier.value.arg().abs() / TAU * self.orders
     }
 }
 

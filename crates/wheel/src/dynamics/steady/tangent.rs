@@ -12,7 +12,6 @@
 //! says of the motion in continuous time is of first order in the step, where the response itself is of second.
 
 use std::f64::consts::TAU;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use faer::linalg::matmul::matmul;
 use faer::prelude::{Reborrow, ReborrowMut};
@@ -30,11 +29,10 @@ pub struct Tangent<'a> {
     keep: Vec<f64>,
     pull: Vec<f64>,
     receptance: Vec<f64>,
-    /// A of every set of nodes that touches, `unknowns × nodes of the set`.
-    read: Vec<Mat<f64>>,
+    /// A of all contact nodes, `unknowns × (sector, node)`.
+    rows: Mat<f64>,
+    nodes: usize,
     massless: bool,
-    /// States that it was applied to.
-    products: AtomicUsize,
 }
 
 impl<'a> Tangent<'a> {
@@ -62,25 +60,15 @@ impl<'a> Tangent<'a> {
             let shape = shape * c64::new(angle.cos(), angle.sin()) * weight.sqrt();
             if unknown.imaginary { -shape.im } else { shape.re }
         });
-        let read = |set: &Touching| {
-            let place = |&(sector, node): &(usize, usize)| sector * nodes + node;
-            Mat::from_fn(steps.len(), set.places.len(), |i, j| rows[(i, place(&set.places[j]))])
-        };
-        let read = passage.trace().sets.iter().map(read).collect();
         Self {
             passage,
             keep: steps.iter().map(|(_, step)| step.keep).collect(),
             pull: steps.iter().map(|(omega, step)| omega * omega * step.receptance).collect(),
             receptance: steps.iter().map(|(_, step)| step.receptance).collect(),
-            read,
+            rows,
+            nodes,
             massless: matches!(simulation.scheme, Scheme::MasslessBoundary { .. }),
-            products: AtomicUsize::new(0),
         }
-    }
-
-    /// States that it was applied to so far.
-    pub fn products(&self) -> usize {
-        self.products.load(Ordering::Relaxed)
     }
 
     /// Rows and columns.
@@ -100,18 +88,23 @@ impl<'a> Tangent<'a> {
 
     /// What becomes of these states, one a column, in the unknowns of the passage.
     pub fn apply(&self, mut states: MatMut<'_, f64>) {
-        self.products.fetch_add(states.ncols(), Ordering::Relaxed);
+        self.passage.take(states.ncols());
         let n = self.keep.len();
         let step = self.passage.step_s();
         self.scale(states.rb_mut(), |scale| 1.0 / scale, step);
         let (mut z, mut d) = states.rb_mut().split_at_row_mut(n);
         let Trace { sets, instants } = self.passage.trace();
-        let moved = |z: MatRef<'_, f64>, set: usize| {
-            let read = self.read[set].as_ref();
+        // A of the set that touches, gathered when it changes: of all of them at once it may take gigabytes.
+        let (mut read, mut gathered) = (Mat::zeros(n, 0), None);
+        let mut moved = |z: MatRef<'_, f64>, set: usize| {
+            if gathered != Some(set) {
+                read = self.read_by(&sets[set]);
+                gathered = Some(set);
+            }
             let mut force = &sets[set].stiffness * (read.transpose() * z);
             force *= faer::Scale(-1.0);
             let mut moved = Mat::zeros(n, z.ncols());
-            matmul(moved.as_mut(), Accum::Replace, read, force.as_ref(), 1.0, Par::Seq);
+            matmul(moved.as_mut(), Accum::Replace, read.as_ref(), force.as_ref(), 1.0, Par::Seq);
             moved
         };
         let mut instants = instants.iter().copied().peekable();
@@ -150,6 +143,12 @@ impl<'a> Tangent<'a> {
     pub fn follow(&self, state: &mut [f64]) {
         let rows = state.len();
         self.apply(MatMut::from_column_major_slice_mut(state, rows, 1));
+    }
+
+    /// A of a set, `unknowns × nodes`.
+    fn read_by(&self, set: &Touching) -> Mat<f64> {
+        let place = |&(sector, node): &(usize, usize)| sector * self.nodes + node;
+        Mat::from_fn(self.keep.len(), set.places.len(), |i, j| self.rows[(i, place(&set.places[j]))])
     }
 
     fn push(&self, mut z: MatMut<'_, f64>, mut d: MatMut<'_, f64>, force: MatRef<'_, f64>) {

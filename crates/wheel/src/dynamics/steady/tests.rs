@@ -11,7 +11,10 @@ use crate::dynamics::casing::{Casing, Restriction};
 use crate::dynamics::direction::Direction;
 use crate::dynamics::effects::Effects;
 use crate::dynamics::initial::InitialMode;
-use crate::dynamics::integrate::{Detail, Outcome, Passage, PassageError, Run, SensorRow, Simulation};
+use crate::dynamics::integrate::{
+    Detail, LEAST_MARCHED, Outcome, Passage, PassageError, Repeated, Repeats, Revolutions, Run, SensorRow,
+    Simulation,
+};
 use crate::dynamics::modal_wheel::{ModalHarmonic, ModalWheel};
 use crate::dynamics::numbers::Numbers;
 use crate::dynamics::oscillators::ModalDamping;
@@ -85,6 +88,7 @@ impl Scene {
             samples_per_revolution: 36,
             revolutions: 5,
             window_revolutions: 1,
+            repeats: None,
             detail: None,
             states: None,
         }
@@ -322,8 +326,8 @@ fn details_of_a_response_are_those_of_its_march() {
         let base = Simulation { sensors: &sensors, samples_per_revolution: 360, ..scene.simulation() };
         let of = |revolutions: usize| Simulation {
             revolutions,
-            detail: detail((revolutions - 2, revolutions)),
-            states: Some((revolutions - 2, revolutions)),
+            detail: detail(Revolutions::Last(2)),
+            states: Some(Revolutions::Last(2)),
             ..base
         };
         let Ok(response) = seek(&base, 60, true, &|| true).response else {
@@ -353,4 +357,87 @@ fn details_of_a_response_are_those_of_its_march() {
         assert_eq!(a.harmonics[2].ncols(), b.harmonics[2].ncols());
         assert!((&a.harmonics[2] - &b.harmonics[2]).norm_max() < 1e-6 * a.harmonics[2].norm_max());
     }
+}
+
+/// Marches of random scenes that end because they repeat, against what 400 more revolutions make of them, on the bits of a march that was told
+/// its length. All begin aside of what symmetry they have.
+#[test]
+fn a_march_that_ends_has_come_as_close_as_it_says() {
+    let mut numbers = Numbers(23);
+    let mut within = |low: f64, high: f64| low + 0.5 * (numbers.next() + 1.0) * (high - low);
+    let (mut ended, mut several, mut others) = (0, 0, 0);
+    for case in 0..300 {
+        let scheme = SCHEMES[case % 3];
+        let (sectors, lobes) = [(6, 2), (5, 2), (8, 4), (1, 1)][case % 4];
+        let mut scene = Scene::new(sectors, lobes, within(0.005, 0.1), scheme);
+        scene.wheel.speed_rad_s = within(600.0, 2000.0);
+        if let Some(casing) = &mut scene.casing {
+            casing.clearance = vec![within(0.2, 0.3), within(0.2, 0.3)];
+        }
+        let normal = Direction { node: 0, components: [0.8, 0.0, 0.6] };
+        let sensors = [SensorRow { direction: normal, sector: 0 }];
+        let share = [1e-3, 1e-5][case % 2];
+        let symmetry = if sectors % lobes as usize == 0 { lobes as usize } else { 1 };
+        let initial: Vec<InitialMode> = (0..=sectors / 2)
+            .map(|harmonic| InitialMode {
+                harmonic,
+                family: 0,
+                displacement: c64::new(1e-9, 0.0),
+                velocity: c64::new(0.0, 0.0),
+            })
+            .collect();
+        let fixed = |revolutions: usize, window_revolutions: usize| {
+            let simulation = Simulation {
+                sensors: &sensors,
+                samples_per_revolution: 360,
+                revolutions,
+                window_revolutions,
+                initial: &initial,
+                ..scene.simulation()
+            };
+            match simulation.run(&|_| true).outcome {
+                Outcome::Completed(history) => history,
+                other => panic!("{other:?}"),
+            }
+        };
+        let simulation = Simulation {
+            sensors: &sensors,
+            samples_per_revolution: 360,
+            revolutions: 120,
+            window_revolutions: 12,
+            repeats: Some(Repeats { share, least: 0, symmetry }),
+            initial: &initial,
+            states: Some(Revolutions::Last(1)),
+            ..scene.simulation()
+        };
+        let run = simulation.run(&|_| true);
+        let Outcome::Completed(march) = run.outcome else { panic!("not completed") };
+        let Some(Repeated { after, period, remaining }) = march.repeated else {
+            assert_eq!(run.statistics.steps, 120 * STEPS as u64);
+            others += 1;
+            continue;
+        };
+        ended += 1;
+        several += usize::from(period > 1);
+        let taken = after + period;
+        assert!(remaining <= share && taken as u64 >= 2 + LEAST_MARCHED && 12 % period == 0);
+        assert_eq!(run.statistics.steps, (taken * STEPS) as u64);
+        let told = fixed(taken, period);
+        assert_eq!(told.displacement[0], march.displacement[0][..360 * taken]);
+        assert_eq!((&told.end, march.displacement[0].len()), (&march.end, 360 * (after + 12)));
+        assert_eq!(told.window[0].repeat(12 / period), march.window[0]);
+        assert_eq!(march.states.unwrap().revolutions.last(), Some(&(taken as f64)));
+        let mut passage = Passage::over_lobes(&simulation, lobes as usize).unwrap();
+        let early = passage.state(&march.end);
+        let mut late = early.clone();
+        for _ in 0..400 / period * period {
+            late = passage.map(&late).unwrap();
+        }
+        let off = length(&difference(&late, &early)) / length(&late);
+        assert!(
+            off < 10.0 * share,
+            "{case} {scheme:?} {sectors} {lobes}: {after} {period} {remaining:e} {off:e}"
+        );
+    }
+    assert!(ended >= 24 && several > 0 && others > 0, "{ended} ended, {several} after several, {others} not");
 }
