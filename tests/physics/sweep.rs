@@ -73,7 +73,7 @@ fn results_are_consistent() {
     let sector = wheel(WheelRecipe::default());
     let reduced = reduced(&sector);
     let mut request = request(&sector, &[0.5 * TOP_SPEED]);
-    request.integration.revolutions = 30;
+    request.integration.revolutions = AutoOr::Fixed(30);
     let result = run_speed(&reduced, &unchecked(&request), 0, None, &Unwatched).unwrap();
     let settling = result.point.settling.as_ref().unwrap();
     assert_eq!((settling.verdict, settling.ratio), (Verdict::Periodic, Some(1)), "{settling:?}");
@@ -109,7 +109,7 @@ fn where_no_line_stands_out_none_is_named() {
     (low.max_engine_order, low.peak_prominence) = (1, 0.0);
     low.scene.damping.as_mut().unwrap().modal_ratio = 0.4;
     low.scene.symmetry = Symmetry::Exact;
-    (low.integration.revolutions, low.integration.window_revolutions) = (30, 2);
+    (low.integration.revolutions, low.integration.window_revolutions) = (AutoOr::Fixed(30), 2);
     low.integration.steps_per_revolution = AutoOr::Fixed(4000);
     for (request, moves) in [(&still, false), (&low, true)] {
         let run = |index| run_speed(&reduced, &unchecked(request), index, None, &Unwatched).unwrap().point;
@@ -223,7 +223,7 @@ fn narrow_lobes_are_not_stepped_over() {
     assert_eq!(violations[0].pointer, "/integration/steps_per_revolution");
     assert!(violations[0].message.contains("at least 6284"), "{violations:?}");
     request.integration.steps_per_revolution = AutoOr::Auto;
-    request.integration.revolutions = 6;
+    request.integration.revolutions = AutoOr::Fixed(6);
     let point = run_speed(&reduced, &unchecked(&request), 0, None, &Unwatched).unwrap().point;
     assert!(point.steps_per_revolution >= 31416 && point.contact_share > 0.0, "{point:?}");
 }
