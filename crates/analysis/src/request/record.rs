@@ -74,7 +74,7 @@ impl HistoriesRequest {
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Recorded {
-    /// Whole revolutions after which recording begins and ends; default: the window, with `state` the last revolution.
+    /// Whole revolutions after which recording begins and ends; default: the window, or the period that stands for it; with `state` the last revolution.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub revolutions: Option<[u32; 2]>,
     /// What is recorded; default: everything but `state`.
