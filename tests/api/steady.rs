@@ -127,7 +127,10 @@ async fn marches_end_once_they_repeat() {
         let (taken, steps) = (march["revolutions"].as_u64().unwrap(), point["steps"].as_u64().unwrap());
         assert_eq!(steps, taken * point["steps_per_revolution"].as_u64().unwrap());
         let Some(remaining) = march["remaining_change"].as_f64() else {
-            assert_eq!((taken, &march["reason"]), (100, &json!("the motion was not found to repeat")));
+            assert_eq!(
+                (taken, &march["reason"]),
+                (100, &json!("the motion was not found to repeat by the time its longest window began"))
+            );
             continue;
         };
         repeating += 1;
@@ -136,6 +139,14 @@ async fn marches_end_once_they_repeat() {
         assert!((found - expected).abs() <= 1e-3 * expected, "{found} {expected}: {march}");
     }
     assert!(repeating > 0, "{map}");
+
+    // What never touches is at rest, whatever shows that symmetries last.
+    let mut apart = sweep.clone();
+    apart["scene"]["casing"]["clearance"] = json!({"leading": 2.0, "trailing": 2.0});
+    for point in points(api, &apart).await {
+        assert_eq!((amplitude(&point), &point["settling"]["verdict"]), (0.0, &json!("periodic")), "{point}");
+        assert!(point["march"]["revolutions"].as_u64() < Some(20), "{point}");
+    }
 
     // Histories are of the last period.
     let march = &map["points"][0]["march"];

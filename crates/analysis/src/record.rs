@@ -71,7 +71,9 @@ pub(super) fn record_run(
             let window = request.integration.window_revolutions as usize;
             point.responses = responses(history, request, &spectra);
             let lobes = request.scene.touched_lobes().map(|lobes| lobes.count);
-            let settling = judge(&history.displacement, steps.samples, window, lobes);
+            // A period is held against the one before.
+            let judged = history.repeated.map_or(window, |repeated| window.max(2 * repeated.period));
+            let settling = judge(&history.displacement, steps.samples, judged, lobes);
             point.settling = Some(settling.beside(strongest_side_bands(&point.responses)));
             let contact = contact(run, request, wheel, stepping, contact_nodes);
             let (summary, forces) = contact.unzip();

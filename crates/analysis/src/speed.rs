@@ -242,10 +242,12 @@ pub(super) fn simulate(
         }
     };
     let repeats = repeats(request, recording.detail, wheel.around());
-    // What breaks a symmetry must not have to grow out of round-off where a march ends early.
-    if matches!(start, Start::Perturbed) || repeats.is_some_and(|repeats| repeats.symmetry > 1) {
+    if matches!(start, Start::Perturbed) {
         initial = perturbed(initial, wheel, casing.as_ref());
     }
+    // What breaks a symmetry must not have to grow out of round-off where a march ends early.
+    let aside = (casing.is_some() && repeats.is_some_and(|repeats| repeats.symmetry > 1))
+        .then(|| perturbed(initial.clone(), wheel, casing.as_ref()));
     let (wheel, sensors) = sensed(sector, wheel, request)?;
     let simulation = Simulation {
         wheel: &wheel,
@@ -264,5 +266,12 @@ pub(super) fn simulate(
         detail: recording.detail,
         states: recording.states,
     };
+    if let Some(aside) = aside {
+        let simulated = run_steady(&Simulation { initial: &aside, ..simulation }, request, watch);
+        // What never touches breaks no symmetry, and shows nothing but where it began.
+        if simulated.run.statistics.contact_share() > 0.0 {
+            return Ok(simulated);
+        }
+    }
     Ok(run_steady(&simulation, request, watch))
 }

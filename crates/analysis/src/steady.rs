@@ -86,7 +86,11 @@ pub(super) fn marched(
             revolutions: most_revolutions,
             period_revolutions: None,
             remaining_change: None,
-            reason: Some(goes_on(request).unwrap_or("the motion was not found to repeat").to_owned()),
+            reason: Some(
+                goes_on(request)
+                    .unwrap_or("the motion was not found to repeat by the time its longest window began")
+                    .to_owned(),
+            ),
         },
     })
 }

@@ -23,7 +23,7 @@ pub struct Integration {
     pub most_revolutions: u32,
     /// Share of the motion by which it may still change where it is said to repeat, with `revolutions: "auto"`; a tenth of
     /// `accuracy.target` if that is less.
-    #[cfg_attr(feature = "schema", schema(exclusive_minimum = 0, maximum = 0.01))]
+    #[cfg_attr(feature = "schema", schema(minimum = 1e-12, maximum = 0.01))]
     pub settled_to: f64,
     /// Revolutions over which the restriction grows from zero to its full height.
     #[cfg_attr(feature = "schema", schema(minimum = 0))]

@@ -1,5 +1,7 @@
 //! Checks a request against its model and fills in defaults: all violations at once, each at its JSON pointer.
 
+use std::ops::RangeInclusive;
+
 use crate::discretisation::most_samples;
 use crate::effects::casing::check::{check_lobe_count, check_ramp, check_steps};
 use crate::effects::coriolis;
@@ -218,8 +220,9 @@ fn check_speeds(
     }
 }
 
-/// Share that a motion may still change by where it is said to repeat, at most: what the verdict on its window asks for.
-const MOST_UNSETTLED: f64 = 1e-2;
+/// Share that a motion may still change by where it is said to repeat: at least what is above round-off, at most what the verdict on its
+/// window asks for.
+const UNSETTLED: RangeInclusive<f64> = 1e-12..=1e-2;
 
 fn check_integration(found: &mut Findings, integration: &Integration, max_engine_order: u32) {
     let Integration {
@@ -269,9 +272,9 @@ fn check_integration(found: &mut Findings, integration: &Integration, max_engine
         format!("between 1 and {} revolutions", limits::REVOLUTIONS),
     );
     found.require(
-        settled_to > 0.0 && settled_to <= MOST_UNSETTLED,
+        UNSETTLED.contains(&settled_to),
         "/integration/settled_to",
-        format!("a share above 0 and up to {MOST_UNSETTLED}"),
+        format!("a share between {:e} and {}", UNSETTLED.start(), UNSETTLED.end()),
     );
     found.require(
         (1..=revolutions).contains(&window_revolutions),
