@@ -1,7 +1,7 @@
 //! Histories beyond displacements, of chosen revolutions.
 
 use super::super::energy::EnergyAudit;
-use super::repetition::Repeated;
+use super::revolutions::Repeated;
 use super::simulation::{Detail, Simulation};
 use super::tally::ContactInterval;
 

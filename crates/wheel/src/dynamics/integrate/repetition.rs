@@ -2,7 +2,8 @@
 
 use super::super::flexible_casing::CasingMotion;
 use super::super::oscillators::Oscillators;
-use super::simulation::{Repeats, Simulation};
+use super::revolutions::{Repeated, Repeats};
+use super::simulation::Simulation;
 
 /// Longest period looked for, in revolutions.
 const LONGEST: usize = 8;
@@ -21,17 +22,6 @@ const ROUND_OFF: f64 = 1e-10;
 
 /// Share of what the symmetry forbids below which it is round-off.
 const VANISHED: f64 = 1e-13;
-
-/// A motion that repeats.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Repeated {
-    /// Revolutions after which it does.
-    pub after: usize,
-    /// Revolutions after which it is the same again.
-    pub period: usize,
-    /// Share of the motion by which it may still change, were it to go on.
-    pub remaining: f64,
-}
 
 /// Compares the ends of revolutions.
 #[derive(Debug)]

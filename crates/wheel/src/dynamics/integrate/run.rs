@@ -3,7 +3,7 @@
 use super::bounds::TipDisplacement;
 use super::detail::DetailHistory;
 use super::excursion::Excursion;
-use super::repetition::Repeated;
+use super::revolutions::Repeated;
 use super::states::ModalStates;
 use super::tally::ContactRecord;
 use super::tips::TipMotion;

@@ -11,7 +11,7 @@ use crate::dynamics::oscillators::ModalDamping;
 use crate::dynamics::schemes::Scheme;
 use crate::dynamics::sector::ContactNode;
 
-use super::repetition::Repeated;
+use super::revolutions::{Repeats, Revolutions};
 
 /// One simulation of the wheel at its speed.
 #[derive(Debug, Clone, Copy)]
@@ -46,40 +46,6 @@ pub struct Simulation<'a> {
     pub detail: Option<Detail>,
     /// Revolutions of which all modes are recorded, at every sample.
     pub states: Option<Revolutions>,
-}
-
-/// When a run may end before all its revolutions are taken: where its motion repeats, one period of it being the window.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Repeats {
-    /// Share of the motion by which it may still change (docs/method.md, Steady states).
-    pub share: f64,
-    /// Revolutions that are taken in any case.
-    pub least: usize,
-    /// How often the scene repeats itself around the wheel: nodal diameters that are no multiples of it have to die out. They must move at
-    /// the start to show whether they do.
-    pub symmetry: usize,
-}
-
-/// Some revolutions of a run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Revolutions {
-    /// From the end of this one to the end of that one.
-    Between(usize, usize),
-    /// So many at the end; a period at most, where the run ends because its motion repeats.
-    Last(usize),
-}
-
-impl Revolutions {
-    /// Whole revolutions after which they begin and end in a run of `all`, or in one that ended because it repeats.
-    pub fn of(self, all: usize, repeated: Option<Repeated>) -> (usize, usize) {
-        match (self, repeated) {
-            (Self::Between(from, to), _) => (from, to),
-            (Self::Last(count), None) => (all - count, all),
-            (Self::Last(count), Some(Repeated { after, period, .. })) => {
-                (after + period - count.min(period), after + period)
-            }
-        }
-    }
 }
 
 /// What a run records of chosen revolutions, at every sample.

@@ -5,9 +5,9 @@ use faer::{Mat, c64};
 use super::super::modal_wheel::ModalHarmonic;
 use super::super::oscillators::Oscillators;
 use super::super::schemes::Scheme;
-use super::repetition::Repeated;
 use super::residual::applied;
-use super::simulation::{Revolutions, Simulation};
+use super::revolutions::{Repeated, Revolutions};
+use super::simulation::Simulation;
 use rubmap_numerics::sector_fourier::SectorFourier;
 
 /// Modal coordinates at some instants.
