@@ -188,7 +188,8 @@ fn sound(result: &SpeedResult, request: &SweepRequest) {
         scheme.name != SchemeChoice::Auto && !scheme.reason.is_empty() && scheme.reach_hz >= 0.0,
         "{point:?}"
     );
-    let revolutions = u64::from(request.integration.revolutions());
+    let taken = point.march.as_ref().map(|march| march.revolutions);
+    let revolutions = u64::from(taken.unwrap_or(request.integration.revolutions()));
     assert_eq!(point.steps, revolutions * u64::from(point.steps_per_revolution), "{point:?}");
     assert!(point.steps_per_revolution >= point.smallest_stable_steps_per_revolution, "{point:?}");
     assert!(point.contact_impulse.unwrap() >= 0.0 && point.largest_energy.unwrap() >= 0.0, "{point:?}");

@@ -28,8 +28,10 @@ pub(super) fn revolutions_taken(request: &ResolvedSweep) -> [u64; 2] {
     let least = ramp_revolutions.ceil() as u64 + LEAST_REVOLUTIONS;
     match steady {
         SteadyChoice::March => match revolutions {
-            AutoOr::Fixed(_) => [marched, marched],
-            AutoOr::Auto => [(ramp_revolutions.ceil() as u64 + LEAST_MARCHED).min(marched), marched],
+            AutoOr::Auto if goes_on(request).is_none() => {
+                [(ramp_revolutions.ceil() as u64 + LEAST_MARCHED).min(marched), marched]
+            }
+            AutoOr::Auto | AutoOr::Fixed(_) => [marched, marched],
         },
         SteadyChoice::Periodic => [least, limit + multipliers + marched],
         SteadyChoice::Auto => [least, 2 * limit + multipliers + marched],

@@ -18,13 +18,6 @@ pub struct Integration {
     /// Revolutions to simulate, or `"auto"`: until the motion repeats, of which one period is then the window, and at most
     /// `most_revolutions`.
     pub revolutions: AutoOr,
-    /// Revolutions after which a motion that does not repeat is left, with `revolutions: "auto"`.
-    #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 100_000))]
-    pub most_revolutions: u32,
-    /// Share of the motion by which it may still change where it is said to repeat, with `revolutions: "auto"`; a tenth of
-    /// `accuracy.target` if that is less.
-    #[cfg_attr(feature = "schema", schema(minimum = 1e-12, maximum = 0.01))]
-    pub settled_to: f64,
     /// Revolutions over which the restriction grows from zero to its full height.
     #[cfg_attr(feature = "schema", schema(minimum = 0))]
     pub ramp_revolutions: f64,
@@ -33,6 +26,13 @@ pub struct Integration {
     pub window_revolutions: u32,
     /// How the steady response is found.
     pub steady: SteadyChoice,
+    /// Revolutions after which a motion that does not repeat is left, with `revolutions: "auto"`.
+    #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 100_000))]
+    pub most_revolutions: u32,
+    /// Share of the motion by which it may still change where it is said to repeat, with `revolutions: "auto"`; a tenth of
+    /// `accuracy.target` if that is less.
+    #[cfg_attr(feature = "schema", schema(minimum = 1e-12, maximum = 0.01))]
+    pub settled_to: f64,
 }
 
 impl Default for Integration {
@@ -42,11 +42,11 @@ impl Default for Integration {
             kept_modes: AutoOr::Auto,
             steps_per_revolution: AutoOr::Auto,
             revolutions: AutoOr::Fixed(50),
-            most_revolutions: 100,
-            settled_to: 1e-3,
             ramp_revolutions: 1.0,
             window_revolutions: 20,
             steady: SteadyChoice::March,
+            most_revolutions: 100,
+            settled_to: 1e-3,
         }
     }
 }
