@@ -105,7 +105,8 @@ const asked = window.fetch;
 let left = 1;
 window.fetch = async (path, options) => {
   const answer = await asked(path, options);
-  if (!String(path).endsWith(broken) || left-- <= 0) return answer;
+  if (!String(path).includes(broken) || left-- <= 0) return answer;
+  document.documentElement.dataset.brokenOff = 'yes';
   return new Response(new ReadableStream({ start: (body) => body.error(new TypeError('network error')) }), answer);
 };
 """
@@ -114,7 +115,7 @@ window.fetch = async (path, options) => {
 @pytest.fixture
 def new_page(browser):
     """Opens a page that is watched; all are judged at the end of the test. The first request like `lost` fails; the first answer to a path
-    that ends like `broken` breaks off."""
+    with `broken` in it breaks off, and `html` has `data-broken-off` from then on."""
     watches, contexts = [], []
 
     def opened(url, width=1280, theme="light", expected=(), lost=None, broken=None):
