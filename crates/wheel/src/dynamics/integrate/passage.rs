@@ -188,7 +188,7 @@ impl<'a> Passage<'a> {
         self.steps
     }
 
-    /// How often it was taken up to now, by states or, linearised, by what disturbs them; [`Self::take`] counts the latter.
+    /// How often it was taken up to now, by states or, linearised, by what disturbs them.
     pub fn taken(&self) -> usize {
         self.taken.load(Ordering::Relaxed)
     }
