@@ -12,6 +12,13 @@ fn steady_sweep(model: &str, how: &str) -> Value {
     sweep
 }
 
+/// What a march comes to.
+async fn settled(api: &Api, model: &str) -> Vec<Value> {
+    let mut long = steady_sweep(model, "march");
+    long["integration"]["revolutions"] = json!(400);
+    points(api, &long).await
+}
+
 async fn points(api: &Api, sweep: &Value) -> Vec<Value> {
     let id = api.sweep(sweep).await;
     let job = api.finish(&id).await;
@@ -29,9 +36,7 @@ async fn periodic_responses_are_those_that_marches_come_to() {
     let app = TestApp::start().await;
     let api = &app.api;
     let model = api.model(model::package(1.0)).await;
-    let mut long = steady_sweep(&model, "march");
-    long["integration"]["revolutions"] = json!(400);
-    let marched = points(api, &long).await;
+    let marched = settled(api, &model).await;
     let solved = points(api, &steady_sweep(&model, "auto")).await;
     assert!(marched.iter().all(|point| point["steady"].is_null()));
     let mut taken = 0;
@@ -108,9 +113,7 @@ async fn marches_end_once_they_repeat() {
     let app = TestApp::start().await;
     let api = &app.api;
     let model = api.model(model::package(1.0)).await;
-    let mut long = steady_sweep(&model, "march");
-    long["integration"]["revolutions"] = json!(400);
-    let expected = points(api, &long).await;
+    let expected = settled(api, &model).await;
     let mut sweep = steady_sweep(&model, "march");
     sweep["integration"]["revolutions"] = json!("auto");
     sweep["record"] =

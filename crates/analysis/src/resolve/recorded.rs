@@ -141,11 +141,7 @@ pub(crate) fn asked(record: &Recorded, sweep: &ResolvedSweep) -> Revolutions {
 
 /// The same in whole revolutions of the longest run.
 pub(crate) fn revolutions(record: &Recorded, sweep: &ResolvedSweep) -> (usize, usize) {
-    let run = sweep.integration.revolutions() as usize;
-    match asked(record, sweep) {
-        Revolutions::Last(last) => (run.saturating_sub(last), run),
-        between @ Revolutions::Between(..) => between.of(run, None),
-    }
+    asked(record, sweep).of(sweep.integration.revolutions() as usize, None)
 }
 
 /// Histories of one speed, with so many pairs of a contact node and a blade, and so many numbers of a state.

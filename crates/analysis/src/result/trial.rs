@@ -73,8 +73,9 @@ impl Trial {
 
     /// Revolutions of a run like it.
     pub(crate) fn revolutions(&self, asked: &Integration) -> f64 {
-        let marched = self.point.march.as_ref().map(|march| march.revolutions);
-        f64::from(marched.unwrap_or(asked.revolutions()))
+        // One that was sought is as dear as the longest march.
+        let marched = self.point.march.as_ref().filter(|_| self.point.steady.is_none());
+        f64::from(marched.map_or(asked.revolutions(), |march| march.revolutions))
     }
 
     /// Whether the steady response repeats.

@@ -1,6 +1,7 @@
 //! An eccentric casing or a whirling shaft.
 
 use crate::effects::effect::{Acts, Break, Chain, Check, Effect, Repeats};
+use crate::request::AutoOr;
 
 mod check;
 mod convert;
@@ -16,7 +17,11 @@ pub(crate) const EFFECT: Effect = Effect {
     chain: Chain::Moves(Break {
         what: "orbit",
         when: |request| {
-            let revolutions = f64::from(request.integration.revolutions());
+            // A march that ends by itself may do so after any of them.
+            let revolutions = match request.integration.revolutions {
+                AutoOr::Fixed(revolutions) => f64::from(revolutions),
+                AutoOr::Auto => 1.0,
+            };
             request.scene.orbit.as_ref().is_some_and(|orbit| (orbit.whirl_ratio * revolutions).fract() != 0.0)
         },
         why: "its axis would jump, for whirl_ratio × revolutions is not whole",

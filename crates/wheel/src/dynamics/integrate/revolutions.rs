@@ -22,11 +22,12 @@ pub enum Revolutions {
 }
 
 impl Revolutions {
-    /// Whole revolutions after which they begin and end in a run of `all`, or in one that ended because it repeats.
+    /// Whole revolutions after which they begin and end in a run of `all`, of which there may be fewer than are wanted, or in one that ended
+    /// because it repeats.
     pub fn of(self, all: usize, repeated: Option<Repeated>) -> (usize, usize) {
         match (self, repeated) {
             (Self::Between(from, to), _) => (from, to),
-            (Self::Last(count), None) => (all - count, all),
+            (Self::Last(count), None) => (all.saturating_sub(count), all),
             (Self::Last(count), Some(Repeated { after, period, .. })) => {
                 (after + period - count.min(period), after + period)
             }
