@@ -2,6 +2,7 @@
 //! with names; where speeds are wanted in another unit, they are added by these names, in JSON as well.
 
 mod array;
+mod branches;
 mod campbell;
 mod critical_speeds;
 pub mod csv;

@@ -4,7 +4,9 @@ use serde::Serialize;
 use utoipa::ToSchema;
 
 use super::problem::Problem;
-use crate::analysis::request::{CaseStudySettings, ModalAnalysisRequest, StudyRequest, SweepRequest};
+use crate::analysis::request::{
+    BranchesSettings, CaseStudySettings, ModalAnalysisRequest, StudyRequest, SweepRequest,
+};
 use crate::analysis::result::ReductionReport;
 use crate::impeller::ImpellerParameters;
 use crate::store::jobs::{Chosen, Job, JobHead, JobId, JobKind, JobRequest, SpeedCounts};
@@ -88,6 +90,8 @@ pub(super) enum RequestBody {
     Study(Box<StudyRequest>),
     /// Of a case study.
     CaseStudy(Box<CaseStudySettings>),
+    /// Of branches.
+    Branches(Box<BranchesSettings>),
     /// Of a generated model.
     ModelGeneration(Box<ImpellerParameters>),
 }
@@ -99,6 +103,7 @@ impl From<JobRequest> for RequestBody {
             JobRequest::ModalAnalysis(request) => Self::ModalAnalysis(request.into()),
             JobRequest::Study(request) => Self::Study(Box::new((*request).into())),
             JobRequest::CaseStudy(case) => Self::CaseStudy(Box::new((*case).into())),
+            JobRequest::Branches(branches) => Self::Branches(Box::new((*branches).into())),
             JobRequest::ModelGeneration(parameters) => Self::ModelGeneration(parameters),
         }
     }
@@ -111,7 +116,7 @@ pub(super) struct Link {
     #[schema(example = "/v1/jobs/0198c5a2-7c1e-7d54-9f3b-2f6d7a6f4b10/interaction-map")]
     href: String,
     /// What it is: `self`, `interaction-map`, `critical-speeds`, `wheel-critical-speeds`, `forces`, `spectra` (with a `{index}` to fill
-    /// in), `campbell`, `work-precision`, `histories`, `report`, `archive` or `model`; where it is recorded, and not in lists of jobs,
+    /// in), `campbell`, `branches`, `work-precision`, `histories`, `report`, `archive` or `model`; where it is recorded, and not in lists of jobs,
     /// `stress` and `fields`.
     rel: &'static str,
 }
@@ -188,6 +193,7 @@ pub(super) fn links(
         JobKind::ModelGeneration => &[],
         JobKind::Study => &[("work-precision", "/work-precision"), ("histories", "/histories"), ARCHIVE],
         JobKind::CaseStudy => &[("histories", "/histories")],
+        JobKind::Branches => &[("branches", "/branches")],
     };
     let model = model.map(|model| Link { href: format!("/v1/models/{model}"), rel: "model" });
     [("self", "")]

@@ -3,6 +3,7 @@
 mod access;
 pub mod archive;
 mod body;
+mod branches;
 mod case_studies;
 mod contract;
 mod document;

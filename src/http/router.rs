@@ -19,9 +19,9 @@ use utoipa_axum::routes;
 
 use super::state::AppState;
 use super::{
-    access, archive, body, case_studies, contract, events, extract, fields, forces, health, histories, host,
-    jobs, maps, mesh, metrics, modal_analyses, models, modes, openapi, principal, problem, report, results,
-    section, spectra, stream, stress, studies, sweeps, version, web, wheel,
+    access, archive, body, branches, case_studies, contract, events, extract, fields, forces, health,
+    histories, host, jobs, maps, mesh, metrics, modal_analyses, models, modes, openapi, principal, problem,
+    report, results, section, spectra, stream, stress, studies, sweeps, version, web, wheel,
 };
 
 /// The routes with their descriptions.
@@ -39,6 +39,7 @@ pub(super) fn routes() -> OpenApiRouter<AppState> {
         .routes(routes!(sweeps::plan_sweep))
         .routes(routes!(studies::create_study))
         .routes(routes!(case_studies::create_case_study))
+        .routes(routes!(branches::create_branches))
         .routes(routes!(jobs::list_jobs))
         .routes(routes!(jobs::get_job, jobs::label_job, jobs::delete_job))
         .routes(routes!(events::follow_job))
@@ -52,6 +53,7 @@ pub(super) fn routes() -> OpenApiRouter<AppState> {
         .routes(routes!(wheel::get_wheel_critical_speeds))
         .routes(routes!(studies::get_work_precision))
         .routes(routes!(histories::get_histories, case_studies::create_histories))
+        .routes(routes!(branches::get_branches))
         .routes(routes!(fields::get_fields))
         .routes(routes!(forces::get_forces))
         .routes(routes!(stress::get_stress))

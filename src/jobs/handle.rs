@@ -111,6 +111,13 @@ impl Jobs {
                 self.check(case.sweep()).await?;
                 (JobRequest::CaseStudy(Box::new(case)), Some(facts))
             }
+            Submission::Branches(mut request) => {
+                let facts = self.facts(whose, &request.model).await?;
+                let placed = self.place(&request.model, &mut request.sensors).await?;
+                let (_, branches) = both(placed, run::resolve_branches(*request, &facts))?;
+                self.check(branches.sweep()).await?;
+                (JobRequest::Branches(Box::new(branches)), Some(facts))
+            }
             Submission::Histories(of) => {
                 let (sweep, critical, request) = *of;
                 let facts = self.facts(whose, sweep.model()).await?;

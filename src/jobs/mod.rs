@@ -19,6 +19,7 @@
 //! a small job is never more than a few speeds away from its turn. A reduction may take minutes of one thread: of the
 //! large ones only one runs at a time (`memory`), so that with two threads or more the other jobs go on.
 
+mod branches;
 mod calibration;
 mod case_study;
 mod choice;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::engine::{Engine, Live};
 use super::error::Interruption;
 use super::progress::PhaseMonitor;
-use super::{case_study, choice, finish, generation, modal_analysis, plans, study};
+use super::{branches, case_study, choice, finish, generation, modal_analysis, plans, study};
 use crate::analysis::run;
 use crate::store::jobs::{Begun, JobId, JobRequest};
 
@@ -32,6 +32,7 @@ pub(super) async fn prepare(engine: &Engine, id: JobId) -> Result<(), Interrupti
         JobRequest::ModelGeneration(parameters) => generation::run(engine, &job, parameters).await,
         JobRequest::Study(request) => study::run(engine, &job, request).await,
         JobRequest::CaseStudy(case) => case_study::run(engine, &job, case).await,
+        JobRequest::Branches(asked) => branches::run(engine, &job, asked).await,
     }
 }
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::analysis::request::{
-    CaseStudyRequest, HistoriesRequest, ModalAnalysisRequest, StudyRequest, SweepRequest,
+    BranchesRequest, CaseStudyRequest, HistoriesRequest, ModalAnalysisRequest, StudyRequest, SweepRequest,
 };
 use crate::analysis::resolved::ResolvedSweep;
 use crate::impeller::ImpellerParameters;
@@ -22,6 +22,8 @@ pub enum Submission {
     Study(Box<StudyRequest>),
     /// One speed with everything recorded.
     CaseStudy(Box<CaseStudyRequest>),
+    /// Periodic responses over a number of their scene.
+    Branches(Box<BranchesRequest>),
     /// Histories of a sweep that has ended, with the indices of its critical speeds.
     Histories(Box<(ResolvedSweep, BTreeSet<u32>, HistoriesRequest)>),
 }
@@ -35,6 +37,7 @@ impl Submission {
             Self::ModelGeneration(_) => JobKind::ModelGeneration,
             Self::Study(_) => JobKind::Study,
             Self::CaseStudy(_) | Self::Histories(_) => JobKind::CaseStudy,
+            Self::Branches(_) => JobKind::Branches,
         }
     }
 
@@ -46,6 +49,7 @@ impl Submission {
             Self::ModelGeneration(_) => None,
             Self::Study(request) => Some(&request.model),
             Self::CaseStudy(request) => Some(&request.model),
+            Self::Branches(request) => Some(&request.model),
             Self::Histories(of) => Some(of.0.model()),
         }
     }

@@ -7,6 +7,7 @@
 
 mod backup;
 pub mod bases;
+mod branches;
 mod calibrations;
 mod changes;
 pub mod checkpoints;

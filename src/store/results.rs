@@ -33,6 +33,10 @@ pub enum Document {
     Histories(u32),
     /// Where the whole wheel was at the speed of this index.
     States(u32),
+    /// So manyeth stretch of branches.
+    BranchLeg(u32),
+    /// How far branches have been followed, of a job under way.
+    BranchCourse,
 }
 
 impl Document {
@@ -46,6 +50,8 @@ impl Document {
             Self::WorkPrecision,
             Self::Histories(part),
             Self::States(part),
+            Self::BranchLeg(part),
+            Self::BranchCourse,
         ];
         let found = all.into_iter().find(|document| document.columns().0 == name);
         found.ok_or_else(|| StoreError::Unknown { column: "documents.name", value: name.to_owned() })
@@ -61,6 +67,8 @@ impl Document {
             Self::WorkPrecision => ("work_precision", 0),
             Self::Histories(speed) => ("histories", speed),
             Self::States(speed) => ("states", speed),
+            Self::BranchLeg(index) => ("branches", index),
+            Self::BranchCourse => ("branch_course", 0),
         }
     }
 }

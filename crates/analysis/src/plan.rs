@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use crate::accuracy::rung::pilot_speeds;
+use crate::branches::KEPT;
 use crate::calibration::Calibration;
 use crate::calibration::effects::EffectSizes;
 use crate::calibration::size::StepSize;
@@ -14,7 +15,9 @@ use crate::effects::table::{check_at_speed, planned};
 use crate::model::{ModelFacts, ReducedSector};
 use crate::request::{HistorySpeeds, Recorded, SweepDirection};
 use crate::resolve::recorded::{lines, revolutions};
-use crate::resolved::{ResolvedCaseStudy, ResolvedModalAnalysis, ResolvedSweep, Scene, TrialRequest};
+use crate::resolved::{
+    ResolvedBranches, ResolvedCaseStudy, ResolvedModalAnalysis, ResolvedSweep, Scene, TrialRequest,
+};
 use crate::result::{
     CostRange, Estimate, FoundSymmetry, ModalAnalysisPlan, PlannedPoint, ReductionState, SweepPlan,
 };
@@ -25,6 +28,7 @@ use crate::stepping::Stepping;
 use rubmap_numerics::sector_fourier::harmonic_count;
 use rubmap_wheel::dynamics::casing::RestrictionTable;
 use rubmap_wheel::dynamics::modal_wheel::{ModalWheel, RotationEffects};
+use rubmap_wheel::dynamics::steady::response;
 use rubmap_wheel::revision::VERSION;
 
 /// Plans a resolved sweep on `workers` threads; without `reduced`, what can be said without it. The choice, where sensors stand
@@ -333,6 +337,16 @@ pub fn histories_memory(reduced: &ReducedSector, case: &ResolvedCaseStudy, place
     let nodes = touching(reduced, sweep);
     let recorded = recorded_bytes(&case.record, sweep, &wheel, &stepping, nodes);
     recorded + running_bytes(&wheel, sweep, &stepping, nodes)
+}
+
+/// Memory that branches hold while they are followed, in bytes: a run of the scene where they begin, what a search of it holds, and the
+/// modes of the other values that are kept.
+pub fn branches_memory(reduced: &ReducedSector, asked: &ResolvedBranches) -> u64 {
+    let sweep = asked.sweep();
+    let Ok((wheel, stepping)) = ready(reduced, sweep, asked.speed_rad_s()) else { return 0 };
+    let nodes = touching(reduced, sweep);
+    let search = response::memory(wheel.unknowns(), wheel.sectors * nodes) as u64;
+    KEPT as u64 * running_bytes(&wheel, sweep, &stepping, nodes) + search
 }
 
 /// Histories twice, as numbers and as text.

@@ -5,6 +5,8 @@ pub use crate::accuracy::control::{FinerRun, control_requests, error_estimate};
 pub use crate::accuracy::modes::{NextModes, next_modes};
 pub use crate::accuracy::study::work_precision;
 pub use crate::accuracy::trial::run_trial;
+pub use crate::branches::Course;
+pub use crate::branches::leg::branch_leg;
 pub use crate::calibration::Calibration;
 pub use crate::check::check;
 pub use crate::contact::{force_map, force_row};
@@ -12,10 +14,13 @@ pub use crate::effects::casing::convert::clearances;
 pub use crate::histories::{histories_wanted, speed_histories};
 pub use crate::modal::modal_analysis;
 pub use crate::model::{MeshFacts, ModelFacts, ReducedSector};
-pub use crate::plan::{histories_memory, most_basis_bytes, plan_modal_analysis, plan_sweep, trial_memory};
+pub use crate::plan::{
+    branches_memory, histories_memory, most_basis_bytes, plan_modal_analysis, plan_sweep, trial_memory,
+};
 pub use crate::prepare::prepare;
 pub use crate::refine::refine;
 pub use crate::request::Setting;
+pub use crate::resolve::branches::resolve_branches;
 pub use crate::resolve::case_study::{histories_of, resolve_case_study};
 pub use crate::resolve::sensors::{name_nodes, place_sensors};
 pub use crate::resolve::study::resolve_study;

@@ -218,14 +218,51 @@ pub(super) fn simulate(
     recording: Recording,
     watch: &dyn Fn(f64) -> bool,
 ) -> Result<Simulated, NotRunnable> {
-    let (scene, reduced) = (&request.scene, &*sector.wheel);
-    let Stepping { scheme, discretisation: steps, .. } = stepping;
-    let scheme = *scheme;
+    let reduced = &*sector.wheel;
     // A wheel that comes from another speed is in contact with a casing that is there.
     let ramp_revolutions = match start {
         Start::After(_) => 0.0,
         Start::Scene | Start::Perturbed => request.integration.ramp_revolutions,
     };
+    staged(sector, wheel, request, stepping, ramp_revolutions, |staged| {
+        let casing = staged.casing;
+        let mut initial = match start {
+            Start::After(state) => state
+                .modes(wheel, reduced, request.scene.centrifugal_stiffening, stepping.scheme)?
+                .ok_or(NotRunnable::OtherReduction)?,
+            Start::Scene | Start::Perturbed => initial(request, wheel, &reduced.contact, casing, stepping)?,
+        };
+        let repeats = repeats(request, recording.detail, wheel.around());
+        if matches!(start, Start::Perturbed) {
+            initial = perturbed(initial, wheel, casing);
+        }
+        // What breaks a symmetry must not have to grow out of round-off where a march ends early.
+        let aside = (casing.is_some() && repeats.is_some_and(|repeats| repeats.symmetry > 1))
+            .then(|| perturbed(initial.clone(), wheel, casing));
+        let Recording { detail, states } = recording;
+        let simulation = Simulation { initial: &initial, repeats, detail, states, ..staged };
+        if let Some(aside) = aside {
+            let simulated = run_steady(&Simulation { initial: &aside, ..simulation }, request, watch);
+            // What never touches breaks no symmetry, and shows nothing but where it began.
+            if simulated.run.statistics.contact_share() > 0.0 {
+                return Ok(simulated);
+            }
+        }
+        Ok(run_steady(&simulation, request, watch))
+    })?
+}
+
+/// What `act` makes of the simulation of a scene from rest, of which nothing more is recorded than its sensors; or why there is none.
+pub(super) fn staged<T>(
+    sector: &ReducedSector,
+    wheel: &ModalWheel,
+    request: &ResolvedSweep,
+    stepping: &Stepping,
+    ramp_revolutions: f64,
+    act: impl FnOnce(Simulation<'_>) -> T,
+) -> Result<T, NotRunnable> {
+    let (scene, reduced) = (&request.scene, &*sector.wheel);
+    let Stepping { scheme, discretisation: steps, .. } = stepping;
     check_at_speed(&stepping.of(request, wheel, &reduced.contact))?;
     let damping = modal_damping(request);
     let casing = casing(reduced, request, ramp_revolutions);
@@ -233,45 +270,22 @@ pub(super) fn simulate(
     let surroundings =
         Surroundings { contact_nodes: &reduced.contact, sectors: wheel.around(), ramp_revolutions };
     let effects = SceneEffects::of(scene, &surroundings)?;
-    let mut initial = match start {
-        Start::After(state) => state
-            .modes(wheel, reduced, scene.centrifugal_stiffening, scheme)?
-            .ok_or(NotRunnable::OtherReduction)?,
-        Start::Scene | Start::Perturbed => {
-            initial(request, wheel, &reduced.contact, casing.as_ref(), stepping)?
-        }
-    };
-    let repeats = repeats(request, recording.detail, wheel.around());
-    if matches!(start, Start::Perturbed) {
-        initial = perturbed(initial, wheel, casing.as_ref());
-    }
-    // What breaks a symmetry must not have to grow out of round-off where a march ends early.
-    let aside = (casing.is_some() && repeats.is_some_and(|repeats| repeats.symmetry > 1))
-        .then(|| perturbed(initial.clone(), wheel, casing.as_ref()));
     let (wheel, sensors) = sensed(sector, wheel, request)?;
-    let simulation = Simulation {
+    Ok(act(Simulation {
         wheel: &wheel,
         contact_nodes: &reduced.contact,
         damping: damping.as_ref(),
         casing: casing.as_ref(),
         effects: effects.borrow(),
-        initial: &initial,
-        scheme,
+        initial: &[],
+        scheme: *scheme,
         sensors: &sensors,
         steps_per_revolution: steps.per_revolution,
         samples_per_revolution: steps.samples,
         revolutions: request.integration.revolutions() as usize,
-        repeats,
+        repeats: None,
         window_revolutions: request.integration.window_revolutions as usize,
-        detail: recording.detail,
-        states: recording.states,
-    };
-    if let Some(aside) = aside {
-        let simulated = run_steady(&Simulation { initial: &aside, ..simulation }, request, watch);
-        // What never touches breaks no symmetry, and shows nothing but where it began.
-        if simulated.run.statistics.contact_share() > 0.0 {
-            return Ok(simulated);
-        }
-    }
-    Ok(run_steady(&simulation, request, watch))
+        detail: None,
+        states: None,
+    }))
 }

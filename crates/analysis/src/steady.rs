@@ -17,6 +17,11 @@ use rubmap_wheel::dynamics::steady::stability::Floquet;
 /// Most revolutions of a search, and of the march that controls it, as a multiple of those that are asked for.
 const LIMIT: u32 = 4;
 
+/// Most revolutions of a search.
+pub(super) fn most_revolutions(request: &ResolvedSweep) -> usize {
+    (LIMIT * request.integration.revolutions()) as usize
+}
+
 /// Fewest and most revolutions that a speed takes.
 pub(super) fn revolutions_taken(request: &ResolvedSweep) -> [u64; 2] {
     let Integration { revolutions, ramp_revolutions, steady, .. } = request.integration;
@@ -126,7 +131,7 @@ pub(super) fn run_steady(
         return march(simulation, SteadyReport { reason: Some(reason), ..nothing(0.0) }, watch);
     }
     watch(0.0);
-    let limit = (LIMIT * request.integration.revolutions()) as usize;
+    let limit = most_revolutions(request);
     let go_on = || watch(0.0);
     let Sought { response, revolutions } = seek(simulation, limit, choice == SteadyChoice::Auto, &go_on);
     let response = match response {
@@ -200,7 +205,11 @@ fn found(response: &Response, simulation: &Simulation<'_>, revolutions: f64) -> 
     }
 }
 
-fn multiplier(floquet: &Floquet, one: &Multiplier, simulation: &Simulation<'_>) -> FloquetMultiplier {
+pub(super) fn multiplier(
+    floquet: &Floquet,
+    one: &Multiplier,
+    simulation: &Simulation<'_>,
+) -> FloquetMultiplier {
     let (index, &share) =
         (one.shares.iter().enumerate()).max_by(|(_, a), (_, b)| a.total_cmp(b)).unwrap_or((0, &0.0));
     FloquetMultiplier {

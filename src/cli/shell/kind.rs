@@ -11,6 +11,8 @@ pub(super) enum Kind {
     ModalAnalysis,
     /// What happens at one speed
     CaseStudy,
+    /// Periodic responses over speed, clearance, lobes or damping
+    Branches,
     /// What accuracy costs in time
     Study,
     /// A model from the parameters of the generator
@@ -24,6 +26,7 @@ impl Kind {
             Self::Sweep => "/v1/sweeps",
             Self::ModalAnalysis => "/v1/modal-analyses",
             Self::CaseStudy => "/v1/case-studies",
+            Self::Branches => "/v1/branches",
             Self::Study => "/v1/studies",
             Self::ModelGeneration => "/v1/models",
         }
@@ -35,6 +38,7 @@ impl Kind {
             Self::Sweep => "sweep",
             Self::ModalAnalysis => "modal_analysis",
             Self::CaseStudy => "case_study",
+            Self::Branches => "branches",
             Self::Study => "study",
             Self::ModelGeneration => "model_generation",
         }

@@ -86,6 +86,10 @@ fn repeatable(job: &Job) -> Result<(String, RequestBody), Problem> {
             let detail = "a case study is of a sweep, whose archive repeats it when the sweep records its histories itself";
             return Err(Problem::new(Kind::WrongJobKind, detail));
         }
+        JobRequest::Branches(_) => {
+            let detail = "branches have no archive: their result has the settings that repeat them";
+            return Err(Problem::new(Kind::WrongJobKind, detail));
+        }
         other => other.clone().into(),
     };
     match job.request.model() {

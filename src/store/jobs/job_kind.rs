@@ -19,6 +19,8 @@ pub enum JobKind {
     Study,
     /// What happens at chosen speeds.
     CaseStudy,
+    /// Periodic responses over a number of their scene.
+    Branches,
 }
 
 impl JobKind {
@@ -30,12 +32,20 @@ impl JobKind {
             Self::ModelGeneration => "model_generation",
             Self::Study => "study",
             Self::CaseStudy => "case_study",
+            Self::Branches => "branches",
         }
     }
 
     /// The kind that a column holds.
     pub(super) fn from_column(text: &str) -> Result<Self, StoreError> {
-        let kinds = [Self::Sweep, Self::ModalAnalysis, Self::ModelGeneration, Self::Study, Self::CaseStudy];
+        let kinds = [
+            Self::Sweep,
+            Self::ModalAnalysis,
+            Self::ModelGeneration,
+            Self::Study,
+            Self::CaseStudy,
+            Self::Branches,
+        ];
         let kind = kinds.into_iter().find(|kind| kind.as_str() == text);
         kind.ok_or_else(|| StoreError::Unknown { column: "jobs.kind", value: text.to_owned() })
     }

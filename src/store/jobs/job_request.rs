@@ -5,7 +5,9 @@ use serde::{Deserialize, Serialize};
 
 use super::job_kind::JobKind;
 use crate::analysis::error::Violation;
-use crate::analysis::resolved::{ResolvedCaseStudy, ResolvedModalAnalysis, ResolvedStudy, ResolvedSweep};
+use crate::analysis::resolved::{
+    ResolvedBranches, ResolvedCaseStudy, ResolvedModalAnalysis, ResolvedStudy, ResolvedSweep,
+};
 use crate::impeller::ImpellerParameters;
 use crate::store::error::StoreError;
 
@@ -22,6 +24,8 @@ pub enum JobRequest {
     Study(Box<ResolvedStudy>),
     /// What happens at chosen speeds.
     CaseStudy(Box<ResolvedCaseStudy>),
+    /// Periodic responses over a number of their scene.
+    Branches(Box<ResolvedBranches>),
 }
 
 /// Version of the form in which requests are kept; a change of it needs a migration.
@@ -45,6 +49,7 @@ impl JobRequest {
             Self::ModelGeneration(_) => JobKind::ModelGeneration,
             Self::Study(_) => JobKind::Study,
             Self::CaseStudy(_) => JobKind::CaseStudy,
+            Self::Branches(_) => JobKind::Branches,
         }
     }
 
@@ -61,6 +66,7 @@ impl JobRequest {
             Self::ModelGeneration(_) => None,
             Self::Study(request) => Some(request.model()),
             Self::CaseStudy(case) => Some(case.sweep().model()),
+            Self::Branches(branches) => Some(branches.sweep().model()),
         }
     }
 
@@ -72,6 +78,7 @@ impl JobRequest {
             Self::ModelGeneration(_) => 0,
             Self::Study(request) => request.speeds().count(),
             Self::CaseStudy(case) => case.speeds().len() as u32,
+            Self::Branches(branches) => branches.sweep().speeds().count(),
         }
     }
 
@@ -81,6 +88,7 @@ impl JobRequest {
             Self::Sweep(request) => request.modes().given(),
             Self::ModalAnalysis(request) => request.modes().given(),
             Self::CaseStudy(case) => case.sweep().modes().given(),
+            Self::Branches(branches) => branches.sweep().modes().given(),
             Self::ModelGeneration(_) | Self::Study(_) => None,
         }
     }
@@ -92,6 +100,7 @@ impl JobRequest {
             Self::ModelGeneration(parameters) => kept(parameters, 0),
             Self::Study(request) => kept(request, 0),
             Self::CaseStudy(case) => kept(case, case.sweep().speeds().rounds()),
+            Self::Branches(branches) => kept(branches, 0),
         }
     }
 
@@ -108,6 +117,9 @@ impl JobRequest {
             JobKind::CaseStudy => {
                 let (settings, rounds) = read(json)?;
                 Self::CaseStudy(Box::new(ResolvedCaseStudy::stored(settings, rounds).map_err(unsound)?))
+            }
+            JobKind::Branches => {
+                Self::Branches(Box::new(ResolvedBranches::stored(read(json)?.0).map_err(unsound)?))
             }
             JobKind::ModelGeneration => Self::ModelGeneration(read(json)?.0),
         })

@@ -36,7 +36,10 @@ pub(super) fn read_head(row: &AnyRow) -> Result<JobHead, StoreError> {
     let total = number(row, "speeds")?;
     let finished = match (kind, status) {
         // These compute their speeds together.
-        (JobKind::ModalAnalysis | JobKind::Study | JobKind::CaseStudy, JobStatus::Successful) => total,
+        (
+            JobKind::ModalAnalysis | JobKind::Study | JobKind::CaseStudy | JobKind::Branches,
+            JobStatus::Successful,
+        ) => total,
         _ => number(row, "finished")?,
     };
     Ok(JobHead {

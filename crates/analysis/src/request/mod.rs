@@ -2,6 +2,7 @@
 
 pub mod accuracy;
 pub mod auto_or;
+pub mod branches;
 pub mod case_study;
 pub mod integration;
 pub mod modal_analysis;
@@ -16,6 +17,7 @@ pub mod sweep;
 
 pub use accuracy::{Accuracy, AccuracyOf, Budget};
 pub use auto_or::AutoOr;
+pub use branches::{Along, BranchParameter, BranchesRequest, BranchesSettings};
 pub use case_study::{CaseSpeed, CaseStudyRequest, CaseStudySettings};
 pub use integration::{Integration, SchemeChoice, SteadyChoice};
 pub use modal_analysis::ModalAnalysisRequest;

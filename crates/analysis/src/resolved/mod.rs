@@ -4,6 +4,7 @@
 //! Speeds are numbers, defaults are filled in, alternatives are enums. What was asked for can be had back, as the
 //! `settings` of results, and asked for again.
 
+pub mod branches;
 pub mod case_study;
 pub mod knobs;
 pub mod modal_analysis;
@@ -14,6 +15,7 @@ pub mod study;
 pub mod sweep;
 pub mod trial;
 
+pub use branches::ResolvedBranches;
 pub use case_study::ResolvedCaseStudy;
 pub use knobs::{Aim, Modes};
 pub use modal_analysis::ResolvedModalAnalysis;

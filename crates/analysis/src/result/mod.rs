@@ -1,5 +1,6 @@
 //! What computations return: numbers with their credentials.
 
+pub mod branches;
 pub mod campbell;
 pub mod choice;
 pub mod contact;
@@ -21,6 +22,10 @@ pub mod trial;
 pub mod validity;
 pub mod wheel;
 
+pub use branches::{
+    Bifurcation, BifurcationKind, BranchEnd, BranchLeg, BranchMaximum, BranchPoint, BranchTrack, Branches,
+    BranchesHead, Track,
+};
 pub use campbell::{AbsoluteFrequencies, Campbell, WaveTables};
 pub use choice::{Choice, ModesChoice, Pilot, TriedModes};
 pub use contact::{ContactForces, ContactSummary, ForceMap, ForceRow};

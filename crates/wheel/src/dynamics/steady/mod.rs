@@ -2,8 +2,9 @@
 //! whether they last.
 //!
 //! [`response`] is the whole of it for a scene: [`periodic`] finds a response, [`stability`] says whether it lasts. [`tangent`] is the
-//! derivative of the map and [`multipliers`] are its eigenvalues.
+//! derivative of the map and [`multipliers`] are its eigenvalues. [`branch`] follows a response while a number of its scene changes.
 
+pub mod branch;
 #[cfg(test)]
 mod harmonic_balance;
 pub mod multipliers;

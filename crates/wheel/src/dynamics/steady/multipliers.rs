@@ -30,6 +30,8 @@ pub struct Multiplier {
     pub residual: f64,
     /// Share of every nodal diameter in what grows, by energy.
     pub shares: Vec<f64>,
+    /// What grows, as a state.
+    pub vector: Vec<c64>,
 }
 
 /// The `count` largest multipliers, or one more, as far as they were found; their residuals say. `hint`: a state with a share of what grows most.
@@ -76,7 +78,7 @@ fn multiplier(tangent: &Tangent<'_>, value: c64, vector: Vec<c64>) -> Multiplier
     let left: Vec<c64> = vector.iter().zip(&image).map(|(v, image)| image - value * v).collect();
     let whole = squared(&vector);
     let shares = tangent.shares(|i| vector[i].norm_sqr()).into_iter().map(|share| share / whole).collect();
-    Multiplier { value, residual: (squared(&left) / whole).sqrt(), shares }
+    Multiplier { value, residual: (squared(&left) / whole).sqrt(), shares, vector }
 }
 
 fn image(tangent: &Tangent<'_>, vector: &[c64]) -> Vec<c64> {

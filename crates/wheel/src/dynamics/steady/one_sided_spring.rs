@@ -9,13 +9,17 @@
 
 use std::f64::consts::TAU;
 
+use faer::prelude::Solve;
 use faer::{Mat, c64};
 
+use super::branch::follow::{Front, Step};
+use super::branch::{Branch, Family, Lap, Motion, Unreachable};
 use super::multipliers::multipliers;
 use super::periodic::{Search, find};
 use super::tangent::Tangent;
 use crate::dynamics::casing::{Casing, RestrictionTable};
 use crate::dynamics::effects::Effects;
+use crate::dynamics::initial::InitialMode;
 use crate::dynamics::integrate::{Passage, Simulation};
 use crate::dynamics::modal_wheel::{ModalHarmonic, ModalWheel};
 use crate::dynamics::oscillators::ModalDamping;
@@ -167,50 +171,175 @@ fn stopped_mode(speed: f64) -> ModalWheel {
     }
 }
 
-#[test]
-fn response_and_multipliers_are_those_of_the_closed_forms() {
-    let node = [ContactNode { id: 1, position: [1e9, 0.0, 0.0], normal: [1.0, 0.0, 0.0], dofs: [0, 1, 2] }];
-    let damping = ModalDamping { modal_ratio: ZETA, family_ratios: Vec::new() };
-    let casing = Casing { clearance: vec![CLEARANCE], restriction: None, ramp_revolutions: 0.0 };
-    for speed in [0.45, 0.8, 1.2, 1.9] {
-        let wheel = stopped_mode(speed);
-        for steps in [8_000, 64_000] {
-            let simulation = Simulation {
-                wheel: &wheel,
-                contact_nodes: &node,
-                damping: Some(&damping),
-                casing: Some(&casing),
-                effects: Effects::default(),
-                initial: &[],
-                sensors: &[],
-                scheme: Scheme::MasslessBoundary { kept_modes: 1 },
-                steps_per_revolution: steps,
-                samples_per_revolution: 1,
-                revolutions: 1,
-                window_revolutions: 0,
-                repeats: None,
-                detail: None,
-                states: None,
-            };
-            let shaken = RestrictionTable::new(|angle: f64| AMPLITUDE * angle.cos(), &[0.0], steps, 1, 8);
-            let mut passage = Passage::over_lobes(&simulation, 1).unwrap().against(shaken);
-            let search = Search { tolerance: 1e-12, marched: 20, most: 1000 };
-            let found = find(&mut passage, &[0.0, 0.0], &search, &|| true).unwrap();
-            passage.map(&found.state).unwrap();
-            assert!(!passage.trace().instants.is_empty(), "{speed}: the stop is not met");
-            let pair = multipliers(&Tangent::of(&passage), 2, &[1.0; 2]);
-            let (sum, product) = (pair[0].value + pair[1].value, pair[0].value * pair[1].value);
-            // d/h is the velocity half a step before, which changes the state's numbers but not those of the derivative.
-            let (x, exact_sum, exact_product) = exact([found.state[0] / OMEGA, found.state[1]], speed);
-            // Damping acts alike in both phases.
-            assert!((exact_product - (-2.0 * ZETA * OMEGA * TAU / speed).exp()).abs() < 1e-9);
-            assert!((product - exact_product).norm() < 1e-9, "{speed}");
-            // Of second order, and of first where phases end within a step.
-            let step = 1.0 / steps as f64;
-            let off = (found.state[0] / OMEGA - x[0]).abs();
-            assert!(off < 10.0 * step * step, "{speed} {steps}: {off:e}");
-            let off = (sum - exact_sum).norm();
-            assert!(off < 6.0 * step, "{speed} {steps}: {off:e}");
+/// All but its wheel.
+struct Stop {
+    node: [ContactNode; 1],
+    damping: ModalDamping,
+    casing: Casing,
+    steps: usize,
+}
+
+impl Stop {
+    fn new(steps: usize) -> Self {
+        Self {
+            node: [ContactNode {
+                id: 1,
+                position: [1e9, 0.0, 0.0],
+                normal: [1.0, 0.0, 0.0],
+                dofs: [0, 1, 2],
+            }],
+            damping: ModalDamping { modal_ratio: ZETA, family_ratios: Vec::new() },
+            casing: Casing { clearance: vec![CLEARANCE], restriction: None, ramp_revolutions: 0.0 },
+            steps,
         }
     }
+
+    /// The map over a period of the stop.
+    fn with<T>(&self, speed: f64, act: impl FnOnce(&mut Passage<'_>) -> T) -> T {
+        let wheel = stopped_mode(speed);
+        let simulation = Simulation {
+            wheel: &wheel,
+            contact_nodes: &self.node,
+            damping: Some(&self.damping),
+            casing: Some(&self.casing),
+            effects: Effects::default(),
+            initial: &[],
+            sensors: &[],
+            scheme: Scheme::MasslessBoundary { kept_modes: 1 },
+            steps_per_revolution: self.steps,
+            samples_per_revolution: 1,
+            revolutions: 1,
+            window_revolutions: 0,
+            repeats: None,
+            detail: None,
+            states: None,
+        };
+        let shaken = RestrictionTable::new(|angle: f64| AMPLITUDE * angle.cos(), &[0.0], self.steps, 1, 8);
+        act(&mut Passage::over_lobes(&simulation, 1).unwrap().against(shaken))
+    }
+}
+
+impl Family for Stop {
+    fn with(&self, value: f64, _: Lap, act: &mut dyn FnMut(&mut Passage<'_>)) -> Result<(), Unreachable> {
+        self.with(value, |passage| act(passage));
+        Ok(())
+    }
+
+    fn carry(&self, modes: &[InitialMode], _: f64, _: f64) -> Result<Vec<InitialMode>, Unreachable> {
+        Ok(modes.to_vec())
+    }
+}
+
+#[test]
+fn response_and_multipliers_are_those_of_the_closed_forms() {
+    for speed in [0.45, 0.8, 1.2, 1.9] {
+        for steps in [8_000, 64_000] {
+            Stop::new(steps).with(speed, |passage| {
+                let search = Search { tolerance: 1e-12, marched: 20, most: 1000 };
+                let found = find(passage, &[0.0, 0.0], &search, &|| true).unwrap();
+                passage.map(&found.state).unwrap();
+                assert!(!passage.trace().instants.is_empty(), "{speed}: the stop is not met");
+                let pair = multipliers(&Tangent::of(passage), 2, &[1.0; 2]);
+                let (sum, product) = (pair[0].value + pair[1].value, pair[0].value * pair[1].value);
+                // d/h is the velocity half a step before, which changes the state's numbers but not those of the derivative.
+                let (x, exact_sum, exact_product) = exact([found.state[0] / OMEGA, found.state[1]], speed);
+                // Damping acts alike in both phases.
+                assert!((exact_product - (-2.0 * ZETA * OMEGA * TAU / speed).exp()).abs() < 1e-9);
+                assert!((product - exact_product).norm() < 1e-9, "{speed}");
+                // Of second order, and of first where phases end within a step.
+                let step = 1.0 / steps as f64;
+                let off = (found.state[0] / OMEGA - x[0]).abs();
+                assert!(off < 10.0 * step * step, "{speed} {steps}: {off:e}");
+                let off = (sum - exact_sum).norm();
+                assert!(off < 6.0 * step, "{speed} {steps}: {off:e}");
+            });
+        }
+    }
+}
+
+/// Ω near `speed` where the response of the closed forms near `x` has the multiplier 1: Newton's method with differences.
+fn exact_fold(x: State, speed: f64) -> f64 {
+    let off = |u: [f64; 3]| {
+        let x = [u[0], u[1]];
+        let (end, d) = flow(x, u[2]);
+        let (sum, product) = (d[0][0] + d[1][1], d[0][0] * d[1][1] - d[0][1] * d[1][0]);
+        [end[0] - x[0], end[1] - x[1], 1.0 - sum + product]
+    };
+    let mut u = [x[0], x[1], speed];
+    for _ in 0..12 {
+        let here = off(u);
+        let slope = |j: usize| {
+            let by = 1e-6;
+            let aside = |by: f64| {
+                let mut v = u;
+                v[j] += by;
+                off(v)
+            };
+            let (ahead, behind) = (aside(by), aside(-by));
+            [0, 1, 2].map(|i| (ahead[i] - behind[i]) / (2.0 * by))
+        };
+        let slopes = [0, 1, 2].map(slope);
+        let matrix = Mat::from_fn(3, 3, |i, j| slopes[j][i]);
+        let step = matrix.partial_piv_lu().solve(Mat::from_fn(3, 1, |i, _| here[i]));
+        (0..3).for_each(|i| u[i] -= step[(i, 0)]);
+    }
+    let left = off(u).iter().fold(0.0f64, |most, x| most.max(x.abs()));
+    assert!(left < 1e-9, "{left:e}");
+    u[2]
+}
+
+/// A branch around two folds, where the closed forms have them: found as the places where it turns back, and as those where a
+/// multiplier passes 1.
+#[test]
+fn branches_turn_back_and_change_their_stability_where_the_closed_forms_do() {
+    let stop = Stop::new(8_000);
+    let (start, span) = (0.6, 2.0);
+    let modes = stop.with(start, |passage| {
+        let search = Search { tolerance: 1e-10, marched: 20, most: 1000 };
+        let found = find(passage, &[0.0, 0.0], &search, &|| true).unwrap();
+        passage.modes(&found.state)
+    });
+    let branch = Branch { family: &stop, lap: Lap::Lobes(1), span, go_on: &|| true };
+    let tell = |motion: &Motion| {
+        let leading = stop.with(motion.value, |passage| {
+            let state = passage.state(&motion.modes);
+            passage.map(&state).unwrap();
+            multipliers(&Tangent::of(passage), 1, &[1.0; 2])[0].value
+        });
+        Ok((leading.norm() - 1.0, leading))
+    };
+    // Of first order in the step, for where phases end within one the derivative jumps.
+    let close = |place: &Motion| {
+        let mode = place.modes[0];
+        let exact = exact_fold([mode.displacement.re, mode.velocity.re], place.value);
+        assert!((place.value / exact - 1.0).abs() < 1e-5, "{} {exact}", place.value);
+    };
+    let mut front = Front::new(Motion { value: start, modes }, span, -1.0);
+    let mut folds = 0;
+    loop {
+        let found = match branch.next(&mut front, (0.36, 4.0)).unwrap() {
+            Step::Edge(found) => {
+                assert_eq!(found.motion.value, 0.36);
+                break;
+            }
+            Step::Point(found) => found,
+        };
+        if let Some(before) = &front.before
+            && (found.motion.value - front.last.value) * (front.last.value - before.value) < 0.0
+        {
+            let up = (front.last.value - before.value).signum();
+            let points = [(before, ()), (&front.last, ()), (&found.motion, ())];
+            let place = branch.summit(points, |motion, ()| up * motion.value, |_| Ok(())).unwrap();
+            assert!(place.error <= 1e-6 * place.motion.value && place.revolutions > 0.0);
+            close(&place.motion);
+            let [a, b] = [before, &found.motion].map(|at| (at, tell(at).unwrap().0));
+            assert!(a.1 * b.1 < 0.0, "{} {}", a.1, b.1);
+            let place = branch.crossing(a, b, tell).unwrap().unwrap();
+            assert!(place.told.re > 0.0 && place.told.im == 0.0, "{}", place.told);
+            close(&place.motion);
+            folds += 1;
+        }
+        front.move_to(found.motion);
+    }
+    assert_eq!(folds, 2);
 }

@@ -16,7 +16,7 @@ const FOUND: f64 = 1e-8;
 const MARCHED: usize = 3;
 
 /// Multipliers that are told.
-const MULTIPLIERS: usize = 4;
+pub const MULTIPLIERS: usize = 4;
 
 /// Fewest revolutions of a search after the ramp, with the multipliers and the revolution that is recorded.
 pub const LEAST_REVOLUTIONS: u64 = 10;
@@ -75,7 +75,7 @@ pub fn seek(simulation: &Simulation<'_>, limit: usize, control: bool, go_on: &dy
 }
 
 /// The map over about half a revolution, some of which make a whole: short ones look back over too little, long ones are few.
-fn about_half<'a>(simulation: &Simulation<'a>) -> Result<Passage<'a>, PassageError> {
+pub(super) fn about_half<'a>(simulation: &Simulation<'a>) -> Result<Passage<'a>, PassageError> {
     let passage = match Passage::shortest(simulation) {
         Err(PassageError::Steps { .. }) => Passage::over_lobes(simulation, 1)?,
         passage => passage?,

@@ -1,0 +1,151 @@
+//! How far branches have been followed: all that the next leg needs, to the bit.
+
+use serde::{Deserialize, Serialize};
+
+use super::told::Told;
+use crate::result::{FloquetMultiplier, Stability, Track};
+use faer::c64;
+use rubmap_wheel::dynamics::initial::InitialMode;
+use rubmap_wheel::dynamics::steady::branch::Motion;
+use rubmap_wheel::dynamics::steady::branch::follow::Front;
+
+/// How far branches have been followed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Course {
+    /// Stretches that have still to be begun, the next one last.
+    pub(super) waiting: Vec<Stretch>,
+    /// The one under way.
+    pub(super) under_way: Option<UnderWay>,
+    /// Branches so far.
+    pub(super) branches: u32,
+}
+
+/// A branch away from where it begins, to one side.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct Stretch {
+    pub(super) track: Track,
+    pub(super) backwards: bool,
+    pub(super) front: KeptFront,
+    /// Whether where it begins is a point of it.
+    pub(super) tells_start: bool,
+}
+
+/// A stretch that was begun.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct UnderWay {
+    pub(super) stretch: Stretch,
+    /// Points that it has.
+    pub(super) points: u32,
+    /// What was told of the last one, and of the one before.
+    pub(super) last: Option<KeptTold>,
+    pub(super) before: Option<KeptTold>,
+}
+
+/// [`Told`], to be kept.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct KeptTold {
+    stability: Stability,
+    multipliers: Vec<FloquetMultiplier>,
+    lobe_passages: u32,
+    half_peak_to_peak: Vec<f64>,
+    disturbances: Vec<KeptMode>,
+    leading: Vec<KeptMode>,
+}
+
+/// A mode's nodal diameter and family, displacement and velocity.
+type KeptMode = (u32, u32, [f64; 4]);
+
+/// [`Front`], to be kept.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct KeptFront {
+    last: KeptMotion,
+    before: Option<KeptMotion>,
+    first: KeptMotion,
+    step: f64,
+}
+
+/// [`Motion`], to be kept.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct KeptMotion {
+    value: f64,
+    modes: Vec<KeptMode>,
+}
+
+fn kept(modes: &[InitialMode]) -> Vec<KeptMode> {
+    let mode = |mode: &InitialMode| {
+        let InitialMode { harmonic, family, displacement: z, velocity: v } = *mode;
+        (harmonic as u32, family as u32, [z.re, z.im, v.re, v.im])
+    };
+    modes.iter().map(mode).collect()
+}
+
+fn modes(kept: &[KeptMode]) -> Vec<InitialMode> {
+    let mode = |&(harmonic, family, [a, b, c, d]): &KeptMode| InitialMode {
+        harmonic: harmonic as usize,
+        family: family as usize,
+        displacement: c64::new(a, b),
+        velocity: c64::new(c, d),
+    };
+    kept.iter().map(mode).collect()
+}
+
+impl From<&Motion> for KeptMotion {
+    fn from(motion: &Motion) -> Self {
+        Self { value: motion.value, modes: kept(&motion.modes) }
+    }
+}
+
+impl From<&KeptMotion> for Motion {
+    fn from(kept: &KeptMotion) -> Self {
+        Self { value: kept.value, modes: modes(&kept.modes) }
+    }
+}
+
+impl From<&Told> for KeptTold {
+    fn from(told: &Told) -> Self {
+        Self {
+            stability: told.stability,
+            multipliers: told.multipliers.clone(),
+            lobe_passages: told.lobe_passages,
+            half_peak_to_peak: told.half_peak_to_peak.clone(),
+            disturbances: kept(&told.disturbances),
+            leading: kept(&told.leading),
+        }
+    }
+}
+
+impl From<&KeptTold> for Told {
+    fn from(kept: &KeptTold) -> Self {
+        Self {
+            stability: kept.stability,
+            multipliers: kept.multipliers.clone(),
+            disturbances: modes(&kept.disturbances),
+            leading: modes(&kept.leading),
+            lobe_passages: kept.lobe_passages,
+            half_peak_to_peak: kept.half_peak_to_peak.clone(),
+            revolutions: 0.0,
+        }
+    }
+}
+
+impl From<&Front> for KeptFront {
+    fn from(front: &Front) -> Self {
+        Self {
+            last: (&front.last).into(),
+            before: front.before.as_ref().map(Into::into),
+            first: (&front.first).into(),
+            step: front.step,
+        }
+    }
+}
+
+impl From<&KeptFront> for Front {
+    fn from(kept: &KeptFront) -> Self {
+        Self {
+            last: (&kept.last).into(),
+            before: kept.before.as_ref().map(Into::into),
+            first: (&kept.first).into(),
+            step: kept.step,
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! What happens between the points of a branch: bifurcations and maxima of amplitudes.
+
+use super::family::Scenes;
+use super::told::{Told, amplitudes_of, carried, tell};
+use crate::result::{Bifurcation, BifurcationKind, BranchMaximum};
+use rubmap_wheel::dynamics::initial::InitialMode;
+use rubmap_wheel::dynamics::steady::branch::{Branch, Lost, Motion};
+use rubmap_wheel::dynamics::steady::stability::Stability;
+
+/// Least rise of a maximum above both points beside it, relative: the steps of time make amplitudes uncertain by less.
+const RISES: f64 = 1e-4;
+
+/// A point with what is told of it.
+#[derive(Clone, Copy)]
+pub(super) struct At<'a> {
+    pub(super) motion: &'a Motion,
+    pub(super) told: &'a Told,
+}
+
+/// A bifurcation, with the motion there, and what grows from it.
+pub(super) struct Event {
+    pub(super) bifurcation: Bifurcation,
+    pub(super) motion: Motion,
+    pub(super) grows: Vec<InitialMode>,
+}
+
+/// Where events are looked for.
+pub(super) struct Events<'a> {
+    pub(super) scenes: &'a Scenes<'a>,
+    pub(super) branch: &'a Branch<'a>,
+}
+
+impl Events<'_> {
+    /// The fold at the middle one of three points, if the branch turns back there.
+    pub(super) fn fold(&self, points: [At<'_>; 3]) -> Result<Option<Event>, Lost> {
+        let [a, b, c] = points.map(|point| point.motion);
+        let up = (b.value - a.value).signum();
+        if (c.value - b.value) * up >= 0.0 {
+            return Ok(None);
+        }
+        let found =
+            self.branch.summit([(a, ()), (b, ()), (c, ())], |motion, ()| up * motion.value, |_| Ok(()));
+        let (motion, error) = match found {
+            Ok(place) => (place.motion, place.error),
+            Err(Lost::Cancelled) => return Err(Lost::Cancelled),
+            Err(_) => (b.clone(), (a.value - b.value).abs().max((c.value - b.value).abs())),
+        };
+        let half_peak_to_peak = amplitudes_of(self.scenes, self.branch.lap, &motion)?;
+        let bifurcation = Bifurcation {
+            kind: BifurcationKind::Fold,
+            value: motion.value,
+            speed_rad_s: self.scenes.speed(motion.value),
+            error,
+            half_peak_to_peak,
+            multiplier: None,
+            stable_modulus: None,
+        };
+        Ok(Some(Event { bifurcation, motion, grows: Vec::new() }))
+    }
+
+    /// Where between two points the stability changes, if it does.
+    pub(super) fn change(&self, a: At<'_>, b: At<'_>) -> Result<Option<Event>, Lost> {
+        let both = [a, b];
+        if !both.iter().all(|point| point.told.is_decided()) || a.told.growth() * b.told.growth() > 0.0 {
+            return Ok(None);
+        }
+        let (unstable, stable) = if a.told.growth() > 0.0 { (a, b) } else { (b, a) };
+        let look = |motion: &Motion| {
+            let hint =
+                carried(self.scenes, &unstable.told.disturbances, unstable.motion.value, motion.value)?;
+            let told = tell(self.scenes, self.branch, motion, &hint)?;
+            Ok((told.growth(), told))
+        };
+        let found = self.branch.crossing((a.motion, a.told.growth()), (b.motion, b.told.growth()), look);
+        let (motion, told, error) = match found {
+            Ok(Some(place)) if place.told.growth() > 0.0 => (place.motion, place.told, place.error),
+            Ok(Some(place)) => (place.motion, unstable.told.clone(), place.error),
+            Err(Lost::Cancelled) => return Err(Lost::Cancelled),
+            Ok(None) | Err(_) => {
+                let error = (a.motion.value - b.motion.value).abs();
+                (unstable.motion.clone(), unstable.told.clone(), error)
+            }
+        };
+        let kind = match told.stability {
+            Stability::Flip => BifurcationKind::Flip,
+            Stability::NeimarkSacker => BifurcationKind::NeimarkSacker,
+            _ => BifurcationKind::Branching,
+        };
+        let bifurcation = Bifurcation {
+            kind,
+            value: motion.value,
+            speed_rad_s: self.scenes.speed(motion.value),
+            error,
+            half_peak_to_peak: told.half_peak_to_peak,
+            multiplier: told.multipliers.first().copied(),
+            stable_modulus: stable.told.multipliers.first().map(|leading| leading.modulus),
+        };
+        Ok(Some(Event { bifurcation, motion, grows: told.leading }))
+    }
+
+    /// The maxima of sensors' amplitudes about the middle one of three points.
+    pub(super) fn maxima(&self, points: [At<'_>; 3]) -> Result<Vec<BranchMaximum>, Lost> {
+        let [a, b, c] = points;
+        let mut maxima = Vec::new();
+        for (sensor, &amplitude) in b.told.half_peak_to_peak.iter().enumerate() {
+            let beside = a.told.half_peak_to_peak[sensor].max(c.told.half_peak_to_peak[sensor]);
+            if amplitude <= (1.0 + RISES) * beside {
+                continue;
+            }
+            let amplitudes = |at: At<'_>| at.told.half_peak_to_peak.clone();
+            let found = self.branch.summit(
+                points.map(|point| (point.motion, amplitudes(point))),
+                |_, amplitudes| amplitudes[sensor],
+                |motion| amplitudes_of(self.scenes, self.branch.lap, motion),
+            );
+            let (value, error, half_peak_to_peak) = match found {
+                Ok(place) => (place.motion.value, place.error, place.told[sensor]),
+                Err(Lost::Cancelled) => return Err(Lost::Cancelled),
+                Err(_) => {
+                    let values = points.map(|point| point.motion.value);
+                    let error = (values[0] - values[1]).abs().max((values[2] - values[1]).abs());
+                    (values[1], error, amplitude)
+                }
+            };
+            maxima.push(BranchMaximum {
+                sensor: sensor as u32,
+                value,
+                speed_rad_s: self.scenes.speed(value),
+                error,
+                half_peak_to_peak,
+                stability: b.told.stability,
+            });
+        }
+        Ok(maxima)
+    }
+}

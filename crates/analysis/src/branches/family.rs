@@ -1,0 +1,189 @@
+//! The scenes along a branch, as the physics wants them.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use crate::effects::casing::resolved::Clearance;
+use crate::end_state::EndState;
+use crate::model::ReducedSector;
+use crate::not_runnable::NotRunnable;
+use crate::request::{AutoOr, BranchParameter, SchemeChoice, Setting};
+use crate::resolved::{ResolvedBranches, ResolvedSpeeds, ResolvedSweep};
+use crate::speed::{ready, staged};
+use crate::start::initial;
+use crate::steady::most_revolutions;
+use crate::stepping::Stepping;
+use rubmap_wheel::dynamics::initial::InitialMode;
+use rubmap_wheel::dynamics::integrate::{Passage, Simulation};
+use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
+use rubmap_wheel::dynamics::schemes::Scheme;
+use rubmap_wheel::dynamics::steady::branch::{Family, Lap, Unreachable};
+use rubmap_wheel::dynamics::steady::response::{Sought, seek};
+
+/// Values whose wheels are kept: a point and the one its map is differenced with, the one before, and a place between.
+pub(crate) const KEPT: usize = 4;
+
+/// The scenes of a request.
+pub(super) struct Scenes<'a> {
+    sector: &'a ReducedSector,
+    asked: &'a ResolvedBranches,
+    /// The scene at the start, stepped as everywhere.
+    sweep: ResolvedSweep,
+    kept: RefCell<Vec<(f64, Rc<Scene>)>>,
+}
+
+/// A scene at a value.
+struct Scene {
+    request: ResolvedSweep,
+    wheel: ModalWheel,
+    stepping: Stepping,
+}
+
+impl<'a> Scenes<'a> {
+    /// Chooses one scheme and one number of steps for all of them: those of whichever needs most among the ends and the start.
+    pub(super) fn new(sector: &'a ReducedSector, asked: &'a ResolvedBranches) -> Result<Self, NotRunnable> {
+        let along = asked.along;
+        let values = [asked.start(), along.from, along.to];
+        // Which scheme is chosen depends on the slowest speed.
+        let slowest = values.into_iter().map(|value| speed(asked, value)).fold(f64::INFINITY, f64::min);
+        let sweep = ResolvedSweep { speeds: ResolvedSpeeds::one(slowest), ..asked.sweep.clone() };
+        let mut steps = 0;
+        let (mut scheme, mut kept_modes) = (SchemeChoice::Auto, AutoOr::Auto);
+        for value in values {
+            let (_, stepping) = ready(sector, &changed(&sweep, asked, value), speed(asked, value))?;
+            steps = steps.max(stepping.discretisation.per_revolution);
+            scheme = stepping.report.name;
+            if let Scheme::MasslessBoundary { kept_modes: kept } = stepping.scheme {
+                let kept = kept as u32;
+                kept_modes = AutoOr::Fixed(match kept_modes {
+                    AutoOr::Fixed(fewest) => fewest.min(kept),
+                    AutoOr::Auto => kept,
+                });
+            }
+        }
+        let setting = Setting {
+            modes_per_speed: asked.sweep.modes_per_speed(),
+            scheme,
+            kept_modes,
+            steps_per_revolution: steps as u32,
+        };
+        Ok(Self { sector, asked, sweep: asked.sweep.at(setting), kept: RefCell::default() })
+    }
+
+    /// Steps per revolution of all of them.
+    pub(super) fn steps_per_revolution(&self) -> u32 {
+        match self.sweep.integration.steps_per_revolution {
+            AutoOr::Fixed(steps) => steps,
+            AutoOr::Auto => 0,
+        }
+    }
+
+    /// The rotational speed at a value.
+    pub(super) fn speed(&self, value: f64) -> f64 {
+        speed(self.asked, value)
+    }
+
+    /// What `act` makes of the simulation at `value`, with the wheel of the scene, which sensors may have added to.
+    pub(super) fn simulation<T>(
+        &self,
+        value: f64,
+        ramp_revolutions: f64,
+        act: impl FnOnce(Simulation<'_>, &ModalWheel) -> T,
+    ) -> Result<T, NotRunnable> {
+        let scene = self.at(value)?;
+        let Scene { request, wheel, stepping } = &*scene;
+        staged(self.sector, wheel, request, stepping, ramp_revolutions, |simulation| act(simulation, wheel))
+    }
+
+    /// Seeks the periodic response to begin with, from where the scene begins.
+    pub(super) fn seek(&self, go_on: &dyn Fn() -> bool) -> Result<Sought, NotRunnable> {
+        let start = self.asked.start();
+        let scene = self.at(start)?;
+        let Scene { request, stepping, .. } = &*scene;
+        let contact_nodes = &self.sector.wheel.contact;
+        self.simulation(start, request.integration.ramp_revolutions, |simulation, wheel| {
+            let initial = initial(request, wheel, contact_nodes, simulation.casing, stepping)?;
+            let simulation = Simulation { initial: &initial, ..simulation };
+            Ok(seek(&simulation, most_revolutions(request), false, go_on))
+        })?
+    }
+
+    fn at(&self, value: f64) -> Result<Rc<Scene>, NotRunnable> {
+        let found = self.kept.borrow().iter().find(|(at, _)| *at == value).map(|(_, scene)| Rc::clone(scene));
+        if let Some(scene) = found {
+            return Ok(scene);
+        }
+        let request = changed(&self.sweep, self.asked, value);
+        let (wheel, stepping) = ready(self.sector, &request, self.speed(value))?;
+        let scene = Rc::new(Scene { request, wheel, stepping });
+        let mut kept = self.kept.borrow_mut();
+        if kept.len() == KEPT {
+            kept.remove(0);
+        }
+        kept.push((value, Rc::clone(&scene)));
+        Ok(scene)
+    }
+}
+
+impl Family for Scenes<'_> {
+    fn with(&self, value: f64, lap: Lap, act: &mut dyn FnMut(&mut Passage<'_>)) -> Result<(), Unreachable> {
+        self.simulation(value, 0.0, |simulation, _| {
+            let mut passage = lap.passage(&simulation)?;
+            act(&mut passage);
+            Ok(())
+        })
+        .map_err(unreachable)?
+    }
+
+    fn carry(&self, modes: &[InitialMode], from: f64, to: f64) -> Result<Vec<InitialMode>, Unreachable> {
+        if self.asked.along.parameter != BranchParameter::Speed {
+            return Ok(modes.to_vec());
+        }
+        let [before, after] = [self.at(from).map_err(unreachable)?, self.at(to).map_err(unreachable)?];
+        let (reduced, stiffening) = (&*self.sector.wheel, before.request.scene.centrifugal_stiffening);
+        let carried = EndState::new(modes, &before.wheel, reduced, stiffening)
+            .and_then(|state| state.modes(&after.wheel, reduced, stiffening, after.stepping.scheme))
+            .map_err(|error| Unreachable(error.to_string()))?;
+        carried.ok_or_else(|| unreachable(NotRunnable::OtherReduction))
+    }
+}
+
+fn unreachable(reason: NotRunnable) -> Unreachable {
+    Unreachable(reason.to_string())
+}
+
+fn speed(asked: &ResolvedBranches, value: f64) -> f64 {
+    match asked.along.parameter {
+        BranchParameter::Speed => value,
+        _ => asked.speed_rad_s(),
+    }
+}
+
+/// `sweep` with the parameter at `value`.
+fn changed(sweep: &ResolvedSweep, asked: &ResolvedBranches, value: f64) -> ResolvedSweep {
+    let mut sweep = sweep.clone();
+    let casing = sweep.scene.casing.as_mut();
+    match asked.along.parameter {
+        BranchParameter::Speed => {}
+        BranchParameter::Clearance => match casing.map(|casing| &mut casing.clearance) {
+            Some(Clearance::AlongChord { leading, trailing }) => {
+                *leading *= value;
+                *trailing *= value;
+            }
+            Some(Clearance::Each(values)) => values.iter_mut().for_each(|clearance| *clearance *= value),
+            None => {}
+        },
+        BranchParameter::LobeAmplitude => {
+            if let Some(lobes) = casing.and_then(|casing| casing.lobes.as_mut()) {
+                lobes.amplitude *= value;
+            }
+        }
+        BranchParameter::Damping => {
+            if let Some(damping) = &mut sweep.scene.damping {
+                damping.modal_ratio *= value;
+                damping.family_ratios.iter_mut().for_each(|ratio| *ratio *= value);
+            }
+        }
+    }
+    sweep
+}

@@ -1,0 +1,304 @@
+//! Branches followed some points further.
+
+use super::course::{Course, KeptTold, Stretch, UnderWay};
+use super::events::{At, Event, Events};
+use super::family::Scenes;
+use super::told::{Told, carried, tell};
+use crate::error::{AnalysisError, Violation};
+use crate::model::ReducedSector;
+use crate::monitor::Monitor;
+use crate::not_runnable::NotRunnable;
+use crate::resolved::ResolvedBranches;
+use crate::result::{
+    Bifurcation, BifurcationKind, BranchEnd, BranchLeg, BranchMaximum, BranchPoint, BranchesHead, Track,
+};
+use rubmap_wheel::dynamics::steady::branch::correct::Found;
+use rubmap_wheel::dynamics::steady::branch::follow::{Front, Step};
+use rubmap_wheel::dynamics::steady::branch::{Branch, Lap, Lost, Motion};
+use rubmap_wheel::dynamics::steady::periodic::NotFound;
+use rubmap_wheel::dynamics::steady::response::{Response, Sought};
+use rubmap_wheel::revision::VERSION;
+use rubmap_wheel::vectors::vectors;
+
+/// Points of a leg: what is lost where the service dies.
+const POINTS: usize = 5;
+
+/// Longest period, in lobe passages, to which motions that double it are followed.
+const LONGEST: u32 = 8;
+
+/// Relative distance up to which a multiplier that passes 1 is that of a fold.
+const AT_FOLD: f64 = 1e-3;
+
+/// The next leg after `course`, or the first, and the course then, unless nothing is left to follow; deterministic, on the calling
+/// thread.
+///
+/// # Errors
+/// Cancellation; a refusal where there is nothing to follow.
+pub fn branch_leg(
+    sector: &ReducedSector,
+    asked: &ResolvedBranches,
+    course: Option<Course>,
+    monitor: &dyn Monitor,
+) -> Result<(BranchLeg, Option<Course>), AnalysisError> {
+    let scenes = Scenes::new(sector, asked).map_err(|reason| refused("/along", &reason))?;
+    let go_on = || !monitor.is_cancelled();
+    let mut course = match course {
+        Some(course) => course,
+        None => {
+            monitor.progress(0.0, "seeking a periodic response");
+            begin(&scenes, asked, &go_on)?
+        }
+    };
+    let UnderWay { stretch, points, mut last, mut before } = match course.under_way.take() {
+        Some(under_way) => under_way,
+        // A course with nothing left is none.
+        None => {
+            let stretch = course.waiting.pop().ok_or_else(|| AnalysisError::Refused(Vec::new()))?;
+            UnderWay { stretch, points: 0, last: None, before: None }
+        }
+    };
+    let mut walk = Walk::new(&scenes, asked, &stretch, points);
+    let branch =
+        Branch { family: &scenes, lap: walk.lap, span: asked.along.to - asked.along.from, go_on: &go_on };
+    let ended = walk.go(&branch, (&mut last, &mut before), monitor)?;
+    let Walk { front, points, found, bifurcations, maxima, flips, .. } = walk;
+    for Event { bifurcation, motion, grows } in flips {
+        let lobes = 2 * stretch.track.lobe_passages.unwrap_or(1);
+        let track = Track {
+            branch: course.branches,
+            lobe_passages: Some(lobes),
+            doubles: Some((stretch.track.branch, bifurcation.value)),
+        };
+        course.branches += 1;
+        let front = (&Front::aside(motion, grows)).into();
+        course.waiting.insert(0, Stretch { track, backwards: false, front, tells_start: true });
+    }
+    let leg = BranchLeg {
+        head: head(&scenes, sector, asked),
+        track: stretch.track.clone(),
+        backwards: stretch.backwards,
+        points: found,
+        bifurcations,
+        maxima,
+        is_last: ended.is_some() && course.waiting.is_empty(),
+        end: ended,
+    };
+    if leg.end.is_none() {
+        let stretch = Stretch { front: (&front).into(), ..stretch };
+        course.under_way = Some(UnderWay { stretch, points, last, before });
+    }
+    let is_left = course.under_way.is_some() || !course.waiting.is_empty();
+    Ok((leg, is_left.then_some(course)))
+}
+
+/// The response to begin with, to be followed both ways.
+fn begin(
+    scenes: &Scenes<'_>,
+    asked: &ResolvedBranches,
+    go_on: &dyn Fn() -> bool,
+) -> Result<Course, AnalysisError> {
+    let Sought { response, .. } = scenes.seek(go_on).map_err(|reason| refused("/speed", &reason))?;
+    let modes = match response {
+        Ok(Response { modes, .. }) => modes,
+        Err(NotFound::Cancelled) => return Err(AnalysisError::Cancelled),
+        Err(reason) => {
+            let message = format!("{reason}; begin at another speed, or with more damping and follow that");
+            return Err(AnalysisError::Refused(vec![Violation::new("/speed", message)]));
+        }
+    };
+    let (start, span) = (asked.start(), asked.along.to - asked.along.from);
+    let stretch = |backwards: bool| {
+        let sign = if backwards { -1.0 } else { 1.0 };
+        Stretch {
+            track: Track { branch: 0, lobe_passages: None, doubles: None },
+            backwards,
+            front: (&Front::new(Motion { value: start, modes: modes.clone() }, span, sign)).into(),
+            tells_start: !backwards,
+        }
+    };
+    let mut waiting = Vec::new();
+    if asked.along.from < start {
+        waiting.push(stretch(true));
+    }
+    if start < asked.along.to {
+        waiting.push(stretch(false));
+    }
+    // The start is told once.
+    if let [only] = &mut waiting[..] {
+        only.tells_start = true;
+    }
+    Ok(Course { waiting, under_way: None, branches: 1 })
+}
+
+fn refused(pointer: &str, reason: &NotRunnable) -> AnalysisError {
+    AnalysisError::Refused(vec![Violation::new(pointer, reason.to_string())])
+}
+
+fn head(scenes: &Scenes<'_>, sector: &ReducedSector, asked: &ResolvedBranches) -> BranchesHead {
+    BranchesHead {
+        parameter: asked.along.parameter,
+        sensors: asked.sweep.sensors.iter().copied().map(Into::into).collect(),
+        steps_per_revolution: scenes.steps_per_revolution(),
+        units: sector.units.clone(),
+        settings: asked.clone().into(),
+        version: VERSION.to_owned(),
+        vectors: vectors(),
+    }
+}
+
+/// A leg that is being made.
+struct Walk<'a> {
+    scenes: &'a Scenes<'a>,
+    asked: &'a ResolvedBranches,
+    lap: Lap,
+    tells_start: bool,
+    branch: u32,
+    doubles: bool,
+    front: Front,
+    /// Points of the stretch.
+    points: u32,
+    found: Vec<BranchPoint>,
+    bifurcations: Vec<Bifurcation>,
+    maxima: Vec<BranchMaximum>,
+    flips: Vec<Event>,
+}
+
+impl<'a> Walk<'a> {
+    fn new(scenes: &'a Scenes<'a>, asked: &'a ResolvedBranches, stretch: &Stretch, points: u32) -> Self {
+        let lobes = stretch.track.lobe_passages;
+        Self {
+            scenes,
+            asked,
+            lap: lobes.map_or(Lap::Symmetric, |lobes| Lap::Lobes(lobes as usize)),
+            tells_start: stretch.tells_start,
+            branch: stretch.track.branch,
+            doubles: asked.doubled && 2 * lobes.unwrap_or(1) <= LONGEST,
+            front: (&stretch.front).into(),
+            points,
+            found: Vec::new(),
+            bifurcations: Vec::new(),
+            maxima: Vec::new(),
+            flips: Vec::new(),
+        }
+    }
+
+    /// Follows the branch; why it ends, if it does.
+    fn go(
+        &mut self,
+        branch: &Branch<'_>,
+        (kept_last, kept_before): (&mut Option<KeptTold>, &mut Option<KeptTold>),
+        monitor: &dyn Monitor,
+    ) -> Result<Option<BranchEnd>, AnalysisError> {
+        let mut last = match kept_last {
+            Some(kept) => Told::from(&*kept),
+            None => match self.start(branch) {
+                Ok(told) => told,
+                Err(lost) => return end(lost).map(Some),
+            },
+        };
+        let mut before = kept_before.as_ref().map(Told::from);
+        let range = (self.asked.along.from, self.asked.along.to);
+        let ended = loop {
+            if self.found.len() >= POINTS {
+                break None;
+            }
+            if self.points >= self.asked.most_points {
+                break Some(BranchEnd::MostPoints);
+            }
+            self.say(monitor);
+            let step = match branch.next(&mut self.front, range) {
+                Ok(step) => step,
+                Err(lost) => break Some(end(lost)?),
+            };
+            let (found, is_edge) = match step {
+                Step::Point(found) => (found, false),
+                Step::Edge(found) => (found, true),
+            };
+            let told = match self.look(branch, (before.as_ref(), &last), &found) {
+                Ok(told) => told,
+                Err(lost) => break Some(end(lost)?),
+            };
+            self.points += 1;
+            self.found.push(told.point(&found, self.scenes.speed(found.motion.value)));
+            self.front.move_to(found.motion);
+            before = Some(std::mem::replace(&mut last, told));
+            if is_edge {
+                break Some(BranchEnd::LeavesRange);
+            }
+        };
+        *kept_last = Some((&last).into());
+        *kept_before = before.as_ref().map(Into::into);
+        Ok(ended)
+    }
+
+    /// Tells what the stretch begins with.
+    fn start(&mut self, branch: &Branch<'_>) -> Result<Told, Lost> {
+        let motion = self.front.last.clone();
+        let told = tell(self.scenes, branch, &motion, &motion.modes)?;
+        if self.tells_start {
+            let across = Motion { value: branch.span, modes: Vec::new() };
+            let found = branch.correct(motion.clone(), &across, motion.value)?;
+            self.found.push(told.point(&found, self.scenes.speed(found.motion.value)));
+            self.points += 1;
+        }
+        Ok(told)
+    }
+
+    /// What is told of a new point, and what happens on the way to it.
+    fn look(
+        &mut self,
+        branch: &Branch<'_>,
+        (before, last): (Option<&Told>, &Told),
+        found: &Found,
+    ) -> Result<Told, Lost> {
+        let motion = &found.motion;
+        let hint = carried(self.scenes, &last.disturbances, self.front.last.value, motion.value)?;
+        let told = tell(self.scenes, branch, motion, &hint)?;
+        let events = Events { scenes: self.scenes, branch };
+        let here = At { motion, told: &told };
+        let there = At { motion: &self.front.last, told: last };
+        let mut fold = None;
+        if let (Some(motion), Some(told)) = (&self.front.before, before) {
+            let points = [At { motion, told }, there, here];
+            fold = events.fold(points)?;
+            self.maxima.extend(events.maxima(points)?);
+        }
+        if let Some(Event { bifurcation, .. }) = fold {
+            // The multiplier that passed 1 a point ago was that of the fold.
+            let is_same = |other: &Bifurcation| {
+                other.kind == BifurcationKind::Branching
+                    && (other.value - bifurcation.value).abs() <= AT_FOLD * bifurcation.value.abs()
+            };
+            self.bifurcations.pop_if(|other| is_same(other));
+            self.bifurcations.push(bifurcation);
+        } else if let Some(event) = events.change(there, here)? {
+            self.bifurcations.push(event.bifurcation.clone());
+            if event.bifurcation.kind == BifurcationKind::Flip && self.doubles {
+                self.flips.push(event);
+            }
+        }
+        Ok(told)
+    }
+
+    /// Says how far it is: by the share of the range that the first branch has seen.
+    fn say(&self, monitor: &dyn Monitor) {
+        let (along, start) = (self.asked.along, self.asked.start());
+        let value = self.front.last.value;
+        let backwards = self.front.first.value < 0.0;
+        let seen = match (self.branch, backwards) {
+            (0, false) => value - start,
+            (0, true) => along.to - value,
+            _ => along.to - along.from,
+        };
+        let words = format!("branch {}, {} points, at {:.6}", self.branch + 1, self.points, value);
+        monitor.progress((seen / (along.to - along.from)).clamp(0.0, 1.0), &words);
+    }
+}
+
+/// Why a branch ends that was lost.
+fn end(lost: Lost) -> Result<BranchEnd, AnalysisError> {
+    match lost {
+        Lost::Cancelled => Err(AnalysisError::Cancelled),
+        lost => Ok(BranchEnd::Lost { reason: lost.to_string() }),
+    }
+}

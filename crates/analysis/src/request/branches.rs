@@ -1,0 +1,113 @@
+//! What branches are asked for: a scene at one speed, and the number of it that changes.
+
+use serde::{Deserialize, Serialize};
+
+use crate::request::auto_or::AutoOr;
+use crate::request::case_study::CaseSpeed;
+use crate::request::integration::Integration;
+use crate::request::scene::Scene;
+use crate::request::sensor::Sensor;
+use crate::request::sweep::{SweepRequest, default_max_engine_order};
+
+/// Periodic responses, followed while a number of their scene changes.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(deny_unknown_fields)]
+pub struct BranchesRequest {
+    /// Id of an uploaded model.
+    #[cfg_attr(feature = "schema", schema(max_length = 64))]
+    pub model: String,
+    /// Fixed-interface modes kept per stiffness speed and nodal diameter; `"auto"` is 20.
+    #[serde(default)]
+    pub modes_per_speed: AutoOr,
+    /// The speed at which a periodic response is sought, from where it is followed.
+    pub speed: CaseSpeed,
+    /// What changes along the branches, and how far.
+    pub along: Along,
+    /// Effects of the simulation.
+    pub scene: Scene,
+    /// Time integration. Scheme and steps per revolution are the same everywhere: those of the speed that needs most. A search takes at
+    /// most four times `revolutions`.
+    #[serde(default)]
+    pub integration: Integration,
+    /// Whose amplitudes are told; default: radial at the first and the last contact node of sector 0.
+    #[serde(default)]
+    #[cfg_attr(feature = "schema", schema(max_items = 1_000))]
+    pub sensors: Vec<Sensor>,
+    /// Highest engine order of interest: a revolution has at least eight samples for each, and at least 512.
+    #[serde(default = "default_max_engine_order")]
+    #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 1000))]
+    pub max_engine_order: u32,
+    /// Whether the branches are followed, too, onto which motions double their period.
+    #[serde(default = "yes")]
+    pub doubled: bool,
+    /// Most points of a branch on either side of where it begins.
+    #[serde(default = "most_points")]
+    #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 10_000))]
+    pub most_points: u32,
+}
+
+/// The number that changes, and its range: the branch is followed both ways from where it is found until it leaves the range. Of a
+/// speed, `from` and `to` are in the unit of `speed` and have it between them; of the others, multiples of what the scene says, with 1
+/// between them.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Along {
+    /// What changes.
+    pub parameter: BranchParameter,
+    /// Smallest value.
+    pub from: f64,
+    /// Largest value.
+    pub to: f64,
+}
+
+/// What changes along a branch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum BranchParameter {
+    /// The rotational speed.
+    Speed,
+    /// All clearances alike.
+    Clearance,
+    /// The height of the casing's lobes.
+    LobeAmplitude,
+    /// All damping ratios alike.
+    Damping,
+}
+
+impl BranchParameter {
+    /// The word on the wire.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Speed => "speed",
+            Self::Clearance => "clearance",
+            Self::LobeAmplitude => "lobe_amplitude",
+            Self::Damping => "damping",
+        }
+    }
+}
+
+/// Branches as they are stored.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(deny_unknown_fields)]
+pub struct BranchesSettings {
+    /// The scene at the speed where they begin.
+    pub sweep: SweepRequest,
+    /// What changes along them, a speed in rad/s.
+    pub along: Along,
+    /// Whether branches of doubled period are followed, too.
+    pub doubled: bool,
+    /// Most points of a branch on either side of where it begins.
+    pub most_points: u32,
+}
+
+fn yes() -> bool {
+    true
+}
+
+fn most_points() -> u32 {
+    400
+}

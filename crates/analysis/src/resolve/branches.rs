@@ -1,0 +1,137 @@
+//! Branches, held against their model.
+
+use crate::error::Violation;
+use crate::model::ModelFacts;
+use crate::request::sweep::default_peak_prominence;
+use crate::request::{
+    Along, BranchParameter, BranchesRequest, CaseSpeed, HIGHEST_SPEED, LOWEST_SPEED, Record, SpeedSet,
+    Speeds, SteadyChoice, SweepDirection, SweepRequest,
+};
+use crate::resolve::findings::Findings;
+use crate::resolve::resolve_sweep;
+use crate::resolved::{ResolvedBranches, ResolvedSweep};
+
+/// Multiples of what a scene says that a branch may be followed to.
+const MULTIPLES: std::ops::RangeInclusive<f64> = 1e-3..=1e3;
+
+/// Most points of a branch on either side.
+const POINTS: std::ops::RangeInclusive<u32> = 1..=10_000;
+
+/// Parses what branches are asked for and checks it against its model.
+pub fn resolve_branches(
+    request: BranchesRequest,
+    facts: &ModelFacts,
+) -> Result<ResolvedBranches, Vec<Violation>> {
+    let CaseSpeed { value, unit } = request.speed;
+    let sweep = SweepRequest {
+        model: request.model,
+        modes_per_speed: request.modes_per_speed,
+        speeds: Speeds::One(SpeedSet { from: None, to: None, count: None, values: Some(vec![value]), unit }),
+        scene: request.scene,
+        integration: request.integration,
+        sensors: request.sensors,
+        max_engine_order: request.max_engine_order,
+        peak_prominence: default_peak_prominence(),
+        sweep: SweepDirection::Independent,
+        refine: false,
+        reproducible: false,
+        accuracy: None,
+        budget: None,
+        control_speeds: None,
+        record: Record::default(),
+        fields: None,
+    };
+    let at_its_field = |violation: Violation| match violation.pointer.strip_prefix("/speeds") {
+        Some(_) => Violation { pointer: "/speed/value".to_owned(), ..violation },
+        None => violation,
+    };
+    let resolved = resolve_sweep(sweep, facts);
+    let mut found = Findings::default();
+    check_range(&mut found, request.along, value);
+    found.require(
+        POINTS.contains(&request.most_points),
+        "/most_points",
+        format!("between {} and {} points", POINTS.start(), POINTS.end()),
+    );
+    let sweep = match resolved {
+        Ok(sweep) => sweep,
+        Err(violations) => {
+            found.0.extend(violations.into_iter().map(at_its_field));
+            return Err(found.0);
+        }
+    };
+    check_scene(&mut found, request.along.parameter, &sweep);
+    let along = match request.along.parameter {
+        BranchParameter::Speed => {
+            let Along { parameter, from, to } = request.along;
+            Along { parameter, from: from * unit.rad_s(), to: to * unit.rad_s() }
+        }
+        _ => request.along,
+    };
+    let (doubled, most_points) = (request.doubled, request.most_points);
+    if along.parameter == BranchParameter::Speed {
+        let speeds = [along.from, along.to];
+        for (speed, field) in speeds.into_iter().zip(["/along/from", "/along/to"]) {
+            found.require(
+                (LOWEST_SPEED..=HIGHEST_SPEED).contains(&speed),
+                field,
+                format!("a speed between {LOWEST_SPEED:e} and {HIGHEST_SPEED:e} rad/s"),
+            );
+        }
+    }
+    found.finish(ResolvedBranches { sweep, along, doubled, most_points })
+}
+
+fn check_range(found: &mut Findings, along: Along, speed: f64) {
+    let Along { parameter, from, to } = along;
+    let (start, what) = match parameter {
+        BranchParameter::Speed => (speed, "`speed`"),
+        _ => {
+            for (value, field) in [(from, "/along/from"), (to, "/along/to")] {
+                found.require(
+                    MULTIPLES.contains(&value),
+                    field,
+                    format!(
+                        "a multiple of what the scene says, between {} and {}",
+                        MULTIPLES.start(),
+                        MULTIPLES.end()
+                    ),
+                );
+            }
+            (1.0, "1, the scene as it is")
+        }
+    };
+    found.require(
+        from.is_finite() && from <= start,
+        "/along/from",
+        format!("at most {what}, where the branch begins"),
+    );
+    found.require(
+        to.is_finite() && to >= start,
+        "/along/to",
+        format!("at least {what}, where the branch begins"),
+    );
+    found.require(from < to, "/along/to", "larger than `from`");
+}
+
+/// What changes must be there, and repeat.
+fn check_scene(found: &mut Findings, parameter: BranchParameter, sweep: &ResolvedSweep) {
+    let scene = &sweep.scene;
+    let lacks = match parameter {
+        BranchParameter::Speed => None,
+        BranchParameter::Clearance => scene.casing.is_none().then_some("casing"),
+        BranchParameter::LobeAmplitude => {
+            scene.touched_lobes().is_none().then_some("casing whose lobes are touched")
+        }
+        BranchParameter::Damping => scene.damping.is_none().then_some("damping"),
+    };
+    if let Some(lacks) = lacks {
+        let message = format!("the scene has no {lacks}: nothing would change");
+        found.require(false, "/along/parameter", message);
+    }
+    found.require(
+        sweep.integration.steady == SteadyChoice::March,
+        "/integration/steady",
+        "branches are always solved for: leave it away",
+    );
+}

@@ -1,0 +1,156 @@
+//! From beside a branch to it: Newton's method on its points of a plane.
+//!
+//! ```text
+//! [ I − T   −∂P/∂p ] [ δx ]   [ P(x) − x ]
+//! [  τ_x      τ_p  ] [ δp ] = [     0    ]        τ: the direction in which the branch is followed
+//! ```
+//!
+//! The last line keeps the matrix regular where I − T is not: at a fold (Keller). All in units of the metric
+//! ds² = (‖δx‖/‖x‖)² + (δp/span)². T is exact, ∂P/∂p a difference of two maps.
+
+use super::{Branch, Lost, Motion, add};
+use crate::dynamics::steady::periodic::repeats;
+use crate::dynamics::steady::tangent::Tangent;
+use rubmap_numerics::gmres;
+
+/// ‖P(x) − x‖ / ‖x‖ at which a point is found.
+pub const FOUND: f64 = 1e-8;
+
+/// Most steps of Newton's method: from a good prediction it takes two to four.
+const STEPS: usize = 8;
+
+/// What its equations are solved to, and their most products.
+const SOLVED: f64 = 1e-3;
+const PRODUCTS: usize = 200;
+
+/// Shares of a step that are tried.
+const SHARES: [f64; 3] = [1.0, 0.5, 0.25];
+
+/// Relative change of p, or of its span if that is more, over which the map is differenced.
+const DIFFERENCE: f64 = 1e-7;
+
+/// A point of a branch.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Found {
+    /// Where and what.
+    pub motion: Motion,
+    /// ‖P(x) − x‖ / ‖x‖.
+    pub residual: f64,
+    /// Steps of Newton's method.
+    pub steps: usize,
+    /// Revolutions of the wheel that it took.
+    pub revolutions: f64,
+}
+
+/// A motion beside a branch.
+struct Beside {
+    motion: Motion,
+    state: Vec<f64>,
+    /// P(x) − x.
+    off: Vec<f64>,
+    residual: f64,
+}
+
+impl Branch<'_> {
+    /// The point of the branch that lies beside `guess` in the plane across `along`, a direction of the scene at `at`.
+    ///
+    /// # Errors
+    /// [`Lost`].
+    pub fn correct(&self, guess: Motion, along: &Motion, at: f64) -> Result<Found, Lost> {
+        let mut revolutions = 0.0;
+        let mut best = self.beside(guess, &mut revolutions)?;
+        for steps in 0..=STEPS {
+            if best.residual <= FOUND {
+                return Ok(Found { motion: best.motion, residual: best.residual, steps, revolutions });
+            }
+            let step = self.step(&best, along, at, &mut revolutions)?;
+            let better = SHARES.into_iter().find_map(|share| {
+                let value = best.motion.value + share * step.value;
+                let modes = add(&best.motion.modes, &step.modes, share);
+                let moved = Motion { value: best.motion.value, modes };
+                let beside = self
+                    .carried(&moved, moved.value, value)
+                    .and_then(|modes| self.beside(Motion { value, modes }, &mut revolutions));
+                match beside {
+                    Ok(beside) if beside.residual > (1.0 - 0.1 * share) * best.residual => None,
+                    Err(Lost::Unreachable(_) | Lost::Passage(_)) => None,
+                    other => Some(other),
+                }
+            });
+            let Some(better) = better else { break };
+            best = better?;
+        }
+        Err(Lost::NotFound { residual: best.residual })
+    }
+
+    fn beside(&self, motion: Motion, revolutions: &mut f64) -> Result<Beside, Lost> {
+        let (state, image) = self.at(motion.value, |passage| {
+            let state = passage.state(&motion.modes);
+            let image = passage.map(&state);
+            *revolutions += passage.revolutions();
+            image.map(|image| (state, image))
+        })??;
+        let off = image.iter().zip(&state).map(|(image, x)| image - x).collect();
+        Ok(Beside { residual: repeats(&state, &image), motion, state, off })
+    }
+
+    /// The step from `best`: its modes are those at the value of `best`.
+    fn step(&self, best: &Beside, along: &Motion, at: f64, revolutions: &mut f64) -> Result<Motion, Lost> {
+        let value = best.motion.value;
+        let change = DIFFERENCE * value.abs().max(self.span);
+        let slope = self.slope(best, change, revolutions)?;
+        let along_modes = self.carried(along, at, value)?;
+        let size = length(&best.state).max(f64::MIN_POSITIVE);
+        let span = self.span;
+        self.at(value, |passage| {
+            // What touches on its way is to be that of this state.
+            passage.map(&best.state)?;
+            let across: Vec<f64> = passage.state(&along_modes).iter().map(|x| x / size).collect();
+            let across_value = along.value / span;
+            let mut right: Vec<f64> = best.off.iter().map(|x| x / size).collect();
+            right.push(0.0);
+            let tangent = Tangent::of(passage);
+            let product = |y: &[f64]| {
+                let (&p, x) = y.split_last().unwrap_or((&0.0, &[]));
+                let mut moved = x.to_vec();
+                tangent.follow(&mut moved);
+                let rows = x.iter().zip(&moved).zip(&slope);
+                let mut left: Vec<f64> = rows.map(|((x, t), s)| x - t - s * p * span / size).collect();
+                left.push(dot(&across, x) + across_value * p);
+                left
+            };
+            let mut step = gmres::solve(product, &right, SOLVED, PRODUCTS).x;
+            let by = step.pop().unwrap_or(0.0) * span;
+            step.iter_mut().for_each(|x| *x *= size);
+            let modes = passage.modes(&step);
+            *revolutions += passage.revolutions();
+            Ok(Motion { value: by, modes })
+        })?
+    }
+
+    /// ∂(P(x) − x)/∂p, the motion staying what it is.
+    fn slope(&self, best: &Beside, change: f64, revolutions: &mut f64) -> Result<Vec<f64>, Lost> {
+        let (here, there) = (best.motion.value, best.motion.value + change);
+        let modes = self.carried(&best.motion, here, there)?;
+        let off = self.at(there, |passage| {
+            let state = passage.state(&modes);
+            let image = passage.map(&state);
+            *revolutions += passage.revolutions();
+            image.map(|image| {
+                let off: Vec<f64> = image.iter().zip(&state).map(|(image, x)| image - x).collect();
+                passage.modes(&off)
+            })
+        })??;
+        let modes = self.carried(&Motion { value: there, modes: off }, there, here)?;
+        let off = self.at(here, |passage| passage.state(&modes))?;
+        Ok(off.iter().zip(&best.off).map(|(there, here)| (there - here) / change).collect())
+    }
+}
+
+pub(super) fn length(x: &[f64]) -> f64 {
+    dot(x, x).sqrt()
+}
+
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}

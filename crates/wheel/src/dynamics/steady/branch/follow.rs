@@ -1,0 +1,198 @@
+//! Along a branch, point by point: predicted on the line through the last two, corrected across it.
+
+use serde::{Deserialize, Serialize};
+
+use super::correct::{Found, dot, length};
+use super::{Branch, Lost, Motion, add};
+
+/// Arclength of the first step, and the least.
+const FIRST: f64 = 0.01;
+const LEAST: f64 = 1e-6;
+
+/// Most arclength of a step, and most of it that may be p's: a picture of a branch has so many points across.
+const MOST: f64 = 0.25;
+const MOST_OF_SPAN: f64 = 0.02;
+
+/// By what a step grows or shrinks, and steps of Newton's method up to which it grows, from which on it shrinks.
+const GROWTH: f64 = 1.4;
+const SHRINKAGE: f64 = 0.5;
+const EASY: usize = 3;
+const HARD: usize = 6;
+
+/// Cosine of the angle up to which a branch may turn within a step: what turns more is another branch.
+const TURNS: f64 = 0.7;
+
+/// The same of a step so short that it may be a corner: branches have them where another node begins to touch.
+const CORNER: f64 = 0.1;
+const SHORT: f64 = 1e-3;
+
+/// The end of a branch so far.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Front {
+    /// The last point.
+    pub last: Motion,
+    /// The one before; none where the branch begins.
+    pub before: Option<Motion>,
+    /// Direction of the first step, per unit of arclength.
+    pub first: Motion,
+    /// Arclength of the next step.
+    pub step: f64,
+}
+
+/// What became of a step.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Step {
+    /// The next point.
+    Point(Found),
+    /// The same, where the branch leaves the range.
+    Edge(Found),
+}
+
+/// Why a branch ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum BranchEnd {
+    /// It leaves the range that was asked for.
+    LeavesRange,
+    /// It could not be followed further: the motion ceases to exist in this form, for example where another node begins to touch.
+    Lost,
+    /// It has as many points as were asked for.
+    MostPoints,
+}
+
+impl Front {
+    /// Where a branch begins, to be followed towards larger (`sign` 1) or smaller values (−1).
+    pub fn new(start: Motion, span: f64, sign: f64) -> Self {
+        let first = Motion { value: sign * span, modes: Vec::new() };
+        Self { last: start, before: None, first, step: FIRST }
+    }
+
+    /// The same to be followed in the direction of `modes`, of which one unit is as large as the motion itself.
+    pub fn aside(start: Motion, modes: Vec<crate::dynamics::initial::InitialMode>) -> Self {
+        let first = Motion { value: 0.0, modes };
+        Self { last: start, before: None, first, step: FIRST }
+    }
+
+    /// Takes `found` as the last point.
+    pub fn move_to(&mut self, found: Motion) {
+        self.before = Some(std::mem::replace(&mut self.last, found));
+    }
+}
+
+impl Branch<'_> {
+    /// The next point of the branch, within `range`, and at its edge exactly; `front` knows afterwards how far to go next, and has still
+    /// to be moved. Where a step fails, shorter ones are tried.
+    ///
+    /// # Errors
+    /// Why the shortest of them failed.
+    pub fn next(&self, front: &mut Front, range: (f64, f64)) -> Result<Step, Lost> {
+        loop {
+            let along = self.direction(front)?;
+            let of_span = MOST_OF_SPAN / (along.value.abs() / self.span).max(MOST_OF_SPAN / MOST);
+            let step = front.step.min(of_span);
+            let guess = Motion {
+                value: front.last.value + step * along.value,
+                modes: add(&front.last.modes, &along.modes, step),
+            };
+            let ahead = guess.value >= front.last.value;
+            let tried = if range.0 < guess.value && guess.value < range.1 {
+                self.try_step(guess, &along, step, front).map(|found| {
+                    (range.0 < found.motion.value && found.motion.value < range.1)
+                        .then_some(Step::Point(found))
+                })
+            } else {
+                Ok(None)
+            };
+            let tried = match tried {
+                // Out of the range: to its edge.
+                Ok(None) => {
+                    let edge = if ahead { range.1 } else { range.0 };
+                    self.to_edge(edge, &along, front).map(Step::Edge)
+                }
+                Ok(Some(point)) => Ok(point),
+                Err(lost) => Err(lost),
+            };
+            match tried {
+                Ok(taken) => {
+                    let (Step::Point(found) | Step::Edge(found)) = &taken;
+                    front.step = match found.steps {
+                        ..=EASY => (step * GROWTH).min(MOST),
+                        HARD.. => step * SHRINKAGE,
+                        _ => step,
+                    };
+                    return Ok(taken);
+                }
+                Err(lost @ Lost::Cancelled) => return Err(lost),
+                Err(lost) if step * SHRINKAGE < LEAST => return Err(lost),
+                Err(_) => front.step = step * SHRINKAGE,
+            }
+        }
+    }
+
+    /// The point of the branch at `share` of the way from `a` to `b`, two of its points.
+    ///
+    /// # Errors
+    /// [`Lost`].
+    pub fn between(&self, a: &Motion, b: &Motion, share: f64) -> Result<Found, Lost> {
+        let way = self.difference(a, b)?;
+        let guess = Motion { value: a.value + share * way.value, modes: add(&a.modes, &way.modes, share) };
+        let guess = Motion { modes: self.carried(&guess, a.value, guess.value)?, ..guess };
+        self.correct(guess, &way, a.value)
+    }
+
+    /// Arclength of the line from `a` to `b`.
+    ///
+    /// # Errors
+    /// [`Lost`].
+    pub fn distance(&self, a: &Motion, b: &Motion) -> Result<f64, Lost> {
+        let way = self.difference(a, b)?;
+        Ok(self.product(&way, &way, a)?.sqrt())
+    }
+
+    fn try_step(&self, guess: Motion, along: &Motion, step: f64, front: &Front) -> Result<Found, Lost> {
+        let at = front.last.value;
+        let guess = Motion { modes: self.carried(&guess, at, guess.value)?, ..guess };
+        let found = self.correct(guess, along, at)?;
+        let way = self.difference(&front.last, &found.motion)?;
+        let [ahead, way, along] =
+            [(&way, along), (&way, &way), (along, along)].map(|(a, b)| self.product(a, b, &front.last));
+        let (ahead, way, along) = (ahead?, way?.sqrt(), along?.sqrt());
+        // The first step knows only where to go, not what becomes of the motion.
+        let turns = if step > SHORT { TURNS } else { CORNER };
+        let turned = front.before.is_some() && ahead < turns * way * along;
+        if turned || way > 2.0 * MOST { Err(Lost::Turned) } else { Ok(found) }
+    }
+
+    fn to_edge(&self, edge: f64, along: &Motion, front: &Front) -> Result<Found, Lost> {
+        let share = if along.value == 0.0 { 0.0 } else { (edge - front.last.value) / along.value };
+        let guess = Motion { value: edge, modes: add(&front.last.modes, &along.modes, share) };
+        let guess = Motion { modes: self.carried(&guess, front.last.value, edge)?, ..guess };
+        self.correct(guess, &Motion { value: self.span, modes: Vec::new() }, edge)
+    }
+
+    /// In the modes at the last point, of length one.
+    fn direction(&self, front: &Front) -> Result<Motion, Lost> {
+        let Some(before) = &front.before else { return Ok(front.first.clone()) };
+        let back = self.difference(&front.last, before)?;
+        let length = self.product(&back, &back, &front.last)?.sqrt();
+        let scale = -1.0 / length;
+        Ok(Motion { value: scale * back.value, modes: add(&[], &back.modes, scale) })
+    }
+
+    /// b − a in the modes at a.
+    fn difference(&self, a: &Motion, b: &Motion) -> Result<Motion, Lost> {
+        let modes = self.carried(b, b.value, a.value)?;
+        Ok(Motion { value: b.value - a.value, modes: add(&modes, &a.modes, -1.0) })
+    }
+
+    /// Of two directions at `at`, in the metric there.
+    fn product(&self, a: &Motion, b: &Motion, at: &Motion) -> Result<f64, Lost> {
+        let (inner, size) = self.at(at.value, |passage| {
+            let size = length(&passage.state(&at.modes));
+            (dot(&passage.state(&a.modes), &passage.state(&b.modes)), size)
+        })?;
+        let size = size.max(f64::MIN_POSITIVE);
+        Ok(inner / (size * size) + a.value * b.value / (self.span * self.span))
+    }
+}

@@ -1,0 +1,146 @@
+//! Branches: what becomes of a periodic response while a number of its scene changes (docs/method.md, Branches).
+//!
+//! A branch is a curve of (x, p) with P_p(x) = x. It is followed by its arclength instead of by p, and so around folds (Seydel, Practical
+//! Bifurcation and Stability Analysis, chapter 4): [`correct`] is Newton's method from beside the curve back to it, [`follow`] the steps
+//! along it, [`locate`] finds where it turns back or its stability changes.
+//!
+//! Modes depend on the speed. Vectors of one speed are carried to another by the [`Family`], as states are.
+
+pub mod correct;
+pub mod follow;
+pub mod locate;
+
+use crate::dynamics::initial::InitialMode;
+use crate::dynamics::integrate::{Passage, PassageError, Simulation};
+
+use super::response::about_half;
+
+/// A scene at any value of the number that a branch is followed over. Steps per revolution are the same at all of them: the map
+/// would jump with them.
+pub trait Family {
+    /// Calls `act` once with the passage of the scene at `value` that `lap` asks for.
+    ///
+    /// # Errors
+    /// There is no such passage.
+    fn with(&self, value: f64, lap: Lap, act: &mut dyn FnMut(&mut Passage<'_>)) -> Result<(), Unreachable>;
+
+    /// A motion, or a difference of two, of the scene at `from` in the modes that it has at `to`.
+    ///
+    /// # Errors
+    /// There are none.
+    fn carry(&self, modes: &[InitialMode], from: f64, to: f64) -> Result<Vec<InitialMode>, Unreachable>;
+}
+
+/// Why there is no scene at a value.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct Unreachable(pub String);
+
+impl From<PassageError> for Unreachable {
+    fn from(error: PassageError) -> Self {
+        Self(error.to_string())
+    }
+}
+
+/// After what responses repeat.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Lap {
+    /// The shortest time that the symmetry of the scene allows, the sectors having changed their numbers.
+    Symmetric,
+    /// So many lobes.
+    Lobes(usize),
+}
+
+impl Lap {
+    /// The map of which such responses are fixed points.
+    ///
+    /// # Errors
+    /// As of [`Passage::shortest`].
+    pub fn passage<'a>(self, simulation: &Simulation<'a>) -> Result<Passage<'a>, PassageError> {
+        match self {
+            Self::Symmetric => about_half(simulation),
+            Self::Lobes(count) => Passage::over_lobes(simulation, count),
+        }
+    }
+}
+
+/// A motion of the scene at a value, or per unit of arclength a direction there.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Motion {
+    /// p.
+    pub value: f64,
+    /// Modes at the beginning of a revolution.
+    pub modes: Vec<InitialMode>,
+}
+
+/// Why a branch was not found where it was sought.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum Lost {
+    /// The scene cannot be run there.
+    #[error("{0}")]
+    Unreachable(#[from] Unreachable),
+    /// The map has no value there.
+    #[error(transparent)]
+    Passage(#[from] PassageError),
+    /// Newton's method came no closer.
+    #[error("the search came no closer than {residual:.1e}")]
+    NotFound {
+        /// Smallest ‖P(x) − x‖ / ‖x‖.
+        residual: f64,
+    },
+    /// What was found lies in another direction.
+    #[error("the next response that was found does not continue it")]
+    Turned,
+    /// The caller asked to stop.
+    #[error("cancelled")]
+    Cancelled,
+}
+
+/// What is followed, and how it is measured.
+#[derive(Clone, Copy)]
+pub struct Branch<'a> {
+    /// The scenes.
+    pub family: &'a dyn Family,
+    /// After what their responses repeat.
+    pub lap: Lap,
+    /// Change of p that counts as much as a motion that changes by all it is.
+    pub span: f64,
+    /// Asked now and then whether to go on.
+    pub go_on: &'a dyn Fn() -> bool,
+}
+
+impl Branch<'_> {
+    /// What `act` makes of the passage at `value`.
+    fn at<T>(&self, value: f64, act: impl FnOnce(&mut Passage<'_>) -> T) -> Result<T, Lost> {
+        if !(self.go_on)() {
+            return Err(Lost::Cancelled);
+        }
+        let (mut act, mut made) = (Some(act), None);
+        self.family.with(value, self.lap, &mut |passage| made = act.take().map(|act| act(passage)))?;
+        made.ok_or_else(|| Unreachable("there is no scene".to_owned()).into())
+    }
+
+    /// A motion or a direction of the scene at `from.value` in the modes at `to`; its value stays.
+    fn carried(&self, from: &Motion, at: f64, to: f64) -> Result<Vec<InitialMode>, Lost> {
+        Ok(if at == to { from.modes.clone() } else { self.family.carry(&from.modes, at, to)? })
+    }
+}
+
+/// a + share · b, mode by mode of a.
+fn add(a: &[InitialMode], b: &[InitialMode], share: f64) -> Vec<InitialMode> {
+    let mut sum = a.to_vec();
+    for more in b {
+        match sum.iter_mut().find(|mode| (mode.harmonic, mode.family) == (more.harmonic, more.family)) {
+            Some(mode) => {
+                mode.displacement += more.displacement * share;
+                mode.velocity += more.velocity * share;
+            }
+            None => sum.push(InitialMode {
+                displacement: more.displacement * share,
+                velocity: more.velocity * share,
+                ..*more
+            }),
+        }
+    }
+    sum
+}

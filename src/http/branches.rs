@@ -1,0 +1,150 @@
+//! Branches: periodic responses over a number of their scene.
+
+use axum::extract::State;
+use axum::response::Response;
+use serde::Deserialize;
+use tokio::runtime::Handle;
+use utoipa::IntoParams;
+
+use super::download::{Download, DownloadQuery, lasting};
+use super::extract::{JobPath, JsonBody, Parameters, job_not_found, parse_job_id};
+use super::forms::{Forms, READ_MEMORY};
+use super::idempotency::IdempotencyKey;
+use super::labels::Labelled;
+use super::problem::{Kind, Problem};
+use super::results::{check_sensor, find, sweep, wrong_kind};
+use super::state::AppState;
+use super::submit::{self, Receipt};
+use crate::analysis::request::BranchesRequest;
+use crate::analysis::result::{BranchLeg, Branches, Point};
+use crate::jobs::Submission;
+use crate::plot;
+use crate::store::jobs::{JobKind, JobRequest};
+use crate::store::results::Document;
+use crate::store::status::JobStatus;
+use crate::tokens::Principal;
+
+type BranchesBody = Labelled<BranchesRequest>;
+
+/// Follow the periodic response of a scene while its speed, clearance, lobes or damping change.
+///
+/// Around folds, whether it lasts or not, with Floquet multipliers at every point; bifurcations and maxima are found to a millionth, and
+/// branches of doubled period are followed as well. The points so far are those of `GET /v1/jobs/{id}/branches`, while it is computed, too.
+#[utoipa::path(post, path = "/v1/branches", operation_id = "create_branches", tag = "jobs",
+    params(("Idempotency-Key" = Option<String>, Header,
+        description = "Repeating the request with this key repeats its answer and starts nothing.")),
+    request_body(content = BranchesBody, example = json!({
+        "model": "9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08",
+        "speed": {"value": 24000.0, "unit": "rpm"},
+        "along": {"parameter": "speed", "from": 20000.0, "to": 28000.0},
+        "scene": {
+            "centrifugal_stiffening": true,
+            "damping": {"modal_ratio": 0.005},
+            "casing": {
+                "clearance": {"leading": 0.30, "trailing": 0.22},
+                "lobes": {"count": 2, "amplitude": 0.425, "width_rad": 0.35}
+            },
+            "contact": {}
+        }
+    })),
+    responses(
+        (status = 202, description = "The job is accepted.", body = Receipt,
+            headers(("Location" = String, description = "Path of the job."))),
+        (status = 400, description = "The body is not JSON; `errors` has line and column.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 413, description = "The body is too large.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 415, description = "The body is not declared as application/json.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 422, description = "A field is unknown, missing or impossible, the model is unknown (`errors` \
+            points at each), or the idempotency key belongs to another request.", body = Problem,
+            content_type = "application/problem+json"),
+    ))]
+pub(super) async fn create_branches(
+    state: State<AppState>,
+    whose: Principal,
+    key: IdempotencyKey,
+    body: JsonBody<BranchesBody>,
+) -> Result<Response, Problem> {
+    let (request, labels) = body.value.parts()?;
+    let submission = (Submission::Branches(Box::new(request)), labels);
+    submit::accept(&state, &whose, key, &body.fingerprint, submission).await
+}
+
+/// What to draw of branches.
+#[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+pub(super) struct BranchesQuery {
+    /// Of the drawing: index of the sensor in the request; default 0.
+    #[serde(default)]
+    sensor: u32,
+    /// Of the drawing of branches over speed: id of a sweep of the same scene, whose speeds are drawn as dots.
+    #[param(max_length = 64)]
+    sweep: Option<String>,
+}
+
+/// Download branches of periodic responses.
+///
+/// Of a job that is not finished, failed or was dismissed those points that are there. In csv a line is a point, in the order of the
+/// branch; npz has an array per column of it.
+#[utoipa::path(get, path = "/v1/jobs/{id}/branches", operation_id = "get_branches", tag = "results",
+    params(("id" = String, Path, description = "Id of branches."), BranchesQuery, DownloadQuery),
+    responses(
+        (status = 200, description = "The branches.", body = Branches),
+        (status = 400, description = "A parameter is not valid.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 404, description = "There is no such job.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 409, description = "The job is of another kind, or has no point yet.", body = Problem,
+            content_type = "application/problem+json"),
+    ))]
+pub(super) async fn get_branches(
+    state: State<AppState>,
+    whose: Principal,
+    JobPath(id): JobPath,
+    Parameters(query): Parameters<BranchesQuery>,
+    download: Download,
+) -> Result<Response, Problem> {
+    let job = find(&state, &whose, id).await?;
+    let JobRequest::Branches(asked) = &job.request else { return Err(wrong_kind(&job, JobKind::Branches)) };
+    check_sensor(asked.sweep().sensors(), query.sensor)?;
+    let marched = marched(&state, &whose, &query).await?;
+    let legs = state.store.legs(id).await?;
+    if legs == 0 {
+        let kind = match job.status {
+            JobStatus::Accepted | JobStatus::Running => Kind::ResultNotReady,
+            _ => Kind::ResultUnavailable,
+        };
+        return Err(Problem::new(
+            kind,
+            format!("the job is {} and has no point of a branch", job.status.as_str()),
+        ));
+    }
+    let mut bytes = 0;
+    for leg in 0..legs {
+        bytes += state.store.document_bytes(id, Document::BranchLeg(leg)).await?.unwrap_or(0);
+    }
+    let (store, runtime) = (state.store.clone(), Handle::current());
+    let read = move || {
+        let mut found = Vec::<BranchLeg>::new();
+        for leg in 0..legs {
+            let text = runtime.block_on(store.document(id, Document::BranchLeg(leg)))?;
+            found.extend(text.map(|text| serde_json::from_str(&text)).transpose()?);
+        }
+        Branches::of(found).ok_or_else(|| job_not_found(&id))
+    };
+    let sensor = query.sensor as usize;
+    let dots = marched.clone();
+    let draw = move |branches: &Branches| plot::branches(branches, sensor, &dots);
+    let figure = move |branches: &Branches| plot::figure::branches(branches, sensor, &marched);
+    Forms::drawn_by(draw, figure).answer(&state, download, lasting(&job), READ_MEMORY * bytes, read).await
+}
+
+/// Speeds of a sweep that are drawn beside.
+async fn marched(state: &AppState, whose: &Principal, query: &BranchesQuery) -> Result<Vec<Point>, Problem> {
+    let Some(id) = &query.sweep else { return Ok(Vec::new()) };
+    let id = parse_job_id(id)?;
+    let job = find(state, whose, id).await?;
+    sweep(&job)?;
+    Ok(state.store.points(id).await?)
+}

@@ -1,0 +1,67 @@
+//! Legs of branches, and how far they have been followed.
+
+use super::dialect::Guarded;
+use super::error::StoreError;
+use super::handle::Store;
+use super::jobs::job::JobId;
+use super::results::Document;
+use super::sql::of;
+use super::time::now;
+
+impl Store {
+    /// Keeps leg `index` of a job together with the course after it, in place of the one before; none where nothing is left to follow. A
+    /// leg that is there already stays as it is, and so does its course; a job that was deleted keeps nothing.
+    pub async fn keep_leg(
+        &self,
+        job: JobId,
+        index: u32,
+        leg: &str,
+        course: Option<&str>,
+    ) -> Result<(), StoreError> {
+        let mut transaction = self.write().await?;
+        transaction.guard(Guarded::Job(job)).await?;
+        let insert = |(name, part): (&'static str, u32), body: String| {
+            sqlx::query(
+                "insert into documents (job, name, part, body, created_at)
+                 select $1, $2, $3, $4, $5 where exists (select 1 from jobs where id = $1 and deleted = 0)
+                 on conflict (job, name, part) do nothing",
+            )
+            .bind(job.to_string())
+            .bind(name)
+            .bind(i64::from(part))
+            .bind(body)
+            .bind(now())
+        };
+        let inserted = insert(Document::BranchLeg(index).columns(), leg.to_owned());
+        if inserted.execute(&mut *transaction).await?.rows_affected() == 1 {
+            let (name, part) = Document::BranchCourse.columns();
+            sqlx::query("delete from documents where job = $1 and name = $2 and part = $3")
+                .bind(job.to_string())
+                .bind(name)
+                .bind(i64::from(part))
+                .execute(&mut *transaction)
+                .await?;
+            if let Some(course) = course {
+                insert((name, part), course.to_owned()).execute(&mut *transaction).await?;
+            }
+            sqlx::query("update jobs set crashes = 0, stored_bytes = stored_bytes + $2 where id = $1")
+                .bind(job.to_string())
+                .bind(leg.len() as i64)
+                .execute(&mut *transaction)
+                .await?;
+        }
+        transaction.commit_job(job).await?;
+        Ok(())
+    }
+
+    /// How many legs of a job there are.
+    pub async fn legs(&self, job: JobId) -> Result<u32, StoreError> {
+        let (name, _) = Document::BranchLeg(0).columns();
+        let count: i64 = sqlx::query_scalar("select count(*) from documents where job = $1 and name = $2")
+            .bind(job.to_string())
+            .bind(name)
+            .fetch_one(&self.readers)
+            .await?;
+        of("documents.part", count)
+    }
+}
