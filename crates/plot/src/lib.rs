@@ -31,6 +31,7 @@
 //! ```
 
 mod axis;
+mod branches;
 mod campbell;
 mod campbell_fixed_frame;
 mod cells;
@@ -76,6 +77,7 @@ mod wear_map;
 mod window;
 mod work_precision;
 
+pub use branches::branches;
 pub use campbell::campbell;
 pub use campbell_fixed_frame::campbell_fixed_frame;
 pub use critical_speeds::critical_speeds;
