@@ -17,6 +17,19 @@ pub struct InitialMode {
     pub velocity: c64,
 }
 
+/// A mode of a motion under way, as steps leave it: nothing is lost of it as it is of a velocity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SteppedMode {
+    /// Index of the nodal diameter among the wheel's harmonics.
+    pub harmonic: usize,
+    /// Mode within the nodal diameter, counted from 0; one that the scheme integrates.
+    pub family: usize,
+    /// z.
+    pub displacement: c64,
+    /// z − z⁻.
+    pub increment: c64,
+}
+
 /// How a mode moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum InitialWave {

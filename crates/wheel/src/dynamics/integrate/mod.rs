@@ -10,6 +10,7 @@ mod instant;
 mod obstacle;
 mod passage;
 mod recorder;
+mod recurrence;
 mod repetition;
 mod residual;
 mod revolutions;
@@ -40,6 +41,7 @@ pub use self::tips::TipMotion;
 pub use self::trace::{Touching, Trace};
 #[cfg(test)]
 use super::casing::RestrictionTable;
+use super::initial::SteppedMode;
 
 impl Simulation<'_> {
     /// Runs the simulation. `watch` is called once all is set up, with 0, and now and then with the share of work done; `false`
@@ -52,12 +54,15 @@ impl Simulation<'_> {
         self.dispatch(pulp::Arch::new(), (Stepper::new(self), Beginning::Free), watch)
     }
 
-    /// Runs the simulation from a state that another motion has come to: forces that act at its instant are part of it.
+    /// Runs the simulation from a state that another motion has come to, instead of [`Self::initial`]: forces that act at its instant are
+    /// part of it.
     ///
     /// # Panics
     /// As [`Self::run`].
-    pub fn go_on(&self, watch: &dyn Fn(f64) -> bool) -> Run {
-        self.dispatch(pulp::Arch::new(), (Stepper::new(self), Beginning::UnderWay), watch)
+    pub fn go_on(&self, from: &[SteppedMode], watch: &dyn Fn(f64) -> bool) -> Run {
+        let mut stepper = Stepper::new(self);
+        stepper.go_on_from(from);
+        self.dispatch(pulp::Arch::new(), (stepper, Beginning::UnderWay), watch)
     }
 
     /// Runs on vectors of a given kind.

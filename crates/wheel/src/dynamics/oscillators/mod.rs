@@ -21,7 +21,7 @@ pub(crate) use self::recursion::Exchange;
 use self::recursion::{Advance, Complete, CompleteAndPredict, Modes, Numbers, Pass, Sums};
 use self::rows::{Loads, Rows};
 use self::segment::Segment;
-use super::initial::InitialMode;
+use super::initial::{InitialMode, SteppedMode};
 use super::modal_wheel::ModalWheel;
 use super::schemes::{ModeStep, Scheme};
 use rubmap_numerics::aligned::Aligned;
@@ -140,6 +140,21 @@ impl Oscillators {
         for (start, (z, v)) in segment.parts().zip(values) {
             self.state.z[start + mode.family] = z;
             self.state.d[start + mode.family] = first_increment(z, v);
+        }
+    }
+
+    /// Has all modes where another motion left them, at rest where it has nothing.
+    pub(crate) fn go_on_from(&mut self, modes: &[SteppedMode]) {
+        let Self { segments, state, .. } = self;
+        state.z.fill(0.0);
+        state.d.fill(0.0);
+        for mode in modes {
+            let (z, d) = (mode.displacement, mode.increment);
+            let parts = segments[mode.harmonic].parts().zip([(z.re, d.re), (z.im, d.im)]);
+            for (start, (z, d)) in parts {
+                state.z[start + mode.family] = z;
+                state.d[start + mode.family] = d;
+            }
         }
     }
 

@@ -4,6 +4,7 @@
 //! [`response`] is the whole of it for a scene: [`periodic`] finds a response, [`stability`] says whether it lasts. [`tangent`] is the
 //! derivative of the map and [`multipliers`] are its eigenvalues.
 
+mod coupling;
 #[cfg(test)]
 mod harmonic_balance;
 pub mod multipliers;

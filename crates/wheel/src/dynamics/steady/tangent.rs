@@ -7,7 +7,8 @@
 //! ```
 //!
 //! A being the normal displacement of the nodes that touch per unit of every mode, R the receptances; without, δλ acts on the step
-//! after. Exact as long as no state nearby lets another set touch; where one does, the derivative jumps, and this is the one on the side
+//! after. With friction the forces act along other rows than A, B = A + μ…, so that it is Bᵀ δλ_A that pushes, and W_AA is not symmetric;
+//! mistuning and Coriolis forces are in [`coupling`](super::coupling). Exact as long as no state nearby lets another set touch; where one does, the derivative jumps, and this is the one on the side
 //! that was traced. Sets change at steps, so that what it
 //! says of the motion in continuous time is of first order in the step, where the response itself is of second.
 
@@ -17,7 +18,9 @@ use faer::linalg::matmul::matmul;
 use faer::prelude::{Reborrow, ReborrowMut};
 use faer::{Accum, Mat, MatMut, MatRef, Par, c64};
 
+use super::coupling::Coupling;
 use crate::dynamics::contact::flexibility::outward_normals;
+use crate::dynamics::direction::Direction;
 use crate::dynamics::integrate::{Passage, Touching, Trace, Unknown};
 use crate::dynamics::schemes::Scheme;
 
@@ -31,6 +34,9 @@ pub struct Tangent<'a> {
     receptance: Vec<f64>,
     /// A of all contact nodes, `unknowns × (sector, node)`.
     rows: Mat<f64>,
+    /// B of the same; absent without friction.
+    sliding: Option<Mat<f64>>,
+    coupling: Coupling,
     nodes: usize,
     massless: bool,
 }
@@ -48,25 +54,18 @@ impl<'a> Tangent<'a> {
         };
         let steps: Vec<_> = passage.unknowns().iter().map(mode_step).collect();
         let normals = outward_normals(simulation.contact_nodes);
-        let (nodes, sectors) = (normals.len(), wheel.sectors);
-        let rows = Mat::from_fn(steps.len(), if touching { sectors * nodes } else { 0 }, |i, place| {
-            let unknown = passage.unknowns()[i];
-            let harmonic = &wheel.harmonics[unknown.harmonic];
-            let weight = if harmonic.single { 1.0 } else { 2.0 } / sectors as f64;
-            let (sector, node) = (place / nodes, place % nodes);
-            let turns = (unknown.harmonic * sector) % sectors;
-            let angle = TAU * turns as f64 / sectors as f64;
-            let shape = normals[node].of(harmonic.contact.as_ref(), unknown.family);
-            let shape = shape * c64::new(angle.cos(), angle.sin()) * weight.sqrt();
-            if unknown.imaginary { -shape.im } else { shape.re }
-        });
+        let rows = |directions: &[Direction]| rows(passage, directions);
+        let friction = simulation.effects.friction.filter(|_| touching);
+        let receptance: Vec<f64> = steps.iter().map(|(_, step)| step.receptance).collect();
         Self {
             passage,
             keep: steps.iter().map(|(_, step)| step.keep).collect(),
             pull: steps.iter().map(|(omega, step)| omega * omega * step.receptance).collect(),
-            receptance: steps.iter().map(|(_, step)| step.receptance).collect(),
-            rows,
-            nodes,
+            rows: rows(if touching { &normals } else { &[] }),
+            sliding: friction.map(|friction| rows(friction.directions)),
+            coupling: Coupling::of(passage, &receptance),
+            receptance,
+            nodes: normals.len(),
             massless: matches!(simulation.scheme, Scheme::MasslessBoundary { .. }),
         }
     }
@@ -94,40 +93,39 @@ impl<'a> Tangent<'a> {
         self.scale(states.rb_mut(), |scale| 1.0 / scale, step);
         let (mut z, mut d) = states.rb_mut().split_at_row_mut(n);
         let Trace { sets, instants } = self.passage.trace();
-        // A of the set that touches, gathered when it changes: of all of them at once it may take gigabytes.
-        let (mut read, mut gathered) = (Mat::zeros(n, 0), None);
+        // A and B of the set that touches, gathered when it changes: of all of them at once it may take gigabytes.
+        let (mut read, mut pushing, mut gathered) = (Mat::zeros(n, 0), None, None);
         let mut moved = |z: MatRef<'_, f64>, set: usize| {
             if gathered != Some(set) {
-                read = self.read_by(&sets[set]);
+                read = self.of_set(&self.rows, &sets[set]);
+                pushing = self.sliding.as_ref().map(|sliding| self.of_set(sliding, &sets[set]));
                 gathered = Some(set);
             }
             let mut force = &sets[set].stiffness * (read.transpose() * z);
             force *= faer::Scale(-1.0);
             let mut moved = Mat::zeros(n, z.ncols());
-            matmul(moved.as_mut(), Accum::Replace, read.as_ref(), force.as_ref(), 1.0, Par::Seq);
+            let pushing = pushing.as_ref().unwrap_or(&read);
+            matmul(moved.as_mut(), Accum::Replace, pushing.as_ref(), force.as_ref(), 1.0, Par::Seq);
+            self.move_by(moved.as_mut());
             moved
         };
         let mut instants = instants.iter().copied().peekable();
         let mut pushed = instants.next_if(|&(step, _)| step == 0).map(|(_, set)| moved(z.rb(), set));
         for step in 1..=self.passage.steps() {
-            for column in 0..z.ncols() {
-                let z = z.rb_mut().col_mut(column).try_as_col_major_mut().map(|z| z.as_slice_mut());
-                let d = d.rb_mut().col_mut(column).try_as_col_major_mut().map(|d| d.as_slice_mut());
-                let (Some(z), Some(d)) = (z, d) else { unreachable!("states are kept column by column") };
-                for i in 0..n {
-                    d[i] = self.keep[i] * d[i] - self.pull[i] * z[i];
-                    z[i] += d[i];
-                }
+            if self.coupling.is_none() {
+                self.advance(z.rb_mut(), d.rb_mut());
+            } else {
+                self.advance_coupled(z.rb_mut(), d.rb_mut());
             }
-            if let Some(force) = pushed.take() {
-                self.push(z.rb_mut(), d.rb_mut(), force.as_ref());
+            if let Some(moved) = pushed.take() {
+                push(z.rb_mut(), d.rb_mut(), moved.as_ref());
             }
             if let Some((_, set)) = instants.next_if(|&(instant, _)| instant == step) {
-                let force = moved(z.rb(), set);
+                let moved = moved(z.rb(), set);
                 if self.massless {
-                    pushed = Some(force);
+                    pushed = Some(moved);
                 } else {
-                    self.push(z.rb_mut(), d.rb_mut(), force.as_ref());
+                    push(z.rb_mut(), d.rb_mut(), moved.as_ref());
                 }
             }
         }
@@ -145,20 +143,50 @@ impl<'a> Tangent<'a> {
         self.apply(MatMut::from_column_major_slice_mut(state, rows, 1));
     }
 
-    /// A of a set, `unknowns × nodes`.
-    fn read_by(&self, set: &Touching) -> Mat<f64> {
-        let place = |&(sector, node): &(usize, usize)| sector * self.nodes + node;
-        Mat::from_fn(self.keep.len(), set.places.len(), |i, j| self.rows[(i, place(&set.places[j]))])
-    }
-
-    fn push(&self, mut z: MatMut<'_, f64>, mut d: MatMut<'_, f64>, force: MatRef<'_, f64>) {
+    /// A free step of modes that do not know of each other.
+    fn advance(&self, mut z: MatMut<'_, f64>, mut d: MatMut<'_, f64>) {
         for column in 0..z.ncols() {
-            for (i, receptance) in self.receptance.iter().enumerate() {
-                let moved = receptance * force[(i, column)];
-                z[(i, column)] += moved;
-                d[(i, column)] += moved;
+            let z = z.rb_mut().col_mut(column).try_as_col_major_mut().map(|z| z.as_slice_mut());
+            let d = d.rb_mut().col_mut(column).try_as_col_major_mut().map(|d| d.as_slice_mut());
+            let (Some(z), Some(d)) = (z, d) else { unreachable!("states are kept column by column") };
+            for i in 0..self.keep.len() {
+                d[i] = self.keep[i] * d[i] - self.pull[i] * z[i];
+                z[i] += d[i];
             }
         }
+    }
+
+    /// The same of modes that are coupled.
+    fn advance_coupled(&self, mut z: MatMut<'_, f64>, mut d: MatMut<'_, f64>) {
+        let swing = |i: usize, column: usize| {
+            let (z, d) = (z[(i, column)], d[(i, column)]);
+            self.keep[i] * d - self.pull[i] * z + d
+        };
+        let mut swing = Mat::from_fn(z.nrows(), z.ncols(), swing);
+        self.coupling.pull(z.rb(), swing.as_mut());
+        self.coupling.turn(swing.as_mut());
+        for column in 0..z.ncols() {
+            for i in 0..z.nrows() {
+                d[(i, column)] = swing[(i, column)] - d[(i, column)];
+                z[(i, column)] += d[(i, column)];
+            }
+        }
+    }
+
+    /// `rows` of a set, `unknowns × nodes`.
+    fn of_set(&self, rows: &Mat<f64>, set: &Touching) -> Mat<f64> {
+        let place = |&(sector, node): &(usize, usize)| sector * self.nodes + node;
+        Mat::from_fn(self.keep.len(), set.places.len(), |i, j| rows[(i, place(&set.places[j]))])
+    }
+
+    /// What modal forces move within a step, in their place.
+    fn move_by(&self, mut force: MatMut<'_, f64>) {
+        for column in 0..force.ncols() {
+            for (i, receptance) in self.receptance.iter().enumerate() {
+                force[(i, column)] *= receptance;
+            }
+        }
+        self.coupling.turn(force);
     }
 
     fn scale(&self, mut states: MatMut<'_, f64>, of: impl Fn(f64) -> f64, increments: f64) {
@@ -168,6 +196,32 @@ impl<'a> Tangent<'a> {
                 states[(i, column)] *= of(unknown.scale);
                 states[(n + i, column)] *= increments;
             }
+        }
+    }
+}
+
+/// Displacement of `directions` at all sectors per unit of every unknown, `unknowns × (sector, direction)`.
+fn rows(passage: &Passage<'_>, directions: &[Direction]) -> Mat<f64> {
+    let wheel = passage.simulation().wheel;
+    let (unknowns, sectors) = (passage.unknowns(), wheel.sectors);
+    Mat::from_fn(unknowns.len(), sectors * directions.len(), |i, place| {
+        let unknown = unknowns[i];
+        let harmonic = &wheel.harmonics[unknown.harmonic];
+        let weight = if harmonic.single { 1.0 } else { 2.0 } / sectors as f64;
+        let (sector, direction) = (place / directions.len(), place % directions.len());
+        let turns = (unknown.harmonic * sector) % sectors;
+        let angle = TAU * turns as f64 / sectors as f64;
+        let shape = directions[direction].of(harmonic.contact.as_ref(), unknown.family);
+        let shape = shape * c64::new(angle.cos(), angle.sin()) * weight.sqrt();
+        if unknown.imaginary { -shape.im } else { shape.re }
+    })
+}
+
+fn push(mut z: MatMut<'_, f64>, mut d: MatMut<'_, f64>, moved: MatRef<'_, f64>) {
+    for column in 0..z.ncols() {
+        for i in 0..z.nrows() {
+            z[(i, column)] += moved[(i, column)];
+            d[(i, column)] += moved[(i, column)];
         }
     }
 }
