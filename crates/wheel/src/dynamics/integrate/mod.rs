@@ -30,6 +30,7 @@ pub use self::bounds::{TipComponent, TipDisplacement};
 pub use self::detail::DetailHistory;
 pub use self::excursion::Excursion;
 pub use self::passage::{Passage, PassageError, Unknown};
+pub use self::recurrence::revolutions_over_lobe;
 pub use self::repetition::LEAST_MARCHED;
 pub use self::revolutions::{Repeated, Repeats, Revolutions};
 pub use self::run::{Divergence, History, MAX_TABLE_VALUES, Outcome, Run};

@@ -14,6 +14,7 @@ use num_integer::gcd;
 
 use super::passage::PassageError;
 use super::simulation::Simulation;
+use crate::dynamics::orbit::Orbit;
 
 /// Most revolutions that an orbit may take to come round.
 const MOST_REVOLUTIONS: usize = 8;
@@ -51,16 +52,17 @@ impl<'a> Recurrences<'a> {
     /// [`PassageError::Coating`], [`PassageError::ElasticCasing`] and [`PassageError::Orbit`].
     pub(super) fn of(simulation: &Simulation<'a>) -> Result<Self, PassageError> {
         let effects = &simulation.effects;
-        if effects.coating.is_some() {
+        let touching = simulation.casing.is_some();
+        if touching && effects.coating.is_some() {
             return Err(PassageError::Coating);
         }
-        if effects.flexible_casing.is_some() {
+        if touching && effects.flexible_casing.is_some() {
             return Err(PassageError::ElasticCasing);
         }
-        let orbit = match effects.orbit {
-            Some(orbit) => Some(
-                fraction(1.0 - orbit.whirl_ratio)
-                    .ok_or(PassageError::Orbit { whirl_ratio: orbit.whirl_ratio, most: MOST_REVOLUTIONS })?,
+        let orbit = match effects.orbit.filter(|_| touching) {
+            Some(Orbit { whirl_ratio, .. }) => Some(
+                fraction(1.0 - whirl_ratio)
+                    .ok_or(PassageError::Orbit { whirl_ratio, most: MOST_REVOLUTIONS })?,
             ),
             None => None,
         };
@@ -120,6 +122,21 @@ impl<'a> Recurrences<'a> {
         });
         (order * (time - turned)) % revolution == 0 && orbit && alike
     }
+}
+
+/// Revolutions of a [passage over a lobe](super::Passage::over_lobes) of a scene with these lobes, engine orders and whirl ratio, whose steps it
+/// divides; 1 where the orbit never comes round.
+pub fn revolutions_over_lobe(
+    lobes: Option<u32>,
+    orders: impl Iterator<Item = u32>,
+    whirl_ratio: Option<f64>,
+) -> f64 {
+    let lobes = lobes.map(|count| count.max(1) as usize);
+    let steps = lobes.unwrap_or(1);
+    let order = orders.map(|order| order as usize).chain(lobes).fold(0, gcd);
+    let orbit = whirl_ratio.and_then(|whirl_ratio| fraction(1.0 - whirl_ratio));
+    let of = Recurrences { steps, around: 1, order, lobes, deviations: None, orbit };
+    of.lobe().steps as f64 / steps as f64
 }
 
 /// `value` as a fraction of few revolutions.

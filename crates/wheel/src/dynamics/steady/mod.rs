@@ -5,6 +5,7 @@
 //! derivative of the map and [`multipliers`] are its eigenvalues.
 
 mod coupling;
+mod damping;
 #[cfg(test)]
 mod harmonic_balance;
 pub mod multipliers;

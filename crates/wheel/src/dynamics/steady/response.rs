@@ -1,5 +1,6 @@
 //! The periodic response of a scene: sought from where its march begins, judged, and reached or not.
 
+use super::damping::{Followed, follow};
 use super::multipliers::MOST_PRODUCTS;
 use super::periodic::{DEPTH, NotFound, Periodic, Search, find};
 use super::stability::{Floquet, Stability};
@@ -45,6 +46,8 @@ pub struct Response {
     pub floquet: Floquet,
     /// Whether the march from where the scene begins comes to it; none if nobody asked, or it does not last.
     pub arrives: Option<bool>,
+    /// Times the damping of the scene from which it was followed, where the search with that damping stalled.
+    pub followed_from: Option<f64>,
 }
 
 /// What a search came to.
@@ -56,7 +59,8 @@ pub struct Sought {
     pub revolutions: f64,
 }
 
-/// Memory that a search holds, in bytes, beside that of a run: of so many unknowns (numbers z) and pairs of sector and contact node.
+/// Memory that a search holds, in bytes, beside that of a run: of so many unknowns (numbers z) and pairs of sector and contact node, twice as
+/// many with friction.
 pub fn memory(unknowns: usize, pairs: usize) -> usize {
     let state = 2 * unknowns;
     // Differences of residuals and images with two copies for their least squares, or the vectors of the multipliers; A of all pairs.
@@ -79,7 +83,7 @@ pub fn seek(simulation: &Simulation<'_>, limit: usize, control: bool, go_on: &dy
 }
 
 /// The map over about half a revolution, some of which make a whole: short ones look back over too little, long ones are few.
-fn about_half<'a>(simulation: &Simulation<'a>) -> Result<Passage<'a>, PassageError> {
+pub(super) fn about_half<'a>(simulation: &Simulation<'a>) -> Result<Passage<'a>, PassageError> {
     let passage = Passage::shortest(simulation)?;
     let (steps, parts) = (passage.steps(), passage.whole() / passage.steps());
     let fits =
@@ -99,7 +103,19 @@ fn respond(
     let most = passages(limit);
     let start = begin(simulation, passage, revolutions, go_on)?;
     let search = Search { tolerance: FOUND, marched: passages(MARCHED), most };
-    let Periodic { state, residual } = find(passage, &start, &search, go_on)?;
+    let (Periodic { state, residual }, followed_from) = match find(passage, &start, &search, go_on) {
+        Err(stalled @ NotFound::Stalled { .. }) if simulation.damping.is_some() => {
+            let mut taken = passage.taken();
+            let followed = follow(simulation, &start, (&search, &mut taken), go_on);
+            *revolutions += ((taken - passage.taken()) * steps) as f64 / per_revolution as f64;
+            match followed {
+                Ok(Followed { periodic, from }) => (periodic, Some(from)),
+                Err(NotFound::Cancelled) => return Err(NotFound::Cancelled),
+                Err(_) => return Err(stalled),
+            }
+        }
+        found => (found?, None),
+    };
     let hint: Vec<f64> = start.iter().zip(&state).map(|(a, b)| a - b).collect();
     let mut floquet = Floquet::of(passage, (&state, &hint), MULTIPLIERS)?;
     *revolutions += floquet.revolutions;
@@ -119,7 +135,7 @@ fn respond(
         }
     }
     let period = passage.whole() / simulation.steps_per_revolution;
-    Ok(Response { modes: passage.modes(&state), period, residual, floquet, arrives })
+    Ok(Response { modes: passage.modes(&state), period, residual, floquet, arrives, followed_from })
 }
 
 /// The state once all has grown, marched from where the scene begins.

@@ -461,3 +461,43 @@ fn a_march_that_ends_has_come_as_close_as_it_says() {
     }
     assert!(ended >= 24 && several > 0 && others > 0, "{ended} ended, {several} after several, {others} not");
 }
+
+/// Lightly damped scenes drawn at random, where the search from the march alone stalls within 400 revolutions: some are followed from heavier
+/// damping, and what is found then is a response of the scene itself, which attracts or not as it says.
+#[test]
+fn light_damping_is_followed_from_heavier() {
+    let mut numbers = Numbers(31);
+    let mut within = |low: f64, high: f64| low + 0.5 * (numbers.next() + 1.0) * (high - low);
+    let (mut followed, mut stable) = (0, 0);
+    for case in 0..30 {
+        let scheme = SCHEMES[case % 3];
+        let (sectors, lobes) = [(6, 2), (5, 2), (8, 4), (1, 1)][case % 4];
+        let mut scene = Scene::new(sectors, lobes, [0.01, 0.005, 0.0025][case / 3 % 3], scheme);
+        scene.wheel.speed_rad_s = within(600.0, 2000.0);
+        let clearance = vec![within(0.2, 0.3), within(0.2, 0.3)];
+        scene.casing.iter_mut().for_each(|casing| casing.clearance.clone_from(&clearance));
+        let simulation = scene.simulation();
+        let Ok(response) = seek(&simulation, 400, false, &|| true).response else { continue };
+        if response.followed_from.is_none() {
+            continue;
+        }
+        followed += 1;
+        let mut passage = Passage::over_lobes(&simulation, response.floquet.lobes).unwrap();
+        let orbit = state_of(&passage, &response.modes);
+        let image = passage.map(&orbit).unwrap();
+        // Found to 1e-8 over half a revolution or less; a lobe that repels multiplies that.
+        let growth = response.floquet.multipliers[0].value.norm().max(1.0);
+        let off = length(&difference(&image, &orbit)) / length(&orbit);
+        assert!(off < 1e-7 * growth, "{case} {scheme:?}: {off:e} {growth}");
+        if response.floquet.stability == Stability::Stable {
+            stable += 1;
+            let mut state: Vec<f64> = orbit.iter().map(|x| 1.0001 * x).collect();
+            for _ in 0..400 {
+                state = passage.map(&state).unwrap();
+            }
+            let off = length(&difference(&state, &orbit)) / length(&orbit);
+            assert!(off < 1e-6, "{case} {scheme:?}: {off:e}");
+        }
+    }
+    assert!(followed > 3 && stable > 0, "{followed} followed, {stable} of them stable");
+}

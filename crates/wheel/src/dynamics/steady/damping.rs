@@ -1,0 +1,80 @@
+//! Responses of light damping, followed from heavier damping.
+//!
+//! What decays slowly keeps the search from coming close enough for Newton's method. With some times the damping the response is found from where
+//! the march begins; from there it is followed in geometric steps, each solved from the one before, a step that fails being halved.
+
+use super::periodic::{NotFound, Periodic, Search, find};
+use super::response::about_half;
+use crate::dynamics::integrate::{Passage, Simulation};
+use crate::dynamics::oscillators::ModalDamping;
+
+/// Times the damping that is wanted with which a response is sought first.
+const HEAVIER: [f64; 2] = [4.0, 16.0];
+
+/// First ratio of damping of a step.
+const STEP: f64 = 2.0;
+
+/// Least ratio: where even this step fails the branch has ended, or turned.
+const LEAST_STEP: f64 = 1.02;
+
+/// A response, and the times the damping of its scene from which it was followed.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Followed {
+    pub(super) periodic: Periodic,
+    pub(super) from: f64,
+}
+
+/// The periodic response of the scene of `simulation` that continues the one which the search from `start` comes to with heavier damping, until
+/// `search.most` passages are `taken`.
+///
+/// # Errors
+/// [`NotFound`]: of the search with the heaviest damping, or of the last step.
+pub(super) fn follow(
+    simulation: &Simulation<'_>,
+    start: &[f64],
+    (search, taken): (&Search, &mut usize),
+    go_on: &dyn Fn() -> bool,
+) -> Result<Followed, NotFound> {
+    let mut solve = |factor: f64, start: &[f64], marched: usize| {
+        let damping = simulation.damping.map(|damping| times(damping, factor));
+        let heavier = Simulation { damping: damping.as_ref(), ..*simulation };
+        let mut passage: Passage<'_> = about_half(&heavier)?;
+        let left = Search { marched, most: search.most.saturating_sub(*taken), ..*search };
+        let found = find(&mut passage, start, &left, go_on);
+        *taken += passage.taken();
+        found
+    };
+    let mut sought = Err(NotFound::Stalled { residual: f64::INFINITY, passages: 0 });
+    for from in HEAVIER {
+        sought = solve(from, start, search.marched).map(|periodic| Followed { periodic, from });
+        if matches!(sought, Ok(_) | Err(NotFound::Cancelled)) {
+            break;
+        }
+    }
+    let Followed { mut periodic, from } = sought?;
+    let (mut factor, mut step) = (from, STEP);
+    while factor > 1.0 {
+        let next = (factor / step).max(1.0);
+        match solve(next, &periodic.state, 0) {
+            Ok(nearer) => {
+                (periodic, factor) = (nearer, next);
+                step = (step * step).min(STEP);
+            }
+            Err(NotFound::Cancelled) => return Err(NotFound::Cancelled),
+            Err(reason) => {
+                step = step.sqrt();
+                if step < LEAST_STEP {
+                    return Err(reason);
+                }
+            }
+        }
+    }
+    Ok(Followed { periodic, from })
+}
+
+fn times(damping: &ModalDamping, factor: f64) -> ModalDamping {
+    ModalDamping {
+        modal_ratio: factor * damping.modal_ratio,
+        family_ratios: damping.family_ratios.iter().map(|ratio| factor * ratio).collect(),
+    }
+}
