@@ -30,6 +30,24 @@ pub struct SteppedMode {
     pub increment: c64,
 }
 
+/// A wave of an elastic casing of a motion under way, the cosine and the sine, in coordinates of modal mass 1.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct SteppedWave {
+    /// z.
+    pub displacement: [f64; 2],
+    /// z − z⁻.
+    pub increment: [f64; 2],
+}
+
+/// A motion under way.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Stepped {
+    /// Those that move.
+    pub modes: Vec<SteppedMode>,
+    /// All waves of an elastic casing; empty without, or where it is at rest.
+    pub casing: Vec<SteppedWave>,
+}
+
 /// How a mode moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum InitialWave {

@@ -29,7 +29,7 @@ use pulp::{Simd, WithSimd};
 pub use self::bounds::{TipComponent, TipDisplacement};
 pub use self::detail::DetailHistory;
 pub use self::excursion::Excursion;
-pub use self::passage::{Passage, PassageError, Unknown};
+pub use self::passage::{CasingUnknown, Passage, PassageError, Unknown};
 pub use self::recurrence::revolutions_over_lobe;
 pub use self::repetition::LEAST_MARCHED;
 pub use self::revolutions::{Repeated, Repeats, Revolutions};
@@ -42,7 +42,7 @@ pub use self::tips::TipMotion;
 pub use self::trace::{Touching, Trace};
 #[cfg(test)]
 use super::casing::RestrictionTable;
-use super::initial::SteppedMode;
+use super::initial::Stepped;
 
 impl Simulation<'_> {
     /// Runs the simulation. `watch` is called once all is set up, with 0, and now and then with the share of work done; `false`
@@ -60,7 +60,7 @@ impl Simulation<'_> {
     ///
     /// # Panics
     /// As [`Self::run`].
-    pub fn go_on(&self, from: &[SteppedMode], watch: &dyn Fn(f64) -> bool) -> Run {
+    pub fn go_on(&self, from: &Stepped, watch: &dyn Fn(f64) -> bool) -> Run {
         let mut stepper = Stepper::new(self);
         stepper.go_on_from(from);
         self.dispatch(pulp::Arch::new(), (stepper, Beginning::UnderWay), watch)

@@ -8,7 +8,8 @@
 //! ```
 //!
 //! and one without it under the flow over one lobe, or some. What effects leave of this is in [`recurrence`](super::recurrence). The
-//! unknowns are ωz and d/h of every mode that remembers, real and imaginary parts: their squares are twice the energies.
+//! unknowns are ωz and d/h of every mode that remembers, real and imaginary parts, and of the waves of an elastic casing in the fixed frame: their
+//! squares are twice the energies.
 
 use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -24,7 +25,8 @@ use super::stepper::Stepper;
 use super::trace::Trace;
 #[cfg(test)]
 use crate::dynamics::casing::RestrictionTable;
-use crate::dynamics::initial::{InitialMode, SteppedMode};
+use crate::dynamics::flexible_casing::CasingMotion;
+use crate::dynamics::initial::{InitialMode, Stepped, SteppedMode, SteppedWave};
 use rubmap_numerics::complementarity::ComplementarityError;
 
 /// Why a scene has no such map, or a state no image.
@@ -33,9 +35,6 @@ pub enum PassageError {
     /// An abradable coating.
     #[error("a coating that wears is never as it was, so that nothing repeats")]
     Coating,
-    /// An elastic casing.
-    #[error("an elastic casing has a motion of its own, which the map of the wheel's does not hold")]
-    ElasticCasing,
     /// An orbit of the shaft that is back where it was too late, or never.
     #[error("an orbit of whirl ratio {whirl_ratio} does not come round within {most} revolutions")]
     Orbit {
@@ -65,12 +64,26 @@ pub struct Unknown {
     pub scale: f64,
 }
 
+/// One number of the state of an elastic casing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CasingUnknown {
+    /// Which of its waves.
+    pub wave: usize,
+    /// n.
+    pub nodal_diameter: usize,
+    /// Whether it is of the sine; that of n = 0 is none.
+    pub sine: bool,
+    /// What z is multiplied by, as of [`Unknown`].
+    pub scale: f64,
+}
+
 /// The map, with all that its evaluation needs.
 #[derive(Debug)]
 pub struct Passage<'a> {
     simulation: Simulation<'a>,
     stepper: Stepper,
     unknowns: Vec<Unknown>,
+    casing: Vec<CasingUnknown>,
     /// Where each is in the oscillators' state.
     places: Vec<usize>,
     of: Recurrence,
@@ -88,7 +101,7 @@ impl<'a> Passage<'a> {
     /// Of the scene of `simulation`, all that grows fully grown; over the shortest time its symmetry and its steps allow.
     ///
     /// # Errors
-    /// [`PassageError::Coating`], [`PassageError::ElasticCasing`] and [`PassageError::Orbit`].
+    /// [`PassageError::Coating`] and [`PassageError::Orbit`].
     pub fn shortest(simulation: &Simulation<'a>) -> Result<Self, PassageError> {
         let recurrences = Recurrences::of(simulation)?;
         Ok(Self::new(simulation, &recurrences, recurrences.shortest()))
@@ -145,6 +158,7 @@ impl<'a> Passage<'a> {
             lobes: whole / recurrences.lobe().steps,
             whole,
             simulation,
+            casing: casing_unknowns(&stepper, simulation.step_s()),
             stepper,
             unknowns,
             places,
@@ -185,12 +199,26 @@ impl<'a> Passage<'a> {
 
     /// Numbers of a state.
     pub fn size(&self) -> usize {
-        2 * self.unknowns.len()
+        2 * (self.unknowns.len() + self.casing.len())
     }
 
-    /// What they are: ωz of all, then d/h of all.
+    /// What they are: ωz of all, those of the casing last, then d/h of all.
     pub fn unknowns(&self) -> &[Unknown] {
         &self.unknowns
+    }
+
+    /// The last of each.
+    pub fn casing_unknowns(&self) -> &[CasingUnknown] {
+        &self.casing
+    }
+
+    /// What z of all is multiplied by.
+    pub fn scales(&self) -> impl Iterator<Item = f64> {
+        self.unknowns.iter().map(|of| of.scale).chain(self.casing.iter().map(|of| of.scale))
+    }
+
+    pub(in crate::dynamics) fn flexible_casing(&self) -> Option<&CasingMotion> {
+        self.stepper.flexible_casing()
     }
 
     /// What is integrated.
@@ -232,36 +260,35 @@ impl<'a> Passage<'a> {
         self.stepper.mistuned()
     }
 
-    /// The state of these modes, all others being at rest, as a run that begins with them has it.
-    pub fn state(&mut self, modes: &[InitialMode]) -> Vec<f64> {
+    /// The state of these modes and of these waves of the casing, all others being at rest, as a run that begins with them has it.
+    pub fn state(&mut self, modes: &[InitialMode], casing: &[SteppedWave]) -> Vec<f64> {
         let Simulation { wheel, scheme, damping, .. } = self.simulation;
-        let (n, step) = (self.unknowns.len(), self.simulation.step_s());
-        let mut state = vec![0.0; 2 * n];
-        for (i, unknown) in self.unknowns.iter().enumerate() {
-            let here =
-                |mode: &&InitialMode| (mode.harmonic, mode.family) == (unknown.harmonic, unknown.family);
-            let Some(mode) = modes.iter().find(here) else { continue };
-            let part = |value: c64| if unknown.imaginary { value.im } else { value.re };
-            let omega = wheel.harmonics[unknown.harmonic].omega[unknown.family];
-            let zeta = damping.map_or(0.0, |damping| damping.ratio(unknown.family));
-            let (z, v) = (part(mode.displacement), part(mode.velocity));
-            state[i] = unknown.scale * z;
-            state[n + i] = scheme.first_increment(omega, zeta, step, z, v) / step;
+        let step = self.simulation.step_s();
+        let mut stepped: Vec<SteppedMode> = Vec::new();
+        for &InitialMode { harmonic, family, displacement, velocity } in modes {
+            let omega = wheel.harmonics[harmonic].omega[family];
+            let zeta = damping.map_or(0.0, |damping| damping.ratio(family));
+            let increment = |z: f64, v: f64| scheme.first_increment(omega, zeta, step, z, v);
+            let increment =
+                c64::new(increment(displacement.re, velocity.re), increment(displacement.im, velocity.im));
+            stepped.push(SteppedMode { harmonic, family, displacement, increment });
         }
-        self.write(&state);
+        self.stepper.go_on_from(&Stepped { modes: stepped, casing: casing.to_vec() });
         self.stepper.drive_from(&self.simulation, modes, self.grown as f64);
         self.read()
     }
 
-    /// The modes of a state: what a run goes on from, at the beginning of a revolution.
-    pub fn modes(&self, state: &[f64]) -> Vec<SteppedMode> {
-        let (n, step) = (self.unknowns.len(), self.simulation.step_s());
-        let mut modes: Vec<SteppedMode> = Vec::new();
-        for (i, unknown) in self.unknowns.iter().enumerate() {
-            let (z, d) = (state[i] / unknown.scale, state[n + i] * step);
-            match modes.last_mut() {
+    /// What a run goes on from at the beginning of a revolution.
+    pub fn stepped(&self, state: &[f64]) -> Stepped {
+        let (n, step) = (self.size() / 2, self.simulation.step_s());
+        let mut stepped = Stepped::default();
+        let numbers = self.scales().zip(state).zip(&state[n..]).map(|((scale, x), y)| (x / scale, y * step));
+        let mut wheel: Vec<_> = numbers.collect();
+        let casing = wheel.split_off(self.unknowns.len());
+        for (unknown, (z, d)) in self.unknowns.iter().zip(wheel) {
+            match stepped.modes.last_mut() {
                 Some(mode) if unknown.imaginary => (mode.displacement.im, mode.increment.im) = (z, d),
-                _ => modes.push(SteppedMode {
+                _ => stepped.modes.push(SteppedMode {
                     harmonic: unknown.harmonic,
                     family: unknown.family,
                     displacement: c64::new(z, 0.0),
@@ -269,7 +296,22 @@ impl<'a> Passage<'a> {
                 }),
             }
         }
-        modes
+        for (unknown, (z, d)) in self.casing.iter().zip(casing) {
+            if !unknown.sine {
+                stepped.casing.push(SteppedWave::default());
+            }
+            let part = usize::from(unknown.sine);
+            if let Some(wave) = stepped.casing.last_mut() {
+                (wave.displacement[part], wave.increment[part]) = (z, d);
+            }
+        }
+        stepped
+    }
+
+    /// The state of a motion under way, of what is none of its unknowns nothing being kept.
+    pub fn state_of(&mut self, stepped: &Stepped) -> Vec<f64> {
+        self.stepper.go_on_from(stepped);
+        self.read()
     }
 
     /// P of a state.
@@ -293,30 +335,42 @@ impl<'a> Passage<'a> {
 
     /// Has the oscillators in `state`.
     fn write(&mut self, state: &[f64]) {
-        let (n, step) = (self.unknowns.len(), self.simulation.step_s());
-        let (z, d) = self.stepper.oscillators_mut().state_mut();
-        z.fill(0.0);
-        d.fill(0.0);
-        for (i, (&place, unknown)) in self.places.iter().zip(&self.unknowns).enumerate() {
-            z[place] = state[i] / unknown.scale;
-            d[place] = state[n + i] * step;
-        }
+        let stepped = self.stepped(state);
+        self.stepper.go_on_from(&stepped);
     }
 
     fn read(&self) -> Vec<f64> {
         let step = self.simulation.step_s();
         let (z, d) = self.stepper.oscillators().state();
-        let displacements = self.places.iter().zip(&self.unknowns).map(|(&at, of)| z[at] * of.scale);
-        displacements.chain(self.places.iter().map(|&at| d[at] / step)).collect()
+        let waves = self.stepper.flexible_casing().map(CasingMotion::stepped).unwrap_or_default();
+        let part = |unknown: &CasingUnknown| (waves[unknown.wave], usize::from(unknown.sine));
+        let casing = self.casing.iter().map(|of| (part(of), of.scale));
+        let wheel = self.places.iter().zip(&self.unknowns);
+        let displacements = wheel
+            .map(|(&at, of)| z[at] * of.scale)
+            .chain(casing.clone().map(|((wave, part), scale)| wave.displacement[part] * scale));
+        let increments = self
+            .places
+            .iter()
+            .map(|&at| d[at] / step)
+            .chain(casing.map(|((wave, part), _)| wave.increment[part] / step));
+        displacements.chain(increments).collect()
     }
 
     /// T_b⁻¹, of a state or a part of one that is kept alike.
     pub fn renumber(&self, state: &mut [f64]) {
-        if self.of.turn == 0 {
-            return;
-        }
         let sectors = self.simulation.wheel.sectors;
-        for half in state.chunks_exact_mut(self.unknowns.len()) {
+        for half in state.chunks_exact_mut(self.size() / 2) {
+            self.turn_casing(half, |n| {
+                // n (t − b/N) of a revolution, whole ones left out before anything is rounded.
+                let (per, around) = (self.simulation.steps_per_revolution, self.simulation.wheel.around());
+                let moved = (self.of.steps * around) as i128 - (self.of.turn * per) as i128;
+                let whole = (per * around) as i128;
+                (n as i128 * moved).rem_euclid(whole) as f64 / whole as f64
+            });
+            if self.of.turn == 0 {
+                continue;
+            }
             for (i, unknown) in self.unknowns.iter().enumerate() {
                 let angle = TAU * ((unknown.harmonic * self.of.turn) % sectors) as f64 / sectors as f64;
                 let pair = self.unknowns.get(i + 1).is_some_and(|next| next.imaginary);
@@ -333,6 +387,29 @@ impl<'a> Passage<'a> {
             }
         }
     }
+
+    /// Turns the casing's part of z or d against +θ by `revolutions` of every nodal diameter n: (c, s) as seen from there.
+    pub(in crate::dynamics) fn turn_casing(&self, half: &mut [f64], revolutions: impl Fn(usize) -> f64) {
+        let casing = &mut half[self.unknowns.len()..];
+        for (i, unknown) in self.casing.iter().enumerate().filter(|(_, unknown)| unknown.sine) {
+            let (sin, cos) = (TAU * revolutions(unknown.nodal_diameter)).sin_cos();
+            let (c, s) = (casing[i - 1], casing[i]);
+            (casing[i - 1], casing[i]) = (c * cos + s * sin, s * cos - c * sin);
+        }
+    }
+}
+
+/// z and d of an elastic casing, as they are in the state.
+fn casing_unknowns(stepper: &Stepper, step: f64) -> Vec<CasingUnknown> {
+    let mut unknowns = Vec::new();
+    let waves = stepper.flexible_casing().into_iter().flat_map(CasingMotion::linear_waves);
+    for (wave, of) in waves.enumerate() {
+        let scale = if of.stiffness > 0.0 { of.stiffness.sqrt() } else { step.recip() };
+        let nodal_diameter = of.nodal_diameter;
+        let sines = if nodal_diameter == 0 { &[false][..] } else { &[false, true] };
+        unknowns.extend(sines.iter().map(|&sine| CasingUnknown { wave, nodal_diameter, sine, scale }));
+    }
+    unknowns
 }
 
 /// Whether where a mode goes depends on where it was: one that follows statically forgets it within a step, unless it follows itself or others

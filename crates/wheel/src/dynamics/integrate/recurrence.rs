@@ -8,7 +8,7 @@
 //! δ_{s+b} = δ_s              deviations of mistuned sectors
 //! ```
 //!
-//! These times are the multiples of the shortest one, which therefore divides the revolutions after which all is as it was.
+//! An elastic casing, which is the same all around, has moved on by t − b/N, as seen by the sectors with their new numbers. These times are the multiples of the shortest one, which therefore divides the revolutions after which all is as it was.
 
 use num_integer::gcd;
 
@@ -49,15 +49,12 @@ impl<'a> Recurrences<'a> {
     /// Of the scene of `simulation`.
     ///
     /// # Errors
-    /// [`PassageError::Coating`], [`PassageError::ElasticCasing`] and [`PassageError::Orbit`].
+    /// [`PassageError::Coating`] and [`PassageError::Orbit`].
     pub(super) fn of(simulation: &Simulation<'a>) -> Result<Self, PassageError> {
         let effects = &simulation.effects;
         let touching = simulation.casing.is_some();
         if touching && effects.coating.is_some() {
             return Err(PassageError::Coating);
-        }
-        if touching && effects.flexible_casing.is_some() {
-            return Err(PassageError::ElasticCasing);
         }
         let orbit = match effects.orbit.filter(|_| touching) {
             Some(Orbit { whirl_ratio, .. }) => Some(

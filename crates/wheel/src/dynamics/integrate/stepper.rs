@@ -16,7 +16,7 @@ use pulp::Simd;
 use super::super::casing::RestrictionTable;
 use super::super::energy::EnergyAudit;
 use super::super::flexible_casing::CasingMotion;
-use super::super::initial::{InitialMode, SteppedMode};
+use super::super::initial::{InitialMode, Stepped};
 use super::super::oscillators::Oscillators;
 use super::super::oscillators::driven::Drive;
 use super::super::schemes::Scheme;
@@ -323,10 +323,6 @@ impl Stepper {
         &self.oscillators
     }
 
-    pub(super) fn oscillators_mut(&mut self) -> &mut Oscillators {
-        &mut self.oscillators
-    }
-
     /// Whether there are effects.
     fn is_affected(&self) -> bool {
         self.drive.is_some() || self.surroundings.is_some()
@@ -349,10 +345,13 @@ impl Stepper {
         }
     }
 
-    /// Has the modes where another motion left them.
-    pub(super) fn go_on_from(&mut self, modes: &[SteppedMode]) {
-        self.oscillators.go_on_from(modes);
-        self.energy = EnergyAudit::starting_at(self.oscillators.energy());
+    /// Has modes and casing where another motion left them.
+    pub(super) fn go_on_from(&mut self, from: &Stepped) {
+        self.oscillators.go_on_from(&from.modes);
+        if let Some(casing) = self.flexible_casing_mut() {
+            casing.go_on_from(&from.casing);
+        }
+        self.energy = EnergyAudit::starting_at(self.mechanical_energy());
     }
 
     /// Predicts the gaps (Eq. 9); whether all are open.
@@ -442,7 +441,8 @@ impl Stepper {
             drive.end(simulation.wheel, revolutions as f64, &mut self.oscillators, read);
         }
         let modes = modal_state(simulation, &self.oscillators);
-        let end = (modes, self.statistics.steps);
+        let casing = self.flexible_casing().map(CasingMotion::stepped).unwrap_or_default();
+        let end = (modes, casing, self.statistics.steps);
         self.recorder.end(simulation.wheel, &self.oscillators, &self.fourier, end);
     }
 
@@ -456,8 +456,12 @@ impl Stepper {
         self.oscillators.energy() + self.flexible_casing().map_or(0.0, CasingMotion::energy)
     }
 
-    fn flexible_casing(&self) -> Option<&CasingMotion> {
+    pub(super) fn flexible_casing(&self) -> Option<&CasingMotion> {
         self.surroundings.as_ref()?.casing.as_ref()
+    }
+
+    pub(super) fn flexible_casing_mut(&mut self) -> Option<&mut CasingMotion> {
+        self.surroundings.as_mut()?.casing.as_mut()
     }
 
     #[inline(never)]

@@ -7,7 +7,7 @@ use super::stability::{Floquet, Stability};
 use crate::dynamics::casing::Casing;
 use crate::dynamics::effects::Effects;
 use crate::dynamics::excitation::EngineOrderExcitation;
-use crate::dynamics::initial::SteppedMode;
+use crate::dynamics::initial::Stepped;
 use crate::dynamics::integrate::{
     Detail, Outcome, Passage, PassageError, Revolutions, Run, Simulation, Trace,
 };
@@ -36,8 +36,8 @@ const COMING: f64 = 0.25;
 /// A periodic response with its credentials.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Response {
-    /// The modes at the beginning of a revolution.
-    pub modes: Vec<SteppedMode>,
+    /// The state at the beginning of a revolution.
+    pub start: Stepped,
     /// Revolutions after which it repeats: 1, but under an orbit that takes longer to come round.
     pub period: usize,
     /// ‖P(x) − x‖ / ‖x‖ over the passage of the search, in the norm of energies.
@@ -135,7 +135,7 @@ fn respond(
         }
     }
     let period = passage.whole() / simulation.steps_per_revolution;
-    Ok(Response { modes: passage.modes(&state), period, residual, floquet, arrives, followed_from })
+    Ok(Response { start: passage.stepped(&state), period, residual, floquet, arrives, followed_from })
 }
 
 /// The state once all has grown, marched from where the scene begins.
@@ -146,7 +146,7 @@ fn begin(
     go_on: &dyn Fn() -> bool,
 ) -> Result<Vec<f64>, NotFound> {
     if passage.grown() == 0 {
-        return Ok(passage.state(simulation.initial));
+        return Ok(passage.state(simulation.initial, &[]));
     }
     let unrecorded = Simulation {
         sensors: &[],
@@ -161,7 +161,7 @@ fn begin(
     let run = unrecorded.run(&|_| go_on());
     *revolutions += run.statistics.steps as f64 / simulation.steps_per_revolution as f64;
     match run.outcome {
-        Outcome::Completed(history) => Ok(passage.state(&history.end)),
+        Outcome::Completed(history) => Ok(passage.state(&history.end, &history.casing_end)),
         Outcome::Diverged(divergence) => Err(PassageError::Diverged(divergence).into()),
         Outcome::ContactFailed { error, .. } => Err(PassageError::Contact(error).into()),
         Outcome::Cancelled => Err(NotFound::Cancelled),
@@ -241,7 +241,7 @@ pub fn record(simulation: &Simulation<'_>, response: &Response, watch: &dyn Fn(f
         ..*simulation
     };
     let alike = |revolution: usize| revolution % response.period;
-    let mut run = of(alike(wanted - window) + period).go_on(&response.modes, watch);
+    let mut run = of(alike(wanted - window) + period).go_on(&response.start, watch);
     let bounds = |asked: Revolutions| asked.of(wanted, None);
     let first = |asked: Revolutions| {
         let (from, to) = bounds(asked);
@@ -258,7 +258,7 @@ pub fn record(simulation: &Simulation<'_>, response: &Response, watch: &dyn Fn(f
             ..of(revolutions)
         };
         let skipped = simulation.states.map_or(0, |asked| bounds(asked).0 - alike(bounds(asked).0));
-        match recorded.go_on(&response.modes, watch).outcome {
+        match recorded.go_on(&response.start, watch).outcome {
             Outcome::Completed(recorded) => {
                 history.detail = recorded.detail;
                 history.states = recorded.states;

@@ -12,7 +12,7 @@ use super::tangent::Tangent;
 use crate::dynamics::casing::{Casing, Restriction};
 use crate::dynamics::direction::Direction;
 use crate::dynamics::effects::Effects;
-use crate::dynamics::initial::{InitialMode, SteppedMode};
+use crate::dynamics::initial::InitialMode;
 use crate::dynamics::integrate::{
     Detail, History, LEAST_MARCHED, Outcome, Passage, PassageError, Repeated, Repeats, Revolutions, Run,
     SensorRow, Simulation,
@@ -137,22 +137,6 @@ fn rate_beside(passage: &mut Passage<'_>, response: &[f64], growth: f64) -> (f64
     ((sizes[last] / sizes[from]).powf(1.0 / (last - from) as f64), last - from)
 }
 
-/// What [`Passage::modes`] made modes of.
-fn state_of(passage: &Passage<'_>, modes: &[SteppedMode]) -> Vec<f64> {
-    let parts = |of: fn(&SteppedMode) -> c64, scale: fn(f64, f64) -> f64| {
-        let step = passage.step_s();
-        let unknowns = passage.unknowns().iter().map(move |unknown| {
-            let here =
-                |mode: &&SteppedMode| (mode.harmonic, mode.family) == (unknown.harmonic, unknown.family);
-            let value = of(modes.iter().find(here).unwrap());
-            scale(unknown.scale, step) * if unknown.imaginary { value.im } else { value.re }
-        });
-        unknowns.collect::<Vec<f64>>()
-    };
-    [parts(|mode| mode.displacement, |scale, _| scale), parts(|mode| mode.increment, |_, step| 1.0 / step)]
-        .concat()
-}
-
 /// Without contact a mode comes back by e^{λT} after a passage, turned by its nodal diameter where sectors change their numbers.
 #[test]
 fn a_wheel_in_free_motion_has_the_multipliers_of_its_modes() {
@@ -199,7 +183,7 @@ fn the_tangent_is_the_limit_of_differences() {
             let scene = Scene::new(sectors, lobes, 0.02, scheme);
             let simulation = scene.simulation();
             let mut passage = Passage::shortest(&simulation).unwrap();
-            let state = passage.state(&scene.march(4));
+            let state = passage.state(&scene.march(4), &[]);
             let image = passage.map(&state).unwrap();
             let (touched, instants) = (passage.trace().sets.len(), passage.trace().instants.clone());
             assert!(touched > 0, "nothing touches");
@@ -242,7 +226,7 @@ fn what_starts_near_a_response_leaves_or_joins_it_as_its_multipliers_say() {
             let (rate, _) = rate_beside(&mut passage, &found.state, growth);
             assert!((rate / growth - 1.0).abs() < 0.05, "{scheme:?} {sectors}: {rate} for {growth}");
 
-            let marched = passage.state(&scene.march(60));
+            let marched = passage.state(&scene.march(60), &[]);
             let off = length(&difference(&marched, &found.state)) / length(&found.state);
             if growth < 1.0 {
                 stable += 1;
@@ -298,7 +282,7 @@ fn what_is_stable_and_reached_is_where_long_marches_end() {
         assert!(sought.revolutions > 3.0);
         if response.floquet.stability == Stability::Stable {
             let mut passage = Passage::over_lobes(&simulation, 1).unwrap();
-            let orbit = state_of(&passage, &response.modes);
+            let orbit = passage.state_of(&response.start);
             let aside: Vec<f64> = orbit.iter().map(|_| aside.next()).collect();
             let share = 1e-3 * length(&orbit) / length(&aside);
             let mut state: Vec<f64> = orbit.iter().zip(&aside).map(|(x, aside)| x + share * aside).collect();
@@ -448,7 +432,7 @@ fn a_march_that_ends_has_come_as_close_as_it_says() {
         assert_eq!(told.window[0].repeat(12 / period), march.window[0]);
         assert_eq!(march.states.unwrap().revolutions.last(), Some(&(taken as f64)));
         let mut passage = Passage::over_lobes(&simulation, lobes as usize).unwrap();
-        let early = passage.state(&march.end);
+        let early = passage.state(&march.end, &[]);
         let mut late = early.clone();
         for _ in 0..400 / period * period {
             late = passage.map(&late).unwrap();
@@ -483,7 +467,7 @@ fn light_damping_is_followed_from_heavier() {
         }
         followed += 1;
         let mut passage = Passage::over_lobes(&simulation, response.floquet.lobes).unwrap();
-        let orbit = state_of(&passage, &response.modes);
+        let orbit = passage.state_of(&response.start);
         let image = passage.map(&orbit).unwrap();
         // Found to 1e-8 over half a revolution or less; a lobe that repels multiplies that.
         let growth = response.floquet.multipliers[0].value.norm().max(1.0);

@@ -1,10 +1,11 @@
 //! Steady states under effects whose state is that of the oscillators.
 
 use super::*;
+use crate::dynamics::contact::coating::{Coating, CoatingMaterial};
 use crate::dynamics::contact::friction::sliding_directions;
 use crate::dynamics::effects::Friction;
 use crate::dynamics::excitation::EngineOrderExcitation;
-use crate::dynamics::flexible_casing::FlexibleCasing;
+use crate::dynamics::flexible_casing::{CasingWave, FlexibleCasing};
 use crate::dynamics::integrate::revolutions_over_lobe;
 use crate::dynamics::orbit::Orbit;
 
@@ -17,19 +18,42 @@ struct Which {
     friction: bool,
     /// κ.
     orbit: Option<f64>,
+    casing: bool,
 }
 
-const NONE: Which =
-    Which { mistuning: false, excitation: false, coriolis: false, friction: false, orbit: None };
+const NONE: Which = Which {
+    mistuning: false,
+    excitation: false,
+    coriolis: false,
+    friction: false,
+    orbit: None,
+    casing: false,
+};
 
-const CASES: [Which; 7] = [
+const CASES: [Which; 9] = [
     Which { mistuning: true, ..NONE },
     Which { excitation: true, ..NONE },
     Which { coriolis: true, ..NONE },
     Which { friction: true, ..NONE },
     Which { orbit: Some(0.0), ..NONE },
     Which { orbit: Some(0.5), ..NONE },
-    Which { mistuning: true, excitation: true, coriolis: true, friction: true, orbit: Some(-1.0) },
+    Which {
+        mistuning: true,
+        excitation: true,
+        coriolis: true,
+        friction: true,
+        orbit: Some(-1.0),
+        casing: false,
+    },
+    Which { casing: true, ..NONE },
+    Which {
+        mistuning: true,
+        excitation: true,
+        coriolis: true,
+        friction: true,
+        orbit: Some(-1.0),
+        casing: true,
+    },
 ];
 
 /// A scene that owns its effects, too.
@@ -39,7 +63,16 @@ struct Affected {
     excitation: Vec<EngineOrderExcitation>,
     sliding: Option<Vec<Direction>>,
     orbit: Option<Orbit>,
+    casing: Option<FlexibleCasing>,
 }
+
+/// Breathing, bending that meets both lobes alike, bending that does not, and waves that the sectors cannot tell from another.
+const WAVES: [CasingWave; 4] = [
+    CasingWave { nodal_diameter: 0, omega: 9000.0, modal_mass: 1e-3 },
+    CasingWave { nodal_diameter: 2, omega: 3100.0, modal_mass: 2e-3 },
+    CasingWave { nodal_diameter: 3, omega: 4700.0, modal_mass: 2e-3 },
+    CasingWave { nodal_diameter: 8, omega: 11000.0, modal_mass: 1e-3 },
+];
 
 const FRICTION: f64 = 0.1;
 
@@ -63,6 +96,7 @@ impl Affected {
             excitation: if which.excitation { vec![excitation] } else { Vec::new() },
             sliding: which.friction.then(|| sliding_directions(&scene.nodes, FRICTION).unwrap()),
             orbit: which.orbit.map(|whirl_ratio| Orbit { radius: 0.04, whirl_ratio, phase_rad: 0.7 }),
+            casing: which.casing.then(|| FlexibleCasing { waves: WAVES.to_vec(), damping_ratio: damping }),
             scene,
         }
     }
@@ -74,13 +108,16 @@ impl Affected {
             excitation: &self.excitation,
             friction: self.sliding.as_deref().map(friction),
             orbit: self.orbit,
+            flexible_casing: self.casing.as_ref(),
             ..Effects::default()
         };
         Simulation { effects, ..self.scene.simulation() }
     }
 
-    fn march(&self, revolutions: usize) -> Vec<InitialMode> {
-        ends(Simulation { revolutions, ..self.simulation() }.run(&|_| true)).end
+    /// The state after a march from rest.
+    fn march(&self, revolutions: usize, passage: &mut Passage<'_>) -> Vec<f64> {
+        let history = ends(Simulation { revolutions, ..self.simulation() }.run(&|_| true));
+        passage.state(&history.end, &history.casing_end)
     }
 }
 
@@ -148,10 +185,11 @@ fn what_never_repeats_is_refused_and_says_why() {
     };
     assert!(refused(0.47).contains("whirl ratio 0.47 does not come round within 8 revolutions"));
     let scene = Scene::new(6, 2, 0.1, Scheme::ExactModal);
-    let casing = FlexibleCasing { waves: Vec::new(), damping_ratio: 0.01 };
-    let effects = Effects { flexible_casing: Some(&casing), ..Effects::default() };
+    let material = CoatingMaterial { modulus: 100.0, yield_stress: 1.0, hardening: 10.0 };
+    let coating = Coating::new(material, 0.1, 500, &scene.nodes, 6).unwrap();
+    let effects = Effects { coating: Some(&coating), ..Effects::default() };
     let refused = Passage::over_lobes(&Simulation { effects, ..scene.simulation() }, 1).unwrap_err();
-    assert_eq!(refused, PassageError::ElasticCasing);
+    assert_eq!(refused, PassageError::Coating);
 }
 
 /// The map is what a run does: over all revolutions after which the scene is as it was, in one piece and in pieces that renumber the sectors.
@@ -165,12 +203,16 @@ fn passages_go_where_runs_go() {
             let (pieces, period) = (short.whole() / short.steps(), short.whole() / STEPS);
             let begin = short.grown() + period;
             let [before, after] =
-                [begin, begin + period].map(|revolutions| short.state(&affected.march(revolutions)));
+                [begin, begin + period].map(|revolutions| affected.march(revolutions, &mut short));
             let mut image = before.clone();
             for _ in 0..pieces {
                 image = short.map(&image).unwrap();
             }
             assert!(!short.trace().instants.is_empty(), "nothing touches");
+            if which.casing {
+                let own = &after[short.unknowns().len()..after.len() / 2];
+                assert!(length(own) > 1e-2 * length(&after), "the casing rests: {own:?}");
+            }
             let mut whole = Passage::over_lobes(&simulation, short.lobes()).unwrap();
             let at_once = whole.map(&before).unwrap();
             // Round-off of the velocities that a march ends with, 1e-16/ωh of them, and of some thousand steps.
@@ -189,7 +231,7 @@ fn tangents_under_effects_are_the_limit_of_differences() {
                 let affected = Affected::new(which, sectors, 0.02, scheme);
                 let simulation = affected.simulation();
                 let mut passage = Passage::shortest(&simulation).unwrap();
-                let state = passage.state(&affected.march(4));
+                let state = affected.march(4, &mut passage);
                 passage.map(&state).unwrap();
                 let instants = passage.trace().instants.clone();
                 assert!(!instants.is_empty(), "nothing touches");
@@ -238,7 +280,7 @@ fn responses_under_effects_repeat_and_attract_as_their_multipliers_say() {
             let told = 0.05f64.max(3f64.ln() / passages as f64);
             assert!((rate / growth).ln().abs() < told, "{scheme:?} {which:?}: {rate} for {growth}");
 
-            let (modes, period) = (passage.modes(&found.state), passage.whole() / STEPS);
+            let (start, period) = (passage.stepped(&found.state), passage.whole() / STEPS);
             if let Some(casing) = &mut affected.scene.casing {
                 casing.ramp_revolutions = 0.0;
             }
@@ -251,11 +293,11 @@ fn responses_under_effects_repeat_and_attract_as_their_multipliers_say() {
                 revolutions: 2 * period,
                 ..affected.simulation()
             };
-            let history = ends(simulation.go_on(&modes, &|_| true));
+            let history = ends(simulation.go_on(&start, &|_| true));
             let (first, second) = history.displacement[0].split_at(360 * period);
             // Round-off of energies is millionths of a high mode's displacement; unstable ones add up.
             assert!(off(first, second) < 1e-8, "{scheme:?} {which:?}: {:e}", off(first, second));
-            let end = Passage::shortest(&simulation).unwrap().state(&history.end);
+            let end = Passage::shortest(&simulation).unwrap().state(&history.end, &history.casing_end);
             assert!(off(&end, &found.state) < 1e-8, "{scheme:?} {which:?}: {:e}", off(&end, &found.state));
         }
     }
