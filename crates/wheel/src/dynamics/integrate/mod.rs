@@ -23,13 +23,14 @@ mod surroundings;
 mod tally;
 mod tips;
 mod trace;
+mod unknowns;
 
 use pulp::{Simd, WithSimd};
 
 pub use self::bounds::{TipComponent, TipDisplacement};
 pub use self::detail::DetailHistory;
 pub use self::excursion::Excursion;
-pub use self::passage::{CasingUnknown, Passage, PassageError, Unknown};
+pub use self::passage::{Passage, PassageError};
 pub use self::recurrence::revolutions_over_lobe;
 pub use self::repetition::LEAST_MARCHED;
 pub use self::revolutions::{Repeated, Repeats, Revolutions};
@@ -40,6 +41,7 @@ use self::stepper::{Beginning, Stepper};
 pub use self::tally::{ContactRecord, PairContact};
 pub use self::tips::TipMotion;
 pub use self::trace::{Touching, Trace};
+pub use self::unknowns::{CasingUnknown, Unknown};
 #[cfg(test)]
 use super::casing::RestrictionTable;
 use super::initial::Stepped;

@@ -104,7 +104,7 @@ fn respond(
     let start = begin(simulation, passage, revolutions, go_on)?;
     let search = Search { tolerance: FOUND, marched: passages(MARCHED), most };
     let (Periodic { state, residual }, followed_from) = match find(passage, &start, &search, go_on) {
-        Err(stalled @ NotFound::Stalled { .. }) if simulation.damping.is_some() => {
+        Err(stalled @ NotFound::Stalled { .. }) => {
             let mut taken = passage.taken();
             let followed = follow(simulation, &start, (&search, &mut taken), go_on);
             *revolutions += ((taken - passage.taken()) * steps) as f64 / per_revolution as f64;
