@@ -66,7 +66,11 @@ async fn branches_are_followed_to_both_ends_and_march_to_the_same() {
     sweep["scene"] = request["scene"].clone();
     sweep["integration"] = request["integration"].clone();
     sweep["integration"]["revolutions"] = json!(400);
-    sweep["integration"]["steps_per_revolution"] = found["steps_per_revolution"].clone();
+    for knob in ["scheme", "kept_modes", "steps_per_revolution"] {
+        if !found[knob].is_null() {
+            sweep["integration"][knob] = found[knob].clone();
+        }
+    }
     let some: Vec<&Value> = stable.iter().step_by(stable.len() / 3).copied().collect();
     let speeds: Vec<&Value> = some.iter().map(|point| &point["value"]).collect();
     sweep["speeds"] = json!({"values": speeds, "unit": "rad_s"});
@@ -155,7 +159,7 @@ async fn branches_are_told_in_all_forms_and_of_other_jobs_not_at_all() {
     assert_eq!(csv.text().lines().count(), 1 + values(&found["branches"][0]).len(), "{}", csv.text());
     assert!(csv.text().starts_with("branch,value,speed_rad_s,"), "{}", csv.text());
     for form in ["svg", "plotly", "npz", "png"] {
-        assert_eq!(api.get(&format!("{path}?format={form}")).await.status, 200, "{form}");
+        assert_eq!(get(api, &format!("{path}?format={form}"), &[]).await.status, 200, "{form}");
     }
     assert_eq!(api.get(&format!("{path}?sensor=99")).await.status, 400);
     assert_eq!(api.get(&format!("{path}?sweep={id}")).await.status, 409);
