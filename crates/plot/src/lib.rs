@@ -31,6 +31,8 @@
 //! ```
 
 mod axis;
+mod branch_line;
+mod branches;
 mod campbell;
 mod campbell_fixed_frame;
 mod cells;
@@ -76,6 +78,7 @@ mod wear_map;
 mod window;
 mod work_precision;
 
+pub use branches::branches;
 pub use campbell::campbell;
 pub use campbell_fixed_frame::campbell_fixed_frame;
 pub use critical_speeds::critical_speeds;

@@ -4,6 +4,7 @@
 //! than a screen shows; of cells and samples that are one then, the largest is kept, and the figure says so.
 
 mod amplitudes;
+mod branches;
 mod campbell;
 mod campbell_fixed_frame;
 mod cells;
@@ -27,6 +28,7 @@ mod trajectories;
 mod wear_map;
 mod work_precision;
 
+pub use branches::branches;
 pub use campbell::campbell;
 pub use campbell_fixed_frame::campbell_fixed_frame;
 pub use critical_speeds::critical_speeds;
