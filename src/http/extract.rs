@@ -137,7 +137,7 @@ fn parse_index(text: &str) -> Option<u32> {
     text.parse().ok().filter(|index: &u32| index.to_string() == text)
 }
 
-fn parse_job_id(text: &str) -> Result<JobId, Problem> {
+pub(super) fn parse_job_id(text: &str) -> Result<JobId, Problem> {
     JobId::parse(text).ok_or_else(|| job_not_found(&excerpt(text)))
 }
 

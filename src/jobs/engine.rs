@@ -94,7 +94,8 @@ fn chain(request: &JobRequest) -> Option<Vec<u32>> {
         JobRequest::ModalAnalysis(_)
         | JobRequest::ModelGeneration(_)
         | JobRequest::Study(_)
-        | JobRequest::CaseStudy(_) => None,
+        | JobRequest::CaseStudy(_)
+        | JobRequest::Branches(_) => None,
     }
 }
 

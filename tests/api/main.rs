@@ -5,6 +5,7 @@ mod app;
 mod archive;
 mod beside;
 mod bodies;
+mod branches;
 mod case_studies;
 mod chains;
 mod checkpoints;

@@ -64,13 +64,13 @@ async fn effects_that_have_no_map_are_marched_and_say_so() {
     let api = &app.api;
     let model = api.model(model::package(1.0)).await;
     let mut sweep = steady_sweep(&model, "periodic");
-    sweep["scene"]["friction"] = json!({"coefficient": 0.1});
+    sweep["scene"]["abradable"] = json!({"modulus": 2e4, "yield_stress": 20.0, "hardening": 500.0, "thickness": 2.0, "rods_around": 90});
     let plan = api.post("/v1/sweeps/plan", &sweep).await;
     assert_eq!(plan.status, 200, "{}", plan.body);
     for point in points(api, &sweep).await {
         assert_eq!(point["steady"]["taken"], false);
         let reason = point["steady"]["reason"].as_str().unwrap();
-        assert!(reason.contains("effects beyond damping and a rigid casing"), "{reason}");
+        assert!(reason.contains("a coating that wears"), "{reason}");
         assert!(amplitude(&point) > 0.0);
     }
 }

@@ -7,7 +7,7 @@ use crate::request::{AutoOr, Integration, SteadyChoice};
 use crate::resolved::ResolvedSweep;
 use crate::result::{FloquetMultiplier, MarchReport, Stability, SteadyReport};
 use rubmap_wheel::dynamics::integrate::{
-    Detail, LEAST_MARCHED, Outcome, Repeated, Repeats, Revolutions, Run, Simulation,
+    Detail, LEAST_MARCHED, Outcome, Repeated, Repeats, Revolutions, Run, Simulation, revolutions_over_lobe,
 };
 use rubmap_wheel::dynamics::steady::multipliers::{MOST_PRODUCTS, Multiplier};
 use rubmap_wheel::dynamics::steady::periodic::NotFound;
@@ -27,9 +27,12 @@ pub(super) fn revolutions_taken(request: &ResolvedSweep) -> [u64; 2] {
     let Integration { revolutions, ramp_revolutions, steady, .. } = request.integration;
     let marched = u64::from(request.integration.revolutions());
     let limit = u64::from(LIMIT) * marched;
-    let lobes = request.scene.touched_lobes().map_or(1, |lobes| u64::from(lobes.count.max(1)));
-    // Each product is of a lobe.
-    let multipliers = MOST_PRODUCTS as u64 / lobes;
+    let scene = &request.scene;
+    let lobes = scene.touched_lobes().map(|lobes| lobes.count);
+    let orders = scene.engine_order_excitation.iter().map(|force| force.order);
+    // Each product is of a lobe, or of as many revolutions as all that turns past the wheel needs to come round.
+    let product = revolutions_over_lobe(lobes, orders, scene.orbit.as_ref().map(|orbit| orbit.whirl_ratio));
+    let multipliers = (MOST_PRODUCTS as f64 * product) as u64;
     let least = ramp_revolutions.ceil() as u64 + LEAST_REVOLUTIONS;
     match steady {
         SteadyChoice::March => match revolutions {
@@ -106,7 +109,10 @@ pub(super) fn marched(
 pub(super) fn memory(request: &ResolvedSweep, unknowns: usize, pairs: usize) -> u64 {
     match request.integration.steady {
         SteadyChoice::March => 0,
-        SteadyChoice::Periodic | SteadyChoice::Auto => response::memory(unknowns, pairs) as u64,
+        SteadyChoice::Periodic | SteadyChoice::Auto => {
+            let directions = if request.scene.friction.is_some() { 2 } else { 1 };
+            response::memory(unknowns, directions * pairs) as u64
+        }
     }
 }
 
@@ -141,7 +147,7 @@ pub(super) fn run_steady(
             return march(simulation, SteadyReport { reason, ..nothing(revolutions) }, watch);
         }
     };
-    let run = record(simulation, &response.modes, watch);
+    let run = record(simulation, &response, watch);
     let reason = why_not(choice, &response, &run);
     let report = SteadyReport {
         taken: reason.is_none(),
@@ -188,6 +194,7 @@ fn nothing(revolutions: f64) -> SteadyReport {
         stability: None,
         multipliers: Vec::new(),
         lobe_passages: None,
+        followed_from_damping: None,
         half_peak_to_peak: Vec::new(),
         revolutions,
     }
@@ -201,6 +208,7 @@ fn found(response: &Response, simulation: &Simulation<'_>, revolutions: f64) -> 
         stability: Some(floquet.stability),
         multipliers: floquet.multipliers.iter().map(multiplier).collect(),
         lobe_passages: Some(floquet.lobes as u32),
+        followed_from_damping: response.followed_from,
         ..nothing(revolutions)
     }
 }

@@ -8,7 +8,7 @@ use super::diagram::Diagram;
 use super::key::{Key, MARK_WIDTH};
 use super::labels::Labels;
 use super::svg::{Element, INK, document, group, line, polyline, rectangle};
-use super::{heading, marks};
+use super::{heading, marks, scheme};
 use rubmap_analysis::request::{BranchParameter, Sensor};
 use rubmap_analysis::result::{
     Bifurcation, BifurcationKind, BranchEnd, BranchMaximum, BranchPoint, BranchTrack, Branches, Point,
@@ -74,7 +74,7 @@ pub(super) fn words(branches: &Branches) -> Vec<String> {
         let speed = branches.branches.iter().flat_map(|branch| &branch.points).next();
         words.extend(speed.map(|point| format!("at {} rpm", label(rpm(point.speed_rad_s), 0))));
     }
-    words.push(format!("{} steps per revolution", head.steps_per_revolution));
+    words.push(format!("{}, {} steps per revolution", scheme::words(head.scheme), head.steps_per_revolution));
     words.push(heading::origin(&head.settings.sweep.model, &head.version));
     let ends = ends(branches);
     [words.join(" · ")].into_iter().chain((!ends.is_empty()).then_some(ends)).collect()

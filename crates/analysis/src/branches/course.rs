@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::told::Told;
 use crate::result::{FloquetMultiplier, Stability, Track};
 use faer::c64;
-use rubmap_wheel::dynamics::initial::InitialMode;
+use rubmap_wheel::dynamics::initial::{Stepped, SteppedMode, SteppedWave};
 use rubmap_wheel::dynamics::steady::branch::Motion;
 use rubmap_wheel::dynamics::steady::branch::follow::Front;
 
@@ -48,12 +48,18 @@ pub(super) struct KeptTold {
     multipliers: Vec<FloquetMultiplier>,
     lobe_passages: u32,
     half_peak_to_peak: Vec<f64>,
-    disturbances: Vec<KeptMode>,
-    leading: Vec<KeptMode>,
+    disturbances: KeptState,
+    leading: KeptState,
 }
 
-/// A mode's nodal diameter and family, displacement and velocity.
-type KeptMode = (u32, u32, [f64; 4]);
+/// [`Stepped`], to be kept.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct KeptState {
+    /// Nodal diameter and family, displacement and increment.
+    modes: Vec<(u32, u32, [f64; 4])>,
+    /// Displacement and increment.
+    casing: Vec<[[f64; 2]; 2]>,
+}
 
 /// [`Front`], to be kept.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -68,36 +74,42 @@ pub(super) struct KeptFront {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct KeptMotion {
     value: f64,
-    modes: Vec<KeptMode>,
+    state: KeptState,
 }
 
-fn kept(modes: &[InitialMode]) -> Vec<KeptMode> {
-    let mode = |mode: &InitialMode| {
-        let InitialMode { harmonic, family, displacement: z, velocity: v } = *mode;
-        (harmonic as u32, family as u32, [z.re, z.im, v.re, v.im])
-    };
-    modes.iter().map(mode).collect()
+impl From<&Stepped> for KeptState {
+    fn from(state: &Stepped) -> Self {
+        let mode = |mode: &SteppedMode| {
+            let SteppedMode { harmonic, family, displacement: z, increment: d } = *mode;
+            (harmonic as u32, family as u32, [z.re, z.im, d.re, d.im])
+        };
+        let casing = state.casing.iter().map(|wave| [wave.displacement, wave.increment]);
+        Self { modes: state.modes.iter().map(mode).collect(), casing: casing.collect() }
+    }
 }
 
-fn modes(kept: &[KeptMode]) -> Vec<InitialMode> {
-    let mode = |&(harmonic, family, [a, b, c, d]): &KeptMode| InitialMode {
-        harmonic: harmonic as usize,
-        family: family as usize,
-        displacement: c64::new(a, b),
-        velocity: c64::new(c, d),
-    };
-    kept.iter().map(mode).collect()
+impl From<&KeptState> for Stepped {
+    fn from(kept: &KeptState) -> Self {
+        let mode = |&(harmonic, family, [a, b, c, d]): &(u32, u32, [f64; 4])| SteppedMode {
+            harmonic: harmonic as usize,
+            family: family as usize,
+            displacement: c64::new(a, b),
+            increment: c64::new(c, d),
+        };
+        let wave = |&[displacement, increment]: &[[f64; 2]; 2]| SteppedWave { displacement, increment };
+        Self { modes: kept.modes.iter().map(mode).collect(), casing: kept.casing.iter().map(wave).collect() }
+    }
 }
 
 impl From<&Motion> for KeptMotion {
     fn from(motion: &Motion) -> Self {
-        Self { value: motion.value, modes: kept(&motion.modes) }
+        Self { value: motion.value, state: (&motion.state).into() }
     }
 }
 
 impl From<&KeptMotion> for Motion {
     fn from(kept: &KeptMotion) -> Self {
-        Self { value: kept.value, modes: modes(&kept.modes) }
+        Self { value: kept.value, state: (&kept.state).into() }
     }
 }
 
@@ -108,8 +120,8 @@ impl From<&Told> for KeptTold {
             multipliers: told.multipliers.clone(),
             lobe_passages: told.lobe_passages,
             half_peak_to_peak: told.half_peak_to_peak.clone(),
-            disturbances: kept(&told.disturbances),
-            leading: kept(&told.leading),
+            disturbances: (&told.disturbances).into(),
+            leading: (&told.leading).into(),
         }
     }
 }
@@ -119,8 +131,8 @@ impl From<&KeptTold> for Told {
         Self {
             stability: kept.stability,
             multipliers: kept.multipliers.clone(),
-            disturbances: modes(&kept.disturbances),
-            leading: modes(&kept.leading),
+            disturbances: (&kept.disturbances).into(),
+            leading: (&kept.leading).into(),
             lobe_passages: kept.lobe_passages,
             half_peak_to_peak: kept.half_peak_to_peak.clone(),
             revolutions: 0.0,

@@ -3,7 +3,7 @@
 use super::family::Scenes;
 use super::told::{Told, amplitudes_of, carried, tell};
 use crate::result::{Bifurcation, BifurcationKind, BranchMaximum};
-use rubmap_wheel::dynamics::initial::InitialMode;
+use rubmap_wheel::dynamics::initial::Stepped;
 use rubmap_wheel::dynamics::steady::branch::{Branch, Lost, Motion};
 use rubmap_wheel::dynamics::steady::stability::Stability;
 
@@ -21,7 +21,7 @@ pub(super) struct At<'a> {
 pub(super) struct Event {
     pub(super) bifurcation: Bifurcation,
     pub(super) motion: Motion,
-    pub(super) grows: Vec<InitialMode>,
+    pub(super) grows: Stepped,
 }
 
 /// Where events are looked for.
@@ -55,7 +55,7 @@ impl Events<'_> {
             multiplier: None,
             stable_modulus: None,
         };
-        Ok(Some(Event { bifurcation, motion, grows: Vec::new() }))
+        Ok(Some(Event { bifurcation, motion, grows: Stepped::default() }))
     }
 
     /// Where between two points the stability changes, if it does.

@@ -13,7 +13,7 @@ use crate::speed::{ready, staged};
 use crate::start::initial;
 use crate::steady::most_revolutions;
 use crate::stepping::Stepping;
-use rubmap_wheel::dynamics::initial::InitialMode;
+use rubmap_wheel::dynamics::initial::{InitialMode, Stepped, SteppedMode};
 use rubmap_wheel::dynamics::integrate::{Passage, Simulation};
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
 use rubmap_wheel::dynamics::schemes::Scheme;
@@ -27,7 +27,8 @@ pub(crate) const KEPT: usize = 4;
 pub(super) struct Scenes<'a> {
     sector: &'a ReducedSector,
     asked: &'a ResolvedBranches,
-    /// The scene at the start, stepped as everywhere.
+    setting: Setting,
+    /// The scene at the start, stepped so.
     sweep: ResolvedSweep,
     kept: RefCell<Vec<(f64, Rc<Scene>)>>,
 }
@@ -67,15 +68,12 @@ impl<'a> Scenes<'a> {
             kept_modes,
             steps_per_revolution: steps as u32,
         };
-        Ok(Self { sector, asked, sweep: asked.sweep.at(setting), kept: RefCell::default() })
+        Ok(Self { sector, asked, setting, sweep: asked.sweep.at(setting), kept: RefCell::default() })
     }
 
-    /// Steps per revolution of all of them.
-    pub(super) fn steps_per_revolution(&self) -> u32 {
-        match self.sweep.integration.steps_per_revolution {
-            AutoOr::Fixed(steps) => steps,
-            AutoOr::Auto => 0,
-        }
+    /// How all of them are stepped.
+    pub(super) fn setting(&self) -> Setting {
+        self.setting
     }
 
     /// The rotational speed at a value.
@@ -135,16 +133,34 @@ impl Family for Scenes<'_> {
         .map_err(unreachable)?
     }
 
-    fn carry(&self, modes: &[InitialMode], from: f64, to: f64) -> Result<Vec<InitialMode>, Unreachable> {
+    fn carry(&self, state: &Stepped, from: f64, to: f64) -> Result<Stepped, Unreachable> {
         if self.asked.along.parameter != BranchParameter::Speed {
-            return Ok(modes.to_vec());
+            return Ok(state.clone());
         }
         let [before, after] = [self.at(from).map_err(unreachable)?, self.at(to).map_err(unreachable)?];
         let (reduced, stiffening) = (&*self.sector.wheel, before.request.scene.centrifugal_stiffening);
-        let carried = EndState::new(modes, &before.wheel, reduced, stiffening)
+        // Increments are carried as displacements are; the step has another length.
+        let longer = from / to;
+        let as_initial = |mode: &SteppedMode| InitialMode {
+            harmonic: mode.harmonic,
+            family: mode.family,
+            displacement: mode.displacement,
+            velocity: mode.increment * longer,
+        };
+        let as_stepped = |mode: InitialMode| SteppedMode {
+            harmonic: mode.harmonic,
+            family: mode.family,
+            displacement: mode.displacement,
+            increment: mode.velocity,
+        };
+        let modes: Vec<InitialMode> = state.modes.iter().map(as_initial).collect();
+        let modes = EndState::new(&modes, &before.wheel, reduced, stiffening)
             .and_then(|state| state.modes(&after.wheel, reduced, stiffening, after.stepping.scheme))
-            .map_err(|error| Unreachable(error.to_string()))?;
-        carried.ok_or_else(|| unreachable(NotRunnable::OtherReduction))
+            .map_err(|error| Unreachable(error.to_string()))?
+            .ok_or_else(|| unreachable(NotRunnable::OtherReduction))?;
+        let mut casing = state.casing.clone();
+        casing.iter_mut().flat_map(|wave| &mut wave.increment).for_each(|increment| *increment *= longer);
+        Ok(Stepped { modes: modes.into_iter().map(as_stepped).collect(), casing })
     }
 }
 

@@ -8,10 +8,12 @@ use crate::error::{AnalysisError, Violation};
 use crate::model::ReducedSector;
 use crate::monitor::Monitor;
 use crate::not_runnable::NotRunnable;
+use crate::request::AutoOr;
 use crate::resolved::ResolvedBranches;
 use crate::result::{
     Bifurcation, BifurcationKind, BranchEnd, BranchLeg, BranchMaximum, BranchPoint, BranchesHead, Track,
 };
+use rubmap_wheel::dynamics::initial::Stepped;
 use rubmap_wheel::dynamics::steady::branch::correct::Found;
 use rubmap_wheel::dynamics::steady::branch::follow::{Front, Step};
 use rubmap_wheel::dynamics::steady::branch::{Branch, Lap, Lost, Motion};
@@ -98,8 +100,8 @@ fn begin(
     go_on: &dyn Fn() -> bool,
 ) -> Result<Course, AnalysisError> {
     let Sought { response, .. } = scenes.seek(go_on).map_err(|reason| refused("/speed", &reason))?;
-    let modes = match response {
-        Ok(Response { modes, .. }) => modes,
+    let state = match response {
+        Ok(Response { start, .. }) => start,
         Err(NotFound::Cancelled) => return Err(AnalysisError::Cancelled),
         Err(reason) => {
             let message = format!("{reason}; begin at another speed, or with more damping and follow that");
@@ -112,7 +114,7 @@ fn begin(
         Stretch {
             track: Track { branch: 0, lobe_passages: None, doubles: None },
             backwards,
-            front: (&Front::new(Motion { value: start, modes: modes.clone() }, span, sign)).into(),
+            front: (&Front::new(Motion { value: start, state: state.clone() }, span, sign)).into(),
             tells_start: !backwards,
         }
     };
@@ -135,10 +137,16 @@ fn refused(pointer: &str, reason: &NotRunnable) -> AnalysisError {
 }
 
 fn head(scenes: &Scenes<'_>, sector: &ReducedSector, asked: &ResolvedBranches) -> BranchesHead {
+    let setting = scenes.setting();
     BranchesHead {
         parameter: asked.along.parameter,
         sensors: asked.sweep.sensors.iter().copied().map(Into::into).collect(),
-        steps_per_revolution: scenes.steps_per_revolution(),
+        scheme: setting.scheme,
+        kept_modes: match setting.kept_modes {
+            AutoOr::Fixed(kept) => Some(kept),
+            AutoOr::Auto => None,
+        },
+        steps_per_revolution: setting.steps_per_revolution,
         units: sector.units.clone(),
         settings: asked.clone().into(),
         version: VERSION.to_owned(),
@@ -234,9 +242,9 @@ impl<'a> Walk<'a> {
     /// Tells what the stretch begins with.
     fn start(&mut self, branch: &Branch<'_>) -> Result<Told, Lost> {
         let motion = self.front.last.clone();
-        let told = tell(self.scenes, branch, &motion, &motion.modes)?;
+        let told = tell(self.scenes, branch, &motion, &motion.state)?;
         if self.tells_start {
-            let across = Motion { value: branch.span, modes: Vec::new() };
+            let across = Motion { value: branch.span, state: Stepped::default() };
             let found = branch.correct(motion.clone(), &across, motion.value)?;
             self.found.push(told.point(&found, self.scenes.speed(found.motion.value)));
             self.points += 1;

@@ -5,7 +5,7 @@ use crate::record::half_peak_to_peak;
 use crate::result::{BranchPoint, FloquetMultiplier};
 use crate::steady::multiplier;
 use faer::c64;
-use rubmap_wheel::dynamics::initial::InitialMode;
+use rubmap_wheel::dynamics::initial::Stepped;
 use rubmap_wheel::dynamics::integrate::{Outcome, Passage, Simulation};
 use rubmap_wheel::dynamics::steady::branch::correct::Found;
 use rubmap_wheel::dynamics::steady::branch::{Branch, Family, Lap, Lost, Motion, Unreachable};
@@ -18,9 +18,9 @@ pub(super) struct Told {
     pub(super) stability: Stability,
     pub(super) multipliers: Vec<FloquetMultiplier>,
     /// What grows most or decays slowest: directions of the motion.
-    pub(super) disturbances: Vec<InitialMode>,
+    pub(super) disturbances: Stepped,
     /// The leading one alone.
-    pub(super) leading: Vec<InitialMode>,
+    pub(super) leading: Stepped,
     pub(super) lobe_passages: u32,
     pub(super) half_peak_to_peak: Vec<f64>,
     /// Revolutions that it took.
@@ -58,14 +58,14 @@ pub(super) fn tell(
     scenes: &Scenes<'_>,
     branch: &Branch<'_>,
     motion: &Motion,
-    hint: &[InitialMode],
+    hint: &Stepped,
 ) -> Result<Told, Lost> {
     if !(branch.go_on)() {
         return Err(Lost::Cancelled);
     }
     let told = scenes.simulation(motion.value, 0.0, |simulation, _| {
-        let passage = branch.lap.passage(&simulation)?;
-        let (state, hint) = (passage.state(&motion.modes), passage.state(hint));
+        let mut passage = branch.lap.passage(&simulation)?;
+        let (state, hint) = (passage.state_of(&motion.state), passage.state_of(hint));
         let floquet = Floquet::of(&passage, (&state, &hint), MULTIPLIERS)?;
         let part = |vector: &[c64], of: fn(&c64) -> f64| -> Vec<f64> { vector.iter().map(of).collect() };
         let mut disturbances = vec![0.0; passage.size()];
@@ -79,7 +79,7 @@ pub(super) fn tell(
         // As large as the motion.
         let scale = if leading.is_empty() { 0.0 } else { size(&state) / size(&leading) };
         let leading: Vec<f64> = leading.iter().map(|x| scale * x).collect();
-        let half_peak_to_peak = amplitudes(&simulation, &passage, &motion.modes)?;
+        let half_peak_to_peak = amplitudes(&simulation, &passage, &motion.state)?;
         Ok::<_, Lost>(Told {
             stability: floquet.stability,
             multipliers: floquet
@@ -87,8 +87,8 @@ pub(super) fn tell(
                 .iter()
                 .map(|one| multiplier(&floquet, one, &simulation))
                 .collect(),
-            disturbances: passage.modes(&disturbances),
-            leading: if leading.is_empty() { Vec::new() } else { passage.modes(&leading) },
+            disturbances: passage.stepped(&disturbances),
+            leading: if leading.is_empty() { Stepped::default() } else { passage.stepped(&leading) },
             lobe_passages: floquet.lobes as u32,
             half_peak_to_peak,
             revolutions: floquet.revolutions + 1.0,
@@ -100,7 +100,7 @@ pub(super) fn tell(
 /// Half the peak-to-peak displacement of every sensor of a response.
 pub(super) fn amplitudes_of(scenes: &Scenes<'_>, lap: Lap, motion: &Motion) -> Result<Vec<f64>, Lost> {
     let found = scenes.simulation(motion.value, 0.0, |simulation, _| {
-        amplitudes(&simulation, &lap.passage(&simulation)?, &motion.modes)
+        amplitudes(&simulation, &lap.passage(&simulation)?, &motion.state)
     });
     found.map_err(|reason| Lost::Unreachable(Unreachable(reason.to_string())))?
 }
@@ -109,11 +109,10 @@ pub(super) fn amplitudes_of(scenes: &Scenes<'_>, lap: Lap, motion: &Motion) -> R
 fn amplitudes(
     simulation: &Simulation<'_>,
     passage: &Passage<'_>,
-    modes: &[InitialMode],
+    from: &Stepped,
 ) -> Result<Vec<f64>, Lost> {
     let revolutions = passage.steps().div_ceil(simulation.steps_per_revolution);
-    let run =
-        Simulation { initial: modes, revolutions, window_revolutions: 0, ..*simulation }.go_on(&|_| true);
+    let run = Simulation { revolutions, window_revolutions: 0, ..*simulation }.go_on(from, &|_| true);
     match run.outcome {
         Outcome::Completed(history) => {
             Ok(history.displacement.iter().map(|line| half_peak_to_peak(line)).collect())
@@ -122,12 +121,7 @@ fn amplitudes(
     }
 }
 
-/// `modes` of the scene at `from` in those at `to`.
-pub(super) fn carried(
-    scenes: &Scenes<'_>,
-    modes: &[InitialMode],
-    from: f64,
-    to: f64,
-) -> Result<Vec<InitialMode>, Lost> {
-    Ok(scenes.carry(modes, from, to)?)
+/// A state of the scene at `from` in the modes at `to`.
+pub(super) fn carried(scenes: &Scenes<'_>, state: &Stepped, from: f64, to: f64) -> Result<Stepped, Lost> {
+    Ok(scenes.carry(state, from, to)?)
 }

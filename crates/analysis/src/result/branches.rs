@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::request::{BranchParameter, BranchesSettings, Sensor};
+use crate::request::{BranchParameter, BranchesSettings, SchemeChoice, Sensor};
 use crate::result::{FloquetMultiplier, Stability};
 use rubmap_wheel::dynamics::sector::Units;
 
@@ -27,6 +27,11 @@ pub struct BranchesHead {
     pub parameter: BranchParameter,
     /// Whose amplitudes are told.
     pub sensors: Vec<Sensor>,
+    /// How time is stepped, everywhere.
+    pub scheme: SchemeChoice,
+    /// Modes per nodal diameter that `massless_boundary` integrates, everywhere.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kept_modes: Option<u32>,
     /// Steps per revolution, everywhere.
     pub steps_per_revolution: u32,
     /// Units of lengths.

@@ -65,6 +65,9 @@ pub struct SteadyReport {
     /// Passages of a lobe after which it repeats and which the multipliers are of; a revolution where the casing has no lobes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lobe_passages: Option<u32>,
+    /// Times the damping of the scene from which it was followed, where it was not found from where the march begins.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub followed_from_damping: Option<f64>,
     /// Half the peak-to-peak displacement of every sensor on it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub half_peak_to_peak: Vec<f64>,

@@ -92,7 +92,7 @@ pub(super) fn resonance(whole: bool) -> Branches {
     });
     serde_json::from_value(json!({
         "parameter": "speed", "sensors": [sensor(), {"contact_node": 2, "sector": 0, "component": "axial"}],
-        "steps_per_revolution": 4096, "units": units(),
+        "scheme": "exact_modal", "steps_per_revolution": 4096, "units": units(),
         "settings": {"sweep": map().settings, "along": {"parameter": "speed", "from": rad_s(15_500.0), "to": rad_s(26_600.0)},
             "doubled": true, "most_points": 400},
         "version": "0", "vectors": "V4", "complete": whole, "branches": if whole { vec![main, doubled] } else { vec![main] },

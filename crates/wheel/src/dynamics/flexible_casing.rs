@@ -23,6 +23,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::initial::SteppedWave;
 use super::oscillators::{Exchange, VANISHED};
 use super::schemes::Scheme;
 use super::sector::ContactNode;
@@ -111,6 +112,19 @@ struct WaveMotion {
     parts: [Part; 2],
     /// e^{jnΩt} at the last gaps.
     turn: (f64, f64),
+}
+
+/// A wave as its two parts move and open gaps, seen from the wheel.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct LinearWave<'a> {
+    /// n.
+    pub(crate) nodal_diameter: usize,
+    pub(crate) keep: f64,
+    pub(crate) receptance: f64,
+    /// ω².
+    pub(crate) stiffness: f64,
+    /// Of gaps per unit of the parts along the wheel's own cos nφ and sin nφ, `[sector][node]`, nodes padded.
+    pub(crate) openings: [&'a [f64]; 2],
 }
 
 /// z, z − z⁻, z⁺ − z⁻ not yet counted, and force.
@@ -260,6 +274,36 @@ impl CasingMotion {
         self.waves.iter().flat_map(|wave| {
             let numbers = |part: &Part| [wave.stiffness.sqrt() * part.z, wave.inertia.sqrt() * part.d];
             wave.parts.iter().flat_map(numbers)
+        })
+    }
+
+    /// Where its waves are.
+    pub(crate) fn stepped(&self) -> Vec<SteppedWave> {
+        let of = |wave: &WaveMotion| SteppedWave {
+            displacement: wave.parts.map(|part| part.z),
+            increment: wave.parts.map(|part| part.d),
+        };
+        self.waves.iter().map(of).collect()
+    }
+
+    /// Has its waves where another motion left them, at rest where it has nothing, and nothing pressing.
+    pub(crate) fn go_on_from(&mut self, waves: &[SteppedWave]) {
+        for (index, wave) in self.waves.iter_mut().enumerate() {
+            let SteppedWave { displacement, increment } = waves.get(index).copied().unwrap_or_default();
+            for (part, (z, d)) in wave.parts.iter_mut().zip(displacement.into_iter().zip(increment)) {
+                *part = Part { z, d, ..Part::default() };
+            }
+        }
+    }
+
+    /// Its waves as a step that is linearised has them.
+    pub(crate) fn linear_waves(&self) -> impl Iterator<Item = LinearWave<'_>> {
+        self.waves.iter().map(|wave| LinearWave {
+            nodal_diameter: wave.n as usize,
+            keep: wave.keep,
+            receptance: wave.receptance,
+            stiffness: wave.stiffness,
+            openings: [&wave.cos, &wave.sin],
         })
     }
 

@@ -17,6 +17,37 @@ pub struct InitialMode {
     pub velocity: c64,
 }
 
+/// A mode of a motion under way, as steps leave it: nothing is lost of it as it is of a velocity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SteppedMode {
+    /// Index of the nodal diameter among the wheel's harmonics.
+    pub harmonic: usize,
+    /// Mode within the nodal diameter, counted from 0; one that the scheme integrates.
+    pub family: usize,
+    /// z.
+    pub displacement: c64,
+    /// z − z⁻.
+    pub increment: c64,
+}
+
+/// A wave of an elastic casing of a motion under way, the cosine and the sine, in coordinates of modal mass 1.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct SteppedWave {
+    /// z.
+    pub displacement: [f64; 2],
+    /// z − z⁻.
+    pub increment: [f64; 2],
+}
+
+/// A motion under way.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Stepped {
+    /// Those that move.
+    pub modes: Vec<SteppedMode>,
+    /// All waves of an elastic casing; empty without, or where it is at rest.
+    pub casing: Vec<SteppedWave>,
+}
+
 /// How a mode moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum InitialWave {

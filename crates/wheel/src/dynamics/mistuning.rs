@@ -16,7 +16,7 @@
 //!
 //! The force acts at the middle instant of a step, so that its work is −ΔV_δ, with V_δ of two successive instants.
 
-use faer::c64;
+use faer::{Mat, MatRef, c64};
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
@@ -96,6 +96,27 @@ impl ModalMistuning {
             amplitude: vec![0.0; sectors * families],
             pull: vec![0.0; sectors * families],
         }
+    }
+
+    /// −∂f/∂z of every mistuned family between the Fourier columns: Re(w̄ C w), symmetric.
+    pub(crate) fn stiffness(&self, places: &[Place]) -> Vec<Mat<f64>> {
+        let sectors = self.coupling.len().isqrt();
+        let of = |family: usize| {
+            // Amplitudes per unit z: of a pair the real and the imaginary part of w and of jw.
+            let mut amplitude = Mat::zeros(sectors, sectors);
+            for (place, weight) in places.iter().zip(&self.weight) {
+                let (w, re) = (weight[family], place.column);
+                amplitude[(re, re)] = w.re;
+                if place.im.is_some() {
+                    amplitude[(re + 1, re)] = w.im;
+                    amplitude[(re, re + 1)] = -w.im;
+                    amplitude[(re + 1, re + 1)] = w.re;
+                }
+            }
+            let coupling = MatRef::from_row_major_slice(&self.coupling, sectors, sectors);
+            amplitude.transpose() * (coupling * &amplitude)
+        };
+        (0..self.families).map(of).collect()
     }
 
     /// Writes the modal forces of the state `z`.

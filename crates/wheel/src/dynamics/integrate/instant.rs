@@ -16,6 +16,13 @@ impl Instant {
         Self { step: 0, revolutions: revolution as f64, before: revolution as f64 }
     }
 
+    /// The same of any step after the beginning of `revolution`, of which there may be several revolutions.
+    #[inline(always)]
+    pub(super) fn of_any(revolution: usize, step: usize, steps: usize) -> Self {
+        let before = (step - 1) / steps;
+        Self::new(revolution + before, step - before * steps, steps)
+    }
+
     /// The end of `step`, counted from 1, of the `steps` of a revolution.
     #[inline(always)]
     pub(super) fn new(revolution: usize, step: usize, steps: usize) -> Self {

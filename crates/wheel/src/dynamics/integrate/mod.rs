@@ -10,6 +10,7 @@ mod instant;
 mod obstacle;
 mod passage;
 mod recorder;
+mod recurrence;
 mod repetition;
 mod residual;
 mod revolutions;
@@ -22,13 +23,15 @@ mod surroundings;
 mod tally;
 mod tips;
 mod trace;
+mod unknowns;
 
 use pulp::{Simd, WithSimd};
 
 pub use self::bounds::{TipComponent, TipDisplacement};
 pub use self::detail::DetailHistory;
 pub use self::excursion::Excursion;
-pub use self::passage::{Passage, PassageError, Unknown};
+pub use self::passage::{Passage, PassageError};
+pub use self::recurrence::revolutions_over_lobe;
 pub use self::repetition::LEAST_MARCHED;
 pub use self::revolutions::{Repeated, Repeats, Revolutions};
 pub use self::run::{Divergence, History, MAX_TABLE_VALUES, Outcome, Run};
@@ -38,8 +41,10 @@ use self::stepper::{Beginning, Stepper};
 pub use self::tally::{ContactRecord, PairContact};
 pub use self::tips::TipMotion;
 pub use self::trace::{Touching, Trace};
+pub use self::unknowns::{CasingUnknown, Unknown};
 #[cfg(test)]
 use super::casing::RestrictionTable;
+use super::initial::Stepped;
 
 impl Simulation<'_> {
     /// Runs the simulation. `watch` is called once all is set up, with 0, and now and then with the share of work done; `false`
@@ -52,12 +57,15 @@ impl Simulation<'_> {
         self.dispatch(pulp::Arch::new(), (Stepper::new(self), Beginning::Free), watch)
     }
 
-    /// Runs the simulation from a state that another motion has come to: forces that act at its instant are part of it.
+    /// Runs the simulation from a state that another motion has come to, instead of [`Self::initial`]: forces that act at its instant are
+    /// part of it.
     ///
     /// # Panics
     /// As [`Self::run`].
-    pub fn go_on(&self, watch: &dyn Fn(f64) -> bool) -> Run {
-        self.dispatch(pulp::Arch::new(), (Stepper::new(self), Beginning::UnderWay), watch)
+    pub fn go_on(&self, from: &Stepped, watch: &dyn Fn(f64) -> bool) -> Run {
+        let mut stepper = Stepper::new(self);
+        stepper.go_on_from(from);
+        self.dispatch(pulp::Arch::new(), (stepper, Beginning::UnderWay), watch)
     }
 
     /// Runs on vectors of a given kind.

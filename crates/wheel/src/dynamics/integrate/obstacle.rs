@@ -248,18 +248,21 @@ impl Obstacle {
         simd: S,
         oscillators: &Oscillators,
         fourier: &SectorFourier,
-        now: Instant,
+        (now, surroundings): (Instant, Option<&mut Surroundings>),
     ) -> bool {
         self.clear_forces(fourier);
         oscillators.project(simd, &self.rows, &mut self.harmonic);
-        self.predict_gaps(simd, fourier, now, None) >= 0.0
+        self.predict_gaps(simd, fourier, now, surroundings) >= 0.0
     }
 
-    /// Adds to `trace` what the last solution has touch at the end of `step`; for a rigid casing.
-    pub(super) fn trace(&self, step: usize, trace: &mut Trace) {
-        let active = self.solver.active();
+    /// Adds to `trace` what the last solution has touch at the end of `step`; for a rigid casing without coating.
+    pub(super) fn trace(&self, step: usize, surroundings: Option<&mut Surroundings>, trace: &mut Trace) {
+        let (active, symmetric) = match surroundings.map(|surroundings| &surroundings.law) {
+            Some(Law::General(solver)) => (solver.active(), false),
+            _ => (self.solver.active(), true),
+        };
         let places = active.iter().map(|&index| self.delassus.place(index));
-        trace.touch(step, places, |i, j| self.delassus.entry(active[i], active[j]));
+        trace.touch(step, places, (|i, j| self.delassus.entry(active[i], active[j]), symmetric));
     }
 
     /// Largest penetration of the state as it is `now`, the instant of the last gaps.

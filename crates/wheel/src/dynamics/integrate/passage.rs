@@ -7,37 +7,41 @@
 //! P(x) = T_b⁻¹ flow(x),   (T_b u)_s = u_{s+b}:   z_i → e^{jibα} z_i,   1/lcm(m, N) = b/N modulo 1/m
 //! ```
 //!
-//! and one without it under the flow over one lobe, or some. The unknowns are ωz and d/h of every mode that remembers, real and
-//! imaginary parts: their squares are twice the energies.
+//! and one without it under the flow over one lobe, or some. What effects leave of this is in [`recurrence`](super::recurrence). The
+//! unknowns are ωz and d/h of every mode that remembers, real and imaginary parts, and of the waves of an elastic casing in the fixed frame: their
+//! squares are twice the energies.
 
 use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use num_integer::lcm;
+use faer::{Mat, c64};
 use pulp::{Simd, WithSimd};
 
+use super::recurrence::{Recurrence, Recurrences};
 use super::run::{Divergence, Outcome};
 use super::simulation::Simulation;
 use super::stepper::Stepper;
 use super::trace::Trace;
+use super::unknowns::{CasingUnknown, Unknown, casing_unknowns, unknowns};
 #[cfg(test)]
 use crate::dynamics::casing::RestrictionTable;
-use crate::dynamics::initial::InitialMode;
+use crate::dynamics::flexible_casing::CasingMotion;
+use crate::dynamics::initial::{InitialMode, Stepped, SteppedMode, SteppedWave};
 use rubmap_numerics::complementarity::ComplementarityError;
 
 /// Why a scene has no such map, or a state no image.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum PassageError {
-    /// What moves the wheel or is moved by it has a state of its own, or does not repeat with the lobes.
-    #[error("the scene has effects beyond damping and a rigid casing")]
-    Effects,
-    /// Steps do not divide it.
-    #[error("{steps} steps per revolution are no multiple of {parts}")]
-    Steps {
-        /// Per revolution.
-        steps: usize,
-        /// Into which the revolution falls.
-        parts: usize,
+    /// An abradable coating.
+    #[error("a coating that wears is never as it was, so that nothing repeats")]
+    Coating,
+    /// An orbit of the shaft that is back where it was too late, or never.
+    #[error("an orbit of whirl ratio {whirl_ratio} does not come round within {most} revolutions")]
+    Orbit {
+        /// κ.
+        whirl_ratio: f64,
+        /// Revolutions.
+        most: usize,
     },
     /// The flow left the bounds of the theory.
     #[error("the motion leaves the bounds of linear theory")]
@@ -47,65 +51,55 @@ pub enum PassageError {
     Contact(ComplementarityError),
 }
 
-/// One number of the state.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Unknown {
-    /// Index of the nodal diameter among the wheel's.
-    pub harmonic: usize,
-    /// Mode within it.
-    pub family: usize,
-    /// Whether it is of the imaginary part of a pair.
-    pub imaginary: bool,
-    /// What z is multiplied by: ω, or 1/h of a mode without frequency.
-    pub scale: f64,
-}
-
 /// The map, with all that its evaluation needs.
 #[derive(Debug)]
 pub struct Passage<'a> {
     simulation: Simulation<'a>,
     stepper: Stepper,
     unknowns: Vec<Unknown>,
+    casing: Vec<CasingUnknown>,
     /// Where each is in the oscillators' state.
     places: Vec<usize>,
-    steps: usize,
-    turn: usize,
+    of: Recurrence,
+    /// Passages over a lobe until all is as it was.
+    lobes: usize,
+    /// Steps until then.
+    whole: usize,
+    /// The revolution it begins with.
+    grown: usize,
     trace: Trace,
     taken: AtomicUsize,
 }
 
 impl<'a> Passage<'a> {
-    /// Of the scene of `simulation`, its restriction fully grown; over the shortest time its symmetry allows.
+    /// Of the scene of `simulation`, all that grows fully grown; over the shortest time its symmetry and its steps allow.
     ///
     /// # Errors
-    /// [`PassageError::Effects`] and [`PassageError::Steps`].
+    /// [`PassageError::Coating`] and [`PassageError::Orbit`].
     pub fn shortest(simulation: &Simulation<'a>) -> Result<Self, PassageError> {
-        let around = simulation.wheel.around();
-        let lobes = lobes(simulation).unwrap_or(around);
-        let parts = lcm(lobes, around);
-        // (b/N − 1/parts) m is a whole number.
-        let fits = |&b: &usize| (b * (parts / around) + parts - 1).is_multiple_of(parts / lobes);
-        let turn = (0..around).find(fits).unwrap_or(0);
-        Self::new(simulation, parts, turn)
+        let recurrences = Recurrences::of(simulation)?;
+        Ok(Self::new(simulation, &recurrences, recurrences.shortest()))
     }
 
-    /// The same over `count` lobes, every sector keeping its number.
+    /// The same over `count` lobes, every sector keeping its number; over `count` times as many revolutions as all needs to come round where
+    /// there are no lobes, or effects tell them apart.
     ///
     /// # Errors
     /// As of [`Self::shortest`].
     pub fn over_lobes(simulation: &Simulation<'a>, count: usize) -> Result<Self, PassageError> {
-        let lobes = lobes(simulation).unwrap_or(1);
-        Ok(Self::new(simulation, lobes, 0)?.repeated(count))
+        let recurrences = Recurrences::of(simulation)?;
+        Ok(Self::new(simulation, &recurrences, recurrences.lobe()).repeated(count))
     }
 
     /// `times` of it, one after the other.
     #[must_use]
     pub fn repeated(self, times: usize) -> Self {
         let sectors = self.simulation.wheel.sectors;
-        Self { steps: times * self.steps, turn: (times * self.turn) % sectors, ..self }
+        let Recurrence { steps, turn } = self.of;
+        Self { of: Recurrence { steps: times * steps, turn: (times * turn) % sectors }, ..self }
     }
 
-    fn new(simulation: &Simulation<'a>, parts: usize, turn: usize) -> Result<Self, PassageError> {
+    fn new(simulation: &Simulation<'a>, recurrences: &Recurrences<'_>, of: Recurrence) -> Self {
         let simulation = Simulation {
             initial: &[],
             sensors: &[],
@@ -117,38 +111,22 @@ impl<'a> Passage<'a> {
             states: None,
             ..*simulation
         };
-        let steps = simulation.steps_per_revolution;
-        if !steps.is_multiple_of(parts) {
-            return Err(PassageError::Steps { steps, parts });
-        }
         let stepper = Stepper::new(&simulation);
-        if !stepper.is_plain() {
-            return Err(PassageError::Effects);
-        }
-        let (mut unknowns, mut places) = (Vec::new(), Vec::new());
-        for (harmonic, modes) in simulation.wheel.harmonics.iter().enumerate() {
-            for family in 0..simulation.scheme.integrated_modes(modes.omega.len()) {
-                let omega = modes.omega[family];
-                if !remembers(&simulation, omega, family) {
-                    continue;
-                }
-                let scale = if omega > 0.0 { omega } else { simulation.step_s().recip() };
-                for (part, place) in stepper.oscillators().places(harmonic, family).enumerate() {
-                    unknowns.push(Unknown { harmonic, family, imaginary: part == 1, scale });
-                    places.push(place);
-                }
-            }
-        }
-        Ok(Self {
+        let (unknowns, places) = unknowns(&simulation, &stepper).into_iter().unzip();
+        let whole = recurrences.whole().steps;
+        Self {
+            grown: simulation.grown().next_multiple_of(recurrences.revolutions()),
+            lobes: whole / recurrences.lobe().steps,
+            whole,
             simulation,
+            casing: casing_unknowns(&stepper, simulation.step_s()),
             stepper,
             unknowns,
             places,
-            steps: steps / parts,
-            turn,
+            of,
             trace: Trace::default(),
             taken: AtomicUsize::new(0),
-        })
+        }
     }
 
     /// The same against a restriction of any shape instead of the casing's lobes.
@@ -158,19 +136,50 @@ impl<'a> Passage<'a> {
         self
     }
 
-    /// Lobes that pass in a revolution; 1 where there are none.
+    /// Passages over a lobe ([`Self::over_lobes`]) until all is as it was, sectors with their numbers.
     pub fn lobes(&self) -> usize {
-        lobes(&self.simulation).unwrap_or(1)
+        self.lobes
+    }
+
+    /// Lobes of the casing that pass meanwhile; revolutions where it has none.
+    pub fn lobes_passed(&self) -> usize {
+        let restriction = self.simulation.casing.and_then(|casing| casing.restriction);
+        let lobes = restriction.map_or(1, |restriction| restriction.count.max(1) as usize);
+        lobes * self.of.steps / self.simulation.steps_per_revolution
+    }
+
+    /// The revolution it begins with, when all has grown.
+    pub fn grown(&self) -> usize {
+        self.grown
+    }
+
+    /// Steps until all is as it was, sectors with their numbers: whole revolutions.
+    pub fn whole(&self) -> usize {
+        self.whole
     }
 
     /// Numbers of a state.
     pub fn size(&self) -> usize {
-        2 * self.unknowns.len()
+        2 * (self.unknowns.len() + self.casing.len())
     }
 
-    /// What they are: ωz of all, then d/h of all.
+    /// What they are: ωz of all, those of the casing last, then d/h of all.
     pub fn unknowns(&self) -> &[Unknown] {
         &self.unknowns
+    }
+
+    /// The last of each.
+    pub fn casing_unknowns(&self) -> &[CasingUnknown] {
+        &self.casing
+    }
+
+    /// What z of all is multiplied by.
+    pub fn scales(&self) -> impl Iterator<Item = f64> {
+        self.unknowns.iter().map(|of| of.scale).chain(self.casing.iter().map(|of| of.scale))
+    }
+
+    pub(in crate::dynamics) fn flexible_casing(&self) -> Option<&CasingMotion> {
+        self.stepper.flexible_casing()
     }
 
     /// What is integrated.
@@ -185,7 +194,7 @@ impl<'a> Passage<'a> {
 
     /// Steps that it takes.
     pub fn steps(&self) -> usize {
-        self.steps
+        self.of.steps
     }
 
     /// How often it was taken up to now, by states or, linearised, by what disturbs them.
@@ -195,7 +204,7 @@ impl<'a> Passage<'a> {
 
     /// The same in revolutions of the wheel.
     pub fn revolutions(&self) -> f64 {
-        (self.taken() * self.steps) as f64 / self.simulation.steps_per_revolution as f64
+        (self.taken() * self.of.steps) as f64 / self.simulation.steps_per_revolution as f64
     }
 
     pub(in crate::dynamics) fn take(&self, times: usize) {
@@ -207,49 +216,63 @@ impl<'a> Passage<'a> {
         &self.trace
     }
 
-    /// The state of these modes, all others being at rest.
-    pub fn state(&self, modes: &[InitialMode]) -> Vec<f64> {
-        let Simulation { wheel, scheme, damping, .. } = self.simulation;
-        let (n, step) = (self.unknowns.len(), self.simulation.step_s());
-        let mut state = vec![0.0; 2 * n];
-        for (i, unknown) in self.unknowns.iter().enumerate() {
-            let here =
-                |mode: &&InitialMode| (mode.harmonic, mode.family) == (unknown.harmonic, unknown.family);
-            let Some(mode) = modes.iter().find(here) else { continue };
-            let part = |value: faer::c64| if unknown.imaginary { value.im } else { value.re };
-            let omega = wheel.harmonics[unknown.harmonic].omega[unknown.family];
-            let zeta = damping.map_or(0.0, |damping| damping.ratio(unknown.family));
-            let (z, v) = (part(mode.displacement), part(mode.velocity));
-            state[i] = unknown.scale * z;
-            state[n + i] = scheme.first_increment(omega, zeta, step, z, v) / step;
-        }
-        state
+    /// −∂f/∂z of mistuning between the Fourier columns of every family that it couples.
+    pub(in crate::dynamics) fn mistuned(&self) -> Vec<Mat<f64>> {
+        self.stepper.mistuned()
     }
 
-    /// The modes of a state: what a run starts from that goes on where it is, at the beginning of a revolution.
-    pub fn modes(&self, state: &[f64]) -> Vec<InitialMode> {
-        let Simulation { wheel, scheme, damping, casing, .. } = self.simulation;
-        let (n, step) = (self.unknowns.len(), self.simulation.step_s());
-        let mut modes: Vec<InitialMode> = Vec::new();
-        for (i, unknown) in self.unknowns.iter().enumerate() {
-            let omega = wheel.harmonics[unknown.harmonic].omega[unknown.family];
-            let zeta = damping.map_or(0.0, |damping| damping.ratio(unknown.family));
-            let (z, d) = (state[i] / unknown.scale, state[n + i] * step);
-            let v = scheme.velocity(omega, zeta, step, z, d, casing.is_some());
-            match modes.last_mut() {
-                Some(mode) if unknown.imaginary => {
-                    mode.displacement.im = z;
-                    mode.velocity.im = v;
-                }
-                _ => modes.push(InitialMode {
+    /// The state of these modes and of these waves of the casing, all others being at rest, as a run that begins with them has it.
+    pub fn state(&mut self, modes: &[InitialMode], casing: &[SteppedWave]) -> Vec<f64> {
+        let Simulation { wheel, scheme, damping, .. } = self.simulation;
+        let step = self.simulation.step_s();
+        let mut stepped: Vec<SteppedMode> = Vec::new();
+        for &InitialMode { harmonic, family, displacement, velocity } in modes {
+            let omega = wheel.harmonics[harmonic].omega[family];
+            let zeta = damping.map_or(0.0, |damping| damping.ratio(family));
+            let increment = |z: f64, v: f64| scheme.first_increment(omega, zeta, step, z, v);
+            let increment =
+                c64::new(increment(displacement.re, velocity.re), increment(displacement.im, velocity.im));
+            stepped.push(SteppedMode { harmonic, family, displacement, increment });
+        }
+        self.stepper.go_on_from(&Stepped { modes: stepped, casing: casing.to_vec() });
+        self.stepper.drive_from(&self.simulation, modes, self.grown as f64);
+        self.read()
+    }
+
+    /// What a run goes on from at the beginning of a revolution.
+    pub fn stepped(&self, state: &[f64]) -> Stepped {
+        let (n, step) = (self.size() / 2, self.simulation.step_s());
+        let mut stepped = Stepped::default();
+        let numbers = self.scales().zip(state).zip(&state[n..]).map(|((scale, x), y)| (x / scale, y * step));
+        let mut wheel: Vec<_> = numbers.collect();
+        let casing = wheel.split_off(self.unknowns.len());
+        for (unknown, (z, d)) in self.unknowns.iter().zip(wheel) {
+            match stepped.modes.last_mut() {
+                Some(mode) if unknown.imaginary => (mode.displacement.im, mode.increment.im) = (z, d),
+                _ => stepped.modes.push(SteppedMode {
                     harmonic: unknown.harmonic,
                     family: unknown.family,
-                    displacement: faer::c64::new(z, 0.0),
-                    velocity: faer::c64::new(v, 0.0),
+                    displacement: c64::new(z, 0.0),
+                    increment: c64::new(d, 0.0),
                 }),
             }
         }
-        modes
+        for (unknown, (z, d)) in self.casing.iter().zip(casing) {
+            if !unknown.sine {
+                stepped.casing.push(SteppedWave::default());
+            }
+            let part = usize::from(unknown.sine);
+            if let Some(wave) = stepped.casing.last_mut() {
+                (wave.displacement[part], wave.increment[part]) = (z, d);
+            }
+        }
+        stepped
+    }
+
+    /// The state of a motion under way, of what is none of its unknowns nothing being kept.
+    pub fn state_of(&mut self, stepped: &Stepped) -> Vec<f64> {
+        self.stepper.go_on_from(stepped);
+        self.read()
     }
 
     /// P of a state.
@@ -257,14 +280,7 @@ impl<'a> Passage<'a> {
     /// # Errors
     /// [`PassageError::Diverged`] and [`PassageError::Contact`].
     pub fn map(&mut self, state: &[f64]) -> Result<Vec<f64>, PassageError> {
-        let (n, step) = (self.unknowns.len(), self.simulation.step_s());
-        let (z, d) = self.stepper.oscillators_mut().state_mut();
-        z.fill(0.0);
-        d.fill(0.0);
-        for (i, (&place, unknown)) in self.places.iter().zip(&self.unknowns).enumerate() {
-            z[place] = state[i] / unknown.scale;
-            d[place] = state[n + i] * step;
-        }
+        self.write(state);
         self.trace.clear();
         self.take(1);
         let flow = Flow { passage: self };
@@ -273,25 +289,51 @@ impl<'a> Passage<'a> {
             Outcome::Diverged(divergence) => PassageError::Diverged(divergence),
             Outcome::Completed(_) | Outcome::Cancelled => unreachable!("a passage has no end of its own"),
         })?;
-        let (z, d) = self.stepper.oscillators_mut().state_mut();
-        let mut image = vec![0.0; 2 * n];
-        for (i, (&place, unknown)) in self.places.iter().zip(&self.unknowns).enumerate() {
-            image[i] = z[place] * unknown.scale;
-            image[n + i] = d[place] / step;
-        }
+        let mut image = self.read();
         self.renumber(&mut image);
         Ok(image)
     }
 
+    /// Has the oscillators in `state`.
+    fn write(&mut self, state: &[f64]) {
+        let stepped = self.stepped(state);
+        self.stepper.go_on_from(&stepped);
+    }
+
+    fn read(&self) -> Vec<f64> {
+        let step = self.simulation.step_s();
+        let (z, d) = self.stepper.oscillators().state();
+        let waves = self.stepper.flexible_casing().map(CasingMotion::stepped).unwrap_or_default();
+        let part = |unknown: &CasingUnknown| (waves[unknown.wave], usize::from(unknown.sine));
+        let casing = self.casing.iter().map(|of| (part(of), of.scale));
+        let wheel = self.places.iter().zip(&self.unknowns);
+        let displacements = wheel
+            .map(|(&at, of)| z[at] * of.scale)
+            .chain(casing.clone().map(|((wave, part), scale)| wave.displacement[part] * scale));
+        let increments = self
+            .places
+            .iter()
+            .map(|&at| d[at] / step)
+            .chain(casing.map(|((wave, part), _)| wave.increment[part] / step));
+        displacements.chain(increments).collect()
+    }
+
     /// T_b⁻¹, of a state or a part of one that is kept alike.
     pub fn renumber(&self, state: &mut [f64]) {
-        if self.turn == 0 {
-            return;
-        }
         let sectors = self.simulation.wheel.sectors;
-        for half in state.chunks_exact_mut(self.unknowns.len()) {
+        for half in state.chunks_exact_mut(self.size() / 2) {
+            self.turn_casing(half, |n| {
+                // n (t − b/N) of a revolution, whole ones left out before anything is rounded.
+                let (per, around) = (self.simulation.steps_per_revolution, self.simulation.wheel.around());
+                let moved = (self.of.steps * around) as i128 - (self.of.turn * per) as i128;
+                let whole = (per * around) as i128;
+                (n as i128 * moved).rem_euclid(whole) as f64 / whole as f64
+            });
+            if self.of.turn == 0 {
+                continue;
+            }
             for (i, unknown) in self.unknowns.iter().enumerate() {
-                let angle = TAU * ((unknown.harmonic * self.turn) % sectors) as f64 / sectors as f64;
+                let angle = TAU * ((unknown.harmonic * self.of.turn) % sectors) as f64 / sectors as f64;
                 let pair = self.unknowns.get(i + 1).is_some_and(|next| next.imaginary);
                 if unknown.imaginary {
                     continue;
@@ -306,18 +348,16 @@ impl<'a> Passage<'a> {
             }
         }
     }
-}
 
-/// Lobes of the casing; none where it is circular, or absent.
-fn lobes(simulation: &Simulation<'_>) -> Option<usize> {
-    simulation.casing?.restriction.map(|restriction| restriction.count.max(1) as usize)
-}
-
-/// Whether where a mode goes depends on where it was: one that follows statically forgets it within a step.
-fn remembers(simulation: &Simulation<'_>, omega: f64, family: usize) -> bool {
-    let zeta = simulation.damping.map_or(0.0, |damping| damping.ratio(family));
-    let step = simulation.scheme.mode_step(omega, zeta, simulation.step_s(), simulation.casing.is_some());
-    step.keep != 0.0 || step.receptance * omega * omega != 1.0
+    /// Turns the casing's part of z or d against +θ by `revolutions` of every nodal diameter n: (c, s) as seen from there.
+    pub(in crate::dynamics) fn turn_casing(&self, half: &mut [f64], revolutions: impl Fn(usize) -> f64) {
+        let casing = &mut half[self.unknowns.len()..];
+        for (i, unknown) in self.casing.iter().enumerate().filter(|(_, unknown)| unknown.sine) {
+            let (sin, cos) = (TAU * revolutions(unknown.nodal_diameter)).sin_cos();
+            let (c, s) = (casing[i - 1], casing[i]);
+            (casing[i - 1], casing[i]) = (c * cos + s * sin, s * cos - c * sin);
+        }
+    }
 }
 
 /// The steps as a value, compiled for the widest vectors of the machine.
@@ -330,8 +370,7 @@ impl WithSimd for Flow<'_, '_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
-        let Passage { simulation, stepper, steps, trace, .. } = self.passage;
-        let grown = simulation.casing.map_or(0.0, |casing| casing.ramp_revolutions).ceil() as usize;
-        stepper.flow(simd, (grown, *steps), simulation, trace)
+        let Passage { simulation, stepper, of, grown, trace, .. } = self.passage;
+        stepper.flow(simd, (*grown, of.steps), simulation, trace)
     }
 }

@@ -3,7 +3,7 @@
 use pulp::Simd;
 
 use super::super::energy::EnergyAudit;
-use super::super::initial::InitialMode;
+use super::super::initial::{InitialMode, SteppedWave};
 use super::super::modal_wheel::ModalWheel;
 use super::super::oscillators::Oscillators;
 use super::super::oscillators::rows::Rows;
@@ -172,15 +172,15 @@ impl Recorder {
         }
     }
 
-    /// Ends the run of `wheel` after `steps`, with its modes as they are.
+    /// Ends the run of `wheel` after `steps`, with its modes and its casing as they are.
     pub(super) fn end(
         &mut self,
         wheel: &ModalWheel,
         oscillators: &Oscillators,
         fourier: &SectorFourier,
-        (modes, steps): (Vec<InitialMode>, u64),
+        (modes, casing, steps): (Vec<InitialMode>, Vec<SteppedWave>, u64),
     ) {
-        self.history.end = modes;
+        (self.history.end, self.history.casing_end) = (modes, casing);
         self.history.tips = self.tips.motions();
         self.history.excursion = self.tips.excursion();
         self.history.detail = self.detail.take().map(|detail| Box::new(detail.end(steps)));

@@ -9,7 +9,7 @@ use super::tally::ContactRecord;
 use super::tips::TipMotion;
 use crate::dynamics::contact::coating::WornCoating;
 use crate::dynamics::energy::EnergyAudit;
-use crate::dynamics::initial::InitialMode;
+use crate::dynamics::initial::{InitialMode, SteppedWave};
 use crate::dynamics::statistics::RunStatistics;
 use rubmap_numerics::complementarity::ComplementarityError;
 
@@ -30,6 +30,8 @@ pub struct History {
     pub repeated: Option<Repeated>,
     /// All modes at the end of the run.
     pub end: Vec<InitialMode>,
+    /// All waves of an elastic casing then.
+    pub casing_end: Vec<SteppedWave>,
     /// `[sector][contact node][component]`, one after the other: motion of the tips over the window.
     pub tips: Vec<TipMotion>,
     /// How far they went at once.

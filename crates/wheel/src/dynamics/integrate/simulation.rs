@@ -79,6 +79,13 @@ impl Simulation<'_> {
         if radius > 0.0 { DIVERGED_SHARE_OF_RADIUS * radius } else { f64::INFINITY }
     }
 
+    /// Revolutions after which nothing grows any more.
+    pub(super) fn grown(&self) -> usize {
+        let excitations = self.effects.excitation.iter().map(|excitation| excitation.ramp_revolutions);
+        let ramps = excitations.chain(self.casing.map(|casing| casing.ramp_revolutions));
+        ramps.fold(0.0, f64::max).ceil() as usize
+    }
+
     pub(super) fn step_s(&self) -> f64 {
         TAU / (self.wheel.speed_rad_s * self.steps_per_revolution as f64)
     }

@@ -9,13 +9,14 @@
 //! What of this a scene and its scheme have is a [`Motion`], with a loop of its own each: scenes without effects do not
 //! even ask for them.
 
+use faer::Mat;
 use pulp::Simd;
 
 #[cfg(test)]
 use super::super::casing::RestrictionTable;
 use super::super::energy::EnergyAudit;
 use super::super::flexible_casing::CasingMotion;
-use super::super::initial::InitialMode;
+use super::super::initial::{InitialMode, Stepped};
 use super::super::oscillators::Oscillators;
 use super::super::oscillators::driven::Drive;
 use super::super::schemes::Scheme;
@@ -100,7 +101,7 @@ impl Stepper {
             step,
         );
         if let Some(drive) = &mut drive {
-            drive.start(wheel, simulation.initial, &mut oscillators);
+            drive.start(wheel, simulation.initial, &mut oscillators, 0.0);
         }
         let effects = drive.is_some() || surroundings.is_some();
         let repetition = simulation.repeats.map(|repeats| Repetition::new(simulation, repeats, &oscillators));
@@ -142,8 +143,12 @@ impl Stepper {
         beginning: Beginning,
         watch: &dyn Fn(f64) -> bool,
     ) -> Run {
-        let effects = self.drive.is_some() || self.surroundings.is_some();
-        let begun = self.begin(simd, beginning);
+        let effects = self.is_affected();
+        let begun = match beginning {
+            Beginning::Free => Ok(()),
+            Beginning::UnderWay if effects => self.take_up::<S, Affected>(simd),
+            Beginning::UnderWay => self.take_up::<S, Massless>(simd),
+        };
         let ended = match &self.obstacle {
             _ if begun.is_err() => begun,
             _ if effects => self.integrate::<S, Affected>(simd, simulation, watch),
@@ -172,14 +177,15 @@ impl Stepper {
         }
     }
 
+    /// Finds the forces that act when a run takes up a motion.
     #[inline(always)]
-    fn begin<S: Simd>(&mut self, simd: S, beginning: Beginning) -> Result<(), Box<Outcome>> {
+    fn take_up<S: Simd, M: Motion>(&mut self, simd: S) -> Result<(), Box<Outcome>> {
         let start = Instant::beginning(0);
-        if beginning == Beginning::UnderWay && self.touches_at(simd, start) {
+        if self.touches_at::<S, M>(simd, start) {
             // Of the step before the first: nothing of it counts.
-            let statistics = self.statistics;
-            self.solve::<Massless>(start)?;
-            self.statistics = statistics;
+            let (statistics, energy) = (self.statistics, self.energy);
+            self.solve::<M>(start)?;
+            (self.statistics, self.energy) = (statistics, energy);
             if let Some(obstacle) = &mut self.obstacle {
                 obstacle.tally.sample(|_, _| 0.0, None);
             }
@@ -253,6 +259,9 @@ impl Stepper {
         trace: &mut Trace,
     ) -> Result<(), Box<Outcome>> {
         match &self.obstacle {
+            _ if self.is_affected() => {
+                self.flow_by::<S, Affected>(simd, (revolution, steps), simulation, trace)
+            }
             None => self.flow_by::<S, Free>(simd, (revolution, steps), simulation, trace),
             Some(_) if self.massless => {
                 self.flow_by::<S, Massless>(simd, (revolution, steps), simulation, trace)
@@ -270,11 +279,11 @@ impl Stepper {
         trace: &mut Trace,
     ) -> Result<(), Box<Outcome>> {
         let start = Instant::beginning(revolution);
-        if self.touches_at(simd, start) {
+        if self.touches_at::<S, M>(simd, start) {
             self.solve_tracing::<M>(start, 0, trace)?;
         }
         for step in 1..=steps {
-            let now = Instant::new(revolution, step, simulation.steps_per_revolution);
+            let now = Instant::of_any(revolution, step, simulation.steps_per_revolution);
             M::predict(self, simd, now);
             if !self.gaps::<S, M>(simd, now) {
                 self.solve_tracing::<M>(now, step, trace)?;
@@ -287,9 +296,12 @@ impl Stepper {
 
     /// Whether forces act from `start` on: they belong to the state there, as those that complete a step do not.
     #[inline(always)]
-    fn touches_at<S: Simd>(&mut self, simd: S, start: Instant) -> bool {
-        let Self { oscillators, fourier, obstacle, .. } = self;
-        let open = obstacle.as_mut().is_none_or(|obstacle| obstacle.look(simd, oscillators, fourier, start));
+    fn touches_at<S: Simd, M: Motion>(&mut self, simd: S, start: Instant) -> bool {
+        let Self { oscillators, fourier, obstacle, surroundings, .. } = self;
+        let surroundings = M::surroundings(surroundings);
+        let open = obstacle
+            .as_mut()
+            .is_none_or(|obstacle| obstacle.look(simd, oscillators, fourier, (start, surroundings)));
         !open && self.massless
     }
 
@@ -302,7 +314,7 @@ impl Stepper {
     ) -> Result<(), Box<Outcome>> {
         self.solve::<M>(now)?;
         if let Some(obstacle) = &self.obstacle {
-            obstacle.trace(step, trace);
+            obstacle.trace(step, M::surroundings(&mut self.surroundings), trace);
         }
         Ok(())
     }
@@ -311,13 +323,35 @@ impl Stepper {
         &self.oscillators
     }
 
-    pub(super) fn oscillators_mut(&mut self) -> &mut Oscillators {
-        &mut self.oscillators
+    /// Whether there are effects.
+    fn is_affected(&self) -> bool {
+        self.drive.is_some() || self.surroundings.is_some()
     }
 
-    /// Whether the oscillators are all there is to the state, and the casing is rigid.
-    pub(super) fn is_plain(&self) -> bool {
-        self.drive.is_none() && self.surroundings.is_none()
+    /// −∂f/∂z of mistuning between the Fourier columns of every family that it couples.
+    pub(super) fn mistuned(&self) -> Vec<Mat<f64>> {
+        self.drive.as_ref().map(Drive::mistuned).unwrap_or_default()
+    }
+
+    /// Gives what drives the wheel its part in increments that are those of free motion, `revolutions` after the start.
+    pub(super) fn drive_from(
+        &mut self,
+        simulation: &Simulation<'_>,
+        modes: &[InitialMode],
+        revolutions: f64,
+    ) {
+        if let Some(drive) = &mut self.drive {
+            drive.start(simulation.wheel, modes, &mut self.oscillators, revolutions);
+        }
+    }
+
+    /// Has modes and casing where another motion left them.
+    pub(super) fn go_on_from(&mut self, from: &Stepped) {
+        self.oscillators.go_on_from(&from.modes);
+        if let Some(casing) = self.flexible_casing_mut() {
+            casing.go_on_from(&from.casing);
+        }
+        self.energy = EnergyAudit::starting_at(self.mechanical_energy());
     }
 
     /// Predicts the gaps (Eq. 9); whether all are open.
@@ -407,7 +441,8 @@ impl Stepper {
             drive.end(simulation.wheel, revolutions as f64, &mut self.oscillators, read);
         }
         let modes = modal_state(simulation, &self.oscillators);
-        let end = (modes, self.statistics.steps);
+        let casing = self.flexible_casing().map(CasingMotion::stepped).unwrap_or_default();
+        let end = (modes, casing, self.statistics.steps);
         self.recorder.end(simulation.wheel, &self.oscillators, &self.fourier, end);
     }
 
@@ -421,8 +456,12 @@ impl Stepper {
         self.oscillators.energy() + self.flexible_casing().map_or(0.0, CasingMotion::energy)
     }
 
-    fn flexible_casing(&self) -> Option<&CasingMotion> {
+    pub(super) fn flexible_casing(&self) -> Option<&CasingMotion> {
         self.surroundings.as_ref()?.casing.as_ref()
+    }
+
+    pub(super) fn flexible_casing_mut(&mut self) -> Option<&mut CasingMotion> {
+        self.surroundings.as_mut()?.casing.as_mut()
     }
 
     #[inline(never)]

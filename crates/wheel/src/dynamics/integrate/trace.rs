@@ -33,12 +33,12 @@ impl Trace {
         self.instants.clear();
     }
 
-    /// That these touched at the end of `step`, `w` being W among them.
+    /// That these touched at the end of `step`, `w` being W among them, and whether it is symmetric.
     pub(super) fn touch(
         &mut self,
         step: usize,
         places: impl Iterator<Item = (usize, usize)>,
-        w: impl Fn(usize, usize) -> f64,
+        (w, symmetric): (impl Fn(usize, usize) -> f64, bool),
     ) {
         let places: Vec<_> = places.collect();
         if places.is_empty() {
@@ -47,9 +47,9 @@ impl Trace {
         if self.sets.last().is_none_or(|last| last.places != places) {
             let w = Mat::from_fn(places.len(), places.len(), w);
             let stiffness = match w.llt(Side::Lower) {
-                Ok(factor) => factor.inverse(),
-                // As far from definite as round-off.
-                Err(_) => w.partial_piv_lu().inverse(),
+                Ok(factor) if symmetric => factor.inverse(),
+                // Not symmetric, or as far from definite as round-off.
+                _ => w.partial_piv_lu().inverse(),
             };
             self.sets.push(Touching { places, stiffness });
         }

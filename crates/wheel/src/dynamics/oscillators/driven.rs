@@ -99,15 +99,21 @@ impl Drive {
         })
     }
 
-    /// Gives the drive's forces at the start their part in the first increments d = z − z⁻, which are those of free motion:
+    /// Gives the drive's forces after `revolutions` their part in the first increments d = z − z⁻, which are those of free motion:
     /// without it the start would be of first order in h only.
     pub(crate) fn start(
         &mut self,
         wheel: &ModalWheel,
         initial: &[InitialMode],
         oscillators: &mut Oscillators,
+        revolutions: f64,
     ) {
-        self.add_to_increments(wheel, initial, oscillators, 0.0, -1.0);
+        self.add_to_increments(wheel, initial, oscillators, revolutions, -1.0);
+    }
+
+    /// −∂f/∂z of mistuning between the Fourier columns of every family that it couples.
+    pub(crate) fn mistuned(&self) -> Vec<Mat<f64>> {
+        self.mistuning.as_ref().map(|mistuning| mistuning.stiffness(&self.places)).unwrap_or_default()
     }
 
     /// The counterpart of [`Self::start`] after `revolutions`: leaves the increments that free motion has at the same

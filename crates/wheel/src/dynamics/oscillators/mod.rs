@@ -21,7 +21,7 @@ pub(crate) use self::recursion::Exchange;
 use self::recursion::{Advance, Complete, CompleteAndPredict, Modes, Numbers, Pass, Sums};
 use self::rows::{Loads, Rows};
 use self::segment::Segment;
-use super::initial::InitialMode;
+use super::initial::{InitialMode, SteppedMode};
 use super::modal_wheel::ModalWheel;
 use super::schemes::{ModeStep, Scheme};
 use rubmap_numerics::aligned::Aligned;
@@ -140,6 +140,23 @@ impl Oscillators {
         for (start, (z, v)) in segment.parts().zip(values) {
             self.state.z[start + mode.family] = z;
             self.state.d[start + mode.family] = first_increment(z, v);
+        }
+    }
+
+    /// Has all modes where another motion left them, at rest where it has nothing.
+    pub(crate) fn go_on_from(&mut self, modes: &[SteppedMode]) {
+        let Self { segments, state, .. } = self;
+        // What the last step exchanged is forgotten, too.
+        for values in [&mut state.z, &mut state.d, &mut state.swing] {
+            values.fill(0.0);
+        }
+        for mode in modes {
+            let (z, d) = (mode.displacement, mode.increment);
+            let parts = segments[mode.harmonic].parts().zip([(z.re, d.re), (z.im, d.im)]);
+            for (start, (z, d)) in parts {
+                state.z[start + mode.family] = z;
+                state.d[start + mode.family] = d;
+            }
         }
     }
 
@@ -280,7 +297,7 @@ impl Oscillators {
         c64::new(at(segment.state), if segment.single { 0.0 } else { at(segment.state + segment.length) })
     }
 
-    /// Where z and d of mode `family` of nodal diameter `harmonic` are in [`Self::state_mut`]: of a pair both parts.
+    /// Where z and d of mode `family` of nodal diameter `harmonic` are in [`Self::state`]: of a pair both parts.
     pub(crate) fn places(&self, harmonic: usize, family: usize) -> impl Iterator<Item = usize> + use<> {
         self.segments[harmonic].parts().map(move |start| start + family)
     }
@@ -288,12 +305,6 @@ impl Oscillators {
     /// z and d of every mode, at its [`Self::places`].
     pub(crate) fn state(&self) -> (&[f64], &[f64]) {
         (&self.state.z, &self.state.d)
-    }
-
-    /// The same, for a state that is none of a run's: what the last step exchanged is forgotten.
-    pub(crate) fn state_mut(&mut self) -> (&mut [f64], &mut [f64]) {
-        self.state.swing.fill(0.0);
-        (&mut self.state.z, &mut self.state.d)
     }
 
     /// z and ż of every mode, `velocity(harmonic, family, z, d)` being the scheme's.

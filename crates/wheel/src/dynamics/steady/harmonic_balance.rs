@@ -238,7 +238,7 @@ fn responses_are_those_of_harmonic_balance_within_its_truncation() {
     };
     let response = seek(&simulation, 100, false, &|| true).response.unwrap();
     assert_eq!(response.floquet.stability, Stability::Stable);
-    let run = record(&simulation, &response.modes, &|_| true);
+    let run = record(&simulation, &response, &|_| true);
     assert!(run.statistics.contact_share() > 0.05, "{}", run.statistics.contact_share());
     let Outcome::Completed(history) = run.outcome else { panic!("{:?}", run.outcome) };
     let found = &history.displacement[0];

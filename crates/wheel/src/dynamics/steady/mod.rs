@@ -5,6 +5,8 @@
 //! derivative of the map and [`multipliers`] are its eigenvalues. [`branch`] follows a response while a number of its scene changes.
 
 pub mod branch;
+mod coupling;
+mod damping;
 #[cfg(test)]
 mod harmonic_balance;
 pub mod multipliers;

@@ -19,7 +19,7 @@ use super::periodic::{Search, find};
 use super::tangent::Tangent;
 use crate::dynamics::casing::{Casing, RestrictionTable};
 use crate::dynamics::effects::Effects;
-use crate::dynamics::initial::InitialMode;
+use crate::dynamics::initial::Stepped;
 use crate::dynamics::integrate::{Passage, Simulation};
 use crate::dynamics::modal_wheel::{ModalHarmonic, ModalWheel};
 use crate::dynamics::oscillators::ModalDamping;
@@ -225,8 +225,10 @@ impl Family for Stop {
         Ok(())
     }
 
-    fn carry(&self, modes: &[InitialMode], _: f64, _: f64) -> Result<Vec<InitialMode>, Unreachable> {
-        Ok(modes.to_vec())
+    fn carry(&self, state: &Stepped, from: f64, to: f64) -> Result<Stepped, Unreachable> {
+        let mut carried = state.clone();
+        carried.modes.iter_mut().for_each(|mode| mode.increment *= from / to);
+        Ok(carried)
     }
 }
 
@@ -294,15 +296,15 @@ fn exact_fold(x: State, speed: f64) -> f64 {
 fn branches_turn_back_and_change_their_stability_where_the_closed_forms_do() {
     let stop = Stop::new(8_000);
     let (start, span) = (0.6, 2.0);
-    let modes = stop.with(start, |passage| {
+    let state = stop.with(start, |passage| {
         let search = Search { tolerance: 1e-10, marched: 20, most: 1000 };
         let found = find(passage, &[0.0, 0.0], &search, &|| true).unwrap();
-        passage.modes(&found.state)
+        passage.stepped(&found.state)
     });
     let branch = Branch { family: &stop, lap: Lap::Lobes(1), span, go_on: &|| true };
     let tell = |motion: &Motion| {
         let leading = stop.with(motion.value, |passage| {
-            let state = passage.state(&motion.modes);
+            let state = passage.state_of(&motion.state);
             passage.map(&state).unwrap();
             multipliers(&Tangent::of(passage), 1, &[1.0; 2])[0].value
         });
@@ -310,11 +312,12 @@ fn branches_turn_back_and_change_their_stability_where_the_closed_forms_do() {
     };
     // Of first order in the step, for where phases end within one the derivative jumps.
     let close = |place: &Motion| {
-        let mode = place.modes[0];
-        let exact = exact_fold([mode.displacement.re, mode.velocity.re], place.value);
+        let mode = place.state.modes[0];
+        let step = TAU / place.value / 8_000.0;
+        let exact = exact_fold([mode.displacement.re, mode.increment.re / step], place.value);
         assert!((place.value / exact - 1.0).abs() < 1e-5, "{} {exact}", place.value);
     };
-    let mut front = Front::new(Motion { value: start, modes }, span, -1.0);
+    let mut front = Front::new(Motion { value: start, state }, span, -1.0);
     let mut folds = 0;
     loop {
         let found = match branch.next(&mut front, (0.36, 4.0)).unwrap() {

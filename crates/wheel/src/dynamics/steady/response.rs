@@ -1,10 +1,13 @@
 //! The periodic response of a scene: sought from where its march begins, judged, and reached or not.
 
+use super::damping::{Followed, follow};
 use super::multipliers::MOST_PRODUCTS;
 use super::periodic::{DEPTH, NotFound, Periodic, Search, find};
 use super::stability::{Floquet, Stability};
 use crate::dynamics::casing::Casing;
-use crate::dynamics::initial::InitialMode;
+use crate::dynamics::effects::Effects;
+use crate::dynamics::excitation::EngineOrderExcitation;
+use crate::dynamics::initial::Stepped;
 use crate::dynamics::integrate::{
     Detail, Outcome, Passage, PassageError, Revolutions, Run, Simulation, Trace,
 };
@@ -33,14 +36,18 @@ const COMING: f64 = 0.25;
 /// A periodic response with its credentials.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Response {
-    /// The modes at the beginning of a revolution.
-    pub modes: Vec<InitialMode>,
+    /// The state at the beginning of a revolution.
+    pub start: Stepped,
+    /// Revolutions after which it repeats: 1, but under an orbit that takes longer to come round.
+    pub period: usize,
     /// ‖P(x) − x‖ / ‖x‖ over the passage of the search, in the norm of energies.
     pub residual: f64,
     /// Whether it lasts.
     pub floquet: Floquet,
     /// Whether the march from where the scene begins comes to it; none if nobody asked, or it does not last.
     pub arrives: Option<bool>,
+    /// Times the damping of the scene from which it was followed, where the search with that damping stalled.
+    pub followed_from: Option<f64>,
 }
 
 /// What a search came to.
@@ -52,7 +59,8 @@ pub struct Sought {
     pub revolutions: f64,
 }
 
-/// Memory that a search holds, in bytes, beside that of a run: of so many unknowns (numbers z) and pairs of sector and contact node.
+/// Memory that a search holds, in bytes, beside that of a run: of so many unknowns (numbers z) and pairs of sector and contact node, twice as
+/// many with friction.
 pub fn memory(unknowns: usize, pairs: usize) -> usize {
     let state = 2 * unknowns;
     // Differences of residuals and images with two copies for their least squares, or the vectors of the multipliers; A of all pairs.
@@ -76,12 +84,11 @@ pub fn seek(simulation: &Simulation<'_>, limit: usize, control: bool, go_on: &dy
 
 /// The map over about half a revolution, some of which make a whole: short ones look back over too little, long ones are few.
 pub(super) fn about_half<'a>(simulation: &Simulation<'a>) -> Result<Passage<'a>, PassageError> {
-    let passage = match Passage::shortest(simulation) {
-        Err(PassageError::Steps { .. }) => Passage::over_lobes(simulation, 1)?,
-        passage => passage?,
-    };
-    let parts = simulation.steps_per_revolution / passage.steps();
-    let times = (1..=parts / 2).rev().find(|&times| parts.is_multiple_of(times)).unwrap_or(1);
+    let passage = Passage::shortest(simulation)?;
+    let (steps, parts) = (passage.steps(), passage.whole() / passage.steps());
+    let fits =
+        |times: &usize| parts.is_multiple_of(*times) && 2 * times * steps <= simulation.steps_per_revolution;
+    let times = (1..=parts).rev().find(fits).unwrap_or(1);
     Ok(passage.repeated(times))
 }
 
@@ -91,18 +98,31 @@ fn respond(
     (limit, control): (usize, bool),
     (revolutions, go_on): (&mut f64, &dyn Fn() -> bool),
 ) -> Result<Response, NotFound> {
-    let per_revolution = simulation.steps_per_revolution / passage.steps();
-    let most = limit * per_revolution;
+    let (per_revolution, steps) = (simulation.steps_per_revolution, passage.steps());
+    let passages = |revolutions: usize| (revolutions * per_revolution).div_ceil(steps);
+    let most = passages(limit);
     let start = begin(simulation, passage, revolutions, go_on)?;
-    let search = Search { tolerance: FOUND, marched: MARCHED * per_revolution, most };
-    let Periodic { state, residual } = find(passage, &start, &search, go_on)?;
+    let search = Search { tolerance: FOUND, marched: passages(MARCHED), most };
+    let (Periodic { state, residual }, followed_from) = match find(passage, &start, &search, go_on) {
+        Err(stalled @ NotFound::Stalled { .. }) => {
+            let mut taken = passage.taken();
+            let followed = follow(simulation, &start, (&search, &mut taken), go_on);
+            *revolutions += ((taken - passage.taken()) * steps) as f64 / per_revolution as f64;
+            match followed {
+                Ok(Followed { periodic, from }) => (periodic, Some(from)),
+                Err(NotFound::Cancelled) => return Err(NotFound::Cancelled),
+                Err(_) => return Err(stalled),
+            }
+        }
+        found => (found?, None),
+    };
     let hint: Vec<f64> = start.iter().zip(&state).map(|(a, b)| a - b).collect();
     let mut floquet = Floquet::of(passage, (&state, &hint), MULTIPLIERS)?;
     *revolutions += floquet.revolutions;
     let mut arrives = None;
     if floquet.stability == Stability::Stable {
         passage.map(&state)?;
-        let orbit = Orbit { state: &state, trace: passage.trace().clone(), per_revolution };
+        let orbit = Orbit { state: &state, trace: passage.trace().clone(), lasting: passages(LASTING) };
         if control {
             arrives = Some(orbit.attracts(passage, start, most, go_on)?);
         }
@@ -114,24 +134,24 @@ fn respond(
             }
         }
     }
-    Ok(Response { modes: passage.modes(&state), residual, floquet, arrives })
+    let period = passage.whole() / simulation.steps_per_revolution;
+    Ok(Response { start: passage.stepped(&state), period, residual, floquet, arrives, followed_from })
 }
 
-/// The state at the end of the ramp, marched from where the scene begins.
+/// The state once all has grown, marched from where the scene begins.
 fn begin(
     simulation: &Simulation<'_>,
-    passage: &Passage<'_>,
+    passage: &mut Passage<'_>,
     revolutions: &mut f64,
     go_on: &dyn Fn() -> bool,
 ) -> Result<Vec<f64>, NotFound> {
-    let ramp = simulation.casing.map_or(0.0, |casing| casing.ramp_revolutions).ceil() as usize;
-    if ramp == 0 {
-        return Ok(passage.state(simulation.initial));
+    if passage.grown() == 0 {
+        return Ok(passage.state(simulation.initial, &[]));
     }
     let unrecorded = Simulation {
         sensors: &[],
         samples_per_revolution: 1,
-        revolutions: ramp,
+        revolutions: passage.grown(),
         window_revolutions: 0,
         repeats: None,
         detail: None,
@@ -141,7 +161,7 @@ fn begin(
     let run = unrecorded.run(&|_| go_on());
     *revolutions += run.statistics.steps as f64 / simulation.steps_per_revolution as f64;
     match run.outcome {
-        Outcome::Completed(history) => Ok(passage.state(&history.end)),
+        Outcome::Completed(history) => Ok(passage.state(&history.end, &history.casing_end)),
         Outcome::Diverged(divergence) => Err(PassageError::Diverged(divergence).into()),
         Outcome::ContactFailed { error, .. } => Err(PassageError::Contact(error).into()),
         Outcome::Cancelled => Err(NotFound::Cancelled),
@@ -152,7 +172,8 @@ fn begin(
 struct Orbit<'a> {
     state: &'a [f64],
     trace: Trace,
-    per_revolution: usize,
+    /// Passages for which the same has to touch.
+    lasting: usize,
 }
 
 impl Orbit<'_> {
@@ -183,7 +204,7 @@ impl Orbit<'_> {
             }
             alike += 1;
             let now = self.away(&x);
-            if now <= FOUND * size || (alike >= LASTING * self.per_revolution && now < entered) {
+            if now <= FOUND * size || (alike >= self.lasting && now < entered) {
                 return Ok(true);
             }
         }
@@ -199,45 +220,54 @@ fn length(x: &[f64]) -> f64 {
     x.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
-/// Runs `simulation` on the response `modes` instead of from where its scene begins: one revolution, repeated for all that it asks for;
-/// what it records of chosen revolutions is of as many from the first on.
-pub fn record(simulation: &Simulation<'_>, modes: &[InitialMode], watch: &dyn Fn(f64) -> bool) -> Run {
+/// Runs `simulation` on `response` instead of from where its scene begins: one period, repeated for all that it asks for; what it records of
+/// chosen revolutions is of as many from the first on that are alike.
+pub fn record(simulation: &Simulation<'_>, response: &Response, watch: &dyn Fn(f64) -> bool) -> Run {
     let casing = simulation.casing.map(|casing| Casing { ramp_revolutions: 0.0, ..casing.clone() });
-    let count = |asked: Revolutions| {
-        let (from, to) = asked.of(simulation.revolutions, None);
-        to - from
-    };
-    let first = |asked: Revolutions| Revolutions::Between(0, count(asked));
+    let grown = |of: &EngineOrderExcitation| EngineOrderExcitation { ramp_revolutions: 0.0, ..of.clone() };
+    let excitation: Vec<_> = simulation.effects.excitation.iter().map(grown).collect();
+    let (window, wanted) = (simulation.window_revolutions, simulation.revolutions);
+    // A window of no whole periods is recorded as it is.
+    let period = if window.is_multiple_of(response.period) { response.period } else { window };
     let of = |revolutions: usize| Simulation {
         casing: casing.as_ref(),
-        initial: modes,
+        effects: Effects { excitation: &excitation, ..simulation.effects },
+        initial: &[],
         revolutions,
-        window_revolutions: 1,
+        window_revolutions: period,
         repeats: None,
         detail: None,
         states: None,
         ..*simulation
     };
-    let states_from = simulation.states.map_or(0, |asked| asked.of(simulation.revolutions, None).0);
-    let mut run = of(1).go_on(watch);
+    let alike = |revolution: usize| revolution % response.period;
+    let mut run = of(alike(wanted - window) + period).go_on(&response.start, watch);
+    let bounds = |asked: Revolutions| asked.of(wanted, None);
+    let first = |asked: Revolutions| {
+        let (from, to) = bounds(asked);
+        Revolutions::Between(alike(from), alike(from) + to - from)
+    };
+    let last = |asked: Revolutions| first(asked).of(wanted, None).1;
     let detail = simulation.detail;
     let asked = detail.map(|detail| detail.revolutions).into_iter().chain(simulation.states);
-    if let (Some(revolutions), Outcome::Completed(history)) = (asked.map(count).max(), &mut run.outcome) {
+    if let (Some(revolutions), Outcome::Completed(history)) = (asked.map(last).max(), &mut run.outcome) {
         let recorded = Simulation {
             detail: detail.map(|detail| Detail { revolutions: first(detail.revolutions), ..detail }),
             states: simulation.states.map(first),
+            window_revolutions: 1,
             ..of(revolutions)
         };
-        match recorded.go_on(watch).outcome {
+        let skipped = simulation.states.map_or(0, |asked| bounds(asked).0 - alike(bounds(asked).0));
+        match recorded.go_on(&response.start, watch).outcome {
             Outcome::Completed(recorded) => {
                 history.detail = recorded.detail;
                 history.states = recorded.states;
                 for instant in history.states.iter_mut().flat_map(|states| &mut states.revolutions) {
-                    *instant += states_from as f64;
+                    *instant += skipped as f64;
                 }
             }
             other => run.outcome = other,
         }
     }
-    run.repeated(1, simulation.revolutions, simulation.window_revolutions)
+    run.repeated(period, wanted, window)
 }

@@ -32,7 +32,8 @@ pub enum Stability {
 /// The multipliers of a response over whole passages of lobes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Floquet {
-    /// Passages of a lobe; 1 but for a response that is another one at every second, third … lobe. A revolution where there are no lobes.
+    /// Passages of a lobe; 1 but for a response that is another one at every second, third … lobe, and in scenes that tell the lobes apart.
+    /// Revolutions where there are no lobes.
     pub lobes: usize,
     /// The largest, largest first.
     pub multipliers: Vec<Multiplier>,
@@ -60,16 +61,17 @@ impl Floquet {
         let mut once = Passage::over_lobes(passage.simulation(), 1)?;
         let image = once.map(state)?;
         let mut revolutions = once.revolutions();
-        let (lobes, passage) = if repeats(state, &image) <= REPEATS {
-            (1, once)
+        let passage = if once.lobes() == 1 || repeats(state, &image) <= REPEATS {
+            once
         } else {
             let mut whole = Passage::over_lobes(passage.simulation(), passage.lobes())?;
             whole.map(state)?;
-            (passage.lobes(), whole)
+            whole
         };
         let multipliers = multipliers(&Tangent::of(&passage), count, hint);
         revolutions += passage.revolutions();
-        let orders = passage.lobes() as f64 / lobes as f64;
+        let orders = passage.simulation().steps_per_revolution as f64 / passage.steps() as f64;
+        let lobes = passage.lobes_passed();
         let stability = judge(&multipliers, passage.size());
         Ok(Self { lobes, stability, multipliers, orders, revolutions })
     }

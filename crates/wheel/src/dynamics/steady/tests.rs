@@ -1,3 +1,5 @@
+mod effects;
+
 use std::f64::consts::TAU;
 
 use faer::{Mat, MatMut, c64};
@@ -12,8 +14,8 @@ use crate::dynamics::direction::Direction;
 use crate::dynamics::effects::Effects;
 use crate::dynamics::initial::InitialMode;
 use crate::dynamics::integrate::{
-    Detail, LEAST_MARCHED, Outcome, Passage, PassageError, Repeated, Repeats, Revolutions, Run, SensorRow,
-    Simulation,
+    Detail, History, LEAST_MARCHED, Outcome, Passage, PassageError, Repeated, Repeats, Revolutions, Run,
+    SensorRow, Simulation,
 };
 use crate::dynamics::modal_wheel::{ModalHarmonic, ModalWheel};
 use crate::dynamics::numbers::Numbers;
@@ -114,6 +116,27 @@ fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a - b).collect()
 }
 
+/// The rate at which what starts beside a response leaves or joins it, and in how many passages it was measured.
+fn rate_beside(passage: &mut Passage<'_>, response: &[f64], growth: f64) -> (f64, usize) {
+    let start = if growth < 1.0 { 1e-3 } else { 1e-9 };
+    let mut numbers = Numbers(3);
+    let aside: Vec<f64> = response.iter().map(|_| numbers.next()).collect();
+    let share = start * length(response) / length(&aside);
+    let mut state: Vec<f64> = response.iter().zip(&aside).map(|(x, aside)| x + share * aside).collect();
+    let mut sizes = Vec::new();
+    // From where the leading one is alone to where round-off or the next set of nodes begins.
+    let (from, to) = if growth < 1.0 { (1e-6, 1e-10) } else { (1e-7, 1e-5) };
+    let is_beyond = |size: f64, mark: f64| if growth < 1.0 { size < mark } else { size > mark };
+    while sizes.last().is_none_or(|&last| !is_beyond(last, to)) {
+        assert!(sizes.len() < 10_000, "{growth}: {:?}", sizes.last());
+        state = passage.map(&state).unwrap();
+        sizes.push(length(&difference(&state, response)) / length(response));
+    }
+    let from = sizes.iter().position(|&size| is_beyond(size, from)).unwrap();
+    let last = sizes.len() - 1;
+    ((sizes[last] / sizes[from]).powf(1.0 / (last - from) as f64), last - from)
+}
+
 /// Without contact a mode comes back by e^{λT} after a passage, turned by its nodal diameter where sectors change their numbers.
 #[test]
 fn a_wheel_in_free_motion_has_the_multipliers_of_its_modes() {
@@ -160,7 +183,7 @@ fn the_tangent_is_the_limit_of_differences() {
             let scene = Scene::new(sectors, lobes, 0.02, scheme);
             let simulation = scene.simulation();
             let mut passage = Passage::shortest(&simulation).unwrap();
-            let state = passage.state(&scene.march(4));
+            let state = passage.state(&scene.march(4), &[]);
             let image = passage.map(&state).unwrap();
             let (touched, instants) = (passage.trace().sets.len(), passage.trace().instants.clone());
             assert!(touched > 0, "nothing touches");
@@ -200,27 +223,10 @@ fn what_starts_near_a_response_leaves_or_joins_it_as_its_multipliers_say() {
             passage.map(&found.state).unwrap();
             let growth = multipliers(&Tangent::of(&passage), 4, &rest)[0].value.norm();
 
-            let start = if growth < 1.0 { 1e-3 } else { 1e-9 };
-            let mut numbers = Numbers(3);
-            let aside: Vec<f64> = found.state.iter().map(|_| numbers.next()).collect();
-            let share = start * length(&found.state) / length(&aside);
-            let mut state: Vec<f64> =
-                found.state.iter().zip(&aside).map(|(x, aside)| x + share * aside).collect();
-            let mut sizes = Vec::new();
-            // From where the leading one is alone to where round-off or the next set of nodes begins.
-            let (from, to) = if growth < 1.0 { (1e-6, 1e-10) } else { (1e-7, 1e-5) };
-            let is_beyond = |size: f64, mark: f64| if growth < 1.0 { size < mark } else { size > mark };
-            while sizes.last().is_none_or(|&last| !is_beyond(last, to)) {
-                assert!(sizes.len() < 1000, "{scheme:?} {sectors}: {growth}");
-                state = passage.map(&state).unwrap();
-                sizes.push(length(&difference(&state, &found.state)) / length(&found.state));
-            }
-            let from = sizes.iter().position(|&size| is_beyond(size, from)).unwrap();
-            let last = sizes.len() - 1;
-            let rate = (sizes[last] / sizes[from]).powf(1.0 / (last - from) as f64);
+            let (rate, _) = rate_beside(&mut passage, &found.state, growth);
             assert!((rate / growth - 1.0).abs() < 0.05, "{scheme:?} {sectors}: {rate} for {growth}");
 
-            let marched = passage.state(&scene.march(60));
+            let marched = passage.state(&scene.march(60), &[]);
             let off = length(&difference(&marched, &found.state)) / length(&found.state);
             if growth < 1.0 {
                 stable += 1;
@@ -241,15 +247,13 @@ fn what_starts_near_a_response_leaves_or_joins_it_as_its_multipliers_say() {
     assert!(stable > 2 && unstable > 0, "{stable} stable and {unstable} unstable responses");
 }
 
+/// Seven sectors would want a fourteenth of a revolution.
 #[test]
-fn steps_that_do_not_divide_a_passage_and_effects_are_refused() {
+fn a_passage_takes_whole_steps() {
     let scene = Scene::new(7, 2, 0.01, Scheme::ExactModal);
-    let refused = Passage::shortest(&scene.simulation()).unwrap_err();
-    assert_eq!(refused, PassageError::Steps { steps: STEPS, parts: 14 });
-    let deviations = [0.01; 7];
-    let effects = Effects { mistuning: Some(&deviations), ..Effects::default() };
-    let refused = Passage::over_lobes(&Simulation { effects, ..scene.simulation() }, 1).unwrap_err();
-    assert_eq!(refused, PassageError::Effects);
+    assert_eq!(Passage::shortest(&scene.simulation()).unwrap().steps(), STEPS / 2);
+    let unlike = Simulation { steps_per_revolution: STEPS + 1, ..scene.simulation() };
+    assert_eq!(Passage::over_lobes(&unlike, 1).unwrap().steps(), STEPS + 1);
 }
 
 /// Scenes drawn at random: whatever is called stable, and reached by a march, is where a long march ends; sensors show the same.
@@ -278,7 +282,7 @@ fn what_is_stable_and_reached_is_where_long_marches_end() {
         assert!(sought.revolutions > 3.0);
         if response.floquet.stability == Stability::Stable {
             let mut passage = Passage::over_lobes(&simulation, 1).unwrap();
-            let orbit = passage.state(&response.modes);
+            let orbit = passage.state_of(&response.start);
             let aside: Vec<f64> = orbit.iter().map(|_| aside.next()).collect();
             let share = 1e-3 * length(&orbit) / length(&aside);
             let mut state: Vec<f64> = orbit.iter().zip(&aside).map(|(x, aside)| x + share * aside).collect();
@@ -299,7 +303,7 @@ fn what_is_stable_and_reached_is_where_long_marches_end() {
             other => panic!("{other:?}"),
         };
         let long = ends(Simulation { revolutions: 400, ..simulation }.run(&|_| true));
-        let recorded = ends(record(&simulation, &response.modes, &|_| true));
+        let recorded = ends(record(&simulation, &response, &|_| true));
         assert_eq!(recorded.displacement[0].len(), 5 * 360);
         assert_eq!(recorded.window[0].len(), 360);
         let largest = long.window[0].iter().fold(0.0f64, |most, x| most.max(x.abs()));
@@ -334,7 +338,7 @@ fn details_of_a_response_are_those_of_its_march() {
             panic!("{scheme:?}: no response")
         };
         assert_eq!(response.arrives, Some(true), "{scheme:?}");
-        let (marched, solved) = (of(200).run(&|_| true), record(&of(40), &response.modes, &|_| true));
+        let (marched, solved) = (of(200).run(&|_| true), record(&of(40), &response, &|_| true));
         let (Outcome::Completed(marched), Outcome::Completed(solved)) = (marched.outcome, solved.outcome)
         else {
             panic!("not completed")
@@ -428,7 +432,7 @@ fn a_march_that_ends_has_come_as_close_as_it_says() {
         assert_eq!(told.window[0].repeat(12 / period), march.window[0]);
         assert_eq!(march.states.unwrap().revolutions.last(), Some(&(taken as f64)));
         let mut passage = Passage::over_lobes(&simulation, lobes as usize).unwrap();
-        let early = passage.state(&march.end);
+        let early = passage.state(&march.end, &[]);
         let mut late = early.clone();
         for _ in 0..400 / period * period {
             late = passage.map(&late).unwrap();
@@ -440,4 +444,44 @@ fn a_march_that_ends_has_come_as_close_as_it_says() {
         );
     }
     assert!(ended >= 24 && several > 0 && others > 0, "{ended} ended, {several} after several, {others} not");
+}
+
+/// Lightly damped scenes drawn at random, where the search from the march alone stalls within 400 revolutions: some are followed from heavier
+/// damping, and what is found then is a response of the scene itself, which attracts or not as it says.
+#[test]
+fn light_damping_is_followed_from_heavier() {
+    let mut numbers = Numbers(31);
+    let mut within = |low: f64, high: f64| low + 0.5 * (numbers.next() + 1.0) * (high - low);
+    let (mut followed, mut stable) = (0, 0);
+    for case in 0..30 {
+        let scheme = SCHEMES[case % 3];
+        let (sectors, lobes) = [(6, 2), (5, 2), (8, 4), (1, 1)][case % 4];
+        let mut scene = Scene::new(sectors, lobes, [0.01, 0.005, 0.0025][case / 3 % 3], scheme);
+        scene.wheel.speed_rad_s = within(600.0, 2000.0);
+        let clearance = vec![within(0.2, 0.3), within(0.2, 0.3)];
+        scene.casing.iter_mut().for_each(|casing| casing.clearance.clone_from(&clearance));
+        let simulation = scene.simulation();
+        let Ok(response) = seek(&simulation, 400, false, &|| true).response else { continue };
+        if response.followed_from.is_none() {
+            continue;
+        }
+        followed += 1;
+        let mut passage = Passage::over_lobes(&simulation, response.floquet.lobes).unwrap();
+        let orbit = passage.state_of(&response.start);
+        let image = passage.map(&orbit).unwrap();
+        // Found to 1e-8 over half a revolution or less; a lobe that repels multiplies that.
+        let growth = response.floquet.multipliers[0].value.norm().max(1.0);
+        let off = length(&difference(&image, &orbit)) / length(&orbit);
+        assert!(off < 1e-7 * growth, "{case} {scheme:?}: {off:e} {growth}");
+        if response.floquet.stability == Stability::Stable {
+            stable += 1;
+            let mut state: Vec<f64> = orbit.iter().map(|x| 1.0001 * x).collect();
+            for _ in 0..400 {
+                state = passage.map(&state).unwrap();
+            }
+            let off = length(&difference(&state, &orbit)) / length(&orbit);
+            assert!(off < 1e-6, "{case} {scheme:?}: {off:e}");
+        }
+    }
+    assert!(followed > 3 && stable > 0, "{followed} followed, {stable} of them stable");
 }

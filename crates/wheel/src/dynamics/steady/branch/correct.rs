@@ -66,11 +66,10 @@ impl Branch<'_> {
             let step = self.step(&best, along, at, &mut revolutions)?;
             let better = SHARES.into_iter().find_map(|share| {
                 let value = best.motion.value + share * step.value;
-                let modes = add(&best.motion.modes, &step.modes, share);
-                let moved = Motion { value: best.motion.value, modes };
+                let moved = add(&best.motion.state, &step.state, share);
                 let beside = self
-                    .carried(&moved, moved.value, value)
-                    .and_then(|modes| self.beside(Motion { value, modes }, &mut revolutions));
+                    .carried(&moved, best.motion.value, value)
+                    .and_then(|state| self.beside(Motion { value, state }, &mut revolutions));
                 match beside {
                     Ok(beside) if beside.residual > (1.0 - 0.1 * share) * best.residual => None,
                     Err(Lost::Unreachable(_) | Lost::Passage(_)) => None,
@@ -85,7 +84,7 @@ impl Branch<'_> {
 
     fn beside(&self, motion: Motion, revolutions: &mut f64) -> Result<Beside, Lost> {
         let (state, image) = self.at(motion.value, |passage| {
-            let state = passage.state(&motion.modes);
+            let state = passage.state_of(&motion.state);
             let image = passage.map(&state);
             *revolutions += passage.revolutions();
             image.map(|image| (state, image))
@@ -94,18 +93,18 @@ impl Branch<'_> {
         Ok(Beside { residual: repeats(&state, &image), motion, state, off })
     }
 
-    /// The step from `best`: its modes are those at the value of `best`.
+    /// The step from `best`, in the modes there.
     fn step(&self, best: &Beside, along: &Motion, at: f64, revolutions: &mut f64) -> Result<Motion, Lost> {
         let value = best.motion.value;
         let change = DIFFERENCE * value.abs().max(self.span);
         let slope = self.slope(best, change, revolutions)?;
-        let along_modes = self.carried(along, at, value)?;
+        let direction = self.carried(&along.state, at, value)?;
         let size = length(&best.state).max(f64::MIN_POSITIVE);
         let span = self.span;
         self.at(value, |passage| {
             // What touches on its way is to be that of this state.
             passage.map(&best.state)?;
-            let across: Vec<f64> = passage.state(&along_modes).iter().map(|x| x / size).collect();
+            let across: Vec<f64> = passage.state_of(&direction).iter().map(|x| x / size).collect();
             let across_value = along.value / span;
             let mut right: Vec<f64> = best.off.iter().map(|x| x / size).collect();
             right.push(0.0);
@@ -122,27 +121,27 @@ impl Branch<'_> {
             let mut step = gmres::solve(product, &right, SOLVED, PRODUCTS).x;
             let by = step.pop().unwrap_or(0.0) * span;
             step.iter_mut().for_each(|x| *x *= size);
-            let modes = passage.modes(&step);
+            let state = passage.stepped(&step);
             *revolutions += passage.revolutions();
-            Ok(Motion { value: by, modes })
+            Ok(Motion { value: by, state })
         })?
     }
 
     /// ∂(P(x) − x)/∂p, the motion staying what it is.
     fn slope(&self, best: &Beside, change: f64, revolutions: &mut f64) -> Result<Vec<f64>, Lost> {
         let (here, there) = (best.motion.value, best.motion.value + change);
-        let modes = self.carried(&best.motion, here, there)?;
+        let moved = self.carried(&best.motion.state, here, there)?;
         let off = self.at(there, |passage| {
-            let state = passage.state(&modes);
+            let state = passage.state_of(&moved);
             let image = passage.map(&state);
             *revolutions += passage.revolutions();
             image.map(|image| {
                 let off: Vec<f64> = image.iter().zip(&state).map(|(image, x)| image - x).collect();
-                passage.modes(&off)
+                passage.stepped(&off)
             })
         })??;
-        let modes = self.carried(&Motion { value: there, modes: off }, there, here)?;
-        let off = self.at(here, |passage| passage.state(&modes))?;
+        let off = self.carried(&off, there, here)?;
+        let off = self.at(here, |passage| passage.state_of(&off))?;
         Ok(off.iter().zip(&best.off).map(|(there, here)| (there - here) / change).collect())
     }
 }

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::correct::{Found, dot, length};
 use super::{Branch, Lost, Motion, add};
+use crate::dynamics::initial::Stepped;
 
 /// Arclength of the first step, and the least.
 const FIRST: f64 = 0.01;
@@ -64,13 +65,13 @@ pub enum BranchEnd {
 impl Front {
     /// Where a branch begins, to be followed towards larger (`sign` 1) or smaller values (−1).
     pub fn new(start: Motion, span: f64, sign: f64) -> Self {
-        let first = Motion { value: sign * span, modes: Vec::new() };
+        let first = Motion { value: sign * span, state: Stepped::default() };
         Self { last: start, before: None, first, step: FIRST }
     }
 
-    /// The same to be followed in the direction of `modes`, of which one unit is as large as the motion itself.
-    pub fn aside(start: Motion, modes: Vec<crate::dynamics::initial::InitialMode>) -> Self {
-        let first = Motion { value: 0.0, modes };
+    /// The same to be followed in the direction of `state`, which is as large as the motion itself.
+    pub fn aside(start: Motion, state: Stepped) -> Self {
+        let first = Motion { value: 0.0, state };
         Self { last: start, before: None, first, step: FIRST }
     }
 
@@ -93,7 +94,7 @@ impl Branch<'_> {
             let step = front.step.min(of_span);
             let guess = Motion {
                 value: front.last.value + step * along.value,
-                modes: add(&front.last.modes, &along.modes, step),
+                state: add(&front.last.state, &along.state, step),
             };
             let ahead = guess.value >= front.last.value;
             let tried = if range.0 < guess.value && guess.value < range.1 {
@@ -136,8 +137,8 @@ impl Branch<'_> {
     /// [`Lost`].
     pub fn between(&self, a: &Motion, b: &Motion, share: f64) -> Result<Found, Lost> {
         let way = self.difference(a, b)?;
-        let guess = Motion { value: a.value + share * way.value, modes: add(&a.modes, &way.modes, share) };
-        let guess = Motion { modes: self.carried(&guess, a.value, guess.value)?, ..guess };
+        let guess = Motion { value: a.value + share * way.value, state: add(&a.state, &way.state, share) };
+        let guess = Motion { state: self.carried(&guess.state, a.value, guess.value)?, ..guess };
         self.correct(guess, &way, a.value)
     }
 
@@ -152,7 +153,7 @@ impl Branch<'_> {
 
     fn try_step(&self, guess: Motion, along: &Motion, step: f64, front: &Front) -> Result<Found, Lost> {
         let at = front.last.value;
-        let guess = Motion { modes: self.carried(&guess, at, guess.value)?, ..guess };
+        let guess = Motion { state: self.carried(&guess.state, at, guess.value)?, ..guess };
         let found = self.correct(guess, along, at)?;
         let way = self.difference(&front.last, &found.motion)?;
         let [ahead, way, along] =
@@ -166,9 +167,9 @@ impl Branch<'_> {
 
     fn to_edge(&self, edge: f64, along: &Motion, front: &Front) -> Result<Found, Lost> {
         let share = if along.value == 0.0 { 0.0 } else { (edge - front.last.value) / along.value };
-        let guess = Motion { value: edge, modes: add(&front.last.modes, &along.modes, share) };
-        let guess = Motion { modes: self.carried(&guess, front.last.value, edge)?, ..guess };
-        self.correct(guess, &Motion { value: self.span, modes: Vec::new() }, edge)
+        let guess = Motion { value: edge, state: add(&front.last.state, &along.state, share) };
+        let guess = Motion { state: self.carried(&guess.state, front.last.value, edge)?, ..guess };
+        self.correct(guess, &Motion { value: self.span, state: Stepped::default() }, edge)
     }
 
     /// In the modes at the last point, of length one.
@@ -177,20 +178,20 @@ impl Branch<'_> {
         let back = self.difference(&front.last, before)?;
         let length = self.product(&back, &back, &front.last)?.sqrt();
         let scale = -1.0 / length;
-        Ok(Motion { value: scale * back.value, modes: add(&[], &back.modes, scale) })
+        Ok(Motion { value: scale * back.value, state: add(&Stepped::default(), &back.state, scale) })
     }
 
     /// b − a in the modes at a.
     fn difference(&self, a: &Motion, b: &Motion) -> Result<Motion, Lost> {
-        let modes = self.carried(b, b.value, a.value)?;
-        Ok(Motion { value: b.value - a.value, modes: add(&modes, &a.modes, -1.0) })
+        let state = self.carried(&b.state, b.value, a.value)?;
+        Ok(Motion { value: b.value - a.value, state: add(&state, &a.state, -1.0) })
     }
 
     /// Of two directions at `at`, in the metric there.
     fn product(&self, a: &Motion, b: &Motion, at: &Motion) -> Result<f64, Lost> {
         let (inner, size) = self.at(at.value, |passage| {
-            let size = length(&passage.state(&at.modes));
-            (dot(&passage.state(&a.modes), &passage.state(&b.modes)), size)
+            let size = length(&passage.state_of(&at.state));
+            (dot(&passage.state_of(&a.state), &passage.state_of(&b.state)), size)
         })?;
         let size = size.max(f64::MIN_POSITIVE);
         Ok(inner / (size * size) + a.value * b.value / (self.span * self.span))

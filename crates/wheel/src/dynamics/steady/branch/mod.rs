@@ -10,7 +10,7 @@ pub mod correct;
 pub mod follow;
 pub mod locate;
 
-use crate::dynamics::initial::InitialMode;
+use crate::dynamics::initial::{Stepped, SteppedMode, SteppedWave};
 use crate::dynamics::integrate::{Passage, PassageError, Simulation};
 
 use super::response::about_half;
@@ -28,7 +28,7 @@ pub trait Family {
     ///
     /// # Errors
     /// There are none.
-    fn carry(&self, modes: &[InitialMode], from: f64, to: f64) -> Result<Vec<InitialMode>, Unreachable>;
+    fn carry(&self, state: &Stepped, from: f64, to: f64) -> Result<Stepped, Unreachable>;
 }
 
 /// Why there is no scene at a value.
@@ -69,8 +69,8 @@ impl Lap {
 pub struct Motion {
     /// p.
     pub value: f64,
-    /// Modes at the beginning of a revolution.
-    pub modes: Vec<InitialMode>,
+    /// Where all is at the beginning of a revolution.
+    pub state: Stepped,
 }
 
 /// Why a branch was not found where it was sought.
@@ -120,26 +120,30 @@ impl Branch<'_> {
         made.ok_or_else(|| Unreachable("there is no scene".to_owned()).into())
     }
 
-    /// A motion or a direction of the scene at `from.value` in the modes at `to`; its value stays.
-    fn carried(&self, from: &Motion, at: f64, to: f64) -> Result<Vec<InitialMode>, Lost> {
-        Ok(if at == to { from.modes.clone() } else { self.family.carry(&from.modes, at, to)? })
+    /// A motion or a direction of the scene at `at` in the modes at `to`.
+    fn carried(&self, from: &Stepped, at: f64, to: f64) -> Result<Stepped, Lost> {
+        Ok(if at == to { from.clone() } else { self.family.carry(from, at, to)? })
     }
 }
 
-/// a + share · b, mode by mode of a.
-fn add(a: &[InitialMode], b: &[InitialMode], share: f64) -> Vec<InitialMode> {
-    let mut sum = a.to_vec();
-    for more in b {
-        match sum.iter_mut().find(|mode| (mode.harmonic, mode.family) == (more.harmonic, more.family)) {
+/// a + share · b, mode by mode and wave by wave.
+fn add(a: &Stepped, b: &Stepped, share: f64) -> Stepped {
+    let mut sum = a.clone();
+    for more in &b.modes {
+        let (displacement, increment) = (more.displacement * share, more.increment * share);
+        match sum.modes.iter_mut().find(|mode| (mode.harmonic, mode.family) == (more.harmonic, more.family)) {
             Some(mode) => {
-                mode.displacement += more.displacement * share;
-                mode.velocity += more.velocity * share;
+                mode.displacement += displacement;
+                mode.increment += increment;
             }
-            None => sum.push(InitialMode {
-                displacement: more.displacement * share,
-                velocity: more.velocity * share,
-                ..*more
-            }),
+            None => sum.modes.push(SteppedMode { displacement, increment, ..*more }),
+        }
+    }
+    sum.casing.resize(sum.casing.len().max(b.casing.len()), SteppedWave::default());
+    for (wave, more) in sum.casing.iter_mut().zip(&b.casing) {
+        for part in 0..2 {
+            wave.displacement[part] += share * more.displacement[part];
+            wave.increment[part] += share * more.increment[part];
         }
     }
     sum

@@ -1,0 +1,146 @@
+//! The times after which a scene looks the same from its wheel, once it has fully grown.
+//!
+//! After a time t, in revolutions, it may look to every sector as it looked before to the one b places ahead. So it does if
+//!
+//! ```text
+//! k (t − b/N) ∈ ℤ            every order k: lobes of the casing, engine orders of forces
+//! (1 − κ) t − b/N ∈ ℤ        an orbit of whirl ratio κ
+//! δ_{s+b} = δ_s              deviations of mistuned sectors
+//! ```
+//!
+//! An elastic casing, which is the same all around, has moved on by t − b/N, as seen by the sectors with their new numbers. These times are the multiples of the shortest one, which therefore divides the revolutions after which all is as it was.
+
+use num_integer::gcd;
+
+use super::passage::PassageError;
+use super::simulation::Simulation;
+use crate::dynamics::orbit::Orbit;
+
+/// Most revolutions that an orbit may take to come round.
+const MOST_REVOLUTIONS: usize = 8;
+
+/// What a whirl ratio may be off a fraction: a phase as far off changes no response that is found to 1e-8.
+const FRACTION: f64 = 1e-12;
+
+/// A time in steps, and b.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Recurrence {
+    pub(super) steps: usize,
+    pub(super) turn: usize,
+}
+
+/// All that turns past a wheel.
+#[derive(Debug)]
+pub(super) struct Recurrences<'a> {
+    /// Per revolution.
+    steps: usize,
+    /// N.
+    around: usize,
+    /// Greatest common divisor of all orders; 0 where there are none.
+    order: usize,
+    /// Lobes of the casing, if it has any.
+    lobes: Option<usize>,
+    deviations: Option<&'a [f64]>,
+    /// 1 − κ as a fraction.
+    orbit: Option<(i64, usize)>,
+}
+
+impl<'a> Recurrences<'a> {
+    /// Of the scene of `simulation`.
+    ///
+    /// # Errors
+    /// [`PassageError::Coating`] and [`PassageError::Orbit`].
+    pub(super) fn of(simulation: &Simulation<'a>) -> Result<Self, PassageError> {
+        let effects = &simulation.effects;
+        let touching = simulation.casing.is_some();
+        if touching && effects.coating.is_some() {
+            return Err(PassageError::Coating);
+        }
+        let orbit = match effects.orbit.filter(|_| touching) {
+            Some(Orbit { whirl_ratio, .. }) => Some(
+                fraction(1.0 - whirl_ratio)
+                    .ok_or(PassageError::Orbit { whirl_ratio, most: MOST_REVOLUTIONS })?,
+            ),
+            None => None,
+        };
+        let restriction = simulation.casing.and_then(|casing| casing.restriction);
+        let lobes = restriction.map(|restriction| restriction.count.max(1) as usize);
+        let orders = effects.excitation.iter().map(|excitation| excitation.order as usize);
+        Ok(Self {
+            steps: simulation.steps_per_revolution,
+            around: simulation.wheel.around(),
+            order: orders.chain(lobes).fold(0, gcd),
+            lobes,
+            deviations: effects.mistuning,
+            orbit,
+        })
+    }
+
+    /// Revolutions after which all is as it was.
+    pub(super) fn revolutions(&self) -> usize {
+        self.orbit.map_or(1, |(_, revolutions)| revolutions)
+    }
+
+    /// The same as a recurrence.
+    pub(super) fn whole(&self) -> Recurrence {
+        Recurrence { steps: self.revolutions() * self.steps, turn: 0 }
+    }
+
+    /// A passage of one lobe if nothing tells the lobes apart, [`Self::whole`] otherwise.
+    pub(super) fn lobe(&self) -> Recurrence {
+        let lobes = self.lobes.filter(|lobes| self.steps.is_multiple_of(*lobes));
+        let lobe = lobes.map(|lobes| Recurrence { steps: self.steps / lobes, turn: 0 });
+        lobe.filter(|&lobe| self.holds(lobe)).unwrap_or(self.whole())
+    }
+
+    /// The shortest that whole steps allow; a sector's where nothing turns past the wheel.
+    pub(super) fn shortest(&self) -> Recurrence {
+        let whole = self.whole();
+        let of = |steps: usize| {
+            (0..self.around).map(|turn| Recurrence { steps, turn }).find(|&short| self.holds(short))
+        };
+        let divisors = (1..whole.steps).filter(|&steps| whole.steps.is_multiple_of(steps));
+        divisors.filter_map(of).next().unwrap_or(whole)
+    }
+
+    fn holds(&self, Recurrence { steps, turn }: Recurrence) -> bool {
+        let integer = |number: usize| number as i128;
+        let (time, turned) = (integer(steps * self.around), integer(turn * self.steps));
+        let revolution = integer(self.steps * self.around);
+        let still = self.order == 0 && self.orbit.is_none_or(|(turns, _)| turns == 0);
+        let order = integer(if still { self.around } else { self.order });
+        let orbit = self.orbit.is_none_or(|(turns, per)| {
+            let per = integer(per);
+            (i128::from(turns) * time - turned * per) % (revolution * per) == 0
+        });
+        let alike = self.deviations.is_none_or(|deviations| {
+            let turned = deviations.iter().cycle().skip(turn % deviations.len().max(1));
+            deviations.iter().zip(turned).all(|(one, other)| one == other)
+        });
+        (order * (time - turned)) % revolution == 0 && orbit && alike
+    }
+}
+
+/// Revolutions of a [passage over a lobe](super::Passage::over_lobes) of a scene with these lobes, engine orders and whirl ratio, whose steps it
+/// divides; 1 where the orbit never comes round.
+pub fn revolutions_over_lobe(
+    lobes: Option<u32>,
+    orders: impl Iterator<Item = u32>,
+    whirl_ratio: Option<f64>,
+) -> f64 {
+    let lobes = lobes.map(|count| count.max(1) as usize);
+    let steps = lobes.unwrap_or(1);
+    let order = orders.map(|order| order as usize).chain(lobes).fold(0, gcd);
+    let orbit = whirl_ratio.and_then(|whirl_ratio| fraction(1.0 - whirl_ratio));
+    let of = Recurrences { steps, around: 1, order, lobes, deviations: None, orbit };
+    of.lobe().steps as f64 / steps as f64
+}
+
+/// `value` as a fraction of few revolutions.
+fn fraction(value: f64) -> Option<(i64, usize)> {
+    let off = |per: usize| {
+        let turns = value * per as f64;
+        ((turns - turns.round()).abs() <= FRACTION).then_some((turns.round() as i64, per))
+    };
+    (1..=MOST_REVOLUTIONS).find_map(off)
+}

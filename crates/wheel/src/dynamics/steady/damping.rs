@@ -1,0 +1,89 @@
+//! Responses of light damping, followed from heavier damping.
+//!
+//! What decays slowly keeps the search from coming close enough for Newton's method. With some times the damping the response is found from where
+//! the march begins; from there it is followed in geometric steps, each solved from the one before, a step that fails being halved (its ratio
+//! replaced by the root).
+
+use super::periodic::{NotFound, Periodic, Search, find};
+use super::response::about_half;
+use crate::dynamics::integrate::Simulation;
+use crate::dynamics::oscillators::ModalDamping;
+
+/// Times the damping that is wanted with which a response is sought first.
+const HEAVIER: [f64; 2] = [4.0, 16.0];
+
+/// ζ that no mode has more of then: beyond 1 nothing vibrates.
+const MOST_DAMPING: f64 = 0.5;
+
+/// First ratio of damping of a step.
+const STEP: f64 = 2.0;
+
+/// Least ratio: where even this step fails the branch has ended, or turned.
+const LEAST_STEP: f64 = 1.02;
+
+/// A response, and the times the damping of its scene from which it was followed.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Followed {
+    pub(super) periodic: Periodic,
+    pub(super) from: f64,
+}
+
+/// The periodic response of the scene of `simulation` that continues the one which the search from `start` comes to with heavier damping, until
+/// `search.most` passages are `taken`.
+///
+/// # Errors
+/// [`NotFound`]: of the search with the heaviest damping, or of the last step; at once of a scene without damping.
+pub(super) fn follow(
+    simulation: &Simulation<'_>,
+    start: &[f64],
+    (search, taken): (&Search, &mut usize),
+    go_on: &dyn Fn() -> bool,
+) -> Result<Followed, NotFound> {
+    let stalled = |taken: usize| NotFound::Stalled { residual: f64::INFINITY, passages: taken };
+    let Some(light) = simulation.damping else { return Err(stalled(*taken)) };
+    let mut solve = |factor: f64, start: &[f64], marched: usize| {
+        let damping = times(light, factor);
+        let mut passage = about_half(&Simulation { damping: Some(&damping), ..*simulation })?;
+        let left = Search { marched, most: search.most.saturating_sub(*taken), ..*search };
+        if left.most == 0 || passage.size() != start.len() {
+            return Err(stalled(*taken));
+        }
+        let found = find(&mut passage, start, &left, go_on);
+        *taken += passage.taken();
+        found
+    };
+    let ratios = light.family_ratios.iter().chain([&light.modal_ratio]);
+    let largest = ratios.copied().fold(0.0, f64::max);
+    let mut sought = Err(stalled(0));
+    for from in HEAVIER.into_iter().filter(|from| largest > 0.0 && from * largest <= MOST_DAMPING) {
+        sought = solve(from, start, search.marched).map(|periodic| Followed { periodic, from });
+        if matches!(sought, Ok(_) | Err(NotFound::Cancelled)) {
+            break;
+        }
+    }
+    let Followed { mut periodic, from } = sought?;
+    let (mut factor, mut step) = (from, STEP);
+    while factor > 1.0 {
+        let next = (factor / step).max(1.0);
+        match solve(next, &periodic.state, 0) {
+            Ok(nearer) => {
+                (periodic, factor) = (nearer, next);
+                step = (step * step).min(STEP);
+            }
+            Err(reason) => {
+                step = step.sqrt();
+                if step < LEAST_STEP || reason == NotFound::Cancelled {
+                    return Err(reason);
+                }
+            }
+        }
+    }
+    Ok(Followed { periodic, from })
+}
+
+fn times(damping: &ModalDamping, factor: f64) -> ModalDamping {
+    ModalDamping {
+        modal_ratio: factor * damping.modal_ratio,
+        family_ratios: damping.family_ratios.iter().map(|ratio| factor * ratio).collect(),
+    }
+}

@@ -1,0 +1,196 @@
+//! Branches of periodic responses: followed, told as they come, found again after a kill.
+
+use serde_json::{Value, json};
+
+use super::app::{Api, TestApp, sweep_of};
+use super::case_studies::case_of;
+use super::formats::get;
+use super::model;
+use super::program::Program;
+
+/// Branches over speed about the one of [`case_of`].
+pub(super) fn branches_of(model: &str) -> Value {
+    let mut request = case_of(model);
+    request["scene"]["damping"] = json!({"modal_ratio": 0.02});
+    let speed = request["speed"]["value"].as_f64().unwrap();
+    request["along"] = json!({"parameter": "speed", "from": 0.97 * speed, "to": 1.03 * speed});
+    request
+}
+
+async fn followed(api: &Api, request: &Value) -> Value {
+    let answer = api.post("/v1/branches", request).await;
+    assert_eq!(answer.status, 202, "{}", answer.body);
+    let id = answer.text("/id");
+    let job = api.finish(&id).await;
+    assert_eq!(job["status"], "successful", "{job}");
+    let found = api.get(&format!("/v1/jobs/{id}/branches")).await;
+    assert_eq!(found.status, 200, "{}", found.body);
+    found.body
+}
+
+fn values(branch: &Value) -> Vec<f64> {
+    branch["points"].as_array().unwrap().iter().map(|point| point["value"].as_f64().unwrap()).collect()
+}
+
+/// Every stable point of a branch is what a long march at its speed comes to, and the ends are where they were asked for.
+#[tokio::test]
+async fn branches_are_followed_to_both_ends_and_march_to_the_same() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(model::package(1.0)).await;
+    let request = branches_of(&model);
+    let found = followed(api, &request).await;
+    assert_eq!((&found["complete"], &found["parameter"]), (&json!(true), &json!("speed")));
+    let branch = &found["branches"][0];
+    let ends: Vec<&Value> = branch["ends"].as_array().unwrap().iter().map(|end| &end["why"]).collect();
+    assert_eq!(ends, ["leaves_range", "leaves_range"], "{branch}");
+    let speeds = values(branch);
+    let unit = match request["speed"]["unit"].as_str().unwrap() {
+        "rpm" => std::f64::consts::TAU / 60.0,
+        "hz" => std::f64::consts::TAU,
+        _ => 1.0,
+    };
+    let along = |field: &str| unit * request["along"][field].as_f64().unwrap();
+    assert!((speeds[0] / along("from") - 1.0).abs() < 1e-12, "{speeds:?}");
+    assert!((speeds.last().unwrap() / along("to") - 1.0).abs() < 1e-12, "{speeds:?}");
+    assert!(speeds.len() > 10, "{speeds:?}");
+    for point in branch["points"].as_array().unwrap() {
+        assert!(point["residual"].as_f64().unwrap() <= 1e-8, "{point}");
+        assert_eq!(point["speed_rad_s"], point["value"]);
+    }
+
+    let stable: Vec<&Value> =
+        branch["points"].as_array().unwrap().iter().filter(|point| point["stability"] == "stable").collect();
+    assert!(stable.len() > 2, "{branch}");
+    let mut sweep = sweep_of(&model);
+    sweep["scene"] = request["scene"].clone();
+    sweep["integration"] = request["integration"].clone();
+    sweep["integration"]["revolutions"] = json!(400);
+    for knob in ["scheme", "kept_modes", "steps_per_revolution"] {
+        if !found[knob].is_null() {
+            sweep["integration"][knob] = found[knob].clone();
+        }
+    }
+    let some: Vec<&Value> = stable.iter().step_by(stable.len() / 3).copied().collect();
+    let speeds: Vec<&Value> = some.iter().map(|point| &point["value"]).collect();
+    sweep["speeds"] = json!({"values": speeds, "unit": "rad_s"});
+    let id = api.sweep(&sweep).await;
+    assert_eq!(api.finish(&id).await["status"], "successful");
+    let map = api.get(&format!("/v1/jobs/{id}/interaction-map")).await.body;
+    for (point, marched) in some.into_iter().zip(map["points"].as_array().unwrap()) {
+        let marched = marched["responses"][0]["half_peak_to_peak"].as_f64().unwrap();
+        let solved = point["half_peak_to_peak"][0].as_f64().unwrap();
+        assert!((solved / marched - 1.0).abs() < 1e-5, "{solved} {marched}: {point}");
+    }
+}
+
+/// Over damping, clearance and the lobes: the scene as it is lies on each, with the same amplitude.
+#[tokio::test]
+async fn branches_over_other_numbers_pass_through_the_scene_as_it_is() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(model::package(1.0)).await;
+    let mut amplitudes = Vec::new();
+    for (parameter, from, to) in
+        [("damping", 0.8, 1.0), ("clearance", 0.99, 1.01), ("lobe_amplitude", 0.99, 1.0)]
+    {
+        let mut request = branches_of(&model);
+        request["along"] = json!({"parameter": parameter, "from": from, "to": to});
+        let found = followed(api, &request).await;
+        let branch = &found["branches"][0];
+        let place = values(branch).iter().position(|&value| value == 1.0).expect("the scene as it is");
+        amplitudes.push(branch["points"][place]["half_peak_to_peak"][0].as_f64().unwrap());
+        if branch["ends"].as_array().unwrap().iter().all(|end| end["why"] == "leaves_range") {
+            assert!(values(branch).contains(&from), "{branch}");
+        }
+    }
+    assert!(amplitudes.iter().all(|amplitude| amplitude == &amplitudes[0]), "{amplitudes:?}");
+}
+
+#[tokio::test]
+async fn what_cannot_be_followed_is_refused_at_its_field() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(model::package(1.0)).await;
+    let refused = async |change: &dyn Fn(&mut Value), pointer: &str| {
+        let mut request = branches_of(&model);
+        change(&mut request);
+        let answer = api.post("/v1/branches", &request).await;
+        assert_eq!(answer.status, 422, "{}", answer.body);
+        let errors = answer.body["errors"].as_array().unwrap();
+        assert!(errors.iter().any(|error| error["pointer"] == pointer), "{pointer}: {errors:?}");
+    };
+    refused(&|request| request["along"]["from"] = json!(1e9), "/along/from").await;
+    refused(&|request| request["along"]["to"] = json!(0.0), "/along/to").await;
+    refused(
+        &|request| request["along"] = json!({"parameter": "damping", "from": 0.0, "to": 1.0}),
+        "/along/from",
+    )
+    .await;
+    refused(
+        &|request| {
+            request["along"] = json!({"parameter": "damping", "from": 0.5, "to": 1.0});
+            request["scene"]["damping"] = Value::Null;
+        },
+        "/along/parameter",
+    )
+    .await;
+    refused(&|request| request["integration"]["steady"] = json!("auto"), "/integration/steady").await;
+    refused(&|request| request["most_points"] = json!(0), "/most_points").await;
+    refused(&|request| request["speed"]["value"] = json!(-3.0), "/speed/value").await;
+}
+
+/// The same in all forms, of a job that was dismissed as well, and nothing of another kind.
+#[tokio::test]
+async fn branches_are_told_in_all_forms_and_of_other_jobs_not_at_all() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(model::package(1.0)).await;
+    let mut request = branches_of(&model);
+    request["most_points"] = json!(3);
+    let answer = api.post("/v1/branches", &request).await;
+    let id = answer.text("/id");
+    let job = api.finish(&id).await;
+    assert_eq!((&job["status"], &job["kind"]), (&json!("successful"), &json!("branches")), "{job}");
+    let path = format!("/v1/jobs/{id}/branches");
+    assert!(job["links"].as_array().unwrap().iter().any(|link| link["href"] == path.as_str()), "{job}");
+    let csv = get(api, &format!("{path}?format=csv"), &[]).await.good();
+    let found = api.get(&path).await.body;
+    assert_eq!(csv.text().lines().count(), 1 + values(&found["branches"][0]).len(), "{}", csv.text());
+    assert!(csv.text().starts_with("branch,value,speed_rad_s,"), "{}", csv.text());
+    for form in ["svg", "plotly", "npz", "png"] {
+        assert_eq!(get(api, &format!("{path}?format={form}"), &[]).await.status, 200, "{form}");
+    }
+    assert_eq!(api.get(&format!("{path}?sensor=99")).await.status, 400);
+    assert_eq!(api.get(&format!("{path}?sweep={id}")).await.status, 409);
+    assert_eq!(api.get(&format!("/v1/jobs/{id}/interaction-map")).await.status, 409);
+    assert_eq!(api.get(&format!("/v1/jobs/{id}/archive")).await.status, 409);
+    assert_eq!(found["branches"][0]["ends"][0]["why"], "most_points", "{found}");
+}
+
+/// Killed between two legs, branches go on to the same bits.
+#[tokio::test]
+async fn killed_branches_go_on_where_they_were() {
+    let data = tempfile::tempdir().unwrap();
+    let program = Program::serve(data.path());
+    let model = program.api.model(model::package(1.0)).await;
+    let request = branches_of(&model);
+    let answer = program.api.post("/v1/branches", &request).await;
+    let id = answer.text("/id");
+    let path = format!("/v1/jobs/{id}/branches");
+    program.api.follow(&id, |job| job["stored_bytes"].as_u64() > Some(0)).await;
+    let before = program.api.get(&path).await;
+    assert_eq!(before.status, 200, "{}", before.body);
+    assert_eq!(before.body["complete"], false);
+    program.kill();
+
+    let program = Program::serve(data.path());
+    let job = program.api.finish(&id).await;
+    assert_eq!(job["status"], "successful", "{job}");
+    let resumed = program.api.get(&path).await.body;
+    program.kill();
+    let app = TestApp::start().await;
+    let again = app.api.model(model::package(1.0)).await;
+    assert_eq!(again, model);
+    assert_eq!(followed(&app.api, &request).await, resumed);
+}
