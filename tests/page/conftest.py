@@ -57,6 +57,23 @@ def sweep_of(model, **changes):
     return request | changes
 
 
+def damped():
+    """The scene of `sweep_of`, damped so well that its responses are periodic."""
+    return sweep_of("")["scene"] | {"damping": {"modal_ratio": 0.05}}
+
+
+def branches_of(model):
+    """Branches over a few speeds."""
+    return {
+        "model": model,
+        "modes_per_speed": 3,
+        "speed": {"value": 20000, "unit": "rpm"},
+        "along": {"parameter": "speed", "from": 19900, "to": 20100},
+        "scene": damped(),
+        "integration": {"revolutions": 30},
+    }
+
+
 @pytest.fixture(scope="session")
 def model(service, zipped):
     return service.call("POST", "/v1/models", zipped.read_bytes())["id"]

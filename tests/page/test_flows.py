@@ -3,7 +3,7 @@
 import json
 import re
 
-from conftest import sweep_of
+from conftest import branches_of, damped, sweep_of
 from service import Service, package
 
 
@@ -274,6 +274,56 @@ def test_a_speed_of_which_nothing_was_recorded_is_recorded(service, swept, new_p
     job = open_job(page)
     assert service.finish(job)["status"] == "successful"
     page.locator(".figure .main-svg").first.wait_for()
+
+
+def test_branches_are_followed_from_a_speed_of_a_sweep(service, model, new_page):
+    integration = {"revolutions": 30, "window_revolutions": 10}
+    request = sweep_of(model, name="damped", scene=damped(), speeds={"from": 19000, "to": 21000, "count": 5, "unit": "rpm"}, integration=integration, modes_per_speed=3, record={})
+    swept = service.call("POST", "/v1/sweeps", request)["id"]
+    assert service.finish(swept)["status"] == "successful"
+    page = new_page(f"{service.url}/#/jobs/{swept}?view=point&speed=2", expected=["404", "409", "422"])
+    page.get_by_role("button", name="Follow branches from here").click()
+    dialog = page.get_by_role("dialog")
+    assert dialog.get_by_label("From").input_value() == "18000" and dialog.get_by_label("To", exact=True).input_value() == "22000"
+    dialog.get_by_label("What changes").select_option("damping")
+    assert dialog.get_by_label("From").input_value() == "0.5"
+    dialog.get_by_label("What changes").select_option("speed")
+    # What is not possible is said, and can be mended.
+    dialog.get_by_label("From").fill("20500")
+    dialog.get_by_label("To", exact=True).fill("20100")
+    dialog.get_by_role("button", name="Follow").click()
+    dialog.get_by_text("where the branch begins").first.wait_for()
+    dialog.get_by_label("From").fill("19900")
+    dialog.get_by_role("button", name="Follow").click()
+    page.wait_for_url(re.compile(f"#/jobs/(?!{swept})"))
+    job = open_job(page)
+    page.get_by_text("done", exact=True).wait_for(timeout=120_000)
+    page.locator(".figure .main-svg").first.wait_for()
+    page.get_by_text("followed to their ends").wait_for()
+    asked = service.call("GET", f"/v1/jobs/{job}")["request"]
+    assert asked["sweep"]["scene"]["damping"] == {"modal_ratio": 0.05} and asked["along"]["parameter"] == "speed"
+    # The speeds of the sweep are beside, those within the range.
+    assert page.get_by_label("Sweep beside").input_value() == swept
+    names = page.evaluate("document.querySelector('.figure').data.map((trace) => trace.name)")
+    assert any(name.startswith("branch 1") for name in names) and any("sweep" in name for name in names), names
+    with page.expect_download() as file:
+        page.get_by_role("button", name="csv").click()
+    lines = open(file.value.path()).read().splitlines()
+    assert any(line.startswith("branch,") for line in lines)
+    page.get_by_role("button", name="Run ").click()
+    page.wait_for_url(re.compile(f"#/jobs/(?!{job})"))
+    again = service.call("GET", f"/v1/jobs/{open_job(page)}")["request"]
+    assert abs(again["along"]["from"] / asked["along"]["from"] - 1) < 1e-9 and again["sweep"]["scene"] == asked["sweep"]["scene"]
+
+
+def test_branches_are_seen_while_they_grow(service, model, new_page):
+    long = branches_of(model) | {"name": "long branch", "along": {"parameter": "clearance", "from": 0.5, "to": 2.0}}
+    job = service.call("POST", "/v1/branches", long)["id"]
+    page = new_page(f"{service.url}/#/jobs/{job}", expected=["409"])
+    page.locator(".figure .main-svg").first.wait_for(timeout=120_000)
+    page.get_by_text(re.compile(r"point(s)? on 1 branch")).first.wait_for()
+    assert page.evaluate("document.querySelector('.figure').layout.xaxis.title.text").startswith("clearance / that of the scene")
+    service.call("DELETE", f"/v1/jobs/{job}?cancel_only=true")
 
 
 def test_amplitudes_are_compared_in_one_unit(service, swept, new_page):

@@ -2,7 +2,7 @@
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
-from conftest import THEMES, WIDTHS, sweep_of
+from conftest import THEMES, WIDTHS, branches_of, sweep_of
 
 VIEWS = {
     "models": "#/models",
@@ -25,6 +25,9 @@ VIEWS = {
     "downloads": "#/jobs/{swept}?view=downloads",
     "work-precision": "#/jobs/{study}",
     "histories": "#/jobs/{case}",
+    "branches": "#/jobs/{branches}?sweep={swept}",
+    "branches-new": "#/sweep?model={model}&kind=branches",
+    "branches-as": "#/sweep?as={branches}",
     "compare": "#/compare?jobs={swept},{swept_as_well}",
     "sign-in": "#/sign-in",
     "nowhere": "#/nowhere",
@@ -42,7 +45,9 @@ def places(service, model, swept):
     study = {"model": model, "speeds": {"values": [20000], "unit": "rpm"}, "scene": scene, "integration": quick, "grid": grid}
     case = {"model": model, "speed": {"value": 20000, "unit": "rpm"}, "scene": scene, "integration": quick, "record": {"revolutions": [28, 30]}}
     ended = {"model": model, "swept": swept, "swept_as_well": job}
-    for name, path, request in (("study", "/v1/studies", study), ("case", "/v1/case-studies", case)):
+    branches = branches_of(model)
+    asked = (("study", "/v1/studies", study), ("case", "/v1/case-studies", case), ("branches", "/v1/branches", branches))
+    for name, path, request in asked:
         ended[name] = service.call("POST", path, request)["id"]
         assert service.finish(ended[name])["status"] == "successful"
     return ended

@@ -26,6 +26,14 @@ export function speedLong(rad_s) {
   return `${speed(rad_s)} (${number(rad_s, 5)} rad/s)`;
 }
 
+/** A value with how far off it may be, to two digits of that: `23,456.78 ± 0.21`. */
+export function known(value, error) {
+  if (!Number.isFinite(value) || !(error > 0)) return number(value, 6);
+  const decimals = Math.min(9, Math.max(0, 1 - Math.floor(Math.log10(error))));
+  const digits = { minimumFractionDigits: decimals, maximumFractionDigits: decimals };
+  return `${value.toLocaleString('en', digits)} ± ${error.toLocaleString('en', digits)}`;
+}
+
 /** A duration: `1.2 s`, `4 min`, `3.5 h`. */
 export function duration(seconds) {
   if (seconds === null || seconds === undefined) return '–';
@@ -75,6 +83,7 @@ export const KINDS = {
   model_generation: 'Model generation',
   study: 'Study',
   case_study: 'Case study',
+  branches: 'Branches',
 };
 
 /** What a job is called: its name, or its kind, when it was posted, and the end of its id. */

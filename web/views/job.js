@@ -38,6 +38,7 @@ const TABS = {
     ['lines', 'Histories', () => import('./job/histories.js')],
     ['fields', 'Wheel in 3D', () => import('./job/fields.js')],
   ],
+  branches: [['branches', 'Branches', () => import('./job/branches.js')]],
 };
 const FOR_ALL = [
   ['credentials', 'Credentials', () => import('./job/credentials.js')],

@@ -5,10 +5,11 @@ import { h, replace } from '../lib/dom.js';
 import { nameOf, percent } from '../lib/format.js';
 import { placeWith } from '../lib/place.js';
 import { select } from './job/choices.js';
+import { branchesOf } from './request/branches.js';
 import { askedOf, chooseModel, requestForm } from './request/view.js';
 import { CLEARANCE, sceneOf, speedsOf } from './request/sensible.js';
 
-/** Kinds of jobs that are asked for by a form. */
+/** Kinds of jobs that are asked for by a form; `asked`: their request again, where a job keeps it in another form. */
 export const REQUESTS = {
   sweep: {
     words: 'Sweep: contact over a range of speeds', schema: 'LabelledSweepRequest', path: '/v1/sweeps', plan: '/v1/sweeps/plan', priced: true,
@@ -29,6 +30,14 @@ export const REQUESTS = {
     words: 'Case study: one speed in detail', schema: 'LabelledCaseStudyRequest', path: '/v1/case-studies', plan: null, priced: false,
     begin: (model) => ({ model: model.id, speed: { value: Math.round(0.6 * speedsOf(model).to), unit: 'rpm' }, scene: sceneOf(model) }),
   },
+  branches: {
+    words: 'Branches: periodic responses followed over speed, clearance, lobes or damping', schema: 'LabelledBranchesRequest', path: '/v1/branches', plan: null, priced: false,
+    begin: (model) => {
+      const { from, to } = speedsOf(model);
+      return { model: model.id, speed: { value: Math.round(0.6 * to), unit: 'rpm' }, along: { parameter: 'speed', from, to }, scene: sceneOf(model) };
+    },
+    asked: branchesOf,
+  },
 };
 
 export async function show(main, { query }, signal, first = 'sweep') {
@@ -39,7 +48,7 @@ export async function show(main, { query }, signal, first = 'sweep') {
     if (!kind) throw new Error(`a job of kind ${job.kind} has no form`);
     replace(main, h('h1', {}, `As ${nameOf(job)}, but …`), place);
     const model = await api.get(`/v1/models/${job.model}`, { signal });
-    await requestForm(place, { model, kind, value: askedOf(job), words: `Model: ${model.name}` }, signal);
+    await requestForm(place, { model, kind, value: kind.asked ? kind.asked(job) : askedOf(job), words: `Model: ${model.name}` }, signal);
     return;
   }
   const name = query.get('kind') ?? first;

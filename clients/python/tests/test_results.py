@@ -146,6 +146,90 @@ def test_a_case_study_and_a_study(client: rubmap.Client, model: rubmap.Model) ->
     plot.work_precision(table)
 
 
+def test_branches_are_those_of_the_json(client: rubmap.Client, model: rubmap.Model) -> None:
+    """A wheel that is damped well has a periodic response, which is followed a little."""
+    request: Any = {
+        "model": model.id,
+        "modes_per_speed": 3,
+        "speed": {"value": 20000, "unit": "rpm"},
+        "along": {"parameter": "speed", "from": 19900, "to": 20100},
+        "scene": SCENE | {"damping": {"modal_ratio": 0.05}},
+        "integration": {"revolutions": 30},
+    }
+    job = client.branches(request).submit().wait(progress=False)
+    assert job.id is not None and isinstance(client.job(job.id), rubmap.Branches)
+    points, json = job.points(), job.json("branches")
+    assert json["complete"] and points.attrs["parameter"] == "speed" and points.attrs["unit"] == "mm"
+    for sensor in range(len(json["sensors"])):
+        said = [point["half_peak_to_peak"][sensor] for one in json["branches"] for point in one["points"]]
+        np.testing.assert_array_equal(job.points(sensor)["half_peak_to_peak"], said)
+    first = points[points["branch"] == 0]
+    np.testing.assert_allclose(first["speed_rpm"].iloc[[0, -1]], [19900, 20100], rtol=1e-9)
+    assert len(job.bifurcations()) == sum(len(one["bifurcations"]) for one in json["branches"])
+    assert {"value", "error", "half_peak_to_peak", "speed_rpm"} <= set(job.maxima())
+    axes = plot.branches(points, bifurcations=job.bifurcations())
+    assert axes.get_xlabel() == "speed of rotation, rpm" and axes.get_ylabel() == "half peak to peak, mm"
+    with pytest.raises(IndexError, match="no sensor 9"):
+        job.points(9)
+
+
+#: Branches as the service tells of them: one that turns back, and one of doubled period that is lost at its first point.
+_TOLD = {
+    "parameter": "clearance",
+    "sensors": [{"contact_node": 0}],
+    "units": {"length": "mm"},
+    "complete": False,
+    "settings": {},
+    "version": "0",
+    "branches": [
+        {
+            "branch": 0,
+            "points": [
+                {
+                    "value": value,
+                    "speed_rad_s": 2000.0,
+                    "half_peak_to_peak": [amplitude],
+                    "stability": stability,
+                    "multipliers": [{"modulus": 0.9, "order_offset": 0.0, "nodal_diameter": 2}][
+                        : stability != "undecided"
+                    ],
+                    "lobe_passages": 1,
+                    "residual": 1e-9,
+                    "newton_steps": 2,
+                    "revolutions": 1.5,
+                }
+                for value, amplitude, stability in (
+                    (1.0, 0.1, "stable"),
+                    (1.2, 0.2, "stable"),
+                    (1.1, 0.3, "fold"),
+                    (1.0, 0.4, "undecided"),
+                )
+            ],
+            "bifurcations": [
+                {"kind": "fold", "value": 1.21, "speed_rad_s": 2000.0, "error": 1e-6, "half_peak_to_peak": [0.22]}
+            ],
+            "maxima": [],
+            "ends": [],
+        },
+        {"branch": 1, "points": [], "bifurcations": [], "maxima": [], "ends": [{"why": "lost", "reason": "…"}]},
+    ],
+}
+
+
+def test_branches_that_are_not_complete_are_drawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    job = rubmap.Branches(Service("http://nowhere"), {}, "id")
+    monkeypatch.setattr(job, "json", lambda _: _TOLD)
+    points, bifurcations = job.points(), job.bifurcations()
+    assert len(points) == 4 and not points.attrs["complete"] and points["modulus"].isna().sum() == 1
+    assert bifurcations["kind"].tolist() == ["fold"] and job.maxima().empty
+    axes = plot.branches(points, bifurcations=bifurcations)
+    drawn = [line for line in axes.get_lines() if len(line.get_xdata()) > 1]  # type: ignore[arg-type]
+    assert [line.get_linestyle() for line in drawn] == ["-", "--", ":"]
+    assert axes.get_xlabel() == "clearance / that of the scene"
+    monkeypatch.setattr(job, "json", lambda _: _TOLD | {"branches": []})
+    plot.branches(job.points(), bifurcations=job.bifurcations())
+
+
 def test_a_download_is_asked_for_again_and_keeps_what_a_file_is(tmp_path: Path) -> None:
     """The first answer is of a gateway that does not reach the service, the second breaks off."""
 

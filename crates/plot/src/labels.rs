@@ -28,6 +28,28 @@ impl Labels {
         self.first(slanted.into_iter().chain(level), words, size)
     }
 
+    /// Words beside a mark of this half width, where possible off places that lines go through; none where all places are taken.
+    pub(super) fn beside_off(
+        &mut self,
+        lines: &[(f64, f64)],
+        mark: (f64, f64),
+        half: f64,
+        words: &str,
+        size: f64,
+    ) -> Option<Element> {
+        let [level, slanted] = around(mark, half, size, text_width(words, size));
+        let width = text_width(words, size);
+        let covers = |place: &Place| {
+            let area = [place.left, place.y - 0.5 * size, place.left + width, place.y + 0.5 * size];
+            let is_in =
+                |(x, y): &(f64, f64)| (area[0]..=area[2]).contains(x) && (area[1]..=area[3]).contains(y);
+            lines.iter().any(is_in)
+        };
+        let (clear, covering): (Vec<Place>, Vec<Place>) =
+            slanted.into_iter().chain(level).partition(|place| !covers(place));
+        self.first(clear.into_iter().chain(covering), words, size)
+    }
+
     /// Words on the height of a mark, right or left of it.
     pub(super) fn level_with(
         &mut self,
@@ -103,6 +125,17 @@ fn around((x, y): (f64, f64), half: f64, size: f64, width: f64) -> [[Place; 4]; 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn labels_keep_off_lines_where_they_can() {
+        let diagram = Diagram::new((0.0, 0.0), (400.0, 100.0), (0.0, 1.0), (0.0, 1.0));
+        let mut labels = Labels::inside(&diagram);
+        let rising: Vec<_> = (0..100).map(|k| (200.0 + f64::from(k), 50.0 - 0.3 * f64::from(k))).collect();
+        labels.beside_off(&rising, (200.0, 50.0), 5.0, "a fold", 11.0).unwrap();
+        assert!(labels.taken[0][2] < 200.0, "on the left: {:?}", labels.taken);
+        let all: Vec<_> = (0..4000).map(|k| (f64::from(k % 80) * 5.0, f64::from(k / 80) * 2.0)).collect();
+        assert!(labels.beside_off(&all, (200.0, 50.0), 5.0, "a fold", 11.0).is_some(), "rather than none");
+    }
 
     #[test]
     fn labels_neither_meet_nor_leave() {

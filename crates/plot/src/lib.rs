@@ -31,6 +31,7 @@
 //! ```
 
 mod axis;
+mod branch_line;
 mod branches;
 mod campbell;
 mod campbell_fixed_frame;

@@ -42,7 +42,9 @@ export function actions(job, { told, deleted }, signal) {
   }
 
   async function again() {
-    const { request: body, name: called, tags, notes } = await api.get(`/v1/jobs/${job.id}`, { signal });
+    const whole = await api.get(`/v1/jobs/${job.id}`, { signal });
+    const { name: called, tags, notes } = whole;
+    const body = request?.asked ? request.asked(whole) : whole.request;
     const labels = Object.fromEntries(Object.entries({ name: called, tags, notes }).filter(([, value]) => value?.length > 0));
     const made = await submit(request ? request.path : '/v1/models', request ? { ...body, model: job.model, ...labels } : { ...body, ...labels }, signal);
     location.hash = `#/jobs/${made.id}`;

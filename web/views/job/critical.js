@@ -8,6 +8,7 @@ import { unread } from '../../lib/problem.js';
 import { table } from '../../lib/table.js';
 import { unitOf } from '../../lib/units.js';
 import { select, sensors } from './choices.js';
+import { followButton } from './follow.js';
 import { SETTLING, VALIDITY } from './verdicts.js';
 
 export async function show(place, context, signal) {
@@ -24,7 +25,7 @@ export async function show(place, context, signal) {
       of === 'sensor' ? sensors(job.request, context) : null,
       select('Ranked by', [['', of === 'sensor' ? 'speed' : 'severity'], ['utilisation', 'utilisation of the strength']], rank ?? '', (chosen) => context.go({ rank: chosen }))),
     verdict(found),
-    of === 'wheel' ? wheelTable(found, context) : sensorTable(found, context),
+    of === 'wheel' ? wheelTable(found, context, signal) : sensorTable(found, context, signal),
     figure);
   if (of === 'wheel') return;
   try {
@@ -59,7 +60,12 @@ const common = [
   { name: 'Utilisation', number: true, cell: (each) => percent(each.utilisation), sort: (each) => each.utilisation },
 ];
 
-function sensorTable(found, context) {
+/** What a periodic response does beside a critical speed is another job's. */
+const following = ({ job }, signal) => ({
+  name: 'Branches', cell: (each) => followButton(job, each.speed_rad_s, signal, 'Follow'),
+});
+
+function sensorTable(found, context, signal) {
   const unit = unitOf(found.sensor, found.units);
   return table({
     caption: 'Critical speeds of a sensor',
@@ -74,6 +80,7 @@ function sensorTable(found, context) {
       { name: 'From it', number: true, cell: (each) => (each.distance_rad_s === null || each.distance_rad_s === undefined ? '–' : percent(each.distance_rad_s / each.speed_rad_s)), sort: (each) => each.distance_rad_s },
       { name: 'Nearest of the linear criterion', cell: (each) => predicted(each.nearest_crossing) },
       ...common,
+      following(context, signal),
     ],
   });
 }
@@ -83,7 +90,7 @@ function predicted(crossing) {
   return `${speed(crossing.speed_rad_s)}: nodal diameter ${crossing.nodal_diameter}, family ${crossing.family}, n = ${crossing.superharmonic}`;
 }
 
-function wheelTable(found, context) {
+function wheelTable(found, context, signal) {
   const { length, force } = found.units;
   return table({
     caption: 'Critical speeds of the wheel',
@@ -97,6 +104,7 @@ function wheelTable(found, context) {
       { name: 'Clearance consumed', number: true, cell: (each) => percent(each.clearance_consumption), sort: (each) => each.clearance_consumption },
       { name: `Largest force, ${force}`, number: true, cell: (each) => number(each.peak_force), sort: (each) => each.peak_force },
       ...common,
+      following(context, signal),
     ],
   });
 }

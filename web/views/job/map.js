@@ -3,14 +3,12 @@
 import { api, Refusal } from '../../lib/api.js';
 import { h, replace } from '../../lib/dom.js';
 import { ended } from '../../lib/events.js';
+import { growing } from '../../lib/growing.js';
 import { plot } from '../../lib/plot.js';
 import { unread } from '../../lib/problem.js';
 import { select, sensors } from './choices.js';
 import { linear } from './linear.js';
 import { verdicts } from './verdicts.js';
-
-/** A growing map is read again at most so often. */
-const PAUSE_MS = 5000;
 
 export async function show(place, context, signal) {
   const { job, query } = context;
@@ -31,58 +29,29 @@ export async function show(place, context, signal) {
     h('p', { class: 'quiet small' }, 'A click on the map opens that speed; arrow keys of “One speed” go through all.'),
     summary);
 
-  let last = 0;
-  let reading = false;
-  let again = false;
-  async function refresh() {
-    if (reading) {
-      again = true;
-      return;
-    }
-    reading = true;
+  async function read() {
     try {
-      last = Date.now();
-      const read = await api.figure(path, {
+      const found = await api.figure(path, {
         sensor: query.get('sensor'), axis: query.get('axis'), frame: query.get('frame'), nodal_diameter: query.get('nodal_diameter'), colour: query.get('colour'),
       }, { signal });
       // What is zoomed stays so when the map grows.
-      read.layout.uirevision = job.id;
+      found.layout.uirevision = job.id;
       replace(told);
-      await plot(figure, scale === 'linear' ? linear(read) : read, {
-        signal, label: 'Interaction map', onClick: (event) => open(event, read, context),
+      await plot(figure, scale === 'linear' ? linear(found) : found, {
+        signal, label: 'Interaction map', onClick: (event) => open(event, found, context),
       });
       if (ended(context.now())) await verdicts(summary, context, signal);
     } catch (error) {
       if (!signal.aborted) replace(told, unread(error, signal));
-    } finally {
-      reading = false;
-    }
-    if (again) {
-      again = false;
-      soon();
     }
   }
-  let timer = 0;
-  // Whether the map has changed while nobody saw it.
-  let missed = false;
-  signal.addEventListener('abort', () => clearTimeout(timer));
-  function soon() {
-    clearTimeout(timer);
-    const wait = ended(context.now()) ? 0 : Math.max(0, last + PAUSE_MS - Date.now());
-    timer = setTimeout(() => {
-      missed = document.hidden;
-      if (!signal.aborted && !missed) refresh();
-    }, wait);
-  }
-
   let finished = job.speeds?.finished ?? 0;
-  context.onChange((now) => {
-    const grown = (now.speeds?.finished ?? 0) > finished;
+  const grown = (now) => {
+    const before = finished;
     finished = now.speeds?.finished ?? 0;
-    if (grown || ended(now)) soon();
-  });
-  document.addEventListener('visibilitychange', () => !document.hidden && missed && soon(), { signal });
-  await refresh();
+    return finished > before;
+  };
+  await growing(context, { read, grown }, signal);
 }
 
 /** Nodal diameters to choose from: their number follows from that of the sectors; none where the model is deleted. */

@@ -6,6 +6,7 @@ import { duration, number, percent, speed, speedLong } from '../../lib/format.js
 import { plot } from '../../lib/plot.js';
 import { unread } from '../../lib/problem.js';
 import { select, sensors } from './choices.js';
+import { followButton } from './follow.js';
 import { QUANTITIES, recorder } from './histories.js';
 import { points, SETTLING, STABILITY, VALIDITY } from './verdicts.js';
 
@@ -35,6 +36,7 @@ export async function show(place, context, signal) {
       sensors(job.request, context),
       select('Frame', [['rotating', 'rotating'], ['fixed', 'fixed']], frame, (chosen) => context.go({ frame: chosen }))),
     h('h2', {}, speedLong(point.speed_rad_s)),
+    point.status === 'completed' ? h('div', { class: 'row' }, followButton(job, point.speed_rad_s, signal)) : null,
     point.message ? h('p', { class: 'note warning' }, point.message) : null,
     h('div', { class: 'columns' }, h('div', {}, h('h3', {}, 'Spectrum'), spectrum, h('h3', {}, 'Histories'), histories),
       h('aside', {}, h('h3', {}, 'Credentials'), credentials(point, map))));

@@ -13,10 +13,10 @@ import { beginning } from './sensible.js';
 
 /** In which order requests are asked for: what every one needs, and then what has defaults. */
 const GROUPS = [
-  { title: null, names: ['speeds', 'speed', 'scene', 'lobes', 'superharmonics', 'grid'] },
+  { title: null, names: ['speeds', 'speed', 'along', 'scene', 'lobes', 'superharmonics', 'grid'] },
   { title: 'What is recorded', names: ['sensors', 'record', 'fields'] },
   { title: 'Name, tags, notes', names: ['name', 'tags', 'notes'] },
-  { title: 'Settings', names: ['budget', 'modes_per_speed', 'integration', 'sweep', 'refine', 'reproducible', 'control_speeds', 'max_engine_order', 'peak_prominence'] },
+  { title: 'Settings', names: ['budget', 'modes_per_speed', 'integration', 'sweep', 'refine', 'reproducible', 'control_speeds', 'max_engine_order', 'peak_prominence', 'doubled', 'most_points'] },
 ];
 
 /**
@@ -45,7 +45,7 @@ export async function requestForm(place, { model, kind, value, words }, signal) 
     skip: ['/model', '/accuracy'].slice(0, kind.priced ? 2 : 1),
     beside: cost?.beside,
     groups: GROUPS,
-    open: ['/speeds', '/speed', '/scene', '/grid'],
+    open: ['/speeds', '/speed', '/along', '/scene', '/grid'],
     onChange: () => changed(),
   });
   const button = h('button', { type: 'submit', class: 'main' }, 'Start');

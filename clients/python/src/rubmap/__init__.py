@@ -14,9 +14,10 @@ from .jobs import Job, ModelGeneration
 from .local import local
 from .models import Model
 from .package import write_package
-from .results import CaseStudy, ModalAnalysis, Study, Sweep
+from .results import Branches, CaseStudy, ModalAnalysis, Study, Sweep
 
 __all__ = [
+    "Branches",
     "CaseStudy",
     "Client",
     "Job",

@@ -10,6 +10,7 @@ from typing import Any, Self, cast
 from urllib.parse import quote
 
 from .contract import (
+    LabelledBranchesRequest,
     LabelledCaseStudyRequest,
     LabelledImpellerRequest,
     LabelledModalAnalysisRequest,
@@ -18,10 +19,12 @@ from .contract import (
 )
 from .jobs import Job, ModelGeneration, asked_of
 from .models import Model
-from .results import CaseStudy, ModalAnalysis, Study, Sweep
+from .results import Branches, CaseStudy, ModalAnalysis, Study, Sweep
 from .service import Service
 
-_KINDS: dict[str, type[Job]] = {kind.kind: kind for kind in (Sweep, ModalAnalysis, Study, CaseStudy, ModelGeneration)}
+_KINDS: dict[str, type[Job]] = {
+    kind.kind: kind for kind in (Sweep, ModalAnalysis, Study, CaseStudy, Branches, ModelGeneration)
+}
 
 
 class Client:
@@ -101,8 +104,12 @@ class Client:
         """One speed in detail, not submitted yet."""
         return CaseStudy(self.service, cast(Mapping[str, Any], request))
 
+    def branches(self, request: LabelledBranchesRequest) -> Branches:
+        """Periodic responses followed over speed, clearance, height of the lobes or damping, not submitted yet."""
+        return Branches(self.service, cast(Mapping[str, Any], request))
+
     def job(self, id: str) -> Job:
-        """A job by its id, as :class:`Sweep`, :class:`ModalAnalysis`, :class:`Study`, :class:`CaseStudy` or :class:`ModelGeneration`."""
+        """A job by its id, as :class:`Sweep`, :class:`ModalAnalysis`, :class:`Study`, :class:`CaseStudy`, :class:`Branches` or :class:`ModelGeneration`."""
         return self._job(self.service.get(f"/v1/jobs/{quote(id, safe='')}"))
 
     def jobs(self, limit: int | None = None, **query: Any) -> list[Job]:

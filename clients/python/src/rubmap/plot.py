@@ -13,7 +13,7 @@ from matplotlib.colors import LogNorm, Normalize
 
 from .tables import RPM
 
-__all__ = ["campbell", "critical_speeds", "interaction_map", "level", "spectrum", "work_precision"]
+__all__ = ["branches", "campbell", "critical_speeds", "interaction_map", "level", "spectrum", "work_precision"]
 
 #: Faintest amplitude of a map, of its loudest.
 _QUIETEST = 1e-4
@@ -136,6 +136,50 @@ def work_precision(table: pd.DataFrame, ax: Axes | None = None, error: str = "am
     ax.set_xlabel("CPU time, s")
     ax.set_ylabel(f"error of {error.replace('_', ' ')}")
     ax.legend(fontsize="small")
+    return ax
+
+
+#: What changes along branches, as an axis.
+_ALONG = {
+    "speed": "speed of rotation, rpm",
+    "clearance": "clearance / that of the scene",
+    "lobe_amplitude": "height of the lobes / that of the scene",
+    "damping": "damping / that of the scene",
+}
+
+#: Marks of bifurcations.
+_MARKS = {"fold": "^", "flip": "D", "neimark_sacker": "o", "branching": "s"}
+
+
+def branches(points: pd.DataFrame, ax: Axes | None = None, bifurcations: pd.DataFrame | None = None) -> Axes:
+    """Amplitude along branches, of :meth:`Branches.points`: solid where it is stable, dashed where it is not, dotted where that is not known.
+
+    Args:
+        bifurcations: of :meth:`Branches.bifurcations`, to be marked.
+    """
+    ax = _axes(ax)
+    along = "speed_rpm" if points.attrs["parameter"] == "speed" else "value"
+    for branch, own in points.groupby("branch"):
+        colour = _COLOURS[int(str(branch)) % len(_COLOURS)]
+        known = np.where(own["stability"] == "stable", 0, np.where(own["stability"] == "undecided", 2, 1))
+        # Between two points of different kinds a line is of the worse one.
+        kinds = np.maximum(known[:-1], known[1:])
+        across, upwards = own[along].to_numpy(float), own["half_peak_to_peak"].to_numpy(float)
+        begins = np.flatnonzero(np.diff(kinds, prepend=-1))
+        for begin, end in zip(begins, [*begins[1:], len(kinds)], strict=True):
+            part = slice(begin, end + 1)
+            ax.plot(across[part], upwards[part], color=colour, linestyle=("-", "--", ":")[kinds[begin]])
+        ax.plot([], [], color=colour, label=f"branch {int(str(branch)) + 1}")
+    if bifurcations is not None:
+        for kind, some in bifurcations.groupby("kind"):
+            words = str(kind).replace("_", "–")
+            mark = _MARKS[str(kind)]
+            ax.plot(some[along], some["half_peak_to_peak"], mark, color="black", zorder=3.0, label=words)
+    ax.set_xlabel(_ALONG[points.attrs["parameter"]])
+    ax.set_ylabel(f"half peak to peak, {points.attrs['unit']}")
+    ax.set_ylim(bottom=0.0)
+    if not points.empty:
+        ax.legend(fontsize="small")
     return ax
 
 

@@ -229,6 +229,89 @@ class CaseStudy(_Recorded):
     path = "/v1/case-studies"
 
 
+class Branches(Job):
+    """Periodic responses, followed while a number of their scene changes."""
+
+    kind = "branches"
+    path = "/v1/branches"
+
+    def points(self, sensor: int = 0) -> pd.DataFrame:
+        """Points of all branches, a row each, in the order of each branch; also while the job runs, once there is one.
+
+        ``value`` is what changes along the branches: rad/s of a speed, which stands beside it as ``speed_rpm``, otherwise a multiple of
+        what the scene says. ``half_peak_to_peak`` is of the sensor, in the unit of ``attrs["unit"]``; ``stability`` and the leading
+        multiplier say whether the response lasts.
+        """
+        found = self._found(sensor)
+        rows = [
+            {"branch": branch["branch"]}
+            | {name: point[name] for name in ("value", "speed_rad_s")}
+            | {"half_peak_to_peak": point["half_peak_to_peak"][sensor], "stability": point["stability"]}
+            | _leading(point["multipliers"][:1])
+            | {name: point[name] for name in ("lobe_passages", "residual", "newton_steps", "revolutions")}
+            for branch in found["branches"]
+            for point in branch["points"]
+        ]
+        return _branch_table(found, rows, sensor, ["branch", "value", "speed_rad_s", "half_peak_to_peak", "stability"])
+
+    def bifurcations(self, sensor: int = 0) -> pd.DataFrame:
+        """Where branches turn back (``fold``) or change their stability (``flip``, ``neimark_sacker``, ``branching``), with how far off that
+        may be: ``error``, in the unit of ``value``. Where lines split, ``order_offset`` is their distance in engine orders."""
+        found = self._found(sensor)
+        rows = [
+            {"branch": branch["branch"]}
+            | {name: one[name] for name in ("kind", "value", "speed_rad_s", "error")}
+            | {"half_peak_to_peak": one["half_peak_to_peak"][sensor]}
+            | _leading([one["multiplier"]] if one.get("multiplier") else [])
+            | {"stable_modulus": one.get("stable_modulus")}
+            for branch in found["branches"]
+            for one in branch["bifurcations"]
+        ]
+        columns = ["branch", "kind", "value", "speed_rad_s", "error", "half_peak_to_peak"]
+        return _branch_table(found, rows, sensor, columns)
+
+    def maxima(self, sensor: int = 0) -> pd.DataFrame:
+        """Critical values: maxima of the sensor's amplitude along the branches, with how far off they may be."""
+        found = self._found(sensor)
+        columns = ["branch", "value", "speed_rad_s", "error", "half_peak_to_peak", "stability"]
+        rows = [
+            {"branch": branch["branch"]} | {name: one[name] for name in columns[1:]}
+            for branch in found["branches"]
+            for one in branch["maxima"]
+            if one["sensor"] == sensor
+        ]
+        return _branch_table(found, rows, sensor, columns)
+
+    def _found(self, sensor: int) -> Any:
+        found = self.json("branches")
+        if not 0 <= sensor < len(found["sensors"]):
+            raise IndexError(f"there is no sensor {sensor}; there are {len(found['sensors'])}")
+        return found
+
+
+def _leading(multipliers: list[dict[str, Any]]) -> dict[str, Any]:
+    """The leading one of a point's multipliers, if it has any."""
+    names = ("modulus", "order_offset", "nodal_diameter")
+    return {name: one[name] for one in multipliers for name in names}
+
+
+def _branch_table(
+    found: Mapping[str, Any], rows: list[dict[str, Any]], sensor: int, columns: list[str]
+) -> pd.DataFrame:
+    frame = pd.DataFrame(rows) if rows else pd.DataFrame(columns=columns)
+    frame.insert(list(frame.columns).index("speed_rad_s") + 1, "speed_rpm", frame["speed_rad_s"] * RPM)
+    unit = "strain" if found["sensors"][sensor].get("gauge") else found["units"]["length"]
+    frame.attrs.update(
+        parameter=found["parameter"],
+        unit=unit,
+        complete=found["complete"],
+        units=found["units"],
+        settings=found["settings"],
+        version=found["version"],
+    )
+    return frame
+
+
 class Study(Job):
     """What accuracy costs: schemes and settings against a reference."""
 

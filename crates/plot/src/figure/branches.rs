@@ -1,8 +1,90 @@
 //! Branches of periodic responses.
-use super::document::Figure;
-use rubmap_analysis::result::{Branches, Point};
 
-/// Shows them.
-pub fn branches(_: &Branches, _: usize, _: &[Point]) -> Figure {
-    Figure::new("branches", "Branches", &[])
+use plotly::common::{DashType, MarkerSymbol};
+use serde_json::json;
+
+use super::document::{Figure, axis, speeds};
+use super::interaction_map::ends;
+use super::marks::{PointTrace, line, marks, words};
+use super::palette::NEUTRAL;
+use crate::branch_line::{Fate, Place};
+use crate::branches::{self as drawing, Curve, Mark, NONE, View};
+use rubmap_analysis::request::BranchParameter;
+use rubmap_analysis::result::{BifurcationKind, Branches, Point};
+
+/// The amplitude of a sensor along branches, a line for what is stable of each and one for what is not, with bifurcations and maxima;
+/// `marched`: speeds of a sweep, as dots.
+pub fn branches(branches: &Branches, sensor: usize, marched: &[Point]) -> Figure {
+    let view = View::new(branches, sensor, marched, 0.0);
+    let (title, told) = (drawing::title(branches, sensor), drawing::words(branches));
+    let figure = Figure::new("branches", &title, &told)
+        .meta("parameter", branches.head.parameter)
+        .meta("units", json!({"x": view.over.unit(), "y": view.unit}))
+        .meta("complete", branches.complete);
+    if view.is_empty() {
+        return figure.empty(if view.sensor.is_none() { "there is no such sensor" } else { NONE });
+    }
+    let x = match branches.head.parameter {
+        BranchParameter::Speed => speeds(),
+        _ => axis(view.over.axis()),
+    };
+    figure
+        .high(560)
+        .with_all(dots(&view))
+        .with_all(view.curves.iter().rev().flat_map(|curve| curves(&view, curve)))
+        .with_all(Mark::ALL.into_iter().rev().filter_map(|mark| marked(&view, mark)))
+        .axis("xaxis", x.range(ends(view.diagram.x.values)))
+        .axis("yaxis", axis(&view.height()).range(ends(view.diagram.y.values)))
+        .meta("sensor", view.sensor)
+}
+
+/// A branch: of each kind of line all together.
+fn curves(view: &View<'_>, curve: &Curve<'_>) -> Vec<PointTrace> {
+    let group = format!("branch {}", curve.branch.track.branch + 1);
+    let of = |fate: Fate| {
+        let runs = || curve.runs.iter().filter(|run| run.fate == fate);
+        let at = |(place, point): &(Place, Option<usize>)| {
+            let point = point.and_then(|index| curve.branch.points.get(index));
+            (Some(*place), point.map_or_else(String::new, |point| view.point_words(curve.branch, point)))
+        };
+        let gap = || [(None, String::new())];
+        let (places, told): (Vec<_>, Vec<_>) =
+            runs().flat_map(|run| run.corners.iter().map(at).chain(gap())).unzip();
+        let dash = match fate {
+            Fate::Stable => DashType::Solid,
+            Fate::Unstable => DashType::Dash,
+            Fate::Undecided => DashType::Dot,
+        };
+        let width = if curve.branch.track.branch == 0 { 2.2 } else { 1.6 };
+        let name = format!("{group}, {}", fate.words());
+        let trace = words(line(&name, places, (curve.colour(), dash, width)), told);
+        (runs().next().is_some()).then(|| trace.legend_group(&group))
+    };
+    Fate::ALL.into_iter().filter_map(of).collect()
+}
+
+fn marked(view: &View<'_>, mark: Mark) -> Option<PointTrace> {
+    let (symbol, size) = match mark {
+        Mark::Bifurcation(BifurcationKind::Fold) => (MarkerSymbol::TriangleUp, 12),
+        Mark::Bifurcation(BifurcationKind::Flip) => (MarkerSymbol::Diamond, 11),
+        Mark::Bifurcation(BifurcationKind::NeimarkSacker) => (MarkerSymbol::CircleOpenDot, 12),
+        Mark::Bifurcation(BifurcationKind::Branching) => (MarkerSymbol::Square, 10),
+        Mark::Maximum => (MarkerSymbol::CircleOpen, 10),
+        Mark::End => (MarkerSymbol::X, 11),
+    };
+    let of = view.marked.iter().filter(|one| one.mark == mark);
+    marks(mark.words(), of.map(|one| (one.place, one.title.clone())), (symbol, size, NEUTRAL))
+}
+
+/// Speeds of the sweep beside.
+fn dots(view: &View<'_>) -> Vec<PointTrace> {
+    let of = |(settled, name, symbol)| {
+        let dots = view.dots.iter().filter(move |dot| dot.settled == settled);
+        marks(name, dots.map(|dot| (dot.place, dot.title.clone())), (symbol, 6, NEUTRAL))
+    };
+    let kinds = [
+        (true, "speed of the sweep", MarkerSymbol::Circle),
+        (false, "the same, not settled", MarkerSymbol::CircleOpen),
+    ];
+    kinds.into_iter().filter_map(of).collect()
 }

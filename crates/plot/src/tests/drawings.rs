@@ -5,6 +5,7 @@ use roxmltree::Document;
 use rubmap_analysis::result::{ForceMap, Point, Quantity, SpeedHistories, SpeedSpectra, WearMap};
 use rubmap_wheel::dynamics::sector::Units;
 
+use super::branching::{marched, over_clearance, resonance};
 use super::fixtures::{contact, recorded, sector, spectra, worn};
 use super::impeller::{SECTORS, impeller};
 use super::stresses::{of_sweep, stressed_critical, stressed_map};
@@ -12,9 +13,9 @@ use super::studies::{RUNS, first_revolutions, study};
 use super::{critical, decoded, map, modes, point, units, waves};
 use crate::{
     ForceQuantity, Frame, HaighColour, HistoryQuantity, LevelColour, PngError, SectionView, SurfaceView,
-    VerticalAxis, Window, campbell, campbell_fixed_frame, critical_speeds, error_over_step, fixed_frame_map,
-    force_map, haigh, histories, interaction_map, map_sheet, png, section, spectrum, speed_histories,
-    surface, trajectories, wear_map, work_precision,
+    VerticalAxis, Window, branches, campbell, campbell_fixed_frame, critical_speeds, error_over_step,
+    fixed_frame_map, force_map, haigh, histories, interaction_map, map_sheet, png, section, spectrum,
+    speed_histories, surface, trajectories, wear_map, work_precision,
 };
 
 pub(super) fn credentials() -> Point {
@@ -83,6 +84,16 @@ fn all() -> Vec<Drawing> {
             critical_speeds(&critical()),
             "Critical speeds",
             &["rotational speed Ω, rpm", "level at the peak, mm rms"],
+        ),
+        (
+            branches(&resonance(true), 0, &marched()),
+            "Branches over speed: radial displacement",
+            &["rotational speed Ω, rpm", "half peak to peak, mm"],
+        ),
+        (
+            branches(&over_clearance(), 1, &[]),
+            "Branches over clearance: axial displacement",
+            &["clearance / that of the scene", "half peak to peak, mm"],
         ),
         (
             turned(Frame::Rotating),
@@ -253,7 +264,7 @@ fn no_text_leaves_the_drawing() {
     }
 }
 
-fn key(drawing: &str) -> Vec<String> {
+pub(super) fn key(drawing: &str) -> Vec<String> {
     let read = Document::parse(drawing).unwrap();
     let entries = read.descendants().filter(|node| node.attribute("class") == Some("key"));
     entries.filter_map(|node| node.text()).map(str::to_owned).collect()

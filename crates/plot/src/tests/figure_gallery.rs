@@ -3,6 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::branching::{marched, over_clearance, resonance};
 use super::drawings::{credentials, mm};
 use super::fixtures::{contact, recorded, sector, spectra, worn};
 use super::gallery::read;
@@ -35,6 +36,8 @@ pub(super) fn all() -> Vec<(String, Figure)> {
     all.push(("campbell-waves".to_owned(), figure::campbell(&waves())));
     all.push(("critical-speeds".to_owned(), figure::critical_speeds(&critical())));
     all.push(("critical-speeds-validity".to_owned(), figure::critical_speeds(&stressed_critical())));
+    all.push(("branches".to_owned(), figure::branches(&resonance(true), 0, &marched())));
+    all.push(("branches-clearance".to_owned(), figure::branches(&over_clearance(), 0, &[])));
     for (name, frame) in [("spectrum", Frame::Rotating), ("spectrum-fixed-frame", Frame::Fixed)] {
         let figure = figure::spectrum(&spectra(6), &credentials(), &mm(), 0, frame);
         all.push((name.to_owned(), figure));

@@ -13,12 +13,12 @@ use crate::{ForceQuantity, Frame, HaighColour, HistoryQuantity, LevelColour, Ver
 use rubmap_analysis::result::Quantity;
 
 /// The trace of this name.
-fn trace<'a>(figure: &'a Value, name: &str) -> &'a Value {
+pub(super) fn trace<'a>(figure: &'a Value, name: &str) -> &'a Value {
     let traces = figure["data"].as_array().unwrap();
     traces.iter().find(|trace| trace["name"] == name).unwrap_or_else(|| panic!("no {name}: {figure}"))
 }
 
-fn numbers(value: &Value) -> Vec<f64> {
+pub(super) fn numbers(value: &Value) -> Vec<f64> {
     value.as_array().unwrap().iter().map(|value| value.as_f64().unwrap_or(f64::NAN)).collect()
 }
 

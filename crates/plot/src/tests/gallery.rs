@@ -4,6 +4,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::branching::{marched, over_clearance, resonance};
 use super::drawings::{credentials, mm};
 use super::fixtures::{contact, recorded, sector, spectra, worn};
 use super::impeller::{SECTORS, impeller};
@@ -11,9 +12,9 @@ use super::stresses::{of_sweep, stressed_critical, stressed_map};
 use super::studies::{RUNS, first_revolutions, study};
 use crate::{
     ForceQuantity, Frame, HaighColour, HistoryQuantity, LevelColour, SectionView, SurfaceView, VerticalAxis,
-    Window, campbell, campbell_fixed_frame, critical_speeds, error_over_step, force_map, haigh, histories,
-    interaction_map, map_sheet, png, section, spectrum, speed_histories, surface, trajectories, wear_map,
-    work_precision,
+    Window, branches, campbell, campbell_fixed_frame, critical_speeds, error_over_step, force_map, haigh,
+    histories, interaction_map, map_sheet, png, section, spectrum, speed_histories, surface, trajectories,
+    wear_map, work_precision,
 };
 use rubmap_analysis::result::{
     Campbell, CriticalSpeeds, InteractionMap, Quantity, SectorGeometry, SpeedSpectra,
@@ -72,6 +73,10 @@ fn gallery() {
     save(&folder, "campbell", &campbell(&modes));
     save(&folder, "campbell-fixed-frame", &campbell_fixed_frame(&modes));
     save(&folder, "critical-speeds", &critical_speeds(&critical));
+
+    save(&folder, "branches", &branches(&resonance(true), 0, &marched()));
+    save(&folder, "branches-growing", &branches(&resonance(false), 0, &[]));
+    save(&folder, "branches-clearance", &branches(&over_clearance(), 0, &[]));
 
     let zoom = Window { speeds_rpm: Some((18_000.0, 26_000.0)), engine_orders: Some((1.0, 12.0)) };
     let maps: Option<Vec<InteractionMap>> =

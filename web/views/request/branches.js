@@ -1,0 +1,65 @@
+// What branches are asked for: from a speed of a sweep, and as branches that are there.
+
+import { rpm } from '../../lib/format.js';
+
+/** What may change along branches. */
+export const PARAMETERS = {
+  speed: 'speed',
+  clearance: 'clearance',
+  lobe_amplitude: 'height of the lobes',
+  damping: 'damping',
+};
+
+/** How much of a speed a branch is followed to either side of it, and of other things: shares to begin with, to be changed. */
+const ASIDE = { speed: 0.1, others: 0.5 };
+
+/** Those that a scene has, so that something would change. */
+export function changeable(scene) {
+  const there = { speed: true, clearance: scene?.casing, lobe_amplitude: scene?.casing?.lobes, damping: scene?.damping };
+  return Object.keys(PARAMETERS).filter((name) => there[name]);
+}
+
+/** A range to begin with: rpm about a speed, otherwise multiples of what the scene says. */
+export function rangeOf(parameter, speed_rad_s) {
+  if (parameter !== 'speed') return { from: 1 - ASIDE.others, to: 1 + ASIDE.others };
+  const at = rpm(speed_rad_s);
+  return { from: Math.floor((1 - ASIDE.speed) * at), to: Math.ceil((1 + ASIDE.speed) * at) };
+}
+
+/** A number without the last digits, which a change of units has spoilt. */
+function tidy(value) {
+  return Number(value.toPrecision(12));
+}
+
+/** A sweep's settings that branches have as well. A response is always sought, so that how a sweep comes to it is left out. */
+function shared(sweep) {
+  const { steady, ...integration } = sweep.integration ?? {};
+  return {
+    modes_per_speed: sweep.modes_per_speed ?? 'auto',
+    scene: sweep.scene,
+    integration,
+    sensors: sweep.sensors ?? [],
+    max_engine_order: sweep.max_engine_order,
+  };
+}
+
+/** The request of branches of a sweep's scene that begin at a speed. */
+export function branchesFrom(job, speed_rad_s, along) {
+  return { model: job.model, speed: { value: tidy(rpm(speed_rad_s)), unit: 'rpm' }, along, ...shared(job.request) };
+}
+
+/** The request of a job of this kind, which keeps it as settings of a sweep of one speed, and speeds along the branch in rad/s. */
+export function branchesOf(job) {
+  const { sweep, along, doubled, most_points } = job.request;
+  const { values, unit } = Array.isArray(sweep.speeds) ? sweep.speeds[0] : sweep.speeds;
+  const of = { rpm: rpm(1), hz: 1 / (2 * Math.PI), rad_s: 1 }[unit] ?? 1;
+  const asked = (value) => (along.parameter === 'speed' ? tidy(of * value) : value);
+  return {
+    model: job.model,
+    speed: { value: values[0], unit },
+    along: { parameter: along.parameter, from: asked(along.from), to: asked(along.to) },
+    ...shared(sweep),
+    doubled,
+    most_points,
+  };
+}
