@@ -79,6 +79,7 @@ fn sweep(model: &Value, seconds: f64) -> Value {
             },
             "contact": {},
         },
+        "integration": {"revolutions": 50},
         "budget": {"seconds": seconds},
     })
 }

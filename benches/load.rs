@@ -118,6 +118,7 @@ fn sweep(model: &str, speeds: u32) -> Value {
             },
             "contact": {},
         },
+        "integration": {"revolutions": 50},
     })
 }
 

@@ -1,7 +1,7 @@
 //! Steady responses solved for and marched to: `cargo bench --bench steady [-- DAMPING …]`: the demo's sweep, speed by speed on one worker of the
 //! service. Run it on an otherwise idle machine.
 //!
-//! A march takes 50 revolutions as the demo does, or as many as it takes until it repeats (`"revolutions": "auto"`), and beside that as many as it needs until every revolution shows the amplitude of a stable
+//! A march takes 50 revolutions, or as many as it takes until it repeats (`"revolutions": "auto"`), and beside that as many as it needs until every revolution shows the amplitude of a stable
 //! response to a thousandth, up to [`LONG`].
 
 mod service;

@@ -192,6 +192,24 @@ fn the_demo_of_a_package_of_ones_own_chooses_and_says_so() {
 }
 
 #[test]
+fn speeds_are_marched_until_they_repeat_unless_a_number_is_given() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let package = package_in(folder.path(), |_| {});
+    let words = String::from_utf8(quiet_success(own(&package, &out, &["--speeds", "2"])).stdout).unwrap();
+    assert!(words.contains("marches: ") && words.contains("at most"), "{words}");
+    let request: serde_json::Value = read(&out.join("sweep-request.json"));
+    assert_eq!(request["integration"]["revolutions"], "auto");
+    let map: InteractionMap = read(&out.join("interaction-map.json"));
+    assert!(map.points.iter().all(|point| point.march.is_some()), "{map:?}");
+    let refused = refusal(own(&package, &out, &["--revolutions", "4"]));
+    assert!(
+        refused.contains("neither \"auto\" nor a number of revolutions between 5 and 10000"),
+        "{refused}"
+    );
+}
+
+#[test]
 fn a_package_without_stiffness_at_speed_is_swept_where_its_lowest_frequency_is_met() {
     let folder = tempfile::tempdir().unwrap();
     let package = package_in(folder.path(), |package| {

@@ -78,7 +78,7 @@ pub(super) async fn create_case_study(
         ("Idempotency-Key" = Option<String>, Header,
             description = "Repeating the request with this key repeats its answer and starts nothing."),
     ),
-    request_body(content = HistoriesRequest, example = json!({"speeds": "critical", "revolutions": [40, 50]})),
+    request_body(content = HistoriesRequest, example = json!({"speeds": "critical"})),
     responses(
         (status = 202, description = "The job is accepted.", body = Receipt,
             headers(("Location" = String, description = "Path of the job."))),

@@ -41,7 +41,7 @@ type SweepBody = Labelled<SweepRequest>;
             "contact": {}
         },
         "integration": {
-            "steps_per_revolution": "auto", "revolutions": 50, "ramp_revolutions": 1.0, "window_revolutions": 20
+            "steps_per_revolution": "auto", "revolutions": "auto", "ramp_revolutions": 1.0, "window_revolutions": 20
         },
         "sensors": [
             {"contact_node": 0, "sector": 0, "component": "radial"},

@@ -33,6 +33,7 @@ mod plans;
 mod program;
 mod refine;
 mod report;
+mod revolutions;
 mod sensors;
 mod small_disk;
 mod steady;

@@ -205,18 +205,34 @@ fn integration() -> impl Strategy<Value = Value> {
     let steps = prop_oneof![3 => (61..2000u32).prop_map(Value::from), 1 => Just(json!("auto"))];
     let scheme = select(vec!["auto", "central_differences", "exact_modal", "massless_boundary"]);
     let kept = prop_oneof![2 => (1..30u32).prop_map(Value::from), 1 => Just(json!("auto"))];
-    (1..4u32, 0..2u32, select(vec![0.0, 0.05, 0.5, 1.0]), steps, scheme, kept).prop_map(
-        |(window, before, ramp, steps, scheme, kept)| {
+    let steady = select(vec!["march", "march", "periodic", "auto"]);
+    let ramp = select(vec![0.0, 0.05, 0.5, 1.0]);
+    (1..4u32, 0..2u32, ramp, steps, scheme, kept, steady, by_itself()).prop_map(
+        |(window, before, ramp, steps, scheme, kept, steady, by_itself)| {
             let mut integration = json!({
                 "window_revolutions": window, "revolutions": window + before.max(ramp as u32 + 1),
-                "ramp_revolutions": ramp, "steps_per_revolution": steps, "scheme": scheme
+                "ramp_revolutions": ramp, "steps_per_revolution": steps, "scheme": scheme, "steady": steady
             });
             if scheme == "massless_boundary" {
                 integration["kept_modes"] = kept;
             }
+            for (name, value) in by_itself {
+                integration[name] = value;
+            }
             integration
         },
     )
+}
+
+/// What of the integration is said of a march that ends by itself, for half of them.
+fn by_itself() -> impl Strategy<Value = Vec<(&'static str, Value)>> {
+    let most = prop_oneof![4 => 12..40u32, 1 => select(vec![1, 5, 100])];
+    let settled_to = select(vec![1e-12, 1e-6, 1e-3, 1e-2]);
+    let ends = (most, settled_to).prop_map(|(most, settled_to)| {
+        let auto = ("revolutions", json!("auto"));
+        vec![auto, ("most_revolutions", json!(most)), ("settled_to", json!(settled_to))]
+    });
+    prop_oneof![2 => Just(Vec::new()), 2 => ends]
 }
 
 fn sensor() -> impl Strategy<Value = Value> {

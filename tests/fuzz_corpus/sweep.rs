@@ -12,7 +12,7 @@ use rubmap::analysis::effects::symmetry::request::Symmetry;
 use rubmap::analysis::error::{AnalysisError, Violation};
 use rubmap::analysis::monitor::{Monitor, Unwatched};
 use rubmap::analysis::request::auto_or::AutoOr;
-use rubmap::analysis::request::{Component, SchemeChoice, SweepDirection, SweepRequest};
+use rubmap::analysis::request::{Component, SchemeChoice, SteadyChoice, SweepDirection, SweepRequest};
 use rubmap::analysis::resolved::ResolvedSweep;
 use rubmap::analysis::result::{Point, PointStatus, SpeedResult};
 use rubmap::analysis::run::{
@@ -45,6 +45,9 @@ pub(crate) enum End {
         completed: usize,
     },
 }
+
+/// Revolutions that the multipliers of a periodic response take at most.
+const MULTIPLIERS: f64 = 200.0;
 
 /// Steps × sensors over all speeds of a request that is still run: some ten milliseconds.
 const BUDGET: f64 = 60_000.0;
@@ -116,10 +119,16 @@ fn refused(violations: &[Violation], request: &Value) -> End {
     End::Refused
 }
 
-/// Upper bound of steps × sensors over all speeds.
+/// Upper bound of steps × sensors over all speeds; a search reads none.
 fn work(reduced: &ReducedSector, request: &SweepRequest, speeds: &[f64]) -> f64 {
     let integration = &request.integration;
-    let per_step = f64::from(integration.revolutions()) * request.sensors.len() as f64;
+    let marched = f64::from(integration.revolutions());
+    let searched = match integration.steady {
+        SteadyChoice::March => 0.0,
+        SteadyChoice::Periodic => 4.0 * marched + MULTIPLIERS,
+        SteadyChoice::Auto => 8.0 * marched + MULTIPLIERS,
+    };
+    let per_step = marched * request.sensors.len() as f64 + searched;
     // A speed costs its eigenvalues at least.
     let mut work = speeds.len() as f64 * 1000.0;
     for &speed in speeds {
@@ -188,14 +197,18 @@ fn sound(result: &SpeedResult, request: &SweepRequest) {
         scheme.name != SchemeChoice::Auto && !scheme.reason.is_empty() && scheme.reach_hz >= 0.0,
         "{point:?}"
     );
-    let taken = point.march.as_ref().map(|march| march.revolutions);
-    let revolutions = u64::from(taken.unwrap_or(request.integration.revolutions()));
-    assert_eq!(point.steps, revolutions * u64::from(point.steps_per_revolution), "{point:?}");
+    assert_eq!(
+        point.steps,
+        (revolutions(point, request) * f64::from(point.steps_per_revolution)).round() as u64,
+        "{point:?}"
+    );
     assert!(point.steps_per_revolution >= point.smallest_stable_steps_per_revolution, "{point:?}");
     assert!(point.contact_impulse.unwrap() >= 0.0 && point.largest_energy.unwrap() >= 0.0, "{point:?}");
     assert!(point.smallest_multiplier.is_none_or(|lambda| lambda >= 0.0), "{point:?}");
-    // The bound of a healthy run in docs/reading-results.md.
-    assert!(point.energy_residual.unwrap() <= 1e-9, "{point:?}");
+    // The bound of a healthy run in docs/reading-results.md; or the round-off of what went through, where that is thousands of times what
+    // there was at once.
+    let through = point.energy.as_ref().unwrap().damping_loss.abs() / point.largest_energy.unwrap();
+    assert!(point.energy_residual.unwrap() <= f64::max(1e-9, 1e-12 * through), "{point:?}");
     // Work was done if there was contact, and without other causes only then.
     let (touched, moved) = (point.contact_impulse > Some(0.0), point.largest_energy > Some(0.0));
     let scene = &request.scene;
@@ -208,6 +221,30 @@ fn sound(result: &SpeedResult, request: &SweepRequest) {
     assert!(point.largest_penetration.unwrap() <= 1e-13 * terms, "{terms:e} {point:?}");
     plausible(point, request);
     assert_eq!(result.spectra.as_ref().map(|spectra| spectra.sensors.len()), Some(request.sensors.len()));
+}
+
+/// Revolutions that a completed speed took, with those of a search; bounded as was asked.
+fn revolutions(point: &Point, request: &SweepRequest) -> f64 {
+    let integration = &request.integration;
+    let searched = point.steady.as_ref().map_or(0.0, |steady| steady.revolutions);
+    if point.steady.as_ref().is_some_and(|steady| steady.taken) {
+        assert!(point.march.is_none(), "{point:?}");
+        return searched + 1.0;
+    }
+    let Some(march) = &point.march else {
+        assert!(matches!(integration.revolutions, AutoOr::Fixed(_)), "{point:?}");
+        return searched + f64::from(integration.revolutions());
+    };
+    assert_eq!(march.reason.is_none(), march.period_revolutions.is_some(), "{point:?}");
+    match (march.period_revolutions, march.remaining_change) {
+        (Some(period), Some(remaining)) => {
+            assert!(remaining <= integration.settled_to, "{point:?}");
+            assert!(integration.window_revolutions.is_multiple_of(period), "{point:?}");
+            assert!(march.revolutions <= integration.most_revolutions, "{point:?}");
+        }
+        found => assert_eq!((found, march.revolutions), ((None, None), integration.most_revolutions)),
+    }
+    searched + f64::from(march.revolutions)
 }
 
 /// Squares of less are no normal numbers; the program takes modal displacements below 1e-100 for nothing.

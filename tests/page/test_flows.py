@@ -258,6 +258,22 @@ def test_an_accuracy_gives_the_settings_back_in_whose_place_it_was(service, mode
     page.locator("[aria-invalid=true]").first.wait_for(state="attached")
 
 
+def test_a_march_is_of_so_many_revolutions_or_until_it_repeats(service, model, new_page):
+    page = new_page(f"{service.url}/#/sweep?model={model}")
+    page.get_by_text("The request as JSON").click()
+    text = page.get_by_label("Request; the form follows what you write")
+    text.wait_for()
+    page.get_by_text("Settings", exact=True).click()
+    page.get_by_label("Integration", exact=True).check()
+    field = page.get_by_label("Revolutions", exact=True)
+    assert field.get_attribute("placeholder") == "until it repeats"
+    for words, value in [("30", {"revolutions": 30}), ("until it repeats", {"revolutions": "auto"}), ("", {})]:
+        field.fill(words)
+        assert json.loads(text.input_value())["integration"] == value
+    text.fill(json.dumps(json.loads(text.input_value()) | {"integration": {"revolutions": "auto"}}))
+    assert page.get_by_label("Revolutions", exact=True).input_value() == "until it repeats"
+
+
 def test_a_choice_keeps_the_focus(service, swept, new_page):
     page = new_page(f"{service.url}/#/jobs/{swept}")
     page.get_by_label("Amplitude").focus()

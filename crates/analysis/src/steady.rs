@@ -1,5 +1,6 @@
 //! The steady response of a speed: marched to, or solved for.
 
+use crate::effects::damping::convert::modal_damping;
 use crate::effects::symmetry::repeats::repeats as scene_repeats;
 use crate::effects::symmetry::request::Symmetry;
 use crate::record::half_peak_to_peak;
@@ -72,6 +73,17 @@ fn goes_on(request: &ResolvedSweep) -> Option<&'static str> {
     (request.scene.symmetry == Symmetry::Probe).then_some("a probe of the symmetry takes all revolutions")
 }
 
+/// Why the motion of a scene never comes to what repeats.
+fn keeps_moving(request: &ResolvedSweep, run: &Run) -> Option<&'static str> {
+    let damping = modal_damping(request);
+    let ratios =
+        damping.iter().flat_map(|damping| damping.family_ratios.iter().chain([&damping.modal_ratio]));
+    let undamped = damping.is_none() || ratios.into_iter().any(|&ratio| ratio == 0.0);
+    (undamped && run.energy.largest_energy() > 0.0).then_some(
+        "motion without damping never comes to rest: give damping to all modes, or a number of revolutions",
+    )
+}
+
 /// How long a complete run was marched, where it was to end once it repeats.
 pub(super) fn marched(
     request: &ResolvedSweep,
@@ -98,6 +110,7 @@ pub(super) fn marched(
             remaining_change: None,
             reason: Some(
                 goes_on(request)
+                    .or_else(|| keeps_moving(request, run))
                     .unwrap_or("the motion was not found to repeat by the time its longest window began")
                     .to_owned(),
             ),

@@ -1,8 +1,14 @@
 //! What the demo may be told.
 
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 use clap::Args;
+
+use crate::analysis::request::AutoOr;
+
+/// Fewest and most revolutions: two of the fewest make the spectra.
+const REVOLUTIONS: RangeInclusive<u32> = 5..=10_000;
 
 /// What the demo computes and where it leaves its results.
 #[derive(Debug, Args)]
@@ -24,10 +30,42 @@ pub(in crate::cli) struct DemoArgs {
     /// Speeds of the sweep, evenly spaced from 12,000 to 36,000 rpm, or over the range chosen for a package
     #[arg(long, default_value_t = 120, value_parser = clap::value_parser!(u32).range(2..=10_000))]
     pub(super) speeds: u32,
-    /// Revolutions simulated at each speed; the last two fifths make the spectra
-    #[arg(long, default_value_t = 50, value_parser = clap::value_parser!(u32).range(5..=10_000))]
-    pub(super) revolutions: u32,
+    /// Revolutions simulated at each speed, of which the last two fifths make the spectra; or "auto": until the motion repeats, and at
+    /// most 100
+    #[arg(long, default_value = "auto", value_parser = revolutions)]
+    pub(super) revolutions: AutoOr,
     /// Show what accuracy costs in time, too: the convergence study that `rubmap study` makes
     #[arg(long, conflicts_with = "package")]
     pub(super) full: bool,
+}
+
+/// Revolutions of a run, or that it ends by itself.
+///
+/// # Errors
+/// What is neither, in words.
+fn revolutions(text: &str) -> Result<AutoOr, String> {
+    match text.parse() {
+        _ if text == "auto" => Ok(AutoOr::Auto),
+        Ok(revolutions) if REVOLUTIONS.contains(&revolutions) => Ok(AutoOr::Fixed(revolutions)),
+        _ => {
+            let (least, most) = (REVOLUTIONS.start(), REVOLUTIONS.end());
+            Err(format!("neither \"auto\" nor a number of revolutions between {least} and {most}"))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn revolutions_are_a_number_or_auto() {
+        let known = [("auto", AutoOr::Auto), ("5", AutoOr::Fixed(5)), ("10000", AutoOr::Fixed(10_000))];
+        for (text, expected) in known {
+            assert_eq!(revolutions(text), Ok(expected));
+        }
+        for text in ["4", "10001", "-5", "", "Auto", "5.0", "99999999999"] {
+            assert!(revolutions(text).is_err(), "{text}");
+        }
+    }
 }

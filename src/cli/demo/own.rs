@@ -114,6 +114,9 @@ fn tell_cost(plan: &SweepPlan) {
     if let Some(estimate) = &plan.estimate {
         let (least, most) = (estimate.wall_time_s.free, estimate.wall_time_s.contact);
         let steps = estimate.steps as f64 / 1e6;
-        println!("plan      {steps:.1} million steps, {least:.0} to {most:.0} s where nothing else runs");
+        let up_to = if plan.settings.integration.takes_all() { "" } else { "at most " };
+        println!(
+            "plan      {up_to}{steps:.1} million steps, {least:.0} to {most:.0} s where nothing else runs"
+        );
     }
 }

@@ -51,6 +51,7 @@ pub(super) fn credentials(map: &InteractionMap) -> String {
         map.speeds_rad_s.len(),
         verdicts.join(", ")
     );
+    out.push_str(&marches(map));
     if touching > 0 {
         let _ = writeln!(
             out,
@@ -69,6 +70,25 @@ pub(super) fn credentials(map: &InteractionMap) -> String {
         steps as f64 / 1e6
     );
     out
+}
+
+/// How long the speeds were marched that were to end once they repeat; nothing where a number of revolutions was asked for.
+fn marches(map: &InteractionMap) -> String {
+    let marches = || map.points.iter().filter_map(|point| point.march.as_ref());
+    let ended =
+        || marches().filter(|march| march.period_revolutions.is_some()).map(|march| march.revolutions);
+    let whole = marches().count() - ended().count();
+    let mut words = Vec::new();
+    if let (Some(least), Some(most)) = (ended().min(), ended().max()) {
+        words.push(format!(
+            "{} ended once they repeated, after {least} to {most} revolutions",
+            ended().count()
+        ));
+    }
+    if whole > 0 {
+        words.push(format!("{whole} took all {}", map.settings.integration.revolutions()));
+    }
+    if words.is_empty() { String::new() } else { format!("marches: {}\n", words.join("; ")) }
 }
 
 /// The table of critical speeds beside the linear prediction.

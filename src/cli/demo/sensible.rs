@@ -6,6 +6,8 @@ use std::fmt::Write;
 use serde_json::{Value, json};
 
 use super::report::rpm;
+use super::requests::integration;
+use crate::analysis::request::AutoOr;
 use crate::analysis::run::ModelFacts;
 
 /// Running clearance over the radius at which the tips lie. Of wheels with a radius of 100 to 200 mm it is 0.2 to 0.4 mm, which is
@@ -67,7 +69,7 @@ pub(super) fn sweep(
     radius: f64,
     range: &Range,
     speeds: u32,
-    revolutions: u32,
+    revolutions: AutoOr,
 ) -> (Value, String) {
     let clearance = round(CLEARANCE * radius);
     let amplitude = round(LOBE * clearance);
@@ -87,12 +89,7 @@ pub(super) fn sweep(
             },
             "contact": {},
         },
-        "integration": {
-            "steps_per_revolution": "auto",
-            "revolutions": revolutions,
-            "ramp_revolutions": 1,
-            "window_revolutions": (2 * revolutions / 5).max(1),
-        },
+        "integration": integration(revolutions),
         "sensors": sensors,
         "max_engine_order": 24,
     });
@@ -177,12 +174,16 @@ mod tests {
         let facts = facts(vec![0.0, 1500.0, 3000.0]);
         let range = Range::of_package(&facts).unwrap();
         assert_eq!((range.from_rad_s, range.to_rad_s), (1000.0, 3000.0));
-        let (request, words) = sweep(&facts, 123.4, &range, 10, 20);
+        let (request, words) = sweep(&facts, 123.4, &range, 10, AutoOr::Fixed(20));
         assert_eq!(request["scene"]["casing"]["clearance"]["leading"], 0.25);
         assert_eq!(request["scene"]["casing"]["lobes"]["amplitude"], 0.38);
         assert_eq!(request["sensors"][1]["contact_node"], 3);
         assert!(words.contains("9549 to 28647 rpm") && words.contains("0.25 mm: 0.2 %"), "{words}");
         assert_eq!(lobes_of(&request), LOBES);
+        assert_eq!(request["integration"]["revolutions"], 20);
+        assert_eq!(request["integration"]["window_revolutions"], 8);
+        let (request, _) = sweep(&facts, 123.4, &range, 10, AutoOr::Auto);
+        assert_eq!(request["integration"]["revolutions"], "auto");
     }
 
     #[test]

@@ -68,13 +68,16 @@ fn sweep(plan: &SweepPlan) -> String {
     reduction(&mut words, plan.reduction, plan.reduced_unknowns_at_most);
     if let Some(estimate) = &plan.estimate {
         let (free, contact) = (estimate.wall_time_s.free, estimate.wall_time_s.contact);
+        let all = plan.settings.integration.takes_all();
+        let (soon, late) = if all { ("", "") } else { (" and motions repeat soon", " and none repeats") };
         let _ = writeln!(
             words,
-            "time        {} if nothing touches, {} if something always does",
+            "time        {} if nothing touches{soon}, {} if something always does{late}",
             time(free),
             time(contact)
         );
-        let _ = writeln!(words, "steps       {:.3} million", estimate.steps as f64 / 1e6);
+        let most = if all { "" } else { "at most " };
+        let _ = writeln!(words, "steps       {most}{:.3} million", estimate.steps as f64 / 1e6);
         let _ = writeln!(words, "memory      {}", size(estimate.memory_bytes));
     }
     for point in &plan.points {

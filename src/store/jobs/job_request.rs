@@ -167,6 +167,30 @@ mod tests {
         }
     }
 
+    /// Defaults are filled in before a request is kept: one that changes later changes nothing that was asked for.
+    #[test]
+    fn what_is_kept_marches_as_long_as_was_asked() {
+        let integration = |kept: &JobRequest| {
+            let kept: serde_json::Value = serde_json::from_str(&kept.to_json().unwrap()).unwrap();
+            kept.pointer("/request/integration/revolutions").cloned()
+        };
+        let speeds = json!({"values": [1.0], "unit": "hz"});
+        // Kept when 50 revolutions were the default, before a march could end by itself.
+        let before = json!({
+            "scheme": "auto", "kept_modes": "auto", "steps_per_revolution": "auto", "revolutions": 50,
+            "ramp_revolutions": 1.0, "window_revolutions": 20
+        });
+        let request = json!({"model": "m", "modes_per_speed": 20, "scene": {}, "speeds": speeds, "integration": before});
+        let kept = json!({"schema": 1, "rounds": 0, "request": request}).to_string();
+        let read = JobRequest::from_json(JobKind::Sweep, &kept).unwrap();
+        assert_eq!(integration(&read), Some(json!(50)));
+        let JobRequest::Sweep(resolved) = &read else { panic!("{read:?}") };
+        assert_eq!(resolved.unrefined().integration.revolutions(), 50);
+        // And what is asked for now, in words, not by what is left away.
+        let now = JobRequest::from_json(JobKind::Sweep, &sweep(speeds, 0)).unwrap();
+        assert_eq!(integration(&now), Some(json!("auto")));
+    }
+
     #[test]
     fn what_cannot_have_been_kept_is_not_guessed_at() {
         let no_speed = sweep(json!({"values": [-1.0], "unit": "hz"}), 0);

@@ -36,11 +36,14 @@ function readNumber(text) {
   return Number.isFinite(value) ? value : null;
 }
 
+/** What `"auto"` means of a field, where other words say it better. */
+const AUTO = { revolutions: 'until it repeats' };
+
 /**
- * The control of a value without parts, and how it is read: `undefined` means that it is left out.
- * @returns {{control: any, read: () => any} | null}
+ * The control of a value without parts, what stands beside it, and how it is read: `undefined` means that it is left out.
+ * @returns {{control: any, beside?: any, read: () => any} | null}
  */
-export function control(kind, schema, value, required) {
+export function control(kind, schema, value, required, name) {
   switch (kind) {
     case 'switch': {
       if (schema.nullable) {
@@ -61,8 +64,14 @@ export function control(kind, schema, value, required) {
       return { control: input, read: () => readNumber(input.value) ?? (input.value.trim() === '' ? undefined : input.value) };
     }
     case 'number_or_word': {
-      const input = h('input', { type: 'text', size: 12, autocomplete: 'off', placeholder: 'auto', value: value ?? '' });
-      return { control: input, read: () => readNumber(input.value) ?? (input.value.trim() === '' ? undefined : input.value.trim()) };
+      const words = AUTO[name] ?? 'auto';
+      const choices = h('datalist', { id: newId('choices') }, h('option', { value: words }));
+      const input = h('input', { type: 'text', size: Math.max(12, words.length), autocomplete: 'off', list: choices.id, placeholder: words, value: value === 'auto' ? words : value ?? '' });
+      const read = () => {
+        const text = input.value.trim();
+        return readNumber(text) ?? (text === '' ? undefined : text === words ? 'auto' : text);
+      };
+      return { control: input, beside: choices, read };
     }
     case 'text': {
       const input = h('input', { type: 'text', size: 32, autocomplete: 'off', maxlength: schema.maxLength, value: value ?? '' });

@@ -111,8 +111,8 @@ function part(context, whole, pointer, name, required) {
   if (kind === 'object') return object(context, schema, pointer, name, required);
   if (kind === 'list') return list(context, schema, pointer, name);
   if (kind === 'json') return json(context, schema, pointer, name);
-  const made = control(kind, schema, get(context, pointer), required);
-  const shown = field(name, schema, made.control, { extra: context.beside?.(pointer) });
+  const made = control(kind, schema, get(context, pointer), required, name);
+  const shown = field(name, schema, made.control, { extra: [made.beside, context.beside?.(pointer)] });
   made.control.addEventListener(kind === 'switch' || kind === 'word' ? 'change' : 'input', () => {
     shown.complain(null);
     put(context, pointer, made.read());

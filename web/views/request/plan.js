@@ -8,7 +8,7 @@ import { unread } from '../../lib/problem.js';
 /** How long nothing must change before the plan is asked for. */
 const PAUSE_MS = 400;
 
-/** From the cost without any contact to that with contact in every step. */
+/** From the cost without any contact to that with contact in every step; where marches end by themselves, from the shortest to the longest. */
 export function between(range, words) {
   if (!range) return null;
   const [free, contact] = [words(range.free), words(range.contact)];
@@ -44,6 +44,11 @@ export function planAside(path, tell, signal) {
   return { element: h('aside', { class: 'card sticky' }, h('h2', {}, 'What it takes'), body), refresh };
 }
 
+/** Whether every speed takes as many revolutions as the request says. */
+function takesAll(integration) {
+  return !integration || (integration.revolutions !== 'auto' && integration.steady === 'march');
+}
+
 function shown(plan) {
   const { estimate } = plan;
   const off = (plan.effects ?? []).filter((effect) => !effect.on).map((effect) => effect.name.replaceAll('_', ' '));
@@ -53,7 +58,7 @@ function shown(plan) {
       ['Time', estimate ? between(estimate.wall_time_s, duration) : null],
       ['Computing time', estimate ? between(estimate.computing_time_s, duration) : null],
       ['Speeds', plan.speeds],
-      ['Steps', estimate ? number(estimate.steps, 3) : null],
+      ['Steps', estimate ? `${takesAll(plan.settings?.integration) ? '' : 'at most '}${number(estimate.steps, 3)}` : null],
       ['Memory', estimate ? bytes(estimate.memory_bytes) : null],
       ['Disk', plan.basis_bytes_at_most ? `at most ${bytes(plan.basis_bytes_at_most)}` : null],
       ['Disk of stress', plan.stress_bytes ? bytes(plan.stress_bytes) : null],

@@ -44,6 +44,8 @@ fn trial(request: &TrialRequest, response: Response, growth: Growth) -> Trial {
         "index": 0, "speed_rad_s": speed, "status": if level.is_some() { "completed" } else { "diverged" },
         "message": level.is_none().then_some("the response grew without bound"),
         "settling": settling, "steps_per_revolution": steps, "smallest_stable_steps_per_revolution": 1, "steps": 1,
+        "march": (request.sweep.integration.revolutions == AutoOr::Auto)
+            .then(|| json!({"revolutions": 4, "period_revolutions": 1, "remaining_change": 1e-4})),
         "contact_share": 0.0, "responses": if level.is_some() { responses } else { json!([]) },
         "wall_time_s": 0.0, "version": "0",
     });
@@ -195,6 +197,31 @@ fn what_beats_is_not_refused() {
         assert!(choice.reason.contains(word) && choice.reason.contains("e-2 only"), "{}", choice.reason);
         assert!(choice.spread > 0.03 && choice.estimated_error >= choice.spread, "{choice:?}");
     }
+}
+
+/// Of ten revolutions these pilot runs take four, and other speeds may take all.
+#[test]
+fn a_budget_allows_for_marches_that_do_not_repeat() {
+    let choice = |asked: serde_json::Value, length: &str| {
+        let mut asked = asked;
+        asked["integration"] = json!({"window_revolutions": 5});
+        asked["integration"][length] = json!(10);
+        choose(&request(asked), &resources(), &converging).0.unwrap()
+    };
+    let budget = json!({"budget": {"seconds": 300}});
+    let [whole, early] = ["revolutions", "most_revolutions"].map(|length| choice(budget.clone(), length));
+    assert_eq!(early.setting, whole.setting);
+    assert!(
+        (early.expected_wall_time_s / whole.expected_wall_time_s - 1.0).abs() < 1e-12,
+        "{early:?} {whole:?}"
+    );
+    let target = json!({"accuracy": {"target": 0.05}});
+    let [whole, early] = ["revolutions", "most_revolutions"].map(|length| choice(target.clone(), length));
+    assert_eq!(early.setting, whole.setting);
+    assert!(
+        (early.expected_wall_time_s / whole.expected_wall_time_s - 0.4).abs() < 1e-12,
+        "{early:?} {whole:?}"
+    );
 }
 
 #[test]

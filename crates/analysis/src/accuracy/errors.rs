@@ -14,7 +14,11 @@ pub(super) struct Response<'a> {
     /// `[sensor][block]`; empty where they were not kept.
     pub(super) levels: &'a [Vec<f64>],
     pub(super) repeats: bool,
-    pub(super) impulse: f64,
+    /// Contact impulse over the whole run, and the mean force over the window.
+    impulse: f64,
+    mean_force: f64,
+    /// Whether the run took the revolutions that were asked for.
+    took_all: bool,
     /// Largest von Mises stress, where it was recorded.
     pub(super) stress: Option<f64>,
 }
@@ -41,6 +45,8 @@ impl<'a> Response<'a> {
             levels: &[],
             repeats: repeats(point),
             impulse: point.contact_impulse.unwrap_or(0.0),
+            mean_force: point.contact.as_ref().map_or(0.0, |contact| contact.mean_force),
+            took_all: point.march.is_none() && point.steady.as_ref().is_none_or(|steady| !steady.taken),
             stress: point.stress.as_ref().map(|stress| stress.largest.von_mises),
         }
     }
@@ -50,6 +56,11 @@ impl<'a> Response<'a> {
         let largest = finer.rms.iter().copied().fold(0.0, f64::max);
         let differences = self.rms.iter().zip(&finer.rms).map(|(a, b)| (a - b).abs());
         let repeat = self.repeats && finer.repeats;
+        // What adds up over a run can be compared where both are of the same revolutions.
+        let (impulse, finer_impulse) = match self.took_all && finer.took_all {
+            true => (self.impulse, finer.impulse),
+            false => (self.mean_force, finer.mean_force),
+        };
         Errors {
             history: None,
             amplitude: relative(differences.fold(0.0, f64::max), largest),
@@ -59,8 +70,8 @@ impl<'a> Response<'a> {
                 relative(standard_error(levels).hypot(standard_error(finer.levels)), largest)
             }),
             engine_orders: repeat.then(|| self.error_of_lines(finer)),
-            impulse: (self.impulse != 0.0 || finer.impulse != 0.0)
-                .then(|| relative((self.impulse - finer.impulse).abs(), finer.impulse.abs())),
+            impulse: (impulse != 0.0 || finer_impulse != 0.0)
+                .then(|| relative((impulse - finer_impulse).abs(), finer_impulse.abs())),
             stress: self.stress.zip(finer.stress).map(|(a, b)| relative((a - b).abs(), b)),
         }
     }
@@ -125,6 +136,8 @@ mod tests {
             levels,
             repeats,
             impulse: 2.0,
+            mean_force: 0.5,
+            took_all: true,
             stress: None,
         };
         let run = of(rms.to_vec(), lines.iter().map(|line| line.to_vec()).collect());
@@ -136,6 +149,25 @@ mod tests {
         let found = response(&[1.2, 4.0], &[&[0.0, 1.0], &[3.3, 4.4]], &[], true);
         assert!((found.amplitude - 0.05).abs() < 1e-12 && found.amplitude_spread.is_none());
         assert!((found.engine_orders.unwrap() - 0.1).abs() < 1e-12 && found.impulse == Some(0.0));
+    }
+
+    #[test]
+    fn impulses_of_runs_that_end_by_themselves_are_those_of_their_windows() {
+        let of = |impulse: f64, mean_force: f64, took_all: bool| Response {
+            rms: vec![1.0],
+            lines: Vec::new(),
+            levels: &[],
+            repeats: true,
+            impulse,
+            mean_force,
+            took_all,
+            stress: None,
+        };
+        let error = |run: &Response, finer: &Response| run.errors(finer).impulse.unwrap();
+        // Twenty-two revolutions and twenty-five of the same contact.
+        assert_eq!(error(&of(22.0, 1.0, false), &of(25.0, 1.0, false)), 0.0);
+        assert_eq!(error(&of(50.0, 1.1, true), &of(25.0, 1.0, false)), relative(1.1f64 - 1.0, 1.0));
+        assert_eq!(error(&of(51.0, 1.1, true), &of(50.0, 1.0, true)), 0.02);
     }
 
     #[test]

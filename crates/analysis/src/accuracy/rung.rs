@@ -74,7 +74,7 @@ pub(super) struct Rung {
     /// Standard error of the level where a response does not repeat, and the speed where it is largest.
     pub(super) spread: f64,
     pub(super) spread_at: f64,
-    /// Mean times of a pilot run, s: set-up, one step of each of its revolutions, and the same of the runs with more modes.
+    /// Mean times of a run, s: set-up, one step of each of its revolutions, and the same of the runs with more modes.
     pub(super) set_up_s: f64,
     pub(super) step_s: f64,
     pub(super) finer_step_s: f64,
@@ -210,14 +210,19 @@ impl<'a> Pilots<'a, '_> {
             let found = settings.map(|setting| self.find(speed, setting));
             if let [Ok(run), Ok(more_modes), Ok(more_steps)] = found {
                 let before = below.and_then(|below| below.pilots[index].error_of_modes).unwrap_or(0.0);
-                let marched = |trial: &Trial| trial.revolutions(&self.request.integration);
-                let time_s = run.cost.of_run(marched(run));
+                let integration = &self.request.integration;
+                let planned = |trial: &Trial| match self.request.modes {
+                    // Other speeds may not repeat as soon as these, and a budget is kept.
+                    Modes::Sought(Aim::Budget(_)) => f64::from(integration.revolutions()),
+                    Modes::Sought(Aim::Accuracy(_)) | Modes::Given(_) => trial.revolutions(integration),
+                };
+                let time_s = run.cost.of_run(run.revolutions(integration));
                 rung.add(speed, [run, more_modes, more_steps], self.of(), before, time_s);
                 let share = 1.0 / self.speeds.len() as f64;
                 rung.set_up_s += share * run.cost.set_up_s;
-                rung.step_s += share * (time_s - run.cost.set_up_s) / f64::from(steps);
+                rung.step_s += share * planned(run) * run.cost.per_revolution_s / f64::from(steps);
                 rung.finer_step_s +=
-                    share * marched(more_modes) * more_modes.cost.per_revolution_s / f64::from(steps);
+                    share * planned(more_modes) * more_modes.cost.per_revolution_s / f64::from(steps);
             } else {
                 missing.extend(found.into_iter().filter_map(Result::err).map(|request| *request));
             }

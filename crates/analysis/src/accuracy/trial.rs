@@ -49,7 +49,9 @@ pub fn run_trial(
     request: &TrialRequest,
     monitor: &dyn Monitor,
 ) -> Result<Trial, AnalysisError> {
-    let sweep = &request.sweep;
+    // What becomes of a perturbation is seen where both runs go on.
+    let whole = request.twin.then(|| request.sweep.taking_all());
+    let sweep = whole.as_ref().unwrap_or(&request.sweep);
     let speed_rad_s = request.speed_rad_s();
     let mut trial = Trial {
         point: empty_point(reduced, sweep, 0, speed_rad_s),

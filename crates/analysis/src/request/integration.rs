@@ -16,7 +16,7 @@ pub struct Integration {
     /// Time steps per revolution, or `"auto"` for a safe number at each speed.
     pub steps_per_revolution: AutoOr,
     /// Revolutions to simulate, or `"auto"`: until the motion repeats, of which one period is then the window, and at most
-    /// `most_revolutions`.
+    /// `most_revolutions`. A number marches all of them at every speed.
     pub revolutions: AutoOr,
     /// Revolutions over which the restriction grows from zero to its full height.
     #[cfg_attr(feature = "schema", schema(minimum = 0))]
@@ -41,7 +41,7 @@ impl Default for Integration {
             scheme: SchemeChoice::Auto,
             kept_modes: AutoOr::Auto,
             steps_per_revolution: AutoOr::Auto,
-            revolutions: AutoOr::Fixed(50),
+            revolutions: AutoOr::Auto,
             ramp_revolutions: 1.0,
             window_revolutions: 20,
             steady: SteadyChoice::March,
@@ -52,6 +52,11 @@ impl Default for Integration {
 }
 
 impl Integration {
+    /// Whether every speed takes as many revolutions as the request says.
+    pub fn takes_all(&self) -> bool {
+        self.revolutions != AutoOr::Auto && self.steady == SteadyChoice::March
+    }
+
     /// Most revolutions of a march.
     pub fn revolutions(&self) -> u32 {
         match self.revolutions {

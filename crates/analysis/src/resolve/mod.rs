@@ -225,19 +225,27 @@ fn check_speeds(
 /// window asks for.
 const UNSETTLED: RangeInclusive<f64> = 1e-12..=1e-2;
 
+/// The field that says how long a run is at most.
+pub(crate) fn revolutions_field(integration: &Integration) -> &'static str {
+    match integration.revolutions {
+        AutoOr::Fixed(_) => "revolutions",
+        AutoOr::Auto => "most_revolutions",
+    }
+}
+
 fn check_integration(found: &mut Findings, integration: &Integration, max_engine_order: u32) {
     let Integration {
         scheme,
         kept_modes,
         steps_per_revolution,
-        revolutions: _,
+        revolutions: asked,
         most_revolutions,
         settled_to,
         ramp_revolutions,
         window_revolutions,
         steady: _,
     } = *integration;
-    let revolutions = integration.revolutions();
+    let (revolutions, field) = (integration.revolutions(), revolutions_field(integration));
     if let AutoOr::Fixed(kept) = kept_modes {
         found.require(
             scheme == SchemeChoice::MasslessBoundary,
@@ -263,9 +271,9 @@ fn check_integration(found: &mut Findings, integration: &Integration, max_engine
         );
     }
     found.require(
-        (1..=limits::REVOLUTIONS).contains(&revolutions),
+        asked == AutoOr::Auto || (1..=limits::REVOLUTIONS).contains(&revolutions),
         "/integration/revolutions",
-        format!("between 1 and {} revolutions", limits::REVOLUTIONS),
+        format!("\"auto\", or between 1 and {} revolutions", limits::REVOLUTIONS),
     );
     found.require(
         (1..=limits::REVOLUTIONS).contains(&most_revolutions),
@@ -280,7 +288,7 @@ fn check_integration(found: &mut Findings, integration: &Integration, max_engine
     found.require(
         (1..=revolutions).contains(&window_revolutions),
         "/integration/window_revolutions",
-        format!("the window is part of the run: between 1 and {revolutions} revolutions"),
+        format!("the window is part of the run: between 1 and {revolutions} revolutions ({field})"),
     );
     found.require(
         ramp_revolutions.is_finite() && ramp_revolutions >= 0.0,
@@ -292,7 +300,7 @@ fn check_integration(found: &mut Findings, integration: &Integration, max_engine
         "/integration/window_revolutions",
         format!(
             "the window would begin before the restriction is fully grown: {ramp_revolutions} revolutions of ramp \
-             and {window_revolutions} of window need more than {revolutions}"
+             and {window_revolutions} of window need more than {revolutions} ({field})"
         ),
     );
     found.require(
@@ -322,7 +330,7 @@ fn check_memory(found: &mut Findings, request: &ResolvedSweep, facts: &ModelFact
         most_samples(request, sectors).saturating_mul(per_sensor).saturating_mul(request.sensors.len());
     found.require(
         recorded <= limits::RECORDED,
-        "/integration/revolutions",
+        &format!("/integration/{}", revolutions_field(&request.integration)),
         format!(
             "{} sensors over {revolutions} revolutions with a window of {window_revolutions} would record {recorded} \
              numbers at every speed, more than {}: shorten the run or the window, ask for fewer sensors or lower \

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::discretisation::most_samples;
 use crate::model::ModelFacts;
-use crate::request::{HistoriesRequest, HistorySpeeds, Recorded, RecordedQuantity, StressRequest};
+use crate::request::{AutoOr, HistoriesRequest, HistorySpeeds, Recorded, RecordedQuantity, StressRequest};
 use crate::resolve::findings::Findings;
 use crate::resolved::ResolvedSweep;
 use rubmap_numerics::sector_fourier::harmonic_count;
@@ -62,8 +62,15 @@ pub(super) fn check_recorded(
     let run = sweep.integration.revolutions();
     let (from, to) = revolutions(record, sweep);
     let at = format!("{pointer}/revolutions");
-    let message =
-        format!("the run has {run} revolutions: name where recording begins and ends, such as [0, {run}]");
+    let message = match sweep.integration.revolutions {
+        AutoOr::Fixed(_) => {
+            format!("the run has {run} revolutions: name where recording begins and ends, such as [0, {run}]")
+        }
+        AutoOr::Auto => format!(
+            "the run has at most {run} revolutions, which integration.most_revolutions says: name where recording begins and ends, \
+             such as [0, {run}]"
+        ),
+    };
     found.require(from < to && to <= run as usize, &at, message);
     if !(from < to && to <= run as usize) {
         return;

@@ -213,6 +213,12 @@ impl ResolvedSweep {
         }
     }
 
+    /// With marches that do not end before their limit.
+    pub(crate) fn taking_all(&self) -> Self {
+        let revolutions = AutoOr::Fixed(self.integration.revolutions());
+        Self { integration: Integration { revolutions, ..self.integration.clone() }, ..self.clone() }
+    }
+
     /// A single speed of it at one setting, without what concerns several, and what chooses settings.
     pub(crate) fn one_speed(&self, speed_rad_s: f64, setting: Setting) -> Self {
         Self {

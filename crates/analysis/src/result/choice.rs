@@ -29,7 +29,7 @@ pub struct Choice {
     pub spread: f64,
     /// Pilot speeds that carry these estimates; at the others no run was completed.
     pub estimated_at: u32,
-    /// Expected wall time of all speeds and of those that are simulated again, s.
+    /// Expected wall time of all speeds and of those that are simulated again, s; of a budget if no march ends before its limit.
     pub expected_wall_time_s: f64,
     /// Why, in words.
     pub reason: String,

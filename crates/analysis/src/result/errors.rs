@@ -22,7 +22,7 @@ pub struct Errors {
     /// sensor's peaks. Absent where a response does not repeat.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub engine_orders: Option<f64>,
-    /// Contact impulse over the whole run. Absent where there is none.
+    /// Contact impulse over the whole run; over the window where a run ended by itself or was solved for. Absent where there is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub impulse: Option<f64>,
     /// Largest von Mises stress; absent where none was recorded. It converges more slowly with the modes than displacement.

@@ -147,7 +147,7 @@ pub struct PlannedPoint {
     pub scheme: Option<SchemeReport>,
     /// Steps per revolution.
     pub steps_per_revolution: u32,
-    /// Steps of the whole run; at most, where a periodic response is solved for.
+    /// Steps of the whole run; at most, where a march ends once it repeats or a periodic response is solved for.
     pub steps: u64,
     /// Computing time of this speed, s.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -160,9 +160,9 @@ pub struct PlannedPoint {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct CostRange {
-    /// If nothing ever touches.
+    /// If nothing ever touches; of a march that ends once it repeats, as early as it may.
     pub free: f64,
-    /// If something touches in every step.
+    /// If something touches in every step, and no march ends before its limit.
     pub contact: f64,
 }
 
@@ -171,7 +171,7 @@ pub struct CostRange {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct Estimate {
-    /// Steps over all speeds.
+    /// Steps over all speeds, counted as those of one are.
     pub steps: u64,
     /// Computing time summed over the speeds, s; compare `spent.computing_time_s`.
     pub computing_time_s: CostRange,

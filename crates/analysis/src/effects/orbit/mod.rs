@@ -24,7 +24,7 @@ pub(crate) const EFFECT: Effect = Effect {
             };
             request.scene.orbit.as_ref().is_some_and(|orbit| (orbit.whirl_ratio * revolutions).fract() != 0.0)
         },
-        why: "its axis would jump, for whirl_ratio × revolutions is not whole",
+        why: "its axis would jump, for whirl_ratio × revolutions is not whole: give a number of revolutions with which it is",
     }),
     check: Check::Then(check::check),
     steps: None,

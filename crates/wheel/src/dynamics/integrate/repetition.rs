@@ -23,6 +23,14 @@ const ROUND_OFF: f64 = 1e-10;
 /// Share of what the symmetry forbids below which it is round-off.
 const VANISHED: f64 = 1e-13;
 
+/// Share of it below which it is taken for round-off where it stays as it is: how much of that there is depends on the wheel (6e-16 of the
+/// motion were seen, and 1.3e-13).
+const FAINT: f64 = 1e-11;
+
+/// Growth over [`BASE`] periods of what stays as it is, about a steady level of round-off: a tenth a period. From [`FAINT`] on more than a
+/// hundred of them would have to follow until it could be seen.
+const STAYS: f64 = 1.5;
+
 /// Compares the ends of revolutions.
 #[derive(Debug)]
 pub(super) struct Repetition {
@@ -130,11 +138,11 @@ impl Repetition {
         })
     }
 
-    /// Whether what the symmetry forbids dies out.
+    /// Whether what the symmetry forbids dies out, or has done so.
     fn is_symmetric(&self, period: usize) -> bool {
         let earlier = self.asymmetries.iter().rev().skip(BASE * period);
         let mut pairs = self.asymmetries.iter().rev().zip(earlier).take(LASTING * period);
-        pairs.all(|(now, then)| now < then || *now <= VANISHED)
+        pairs.all(|(&now, &then)| now < then || now <= VANISHED || (now <= FAINT && now < STAYS * then))
     }
 
     /// What all changes to come add up to, those of a period shrinking as they did, and no faster than free motion; as it looked `back`
