@@ -107,6 +107,28 @@ async fn branches_over_other_numbers_pass_through_the_scene_as_it_is() {
     assert!(amplitudes.iter().all(|amplitude| amplitude == &amplitudes[0]), "{amplitudes:?}");
 }
 
+/// Where nothing ever touches, the response is rest, at every speed.
+#[tokio::test]
+async fn rest_is_a_branch_too() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(model::package(1.0)).await;
+    let mut request = branches_of(&model);
+    request["scene"]["casing"]["lobes"]["amplitude"] = json!(1e-6);
+    let found = followed(api, &request).await;
+    let branch = &found["branches"][0];
+    assert_eq!(branch["ends"].as_array().unwrap().len(), 2, "{branch}");
+    for point in branch["points"].as_array().unwrap() {
+        assert_eq!(
+            (&point["stability"], &point["half_peak_to_peak"][0]),
+            (&json!("stable"), &json!(0.0)),
+            "{point}"
+        );
+    }
+    assert_eq!(branch["bifurcations"], json!([]));
+    assert_eq!(branch["maxima"], json!([]));
+}
+
 #[tokio::test]
 async fn what_cannot_be_followed_is_refused_at_its_field() {
     let app = TestApp::start().await;

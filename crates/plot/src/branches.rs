@@ -95,6 +95,7 @@ fn ends(branches: &Branches) -> String {
         let of = format!("branch {}", branch.track.branch + 1);
         match end {
             BranchEnd::LeavesRange => {}
+            BranchEnd::Joins => words.push(format!("{of} comes back to the one that it doubles")),
             BranchEnd::MostPoints => words.push(format!("{of} has as many points as were asked for")),
             BranchEnd::Lost { reason } => words.push(format!("{of} is lost: {reason}")),
         }
@@ -473,7 +474,7 @@ impl<'a> View<'a> {
         };
         let ended = branch.ends.iter().zip(at).filter_map(|(end, point)| {
             let why = match end {
-                BranchEnd::LeavesRange => return None,
+                BranchEnd::LeavesRange | BranchEnd::Joins => return None,
                 BranchEnd::MostPoints => "as many points as were asked for",
                 BranchEnd::Lost { reason } => reason,
             };

@@ -21,6 +21,7 @@ const KINDS = {
 
 const ENDS = {
   leaves_range: () => 'leaves the range',
+  joins: () => 'comes back to the branch that it doubles',
   most_points: () => 'has as many points as were asked for',
   lost: ({ reason }) => `could not be followed further: ${reason}`,
 };

@@ -28,6 +28,9 @@ const POINTS: usize = 5;
 /// Longest period, in lobe passages, to which motions that double it are followed.
 const LONGEST: u32 = 8;
 
+/// ‖P(x) − x‖ / ‖x‖ over half as many lobes below which a motion of doubled period is where it began to double.
+const JOINS: f64 = 1e-2;
+
 /// Relative distance up to which a multiplier that passes 1 is that of a fold.
 const AT_FOLD: f64 = 1e-3;
 
@@ -169,6 +172,7 @@ struct Walk<'a> {
     bifurcations: Vec<Bifurcation>,
     maxima: Vec<BranchMaximum>,
     flips: Vec<Event>,
+    joins: bool,
 }
 
 impl<'a> Walk<'a> {
@@ -187,6 +191,7 @@ impl<'a> Walk<'a> {
             bifurcations: Vec::new(),
             maxima: Vec::new(),
             flips: Vec::new(),
+            joins: false,
         }
     }
 
@@ -230,6 +235,9 @@ impl<'a> Walk<'a> {
             self.found.push(told.point(&found, self.scenes.speed(found.motion.value)));
             self.front.move_to(found.motion);
             before = Some(std::mem::replace(&mut last, told));
+            if self.joins {
+                break Some(BranchEnd::Joins);
+            }
             if is_edge {
                 break Some(BranchEnd::LeavesRange);
             }
@@ -271,7 +279,12 @@ impl<'a> Walk<'a> {
             fold = events.fold(points)?;
             self.maxima.extend(events.maxima(points)?);
         }
-        if let Some(Event { bifurcation, .. }) = fold {
+        self.joins = told.lobe_passages < self.passages()
+            || match &fold {
+                Some(Event { motion, .. }) => self.joins_at(branch, motion)?,
+                None => false,
+            };
+        if let Some(Event { bifurcation, .. }) = fold.filter(|_| !self.joins) {
             // The multiplier that passed 1 a point ago was that of the fold.
             let is_same = |other: &Bifurcation| {
                 other.kind == BifurcationKind::Branching
@@ -286,6 +299,21 @@ impl<'a> Walk<'a> {
             }
         }
         Ok(told)
+    }
+
+    /// Passages of a lobe after which motions of a doubled branch repeat; 0 of others.
+    fn passages(&self) -> u32 {
+        match self.lap {
+            Lap::Symmetric => 0,
+            Lap::Lobes(lobes) => lobes as u32,
+        }
+    }
+
+    /// Whether a branch of doubled period turns back because it has come to the one that it doubles: past there it is itself once more, half
+    /// a period later.
+    fn joins_at(&self, branch: &Branch<'_>, motion: &Motion) -> Result<bool, Lost> {
+        let Lap::Lobes(lobes) = self.lap else { return Ok(false) };
+        Ok(Branch { lap: Lap::Lobes(lobes / 2), ..*branch }.off(motion)? <= JOINS)
     }
 
     /// Says how far it is: by the share of the range that the first branch has seen.

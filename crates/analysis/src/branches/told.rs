@@ -106,11 +106,7 @@ pub(super) fn amplitudes_of(scenes: &Scenes<'_>, lap: Lap, motion: &Motion) -> R
 }
 
 /// Over as many revolutions as show all of it.
-fn amplitudes(
-    simulation: &Simulation<'_>,
-    passage: &Passage<'_>,
-    from: &Stepped,
-) -> Result<Vec<f64>, Lost> {
+fn amplitudes(simulation: &Simulation<'_>, passage: &Passage<'_>, from: &Stepped) -> Result<Vec<f64>, Lost> {
     let revolutions = passage.steps().div_ceil(simulation.steps_per_revolution);
     let run = Simulation { revolutions, window_revolutions: 0, ..*simulation }.go_on(from, &|_| true);
     match run.outcome {

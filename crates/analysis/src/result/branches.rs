@@ -164,6 +164,8 @@ pub enum BranchEnd {
     LeavesRange,
     /// It has as many points as were asked for.
     MostPoints,
+    /// It comes back to the branch that it doubles.
+    Joins,
     /// It could not be followed further.
     Lost {
         /// Why.

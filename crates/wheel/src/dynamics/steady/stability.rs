@@ -58,16 +58,23 @@ impl Floquet {
         (state, hint): (&[f64], &[f64]),
         count: usize,
     ) -> Result<Self, PassageError> {
-        let mut once = Passage::over_lobes(passage.simulation(), 1)?;
-        let image = once.map(state)?;
-        let mut revolutions = once.revolutions();
-        let passage = if once.lobes() == 1 || repeats(state, &image) <= REPEATS {
-            once
-        } else {
-            let mut whole = Passage::over_lobes(passage.simulation(), passage.lobes())?;
-            whole.map(state)?;
-            whole
+        let over = |lobes: usize| -> Result<_, PassageError> {
+            let mut over = Passage::over_lobes(passage.simulation(), lobes)?;
+            let image = over.map(state)?;
+            Ok((repeats(state, &image) <= REPEATS, over))
         };
+        let (mut found, mut over_some) = over(1)?;
+        let mut revolutions = 0.0;
+        // Until all is as it was, and as long as the response itself takes.
+        let one = over_some.steps();
+        let longer = [over_some.lobes(), passage.steps() / one].into_iter().filter(|&lobes| lobes > 1);
+        for lobes in longer {
+            if !found && lobes * one > over_some.steps() {
+                revolutions += over_some.revolutions();
+                (found, over_some) = over(lobes)?;
+            }
+        }
+        let passage = over_some;
         let multipliers = multipliers(&Tangent::of(&passage), count, hint);
         revolutions += passage.revolutions();
         let orders = passage.simulation().steps_per_revolution as f64 / passage.steps() as f64;

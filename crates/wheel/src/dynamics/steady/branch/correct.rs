@@ -82,6 +82,14 @@ impl Branch<'_> {
         Err(Lost::NotFound { residual: best.residual })
     }
 
+    /// ‖P(x) − x‖ / ‖x‖ of a motion.
+    ///
+    /// # Errors
+    /// [`Lost`].
+    pub fn off(&self, motion: &Motion) -> Result<f64, Lost> {
+        Ok(self.beside(motion.clone(), &mut 0.0)?.residual)
+    }
+
     fn beside(&self, motion: Motion, revolutions: &mut f64) -> Result<Beside, Lost> {
         let (state, image) = self.at(motion.value, |passage| {
             let state = passage.state_of(&motion.state);
@@ -99,7 +107,7 @@ impl Branch<'_> {
         let change = DIFFERENCE * value.abs().max(self.span);
         let slope = self.slope(best, change, revolutions)?;
         let direction = self.carried(&along.state, at, value)?;
-        let size = length(&best.state).max(f64::MIN_POSITIVE);
+        let size = size(&best.state);
         let span = self.span;
         self.at(value, |passage| {
             // What touches on its way is to be that of this state.
@@ -146,8 +154,10 @@ impl Branch<'_> {
     }
 }
 
-pub(super) fn length(x: &[f64]) -> f64 {
-    dot(x, x).sqrt()
+/// ‖x‖, by which changes are measured; 1 at rest.
+pub(super) fn size(x: &[f64]) -> f64 {
+    let length = dot(x, x).sqrt();
+    if length > 0.0 { length } else { 1.0 }
 }
 
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::correct::{Found, dot, length};
+use super::correct::{Found, dot, size};
 use super::{Branch, Lost, Motion, add};
 use crate::dynamics::initial::Stepped;
 
@@ -190,10 +190,9 @@ impl Branch<'_> {
     /// Of two directions at `at`, in the metric there.
     fn product(&self, a: &Motion, b: &Motion, at: &Motion) -> Result<f64, Lost> {
         let (inner, size) = self.at(at.value, |passage| {
-            let size = length(&passage.state_of(&at.state));
+            let size = size(&passage.state_of(&at.state));
             (dot(&passage.state_of(&a.state), &passage.state_of(&b.state)), size)
         })?;
-        let size = size.max(f64::MIN_POSITIVE);
         Ok(inner / (size * size) + a.value * b.value / (self.span * self.span))
     }
 }
