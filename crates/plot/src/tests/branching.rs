@@ -196,9 +196,7 @@ fn marks_say_how_far_off_they_may_be() {
     assert_eq!(count("stability is lost at once: |μ| = 0.620"), 2);
     assert_eq!(count("the search came no closer than 1.2e-5"), 1);
     assert!(
-        drawing.contains("1 branch ") == false
-            && drawing.contains("2 branches")
-            && drawing.contains("139 points")
+        !drawing.contains("1 branch ") && drawing.contains("2 branches") && drawing.contains("139 points")
     );
 }
 

@@ -109,7 +109,7 @@ impl Branch<'_> {
                 // Out of the range: to its edge.
                 Ok(None) => {
                     let edge = if ahead { range.1 } else { range.0 };
-                    self.to_edge(edge, &along, front).map(Step::Edge)
+                    self.edge(edge, &along, front).map(Step::Edge)
                 }
                 Ok(Some(point)) => Ok(point),
                 Err(lost) => Err(lost),
@@ -165,7 +165,7 @@ impl Branch<'_> {
         if turned || way > 2.0 * MOST { Err(Lost::Turned) } else { Ok(found) }
     }
 
-    fn to_edge(&self, edge: f64, along: &Motion, front: &Front) -> Result<Found, Lost> {
+    fn edge(&self, edge: f64, along: &Motion, front: &Front) -> Result<Found, Lost> {
         let share = if along.value == 0.0 { 0.0 } else { (edge - front.last.value) / along.value };
         let guess = Motion { value: edge, state: add(&front.last.state, &along.state, share) };
         let guess = Motion { state: self.carried(&guess.state, front.last.value, edge)?, ..guess };
