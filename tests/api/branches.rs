@@ -77,11 +77,18 @@ async fn branches_are_followed_to_both_ends_and_march_to_the_same() {
     let id = api.sweep(&sweep).await;
     assert_eq!(api.finish(&id).await["status"], "successful");
     let map = api.get(&format!("/v1/jobs/{id}/interaction-map")).await.body;
+    let mut settled = 0;
     for (point, marched) in some.into_iter().zip(map["points"].as_array().unwrap()) {
+        // A response may be stable by its multipliers, and attract nothing but what starts next to it.
+        if marched["settling"]["largest_change"].as_f64() > Some(1e-9) {
+            continue;
+        }
+        settled += 1;
         let marched = marched["responses"][0]["half_peak_to_peak"].as_f64().unwrap();
         let solved = point["half_peak_to_peak"][0].as_f64().unwrap();
-        assert!((solved / marched - 1.0).abs() < 1e-5, "{solved} {marched}: {point}");
+        assert!((solved / marched - 1.0).abs() < 1e-8, "{solved} {marched}: {point}");
     }
+    assert!(settled > 1, "{map}");
 }
 
 /// Over damping, clearance and the lobes: the scene as it is lies on each, with the same amplitude.
@@ -181,7 +188,7 @@ async fn branches_are_told_in_all_forms_and_of_other_jobs_not_at_all() {
     assert_eq!(csv.text().lines().count(), 1 + values(&found["branches"][0]).len(), "{}", csv.text());
     assert!(csv.text().starts_with("branch,value,speed_rad_s,"), "{}", csv.text());
     for form in ["svg", "plotly", "npz", "png"] {
-        assert_eq!(get(api, &format!("{path}?format={form}"), &[]).await.status, 200, "{form}");
+        get(api, &format!("{path}?format={form}"), &[]).await.good();
     }
     assert_eq!(api.get(&format!("{path}?sensor=99")).await.status, 400);
     assert_eq!(api.get(&format!("{path}?sweep={id}")).await.status, 409);
