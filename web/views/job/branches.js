@@ -44,7 +44,9 @@ export async function show(place, context, signal) {
   const files = ['json', 'csv', 'npz', 'svg', 'png'].map((form) => downloadButton(form, path, { ...asked, format: form }, `${job.id}-branches.${form}`, signal));
   replace(place,
     h('div', { class: 'row' }, sensors(job.request.sweep, context), await besides(context, signal)),
-    told, figure, found, h('div', { class: 'row', role: 'group', 'aria-label': 'Downloads' }, files));
+    told, figure,
+    query.get('sweep') ? h('p', { class: 'quiet small' }, 'Dots are the speeds of ', h('a', { href: `#/jobs/${query.get('sweep')}` }, 'the sweep beside'), ', which are of the same motion only where its scene is the same.') : null,
+    found, h('div', { class: 'row', role: 'group', 'aria-label': 'Downloads' }, files));
 
   async function read() {
     try {
@@ -130,5 +132,6 @@ function branchWords({ branch, lobe_passages: lobes, doubles, points, ends }, dr
   const words = [`Branch ${branch + 1}: ${count(points.length, 'point')}`];
   if (doubles) words.push(`from the flip of branch ${doubles[0] + 1} at ${at(doubles[1])}`);
   if (lobes) words.push(`repeats after ${lobes} passages of a lobe`);
-  return [words.join(', '), ...ends.map((end) => ENDS[end.why]?.(end) ?? end.why)].join('; ');
+  // Both ends may be alike.
+  return [...new Set([words.join(', '), ...ends.map((end) => ENDS[end.why]?.(end) ?? end.why)])].join('; ');
 }

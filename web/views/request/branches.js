@@ -23,7 +23,7 @@ export function changeable(scene) {
 export function rangeOf(parameter, speed_rad_s) {
   if (parameter !== 'speed') return { from: 1 - ASIDE.others, to: 1 + ASIDE.others };
   const at = rpm(speed_rad_s);
-  return { from: Math.floor((1 - ASIDE.speed) * at), to: Math.ceil((1 + ASIDE.speed) * at) };
+  return { from: Math.round((1 - ASIDE.speed) * at), to: Math.round((1 + ASIDE.speed) * at) };
 }
 
 /** A number without the last digits, which a change of units has spoilt. */

@@ -28,6 +28,32 @@ ArchiveZip: TypeAlias = bytes
 AutoOr: TypeAlias = Literal["auto"] | int
 
 
+BifurcationKind: TypeAlias = Literal["fold", "flip", "neimark_sacker", "branching"]
+
+
+class BranchEnd1(TypedDict):
+    why: Literal["leaves_range"]
+
+
+class BranchEnd2(TypedDict):
+    why: Literal["most_points"]
+
+
+class BranchEnd3(TypedDict):
+    why: Literal["joins"]
+
+
+class BranchEnd4(TypedDict):
+    reason: str
+    why: Literal["lost"]
+
+
+BranchEnd: TypeAlias = BranchEnd1 | BranchEnd2 | BranchEnd3 | BranchEnd4
+
+
+BranchParameter: TypeAlias = Literal["speed", "clearance", "lobe_amplitude", "damping"]
+
+
 class Budget(TypedDict, closed=True):
     seconds: float
 
@@ -260,7 +286,7 @@ class JobEvent(TypedDict):
 
 
 JobKind: TypeAlias = Literal[
-    "sweep", "modal_analysis", "model_generation", "study", "case_study"
+    "sweep", "modal_analysis", "model_generation", "study", "case_study", "branches"
 ]
 
 
@@ -521,6 +547,7 @@ SteadyChoice: TypeAlias = Literal["march", "periodic", "auto"]
 
 
 class SteadyReport(TypedDict):
+    followed_from_damping: NotRequired[float | None]
     half_peak_to_peak: NotRequired[list[float]]
     lobe_passages: NotRequired[int | None]
     multipliers: NotRequired[list[FloquetMultiplier]]
@@ -628,6 +655,12 @@ class TipResponse(TypedDict):
     sector: int
 
 
+class Track(TypedDict):
+    branch: int
+    doubles: NotRequired[list[int | float] | None]
+    lobe_passages: NotRequired[int | None]
+
+
 class TriedModes(TypedDict):
     error: float
     modes_per_speed: int
@@ -715,6 +748,55 @@ class WheelCriticalSpeed(TypedDict):
 class Accuracy(TypedDict, closed=True):
     of: NotRequired[AccuracyOf]
     target: float
+
+
+Along = TypedDict(
+    "Along",
+    {
+        "from": float,
+        "parameter": BranchParameter,
+        "to": float,
+    },
+    closed=True,
+)
+
+
+class Bifurcation(TypedDict):
+    error: float
+    half_peak_to_peak: list[float]
+    kind: BifurcationKind
+    multiplier: NotRequired[FloquetMultiplier | None]
+    speed_rad_s: float
+    stable_modulus: NotRequired[float | None]
+    value: float
+
+
+class BranchMaximum(TypedDict):
+    error: float
+    half_peak_to_peak: float
+    sensor: int
+    speed_rad_s: float
+    stability: Stability
+    value: float
+
+
+class BranchPoint(TypedDict):
+    half_peak_to_peak: list[float]
+    lobe_passages: int
+    multipliers: list[FloquetMultiplier]
+    newton_steps: int
+    residual: float
+    revolutions: float
+    speed_rad_s: float
+    stability: Stability
+    value: float
+
+
+class BranchTrack(Track):
+    bifurcations: list[Bifurcation]
+    ends: list[BranchEnd]
+    maxima: list[BranchMaximum]
+    points: list[BranchPoint]
 
 
 class CaseSpeed(TypedDict, closed=True):
@@ -1110,6 +1192,13 @@ class WheelCriticalSpeeds(TypedDict):
     version: str
 
 
+class BranchesSettings(TypedDict, closed=True):
+    along: Along
+    doubled: bool
+    most_points: int
+    sweep: SweepRequest
+
+
 class CaseStudySettings(TypedDict, closed=True):
     record: Recorded
     speeds: list[int]
@@ -1189,6 +1278,22 @@ class JobBody(TypedDict):
 class JobList(TypedDict):
     jobs: list[JobBody]
     next: NotRequired[str | None]
+
+
+class LabelledBranchesRequest(TypedDict, closed=True):
+    along: Along
+    doubled: NotRequired[bool]
+    integration: NotRequired[Integration]
+    max_engine_order: NotRequired[int]
+    model: str
+    modes_per_speed: NotRequired[AutoOr]
+    most_points: NotRequired[int]
+    name: NotRequired[str | None]
+    notes: NotRequired[str | None]
+    scene: Scene
+    sensors: NotRequired[list[Sensor]]
+    speed: CaseSpeed
+    tags: NotRequired[list[str]]
 
 
 class LabelledCaseStudyRequest(TypedDict, closed=True):
@@ -1308,6 +1413,7 @@ RequestBody: TypeAlias = (
     | ModalAnalysisRequest
     | StudyRequest
     | CaseStudySettings
+    | BranchesSettings
     | ImpellerParameters
 )
 
@@ -1352,6 +1458,18 @@ class WorkPrecision(TypedDict):
     reductions: list[StudyReduction]
     settings: StudyRequest
     speeds: list[SpeedStudy]
+    version: str
+
+
+class BranchesHead(TypedDict):
+    kept_modes: NotRequired[int | None]
+    parameter: BranchParameter
+    scheme: SchemeChoice
+    sensors: list[Sensor]
+    settings: BranchesSettings
+    steps_per_revolution: int
+    units: Units
+    vectors: str
     version: str
 
 
@@ -1512,6 +1630,11 @@ class WearBody(TypedDict):
     point: Point
     units: Units
     wear: WearMap
+
+
+class Branches(BranchesHead):
+    branches: list[BranchTrack]
+    complete: bool
 
 
 HistoriesBody: TypeAlias = SpeedHistories | Histories
