@@ -13,7 +13,8 @@ use crate::store::results::Document;
 pub(super) async fn run(engine: &Engine, job: &Live, asked: &ResolvedBranches) -> Result<(), Interruption> {
     let monitor = PhaseMonitor::whole(job.watch.clone());
     let sweep = asked.sweep();
-    let reduced = engine.reductions.of_case(sweep, sweep.fields(), monitor.clone()).await?;
+    let uncounted = PhaseMonitor::uncounted(job.watch.clone());
+    let reduced = engine.reductions.of_case(sweep, sweep.fields(), uncounted).await?;
     let (sector, request) = (reduced.clone(), asked.clone());
     let bytes = engine.computing.run(&job.watch, move || run::branches_memory(&sector, &request)).await?;
     let _memory = engine.memory.hold(bytes).await.map_err(Interruption::speed_memory)?;

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::request::{BranchParameter, BranchesSettings, SchemeChoice, Sensor};
-use crate::result::{FloquetMultiplier, Stability};
+use crate::result::steady::{FloquetMultiplier, Stability};
 use rubmap_wheel::dynamics::sector::Units;
 
 /// Periodic responses, followed while a number of their scene changes.

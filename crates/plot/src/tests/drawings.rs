@@ -5,7 +5,7 @@ use roxmltree::Document;
 use rubmap_analysis::result::{ForceMap, Point, Quantity, SpeedHistories, SpeedSpectra, WearMap};
 use rubmap_wheel::dynamics::sector::Units;
 
-use super::branching::{marched, over_clearance, resonance};
+use super::branched::{marched, over_clearance, resonance};
 use super::fixtures::{contact, recorded, sector, spectra, worn};
 use super::impeller::{SECTORS, impeller};
 use super::stresses::{of_sweep, stressed_critical, stressed_map};

@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::branching::{marched, over_clearance, resonance};
+use super::branched::{marched, over_clearance, resonance};
 use super::drawings::{credentials, mm};
 use super::fixtures::{contact, recorded, sector, spectra, worn};
 use super::gallery::read;

@@ -4,7 +4,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::branching::{marched, over_clearance, resonance};
+use super::branched::{marched, over_clearance, resonance};
 use super::drawings::{credentials, mm};
 use super::fixtures::{contact, recorded, sector, spectra, worn};
 use super::impeller::{SECTORS, impeller};

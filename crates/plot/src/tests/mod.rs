@@ -1,5 +1,6 @@
 //! Drawings read back: what must be seen is there, where it belongs.
 
+mod branched;
 mod branching;
 mod drawings;
 mod figure_gallery;

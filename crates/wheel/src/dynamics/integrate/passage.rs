@@ -17,8 +17,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use faer::{Mat, c64};
 use pulp::{Simd, WithSimd};
 
+use super::passage_error::PassageError;
 use super::recurrence::{Recurrence, Recurrences};
-use super::run::{Divergence, Outcome};
+use super::run::Outcome;
 use super::simulation::Simulation;
 use super::stepper::Stepper;
 use super::trace::Trace;
@@ -27,29 +28,6 @@ use super::unknowns::{CasingUnknown, Unknown, casing_unknowns, unknowns};
 use crate::dynamics::casing::RestrictionTable;
 use crate::dynamics::flexible_casing::CasingMotion;
 use crate::dynamics::initial::{InitialMode, Stepped, SteppedMode, SteppedWave};
-use rubmap_numerics::complementarity::ComplementarityError;
-
-/// Why a scene has no such map, or a state no image.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum PassageError {
-    /// An abradable coating.
-    #[error("a coating that wears is never as it was, so that nothing repeats")]
-    Coating,
-    /// An orbit of the shaft that is back where it was too late, or never.
-    #[error("an orbit of whirl ratio {whirl_ratio} does not come round within {most} revolutions")]
-    Orbit {
-        /// κ.
-        whirl_ratio: f64,
-        /// Revolutions.
-        most: usize,
-    },
-    /// The flow left the bounds of the theory.
-    #[error("the motion leaves the bounds of linear theory")]
-    Diverged(Divergence),
-    /// The contact problem of a step could not be solved.
-    #[error("contact: {0}")]
-    Contact(ComplementarityError),
-}
 
 /// The map, with all that its evaluation needs.
 #[derive(Debug)]
@@ -89,6 +67,20 @@ impl<'a> Passage<'a> {
     pub fn over_lobes(simulation: &Simulation<'a>, count: usize) -> Result<Self, PassageError> {
         let recurrences = Recurrences::of(simulation)?;
         Ok(Self::new(simulation, &recurrences, recurrences.lobe()).repeated(count))
+    }
+
+    /// The same over about half a revolution, so often that some make a whole: short ones look back over too little, long ones are few.
+    ///
+    /// # Errors
+    /// As of [`Self::shortest`].
+    pub fn about_half(simulation: &Simulation<'a>) -> Result<Self, PassageError> {
+        let passage = Self::shortest(simulation)?;
+        let (steps, parts) = (passage.steps(), passage.whole() / passage.steps());
+        let fits = |times: &usize| {
+            parts.is_multiple_of(*times) && 2 * times * steps <= simulation.steps_per_revolution
+        };
+        let times = (1..=parts).rev().find(fits).unwrap_or(1);
+        Ok(passage.repeated(times))
     }
 
     /// `times` of it, one after the other.

@@ -12,7 +12,7 @@
 
 use num_integer::gcd;
 
-use super::passage::PassageError;
+use super::passage_error::PassageError;
 use super::simulation::Simulation;
 use crate::dynamics::orbit::Orbit;
 

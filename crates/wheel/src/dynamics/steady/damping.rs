@@ -5,8 +5,7 @@
 //! replaced by the root).
 
 use super::periodic::{NotFound, Periodic, Search, find};
-use super::response::about_half;
-use crate::dynamics::integrate::Simulation;
+use crate::dynamics::integrate::{Passage, Simulation};
 use crate::dynamics::oscillators::ModalDamping;
 
 /// Times the damping that is wanted with which a response is sought first.
@@ -43,7 +42,7 @@ pub(super) fn follow(
     let Some(light) = simulation.damping else { return Err(stalled(*taken)) };
     let mut solve = |factor: f64, start: &[f64], marched: usize| {
         let damping = times(light, factor);
-        let mut passage = about_half(&Simulation { damping: Some(&damping), ..*simulation })?;
+        let mut passage = Passage::about_half(&Simulation { damping: Some(&damping), ..*simulation })?;
         let left = Search { marched, most: search.most.saturating_sub(*taken), ..*search };
         if left.most == 0 || passage.size() != start.len() {
             return Err(stalled(*taken));

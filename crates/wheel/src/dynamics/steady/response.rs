@@ -71,7 +71,7 @@ pub fn memory(unknowns: usize, pairs: usize) -> usize {
 /// revolutions; with `control`, whether a march comes to it in as many. `go_on` is asked now and then.
 pub fn seek(simulation: &Simulation<'_>, limit: usize, control: bool, go_on: &dyn Fn() -> bool) -> Sought {
     let mut revolutions = 0.0;
-    let response = match about_half(simulation) {
+    let response = match Passage::about_half(simulation) {
         Ok(mut passage) => {
             let response = respond(&mut passage, simulation, (limit, control), (&mut revolutions, go_on));
             revolutions += passage.revolutions();
@@ -80,16 +80,6 @@ pub fn seek(simulation: &Simulation<'_>, limit: usize, control: bool, go_on: &dy
         Err(reason) => Err(reason.into()),
     };
     Sought { response, revolutions }
-}
-
-/// The map over about half a revolution, some of which make a whole: short ones look back over too little, long ones are few.
-pub(super) fn about_half<'a>(simulation: &Simulation<'a>) -> Result<Passage<'a>, PassageError> {
-    let passage = Passage::shortest(simulation)?;
-    let (steps, parts) = (passage.steps(), passage.whole() / passage.steps());
-    let fits =
-        |times: &usize| parts.is_multiple_of(*times) && 2 * times * steps <= simulation.steps_per_revolution;
-    let times = (1..=parts).rev().find(fits).unwrap_or(1);
-    Ok(passage.repeated(times))
 }
 
 fn respond(

@@ -8,7 +8,7 @@
 //!
 //! A being the normal displacement of the nodes that touch per unit of every mode, R the receptances; without, δλ acts on the step
 //! after. With friction the forces act along other rows than A, B = A + μ…, so that it is Bᵀ δλ_A that pushes, and W_AA is not symmetric;
-//! mistuning and Coriolis forces are in [`coupling`](super::coupling). Waves of an elastic casing are taken as the wheel sees them: they open
+//! mistuning and Coriolis forces are in `coupling`. Waves of an elastic casing are taken as the wheel sees them: they open
 //! gaps, and are pressed, by rows of A that stay, and turn back by nΩh after each step. Exact as long as no state nearby lets another set touch; where one does, the derivative jumps, and this is the one on the side
 //! that was traced. Sets change at steps, so that what it
 //! says of the motion in continuous time is of first order in the step, where the response itself is of second.

@@ -17,8 +17,8 @@ const MOST_OF_SPAN: f64 = 0.02;
 /// By what a step grows or shrinks, and steps of Newton's method up to which it grows, from which on it shrinks.
 const GROWTH: f64 = 1.4;
 const SHRINKAGE: f64 = 0.5;
-const EASY: usize = 3;
-const HARD: usize = 6;
+const EASY: usize = 4;
+const HARD: usize = 7;
 
 /// Cosine of the angle up to which a branch may turn within a step: what turns more is another branch.
 const TURNS: f64 = 0.7;

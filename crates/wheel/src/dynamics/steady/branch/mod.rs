@@ -13,8 +13,6 @@ pub mod locate;
 use crate::dynamics::initial::{Stepped, SteppedMode, SteppedWave};
 use crate::dynamics::integrate::{Passage, PassageError, Simulation};
 
-use super::response::about_half;
-
 /// A scene at any value of the number that a branch is followed over. Steps per revolution are the same at all of them: the map
 /// would jump with them.
 pub trait Family {
@@ -58,7 +56,7 @@ impl Lap {
     /// As of [`Passage::shortest`].
     pub fn passage<'a>(self, simulation: &Simulation<'a>) -> Result<Passage<'a>, PassageError> {
         match self {
-            Self::Symmetric => about_half(simulation),
+            Self::Symmetric => Passage::about_half(simulation),
             Self::Lobes(count) => Passage::over_lobes(simulation, count),
         }
     }
