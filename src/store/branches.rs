@@ -4,9 +4,8 @@ use super::dialect::Guarded;
 use super::error::StoreError;
 use super::handle::Store;
 use super::jobs::job::JobId;
-use super::results::Document;
+use super::results::{Document, insert_document, keep_result};
 use super::sql::of;
-use super::time::now;
 
 impl Store {
     /// Keeps leg `index` of a job together with the course after it, in place of the one before; none where nothing is left to follow. A
@@ -20,20 +19,7 @@ impl Store {
     ) -> Result<(), StoreError> {
         let mut transaction = self.write().await?;
         transaction.guard(Guarded::Job(job)).await?;
-        let insert = |(name, part): (&'static str, u32), body: String| {
-            sqlx::query(
-                "insert into documents (job, name, part, body, created_at)
-                 select $1, $2, $3, $4, $5 where exists (select 1 from jobs where id = $1 and deleted = 0)
-                 on conflict (job, name, part) do nothing",
-            )
-            .bind(job.to_string())
-            .bind(name)
-            .bind(i64::from(part))
-            .bind(body)
-            .bind(now())
-        };
-        let inserted = insert(Document::BranchLeg(index).columns(), leg.to_owned());
-        if inserted.execute(&mut *transaction).await?.rows_affected() == 1 {
+        if keep_result(&mut transaction, job, Document::BranchLeg(index), leg).await? {
             let (name, part) = Document::BranchCourse.columns();
             sqlx::query("delete from documents where job = $1 and name = $2 and part = $3")
                 .bind(job.to_string())
@@ -42,13 +28,8 @@ impl Store {
                 .execute(&mut *transaction)
                 .await?;
             if let Some(course) = course {
-                insert((name, part), course.to_owned()).execute(&mut *transaction).await?;
+                insert_document(&mut transaction, job, Document::BranchCourse, course).await?;
             }
-            sqlx::query("update jobs set crashes = 0, stored_bytes = stored_bytes + $2 where id = $1")
-                .bind(job.to_string())
-                .bind(leg.len() as i64)
-                .execute(&mut *transaction)
-                .await?;
         }
         transaction.commit_job(job).await?;
         Ok(())

@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use futures::TryStreamExt;
-use sqlx::Row;
 use sqlx::any::AnyRow;
+use sqlx::{AnyConnection, Row};
 
 use super::dialect::Guarded;
 use super::error::StoreError;
@@ -264,28 +264,9 @@ impl Store {
     /// Keeps a document of a job that is still computed, in a transaction of its own. One that is there already stays as it is; a job
     /// that was deleted keeps nothing.
     pub async fn keep_document(&self, job: JobId, document: Document, body: &str) -> Result<(), StoreError> {
-        let (name, part) = document.columns();
         let mut transaction = self.write().await?;
         transaction.guard(Guarded::Job(job)).await?;
-        let inserted = sqlx::query(
-            "insert into documents (job, name, part, body, created_at)
-             select $1, $2, $3, $4, $5 where exists (select 1 from jobs where id = $1 and deleted = 0)
-             on conflict (job, name, part) do nothing",
-        )
-        .bind(job.to_string())
-        .bind(name)
-        .bind(i64::from(part))
-        .bind(body)
-        .bind(now())
-        .execute(&mut *transaction)
-        .await?;
-        if inserted.rows_affected() == 1 {
-            sqlx::query("update jobs set crashes = 0, stored_bytes = stored_bytes + $2 where id = $1")
-                .bind(job.to_string())
-                .bind(body.len() as i64)
-                .execute(&mut *transaction)
-                .await?;
-        }
+        keep_result(&mut transaction, job, document, body).await?;
         transaction.commit_job(job).await?;
         Ok(())
     }
@@ -323,6 +304,47 @@ impl Store {
             .fetch_optional(&self.readers)
             .await?)
     }
+}
+
+/// Keeps a document that is none of the job's results; whether it was not there, and the job is.
+pub(super) async fn insert_document(
+    connection: &mut AnyConnection,
+    job: JobId,
+    document: Document,
+    body: &str,
+) -> Result<bool, StoreError> {
+    let (name, part) = document.columns();
+    let inserted = sqlx::query(
+        "insert into documents (job, name, part, body, created_at)
+         select $1, $2, $3, $4, $5 where exists (select 1 from jobs where id = $1 and deleted = 0)
+         on conflict (job, name, part) do nothing",
+    )
+    .bind(job.to_string())
+    .bind(name)
+    .bind(i64::from(part))
+    .bind(body)
+    .bind(now())
+    .execute(connection)
+    .await?;
+    Ok(inserted.rows_affected() == 1)
+}
+
+/// The same of a result: its bytes count, and something of the job is finished.
+pub(super) async fn keep_result(
+    connection: &mut AnyConnection,
+    job: JobId,
+    document: Document,
+    body: &str,
+) -> Result<bool, StoreError> {
+    let inserted = insert_document(connection, job, document, body).await?;
+    if inserted {
+        sqlx::query("update jobs set crashes = 0, stored_bytes = stored_bytes + $2 where id = $1")
+            .bind(job.to_string())
+            .bind(body.len() as i64)
+            .execute(connection)
+            .await?;
+    }
+    Ok(inserted)
 }
 
 fn contact(row: &AnyRow) -> Result<Option<ContactForces>, StoreError> {

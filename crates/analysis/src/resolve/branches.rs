@@ -2,13 +2,11 @@
 
 use crate::error::Violation;
 use crate::model::ModelFacts;
-use crate::request::sweep::default_peak_prominence;
 use crate::request::{
-    Along, BranchParameter, BranchesRequest, CaseSpeed, HIGHEST_SPEED, LOWEST_SPEED, Record, SpeedSet,
-    Speeds, SteadyChoice, SweepDirection, SweepRequest,
+    Along, BranchParameter, BranchesRequest, CaseSpeed, HIGHEST_SPEED, LOWEST_SPEED, SteadyChoice,
 };
 use crate::resolve::findings::Findings;
-use crate::resolve::resolve_sweep;
+use crate::resolve::one_speed::OneSpeed;
 use crate::resolved::{ResolvedBranches, ResolvedSweep};
 
 /// Multiples of what a scene says that a branch may be followed to.
@@ -23,29 +21,17 @@ pub fn resolve_branches(
     facts: &ModelFacts,
 ) -> Result<ResolvedBranches, Vec<Violation>> {
     let CaseSpeed { value, unit } = request.speed;
-    let sweep = SweepRequest {
+    let resolved = OneSpeed {
         model: request.model,
         modes_per_speed: request.modes_per_speed,
-        speeds: Speeds::One(SpeedSet { from: None, to: None, count: None, values: Some(vec![value]), unit }),
+        speed: request.speed,
         scene: request.scene,
         integration: request.integration,
         sensors: request.sensors,
         max_engine_order: request.max_engine_order,
-        peak_prominence: default_peak_prominence(),
-        sweep: SweepDirection::Independent,
-        refine: false,
-        reproducible: false,
-        accuracy: None,
-        budget: None,
-        control_speeds: None,
-        record: Record::default(),
         fields: None,
-    };
-    let at_its_field = |violation: Violation| match violation.pointer.strip_prefix("/speeds") {
-        Some(_) => Violation { pointer: "/speed/value".to_owned(), ..violation },
-        None => violation,
-    };
-    let resolved = resolve_sweep(sweep, facts);
+    }
+    .resolve(facts);
     let mut found = Findings::default();
     check_range(&mut found, request.along, value);
     found.require(
@@ -56,7 +42,7 @@ pub fn resolve_branches(
     let sweep = match resolved {
         Ok(sweep) => sweep,
         Err(violations) => {
-            found.0.extend(violations.into_iter().map(at_its_field));
+            found.0.extend(violations);
             return Err(found.0);
         }
     };

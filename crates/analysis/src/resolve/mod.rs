@@ -23,6 +23,7 @@ mod effects;
 pub(crate) mod findings;
 mod gauges;
 pub(crate) mod limits;
+mod one_speed;
 pub(crate) mod recorded;
 pub(crate) mod sensors;
 pub(crate) mod study;
