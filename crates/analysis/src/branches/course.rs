@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::told::Told;
-use crate::result::{FloquetMultiplier, Stability, Track};
+use crate::result::{Bifurcation, FloquetMultiplier, Stability, Track};
 use faer::c64;
 use rubmap_wheel::dynamics::initial::{Stepped, SteppedMode, SteppedWave};
 use rubmap_wheel::dynamics::steady::branch::Motion;
@@ -12,10 +12,10 @@ use rubmap_wheel::dynamics::steady::branch::follow::Front;
 /// How far branches have been followed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Course {
-    /// Stretches that have still to be begun, the next one last.
+    /// The stretch under way.
+    pub(super) under_way: UnderWay,
+    /// Those that have still to be begun, the next one last.
     pub(super) waiting: Vec<Stretch>,
-    /// The one under way.
-    pub(super) under_way: Option<UnderWay>,
     /// Branches so far.
     pub(super) branches: u32,
 }
@@ -39,6 +39,15 @@ pub(super) struct UnderWay {
     /// What was told of the last one, and of the one before.
     pub(super) last: Option<KeptTold>,
     pub(super) before: Option<KeptTold>,
+    /// A multiplier passed 1 before the last point: of a fold, if the branch turns back at the next.
+    pub(super) pending: Option<Bifurcation>,
+}
+
+impl UnderWay {
+    /// Nothing of it is done.
+    pub(super) fn new(stretch: Stretch) -> Self {
+        Self { stretch, points: 0, last: None, before: None, pending: None }
+    }
 }
 
 /// [`Told`], to be kept.

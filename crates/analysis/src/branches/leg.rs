@@ -47,53 +47,42 @@ pub fn branch_leg(
 ) -> Result<(BranchLeg, Option<Course>), AnalysisError> {
     let scenes = Scenes::new(sector, asked).map_err(|reason| refused("/along", &reason))?;
     let go_on = || !monitor.is_cancelled();
-    let mut course = match course {
+    let Course { under_way, mut waiting, mut branches } = match course {
         Some(course) => course,
         None => {
             monitor.progress(0.0, "seeking a periodic response");
             begin(&scenes, asked, &go_on)?
         }
     };
-    let UnderWay { stretch, points, mut last, mut before } = match course.under_way.take() {
-        Some(under_way) => under_way,
-        // A course with nothing left is none.
-        None => {
-            let stretch = course.waiting.pop().ok_or_else(|| AnalysisError::Refused(Vec::new()))?;
-            UnderWay { stretch, points: 0, last: None, before: None }
-        }
-    };
-    let mut walk = Walk::new(&scenes, asked, &stretch, points);
+    let UnderWay { stretch, points, mut last, mut before, pending } = under_way;
+    let mut walk = Walk::new(&scenes, asked, &stretch, (points, pending));
     let branch =
         Branch { family: &scenes, lap: walk.lap, span: asked.along.to - asked.along.from, go_on: &go_on };
-    let ended = walk.go(&branch, (&mut last, &mut before), monitor)?;
-    let Walk { front, points, found, bifurcations, maxima, flips, .. } = walk;
+    let end = walk.go(&branch, (&mut last, &mut before), monitor)?;
+    let Walk { front, points, found, mut bifurcations, maxima, flips, pending, .. } = walk;
     for Event { bifurcation, motion, grows } in flips {
         let lobes = 2 * stretch.track.lobe_passages.unwrap_or(1);
         let track = Track {
-            branch: course.branches,
+            branch: branches,
             lobe_passages: Some(lobes),
             doubles: Some((stretch.track.branch, bifurcation.value)),
         };
-        course.branches += 1;
+        branches += 1;
         let front = (&Front::aside(motion, grows)).into();
-        course.waiting.insert(0, Stretch { track, backwards: false, front, tells_start: true });
+        waiting.insert(0, Stretch { track, backwards: false, front, tells_start: true });
     }
-    let leg = BranchLeg {
-        head: head(&scenes, sector, asked),
-        track: stretch.track.clone(),
-        backwards: stretch.backwards,
-        points: found,
-        bifurcations,
-        maxima,
-        is_last: ended.is_some() && course.waiting.is_empty(),
-        end: ended,
-    };
-    if leg.end.is_none() {
+    let (track, backwards) = (stretch.track.clone(), stretch.backwards);
+    let under_way = if end.is_none() {
         let stretch = Stretch { front: (&front).into(), ..stretch };
-        course.under_way = Some(UnderWay { stretch, points, last, before });
-    }
-    let is_left = course.under_way.is_some() || !course.waiting.is_empty();
-    Ok((leg, is_left.then_some(course)))
+        Some(UnderWay { stretch, points, last, before, pending })
+    } else {
+        bifurcations.extend(pending);
+        waiting.pop().map(UnderWay::new)
+    };
+    let head = head(&scenes, sector, asked);
+    let is_last = under_way.is_none();
+    let leg = BranchLeg { head, track, backwards, points: found, bifurcations, maxima, end, is_last };
+    Ok((leg, under_way.map(|under_way| Course { under_way, waiting, branches })))
 }
 
 /// The response to begin with, to be followed both ways.
@@ -118,21 +107,14 @@ fn begin(
             track: Track { branch: 0, lobe_passages: None, doubles: None },
             backwards,
             front: (&Front::new(Motion { value: start, state: state.clone() }, span, sign)).into(),
-            tells_start: !backwards,
+            tells_start: false,
         }
     };
-    let mut waiting = Vec::new();
-    if asked.along.from < start {
-        waiting.push(stretch(true));
-    }
-    if start < asked.along.to {
-        waiting.push(stretch(false));
-    }
-    // The start is told once.
-    if let [only] = &mut waiting[..] {
-        only.tells_start = true;
-    }
-    Ok(Course { waiting, under_way: None, branches: 1 })
+    // Towards larger values first, if there are any; where it begins is told once.
+    let (is_least, is_most) = (start <= asked.along.from, start >= asked.along.to);
+    let under_way = UnderWay::new(Stretch { tells_start: true, ..stretch(is_most) });
+    let waiting = if is_least || is_most { Vec::new() } else { vec![stretch(true)] };
+    Ok(Course { under_way, waiting, branches: 1 })
 }
 
 fn refused(pointer: &str, reason: &NotRunnable) -> AnalysisError {
@@ -172,11 +154,18 @@ struct Walk<'a> {
     bifurcations: Vec<Bifurcation>,
     maxima: Vec<BranchMaximum>,
     flips: Vec<Event>,
+    /// A multiplier passed 1 before the last point.
+    pending: Option<Bifurcation>,
     joins: bool,
 }
 
 impl<'a> Walk<'a> {
-    fn new(scenes: &'a Scenes<'a>, asked: &'a ResolvedBranches, stretch: &Stretch, points: u32) -> Self {
+    fn new(
+        scenes: &'a Scenes<'a>,
+        asked: &'a ResolvedBranches,
+        stretch: &Stretch,
+        (points, pending): (u32, Option<Bifurcation>),
+    ) -> Self {
         let lobes = stretch.track.lobe_passages;
         Self {
             scenes,
@@ -191,6 +180,7 @@ impl<'a> Walk<'a> {
             bifurcations: Vec::new(),
             maxima: Vec::new(),
             flips: Vec::new(),
+            pending,
             joins: false,
         }
     }
@@ -284,18 +274,24 @@ impl<'a> Walk<'a> {
                 Some(Event { motion, .. }) => self.joins_at(branch, motion)?,
                 None => false,
             };
+        let pending = self.pending.take();
         if let Some(Event { bifurcation, .. }) = fold.filter(|_| !self.joins) {
-            // The multiplier that passed 1 a point ago was that of the fold.
             let is_same = |other: &Bifurcation| {
-                other.kind == BifurcationKind::Branching
-                    && (other.value - bifurcation.value).abs() <= AT_FOLD * bifurcation.value.abs()
+                (other.value - bifurcation.value).abs() <= AT_FOLD * bifurcation.value.abs()
             };
-            self.bifurcations.pop_if(|other| is_same(other));
+            self.bifurcations.extend(pending.filter(|pending| !is_same(pending)));
             self.bifurcations.push(bifurcation);
-        } else if let Some(event) = events.change(there, here)? {
-            self.bifurcations.push(event.bifurcation.clone());
-            if event.bifurcation.kind == BifurcationKind::Flip && self.doubles {
-                self.flips.push(event);
+            return Ok(told);
+        }
+        self.bifurcations.extend(pending);
+        let Some(event) = events.change(there, here)? else { return Ok(told) };
+        match event.bifurcation.kind {
+            BifurcationKind::Branching => self.pending = Some(event.bifurcation),
+            kind => {
+                self.bifurcations.push(event.bifurcation.clone());
+                if kind == BifurcationKind::Flip && self.doubles {
+                    self.flips.push(event);
+                }
             }
         }
         Ok(told)

@@ -1,7 +1,5 @@
 //! Along a branch, point by point: predicted on the line through the last two, corrected across it.
 
-use serde::{Deserialize, Serialize};
-
 use super::correct::{Found, dot, size};
 use super::{Branch, Lost, Motion, add};
 use crate::dynamics::initial::Stepped;
@@ -47,19 +45,6 @@ pub enum Step {
     Point(Found),
     /// The same, where the branch leaves the range.
     Edge(Found),
-}
-
-/// Why a branch ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
-#[serde(rename_all = "snake_case")]
-pub enum BranchEnd {
-    /// It leaves the range that was asked for.
-    LeavesRange,
-    /// It could not be followed further: the motion ceases to exist in this form, for example where another node begins to touch.
-    Lost,
-    /// It has as many points as were asked for.
-    MostPoints,
 }
 
 impl Front {

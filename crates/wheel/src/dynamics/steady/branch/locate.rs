@@ -17,8 +17,6 @@ pub struct Place<T> {
     pub told: T,
     /// How far away it may be, in p.
     pub error: f64,
-    /// Revolutions that it took.
-    pub revolutions: f64,
 }
 
 impl Branch<'_> {
@@ -37,12 +35,11 @@ impl Branch<'_> {
         let (before, after) = (self.distance(a, b)?, self.distance(b, c)?);
         let start = |s: f64, motion: &Motion, told: T| (s, height(motion, &told), motion.value, told);
         let mut bracket = [start(-before, a, told_a), start(0.0, b, told_b), start(after, c, told_c)];
-        let (mut best, mut revolutions, mut error) = (b.clone(), 0.0, f64::INFINITY);
+        let (mut best, mut error) = (b.clone(), f64::INFINITY);
         for _ in 0..LOOKS {
             let s = summit_of(bracket.each_ref().map(|(s, height, ..)| (*s, *height)));
             let found =
                 if s < 0.0 { self.between(a, b, 1.0 + s / before)? } else { self.between(b, c, s / after)? };
-            revolutions += found.revolutions;
             let told = tell(&found.motion)?;
             let here = (s, height(&found.motion, &told), found.motion.value, told);
             error = (here.2 - bracket[1].2).abs();
@@ -55,7 +52,7 @@ impl Branch<'_> {
             }
         }
         let [_, (_, _, _, told), _] = bracket;
-        Ok(Place { motion: best, told, error, revolutions })
+        Ok(Place { motion: best, told, error })
     }
 
     /// Where between `a` and `b` the sign of `told` changes, which differs there: by chords (Illinois), also where it jumps. What is told is
@@ -70,14 +67,13 @@ impl Branch<'_> {
         tell: impl Fn(&Motion) -> Result<(f64, T), Lost>,
     ) -> Result<Option<Place<T>>, Lost> {
         let (mut low, mut high) = ((0.0, told_a, a.value), (1.0, told_b, b.value));
-        let (mut best, mut revolutions) = (None::<(f64, Motion, T)>, 0.0);
+        let mut best = None::<(f64, Motion, T)>;
         let mut last_side = None;
         for _ in 0..LOOKS {
             let margin = 0.01 * (high.0 - low.0);
             let chord = low.0 + (high.0 - low.0) * low.1 / (low.1 - high.1);
             let share = chord.clamp(low.0 + margin, high.0 - margin);
             let found = self.between(a, b, share)?;
-            revolutions += found.revolutions;
             let (sign, told) = tell(&found.motion)?;
             let here = (share, sign, found.motion.value);
             if sign > 0.0 || best.as_ref().is_none_or(|(best, ..)| *best <= 0.0) {
@@ -99,7 +95,7 @@ impl Branch<'_> {
             }
         }
         let error = (high.2 - low.2).abs();
-        Ok(best.map(|(_, motion, told)| Place { motion, told, error, revolutions }))
+        Ok(best.map(|(_, motion, told)| Place { motion, told, error }))
     }
 }
 
