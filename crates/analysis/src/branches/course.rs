@@ -24,10 +24,25 @@ pub struct Course {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Stretch {
     pub(super) track: Track,
+    /// Passages over a lobe after which its motions repeat; none of those that repeat as their scene does.
+    pub(super) passages: Option<u32>,
     pub(super) backwards: bool,
     pub(super) front: KeptFront,
     /// Whether where it begins is a point of it.
     pub(super) tells_start: bool,
+}
+
+impl Stretch {
+    /// Whether both are of doubled periods, and of the same branch.
+    pub(super) fn doubles_as(&self, other: &Self) -> bool {
+        let doubled = |stretch: &Self| stretch.track.doubles.map(|(branch, _)| branch);
+        doubled(self).is_some() && doubled(self) == doubled(other)
+    }
+
+    /// Where it begins.
+    pub(super) fn start(&self) -> Motion {
+        (&self.front.last).into()
+    }
 }
 
 /// A stretch that was begun.
@@ -56,6 +71,7 @@ pub(super) struct KeptTold {
     stability: Stability,
     multipliers: Vec<FloquetMultiplier>,
     lobe_passages: u32,
+    passages: u32,
     half_peak_to_peak: Vec<f64>,
     disturbances: KeptState,
     leading: KeptState,
@@ -128,6 +144,7 @@ impl From<&Told> for KeptTold {
             stability: told.stability,
             multipliers: told.multipliers.clone(),
             lobe_passages: told.lobe_passages,
+            passages: told.passages,
             half_peak_to_peak: told.half_peak_to_peak.clone(),
             disturbances: (&told.disturbances).into(),
             leading: (&told.leading).into(),
@@ -143,6 +160,7 @@ impl From<&KeptTold> for Told {
             disturbances: (&kept.disturbances).into(),
             leading: (&kept.leading).into(),
             lobe_passages: kept.lobe_passages,
+            passages: kept.passages,
             half_peak_to_peak: kept.half_peak_to_peak.clone(),
             revolutions: 0.0,
         }

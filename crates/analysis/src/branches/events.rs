@@ -17,11 +17,14 @@ pub(super) struct At<'a> {
     pub(super) told: &'a Told,
 }
 
-/// A bifurcation, with the motion there, and what grows from it.
+/// A change of stability, with the motion there, and what grows from it.
 pub(super) struct Event {
     pub(super) bifurcation: Bifurcation,
     pub(super) motion: Motion,
     pub(super) grows: Stepped,
+    /// Lobes that pass until the motion repeats, and passages over one.
+    pub(super) lobe_passages: u32,
+    pub(super) passages: u32,
 }
 
 /// Where events are looked for.
@@ -32,7 +35,7 @@ pub(super) struct Events<'a> {
 
 impl Events<'_> {
     /// The fold at the middle one of three points, if the branch turns back there.
-    pub(super) fn fold(&self, points: [At<'_>; 3]) -> Result<Option<Event>, Lost> {
+    pub(super) fn fold(&self, points: [At<'_>; 3]) -> Result<Option<(Bifurcation, Motion)>, Lost> {
         let [a, b, c] = points.map(|point| point.motion);
         let up = (b.value - a.value).signum();
         if (c.value - b.value) * up >= 0.0 {
@@ -55,7 +58,7 @@ impl Events<'_> {
             multiplier: None,
             stable_modulus: None,
         };
-        Ok(Some(Event { bifurcation, motion, grows: Stepped::default() }))
+        Ok(Some((bifurcation, motion)))
     }
 
     /// Where between two points the stability changes, if it does.
@@ -95,7 +98,8 @@ impl Events<'_> {
             multiplier: told.multipliers.first().copied(),
             stable_modulus: stable.told.multipliers.first().map(|leading| leading.modulus),
         };
-        Ok(Some(Event { bifurcation, motion, grows: told.leading }))
+        let (lobe_passages, passages) = (told.lobe_passages, told.passages);
+        Ok(Some(Event { bifurcation, motion, grows: told.leading, lobe_passages, passages }))
     }
 
     /// The maxima of sensors' amplitudes about the middle one of three points.

@@ -13,7 +13,6 @@ use crate::resolved::ResolvedBranches;
 use crate::result::{
     Bifurcation, BifurcationKind, BranchEnd, BranchLeg, BranchMaximum, BranchPoint, BranchesHead, Track,
 };
-use rubmap_wheel::dynamics::initial::Stepped;
 use rubmap_wheel::dynamics::steady::branch::correct::Found;
 use rubmap_wheel::dynamics::steady::branch::follow::{Front, Step};
 use rubmap_wheel::dynamics::steady::branch::{Branch, Lap, Lost, Motion};
@@ -25,11 +24,11 @@ use rubmap_wheel::vectors::vectors;
 /// Points of a leg: what is lost where the service dies.
 const POINTS: usize = 5;
 
-/// Longest period, in lobe passages, to which motions that double it are followed.
+/// Longest period, in passages over a lobe, to which motions that double it are followed.
 const LONGEST: u32 = 8;
 
-/// ‖P(x) − x‖ / ‖x‖ over half as many lobes below which a motion of doubled period is where it began to double.
-const JOINS: f64 = 1e-2;
+/// Distance from the last two points of a branch of doubled period, in steps between them, up to which a flip is where it joins.
+const AT_FLIP: f64 = 2.0;
 
 /// Relative distance up to which a multiplier that passes 1 is that of a fold.
 const AT_FOLD: f64 = 1e-3;
@@ -60,16 +59,19 @@ pub fn branch_leg(
         Branch { family: &scenes, lap: walk.lap, span: asked.along.to - asked.along.from, go_on: &go_on };
     let end = walk.go(&branch, (&mut last, &mut before), monitor)?;
     let Walk { front, points, found, mut bifurcations, maxima, flips, pending, .. } = walk;
-    for Event { bifurcation, motion, grows } in flips {
-        let lobes = 2 * stretch.track.lobe_passages.unwrap_or(1);
+    for Event { bifurcation, motion, grows, lobe_passages, passages } in flips {
         let track = Track {
             branch: branches,
-            lobe_passages: Some(lobes),
+            lobe_passages: Some(2 * lobe_passages),
             doubles: Some((stretch.track.branch, bifurcation.value)),
         };
         branches += 1;
         let front = (&Front::aside(motion, grows)).into();
-        waiting.insert(0, Stretch { track, backwards: false, front, tells_start: true });
+        let passages = Some(2 * passages);
+        waiting.insert(0, Stretch { track, passages, backwards: false, front, tells_start: true });
+    }
+    if matches!(end, Some(BranchEnd::Joins)) {
+        waiting.retain(|other| !stretch.doubles_as(other) || !is_at(&branch, &front, &other.start()));
     }
     let (track, backwards) = (stretch.track.clone(), stretch.backwards);
     let under_way = if end.is_none() {
@@ -105,6 +107,7 @@ fn begin(
         let sign = if backwards { -1.0 } else { 1.0 };
         Stretch {
             track: Track { branch: 0, lobe_passages: None, doubles: None },
+            passages: None,
             backwards,
             front: (&Front::new(Motion { value: start, state: state.clone() }, span, sign)).into(),
             tells_start: false,
@@ -166,14 +169,13 @@ impl<'a> Walk<'a> {
         stretch: &Stretch,
         (points, pending): (u32, Option<Bifurcation>),
     ) -> Self {
-        let lobes = stretch.track.lobe_passages;
         Self {
             scenes,
             asked,
-            lap: lobes.map_or(Lap::Symmetric, |lobes| Lap::Lobes(lobes as usize)),
+            lap: stretch.passages.map_or(Lap::Symmetric, |passages| Lap::Lobes(passages as usize)),
             tells_start: stretch.tells_start,
             branch: stretch.track.branch,
-            doubles: asked.doubled && 2 * lobes.unwrap_or(1) <= LONGEST,
+            doubles: asked.doubled,
             front: (&stretch.front).into(),
             points,
             found: Vec::new(),
@@ -242,8 +244,7 @@ impl<'a> Walk<'a> {
         let motion = self.front.last.clone();
         let told = tell(self.scenes, branch, &motion, &motion.state)?;
         if self.tells_start {
-            let across = Motion { value: branch.span, state: Stepped::default() };
-            let found = branch.correct(motion.clone(), &across, motion.value)?;
+            let found = Found { residual: branch.off(&motion)?, motion, steps: 0, revolutions: 0.0 };
             self.found.push(told.point(&found, self.scenes.speed(found.motion.value)));
             self.points += 1;
         }
@@ -269,13 +270,9 @@ impl<'a> Walk<'a> {
             fold = events.fold(points)?;
             self.maxima.extend(events.maxima(points)?);
         }
-        self.joins = told.lobe_passages < self.passages()
-            || match &fold {
-                Some(Event { motion, .. }) => self.joins_at(branch, motion)?,
-                None => false,
-            };
+        self.joins = told.passages < self.passages() || self.has_crossed(branch, motion)?;
         let pending = self.pending.take();
-        if let Some(Event { bifurcation, .. }) = fold.filter(|_| !self.joins) {
+        if let Some((bifurcation, _)) = fold.filter(|_| !self.joins) {
             let is_same = |other: &Bifurcation| {
                 (other.value - bifurcation.value).abs() <= AT_FOLD * bifurcation.value.abs()
             };
@@ -289,7 +286,7 @@ impl<'a> Walk<'a> {
             BifurcationKind::Branching => self.pending = Some(event.bifurcation),
             kind => {
                 self.bifurcations.push(event.bifurcation.clone());
-                if kind == BifurcationKind::Flip && self.doubles {
+                if kind == BifurcationKind::Flip && self.doubles && 2 * event.passages <= LONGEST {
                     self.flips.push(event);
                 }
             }
@@ -297,7 +294,7 @@ impl<'a> Walk<'a> {
         Ok(told)
     }
 
-    /// Passages of a lobe after which motions of a doubled branch repeat; 0 of others.
+    /// Passages over a lobe after which motions of a doubled branch repeat; 0 of others.
     fn passages(&self) -> u32 {
         match self.lap {
             Lap::Symmetric => 0,
@@ -305,11 +302,15 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Whether a branch of doubled period turns back because it has come to the one that it doubles: past there it is itself once more, half
-    /// a period later.
-    fn joins_at(&self, branch: &Branch<'_>, motion: &Motion) -> Result<bool, Lost> {
+    /// Whether a branch of doubled period has crossed the one that it doubles since its last point: past there it is itself once more, half a
+    /// period later, and what a half period changes has the other sign.
+    fn has_crossed(&self, branch: &Branch<'_>, motion: &Motion) -> Result<bool, Lost> {
         let Lap::Lobes(lobes) = self.lap else { return Ok(false) };
-        Ok(Branch { lap: Lap::Lobes(lobes / 2), ..*branch }.off(motion)? <= JOINS)
+        // Branches begin where nothing changes.
+        if self.front.before.is_none() {
+            return Ok(false);
+        }
+        Branch { lap: Lap::Lobes(lobes / 2), ..*branch }.turns_about(&self.front.last, motion)
     }
 
     /// Says how far it is: by the share of the range that the first branch has seen.
@@ -325,6 +326,13 @@ impl<'a> Walk<'a> {
         let words = format!("branch {}, {} points, at {:.6}", self.branch + 1, self.points, value);
         monitor.progress((seen / (along.to - along.from)).clamp(0.0, 1.0), &words);
     }
+}
+
+/// Whether a branch that joins another one between its last two points does so at `flip`.
+fn is_at(branch: &Branch<'_>, front: &Front, flip: &Motion) -> bool {
+    let Some(before) = &front.before else { return false };
+    let away = |from: &Motion| branch.distance(&front.last, from);
+    matches!((away(before), away(flip)), (Ok(step), Ok(away)) if away <= AT_FLIP * step)
 }
 
 /// Why a branch ends that was lost.

@@ -22,6 +22,8 @@ pub(super) struct Told {
     /// The leading one alone.
     pub(super) leading: Stepped,
     pub(super) lobe_passages: u32,
+    /// The same in passages over a lobe, of which laps are counted.
+    pub(super) passages: u32,
     pub(super) half_peak_to_peak: Vec<f64>,
     /// Revolutions that it took.
     pub(super) revolutions: f64,
@@ -90,6 +92,7 @@ pub(super) fn tell(
             disturbances: passage.stepped(&disturbances),
             leading: if leading.is_empty() { Stepped::default() } else { passage.stepped(&leading) },
             lobe_passages: floquet.lobes as u32,
+            passages: floquet.passages as u32,
             half_peak_to_peak,
             revolutions: floquet.revolutions + 1.0,
         })

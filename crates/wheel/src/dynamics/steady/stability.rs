@@ -35,6 +35,8 @@ pub struct Floquet {
     /// Passages of a lobe; 1 but for a response that is another one at every second, third … lobe, and in scenes that tell the lobes apart.
     /// Revolutions where there are no lobes.
     pub lobes: usize,
+    /// The same in [passages over a lobe](Passage::over_lobes), which are longer where effects tell lobes apart.
+    pub passages: usize,
     /// The largest, largest first.
     pub multipliers: Vec<Multiplier>,
     /// What they say.
@@ -75,12 +77,13 @@ impl Floquet {
             }
         }
         let passage = over_some;
+        let passages = passage.steps() / one;
         let multipliers = multipliers(&Tangent::of(&passage), count, hint);
         revolutions += passage.revolutions();
         let orders = passage.simulation().steps_per_revolution as f64 / passage.steps() as f64;
         let lobes = passage.lobes_passed();
         let stability = judge(&multipliers, passage.size());
-        Ok(Self { lobes, stability, multipliers, orders, revolutions })
+        Ok(Self { lobes, passages, stability, multipliers, orders, revolutions })
     }
 
     /// Distance, in engine orders, of the lines that a disturbance of this multiplier adds from those of the response, and from all

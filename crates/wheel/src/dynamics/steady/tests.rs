@@ -1,3 +1,4 @@
+mod doubling;
 mod effects;
 
 use std::f64::consts::TAU;

@@ -90,6 +90,18 @@ impl Branch<'_> {
         Ok(self.beside(motion.clone(), &mut 0.0)?.residual)
     }
 
+    /// Whether what a lap changes of two motions, P(x) − x, points the one way at `a` and the other at `b`.
+    ///
+    /// # Errors
+    /// [`Lost`].
+    pub fn turns_about(&self, a: &Motion, b: &Motion) -> Result<bool, Lost> {
+        let [at_a, at_b] = [a, b].map(|motion| self.beside(motion.clone(), &mut 0.0));
+        let (at_a, at_b) = (at_a?.off, at_b?.off);
+        let at_a = self.at(a.value, |passage| passage.stepped(&at_a))?;
+        let at_a = self.carried(&at_a, a.value, b.value)?;
+        self.at(b.value, |passage| dot(&passage.state_of(&at_a), &at_b) < 0.0)
+    }
+
     fn beside(&self, motion: Motion, revolutions: &mut f64) -> Result<Beside, Lost> {
         let (state, image) = self.at(motion.value, |passage| {
             let state = passage.state_of(&motion.state);

@@ -144,9 +144,10 @@ impl Branch<'_> {
         let [ahead, way, along] =
             [(&way, along), (&way, &way), (along, along)].map(|(a, b)| self.product(a, b, &front.last));
         let (ahead, way, along) = (ahead?, way?.sqrt(), along?.sqrt());
-        // The first step knows only where to go, not what becomes of the motion.
+        // A first step over p knows nothing of what becomes of the motion.
+        let knows = front.before.is_some() || front.first.value == 0.0;
         let turns = if step > SHORT { TURNS } else { CORNER };
-        let turned = front.before.is_some() && ahead < turns * way * along;
+        let turned = knows && ahead < turns * way * along;
         if turned || way > 2.0 * MOST { Err(Lost::Turned) } else { Ok(found) }
     }
 
