@@ -25,6 +25,7 @@ impl Export for CriticalSpeeds {
             reals("speed_error_rad_s".to_owned(), |speed| speed.speed_error_rad_s),
             Array::flags("at_edge", all().map(|speed| speed.at_edge)),
             Array::flags("resolved", all().map(|speed| speed.resolved)),
+            Array::flags("on_branch", all().map(|speed| speed.on_branch)),
             reals(format!("rms_{length}"), |speed| speed.rms),
             reals(format!("half_peak_to_peak_{length}"), |speed| speed.half_peak_to_peak),
             reals(format!("prominence_{length}"), |speed| speed.prominence),

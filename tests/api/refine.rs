@@ -111,6 +111,46 @@ async fn every_peak_inside_the_range_ends_up_resolved() {
     assert_eq!(maps[0], maps[1], "the number of workers");
 }
 
+/// Where the responses about a peak are solved for it is a maximum on their branch, also by marches beside it.
+#[tokio::test]
+async fn peaks_of_solved_responses_are_maxima_on_a_branch() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(model::package(1.0)).await;
+    let mut request = coarse_sweep_of(&model);
+    request["scene"]["damping"] = json!({"modal_ratio": 0.1});
+    request["integration"]["steady"] = json!("periodic");
+    let id = api.sweep(&request).await;
+    assert_eq!(api.finish(&id).await["status"], "successful");
+    let mut maxima = Vec::new();
+    for sensor in 0..2 {
+        let table = table(api, &id, sensor).await;
+        let peaks = table["critical_speeds"].as_array().unwrap().clone();
+        for peak in peaks.into_iter().filter(|peak| peak["on_branch"] == true) {
+            let number = |field: &str| peak[field].as_f64().unwrap();
+            assert!(number("speed_error_rad_s") <= 1e-5 * number("speed_rad_s"), "{peak}");
+            assert_eq!(peak["resolved"], true);
+            maxima.push((sensor, number("speed_rad_s"), number("rms")));
+        }
+    }
+    let mut beside = request.clone();
+    beside["refine"] = false.into();
+    beside["integration"]["steady"] = json!("march");
+    beside["integration"]["revolutions"] = json!(400);
+    assert!(!maxima.is_empty(), "no peak is on a branch");
+    for (sensor, speed, rms) in maxima {
+        let values = [1.0 - 1e-3, 1.0, 1.0 + 1e-3].map(|share| share * speed);
+        beside["speeds"] = json!({"values": values, "unit": "rad_s"});
+        let id = api.sweep(&beside).await;
+        api.finish(&id).await;
+        let map = map(api, &id).await;
+        let marched =
+            [0, 1, 2].map(|index| map["points"][index]["responses"][sensor]["rms"].as_f64().unwrap());
+        assert!((marched[1] / rms - 1.0).abs() < 1e-6, "{marched:?} {rms}");
+        assert!(marched[0] < marched[1] && marched[2] < marched[1], "{marched:?} at {speed}");
+    }
+}
+
 fn coarse_grid() -> Vec<Value> {
     (0..COARSE).map(|i| json!(300.0 + 600.0 * (i as f64 / (COARSE - 1) as f64))).collect()
 }

@@ -2,7 +2,7 @@
 
 import { api } from '../lib/api.js';
 import { h, replace } from '../lib/dom.js';
-import { nameOf, number, percent, rpm, speed } from '../lib/format.js';
+import { nameOf, number, percent, rpm } from '../lib/format.js';
 import { plot } from '../lib/plot.js';
 import { problem, unread } from '../lib/problem.js';
 import { table } from '../lib/table.js';
@@ -12,7 +12,7 @@ import { levels } from './compare/levels.js';
 import { measurement, overCampbell } from './compare/measured.js';
 import { analysisOf } from './job/campbell.js';
 import { sensorWords } from './job/choices.js';
-import { peakWords } from './job/critical.js';
+import { at, peakWords } from './job/critical.js';
 
 /** Sweeps that one can choose from. */
 const LISTED = 100;
@@ -167,7 +167,7 @@ function criticalTable(jobs) {
     rows: rows.sort((a, b) => a.each.speed_rad_s - b.each.speed_rad_s),
     columns: [
       { name: 'Sweep', cell: ({ of }) => h('a', { href: `#/jobs/${of.id}?view=critical` }, of.name), sort: ({ of }) => of.name },
-      { name: 'Speed', cell: ({ each }) => `${speed(each.speed_rad_s)} ± ${number(Math.round(rpm(each.speed_error_rad_s)), 3)}`, sort: ({ each }) => each.speed_rad_s },
+      { name: 'Speed', cell: ({ each }) => at(each), sort: ({ each }) => each.speed_rad_s },
       { name: 'Peak', cell: ({ each }) => peakWords(each), sort: ({ each }) => peakWords(each) },
       { name: 'Engine order', number: true, cell: ({ each }) => number(each.dominant_engine_order), sort: ({ each }) => each.dominant_engine_order },
       { name: 'rms', number: true, cell: ({ of, each }) => `${number(each.rms)} ${unitOf(of.map.sensor, of.map.units)}`, sort: ({ each }) => each.rms },

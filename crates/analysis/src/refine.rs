@@ -3,7 +3,7 @@
 use crate::resolved::ResolvedSweep;
 use crate::response_curve::ResponseCurve;
 use crate::result::{Point, Refinement, Unresolvable, Unresolved};
-use rubmap_wheel::response::critical_speed::{Resolution, peaks};
+use rubmap_wheel::response::critical_speed::{ON_BRANCH, Resolution, Wanted, peaks};
 
 /// A sweep gets at most as many added speeds as it had at first, or this many if those were fewer: a rough curve, such
 /// as that of a chaotic response, has new peaks at every scale.
@@ -28,7 +28,7 @@ impl Refinement {
 }
 
 /// The request with one more round of speeds: the middles of the intervals beside the peaks, of any sensor, that are not
-/// resolved. None if there is nothing to add, or no more may be. `points` are those of all speeds, in any order, which
+/// resolved, and where the maxima of solved responses are expected. None if there is nothing to add, or no more may be. `points` are those of all speeds, in any order, which
 /// makes no difference.
 pub fn refine(request: &ResolvedSweep, points: &[Point]) -> Option<ResolvedSweep> {
     if !request.refine {
@@ -37,17 +37,17 @@ pub fn refine(request: &ResolvedSweep, points: &[Point]) -> Option<ResolvedSweep
     let speeds = request.speeds.rad_s();
     let asked = request.speeds.asked();
     let most = (asked + asked.max(LEAST_MOST_ADDED)).saturating_sub(speeds.len());
-    let mut intervals = coarse_intervals(request, speeds, points);
+    let mut wanted = wanted(request, speeds, points);
     // Peaks that are known worst go first where not all can; the sort is stable.
-    intervals.sort_by(|a, b| (b.1 / b.0).total_cmp(&(a.1 / a.0)));
-    intervals.truncate(most.min(request.speeds.lists().room()));
-    let mut middles: Vec<f64> = intervals.into_iter().map(|(from, to)| 0.5 * (from + to)).collect();
-    middles.sort_by(f64::total_cmp);
-    if middles.is_empty() {
+    wanted.sort_by(|a, b| (b.width / b.speed).total_cmp(&(a.width / a.speed)));
+    wanted.truncate(most.min(request.speeds.lists().room()));
+    let mut more: Vec<f64> = wanted.into_iter().map(|each| each.speed).collect();
+    more.sort_by(f64::total_cmp);
+    if more.is_empty() {
         return None;
     }
     // There is no middle between numbers so small that they are next to each other.
-    let speeds = request.speeds.with_round(middles)?;
+    let speeds = request.speeds.with_round(more)?;
     Some(ResolvedSweep { speeds, ..request.clone() })
 }
 
@@ -58,20 +58,21 @@ fn resolutions(request: &ResolvedSweep, speeds: &[f64], points: &[Point]) -> Vec
     for sensor in 0..request.sensors.len() {
         let level = curve.level(sensor);
         for peak in peaks(&level, request.peak_prominence) {
-            let resolution = Resolution::of(&curve.speeds_rad_s, &level, &peak);
+            let resolution = Resolution::of(curve.of_values(&level), &peak);
             found.push((sensor, curve.speeds_rad_s[peak.index], resolution));
         }
     }
     found
 }
 
-/// Intervals between neighbouring speeds that are too wide for a peak of some sensor, ascending.
-fn coarse_intervals(request: &ResolvedSweep, speeds: &[f64], points: &[Point]) -> Vec<(f64, f64)> {
+/// The speeds that would tell more of a peak of some sensor, ascending.
+fn wanted(request: &ResolvedSweep, speeds: &[f64], points: &[Point]) -> Vec<Wanted> {
     let resolutions = resolutions(request, speeds, points).into_iter();
-    let mut intervals: Vec<_> = resolutions.flat_map(|(_, _, resolution)| resolution.coarse).collect();
-    intervals.sort_by(|a, b| a.0.total_cmp(&b.0));
-    intervals.dedup();
-    intervals
+    let mut wanted: Vec<_> = resolutions.flat_map(|(_, _, resolution)| resolution.wanted).collect();
+    wanted.sort_by(|a, b| a.speed.total_cmp(&b.speed));
+    // Maxima of two sensors may be the same.
+    wanted.dedup_by(|b, a| b.speed - a.speed <= 0.25 * ON_BRANCH * a.speed);
+    wanted
 }
 
 /// The peaks that are not resolved.
@@ -79,7 +80,7 @@ fn unresolved(request: &ResolvedSweep, speeds: &[f64], points: &[Point]) -> Vec<
     let why = |resolution: &Resolution| {
         if resolution.at_end {
             Unresolvable::EndOfRange
-        } else if resolution.coarse.is_empty() {
+        } else if resolution.wanted.is_empty() {
             Unresolvable::BesideMissing
         } else {
             Unresolvable::TooCoarse

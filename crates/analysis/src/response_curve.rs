@@ -1,12 +1,15 @@
 //! The response of a sweep over ascending speed.
 
-use crate::result::{Point, PointStatus};
+use crate::result::{Point, PointStatus, Stability};
+use rubmap_wheel::response::critical_speed::Curve;
 
 /// The speeds of a sweep in ascending order.
 pub(super) struct ResponseCurve<'a> {
     pub(super) speeds_rad_s: Vec<f64>,
     /// One for each speed, none where it did not complete.
     pub(super) points: Vec<Option<&'a Point>>,
+    /// Whether its numbers are those of a periodic response that was solved for and lasts.
+    solved: Vec<bool>,
 }
 
 impl<'a> ResponseCurve<'a> {
@@ -18,10 +21,20 @@ impl<'a> ResponseCurve<'a> {
         for point in finished.iter().filter(|point| point.status == PointStatus::Completed) {
             completed[point.index as usize] = Some(point);
         }
+        let is_solved = |index: &usize| {
+            let steady = completed[*index].and_then(|point| point.steady.as_ref());
+            steady.is_some_and(|steady| steady.taken && steady.stability == Some(Stability::Stable))
+        };
         Self {
             speeds_rad_s: ascending.iter().map(|&index| speeds_rad_s[index]).collect(),
             points: ascending.iter().map(|&index| completed[index]).collect(),
+            solved: ascending.iter().map(is_solved).collect(),
         }
+    }
+
+    /// With values at its speeds.
+    pub(super) fn of_values<'b>(&'b self, values: &'b [Option<f64>]) -> Curve<'b> {
+        Curve { speeds: &self.speeds_rad_s, values, solved: &self.solved }
     }
 
     /// Level of one sensor: root mean square about the mean.

@@ -182,7 +182,7 @@ fn response_peaks(
     let level = curve.level(sensor);
     let critical = peaks(&level, request.peak_prominence).into_iter().filter_map(|peak| {
         let point = curve.points[peak.index]?;
-        let resolution = Resolution::of(&curve.speeds_rad_s, &level, &peak);
+        let resolution = Resolution::of(curve.of_values(&level), &peak);
         let response = &point.responses[sensor];
         let distance = |crossing: &&Crossing| (crossing.speed_rad_s - point.speed_rad_s).abs();
         let nearest = linear.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).cloned();
@@ -192,6 +192,7 @@ fn response_peaks(
             at_edge: peak.at_edge,
             speed_error_rad_s: resolution.error,
             resolved: resolution.resolved,
+            on_branch: resolution.on_branch,
             rms: response.rms,
             half_peak_to_peak: response.half_peak_to_peak,
             prominence: peak.prominence,

@@ -64,7 +64,7 @@ pub fn wheel_critical_speeds(
     let critical = |peak: Peak| {
         let point = curve.points[peak.index]?;
         let tip = point.tip?;
-        let resolution = Resolution::of(&curve.speeds_rad_s, &level, &peak);
+        let resolution = Resolution::of(curve.of_values(&level), &peak);
         let contact = point.contact.as_ref();
         Some(WheelCriticalSpeed {
             speed_rad_s: point.speed_rad_s,
@@ -78,6 +78,7 @@ pub fn wheel_critical_speeds(
             at_edge: peak.at_edge,
             speed_error_rad_s: resolution.error,
             resolved: resolution.resolved,
+            on_branch: resolution.on_branch,
             amplitude_error: errors.and_then(|errors| errors.of(point.index)),
             settling: point.settling.as_ref()?.verdict,
             utilisation: point.utilisation(),

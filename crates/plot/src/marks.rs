@@ -139,7 +139,9 @@ pub(super) fn critical_words(speed: &CriticalSpeed, said: bool) -> String {
 
 /// How well a critical speed is known, to be said after it.
 pub(super) fn known_to(speed: &CriticalSpeed) -> String {
-    if speed.resolved {
+    if speed.on_branch {
+        format!(", a maximum on a branch, known to {} rpm", significant(rpm(speed.speed_error_rad_s)))
+    } else if speed.resolved {
         format!(", known to {} rpm", significant(rpm(speed.speed_error_rad_s)))
     } else {
         ": not resolved by the speeds of the sweep, the peak may be higher".to_owned()

@@ -47,10 +47,15 @@ function verdict(found) {
 
 /** Whether the speeds of the sweep tell where a peak is. */
 export function peakWords(each) {
-  return each.resolved ? 'resolved' : each.at_edge ? 'at an edge' : 'not resolved';
+  return each.on_branch ? 'on a branch' : each.resolved ? 'resolved' : each.at_edge ? 'at an edge' : 'not resolved';
 }
 
-const at = (each) => `${speed(each.speed_rad_s)} ± ${number(Math.round(rpm(each.speed_error_rad_s)), 3)}`;
+/** Where a peak is, with as many digits as are known. */
+export function at(each) {
+  const error = rpm(each.speed_error_rad_s);
+  return each.on_branch ? `${number(rpm(each.speed_rad_s), 7)} ± ${number(error, 1)} rpm` : `${speed(each.speed_rad_s)} ± ${number(Math.round(error), 3)}`;
+}
+
 const open = (context) => (each) => context.go({ view: 'point', speed: each.index });
 const common = [
   { name: 'Peak', cell: (each) => peakWords(each), sort: (each) => Number(each.resolved) },

@@ -732,6 +732,7 @@ class WheelCriticalSpeed(TypedDict):
     clearance_consumption: NotRequired[float | None]
     index: int
     mean_force: NotRequired[float | None]
+    on_branch: NotRequired[bool]
     peak_force: NotRequired[float | None]
     prominence: float
     resolved: bool
@@ -829,6 +830,7 @@ class CriticalSpeed(TypedDict):
     half_peak_to_peak: float
     index: int
     nearest_crossing: NotRequired[Crossing | None]
+    on_branch: NotRequired[bool]
     prominence: float
     resolved: bool
     rms: float

@@ -74,6 +74,10 @@ pub struct CriticalSpeed {
     /// within 5e-4 of the peak's, which is then known to that sharpness even where the response jumps (at the fold of a
     /// backbone curve). Otherwise the true peak may be higher. Never with `at_edge`.
     pub resolved: bool,
+    /// Whether it is a maximum on a branch of periodic responses: it and the speeds on both sides were solved for and last, and the neighbours
+    /// are at least 90 % as high. `refine` then goes on until it is known to 1e-5 of its speed. Otherwise it is the highest of the speeds.
+    #[serde(default)]
+    pub on_branch: bool,
     /// Steady response: root mean square about the mean, in the model's unit of length.
     pub rms: f64,
     /// Half the peak-to-peak displacement there.

@@ -61,6 +61,9 @@ pub struct WheelCriticalSpeed {
     pub speed_error_rad_s: f64,
     /// Whether the speeds beside it resolve the peak.
     pub resolved: bool,
+    /// Whether it is a maximum on a branch of periodic responses, as of the sensors.
+    #[serde(default)]
+    pub on_branch: bool,
     /// Estimated relative error of the steady response at this speed; absent without control runs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub amplitude_error: Option<f64>,

@@ -48,17 +48,22 @@ fn of_sensor(table: &CriticalSpeeds) -> Markup {
     }
 }
 
+/// Decimals of a critical speed in rpm: of a maximum on a branch more are known.
+fn decimals(peak: &CriticalSpeed) -> usize {
+    if peak.on_branch { 2 } else { 0 }
+}
+
 fn row(peak: &CriticalSpeed, used: bool, judged: bool) -> Markup {
     html! {
         tr {
-            td { (format!("{:.0}", rpm(peak.speed_rad_s))) }
-            td { (format!("{:.0}", rpm(peak.speed_error_rad_s))) }
+            td { (format!("{:.*}", decimals(peak), rpm(peak.speed_rad_s))) }
+            td { (format!("{:.*}", decimals(peak), rpm(peak.speed_error_rad_s))) }
             td { (format!("{:.3e}", peak.rms)) }
             td { (format!("{:.3e}", peak.half_peak_to_peak)) }
             td { (or_none(peak.dominant_engine_order)) }
             td { (or_none(peak.dominant_nodal_diameter)) }
             td { (verdict(peak.settling)) }
-            td { (if peak.resolved { "yes" } else { "no" }) }
+            td { (if peak.on_branch { "on a branch" } else if peak.resolved { "yes" } else { "no" }) }
             @match &peak.nearest_crossing {
                 Some(near) => {
                     td { (format!("({}, {}, {})", near.nodal_diameter, near.family, near.superharmonic)) }

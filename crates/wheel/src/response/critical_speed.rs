@@ -13,6 +13,10 @@ pub const SHARPNESS: f64 = 5e-4;
 /// higher peak could hide whose flanks are what was sampled; up to this ratio a linear resonance is within 7 % of its top.
 const WIDEST_RATIO: f64 = 3.0;
 
+/// How far apart, relative to its speed, a maximum of solved responses and the speeds beside it have to be: exact responses have an
+/// exact maximum.
+pub const ON_BRANCH: f64 = 1e-5;
+
 /// A local maximum of a sampled curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Peak {
@@ -100,9 +104,31 @@ pub struct Resolution {
     pub resolved: bool,
     /// Whether the curve ends beside it.
     pub at_end: bool,
-    /// The intervals beside it that have to be halved until they do; none beside the end of the curve, where the peak
-    /// may lie beyond.
-    pub coarse: Vec<(f64, f64)>,
+    /// The speeds that would tell more, with the intervals they are for; none beside the end of the curve, where the peak may lie
+    /// beyond.
+    pub wanted: Vec<Wanted>,
+    /// Whether it is a maximum on a branch: its sample and both beside it are of solved responses that follow from each other.
+    pub on_branch: bool,
+}
+
+/// A speed that would tell more of a peak.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Wanted {
+    /// The speed.
+    pub speed: f64,
+    /// Width of the interval that it divides.
+    pub width: f64,
+}
+
+/// A sampled curve.
+#[derive(Debug, Clone, Copy)]
+pub struct Curve<'a> {
+    /// Speeds, ascending.
+    pub speeds: &'a [f64],
+    /// Values at them.
+    pub values: &'a [Option<f64>],
+    /// Whether they are of periodic responses that were solved for and last, instead of read from a march.
+    pub solved: &'a [bool],
 }
 
 /// What lies beside a peak on one side.
@@ -112,53 +138,89 @@ struct Side {
     to: f64,
     interval: (f64, f64),
     value: Option<f64>,
+    solved: bool,
 }
 
 impl Resolution {
-    /// Of a peak of `curve`, which has values at `speeds`, ascending; of equal speeds one counts.
-    pub fn of(speeds: &[f64], curve: &[Option<f64>], peak: &Peak) -> Self {
-        let below = side(speeds, curve, peak, &mut (0..peak.index).rev());
-        let above = side(speeds, curve, peak, &mut (peak.index + 1..speeds.len()));
-        let at = speeds[peak.index];
+    /// Of a peak of `curve`; of equal speeds one counts.
+    pub fn of(curve: Curve<'_>, peak: &Peak) -> Self {
+        let below = curve.side(peak, &mut (0..peak.index).rev());
+        let above = curve.side(peak, &mut (peak.index + 1..curve.speeds.len()));
+        let at = curve.speeds[peak.index];
         let known = [&below, &above].into_iter().flatten().filter(|side| side.value.is_some());
         let error = known.map(|side| (side.to - at).abs()).fold(0.0, f64::max);
         let (Some(below), Some(above)) = (below, above) else {
-            return Self { error, resolved: false, at_end: true, coarse: Vec::new() };
+            return Self { error, resolved: false, at_end: true, wanted: Vec::new(), on_branch: false };
         };
         let sharp = SHARPNESS * at;
+        let is_high = |side: &Side| side.value.is_some_and(|value| value >= RESOLVED_SHARE * peak.height);
         let enough = |side: &Side, other: &Side| {
-            let high = side.value.is_some_and(|value| value >= RESOLVED_SHARE * peak.height);
-            side.width <= sharp || high && side.width <= WIDEST_RATIO * other.width
+            side.width <= sharp || is_high(side) && side.width <= WIDEST_RATIO * other.width
         };
         let sides = [(&below, &above), (&above, &below)];
         // One that is much narrower than the other is not halved before the other is: see WIDEST_RATIO.
         let coarse = sides
             .into_iter()
             .filter(|(side, other)| !enough(side, other) && other.width <= WIDEST_RATIO * side.width);
-        let coarse: Vec<_> = coarse.map(|(side, _)| side.interval).collect();
+        let mut wanted: Vec<Wanted> = coarse.map(|(side, _)| side.middle()).collect();
         let known = below.value.is_some() && above.value.is_some();
-        Self { error, resolved: coarse.is_empty() && known, at_end: false, coarse }
+        let resolved = wanted.is_empty() && known;
+        let on_branch = resolved
+            && curve.solved[peak.index]
+            && [&below, &above].iter().all(|side| side.solved && is_high(side));
+        if on_branch {
+            wanted = towards_the_top(at, peak.height, [&below, &above]);
+        }
+        Self { error, resolved, at_end: false, wanted, on_branch }
     }
 }
 
-/// The first sample among `indices`, which lead away from the peak, that is not part of its top; none at the end.
-fn side(
-    speeds: &[f64],
-    curve: &[Option<f64>],
-    peak: &Peak,
-    indices: &mut dyn Iterator<Item = usize>,
-) -> Option<Side> {
-    let mut top = speeds[peak.index];
-    for index in indices {
-        let (to, value) = (speeds[index], curve[index]);
-        if value == Some(peak.height) {
-            top = to;
-        } else if to != top {
-            let interval = (to.min(top), to.max(top));
-            return Some(Side { width: interval.1 - interval.0, to, interval, value });
-        }
+/// The speeds that tell where between its neighbours a smooth curve has its maximum: the summit of the parabola through the three, and where
+/// that is the highest sample, close beside it.
+fn towards_the_top(at: f64, height: f64, [below, above]: [&Side; 2]) -> Vec<Wanted> {
+    let close = ON_BRANCH * at;
+    let wide = |side: &&&Side| (side.to - at).abs() > close;
+    let (left, right) = (at - below.to, at - above.to);
+    let fall = |side: &Side| height - side.value.unwrap_or(height);
+    let (fall_left, fall_right) = (fall(below), fall(above));
+    let summit = at
+        - 0.5 * (left * left * fall_right - right * right * fall_left)
+            / (left * fall_right - right * fall_left);
+    let sides = [below, above];
+    if sides.iter().all(|side| !wide(&side)) {
+        return Vec::new();
     }
-    None
+    let width = above.to - below.to;
+    let inside = below.to + 0.5 * close < summit && summit < above.to - 0.5 * close;
+    if inside && (summit - at).abs() > 0.5 * close {
+        return vec![Wanted { speed: summit, width }];
+    }
+    let beside = |side: &Side| at + 0.9 * close * (side.to - at).signum();
+    sides.iter().filter(wide).map(|side| Wanted { speed: beside(side), width }).collect()
+}
+
+impl Side {
+    fn middle(&self) -> Wanted {
+        Wanted { speed: 0.5 * (self.interval.0 + self.interval.1), width: self.width }
+    }
+}
+
+impl Curve<'_> {
+    /// The first sample among `indices`, which lead away from the peak, that is not part of its top; none at the end.
+    fn side(&self, peak: &Peak, indices: &mut dyn Iterator<Item = usize>) -> Option<Side> {
+        let mut top = self.speeds[peak.index];
+        for index in indices {
+            let (to, value) = (self.speeds[index], self.values[index]);
+            if value == Some(peak.height) {
+                top = to;
+            } else if to != top {
+                let interval = (to.min(top), to.max(top));
+                let width = interval.1 - interval.0;
+                return Some(Side { width, to, interval, value, solved: self.solved[index] });
+            }
+        }
+        None
+    }
 }
 
 #[cfg(test)]
@@ -167,10 +229,24 @@ mod tests {
 
     /// The highest peak of `response` over ascending speeds, with its speed.
     fn highest(speeds: &[f64], response: impl Fn(f64) -> Option<f64>) -> (f64, Resolution) {
-        let curve: Vec<_> = speeds.iter().map(|&speed| response(speed)).collect();
-        let found = peaks(&curve, 0.0);
+        highest_of(speeds, response, false)
+    }
+
+    fn highest_of(
+        speeds: &[f64],
+        response: impl Fn(f64) -> Option<f64>,
+        is_solved: bool,
+    ) -> (f64, Resolution) {
+        let values: Vec<_> = speeds.iter().map(|&speed| response(speed)).collect();
+        let found = peaks(&values, 0.0);
         let peak = found.iter().max_by(|a, b| a.height.total_cmp(&b.height)).unwrap();
-        (speeds[peak.index], Resolution::of(speeds, &curve, peak))
+        let solved = vec![is_solved; speeds.len()];
+        (speeds[peak.index], Resolution::of(Curve { speeds, values: &values, solved: &solved }, peak))
+    }
+
+    /// The intervals that halving is wanted of.
+    fn halved(of: &Resolution) -> Vec<(f64, f64)> {
+        of.wanted.iter().map(|each| (each.speed - 0.5 * each.width, each.speed + 0.5 * each.width)).collect()
     }
 
     /// A linear resonance at 1000 with a half-bandwidth of 10.
@@ -187,9 +263,9 @@ mod tests {
         for shift in [0.0, 0.3, 0.4, 0.9] {
             let (at, coarse) = highest(&grid(900.0 + 20.0 * shift, 20.0, 10), resonance);
             assert!(!coarse.resolved && coarse.error == 20.0 && (at - 1000.0).abs() <= 20.0, "{coarse:?}");
-            assert_eq!(coarse.coarse, [(at - 20.0, at), (at, at + 20.0)]);
+            assert_eq!(halved(&coarse), [(at - 20.0, at), (at, at + 20.0)]);
             let (at, fine) = highest(&grid(900.0 + 2.0 * shift, 2.0, 100), resonance);
-            assert!(fine.resolved && fine.coarse.is_empty(), "{fine:?}");
+            assert!(fine.resolved && fine.wanted.is_empty(), "{fine:?}");
             assert!((fine.error - 2.0).abs() < 1e-9 && (at - 1000.0).abs() <= fine.error, "{fine:?}");
         }
         // What the constant promises, for any even grid.
@@ -208,7 +284,7 @@ mod tests {
         let (at, found) = highest(&[850.0, 900.0, 1099.0, 1101.0, 1103.0], resonance);
         assert_eq!(at, 1099.0);
         assert!(!found.resolved);
-        assert_eq!(found.coarse, [(900.0, 1099.0)], "halving the narrow one would help nobody");
+        assert_eq!(halved(&found), [(900.0, 1099.0)], "halving the narrow one would help nobody");
         assert_eq!(found.error, 199.0);
     }
 
@@ -218,7 +294,7 @@ mod tests {
         let sawtooth = |speed: f64| Some(if speed < 1000.0 { 0.001 * speed } else { 0.2 });
         let (at, found) = highest(&[950.0, 990.0, 1030.0], sawtooth);
         assert_eq!((at, found.resolved), (990.0, false));
-        assert_eq!(found.coarse, [(990.0, 1030.0)]);
+        assert_eq!(halved(&found), [(990.0, 1030.0)]);
         let (_, found) = highest(&[999.0, 999.8, 1000.2, 1001.0], sawtooth);
         assert!(found.resolved, "{found:?}");
         assert!((found.error - 0.8).abs() < 1e-9);
@@ -229,15 +305,24 @@ mod tests {
         let (at, found) = highest(&grid(1000.0, 1.0, 10), resonance);
         assert_eq!(
             (at, found),
-            (1000.0, Resolution { error: 1.0, resolved: false, at_end: true, coarse: Vec::new() })
+            (
+                1000.0,
+                Resolution {
+                    error: 1.0,
+                    resolved: false,
+                    at_end: true,
+                    wanted: Vec::new(),
+                    on_branch: false
+                }
+            )
         );
         // A missing speed bounds nothing, however close, but may be approached.
         let gap = |missing: f64| move |speed: f64| resonance(speed).filter(|_| speed != missing);
         let (at, found) = highest(&[990.0, 995.0, 1000.0, 1010.0], gap(1000.0));
         assert_eq!((at, found.error, found.resolved), (995.0, 5.0, false));
-        assert_eq!(found.coarse, [(990.0, 995.0), (995.0, 1000.0)]);
+        assert_eq!(halved(&found), [(990.0, 995.0), (995.0, 1000.0)]);
         let (_, found) = highest(&[999.3, 999.7, 1000.0, 1010.0], gap(1000.0));
-        assert!(!found.resolved && found.coarse.is_empty(), "{found:?}");
+        assert!(!found.resolved && found.wanted.is_empty(), "{found:?}");
     }
 
     #[test]
@@ -247,7 +332,34 @@ mod tests {
         let flat = |speed: f64| Some(if (990.0..1010.0).contains(&speed) { 1.0 } else { 0.1 });
         let (at, found) = highest(&grid(970.0, 10.0, 7), flat);
         assert!((at, found.error, found.resolved) == (990.0, 20.0, false), "{at} {found:?}");
-        assert_eq!(found.coarse, [(980.0, 990.0), (1000.0, 1010.0)]);
+        assert_eq!(halved(&found), [(980.0, 990.0), (1000.0, 1010.0)]);
+    }
+
+    /// Of what is solved for the top is found, of any smooth curve, in a handful of speeds; jumps are no branch.
+    #[test]
+    fn maxima_of_solved_responses_are_found_to_their_tolerance() {
+        let lopsided = |speed: f64| {
+            let x = (speed - 1000.3) / 7.0;
+            Some((1.0 + 0.2 * x).max(0.1) / (1.0 + x * x + 0.1 * x.powi(3).abs()))
+        };
+        let top = grid(1000.0, 1e-4, 30_000)
+            .into_iter()
+            .max_by(|&a, &b| lopsided(a).partial_cmp(&lopsided(b)).unwrap());
+        let mut speeds = vec![980.0, 999.0, 1000.0, 1002.0, 1020.0];
+        let (mut at, mut found) = highest_of(&speeds, lopsided, true);
+        assert!(found.resolved && found.on_branch);
+        while !found.wanted.is_empty() {
+            speeds.extend(found.wanted.iter().map(|each| each.speed));
+            speeds.sort_by(f64::total_cmp);
+            assert!(speeds.windows(2).all(|pair| pair[0] < pair[1]), "{speeds:?}");
+            (at, found) = highest_of(&speeds, lopsided, true);
+        }
+        assert!(speeds.len() < 5 + 8, "{speeds:?}");
+        assert!(found.on_branch && found.error <= ON_BRANCH * at, "{found:?}");
+        assert!((at - top.unwrap()).abs() <= found.error + 1e-4, "{at} {top:?}");
+        let sawtooth = |speed: f64| Some(if speed < 1000.0 { 0.001 * speed } else { 0.2 });
+        let (_, found) = highest_of(&[999.0, 999.8, 1000.2, 1001.0], sawtooth, true);
+        assert!(found.resolved && !found.on_branch && found.wanted.is_empty(), "{found:?}");
     }
 
     fn indices(curve: &[f64], share: f64) -> Vec<usize> {
