@@ -53,7 +53,7 @@ export function peakWords(each) {
 /** Where a peak is, with as many digits as are known. */
 export function at(each) {
   const error = rpm(each.speed_error_rad_s);
-  return each.on_branch ? `${number(rpm(each.speed_rad_s), 7)} ± ${number(error, 1)} rpm` : `${speed(each.speed_rad_s)} ± ${number(Math.round(error), 3)}`;
+  return each.on_branch && error < 1 ? `${number(rpm(each.speed_rad_s), 7)} ± ${number(error, 1)} rpm` : `${speed(each.speed_rad_s)} ± ${number(Math.round(error), 3)}`;
 }
 
 const open = (context) => (each) => context.go({ view: 'point', speed: each.index });

@@ -48,9 +48,9 @@ fn of_sensor(table: &CriticalSpeeds) -> Markup {
     }
 }
 
-/// Decimals of a critical speed in rpm: of a maximum on a branch more are known.
+/// Decimals of a critical speed in rpm: of a maximum on a branch more may be known.
 fn decimals(peak: &CriticalSpeed) -> usize {
-    if peak.on_branch { 2 } else { 0 }
+    if peak.on_branch && rpm(peak.speed_error_rad_s) < 1.0 { 2 } else { 0 }
 }
 
 fn row(peak: &CriticalSpeed, used: bool, judged: bool) -> Markup {
