@@ -46,8 +46,6 @@ function focusAgain(place, name) {
   if (document.activeElement !== document.body) return;
   const control = [...place.querySelectorAll('a, button, input, select, textarea')].find((one) => nameOf(one) === name);
   control?.focus({ preventScroll: true });
-  // Writing goes on where it was.
-  if (control?.type === 'search') control.setSelectionRange(control.value.length, control.value.length);
 }
 
 /** Shows the view of the address. */

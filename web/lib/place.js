@@ -8,12 +8,25 @@
  */
 export function placeWith(path, query, changes) {
   const next = new URLSearchParams(query);
-  for (const [name, value] of Object.entries(changes)) {
-    if (value === null || value === undefined || value === '') next.delete(name);
-    else next.set(name, String(value));
-  }
+  change(next, changes);
   const text = next.toString();
   return `#/${path}${text ? `?${text}` : ''}`;
+}
+
+/**
+ * Changes the query of the view that is shown, and its address with it. The view is not begun anew: in a field that is being written in no
+ * letter is lost.
+ */
+export function narrow(path, query, changes) {
+  history.pushState(null, '', placeWith(path, query, changes));
+  change(query, changes);
+}
+
+function change(query, changes) {
+  for (const [name, value] of Object.entries(changes)) {
+    if (value === null || value === undefined || value === '') query.delete(name);
+    else query.set(name, String(value));
+  }
 }
 
 /** Where the next page of a list begins, if there is one: the contract gives its whole address. */

@@ -4,7 +4,7 @@ import { api } from '../lib/api.js';
 import { h, replace } from '../lib/dom.js';
 import { ended, poll } from '../lib/events.js';
 import { bytes, count, duration, KINDS, moment, nameOf, short } from '../lib/format.js';
-import { cursorOf, placeWith } from '../lib/place.js';
+import { cursorOf, narrow, placeWith } from '../lib/place.js';
 import { problem } from '../lib/problem.js';
 import { searchField } from '../lib/search.js';
 import { remaining, STATUSES } from './job.js';
@@ -29,7 +29,7 @@ export async function show(main, { query }, signal) {
   const compare = h('button', { type: 'button', disabled: chosen.size < 2, on: { click: () => { location.hash = `#/compare?jobs=${[...chosen].join(',')}`; } } }, 'Compare the chosen');
   replace(main,
     h('h1', {}, 'Jobs'),
-    filters(query, signal),
+    filters(query, { narrowed, signal }),
     h('div', { class: 'row' }, compare, h('span', { class: 'quiet small' }, 'Choose two or more finished sweeps to lay them over each other.')),
     told, rows, pages);
 
@@ -47,8 +47,10 @@ export async function show(main, { query }, signal) {
   };
 
   async function refresh() {
+    const place = query.toString();
     const asked = Object.fromEntries(FILTERS.map((name) => [name, query.get(name)]));
     const list = await api.get('/v1/jobs', { query: { ...asked, limit: LIMIT, cursor: query.get('cursor') }, signal });
+    if (query.toString() !== place) return;
     pace = list.jobs.some((job) => !ended(job)) ? PACE.running : PACE.calm;
     update(rows, shown, list.jobs, context);
     if (list.jobs.length === 0) {
@@ -61,14 +63,24 @@ export async function show(main, { query }, signal) {
       cursor ? h('a', { class: 'button', href: placeWith('jobs', query, { cursor }) }, 'Older') : null);
   }
 
+  function narrowed() {
+    replace(told);
+    refresh().catch((error) => {
+      if (!signal.aborted) replace(told, problem(error));
+    });
+  }
+
   await refresh();
   poll(refresh, () => pace, signal).catch((error) => {
     if (!signal.aborted) replace(told, problem(error));
   });
 }
 
-function filters(query, signal) {
-  const go = (changes) => { location.hash = placeWith('jobs', query, { cursor: null, ...changes }); };
+function filters(query, { narrowed, signal }) {
+  const go = (changes) => {
+    narrow('jobs', query, { cursor: null, ...changes });
+    narrowed();
+  };
   const all = [['', 'all']];
   const search = (name, label) => searchField({ name, label, value: query.get(name) }, (text) => go({ [name]: text }), signal);
   return h('div', { class: 'row', role: 'search' },
@@ -76,7 +88,7 @@ function filters(query, signal) {
     select('Kind', [...all, ...Object.entries(KINDS)], query.get('kind') ?? '', (kind) => go({ kind })),
     search('name', 'Name has'),
     search('tag', 'Tag'),
-    query.get('model') ? h('button', { type: 'button', on: { click: () => go({ model: null }) } }, `Of model ${short(query.get('model'))}… ✕`) : null);
+    query.get('model') ? h('button', { type: 'button', on: { click: () => { location.hash = placeWith('jobs', query, { cursor: null, model: null }); } } }, `Of model ${short(query.get('model'))}… ✕`) : null);
 }
 
 /** Draws what is new or has changed, and leaves the rest, where the reader may be. */

@@ -4,7 +4,7 @@ import { api, Away, Refusal } from '../lib/api.js';
 import { confirmed } from '../lib/confirm.js';
 import { facts, h, newId, replace } from '../lib/dom.js';
 import { bytes, moment, number, percent, rpm } from '../lib/format.js';
-import { cursorOf, placeWith } from '../lib/place.js';
+import { cursorOf, narrow, placeWith } from '../lib/place.js';
 import { problem } from '../lib/problem.js';
 import { searchField } from '../lib/search.js';
 import { upload } from '../lib/upload.js';
@@ -15,12 +15,21 @@ const LIMIT = 50;
 export async function show(main, { query }, signal) {
   const told = h('div');
   const shown = h('div');
-  replace(main, h('h1', {}, 'Models'), drop(signal), filter(query, signal), told, shown);
+  replace(main, h('h1', {}, 'Models'), drop(signal), filter(query, { narrowed, signal }), told, shown);
   await read();
 
+  function narrowed() {
+    replace(told);
+    read().catch((error) => {
+      if (!signal.aborted) replace(told, problem(error));
+    });
+  }
+
   async function read() {
+    const place = query.toString();
     const asked = { name: query.get('name'), tag: query.get('tag'), cursor: query.get('cursor'), limit: LIMIT };
     const list = await api.get('/v1/models', { query: asked, signal });
+    if (query.toString() !== place) return;
     const { models } = list;
     const cursor = cursorOf(list);
     const filtered = query.get('name') || query.get('tag');
@@ -33,8 +42,11 @@ export async function show(main, { query }, signal) {
   }
 }
 
-function filter(query, signal) {
-  const go = (changes) => { location.hash = placeWith('models', query, { cursor: null, ...changes }); };
+function filter(query, { narrowed, signal }) {
+  const go = (changes) => {
+    narrow('models', query, { cursor: null, ...changes });
+    narrowed();
+  };
   const search = (name, label) => searchField({ name, label, value: query.get(name) }, (text) => go({ [name]: text }), signal);
   return h('div', { class: 'row', role: 'search' }, search('name', 'Name has'), search('tag', 'Tag'));
 }
