@@ -1,5 +1,6 @@
 //! Branches: periodic responses over a number of their scene.
 
+use axum::Json;
 use axum::extract::State;
 use axum::response::Response;
 use serde::Deserialize;
@@ -16,7 +17,7 @@ use super::results::{check_sensor, find, sweep, wrong_kind};
 use super::state::AppState;
 use super::submit::{self, Receipt};
 use crate::analysis::request::BranchesRequest;
-use crate::analysis::result::{BranchLeg, Branches, Point};
+use crate::analysis::result::{BranchLeg, Branches, BranchesPlan, Point};
 use crate::jobs::Submission;
 use crate::plot;
 use crate::store::jobs::{JobKind, JobRequest};
@@ -69,6 +70,31 @@ pub(super) async fn create_branches(
     let (request, labels) = body.value.parts()?;
     let submission = (Submission::Branches(Box::new(request)), labels);
     submit::accept(&state, &whose, key, &body.fingerprint, submission).await
+}
+
+/// Say what branches would do and cost, without starting anything.
+///
+/// Takes the body of `POST /v1/branches` and answers at once; if the reduction is stored, with scheme and step, and what a point and a branch
+/// that turns nowhere are expected to take, from a short calibration of this machine.
+#[utoipa::path(post, path = "/v1/branches/plan", operation_id = "plan_branches", tag = "jobs",
+    request_body = BranchesBody,
+    responses(
+        (status = 200, description = "The plan.", body = BranchesPlan),
+        (status = 400, description = "The body is not JSON; `errors` has line and column.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 413, description = "The body is too large.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 415, description = "The body is not declared as application/json.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 422, description = "As for `POST /v1/branches`.", body = Problem,
+            content_type = "application/problem+json"),
+    ))]
+pub(super) async fn plan_branches(
+    State(state): State<AppState>,
+    whose: Principal,
+    body: JsonBody<BranchesBody>,
+) -> Result<Json<BranchesPlan>, Problem> {
+    Ok(Json(state.jobs.plan_branches(&whose, body.value.parts()?.0).await?))
 }
 
 /// What to draw of branches.

@@ -40,6 +40,7 @@ pub(super) fn routes() -> OpenApiRouter<AppState> {
         .routes(routes!(studies::create_study))
         .routes(routes!(case_studies::create_case_study))
         .routes(routes!(branches::create_branches))
+        .routes(routes!(branches::plan_branches))
         .routes(routes!(jobs::list_jobs))
         .routes(routes!(jobs::get_job, jobs::label_job, jobs::delete_job))
         .routes(routes!(events::follow_job))

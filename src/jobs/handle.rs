@@ -12,8 +12,9 @@ use super::pool::Panicked;
 use super::submission::Submission;
 use crate::analysis::error::{AnalysisError, Violation};
 use crate::analysis::monitor::Unwatched;
-use crate::analysis::request::{ModalAnalysisRequest, Sensor, SweepRequest};
+use crate::analysis::request::{BranchesRequest, ModalAnalysisRequest, Sensor, SweepRequest};
 use crate::analysis::resolved::{Modes, ResolvedSweep};
+use crate::analysis::result::BranchesPlan;
 use crate::analysis::run::{self, ModalAnalysisPlan, PlacedSensor, ReducedSector, SweepPlan};
 use crate::impeller::{GenerationPlan, ImpellerError, ImpellerParameters, ImpellerRequest, plan_generation};
 use crate::package;
@@ -168,6 +169,19 @@ impl Jobs {
         let reduced = self.check(&request).await?;
         let plan = plans::sweep::<SubmitError>(&self.engine, request, facts, reduced).await?;
         Ok(SweepPlan { choice, placed_sensors, ..plan })
+    }
+
+    /// The same for branches.
+    pub async fn plan_branches(
+        &self,
+        whose: &Principal,
+        mut request: BranchesRequest,
+    ) -> Result<BranchesPlan, SubmitError> {
+        let facts = self.facts(whose, &request.model).await?;
+        let placed = self.place(&request.model, &mut request.sensors).await?;
+        let (_, request) = both(placed, run::resolve_branches(request, &facts))?;
+        let reduced = self.check(request.sweep()).await?;
+        plans::branches(&self.engine, request, facts, reduced).await
     }
 
     /// The same for a modal analysis.

@@ -8,8 +8,8 @@ use super::error::Interruption;
 use super::machine;
 use super::patience::patiently;
 use super::pool::Panicked;
-use crate::analysis::resolved::{ResolvedModalAnalysis, ResolvedSweep};
-use crate::analysis::result::Machine;
+use crate::analysis::resolved::{ResolvedBranches, ResolvedModalAnalysis, ResolvedSweep};
+use crate::analysis::result::{BranchesPlan, Machine};
 use crate::analysis::run::{self, Calibration, ModalAnalysisPlan, ModelFacts, ReducedSector, SweepPlan};
 use crate::store::StoreError;
 #[cfg(feature = "cluster")]
@@ -27,7 +27,19 @@ pub(super) async fn sweep<E: From<StoreError> + From<Panicked>>(
     Ok(SweepPlan { machine: Some(machine), ..engine.planner.run(plan).await? })
 }
 
-/// What computes a sweep.
+/// Plans resolved branches.
+pub(super) async fn branches<E: From<StoreError> + From<Panicked>>(
+    engine: &Engine,
+    request: ResolvedBranches,
+    facts: ModelFacts,
+    reduced: Option<Arc<ReducedSector>>,
+) -> Result<BranchesPlan, E> {
+    let Capacity { machine, costs, .. } = capacity::<E>(engine).await?;
+    let plan = move || run::plan_branches(&request, &facts, reduced.as_deref(), &costs);
+    Ok(BranchesPlan { machine: Some(machine), ..engine.planner.run(plan).await? })
+}
+
+/// What computes a job.
 struct Capacity {
     /// One of its machines.
     machine: Machine,

@@ -39,7 +39,13 @@ async fn branches_are_followed_to_both_ends_and_march_to_the_same() {
     let api = &app.api;
     let model = api.model(model::package(1.0)).await;
     let request = branches_of(&model);
+    let plan = api.post("/v1/branches/plan", &request).await;
+    assert_eq!(plan.status, 200, "{}", plan.body);
+    assert_eq!(plan.body["reduction"], "to be computed");
+    assert_eq!((&plan.body["point"], &plan.body["estimate"]), (&Value::Null, &Value::Null));
+    assert_eq!(api.get("/v1/jobs").await.body["jobs"], json!([]), "a plan starts nothing");
     let found = followed(api, &request).await;
+    assert_planned(&api.post("/v1/branches/plan", &request).await.body, &found);
     assert_eq!((&found["complete"], &found["parameter"]), (&json!(true), &json!("speed")));
     let branch = &found["branches"][0];
     let ends: Vec<&Value> = branch["ends"].as_array().unwrap().iter().map(|end| &end["why"]).collect();
@@ -89,6 +95,22 @@ async fn branches_are_followed_to_both_ends_and_march_to_the_same() {
         assert!((solved / marched - 1.0).abs() < 1e-8, "{solved} {marched}: {point}");
     }
     assert!(settled > 1, "{map}");
+}
+
+/// What was foretold of branches that go to both ends is how they were stepped, and no more than they took.
+fn assert_planned(plan: &Value, found: &Value) {
+    assert_eq!(plan["reduction"], "stored");
+    let (point, points) = (&plan["point"], found["branches"][0]["points"].as_array().unwrap().len() as u64);
+    assert_eq!(point["scheme"]["name"], found["scheme"], "{plan}");
+    assert_eq!(point["steps_per_revolution"], found["steps_per_revolution"]);
+    let [least, most] = ["points_at_least", "points_at_most"].map(|field| plan[field].as_u64().unwrap());
+    assert!(50 <= least && least <= points && points <= most, "{points} points: {plan}");
+    assert_eq!(plan["settings"], found["settings"]);
+    let [one, all] = [&point["computing_time_s"], &plan["estimate"]["wall_time_s"]];
+    for end in ["free", "contact"] {
+        let [one, all] = [one, all].map(|time| time[end].as_f64().unwrap());
+        assert!(one > 0.0 && (all / (least as f64 * one) - 1.0).abs() < 1e-12, "{plan}");
+    }
 }
 
 /// Over damping, clearance and the lobes: the scene as it is lies on each, with the same amplitude.
@@ -144,6 +166,7 @@ async fn what_cannot_be_followed_is_refused_at_its_field() {
         change(&mut request);
         let answer = api.post("/v1/branches", &request).await;
         assert_eq!(answer.status, 422, "{}", answer.body);
+        assert_eq!(api.post("/v1/branches/plan", &request).await.body["errors"], answer.body["errors"]);
         let errors = answer.body["errors"].as_array().unwrap();
         assert!(errors.iter().any(|error| error["pointer"] == pointer), "{pointer}: {errors:?}");
     };

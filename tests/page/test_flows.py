@@ -292,6 +292,13 @@ def test_a_speed_of_which_nothing_was_recorded_is_recorded(service, swept, new_p
     page.locator(".figure .main-svg").first.wait_for()
 
 
+def test_a_form_says_what_branches_take(service, swept, model, new_page):
+    page = new_page(f"{service.url}/#/sweep?model={model}&kind=branches")
+    plan = page.get_by_role("status", name="Plan")
+    plan.get_by_text("at least 5").wait_for()
+    plan.get_by_text("exact_modal: ").wait_for()
+
+
 def test_branches_are_followed_from_a_speed_of_a_sweep(service, model, new_page):
     integration = {"revolutions": 30, "window_revolutions": 10}
     request = sweep_of(model, name="damped", scene=damped(), speeds={"from": 19000, "to": 21000, "count": 5, "unit": "rpm"}, integration=integration, modes_per_speed=3, record={})

@@ -91,6 +91,10 @@ fn every_kind_of_job_can_be_asked_for() {
             .done("plan --kind modal-analysis modal.yaml --model springs.zip")
             .contains("nodal diameters each")
     );
+    let along = "{parameter: speed, from: 200, to: 400}";
+    shell.write("branches.yaml", &format!("speed: {{value: 300, unit: rad_s}}\nalong: {along}\n{scene}"));
+    let plan = shell.done("plan --kind branches branches.yaml --model springs.zip");
+    assert!(plan.contains("points      at least 51, at most 801") && plan.contains("memory"), "{plan}");
     shell.write("wheel.yaml", "preset: small\nsectors: 8\n");
     assert!(shell.done("plan --kind model-generation wheel.yaml").contains("unknowns"));
 }

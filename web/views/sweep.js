@@ -31,7 +31,7 @@ export const REQUESTS = {
     begin: (model) => ({ model: model.id, speed: { value: Math.round(0.6 * speedsOf(model).to), unit: 'rpm' }, scene: sceneOf(model) }),
   },
   branches: {
-    words: 'Branches: periodic responses followed', schema: 'LabelledBranchesRequest', path: '/v1/branches', plan: null, priced: false,
+    words: 'Branches: periodic responses followed', schema: 'LabelledBranchesRequest', path: '/v1/branches', plan: '/v1/branches/plan', priced: false,
     begin: (model) => {
       const { from, to } = speedsOf(model);
       return { model: model.id, speed: { value: Math.round(0.6 * to), unit: 'rpm' }, along: { parameter: 'speed', from, to }, scene: sceneOf(model) };

@@ -157,6 +157,8 @@ def test_branches_are_those_of_the_json(client: rubmap.Client, model: rubmap.Mod
         "integration": {"revolutions": 30},
     }
     job = client.branches(request).submit().wait(progress=False)
+    plan = job.plan()
+    assert plan["points_at_least"] <= len(job.points(0)) <= plan["points_at_most"] and plan["estimate"]["workers"] == 1
     assert job.id is not None and isinstance(client.job(job.id), rubmap.Branches)
     points, json = job.points(), job.json("branches")
     assert json["complete"] and points.attrs["parameter"] == "speed" and points.attrs["unit"] == "mm"

@@ -2,7 +2,7 @@
 //!
 //! - [`run::prepare`] reduces a sector (once per model and `modes_per_speed`);
 //! - [`run::check`], [`run::run_speed`] and [`run::modal_analysis`] compute on the reduced sector;
-//! - [`run::plan_sweep`] and [`run::plan_modal_analysis`] say beforehand what that will do and cost;
+//! - [`run::plan_sweep`], [`run::plan_modal_analysis`] and [`run::plan_branches`] say beforehand what that will do and cost;
 //! - [`run::refine`] says which speeds a sweep lacks around its peaks;
 //! - [`run::interaction_map`] and [`run::critical_speeds`] assemble the finished speeds of a sweep, [`run::refine`] asks for more;
 //! - [`run::speed_histories`] simulates a speed once more and records what happens, [`run::force_map`] gathers contact over all speeds;

@@ -3,7 +3,6 @@
 use std::time::Instant;
 
 use crate::accuracy::rung::pilot_speeds;
-use crate::branches::KEPT;
 use crate::calibration::Calibration;
 use crate::calibration::effects::EffectSizes;
 use crate::calibration::size::StepSize;
@@ -15,9 +14,7 @@ use crate::effects::table::{check_at_speed, planned};
 use crate::model::{ModelFacts, ReducedSector};
 use crate::request::{HistorySpeeds, Recorded, SweepDirection};
 use crate::resolve::recorded::{lines, revolutions};
-use crate::resolved::{
-    ResolvedBranches, ResolvedCaseStudy, ResolvedModalAnalysis, ResolvedSweep, Scene, TrialRequest,
-};
+use crate::resolved::{ResolvedCaseStudy, ResolvedModalAnalysis, ResolvedSweep, Scene, TrialRequest};
 use crate::result::{
     CostRange, Estimate, FoundSymmetry, ModalAnalysisPlan, PlannedPoint, ReductionState, SweepPlan,
 };
@@ -28,7 +25,6 @@ use crate::stepping::Stepping;
 use rubmap_numerics::sector_fourier::harmonic_count;
 use rubmap_wheel::dynamics::casing::RestrictionTable;
 use rubmap_wheel::dynamics::modal_wheel::{ModalWheel, RotationEffects};
-use rubmap_wheel::dynamics::steady::response;
 use rubmap_wheel::revision::VERSION;
 
 /// Plans a resolved sweep on `workers` threads; without `reduced`, what can be said without it. The choice, where sensors stand
@@ -54,10 +50,7 @@ pub fn plan_sweep(
     SweepPlan {
         effects: planned(&request.scene),
         symmetry: FoundSymmetry::of(&request.scene, facts.sectors),
-        contact_pairs: match request.scene.contact {
-            Some(_) => u64::from(sectors_simulated(&request.scene, facts)) * u64::from(facts.contact_nodes),
-            None => 0,
-        },
+        contact_pairs: contact_pairs(&request.scene, facts),
         reduction: state(reduced),
         reduced_unknowns_at_most: reduced_unknowns(facts, reduced, request.modes_per_speed()),
         basis_bytes_at_most: basis_bytes(facts, reduced, request.modes_per_speed(), request.fields()),
@@ -97,6 +90,14 @@ fn recorded_speeds(request: &ResolvedSweep) -> Vec<f64> {
         before.chain([index]).collect::<Vec<_>>()
     };
     indices.iter().flat_map(with_those_before).map(|index| speeds[index as usize]).collect()
+}
+
+/// Pairs of contact node and casing that are simulated.
+pub(crate) fn contact_pairs(scene: &Scene, facts: &ModelFacts) -> u64 {
+    match scene.contact {
+        Some(_) => u64::from(sectors_simulated(scene, facts)) * u64::from(facts.contact_nodes),
+        None => 0,
+    }
 }
 
 fn sectors_simulated(scene: &Scene, facts: &ModelFacts) -> u32 {
@@ -143,7 +144,7 @@ pub fn plan_modal_analysis(
 }
 
 /// About K(Ω), if `scene` uses it: what the reduction found, or, while there is none, what the matrices tell.
-fn warnings(scene: &Scene, facts: &ModelFacts, reduced: Option<&ReducedSector>) -> Vec<String> {
+pub(crate) fn warnings(scene: &Scene, facts: &ModelFacts, reduced: Option<&ReducedSector>) -> Vec<String> {
     let found = reduced.map(|reduced| &reduced.report.stiffening);
     let found = found.map(|found| (found.verdict, &found.message));
     let preliminary = facts.stiffening.as_ref().map(|found| (found.verdict, &found.message));
@@ -155,18 +156,24 @@ fn warnings(scene: &Scene, facts: &ModelFacts, reduced: Option<&ReducedSector>) 
         .collect()
 }
 
-fn state(reduced: Option<&ReducedSector>) -> ReductionState {
+/// Whether a reduction is there.
+pub(crate) fn state(reduced: Option<&ReducedSector>) -> ReductionState {
     if reduced.is_some() { ReductionState::Stored } else { ReductionState::ToBeComputed }
 }
 
-fn reduced_unknowns(facts: &ModelFacts, reduced: Option<&ReducedSector>, modes_per_speed: u32) -> u64 {
+/// Real unknowns of the whole reduced wheel, at most.
+pub(crate) fn reduced_unknowns(
+    facts: &ModelFacts,
+    reduced: Option<&ReducedSector>,
+    modes_per_speed: u32,
+) -> u64 {
     let modes = facts.speeds_rad_s.len() as u64 * u64::from(modes_per_speed);
     let expected = || u64::from(facts.sectors) * (3 * u64::from(facts.contact_nodes) + modes);
     reduced.map_or_else(expected, |reduced| reduced.report.wheel_unknowns.into())
 }
 
 /// Disk that the basis of a reduction will take; nothing of one that is left out.
-fn basis_bytes(
+pub(crate) fn basis_bytes(
     facts: &ModelFacts,
     reduced: Option<&ReducedSector>,
     modes_per_speed: u32,
@@ -313,7 +320,7 @@ fn plan_point(
 }
 
 /// Contact nodes of a sector that may touch.
-fn touching(reduced: &ReducedSector, request: &ResolvedSweep) -> usize {
+pub(crate) fn touching(reduced: &ReducedSector, request: &ResolvedSweep) -> usize {
     if request.scene.contact.is_some() { reduced.wheel.contact.len() } else { 0 }
 }
 
@@ -339,16 +346,6 @@ pub fn histories_memory(reduced: &ReducedSector, case: &ResolvedCaseStudy, place
     recorded + running_bytes(&wheel, sweep, &stepping, nodes)
 }
 
-/// Memory that branches hold while they are followed, in bytes: a run of the scene where they begin, what a search of it holds, and the
-/// modes of the other values that are kept.
-pub fn branches_memory(reduced: &ReducedSector, asked: &ResolvedBranches) -> u64 {
-    let sweep = asked.sweep();
-    let Ok((wheel, stepping)) = ready(reduced, sweep, asked.speed_rad_s()) else { return 0 };
-    let nodes = touching(reduced, sweep);
-    let search = response::memory(wheel.unknowns(), wheel.sectors * nodes) as u64;
-    KEPT as u64 * running_bytes(&wheel, sweep, &stepping, nodes) + search
-}
-
 /// Histories twice, as numbers and as text.
 fn recorded_bytes(
     record: &Recorded,
@@ -367,7 +364,12 @@ fn recorded_bytes(
 
 /// What a speed holds while it runs: its modes with what their eigenproblems took, the casing's table, the histories,
 /// what turns one of them into a spectrum, and the spectra, as they are and on their way into the database.
-fn running_bytes(wheel: &ModalWheel, request: &ResolvedSweep, stepping: &Stepping, nodes: usize) -> u64 {
+pub(crate) fn running_bytes(
+    wheel: &ModalWheel,
+    request: &ResolvedSweep,
+    stepping: &Stepping,
+    nodes: usize,
+) -> u64 {
     const REAL: usize = size_of::<f64>();
     const COMPLEX: usize = 2 * REAL;
     let steps = &stepping.discretisation;
@@ -394,7 +396,7 @@ fn running_bytes(wheel: &ModalWheel, request: &ResolvedSweep, stepping: &Steppin
 }
 
 /// Mass and stiffness of every nodal diameter.
-fn reduced_bytes(reduced: &ReducedSector) -> u64 {
+pub(crate) fn reduced_bytes(reduced: &ReducedSector) -> u64 {
     let matrices = 1 + reduced.wheel.speeds_rad_s.len() as u64;
     reduced.report.unknowns.iter().map(|&n| 16 * matrices * u64::from(n).pow(2)).sum()
 }

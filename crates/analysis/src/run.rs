@@ -7,6 +7,7 @@ pub use crate::accuracy::study::work_precision;
 pub use crate::accuracy::trial::run_trial;
 pub use crate::branches::Course;
 pub use crate::branches::leg::branch_leg;
+pub use crate::branches::plan::{branches_memory, plan_branches};
 pub use crate::calibration::Calibration;
 pub use crate::check::check;
 pub use crate::contact::{force_map, force_row};
@@ -14,9 +15,7 @@ pub use crate::effects::casing::convert::clearances;
 pub use crate::histories::{histories_wanted, speed_histories};
 pub use crate::modal::modal_analysis;
 pub use crate::model::{MeshFacts, ModelFacts, ReducedSector};
-pub use crate::plan::{
-    branches_memory, histories_memory, most_basis_bytes, plan_modal_analysis, plan_sweep, trial_memory,
-};
+pub use crate::plan::{histories_memory, most_basis_bytes, plan_modal_analysis, plan_sweep, trial_memory};
 pub use crate::prepare::prepare;
 pub use crate::refine::refine;
 pub use crate::request::Setting;

@@ -7,7 +7,9 @@ use clap::{Args, ValueEnum};
 
 use super::kind::Kind;
 use super::submit::RequestArgs;
-use crate::analysis::result::{ModalAnalysisPlan, PlannedEffect, ReductionState, SweepPlan};
+use crate::analysis::result::{
+    BranchesPlan, Estimate, Machine, ModalAnalysisPlan, PlannedEffect, ReductionState, SweepPlan,
+};
 use crate::cli::client::{Client, ServerArgs};
 use crate::cli::size::size;
 use crate::cli::stdout::{print, print_json};
@@ -21,7 +23,7 @@ pub(in crate::cli) struct PlanArgs {
     request: RequestArgs,
     /// What would be computed
     #[arg(long, default_value = "sweep", value_parser =
-        PossibleValuesParser::new(["sweep", "modal-analysis", "model-generation"]).try_map(|kind| Kind::from_str(&kind, false)))]
+        PossibleValuesParser::new(["sweep", "modal-analysis", "branches", "model-generation"]).try_map(|kind| Kind::from_str(&kind, false)))]
     kind: Kind,
     /// Print the plan as JSON
     #[arg(long)]
@@ -47,6 +49,7 @@ impl Verb for PlanArgs {
         }
         let words = match self.kind {
             Kind::ModalAnalysis => modal_analysis(&client.post(&path, &body).await?),
+            Kind::Branches => branches(&client.post(&path, &body).await?),
             Kind::ModelGeneration => generation(&client.post(&path, &body).await?),
             _ => sweep(&client.post(&path, &body).await?),
         };
@@ -58,27 +61,12 @@ fn sweep(plan: &SweepPlan) -> String {
     let mut words = effects(&plan.effects);
     // Writing to a string cannot fail, here and below.
     let _ = writeln!(words, "speeds      {}, {} side by side", plan.speeds, plan.workers);
-    if let Some(machine) = &plan.machine {
-        let _ = writeln!(
-            words,
-            "times of    {}: {} processors, {}",
-            machine.name, machine.processors, machine.processor
-        );
-    }
+    times_of(&mut words, plan.machine.as_ref());
     reduction(&mut words, plan.reduction, plan.reduced_unknowns_at_most);
     if let Some(estimate) = &plan.estimate {
-        let (free, contact) = (estimate.wall_time_s.free, estimate.wall_time_s.contact);
         let all = plan.settings.integration.takes_all();
         let (soon, late) = if all { ("", "") } else { (" and motions repeat soon", " and none repeats") };
-        let _ = writeln!(
-            words,
-            "time        {} if nothing touches{soon}, {} if something always does{late}",
-            time(free),
-            time(contact)
-        );
-        let most = if all { "" } else { "at most " };
-        let _ = writeln!(words, "steps       {most}{:.3} million", estimate.steps as f64 / 1e6);
-        let _ = writeln!(words, "memory      {}", size(estimate.memory_bytes));
+        cost(&mut words, estimate, [soon, late], if all { "" } else { "at most " });
     }
     for point in &plan.points {
         if let Some(message) = &point.message {
@@ -89,6 +77,41 @@ fn sweep(plan: &SweepPlan) -> String {
         let _ = writeln!(words, "sensor {:<4} node {} at {:?}", sensor.sensor, sensor.node, sensor.position);
     }
     warnings(words, &plan.warnings)
+}
+
+fn branches(plan: &BranchesPlan) -> String {
+    let mut words = effects(&plan.effects);
+    let _ = writeln!(
+        words,
+        "points      at least {}, at most {} and those of doubled branches",
+        plan.points_at_least, plan.points_at_most
+    );
+    times_of(&mut words, plan.machine.as_ref());
+    reduction(&mut words, plan.reduction, plan.reduced_unknowns_at_most);
+    if let Some(estimate) = &plan.estimate {
+        cost(&mut words, estimate, [", of the fewest points", ", of the fewest points"], "about ");
+    }
+    if let Some(message) = plan.point.as_ref().and_then(|point| point.message.as_ref()) {
+        let _ = writeln!(words, "not         {message}");
+    }
+    warnings(words, &plan.warnings)
+}
+
+fn times_of(words: &mut String, machine: Option<&Machine>) {
+    if let Some(Machine { name, processor, processors, .. }) = machine {
+        let _ = writeln!(words, "times of    {name}: {processors} processors, {processor}");
+    }
+}
+
+/// The cost of what is `[least, most]`; steps are so many in the words of `most_steps`.
+fn cost(words: &mut String, estimate: &Estimate, [least, most]: [&str; 2], most_steps: &str) {
+    let (free, contact) = (time(estimate.wall_time_s.free), time(estimate.wall_time_s.contact));
+    let _ = writeln!(
+        words,
+        "time        {free} if nothing touches{least}, {contact} if something always does{most}"
+    );
+    let _ = writeln!(words, "steps       {most_steps}{:.3} million", estimate.steps as f64 / 1e6);
+    let _ = writeln!(words, "memory      {}", size(estimate.memory_bytes));
 }
 
 fn modal_analysis(plan: &ModalAnalysisPlan) -> String {

@@ -51,13 +51,16 @@ function takesAll(integration) {
 
 function shown(plan) {
   const { estimate } = plan;
+  const scheme = (plan.point ?? plan.points?.[0])?.scheme;
   const off = (plan.effects ?? []).filter((effect) => !effect.on).map((effect) => effect.name.replaceAll('_', ' '));
   return [
+    plan.point?.message ? h('p', { class: 'note warning' }, plan.point.message) : null,
     (plan.warnings ?? []).map((text) => h('p', { class: 'note warning' }, text)),
     facts([
       ['Time', estimate ? between(estimate.wall_time_s, duration) : null],
       ['Computing time', estimate ? between(estimate.computing_time_s, duration) : null],
       ['Speeds', plan.speeds],
+      ['Points', plan.points_at_least ? `at least ${plan.points_at_least}, for which the times are; at most ${plan.points_at_most}, and those of doubled branches` : null],
       ['Steps', estimate ? `${takesAll(plan.settings?.integration) ? '' : 'at most '}${number(estimate.steps, 3)}` : null],
       ['Memory', estimate ? bytes(estimate.memory_bytes) : null],
       ['Disk', plan.basis_bytes_at_most ? `at most ${bytes(plan.basis_bytes_at_most)}` : null],
@@ -67,7 +70,7 @@ function shown(plan) {
       ['Contact pairs', plan.contact_pairs],
       ['Workers', plan.workers],
       ['Times are of', plan.machine ? `${plan.machine.name}: ${plan.machine.processors} × ${plan.machine.processor}` : null],
-      ['Scheme', plan.points?.[0] ? `${plan.points[0].scheme.name}: ${plan.points[0].scheme.reason}` : null],
+      ['Scheme', scheme ? `${scheme.name}: ${scheme.reason}` : null],
       ['Chosen setting', plan.choice?.reason],
       ['Pilot runs', plan.pilot_speeds_rad_s ? `${count(plan.pilot_speeds_rad_s.length, 'speed')} first, which choose the setting` : null],
       ['Left out', off.length > 0 ? off.join(', ') : null],

@@ -1003,6 +1003,14 @@ class PlannedPoint(TypedDict):
     steps_per_revolution: int
 
 
+class PlannedResponse(TypedDict):
+    computing_time_s: NotRequired[CostRange | None]
+    integrated_unknowns: int
+    message: NotRequired[str | None]
+    scheme: NotRequired[SchemeReport | None]
+    steps_per_revolution: int
+
+
 class PointStress(TypedDict):
     cycles: list[StressCycle]
     excluded_nodes: int
@@ -1473,6 +1481,23 @@ class BranchesHead(TypedDict):
     units: Units
     vectors: str
     version: str
+
+
+class BranchesPlan(TypedDict):
+    basis_bytes_at_most: NotRequired[int | None]
+    contact_pairs: int
+    effects: list[PlannedEffect]
+    estimate: NotRequired[Estimate | None]
+    machine: NotRequired[Machine | None]
+    point: NotRequired[PlannedResponse | None]
+    points_at_least: int
+    points_at_most: int
+    reduced_unknowns_at_most: int
+    reduction: ReductionState
+    settings: BranchesSettings
+    symmetry: FoundSymmetry
+    version: str
+    warnings: NotRequired[list[str]]
 
 
 class Campbell(TypedDict):

@@ -229,7 +229,7 @@ class CaseStudy(_Recorded):
     path = "/v1/case-studies"
 
 
-class Branches(Job):
+class Branches(Planned):
     """Periodic responses, followed while a number of their scene changes."""
 
     kind = "branches"

@@ -7,8 +7,9 @@ use crate::effects::casing::resolved::Clearance;
 use crate::end_state::EndState;
 use crate::model::ReducedSector;
 use crate::not_runnable::NotRunnable;
-use crate::request::{AutoOr, BranchParameter, SchemeChoice, Setting};
+use crate::request::{AutoOr, BranchParameter, Setting};
 use crate::resolved::{ResolvedBranches, ResolvedSpeeds, ResolvedSweep};
+use crate::result::SchemeReport;
 use crate::speed::{ready, staged};
 use crate::start::initial;
 use crate::steady::most_revolutions;
@@ -21,23 +22,24 @@ use rubmap_wheel::dynamics::steady::branch::{Family, Lap, Unreachable};
 use rubmap_wheel::dynamics::steady::response::{Sought, seek};
 
 /// Values whose wheels are kept: a point and the one its map is differenced with, the one before, and a place between.
-pub(crate) const KEPT: usize = 4;
+pub(super) const KEPT: usize = 4;
 
 /// The scenes of a request.
 pub(super) struct Scenes<'a> {
     sector: &'a ReducedSector,
     asked: &'a ResolvedBranches,
     setting: Setting,
+    report: SchemeReport,
     /// The scene at the start, stepped so.
     sweep: ResolvedSweep,
     kept: RefCell<Vec<(f64, Rc<Scene>)>>,
 }
 
 /// A scene at a value.
-struct Scene {
-    request: ResolvedSweep,
-    wheel: ModalWheel,
-    stepping: Stepping,
+pub(super) struct Scene {
+    pub(super) request: ResolvedSweep,
+    pub(super) wheel: ModalWheel,
+    pub(super) stepping: Stepping,
 }
 
 impl<'a> Scenes<'a> {
@@ -48,32 +50,39 @@ impl<'a> Scenes<'a> {
         // Which scheme is chosen depends on the slowest speed.
         let slowest = values.into_iter().map(|value| speed(asked, value)).fold(f64::INFINITY, f64::min);
         let sweep = ResolvedSweep { speeds: ResolvedSpeeds::one(slowest), ..asked.sweep.clone() };
-        let mut steps = 0;
-        let (mut scheme, mut kept_modes) = (SchemeChoice::Auto, AutoOr::Auto);
-        for value in values {
-            let (_, stepping) = ready(sector, &changed(&sweep, asked, value), speed(asked, value))?;
-            steps = steps.max(stepping.discretisation.per_revolution);
-            scheme = stepping.report.name;
-            if let Scheme::MasslessBoundary { kept_modes: kept } = stepping.scheme {
-                let kept = kept as u32;
-                kept_modes = AutoOr::Fixed(match kept_modes {
-                    AutoOr::Fixed(fewest) => fewest.min(kept),
-                    AutoOr::Auto => kept,
-                });
-            }
-        }
+        let chosen = |value: f64| {
+            let ready = ready(sector, &changed(&sweep, asked, value), speed(asked, value));
+            ready.map(|(_, stepping)| stepping)
+        };
+        let choices = [chosen(asked.start())?, chosen(along.from)?, chosen(along.to)?];
+        let kept_modes = choices.iter().filter_map(|stepping| match stepping.scheme {
+            Scheme::MasslessBoundary { kept_modes } => Some(kept_modes as u32),
+            _ => None,
+        });
+        let kept_modes = kept_modes.min().map_or(AutoOr::Auto, AutoOr::Fixed);
+        let [start, from, to] = choices;
+        let finer = |a: Stepping, b: Stepping| {
+            if a.discretisation.per_revolution >= b.discretisation.per_revolution { a } else { b }
+        };
+        let Stepping { discretisation, report, .. } = finer(finer(start, from), to);
         let setting = Setting {
             modes_per_speed: asked.sweep.modes_per_speed(),
-            scheme,
+            scheme: report.name,
             kept_modes,
-            steps_per_revolution: steps as u32,
+            steps_per_revolution: discretisation.per_revolution as u32,
         };
-        Ok(Self { sector, asked, setting, sweep: asked.sweep.at(setting), kept: RefCell::default() })
+        let sweep = asked.sweep.at(setting);
+        Ok(Self { sector, asked, setting, report, sweep, kept: RefCell::default() })
     }
 
     /// How all of them are stepped.
     pub(super) fn setting(&self) -> Setting {
         self.setting
+    }
+
+    /// Why they are stepped so: what the one that needs most steps was chosen for.
+    pub(super) fn report(&self) -> &SchemeReport {
+        &self.report
     }
 
     /// The rotational speed at a value.
@@ -106,7 +115,7 @@ impl<'a> Scenes<'a> {
         })?
     }
 
-    fn at(&self, value: f64) -> Result<Rc<Scene>, NotRunnable> {
+    pub(super) fn at(&self, value: f64) -> Result<Rc<Scene>, NotRunnable> {
         let found = self.kept.borrow().iter().find(|(at, _)| *at == value).map(|(_, scene)| Rc::clone(scene));
         if let Some(scene) = found {
             return Ok(scene);

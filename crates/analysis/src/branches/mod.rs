@@ -4,7 +4,7 @@ mod course;
 mod events;
 mod family;
 pub(crate) mod leg;
+pub(crate) mod plan;
 mod told;
 
 pub use course::Course;
-pub(crate) use family::KEPT;

@@ -33,8 +33,8 @@ pub use errors::{Control, ErrorEstimate, Errors, PointError, Quantity};
 pub use geometry::{ContactPlace, NodeKind, SectorGeometry, SectorNode};
 pub use histories::{ContactHistory, EnergyHistory, SensorHistory, SpeedHistories, TipPlace};
 pub use plan::{
-    CostRange, Estimate, GaugeEnd, Machine, ModalAnalysisPlan, PlacedSensor, PlannedEffect, PlannedPoint,
-    ReductionState, Spent, SweepPlan,
+    BranchesPlan, CostRange, Estimate, GaugeEnd, Machine, ModalAnalysisPlan, PlacedSensor, PlannedEffect,
+    PlannedPoint, PlannedResponse, ReductionState, Spent, SweepPlan,
 };
 pub use point::{
     EnergyReport, Point, PointStatus, SchemeReport, SensorResponse, SensorSpectrum, SpeedResult, SpeedSpectra,

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::effects::symmetry::result::FoundSymmetry;
-use crate::request::{ModalAnalysisRequest, SweepRequest};
+use crate::request::{BranchesSettings, ModalAnalysisRequest, SweepRequest};
 use crate::result::choice::{Choice, ModesChoice};
 use crate::result::point::{Point, SchemeReport};
 
@@ -252,6 +252,66 @@ pub struct ModalAnalysisPlan {
     pub settings: ModalAnalysisRequest,
     /// Version of the code.
     pub version: String,
+}
+
+/// What branches will do and cost.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct BranchesPlan {
+    /// Every effect a scene may name, on or off.
+    pub effects: Vec<PlannedEffect>,
+    /// Symmetry of the scene.
+    pub symmetry: FoundSymmetry,
+    /// Pairs of contact node and casing; see the plan of a sweep.
+    pub contact_pairs: u64,
+    /// Whether the reduction that they rest on is there. While it is not, `point` and `estimate` are left out.
+    pub reduction: ReductionState,
+    /// The whole reduced wheel has at most so many real unknowns; see the plan of a sweep.
+    pub reduced_unknowns_at_most: u64,
+    /// The basis of a reduction that has still to be computed takes at most so many bytes of disk; see the plan of a sweep.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub basis_bytes_at_most: Option<u64>,
+    /// The machine whose steps were measured for the times below.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub machine: Option<Machine>,
+    /// Points of the branch through the response at `speed`, if it goes straight to both ends of the range. Where it turns back, and
+    /// where responses change fast, there are more.
+    pub points_at_least: u32,
+    /// Most points of that branch, of which `most_points` are on either side. Branches of doubled period may have as many again.
+    pub points_at_most: u32,
+    /// What a point takes, where they begin.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub point: Option<PlannedResponse>,
+    /// Cost of a branch of `points_at_least` points, by one worker; absent where `point` cannot be integrated.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub estimate: Option<Estimate>,
+    /// What its numbers will not be worth: a K(Ω) that cannot be trusted between the speeds at which the stiffness is given.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<String>,
+    /// The whole request as resolved.
+    pub settings: BranchesSettings,
+    /// Version of the code.
+    pub version: String,
+}
+
+/// What a point of a branch takes.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct PlannedResponse {
+    /// Why the scene cannot be integrated where the branches begin or at an end of their range; then all below is absent or 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub message: Option<String>,
+    /// Real unknowns that are integrated.
+    pub integrated_unknowns: u32,
+    /// Scheme and step, and the reason that set them; the same along all branches.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scheme: Option<SchemeReport>,
+    /// Steps per revolution.
+    pub steps_per_revolution: u32,
+    /// Computing time of a point, s, what is sought between points included: as long as 20 revolutions of a march take if nothing touches,
+    /// and as 260 if something always does. Lightly damped responses take more.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub computing_time_s: Option<CostRange>,
 }
 
 /// An effect of a scene, named or not.

@@ -8,9 +8,11 @@ use crate::dynamics::initial::Stepped;
 const FIRST: f64 = 0.01;
 const LEAST: f64 = 1e-6;
 
-/// Most arclength of a step, and most of it that may be p's: a picture of a branch has so many points across.
+/// Most arclength of a step.
 const MOST: f64 = 0.25;
-const MOST_OF_SPAN: f64 = 0.02;
+
+/// Most of a step that may be p's, as a share of its range: a picture of a branch has so many points across.
+pub const MOST_OF_SPAN: f64 = 0.02;
 
 /// By what a step grows or shrinks, and steps of Newton's method up to which it grows, from which on it shrinks.
 const GROWTH: f64 = 1.4;
