@@ -13,16 +13,8 @@ export function placeWith(path, query, changes) {
   return `#/${path}${text ? `?${text}` : ''}`;
 }
 
-/**
- * Changes the query of the view that is shown, and its address with it. The view is not begun anew: in a field that is being written in no
- * letter is lost.
- */
-export function narrow(path, query, changes) {
-  history.pushState(null, '', placeWith(path, query, changes));
-  change(query, changes);
-}
-
-function change(query, changes) {
+/** Changes a query as `placeWith` does. */
+export function change(query, changes) {
   for (const [name, value] of Object.entries(changes)) {
     if (value === null || value === undefined || value === '') query.delete(name);
     else query.set(name, String(value));

@@ -4,9 +4,9 @@ import { api } from '../lib/api.js';
 import { h, replace } from '../lib/dom.js';
 import { ended, poll } from '../lib/events.js';
 import { bytes, count, duration, KINDS, moment, nameOf, short } from '../lib/format.js';
-import { cursorOf, narrow, placeWith } from '../lib/place.js';
+import { cursorOf, placeWith } from '../lib/place.js';
 import { problem } from '../lib/problem.js';
-import { searchField } from '../lib/search.js';
+import { narrowing, searchField } from '../lib/search.js';
 import { remaining, STATUSES } from './job.js';
 import { actions } from './job/actions.js';
 import { select } from './job/choices.js';
@@ -29,7 +29,7 @@ export async function show(main, { query }, signal) {
   const compare = h('button', { type: 'button', disabled: chosen.size < 2, on: { click: () => { location.hash = `#/compare?jobs=${[...chosen].join(',')}`; } } }, 'Compare the chosen');
   replace(main,
     h('h1', {}, 'Jobs'),
-    filters(query, { narrowed, signal }),
+    filters(query, narrowing('jobs', query, { read: refresh, told }, signal), signal),
     h('div', { class: 'row' }, compare, h('span', { class: 'quiet small' }, 'Choose two or more finished sweeps to lay them over each other.')),
     told, rows, pages);
 
@@ -63,24 +63,13 @@ export async function show(main, { query }, signal) {
       cursor ? h('a', { class: 'button', href: placeWith('jobs', query, { cursor }) }, 'Older') : null);
   }
 
-  function narrowed() {
-    replace(told);
-    refresh().catch((error) => {
-      if (!signal.aborted) replace(told, problem(error));
-    });
-  }
-
   await refresh();
   poll(refresh, () => pace, signal).catch((error) => {
     if (!signal.aborted) replace(told, problem(error));
   });
 }
 
-function filters(query, { narrowed, signal }) {
-  const go = (changes) => {
-    narrow('jobs', query, { cursor: null, ...changes });
-    narrowed();
-  };
+function filters(query, go, signal) {
   const all = [['', 'all']];
   const search = (name, label) => searchField({ name, label, value: query.get(name) }, (text) => go({ [name]: text }), signal);
   return h('div', { class: 'row', role: 'search' },

@@ -4,9 +4,9 @@ import { api, Away, Refusal } from '../lib/api.js';
 import { confirmed } from '../lib/confirm.js';
 import { facts, h, newId, replace } from '../lib/dom.js';
 import { bytes, moment, number, percent, rpm } from '../lib/format.js';
-import { cursorOf, narrow, placeWith } from '../lib/place.js';
+import { cursorOf, placeWith } from '../lib/place.js';
 import { problem } from '../lib/problem.js';
-import { searchField } from '../lib/search.js';
+import { narrowing, searchField } from '../lib/search.js';
 import { upload } from '../lib/upload.js';
 
 /** Models of a page. */
@@ -15,15 +15,8 @@ const LIMIT = 50;
 export async function show(main, { query }, signal) {
   const told = h('div');
   const shown = h('div');
-  replace(main, h('h1', {}, 'Models'), drop(signal), filter(query, { narrowed, signal }), told, shown);
+  replace(main, h('h1', {}, 'Models'), drop(signal), filter(query, narrowing('models', query, { read, told }, signal), signal), told, shown);
   await read();
-
-  function narrowed() {
-    replace(told);
-    read().catch((error) => {
-      if (!signal.aborted) replace(told, problem(error));
-    });
-  }
 
   async function read() {
     const place = query.toString();
@@ -42,11 +35,7 @@ export async function show(main, { query }, signal) {
   }
 }
 
-function filter(query, { narrowed, signal }) {
-  const go = (changes) => {
-    narrow('models', query, { cursor: null, ...changes });
-    narrowed();
-  };
+function filter(query, go, signal) {
   const search = (name, label) => searchField({ name, label, value: query.get(name) }, (text) => go({ [name]: text }), signal);
   return h('div', { class: 'row', role: 'search' }, search('name', 'Name has'), search('tag', 'Tag'));
 }

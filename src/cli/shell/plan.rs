@@ -66,7 +66,9 @@ fn sweep(plan: &SweepPlan) -> String {
     if let Some(estimate) = &plan.estimate {
         let all = plan.settings.integration.takes_all();
         let (soon, late) = if all { ("", "") } else { (" and motions repeat soon", " and none repeats") };
-        cost(&mut words, estimate, [soon, late], if all { "" } else { "at most " });
+        cost(&mut words, estimate, [soon, late]);
+        let most = if all { "" } else { "at most " };
+        let _ = writeln!(words, "steps       {most}{:.3} million", estimate.steps as f64 / 1e6);
     }
     for point in &plan.points {
         if let Some(message) = &point.message {
@@ -89,7 +91,7 @@ fn branches(plan: &BranchesPlan) -> String {
     times_of(&mut words, plan.machine.as_ref());
     reduction(&mut words, plan.reduction, plan.reduced_unknowns_at_most);
     if let Some(estimate) = &plan.estimate {
-        cost(&mut words, estimate, [", of the fewest points", ", of the fewest points"], "about ");
+        cost(&mut words, estimate, [", of the fewest points"; 2]);
     }
     if let Some(message) = plan.point.as_ref().and_then(|point| point.message.as_ref()) {
         let _ = writeln!(words, "not         {message}");
@@ -103,14 +105,13 @@ fn times_of(words: &mut String, machine: Option<&Machine>) {
     }
 }
 
-/// The cost of what is `[least, most]`; steps are so many in the words of `most_steps`.
-fn cost(words: &mut String, estimate: &Estimate, [least, most]: [&str; 2], most_steps: &str) {
+/// Time and memory; `[least, most]`: what else the bounds of the time are of.
+fn cost(words: &mut String, estimate: &Estimate, [least, most]: [&str; 2]) {
     let (free, contact) = (time(estimate.wall_time_s.free), time(estimate.wall_time_s.contact));
     let _ = writeln!(
         words,
         "time        {free} if nothing touches{least}, {contact} if something always does{most}"
     );
-    let _ = writeln!(words, "steps       {most_steps}{:.3} million", estimate.steps as f64 / 1e6);
     let _ = writeln!(words, "memory      {}", size(estimate.memory_bytes));
 }
 

@@ -61,7 +61,7 @@ function shown(plan) {
       ['Computing time', estimate ? between(estimate.computing_time_s, duration) : null],
       ['Speeds', plan.speeds],
       ['Points', plan.points_at_least ? `at least ${plan.points_at_least}, for which the times are; at most ${plan.points_at_most}, and those of doubled branches` : null],
-      ['Steps', estimate ? `${takesAll(plan.settings?.integration) ? '' : 'at most '}${number(estimate.steps, 3)}` : null],
+      ['Steps', estimate && !plan.points_at_least ? `${takesAll(plan.settings?.integration) ? '' : 'at most '}${number(estimate.steps, 3)}` : null],
       ['Memory', estimate ? bytes(estimate.memory_bytes) : null],
       ['Disk', plan.basis_bytes_at_most ? `at most ${bytes(plan.basis_bytes_at_most)}` : null],
       ['Disk of stress', plan.stress_bytes ? bytes(plan.stress_bytes) : null],

@@ -78,7 +78,8 @@ fn sides(asked: &ResolvedBranches) -> u32 {
 fn points_at_least(asked: &ResolvedBranches) -> u32 {
     let (start, along) = (asked.start(), asked.along);
     let longest = MOST_OF_SPAN * (along.to - along.from);
-    let steps = |way: f64| ((way / longest).ceil() as u32).min(asked.most_points);
+    // What round-off adds to a whole number is no step.
+    let steps = |way: f64| ((way / longest - 1e-9).ceil() as u32).min(asked.most_points);
     1 + steps((start - along.from).max(0.0)) + steps((along.to - start).max(0.0))
 }
 

@@ -166,7 +166,7 @@ pub struct CostRange {
     pub contact: f64,
 }
 
-/// Cost of all speeds of a sweep, from a calibration of this machine; without the reduction and without the speeds that
+/// Cost of all speeds of a sweep, or of a branch, from a calibration of this machine; without the reduction and without the speeds that
 /// `refine` adds.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
@@ -282,7 +282,8 @@ pub struct BranchesPlan {
     /// What a point takes, where they begin.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub point: Option<PlannedResponse>,
-    /// Cost of a branch of `points_at_least` points, by one worker; absent where `point` cannot be integrated.
+    /// Cost of a branch of `points_at_least` points, by one worker; `steps` are those of a march that takes as long as the upper bound of its
+    /// time. Absent where `point` cannot be integrated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub estimate: Option<Estimate>,
     /// What its numbers will not be worth: a K(Ω) that cannot be trusted between the speeds at which the stiffness is given.
