@@ -23,17 +23,32 @@ use rubmap_wheel::dynamics::schemes::Scheme;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct EndState(pub Vec<f64>);
 
-impl EndState {
-    /// From all modes that were integrated on `wheel`.
-    pub(super) fn new(
-        modes: &[InitialMode],
+/// Φ of all nodal diameters that are simulated.
+#[derive(Debug)]
+pub(super) struct Shapes(Vec<Mat<c64>>);
+
+impl Shapes {
+    pub(super) fn of(
         wheel: &ModalWheel,
         reduced: &ReducedWheel,
         stiffening: bool,
     ) -> Result<Self, ModelError> {
+        let of = |harmonic: usize| mode_shapes(reduced, harmonic, wheel.speed_rad_s, stiffening);
+        wheel.harmonics.iter().map(|harmonic| of(harmonic.harmonic)).collect::<Result<_, _>>().map(Self)
+    }
+
+    /// Memory of those of a wheel.
+    pub(super) fn bytes(wheel: &ModalWheel) -> u64 {
+        let sizes = wheel.harmonics.iter().map(|harmonic| harmonic.omega.len());
+        sizes.map(|size| (size_of::<c64>() * size * size) as u64).sum()
+    }
+}
+
+impl EndState {
+    /// From all modes that were integrated on a wheel of these shapes.
+    pub(super) fn new(modes: &[InitialMode], Shapes(shapes): &Shapes) -> Self {
         let mut numbers = Vec::new();
-        for (index, harmonic) in wheel.harmonics.iter().enumerate() {
-            let shapes = mode_shapes(reduced, harmonic.harmonic, wheel.speed_rad_s, stiffening)?;
+        for (index, shapes) in shapes.iter().enumerate() {
             for part in [|mode: &InitialMode| mode.displacement, |mode: &InitialMode| mode.velocity] {
                 let mut q = vec![c64::ZERO; shapes.nrows()];
                 for mode in modes.iter().filter(|mode| mode.harmonic == index) {
@@ -44,25 +59,24 @@ impl EndState {
                 numbers.extend(q.iter().flat_map(|q| [q.re, q.im]));
             }
         }
-        Ok(Self(numbers))
+        Self(numbers)
     }
 
-    /// As modes of `wheel`, those that `scheme` integrates; none if the state is of another reduction.
+    /// As modes of `wheel`, which has these shapes, those that `scheme` integrates; none if the state is of another reduction.
     pub(super) fn modes(
         &self,
         wheel: &ModalWheel,
+        Shapes(shapes): &Shapes,
         reduced: &ReducedWheel,
-        stiffening: bool,
         scheme: Scheme,
-    ) -> Result<Option<Vec<InitialMode>>, ModelError> {
+    ) -> Option<Vec<InitialMode>> {
         let sizes = wheel.harmonics.iter().map(|harmonic| harmonic.omega.len());
         if self.0.len() != sizes.map(|size| 4 * size).sum::<usize>() {
-            return Ok(None);
+            return None;
         }
         let (mut modes, mut rest) = (Vec::new(), self.0.as_slice());
-        for (index, harmonic) in wheel.harmonics.iter().enumerate() {
+        for (index, (harmonic, shapes)) in wheel.harmonics.iter().zip(shapes).enumerate() {
             let size = harmonic.omega.len();
-            let shapes = mode_shapes(reduced, harmonic.harmonic, wheel.speed_rad_s, stiffening)?;
             let mut modal = || {
                 let (q, after) = rest.split_at(2 * size);
                 rest = after;
@@ -77,6 +91,6 @@ impl EndState {
                 velocity: velocity[(family, 0)],
             }));
         }
-        Ok(Some(modes))
+        Some(modes)
     }
 }

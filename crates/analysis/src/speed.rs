@@ -6,7 +6,7 @@ use crate::effects::casing::convert::{casing, check_table};
 use crate::effects::damping::convert::modal_damping;
 use crate::effects::physics::Surroundings;
 use crate::effects::table::{SceneEffects, check_at_speed};
-use crate::end_state::EndState;
+use crate::end_state::{EndState, Shapes};
 use crate::error::AnalysisError;
 use crate::model::ReducedSector;
 use crate::monitor::Monitor;
@@ -137,7 +137,8 @@ fn end_state_of(
     if request.sweep == SweepDirection::Independent {
         return None;
     }
-    EndState::new(&history.end, wheel, reduced, request.scene.centrifugal_stiffening).ok()
+    let shapes = Shapes::of(wheel, reduced, request.scene.centrifugal_stiffening).ok()?;
+    Some(EndState::new(&history.end, &shapes))
 }
 
 /// Whether speed `index` should start from the end of another one.
@@ -227,9 +228,11 @@ pub(super) fn simulate(
     staged(sector, wheel, request, stepping, ramp_revolutions, |staged| {
         let casing = staged.casing;
         let mut initial = match start {
-            Start::After(state) => state
-                .modes(wheel, reduced, request.scene.centrifugal_stiffening, stepping.scheme)?
-                .ok_or(NotRunnable::OtherReduction)?,
+            Start::After(state) => {
+                let shapes = Shapes::of(wheel, reduced, request.scene.centrifugal_stiffening)?;
+                let modes = state.modes(wheel, &shapes, reduced, stepping.scheme);
+                modes.ok_or(NotRunnable::OtherReduction)?
+            }
             Start::Scene | Start::Perturbed => initial(request, wheel, &reduced.contact, casing, stepping)?,
         };
         let repeats = repeats(request, recording.detail, wheel.around());

@@ -41,8 +41,10 @@ impl Events<'_> {
         if (c.value - b.value) * up >= 0.0 {
             return Ok(None);
         }
-        let found =
-            self.branch.summit([(a, ()), (b, ()), (c, ())], |motion, ()| up * motion.value, |_| Ok(()));
+        let found = self
+            .branch
+            .looks([(a, ()), (b, ()), (c, ())])
+            .and_then(|mut looks| self.branch.summit(&mut looks, |motion, ()| up * motion.value, |_| Ok(())));
         let (motion, error) = match found {
             Ok(place) => (place.motion, place.error),
             Err(Lost::Cancelled) => return Err(Lost::Cancelled),
@@ -105,15 +107,21 @@ impl Events<'_> {
     /// The maxima of sensors' amplitudes about the middle one of three points.
     pub(super) fn maxima(&self, points: [At<'_>; 3]) -> Result<Vec<BranchMaximum>, Lost> {
         let [a, b, c] = points;
-        let mut maxima = Vec::new();
+        let (mut maxima, mut looks) = (Vec::new(), None);
         for (sensor, &amplitude) in b.told.half_peak_to_peak.iter().enumerate() {
             let beside = a.told.half_peak_to_peak[sensor].max(c.told.half_peak_to_peak[sensor]);
             if amplitude <= (1.0 + RISES) * beside {
                 continue;
             }
-            let amplitudes = |at: At<'_>| at.told.half_peak_to_peak.clone();
+            let looks = match &mut looks {
+                Some(looks) => looks,
+                none => {
+                    let amplitudes = |at: At<'_>| at.told.half_peak_to_peak.clone();
+                    none.insert(self.branch.looks(points.map(|point| (point.motion, amplitudes(point))))?)
+                }
+            };
             let found = self.branch.summit(
-                points.map(|point| (point.motion, amplitudes(point))),
+                looks,
                 |_, amplitudes| amplitudes[sensor],
                 |motion| amplitudes_of(self.scenes, self.branch.lap, motion),
             );

@@ -1,10 +1,10 @@
 //! The scenes along a branch, as the physics wants them.
 
-use std::cell::RefCell;
+use std::cell::{OnceCell, RefCell};
 use std::rc::Rc;
 
 use crate::effects::casing::resolved::Clearance;
-use crate::end_state::EndState;
+use crate::end_state::{EndState, Shapes};
 use crate::model::ReducedSector;
 use crate::not_runnable::NotRunnable;
 use crate::request::{AutoOr, BranchParameter, Setting};
@@ -17,12 +17,13 @@ use crate::stepping::Stepping;
 use rubmap_wheel::dynamics::initial::{InitialMode, Stepped, SteppedMode};
 use rubmap_wheel::dynamics::integrate::{Passage, Simulation};
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
+use rubmap_wheel::dynamics::reduction::ReducedWheel;
 use rubmap_wheel::dynamics::schemes::Scheme;
 use rubmap_wheel::dynamics::steady::branch::{Family, Lap, Unreachable};
 use rubmap_wheel::dynamics::steady::response::{Sought, seek};
 
-/// Values whose wheels are kept: a point and the one its map is differenced with, the one before, and a place between.
-pub(super) const KEPT: usize = 4;
+/// Values whose wheels are kept: a point and the one its map is differenced with, the one before, and places between.
+pub(super) const KEPT: usize = 6;
 
 /// The scenes of a request.
 pub(super) struct Scenes<'a> {
@@ -40,6 +41,19 @@ pub(super) struct Scene {
     pub(super) request: ResolvedSweep,
     pub(super) wheel: ModalWheel,
     pub(super) stepping: Stepping,
+    /// Of the wheel, once something was carried to it or away.
+    shapes: OnceCell<Shapes>,
+}
+
+impl Scene {
+    fn shapes(&self, reduced: &ReducedWheel) -> Result<&Shapes, Unreachable> {
+        if let Some(shapes) = self.shapes.get() {
+            return Ok(shapes);
+        }
+        let shapes = Shapes::of(&self.wheel, reduced, self.request.scene.centrifugal_stiffening)
+            .map_err(|error| Unreachable(error.to_string()))?;
+        Ok(self.shapes.get_or_init(|| shapes))
+    }
 }
 
 impl<'a> Scenes<'a> {
@@ -98,7 +112,7 @@ impl<'a> Scenes<'a> {
         act: impl FnOnce(Simulation<'_>, &ModalWheel) -> T,
     ) -> Result<T, NotRunnable> {
         let scene = self.at(value)?;
-        let Scene { request, wheel, stepping } = &*scene;
+        let Scene { request, wheel, stepping, .. } = &*scene;
         staged(self.sector, wheel, request, stepping, ramp_revolutions, |simulation| act(simulation, wheel))
     }
 
@@ -116,13 +130,16 @@ impl<'a> Scenes<'a> {
     }
 
     pub(super) fn at(&self, value: f64) -> Result<Rc<Scene>, NotRunnable> {
-        let found = self.kept.borrow().iter().find(|(at, _)| *at == value).map(|(_, scene)| Rc::clone(scene));
-        if let Some(scene) = found {
-            return Ok(scene);
-        }
-        let request = changed(&self.sweep, self.asked, value);
-        let (wheel, stepping) = ready(self.sector, &request, self.speed(value))?;
-        let scene = Rc::new(Scene { request, wheel, stepping });
+        let kept = self.kept.borrow().iter().position(|(at, _)| *at == value);
+        let scene = match kept {
+            Some(index) => self.kept.borrow_mut().remove(index).1,
+            None => {
+                let request = changed(&self.sweep, self.asked, value);
+                let (wheel, stepping) = ready(self.sector, &request, self.speed(value))?;
+                Rc::new(Scene { request, wheel, stepping, shapes: OnceCell::new() })
+            }
+        };
+        // The last one asked for is last.
         let mut kept = self.kept.borrow_mut();
         if kept.len() == KEPT {
             kept.remove(0);
@@ -147,7 +164,7 @@ impl Family for Scenes<'_> {
             return Ok(state.clone());
         }
         let [before, after] = [self.at(from).map_err(unreachable)?, self.at(to).map_err(unreachable)?];
-        let (reduced, stiffening) = (&*self.sector.wheel, before.request.scene.centrifugal_stiffening);
+        let reduced = &*self.sector.wheel;
         // Increments are carried as displacements are; the step has another length.
         let longer = from / to;
         let as_initial = |mode: &SteppedMode| InitialMode {
@@ -163,9 +180,8 @@ impl Family for Scenes<'_> {
             increment: mode.velocity,
         };
         let modes: Vec<InitialMode> = state.modes.iter().map(as_initial).collect();
-        let modes = EndState::new(&modes, &before.wheel, reduced, stiffening)
-            .and_then(|state| state.modes(&after.wheel, reduced, stiffening, after.stepping.scheme))
-            .map_err(|error| Unreachable(error.to_string()))?
+        let modes = EndState::new(&modes, before.shapes(reduced)?)
+            .modes(&after.wheel, after.shapes(reduced)?, reduced, after.stepping.scheme)
             .ok_or_else(|| unreachable(NotRunnable::OtherReduction))?;
         let mut casing = state.casing.clone();
         casing.iter_mut().flat_map(|wave| &mut wave.increment).for_each(|increment| *increment *= longer);

@@ -9,6 +9,7 @@ use crate::calibration::effects::EffectSizes;
 use crate::calibration::size::StepSize;
 use crate::effects::symmetry::result::FoundSymmetry;
 use crate::effects::table::planned;
+use crate::end_state::Shapes;
 use crate::model::{ModelFacts, ReducedSector};
 use crate::not_runnable::NotRunnable;
 use crate::plan::{
@@ -128,5 +129,5 @@ pub fn branches_memory(reduced: &ReducedSector, asked: &ResolvedBranches) -> u64
     let Ok((wheel, stepping)) = ready(reduced, sweep, asked.speed_rad_s()) else { return 0 };
     let nodes = touching(reduced, sweep);
     let search = response::memory(wheel.unknowns(), wheel.sectors * nodes) as u64;
-    KEPT as u64 * running_bytes(&wheel, sweep, &stepping, nodes) + search
+    KEPT as u64 * (running_bytes(&wheel, sweep, &stepping, nodes) + Shapes::bytes(&wheel)) + search
 }

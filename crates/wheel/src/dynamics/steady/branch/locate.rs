@@ -1,5 +1,6 @@
 //! Where something happens between points of a branch: it turns back, or its stability changes.
 
+use super::correct::Found;
 use super::{Branch, Lost, Motion};
 
 /// Share of p to which a place is found.
@@ -19,40 +20,61 @@ pub struct Place<T> {
     pub error: f64,
 }
 
+/// Points of a branch, in the order in which it passes them, with what is told of each.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Looks<T>(Vec<Look<T>>);
+
+#[derive(Debug, Clone, PartialEq)]
+struct Look<T> {
+    /// Arclength, along the chords between the first points.
+    along: f64,
+    motion: Motion,
+    told: T,
+}
+
 impl Branch<'_> {
-    /// Where, between the first and the last of three points that follow each other, `height` of a point is largest; the point
-    /// in the middle is higher than both. Found where a parabola through the three highest has its summit, again and again.
+    /// Three points that follow each other, to look between.
+    ///
+    /// # Errors
+    /// [`Lost`].
+    pub fn looks<T>(&self, points: [(&Motion, T); 3]) -> Result<Looks<T>, Lost> {
+        let [(a, of_a), (b, of_b), (c, of_c)] = points;
+        let (before, after) = (self.distance(a, b)?, self.distance(b, c)?);
+        let look = |along: f64, motion: &Motion, told: T| Look { along, motion: motion.clone(), told };
+        Ok(Looks(vec![look(-before, a, of_a), look(0.0, b, of_b), look(after, c, of_c)]))
+    }
+
+    /// Where `height` of a point is largest, which is neither at the first nor at the last of `looks`: where a parabola through the three
+    /// highest has its summit, again and again. What is looked at is added to them.
     ///
     /// # Errors
     /// [`Lost`].
     pub fn summit<T: Clone>(
         &self,
-        points: [(&Motion, T); 3],
+        looks: &mut Looks<T>,
         height: impl Fn(&Motion, &T) -> f64,
         tell: impl Fn(&Motion) -> Result<T, Lost>,
     ) -> Result<Place<T>, Lost> {
-        let [(a, told_a), (b, told_b), (c, told_c)] = points;
-        let (before, after) = (self.distance(a, b)?, self.distance(b, c)?);
-        let start = |s: f64, motion: &Motion, told: T| (s, height(motion, &told), motion.value, told);
-        let mut bracket = [start(-before, a, told_a), start(0.0, b, told_b), start(after, c, told_c)];
-        let (mut best, mut error) = (b.clone(), f64::INFINITY);
+        let Looks(points) = looks;
+        let mut error = f64::INFINITY;
         for _ in 0..LOOKS {
-            let s = summit_of(bracket.each_ref().map(|(s, height, ..)| (*s, *height)));
-            let found =
-                if s < 0.0 { self.between(a, b, 1.0 + s / before)? } else { self.between(b, c, s / after)? };
-            let told = tell(&found.motion)?;
-            let here = (s, height(&found.motion, &told), found.motion.value, told);
-            error = (here.2 - bracket[1].2).abs();
-            if here.1 > bracket[1].1 {
-                best = found.motion;
-            }
-            bracket = narrowed(bracket, here);
-            if error <= PLACE * bracket[1].2.abs() {
+            let highest = highest(points, &height);
+            let beside = [highest - 1, highest, highest + 1].map(|index| &points[index]);
+            let along = summit_of(beside.map(|look| (look.along, height(&look.motion, &look.told))));
+            let [before, at, after] = beside;
+            let (from, to) = if along < at.along { (before, at) } else { (at, after) };
+            let share = (along - from.along) / (to.along - from.along);
+            let Found { motion, .. } = self.between(&from.motion, &to.motion, share)?;
+            error = (motion.value - at.motion.value).abs();
+            let told = tell(&motion)?;
+            let settled = error <= PLACE * motion.value.abs();
+            points.insert(highest + usize::from(along > at.along), Look { along, motion, told });
+            if settled {
                 break;
             }
         }
-        let [_, (_, _, _, told), _] = bracket;
-        Ok(Place { motion: best, told, error })
+        let Look { motion, told, .. } = points[highest(points, &height)].clone();
+        Ok(Place { motion, told, error })
     }
 
     /// Where between `a` and `b` the sign of `told` changes, which differs there: by chords (Illinois), also where it jumps. What is told is
@@ -115,12 +137,8 @@ fn summit_of([(a, f), (b, g), (c, h)]: [(f64, f64); 3]) -> f64 {
     }
 }
 
-/// The three that enclose the highest.
-fn narrowed<T>([a, b, c]: [(f64, f64, f64, T); 3], new: (f64, f64, f64, T)) -> [(f64, f64, f64, T); 3] {
-    match (new.0 < b.0, new.1 > b.1) {
-        (true, true) => [a, new, b],
-        (true, false) => [new, b, c],
-        (false, true) => [b, new, c],
-        (false, false) => [a, b, new],
-    }
+/// Of those that have another on either side.
+fn highest<T>(points: &[Look<T>], height: impl Fn(&Motion, &T) -> f64) -> usize {
+    let height = |&index: &usize| height(&points[index].motion, &points[index].told);
+    (1..points.len() - 1).max_by(|a, b| height(a).total_cmp(&height(b))).unwrap_or(1)
 }
