@@ -33,6 +33,10 @@ impl Export for WorkPrecision {
             Array::whole("steps_per_revolution", of().map(|run| run.setting.steps_per_revolution)),
             Array::whole("unknowns", of().map(|run| run.unknowns)),
             Array::words("status", of().map(|run| run.status)),
+            Array::words(
+                "stability",
+                of().map(|run| run.steady.as_ref().filter(|steady| steady.taken)?.stability),
+            ),
             Array::some_reals("history_error", errors().map(|errors| errors?.history)),
             Array::some_reals("amplitude_error", errors().map(|errors| Some(errors?.amplitude))),
             Array::some_reals("amplitude_spread", errors().map(|errors| errors?.amplitude_spread)),

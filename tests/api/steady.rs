@@ -4,6 +4,7 @@ use serde_json::{Value, json};
 
 use super::app::{Api, TestApp, sweep_of};
 use super::model;
+use super::studies::study_of;
 
 fn steady_sweep(model: &str, how: &str) -> Value {
     let mut sweep = sweep_of(model);
@@ -56,6 +57,94 @@ async fn periodic_responses_are_those_that_marches_come_to() {
         assert_eq!(steady["half_peak_to_peak"][0].as_f64(), Some(found));
     }
     assert!(taken > 0, "{solved:?}");
+}
+
+#[tokio::test]
+async fn errors_of_what_is_solved_for_have_no_settling_in_them() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(model::package(1.0)).await;
+    let found = async |how: &str, revolutions: u64| {
+        let mut sweep = steady_sweep(&model, how);
+        sweep["scene"]["damping"]["modal_ratio"] = json!(0.02);
+        sweep["integration"]["revolutions"] = json!(revolutions);
+        sweep["control_speeds"] = json!(6);
+        let id = api.sweep(&sweep).await;
+        assert_eq!(api.finish(&id).await["status"], "successful");
+        let map = api.get(&format!("/v1/jobs/{id}/interaction-map")).await.body;
+        let of = |list: &Value| list.as_array().unwrap().clone();
+        of(&map["points"]).into_iter().zip(of(&map["errors"]["controls"])).collect::<Vec<_>>()
+    };
+    let [solved, settled, short] =
+        [found("auto", 40).await, found("march", 600).await, found("march", 12).await];
+    let (mut compared, mut settling) = (0, 0.0_f64);
+    for (((point, solved), (marched, settled)), (_, short)) in solved.iter().zip(&settled).zip(&short) {
+        // What is not taken is marched, for no longer than the others.
+        if [point, solved].iter().any(|run| run["steady"]["taken"] == false) {
+            continue;
+        }
+        assert!((amplitude(point) / amplitude(marched) - 1.0).abs() <= 1e-6, "{point} {marched}");
+        compared += 1;
+        for quantity in ["amplitude", "engine_orders"] {
+            let of = |control: &Value| control["differences"][quantity].as_f64().unwrap_or(f64::INFINITY);
+            assert!((of(solved) - of(settled)).abs() <= 1e-6, "{quantity}: {solved} {settled}");
+            settling = settling.max((of(short) - of(settled)).abs());
+        }
+    }
+    assert!(compared >= 3 && settling > 1e-3, "{compared} {settling}");
+    app.stop().await;
+}
+
+#[tokio::test]
+async fn studies_and_targets_compare_what_is_solved_for() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(model::package(1.0)).await;
+    let study = async |how: &str, revolutions: u64| {
+        let mut study = study_of(&model);
+        study["scene"]["damping"]["modal_ratio"] = json!(0.02);
+        study["grid"] = json!({"modes_per_speed": [1, 2], "steps_per_revolution": [600, 1200],
+            "schemes": ["exact_modal"]});
+        study["integration"] = json!({"revolutions": revolutions, "window_revolutions": 2, "steady": how});
+        let id = api.post("/v1/studies", &study).await.text("/id");
+        let job = api.finish(&id).await;
+        assert_eq!(job["status"], "successful", "{job}");
+        let found = api.get(&format!("/v1/jobs/{id}/work-precision")).await.body;
+        assert_eq!(found["settings"]["integration"]["steady"], how);
+        found["speeds"].as_array().unwrap().clone()
+    };
+    let (solved, marched) = (study("auto", 40).await, study("march", 600).await);
+    let mut compared = 0;
+    for (solved, marched) in solved.iter().zip(&marched) {
+        if solved["reference"]["steady"]["taken"] == false {
+            assert!(solved["sensitivity"].is_object());
+            continue;
+        }
+        assert!(solved["sensitivity"].is_null() && marched["sensitivity"].is_object());
+        assert!(solved["message"].as_str().unwrap().contains("solved for"), "{}", solved["message"]);
+        let runs = |speed: &Value| speed["runs"].as_array().unwrap().clone();
+        for (solved, marched) in runs(solved).iter().zip(&runs(marched)) {
+            if solved["steady"]["taken"] == true {
+                let of = |run: &Value| run["errors"]["amplitude"].as_f64().unwrap();
+                assert!((of(solved) - of(marched)).abs() <= 1e-6, "{solved} {marched}");
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared >= 4, "{compared}");
+
+    let mut sweep = steady_sweep(&model, "auto");
+    sweep.as_object_mut().unwrap().remove("modes_per_speed");
+    sweep["accuracy"] = json!({"target": 0.05});
+    let id = api.sweep(&sweep).await;
+    let job = api.finish(&id).await;
+    assert_eq!(job["status"], "successful", "{job}");
+    let pilots = job["choice"]["pilots"].as_array().unwrap();
+    assert!(pilots.iter().filter(|pilot| pilot["verdict"] == "periodic").count() > 0, "{pilots:?}");
+    let map = api.get(&format!("/v1/jobs/{id}/interaction-map")).await.body;
+    let controls = map["errors"]["controls"].as_array().unwrap();
+    assert!(controls.iter().any(|control| control["steady"]["taken"] == true), "{controls:?}");
+    app.stop().await;
 }
 
 #[tokio::test]

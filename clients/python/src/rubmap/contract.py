@@ -610,6 +610,7 @@ class StressRequest(TypedDict, closed=True):
 class StudyIntegration(TypedDict, closed=True):
     ramp_revolutions: NotRequired[float]
     revolutions: NotRequired[int]
+    steady: NotRequired[SteadyChoice]
     window_revolutions: NotRequired[int]
 
 
@@ -818,6 +819,7 @@ class Control(TypedDict):
     message: NotRequired[str | None]
     setting: Setting
     speed_rad_s: float
+    steady: NotRequired[SteadyReport | None]
 
 
 class CriticalSpeed(TypedDict):
@@ -1156,6 +1158,7 @@ class StudyRun(Setting):
     message: NotRequired[str | None]
     pareto: NotRequired[list[Quantity]]
     status: PointStatus
+    steady: NotRequired[SteadyReport | None]
     time_s: float
     unknowns: int
     verdict: NotRequired[Verdict | None]

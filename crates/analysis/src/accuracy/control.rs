@@ -79,6 +79,7 @@ pub fn error_estimate(
                 index: *index,
                 speed_rad_s: point.speed_rad_s,
                 setting: *setting,
+                steady: trial.point.steady.clone(),
                 estimated_stress_error: differences.and_then(|d| estimate(&d, AccuracyOf::Stress)),
                 estimated_error: differences.and_then(|d| {
                     Some(estimate(&d, AccuracyOf::Response)?.max(d.amplitude_spread.unwrap_or(0.0)))
@@ -179,6 +180,7 @@ mod tests {
             index,
             speed_rad_s,
             setting,
+            steady: None,
             differences: None,
             estimated_error,
             estimated_stress_error: None,

@@ -4,8 +4,8 @@ use crate::accuracy::errors::{errors, history_error};
 use crate::request::{SchemeChoice, Setting};
 use crate::resolved::{ResolvedStudy, TrialRequest};
 use crate::result::{
-    Histories, HistoryLine, PointStatus, Quantity, ReductionReport, SpeedStudy, StepOrder, StudyReduction,
-    StudyRun, Trial, WorkPrecision, front,
+    Histories, HistoryLine, PointStatus, Quantity, ReductionReport, SpeedStudy, Stability, SteadyReport,
+    StepOrder, StudyReduction, StudyRun, Trial, WorkPrecision, front,
 };
 use rubmap_numerics::convergence::observed_order;
 use rubmap_wheel::dynamics::sector::Units;
@@ -31,6 +31,7 @@ impl Tried<'_> {
             status: point.status,
             message: point.message.clone(),
             verdict: point.settling.as_ref().map(|settling| settling.verdict),
+            steady: point.steady.clone(),
             energy_residual: point.energy_residual,
             errors: reference.and_then(|reference| errors(self.trial, reference)),
             cost: self.trial.cost,
@@ -97,6 +98,15 @@ fn speed_study(request: &ResolvedStudy, speed_rad_s: f64, reference: &Tried, tri
 
 fn in_words(reference: &Tried, history_revolutions: u32) -> String {
     let point = &reference.trial.point;
+    if let Some(SteadyReport { taken: true, stability, .. }) = point.steady {
+        let lasts = match stability {
+            Some(Stability::Stable) => "lasts; all quantities can be compared",
+            _ => {
+                "does not last: runs that are marched leave it, and only those that are solved for can be compared with it"
+            }
+        };
+        return format!("the reference is a periodic response that was solved for and {lasts}");
+    }
     let Some(sensitivity) = reference.trial.sensitivity.filter(|_| reference.completed()) else {
         let why = point.message.as_deref().unwrap_or("its perturbed twin did not end");
         return format!("there is nothing to hold the runs against: {why}");

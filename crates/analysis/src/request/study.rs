@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::request::auto_or::AutoOr;
-use crate::request::integration::{Integration, SchemeChoice};
+use crate::request::integration::{Integration, SchemeChoice, SteadyChoice};
 use crate::request::record::StressRequest;
 use crate::request::scene::Scene;
 use crate::request::sensor::Sensor;
@@ -123,11 +123,13 @@ pub struct StudyIntegration {
     /// Revolutions at the end of the run that spectra are computed from.
     #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 100_000))]
     pub window_revolutions: u32,
+    /// How the steady response of every run is found. Histories are those of the response that was taken.
+    pub steady: SteadyChoice,
 }
 
 impl Default for StudyIntegration {
     fn default() -> Self {
-        let Integration { ramp_revolutions, window_revolutions, .. } = Integration::default();
-        Self { revolutions: 50, ramp_revolutions, window_revolutions }
+        let Integration { ramp_revolutions, window_revolutions, steady, .. } = Integration::default();
+        Self { revolutions: 50, ramp_revolutions, window_revolutions, steady }
     }
 }

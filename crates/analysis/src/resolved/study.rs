@@ -63,6 +63,7 @@ impl StudyRequest {
                 revolutions: AutoOr::Fixed(self.integration.revolutions),
                 ramp_revolutions: self.integration.ramp_revolutions,
                 window_revolutions: self.integration.window_revolutions,
+                steady: self.integration.steady,
                 ..Integration::default()
             },
             sensors: self.sensors.clone(),
@@ -83,14 +84,14 @@ impl StudyRequest {
 impl From<ResolvedStudy> for StudyRequest {
     fn from(study: ResolvedStudy) -> Self {
         let sweep = study.sweep;
-        let Integration { ramp_revolutions, window_revolutions, .. } = sweep.integration;
+        let Integration { ramp_revolutions, window_revolutions, steady, .. } = sweep.integration;
         let revolutions = sweep.integration.revolutions();
         Self {
             model: sweep.model,
             speeds: sweep.speeds.lists().clone(),
             scene: sweep.scene.into(),
             grid: study.grid,
-            integration: StudyIntegration { revolutions, ramp_revolutions, window_revolutions },
+            integration: StudyIntegration { revolutions, ramp_revolutions, window_revolutions, steady },
             history_revolutions: study.history_revolutions,
             sensors: sweep.sensors.into_iter().map(Into::into).collect(),
             max_engine_order: sweep.max_engine_order,

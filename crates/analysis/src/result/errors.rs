@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::request::Setting;
+use crate::result::steady::SteadyReport;
 
 /// Differences between a run and a finer one, relative to the finer one.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -125,6 +126,9 @@ pub struct Control {
     pub speed_rad_s: f64,
     /// The finer setting.
     pub setting: Setting,
+    /// The periodic response of the finer run; absent unless the request's `integration.steady` asks for it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub steady: Option<SteadyReport>,
     /// Differences between the two; absent where the finer run was not completed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub differences: Option<Errors>,

@@ -6,6 +6,7 @@ use crate::request::{AutoOr, SchemeChoice, Sensor, Setting, StudyRequest};
 use crate::result::errors::{Errors, Quantity};
 use crate::result::point::PointStatus;
 use crate::result::reduction::StiffeningVerdict;
+use crate::result::steady::SteadyReport;
 use crate::result::trial::Cost;
 use rubmap_wheel::dynamics::sector::Units;
 use rubmap_wheel::response::sensitivity::Sensitivity;
@@ -48,7 +49,7 @@ pub struct SpeedStudy {
     pub speed_rad_s: f64,
     /// What all runs are held against; it has no errors.
     pub reference: StudyRun,
-    /// Whether trajectories can be compared: the growth of a tiny perturbation of the reference. Absent if it failed.
+    /// Whether trajectories can be compared: the growth of a tiny perturbation of the reference. Absent if it failed, or was solved for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sensitivity: Option<Sensitivity>,
     /// How to read the errors, in words.
@@ -76,6 +77,9 @@ pub struct StudyRun {
     /// Steady-state verdict of a completed run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub verdict: Option<Verdict>,
+    /// The periodic response; absent unless the request's `integration.steady` asks for it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub steady: Option<SteadyReport>,
     /// Largest violation of the energy identity, relative to the largest energy seen.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub energy_residual: Option<f64>,
