@@ -15,7 +15,7 @@ use rubmap_wheel::dynamics::steady::periodic::NotFound;
 use rubmap_wheel::dynamics::steady::response::{self, LEAST_REVOLUTIONS, Response, Sought, record, seek};
 use rubmap_wheel::dynamics::steady::stability::Floquet;
 
-/// Most revolutions of a search, and of the march that controls it, as a multiple of those that are asked for.
+/// Most revolutions of a search, and of a march that controls it, as a multiple of those that are asked for.
 const LIMIT: u32 = 4;
 
 /// Most revolutions of a search.
@@ -42,8 +42,9 @@ pub(super) fn revolutions_taken(request: &ResolvedSweep) -> [u64; 2] {
             }
             AutoOr::Auto | AutoOr::Fixed(_) => [marched, marched],
         },
-        SteadyChoice::Periodic => [least, limit + multipliers + marched],
-        SteadyChoice::Auto => [least, 2 * limit + multipliers + marched],
+        // Two searches, one of them from heavier damping, and the march beside what was found; with `auto` that from where the scene begins.
+        SteadyChoice::Periodic => [least, 3 * limit + multipliers + marched],
+        SteadyChoice::Auto => [least, 4 * limit + multipliers + marched],
     }
 }
 

@@ -27,7 +27,7 @@ pub struct BranchesRequest {
     /// Effects of the simulation.
     pub scene: Scene,
     /// Time integration. Scheme and steps per revolution are the same everywhere: those of the speed that needs most. A search takes at
-    /// most four times the revolutions that a march may take.
+    /// most four times the revolutions that a march may take, and as many again from heavier damping.
     #[serde(default)]
     pub integration: Integration,
     /// Whose amplitudes are told; default: radial at the first and the last contact node of sector 0.

@@ -68,7 +68,8 @@ pub fn memory(unknowns: usize, pairs: usize) -> usize {
 }
 
 /// Seeks the periodic response of the scene of `simulation`, as it is recorded there being of no matter, in at most `limit`
-/// revolutions; with `control`, whether a march comes to it in as many. `go_on` is asked now and then.
+/// revolutions, and in as many again from heavier damping; with `control`, whether a march comes to it in as many. `go_on` is asked now
+/// and then.
 pub fn seek(simulation: &Simulation<'_>, limit: usize, control: bool, go_on: &dyn Fn() -> bool) -> Sought {
     let mut revolutions = 0.0;
     let response = match Passage::about_half(simulation) {
@@ -95,9 +96,9 @@ fn respond(
     let search = Search { tolerance: FOUND, marched: passages(MARCHED), most };
     let (Periodic { state, residual }, followed_from) = match find(passage, &start, &search, go_on) {
         Err(stalled @ NotFound::Stalled { .. }) => {
-            let mut taken = passage.taken();
+            let mut taken = 0;
             let followed = follow(simulation, &start, (&search, &mut taken), go_on);
-            *revolutions += ((taken - passage.taken()) * steps) as f64 / per_revolution as f64;
+            *revolutions += (taken * steps) as f64 / per_revolution as f64;
             match followed {
                 Ok(Followed { periodic, from }) => (periodic, Some(from)),
                 Err(NotFound::Cancelled) => return Err(NotFound::Cancelled),
