@@ -77,7 +77,7 @@ async fn branches_are_followed_to_both_ends_and_march_to_the_same() {
             sweep["integration"][knob] = found[knob].clone();
         }
     }
-    let some: Vec<&Value> = stable.iter().step_by(stable.len() / 3).copied().collect();
+    let some: Vec<&Value> = stable.iter().step_by(stable.len().div_ceil(8)).copied().collect();
     let speeds: Vec<&Value> = some.iter().map(|point| &point["value"]).collect();
     sweep["speeds"] = json!({"values": speeds, "unit": "rad_s"});
     let id = api.sweep(&sweep).await;
@@ -95,6 +95,38 @@ async fn branches_are_followed_to_both_ends_and_march_to_the_same() {
         assert!((solved / marched - 1.0).abs() < 1e-8, "{solved} {marched}: {point}");
     }
     assert!(settled > 1, "{map}");
+}
+
+/// Followed from where an amplitude is largest, or a hair beside, a branch has the same maximum as from elsewhere.
+#[tokio::test]
+async fn a_maximum_where_a_branch_begins_is_found() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(model::package(1.0)).await;
+    let mut request = branches_of(&model);
+    request["scene"]["damping"] = json!({"modal_ratio": 0.05});
+    let speed = request["speed"]["value"].as_f64().unwrap();
+    request["along"] = json!({"parameter": "speed", "from": 0.75 * speed, "to": 1.25 * speed});
+    let found = followed(api, &request).await;
+    let maxima = found["branches"][0]["maxima"].as_array().unwrap();
+    let number = |maximum: &Value, field: &str| maximum[field].as_f64().unwrap();
+    let by_height =
+        |a: &&Value, b: &&Value| number(a, "half_peak_to_peak").total_cmp(&number(b, "half_peak_to_peak"));
+    let highest = maxima.iter().max_by(by_height).expect("a maximum");
+    let at = number(highest, "value");
+    for start in [at, at * (1.0 - 1e-7)] {
+        request["speed"] = json!({"value": start, "unit": "rad_s"});
+        request["along"] = json!({"parameter": "speed", "from": 0.97 * at, "to": 1.03 * at});
+        let again = followed(api, &request).await;
+        let maxima = again["branches"][0]["maxima"].as_array().unwrap();
+        // As well as steps of time let it be known.
+        let same = maxima.iter().find(|other| {
+            let off = |field: &str| (number(other, field) / number(highest, field) - 1.0).abs();
+            other["sensor"] == highest["sensor"] && off("value") < 5e-3 && off("half_peak_to_peak") < 1e-3
+        });
+        assert!(same.is_some(), "{start}: {highest} is not in {maxima:?}");
+    }
+    app.stop().await;
 }
 
 /// What was foretold of branches that go to both ends is how they were stepped, and no more than they took.

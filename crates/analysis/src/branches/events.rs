@@ -1,14 +1,13 @@
 //! What happens between the points of a branch: bifurcations and maxima of amplitudes.
 
+use super::crests::{Crest, Passed};
 use super::family::Scenes;
-use super::told::{Told, amplitudes_of, carried, tell};
+use super::told::{Amplitudes, Told, amplitudes_of, carried, tell};
 use crate::result::{Bifurcation, BifurcationKind, BranchMaximum};
 use rubmap_wheel::dynamics::initial::Stepped;
+use rubmap_wheel::dynamics::steady::branch::locate::Looks;
 use rubmap_wheel::dynamics::steady::branch::{Branch, Lost, Motion};
 use rubmap_wheel::dynamics::steady::stability::Stability;
-
-/// Least rise of a maximum above both points beside it, relative: the steps of time make amplitudes uncertain by less.
-const RISES: f64 = 1e-4;
 
 /// A point with what is told of it.
 #[derive(Clone, Copy)]
@@ -35,8 +34,7 @@ pub(super) struct Events<'a> {
 
 impl Events<'_> {
     /// The fold at the middle one of three points, if the branch turns back there.
-    pub(super) fn fold(&self, points: [At<'_>; 3]) -> Result<Option<(Bifurcation, Motion)>, Lost> {
-        let [a, b, c] = points.map(|point| point.motion);
+    pub(super) fn fold(&self, [a, b, c]: [&Motion; 3]) -> Result<Option<(Bifurcation, Motion)>, Lost> {
         let up = (b.value - a.value).signum();
         if (c.value - b.value) * up >= 0.0 {
             return Ok(None);
@@ -50,7 +48,7 @@ impl Events<'_> {
             Err(Lost::Cancelled) => return Err(Lost::Cancelled),
             Err(_) => (b.clone(), (a.value - b.value).abs().max((c.value - b.value).abs())),
         };
-        let half_peak_to_peak = amplitudes_of(self.scenes, self.branch.lap, &motion)?;
+        let half_peak_to_peak = amplitudes_of(self.scenes, self.branch.lap, &motion)?.sampled;
         let bifurcation = Bifurcation {
             kind: BifurcationKind::Fold,
             value: motion.value,
@@ -96,7 +94,7 @@ impl Events<'_> {
             value: motion.value,
             speed_rad_s: self.scenes.speed(motion.value),
             error,
-            half_peak_to_peak: told.half_peak_to_peak,
+            half_peak_to_peak: told.amplitudes.sampled,
             multiplier: told.multipliers.first().copied(),
             stable_modulus: stable.told.multipliers.first().map(|leading| leading.modulus),
         };
@@ -104,34 +102,33 @@ impl Events<'_> {
         Ok(Some(Event { bifurcation, motion, grows: told.leading, lobe_passages, passages }))
     }
 
-    /// The maxima of sensors' amplitudes about the middle one of three points.
-    pub(super) fn maxima(&self, points: [At<'_>; 3]) -> Result<Vec<BranchMaximum>, Lost> {
-        let [a, b, c] = points;
-        let (mut maxima, mut looks) = (Vec::new(), None);
-        for (sensor, &amplitude) in b.told.half_peak_to_peak.iter().enumerate() {
-            let beside = a.told.half_peak_to_peak[sensor].max(c.told.half_peak_to_peak[sensor]);
-            if amplitude <= (1.0 + RISES) * beside {
-                continue;
-            }
-            let looks = match &mut looks {
-                Some(looks) => looks,
-                none => {
-                    let amplitudes = |at: At<'_>| at.told.half_peak_to_peak.clone();
-                    none.insert(self.branch.looks(points.map(|point| (point.motion, amplitudes(point))))?)
+    /// The maxima of sensors' amplitudes that were passed.
+    pub(super) fn maxima(&self, crests: Vec<Crest>) -> Result<Vec<BranchMaximum>, Lost> {
+        // What was looked at for one sensor serves those that are highest at the same point.
+        let mut looked: Vec<(usize, Looks<Amplitudes>)> = Vec::new();
+        let mut maxima = Vec::new();
+        for Crest { sensor, since, points } in crests {
+            let motions = points.each_ref().map(Passed::motion);
+            let values = motions.each_ref().map(|motion| motion.value);
+            let known = match looked.iter().position(|(other, _)| *other == since) {
+                Some(known) => known,
+                None => {
+                    let [a, b, c] = [0, 1, 2].map(|i| (&motions[i], points[i].amplitudes.clone()));
+                    looked.push((since, self.branch.looks([a, b, c])?));
+                    looked.len() - 1
                 }
             };
             let found = self.branch.summit(
-                looks,
-                |_, amplitudes| amplitudes[sensor],
+                &mut looked[known].1,
+                |_, amplitudes| amplitudes.smooth[sensor],
                 |motion| amplitudes_of(self.scenes, self.branch.lap, motion),
             );
             let (value, error, half_peak_to_peak) = match found {
-                Ok(place) => (place.motion.value, place.error, place.told[sensor]),
+                Ok(place) => (place.motion.value, place.error, place.told.sampled[sensor]),
                 Err(Lost::Cancelled) => return Err(Lost::Cancelled),
                 Err(_) => {
-                    let values = points.map(|point| point.motion.value);
                     let error = (values[0] - values[1]).abs().max((values[2] - values[1]).abs());
-                    (values[1], error, amplitude)
+                    (values[1], error, points[1].amplitudes.sampled[sensor])
                 }
             };
             maxima.push(BranchMaximum {
@@ -140,7 +137,7 @@ impl Events<'_> {
                 speed_rad_s: self.scenes.speed(value),
                 error,
                 half_peak_to_peak,
-                stability: b.told.stability,
+                stability: points[1].stability,
             });
         }
         Ok(maxima)

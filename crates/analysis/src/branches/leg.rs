@@ -1,8 +1,10 @@
 //! Branches followed some points further.
 
-use super::course::{Course, KeptTold, Stretch, UnderWay};
+use super::course::{Course, Stretch, UnderWay};
+use super::crests::Crests;
 use super::events::{At, Event, Events};
 use super::family::Scenes;
+use super::kept::KeptTold;
 use super::told::{Told, carried, tell};
 use crate::error::{AnalysisError, Violation};
 use crate::model::ReducedSector;
@@ -53,12 +55,19 @@ pub fn branch_leg(
             begin(&scenes, asked, &go_on)?
         }
     };
-    let UnderWay { stretch, points, mut last, mut before, pending } = under_way;
-    let mut walk = Walk::new(&scenes, asked, &stretch, (points, pending));
+    let UnderWay { stretch, points, mut last, crests, pending } = under_way;
+    let mut walk = Walk::new(&scenes, asked, &stretch, (points, crests, pending));
     let branch =
         Branch { family: &scenes, lap: walk.lap, span: asked.along.to - asked.along.from, go_on: &go_on };
-    let end = walk.go(&branch, (&mut last, &mut before), monitor)?;
-    let Walk { front, points, found, mut bifurcations, maxima, flips, pending, .. } = walk;
+    let end = walk.go(&branch, &mut last, monitor)?;
+    let Walk { front, points, found, mut bifurcations, maxima, flips, crests, pending, beside_start, .. } =
+        walk;
+    if let Some((motion, told)) = beside_start
+        && let Some(other) = waiting.iter_mut().find(|other| other.continues(&stretch))
+        && let [start, beside @ ..] = &found[..]
+    {
+        other.go_on_from(&motion, Crests::behind((&motion, &told), start, beside));
+    }
     for Event { bifurcation, motion, grows, lobe_passages, passages } in flips {
         let track = Track {
             branch: branches,
@@ -66,9 +75,7 @@ pub fn branch_leg(
             doubles: Some((stretch.track.branch, bifurcation.value)),
         };
         branches += 1;
-        let front = (&Front::aside(motion, grows)).into();
-        let passages = Some(2 * passages);
-        waiting.insert(0, Stretch { track, passages, backwards: false, front, tells_start: true });
+        waiting.insert(0, Stretch::new(track, Some(2 * passages), &Front::aside(motion, grows)));
     }
     if matches!(end, Some(BranchEnd::Joins)) {
         waiting.retain(|other| !stretch.doubles_as(other) || !is_at(&branch, &front, &other.start()));
@@ -76,7 +83,7 @@ pub fn branch_leg(
     let (track, backwards) = (stretch.track.clone(), stretch.backwards);
     let under_way = if end.is_none() {
         let stretch = Stretch { front: (&front).into(), ..stretch };
-        Some(UnderWay { stretch, points, last, before, pending })
+        Some(UnderWay { stretch, points, last, crests, pending })
     } else {
         bifurcations.extend(pending);
         waiting.pop().map(UnderWay::new)
@@ -105,13 +112,9 @@ fn begin(
     let (start, span) = (asked.start(), asked.along.to - asked.along.from);
     let stretch = |backwards: bool| {
         let sign = if backwards { -1.0 } else { 1.0 };
-        Stretch {
-            track: Track { branch: 0, lobe_passages: None, doubles: None },
-            passages: None,
-            backwards,
-            front: (&Front::new(Motion { value: start, state: state.clone() }, span, sign)).into(),
-            tells_start: false,
-        }
+        let front = Front::new(Motion { value: start, state: state.clone() }, span, sign);
+        let track = Track { branch: 0, lobe_passages: None, doubles: None };
+        Stretch { backwards, tells_start: false, ..Stretch::new(track, None, &front) }
     };
     // Towards larger values first, if there are any; where it begins is told once.
     let (is_least, is_most) = (start <= asked.along.from, start >= asked.along.to);
@@ -157,8 +160,11 @@ struct Walk<'a> {
     bifurcations: Vec<Bifurcation>,
     maxima: Vec<BranchMaximum>,
     flips: Vec<Event>,
+    crests: Crests,
     /// A multiplier passed 1 before the last point.
     pending: Option<Bifurcation>,
+    /// The first point beside where the stretch begins, if it was found in this leg.
+    beside_start: Option<(Motion, Told)>,
     joins: bool,
 }
 
@@ -167,7 +173,7 @@ impl<'a> Walk<'a> {
         scenes: &'a Scenes<'a>,
         asked: &'a ResolvedBranches,
         stretch: &Stretch,
-        (points, pending): (u32, Option<Bifurcation>),
+        (points, crests, pending): (u32, Crests, Option<Bifurcation>),
     ) -> Self {
         Self {
             scenes,
@@ -182,7 +188,9 @@ impl<'a> Walk<'a> {
             bifurcations: Vec::new(),
             maxima: Vec::new(),
             flips: Vec::new(),
+            crests,
             pending,
+            beside_start: None,
             joins: false,
         }
     }
@@ -191,7 +199,7 @@ impl<'a> Walk<'a> {
     fn go(
         &mut self,
         branch: &Branch<'_>,
-        (kept_last, kept_before): (&mut Option<KeptTold>, &mut Option<KeptTold>),
+        kept_last: &mut Option<KeptTold>,
         monitor: &dyn Monitor,
     ) -> Result<Option<BranchEnd>, AnalysisError> {
         let mut last = match kept_last {
@@ -201,7 +209,6 @@ impl<'a> Walk<'a> {
                 Err(lost) => return end(lost).map(Some),
             },
         };
-        let mut before = kept_before.as_ref().map(Told::from);
         let range = (self.asked.along.from, self.asked.along.to);
         let ended = loop {
             if self.found.len() >= POINTS {
@@ -219,14 +226,17 @@ impl<'a> Walk<'a> {
                 Step::Point(found) => (found, false),
                 Step::Edge(found) => (found, true),
             };
-            let told = match self.look(branch, (before.as_ref(), &last), &found) {
+            let told = match self.look(branch, &last, &found) {
                 Ok(told) => told,
                 Err(lost) => break Some(end(lost)?),
             };
             self.points += 1;
             self.found.push(told.point(&found, self.scenes.speed(found.motion.value)));
+            if self.front.before.is_none() {
+                self.beside_start = Some((found.motion.clone(), told.clone()));
+            }
             self.front.move_to(found.motion);
-            before = Some(std::mem::replace(&mut last, told));
+            last = told;
             if self.joins {
                 break Some(BranchEnd::Joins);
             }
@@ -235,7 +245,6 @@ impl<'a> Walk<'a> {
             }
         };
         *kept_last = Some((&last).into());
-        *kept_before = before.as_ref().map(Into::into);
         Ok(ended)
     }
 
@@ -243,6 +252,7 @@ impl<'a> Walk<'a> {
     fn start(&mut self, branch: &Branch<'_>) -> Result<Told, Lost> {
         let motion = self.front.last.clone();
         let told = tell(self.scenes, branch, &motion, &motion.state)?;
+        self.crests.pass(&motion, &told);
         if self.tells_start {
             let found = Found { residual: branch.off(&motion)?, motion, steps: 0, revolutions: 0.0 };
             self.found.push(told.point(&found, self.scenes.speed(found.motion.value)));
@@ -252,24 +262,18 @@ impl<'a> Walk<'a> {
     }
 
     /// What is told of a new point, and what happens on the way to it.
-    fn look(
-        &mut self,
-        branch: &Branch<'_>,
-        (before, last): (Option<&Told>, &Told),
-        found: &Found,
-    ) -> Result<Told, Lost> {
+    fn look(&mut self, branch: &Branch<'_>, last: &Told, found: &Found) -> Result<Told, Lost> {
         let motion = &found.motion;
         let hint = carried(self.scenes, &last.disturbances, self.front.last.value, motion.value)?;
         let told = tell(self.scenes, branch, motion, &hint)?;
         let events = Events { scenes: self.scenes, branch };
         let here = At { motion, told: &told };
         let there = At { motion: &self.front.last, told: last };
-        let mut fold = None;
-        if let (Some(motion), Some(told)) = (&self.front.before, before) {
-            let points = [At { motion, told }, there, here];
-            fold = events.fold(points)?;
-            self.maxima.extend(events.maxima(points)?);
-        }
+        let fold = match &self.front.before {
+            Some(before) => events.fold([before, &self.front.last, motion])?,
+            None => None,
+        };
+        self.maxima.extend(events.maxima(self.crests.pass(motion, &told))?);
         self.joins = told.passages < self.passages() || self.has_crossed(branch, motion)?;
         let pending = self.pending.take();
         if let Some((bifurcation, _)) = fold.filter(|_| !self.joins) {

@@ -11,6 +11,17 @@ use rubmap_wheel::dynamics::steady::branch::correct::Found;
 use rubmap_wheel::dynamics::steady::branch::{Branch, Family, Lap, Lost, Motion, Unreachable};
 use rubmap_wheel::dynamics::steady::response::MULTIPLIERS;
 use rubmap_wheel::dynamics::steady::stability::{Floquet, Stability};
+use serde::{Deserialize, Serialize};
+
+/// Half the peak-to-peak displacement of every sensor.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct Amplitudes {
+    /// Of its samples: what is told everywhere.
+    pub(super) sampled: Vec<f64>,
+    /// Of parabolas through the extreme samples and those beside them. Along a branch extremes move past samples, of which the largest
+    /// misses them by turns; that would be maxima of its own.
+    pub(super) smooth: Vec<f64>,
+}
 
 /// What is told of a response.
 #[derive(Debug, Clone)]
@@ -24,7 +35,7 @@ pub(super) struct Told {
     pub(super) lobe_passages: u32,
     /// The same in passages over a lobe, of which laps are counted.
     pub(super) passages: u32,
-    pub(super) half_peak_to_peak: Vec<f64>,
+    pub(super) amplitudes: Amplitudes,
     /// Revolutions that it took.
     pub(super) revolutions: f64,
 }
@@ -44,7 +55,7 @@ impl Told {
         BranchPoint {
             value: found.motion.value,
             speed_rad_s,
-            half_peak_to_peak: self.half_peak_to_peak.clone(),
+            half_peak_to_peak: self.amplitudes.sampled.clone(),
             stability: self.stability,
             multipliers: self.multipliers.clone(),
             lobe_passages: self.lobe_passages,
@@ -81,7 +92,7 @@ pub(super) fn tell(
         // As large as the motion.
         let scale = if leading.is_empty() { 0.0 } else { size(&state) / size(&leading) };
         let leading: Vec<f64> = leading.iter().map(|x| scale * x).collect();
-        let half_peak_to_peak = amplitudes(&simulation, &passage, &motion.state)?;
+        let amplitudes = amplitudes(&simulation, &passage, &motion.state)?;
         Ok::<_, Lost>(Told {
             stability: floquet.stability,
             multipliers: floquet
@@ -93,15 +104,15 @@ pub(super) fn tell(
             leading: if leading.is_empty() { Stepped::default() } else { passage.stepped(&leading) },
             lobe_passages: floquet.lobes as u32,
             passages: floquet.passages as u32,
-            half_peak_to_peak,
+            amplitudes,
             revolutions: floquet.revolutions + 1.0,
         })
     });
     told.map_err(|reason| Lost::Unreachable(Unreachable(reason.to_string())))?
 }
 
-/// Half the peak-to-peak displacement of every sensor of a response.
-pub(super) fn amplitudes_of(scenes: &Scenes<'_>, lap: Lap, motion: &Motion) -> Result<Vec<f64>, Lost> {
+/// The amplitudes of a response.
+pub(super) fn amplitudes_of(scenes: &Scenes<'_>, lap: Lap, motion: &Motion) -> Result<Amplitudes, Lost> {
     let found = scenes.simulation(motion.value, 0.0, |simulation, _| {
         amplitudes(&simulation, &lap.passage(&simulation)?, &motion.state)
     });
@@ -109,18 +120,52 @@ pub(super) fn amplitudes_of(scenes: &Scenes<'_>, lap: Lap, motion: &Motion) -> R
 }
 
 /// Over as many revolutions as show all of it.
-fn amplitudes(simulation: &Simulation<'_>, passage: &Passage<'_>, from: &Stepped) -> Result<Vec<f64>, Lost> {
+fn amplitudes(
+    simulation: &Simulation<'_>,
+    passage: &Passage<'_>,
+    from: &Stepped,
+) -> Result<Amplitudes, Lost> {
     let revolutions = passage.steps().div_ceil(simulation.steps_per_revolution);
     let run = Simulation { revolutions, window_revolutions: 0, ..*simulation }.go_on(from, &|_| true);
     match run.outcome {
         Outcome::Completed(history) => {
-            Ok(history.displacement.iter().map(|line| half_peak_to_peak(line)).collect())
+            let of =
+                |measure: fn(&[f64]) -> f64| history.displacement.iter().map(|line| measure(line)).collect();
+            Ok(Amplitudes { sampled: of(half_peak_to_peak), smooth: of(between_samples) })
         }
         _ => Err(Unreachable("the response could not be followed for a revolution".to_owned()).into()),
     }
 }
 
+/// Half the distance of the highest from the lowest point of a line that repeats, by parabolas through samples.
+fn between_samples(line: &[f64]) -> f64 {
+    let highest = |sign: f64| {
+        let at = (0..line.len()).max_by(|&a, &b| (sign * line[a]).total_cmp(&(sign * line[b]))).unwrap_or(0);
+        let of = |i: usize| line.get(i % line.len()).map_or(0.0, |x| sign * x);
+        let (before, top, after) = (of(at + line.len() - 1), of(at), of(at + 1));
+        let (slope, bend) = (0.5 * (after - before), before - 2.0 * top + after);
+        if bend < 0.0 { top - 0.5 * slope * slope / bend } else { top }
+    };
+    if line.is_empty() { 0.0 } else { 0.5 * (highest(1.0) + highest(-1.0)) }
+}
+
 /// A state of the scene at `from` in the modes at `to`.
 pub(super) fn carried(scenes: &Scenes<'_>, state: &Stepped, from: f64, to: f64) -> Result<Stepped, Lost> {
     Ok(scenes.carry(state, from, to)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn extremes_lie_between_samples() {
+        for shift in [0.0, 0.1, 0.37, 0.5] {
+            let of = |i: usize| 2.0 + 3.0 * ((i as f64 + shift) * std::f64::consts::TAU / 64.0).cos();
+            let line: Vec<f64> = (0..64).map(of).collect();
+            assert!((between_samples(&line) - 3.0).abs() < 1e-5, "{shift}");
+        }
+        assert!(half_peak_to_peak(&[0.0, 1.0, 0.0, -1.0]) == 1.0 && between_samples(&[0.0; 4]) == 0.0);
+        assert_eq!((between_samples(&[]), between_samples(&[5.0])), (0.0, 0.0));
+    }
 }
