@@ -29,8 +29,8 @@ type BranchesBody = Labelled<BranchesRequest>;
 
 /// Follow the periodic response of a scene while its speed, clearance, lobes or damping change.
 ///
-/// Around folds, whether it lasts or not, with Floquet multipliers at every point; bifurcations and maxima are found to a millionth, and
-/// branches of doubled period are followed as well. The points so far are those of `GET /v1/jobs/{id}/branches`, while it is computed, too.
+/// Around folds, whether it lasts or not, with Floquet multipliers at every point; bifurcations are found to a millionth, maxima of
+/// amplitudes as well as steps of time let them be known, and branches of doubled period are followed as well. The points so far are those of `GET /v1/jobs/{id}/branches`, while it is computed, too.
 #[utoipa::path(post, path = "/v1/branches", operation_id = "create_branches", tag = "jobs",
     params(("Idempotency-Key" = Option<String>, Header,
         description = "Repeating the request with this key repeats its answer and starts nothing.")),

@@ -11,7 +11,7 @@ use rubmap_wheel::dynamics::integrate::{
     Detail, LEAST_MARCHED, Outcome, Repeated, Repeats, Revolutions, Run, Simulation, revolutions_over_lobe,
 };
 use rubmap_wheel::dynamics::steady::multipliers::{MOST_PRODUCTS, Multiplier};
-use rubmap_wheel::dynamics::steady::periodic::NotFound;
+use rubmap_wheel::dynamics::steady::periodic::{MOST_BEYOND, NotFound};
 use rubmap_wheel::dynamics::steady::response::{self, LEAST_REVOLUTIONS, Response, Sought, record, seek};
 use rubmap_wheel::dynamics::steady::stability::Floquet;
 
@@ -35,6 +35,8 @@ pub(super) fn revolutions_taken(request: &ResolvedSweep) -> [u64; 2] {
     let product = revolutions_over_lobe(lobes, orders, scene.orbit.as_ref().map(|orbit| orbit.whirl_ratio));
     let multipliers = (MOST_PRODUCTS as f64 * product) as u64;
     let least = ramp_revolutions.ceil() as u64 + LEAST_REVOLUTIONS;
+    // The ramp, and what two searches take beyond their most.
+    let begun = ramp_revolutions.ceil() as u64 + 2 * MOST_BEYOND * product.ceil() as u64;
     match steady {
         SteadyChoice::March => match revolutions {
             AutoOr::Auto if goes_on(request).is_none() => {
@@ -43,8 +45,8 @@ pub(super) fn revolutions_taken(request: &ResolvedSweep) -> [u64; 2] {
             AutoOr::Auto | AutoOr::Fixed(_) => [marched, marched],
         },
         // Two searches, one of them from heavier damping, and the march beside what was found; with `auto` that from where the scene begins.
-        SteadyChoice::Periodic => [least, 3 * limit + multipliers + marched],
-        SteadyChoice::Auto => [least, 4 * limit + multipliers + marched],
+        SteadyChoice::Periodic => [least, begun + 3 * limit + multipliers + marched],
+        SteadyChoice::Auto => [least, begun + 4 * limit + multipliers + marched],
     }
 }
 

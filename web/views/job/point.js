@@ -8,7 +8,7 @@ import { unread } from '../../lib/problem.js';
 import { select, sensors } from './choices.js';
 import { followButton } from './follow.js';
 import { QUANTITIES, recorder } from './histories.js';
-import { points, SETTLING, STABILITY, VALIDITY } from './verdicts.js';
+import { points, SETTLING, steadyWords, VALIDITY } from './verdicts.js';
 
 export async function show(place, context, signal) {
   const { job, query } = context;
@@ -82,19 +82,6 @@ async function showHistories(element, context, point, signal) {
     if (error instanceof Refusal && error.type.endsWith('history-not-recorded')) replace(figure, recorder(job, point.index, 'lines', signal));
     else replace(figure, unread(error, signal));
   }
-}
-
-/** How the periodic response was found, whether it lasts, and how fast what disturbs it grows or decays. */
-function steadyWords(steady) {
-  if (!steady) return null;
-  const stability = STABILITY[steady.stability];
-  const leading = steady.multipliers?.[0];
-  return [
-    steady.taken ? 'taken' : `not taken: ${steady.reason}`,
-    stability,
-    leading ? `|μ| = ${number(leading.modulus)} a passage, nodal diameter ${leading.nodal_diameter}, lines ${number(leading.order_offset)} orders aside` : null,
-    `${number(steady.revolutions, 3)} revolutions`,
-  ].filter(Boolean).join('; ');
 }
 
 /** How long a speed was marched that was to end once it repeats. */

@@ -6,7 +6,7 @@ import { duration, percent, speed } from '../../lib/format.js';
 import { plot } from '../../lib/plot.js';
 import { table } from '../../lib/table.js';
 import { select } from './choices.js';
-import { SETTLING } from './verdicts.js';
+import { SETTLING, steadyWords } from './verdicts.js';
 
 const QUANTITIES = [
   ['amplitude', 'steady amplitude'],
@@ -40,6 +40,7 @@ export async function show(place, context, signal) {
       { name: 'Run takes', number: true, cell: (run) => duration(run.time_s), sort: (run) => run.time_s },
       { name: 'Error', number: true, cell: (run) => percent(run.errors?.[chosen.quantity]), sort: (run) => run.errors?.[chosen.quantity] },
       { name: 'Settling', cell: (run) => SETTLING[run.verdict] ?? '–' },
+      ...(runs.some((run) => run.steady) ? [{ name: 'Periodic response', cell: (run) => steadyWords(run.steady) ?? '–' }] : []),
       { name: 'What it is', cell: (run) => [run.status, run.pareto?.length ? 'none is faster and better' : null, run.message].filter(Boolean).join('; ') },
     ],
   }));

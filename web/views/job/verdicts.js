@@ -2,7 +2,7 @@
 
 import { api } from '../../lib/api.js';
 import { h, replace, facts } from '../../lib/dom.js';
-import { count, percent } from '../../lib/format.js';
+import { count, number, percent } from '../../lib/format.js';
 
 export const SETTLING = {
   periodic: 'repeats every revolution',
@@ -57,4 +57,17 @@ export async function verdicts(element, { job }, signal) {
       ['Stiffening', map.stiffening && map.stiffening !== 'sound' && map.stiffening !== 'absent' ? map.stiffening : null],
       ['Code', map.version],
     ]));
+}
+
+/** How the periodic response was found, whether it lasts, and how fast what disturbs it grows or decays. */
+export function steadyWords(steady) {
+  if (!steady) return null;
+  const stability = STABILITY[steady.stability];
+  const leading = steady.multipliers?.[0];
+  return [
+    steady.taken ? 'taken' : `not taken: ${steady.reason}`,
+    stability,
+    leading ? `|μ| = ${number(leading.modulus)} a passage, nodal diameter ${leading.nodal_diameter}, lines ${number(leading.order_offset)} orders aside` : null,
+    `${number(steady.revolutions, 3)} revolutions`,
+  ].filter(Boolean).join('; ');
 }

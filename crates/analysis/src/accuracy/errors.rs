@@ -92,8 +92,17 @@ pub fn errors(trial: &Trial, finer: &Trial) -> Option<Errors> {
     Some(Errors { history: history_error(trial, finer), ..steady })
 }
 
-/// ‖x − y‖/‖y‖ over the first revolutions, all sensors together; none without histories at the same instants.
+fn solved(trial: &Trial) -> bool {
+    trial.point.steady.as_ref().is_some_and(|steady| steady.taken)
+}
+
+/// ‖x − y‖/‖y‖ over the first revolutions, all sensors together; none without histories at the same instants of motions that begin
+/// alike.
 pub(super) fn history_error(trial: &Trial, finer: &Trial) -> Option<f64> {
+    // One that was solved for begins on its response, one that was marched where its scene begins.
+    if solved(trial) != solved(finer) {
+        return None;
+    }
     let lengths = |trial: &Trial| trial.history.iter().map(Vec::len).collect::<Vec<_>>();
     if trial.history.first()?.is_empty() || lengths(trial) != lengths(finer) {
         return None;

@@ -100,8 +100,13 @@ fn in_words(reference: &Tried, history_revolutions: u32) -> String {
     let point = &reference.trial.point;
     if let Some(SteadyReport { taken: true, stability, .. }) = point.steady {
         let lasts = match stability {
-            Some(Stability::Stable) => "lasts; all quantities can be compared",
-            _ => {
+            Some(Stability::Stable | Stability::Narrow) => {
+                "lasts; histories of runs that were marched are not compared with it, all else can be"
+            }
+            Some(Stability::Undecided) | None => {
+                "may last or not, which could not be told: marched runs may show another response"
+            }
+            Some(Stability::Flip | Stability::Fold | Stability::NeimarkSacker) => {
                 "does not last: runs that are marched leave it, and only those that are solved for can be compared with it"
             }
         };

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::crests::Crests;
+use super::crests::{Crests, Passed};
 use super::kept::{KeptFront, KeptTold};
 use crate::result::{Bifurcation, Track};
 use rubmap_wheel::dynamics::steady::branch::Motion;
@@ -29,20 +29,16 @@ pub(super) struct Stretch {
     pub(super) front: KeptFront,
     /// Whether where it begins is a point of it.
     pub(super) tells_start: bool,
-    /// Of the branch behind where it begins, if it was followed to the other side.
-    pub(super) behind: Crests,
+    /// The first points of the branch behind where it begins, if it was followed to the other side; the nearest first.
+    pub(super) behind: Vec<Passed>,
 }
+
+/// Points behind a beginning by which it is told whether there is a maximum.
+const BEHIND: usize = 8;
 
 impl Stretch {
     pub(super) fn new(track: Track, passages: Option<u32>, front: &Front) -> Self {
-        Self {
-            track,
-            passages,
-            backwards: false,
-            front: front.into(),
-            tells_start: true,
-            behind: Crests::default(),
-        }
+        Self { track, passages, backwards: false, front: front.into(), tells_start: true, behind: Vec::new() }
     }
 
     /// Whether it is the same branch from the same point, to the other side.
@@ -50,10 +46,11 @@ impl Stretch {
         self.track == other.track && self.backwards != other.backwards
     }
 
-    /// Continues a branch whose first points to the other side, the start left out, are these.
-    pub(super) fn go_on_from(&mut self, beside: &Motion, behind: Crests) {
-        self.front.before = Some(beside.into());
-        self.behind = behind;
+    /// Continues a branch that goes on to the other side with these points.
+    pub(super) fn go_on_from(&mut self, more: Vec<Passed>) {
+        self.behind.extend(more);
+        self.behind.truncate(BEHIND);
+        self.front.before = self.behind.first().map(|beside| beside.motion.clone());
     }
 
     /// Whether both are of doubled periods, and of the same branch.
@@ -85,7 +82,11 @@ pub(super) struct UnderWay {
 impl UnderWay {
     /// Nothing of it is done.
     pub(super) fn new(mut stretch: Stretch) -> Self {
-        let crests = std::mem::take(&mut stretch.behind);
+        let mut crests = Crests::default();
+        // What is found there was told on the other side.
+        for passed in std::mem::take(&mut stretch.behind).into_iter().rev() {
+            crests.pass(passed);
+        }
         Self { stretch, points: 0, last: None, crests, pending: None }
     }
 }

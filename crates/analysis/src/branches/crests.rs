@@ -4,20 +4,17 @@ use serde::{Deserialize, Serialize};
 
 use super::kept::KeptMotion;
 use super::told::{Amplitudes, Told};
-use crate::result::{BranchPoint, Stability};
+use crate::result::Stability;
 use rubmap_wheel::dynamics::steady::branch::Motion;
 
 /// Least rise of a maximum above what lies before and behind it, relative: contact that begins and ends at steps of time makes amplitudes
 /// uneven by less.
 const RISES: f64 = 1e-3;
 
-/// Most points that are kept: what has not fallen by [`RISES`] within so many is flat.
-const MOST: usize = 32;
-
 /// What a stretch has risen to since it was last down, sensor by sensor.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Crests {
-    /// The latest points, from the one before the earliest that may be a maximum on.
+    /// In the order of the branch: the highest of every sensor with those beside it, and the last.
     points: Vec<Passed>,
     climbs: Vec<Climb>,
 }
@@ -25,13 +22,13 @@ pub(super) struct Crests {
 /// A point that was passed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Passed {
-    motion: KeptMotion,
+    pub(super) motion: KeptMotion,
     pub(super) amplitudes: Amplitudes,
     pub(super) stability: Stability,
 }
 
 impl Passed {
-    fn new(motion: &Motion, told: &Told) -> Self {
+    pub(super) fn new(motion: &Motion, told: &Told) -> Self {
         Self { motion: motion.into(), amplitudes: told.amplitudes.clone(), stability: told.stability }
     }
 
@@ -47,65 +44,99 @@ struct Climb {
     low: f64,
     /// The largest.
     high: f64,
-    /// Points since then.
-    since: usize,
+    /// Its point.
+    at: usize,
 }
 
 /// A maximum that was passed.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Crest {
     pub(super) sensor: usize,
-    /// Points since the highest.
-    pub(super) since: usize,
     /// The highest, and those beside it.
     pub(super) points: [Passed; 3],
 }
 
 impl Crests {
-    /// Of a stretch that continues another one to the other side of where it begins. `beside`: the first point there; `start` and `other`:
-    /// where it begins, and the points from `beside` on.
-    pub(super) fn behind(beside: (&Motion, &Told), start: &BranchPoint, other: &[BranchPoint]) -> Self {
-        let climb = |(sensor, &high): (usize, &f64)| {
-            let most = start.half_peak_to_peak[sensor];
-            let lower = other.iter().map(|point| point.half_peak_to_peak[sensor]).take_while(|&x| x <= most);
-            Climb { low: lower.fold(high, f64::min), high, since: 0 }
-        };
-        let climbs = beside.1.amplitudes.smooth.iter().enumerate().map(climb).collect();
-        Self { points: vec![Passed::new(beside.0, beside.1)], climbs }
-    }
-
     /// Passes another point; the maxima that are behind it for certain.
-    pub(super) fn pass(&mut self, motion: &Motion, told: &Told) -> Vec<Crest> {
-        self.points.push(Passed::new(motion, told));
-        let fresh = |&amplitude: &f64| Climb { low: amplitude, high: amplitude, since: 0 };
+    pub(super) fn pass(&mut self, passed: Passed) -> Vec<Crest> {
+        let last = self.points.len();
+        let fresh = |amplitude: f64| Climb { low: amplitude, high: amplitude, at: last };
         if self.climbs.is_empty() {
-            self.climbs = told.amplitudes.smooth.iter().map(fresh).collect();
-            return Vec::new();
+            self.climbs = passed.amplitudes.smooth.iter().copied().map(fresh).collect();
         }
+        self.points.push(passed);
         let mut found = Vec::new();
-        for (sensor, (climb, amplitude)) in self.climbs.iter_mut().zip(&told.amplitudes.smooth).enumerate() {
-            climb.since += 1;
+        for (sensor, climb) in self.climbs.iter_mut().enumerate() {
+            let amplitude = self.points[last].amplitudes.smooth[sensor];
             let rose = climb.high > (1.0 + RISES) * climb.low;
-            if *amplitude > climb.high {
-                (climb.high, climb.since) = (*amplitude, 0);
-            } else if !rose && *amplitude < climb.low {
+            if amplitude > climb.high {
+                (climb.high, climb.at) = (amplitude, last);
+            } else if !rose && amplitude < climb.low {
                 *climb = fresh(amplitude);
             } else if rose && climb.high > (1.0 + RISES) * amplitude {
-                let highest = self.points.len() - 1 - climb.since;
-                if let [before, at, after] = &self.points[highest.saturating_sub(1)..=highest + 1] {
-                    let points = [before.clone(), at.clone(), after.clone()];
-                    found.push(Crest { sensor, since: climb.since, points });
-                }
+                // It rose from a point before, and has fallen to one behind.
+                let points = [climb.at - 1, climb.at, climb.at + 1].map(|at| self.points[at].clone());
+                found.push(Crest { sensor, points });
                 *climb = fresh(amplitude);
             }
         }
-        let needed = self.climbs.iter().map(|climb| climb.since + 2).max().unwrap_or(2).min(MOST);
-        self.points.drain(..self.points.len().saturating_sub(needed));
-        for (climb, amplitude) in self.climbs.iter_mut().zip(&told.amplitudes.smooth) {
-            if climb.since + 2 > MOST {
-                *climb = fresh(amplitude);
-            }
-        }
+        self.forget();
         found
+    }
+
+    /// All but what is needed.
+    fn forget(&mut self) {
+        let last = self.points.len() - 1;
+        let climbs = &self.climbs;
+        let needed = |at: usize| at == last || climbs.iter().any(|climb| climb.at.abs_diff(at) <= 1);
+        let kept: Vec<usize> = (0..=last).filter(|&at| needed(at)).collect();
+        let mut place = 0..;
+        self.points.retain(|_| place.next().is_some_and(|at| kept.contains(&at)));
+        for climb in &mut self.climbs {
+            climb.at = kept.partition_point(|&at| at < climb.at);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::branches::told::Amplitudes;
+    use rubmap_wheel::dynamics::initial::Stepped;
+
+    fn passed(value: f64, heights: &[f64]) -> Passed {
+        let motion = Motion { value, state: Stepped::default() };
+        let amplitudes = Amplitudes { sampled: heights.to_vec(), smooth: heights.to_vec() };
+        Passed { motion: (&motion).into(), amplitudes, stability: Stability::Stable }
+    }
+
+    /// Sensor and values of the maxima of lines.
+    fn maxima(crests: &mut Crests, lines: &[&[f64]]) -> Vec<(usize, [f64; 3])> {
+        let passed = |(at, heights): (usize, &&[f64])| crests.pass(passed(at as f64, heights));
+        let found: Vec<Crest> = lines.iter().enumerate().flat_map(passed).collect();
+        found.iter().map(|crest| (crest.sensor, crest.points.each_ref().map(|p| p.motion().value))).collect()
+    }
+
+    #[test]
+    fn a_maximum_rises_by_a_thousandth_on_both_sides_however_many_points_are_on_it() {
+        let flat: Vec<f64> = (0..60).map(|at| 1.0 - 1e-6 * f64::from(at - 25_i32).powi(2)).collect();
+        let line: Vec<[f64; 1]> = [0.9].into_iter().chain(flat).chain([0.9]).map(|x| [x]).collect();
+        let line: Vec<&[f64]> = line.iter().map(|x| &x[..]).collect();
+        assert_eq!(maxima(&mut Crests::default(), &line), [(0, [25.0, 26.0, 27.0])]);
+
+        let uneven: [&[f64]; 6] = [&[1.0], &[1.1], &[1.0995], &[1.2], &[1.1995], &[1.3]];
+        assert_eq!(maxima(&mut Crests::default(), &uneven), []);
+        let twins: [&[f64]; 4] = [&[1.0], &[2.0], &[2.0], &[1.0]];
+        assert_eq!(maxima(&mut Crests::default(), &twins), [(0, [0.0, 1.0, 2.0])]);
+        let falls: [&[f64]; 3] = [&[3.0], &[2.0], &[1.0]];
+        assert_eq!(maxima(&mut Crests::default(), &falls), []);
+    }
+
+    #[test]
+    fn sensors_have_maxima_of_their_own() {
+        let lines: [&[f64]; 7] =
+            [&[1.0, 5.0], &[2.0, 6.0], &[3.0, 5.0], &[2.999, 4.0], &[2.0, 5.0], &[1.0, 3.0], &[0.5, 1.0]];
+        let found = maxima(&mut Crests::default(), &lines);
+        assert_eq!(found, [(1, [0.0, 1.0, 2.0]), (0, [1.0, 2.0, 3.0]), (1, [3.0, 4.0, 5.0])]);
     }
 }

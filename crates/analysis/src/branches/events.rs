@@ -2,10 +2,9 @@
 
 use super::crests::{Crest, Passed};
 use super::family::Scenes;
-use super::told::{Amplitudes, Told, amplitudes_of, carried, tell};
+use super::told::{Told, amplitudes_of, carried, tell};
 use crate::result::{Bifurcation, BifurcationKind, BranchMaximum};
 use rubmap_wheel::dynamics::initial::Stepped;
-use rubmap_wheel::dynamics::steady::branch::locate::Looks;
 use rubmap_wheel::dynamics::steady::branch::{Branch, Lost, Motion};
 use rubmap_wheel::dynamics::steady::stability::Stability;
 
@@ -39,10 +38,8 @@ impl Events<'_> {
         if (c.value - b.value) * up >= 0.0 {
             return Ok(None);
         }
-        let found = self
-            .branch
-            .looks([(a, ()), (b, ()), (c, ())])
-            .and_then(|mut looks| self.branch.summit(&mut looks, |motion, ()| up * motion.value, |_| Ok(())));
+        let found =
+            self.branch.summit([(a, ()), (b, ()), (c, ())], |motion, ()| up * motion.value, |_| Ok(()));
         let (motion, error) = match found {
             Ok(place) => (place.motion, place.error),
             Err(Lost::Cancelled) => return Err(Lost::Cancelled),
@@ -104,22 +101,12 @@ impl Events<'_> {
 
     /// The maxima of sensors' amplitudes that were passed.
     pub(super) fn maxima(&self, crests: Vec<Crest>) -> Result<Vec<BranchMaximum>, Lost> {
-        // What was looked at for one sensor serves those that are highest at the same point.
-        let mut looked: Vec<(usize, Looks<Amplitudes>)> = Vec::new();
         let mut maxima = Vec::new();
-        for Crest { sensor, since, points } in crests {
+        for Crest { sensor, points } in crests {
             let motions = points.each_ref().map(Passed::motion);
             let values = motions.each_ref().map(|motion| motion.value);
-            let known = match looked.iter().position(|(other, _)| *other == since) {
-                Some(known) => known,
-                None => {
-                    let [a, b, c] = [0, 1, 2].map(|i| (&motions[i], points[i].amplitudes.clone()));
-                    looked.push((since, self.branch.looks([a, b, c])?));
-                    looked.len() - 1
-                }
-            };
             let found = self.branch.summit(
-                &mut looked[known].1,
+                [0, 1, 2].map(|i| (&motions[i], points[i].amplitudes.clone())),
                 |_, amplitudes| amplitudes.smooth[sensor],
                 |motion| amplitudes_of(self.scenes, self.branch.lap, motion),
             );

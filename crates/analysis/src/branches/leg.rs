@@ -1,7 +1,7 @@
 //! Branches followed some points further.
 
 use super::course::{Course, Stretch, UnderWay};
-use super::crests::Crests;
+use super::crests::{Crests, Passed};
 use super::events::{At, Event, Events};
 use super::family::Scenes;
 use super::kept::KeptTold;
@@ -60,13 +60,9 @@ pub fn branch_leg(
     let branch =
         Branch { family: &scenes, lap: walk.lap, span: asked.along.to - asked.along.from, go_on: &go_on };
     let end = walk.go(&branch, &mut last, monitor)?;
-    let Walk { front, points, found, mut bifurcations, maxima, flips, crests, pending, beside_start, .. } =
-        walk;
-    if let Some((motion, told)) = beside_start
-        && let Some(other) = waiting.iter_mut().find(|other| other.continues(&stretch))
-        && let [start, beside @ ..] = &found[..]
-    {
-        other.go_on_from(&motion, Crests::behind((&motion, &told), start, beside));
+    let Walk { front, points, found, mut bifurcations, maxima, flips, crests, pending, passed, .. } = walk;
+    if let Some(other) = waiting.iter_mut().find(|other| other.continues(&stretch)) {
+        other.go_on_from(passed);
     }
     for Event { bifurcation, motion, grows, lobe_passages, passages } in flips {
         let track = Track {
@@ -163,8 +159,8 @@ struct Walk<'a> {
     crests: Crests,
     /// A multiplier passed 1 before the last point.
     pending: Option<Bifurcation>,
-    /// The first point beside where the stretch begins, if it was found in this leg.
-    beside_start: Option<(Motion, Told)>,
+    /// The points of this leg, but for where the stretch begins.
+    passed: Vec<Passed>,
     joins: bool,
 }
 
@@ -190,7 +186,7 @@ impl<'a> Walk<'a> {
             flips: Vec::new(),
             crests,
             pending,
-            beside_start: None,
+            passed: Vec::new(),
             joins: false,
         }
     }
@@ -232,9 +228,6 @@ impl<'a> Walk<'a> {
             };
             self.points += 1;
             self.found.push(told.point(&found, self.scenes.speed(found.motion.value)));
-            if self.front.before.is_none() {
-                self.beside_start = Some((found.motion.clone(), told.clone()));
-            }
             self.front.move_to(found.motion);
             last = told;
             if self.joins {
@@ -252,7 +245,7 @@ impl<'a> Walk<'a> {
     fn start(&mut self, branch: &Branch<'_>) -> Result<Told, Lost> {
         let motion = self.front.last.clone();
         let told = tell(self.scenes, branch, &motion, &motion.state)?;
-        self.crests.pass(&motion, &told);
+        self.crests.pass(Passed::new(&motion, &told));
         if self.tells_start {
             let found = Found { residual: branch.off(&motion)?, motion, steps: 0, revolutions: 0.0 };
             self.found.push(told.point(&found, self.scenes.speed(found.motion.value)));
@@ -273,7 +266,9 @@ impl<'a> Walk<'a> {
             Some(before) => events.fold([before, &self.front.last, motion])?,
             None => None,
         };
-        self.maxima.extend(events.maxima(self.crests.pass(motion, &told))?);
+        let passed = Passed::new(motion, &told);
+        self.passed.push(passed.clone());
+        self.maxima.extend(events.maxima(self.crests.pass(passed))?);
         self.joins = told.passages < self.passages() || self.has_crossed(branch, motion)?;
         let pending = self.pending.take();
         if let Some((bifurcation, _)) = fold.filter(|_| !self.joins) {

@@ -24,10 +24,11 @@ pub struct StudyRequest {
     /// The settings: every combination is run.
     #[serde(default)]
     pub grid: Grid,
-    /// The length of a run.
+    /// The length of a run, and how its steady response is found.
     #[serde(default)]
     pub integration: StudyIntegration,
-    /// Revolutions from the start over which displacements are compared, before chaos separates trajectories.
+    /// Revolutions from the start over which displacements are compared, before chaos separates trajectories; of a response that was solved
+    /// for its first ones.
     #[serde(default = "default_history_revolutions")]
     #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 100_000))]
     pub history_revolutions: u32,

@@ -55,7 +55,7 @@ pub struct BranchTrack {
     pub points: Vec<BranchPoint>,
     /// Where it turns back or changes its stability, in the same order.
     pub bifurcations: Vec<Bifurcation>,
-    /// Critical values: maxima of a sensor's amplitude along the branch, in the same order.
+    /// Critical values: maxima of a sensor's amplitude along the branch, those of each sensor in the same order.
     pub maxima: Vec<BranchMaximum>,
     /// Why it ends: at its first point, unless it begins there, and at its last.
     pub ends: Vec<BranchEnd>,

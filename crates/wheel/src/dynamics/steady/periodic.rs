@@ -21,6 +21,9 @@ const PRODUCTS: usize = 200;
 /// Shares of a Newton step that are tried.
 const SHARES: [f64; 5] = [1.0, 0.5, 0.25, 0.1, 0.03];
 
+/// Passages that a search takes beyond its most: of a Newton step the state's own, its last product, and all shares.
+pub const MOST_BEYOND: u64 = 7;
+
 /// How a periodic response is sought.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Search {
@@ -93,7 +96,8 @@ pub fn find(
         if passage.taken() - before >= search.most {
             return Err(stalled(passage));
         }
-        let step = newton_step(passage, &best)?;
+        let left = search.most.saturating_sub(passage.taken() - before);
+        let step = newton_step(passage, &best, left)?;
         let Some(better) = along(passage, &best, &step) else { return Err(stalled(passage)) };
         best = better;
     }
@@ -138,8 +142,8 @@ fn accelerate(
     Ok(best)
 }
 
-/// (I − T)⁻¹ (P(x) − x).
-fn newton_step(passage: &mut Passage<'_>, at: &Best) -> Result<Vec<f64>, PassageError> {
+/// (I − T)⁻¹ (P(x) − x), in at most `products` of T.
+fn newton_step(passage: &mut Passage<'_>, at: &Best, products: usize) -> Result<Vec<f64>, PassageError> {
     // What touches on its way is to be that of this state.
     passage.map(&at.state)?;
     let tangent = Tangent::of(passage);
@@ -149,7 +153,7 @@ fn newton_step(passage: &mut Passage<'_>, at: &Best) -> Result<Vec<f64>, Passage
         tangent.follow(&mut moved);
         x.iter().zip(moved).map(|(x, moved)| x - moved).collect()
     };
-    Ok(gmres::solve(product, &off, SOLVED, PRODUCTS).x)
+    Ok(gmres::solve(product, &off, SOLVED, PRODUCTS.min(products)).x)
 }
 
 /// The largest share of `step` that comes closer.

@@ -20,11 +20,8 @@ pub struct Place<T> {
     pub error: f64,
 }
 
-/// Points of a branch, in the order in which it passes them, with what is told of each.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Looks<T>(Vec<Look<T>>);
-
-#[derive(Debug, Clone, PartialEq)]
+/// A point that was looked at.
+#[derive(Clone)]
 struct Look<T> {
     /// Arclength, along the chords between the first points.
     along: f64,
@@ -33,32 +30,24 @@ struct Look<T> {
 }
 
 impl Branch<'_> {
-    /// Three points that follow each other, to look between.
-    ///
-    /// # Errors
-    /// [`Lost`].
-    pub fn looks<T>(&self, points: [(&Motion, T); 3]) -> Result<Looks<T>, Lost> {
-        let [(a, of_a), (b, of_b), (c, of_c)] = points;
-        let (before, after) = (self.distance(a, b)?, self.distance(b, c)?);
-        let look = |along: f64, motion: &Motion, told: T| Look { along, motion: motion.clone(), told };
-        Ok(Looks(vec![look(-before, a, of_a), look(0.0, b, of_b), look(after, c, of_c)]))
-    }
-
-    /// Where `height` of a point is largest, which is neither at the first nor at the last of `looks`: where a parabola through the three
-    /// highest has its summit, again and again. What is looked at is added to them.
+    /// Where, between the first and the last of three points that follow each other, `height` of a point is largest; the point
+    /// in the middle is no lower than both. Found where a parabola through the three highest has its summit, again and again.
     ///
     /// # Errors
     /// [`Lost`].
     pub fn summit<T: Clone>(
         &self,
-        looks: &mut Looks<T>,
+        points: [(&Motion, T); 3],
         height: impl Fn(&Motion, &T) -> f64,
         tell: impl Fn(&Motion) -> Result<T, Lost>,
     ) -> Result<Place<T>, Lost> {
-        let Looks(points) = looks;
+        let [(a, of_a), (b, of_b), (c, of_c)] = points;
+        let (before, after) = (self.distance(a, b)?, self.distance(b, c)?);
+        let look = |along: f64, motion: &Motion, told: T| Look { along, motion: motion.clone(), told };
+        let mut points = vec![look(-before, a, of_a), look(0.0, b, of_b), look(after, c, of_c)];
         let mut error = f64::INFINITY;
         for _ in 0..LOOKS {
-            let highest = highest(points, &height);
+            let highest = highest(&points, &height);
             let beside = [highest - 1, highest, highest + 1].map(|index| &points[index]);
             let along = summit_of(beside.map(|look| (look.along, height(&look.motion, &look.told))));
             let [before, at, after] = beside;
@@ -73,7 +62,7 @@ impl Branch<'_> {
                 break;
             }
         }
-        let Look { motion, told, .. } = points[highest(points, &height)].clone();
+        let Look { motion, told, .. } = points[highest(&points, &height)].clone();
         Ok(Place { motion, told, error })
     }
 
