@@ -46,7 +46,7 @@ impl<'a> Response<'a> {
             repeats: repeats(point),
             impulse: point.contact_impulse.unwrap_or(0.0),
             mean_force: point.contact.as_ref().map_or(0.0, |contact| contact.mean_force),
-            took_all: point.march.is_none() && point.steady.as_ref().is_none_or(|steady| !steady.taken),
+            took_all: point.march.is_none() && !point.is_solved(),
             stress: point.stress.as_ref().map(|stress| stress.largest.von_mises),
         }
     }
@@ -92,15 +92,11 @@ pub fn errors(trial: &Trial, finer: &Trial) -> Option<Errors> {
     Some(Errors { history: history_error(trial, finer), ..steady })
 }
 
-fn solved(trial: &Trial) -> bool {
-    trial.point.steady.as_ref().is_some_and(|steady| steady.taken)
-}
-
 /// ‖x − y‖/‖y‖ over the first revolutions, all sensors together; none without histories at the same instants of motions that begin
 /// alike.
 pub(super) fn history_error(trial: &Trial, finer: &Trial) -> Option<f64> {
     // One that was solved for begins on its response, one that was marched where its scene begins.
-    if solved(trial) != solved(finer) {
+    if trial.point.is_solved() != finer.point.is_solved() {
         return None;
     }
     let lengths = |trial: &Trial| trial.history.iter().map(Vec::len).collect::<Vec<_>>();
@@ -135,8 +131,10 @@ fn relative(difference: f64, size: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use serde_json::json;
+
     use super::*;
-    use crate::result::Quantity;
+    use crate::result::{Cost, Quantity};
 
     fn response(rms: &[f64], lines: &[&[f64]], levels: &[Vec<f64>], repeats: bool) -> Errors {
         let of = |rms: Vec<f64>, lines: Vec<Vec<f64>>| Response {
@@ -158,6 +156,30 @@ mod tests {
         let found = response(&[1.2, 4.0], &[&[0.0, 1.0], &[3.3, 4.4]], &[], true);
         assert!((found.amplitude - 0.05).abs() < 1e-12 && found.amplitude_spread.is_none());
         assert!((found.engine_orders.unwrap() - 0.1).abs() < 1e-12 && found.impulse == Some(0.0));
+    }
+
+    #[test]
+    fn histories_begin_alike_or_are_not_compared() {
+        let of = |history: f64, solved: bool| {
+            let steady = solved.then(|| json!({"taken": true, "revolutions": 9.0}));
+            let point = json!({"index": 0, "speed_rad_s": 1.0, "status": "completed", "responses": [],
+                "steps_per_revolution": 1, "smallest_stable_steps_per_revolution": 1, "steps": 1, "contact_share": 0.0,
+                "steady": steady, "wall_time_s": 0.0, "version": "0"});
+            Trial {
+                point: serde_json::from_value(point).unwrap(),
+                unknowns: 1,
+                lines: Vec::new(),
+                levels: Vec::new(),
+                history: vec![vec![history; 2]],
+                samples_per_revolution: 2,
+                sensitivity: None,
+                cost: Cost::default(),
+            }
+        };
+        assert_eq!(history_error(&of(3.0, true), &of(2.0, true)), Some(0.5));
+        assert_eq!(history_error(&of(3.0, false), &of(2.0, false)), Some(0.5));
+        assert_eq!(history_error(&of(3.0, true), &of(2.0, false)), None);
+        assert_eq!(history_error(&of(3.0, false), &of(2.0, true)), None);
     }
 
     #[test]

@@ -119,7 +119,7 @@ pub fn run_trial(
             history.displacement.iter().map(|line| levels(&line[line.len() - window..], samples)).collect();
         trial.lines = lines(spectra, sweep);
         // What was solved for has no past that chance could have changed.
-        if request.twin && trial.point.steady.as_ref().is_none_or(|steady| !steady.taken) {
+        if request.twin && !trial.point.is_solved() {
             let twin =
                 simulate(reduced, &wheel, sweep, &stepping, Start::Perturbed, Recording::default(), &watch);
             if let Ok(Simulated { run: Run { outcome: Outcome::Completed(twin), .. }, .. }) = twin {

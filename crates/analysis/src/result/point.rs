@@ -213,6 +213,11 @@ pub struct Point {
 }
 
 impl Point {
+    /// Whether its numbers are those of a periodic response that was solved for.
+    pub(crate) fn is_solved(&self) -> bool {
+        self.steady.as_ref().is_some_and(|steady| steady.taken)
+    }
+
     /// The largest utilisation at the speed; none without stress or strengths.
     pub fn utilisation(&self) -> Option<f64> {
         self.stress.as_ref()?.utilisation()

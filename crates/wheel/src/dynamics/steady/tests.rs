@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 
 use faer::{Mat, MatMut, c64};
 
-use super::multipliers::multipliers;
-use super::periodic::{Search, find};
-use super::response::{record, seek};
+use super::multipliers::{MOST_PRODUCTS, multipliers};
+use super::periodic::{MOST_BEYOND, Search, find};
+use super::response::{Sought, record, seek};
 use super::stability::Stability;
 use super::tangent::Tangent;
 use crate::dynamics::casing::{Casing, Restriction};
@@ -462,7 +462,11 @@ fn light_damping_is_followed_from_heavier() {
         let clearance = vec![within(0.2, 0.3), within(0.2, 0.3)];
         scene.casing.iter_mut().for_each(|casing| casing.clearance.clone_from(&clearance));
         let simulation = scene.simulation();
-        let Ok(response) = seek(&simulation, 400, false, &|| true).response else { continue };
+        let Sought { response, revolutions } = seek(&simulation, 400, false, &|| true);
+        // The ramp, two searches, a march beside, multipliers, and the last Newton steps.
+        let most = 1 + 3 * 400 + MOST_PRODUCTS as u64 + 2 * MOST_BEYOND;
+        assert!(revolutions <= most as f64, "{case}: {revolutions}");
+        let Ok(response) = response else { continue };
         if response.followed_from.is_none() {
             continue;
         }
