@@ -270,7 +270,7 @@ async fn kills_fail_neither_what_runs_nor_what_waits_beside_it() {
     let data = tempfile::tempdir().unwrap();
     let program = Program::serve(data.path());
     let model = program.api.model(model::package(1.0)).await;
-    let mut long = long_sweep_of(&model, 8);
+    let mut long = long_sweep_of(&model, 2);
     // A speed that takes longer than the service lives.
     long["integration"]["revolutions"] = 4000.into();
     let mut ids = vec![program.api.sweep(&long).await];

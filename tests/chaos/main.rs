@@ -1,6 +1,6 @@
 //! Disturbances at random moments, against the real program: whatever it accepted ends, and ends as if nothing had happened.
 //!
-//! `RUBMAP_CHAOS_SECONDS` (60) says how long it disturbs, `RUBMAP_CHAOS_SEED` (1) repeats what was drawn; what it meets then is
+//! `RUBMAP_CHAOS_SECONDS` (30) says how long it disturbs, `RUBMAP_CHAOS_SEED` (1) repeats what was drawn; what it meets then is
 //! a matter of time all the same.
 
 #[path = "../api/app.rs"]
@@ -44,7 +44,7 @@ fn variable(name: &str, default: u64) -> u64 {
 
 #[tokio::test]
 async fn whatever_was_accepted_ends_as_if_nothing_had_happened() {
-    let (seconds, seed) = (variable("RUBMAP_CHAOS_SECONDS", 60), variable("RUBMAP_CHAOS_SEED", 1));
+    let (seconds, seed) = (variable("RUBMAP_CHAOS_SECONDS", 30), variable("RUBMAP_CHAOS_SEED", 1));
     println!("{seconds} s, seed {seed}");
     let undisturbed = undisturbed_results().await;
 

@@ -8,7 +8,7 @@ import pytest
 from playwright.sync_api import sync_playwright
 from service import Service, package
 
-WIDTHS, THEMES = (1280, 390), ("light", "dark")
+WINDOWS = ((1280, "light"), (390, "dark"))
 FLAGS = [
     "--no-sandbox",
     "--use-angle=swiftshader",

@@ -1,8 +1,8 @@
-"""Every view, at both widths and in both themes: nothing in the console, no serious finding of axe, nothing wider than the window."""
+"""Every view, wide and light as well as narrow and dark: nothing in the console, no serious finding of axe, nothing wider than the window."""
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
-from conftest import THEMES, WIDTHS, branches_of, sweep_of
+from conftest import WINDOWS, branches_of, sweep_of
 
 VIEWS = {
     "models": "#/models",
@@ -53,8 +53,7 @@ def places(service, model, swept):
     return ended
 
 
-@pytest.mark.parametrize("theme", THEMES)
-@pytest.mark.parametrize("width", WIDTHS)
+@pytest.mark.parametrize(("width", "theme"), WINDOWS)
 @pytest.mark.parametrize("view", VIEWS)
 def test_view(service, places, new_page, pictures, view, width, theme):
     page = new_page(f"{service.url}/{VIEWS[view].format(**places)}", width=width, theme=theme)

@@ -6,6 +6,9 @@ use super::{Branch, Lost, Motion};
 /// Share of p to which a place is found.
 pub const PLACE: f64 = 1e-6;
 
+/// Share of the wider side at which golden section looks.
+const GOLDEN: f64 = 0.382;
+
 /// Most points between two that are looked at.
 const LOOKS: usize = 30;
 
@@ -31,7 +34,8 @@ struct Look<T> {
 
 impl Branch<'_> {
     /// Where, between the first and the last of three points that follow each other, `height` of a point is largest; the point
-    /// in the middle is no lower than both. Found where a parabola through the three highest has its summit, again and again.
+    /// in the middle is no lower than both. Found where a parabola through the three highest has its summit, again and again; by golden section
+    /// where that does not halve its steps (Brent 1973, chapter 5).
     ///
     /// # Errors
     /// [`Lost`].
@@ -46,11 +50,19 @@ impl Branch<'_> {
         let look = |along: f64, motion: &Motion, told: T| Look { along, motion: motion.clone(), told };
         let mut points = vec![look(-before, a, of_a), look(0.0, b, of_b), look(after, c, of_c)];
         let mut error = f64::INFINITY;
+        let mut steps = [f64::INFINITY; 2];
         for _ in 0..LOOKS {
             let highest = highest(&points, &height);
             let beside = [highest - 1, highest, highest + 1].map(|index| &points[index]);
-            let along = summit_of(beside.map(|look| (look.along, height(&look.motion, &look.told))));
             let [before, at, after] = beside;
+            let parabola = summit_of(beside.map(|look| (look.along, height(&look.motion, &look.told))));
+            let wider = if after.along - at.along > at.along - before.along { after } else { before };
+            let along = if (parabola - at.along).abs() <= 0.5 * steps[0] {
+                parabola
+            } else {
+                at.along + GOLDEN * (wider.along - at.along)
+            };
+            steps = [steps[1], (along - at.along).abs()];
             let (from, to) = if along < at.along { (before, at) } else { (at, after) };
             let share = (along - from.along) / (to.along - from.along);
             let Found { motion, .. } = self.between(&from.motion, &to.motion, share)?;
