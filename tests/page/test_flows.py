@@ -280,6 +280,7 @@ def test_a_choice_keeps_the_focus(service, swept, new_page):
     page.get_by_label("Amplitude").select_option("linear")
     page.wait_for_url("**scale=linear")
     page.locator(".figure .main-svg").first.wait_for()
+    page.locator("main:not([aria-busy])").wait_for()
     assert page.get_by_label("Amplitude").evaluate("(one) => one === document.activeElement && one.value === 'linear'")
 
 
