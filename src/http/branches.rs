@@ -20,7 +20,7 @@ use crate::analysis::request::BranchesRequest;
 use crate::analysis::result::{BranchLeg, Branches, BranchesPlan, Point};
 use crate::jobs::Submission;
 use crate::plot;
-use crate::store::jobs::{JobKind, JobRequest};
+use crate::store::jobs::{Job, JobKind, JobRequest};
 use crate::store::results::Document;
 use crate::store::status::JobStatus;
 use crate::tokens::Principal;
@@ -104,7 +104,7 @@ pub(super) struct BranchesQuery {
     /// Of the drawing: index of the sensor in the request; default 0.
     #[serde(default)]
     sensor: u32,
-    /// Of the drawing of branches over speed: id of a sweep of the same scene, whose speeds are drawn as dots.
+    /// Of the drawing of branches over speed: id of a sweep of the same model, whose speeds are drawn as dots. Its scene is taken as it is.
     #[param(max_length = 64)]
     sweep: Option<String>,
 }
@@ -134,7 +134,7 @@ pub(super) async fn get_branches(
     let job = find(&state, &whose, id).await?;
     let JobRequest::Branches(asked) = &job.request else { return Err(wrong_kind(&job, JobKind::Branches)) };
     check_sensor(asked.sweep().sensors(), query.sensor)?;
-    let marched = marched(&state, &whose, &query).await?;
+    let marched = marched(&state, &whose, &query, &job).await?;
     let legs = state.store.legs(id).await?;
     if legs == 0 {
         let kind = match job.status {
@@ -167,10 +167,18 @@ pub(super) async fn get_branches(
 }
 
 /// Speeds of a sweep that are drawn beside.
-async fn marched(state: &AppState, whose: &Principal, query: &BranchesQuery) -> Result<Vec<Point>, Problem> {
+async fn marched(
+    state: &AppState,
+    whose: &Principal,
+    query: &BranchesQuery,
+    branches: &Job,
+) -> Result<Vec<Point>, Problem> {
     let Some(id) = &query.sweep else { return Ok(Vec::new()) };
     let id = parse_job_id(id)?;
     let job = find(state, whose, id).await?;
     sweep(&job)?;
+    if job.model != branches.model {
+        return Err(Problem::parameter("sweep", "a sweep of the model of these branches"));
+    }
     Ok(state.store.points(id).await?)
 }

@@ -144,6 +144,42 @@ fn assert_planned(plan: &Value, found: &Value) {
     }
 }
 
+/// Where a branch of doubled period begins, its own stability is not that of the flip: it is followed once, and doubles twice the period.
+#[tokio::test]
+async fn a_flip_is_doubled_once() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let wheel = json!({"sectors": 9, "contact_nodes": 3, "gyroscopic": true});
+    let generation = api.post("/v1/models", &wheel).await.text("/id");
+    let mut request = branches_of(api.finish(&generation).await["model"].as_str().unwrap());
+    request["speed"] = json!({"value": 1559.4, "unit": "rad_s"});
+    request["along"] = json!({"parameter": "speed", "from": 1559.38, "to": 1559.45});
+    request["scene"] = json!({
+        "centrifugal_stiffening": true,
+        "damping": {"modal_ratio": 0.005},
+        "casing": {
+            "clearance": {"leading": 0.30, "trailing": 0.22},
+            "lobes": {"count": 2, "amplitude": 0.425, "width_rad": 0.35},
+        },
+        "contact": {},
+    });
+    request["integration"] = json!({});
+    request["most_points"] = json!(25);
+    let found = followed(api, &request).await;
+    let branches = found["branches"].as_array().unwrap();
+    assert!(branches.len() > 1, "{found}");
+    for branch in &branches[1..] {
+        assert_eq!((&branch["doubles"][0], &branch["lobe_passages"]), (&json!(0), &json!(2)), "{branch}");
+        let begins = branch["doubles"][1].as_f64().unwrap();
+        let again = branch["bifurcations"].as_array().unwrap().iter().any(|bifurcation| {
+            let [value, error] = ["value", "error"].map(|field| bifurcation[field].as_f64().unwrap());
+            bifurcation["kind"] == "flip" && (value - begins).abs() <= error
+        });
+        assert!(!again, "{branch}");
+    }
+    app.stop().await;
+}
+
 /// Over damping, clearance and the lobes: the scene as it is lies on each, with the same amplitude.
 #[tokio::test]
 async fn branches_over_other_numbers_pass_through_the_scene_as_it_is() {
@@ -192,6 +228,7 @@ async fn what_cannot_be_followed_is_refused_at_its_field() {
     let app = TestApp::start().await;
     let api = &app.api;
     let model = api.model(model::package(1.0)).await;
+    let deformed = api.model(model::deformed_package()).await;
     let refused = async |change: &dyn Fn(&mut Value), pointer: &str| {
         let mut request = branches_of(&model);
         change(&mut request);
@@ -214,6 +251,40 @@ async fn what_cannot_be_followed_is_refused_at_its_field() {
             request["scene"]["damping"] = Value::Null;
         },
         "/along/parameter",
+    )
+    .await;
+    refused(
+        &|request| {
+            request["model"] = json!(deformed);
+            request["scene"]["centrifugal_stiffening"] = json!(true);
+            request["along"]["to"] = json!(5_000.0);
+        },
+        "/along/to",
+    )
+    .await;
+    for (parameter, lacks) in [
+        ("damping", json!({"damping": {"modal_ratio": 0.0}})),
+        ("clearance", json!({"contact": null})),
+        ("lobe_amplitude", json!({"contact": null})),
+    ] {
+        let change = |request: &mut Value| {
+            request["along"] = json!({"parameter": parameter, "from": 0.5, "to": 2.0});
+            for (effect, value) in lacks.as_object().unwrap() {
+                request["scene"][effect] = value.clone();
+            }
+        };
+        refused(&change, "/along/parameter").await;
+    }
+    refused(
+        &|request| request["along"] = json!({"parameter": "damping", "from": 0.5, "to": 200.0}),
+        "/along/to",
+    )
+    .await;
+    let abradable = json!({"modulus": 1000.0, "yield_stress": 10.0, "hardening": 10.0, "thickness": 1.0});
+    refused(&|request| request["scene"]["abradable"] = abradable.clone(), "/scene/abradable").await;
+    refused(
+        &|request| request["scene"]["orbit"] = json!({"radius": 0.01, "whirl_ratio": 0.123_456}),
+        "/scene/orbit/whirl_ratio",
     )
     .await;
     refused(&|request| request["integration"]["steady"] = json!("auto"), "/integration/steady").await;
@@ -246,7 +317,12 @@ async fn branches_are_told_in_all_forms_and_of_other_jobs_not_at_all() {
     assert_eq!(api.get(&format!("{path}?sweep={id}")).await.status, 409);
     assert_eq!(api.get(&format!("/v1/jobs/{id}/interaction-map")).await.status, 409);
     assert_eq!(api.get(&format!("/v1/jobs/{id}/archive")).await.status, 409);
-    assert_eq!(found["branches"][0]["ends"][0]["why"], "most_points", "{found}");
+    let other = api.model(model::package(2.0)).await;
+    let of_other = api.sweep(&sweep_of(&other)).await;
+    assert_eq!(api.get(&format!("{path}?format=svg&sweep={of_other}")).await.status, 400);
+    let branch = &found["branches"][0];
+    assert!([0, 1].iter().all(|end| branch["ends"][end]["why"] == "most_points"), "{found}");
+    assert_eq!(values(branch).len(), 3 + 1 + 3);
 }
 
 /// Killed between two legs, branches go on to the same bits.

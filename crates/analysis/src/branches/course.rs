@@ -69,7 +69,7 @@ impl Stretch {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct UnderWay {
     pub(super) stretch: Stretch,
-    /// Points that it has.
+    /// Points that it has, but for where it begins.
     pub(super) points: u32,
     /// What was told of the last one.
     pub(super) last: Option<KeptTold>,

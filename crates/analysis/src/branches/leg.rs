@@ -150,7 +150,7 @@ struct Walk<'a> {
     branch: u32,
     doubles: bool,
     front: Front,
-    /// Points of the stretch.
+    /// Points of the stretch, but for where it begins.
     points: u32,
     found: Vec<BranchPoint>,
     bifurcations: Vec<Bifurcation>,
@@ -249,7 +249,6 @@ impl<'a> Walk<'a> {
         if self.tells_start {
             let found = Found { residual: branch.off(&motion)?, motion, steps: 0, revolutions: 0.0 };
             self.found.push(told.point(&found, self.scenes.speed(found.motion.value)));
-            self.points += 1;
         }
         Ok(told)
     }
@@ -280,6 +279,10 @@ impl<'a> Walk<'a> {
             return Ok(told);
         }
         self.bifurcations.extend(pending);
+        // Where a branch of doubled period begins and joins, the stability is that of the one that it doubles.
+        if self.joins || last.passages < self.passages() {
+            return Ok(told);
+        }
         let Some(event) = events.change(there, here)? else { return Ok(told) };
         match event.bifurcation.kind {
             BifurcationKind::Branching => self.pending = Some(event.bifurcation),

@@ -1,5 +1,7 @@
 //! Branches, held against their model.
 
+use crate::effects::casing::resolved::Clearance;
+use crate::effects::damping::request::Damping;
 use crate::error::Violation;
 use crate::model::ModelFacts;
 use crate::request::{
@@ -7,7 +9,9 @@ use crate::request::{
 };
 use crate::resolve::findings::Findings;
 use crate::resolve::one_speed::OneSpeed;
+use crate::resolved::scene::Scene;
 use crate::resolved::{ResolvedBranches, ResolvedSweep};
+use rubmap_wheel::dynamics::integrate::{PassageError, comes_round};
 
 /// Multiples of what a scene says that a branch may be followed to.
 const MULTIPLES: std::ops::RangeInclusive<f64> = 1e-3..=1e3;
@@ -46,7 +50,8 @@ pub fn resolve_branches(
             return Err(found.0);
         }
     };
-    check_scene(&mut found, request.along.parameter, &sweep);
+    check_scene(&mut found, request.along, &sweep);
+    check_repeats(&mut found, &sweep.scene);
     let along = match request.along.parameter {
         BranchParameter::Speed => {
             let Along { parameter, from, to } = request.along;
@@ -62,6 +67,11 @@ pub fn resolve_branches(
                 (LOWEST_SPEED..=HIGHEST_SPEED).contains(&speed),
                 field,
                 format!("a speed between {LOWEST_SPEED:e} and {HIGHEST_SPEED:e} rad/s"),
+            );
+            found.require(
+                !sweep.scene.centrifugal_stiffening || facts.stiffness_reaches(speed),
+                field,
+                facts.not_extrapolated(),
             );
         }
     }
@@ -100,17 +110,36 @@ fn check_range(found: &mut Findings, along: Along, speed: f64) {
     found.require(from < to, "/along/to", "larger than `from`");
 }
 
-/// What changes must be there, and repeat.
-fn check_scene(found: &mut Findings, parameter: BranchParameter, sweep: &ResolvedSweep) {
+/// What changes must be there, and more than nothing.
+fn check_scene(found: &mut Findings, along: Along, sweep: &ResolvedSweep) {
     let scene = &sweep.scene;
-    let lacks = match parameter {
-        BranchParameter::Speed => None,
-        BranchParameter::Clearance => scene.casing.is_none().then_some("casing"),
-        BranchParameter::LobeAmplitude => {
-            scene.touched_lobes().is_none().then_some("casing whose lobes are touched")
-        }
-        BranchParameter::Damping => scene.damping.is_none().then_some("damping"),
+    let clear = |clearance: &Clearance| match clearance {
+        Clearance::AlongChord { leading, trailing } => leading.max(*trailing) > 0.0,
+        Clearance::Each(values) => values.iter().any(|&clearance| clearance > 0.0),
     };
+    let damped = |damping: &Damping| {
+        damping.modal_ratio > 0.0 || damping.family_ratios.iter().any(|&ratio| ratio > 0.0)
+    };
+    let casing = scene.casing.as_ref().filter(|_| scene.contact.is_some());
+    let lacks = match along.parameter {
+        BranchParameter::Speed => None,
+        BranchParameter::Clearance => (!casing.is_some_and(|casing| clear(&casing.clearance)))
+            .then_some("clearance to a casing that is touched"),
+        BranchParameter::LobeAmplitude => {
+            (!scene.touched_lobes().is_some_and(|lobes| lobes.amplitude != 0.0))
+                .then_some("casing whose lobes are touched")
+        }
+        BranchParameter::Damping => (!scene.damping.as_ref().is_some_and(damped)).then_some("damping"),
+    };
+    if let (BranchParameter::Damping, Some(damping)) = (along.parameter, &scene.damping) {
+        let largest =
+            damping.family_ratios.iter().fold(damping.modal_ratio, |largest, &ratio| largest.max(ratio));
+        found.require(
+            along.to * largest < 1.0,
+            "/along/to",
+            format!("below {:.6}, where ζ would be 1", 1.0 / largest),
+        );
+    }
     if let Some(lacks) = lacks {
         let message = format!("the scene has no {lacks}: nothing would change");
         found.require(false, "/along/parameter", message);
@@ -120,4 +149,17 @@ fn check_scene(found: &mut Findings, parameter: BranchParameter, sweep: &Resolve
         "/integration/steady",
         "branches are always solved for: leave it away",
     );
+}
+
+/// What touches must come round again.
+fn check_repeats(found: &mut Findings, scene: &Scene) {
+    if scene.contact.is_none() {
+        return;
+    }
+    found.require(scene.abradable.is_none(), "/scene/abradable", PassageError::Coating.to_string());
+    if let Some(orbit) = &scene.orbit
+        && let Err(reason) = comes_round(orbit.whirl_ratio)
+    {
+        found.require(false, "/scene/orbit/whirl_ratio", reason.to_string());
+    }
 }

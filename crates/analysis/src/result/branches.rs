@@ -71,7 +71,7 @@ pub struct Track {
     /// that its symmetry allows.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lobe_passages: Option<u32>,
-    /// The flip from which it comes, by the number of the branch and the value there; absent of the first.
+    /// The flip from which it comes, by the number of the branch (`branch`, no place in a list) and the value there; absent of the first.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub doubles: Option<(u32, f64)>,
 }

@@ -33,7 +33,7 @@ pub use self::detail::DetailHistory;
 pub use self::excursion::Excursion;
 pub use self::passage::Passage;
 pub use self::passage_error::PassageError;
-pub use self::recurrence::revolutions_over_lobe;
+pub use self::recurrence::{comes_round, revolutions_over_lobe};
 pub use self::repetition::LEAST_MARCHED;
 pub use self::revolutions::{Repeated, Repeats, Revolutions};
 pub use self::run::{Divergence, History, MAX_TABLE_VALUES, Outcome, Run};

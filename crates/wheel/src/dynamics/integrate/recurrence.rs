@@ -57,10 +57,7 @@ impl<'a> Recurrences<'a> {
             return Err(PassageError::Coating);
         }
         let orbit = match effects.orbit.filter(|_| touching) {
-            Some(Orbit { whirl_ratio, .. }) => Some(
-                fraction(1.0 - whirl_ratio)
-                    .ok_or(PassageError::Orbit { whirl_ratio, most: MOST_REVOLUTIONS })?,
-            ),
+            Some(Orbit { whirl_ratio, .. }) => Some(turns(whirl_ratio)?),
             None => None,
         };
         let restriction = simulation.casing.and_then(|casing| casing.restriction);
@@ -134,6 +131,19 @@ pub fn revolutions_over_lobe(
     let orbit = whirl_ratio.and_then(|whirl_ratio| fraction(1.0 - whirl_ratio));
     let of = Recurrences { steps, around: 1, order, lobes, deviations: None, orbit };
     of.lobe().steps as f64 / steps as f64
+}
+
+/// Whether an orbit of this whirl ratio is back where it was soon enough for periodic responses.
+///
+/// # Errors
+/// [`PassageError::Orbit`].
+pub fn comes_round(whirl_ratio: f64) -> Result<(), PassageError> {
+    turns(whirl_ratio).map(|_| ())
+}
+
+/// 1 − κ as a fraction.
+fn turns(whirl_ratio: f64) -> Result<(i64, usize), PassageError> {
+    fraction(1.0 - whirl_ratio).ok_or(PassageError::Orbit { whirl_ratio, most: MOST_REVOLUTIONS })
 }
 
 /// `value` as a fraction of few revolutions.
