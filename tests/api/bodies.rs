@@ -340,7 +340,14 @@ async fn no_place_of_any_body_speaks_rust() {
         "sequence",
         "..=",
     ];
-    for path in ["/v1/sweeps/plan", "/v1/modal-analyses/plan", "/v1/studies", "/v1/models/plan"] {
+    for path in [
+        "/v1/sweeps/plan",
+        "/v1/branches/plan",
+        "/v1/modal-analyses/plan",
+        "/v1/studies",
+        "/v1/case-studies",
+        "/v1/models/plan",
+    ] {
         let schema = &document["paths"][path]["post"]["requestBody"]["content"]["application/json"]["schema"];
         let mut seen = Vec::new();
         all_schemas(schema, schemas, &mut seen);
@@ -355,6 +362,9 @@ async fn no_place_of_any_body_speaks_rust() {
                 *body.pointer_mut(pointer).unwrap() = value.clone();
                 let answer = app.api.post(path, &body).await;
                 assert!([200, 422].contains(&answer.status.as_u16()), "{pointer} {value}: {}", answer.body);
+                let whole = answer.body["detail"].as_str().unwrap_or_default();
+                let said = rust.iter().find(|word| whole.contains(**word));
+                assert_eq!(said, None, "{path} {pointer} {value}: {whole}");
                 for item in answer.body["errors"].as_array().into_iter().flatten() {
                     let detail = item["detail"].as_str().unwrap();
                     let said = rust.iter().find(|word| detail.contains(**word));

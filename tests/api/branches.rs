@@ -152,8 +152,8 @@ async fn a_flip_is_doubled_once() {
     let wheel = json!({"sectors": 9, "contact_nodes": 3, "gyroscopic": true});
     let generation = api.post("/v1/models", &wheel).await.text("/id");
     let mut request = branches_of(api.finish(&generation).await["model"].as_str().unwrap());
-    request["speed"] = json!({"value": 1559.4, "unit": "rad_s"});
-    request["along"] = json!({"parameter": "speed", "from": 1559.38, "to": 1559.45});
+    request["speed"] = json!({"value": 1559.0, "unit": "rad_s"});
+    request["along"] = json!({"parameter": "speed", "from": 1558.0, "to": 1560.5});
     request["scene"] = json!({
         "centrifugal_stiffening": true,
         "damping": {"modal_ratio": 0.005},
@@ -164,7 +164,7 @@ async fn a_flip_is_doubled_once() {
         "contact": {},
     });
     request["integration"] = json!({});
-    request["most_points"] = json!(25);
+    request["most_points"] = json!(20);
     let found = followed(api, &request).await;
     let branches = found["branches"].as_array().unwrap();
     assert!(branches.len() > 1, "{found}");

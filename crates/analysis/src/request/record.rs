@@ -50,6 +50,7 @@ pub struct HistoriesRequest {
     pub speeds: HistorySpeeds,
     /// As of a case study.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schema(min_items = 2, max_items = 2))]
     pub revolutions: Option<[u32; 2]>,
     /// As of a case study.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -76,6 +77,7 @@ impl HistoriesRequest {
 pub struct Recorded {
     /// Whole revolutions after which recording begins and ends; default: the window, or the period that stands for it; with `state` the last revolution.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schema(min_items = 2, max_items = 2))]
     pub revolutions: Option<[u32; 2]>,
     /// What is recorded; default: everything but `state`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

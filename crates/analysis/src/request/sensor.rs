@@ -45,6 +45,7 @@ pub struct Sensor {
 pub struct Gauge {
     /// Ids of both nodes in the package.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schema(min_items = 2, max_items = 2))]
     pub nodes: Option<[u64; 2]>,
     /// Middle, x, y, z as in the package.
     #[serde(default, skip_serializing_if = "Option::is_none")]
