@@ -246,11 +246,14 @@ class Friction(TypedDict, closed=True):
     coefficient: float
 
 
+Node: TypeAlias = int
+
+
 class Gauge(TypedDict, closed=True):
     at: NotRequired[list[float] | None]
     direction: NotRequired[list[float] | None]
     length: NotRequired[float | None]
-    nodes: NotRequired[list[int] | None]
+    nodes: NotRequired[list[Node] | None]
 
 
 class GaugeEnd(TypedDict):
@@ -272,6 +275,9 @@ class Health(TypedDict):
     memory_bytes: NotRequired[int | None]
     status: str
     version: str
+
+
+Revolution: TypeAlias = int
 
 
 HistorySpeeds: TypeAlias = Literal["critical"] | list[int]
@@ -883,7 +889,7 @@ class Grid(TypedDict, closed=True):
 
 class HistoriesRequest(TypedDict, closed=True):
     quantities: NotRequired[list[RecordedQuantity]]
-    revolutions: NotRequired[list[int] | None]
+    revolutions: NotRequired[list[Revolution] | None]
     speeds: NotRequired[HistorySpeeds]
 
 
@@ -1048,7 +1054,7 @@ class Record(TypedDict, closed=True):
 
 class Recorded(TypedDict, closed=True):
     quantities: NotRequired[list[RecordedQuantity]]
-    revolutions: NotRequired[list[int] | None]
+    revolutions: NotRequired[list[Revolution] | None]
 
 
 class Refinement(TypedDict):
