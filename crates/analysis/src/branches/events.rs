@@ -38,8 +38,12 @@ impl Events<'_> {
         if (c.value - b.value) * up >= 0.0 {
             return Ok(None);
         }
-        let found =
-            self.branch.summit([(a, ()), (b, ()), (c, ())], |motion, ()| up * motion.value, |_| Ok(()));
+        let found = self.branch.summit(
+            [(a, ()), (b, ()), (c, ())],
+            |motion, ()| up * motion.value,
+            |()| 0.0,
+            |_| Ok(()),
+        );
         let (motion, error) = match found {
             Ok(place) => (place.motion, place.error),
             Err(Lost::Cancelled) => return Err(Lost::Cancelled),
@@ -108,6 +112,7 @@ impl Events<'_> {
             let found = self.branch.summit(
                 [0, 1, 2].map(|i| (&motions[i], points[i].amplitudes.clone())),
                 |_, amplitudes| amplitudes.smooth[sensor],
+                |amplitudes| (amplitudes.smooth[sensor] - amplitudes.sampled[sensor]).abs(),
                 |motion| amplitudes_of(self.scenes, self.branch.lap, motion),
             );
             let (value, error, half_peak_to_peak) = match found {

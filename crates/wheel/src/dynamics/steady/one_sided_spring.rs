@@ -332,7 +332,7 @@ fn branches_turn_back_and_change_their_stability_where_the_closed_forms_do() {
         {
             let up = (front.last.value - before.value).signum();
             let points = [(before, ()), (&front.last, ()), (&found.motion, ())];
-            let place = branch.summit(points, |motion, ()| up * motion.value, |_| Ok(())).unwrap();
+            let place = branch.summit(points, |motion, ()| up * motion.value, |()| 0.0, |_| Ok(())).unwrap();
             assert!(place.error <= 1e-6 * place.motion.value);
             close(&place.motion);
             let [a, b] = [before, &found.motion].map(|at| (at, tell(at).unwrap().0));

@@ -35,7 +35,8 @@ struct Look<T> {
 impl Branch<'_> {
     /// Where, between the first and the last of three points that follow each other, `height` of a point is largest; the point
     /// in the middle is no lower than both. Found where a parabola through the three highest has its summit, again and again; by golden section
-    /// where that does not halve its steps (Brent 1973, chapter 5).
+    /// where that does not halve its steps (Brent 1973, chapter 5). `blur` is how far off the height that is told of a point may be: wherever
+    /// points that were looked at are as high as that, the summit may be.
     ///
     /// # Errors
     /// [`Lost`].
@@ -43,6 +44,7 @@ impl Branch<'_> {
         &self,
         points: [(&Motion, T); 3],
         height: impl Fn(&Motion, &T) -> f64,
+        blur: impl Fn(&T) -> f64,
         tell: impl Fn(&Motion) -> Result<T, Lost>,
     ) -> Result<Place<T>, Lost> {
         let [(a, of_a), (b, of_b), (c, of_c)] = points;
@@ -75,6 +77,9 @@ impl Branch<'_> {
             }
         }
         let Look { motion, told, .. } = points[highest(&points, &height)].clone();
+        let least = height(&motion, &told) - blur(&told);
+        let as_high = points.iter().filter(|look| height(&look.motion, &look.told) >= least);
+        let error = as_high.map(|look| (look.motion.value - motion.value).abs()).fold(error, f64::max);
         Ok(Place { motion, told, error })
     }
 
