@@ -91,7 +91,7 @@ fn branches(plan: &BranchesPlan) -> String {
     times_of(&mut words, plan.machine.as_ref());
     reduction(&mut words, plan.reduction, plan.reduced_unknowns_at_most);
     if let Some(estimate) = &plan.estimate {
-        cost(&mut words, estimate, [", of the fewest points"; 2]);
+        cost(&mut words, estimate, ["", "; both for the fewest points"]);
     }
     if let Some(message) = plan.point.as_ref().and_then(|point| point.message.as_ref()) {
         let _ = writeln!(words, "not         {message}");
