@@ -23,7 +23,8 @@ use super::{ComplementarityError, ContactOperator, any_below};
 pub struct BranchSolver<F: Factor = Cholesky> {
     branches: Vec<Branch>,
     active: Vec<usize>,
-    /// (x at λ = 0, dx/dλ) of every active index.
+    /// Law of every active index, and (x at λ = 0, dx/dλ) of its branch.
+    laws: Vec<BilinearLaw>,
     lines: Vec<(f64, f64)>,
     lambda: Vec<f64>,
     gap: Vec<f64>,
@@ -40,12 +41,16 @@ pub struct BranchSolver<F: Factor = Cholesky> {
 /// Block moves without progress before single moves begin.
 const GRACE: usize = 3;
 
+/// Gaps looked at together.
+const CHUNK: usize = 8;
+
 impl<F: Factor> BranchSolver<F> {
     /// A solver for problems of `size` indices.
     pub fn new(size: usize) -> Self {
         Self {
             branches: vec![Branch::Open; size],
             active: Vec::with_capacity(size),
+            laws: Vec::with_capacity(size),
             lines: Vec::with_capacity(size),
             lambda: Vec::with_capacity(size),
             gap: vec![0.0; size],
@@ -133,8 +138,11 @@ impl<F: Factor> BranchSolver<F> {
         law: &impl Fn(usize) -> BilinearLaw,
         q: &[f64],
     ) -> Result<(), ComplementarityError> {
+        self.laws.clear();
+        self.laws.extend(self.active.iter().map(|&i| law(i)));
         self.lines.clear();
-        self.lines.extend(self.active.iter().map(|&i| law(i).line(self.branches[i])));
+        let lines = self.active.iter().zip(&self.laws).map(|(&i, law)| law.line(self.branches[i]));
+        self.lines.extend(lines);
         let wanted = || self.active.iter().zip(&self.lines).map(|(&i, &(_, slope))| (i, slope));
         if !wanted().eq(self.factored.iter().copied()) {
             self.factorise(w)?;
@@ -163,21 +171,25 @@ impl<F: Factor> BranchSolver<F> {
     #[inline(never)]
     fn find_violated(&mut self, law: &impl Fn(usize) -> BilinearLaw, tolerance: f64) {
         self.violated.clear();
-        let mut active = self.active.iter().zip(&self.lines).zip(&self.lambda).peekable();
-        for (i, &gap) in self.gap.iter().enumerate() {
-            let (x, lambda) = match active.peek() {
-                Some(&((&a, &(start, slope)), &lambda)) if a == i => {
-                    active.next();
-                    (start + slope * lambda, lambda)
+        let lines = self.laws.iter().zip(&self.lines).zip(&self.lambda);
+        let mut active = self.active.iter().copied().zip(lines).peekable();
+        for (number, chunk) in self.gap.chunks(CHUNK).enumerate() {
+            let chunk_end = (number + 1) * CHUNK;
+            // No law begins outside the obstacle: most gaps need no look of their own.
+            if active.peek().is_none_or(|&(a, _)| a >= chunk_end) && !any_below(chunk, -tolerance) {
+                continue;
+            }
+            for (i, &gap) in (number * CHUNK..).zip(chunk) {
+                let (law, x, lambda) = match active.next_if(|&(a, _)| a == i) {
+                    Some((_, ((law, (start, slope)), lambda))) => (*law, start + slope * lambda, *lambda),
+                    None if gap >= -tolerance => continue,
+                    None => (law(i), -gap, 0.0),
+                };
+                let branch = self.branches[i];
+                let side = law.side(branch, x, lambda, tolerance);
+                if side != Side::Within {
+                    self.violated.push((i, side, law.jump(branch, x, lambda)));
                 }
-                // No law begins outside the obstacle.
-                _ if gap >= -tolerance => continue,
-                _ => (-gap, 0.0),
-            };
-            let (law, branch) = (law(i), self.branches[i]);
-            let side = law.side(branch, x, lambda, tolerance);
-            if side != Side::Within {
-                self.violated.push((i, side, law.jump(branch, x, lambda)));
             }
         }
     }

@@ -35,13 +35,11 @@ pub struct Friction<'a> {
 }
 
 impl Effects<'_> {
-    /// Whether there is any.
-    pub(crate) fn any(&self) -> bool {
+    /// Whether any changes what the tips meet.
+    pub(crate) fn change_contact(&self) -> bool {
         self.friction.is_some()
             || self.coating.is_some()
             || self.flexible_casing.is_some()
             || self.orbit.is_some()
-            || self.mistuning.is_some()
-            || !self.excitation.is_empty()
     }
 }

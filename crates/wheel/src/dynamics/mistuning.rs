@@ -16,11 +16,14 @@
 //!
 //! The force acts at the middle instant of a step, so that its work is −ΔV_δ, with V_δ of two successive instants.
 
-use faer::{Mat, MatRef, c64};
+use faer::{Mat, c64};
+use pulp::Simd;
 use rand_xoshiro::SplitMix64;
 use rand_xoshiro::rand_core::{Rng, SeedableRng};
 
-use super::modal_wheel::ModalWheel;
+use super::modal_wheel::{ModalHarmonic, ModalWheel};
+use super::oscillators::lanes::padded;
+use rubmap_numerics::aligned::Aligned;
 use rubmap_numerics::sector_fourier::SectorFourier;
 
 /// The most that B of a mode may take of its stability limit, ω²B < 4, for the mode to be mistuned.
@@ -29,19 +32,43 @@ pub(crate) const RESOLVED: f64 = 3.0;
 /// Deviations beyond this are another wheel: ω²B(1 + δ) stays below 4.
 pub const LARGEST_DEVIATION: f64 = 0.25;
 
+/// Rows of the coupling at a time, which share the loads of amplitudes: their sums stay in registers.
+const GROUP: usize = 5;
+
 /// The coupling of the nodal diameters.
 #[derive(Debug)]
 pub(crate) struct ModalMistuning {
     /// Mistuned families.
     families: usize,
-    /// ω e^{jψ}, `[harmonic][family]`.
-    weight: Vec<Vec<c64>>,
-    /// Fᵀ diag(δ) F over the Fourier columns, row-major.
-    coupling: Vec<f64>,
-    /// a in Fourier coordinates, `[column][family]`.
-    amplitude: Vec<f64>,
+    /// The same, padded to whole vectors.
+    length: usize,
+    /// ω e^{jψ} of every nodal diameter.
+    weight: Vec<Weight>,
+    /// Fᵀ diag(δ) F over the Fourier columns, `[group of rows][column][row]`; the last group is padded.
+    coupling: Vec<[f64; GROUP]>,
+    /// a in Fourier coordinates, `[column][family]`, families padded.
+    amplitude: Aligned,
     /// The same times `coupling`.
-    pull: Vec<f64>,
+    pull: Aligned,
+}
+
+/// A complex number of every family, 0 of those that pad them.
+#[derive(Debug)]
+struct Weight {
+    re: Aligned,
+    im: Aligned,
+}
+
+impl Weight {
+    #[inline(always)]
+    fn vectors<S: Simd>(&self) -> (&[S::f64s], &[S::f64s]) {
+        let re = S::as_simd_f64s(&self.re).0;
+        (re, &S::as_simd_f64s(&self.im).0[..re.len()])
+    }
+
+    fn at(&self, family: usize) -> c64 {
+        c64::new(self.re[family], self.im[family])
+    }
 }
 
 /// Where a nodal diameter's modes are in the state.
@@ -53,6 +80,13 @@ pub(crate) struct Place {
     pub(crate) im: Option<usize>,
     /// Fourier column of the real part.
     pub(crate) column: usize,
+}
+
+impl Place {
+    /// Starts of its real and, of a pair, imaginary part.
+    pub(crate) fn parts(self) -> impl Iterator<Item = usize> {
+        std::iter::once(self.re).chain(self.im)
+    }
 }
 
 impl ModalMistuning {
@@ -68,7 +102,8 @@ impl ModalMistuning {
         let families = wheel.harmonics.iter().map(|h| h.omega.len()).min().unwrap_or(0).min(resolved);
         // The last harmonic is the highest; of an odd number of sectors only the first one is single.
         let reference = wheel.harmonics.iter().rev().find(|h| h.single);
-        let weight = |harmonic: &super::modal_wheel::ModalHarmonic| {
+        let length = padded(families);
+        let weight = |harmonic: &ModalHarmonic| {
             let of = |m: usize| {
                 let alike = reference.map_or(c64::ONE, |reference| {
                     let rows = 0..3 * contact_nodes;
@@ -78,34 +113,41 @@ impl ModalMistuning {
                 let phase = if size > 0.0 { alike / size } else { c64::ONE };
                 phase * harmonic.omega[m]
             };
-            (0..families).map(of).collect()
+            let mut weight = Weight { re: Aligned::zeros(length), im: Aligned::zeros(length) };
+            for m in 0..families {
+                let w: c64 = of(m);
+                (weight.re[m], weight.im[m]) = (w.re, w.im);
+            }
+            weight
         };
-        let mut coupling = vec![0.0; sectors * sectors];
+        let groups = sectors.div_ceil(GROUP);
+        let mut coupling = vec![[0.0; GROUP]; groups * sectors];
         for (sector, delta) in deviations.iter().enumerate() {
             let row = fourier.row(sector);
             for a in 0..sectors {
                 for b in 0..sectors {
-                    coupling[a * sectors + b] += row[a] * delta * row[b];
+                    coupling[a / GROUP * sectors + b][a % GROUP] += row[a] * delta * row[b];
                 }
             }
         }
         Self {
             families,
+            length,
             weight: wheel.harmonics.iter().map(weight).collect(),
             coupling,
-            amplitude: vec![0.0; sectors * families],
-            pull: vec![0.0; sectors * families],
+            amplitude: Aligned::zeros(sectors * length),
+            pull: Aligned::zeros(groups * GROUP * length),
         }
     }
 
     /// −∂f/∂z of every mistuned family between the Fourier columns: Re(w̄ C w), symmetric.
     pub(crate) fn stiffness(&self, places: &[Place]) -> Vec<Mat<f64>> {
-        let sectors = self.coupling.len().isqrt();
+        let sectors = places.iter().map(|place| place.parts().count()).sum();
         let of = |family: usize| {
             // Amplitudes per unit z: of a pair the real and the imaginary part of w and of jw.
-            let mut amplitude = Mat::zeros(sectors, sectors);
+            let mut amplitude = Mat::<f64>::zeros(sectors, sectors);
             for (place, weight) in places.iter().zip(&self.weight) {
-                let (w, re) = (weight[family], place.column);
+                let (w, re) = (weight.at(family), place.column);
                 amplitude[(re, re)] = w.re;
                 if place.im.is_some() {
                     amplitude[(re + 1, re)] = w.im;
@@ -113,46 +155,73 @@ impl ModalMistuning {
                     amplitude[(re + 1, re + 1)] = w.re;
                 }
             }
-            let coupling = MatRef::from_row_major_slice(&self.coupling, sectors, sectors);
+            let coupling: Mat<f64> =
+                Mat::from_fn(sectors, sectors, |a, b| self.coupling[a / GROUP * sectors + b][a % GROUP]);
             amplitude.transpose() * (coupling * &amplitude)
         };
         (0..self.families).map(of).collect()
     }
 
     /// Writes the modal forces of the state `z`.
-    pub(crate) fn force(&mut self, places: &[Place], z: &[f64], force: &mut [f64]) {
-        let families = self.families;
-        if families == 0 {
+    #[inline(always)]
+    pub(crate) fn force<S: Simd>(&mut self, simd: S, places: &[Place], z: &[f64], force: &mut [f64]) {
+        if self.families == 0 {
             return;
         }
-        for (place, weight) in places.iter().zip(&self.weight) {
-            let line = place.column * families;
-            for (m, w) in weight.iter().enumerate() {
-                let value = c64::new(z[place.re + m], place.im.map_or(0.0, |im| z[im + m])) * w;
-                self.amplitude[line + m] = value.re;
-                if place.im.is_some() {
-                    self.amplitude[line + families + m] = value.im;
+        let Self { length, weight, coupling, amplitude, pull, .. } = self;
+        let vectors = *length / S::F64_LANES;
+        let line = |column: usize| column * vectors;
+        let amplitude = S::as_mut_simd_f64s(amplitude).0;
+        for (place, weight) in places.iter().zip(&*weight) {
+            let (w_re, w_im) = weight.vectors::<S>();
+            let z_re = &S::as_simd_f64s(&z[place.re..place.re + *length]).0[..vectors];
+            let amplitude = &mut amplitude[line(place.column)..];
+            match place.im {
+                Some(im) => {
+                    let z_im = &S::as_simd_f64s(&z[im..im + *length]).0[..vectors];
+                    let (a_re, a_im) = amplitude.split_at_mut(vectors);
+                    for v in 0..vectors {
+                        let (re, im) = (simd.mul_f64s(w_re[v], z_re[v]), simd.mul_f64s(w_re[v], z_im[v]));
+                        a_re[v] = simd.negate_mul_add_e_f64s(w_im[v], z_im[v], re);
+                        a_im[v] = simd.mul_add_e_f64s(w_im[v], z_re[v], im);
+                    }
+                }
+                None => {
+                    for v in 0..vectors {
+                        amplitude[v] = simd.mul_f64s(w_re[v], z_re[v]);
+                    }
                 }
             }
         }
-        let sectors = self.amplitude.len() / families;
-        for (row, pull) in self.pull.chunks_exact_mut(families).enumerate() {
-            pull.fill(0.0);
-            let factors = &self.coupling[row * sectors..][..sectors];
-            for (factor, amplitude) in factors.iter().zip(self.amplitude.chunks_exact(families)) {
-                for (pull, a) in pull.iter_mut().zip(amplitude) {
-                    *pull += factor * a;
+        let amplitude = &*amplitude;
+        let columns = amplitude.len() / vectors;
+        let pull = S::as_mut_simd_f64s(pull).0;
+        for (pull, factors) in pull.chunks_exact_mut(GROUP * vectors).zip(coupling.chunks_exact(columns)) {
+            for v in 0..vectors {
+                let mut sums = [simd.splat_f64s(0.0); GROUP];
+                for (factors, amplitude) in factors.iter().zip(amplitude.chunks_exact(vectors)) {
+                    let a = amplitude[v];
+                    for r in 0..GROUP {
+                        sums[r] = simd.mul_add_e_f64s(simd.splat_f64s(factors[r]), a, sums[r]);
+                    }
+                }
+                for r in 0..GROUP {
+                    pull[line(r) + v] = sums[r];
                 }
             }
         }
-        for (place, weight) in places.iter().zip(&self.weight) {
-            let line = place.column * families;
-            for (m, w) in weight.iter().enumerate() {
-                let im = if place.im.is_some() { self.pull[line + families + m] } else { 0.0 };
-                let value = c64::new(self.pull[line + m], im) * w.conj();
-                force[place.re + m] = -value.re;
+        for (place, weight) in places.iter().zip(&*weight) {
+            let (w_re, w_im) = weight.vectors::<S>();
+            let pull = &pull[line(place.column)..];
+            let zero = simd.splat_f64s(0.0);
+            for v in 0..vectors {
+                let p_im = if place.im.is_some() { pull[line(1) + v] } else { zero };
+                let (w_re, w_im, p_re) = (w_re[v], w_im[v], pull[v]);
+                let re = simd.mul_add_e_f64s(w_im, p_im, simd.mul_f64s(w_re, p_re));
+                let im = simd.negate_mul_add_e_f64s(w_re, p_im, simd.mul_f64s(w_im, p_re));
+                S::as_mut_simd_f64s(&mut force[place.re..place.re + *length]).0[v] = simd.neg_f64s(re);
                 if let Some(start) = place.im {
-                    force[start + m] = -value.im;
+                    S::as_mut_simd_f64s(&mut force[start..start + *length]).0[v] = im;
                 }
             }
         }

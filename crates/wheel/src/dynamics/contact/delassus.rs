@@ -16,8 +16,8 @@ pub(crate) struct Delassus {
     /// `[sector distance][column node][row node]`.
     table: Aligned,
     ridge: f64,
-    /// Largest magnitude of any entry.
-    largest: f64,
+    /// Largest magnitude of any entry, by sector distance.
+    largest: Vec<f64>,
     /// (sector, node) of every index.
     places: Vec<(usize, usize)>,
 }
@@ -46,8 +46,9 @@ impl Delassus {
             column += if single { 1 } else { 2 };
         }
         let places = (0..sectors * stride).map(|index| (index / stride, index % stride)).collect();
-        let largest = table.iter().fold(0.0f64, |m, w| m.max(w.abs()));
-        Self { sectors, nodes, stride, table, ridge, largest, places }
+        let mut this = Self { sectors, nodes, stride, table, ridge, largest: Vec::new(), places };
+        this.find_largest();
+        this
     }
 
     /// Adds what a unit force at a node opens at another, `term(sector distance, to, from)`.
@@ -59,13 +60,47 @@ impl Delassus {
                 }
             }
         }
-        self.largest = self.table.iter().fold(0.0, |m, w| m.max(w.abs()));
+        self.find_largest();
+    }
+
+    fn find_largest(&mut self) {
+        let largest = |block: &[f64]| block.iter().fold(0.0f64, |m, w| m.max(w.abs()));
+        self.largest = self.table.chunks_exact(self.nodes * self.stride).map(largest).collect();
     }
 
     /// Sector and contact node of an index.
     #[inline(always)]
     pub(crate) fn place(&self, index: usize) -> (usize, usize) {
         self.places[index]
+    }
+
+    /// Sectors from one to another, counted forwards.
+    #[inline(always)]
+    fn distance(&self, to: usize, from: usize) -> usize {
+        let turns = if to < from { self.sectors } else { 0 };
+        to + turns - from
+    }
+
+    /// Writes into every sector of `gap`, next to its first number, the most by which `lambda` can move any gap of it.
+    #[inline(always)]
+    fn reach(&self, active: &[usize], lambda: &[f64], gap: &mut [f64]) {
+        let stride = self.stride;
+        for sector in 0..self.sectors {
+            gap[sector * stride] = 0.0;
+        }
+        for (&j, &lambda) in active.iter().zip(lambda) {
+            gap[self.place(j).0 * stride] += lambda.abs();
+        }
+        for to in 0..self.sectors {
+            let mut reach = 0.0;
+            for from in 0..self.sectors {
+                let force = gap[from * stride];
+                if force > 0.0 {
+                    reach += force * self.largest[self.distance(to, from)];
+                }
+            }
+            gap[to * stride + 1] = reach;
+        }
     }
 
     fn column(&self, distance: usize, node: usize) -> &[f64] {
@@ -80,16 +115,15 @@ impl ContactOperator for Delassus {
 
     fn entry(&self, i: usize, j: usize) -> f64 {
         let ((to_sector, to), (from_sector, from)) = (self.place(i), self.place(j));
-        let distance = (to_sector + self.sectors - from_sector) % self.sectors;
-        self.column(distance, from)[to] + if i == j { self.ridge } else { 0.0 }
+        self.column(self.distance(to_sector, from_sector), from)[to] + if i == j { self.ridge } else { 0.0 }
     }
 
     #[inline(always)]
     fn gaps(&self, active: &[usize], lambda: &[f64], q: &[f64], gap: &mut [f64]) {
-        let reach = self.largest * lambda.iter().map(|l| l.abs()).sum::<f64>();
+        self.reach(active, lambda, gap);
         let blocks = q.chunks_exact(self.stride).zip(gap.chunks_exact_mut(self.stride));
         for (sector, (q, gap)) in blocks.enumerate() {
-            if !any_below(q, reach) {
+            if !any_below(q, gap[1]) {
                 gap.copy_from_slice(q);
                 continue;
             }
@@ -98,8 +132,7 @@ impl ContactOperator for Delassus {
                 let mut sums = *q;
                 for (&j, &lambda) in active.iter().zip(lambda) {
                     let (from_sector, from) = self.place(j);
-                    let turns = if sector < from_sector { self.sectors } else { 0 };
-                    let column = self.column(sector + turns - from_sector, from);
+                    let column = self.column(self.distance(sector, from_sector), from);
                     let column = &column.as_chunks::<LANES>().0[chunk];
                     for (sum, w) in sums.iter_mut().zip(column) {
                         *sum += w * lambda;

@@ -3,7 +3,7 @@
 use pulp::Simd;
 
 use super::super::casing::{Casing, RestrictionTable};
-use super::super::contact::coating::Coating;
+use super::super::contact::coating::{Coating, WornCoating};
 use super::super::contact::delassus::Delassus;
 use super::super::contact::flexibility::{outward_normals, ridge};
 use super::super::effects::Effects;
@@ -16,10 +16,12 @@ use super::instant::Instant;
 use super::residual::ResidualDisplacement;
 use super::simulation::Simulation;
 use super::step_flexibility::{is_turned, step_flexibility, symmetric_flexibility};
-use super::surroundings::{Law, Surroundings};
+use super::surroundings::{CoatedSolver, Law, Surroundings};
 use super::tally::{ContactInterval, ContactTally};
 use super::trace::Trace;
-use rubmap_numerics::complementarity::active_set::ActiveSetSolver;
+use rubmap_numerics::complementarity::active_set::{ActiveSetSolver, PivotStatistics};
+use rubmap_numerics::complementarity::branches::BranchSolver;
+use rubmap_numerics::complementarity::factor::Factor;
 use rubmap_numerics::complementarity::{ComplementarityError, ContactOperator};
 use rubmap_numerics::sector_fourier::SectorFourier;
 
@@ -102,7 +104,14 @@ impl Obstacle {
         }
     }
 
-    /// Forces of the last solution, and the normal displacements to be read: rows and where their values go.
+    /// Forces of the last solution.
+    #[inline(always)]
+    pub(super) fn loads<'a>(&'a self, surroundings: Option<&'a Surroundings>) -> Loads<'a> {
+        let rows = surroundings.map_or(&self.rows, |surroundings| surroundings.applied(&self.rows));
+        Loads { rows, loaded: &self.loaded, force: &self.force }
+    }
+
+    /// The same, and the normal displacements to be read: rows and where their values go.
     #[inline(always)]
     pub(super) fn loads_and_reading<'a>(
         &'a mut self,
@@ -132,7 +141,7 @@ impl Obstacle {
         let shift = match surroundings {
             Some(surroundings) => {
                 surroundings.move_to(now.revolutions, growth);
-                Some(surroundings.shift.as_slice())
+                surroundings.shift.as_deref()
             }
             None => None,
         };
@@ -185,18 +194,12 @@ impl Obstacle {
                 (solver.active(), solver.lambda(), solver.gap(), solver.statistics())
             }
             Law::Coated(solver, coating) => {
-                let law = |index: usize| {
-                    let (sector, row) = self.delassus.place(index);
-                    coating.law(coating.rod(now.step, sector, row), row)
-                };
-                solver.solve(&self.delassus, law, &self.predicted_gap, self.tolerance)?;
-                for &index in solver.active() {
-                    let (sector, row) = self.delassus.place(index);
-                    let rod = coating.rod(now.step, sector, row);
-                    coating.press(rod, row, -solver.gap()[index]);
-                }
                 allowed = coating.unworn().thickness();
-                (solver.active(), solver.lambda(), solver.gap(), solver.statistics())
+                let problem = (&self.delassus, self.predicted_gap.as_slice(), self.tolerance);
+                match solver {
+                    CoatedSolver::Symmetric(solver) => wear(solver, coating, problem, now)?,
+                    CoatedSolver::General(solver) => wear(solver, coating, problem, now)?,
+                }
             }
             Law::Plain => {
                 let solver = &mut self.solver;
@@ -306,6 +309,27 @@ impl Obstacle {
         }
         self.loaded.clear();
     }
+}
+
+/// Penetrations and forces in front of a coating, which wears by them.
+#[inline(always)]
+fn wear<'a, F: Factor>(
+    solver: &'a mut BranchSolver<F>,
+    coating: &mut WornCoating,
+    (w, predicted_gap, tolerance): (&Delassus, &[f64], f64),
+    now: Instant,
+) -> Result<(&'a [usize], &'a [f64], &'a [f64], PivotStatistics), ComplementarityError> {
+    let law = |index: usize| {
+        let (sector, row) = w.place(index);
+        coating.law(coating.rod(now.step, sector, row), row)
+    };
+    solver.solve(w, law, predicted_gap, tolerance)?;
+    for &index in solver.active() {
+        let (sector, row) = w.place(index);
+        let rod = coating.rod(now.step, sector, row);
+        coating.press(rod, row, -solver.gap()[index]);
+    }
+    Ok((solver.active(), solver.lambda(), solver.gap(), solver.statistics()))
 }
 
 /// W of the scheme, with what the effects make of it.

@@ -91,14 +91,14 @@ impl Stepper {
             .casing
             .map(|casing| Obstacle::new(simulation, casing, &oscillators, &fourier, surroundings.as_ref()));
         let bounds = simulation.casing.map(|_| Bounds::new(simulation, &oscillators));
-        let step = simulation.step_s();
+        let loaded = obstacle.as_ref().map(|obstacle| obstacle.loads(surroundings.as_ref()).rows);
         let mut drive = Drive::new(
             wheel,
             simulation.contact_nodes.len(),
             &simulation.effects,
             &oscillators,
             &fourier,
-            step,
+            (simulation.step_s(), loaded),
         );
         if let Some(drive) = &mut drive {
             drive.start(wheel, simulation.initial, &mut oscillators, 0.0);
@@ -533,7 +533,7 @@ impl Motion for Completing {
     #[inline(always)]
     fn apply<S: Simd>(stepper: &mut Stepper, simd: S) {
         let Stepper { fourier, oscillators, obstacle: Some(obstacle), energy, .. } = stepper else { return };
-        let (loads, _) = obstacle.loads_and_reading(None);
+        let loads = obstacle.loads(None);
         energy.add(oscillators.complete(simd, loads));
         obstacle.clear_forces(fourier);
     }
@@ -567,7 +567,7 @@ impl Motion for Affected {
         let work = energy.effects_mut();
         let Some(obstacle) = obstacle else {
             let exchange = match drive {
-                Some(drive) => oscillators.advance_driven(simd, drive, None, now.before, work),
+                Some(drive) => oscillators.advance_driven(simd, drive, None, now.before, None, work),
                 None => oscillators.advance(simd),
             };
             return energy.add(exchange);
@@ -576,16 +576,13 @@ impl Motion for Affected {
         let exchange = match drive {
             None if *massless => oscillators.advance_loaded(simd, loads, (rows, out)),
             None => oscillators.complete_and_predict(simd, loads, (rows, out)),
+            Some(drive) if *massless => {
+                let reading = Some((rows, out));
+                oscillators.advance_driven(simd, drive, Some(loads), now.before, reading, work)
+            }
             Some(drive) => {
-                let exchange = if *massless {
-                    oscillators.advance_driven(simd, drive, Some(loads), now.before, work)
-                } else {
-                    let exchange = oscillators.complete_driven(simd, drive, loads, work);
-                    oscillators.predict_driven(simd, drive, now.before);
-                    exchange
-                };
-                oscillators.project(simd, rows, out);
-                exchange
+                let ahead = (loads, now.before);
+                oscillators.complete_and_predict_driven(simd, drive, ahead, (rows, out), work)
             }
         };
         energy.add(exchange);
@@ -600,7 +597,7 @@ impl Motion for Affected {
     fn apply<S: Simd>(stepper: &mut Stepper, simd: S) {
         let Stepper { fourier, oscillators, drive, obstacle, surroundings, energy, massless, .. } = stepper;
         let Some(obstacle) = obstacle.as_mut().filter(|_| !*massless) else { return };
-        let (loads, _) = obstacle.loads_and_reading(surroundings.as_ref());
+        let loads = obstacle.loads(surroundings.as_ref());
         let exchange = match drive {
             Some(drive) => oscillators.complete_driven(simd, drive, loads, energy.effects_mut()),
             None => oscillators.complete(simd, loads),

@@ -8,7 +8,7 @@ use super::super::oscillators::rows::Rows;
 use super::simulation::Simulation;
 use rubmap_numerics::complementarity::active_set::ActiveSetSolver;
 use rubmap_numerics::complementarity::branches::BranchSolver;
-use rubmap_numerics::complementarity::factor::Lu;
+use rubmap_numerics::complementarity::factor::{Cholesky, Lu};
 
 /// Each is absent unless the scene names it.
 #[derive(Debug)]
@@ -17,8 +17,8 @@ pub(super) struct Surroundings {
     pub(super) law: Law,
     pub(super) casing: Option<CasingMotion>,
     orbit: Option<OrbitShift>,
-    /// What is added to the gaps, `[sector][node]`, nodes padded to whole vectors.
-    pub(super) shift: Vec<f64>,
+    /// What is added to the gaps, `[sector][node]`, nodes padded to whole vectors; none of a casing that stays where it is.
+    pub(super) shift: Option<Vec<f64>>,
 }
 
 /// What a tip meets, where it is not a rigid wall on a symmetric operator.
@@ -29,7 +29,14 @@ pub(super) enum Law {
     /// A rigid wall, on an operator that is not symmetric.
     General(ActiveSetSolver<Lu>),
     /// A coating with metal behind it.
-    Coated(Box<BranchSolver<Lu>>, Box<WornCoating>),
+    Coated(CoatedSolver, Box<WornCoating>),
+}
+
+/// On a symmetric operator, or on any.
+#[derive(Debug)]
+pub(super) enum CoatedSolver {
+    Symmetric(Box<BranchSolver<Cholesky>>),
+    General(Box<BranchSolver<Lu>>),
 }
 
 /// Friction at the contact nodes.
@@ -56,16 +63,22 @@ impl Surroundings {
                 .collect(),
         });
         let coriolis = wheel.harmonics.iter().any(|harmonic| harmonic.gyroscopic.is_some());
-        if !effects.any() && !coriolis {
+        if !effects.change_contact() && !coriolis {
             return None;
         }
+        let symmetric = sliding.is_none() && !coriolis;
+        let moves = effects.flexible_casing.is_some() || effects.orbit.is_some();
         let stride = padded(contact_nodes.len());
         let size = wheel.sectors * stride;
         let around = (wheel.sectors, wheel.around());
         Some(Self {
             law: match effects.coating {
                 Some(coating) => Law::Coated(
-                    Box::new(BranchSolver::new(size)),
+                    if symmetric {
+                        CoatedSolver::Symmetric(Box::new(BranchSolver::new(size)))
+                    } else {
+                        CoatedSolver::General(Box::new(BranchSolver::new(size)))
+                    },
                     Box::new(WornCoating::new(
                         coating.clone(),
                         contact_nodes,
@@ -73,15 +86,15 @@ impl Surroundings {
                         simulation.steps_per_revolution,
                     )),
                 ),
-                None if sliding.is_some() || coriolis => Law::General(ActiveSetSolver::new(size)),
-                None => Law::Plain,
+                None if symmetric => Law::Plain,
+                None => Law::General(ActiveSetSolver::new(size)),
             },
             sliding,
             casing: effects.flexible_casing.map(|casing| {
                 CasingMotion::new(casing, scheme, simulation.step_s(), contact_nodes, around, stride)
             }),
             orbit: effects.orbit.map(|orbit| OrbitShift::new(orbit, contact_nodes, around, stride)),
-            shift: vec![0.0; size],
+            shift: moves.then(|| vec![0.0; size]),
         })
     }
 
@@ -104,12 +117,13 @@ impl Surroundings {
 
     /// What the effects add to the gaps after `revolutions`.
     pub(super) fn move_to(&mut self, revolutions: f64, growth: f64) {
-        self.shift.fill(0.0);
+        let Some(shift) = &mut self.shift else { return };
+        shift.fill(0.0);
         if let Some(orbit) = &self.orbit {
-            orbit.add(revolutions, growth, &mut self.shift);
+            orbit.add(revolutions, growth, shift);
         }
         if let Some(casing) = &mut self.casing {
-            casing.add(revolutions, &mut self.shift);
+            casing.add(revolutions, shift);
         }
     }
 }

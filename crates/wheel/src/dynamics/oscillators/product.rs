@@ -32,19 +32,33 @@ impl Loads<'_> {
     #[inline(always)]
     pub(super) fn modal<S: Simd>(self, simd: S, index: usize, segment: Segment, out: &mut [f64]) {
         let Self { rows, loaded, force } = self;
-        let block = &rows.blocks[index];
-        let (force, out) = (&force[segment.column * rows.stride..], &mut out[..segment.size()]);
-        if segment.single {
-            simd.vectorize(LoadSingle { block, loaded, force, out });
-        } else {
-            let (force_re, force_im) = force.split_at(rows.stride);
-            let (re, im) = out.split_at_mut(segment.length);
-            simd.vectorize(LoadPair { block, loaded, force_re, force_im, re, im });
-        }
+        let force = &force[segment.column * rows.stride..];
+        rows.blocks[index].load(simd, segment, loaded, (force, rows.stride), out);
     }
 }
 
 impl RowBlock {
+    /// φᴴ f of one nodal diameter, f being on the rows in `loaded`: `force[part][row]`, parts `stride` apart. Into the head of `out`,
+    /// both parts one after the other.
+    #[inline(always)]
+    pub(super) fn load<S: Simd>(
+        &self,
+        simd: S,
+        segment: Segment,
+        loaded: &[usize],
+        (force, stride): (&[f64], usize),
+        out: &mut [f64],
+    ) {
+        let out = &mut out[..segment.size()];
+        if segment.single {
+            simd.vectorize(LoadSingle { block: self, loaded, force, out });
+        } else {
+            let (force_re, force_im) = force.split_at(stride);
+            let (re, im) = out.split_at_mut(segment.length);
+            simd.vectorize(LoadPair { block: self, loaded, force_re, force_im, re, im });
+        }
+    }
+
     /// φ z of one nodal diameter, both parts of z one after the other: `rows` rows of `out[part][row]`, parts `stride`
     /// apart.
     #[inline(always)]

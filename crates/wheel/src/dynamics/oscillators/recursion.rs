@@ -38,7 +38,7 @@ pub(super) struct Modes<S: Simd> {
 impl<S: Simd> Modes<S> {
     /// The next step, under a force that acts from its start.
     #[inline(always)]
-    fn advance(&mut self, simd: S, of: &Numbers<S>, force: Option<S::f64s>) {
+    pub(super) fn advance(&mut self, simd: S, of: &Numbers<S>, force: Option<S::f64s>) {
         let free = simd.negate_mul_add_e_f64s(of.pull, self.z, simd.mul_f64s(of.keep, self.d));
         let next = match force {
             Some(force) => simd.mul_add_e_f64s(of.receptance, force, free),
@@ -53,11 +53,24 @@ impl<S: Simd> Modes<S> {
     #[inline(always)]
     fn complete(&mut self, simd: S, of: &Numbers<S>, force: Option<S::f64s>) {
         if let Some(force) = force {
-            let moved = simd.mul_f64s(of.receptance, force);
-            self.z = simd.add_f64s(self.z, moved);
-            self.d = simd.add_f64s(self.d, moved);
-            self.swing = simd.add_f64s(self.swing, moved);
+            self.move_by(simd, simd.mul_f64s(of.receptance, force));
         }
+    }
+
+    /// Moves the end of the last step.
+    #[inline(always)]
+    pub(super) fn move_by(&mut self, simd: S, moved: S::f64s) {
+        self.z = simd.add_f64s(self.z, moved);
+        self.d = simd.add_f64s(self.d, moved);
+        self.swing = simd.add_f64s(self.swing, moved);
+    }
+
+    /// The next step, whose swing is known.
+    #[inline(always)]
+    pub(super) fn swing_by(&mut self, simd: S, swing: S::f64s) {
+        self.swing = swing;
+        self.d = simd.sub_f64s(swing, self.d);
+        self.z = simd.add_f64s(self.z, self.d);
     }
 }
 

@@ -71,9 +71,26 @@ impl RowBlock {
         }
         block
     }
+
+    /// Its first `rows`, columns that only pad them included.
+    fn matrix(&self, rows: usize) -> Mat<c64> {
+        let Self { re, im } = self;
+        Mat::from_fn(rows, re.length, |row, m| {
+            let at = row * re.length + m;
+            c64::new(re.values[at], im.values[at])
+        })
+    }
 }
 
 impl Rows {
+    /// Rows that are `of` these, `count × modes` of each nodal diameter.
+    pub(super) fn map(&self, of: impl Fn(usize, MatRef<'_, c64>) -> Mat<c64>) -> Self {
+        let block = |(index, block): (usize, &RowBlock)| {
+            RowBlock::padded(of(index, block.matrix(self.count).as_ref()).as_ref(), block.re.length)
+        };
+        Self { blocks: self.blocks.iter().enumerate().map(block).collect(), ..*self }
+    }
+
     /// Rows over the first `integrated(modes)` of the modes of every nodal diameter.
     pub(crate) fn new(
         wheel: &ModalWheel,

@@ -1,5 +1,7 @@
 //! The layout of the oscillators.
 
+use super::super::mistuning::Place;
+
 /// Where the modes of one nodal diameter live.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Segment {
@@ -20,6 +22,11 @@ impl Segment {
     /// Starts of its real and, for a pair, imaginary part in the state arrays.
     pub(super) fn parts(self) -> impl Iterator<Item = usize> {
         (0..if self.single { 1 } else { 2 }).map(move |part| self.state + part * self.length)
+    }
+
+    /// The same, and its Fourier column, for what couples nodal diameters.
+    pub(super) fn place(&self) -> Place {
+        Place { re: self.state, im: (!self.single).then_some(self.state + self.length), column: self.column }
     }
 
     /// Numbers in the state arrays.

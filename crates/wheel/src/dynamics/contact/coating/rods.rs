@@ -36,7 +36,12 @@ impl RodPlaces {
         let turned = self.rods * (sector as u64 * self.steps + step as u64 * self.sectors);
         let (whole, fraction) = self.nodes[node];
         let carried = fraction + (turned % parts) as f64 / parts as f64 >= 1.0;
-        ((turned / parts + whole + u64::from(carried)) % self.rods) as usize
+        // Less than three times around.
+        let mut rod = turned / parts + whole + u64::from(carried);
+        for _ in 0..2 {
+            rod -= if rod >= self.rods { self.rods } else { 0 };
+        }
+        rod as usize
     }
 }
 

@@ -1,0 +1,163 @@
+//! Known modal forces, and what a step exchanges with them.
+
+use pulp::Simd;
+
+use super::super::super::energy::EffectWork;
+use super::super::super::excitation::ModalExcitation;
+use super::super::recursion::Exchange;
+use super::super::segment::Segment;
+use rubmap_numerics::aligned::Aligned;
+
+/// A force at an engine order on the modes of its nodal diameter.
+#[derive(Debug)]
+pub(super) struct Excitation {
+    force: ModalExcitation,
+    /// Amplitude of every mode, padded.
+    re: Aligned,
+    im: Aligned,
+}
+
+impl Excitation {
+    /// Modal forces on nodal diameters that are where `segments` say.
+    pub(super) fn new(force: ModalExcitation, segments: &[Segment]) -> Self {
+        let Segment { integrated, length, .. } = segments[force.harmonic];
+        let (mut re, mut im) = (Aligned::zeros(length), Aligned::zeros(length));
+        for (m, amplitude) in force.amplitude[..integrated].iter().enumerate() {
+            (re[m], im[m]) = (amplitude.re, amplitude.im);
+        }
+        Self { force, re, im }
+    }
+
+    /// Index of the nodal diameter that it drives.
+    pub(super) fn harmonic(&self) -> usize {
+        self.force.harmonic
+    }
+}
+
+/// Modal forces of the step under way.
+#[derive(Debug)]
+pub(super) struct Acting {
+    /// φᴴf of contact on the nodal diameter under way.
+    pub(super) contact: Aligned,
+    /// Of forces at engine orders on all of them; empty without.
+    pub(super) excitation: Aligned,
+    /// Of which nodal diameters these are more than 0.
+    pub(super) excited: Vec<bool>,
+    /// Of mistuning on all of them; empty without.
+    pub(super) mistuning: Aligned,
+}
+
+impl Acting {
+    /// Has the forces of `excitations` on nodal diameter `index` act that there are `revolutions` after the start.
+    #[inline(always)]
+    pub(super) fn excite<S: Simd>(
+        &mut self,
+        simd: S,
+        excitations: &[Excitation],
+        (index, segment): (usize, Segment),
+        revolutions: f64,
+    ) {
+        if !self.is_excited(index) {
+            return;
+        }
+        self.excitation[segment.state..segment.state + segment.size()].fill(0.0);
+        for Excitation { force, re, im } in excitations.iter().filter(|e| e.force.harmonic == index) {
+            let turn = force.turn(revolutions);
+            let (re, im) = (S::as_simd_f64s(re).0, S::as_simd_f64s(im).0);
+            // Re and Im of amplitude × turn.
+            let factors = [(turn.re, -turn.im), (turn.im, turn.re)];
+            for (start, (of_re, of_im)) in segment.parts().zip(factors) {
+                let (of_re, of_im) = (simd.splat_f64s(of_re), simd.splat_f64s(of_im));
+                let sums = S::as_mut_simd_f64s(&mut self.excitation[start..start + segment.length]).0;
+                for m in 0..sums.len() {
+                    sums[m] = simd.mul_add_e_f64s(of_re, re[m], sums[m]);
+                    sums[m] = simd.mul_add_e_f64s(of_im, im[m], sums[m]);
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn is_excited(&self, index: usize) -> bool {
+        !self.excitation.is_empty() && self.excited[index]
+    }
+
+    /// Those on the part of nodal diameter `index` that begins at `start`, of contact if it is `loaded`.
+    #[inline(always)]
+    pub(super) fn on<S: Simd>(
+        &self,
+        (index, segment): (usize, Segment),
+        start: usize,
+        loaded: bool,
+    ) -> Forces<'_, S> {
+        let range = start..start + segment.length;
+        let offset = start - segment.state;
+        let mistuned = !self.mistuning.is_empty();
+        Forces {
+            contact: loaded.then(|| S::as_simd_f64s(&self.contact[offset..offset + segment.length]).0),
+            excitation: self.is_excited(index).then(|| S::as_simd_f64s(&self.excitation[range.clone()]).0),
+            mistuning: mistuned.then(|| S::as_simd_f64s(&self.mistuning[range]).0),
+        }
+    }
+}
+
+/// Modal forces on one part of a nodal diameter; none of them where nothing of the kind acts.
+#[derive(Clone, Copy)]
+pub(super) struct Forces<'a, S: Simd> {
+    pub(super) contact: Option<&'a [S::f64s]>,
+    pub(super) excitation: Option<&'a [S::f64s]>,
+    pub(super) mistuning: Option<&'a [S::f64s]>,
+}
+
+impl<S: Simd> Forces<'_, S> {
+    /// Their sum on vector `m`.
+    #[inline(always)]
+    pub(super) fn sum(&self, simd: S, m: usize) -> S::f64s {
+        let mut sum = simd.splat_f64s(0.0);
+        for force in [self.contact, self.excitation, self.mistuning] {
+            if let Some(force) = force {
+                sum = simd.add_f64s(sum, force[m]);
+            }
+        }
+        sum
+    }
+}
+
+/// [`Exchange`] and works in lanes, works twice.
+pub(super) struct DrivenSums<S: Simd> {
+    contact: S::f64s,
+    excitation: S::f64s,
+    mistuning: S::f64s,
+    loss: S::f64s,
+}
+
+impl<S: Simd> DrivenSums<S> {
+    #[inline(always)]
+    pub(super) fn new(simd: S) -> Self {
+        let zero = simd.splat_f64s(0.0);
+        Self { contact: zero, excitation: zero, mistuning: zero, loss: zero }
+    }
+
+    /// Counts the final swing of vector `m` under `forces`.
+    #[inline(always)]
+    pub(super) fn count(&mut self, simd: S, swing: S::f64s, loss: S::f64s, forces: &Forces<'_, S>, m: usize) {
+        self.loss = simd.mul_add_e_f64s(loss, simd.mul_f64s(swing, swing), self.loss);
+        if let Some(force) = forces.contact {
+            self.contact = simd.mul_add_e_f64s(force[m], swing, self.contact);
+        }
+        if let Some(force) = forces.excitation {
+            self.excitation = simd.mul_add_e_f64s(force[m], swing, self.excitation);
+        }
+        if let Some(force) = forces.mistuning {
+            self.mistuning = simd.mul_add_e_f64s(force[m], swing, self.mistuning);
+        }
+    }
+
+    /// Adds the works of effects to `work`, and returns the rest.
+    #[inline(always)]
+    pub(super) fn total(self, simd: S, work: &mut EffectWork) -> Exchange {
+        work.excitation += 0.5 * simd.reduce_sum_f64s(self.excitation);
+        work.mistuning += 0.5 * simd.reduce_sum_f64s(self.mistuning);
+        Exchange { work: 0.5 * simd.reduce_sum_f64s(self.contact), loss: simd.reduce_sum_f64s(self.loss) }
+    }
+}

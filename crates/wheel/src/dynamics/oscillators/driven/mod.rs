@@ -1,0 +1,394 @@
+//! Modal oscillators under forces other than contact: engine orders, mistuning and Coriolis forces.
+//!
+//! The recursion of [`recursion`](super::recursion), with known modal forces at the middle instant of each step and, for
+//! Coriolis forces, swings turned by S ([`super::super::coriolis`]):
+//!
+//! ```text
+//! z⁺ − z⁻ = S (keep·d − pull·z + receptance·f + d),   d⁺ = z⁺ − z⁻ − d,   z⁺ = z + d⁺
+//! ```
+//!
+//! A step is completed before the next one is predicted, in two passes over the mode shapes: mistuning pulls at what all
+//! nodal diameters have come to. Contact forces move S R φᴴ f within a step.
+
+mod acting;
+mod turning;
+
+use faer::{Mat, c64};
+use pulp::{Arch, Simd, WithSimd};
+
+use super::super::coriolis::swing_matrix;
+use super::super::direction::Direction;
+use super::super::effects::Effects;
+use super::super::energy::EffectWork;
+use super::super::excitation::{EngineOrderExcitation, ModalExcitation};
+use super::super::initial::InitialMode;
+use super::super::mistuning::{ModalMistuning, Place, RESOLVED};
+use super::super::modal_wheel::{ModalHarmonic, ModalWheel};
+use super::recursion::{Exchange, Modes};
+use super::rows::{Loads, Rows};
+use super::segment::Segment;
+use super::{Oscillators, Part};
+use acting::{Acting, DrivenSums, Excitation};
+use rubmap_numerics::aligned::Aligned;
+use rubmap_numerics::sector_fourier::SectorFourier;
+use turning::Turning;
+
+/// What drives the oscillators, and the numbers of the step under way.
+#[derive(Debug)]
+pub(crate) struct Drive {
+    excitations: Vec<Excitation>,
+    mistuning: Option<ModalMistuning>,
+    places: Vec<Place>,
+    turning: Option<Turning>,
+    acting: Acting,
+    /// z⁺ − z⁻ of a step that is not counted yet, otherwise 0.
+    swing: Aligned,
+    /// What contact forces move one nodal diameter by, or its swing before S.
+    moved: Aligned,
+    /// Its swing after S.
+    turned: Aligned,
+}
+
+impl Drive {
+    /// None if nothing but contact moves the modes. Steps last `step` seconds, contact forces act along `loaded`.
+    pub(crate) fn new(
+        wheel: &ModalWheel,
+        contact_nodes: usize,
+        effects: &Effects<'_>,
+        oscillators: &Oscillators,
+        fourier: &SectorFourier,
+        (step, loaded): (f64, Option<&Rows>),
+    ) -> Option<Self> {
+        let turning = Turning::new(wheel, oscillators, step, loaded);
+        if turning.is_none() && effects.mistuning.is_none() && effects.excitation.is_empty() {
+            return None;
+        }
+        let state = oscillators.state.z.len();
+        let of = |wanted: bool| Aligned::zeros(if wanted { state } else { 0 });
+        let mistuning = effects.mistuning.map(|deviations| {
+            ModalMistuning::new(deviations, wheel, contact_nodes, fourier, oscillators.resolved_families())
+        });
+        let longest = oscillators.segments.iter().map(|segment| segment.length).max().unwrap_or(0);
+        let excitation = |excitation: &EngineOrderExcitation| {
+            Excitation::new(ModalExcitation::new(excitation, wheel), &oscillators.segments)
+        };
+        let excitations: Vec<_> = effects.excitation.iter().map(excitation).collect();
+        let excited = |index: usize| excitations.iter().any(|excitation| excitation.harmonic() == index);
+        Some(Self {
+            acting: Acting {
+                contact: Aligned::zeros(2 * longest),
+                excitation: of(!excitations.is_empty()),
+                excited: (0..wheel.harmonics.len()).map(excited).collect(),
+                mistuning: of(mistuning.is_some()),
+            },
+            excitations,
+            mistuning,
+            places: oscillators.segments.iter().map(Segment::place).collect(),
+            turning,
+            swing: of(true),
+            moved: Aligned::zeros(2 * longest),
+            turned: Aligned::zeros(2 * longest),
+        })
+    }
+
+    /// Gives the drive's forces after `revolutions` their part in the first increments d = z − z⁻, which are those of free motion:
+    /// without it the start would be of first order in h only.
+    pub(crate) fn start(
+        &mut self,
+        wheel: &ModalWheel,
+        initial: &[InitialMode],
+        oscillators: &mut Oscillators,
+        revolutions: f64,
+    ) {
+        self.add_to_increments(wheel, initial, oscillators, revolutions, -1.0);
+    }
+
+    /// −∂f/∂z of mistuning between the Fourier columns of every family that it couples.
+    pub(crate) fn mistuned(&self) -> Vec<Mat<f64>> {
+        self.mistuning.as_ref().map(|mistuning| mistuning.stiffness(&self.places)).unwrap_or_default()
+    }
+
+    /// The counterpart of [`Self::start`] after `revolutions`: leaves the increments that free motion has at the same
+    /// velocities, as `read` finds them.
+    pub(crate) fn end(
+        &mut self,
+        wheel: &ModalWheel,
+        revolutions: f64,
+        oscillators: &mut Oscillators,
+        read: impl Fn(&Oscillators) -> Vec<InitialMode>,
+    ) {
+        // Coriolis forces depend on the velocities they are read with, by hΩ|g|/2 of them.
+        const ROUNDS: usize = 20;
+        let increments = oscillators.state.d.clone();
+        for _ in 0..ROUNDS {
+            let modes = read(oscillators);
+            oscillators.state.d.copy_from_slice(&increments);
+            self.add_to_increments(wheel, &modes, oscillators, revolutions, 1.0);
+        }
+    }
+
+    /// Adds `sign` times the part that the drive's forces have in the increments of a wheel whose `modes` move.
+    fn add_to_increments(
+        &mut self,
+        wheel: &ModalWheel,
+        modes: &[InitialMode],
+        oscillators: &mut Oscillators,
+        revolutions: f64,
+        sign: f64,
+    ) {
+        Arch::new().dispatch(Prepare(self, oscillators, revolutions));
+        self.swing.fill(0.0);
+        for force in [&self.acting.excitation, &self.acting.mistuning] {
+            for (sum, f) in self.swing.iter_mut().zip(force.iter()) {
+                *sum += f;
+            }
+        }
+        for mode in modes {
+            let (segment, harmonic) = (oscillators.segments[mode.harmonic], &wheel.harmonics[mode.harmonic]);
+            let Some(g) = &harmonic.gyroscopic else { continue };
+            for m in 0..segment.integrated {
+                let velocity = if segment.single { c64::from(mode.velocity.re) } else { mode.velocity };
+                let force = -g[(m, mode.family)] * velocity * wheel.speed_rad_s;
+                for (start, part) in segment.parts().zip([force.re, force.im]) {
+                    self.swing[start + m] += part;
+                }
+            }
+        }
+        let Oscillators { segments, coefficients, state, .. } = oscillators;
+        for segment in segments {
+            for start in segment.parts() {
+                for m in 0..segment.integrated {
+                    let mode = segment.modes + m;
+                    let share = coefficients.receptance[mode] / (1.0 + coefficients.keep[mode]);
+                    state.d[start + m] += sign * share * self.swing[start + m];
+                }
+            }
+        }
+        self.swing.fill(0.0);
+    }
+
+    /// Forces of the state `z`.
+    #[inline(always)]
+    fn pull<S: Simd>(&mut self, simd: S, z: &[f64]) {
+        if let Some(mistuning) = &mut self.mistuning {
+            mistuning.force(simd, &self.places, z, &mut self.acting.mistuning);
+        }
+    }
+}
+
+/// All forces of the state z, so many revolutions after the start, beside the step loop.
+struct Prepare<'a>(&'a mut Drive, &'a Oscillators, f64);
+
+impl WithSimd for Prepare<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self(drive, oscillators, revolutions) = self;
+        drive.pull(simd, &oscillators.state.z);
+        for of in oscillators.segments.iter().copied().enumerate() {
+            drive.acting.excite(simd, &drive.excitations, of, revolutions);
+        }
+    }
+}
+
+impl Oscillators {
+    /// Families that a step resolves in every nodal diameter, ω²B ≤ 3.
+    fn resolved_families(&self) -> usize {
+        let of = |segment: &Segment| {
+            let resolved = |m: &usize| {
+                let mode = segment.modes + m;
+                let (stiffness, inertia) =
+                    (self.coefficients.stiffness[mode], self.coefficients.inertia[mode]);
+                stiffness <= RESOLVED * inertia
+            };
+            (0..segment.integrated).take_while(resolved).count()
+        };
+        self.segments.iter().map(of).min().unwrap_or(0)
+    }
+
+    /// Displacement per unit force of the modes of `segment` within a step.
+    fn receptances(&self, segment: &Segment) -> &[f64] {
+        &self.coefficients.receptance[segment.modes..][..segment.integrated]
+    }
+
+    /// Completes the last step by `loads`, and counts it.
+    #[inline(always)]
+    pub(crate) fn complete_driven<S: Simd>(
+        &mut self,
+        simd: S,
+        drive: &mut Drive,
+        loads: Loads<'_>,
+        work: &mut EffectWork,
+    ) -> Exchange {
+        let mut sums = DrivenSums::new(simd);
+        for index in 0..self.segments.len() {
+            self.complete_one(simd, index, drive, loads, &mut sums);
+        }
+        sums.total(simd, work)
+    }
+
+    /// The same, then takes a step free of contact, `revolutions` after the start, and reads rows as [`Self::project`] does.
+    #[inline(always)]
+    pub(crate) fn complete_and_predict_driven<S: Simd>(
+        &mut self,
+        simd: S,
+        drive: &mut Drive,
+        (loads, revolutions): (Loads<'_>, f64),
+        (rows, out): (&Rows, &mut [f64]),
+        work: &mut EffectWork,
+    ) -> Exchange {
+        let mut sums = DrivenSums::new(simd);
+        // Mistuning pulls at what all nodal diameters have come to. Without it one after the other is completed and predicted while its
+        // mode shapes are in the first-level cache.
+        let at_once = drive.mistuning.is_none();
+        if !at_once {
+            for index in 0..self.segments.len() {
+                self.complete_one(simd, index, drive, loads, &mut sums);
+            }
+            drive.pull(simd, &self.state.z);
+        }
+        for index in 0..self.segments.len() {
+            if at_once {
+                self.complete_one(simd, index, drive, loads, &mut sums);
+            }
+            self.swing(simd, index, drive, revolutions, false);
+            rows.project(simd, index, self.segments[index], &self.state.z, out);
+        }
+        sums.total(simd, work)
+    }
+
+    #[inline(always)]
+    fn complete_one<S: Simd>(
+        &mut self,
+        simd: S,
+        index: usize,
+        drive: &mut Drive,
+        loads: Loads<'_>,
+        sums: &mut DrivenSums<S>,
+    ) {
+        let segment = self.segments[index];
+        let Drive { turning, acting, swing, moved, .. } = drive;
+        let loaded = !loads.loaded.is_empty();
+        if loaded {
+            loads.modal(simd, index, segment, &mut acting.contact);
+            if let Some(turning) = turning {
+                turning.moving(loads).modal(simd, index, segment, moved);
+            }
+        }
+        let of = self.coefficients.of::<S>(segment);
+        for start in segment.parts() {
+            let Part { z, d, .. } = self.state.part::<S>(segment, start, false, false);
+            let forces = acting.on::<S>((index, segment), start, loaded);
+            let swing = &mut S::as_mut_simd_f64s(&mut swing[start..start + segment.length]).0[..z.len()];
+            let moved = &S::as_simd_f64s(&moved[start - segment.state..][..segment.length]).0[..z.len()];
+            for m in 0..z.len() {
+                let of = of.at(m);
+                let mut modes = Modes { z: z[m], d: d[m], swing: swing[m] };
+                if let Some(force) = forces.contact {
+                    let moved = match turning {
+                        Some(_) => moved[m],
+                        None => simd.mul_f64s(of.receptance, force[m]),
+                    };
+                    modes.move_by(simd, moved);
+                    (z[m], d[m]) = (modes.z, modes.d);
+                }
+                sums.count(simd, modes.swing, of.loss, &forces, m);
+                swing[m] = simd.splat_f64s(0.0);
+            }
+        }
+    }
+
+    /// Takes a step under `loads` that act from its start, `revolutions` after the start, and counts it. Reads rows as
+    /// [`Self::project`] does.
+    #[inline(always)]
+    pub(crate) fn advance_driven<S: Simd>(
+        &mut self,
+        simd: S,
+        drive: &mut Drive,
+        loads: Option<Loads<'_>>,
+        revolutions: f64,
+        mut reading: Option<(&Rows, &mut [f64])>,
+        work: &mut EffectWork,
+    ) -> Exchange {
+        let mut sums = DrivenSums::new(simd);
+        drive.pull(simd, &self.state.z);
+        for index in 0..self.segments.len() {
+            let segment = self.segments[index];
+            if let Some(loads) = loads {
+                loads.modal(simd, index, segment, &mut drive.acting.contact);
+            }
+            self.swing(simd, index, drive, revolutions, loads.is_some());
+            let of = self.coefficients.of::<S>(segment);
+            for start in segment.parts() {
+                let swing = S::as_simd_f64s(&drive.swing[start..start + segment.length]).0;
+                let forces = drive.acting.on::<S>((index, segment), start, loads.is_some());
+                for m in 0..of.keep.len() {
+                    sums.count(simd, swing[m], of.loss[m], &forces, m);
+                }
+            }
+            if let Some((rows, out)) = &mut reading {
+                rows.project(simd, index, segment, &self.state.z, out);
+            }
+        }
+        sums.total(simd, work)
+    }
+
+    /// The step of one nodal diameter, `revolutions` after the start, under the drive's forces and, if it is `loaded`, those of contact.
+    #[inline(always)]
+    fn swing<S: Simd>(&mut self, simd: S, index: usize, drive: &mut Drive, revolutions: f64, loaded: bool) {
+        let segment = self.segments[index];
+        let Drive { excitations, turning, acting, swing, moved, turned, .. } = drive;
+        acting.excite(simd, excitations, (index, segment), revolutions);
+        let of = self.coefficients.of::<S>(segment);
+        for start in segment.parts() {
+            let Part { z, d, .. } = self.state.part::<S>(segment, start, false, false);
+            let forces = acting.on::<S>((index, segment), start, loaded);
+            let swing = S::as_mut_simd_f64s(&mut swing[start..start + segment.length]).0;
+            let moved = S::as_mut_simd_f64s(&mut moved[start - segment.state..][..segment.length]).0;
+            for m in 0..of.keep.len() {
+                let mut modes = Modes { z: z[m], d: d[m], swing: swing[m] };
+                modes.advance(simd, &of.at(m), Some(forces.sum(simd, m)));
+                if turning.is_some() {
+                    moved[m] = modes.swing;
+                } else {
+                    (z[m], d[m], swing[m]) = (modes.z, modes.d, modes.swing);
+                }
+            }
+        }
+        let Some(turning) = turning else { return };
+        turning.turn(simd, (index, segment), moved, turned);
+        for start in segment.parts() {
+            let Part { z, d, .. } = self.state.part::<S>(segment, start, false, false);
+            let swing = S::as_mut_simd_f64s(&mut swing[start..start + segment.length]).0;
+            let turned = S::as_simd_f64s(&turned[start - segment.state..][..segment.length]).0;
+            for m in 0..turned.len() {
+                let mut modes = Modes { z: z[m], d: d[m], swing: swing[m] };
+                modes.swing_by(simd, turned[m]);
+                (z[m], d[m], swing[m]) = (modes.z, modes.d, modes.swing);
+            }
+        }
+    }
+
+    /// What a unit force along `from` moves along `to` within a step, per nodal diameter, Coriolis forces included.
+    pub(crate) fn turned_flexibility(
+        &self,
+        wheel: &ModalWheel,
+        step: f64,
+        to: &[Direction],
+        from: &[Direction],
+    ) -> Vec<Mat<c64>> {
+        let of = |(harmonic, segment): (&ModalHarmonic, &Segment)| {
+            let modes = segment.integrated;
+            let receptance = &self.coefficients.receptance[segment.modes..][..modes];
+            let shapes = harmonic.contact.as_ref();
+            let source = Mat::from_fn(modes, from.len(), |m, k| from[k].of(shapes, m).conj() * receptance[m]);
+            let target = Mat::from_fn(to.len(), modes, |k, m| to[k].of(shapes, m));
+            match &harmonic.gyroscopic {
+                Some(g) => target * (swing_matrix(g.as_ref(), wheel.speed_rad_s, step, receptance) * source),
+                None => target * source,
+            }
+        };
+        wheel.harmonics.iter().zip(&self.segments).map(of).collect()
+    }
+}
