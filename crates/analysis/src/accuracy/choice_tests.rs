@@ -4,7 +4,8 @@ use std::cell::Cell;
 
 use serde_json::json;
 
-use crate::accuracy::choice::{Next, Resources, next};
+use crate::accuracy::choice::next;
+use crate::accuracy::climb::{Next, Resources};
 use crate::request::AutoOr;
 use crate::resolved::{ResolvedSweep, TrialRequest, from_json};
 use crate::result::{Choice, Cost, Trial};
