@@ -11,10 +11,10 @@ use crate::wheel::Wheel;
 const SWEEPS: u64 = 3;
 
 /// Speeds of each: enough for cheaper settings to be tried.
-const SPEEDS: usize = 34;
+const SPEEDS: usize = 42;
 
 /// The second pilot speed, and one half way to the third.
-const LOOKED_AT: [usize; 2] = [11, 16];
+const LOOKED_AT: [usize; 2] = [14, 20];
 
 #[test]
 fn settings_beside_the_climb_keep_their_targets() {

@@ -2,7 +2,7 @@
 
 use crate::accuracy::beside::{WAYS, Way};
 use crate::accuracy::candidate::{Candidate, Price};
-use crate::accuracy::climb::{Climb, MOST_DOUBLINGS, Next, PLANNED_SHARE, pilots};
+use crate::accuracy::climb::{Climb, MODES_DOUBLED, MOST_DOUBLINGS, Next, PLANNED_SHARE, pilots};
 use crate::accuracy::rung::Rung;
 use crate::error::Violation;
 use crate::request::auto_or::MOST_STEPS;
@@ -50,7 +50,9 @@ impl Climb<'_, '_> {
             if let Some(message) = self.pilots.nothing_completed(rung) {
                 return Next::Refuse(Violation::new("/budget", message));
             }
-            if rung.error_of_modes <= rung.error_of_steps || !self.pays_for_more(rung, finer, left) {
+            let with_enough_steps = self.enough_steps(&rung.itself(), left);
+            let of_modes = rung.error_of_modes > with_enough_steps.error_of_steps;
+            if !of_modes || !self.pays_for_more(rung, finer, left) {
                 break;
             }
             modes = finer;
@@ -94,7 +96,9 @@ impl Climb<'_, '_> {
             return true;
         }
         // At every pilot speed two more runs, of twice the steps and of twice the modes.
-        let runs = self.wall(4 * self.pilots.speeds.len(), rung.finer_price.of_run(rung.steps));
+        let run = |steps| rung.finer_price.of_run(steps);
+        let both = run(2 * rung.steps) + MODES_DOUBLED * run(rung.steps);
+        let runs = self.wall(self.pilots.speeds.len(), both);
         self.pays(runs + self.reduction_s(finest), &rung.finer(), left)
     }
 
@@ -114,9 +118,10 @@ impl Climb<'_, '_> {
         pilots: &mut Vec<Pilot>,
     ) -> Result<(), Vec<TrialRequest>> {
         let halfway = (last.modes + last.finer) / 2;
+        let [run_s, finer_s] = [last.price, last.finer_price].map(|price| price.of_run(last.steps));
         let sizes = [
             (last.finer, last.finer_price),
-            (halfway, last.price.mean(last.finer_price)),
+            (halfway, last.price.through(last.steps, 0.5 * (run_s + finer_s))),
             (last.modes, last.price),
         ];
         for (modes, price) in sizes {
@@ -175,8 +180,9 @@ impl Climb<'_, '_> {
     }
 }
 
-/// What a setting would be that was not measured yet, by what a run like it takes in this `way`.
+/// What a setting would be that was not measured yet, if a run takes as long as this `way` should.
 fn expected(last: &Rung, taken: Setting, way: Way, controls: Price) -> Candidate {
-    let price = Price { step_s: controls.step_s * way.time / way.steps, ..controls };
+    let run_s = way.time * controls.of_run(last.steps);
+    let price = controls.through(taken.steps_per_revolution, run_s);
     Candidate { setting: taken, price, controls, ..last.finer() }
 }

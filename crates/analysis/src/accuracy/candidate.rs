@@ -2,30 +2,31 @@
 
 use crate::request::{AutoOr, SchemeChoice, Setting};
 
-/// Computing time of a run at any number of steps, the mean of the pilot speeds.
+/// Computing time of a run with any number of steps per revolution, the mean of the pilot speeds. Contact takes much of it that does not
+/// grow with the steps.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Price {
-    /// Before the first step, s.
-    pub(super) set_up_s: f64,
-    /// One step of each of its revolutions, s.
-    pub(super) step_s: f64,
+    fixed_s: f64,
+    step_s: f64,
 }
 
 impl Price {
+    /// Of what takes `seconds` with `steps`, and `doubled_s` with twice as many.
+    pub(super) fn of(steps: u32, seconds: f64, doubled_s: f64) -> Self {
+        // No time falls with the steps or grows faster than they do; what seems to was measured badly.
+        let grown = (doubled_s - seconds).clamp(0.0, seconds);
+        Self { fixed_s: seconds - grown, step_s: grown / f64::from(steps) }
+    }
+
     /// Of a run with so many steps per revolution, s.
     pub(super) fn of_run(self, steps: u32) -> f64 {
-        self.set_up_s + self.step_s * f64::from(steps)
+        self.fixed_s + self.step_s * f64::from(steps)
     }
 
-    /// With one of `count` prices added to their mean.
-    pub(super) fn plus(self, one: Self, count: usize) -> Self {
-        let share = 1.0 / count as f64;
-        Self { set_up_s: self.set_up_s + share * one.set_up_s, step_s: self.step_s + share * one.step_s }
-    }
-
-    /// Between this one and another.
-    pub(super) fn mean(self, other: Self) -> Self {
-        Self { set_up_s: 0.5 * (self.set_up_s + other.set_up_s), step_s: 0.5 * (self.step_s + other.step_s) }
+    /// Of other runs like these that take `seconds` with `steps`.
+    pub(super) fn through(self, steps: u32, seconds: f64) -> Self {
+        let factor = seconds / self.of_run(steps).max(f64::MIN_POSITIVE);
+        Self { fixed_s: factor * self.fixed_s, step_s: factor * self.step_s }
     }
 }
 

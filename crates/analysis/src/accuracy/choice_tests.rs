@@ -160,10 +160,10 @@ fn mass_is_let_go_where_its_error_is_known_to_be_within_the_target() {
             + 30.0 / f64::from(setting.steps_per_revolution)
             + massless
     };
-    let loose = choice(0.2);
+    let loose = choice(0.25);
     assert_eq!(loose.setting.scheme, SchemeChoice::MasslessBoundary, "{loose:?}");
     assert!(loose.difference > 0.0 && loose.reason.contains("may go without mass"), "{loose:?}");
-    assert!(truth(&loose) <= loose.estimated_error && loose.estimated_error <= 0.2, "{loose:?}");
+    assert!(truth(&loose) <= loose.estimated_error && loose.estimated_error <= 0.25, "{loose:?}");
     // A target below what the mass makes.
     let strict = choice(0.004);
     assert_eq!(strict.setting.scheme, SchemeChoice::ExactModal, "{strict:?}");

@@ -37,6 +37,9 @@ pub(super) const MOST_DOUBLINGS: u32 = 7;
 /// Share of what is left of a budget that runs are planned for.
 pub(super) const PLANNED_SHARE: f64 = 0.9;
 
+/// A run with twice the modes takes at most so many times as long.
+pub(super) const MODES_DOUBLED: f64 = 2.0;
+
 /// A climb over settings.
 pub(super) struct Climb<'a, 'b> {
     pub(super) request: &'b ResolvedSweep,
@@ -87,7 +90,7 @@ impl Climb<'_, '_> {
         };
         let finer = self.finer(taken.setting.modes_per_speed).filter(|_| controls > 0);
         let reduction = finer.map_or(0.0, |finer| self.reduction_s(finer));
-        all + self.wall(controls, 4.0 * taken.controls.of_run(steps)) + reduction
+        all + self.wall(controls, MODES_DOUBLED * taken.controls.of_run(2 * steps)) + reduction
     }
 
     /// Expected wall time of the reduction with `modes`: none if it is stored, otherwise by those that are.

@@ -220,18 +220,27 @@ impl<'a> Pilots<'a, '_> {
             finer_price: Price::default(),
             pilots: Vec::new(),
         };
+        let mut sums_s = [0.0; 3];
         for (index, &speed) in self.speeds.iter().enumerate() {
             let found = settings.map(|setting| self.find(speed, setting));
             if let [Ok(run), Ok(more_modes), Ok(more_steps)] = found {
                 let before = below.and_then(|below| below.pilots[index].error_of_modes).unwrap_or(0.0);
                 let pilot = self.pilot(speed, settings[0], run);
                 rung.add(pilot, [run, more_modes, more_steps], self.of(), before);
-                rung.price = rung.price.plus(self.price(run, steps), self.speeds.len());
-                rung.finer_price = rung.finer_price.plus(self.price(more_modes, steps), self.speeds.len());
+                // A run that was not completed says nothing of what more steps take: as much again, to be safe.
+                let doubled =
+                    if more_steps.is_completed() { self.run_s(more_steps) } else { 2.0 * self.run_s(run) };
+                let seconds = [self.run_s(run), doubled, self.run_s(more_modes)];
+                for (sum, seconds) in sums_s.iter_mut().zip(seconds) {
+                    *sum += seconds / self.speeds.len() as f64;
+                }
             } else {
                 missing.extend(found.into_iter().filter_map(Result::err).map(|request| *request));
             }
         }
+        let [run_s, doubled_s, finer_s] = sums_s;
+        rung.price = Price::of(steps, run_s, doubled_s);
+        rung.finer_price = rung.price.through(steps, finer_s);
         // Few modes first: what their reduction takes tells what the next one will.
         let fewest = missing.iter().map(|request| request.sweep.modes_per_speed()).min();
         missing.retain(|request| Some(request.sweep.modes_per_speed()) == fewest);
@@ -253,18 +262,14 @@ impl<'a> Pilots<'a, '_> {
         }
     }
 
-    /// What a run like `run` costs in the sweep.
-    pub(super) fn price(&self, run: &Trial, steps: u32) -> Price {
+    /// What a run like `run` takes in the sweep, s.
+    pub(super) fn run_s(&self, run: &Trial) -> f64 {
         let integration = &self.request.integration;
-        let revolutions = match self.request.modes {
+        run.cost.of_run(match self.request.modes {
             // Other speeds may not repeat as soon as these, and a budget is kept.
             Modes::Sought(Aim::Budget(_)) => f64::from(integration.revolutions()),
             Modes::Sought(Aim::Accuracy(_)) | Modes::Given(_) => run.revolutions(integration),
-        };
-        Price {
-            set_up_s: run.cost.set_up_s,
-            step_s: revolutions * run.cost.per_revolution_s / f64::from(steps),
-        }
+        })
     }
 
     /// Why no pilot speed carries an estimate, if none does.

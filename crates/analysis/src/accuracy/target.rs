@@ -12,9 +12,9 @@ use crate::request::{AccuracyOf, SchemeChoice};
 use crate::resolved::TrialRequest;
 use crate::result::Pilot;
 
-/// Speeds for each pilot speed from which on cheaper settings are tried: all of them take twice the time of a run there, and the dearest
-/// saves a quarter of one at every speed.
-const WORTH_TRYING: usize = 8;
+/// Speeds for each pilot speed from which on cheaper settings are tried: all of them take about two runs there, and the dearest saves a
+/// fifth of one at every speed.
+const WORTH_TRYING: usize = 10;
 
 impl Climb<'_, '_> {
     /// The first setting on the way up that meets `target`, or what is cheaper beside it and meets it too.
