@@ -128,7 +128,7 @@ pub(super) async fn modal_analysis(
     let (_, begin) = begun(engine, &job).await?;
     let choosing = modes(engine, &job, request, begin);
     let choice = in_time(&job, request.modes(), begin, choosing).await?;
-    let chosen = JobRequest::ModalAnalysis(choice.explicit(request));
+    let chosen = JobRequest::ModalAnalysis(Box::new(choice.explicit(request)));
     engine.choose(&job, chosen, Chosen::Modes(choice)).await
 }
 
