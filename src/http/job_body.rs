@@ -100,7 +100,7 @@ impl From<JobRequest> for RequestBody {
     fn from(request: JobRequest) -> Self {
         match request {
             JobRequest::Sweep(request) => Self::Sweep(Box::new((*request).into())),
-            JobRequest::ModalAnalysis(request) => Self::ModalAnalysis(request.into()),
+            JobRequest::ModalAnalysis(request) => Self::ModalAnalysis((*request).into()),
             JobRequest::Study(request) => Self::Study(Box::new((*request).into())),
             JobRequest::CaseStudy(case) => Self::CaseStudy(Box::new((*case).into())),
             JobRequest::Branches(branches) => Self::Branches(Box::new((*branches).into())),

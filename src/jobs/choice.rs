@@ -1,6 +1,8 @@
 //! Settings that the service chooses for a job, once its pilot runs or reductions are there.
 
+use std::pin::pin;
 use std::sync::Arc;
+use std::time::Duration;
 
 use chrono::{DateTime, Utc};
 
@@ -10,7 +12,7 @@ use super::progress::PhaseMonitor;
 use super::trials::Trials;
 use crate::analysis::error::{AnalysisError, Violation};
 use crate::analysis::monitor::Monitor;
-use crate::analysis::resolved::{ResolvedModalAnalysis, ResolvedSweep};
+use crate::analysis::resolved::{Aim, Modes, ResolvedModalAnalysis, ResolvedSweep};
 use crate::analysis::run::{self, Choice, ModelFacts, ModesChoice, Next, NextModes, Resources};
 use crate::store::StoreError;
 use crate::store::jobs::{Chosen, FailureCause, JobRequest};
@@ -25,12 +27,30 @@ pub(super) async fn sweep(
         return Ok(job);
     }
     let (facts, begin) = begun(engine, &job).await?;
-    let sectors = facts.sectors;
+    let choosing = setting(engine, &job, request, (facts.sectors, begin));
+    let choice = in_time(&job, request.modes(), begin, choosing).await?;
+    tracing::info!(
+        job.id = %job.id, setting = ?choice.setting, estimated_error = choice.estimated_error, "chose a setting"
+    );
+    let chosen = choice.explicit(request);
+    // Nobody has checked these knobs yet.
+    let chosen = run::resolve_sweep(chosen.into(), &facts).map_err(AnalysisError::Refused)?;
+    let chosen = JobRequest::Sweep(Box::new(chosen));
+    engine.choose(&job, chosen, Chosen::Setting(choice)).await
+}
+
+/// The setting that pilot runs choose for a wheel of `sectors`.
+async fn setting(
+    engine: &Engine,
+    job: &Live,
+    request: &ResolvedSweep,
+    (sectors, begin): (u32, DateTime<Utc>),
+) -> Result<Choice, Interruption> {
     let (mut trials, mut most_modes) = (Trials::default(), None);
-    let choice = loop {
+    loop {
         let resources = resources(engine, request.model(), seconds_since(begin), most_modes).await?;
         let runs = match run::next(request, sectors, &resources, &|trial| trials.get(trial)) {
-            Next::Take(choice) => break *choice,
+            Next::Take(choice) => return Ok(*choice),
             Next::Refuse(violation) => return Err(AnalysisError::Refused(vec![violation]).into()),
             Next::Run(runs) => runs,
         };
@@ -41,21 +61,38 @@ pub(super) async fn sweep(
             monitor.progress(0.0, &format!("pilot runs with {modes} modes per speed: {done} of {total}"))
         };
         tell(0);
-        match trials.obtain(engine, &job, runs, tell).await {
+        match trials.obtain(engine, job, runs, tell).await {
             Err(Interruption::Failed(failure)) if failure.cause == FailureCause::Memory => {
                 most_modes = Some(largest_below(modes, &resources).ok_or(Interruption::Failed(failure))?);
             }
             outcome => outcome?,
         }
-    };
-    tracing::info!(
-        job.id = %job.id, setting = ?choice.setting, estimated_error = choice.estimated_error, "chose a setting"
+    }
+}
+
+/// What `choosing` ends with, if that is within the time that an accuracy allows it from `begin` on. Otherwise what still computes for
+/// it stops, and is waited for: whoever asks again finds what it kept.
+async fn in_time<T>(
+    job: &Live,
+    modes: Modes,
+    begin: DateTime<Utc>,
+    choosing: impl Future<Output = Result<T, Interruption>>,
+) -> Result<T, Interruption> {
+    let Modes::Sought(Aim::Accuracy(accuracy)) = modes else { return choosing.await };
+    let left = Duration::try_from_secs_f64(accuracy.seconds - seconds_since(begin)).unwrap_or_default();
+    let mut choosing = pin!(choosing);
+    if let Ok(outcome) = tokio::time::timeout(left, choosing.as_mut()).await {
+        return outcome;
+    }
+    job.watch.dismiss();
+    // It was dismissed, and says so.
+    let _ = choosing.await;
+    let message = format!(
+        "nothing was found within {} s that is known to be as accurate: ask for a larger target, or give more time; the next job with \
+         the same scene goes on from what this one has computed",
+        accuracy.seconds
     );
-    let chosen = choice.explicit(request);
-    // Nobody has checked these knobs yet.
-    let chosen = run::resolve_sweep(chosen.into(), &facts).map_err(AnalysisError::Refused)?;
-    let chosen = JobRequest::Sweep(Box::new(chosen));
-    engine.choose(&job, chosen, Chosen::Setting(choice)).await
+    Err(AnalysisError::Refused(vec![Violation::new("/accuracy/seconds", message)]).into())
 }
 
 /// The choice for a resolved sweep, if all that it rests on is stored.
@@ -89,12 +126,25 @@ pub(super) async fn modal_analysis(
         return Ok(job);
     }
     let (_, begin) = begun(engine, &job).await?;
+    let choosing = modes(engine, &job, request, begin);
+    let choice = in_time(&job, request.modes(), begin, choosing).await?;
+    let chosen = JobRequest::ModalAnalysis(Box::new(choice.explicit(request)));
+    engine.choose(&job, chosen, Chosen::Modes(choice)).await
+}
+
+/// The modes that reductions choose.
+async fn modes(
+    engine: &Engine,
+    job: &Live,
+    request: &ResolvedModalAnalysis,
+    begin: DateTime<Utc>,
+) -> Result<ModesChoice, Interruption> {
     let mut most_modes = None;
     let mut reports = engine.store.reduction_reports(request.model()).await?;
-    let choice = loop {
+    loop {
         let resources = resources(engine, request.model(), seconds_since(begin), most_modes).await?;
         let modes = match run::next_modes(request, &resources, &reports) {
-            NextModes::Take(choice) => break choice,
+            NextModes::Take(choice) => return Ok(choice),
             NextModes::Refuse(violation) => return Err(AnalysisError::Refused(vec![violation]).into()),
             NextModes::Reduce(modes) => modes,
         };
@@ -107,9 +157,7 @@ pub(super) async fn modal_analysis(
             }
             outcome => reports.push(outcome?.report.clone()),
         }
-    };
-    let chosen = JobRequest::ModalAnalysis(choice.explicit(request));
-    engine.choose(&job, chosen, Chosen::Modes(choice)).await
+    }
 }
 
 /// The choice for a resolved modal analysis, if the reductions that it rests on are stored.

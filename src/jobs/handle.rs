@@ -97,7 +97,7 @@ impl Jobs {
             Submission::ModalAnalysis(request) => {
                 let facts = self.facts(whose, &request.model).await?;
                 let request = run::resolve_modal_analysis(*request, &facts).map_err(refused)?;
-                (JobRequest::ModalAnalysis(request), Some(facts))
+                (JobRequest::ModalAnalysis(Box::new(request)), Some(facts))
             }
             Submission::Study(mut request) => {
                 let facts = self.facts(whose, &request.model).await?;

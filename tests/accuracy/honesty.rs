@@ -4,9 +4,11 @@
 //! errors and estimates are printed; what is asserted is the share of scenes for which they agree within the stated bounds.
 
 use rubmap::analysis::monitor::Unwatched;
+use rubmap::analysis::resolved::ResolvedSweep;
 use rubmap::analysis::result::Quantity;
 use rubmap::analysis::run::{
-    FinerRun, Next, Resources, Setting, TrialRequest, control_requests, error_estimate, next, run_speed,
+    Choice, FinerRun, Next, Resources, Setting, TrialRequest, control_requests, error_estimate, next,
+    run_speed,
 };
 use serde_json::json;
 
@@ -19,7 +21,7 @@ const SCENES: u64 = 12;
 const BOUNDS: std::ops::RangeInclusive<f64> = 0.1..=1.2;
 
 /// Reproducible numbers in [0, 1).
-struct Draw(u64);
+pub(crate) struct Draw(pub(crate) u64);
 
 impl Draw {
     fn unit(&mut self) -> f64 {
@@ -27,7 +29,7 @@ impl Draw {
         (self.0 >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    fn within(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn within(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit()
     }
 
@@ -37,7 +39,7 @@ impl Draw {
 }
 
 /// A sweep of one speed and the accuracy that is asked for.
-fn scene(draw: &mut Draw) -> (serde_json::Value, f64) {
+pub(crate) fn scene(draw: &mut Draw) -> (serde_json::Value, f64) {
     let (leading, trailing) = (draw.within(0.2, 0.5), draw.within(0.15, 0.4));
     let amplitude = leading.min(trailing) * draw.within(1.0, 2.0);
     let request = json!({
@@ -67,10 +69,10 @@ struct Outcome {
     target: Result<(f64, f64), String>,
 }
 
-/// The difference of a speed from the reference, as the service measures it.
-fn truth(wheel: &mut Wheel, request: &rubmap::analysis::resolved::ResolvedSweep) -> f64 {
+/// The difference of the speed at `index` from the reference, as the service measures it.
+pub(crate) fn truth(wheel: &mut Wheel, request: &ResolvedSweep, index: usize) -> f64 {
     let reduced = wheel.reduced(request.modes_per_speed());
-    let result = run_speed(&reduced, request, 0, None, &Unwatched).unwrap();
+    let result = run_speed(&reduced, request, index, None, &Unwatched).unwrap();
     let spectra = result.spectra.unwrap_or_else(|| panic!("{:?}", result.point.message));
     let reference = Setting {
         modes_per_speed: 8 * request.modes_per_speed(),
@@ -79,7 +81,7 @@ fn truth(wheel: &mut Wheel, request: &rubmap::analysis::resolved::ResolvedSweep)
         steps_per_revolution: 16 * result.point.steps_per_revolution,
     };
     let trial = wheel.run(&TrialRequest::new(request, result.point.speed_rad_s, reference));
-    let run = FinerRun { index: 0, setting: reference, spectra: &spectra, trial: &trial };
+    let run = FinerRun { index: index as u32, setting: reference, spectra: &spectra, trial: &trial };
     let differences = error_estimate(request, None, &[result.point], &[run]).controls[0].differences.unwrap();
     let amplitude = differences.judged(Quantity::Amplitude).unwrap();
     amplitude.max(differences.engine_orders.unwrap_or(0.0))
@@ -103,32 +105,33 @@ fn outcome(wheel: &mut Wheel, draw: &mut Draw) -> Outcome {
     let run = FinerRun { index, setting, spectra, trial: &trial };
     let estimate =
         error_estimate(&request, None, std::slice::from_ref(&result.point), &[run]).largest.unwrap();
-    let truth_of_fixed = truth(wheel, &request);
+    let truth_of_fixed = truth(wheel, &request, 0);
 
     let mut asked = body;
     asked["accuracy"] = json!({"target": target});
-    Outcome { estimate, truth: truth_of_fixed, target: reached(wheel, asked, target) }
+    let asked = wheel.resolved(asked);
+    let reached = chosen(wheel, &asked).map(|choice| {
+        assert!(choice.estimated_error <= target);
+        (target, truth(wheel, &choice.explicit(&asked), 0))
+    });
+    Outcome { estimate, truth: truth_of_fixed, target: reached }
 }
 
-/// What the pilot runs choose for a target, as the service goes about it.
-fn reached(wheel: &mut Wheel, asked: serde_json::Value, target: f64) -> Result<(f64, f64), String> {
-    let request = wheel.resolved(asked);
+/// What the pilot runs choose, as the service goes about it.
+pub(crate) fn chosen(wheel: &mut Wheel, request: &ResolvedSweep) -> Result<Choice, String> {
     let resources = Resources { workers: 2, spent_s: 0.0, reductions: Vec::new(), most_modes: None };
     let mut known: Vec<(TrialRequest, rubmap::analysis::run::Trial)> = Vec::new();
     loop {
         let find =
             |wanted: &TrialRequest| known.iter().find(|(run, _)| run == wanted).map(|(_, trial)| trial);
-        match next(&request, wheel.facts.sectors, &resources, &find) {
+        match next(request, wheel.facts.sectors, &resources, &find) {
             Next::Run(runs) => {
                 for run in runs {
                     let trial = wheel.run(&run);
                     known.push((run, trial));
                 }
             }
-            Next::Take(choice) => {
-                assert!(choice.estimated_error <= target);
-                return Ok((target, truth(wheel, &choice.explicit(&request))));
-            }
+            Next::Take(choice) => return Ok(*choice),
             Next::Refuse(violation) => return Err(violation.message),
         }
     }

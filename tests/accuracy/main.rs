@@ -2,4 +2,5 @@
 
 mod honesty;
 mod orders;
+mod sweeps;
 mod wheel;

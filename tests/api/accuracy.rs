@@ -1,5 +1,7 @@
 //! An accuracy or a budget in place of knobs, and the errors of what came of it.
 
+use std::time::{Duration, Instant};
+
 use serde_json::{Value, json};
 
 use super::app::{TestApp, modal_analysis_of, sweep_of};
@@ -35,7 +37,10 @@ async fn a_target_is_planned_met_and_reported() {
         map["settings"]["integration"]["steps_per_revolution"],
         choice["setting"]["steps_per_revolution"]
     );
-    assert_eq!((&choice["accuracy"], &map["settings"]["accuracy"]), (&request["accuracy"], &Value::Null));
+    let asked = json!({"target": 0.05, "seconds": 3600.0});
+    assert_eq!((&choice["accuracy"], &map["settings"]["accuracy"]), (&asked, &Value::Null));
+    assert_eq!(plan.body["settings"]["accuracy"], asked, "the bound is said beforehand");
+    assert!(choice["spent_s"].as_f64().is_some_and(|spent| spent > 0.0 && spent < 3600.0), "{choice}");
     assert_eq!(map["settings"]["control_speeds"], 5);
     for point in map["points"].as_array().unwrap() {
         assert_eq!(point["steps_per_revolution"], choice["setting"]["steps_per_revolution"]);
@@ -118,6 +123,28 @@ async fn a_target_that_cannot_be_met_is_said_before_the_sweep() {
 }
 
 #[tokio::test]
+async fn a_climb_ends_with_its_time() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(model::package(1.0)).await;
+    let mut request = without_knobs(sweep_of(&model));
+    // Some seconds for every pilot run.
+    request["integration"]["revolutions"] = json!(20_000);
+    request["accuracy"] = json!({"target": 1e-6, "seconds": 1});
+    let begin = Instant::now();
+    let id = api.sweep(&request).await;
+    let job = api.finish(&id).await;
+    let error = &job["error"]["errors"][0];
+    assert_eq!((&job["status"], &error["pointer"]), (&json!("failed"), &json!("/accuracy/seconds")), "{job}");
+    // A run sees within a revolution that its time is over.
+    assert!(begin.elapsed() < Duration::from_secs(5), "{:?}", begin.elapsed());
+    request["accuracy"]["seconds"] = json!(0.5);
+    let pointers = api.post("/v1/sweeps", &request).await.pointers(422, "invalid-request");
+    assert_eq!(pointers, ["/accuracy/seconds"]);
+    app.stop().await;
+}
+
+#[tokio::test]
 async fn a_modal_analysis_takes_as_many_modes_as_its_accuracy_needs() {
     let app = TestApp::start().await;
     let api = &app.api;
@@ -135,7 +162,7 @@ async fn a_modal_analysis_takes_as_many_modes_as_its_accuracy_needs() {
     assert_eq!(
         plan["choice"],
         json!({
-            "accuracy": {"target": 1e-6}, "modes_per_speed": job["choice"]["modes_per_speed"], "error": job["choice"]["error"],
+            "accuracy": {"target": 1e-6, "seconds": 3600.0}, "modes_per_speed": job["choice"]["modes_per_speed"], "error": job["choice"]["error"],
             "reason": job["choice"]["reason"], "tried": job["choice"]["tried"],
         })
     );

@@ -134,7 +134,7 @@ async fn stress_has_errors_of_its_own_in_targets_and_studies() {
     let job = api.finish(&id).await;
     assert_eq!(job["status"], "successful", "{job}");
     let choice = &job["choice"];
-    assert_eq!(choice["accuracy"], request["accuracy"]);
+    assert_eq!(choice["accuracy"], json!({"target": 0.2, "of": "stress", "seconds": 3600.0}));
     assert!(choice["reason"].as_str().unwrap().contains("largest stress"), "{choice}");
     let map = api.get(&format!("/v1/jobs/{id}/interaction-map")).await.body;
     let errors = &map["errors"];

@@ -1,6 +1,7 @@
 //! The verbs, gathered under one name: what the service may ask of the physics.
 
-pub use crate::accuracy::choice::{Next, Resources, next};
+pub use crate::accuracy::choice::next;
+pub use crate::accuracy::climb::{Next, Resources};
 pub use crate::accuracy::control::{FinerRun, control_requests, error_estimate};
 pub use crate::accuracy::modes::{NextModes, next_modes};
 pub use crate::accuracy::study::work_precision;

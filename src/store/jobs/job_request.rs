@@ -17,7 +17,7 @@ pub enum JobRequest {
     /// Contact simulations over speeds.
     Sweep(Box<ResolvedSweep>),
     /// Natural frequencies over speeds.
-    ModalAnalysis(ResolvedModalAnalysis),
+    ModalAnalysis(Box<ResolvedModalAnalysis>),
     /// A model from the parameters of the generator.
     ModelGeneration(Box<ImpellerParameters>),
     /// Errors and times of a grid of settings.
@@ -111,7 +111,7 @@ impl JobRequest {
                 Self::Sweep(Box::new(ResolvedSweep::stored(request, rounds).map_err(unsound)?))
             }
             JobKind::ModalAnalysis => {
-                Self::ModalAnalysis(ResolvedModalAnalysis::stored(read(json)?.0).map_err(unsound)?)
+                Self::ModalAnalysis(Box::new(ResolvedModalAnalysis::stored(read(json)?.0).map_err(unsound)?))
             }
             JobKind::Study => Self::Study(Box::new(ResolvedStudy::stored(read(json)?.0).map_err(unsound)?)),
             JobKind::CaseStudy => {

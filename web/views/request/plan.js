@@ -49,6 +49,12 @@ function takesAll(integration) {
   return !integration || (integration.revolutions !== 'auto' && integration.steady === 'march');
 }
 
+/** How long choosing a setting may take, in words. */
+function atMost(settings) {
+  if (settings?.accuracy) return `, for at most ${duration(settings.accuracy.seconds)}`;
+  return settings?.budget ? `; the whole job in ${duration(settings.budget.seconds)}` : '';
+}
+
 function shown(plan) {
   const { estimate } = plan;
   const scheme = (plan.point ?? plan.points?.[0])?.scheme;
@@ -72,7 +78,7 @@ function shown(plan) {
       ['Times are of', plan.machine ? `${plan.machine.name}: ${plan.machine.processors} × ${plan.machine.processor}` : null],
       ['Scheme', scheme ? `${scheme.name}: ${scheme.reason}` : null],
       ['Chosen setting', plan.choice?.reason],
-      ['Pilot runs', plan.pilot_speeds_rad_s ? `${count(plan.pilot_speeds_rad_s.length, 'speed')} first, which choose the setting` : null],
+      ['Pilot runs', plan.pilot_speeds_rad_s ? `${count(plan.pilot_speeds_rad_s.length, 'speed')} first, which choose the setting${atMost(plan.settings)}` : null],
       ['Left out', off.length > 0 ? off.join(', ') : null],
     ]),
   ];

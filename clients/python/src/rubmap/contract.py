@@ -755,6 +755,7 @@ class WheelCriticalSpeed(TypedDict):
 
 class Accuracy(TypedDict, closed=True):
     of: NotRequired[AccuracyOf]
+    seconds: NotRequired[float]
     target: float
 
 
@@ -990,9 +991,11 @@ class ModesChoice(TypedDict):
 
 
 class Pilot(TypedDict):
+    difference: NotRequired[float | None]
     error_of_modes: NotRequired[float | None]
     error_of_steps: NotRequired[float | None]
     modes_per_speed: int
+    scheme: NotRequired[SchemeChoice]
     speed_rad_s: float
     steps_per_revolution: int
     time_s: float
@@ -1227,6 +1230,7 @@ class CaseStudySettings(TypedDict, closed=True):
 class Choice(TypedDict):
     accuracy: NotRequired[Accuracy | None]
     budget: NotRequired[Budget | None]
+    difference: NotRequired[float]
     error_of_modes: float
     error_of_steps: float
     estimated_at: int
@@ -1236,6 +1240,7 @@ class Choice(TypedDict):
     pilots: list[Pilot]
     reason: str
     setting: Setting
+    spent_s: NotRequired[float]
     spread: float
 
 

@@ -4,8 +4,9 @@ use std::cell::Cell;
 
 use serde_json::json;
 
-use crate::accuracy::choice::{Next, Resources, next};
-use crate::request::AutoOr;
+use crate::accuracy::choice::next;
+use crate::accuracy::climb::{Next, Resources};
+use crate::request::{AutoOr, SchemeChoice};
 use crate::resolved::{ResolvedSweep, TrialRequest, from_json};
 use crate::result::{Choice, Cost, Trial};
 use rubmap_wheel::response::sensitivity::{Growth, Sensitivity};
@@ -30,13 +31,21 @@ fn resources() -> Resources {
 /// Seconds of a step for each mode.
 const STEP_S: f64 = 1e-7;
 
+/// Share of it that a step takes without mass at the boundary, and what the level is off by then.
+const MASSLESS: (f64, f64) = (0.5, 0.004);
+
 fn trial(request: &TrialRequest, response: Response, growth: Growth) -> Trial {
     let speed = request.speed_rad_s();
     let AutoOr::Fixed(steps) = request.sweep.integration.steps_per_revolution else {
         panic!("no fixed step")
     };
     let modes = f64::from(request.sweep.modes_per_speed());
-    let (level, repeats) = response(modes, f64::from(steps), speed);
+    let (mut level, repeats) = response(modes, f64::from(steps), speed);
+    let massless = request.sweep.integration.scheme == SchemeChoice::MasslessBoundary;
+    let step_s = if massless { MASSLESS.0 * STEP_S } else { STEP_S };
+    if massless {
+        level = level.map(|level| level + MASSLESS.1);
+    }
     let settling = json!({"verdict": if repeats { "periodic" } else { "aperiodic" }});
     let responses = json!([{"sensor": {"contact_node": 0, "component": "radial"}, "mean": 0.0, "rms": level,
         "half_peak_to_peak": 1.0, "dominant_engine_order": 2.0, "dominant_nodal_diameter": 2}]);
@@ -67,7 +76,7 @@ fn trial(request: &TrialRequest, response: Response, growth: Growth) -> Trial {
         }),
         cost: Cost {
             set_up_s: 0.0,
-            per_revolution_s: STEP_S * modes * f64::from(steps),
+            per_revolution_s: step_s * modes * f64::from(steps),
             repetitions: 1,
             spread: None,
         },
@@ -110,6 +119,14 @@ fn choose_of(
     }
 }
 
+/// Sixty speeds of a wheel that may touch: many enough for cheaper settings to be tried.
+fn many(asked: serde_json::Value) -> ResolvedSweep {
+    let mut body = json!({"scene": {"contact": {}}});
+    body["speeds"] = json!({"from": 100, "to": 400, "count": 60, "unit": "rad_s"});
+    body.as_object_mut().unwrap().extend(asked.as_object().unwrap().clone());
+    request(body)
+}
+
 /// 1 + 40/k² + 30/S.
 fn converging(modes: f64, steps: f64, _: f64) -> (Option<f64>, bool) {
     (Some(1.0 + 40.0 / modes.powi(2) + 30.0 / steps), true)
@@ -129,6 +146,62 @@ fn the_target_is_met_with_the_fewest_modes_and_steps() {
     );
     assert_eq!((choice.estimated_at, choice.pilot_speeds_rad_s.len()), (4, 4));
     assert!(runs <= 4 * 8, "{runs}");
+}
+
+#[test]
+fn mass_is_let_go_where_its_error_is_known_to_be_within_the_target() {
+    let choice = |target: f64| {
+        choose(&many(json!({"accuracy": {"target": target}})), &resources(), &converging).0.unwrap()
+    };
+    let truth = |choice: &Choice| {
+        let setting = choice.setting;
+        let massless = if setting.scheme == SchemeChoice::MasslessBoundary { MASSLESS.1 } else { 0.0 };
+        40.0 / f64::from(setting.modes_per_speed).powi(2)
+            + 30.0 / f64::from(setting.steps_per_revolution)
+            + massless
+    };
+    let loose = choice(0.25);
+    assert_eq!(loose.setting.scheme, SchemeChoice::MasslessBoundary, "{loose:?}");
+    assert!(loose.difference > 0.0 && loose.reason.contains("may go without mass"), "{loose:?}");
+    assert!(truth(&loose) <= loose.estimated_error && loose.estimated_error <= 0.25, "{loose:?}");
+    // A target below what the mass makes.
+    let strict = choice(0.004);
+    assert_eq!(strict.setting.scheme, SchemeChoice::ExactModal, "{strict:?}");
+    assert!(truth(&strict) <= strict.estimated_error, "{strict:?}");
+    let without_contact = json!({"scene": {}, "accuracy": {"target": 0.2}});
+    let choice = choose(&many(without_contact), &resources(), &converging).0.unwrap();
+    assert_eq!(choice.setting.scheme, SchemeChoice::ExactModal, "nothing has a boundary");
+}
+
+#[test]
+fn a_response_of_another_kind_is_never_taken() {
+    // Few steps make it rattle.
+    let rattling = |k: f64, s: f64, speed: f64| (converging(k, s, speed).0, s > 1700.0);
+    let request = many(json!({"accuracy": {"target": 0.2}}));
+    let choice = choose_of(Growth::Stable, &request, &resources(), &rattling).0.unwrap();
+    assert!(choice.setting.steps_per_revolution > 1700, "{choice:?}");
+}
+
+#[test]
+fn a_target_is_the_same_choice_for_any_number_of_workers_and_any_time() {
+    let request = many(json!({"accuracy": {"target": 0.05}}));
+    let settings = [(1, 0.0, 1.0), (8, 0.0, 1.0), (2, 500.0, 77.0)].map(|(workers, spent_s, reduction_s)| {
+        let resources = Resources { workers, spent_s, reductions: vec![(20, reduction_s)], most_modes: None };
+        choose(&request, &resources, &converging).0.unwrap().setting
+    });
+    assert_eq!([settings[0]; 3], settings);
+}
+
+#[test]
+fn a_budget_is_used() {
+    for seconds in [20.0, 50.0, 100.0, 200.0, 400.0, 1000.0, 4000.0] {
+        let request = many(json!({"budget": {"seconds": seconds}}));
+        let choice = choose(&request, &resources(), &converging).0.unwrap();
+        let used = choice.expected_wall_time_s / seconds;
+        assert!(used <= 0.9, "{seconds}: {choice:?}");
+        assert!(used >= 0.8 || choice.reason.contains("nothing finer"), "{seconds}: {used} {choice:?}");
+        println!("{seconds} {used:.2} {:?} {:.1e} {}", choice.setting, choice.estimated_error, choice.reason);
+    }
 }
 
 #[test]

@@ -96,7 +96,7 @@ pub fn error_estimate(
         controls.iter().all(|control| control.setting.modes_per_speed > request.modes_per_speed());
     let of_stress = points.iter().filter_map(|point| point.estimated_stress_error);
     let (known_of_stress, largest_of_stress) = (of_stress.clone().count(), of_stress.reduce(f64::max));
-    let target_met = accuracy.and_then(|Accuracy { target, of }| {
+    let target_met = accuracy.and_then(|Accuracy { target, of, .. }| {
         let (known, largest) = match of {
             AccuracyOf::Response => (points.len(), largest),
             AccuracyOf::Stress => (known_of_stress, largest_of_stress),

@@ -3,17 +3,23 @@
 //! - [`trial`]: one run at one setting, with what is compared and what it cost;
 //! - [`errors`]: how far a run is from a finer one;
 //! - [`study`], `grid`: a grid of settings against a reference (work and precision);
-//! - [`choice`], [`rung`]: the cheapest setting that meets a target, or the most accurate one that a budget pays for;
+//! - [`choice`]: the cheapest setting that meets a target (`target`), or the most accurate one that a budget pays for (`budget`), from
+//!   a [`climb`] over [`rung`]s and what lies `beside` them;
 //! - [`modes`]: the same for a modal analysis, from its reductions;
 //! - [`control`]: the error of a finished sweep, from some of its speeds at a finer setting.
 
+mod beside;
+mod budget;
+mod candidate;
 pub mod choice;
 #[cfg(test)]
 mod choice_tests;
+pub mod climb;
 pub mod control;
 pub mod errors;
 pub(crate) mod grid;
 pub mod modes;
 pub mod rung;
 pub mod study;
+mod target;
 pub mod trial;

@@ -2,7 +2,7 @@
 //!
 //! Nothing is estimated here: every reduction holds its ten lowest frequencies of each nodal diameter against the full sector's.
 
-use crate::accuracy::choice::{PLANNED_SHARE, Resources};
+use crate::accuracy::climb::{PLANNED_SHARE, Resources};
 use crate::accuracy::rung::finer_modes;
 use crate::error::Violation;
 use crate::request::Accuracy;

@@ -1,8 +1,9 @@
 //! Pilot runs at a setting and the finer ones beside it: what error they show.
 
+use crate::accuracy::candidate::{Candidate, Price, setting};
 use crate::accuracy::errors::errors;
 use crate::request::auto_or::MOST_STEPS;
-use crate::request::{AccuracyOf, AutoOr, SchemeChoice, Setting};
+use crate::request::{AccuracyOf, SchemeChoice, Setting};
 use crate::resolve::limits;
 use crate::resolved::{Aim, Modes, ResolvedSweep, TrialRequest};
 use crate::result::{Errors, Pilot, Trial};
@@ -67,6 +68,8 @@ pub(super) fn estimate(difference: &Errors, of: AccuracyOf) -> Option<f64> {
 #[derive(Debug, Clone)]
 pub(super) struct Rung {
     pub(super) modes: u32,
+    /// Of the runs with more modes.
+    pub(super) finer: u32,
     pub(super) steps: u32,
     /// Infinite where a run of a pair was completed and the other was not.
     pub(super) error_of_modes: f64,
@@ -74,17 +77,37 @@ pub(super) struct Rung {
     /// Standard error of the level where a response does not repeat, and the speed where it is largest.
     pub(super) spread: f64,
     pub(super) spread_at: f64,
-    /// Mean times of a run, s: set-up, one step of each of its revolutions, and the same of the runs with more modes.
-    pub(super) set_up_s: f64,
-    pub(super) step_s: f64,
-    pub(super) finer_step_s: f64,
+    /// Of a run, and of one with more modes.
+    pub(super) price: Price,
+    pub(super) finer_price: Price,
     pub(super) pilots: Vec<Pilot>,
 }
 
 impl Rung {
-    /// What a finer setting would remove.
-    pub(super) fn error_of_setting(&self) -> f64 {
-        self.error_of_modes + self.error_of_steps
+    /// The setting itself.
+    pub(super) fn itself(&self) -> Candidate {
+        Candidate {
+            setting: setting(self.modes, SchemeChoice::ExactModal, self.steps),
+            error_of_modes: self.error_of_modes,
+            error_of_steps: self.error_of_steps,
+            difference: 0.0,
+            spread: self.spread,
+            estimated: self.estimated(),
+            price: self.price,
+            controls: self.price,
+        }
+    }
+
+    /// The setting of the runs with more modes. If the error is at most `SAFETY` times the difference, theirs is at most what is left of
+    /// it when the difference is taken away.
+    pub(super) fn finer(&self) -> Candidate {
+        Candidate {
+            setting: setting(self.finer, SchemeChoice::ExactModal, self.steps),
+            error_of_modes: (1.0 - 1.0 / SAFETY) * self.error_of_modes,
+            price: self.finer_price,
+            controls: self.finer_price,
+            ..self.itself()
+        }
     }
 
     /// Pilot speeds that carry an estimate.
@@ -93,14 +116,7 @@ impl Rung {
     }
 
     /// Adds a pilot speed: the run, and those with more modes and more steps. `before` is the error of fewer modes.
-    fn add(
-        &mut self,
-        speed: f64,
-        [run, more_modes, more_steps]: [&Trial; 3],
-        of: AccuracyOf,
-        before: f64,
-        time_s: f64,
-    ) {
+    fn add(&mut self, pilot: Pilot, [run, more_modes, more_steps]: [&Trial; 3], of: AccuracyOf, before: f64) {
         let error = |finer: &Trial| match (run.is_completed(), finer.is_completed()) {
             (true, true) => errors(run, finer).and_then(|difference| estimate(&difference, of)),
             // A speed that ends early at any setting has no response whose error could be told.
@@ -116,20 +132,16 @@ impl Rung {
         if !run.repeats() && !more_modes.repeats() {
             let spread = errors(run, more_modes).and_then(|e| e.amplitude_spread).unwrap_or(0.0);
             if spread > self.spread {
-                (self.spread, self.spread_at) = (spread, speed);
+                (self.spread, self.spread_at) = (spread, pilot.speed_rad_s);
             }
         }
         self.error_of_modes = self.error_of_modes.max(error_of_modes.unwrap_or(0.0));
         self.error_of_steps = self.error_of_steps.max(error_of_steps.unwrap_or(0.0));
         let finite = |error: Option<f64>| error.filter(|error| error.is_finite());
         self.pilots.push(Pilot {
-            speed_rad_s: speed,
-            modes_per_speed: self.modes,
-            steps_per_revolution: self.steps,
-            verdict: run.point.settling.as_ref().map(|settling| settling.verdict),
             error_of_modes: finite(error_of_modes),
             error_of_steps: finite(error_of_steps),
-            time_s,
+            ..pilot
         });
     }
 }
@@ -146,13 +158,9 @@ pub(super) struct Pilots<'a, 'b> {
 }
 
 impl<'a> Pilots<'a, '_> {
+    /// Of the climb.
     pub(super) fn setting(&self, modes_per_speed: u32, steps_per_revolution: u32) -> Setting {
-        Setting {
-            modes_per_speed,
-            scheme: SchemeChoice::ExactModal,
-            kept_modes: AutoOr::Auto,
-            steps_per_revolution,
-        }
+        setting(modes_per_speed, SchemeChoice::ExactModal, steps_per_revolution)
     }
 
     pub(super) fn first_modes(&self) -> u32 {
@@ -161,10 +169,16 @@ impl<'a> Pilots<'a, '_> {
 
     pub(super) fn first_steps(&self) -> u32 {
         let (automatic, _) = steps_for_contact(self.request);
+        let first = (0.5 * automatic).max(self.least_steps());
+        Setting::aligned_steps(first.ceil() as u32, self.request, self.sectors)
+    }
+
+    /// Fewer steps say nothing of the scene.
+    pub(super) fn least_steps(&self) -> f64 {
+        let (automatic, _) = steps_for_contact(self.request);
         // No step may jump a rod of a coating.
-        let least = if self.request.scene.abradable.is_some() { automatic } else { 0.5 * automatic };
-        let least = least.max(f64::from(2 * self.request.max_engine_order + 1)).min(f64::from(MOST_STEPS));
-        Setting::aligned_steps(least.ceil() as u32, self.request, self.sectors)
+        let least = if self.request.scene.abradable.is_some() { automatic } else { 1.0 };
+        least.max(f64::from(2 * self.request.max_engine_order + 1)).min(f64::from(MOST_STEPS))
     }
 
     /// Whose error is judged.
@@ -175,7 +189,7 @@ impl<'a> Pilots<'a, '_> {
         }
     }
 
-    fn find(&self, speed: f64, setting: Setting) -> Result<&'a Trial, Box<TrialRequest>> {
+    pub(super) fn find(&self, speed: f64, setting: Setting) -> Result<&'a Trial, Box<TrialRequest>> {
         let request = TrialRequest::new(self.request, speed, setting);
         let request = match self.of() {
             AccuracyOf::Response => request,
@@ -196,41 +210,66 @@ impl<'a> Pilots<'a, '_> {
         let mut missing: Vec<TrialRequest> = Vec::new();
         let mut rung = Rung {
             modes,
+            finer,
             steps,
             error_of_modes: 0.0,
             error_of_steps: 0.0,
             spread: 0.0,
             spread_at: 0.0,
-            set_up_s: 0.0,
-            step_s: 0.0,
-            finer_step_s: 0.0,
+            price: Price::default(),
+            finer_price: Price::default(),
             pilots: Vec::new(),
         };
+        let mut sums_s = [0.0; 3];
         for (index, &speed) in self.speeds.iter().enumerate() {
             let found = settings.map(|setting| self.find(speed, setting));
             if let [Ok(run), Ok(more_modes), Ok(more_steps)] = found {
                 let before = below.and_then(|below| below.pilots[index].error_of_modes).unwrap_or(0.0);
-                let integration = &self.request.integration;
-                let planned = |trial: &Trial| match self.request.modes {
-                    // Other speeds may not repeat as soon as these, and a budget is kept.
-                    Modes::Sought(Aim::Budget(_)) => f64::from(integration.revolutions()),
-                    Modes::Sought(Aim::Accuracy(_)) | Modes::Given(_) => trial.revolutions(integration),
-                };
-                let time_s = run.cost.of_run(run.revolutions(integration));
-                rung.add(speed, [run, more_modes, more_steps], self.of(), before, time_s);
-                let share = 1.0 / self.speeds.len() as f64;
-                rung.set_up_s += share * run.cost.set_up_s;
-                rung.step_s += share * planned(run) * run.cost.per_revolution_s / f64::from(steps);
-                rung.finer_step_s +=
-                    share * planned(more_modes) * more_modes.cost.per_revolution_s / f64::from(steps);
+                let pilot = self.pilot(speed, settings[0], run);
+                rung.add(pilot, [run, more_modes, more_steps], self.of(), before);
+                // A run that was not completed says nothing of what more steps take: as much again, to be safe.
+                let doubled =
+                    if more_steps.is_completed() { self.run_s(more_steps) } else { 2.0 * self.run_s(run) };
+                let seconds = [self.run_s(run), doubled, self.run_s(more_modes)];
+                for (sum, seconds) in sums_s.iter_mut().zip(seconds) {
+                    *sum += seconds / self.speeds.len() as f64;
+                }
             } else {
                 missing.extend(found.into_iter().filter_map(Result::err).map(|request| *request));
             }
         }
+        let [run_s, doubled_s, finer_s] = sums_s;
+        rung.price = Price::of(steps, run_s, doubled_s);
+        rung.finer_price = rung.price.through(steps, finer_s);
         // Few modes first: what their reduction takes tells what the next one will.
         let fewest = missing.iter().map(|request| request.sweep.modes_per_speed()).min();
         missing.retain(|request| Some(request.sweep.modes_per_speed()) == fewest);
         if missing.is_empty() { Ok(rung) } else { Err(missing) }
+    }
+
+    /// What a run is told as, without errors.
+    pub(super) fn pilot(&self, speed_rad_s: f64, setting: Setting, run: &Trial) -> Pilot {
+        Pilot {
+            speed_rad_s,
+            modes_per_speed: setting.modes_per_speed,
+            scheme: setting.scheme,
+            steps_per_revolution: setting.steps_per_revolution,
+            verdict: run.point.settling.as_ref().map(|settling| settling.verdict),
+            error_of_modes: None,
+            error_of_steps: None,
+            difference: None,
+            time_s: run.cost.of_run(run.revolutions(&self.request.integration)),
+        }
+    }
+
+    /// What a run like `run` takes in the sweep, s.
+    pub(super) fn run_s(&self, run: &Trial) -> f64 {
+        let integration = &self.request.integration;
+        run.cost.of_run(match self.request.modes {
+            // Other speeds may not repeat as soon as these, and a budget is kept.
+            Modes::Sought(Aim::Budget(_)) => f64::from(integration.revolutions()),
+            Modes::Sought(Aim::Accuracy(_)) | Modes::Given(_) => run.revolutions(integration),
+        })
     }
 
     /// Why no pilot speed carries an estimate, if none does.

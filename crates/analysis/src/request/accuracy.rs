@@ -18,6 +18,16 @@ pub struct Accuracy {
     /// Of a sweep: whose error it is.
     #[serde(default, skip_serializing_if = "AccuracyOf::is_response")]
     pub of: AccuracyOf,
+    /// Wall time of the choice at most, s: reductions that are not stored and pilot runs. What is not chosen by then fails the job; the
+    /// next one with the same scene goes on from what was computed.
+    #[serde(default = "an_hour")]
+    #[cfg_attr(feature = "schema", schema(default = 3600.0, minimum = 1.0, maximum = 1e7))]
+    pub seconds: f64,
+}
+
+/// Long enough for a climb on a sector of 120,000 DOF, short enough to be waited for.
+fn an_hour() -> f64 {
+    3600.0
 }
 
 /// Whose error is to stay below a target.

@@ -3,7 +3,7 @@
 pub(crate) const MODES_PER_SPEED: u32 = 500;
 pub(crate) const CONTROL_SPEEDS: u32 = 100;
 pub(crate) const TARGET: std::ops::RangeInclusive<f64> = 1e-9..=0.5;
-pub(crate) const BUDGET_S: std::ops::RangeInclusive<f64> = 1.0..=1e7;
+pub(crate) const SECONDS: std::ops::RangeInclusive<f64> = 1.0..=1e7;
 pub(crate) const REVOLUTIONS: u32 = 100_000;
 pub(crate) const ENGINE_ORDER: u32 = 1_000;
 /// Each has a table of critical speeds, with the whole request in it.

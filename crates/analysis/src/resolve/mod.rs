@@ -169,11 +169,15 @@ fn check_choice(
             format!("a relative error between {:e} and {}", limits::TARGET.start(), limits::TARGET.end()),
         );
     }
-    if let Some(Budget { seconds }) = budget {
+    let times = [
+        ("/accuracy/seconds", accuracy.map(|accuracy| accuracy.seconds)),
+        ("/budget/seconds", budget.map(|budget| budget.seconds)),
+    ];
+    for (pointer, seconds) in times {
         found.require(
-            limits::BUDGET_S.contains(&seconds),
-            "/budget/seconds",
-            format!("a time between {} and {:e} s", limits::BUDGET_S.start(), limits::BUDGET_S.end()),
+            seconds.is_none_or(|seconds| limits::SECONDS.contains(&seconds)),
+            pointer,
+            format!("a time between {} and {:e} s", limits::SECONDS.start(), limits::SECONDS.end()),
         );
     }
     found.require(accuracy.is_none() || budget.is_none(), "/budget", "give either an accuracy or a budget");

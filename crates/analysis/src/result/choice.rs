@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::request::{Accuracy, Budget, Setting};
+use crate::request::{Accuracy, Budget, SchemeChoice, Setting};
 use crate::resolved::{ResolvedModalAnalysis, ResolvedSweep};
 use rubmap_wheel::response::settling::Verdict;
 
@@ -25,12 +25,20 @@ pub struct Choice {
     pub error_of_modes: f64,
     /// Part of it that more steps would remove.
     pub error_of_steps: f64,
+    /// Part of it that the difference from a finer setting adds, which is by `exact_modal`; 0 where the setting is one of those. The two parts
+    /// above are that setting's then.
+    #[serde(default)]
+    pub difference: f64,
     /// Part of it that only a longer window would remove: the standard error of levels that do not repeat.
     pub spread: f64,
     /// Pilot speeds that carry these estimates; at the others no run was completed.
     pub estimated_at: u32,
-    /// Expected wall time of all speeds and of those that are simulated again, s; of a budget if no march ends before its limit.
+    /// Expected wall time of all speeds and of those that are simulated again with their reduction, s; of a budget if no march ends
+    /// before its limit.
     pub expected_wall_time_s: f64,
+    /// Wall time from the beginning of the job to this choice, s; 0 in a plan.
+    #[serde(default)]
+    pub spent_s: f64,
     /// Why, in words.
     pub reason: String,
     /// Speeds of the pilot runs, rad/s.
@@ -55,6 +63,9 @@ pub struct Pilot {
     pub speed_rad_s: f64,
     /// Fixed-interface modes kept per stiffness speed and nodal diameter.
     pub modes_per_speed: u32,
+    /// How time was stepped.
+    #[serde(default = "of_the_climb")]
+    pub scheme: SchemeChoice,
     /// Time steps per revolution.
     pub steps_per_revolution: u32,
     /// Steady-state verdict; absent where the run was not completed.
@@ -66,8 +77,16 @@ pub struct Pilot {
     /// The same for more steps.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub error_of_steps: Option<f64>,
+    /// Of a setting that was held against a finer one of the climb: the difference from that; absent where the two cannot be compared.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub difference: Option<f64>,
     /// Computing time of this run, s.
     pub time_s: f64,
+}
+
+/// Choices of earlier versions knew no other scheme.
+fn of_the_climb() -> SchemeChoice {
+    SchemeChoice::ExactModal
 }
 
 /// The modes that were chosen, and why.

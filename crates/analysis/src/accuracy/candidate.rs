@@ -1,0 +1,75 @@
+//! A setting that could be taken, with its estimated error and what it would cost.
+
+use crate::request::{AutoOr, SchemeChoice, Setting};
+
+/// Computing time of a run with any number of steps per revolution, the mean of the pilot speeds. Contact takes much of it that does not
+/// grow with the steps.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Price {
+    fixed_s: f64,
+    step_s: f64,
+}
+
+impl Price {
+    /// Of what takes `seconds` with `steps`, and `doubled_s` with twice as many.
+    pub(super) fn of(steps: u32, seconds: f64, doubled_s: f64) -> Self {
+        // No time falls with the steps or grows faster than they do; what seems to was measured badly.
+        let grown = (doubled_s - seconds).clamp(0.0, seconds);
+        Self { fixed_s: seconds - grown, step_s: grown / f64::from(steps) }
+    }
+
+    /// Of a run with so many steps per revolution, s.
+    pub(super) fn of_run(self, steps: u32) -> f64 {
+        self.fixed_s + self.step_s * f64::from(steps)
+    }
+
+    /// Of other runs like these that take `seconds` with `steps`.
+    pub(super) fn through(self, steps: u32, seconds: f64) -> Self {
+        let factor = seconds / self.of_run(steps).max(f64::MIN_POSITIVE);
+        Self { fixed_s: factor * self.fixed_s, step_s: factor * self.step_s }
+    }
+}
+
+/// A setting that could be taken.
+#[derive(Debug, Clone)]
+pub(super) struct Candidate {
+    pub(super) setting: Setting,
+    /// What more modes and more steps would remove; of a setting held against another one, of that.
+    pub(super) error_of_modes: f64,
+    pub(super) error_of_steps: f64,
+    /// What the difference from the setting that it was held against adds.
+    pub(super) difference: f64,
+    /// Standard error of levels that do not repeat.
+    pub(super) spread: f64,
+    /// Pilot speeds that carry the estimate.
+    pub(super) estimated: usize,
+    pub(super) price: Price,
+    /// Of a run with its modes by the scheme of the control runs.
+    pub(super) controls: Price,
+}
+
+impl Candidate {
+    /// What another setting would remove.
+    pub(super) fn error_of_setting(&self) -> f64 {
+        self.error_of_modes + self.error_of_steps + self.difference
+    }
+
+    pub(super) fn error(&self) -> f64 {
+        self.error_of_setting() + self.spread
+    }
+
+    /// With more steps: their error falls with the first order, to be safe.
+    pub(super) fn with_steps(&self, steps: u32) -> Self {
+        let gain = f64::from(self.setting.steps_per_revolution) / f64::from(steps);
+        Self {
+            setting: Setting { steps_per_revolution: steps, ..self.setting },
+            error_of_steps: gain * self.error_of_steps,
+            ..self.clone()
+        }
+    }
+}
+
+/// A setting of a scheme that integrates as many modes as its step carries.
+pub(super) fn setting(modes_per_speed: u32, scheme: SchemeChoice, steps_per_revolution: u32) -> Setting {
+    Setting { modes_per_speed, scheme, kept_modes: AutoOr::Auto, steps_per_revolution }
+}
