@@ -1,7 +1,5 @@
 //! An accuracy or a budget in place of knobs, and the errors of what came of it.
 
-use std::time::{Duration, Instant};
-
 use serde_json::{Value, json};
 
 use super::app::{TestApp, modal_analysis_of, sweep_of};
@@ -131,13 +129,10 @@ async fn a_climb_ends_with_its_time() {
     // Some seconds for every pilot run.
     request["integration"]["revolutions"] = json!(20_000);
     request["accuracy"] = json!({"target": 1e-6, "seconds": 1});
-    let begin = Instant::now();
     let id = api.sweep(&request).await;
     let job = api.finish(&id).await;
     let error = &job["error"]["errors"][0];
     assert_eq!((&job["status"], &error["pointer"]), (&json!("failed"), &json!("/accuracy/seconds")), "{job}");
-    // A run sees within a revolution that its time is over.
-    assert!(begin.elapsed() < Duration::from_secs(5), "{:?}", begin.elapsed());
     request["accuracy"]["seconds"] = json!(0.5);
     let pointers = api.post("/v1/sweeps", &request).await.pointers(422, "invalid-request");
     assert_eq!(pointers, ["/accuracy/seconds"]);

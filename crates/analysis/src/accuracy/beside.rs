@@ -1,4 +1,4 @@
-//! Settings that are cheaper than those of the climb, each held against a run of it that has more modes and keeps the mass.
+//! Settings beside those of the climb, each held against a run of it that has at least as many modes and steps and keeps the mass.
 //!
 //! The error of that run is known from the climb; that of a setting beside it is at most the sum of the two. Where the difference
 //! is all there is, it is taken as often as in every estimate, so that control runs will say no more than the pilot runs did.
@@ -6,7 +6,7 @@
 use crate::accuracy::candidate::{Candidate, Price, setting};
 use crate::accuracy::errors::errors;
 use crate::accuracy::rung::{Pilots, Rung, SAFETY};
-use crate::request::{AccuracyOf, SchemeChoice, Setting};
+use crate::request::{AccuracyOf, SchemeChoice, Setting, SweepDirection};
 use crate::resolved::TrialRequest;
 use crate::result::{Errors, Pilot, Quantity, Trial};
 
@@ -48,13 +48,15 @@ impl Pilots<'_, '_> {
         as_meant.then(|| setting(modes, way.scheme, taken))
     }
 
-    /// Whether the boundary may go without mass: something touches, and nothing there depends on the scheme.
+    /// Whether the boundary may go without mass: something touches, nothing there depends on the scheme, and no speed begins as another
+    /// one ended, of which only the modes that are kept would be handed on.
     fn may_lose_mass(&self) -> bool {
         let scene = &self.request.scene;
         scene.contact.is_some()
             && scene.friction.is_none()
             && scene.flexible_casing.is_none()
             && scene.initial.is_none()
+            && self.request.sweep == SweepDirection::Independent
     }
 
     /// What `setting` shows at every pilot speed beside the runs of `rung` with more modes; or the missing runs. `controls` is the
@@ -100,11 +102,11 @@ impl Pilots<'_, '_> {
     }
 }
 
-/// How far a run is from the one with mass and more modes, chance included; infinite where they are of different kinds, none where
-/// neither was completed.
+/// How far a run is from the one with mass and more modes, chance included; infinite where they are of different kinds or the run could
+/// not begin, none where both began and neither was completed.
 fn difference(run: &Trial, finer: &Trial, of: AccuracyOf) -> Option<f64> {
     match (run.is_completed(), finer.is_completed()) {
-        (false, false) => None,
+        (false, false) if run.unknowns > 0 => None,
         (true, true) if run.repeats() == finer.repeats() => {
             Some(errors(run, finer).and_then(|found| judged(&found, of)).unwrap_or(f64::INFINITY))
         }

@@ -52,7 +52,7 @@ impl Climb<'_, '_> {
             }
             let with_enough_steps = self.enough_steps(&rung.itself(), left);
             let of_modes = rung.error_of_modes > with_enough_steps.error_of_steps;
-            if !of_modes || !self.pays_for_more(rung, finer, left) {
+            if !self.goes_on(rung, finer, of_modes, left) {
                 break;
             }
             modes = finer;
@@ -78,7 +78,11 @@ impl Climb<'_, '_> {
         }
         let spent = self.resources.spent_s;
         let used = spent + self.sweep_wall(&taken);
-        let rest = if used < USED_SHARE * seconds { "; nothing finer fits into the rest of it" } else { "" };
+        let rest = if used < USED_SHARE * seconds {
+            "; nothing finer that was tried fits into the rest of it, or more steps would say nothing more"
+        } else {
+            ""
+        };
         let reason = format!(
             "the smallest estimated error of what fits into {seconds} s, {spent:.0} s of which had passed when it was chosen{rest}"
         );
@@ -89,8 +93,9 @@ impl Climb<'_, '_> {
         self.sweep_wall(candidate) <= PLANNED_SHARE * left
     }
 
-    /// Whether the next rung's pilot runs are known, or they and the sweep there fit into the `left` seconds.
-    fn pays_for_more(&self, rung: &Rung, finer: u32, left: f64) -> bool {
+    /// Whether the next rung's pilot runs are known, or, where the error is `of_modes`, they and the sweep there fit into the `left`
+    /// seconds.
+    fn goes_on(&self, rung: &Rung, finer: u32, of_modes: bool, left: f64) -> bool {
         let Some(finest) = self.finer(finer) else { return false };
         if self.pilots.rung((finer, finest, rung.steps), Some(rung)).is_ok() {
             return true;
@@ -99,7 +104,7 @@ impl Climb<'_, '_> {
         let run = |steps| rung.finer_price.of_run(steps);
         let both = run(2 * rung.steps) + MODES_DOUBLED * run(rung.steps);
         let runs = self.wall(self.pilots.speeds.len(), both);
-        self.pays(runs + self.reduction_s(finest), &rung.finer(), left)
+        of_modes && self.pays(runs + self.reduction_s(finest), &rung.finer(), left)
     }
 
     /// Whether pilot runs that take `pilots_s` with their reduction, and the sweep at what they tell the error of, fit into the `left`

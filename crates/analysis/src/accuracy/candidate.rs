@@ -37,6 +37,8 @@ pub(super) struct Candidate {
     /// What more modes and more steps would remove; of a setting held against another one, of that.
     pub(super) error_of_modes: f64,
     pub(super) error_of_steps: f64,
+    /// Steps per revolution of which this is the error: of a setting held against another one, of that.
+    pub(super) error_at_steps: u32,
     /// What the difference from the setting that it was held against adds.
     pub(super) difference: f64,
     /// Standard error of levels that do not repeat.
@@ -58,9 +60,9 @@ impl Candidate {
         self.error_of_setting() + self.spread
     }
 
-    /// With more steps: their error falls with the first order, to be safe.
+    /// With more steps: their error falls with the first order, to be safe, once there are more than it was measured with.
     pub(super) fn with_steps(&self, steps: u32) -> Self {
-        let gain = f64::from(self.setting.steps_per_revolution) / f64::from(steps);
+        let gain = (f64::from(self.error_at_steps) / f64::from(steps)).min(1.0);
         Self {
             setting: Setting { steps_per_revolution: steps, ..self.setting },
             error_of_steps: gain * self.error_of_steps,
@@ -72,4 +74,28 @@ impl Candidate {
 /// A setting of a scheme that integrates as many modes as its step carries.
 pub(super) fn setting(modes_per_speed: u32, scheme: SchemeChoice, steps_per_revolution: u32) -> Setting {
     Setting { modes_per_speed, scheme, kept_modes: AutoOr::Auto, steps_per_revolution }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// One held against a run of 2,000 steps, itself with 1,000.
+    #[test]
+    fn the_error_of_steps_falls_beyond_those_it_was_measured_with() {
+        let candidate = Candidate {
+            setting: setting(20, SchemeChoice::ExactModal, 1000),
+            error_of_modes: 0.01,
+            error_of_steps: 0.02,
+            error_at_steps: 2000,
+            difference: 0.005,
+            spread: 0.0,
+            estimated: 4,
+            price: Price::default(),
+            controls: Price::default(),
+        };
+        for (steps, expected) in [(1000, 0.02), (1500, 0.02), (2000, 0.02), (4000, 0.01)] {
+            assert_eq!(candidate.with_steps(steps).error_of_steps, expected, "{steps}");
+        }
+    }
 }

@@ -200,7 +200,6 @@ fn a_budget_is_used() {
         let used = choice.expected_wall_time_s / seconds;
         assert!(used <= 0.9, "{seconds}: {choice:?}");
         assert!(used >= 0.8 || choice.reason.contains("nothing finer"), "{seconds}: {used} {choice:?}");
-        println!("{seconds} {used:.2} {:?} {:.1e} {}", choice.setting, choice.estimated_error, choice.reason);
     }
 }
 

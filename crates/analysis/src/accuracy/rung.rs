@@ -90,6 +90,7 @@ impl Rung {
             setting: setting(self.modes, SchemeChoice::ExactModal, self.steps),
             error_of_modes: self.error_of_modes,
             error_of_steps: self.error_of_steps,
+            error_at_steps: self.steps,
             difference: 0.0,
             spread: self.spread,
             estimated: self.estimated(),
@@ -98,8 +99,8 @@ impl Rung {
         }
     }
 
-    /// The setting of the runs with more modes. If the error is at most `SAFETY` times the difference, theirs is at most what is left of
-    /// it when the difference is taken away.
+    /// The setting of the runs with more modes. Of an error that is `SAFETY` times the difference they have what is left when the
+    /// difference is taken away, if more modes bring a response ever nearer from one side; the part of the steps is that of fewer modes.
     pub(super) fn finer(&self) -> Candidate {
         Candidate {
             setting: setting(self.finer, SchemeChoice::ExactModal, self.steps),

@@ -108,9 +108,9 @@ impl Climb<'_, '_> {
         let held = match (taken.difference > 0.0, taken.setting.scheme) {
             (false, _) => "",
             (true, SchemeChoice::MasslessBoundary) => {
-                "; the boundary may go without mass, since runs that keep it, with more modes or steps, differ by no more than that"
+                "; the boundary may go without mass, since runs that keep it, with at least as many modes and steps, differ by no more than that"
             }
-            (true, _) => "; it was held against runs with more modes or steps",
+            (true, _) => "; it was held against runs with at least as many modes and steps",
         };
         let beats = beats.map_or(String::new(), |beats| format!("; {beats}, which is not counted"));
         format!(

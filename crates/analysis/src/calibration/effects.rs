@@ -17,7 +17,7 @@ use rubmap_wheel::dynamics::schemes::Scheme;
 
 /// Whatever the effects are, the loop of scenes with effects and blades that no longer move alike; what an orbit costs.
 const ANY: &str = "any";
-/// Other forces than contact on the modes: a step that knows of them. What excitation costs, and
+/// Other forces than contact on the modes, all of which are then added up and counted. What excitation costs, and
 /// Coriolis forces and mistuning share.
 const DRIVEN: &str = "driven";
 

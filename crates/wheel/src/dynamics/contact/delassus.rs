@@ -81,7 +81,8 @@ impl Delassus {
         to + turns - from
     }
 
-    /// Writes into every sector of `gap`, next to its first number, the most by which `lambda` can move any gap of it.
+    /// Writes into every sector of `gap`, next to its first number (there are eight at least), the most by which `lambda` can move any
+    /// gap of it.
     #[inline(always)]
     fn reach(&self, active: &[usize], lambda: &[f64], gap: &mut [f64]) {
         let stride = self.stride;

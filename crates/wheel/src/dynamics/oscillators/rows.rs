@@ -83,7 +83,7 @@ impl RowBlock {
 }
 
 impl Rows {
-    /// Rows that are `of` these, `count × modes` of each nodal diameter.
+    /// Rows that are `of` these, `count × modes` of each nodal diameter, modes padded.
     pub(super) fn map(&self, of: impl Fn(usize, MatRef<'_, c64>) -> Mat<c64>) -> Self {
         let block = |(index, block): (usize, &RowBlock)| {
             RowBlock::padded(of(index, block.matrix(self.count).as_ref()).as_ref(), block.re.length)

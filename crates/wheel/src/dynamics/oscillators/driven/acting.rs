@@ -79,7 +79,7 @@ impl Acting {
 
     #[inline(always)]
     fn is_excited(&self, index: usize) -> bool {
-        !self.excitation.is_empty() && self.excited[index]
+        self.excited[index]
     }
 
     /// Those on the part of nodal diameter `index` that begins at `start`, of contact if it is `loaded`.

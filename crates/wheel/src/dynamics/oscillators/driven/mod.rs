@@ -7,8 +7,8 @@
 //! z⁺ − z⁻ = S (keep·d − pull·z + receptance·f + d),   d⁺ = z⁺ − z⁻ − d,   z⁺ = z + d⁺
 //! ```
 //!
-//! A step is completed before the next one is predicted, in two passes over the mode shapes: mistuning pulls at what all
-//! nodal diameters have come to. Contact forces move S R φᴴ f within a step.
+//! A step is completed before the next one is predicted: of one nodal diameter after the other, or with mistuning, which pulls
+//! at what all of them have come to, in two passes over the mode shapes. Contact forces move S R φᴴ f within a step.
 
 mod acting;
 mod turning;
@@ -379,8 +379,8 @@ impl Oscillators {
         from: &[Direction],
     ) -> Vec<Mat<c64>> {
         let of = |(harmonic, segment): (&ModalHarmonic, &Segment)| {
-            let modes = segment.integrated;
-            let receptance = &self.coefficients.receptance[segment.modes..][..modes];
+            let receptance = self.receptances(segment);
+            let modes = receptance.len();
             let shapes = harmonic.contact.as_ref();
             let source = Mat::from_fn(modes, from.len(), |m, k| from[k].of(shapes, m).conj() * receptance[m]);
             let target = Mat::from_fn(to.len(), modes, |k, m| to[k].of(shapes, m));
