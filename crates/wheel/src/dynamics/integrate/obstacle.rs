@@ -19,7 +19,7 @@ use super::step_flexibility::{is_turned, step_flexibility, symmetric_flexibility
 use super::surroundings::{CoatedSolver, Law, Surroundings};
 use super::tally::{ContactInterval, ContactTally};
 use super::trace::Trace;
-use rubmap_numerics::complementarity::active_set::{ActiveSetSolver, PivotStatistics};
+use rubmap_numerics::complementarity::active_set::ActiveSetSolver;
 use rubmap_numerics::complementarity::branches::BranchSolver;
 use rubmap_numerics::complementarity::factor::Factor;
 use rubmap_numerics::complementarity::{ComplementarityError, ContactOperator};
@@ -197,8 +197,14 @@ impl Obstacle {
                 allowed = coating.unworn().thickness();
                 let problem = (&self.delassus, self.predicted_gap.as_slice(), self.tolerance);
                 match solver {
-                    CoatedSolver::Symmetric(solver) => wear(solver, coating, problem, now)?,
-                    CoatedSolver::General(solver) => wear(solver, coating, problem, now)?,
+                    CoatedSolver::Symmetric(solver) => {
+                        wear(solver, coating, problem, now)?;
+                        (solver.active(), solver.lambda(), solver.gap(), solver.statistics())
+                    }
+                    CoatedSolver::General(solver) => {
+                        wear(solver, coating, problem, now)?;
+                        (solver.active(), solver.lambda(), solver.gap(), solver.statistics())
+                    }
                 }
             }
             Law::Plain => {
@@ -311,14 +317,14 @@ impl Obstacle {
     }
 }
 
-/// Penetrations and forces in front of a coating, which wears by them.
+/// Solves for penetrations and forces in front of a coating, which wears by them.
 #[inline(always)]
-fn wear<'a, F: Factor>(
-    solver: &'a mut BranchSolver<F>,
+fn wear<F: Factor>(
+    solver: &mut BranchSolver<F>,
     coating: &mut WornCoating,
     (w, predicted_gap, tolerance): (&Delassus, &[f64], f64),
     now: Instant,
-) -> Result<(&'a [usize], &'a [f64], &'a [f64], PivotStatistics), ComplementarityError> {
+) -> Result<(), ComplementarityError> {
     let law = |index: usize| {
         let (sector, row) = w.place(index);
         coating.law(coating.rod(now.step, sector, row), row)
@@ -329,7 +335,7 @@ fn wear<'a, F: Factor>(
         let rod = coating.rod(now.step, sector, row);
         coating.press(rod, row, -solver.gap()[index]);
     }
-    Ok((solver.active(), solver.lambda(), solver.gap(), solver.statistics()))
+    Ok(())
 }
 
 /// W of the scheme, with what the effects make of it.

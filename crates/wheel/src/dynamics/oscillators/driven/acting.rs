@@ -114,10 +114,8 @@ impl<S: Simd> Forces<'_, S> {
     #[inline(always)]
     pub(super) fn sum(&self, simd: S, m: usize) -> S::f64s {
         let mut sum = simd.splat_f64s(0.0);
-        for force in [self.contact, self.excitation, self.mistuning] {
-            if let Some(force) = force {
-                sum = simd.add_f64s(sum, force[m]);
-            }
+        for force in [self.contact, self.excitation, self.mistuning].into_iter().flatten() {
+            sum = simd.add_f64s(sum, force[m]);
         }
         sum
     }

@@ -323,8 +323,8 @@ impl Oscillators {
             for start in segment.parts() {
                 let swing = S::as_simd_f64s(&drive.swing[start..start + segment.length]).0;
                 let forces = drive.acting.on::<S>((index, segment), start, loads.is_some());
-                for m in 0..of.keep.len() {
-                    sums.count(simd, swing[m], of.loss[m], &forces, m);
+                for (m, (&swing, &loss)) in swing.iter().zip(of.loss).enumerate() {
+                    sums.count(simd, swing, loss, &forces, m);
                 }
             }
             if let Some((rows, out)) = &mut reading {
