@@ -20,7 +20,7 @@ const SECTORS: usize = 5;
 const NODES: usize = 3;
 const MODES: usize = 11;
 
-fn wheel() -> ModalWheel {
+fn wheel(coriolis: bool) -> ModalWheel {
     let harmonic = |harmonic: usize| {
         let shape = |row: usize, mode: usize| {
             // Without structure: rows must not depend on each other.
@@ -30,12 +30,14 @@ fn wheel() -> ModalWheel {
             };
             c64::new(number(0), if harmonic == 0 { 0.0 } else { number(1) })
         };
+        // Skew-symmetric.
+        let turned = |i: usize, j: usize| c64::from(0.3 * (j as f64 - i as f64).clamp(-1.0, 1.0));
         ModalHarmonic {
             harmonic,
             single: harmonic == 0,
             omega: (0..MODES).map(|mode| 4000.0 * (1 + mode) as f64 + 500.0 * harmonic as f64).collect(),
             contact: Mat::from_fn(3 * NODES, MODES, shape),
-            gyroscopic: None,
+            gyroscopic: coriolis.then(|| Mat::from_fn(MODES, MODES, turned)),
         }
     };
     let harmonics = (0..=SECTORS / 2).map(harmonic).collect();
@@ -53,8 +55,8 @@ fn contact_nodes() -> Vec<ContactNode> {
 }
 
 /// Allocations of a run of `revolutions` in contact.
-fn allocations(scheme: Scheme, effects: Effects<'_>, revolutions: usize) -> u64 {
-    let (wheel, contact_nodes) = (wheel(), contact_nodes());
+fn allocations(scheme: Scheme, coriolis: bool, effects: Effects<'_>, revolutions: usize) -> u64 {
+    let (wheel, contact_nodes) = (wheel(coriolis), contact_nodes());
     let casing = Casing {
         clearance: vec![0.25, 0.3, 0.35],
         restriction: Some(Restriction { count: 2, amplitude: 0.5, width_rad: 0.4, phase_rad: 0.1 }),
@@ -88,17 +90,20 @@ fn allocations(scheme: Scheme, effects: Effects<'_>, revolutions: usize) -> u64 
     counted.count_total
 }
 
-fn long_runs_take_no_more(scheme: Scheme, effects: Effects<'_>) {
+fn long_runs_take_no_more(scheme: Scheme, coriolis: bool, effects: Effects<'_>) {
+    let of = |revolutions: usize| allocations(scheme, coriolis, effects, revolutions);
     // What is made once for all runs is made.
-    allocations(scheme, effects, 2);
-    assert_eq!(allocations(scheme, effects, 12), allocations(scheme, effects, 2), "{scheme:?}");
+    of(2);
+    assert_eq!(of(12), of(2), "{scheme:?}");
 }
 
 #[test]
-fn without_effects() {
+fn without_effects_and_with_coriolis_forces() {
     for scheme in [Scheme::CentralDifferences, Scheme::ExactModal, Scheme::MasslessBoundary { kept_modes: 5 }]
     {
-        long_runs_take_no_more(scheme, Effects::default());
+        for coriolis in [false, true] {
+            long_runs_take_no_more(scheme, coriolis, Effects::default());
+        }
     }
 }
 
@@ -138,6 +143,8 @@ fn with_each_effect_and_with_all() {
         energies: false,
     };
     for effects in [friction, coating, casing, orbit, mistuning, excitation, all] {
-        long_runs_take_no_more(Scheme::ExactModal, effects);
+        for coriolis in [false, true] {
+            long_runs_take_no_more(Scheme::ExactModal, coriolis, effects);
+        }
     }
 }

@@ -52,7 +52,7 @@ function takesAll(integration) {
 /** How long choosing a setting may take, in words. */
 function atMost(settings) {
   if (settings?.accuracy) return `, for at most ${duration(settings.accuracy.seconds)}`;
-  return settings?.budget ? `; the whole job in ${duration(settings.budget.seconds)}` : '';
+  return settings?.budget ? `; the whole job is planned for ${duration(settings.budget.seconds)}` : '';
 }
 
 function shown(plan) {

@@ -52,8 +52,8 @@ pub struct SweepPlan {
     /// A budget has them for nothing; a job that still has to run them has less of it left.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub choice: Option<Choice>,
-    /// Speeds of the pilot runs that the job begins with, rad/s; absent where none are missing. Choosing takes no longer than
-    /// `settings.accuracy.seconds`, or all the job than `settings.budget.seconds`.
+    /// Speeds of the pilot runs that the job begins with, rad/s; absent where none are missing. Choosing may take
+    /// `settings.accuracy.seconds`; a budget is for all of the job.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pilot_speeds_rad_s: Option<Vec<f64>>,
     /// What its numbers will not be worth: a K(Ω) that cannot be trusted between the speeds at which the stiffness is given.

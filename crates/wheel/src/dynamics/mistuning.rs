@@ -82,13 +82,6 @@ pub(crate) struct Place {
     pub(crate) column: usize,
 }
 
-impl Place {
-    /// Starts of its real and, of a pair, imaginary part.
-    pub(crate) fn parts(self) -> impl Iterator<Item = usize> {
-        std::iter::once(self.re).chain(self.im)
-    }
-}
-
 impl ModalMistuning {
     /// `resolved` families of every nodal diameter are mistuned.
     pub(crate) fn new(
@@ -142,7 +135,7 @@ impl ModalMistuning {
 
     /// −∂f/∂z of every mistuned family between the Fourier columns: Re(w̄ C w), symmetric.
     pub(crate) fn stiffness(&self, places: &[Place]) -> Vec<Mat<f64>> {
-        let sectors = places.iter().map(|place| place.parts().count()).sum();
+        let sectors = places.iter().map(|place| 1 + usize::from(place.im.is_some())).sum();
         let of = |family: usize| {
             // Amplitudes per unit z: of a pair the real and the imaginary part of w and of jw.
             let mut amplitude = Mat::<f64>::zeros(sectors, sectors);

@@ -144,3 +144,58 @@ impl ContactOperator for Delassus {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SECTORS: usize = 7;
+    const NODES: usize = 2;
+
+    /// Blades that hardly feel each other: far gaps keep their q, which forces cannot close; all others are q + Wλ.
+    #[test]
+    fn gaps_keep_their_q_only_where_no_force_can_close_them() {
+        let fourier = SectorFourier::new(SECTORS);
+        let block = |harmonic: usize| {
+            Mat::from_fn(NODES, NODES, |i, j| {
+                let common = if i == j { 2.0 } else { 0.7 };
+                c64::new(
+                    common + 0.2 * (harmonic as f64).cos(),
+                    0.1 * (i as f64 - j as f64) * harmonic as f64,
+                )
+            })
+        };
+        let blocks: Vec<_> = (0..=SECTORS / 2).map(block).collect();
+        let w = Delassus::new(&blocks, 0.0, LANES, &fourier);
+        let mut kept = 0;
+        for turn in 0..SECTORS {
+            // Candidates may have forces of either sign.
+            let mut loads =
+                [(turn * LANES, 1.5), (turn * LANES + 1, -0.4), ((turn + 2) % SECTORS * LANES, 0.8)];
+            loads.sort_by_key(|&(index, _)| index);
+            let (active, lambda): (Vec<_>, Vec<_>) = loads.into_iter().unzip();
+            let q: Vec<f64> = (0..SECTORS * LANES)
+                .map(|i| {
+                    if i % LANES < NODES {
+                        1.5 * (1.3 * i as f64 + turn as f64).sin().abs() - 0.2
+                    } else {
+                        f64::INFINITY
+                    }
+                })
+                .collect();
+            let mut gap = vec![f64::NAN; q.len()];
+            w.gaps(&active, &lambda, &q, &mut gap);
+            for i in (0..q.len()).filter(|i| i % LANES < NODES) {
+                let moved: f64 = active.iter().zip(&lambda).map(|(&j, lambda)| w.entry(i, j) * lambda).sum();
+                let exact = q[i] + moved;
+                if gap[i] == q[i] && moved != 0.0 {
+                    kept += 1;
+                    assert!(exact > 0.0, "{turn} {i}: {exact}");
+                } else {
+                    assert!((gap[i] - exact).abs() < 1e-12, "{turn} {i}: {} {exact}", gap[i]);
+                }
+            }
+        }
+        assert!(kept > SECTORS && kept < SECTORS * SECTORS * NODES / 2, "{kept}");
+    }
+}

@@ -107,8 +107,7 @@ impl Obstacle {
     /// Forces of the last solution.
     #[inline(always)]
     pub(super) fn loads<'a>(&'a self, surroundings: Option<&'a Surroundings>) -> Loads<'a> {
-        let rows = surroundings.map_or(&self.rows, |surroundings| surroundings.applied(&self.rows));
-        Loads { rows, loaded: &self.loaded, force: &self.force }
+        Loads { rows: applied(&self.rows, surroundings), loaded: &self.loaded, force: &self.force }
     }
 
     /// The same, and the normal displacements to be read: rows and where their values go.
@@ -117,11 +116,8 @@ impl Obstacle {
         &'a mut self,
         surroundings: Option<&'a Surroundings>,
     ) -> (Loads<'a>, (&'a Rows, &'a mut [f64])) {
-        let rows = match surroundings {
-            Some(surroundings) => surroundings.applied(&self.rows),
-            None => &self.rows,
-        };
-        (Loads { rows, loaded: &self.loaded, force: &self.force }, (&self.rows, &mut self.harmonic))
+        let Self { rows, harmonic, loaded, force, .. } = self;
+        (Loads { rows: applied(rows, surroundings), loaded, force }, (rows, harmonic))
     }
 
     /// Normal displacements of all sectors from their Fourier coordinates, and g_p = c − p − nᵀu, whose smallest value
@@ -314,6 +310,15 @@ impl Obstacle {
             }
         }
         self.loaded.clear();
+    }
+}
+
+/// What contact forces act along where the normals are `rows`.
+#[inline(always)]
+fn applied<'a>(rows: &'a Rows, surroundings: Option<&'a Surroundings>) -> &'a Rows {
+    match surroundings {
+        Some(surroundings) => surroundings.applied(rows),
+        None => rows,
     }
 }
 
