@@ -19,8 +19,9 @@ mod oracle;
 const MODES: usize = 20;
 /// Phases by what their progress texts contain.
 const PHASES: [&str; 6] =
-    ["ordering", "factorisation", "fixed-interface modes", "full sector", "counting", "projecting"];
-/// Those that only prove the result.
+    ["ordering", "factorisation", "modes of nodal diameter", "full sector", "counting", "projecting"];
+/// Those that only prove the result. The full sector's modes at the given speeds, searched together with the basis's, are not
+/// among them.
 const CHECKS: [&str; 2] = ["full sector", "counting"];
 
 fn sector(parameters: &ImpellerParameters) -> SectorModel {
@@ -117,7 +118,7 @@ fn main() {
         let difference =
             wheel.comparison.iter().filter_map(|c| c.largest_difference()).fold(0.0f64, |m, d| m.max(d.0));
         println!(
-            "{name}: {wall:.1} s wall, {cpu:.1} s CPU, of it {proper:.1} s without the checks, peak {:.0} MB",
+            "{name}: {wall:.1} s wall, {cpu:.1} s CPU, of it {proper:.1} s without the checks of their own, peak {:.0} MB",
             memory("VmHWM")
         );
         println!("  largest residual {residual:.1e}, largest difference of ten frequencies {difference:.1e}");

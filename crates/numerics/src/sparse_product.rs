@@ -1,88 +1,100 @@
 //! Product of a sparse square matrix with many dense row vectors.
 
 use faer::sparse::SparseColMat;
-use faer::{Mat, MatRef};
 use pulp::{Simd, WithSimd};
 
-/// X A for a sparse A (`n × n`) and vectors in the rows of X (`width × n`): A x for each of them where A is symmetric, −A x
-/// where it is skew-symmetric.
+use super::panel::Panel;
+
+/// xᵀ A for a sparse A (`n × n`) and every vector of `x`: A x where A is symmetric, −A x where it is skew-symmetric.
 ///
-/// All values of one unknown lie together, so every entry of A is read once per group of vectors and meets contiguous
-/// memory (some ten times faster than a product column by column on the matrices of a sector).
-pub fn row_product(a: &SparseColMat<usize, f64>, x: MatRef<'_, f64>) -> Mat<f64> {
-    assert!(a.nrows() == a.ncols() && a.ncols() == x.ncols(), "one column of X per unknown");
+/// Every entry of A is read once per group of vectors and meets contiguous memory (some ten times faster than a product
+/// column by column on the matrices of a sector).
+pub fn row_product(a: &SparseColMat<usize, f64>, x: &Panel) -> Panel {
+    assert!(a.nrows() == a.ncols() && a.ncols() == x.size(), "one row of the panel per unknown");
     pulp::Arch::new().dispatch(Product { a, x })
 }
 
 struct Product<'a> {
     a: &'a SparseColMat<usize, f64>,
-    x: MatRef<'a, f64>,
+    x: &'a Panel,
 }
 
 impl WithSimd for Product<'_> {
-    type Output = Mat<f64>;
+    type Output = Panel;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Mat<f64> {
+    fn with_simd<S: Simd>(self, simd: S) -> Panel {
         let Self { a, x } = self;
-        let (width, n) = (x.nrows(), x.ncols());
-        let lanes = S::F64_LANES;
-        // Contiguous and padded to whole vectors, whatever the layout of X is.
-        let stride = width.next_multiple_of(lanes);
-        let vectors = stride / lanes;
-        let mut packed = vec![0.0; n * stride];
-        for j in 0..n {
-            for (to, from) in packed[j * stride..].iter_mut().zip(x.col(j).iter()) {
-                *to = *from;
-            }
-        }
-        let packed = S::as_simd_f64s(&packed).0;
-        let mut product = Mat::zeros(width, n);
-        let mut sums = vec![0.0; stride];
-        for j in 0..n {
-            let (rows, values) = (a.row_idx_of_col_raw(j), a.val_of_col(j));
-            let whole = S::as_mut_simd_f64s(&mut sums).0;
-            for (group, sums) in whole.chunks_mut(4).enumerate() {
-                let from = &packed[4 * group..];
-                match sums.len() {
-                    4 => column::<S, 4>(simd, rows, values, from, vectors, sums),
-                    3 => column::<S, 3>(simd, rows, values, from, vectors, sums),
-                    2 => column::<S, 2>(simd, rows, values, from, vectors, sums),
-                    _ => column::<S, 1>(simd, rows, values, from, vectors, sums),
+        let registers = x.registers::<S>();
+        let mut product = Panel::zeros(x.width(), x.size());
+        let (x, sums) = (x.as_registers::<S>(), product.as_mut_registers::<S>());
+        // Sums of three columns, one unknown of X and a factor are held at once.
+        let most = if S::REGISTER_COUNT < 32 { 3 } else { 6 };
+        let mut first = 0;
+        while first < a.ncols() {
+            let rows = a.row_idx_of_col_raw(first);
+            let same = |column: &usize| *column < a.ncols() && a.row_idx_of_col_raw(*column) == rows;
+            let count = 1 + (first + 1..first + 3).take_while(same).count();
+            let values = [0, 1, 2].map(|column| a.val_of_col(first + column.min(count - 1)));
+            let sums = &mut sums[first * registers..][..count * registers];
+            let mut group = 0;
+            while group < registers {
+                let from = &x[group..];
+                let width = most.min(registers - group);
+                macro_rules! columns {
+                    ($($G:literal)*) => {
+                        match (width, count) {
+                            $(
+                                ($G, 1) => columns::<S, $G, 1, $G>(simd, rows, values, from, registers, sums, group),
+                                ($G, 2) => columns::<S, $G, 2, { 2 * $G }>(simd, rows, values, from, registers, sums, group),
+                                ($G, _) => columns::<S, $G, 3, { 3 * $G }>(simd, rows, values, from, registers, sums, group),
+                            )*
+                            _ => unreachable!("at most {most} registers at once"),
+                        }
+                    };
                 }
+                columns!(1 2 3 4 5 6);
+                group += width;
             }
-            for (to, from) in product.col_mut(j).iter_mut().zip(&sums) {
-                *to = *from;
-            }
+            first += count;
         }
         product
     }
 }
 
-/// Σ_i a_i x_i over one column of A for `G` SIMD vectors, kept in registers.
+/// Σ_i a_i x_i over `C` columns of A with entries in the same `rows`, as those of a node have, for `G` registers: `N` = `C` `G` sums, all
+/// in registers.
 #[inline(always)]
-fn column<S: Simd, const G: usize>(
+fn columns<S: Simd, const G: usize, const C: usize, const N: usize>(
     simd: S,
     rows: &[usize],
-    values: &[f64],
+    values: [&[f64]; 3],
     x: &[S::f64s],
-    stride: usize,
+    registers: usize,
     sums: &mut [S::f64s],
+    group: usize,
 ) {
-    let mut kept = [simd.splat_f64s(0.0); G];
-    for (&row, &value) in rows.iter().zip(values) {
-        let from = &x[row * stride..][..G];
-        let factor = simd.splat_f64s(value);
-        for g in 0..G {
-            kept[g] = simd.mul_add_e_f64s(factor, from[g], kept[g]);
+    let mut kept = [simd.splat_f64s(0.0); N];
+    let [first, second, third] = values;
+    for (((&row, &first), &second), &third) in rows.iter().zip(first).zip(second).zip(third) {
+        let from = &x[row * registers..][..G];
+        let factors = [first, second, third];
+        for c in 0..C {
+            let factor = simd.splat_f64s(factors[c]);
+            for g in 0..G {
+                kept[c * G + g] = simd.mul_add_e_f64s(factor, from[g], kept[c * G + g]);
+            }
         }
     }
-    sums.copy_from_slice(&kept);
+    for c in 0..C {
+        sums[c * registers + group..][..G].copy_from_slice(&kept[c * G..][..G]);
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use faer::Mat;
     use faer::sparse::Triplet;
 
     #[test]
@@ -96,8 +108,13 @@ mod tests {
         }
         let a = SparseColMat::try_new_from_triplets(23, 23, &triplets).unwrap();
         for width in [0, 1, 8, 13, 40, 57] {
-            let x = Mat::from_fn(width, 23, entry);
-            assert!((row_product(&a, x.as_ref()) - &x * a.to_dense()).norm_max() < 1e-12);
+            let mut x = Panel::zeros(width, 23);
+            (0..23).for_each(|j| x.row_mut(j).iter_mut().enumerate().for_each(|(i, x)| *x = entry(i, j)));
+            let product = row_product(&a, &x);
+            let dense = Mat::from_fn(width, 23, entry) * a.to_dense();
+            for j in 0..23 {
+                assert!(product.row(j).iter().zip(dense.col(j).iter()).all(|(a, b)| (a - b).abs() < 1e-12));
+            }
         }
     }
 }

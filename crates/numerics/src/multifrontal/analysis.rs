@@ -46,12 +46,25 @@ impl Front {
         if i < self.pivots { self.start + i } else { self.rows[i - self.pivots] }
     }
 
+    /// Numbers of L and L_F.
+    fn entries(&self) -> usize {
+        self.pivots * (self.pivots + self.rows.len())
+    }
+
+    /// What a solve takes, in numbers of L: with every row it reads and writes, too.
+    fn solve_cost(&self) -> usize {
+        self.entries() - self.pivots * self.pivots / 2 + ROW_COST * (self.pivots + self.rows.len())
+    }
+
     /// Multiplications of its elimination.
     fn work(&self) -> f64 {
         let (p, r) = (self.pivots as f64, self.rows.len() as f64);
         p * p * p / 3.0 + p * p * r + p * r * r
     }
 }
+
+/// Numbers of L in the time of which a solve reads and writes a row.
+const ROW_COST: usize = 16;
 
 /// Subtrees with less than this share of the whole work are not split further: enough pieces for a few threads, and
 /// never so many that their updates fill the memory.
@@ -88,14 +101,14 @@ impl Analysis {
             front_of[start..start + pivots].fill(fronts.len());
             fronts.push(Front { start, pivots, rows, children: Vec::new() });
         }
-        let mut roots = Vec::new();
         for child in 0..fronts.len() {
-            match fronts[child].rows.first() {
-                Some(&row) if row < eliminated => fronts[front_of[row]].children.push(child),
-                Some(_) => roots.push(child),
-                None => {}
+            if let Some(&row) = fronts[child].rows.first().filter(|&&row| row < eliminated) {
+                fronts[front_of[row]].children.push(child);
             }
         }
+        let fronts = merged(fronts);
+        let reaches = |&front: &usize| fronts[front].rows.first().is_some_and(|&row| row >= eliminated);
+        let roots = (0..fronts.len()).filter(reaches).collect();
         let (subtrees, top) = split(&fronts);
         Self { size, eliminated, fronts, roots, subtrees, top }
     }
@@ -107,7 +120,7 @@ impl Analysis {
 
     /// Numbers in L and L_F.
     pub fn factor_entries(&self) -> usize {
-        self.fronts.iter().map(|front| front.pivots * (front.pivots + front.rows.len())).sum()
+        self.fronts.iter().map(Front::entries).sum()
     }
 
     /// Numbers held at once beside the factor while it is made, at most: updates on their way up, and the boundary.
@@ -124,6 +137,34 @@ impl Analysis {
         }
         most + (self.size - self.eliminated).pow(2)
     }
+}
+
+/// Takes a front together with all below it wherever a solve is then cheaper: zeros are multiplied, but fewer rows are moved.
+fn merged(fronts: Vec<Front>) -> Vec<Front> {
+    let mut kept: Vec<Front> = Vec::with_capacity(fronts.len());
+    // Where each front has gone.
+    let mut place = Vec::with_capacity(fronts.len());
+    for mut front in fronts {
+        front.children.iter_mut().for_each(|child| *child = place[*child]);
+        let first = kept.len() - front.children.len();
+        // Their rows then lie just before its own.
+        let last_and_leaves = front.children.iter().copied().eq(first..kept.len())
+            && kept[first..].iter().all(|child| child.children.is_empty());
+        if let Some(child) = kept.get(first).filter(|_| last_and_leaves) {
+            let (start, pivots) = (child.start, front.start + front.pivots - child.start);
+            let separate: usize = kept[first..].iter().chain([&front]).map(Front::solve_cost).sum();
+            let whole = Front { start, pivots, rows: front.rows, children: Vec::new() };
+            if whole.solve_cost() <= separate {
+                kept.truncate(first);
+                front = whole;
+            } else {
+                front.rows = whole.rows;
+            }
+        }
+        place.push(kept.len());
+        kept.push(front);
+    }
+    kept
 }
 
 /// Disjoint subtrees of small work, as runs of consecutive fronts, and the fronts above them.

@@ -35,17 +35,15 @@ impl Place {
     }
 }
 
-/// Eliminates `front`; `child` gives, once, the update of each of its children. Returns its part of the factor and
-/// its update (lower triangle).
+/// Eliminates `front`; `child` gives, once, the update of each of its children.
 pub(super) fn eliminate(
     analysis: &Analysis,
     front: usize,
     terms: &[(f64, &SparseColMat<usize, f64>)],
-    mut child: impl FnMut(usize) -> Option<Mat<f64>>,
+    child: &mut dyn FnMut(usize) -> Option<Mat<f64>>,
     place: &mut Place,
-) -> Result<(Eliminated, Mat<f64>), Breakdown> {
-    let index = front;
-    let front = &analysis.fronts[index];
+) -> Result<Eliminated, Breakdown> {
+    let front = &analysis.fronts[front];
     let (p, r) = (front.pivots, front.rows.len());
     place.enter(front);
     let mut lower = Mat::zeros(p + r, p);
@@ -80,7 +78,7 @@ pub(super) fn eliminate(
     let below = lower.subrows(p, r);
     let weighted = Mat::from_fn(r, p, |i, j| below[(i, j)] * pivots[j]);
     subtract_product(update.as_mut(), below, weighted.as_ref());
-    Ok((Eliminated { front: index, lower, pivots }, update))
+    Ok(Eliminated { lower, pivots, update })
 }
 
 /// The Schur complement of the boundary: the sum of what reaches it.

@@ -10,9 +10,12 @@ pub struct Breakdown {
     pub row: usize,
 }
 
-/// The answer of one front: its columns of L and the update it passes up.
+/// The answer of one front.
 pub(super) struct Eliminated {
-    pub(super) front: usize,
+    /// Its columns of L, pivot rows first; the strict upper triangle of the pivot rows means nothing.
     pub(super) lower: Mat<f64>,
+    /// Its part of D.
     pub(super) pivots: Vec<f64>,
+    /// What it passes up, lower triangle.
+    pub(super) update: Mat<f64>,
 }

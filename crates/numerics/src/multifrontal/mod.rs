@@ -17,11 +17,12 @@ mod analysis;
 mod eliminate;
 mod eliminated;
 mod factor;
+mod slab;
 mod solve;
 
 pub use analysis::{Analysis, postorder};
 pub use eliminated::Breakdown;
-pub use factor::PartialFactor;
+pub use factor::{Inertia, PartialFactor};
 
 #[cfg(test)]
 mod tests;

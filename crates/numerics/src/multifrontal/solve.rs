@@ -1,50 +1,173 @@
 //! Half solves with many right-hand sides at once.
-//!
-//! Right-hand sides are the *rows* of X (`width × size`): all values of one unknown lie together, so gathering and
-//! scattering the rows of a front moves contiguous memory.
 
-use faer::linalg::matmul::matmul;
-use faer::linalg::triangular_solve::{
-    solve_unit_lower_triangular_in_place, solve_unit_upper_triangular_in_place,
-};
-use faer::prelude::{Reborrow, ReborrowMut};
-use faer::{Accum, Mat, MatMut, Par};
+use pulp::{Arch, Simd, WithSimd};
 
 use super::factor::PartialFactor;
+use super::slab::{ROWS, Slab};
+use crate::panel::{Panel, add, sums};
 
 impl PartialFactor<'_> {
-    /// x_I ← L⁻¹ x_I, x_F ← x_F − L_F L⁻¹ x_I for every row of `x`.
-    pub fn forward(&self, mut x: MatMut<'_, f64>) {
-        let mut scratch = self.scratch(x.nrows());
-        for (front, lower) in self.analysis.fronts.iter().zip(&self.lower) {
-            let (top, below) = lower.split_at_row(front.pivots);
-            let mut pivots = x.rb_mut().subcols_mut(front.start, front.pivots);
-            solve_unit_lower_triangular_in_place(top, pivots.rb_mut().transpose_mut(), Par::Seq);
-            let mut update = scratch.subcols_mut(0, front.rows.len());
-            matmul(update.rb_mut(), Accum::Replace, pivots.rb(), below.transpose(), 1.0, Par::Seq);
-            for (i, &row) in front.rows.iter().enumerate() {
-                x.rb_mut().col_mut(row).iter_mut().zip(update.rb().col(i).iter()).for_each(|(x, u)| *x -= u);
+    /// x_I ← L⁻¹ x_I, x_F ← x_F − L_F L⁻¹ x_I for every vector of `x`.
+    pub fn forward(&self, x: &mut Panel) {
+        Arch::new().dispatch(Forward { factor: self, x });
+    }
+
+    /// x_I ← L⁻ᵀ (x_I − L_Fᵀ x_F) for every vector of `x`; x_F stays.
+    pub fn backward(&self, x: &mut Panel) {
+        Arch::new().dispatch(Backward { factor: self, x });
+    }
+
+    /// Every slab, and the rows after its own.
+    fn slabs(&self) -> impl DoubleEndedIterator<Item = (&Slab, impl Fn(usize) -> Option<usize>)> {
+        self.analysis.fronts.iter().zip(&self.slabs).flat_map(|(front, slabs)| {
+            slabs.iter().map(move |slab| {
+                let first = slab.start - front.start + slab.width;
+                let last = front.pivots + front.rows.len();
+                (slab, move |i: usize| (first + i < last).then(|| front.row(first + i)))
+            })
+        })
+    }
+}
+
+struct Forward<'a> {
+    factor: &'a PartialFactor<'a>,
+    x: &'a mut Panel,
+}
+
+struct Backward<'a> {
+    factor: &'a PartialFactor<'a>,
+    x: &'a mut Panel,
+}
+
+/// Runs the kernel for the registers of an unknown in groups of `G`, as many as there are registers to hold `N` = `ROWS` `G`
+/// numbers and their factors.
+macro_rules! groups {
+    ($S:ty, $registers:expr, |$group:ident, $G:ident, $N:ident| $kernel:expr) => {
+        let most = if <$S>::REGISTER_COUNT < 32 { 2 } else { 6 };
+        let mut $group = 0;
+        while $group < $registers {
+            let width = most.min($registers - $group);
+            groups!(@ width, $G, $N, $kernel, 1 2 3 4 5 6);
+            $group += width;
+        }
+    };
+    (@ $width:ident, $G:ident, $N:ident, $kernel:expr, $($size:literal)*) => {
+        match $width {
+            $($size => {
+                const $G: usize = $size;
+                const $N: usize = ROWS * $size;
+                $kernel;
+            })*
+            _ => unreachable!("groups of at most six"),
+        }
+    };
+}
+
+impl WithSimd for Forward<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let registers = self.x.registers::<S>();
+        let x = self.x.as_mut_registers::<S>();
+        for (slab, row_after) in self.factor.slabs() {
+            for panel in 0..slab.panels() {
+                let (before, triangle) = slab.own(panel);
+                let own = slab.start + ROWS * panel;
+                let rows = ROWS.min(slab.width - ROWS * panel);
+                groups!(S, registers, |group, G, N| {
+                    let known = &x[slab.start * registers..own * registers];
+                    let mut sums = sums::<S, ROWS, G, N>(simd, before.iter(), known, registers, group);
+                    for j in 0..ROWS {
+                        if j < rows {
+                            let at = &mut x[(own + j) * registers + group..][..G];
+                            for g in 0..G {
+                                at[g] = simd.sub_f64s(at[g], sums[j * G + g]);
+                            }
+                            for i in j + 1..ROWS {
+                                let factor = simd.splat_f64s(triangle[j][i]);
+                                for g in 0..G {
+                                    sums[i * G + g] = simd.mul_add_e_f64s(factor, at[g], sums[i * G + g]);
+                                }
+                            }
+                        }
+                    }
+                });
+            }
+            for (panel, columns) in slab.below().enumerate() {
+                groups!(S, registers, |group, G, N| {
+                    let known = &x[slab.start * registers..(slab.start + slab.width) * registers];
+                    let sums = sums::<S, ROWS, G, N>(simd, columns.iter(), known, registers, group);
+                    for i in 0..ROWS {
+                        if let Some(row) = row_after(ROWS * panel + i) {
+                            let at = &mut x[row * registers + group..][..G];
+                            for g in 0..G {
+                                at[g] = simd.sub_f64s(at[g], sums[i * G + g]);
+                            }
+                        }
+                    }
+                });
             }
         }
     }
+}
 
-    /// x_I ← L⁻ᵀ (x_I − L_Fᵀ x_F) for every row of `x`; x_F stays.
-    pub fn backward(&self, mut x: MatMut<'_, f64>) {
-        let mut scratch = self.scratch(x.nrows());
-        for (front, lower) in self.analysis.fronts.iter().zip(&self.lower).rev() {
-            let (top, below) = lower.split_at_row(front.pivots);
-            let mut known = scratch.subcols_mut(0, front.rows.len());
-            for (i, &row) in front.rows.iter().enumerate() {
-                known.rb_mut().col_mut(i).copy_from(x.rb().col(row));
+impl WithSimd for Backward<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let registers = self.x.registers::<S>();
+        let x = self.x.as_mut_registers::<S>();
+        for (slab, row_after) in self.factor.slabs().rev() {
+            for (panel, columns) in slab.below().enumerate() {
+                groups!(S, registers, |group, G, N| {
+                    let mut minus = [simd.splat_f64s(0.0); N];
+                    for i in 0..ROWS {
+                        if let Some(row) = row_after(ROWS * panel + i) {
+                            let from = &x[row * registers + group..][..G];
+                            for g in 0..G {
+                                minus[i * G + g] = simd.neg_f64s(from[g]);
+                            }
+                        }
+                    }
+                    let known = &mut x[slab.start * registers..(slab.start + slab.width) * registers];
+                    add::<S, ROWS, G, N>(simd, columns.iter(), &minus, known, registers, group);
+                });
             }
-            let mut pivots = x.rb_mut().subcols_mut(front.start, front.pivots);
-            matmul(pivots.rb_mut(), Accum::Add, known.rb(), below, -1.0, Par::Seq);
-            solve_unit_upper_triangular_in_place(top.transpose(), pivots.transpose_mut(), Par::Seq);
+            for panel in (0..slab.panels()).rev() {
+                let (before, triangle) = slab.own(panel);
+                let own = slab.start + ROWS * panel;
+                let rows = ROWS.min(slab.width - ROWS * panel);
+                groups!(S, registers, |group, G, N| {
+                    let mut minus = [simd.splat_f64s(0.0); N];
+                    for i in 0..ROWS {
+                        if i < rows {
+                            let from = &x[(own + i) * registers + group..][..G];
+                            for g in 0..G {
+                                minus[i * G + g] = simd.neg_f64s(from[g]);
+                            }
+                        }
+                    }
+                    for i in (0..ROWS).rev() {
+                        for j in 0..i {
+                            let factor = simd.splat_f64s(-triangle[j][i]);
+                            for g in 0..G {
+                                minus[j * G + g] =
+                                    simd.mul_add_e_f64s(factor, minus[i * G + g], minus[j * G + g]);
+                            }
+                        }
+                        if i < rows {
+                            let at = &mut x[(own + i) * registers + group..][..G];
+                            for g in 0..G {
+                                at[g] = simd.neg_f64s(minus[i * G + g]);
+                            }
+                        }
+                    }
+                    let known = &mut x[slab.start * registers..own * registers];
+                    add::<S, ROWS, G, N>(simd, before.iter(), &minus, known, registers, group);
+                });
+            }
         }
-    }
-
-    /// Room for the rows below the pivots of any front.
-    fn scratch(&self, width: usize) -> Mat<f64> {
-        Mat::zeros(width, self.analysis.fronts.iter().map(|front| front.rows.len()).max().unwrap_or(0))
     }
 }

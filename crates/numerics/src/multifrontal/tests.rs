@@ -5,6 +5,7 @@ use faer::sparse::{SparseColMat, Triplet};
 use super::analysis::postorder;
 use super::*;
 use crate::nested_dissection::nested_dissection;
+use crate::panel::Panel;
 
 /// Stiffness of a grid of springs, three unknowns a node, with a strong diagonal: positive definite.
 fn grid(size: usize, shift: f64) -> SparseColMat<usize, f64> {
@@ -75,31 +76,36 @@ fn leaves_the_schur_complement_and_solves() {
         }
         let below = inner.self_adjoint_eigenvalues(faer::Side::Lower).unwrap();
         let negative = below.iter().filter(|&&value| value < 0.0).count();
-        assert_eq!(factor.negative_pivots(), negative);
+        let inertia = Inertia::new(&analysis, &[(1.0, &a)]).unwrap();
+        assert_eq!(inertia.negative, negative);
         assert_eq!(negative > 0, shift > 0.0);
-        assert!(factor.growth() < 1e6);
+        assert!(inertia.growth < 1e6);
+        assert!((&inertia.schur - factor.schur()).norm_max() < 1e-12);
 
-        let given = Mat::from_fn(3, a.nrows(), |i, j| ((i + 2) as f64 * j as f64).sin());
-        let mut x = given.clone();
-        factor.forward(x.as_mut());
-        for j in 0..e {
-            for i in 0..3 {
-                x[(i, j)] /= factor.pivots()[j];
+        // Widths of a register, of several, and of groups of three and what is left of them.
+        for width in [1, 3, 8, 24, 40, 61] {
+            let given = Mat::from_fn(width, a.nrows(), |i, j| ((i + 2) as f64 * j as f64).sin());
+            let mut x = Panel::zeros(width, a.nrows());
+            (0..a.nrows())
+                .for_each(|j| x.row_mut(j).iter_mut().zip(given.col(j).iter()).for_each(|(x, g)| *x = *g));
+            factor.forward(&mut x);
+            for (j, d) in factor.pivots().iter().enumerate() {
+                x.row_mut(j).iter_mut().for_each(|x| *x /= d);
             }
-        }
-        // What the boundary has become is S-free: x_F − A_FI A_II⁻¹ x_I.
-        let reached = given.subcols(0, e) * lu.solve(coupling.transpose());
-        for j in 0..boundary {
-            for i in 0..3 {
-                assert!((x[(i, e + j)] - (given[(i, e + j)] - reached[(i, j)])).abs() < 1e-9);
+            // What the boundary has become is S-free: x_F − A_FI A_II⁻¹ x_I.
+            let reached = given.subcols(0, e) * lu.solve(coupling.transpose());
+            for j in 0..boundary {
+                for i in 0..width {
+                    assert!((x.row(e + j)[i] - (given[(i, e + j)] - reached[(i, j)])).abs() < 1e-9);
+                }
+                x.row_mut(e + j).fill(0.0);
             }
-        }
-        x.subcols_mut(e, boundary).fill(0.0);
-        factor.backward(x.as_mut());
-        let solution = lu.solve(given.subcols(0, e).transpose());
-        for j in 0..e {
-            for i in 0..3 {
-                assert!((x[(i, j)] - solution[(j, i)]).abs() < 1e-9, "{size} {boundary}");
+            factor.backward(&mut x);
+            let solution = lu.solve(given.subcols(0, e).transpose());
+            for j in 0..e {
+                for i in 0..width {
+                    assert!((x.row(j)[i] - solution[(j, i)]).abs() < 1e-9, "{size} {boundary} {width}");
+                }
             }
         }
     }

@@ -73,9 +73,12 @@ impl UntiedSector {
                 }
                 same
             });
+            // Several matrices leave room for all their entries.
+            found.shrink_to_fit();
             found
         };
         let columns: Vec<Vec<(u32, T)>> = (0..self.size()).into_par_iter().map(column).collect();
+        drop(entries);
         let mut starts = vec![0];
         let mut rows = Vec::new();
         let mut values = Vec::new();

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use super::modes::{LOCATED, Modes};
 use super::tied_factor::tied_schur;
 use super::untied::{Tie, UntiedSector};
-use rubmap_numerics::multifrontal::PartialFactor;
+use rubmap_numerics::multifrontal::Inertia;
 
 /// Eigenvalues below a shift.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -67,9 +67,9 @@ pub(super) fn count_modes(
         let terms = [(1.0, stiffness), (-shift, mass)];
         let served: Vec<(usize, usize)> =
             waiting.iter().filter_map(|&i| ladders[i].below(shift).map(|below| (i, below))).collect();
-        let Some(factor) = PartialFactor::new(&untied.analysis, &terms).ok().filter(|factor| {
+        let Some(inertia) = Inertia::new(&untied.analysis, &terms).ok().filter(|inertia| {
             // Round-off moves an eigenvalue by xᴴEx, ‖E‖ a few times ε times the growth.
-            let error = 16.0 * f64::EPSILON * factor.growth();
+            let error = 16.0 * f64::EPSILON * inertia.growth;
             served.iter().all(|&(i, _)| error * largest_square(found[i].1) < ladders[i].distance(shift))
         }) else {
             failed.push(shift);
@@ -78,7 +78,7 @@ pub(super) fn count_modes(
         let counted: Vec<(usize, Verdict)> = served
             .par_iter()
             .map(|&(i, expected)| {
-                let below = factor.negative_pivots() + negative_on_face(untied, &factor, &terms, &found[i].0);
+                let below = inertia.negative + negative_on_face(untied, &inertia.schur, &terms, &found[i].0);
                 let complete = below == expected;
                 (i, if complete { Verdict::Complete(ModeCount { shift, below }) } else { Verdict::Missed })
             })
@@ -91,13 +91,13 @@ pub(super) fn count_modes(
 /// Negative eigenvalues of the face's Schur complement.
 fn negative_on_face(
     untied: &UntiedSector,
-    factor: &PartialFactor<'_>,
+    eliminated: &Mat<f64>,
     terms: &[(f64, &SparseColMat<usize, f64>)],
     tie: &Tie,
 ) -> usize {
-    let schur = tied_schur(untied, factor, terms, tie);
+    let schur = tied_schur(untied, eliminated, terms, tie);
     let face = schur.submatrix(0, 0, untied.face(), untied.face());
-    if UntiedSector::width(tie, 1) == 1 {
+    if UntiedSector::is_real(tie) {
         let real = Mat::from_fn(face.nrows(), face.ncols(), |i, j| face[(i, j)].re);
         negative_eigenvalues(real.as_ref())
     } else {

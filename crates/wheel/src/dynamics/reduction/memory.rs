@@ -1,6 +1,6 @@
 //! What a reduction will need, before it starts.
 
-use super::speed::{COMPARED, TOGETHER};
+use super::speed::{BEYOND_COMPARED, COMPARED, TOGETHER};
 use super::untied::UntiedSector;
 use crate::dynamics::sector::{CyclicMatrix, SectorModel};
 
@@ -24,8 +24,8 @@ pub(super) fn needed_bytes(
     let speeds = sector.stiffness.len();
     let gyroscopic = sector.gyroscopic.as_ref().map_or(0, entries);
     let given = ENTRY * (mass + speeds * stiffness + gyroscopic);
-    // Between the given speeds all of K(Ω)'s matrices meet: their entries, sorted columns, the sum.
-    let assembly = ENTRY * (2 * speeds + 1) * stiffness;
+    // Between the given speeds all of K(Ω)'s matrices meet: their entries and the sorted columns.
+    let assembly = ENTRY * (speeds + 1) * stiffness;
     let factor = REAL * (untied.analysis.factor_entries() + untied.analysis.working_entries());
     let boundary = untied.face() + untied.contact();
     let tied = COMPLEX * boundary * boundary * harmonics;
@@ -34,6 +34,9 @@ pub(super) fn needed_bytes(
     let krylov = COMPLEX * rows * harmonics.min(TOGETHER) * krylov_vectors;
     // Modes at every speed and static modes; while they are projected, the bases made of them too.
     let kept = COMPLEX * rows * harmonics * (speeds * modes_per_speed + untied.contact());
-    let search = ENTRY * stiffness + factor + tied + krylov;
-    (given + ENTRY * mass + kept + assembly.max(search).max(kept + ENTRY * stiffness)) as u64
+    // Of the full sector, until the frequencies between the speeds are known.
+    let full = COMPLEX * rows * harmonics * speeds * (COMPARED + BEYOND_COMPARED);
+    let at_speed = ENTRY * stiffness + factor + tied;
+    let until_then = at_speed + krylov.max(assembly) + full;
+    (given + ENTRY * mass + kept + until_then.max(kept + ENTRY * stiffness)) as u64
 }

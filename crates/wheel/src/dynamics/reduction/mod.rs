@@ -12,8 +12,10 @@
 
 mod assembly;
 mod basis;
+mod between;
 mod checkpoints;
 mod comparison;
+mod convex;
 mod count;
 mod findings;
 mod interpolation;
@@ -78,7 +80,14 @@ pub fn reduce(
         return Err(ReductionError::Memory { needed_bytes, allowed_bytes });
     }
     // Modes see only the low end of the spectrum; a negative mass may hide at the other.
-    mass::check_mass(sector, f64::INFINITY).map_err(|negative| {
+    // A consistent one has the entries of the stiffness, and needs no order of its own.
+    let consistent = sector.mass.own.compute_nnz() == sector.stiffness[0].own.compute_nnz();
+    let checked = if consistent {
+        mass::check_numbered(sector, &untied, f64::INFINITY)
+    } else {
+        mass::check_mass(sector, f64::INFINITY)
+    };
+    checked.map_err(|negative| {
         let NegativeMass { nodal_diameter, dof } = negative;
         ModelError::NegativeMass { nodal_diameter, dof }
     })?;
@@ -87,18 +96,19 @@ pub fn reduce(
 
     let given = sector.speeds_rad_s.len() as f64;
     let mut parts = Vec::with_capacity(sector.speeds_rad_s.len());
+    let mut last = None;
     for index in 0..sector.speeds_rad_s.len() {
         let (from, to) = (0.02 + 0.73 * index as f64 / given, 0.02 + 0.73 * (index as f64 + 1.0) / given);
-        parts.push(work.at_given_speed(index, &scoped(from, to))?);
+        // Two factors at once would be the most that is ever held.
+        drop(last.take());
+        let (part, factored) = work.at_given_speed(index, &scoped(from, to))?;
+        parts.push(part);
+        last = factored;
     }
-    let mut full: Vec<_> =
-        sector.speeds_rad_s.iter().copied().zip(parts.iter().map(|p| p.full.clone())).collect();
-    if let [_, _, top] = *sector.speeds_rad_s {
-        let block = parts.iter().map(|part| part.full_block).max().unwrap_or(1);
-        for (name, speed, from) in [("between-1", 0.25 * top, 0.75), ("between-2", 0.75 * top, 0.84)] {
-            full.push((speed, work.at_speed_between(name, speed, block, &scoped(from, from + 0.09))?));
-        }
-    }
+    let given = parts.iter().map(SpeedPart::full_frequencies);
+    let mut full: Vec<_> = sector.speeds_rad_s.iter().copied().zip(given).collect();
+    full.extend(work.between(&parts, last, &scoped(0.75, 0.93))?);
+    parts.iter_mut().flat_map(|part| &mut part.harmonics).for_each(|part| part.full = None);
     let harmonics = project(&work, options, &parts, &scoped(0.93, 1.0))?;
     drop(parts);
     let interpolation = interpolation::check(sector, &harmonics)?;

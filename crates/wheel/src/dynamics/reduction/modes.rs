@@ -1,19 +1,22 @@
 //! Lowest modes of many nodal diameters at once: block Lanczos on L̂⁻¹ M̂ L̂⁻ᴴ, residuals checked.
 //!
-//! Every nodal diameter has its own Krylov basis; all of them go through the one sparse factor together, so that
-//! solves run at level-3 speed even with small blocks.
+//! Every search has its own Krylov basis; all of them, of several nodal diameters with fixed and with free contact DOF, go
+//! through the one sparse factor together, so that it is read once for many vectors even with small blocks.
 
 use faer::sparse::SparseColMat;
 use faer::{Mat, MatRef, c64};
-use rayon::iter::{IntoParallelRefMutIterator, ParallelIterator};
+use rayon::iter::{
+    IndexedParallelIterator, IntoParallelRefIterator, IntoParallelRefMutIterator, ParallelIterator,
+};
 use serde::{Deserialize, Serialize};
 
-use super::sector_factor::{Load, SectorFactor, join, split};
+use super::sector_factor::{COLUMNS, Load, SectorFactor, join};
 use super::tied_factor::TiedFactor;
 use super::untied::{Tie, UntiedSector};
 use rubmap_numerics::block_lanczos::{BlockLanczos, Ritz};
 use rubmap_numerics::hermitian::generalised_eigenpairs;
 use rubmap_numerics::matrix_serde;
+use rubmap_numerics::vector_block::VectorBlock;
 
 /// Lowest modes of one nodal diameter at one stiffness.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -69,6 +72,8 @@ pub(super) enum ModeError {
 
 /// An eigenvalue is located, for counting, once its Ritz pair has this error.
 pub(super) const LOCATED: f64 = 1e-4;
+/// Searches whose modes are assembled together: enough to read the factor for many vectors, few enough for these to fit.
+const ASSEMBLED: usize = 3;
 /// Block steps before giving up, or enough for eight times the modes asked for.
 const MAX_BLOCK_STEPS: usize = 200;
 /// Spaces up to this size are solved densely: the Krylov space would be most of the whole.
@@ -82,10 +87,13 @@ pub(super) struct Pencil<'a> {
     pub(super) factor: &'a SectorFactor<'a>,
 }
 
-/// One nodal diameter's search.
+/// A search under way.
 struct Search<'a> {
     position: usize,
     tied: &'a TiedFactor,
+    wanted: Wanted,
+    /// Rows of its vectors.
+    rows: usize,
     lanczos: BlockLanczos,
     ritz: Option<Ritz>,
     last_error: f64,
@@ -94,66 +102,79 @@ struct Search<'a> {
 }
 
 impl Pencil<'_> {
-    /// The lowest modes of every nodal diameter in `ties`. Deterministic; `keep_going(share)` is asked before every
-    /// block step with a guess at the share of the work done.
+    /// The lowest modes of every nodal diameter asked for, in that order. Deterministic, and of each the same bits
+    /// whatever else is asked; `keep_going(share)` is asked before every block step with a guess at the share of the work
+    /// done.
     pub(super) fn lowest_modes(
         &self,
-        ties: &[&TiedFactor],
-        wanted: Wanted,
+        asked: &[(&TiedFactor, Wanted)],
         keep_going: &dyn Fn(f64) -> bool,
     ) -> Result<Vec<Modes>, ModeError> {
-        let rows = self.untied.internal() + if wanted.free { self.untied.contact() } else { 0 };
-        let count = wanted.count.min(rows);
-        if rows <= DENSE_SIZE.max(3 * count) {
-            return ties.iter().map(|tied| self.dense(&tied.tie, rows, count, wanted.tolerance)).collect();
-        }
-        let search = |(position, tied)| Search {
-            position,
-            tied,
-            lanczos: BlockLanczos::new(rows, wanted.block),
-            ritz: None,
-            last_error: f64::INFINITY,
-            next_look: 2 * count,
-        };
-        let mut active: Vec<Search<'_>> = ties.iter().copied().enumerate().map(search).collect();
-        let mut found: Vec<Option<Modes>> = vec![None; ties.len()];
-        let limit = MAX_BLOCK_STEPS.max(8 * count / wanted.block);
-        for step in 1..=limit {
+        let mut found: Vec<Option<Modes>> = vec![None; asked.len()];
+        let mut active = Vec::with_capacity(asked.len());
+        let (mut guess, mut limit) = (1.0, 0);
+        for (position, &(tied, mut wanted)) in asked.iter().enumerate() {
+            let rows = self.untied.internal() + if wanted.free { self.untied.contact() } else { 0 };
+            wanted.count = wanted.count.min(rows);
+            if rows <= DENSE_SIZE.max(3 * wanted.count) {
+                found[position] = Some(self.dense(&tied.tie, rows, wanted.count, wanted.tolerance)?);
+                continue;
+            }
             // Some five vectors a mode, seen over many sectors.
-            if !keep_going((step as f64 * wanted.block as f64 / (5.0 * count as f64)).min(0.95)) {
+            guess = f64::max(guess, 5.0 * wanted.count as f64 / wanted.block as f64);
+            limit = limit.max(MAX_BLOCK_STEPS.max(8 * wanted.count / wanted.block));
+            active.push(Search {
+                position,
+                tied,
+                wanted,
+                rows,
+                lanczos: BlockLanczos::new(rows, wanted.block, UntiedSector::is_real(&tied.tie)),
+                ritz: None,
+                last_error: f64::INFINITY,
+                next_look: 2 * wanted.count,
+            });
+        }
+        for step in 1..=limit {
+            if active.is_empty() {
+                break;
+            }
+            if !keep_going((step as f64 / guess).min(0.95)) {
                 return Err(ModeError::Stopped);
             }
-            let mut loads: Vec<Load<'_>> = active
-                .iter()
-                .map(|search| Load { tied: search.tied, vectors: search.lanczos.last_block().to_owned() })
-                .collect();
+            let block = |search: &Search<'_>| search.lanczos.last_block().clone();
+            let mut loads: Vec<Load<'_>> =
+                active.iter().map(|search| Load { tied: search.tied, vectors: block(search) }).collect();
             self.factor.apply(self.mass, &mut loads);
-            let images: Vec<Mat<c64>> = loads.into_iter().map(|load| load.vectors).collect();
-            let mut pairs: Vec<_> = active.iter_mut().zip(images).collect();
-            pairs.par_iter_mut().for_each(|(search, image)| {
-                search.advance(std::mem::replace(image, Mat::new()), count, wanted)
-            });
+            active.par_iter_mut().zip(loads).for_each(|(search, image)| search.advance(image.vectors));
+
             let mut waiting = Vec::new();
+            let mut converged = Vec::new();
             for mut search in active {
-                let Some(ritz) = search.ritz.take() else {
-                    waiting.push(search);
-                    continue;
-                };
-                if !wanted.vectors {
-                    found[search.position] = Some(Modes {
-                        values: values_of(&ritz, count, search.tied.tie.harmonic)?,
-                        residuals: ritz.errors[..count].to_vec(),
-                        vectors: Mat::new(),
-                        beyond: Vec::new(),
-                    });
-                    continue;
+                match search.ritz.take() {
+                    None => waiting.push(search),
+                    Some(ritz) if search.wanted.vectors => converged.push((search, ritz)),
+                    Some(ritz) => {
+                        let count = search.wanted.count;
+                        found[search.position] = Some(Modes {
+                            values: values_of(&ritz, count, search.tied.tie.harmonic)?,
+                            residuals: ritz.errors[..count].to_vec(),
+                            vectors: Mat::new(),
+                            beyond: Vec::new(),
+                        });
+                    }
                 }
-                let (modes, worst) = self.modes(&search, ritz, count, wanted.tolerance)?;
-                if worst <= wanted.tolerance {
+            }
+            let mut modes = Vec::with_capacity(converged.len());
+            for converged in converged.chunks(ASSEMBLED) {
+                modes.extend(self.modes(converged)?);
+            }
+            for ((mut search, _), (modes, worst)) in converged.into_iter().zip(modes) {
+                let Wanted { count, tolerance, .. } = search.wanted;
+                if worst <= tolerance {
                     found[search.position] = Some(modes);
                 } else if search.lanczos.is_full() {
                     // The whole space, and round-off in the way: small enough to be solved at once.
-                    let modes = self.dense(&search.tied.tie, rows, count, wanted.tolerance)?;
+                    let modes = self.dense(&search.tied.tie, search.rows, count, tolerance)?;
                     found[search.position] = Some(modes);
                 } else {
                     search.last_error = worst;
@@ -161,41 +182,53 @@ impl Pencil<'_> {
                 }
             }
             active = waiting;
-            if active.is_empty() {
-                return Ok(found.into_iter().flatten().collect());
-            }
             active.par_iter_mut().for_each(|search| search.lanczos.extend());
         }
-        let search = &active[0];
-        Err(ModeError::NotConverged {
-            harmonic: search.tied.tie.harmonic,
-            residual: search.last_error,
-            block_steps: limit,
-        })
+        match active.first() {
+            None => Ok(found.into_iter().flatten().collect()),
+            Some(search) => Err(ModeError::NotConverged {
+                harmonic: search.tied.tie.harmonic,
+                residual: search.last_error,
+                block_steps: limit,
+            }),
+        }
     }
 
     /// Modes from Ritz pairs, x = L̂⁻ᴴ y/√θ, and how far the worst is from being accepted.
-    fn modes(
-        &self,
-        search: &Search<'_>,
-        ritz: Ritz,
-        count: usize,
-        tolerance: f64,
-    ) -> Result<(Modes, f64), ModeError> {
-        let values = values_of(&ritz, count, search.tied.tie.harmonic)?;
-        let whole = search.lanczos.assemble(ritz.coefficients.subcols(0, count));
-        let mut loads = split(search.tied, whole.as_ref());
-        self.factor.half_adjoint(&mut loads);
-        let mut vectors = join(&loads);
-        for (mut x, lambda) in vectors.col_iter_mut().zip(&values) {
-            x *= faer::Scale(c64::new(lambda.sqrt(), 0.0));
+    fn modes(&self, converged: &[(Search<'_>, Ritz)]) -> Result<Vec<(Modes, f64)>, ModeError> {
+        let assemble = |(search, ritz): &(Search<'_>, Ritz)| {
+            let count = search.wanted.count;
+            let lambda = values_of(ritz, count, search.tied.tie.harmonic)?;
+            let scaled =
+                Mat::from_fn(ritz.values.len(), count, |i, m| ritz.coefficients[(i, m)] * lambda[m].sqrt());
+            Ok((lambda, search.lanczos.assemble(scaled.as_ref(), COLUMNS)))
+        };
+        let assembled: Vec<_> = converged.par_iter().map(assemble).collect::<Result<_, ModeError>>()?;
+        let mut loads = Vec::new();
+        let mut values = Vec::new();
+        for ((search, _), (lambda, blocks)) in converged.iter().zip(assembled) {
+            loads.extend(blocks.into_iter().map(|vectors| Load { tied: search.tied, vectors }));
+            values.push(lambda);
         }
-        let (residuals, worst) = self.residuals(&search.tied.tie, &values, vectors.as_ref(), tolerance);
-        let beyond = (count..ritz.values.len())
-            .take_while(|&m| ritz.values[m] > 0.0 && ritz.errors[m] <= LOCATED)
-            .map(|m| 1.0 / ritz.values[m])
-            .collect();
-        Ok((Modes { values, residuals, vectors, beyond }, worst))
+        self.factor.half_adjoint(&mut loads);
+        let mut first = 0;
+        let modes = |((search, ritz), values): (&(Search<'_>, Ritz), Vec<f64>)| {
+            let Wanted { count, tolerance, .. } = search.wanted;
+            let own = &loads[first..][..count.div_ceil(COLUMNS)];
+            first += own.len();
+            let [kx, mx] = [self.stiffness, self.mass].map(|matrix| self.factor.products(matrix, own));
+            let norms: Vec<(f64, f64)> = (kx.iter().zip(&mx).zip(values.chunks(COLUMNS)))
+                .flat_map(|((kx, mx), values)| norms(kx, mx, values))
+                .collect();
+            let vectors = join(own);
+            let (residuals, worst) = self.residuals(&norms, vectors.as_ref(), tolerance);
+            let beyond = (count..ritz.values.len())
+                .take_while(|&m| ritz.values[m] > 0.0 && ritz.errors[m] <= LOCATED)
+                .map(|m| 1.0 / ritz.values[m])
+                .collect();
+            (Modes { values, residuals, vectors, beyond }, worst)
+        };
+        Ok(converged.iter().zip(values).map(modes).collect())
     }
 
     /// The dense solution, `count` modes or as many as have mass, on M x = θ K x like the iteration: the lowest modes are
@@ -216,7 +249,11 @@ impl Pencil<'_> {
         let values: Vec<f64> = (0..count).map(|m| 1.0 / theta(m)).collect();
         let vectors =
             Mat::from_fn(rows, count, |i, m| pairs.vectors[(i, rows - 1 - m)] * (1.0 / theta(m).sqrt()));
-        let (residuals, residual) = self.residuals(tie, &values, vectors.as_ref(), tolerance);
+        let real = UntiedSector::is_real(tie);
+        let [kx, mx] = [self.stiffness, self.mass]
+            .map(|matrix| VectorBlock::of(self.untied.product(matrix, tie, vectors.as_ref()).as_ref(), real));
+        let norms = norms(&kx, &mx, &values);
+        let (residuals, residual) = self.residuals(&norms, vectors.as_ref(), tolerance);
         if residual > tolerance {
             return Err(ModeError::NotConverged { harmonic, residual, block_steps: 0 });
         }
@@ -224,25 +261,10 @@ impl Pencil<'_> {
         Ok(Modes { values, residuals, vectors, beyond })
     }
 
-    /// ‖Kx − λMx‖/‖Kx‖ of every column, and the largest measure of acceptance, NaN if any is: the same ratio, but what
-    /// the round-off of Kx alone may leave, 64 ε ‖|K||x|‖, counts as the tolerance and no more, for no eigensolver can
-    /// do better on a stiffness of high contrast.
-    fn residuals(
-        &self,
-        tie: &Tie,
-        values: &[f64],
-        vectors: MatRef<'_, c64>,
-        tolerance: f64,
-    ) -> (Vec<f64>, f64) {
-        let kx = self.untied.product(self.stiffness, tie, vectors);
-        let mx = self.untied.product(self.mass, tie, vectors);
-        let norms: Vec<(f64, f64)> = (0..values.len())
-            .map(|j| {
-                let terms = kx.col(j).iter().zip(mx.col(j).iter());
-                let residual = terms.map(|(k, m)| (k - m * values[j]).norm_sqr()).sum::<f64>().sqrt();
-                (residual, kx.col(j).norm_l2())
-            })
-            .collect();
+    /// ‖Kx − λMx‖/‖Kx‖ of every column, from the `norms` of both, and the largest measure of acceptance, NaN if any is: the
+    /// same ratio, but what the round-off of Kx alone may leave, 64 ε ‖|K||x|‖, counts as the tolerance and no more, for no
+    /// eigensolver can do better on a stiffness of high contrast.
+    fn residuals(&self, norms: &[(f64, f64)], vectors: MatRef<'_, c64>, tolerance: f64) -> (Vec<f64>, f64) {
         let worst =
             |ratios: &[f64]| ratios.iter().fold(0.0f64, |worst, &r| if r <= worst { worst } else { r });
         let plain: Vec<f64> = norms.iter().map(|(residual, norm)| residual / norm).collect();
@@ -263,6 +285,19 @@ impl Pencil<'_> {
     }
 }
 
+/// ‖Kx − λMx‖ and ‖Kx‖ of every vector.
+fn norms(kx: &VectorBlock, mx: &VectorBlock, values: &[f64]) -> Vec<(f64, f64)> {
+    let mut squares = vec![(0.0, 0.0); values.len()];
+    for row in 0..kx.size() {
+        for (j, ((residual, norm), &lambda)) in squares.iter_mut().zip(values).enumerate() {
+            let k = kx.get(row, j);
+            *residual += (k - mx.get(row, j) * lambda).norm_sqr();
+            *norm += k.norm_sqr();
+        }
+    }
+    squares.into_iter().map(|(residual, norm)| (residual.sqrt(), norm.sqrt())).collect()
+}
+
 /// λ = 1/θ of the first `count` pairs.
 fn values_of(ritz: &Ritz, count: usize, harmonic: usize) -> Result<Vec<f64>, ModeError> {
     let theta = &ritz.values[..count];
@@ -274,8 +309,8 @@ fn values_of(ritz: &Ritz, count: usize, harmonic: usize) -> Result<Vec<f64>, Mod
 
 impl Search<'_> {
     /// Takes the image of the last block; leaves Ritz pairs where the wanted ones seem to have converged.
-    fn advance(&mut self, image: Mat<c64>, count: usize, wanted: Wanted) {
-        let Wanted { tolerance, beyond, .. } = wanted;
+    fn advance(&mut self, image: VectorBlock) {
+        let Wanted { count, block, tolerance, beyond, .. } = self.wanted;
         self.lanczos.absorb(image);
         let full = self.lanczos.is_full();
         let columns = self.lanczos.columns();
@@ -283,7 +318,7 @@ impl Search<'_> {
             return;
         }
         // The dense projection costs more than a step once it is large.
-        self.next_look = columns + (2 * wanted.block).max(columns / 12);
+        self.next_look = columns + block.max(columns / 12);
         // A decomposition that fails once may succeed with the next block.
         let Ok(ritz) = self.lanczos.ritz(columns) else { return };
         let worst = ritz.errors[..count].iter().fold(0.0f64, |worst, &e| if e <= worst { worst } else { e });

@@ -10,7 +10,6 @@
 //! Only the sum of both faces' own blocks enters S, so it does not matter which of them carries it, nor that neither
 //! is definite on its own.
 
-use faer::prelude::ReborrowMut;
 use faer::sparse::SparseColMat;
 use faer::{Mat, MatMut, MatRef, c64};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
@@ -18,7 +17,9 @@ use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use super::tied_factor::{NotPositiveDefinite, TiedFactor, cholesky, tied_schur};
 use super::untied::UntiedSector;
 use rubmap_numerics::multifrontal::PartialFactor;
+use rubmap_numerics::panel::Panel;
 use rubmap_numerics::sparse_product::row_product;
+use rubmap_numerics::vector_block::VectorBlock;
 
 /// The factor of the untied sector's interior at one stiffness.
 pub(super) struct SectorFactor<'a> {
@@ -32,32 +33,39 @@ pub(super) struct SectorFactor<'a> {
 pub(super) struct Load<'a> {
     pub(super) tied: &'a TiedFactor,
     /// Tied vectors, over (interior, face) or (interior, face, contact).
-    pub(super) vectors: Mat<c64>,
+    pub(super) vectors: VectorBlock,
 }
 
 impl Load<'_> {
     /// Real vectors that stand for it.
     fn width(&self) -> usize {
-        UntiedSector::width(&self.tied.tie, self.vectors.ncols())
+        self.vectors.parts().width()
     }
 }
 
-/// Loads of a few columns each, so that they spread over the threads.
+/// Tied vectors a load should have: a few, so that loads spread over the threads.
+pub(super) const COLUMNS: usize = 4;
+
+/// Loads of a few columns each.
 pub(super) fn split<'t>(tied: &'t TiedFactor, vectors: MatRef<'_, c64>) -> Vec<Load<'t>> {
-    const COLUMNS: usize = 6;
     let count = vectors.ncols();
-    let columns = |first: usize| vectors.subcols(first, COLUMNS.min(count - first)).to_owned();
-    (0..count).step_by(COLUMNS).map(|first| Load { tied, vectors: columns(first) }).collect()
+    let real = UntiedSector::is_real(&tied.tie);
+    let load = |first: usize| {
+        let columns = vectors.subcols(first, COLUMNS.min(count - first));
+        Load { tied, vectors: VectorBlock::of(columns, real) }
+    };
+    (0..count).step_by(COLUMNS).map(load).collect()
 }
 
 /// The vectors of all loads side by side.
 pub(super) fn join(loads: &[Load<'_>]) -> Mat<c64> {
-    let rows = loads.first().map_or(0, |load| load.vectors.nrows());
-    let mut vectors = Mat::zeros(rows, loads.iter().map(|load| load.vectors.ncols()).sum());
+    let rows = loads.first().map_or(0, |load| load.vectors.size());
+    let mut vectors = Mat::zeros(rows, loads.iter().map(|load| load.vectors.count()).sum());
     let mut first = 0;
     for load in loads {
-        vectors.subcols_mut(first, load.vectors.ncols()).copy_from(&load.vectors);
-        first += load.vectors.ncols();
+        let count = load.vectors.count();
+        load.vectors.copy_to(0, vectors.subcols_mut(first, count));
+        first += count;
     }
     vectors
 }
@@ -65,8 +73,8 @@ pub(super) fn join(loads: &[Load<'_>]) -> Mat<c64> {
 /// A pivot below this fraction of its diagonal entry is round-off: the matrix is singular, as far as double precision
 /// can tell.
 const SINGULAR: f64 = 1e-13;
-/// Real vectors solved together: enough for level-3 speed, few enough to share among threads.
-const GROUP: usize = 24;
+/// Real vectors solved together at most: the factor is read once for all of them.
+const GROUP: usize = 48;
 
 impl<'a> SectorFactor<'a> {
     /// Eliminates the interior of `stiffness` (untied). Fails where K_II is not positive definite.
@@ -94,57 +102,66 @@ impl<'a> SectorFactor<'a> {
         stiffness: &SparseColMat<usize, f64>,
         harmonic: usize,
     ) -> Result<TiedFactor, NotPositiveDefinite> {
-        TiedFactor::new(self.untied, &self.factor, stiffness, self.untied.tie(harmonic))
+        TiedFactor::new(self.untied, self.factor.schur(), stiffness, self.untied.tie(harmonic))
     }
 
     /// x ← L̂⁻ᴴ y for every load.
     pub(super) fn half_adjoint(&self, loads: &mut [Load<'_>]) {
-        self.solve_tied_adjoint(loads);
-        self.solve_interior(loads, |mut panel| {
-            self.scale_interior(panel.rb_mut());
+        self.on_boundary(loads, TiedFactor::solve_adjoint);
+        self.solve_interior(loads, |panel| {
+            self.scale_interior(panel);
             self.factor.backward(panel);
         });
     }
 
     /// y ← L̂⁻¹ M̂ L̂⁻ᴴ y for every load, with `mass` untied.
     pub(super) fn apply(&self, mass: &SparseColMat<usize, f64>, loads: &mut [Load<'_>]) {
-        self.solve_tied_adjoint(loads);
-        let rows = loads.first().map_or(0, |load| load.vectors.nrows());
-        let images = self.through(loads, rows, |mut panel| {
-            self.scale_interior(panel.rb_mut());
-            self.factor.backward(panel.rb_mut());
-            let product = row_product(mass, panel.as_ref());
-            panel.copy_from(&product);
-            self.factor.forward(panel.rb_mut());
+        self.on_boundary(loads, TiedFactor::solve_adjoint);
+        let images = self.through(loads, usize::MAX, |panel| {
+            self.scale_interior(panel);
+            self.factor.backward(panel);
+            *panel = row_product(mass, panel);
+            self.factor.forward(panel);
             self.scale_interior(panel);
         });
-        for (load, image) in loads.iter_mut().zip(images) {
-            load.vectors = image;
-            load.tied.solve(load.vectors.as_mut(), self.untied.interior());
-        }
+        loads.iter_mut().zip(images).for_each(|(load, image)| load.vectors = image);
+        self.on_boundary(loads, TiedFactor::solve);
     }
 
-    /// x ← K̂⁻¹ f for every load, given with contact DOF that may be free.
+    /// x ← K̂⁻¹ f for every load.
     pub(super) fn solve(&self, loads: &mut [Load<'_>]) {
+        self.half(loads);
+        self.half_adjoint(loads);
+    }
+
+    /// y ← L̂⁻¹ f for every load: ‖y‖² = fᴴ K̂⁻¹ f.
+    pub(super) fn half(&self, loads: &mut [Load<'_>]) {
         let interior = self.untied.interior();
-        let rows = loads.first().map_or(0, |load| load.vectors.nrows());
-        let boundary: Vec<Mat<c64>> =
-            loads.iter().map(|load| load.vectors.subrows(interior, rows - interior).to_owned()).collect();
         // Untied, what acts on the low face would act on the high one again.
-        for load in &mut *loads {
-            load.vectors.subrows_mut(interior, rows - interior).fill(c64::new(0.0, 0.0));
-        }
-        let images = self.through(loads, rows, |mut panel| {
-            self.factor.forward(panel.rb_mut());
+        let take = |load: &mut Load<'_>| {
+            let mut boundary = Mat::zeros(load.vectors.size() - interior, load.vectors.count());
+            load.vectors.copy_to(interior, boundary.as_mut());
+            load.vectors.copy_from(interior, Mat::zeros(boundary.nrows(), boundary.ncols()).as_ref());
+            boundary
+        };
+        let boundary: Vec<Mat<c64>> = loads.iter_mut().map(take).collect();
+        let images = self.through(loads, usize::MAX, |panel| {
+            self.factor.forward(panel);
             self.scale_interior(panel);
         });
-        for ((load, image), boundary) in loads.iter_mut().zip(images).zip(boundary) {
+        for ((load, image), mut boundary) in loads.iter_mut().zip(images).zip(boundary) {
             load.vectors = image;
-            let mut below = load.vectors.subrows_mut(interior, rows - interior);
-            below += boundary;
-            load.tied.solve(load.vectors.as_mut(), interior);
+            let mut reached = Mat::zeros(boundary.nrows(), boundary.ncols());
+            load.vectors.copy_to(interior, reached.as_mut());
+            boundary += reached;
+            load.vectors.copy_from(interior, boundary.as_ref());
         }
-        self.half_adjoint(loads);
+        self.on_boundary(loads, TiedFactor::solve);
+    }
+
+    /// Ŷ x for the vectors x of every load, with `matrix` the untied, symmetric Y.
+    pub(super) fn products(&self, matrix: &SparseColMat<usize, f64>, loads: &[Load<'_>]) -> Vec<VectorBlock> {
+        self.through(loads, usize::MAX, |panel| *panel = row_product(matrix, panel))
     }
 
     /// Whether the matrix of every nodal diameter is positive definite, contact DOF included, seen without factoring
@@ -170,7 +187,7 @@ impl<'a> SectorFactor<'a> {
         }
         let bound = 4.0 * (through.sqrt() + direct.sqrt());
         let tie = self.untied.tie(0);
-        let mut shifted = tied_schur(self.untied, &self.factor, &[(1.0, matrix)], &tie);
+        let mut shifted = tied_schur(self.untied, self.factor.schur(), &[(1.0, matrix)], &tie);
         shifted.diagonal_mut().column_vector_mut().iter_mut().for_each(|value| *value -= bound);
         cholesky(shifted.as_mut(), &tie).is_ok()
     }
@@ -182,36 +199,59 @@ impl<'a> SectorFactor<'a> {
         join(&loads).subrows(0, self.untied.internal()).to_owned()
     }
 
-    fn solve_tied_adjoint(&self, loads: &mut [Load<'_>]) {
-        for load in loads {
-            load.tied.solve_adjoint(load.vectors.as_mut(), self.untied.interior());
-        }
+    /// Solves with the dense factor of each nodal diameter, which is read once for all its loads.
+    fn on_boundary(&self, loads: &mut [Load<'_>], solve: impl Fn(&TiedFactor, MatMut<'_, c64>) + Sync) {
+        let interior = self.untied.interior();
+        let mut loads: Vec<&mut Load<'_>> = loads.iter_mut().collect();
+        loads.sort_by_key(|load| load.tied.tie.harmonic);
+        let same: Vec<_> = loads.chunk_by_mut(|a, b| std::ptr::eq(a.tied, b.tied)).collect();
+        same.into_par_iter().for_each(|loads| {
+            // Contact rows that are missing stay zero in a solve with L_S⁻ᴴ, and what L_S⁻¹ makes of them reaches no others.
+            let rows = loads.iter().map(|load| load.vectors.size() - interior).max().unwrap_or(0);
+            let mut x = Mat::zeros(rows, loads.iter().map(|load| load.vectors.count()).sum());
+            let columns = |first: &mut usize, load: &Load<'_>| {
+                let at = *first;
+                *first += load.vectors.count();
+                (at, load.vectors.size() - interior, load.vectors.count())
+            };
+            let mut first = 0;
+            for load in &*loads {
+                let (at, rows, count) = columns(&mut first, load);
+                load.vectors.copy_to(interior, x.submatrix_mut(0, at, rows, count));
+            }
+            solve(loads[0].tied, x.as_mut());
+            let mut first = 0;
+            for load in loads {
+                let (at, rows, count) = columns(&mut first, load);
+                load.vectors.copy_from(interior, x.submatrix(0, at, rows, count));
+            }
+        });
     }
 
     /// Sends the loads through `work`, which leaves their boundary rows alone.
-    fn solve_interior(&self, loads: &mut [Load<'_>], work: impl Fn(MatMut<'_, f64>) + Sync) {
+    fn solve_interior(&self, loads: &mut [Load<'_>], work: impl Fn(&mut Panel) + Sync) {
         let interior = self.untied.interior();
         let solved = self.through(loads, interior, work);
         for (load, solved) in loads.iter_mut().zip(solved) {
-            load.vectors.subrows_mut(0, interior).copy_from(&solved);
+            for row in 0..interior {
+                load.vectors.parts_mut().row_mut(row).copy_from_slice(solved.parts().row(row));
+            }
         }
     }
 
-    /// Sends the loads, untied, in groups through `work`, and ties what comes out: its first `rows` rows, per load.
-    /// Groups in parallel.
-    fn through(
-        &self,
-        loads: &[Load<'_>],
-        rows: usize,
-        work: impl Fn(MatMut<'_, f64>) + Sync,
-    ) -> Vec<Mat<c64>> {
+    /// Sends the loads, untied, in groups through `work`, and ties what comes out: at most its first `rows` rows, per load.
+    /// Groups in parallel; who is in a group with whom changes no bit.
+    fn through(&self, loads: &[Load<'_>], rows: usize, work: impl Fn(&mut Panel) + Sync) -> Vec<VectorBlock> {
+        let width: usize = loads.iter().map(Load::width).sum();
+        let count = width.div_ceil(GROUP).next_multiple_of(rayon::current_num_threads());
+        let room = width.div_ceil(count).next_multiple_of(Panel::LANES);
         let mut groups: Vec<&[Load<'_>]> = Vec::new();
         let mut rest = loads;
         while !rest.is_empty() {
             let mut held = 0;
             let fits = |load: &&Load<'_>| {
                 held += load.width();
-                held <= GROUP
+                held <= room
             };
             let (group, after) = rest.split_at(rest.iter().take_while(fits).count().max(1));
             groups.push(group);
@@ -220,27 +260,28 @@ impl<'a> SectorFactor<'a> {
         groups
             .into_par_iter()
             .flat_map_iter(|group| {
-                let mut panel = Mat::zeros(group.iter().map(Load::width).sum(), self.untied.size());
+                let width = group.iter().map(Load::width).sum();
+                let mut panel = Panel::zeros(width, self.untied.size());
                 let mut first = 0;
                 for load in group {
-                    let rows = panel.subrows_mut(first, load.width());
-                    self.untied.expand(&load.tied.tie, load.vectors.as_ref(), rows);
+                    self.untied.expand(&load.tied.tie, &load.vectors, &mut panel, first);
                     first += load.width();
                 }
-                work(panel.as_mut());
+                work(&mut panel);
                 let mut first = 0;
                 group.iter().map(move |load| {
-                    let rows_of_load = panel.subrows(first, load.width());
+                    let from = first;
                     first += load.width();
-                    self.untied.fold(&load.tied.tie, rows_of_load, rows)
+                    let rows = rows.min(load.vectors.size());
+                    self.untied.fold(&load.tied.tie, &panel, from, load.vectors.count(), rows)
                 })
             })
             .collect()
     }
 
-    fn scale_interior(&self, mut panel: MatMut<'_, f64>) {
+    fn scale_interior(&self, panel: &mut Panel) {
         for (row, scale) in self.scale.iter().enumerate() {
-            panel.rb_mut().col_mut(row).iter_mut().for_each(|value| *value *= scale);
+            panel.row_mut(row).iter_mut().for_each(|value| *value *= scale);
         }
     }
 }

@@ -15,7 +15,6 @@ use super::options::{ReductionError, Watch};
 use super::sector_factor::SectorFactor;
 use super::tied_factor::TiedFactor;
 use super::untied::UntiedSector;
-use crate::dynamics::centrifugal::stiffness_terms;
 use crate::dynamics::error::ModelError;
 use crate::dynamics::sector::SectorModel;
 use rubmap_numerics::matrix_serde;
@@ -27,16 +26,21 @@ const LARGEST_BLOCK: usize = 64;
 /// Residual of the modes of the basis: 1e-8 in x is 1e-16 in λ; 1e-9 leaves a margin.
 const MODE_TOLERANCE: f64 = 1e-9;
 /// Residual behind the full sector's frequencies: right to some nine digits.
-const FREQUENCY_TOLERANCE: f64 = 3e-5;
+pub(super) const FREQUENCY_TOLERANCE: f64 = 3e-5;
 /// Nodal diameters searched together: enough to share solves, few enough for their Krylov bases to fit.
 pub(super) const TOGETHER: usize = 6;
 /// Frequencies of the full sector that the reduced ones are compared with.
 pub(super) const COMPARED: usize = 10;
+/// Modes of the full sector at a given speed beyond those, which tell what is missing between the speeds.
+pub(super) const BEYOND_COMPARED: usize = 2;
 
-/// What one nodal diameter's search found at one speed.
+/// What the searches of one nodal diameter found at one speed.
 #[derive(Serialize, Deserialize)]
 pub(super) struct HarmonicPart {
+    /// With fixed contact DOF.
     pub(super) modes: Modes,
+    /// The lowest of the full sector; none where its stiffness is indefinite.
+    pub(super) full: Option<Modes>,
     /// Ψ_s(0), from the search at rest only.
     #[serde(with = "matrix_serde::list")]
     static_modes: Vec<Mat<c64>>,
@@ -56,9 +60,27 @@ pub(super) type FullFrequencies = Vec<Option<Vec<f64>>>;
 pub(super) struct SpeedPart {
     pub(super) harmonics: Vec<HarmonicPart>,
     pub(super) completeness: Vec<Completeness>,
-    pub(super) full: FullFrequencies,
-    /// Block that found them.
+    /// Block that found the full sector's modes.
     pub(super) full_block: usize,
+}
+
+impl SpeedPart {
+    /// The full sector's lowest frequencies.
+    pub(super) fn full_frequencies(&self) -> FullFrequencies {
+        self.harmonics.iter().map(|part| part.full.as_ref().map(frequencies)).collect()
+    }
+}
+
+/// The stiffness at one given speed and its factors.
+pub(super) struct Factored<'a> {
+    pub(super) stiffness: SparseColMat<usize, f64>,
+    pub(super) factor: SectorFactor<'a>,
+    pub(super) tied: Vec<TiedFactor>,
+}
+
+/// Circular frequencies of those of the modes that are compared.
+fn frequencies(modes: &Modes) -> Vec<f64> {
+    modes.values.iter().take(COMPARED).map(|value| value.sqrt()).collect()
 }
 
 /// The sector on its way through a reduction.
@@ -72,24 +94,109 @@ pub(super) struct Work<'a> {
     pub(super) checkpoints: &'a dyn Checkpoints,
 }
 
-impl Work<'_> {
-    /// Modes, counts and full frequencies at the given speed number `index`.
-    pub(super) fn at_given_speed(&self, index: usize, watch: Watch<'_>) -> Result<SpeedPart, ReductionError> {
+impl<'a> Work<'a> {
+    /// Modes, counts and full modes at the given speed number `index`, and the factors they needed.
+    pub(super) fn at_given_speed(
+        &self,
+        index: usize,
+        watch: Watch<'_>,
+    ) -> Result<(SpeedPart, Option<Factored<'a>>), ReductionError> {
         let harmonic_name = |harmonic: usize| format!("speed-{index}-harmonic-{harmonic}");
         let mut harmonics: Vec<Option<HarmonicPart>> =
             (0..self.harmonics).map(|harmonic| self.load(&harmonic_name(harmonic))).collect();
         let summary_name = format!("speed-{index}");
-        let summary: Option<(Vec<Completeness>, FullFrequencies, usize)> = self.load(&summary_name);
-        if let Some((completeness, full, full_block)) = summary
+        if let Some((completeness, full_block)) = self.load(&summary_name)
             && harmonics.iter().all(Option::is_some)
         {
             let harmonics = harmonics.into_iter().flatten().collect();
-            return Ok(SpeedPart { harmonics, completeness, full, full_block });
+            return Ok((SpeedPart { harmonics, completeness, full_block }, None));
         }
 
         let speed_rad_s = self.sector.speeds_rad_s[index];
         let phase = |share: f64, what: &str| go_on(watch, share, &format!("{what} at {speed_rad_s} rad/s"));
-        phase(0.0, "factorisation")?;
+        let factored = self.factored(index, watch)?;
+        let Factored { stiffness, factor, tied } = &factored;
+        let pencil = Pencil { untied: self.untied, stiffness, mass: self.mass, factor };
+
+        let unknown: Vec<usize> = (0..self.harmonics).filter(|&h| harmonics[h].is_none()).collect();
+        let groups = unknown.len().div_ceil(TOGETHER) as f64;
+        for (group, members) in unknown.chunks(TOGETHER).enumerate() {
+            let what = format!("modes of nodal diameter{}", list(members));
+            let share = |done: f64| 0.1 + 0.6 * (group as f64 + done) / groups;
+            let free: Vec<usize> = members.iter().copied().filter(|&h| tied[h].free.is_ok()).collect();
+            let asked: Vec<(&TiedFactor, Wanted)> = (members.iter())
+                .map(|&h| (&tied[h], self.wanted(BLOCK)))
+                .chain(free.iter().map(|&h| (&tied[h], self.wanted_of_full(BLOCK, true))))
+                .collect();
+            let found = pencil.lowest_modes(&asked, &|done| phase(share(done), &what).is_ok());
+            let mut found = found.map_err(|error| mode_error(error, speed_rad_s))?.into_iter();
+            for (&harmonic, modes) in members.iter().zip(found.by_ref().take(members.len())) {
+                let static_modes =
+                    if index == 0 { vec![factor.static_modes(&tied[harmonic])] } else { Vec::new() };
+                harmonics[harmonic] = Some(HarmonicPart { modes, full: None, static_modes });
+            }
+            for (&harmonic, full) in free.iter().zip(found) {
+                harmonics[harmonic].iter_mut().for_each(|part| part.full = Some(full.clone()));
+            }
+            for &harmonic in members {
+                harmonics[harmonic].iter().for_each(|part| self.save(&harmonic_name(harmonic), part));
+            }
+        }
+        let mut harmonics: Vec<HarmonicPart> = harmonics.into_iter().flatten().collect();
+
+        phase(0.7, "counting modes")?;
+        let mut completeness = vec![None; self.harmonics];
+        let mut block = BLOCK;
+        loop {
+            let open: Vec<usize> = (0..self.harmonics).filter(|&h| completeness[h].is_none()).collect();
+            let doubtful = self.prove(stiffness, &harmonics, &open, block, &mut completeness);
+            let doubtful =
+                doubtful.map_err(|h| ModelError::ModesMissed { nodal_diameter: h, speed_rad_s })?;
+            if doubtful.is_empty() {
+                break;
+            }
+            block *= 2;
+            let what = format!("searching again for modes, nodal diameter{}", list(&doubtful));
+            let asked: Vec<_> = doubtful.iter().map(|&h| (&tied[h], self.wanted(block))).collect();
+            let again = pencil.lowest_modes(&asked, &|_| phase(0.7, &what).is_ok());
+            for (&harmonic, modes) in doubtful.iter().zip(again.map_err(|e| mode_error(e, speed_rad_s))?) {
+                harmonics[harmonic].modes = modes;
+                self.save(&harmonic_name(harmonic), &harmonics[harmonic]);
+            }
+        }
+        let completeness: Vec<Completeness> = completeness.into_iter().flatten().collect();
+
+        let mut full_block = BLOCK;
+        loop {
+            // Fixing the contact DOF raises every frequency: one of the full sector above a fixed one tells of others that
+            // were missed.
+            let above = |part: &HarmonicPart| {
+                let full = part.full.iter().flat_map(|full| &full.values);
+                full.zip(part.modes.ceilings()).any(|(&full, ceiling)| full > ceiling)
+            };
+            let missed: Vec<usize> = (0..self.harmonics).filter(|&h| above(&harmonics[h])).collect();
+            if missed.is_empty() || full_block >= LARGEST_BLOCK {
+                break;
+            }
+            full_block *= 2;
+            let what =
+                format!("searching again for modes of the full sector, nodal diameter{}", list(&missed));
+            let asked: Vec<_> =
+                missed.iter().map(|&h| (&tied[h], self.wanted_of_full(full_block, true))).collect();
+            let again = pencil.lowest_modes(&asked, &|_| phase(0.9, &what).is_ok());
+            for (&harmonic, full) in missed.iter().zip(again.map_err(|e| mode_error(e, speed_rad_s))?) {
+                harmonics[harmonic].full = Some(full);
+                self.save(&harmonic_name(harmonic), &harmonics[harmonic]);
+            }
+        }
+        self.save(&summary_name, &(&completeness, full_block));
+        Ok((SpeedPart { harmonics, completeness, full_block }, Some(factored)))
+    }
+
+    /// Factors the stiffness at the given speed number `index`.
+    pub(super) fn factored(&self, index: usize, watch: Watch<'_>) -> Result<Factored<'a>, ReductionError> {
+        let speed_rad_s = self.sector.speeds_rad_s[index];
+        go_on(watch, 0.0, &format!("factorisation at {speed_rad_s} rad/s"))?;
         let stiffness = self.untied.assemble(&[(1.0, &self.sector.stiffness[index])]);
         let indefinite = |nodal_diameter: usize| ModelError::StiffnessNotPositiveDefinite {
             nodal_diameter,
@@ -103,60 +210,7 @@ impl Work<'_> {
         let factor = SectorFactor::new(self.untied, &stiffness).map_err(|_| indefinite(0))?;
         let tied =
             self.tie(&factor, &stiffness).into_iter().collect::<Result<Vec<_>, _>>().map_err(indefinite)?;
-        let pencil = Pencil { untied: self.untied, stiffness: &stiffness, mass: self.mass, factor: &factor };
-
-        let all: Vec<usize> = (0..self.harmonics).collect();
-        let groups = all.len().div_ceil(TOGETHER) as f64;
-        for (group, members) in all.chunks(TOGETHER).enumerate() {
-            // All or none of a group: who is solved together decides on the last bits.
-            if members.iter().all(|&h| harmonics[h].is_some()) {
-                continue;
-            }
-            let what = format!("fixed-interface modes, nodal diameter{}", list(members));
-            let share = |done: f64| 0.1 + 0.5 * (group as f64 + done) / groups;
-            let modes =
-                self.search(&pencil, &tied, members, BLOCK, &|done| phase(share(done), &what).is_ok());
-            for (&harmonic, modes) in members.iter().zip(modes.map_err(|e| mode_error(e, speed_rad_s))?) {
-                let static_modes =
-                    if index == 0 { vec![factor.static_modes(&tied[harmonic])] } else { Vec::new() };
-                let part = HarmonicPart { modes, static_modes };
-                self.save(&harmonic_name(harmonic), &part);
-                harmonics[harmonic] = Some(part);
-            }
-        }
-        let mut harmonics: Vec<HarmonicPart> = harmonics.into_iter().flatten().collect();
-
-        phase(0.6, "counting modes")?;
-        let mut completeness = vec![None; self.harmonics];
-        let mut block = BLOCK;
-        loop {
-            let open: Vec<usize> = all.iter().copied().filter(|&h| completeness[h].is_none()).collect();
-            let doubtful = self.prove(&stiffness, &harmonics, &open, block, &mut completeness);
-            let doubtful =
-                doubtful.map_err(|h| ModelError::ModesMissed { nodal_diameter: h, speed_rad_s })?;
-            if doubtful.is_empty() {
-                break;
-            }
-            block *= 2;
-            let what = format!("searching again for modes, nodal diameter{}", list(&doubtful));
-            let again = self.search(&pencil, &tied, &doubtful, block, &|_| phase(0.6, &what).is_ok());
-            for (&harmonic, modes) in doubtful.iter().zip(again.map_err(|e| mode_error(e, speed_rad_s))?) {
-                harmonics[harmonic].modes = modes;
-                self.save(&harmonic_name(harmonic), &harmonics[harmonic]);
-            }
-        }
-        let completeness: Vec<Completeness> = completeness.into_iter().flatten().collect();
-
-        phase(0.8, "full sector")?;
-        // Fixing the contact DOF raises every frequency: a ceiling for those of the full sector.
-        let ceilings: Vec<Vec<f64>> = harmonics.iter().map(|part| part.modes.ceilings()).collect();
-        let free: Vec<&TiedFactor> = tied.iter().filter(|tied| tied.free.is_ok()).collect();
-        let going = |done: f64| phase(0.8 + 0.2 * done, "full sector").is_ok();
-        let (full, full_block) = self
-            .full_frequencies(&pencil, &free, Some(&ceilings), BLOCK, &going)
-            .map_err(|error| mode_error(error, speed_rad_s))?;
-        self.save(&summary_name, &(&completeness, &full, full_block));
-        Ok(SpeedPart { harmonics, completeness, full, full_block })
+        Ok(Factored { stiffness, factor, tied })
     }
 
     /// Counts the modes of the nodal diameters `open`, found with blocks of `block`; returns those to search again, or
@@ -189,35 +243,8 @@ impl Work<'_> {
         Ok(again)
     }
 
-    /// The full sector's frequencies at a speed between the given ones, with K(Ω) through them, by blocks of `block`.
-    pub(super) fn at_speed_between(
-        &self,
-        name: &str,
-        speed_rad_s: f64,
-        block: usize,
-        watch: Watch<'_>,
-    ) -> Result<FullFrequencies, ReductionError> {
-        if let Some(full) = self.load(name) {
-            return Ok(full);
-        }
-        let phase = |share: f64| go_on(watch, share, &format!("full sector at {speed_rad_s} rad/s"));
-        phase(0.0)?;
-        let stiffness = self.untied.assemble(&stiffness_terms(self.sector, speed_rad_s));
-        let Ok(factor) = SectorFactor::new(self.untied, &stiffness) else {
-            return Ok(vec![None; self.harmonics]);
-        };
-        let tied = self.tie(&factor, &stiffness);
-        let free: Vec<&TiedFactor> = tied.iter().flatten().filter(|tied| tied.free.is_ok()).collect();
-        let pencil = Pencil { untied: self.untied, stiffness: &stiffness, mass: self.mass, factor: &factor };
-        let (full, _) = self
-            .full_frequencies(&pencil, &free, None, block, &|done| phase(done).is_ok())
-            .map_err(|error| mode_error(error, speed_rad_s))?;
-        self.save(name, &full);
-        Ok(full)
-    }
-
     /// The dense factor of every nodal diameter; the number of the nodal diameter where it has none.
-    fn tie(
+    pub(super) fn tie(
         &self,
         factor: &SectorFactor<'_>,
         stiffness: &SparseColMat<usize, f64>,
@@ -228,81 +255,38 @@ impl Work<'_> {
             .collect()
     }
 
-    fn search(
-        &self,
-        pencil: &Pencil<'_>,
-        tied: &[TiedFactor],
-        members: &[usize],
-        block: usize,
-        keep_going: &dyn Fn(f64) -> bool,
-    ) -> Result<Vec<Modes>, ModeError> {
-        let ties: Vec<&TiedFactor> = members.iter().map(|&harmonic| &tied[harmonic]).collect();
-        pencil.lowest_modes(
-            &ties,
-            Wanted {
-                count: self.modes_per_speed,
-                block,
-                free: false,
-                vectors: true,
-                tolerance: MODE_TOLERANCE,
-                beyond: block / 2,
-            },
-            keep_going,
-        )
-    }
-
-    /// The lowest frequencies of the nodal diameters in `free`, searched again with larger blocks where one lies above
-    /// its ceiling, which tells that others were missed. Returns the largest block used.
-    fn full_frequencies(
-        &self,
-        pencil: &Pencil<'_>,
-        free: &[&TiedFactor],
-        ceilings: Option<&[Vec<f64>]>,
-        block: usize,
-        keep_going: &dyn Fn(f64) -> bool,
-    ) -> Result<(FullFrequencies, usize), ModeError> {
-        let mut full = vec![None; self.harmonics];
-        let mut waiting = free.to_vec();
-        let mut block = block;
-        loop {
-            let mut again = Vec::new();
-            for (group, members) in waiting.chunks(TOGETHER).enumerate() {
-                let tolerance = FREQUENCY_TOLERANCE;
-                let wanted =
-                    Wanted { count: COMPARED, block, free: true, vectors: false, tolerance, beyond: 0 };
-                let share = |done: f64| (group as f64 + done) / waiting.len().div_ceil(TOGETHER) as f64;
-                let found = pencil.lowest_modes(members, wanted, &|done| keep_going(share(done)))?;
-                for (&tied, modes) in members.iter().zip(found) {
-                    let harmonic = tied.tie.harmonic;
-                    let ceiling = ceilings.map_or(&[][..], |ceilings| &ceilings[harmonic]);
-                    let mut pairs = modes.values.iter().zip(ceiling);
-                    if block < LARGEST_BLOCK && pairs.any(|(found, ceiling)| found > ceiling) {
-                        again.push(tied);
-                    } else {
-                        full[harmonic] = Some(modes.values.iter().map(|lambda| lambda.sqrt()).collect());
-                    }
-                }
-            }
-            if again.is_empty() {
-                return Ok((full, block));
-            }
-            waiting = again;
-            block *= 2;
+    /// The modes of the basis, by blocks of `block`.
+    fn wanted(&self, block: usize) -> Wanted {
+        Wanted {
+            count: self.modes_per_speed,
+            block,
+            free: false,
+            vectors: true,
+            tolerance: MODE_TOLERANCE,
+            beyond: block / 2,
         }
     }
 
-    fn load<T: DeserializeOwned>(&self, part: &str) -> Option<T> {
+    /// The full sector's lowest modes, at a given speed or not. At the given ones a few more than are compared: what is
+    /// between the speeds follows from them.
+    pub(super) fn wanted_of_full(&self, block: usize, given: bool) -> Wanted {
+        let vectors = given && self.sector.speeds_rad_s.len() == 3;
+        let count = if vectors { COMPARED + BEYOND_COMPARED } else { COMPARED };
+        Wanted { count, block, free: true, vectors, tolerance: FREQUENCY_TOLERANCE, beyond: 0 }
+    }
+
+    pub(super) fn load<T: DeserializeOwned>(&self, part: &str) -> Option<T> {
         postcard::from_bytes(&self.checkpoints.load(part)?).ok()
     }
 
-    fn save<T: Serialize>(&self, part: &str, value: &T) {
+    pub(super) fn save<T: Serialize>(&self, part: &str, value: &T) {
         if let Ok(bytes) = postcard::to_stdvec(value) {
             self.checkpoints.save(part, bytes);
         }
     }
 }
 
-fn go_on(watch: Watch<'_>, share: f64, phase: &str) -> Result<(), ReductionError> {
+pub(super) fn go_on(watch: Watch<'_>, share: f64, phase: &str) -> Result<(), ReductionError> {
     if watch(share, phase) { Ok(()) } else { Err(ReductionError::Cancelled) }
 }
 
@@ -315,7 +299,7 @@ fn list(members: &[usize]) -> String {
     }
 }
 
-fn mode_error(error: ModeError, speed_rad_s: f64) -> ReductionError {
+pub(super) fn mode_error(error: ModeError, speed_rad_s: f64) -> ReductionError {
     match error {
         ModeError::Stopped => ReductionError::Cancelled,
         ModeError::NotConverged { harmonic, residual, block_steps } => ModelError::ModesNotConverged {

@@ -4,7 +4,7 @@ use faer::{Mat, c64};
 use serde::{Deserialize, Serialize};
 
 use super::options::{ReductionError, Watch};
-use super::sector_factor::{Load, SectorFactor};
+use super::sector_factor::{SectorFactor, join, split};
 use super::untied::UntiedSector;
 use crate::dynamics::error::ModelError;
 use crate::dynamics::sector::{CyclicMatrix, SectorModel};
@@ -66,10 +66,9 @@ pub fn static_response(
         let tied = factor.tie(&stiffness, 0).map_err(|_| indefinite())?;
         tied.free.map_err(|_| indefinite())?;
         let solve = |right: &Mat<c64>| {
-            let mut loads = [Load { tied: &tied, vectors: right.clone() }];
+            let mut loads = split(&tied, right.as_ref());
             factor.solve(&mut loads);
-            let [load] = loads;
-            load.vectors
+            join(&loads)
         };
         let mut solution = solve(&tied_load);
         // One step of refinement takes the round-off of the factor away.

@@ -9,7 +9,6 @@ use faer::traits::ComplexField;
 use faer::{Mat, MatMut, Par, c64};
 
 use super::untied::{Tie, UntiedSector};
-use rubmap_numerics::multifrontal::PartialFactor;
 
 /// Why a matrix has no factor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,11 +32,11 @@ impl TiedFactor {
     /// Factors S(i). Fails where the stiffness with fixed contact DOF is not positive definite.
     pub(super) fn new(
         untied: &UntiedSector,
-        factor: &PartialFactor<'_>,
+        eliminated: &Mat<f64>,
         stiffness: &SparseColMat<usize, f64>,
         tie: Tie,
     ) -> Result<Self, NotPositiveDefinite> {
-        let mut lower = tied_schur(untied, factor, &[(1.0, stiffness)], &tie);
+        let mut lower = tied_schur(untied, eliminated, &[(1.0, stiffness)], &tie);
         let f = untied.face();
         let below =
             |first: usize| move |failed: NotPositiveDefinite| NotPositiveDefinite { row: first + failed.row };
@@ -55,11 +54,10 @@ impl TiedFactor {
         Ok(Self { face: f, tie, lower, free })
     }
 
-    /// x_F ← L_S⁻¹ x_F, with as many boundary rows as `x` has below row `interior`.
-    pub(super) fn solve(&self, x: MatMut<'_, c64>, interior: usize) {
-        let rows = x.nrows() - interior;
-        let lower = self.lower.submatrix(0, 0, rows, rows);
-        solve_lower_triangular_in_place(lower, x.subrows_mut(interior, rows), Par::Seq);
+    /// x_F ← L_S⁻¹ x_F for the boundary rows `x`, with those of the contact DOF or without.
+    pub(super) fn solve(&self, x: MatMut<'_, c64>) {
+        let lower = self.lower.submatrix(0, 0, x.nrows(), x.nrows());
+        solve_lower_triangular_in_place(lower, x, Par::Seq);
     }
 
     /// Contact DOF at unit displacement one by one, the face in equilibrium with them (S_ff x_f = −S_fb), the interior
@@ -76,19 +74,18 @@ impl TiedFactor {
         vectors
     }
 
-    /// x_F ← L_S⁻ᴴ x_F.
-    pub(super) fn solve_adjoint(&self, x: MatMut<'_, c64>, interior: usize) {
-        let rows = x.nrows() - interior;
-        let lower = self.lower.submatrix(0, 0, rows, rows);
-        solve_upper_triangular_in_place(lower.adjoint(), x.subrows_mut(interior, rows), Par::Seq);
+    /// x_F ← L_S⁻ᴴ x_F, likewise.
+    pub(super) fn solve_adjoint(&self, x: MatMut<'_, c64>) {
+        let lower = self.lower.submatrix(0, 0, x.nrows(), x.nrows());
+        solve_upper_triangular_in_place(lower.adjoint(), x, Par::Seq);
     }
 }
 
-/// S(i) = Tᴴ (A_FF − A_FI A_II⁻¹ A_IF) T over (face, contact), both triangles, for A = Σ factor · matrix, the sum `factor`
-/// was made from.
+/// S(i) = Tᴴ (A_FF − A_FI A_II⁻¹ A_IF) T over (face, contact), both triangles, for A = Σ factor · matrix over
+/// `terms`; `eliminated` is the Schur complement that elimination of its interior leaves.
 pub(super) fn tied_schur(
     untied: &UntiedSector,
-    factor: &PartialFactor<'_>,
+    eliminated: &Mat<f64>,
     terms: &[(f64, &SparseColMat<usize, f64>)],
     tie: &Tie,
 ) -> Mat<c64> {
@@ -109,7 +106,7 @@ pub(super) fn tied_schur(
                 }
             }
         }
-        let eliminated = factor.schur().col(q);
+        let eliminated = eliminated.col(q);
         add(q, q, eliminated[q]);
         for p in q + 1..rows.len() {
             add(p, q, eliminated[p]);
@@ -121,7 +118,7 @@ pub(super) fn tied_schur(
 
 /// Lower Cholesky factor in place, rows of errors counted from its first; in real arithmetic, four times cheaper, where the nodal diameter is real.
 pub(super) fn cholesky(mut matrix: MatMut<'_, c64>, tie: &Tie) -> Result<(), NotPositiveDefinite> {
-    if UntiedSector::width(tie, 1) == 2 {
+    if !UntiedSector::is_real(tie) {
         return cholesky_of(matrix);
     }
     let mut real = Mat::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)].re);

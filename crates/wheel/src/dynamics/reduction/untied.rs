@@ -12,15 +12,17 @@
 use std::f64::consts::TAU;
 
 use faer::sparse::SparseColMat;
-use faer::{Mat, MatMut, MatRef, c64};
+use faer::{Mat, MatRef, c64};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 use super::ordering::interior_order;
 use crate::dynamics::sector::{CyclicMatrix, SectorModel};
 use rubmap_numerics::multifrontal::{Analysis, postorder};
 
+use rubmap_numerics::panel::Panel;
 use rubmap_numerics::sector_fourier::is_single;
 use rubmap_numerics::sparse_product::row_product;
+use rubmap_numerics::vector_block::VectorBlock;
 
 /// How one nodal diameter ties the faces.
 #[derive(Debug, Clone, Copy)]
@@ -167,50 +169,55 @@ impl UntiedSector {
         (self.face..2 * self.face).contains(&row) || row >= 2 * self.face + self.contact
     }
 
-    /// Real vectors that stand for `columns` tied ones.
-    pub(super) fn width(tie: &Tie, columns: usize) -> usize {
-        if tie.single { columns } else { 2 * columns }
+    /// Whether the vectors of a nodal diameter can be real.
+    pub(super) fn is_real(tie: &Tie) -> bool {
+        tie.single
     }
 
-    /// Writes T x for tied vectors `x` into the rows of `into` (`width × size`): real parts, then imaginary parts.
-    /// Contact rows missing in `x` are zero.
-    pub(super) fn expand(&self, tie: &Tie, x: MatRef<'_, c64>, mut into: MatMut<'_, f64>) {
-        let count = x.ncols();
-        let boundary = self.boundary(tie);
-        for q in 0..count {
-            let column = x.col(q);
-            let mut put = |row: usize, value: c64| {
-                into[(q, row)] = value.re;
-                if !tie.single {
-                    into[(count + q, row)] = value.im;
+    /// No tied vectors of `size` unknowns yet, `count` of them; real where the nodal diameter is.
+    pub(super) fn block(tie: &Tie, count: usize, size: usize) -> VectorBlock {
+        VectorBlock::zeros(count, size, tie.single)
+    }
+
+    /// Writes T x for tied vectors `x` into the vectors of `into` from number `first` on. Contact rows missing in `x` are
+    /// zero.
+    pub(super) fn expand(&self, tie: &Tie, x: &VectorBlock, into: &mut Panel, first: usize) {
+        let parts = x.parts();
+        for row in 0..self.interior {
+            into.row_mut(row)[first..][..parts.width()].copy_from_slice(parts.row(row));
+        }
+        let count = x.count();
+        for (row, &(tied, factor)) in self.boundary(tie).iter().enumerate() {
+            let tied = self.interior + tied;
+            if tied < x.size() {
+                let to = &mut into.row_mut(self.interior + row)[first..][..parts.width()];
+                for q in 0..count {
+                    let value = x.get(tied, q) * factor;
+                    to[q] = value.re;
+                    if !tie.single {
+                        to[count + q] = value.im;
+                    }
                 }
-            };
-            (0..self.interior).for_each(|row| put(row, column[row]));
-            for (row, &(tied, factor)) in boundary.iter().enumerate() {
-                let tied = self.interior + tied;
-                let value = if tied < x.nrows() { column[tied] * factor } else { c64::new(0.0, 0.0) };
-                put(self.interior + row, value);
             }
         }
     }
 
-    /// Tᴴ y of untied vectors in the rows of `y`, the first `rows` of the tied ones.
-    pub(super) fn fold(&self, tie: &Tie, y: MatRef<'_, f64>, rows: usize) -> Mat<c64> {
-        let count = if tie.single { y.nrows() } else { y.nrows() / 2 };
-        let get =
-            |row: usize, q: usize| c64::new(y[(q, row)], if tie.single { 0.0 } else { y[(count + q, row)] });
-        let mut folded =
-            Mat::from_fn(
-                rows,
-                count,
-                |row, q| {
-                    if row < self.interior { get(row, q) } else { c64::new(0.0, 0.0) }
-                },
-            );
+    /// Tᴴ y of the untied vectors of `y` from number `first` on that stand for `count` tied ones, the first `rows` rows of
+    /// these.
+    pub(super) fn fold(&self, tie: &Tie, y: &Panel, first: usize, count: usize, rows: usize) -> VectorBlock {
+        let mut folded = Self::block(tie, count, rows);
+        let width = folded.parts().width();
+        for row in 0..self.interior {
+            folded.parts_mut().row_mut(row).copy_from_slice(&y.row(row)[first..][..width]);
+        }
         for (row, (tied, factor)) in self.boundary(tie).into_iter().enumerate() {
             let tied = self.interior + tied;
             if tied < rows {
-                (0..count).for_each(|q| folded[(tied, q)] += get(self.interior + row, q) * factor.conj());
+                let from = &y.row(self.interior + row)[first..][..width];
+                for q in 0..count {
+                    let value = c64::new(from[q], if tie.single { 0.0 } else { from[count + q] });
+                    folded.set(tied, q, folded.get(tied, q) + value * factor.conj());
+                }
             }
         }
         folded
@@ -224,20 +231,21 @@ impl UntiedSector {
         tie: &Tie,
         x: MatRef<'_, c64>,
     ) -> Mat<c64> {
-        const COLUMNS: usize = 8;
-        let parts: Vec<Mat<c64>> = (0..x.ncols().div_ceil(COLUMNS))
+        const COLUMNS: usize = 12;
+        let parts: Vec<VectorBlock> = (0..x.ncols().div_ceil(COLUMNS))
             .into_par_iter()
             .map(|part| {
                 let first = part * COLUMNS;
                 let columns = x.subcols(first, COLUMNS.min(x.ncols() - first));
-                let mut panel = Mat::zeros(Self::width(tie, columns.ncols()), self.size());
-                self.expand(tie, columns, panel.as_mut());
-                self.fold(tie, row_product(matrix, panel.as_ref()).as_ref(), x.nrows())
+                let columns = VectorBlock::of(columns, tie.single);
+                let mut panel = Panel::zeros(columns.parts().width(), self.size());
+                self.expand(tie, &columns, &mut panel, 0);
+                self.fold(tie, &row_product(matrix, &panel), 0, columns.count(), x.nrows())
             })
             .collect();
         let mut product = Mat::zeros(x.nrows(), x.ncols());
         for (part, columns) in parts.iter().enumerate() {
-            product.subcols_mut(part * COLUMNS, columns.ncols()).copy_from(columns);
+            columns.copy_to(0, product.subcols_mut(part * COLUMNS, columns.count()));
         }
         product
     }

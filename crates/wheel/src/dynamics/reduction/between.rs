@@ -1,0 +1,114 @@
+//! The full sector's frequencies between the given speeds, with K(Ω) through them.
+
+use faer::sparse::SparseColMat;
+
+use super::convex::Between;
+use super::interpolation::MatrixRatios;
+use super::modes::{Modes, Pencil};
+use super::options::{ReductionError, Watch};
+use super::sector_factor::SectorFactor;
+use super::speed::{
+    COMPARED, FREQUENCY_TOLERANCE, Factored, FullFrequencies, SpeedPart, TOGETHER, Work, go_on, mode_error,
+};
+use super::tied_factor::TiedFactor;
+use crate::dynamics::centrifugal::stiffness_terms;
+
+/// ‖Ω1⁴K2‖/‖K0‖ of matrices that are linear in Ω² but for the round-off of twelve written digits.
+const LINEAR: f64 = 1e-11;
+
+impl Work<'_> {
+    /// Frequencies at ¼ and ¾ of the last of three given speeds, at which `last` is the factor if it is still there.
+    pub(super) fn between(
+        &self,
+        parts: &[SpeedPart],
+        last: Option<Factored<'_>>,
+        watch: Watch<'_>,
+    ) -> Result<Vec<(f64, FullFrequencies)>, ReductionError> {
+        let [_, _, top] = *self.sector.speeds_rad_s else { return Ok(Vec::new()) };
+        let speeds = [0.25, 0.75].map(|share| share * top);
+        let names = ["between-1", "between-2"];
+        let mut found = names.map(|name| self.load(name));
+        let linear = MatrixRatios::of(self.sector).is_some_and(|ratios| ratios.quadratic <= LINEAR);
+        let full = |part: usize, h: usize| parts[part].harmonics[h].full.as_ref();
+        let known: Option<Vec<[&Modes; 3]>> =
+            (0..self.harmonics).map(|h| Some([full(0, h)?, full(1, h)?, full(2, h)?])).collect();
+        if let Some(known) = known.filter(|_| linear && found.iter().any(Option::is_none)) {
+            let last = match last {
+                Some(last) => last,
+                None => self.factored(2, watch)?,
+            };
+            let by_modes = self.by_modes(&last, &known, speeds, watch)?;
+            for ((found, by_modes), name) in found.iter_mut().zip(by_modes).zip(names) {
+                by_modes.iter().for_each(|full| self.save(name, full));
+                *found = by_modes;
+            }
+        }
+        let block = parts.iter().map(|part| part.full_block).max().unwrap_or(1);
+        let full = |((found, name), speed_rad_s): ((Option<FullFrequencies>, _), f64)| match found {
+            Some(full) => Ok((speed_rad_s, full)),
+            None => Ok((speed_rad_s, self.searched(name, speed_rad_s, block, watch)?)),
+        };
+        found.into_iter().zip(names).zip(speeds).map(full).collect()
+    }
+
+    /// From the `known` modes of every nodal diameter at the given speeds; nothing for a speed where that proves too little.
+    fn by_modes(
+        &self,
+        last: &Factored<'_>,
+        known: &[[&Modes; 3]],
+        speeds_rad_s: [f64; 2],
+        watch: Watch<'_>,
+    ) -> Result<[Option<FullFrequencies>; 2], ReductionError> {
+        let at_rest = self.untied.assemble(&[(1.0, &self.sector.stiffness[0])]);
+        let between = Between {
+            untied: self.untied,
+            mass: self.mass,
+            stiffness: [&at_rest, &last.stiffness],
+            factor: &last.factor,
+            shares: speeds_rad_s.map(|speed| (speed / self.sector.speeds_rad_s[2]).powi(2)),
+        };
+        let mut full = [const { Some(Vec::new()) }; 2];
+        for (h, (tied, &known)) in last.tied.iter().zip(known).enumerate() {
+            let what = format!("full sector between the speeds, nodal diameter {h}");
+            go_on(watch, h as f64 / self.harmonics as f64, &what)?;
+            let lowest = between.lowest(tied, known, COMPARED, FREQUENCY_TOLERANCE);
+            for (full, lowest) in full.iter_mut().zip(lowest) {
+                *full = full.take().zip(lowest).map(|(mut full, lowest)| {
+                    full.push(Some(lowest.into_iter().map(f64::sqrt).collect()));
+                    full
+                });
+            }
+        }
+        Ok(full)
+    }
+
+    /// By a factor of its own and a search in blocks of `block`.
+    fn searched(
+        &self,
+        name: &str,
+        speed_rad_s: f64,
+        block: usize,
+        watch: Watch<'_>,
+    ) -> Result<FullFrequencies, ReductionError> {
+        let phase = |share: f64| go_on(watch, share, &format!("full sector at {speed_rad_s} rad/s"));
+        phase(0.0)?;
+        let stiffness: SparseColMat<usize, f64> =
+            self.untied.assemble(&stiffness_terms(self.sector, speed_rad_s));
+        let mut full: FullFrequencies = vec![None; self.harmonics];
+        let Ok(factor) = SectorFactor::new(self.untied, &stiffness) else { return Ok(full) };
+        let tied = self.tie(&factor, &stiffness);
+        let free: Vec<&TiedFactor> = tied.iter().flatten().filter(|tied| tied.free.is_ok()).collect();
+        let pencil = Pencil { untied: self.untied, stiffness: &stiffness, mass: self.mass, factor: &factor };
+        let groups = free.len().div_ceil(TOGETHER) as f64;
+        for (group, members) in free.chunks(TOGETHER).enumerate() {
+            let asked: Vec<_> =
+                members.iter().map(|&tied| (tied, self.wanted_of_full(block, false))).collect();
+            let found = pencil.lowest_modes(&asked, &|done| phase((group as f64 + done) / groups).is_ok());
+            for (tied, modes) in members.iter().zip(found.map_err(|error| mode_error(error, speed_rad_s))?) {
+                full[tied.tie.harmonic] = Some(modes.values.iter().map(|lambda| lambda.sqrt()).collect());
+            }
+        }
+        self.save(name, &full);
+        Ok(full)
+    }
+}
