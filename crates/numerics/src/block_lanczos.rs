@@ -94,7 +94,8 @@ impl BlockLanczos {
         let coefficients = Mat::from_fn(n, count, |i, m| eigen.vectors[(i, n - 1 - m)]);
         let values: Vec<f64> = (0..count).map(|m| eigen.values[n - 1 - m]).collect();
         // A y − θ y = remainder · (last block of coefficients).
-        let gram = self.remainder.as_ref().map_or_else(|| Mat::zeros(self.block, self.block), gram);
+        let Some(remainder) = &self.remainder else { unreachable!("an image was absorbed") };
+        let gram = gram(remainder);
         let tail = coefficients.subrows(n - self.block, self.block);
         let square = |m: usize| (tail.col(m).adjoint() * &gram * tail.col(m)).re.max(0.0);
         let errors = (0..count).map(|m| square(m).sqrt() / values[m]).collect();
@@ -139,7 +140,7 @@ fn gram(block: &VectorBlock) -> Mat<c64> {
 }
 
 /// The orthonormal block with the span of `block`, by the Cholesky factor of its Gram matrix; nothing where a diagonal entry of
-/// that is at most `least` times the largest. Twice over it is orthonormal to round-off (Yamamoto, Nakatsukasa, Yanagisawa and
+/// the factor is at most `least` times the largest: the block has lost rank, or more digits than a second pass restores. Twice over it is orthonormal to round-off (Yamamoto, Nakatsukasa, Yanagisawa and
 /// Fukaya, ETNA 44, 2015), in a fraction of the time of a decomposition of the tall block.
 fn orthonormalised(block: &VectorBlock, least: f64) -> Option<VectorBlock> {
     let factor = gram(block).llt(Side::Lower).ok()?;

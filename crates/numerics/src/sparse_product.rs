@@ -1,4 +1,4 @@
-//! Product of a sparse square matrix with many dense row vectors.
+//! Product of a sparse square matrix with many vectors.
 
 use faer::sparse::SparseColMat;
 use pulp::{Simd, WithSimd};

@@ -90,7 +90,7 @@ impl VectorBlock {
         }
     }
 
-    /// Xᴴ Y for the vectors X of all `blocks`, of equal counts, and these Y.
+    /// Xᴴ Y for the vectors X of all `blocks` and these Y.
     pub fn products(&self, blocks: &[Self]) -> Mat<c64> {
         let panels: Vec<&Panel> = blocks.iter().map(|block| &block.panel).collect();
         let mut products = Mat::zeros(blocks.iter().map(|block| block.count).sum(), self.count);
@@ -119,6 +119,7 @@ impl VectorBlock {
 
     /// Y ← Y + X C for the vectors X of all `blocks`, all real or none, as these Y are.
     pub fn add(&mut self, blocks: &[Self], coefficients: MatRef<'_, c64>) {
+        debug_assert!(blocks.iter().all(|block| block.real == self.real));
         let room = self.panel.room();
         let mut first = 0;
         let of_block = |block: &Self| {

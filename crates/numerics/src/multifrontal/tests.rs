@@ -82,7 +82,7 @@ fn leaves_the_schur_complement_and_solves() {
         assert!(inertia.growth < 1e6);
         assert!((&inertia.schur - factor.schur()).norm_max() < 1e-12);
 
-        // Widths of a register, of several, and of groups of three and what is left of them.
+        // Widths of a register, of several, and of more than one group of them.
         for width in [1, 3, 8, 24, 40, 61] {
             let given = Mat::from_fn(width, a.nrows(), |i, j| ((i + 2) as f64 * j as f64).sin());
             let mut x = Panel::zeros(width, a.nrows());

@@ -7,9 +7,10 @@
 //! ```
 //!
 //! Modes at the given speeds span those between them but for little, which inverse iterations with the factor at Ω1
-//! supply; the same factor bounds what a residual r tells of the error. That no mode is missing follows from the sum of
-//! the lowest m eigenvalues, the least trace of K on m directions, which is concave in s: what is not among the computed
-//! ρ lies above ρ_m − (Σρ − (1 − s) Σλ(0) − s Σλ(Ω1)). Where this does not convince, there is no answer.
+//! supply; the same factor bounds what a residual r tells of the error. If none is missing at rest and at Ω1, that none is
+//! between follows from the sum of the lowest m eigenvalues, the least trace of K on m directions, which is concave in s:
+//! where the first m − 1 of the computed ρ are eigenvalues, what is not among them lies above
+//! ρ_m − (Σρ − (1 − s) Σλ(0) − s Σλ(Ω1)). Where this does not convince, there is no answer.
 
 use faer::prelude::Reborrow;
 use faer::sparse::SparseColMat;
@@ -28,7 +29,7 @@ const ITERATIONS: usize = 6;
 const INDEPENDENT: f64 = 1e-5;
 
 /// The pencils at some speeds between rest and the last one.
-pub(super) struct Between<'a> {
+pub(super) struct Convex<'a> {
     pub(super) untied: &'a UntiedSector,
     pub(super) mass: &'a SparseColMat<usize, f64>,
     /// K(0) and K(Ω1).
@@ -48,7 +49,7 @@ struct Trial {
     mass: Mat<c64>,
 }
 
-impl Between<'_> {
+impl Convex<'_> {
     /// The `count` lowest eigenvalues of one nodal diameter at each speed, from the full sector's modes at rest, between and
     /// at Ω1, of which there are more. The error of each in the norm of K(Ω)⁻¹, relative to Kx, is at most `tolerance`; its
     /// square is that of the eigenvalue. `None` where they are not proven.
@@ -68,13 +69,15 @@ impl Between<'_> {
             trial.extend(self.trial(tied, modes.vectors.clone()));
         }
         self.shares.map(|share| {
-            let values = self.converged(tied, &mut trial, share, most, count, tolerance)?;
-            complete(&values, [&known[0].values, &known[2].values], share, count)
+            let (values, exact) = self.converged(tied, &mut trial, share, most, count, tolerance)?;
+            let ends = [&*known[0].values, &*known[2].values];
+            complete(&values[..most.min(exact + 1)], ends, share, count, tolerance)
                 .then(|| values[..count].to_vec())
         })
     }
 
-    /// The `most` lowest Ritz values with the stiffness at `share`, once the first `count` are as exact as they must be.
+    /// The `most` lowest Ritz values with the stiffness at `share`, once the first `count` are as exact as they must be, and
+    /// how many of the first are.
     fn converged(
         &self,
         tied: &TiedFactor,
@@ -83,7 +86,7 @@ impl Between<'_> {
         most: usize,
         count: usize,
         tolerance: f64,
-    ) -> Option<Vec<f64>> {
+    ) -> Option<(Vec<f64>, usize)> {
         for _ in 0..ITERATIONS {
             let coefficients = trial.ritz(share, most)?;
             let vectors = &trial.vectors * &coefficients;
@@ -93,7 +96,7 @@ impl Between<'_> {
             let energy: Vec<f64> = (0..most).map(|m| (vectors.col(m).adjoint() * kx.col(m)).re).collect();
             let quotient = |m: usize| energy[m] / (vectors.col(m).adjoint() * mx.col(m)).re;
             let values: Vec<f64> = (0..most).map(quotient).collect();
-            let residuals = Mat::from_fn(kx.nrows(), count, |i, m| kx[(i, m)] - mx[(i, m)] * values[m]);
+            let residuals = Mat::from_fn(kx.nrows(), most - 1, |i, m| kx[(i, m)] - mx[(i, m)] * values[m]);
             let mut loads = split(tied, residuals.as_ref());
             self.factor.half(&mut loads);
             let halves = join(&loads);
@@ -101,7 +104,8 @@ impl Between<'_> {
                 |m: usize| halves.col(m).squared_norm_l2() / share <= tolerance * tolerance * energy[m];
             let doubtful: Vec<usize> = (0..count).filter(|&m| !exact(m)).collect();
             if doubtful.is_empty() {
-                return Some(values);
+                let exact = (0..most - 1).take_while(|&m| exact(m)).count();
+                return Some((values, exact));
             }
             let halves = Mat::from_fn(halves.nrows(), doubtful.len(), |i, m| halves[(i, doubtful[m])]);
             let mut loads = split(tied, halves.as_ref());
@@ -156,11 +160,12 @@ impl Trial {
     }
 }
 
-/// Whether none is missing among the `count` lowest of `values`, given those at rest and at Ω1.
-fn complete(values: &[f64], ends: [&[f64]; 2], share: f64, count: usize) -> bool {
+/// Whether none is missing among the `count` lowest of `values`, all but the last of which are eigenvalues, given those at rest and
+/// at Ω1; all to the square of `tolerance`.
+fn complete(values: &[f64], ends: [&[f64]; 2], share: f64, count: usize, tolerance: f64) -> bool {
     (count + 1..=values.len()).any(|m| {
         let sum = |values: &[f64]| values[..m].iter().sum::<f64>();
-        let least = (1.0 - share) * sum(ends[0]) + share * sum(ends[1]);
+        let least = (1.0 - tolerance * tolerance) * ((1.0 - share) * sum(ends[0]) + share * sum(ends[1]));
         values[m - 1] - (sum(values) - least) > values[count - 1]
     })
 }
@@ -182,12 +187,23 @@ mod tests {
         let ends = [lines(&all, 0.0), lines(&all, 1.0)];
         for share in [1.0 / 16.0, 9.0 / 16.0] {
             let found = lines(&all, share);
-            assert!(complete(&found[..5], [&ends[0], &ends[1]], share, 4));
+            assert!(complete(&found[..5], [&ends[0], &ends[1]], share, 4, 1e-4));
             for missing in 0..4 {
                 let mut found = found.clone();
                 found.remove(missing);
-                assert!(!complete(&found, [&ends[0], &ends[1]], share, 4), "{share} {missing}");
+                assert!(!complete(&found, [&ends[0], &ends[1]], share, 4, 1e-4), "{share} {missing}");
             }
         }
+    }
+
+    /// Beyond the last but one value nothing is known of an eigenvalue that a missing one is mixed with.
+    #[test]
+    fn values_that_are_no_eigenvalues_prove_nothing() {
+        let low = [0.1, 0.2, 0.3, 0.4];
+        let truth = [&low[..], &[1.0], &[1.1; 6], &[10.0]].concat();
+        let found = [&low[..], &[1.1; 6], &[1.2, 10.0]].concat();
+        // Ten are exact, the eleventh is not: the twelfth must not be asked.
+        assert!(!complete(&found[..11], [&truth, &truth], 0.5, 10, 1e-4));
+        assert!(complete(&found, [&truth, &truth], 0.5, 10, 1e-4));
     }
 }

@@ -46,7 +46,7 @@ pub(super) fn check(
     Ok(InterpolationCheck { verdict, linear_ratio, quadratic_ratio, frequency_error })
 }
 
-/// What the three stiffness matrices of a sector tell about K(Ω) by themselves (largest entries of the sector's own block).
+/// What the three stiffness matrices of a sector tell about K(Ω) by themselves (largest entries).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MatrixRatios {
     /// ‖Ω1²K1‖/‖K0‖.
@@ -59,10 +59,12 @@ impl MatrixRatios {
     /// Of a sector with stiffness at three speeds; entry by entry, so that nothing is held beside the matrices.
     pub fn of(sector: &SectorModel) -> Option<Self> {
         let ([_, a, b], [k0, ka, kb]) = (&*sector.speeds_rad_s, &*sector.stiffness) else { return None };
-        let matrices = [&k0.own, &ka.own, &kb.own];
+        let blocks = [[&k0.own, &ka.own, &kb.own], [&k0.next, &ka.next, &kb.next]];
         let (xa, xb) = (a * a, b * b);
         let (mut scale, mut linear, mut quadratic) = (0.0f64, 0.0f64, 0.0f64);
-        for column in 0..k0.own.ncols() {
+        for (matrices, column) in
+            blocks.into_iter().flat_map(|matrices| (0..k0.own.ncols()).map(move |column| (matrices, column)))
+        {
             let mut left = matrices
                 .map(|matrix| matrix.row_idx_of_col(column).zip(matrix.val_of_col(column)).peekable());
             while let Some(row) = left.iter_mut().filter_map(|rest| rest.peek().map(|entry| entry.0)).min() {

@@ -5,7 +5,7 @@ use super::untied::UntiedSector;
 use crate::dynamics::sector::{CyclicMatrix, SectorModel};
 
 /// Krylov vectors per mode asked for, seen over many sectors, with a margin.
-const KRYLOV_VECTORS_PER_MODE: usize = 8;
+const KRYLOV_VECTORS_PER_MODE: usize = 6;
 
 /// Bytes held at once by the sector's own matrices and its reduction, from the symbolic factorisation. An estimate:
 /// searches that converge slowly need more.
@@ -30,13 +30,17 @@ pub(super) fn needed_bytes(
     let boundary = untied.face() + untied.contact();
     let tied = COMPLEX * boundary * boundary * harmonics;
     let rows = untied.internal() + untied.contact();
-    let krylov_vectors = KRYLOV_VECTORS_PER_MODE * modes_per_speed.max(COMPARED);
+    // Those of the basis and of the full sector at the same time.
+    let compared = COMPARED + BEYOND_COMPARED;
+    let krylov_vectors = KRYLOV_VECTORS_PER_MODE * (modes_per_speed + compared);
     let krylov = COMPLEX * rows * harmonics.min(TOGETHER) * krylov_vectors;
     // Modes at every speed and static modes; while they are projected, the bases made of them too.
     let kept = COMPLEX * rows * harmonics * (speeds * modes_per_speed + untied.contact());
     // Of the full sector, until the frequencies between the speeds are known.
-    let full = COMPLEX * rows * harmonics * speeds * (COMPARED + BEYOND_COMPARED);
+    let full = COMPLEX * rows * harmonics * speeds * compared;
+    // Between the speeds: what is tried, with its images under three matrices, and corrections.
+    let trial = COMPLEX * rows * 4 * (speeds + 1) * compared;
     let at_speed = ENTRY * stiffness + factor + tied;
-    let until_then = at_speed + krylov.max(assembly) + full;
+    let until_then = at_speed + krylov.max(assembly).max(ENTRY * stiffness + trial) + full;
     (given + ENTRY * mass + kept + until_then.max(kept + ENTRY * stiffness)) as u64
 }

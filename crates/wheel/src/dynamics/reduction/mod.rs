@@ -99,7 +99,7 @@ pub fn reduce(
     let mut last = None;
     for index in 0..sector.speeds_rad_s.len() {
         let (from, to) = (0.02 + 0.73 * index as f64 / given, 0.02 + 0.73 * (index as f64 + 1.0) / given);
-        // Two factors at once would be the most that is ever held.
+        // Two factors at once would be the most ever held: the last one goes first.
         drop(last.take());
         let (part, factored) = work.at_given_speed(index, &scoped(from, to))?;
         parts.push(part);

@@ -102,8 +102,8 @@ struct Search<'a> {
 }
 
 impl Pencil<'_> {
-    /// The lowest modes of every nodal diameter asked for, in that order. Deterministic, and of each the same bits
-    /// whatever else is asked; `keep_going(share)` is asked before every block step with a guess at the share of the work
+    /// The lowest modes of every nodal diameter asked for, in that order. Deterministic: of a nodal diameter the same bits
+    /// whatever others are asked for; `keep_going(share)` is asked before every block step with a guess at the share of the work
     /// done.
     pub(super) fn lowest_modes(
         &self,
@@ -164,21 +164,26 @@ impl Pencil<'_> {
                     }
                 }
             }
-            let mut modes = Vec::with_capacity(converged.len());
-            for converged in converged.chunks(ASSEMBLED) {
-                modes.extend(self.modes(converged)?);
-            }
-            for ((mut search, _), (modes, worst)) in converged.into_iter().zip(modes) {
-                let Wanted { count, tolerance, .. } = search.wanted;
-                if worst <= tolerance {
-                    found[search.position] = Some(modes);
-                } else if search.lanczos.is_full() {
-                    // The whole space, and round-off in the way: small enough to be solved at once.
-                    let modes = self.dense(&search.tied.tie, search.rows, count, tolerance)?;
-                    found[search.position] = Some(modes);
-                } else {
-                    search.last_error = worst;
-                    waiting.push(search);
+            // With free and with fixed contact DOF apart: what else of a nodal diameter converged now must not matter.
+            let (free, fixed): (Vec<_>, Vec<_>) =
+                converged.into_iter().partition(|(search, _)| search.wanted.free);
+            for mut converged in [free, fixed] {
+                while !converged.is_empty() {
+                    let now: Vec<_> = converged.drain(..converged.len().min(ASSEMBLED)).collect();
+                    let modes = self.modes(&now)?;
+                    for ((mut search, _), (modes, worst)) in now.into_iter().zip(modes) {
+                        let Wanted { count, tolerance, .. } = search.wanted;
+                        if worst <= tolerance {
+                            found[search.position] = Some(modes);
+                        } else if search.lanczos.is_full() {
+                            // The whole space, and round-off in the way: small enough to be solved at once.
+                            let modes = self.dense(&search.tied.tie, search.rows, count, tolerance)?;
+                            found[search.position] = Some(modes);
+                        } else {
+                            search.last_error = worst;
+                            waiting.push(search);
+                        }
+                    }
                 }
             }
             active = waiting;

@@ -199,7 +199,8 @@ impl<'a> SectorFactor<'a> {
         join(&loads).subrows(0, self.untied.internal()).to_owned()
     }
 
-    /// Solves with the dense factor of each nodal diameter, which is read once for all its loads.
+    /// Solves with the dense factor of each nodal diameter, which is read once for all its loads; their last bits hang on which
+    /// these are.
     fn on_boundary(&self, loads: &mut [Load<'_>], solve: impl Fn(&TiedFactor, MatMut<'_, c64>) + Sync) {
         let interior = self.untied.interior();
         let mut loads: Vec<&mut Load<'_>> = loads.iter_mut().collect();
@@ -243,7 +244,7 @@ impl<'a> SectorFactor<'a> {
     /// Groups in parallel; who is in a group with whom changes no bit.
     fn through(&self, loads: &[Load<'_>], rows: usize, work: impl Fn(&mut Panel) + Sync) -> Vec<VectorBlock> {
         let width: usize = loads.iter().map(Load::width).sum();
-        let count = width.div_ceil(GROUP).next_multiple_of(rayon::current_num_threads());
+        let count = width.div_ceil(GROUP).max(1).next_multiple_of(rayon::current_num_threads());
         let room = width.div_ceil(count).next_multiple_of(Panel::LANES);
         let mut groups: Vec<&[Load<'_>]> = Vec::new();
         let mut rest = loads;

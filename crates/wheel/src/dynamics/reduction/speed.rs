@@ -22,7 +22,7 @@ use rubmap_numerics::matrix_serde;
 /// Vectors advanced together in a search; doubled when modes turn out to be missing.
 const BLOCK: usize = 4;
 /// Where a search ends: eigenvalues of a higher multiplicity are refused or left unproven.
-const LARGEST_BLOCK: usize = 64;
+pub(super) const LARGEST_BLOCK: usize = 64;
 /// Residual of the modes of the basis: 1e-8 in x is 1e-16 in λ; 1e-9 leaves a margin.
 const MODE_TOLERANCE: f64 = 1e-9;
 /// Residual behind the full sector's frequencies: right to some nine digits.
@@ -41,6 +41,8 @@ pub(super) struct HarmonicPart {
     pub(super) modes: Modes,
     /// The lowest of the full sector; none where its stiffness is indefinite.
     pub(super) full: Option<Modes>,
+    /// Block that found those.
+    pub(super) full_block: usize,
     /// Ψ_s(0), from the search at rest only.
     #[serde(with = "matrix_serde::list")]
     static_modes: Vec<Mat<c64>>,
@@ -60,8 +62,6 @@ pub(super) type FullFrequencies = Vec<Option<Vec<f64>>>;
 pub(super) struct SpeedPart {
     pub(super) harmonics: Vec<HarmonicPart>,
     pub(super) completeness: Vec<Completeness>,
-    /// Block that found the full sector's modes.
-    pub(super) full_block: usize,
 }
 
 impl SpeedPart {
@@ -105,11 +105,11 @@ impl<'a> Work<'a> {
         let mut harmonics: Vec<Option<HarmonicPart>> =
             (0..self.harmonics).map(|harmonic| self.load(&harmonic_name(harmonic))).collect();
         let summary_name = format!("speed-{index}");
-        if let Some((completeness, full_block)) = self.load(&summary_name)
+        if let Some(completeness) = self.load(&summary_name)
             && harmonics.iter().all(Option::is_some)
         {
             let harmonics = harmonics.into_iter().flatten().collect();
-            return Ok((SpeedPart { harmonics, completeness, full_block }, None));
+            return Ok((SpeedPart { harmonics, completeness }, None));
         }
 
         let speed_rad_s = self.sector.speeds_rad_s[index];
@@ -133,10 +133,13 @@ impl<'a> Work<'a> {
             for (&harmonic, modes) in members.iter().zip(found.by_ref().take(members.len())) {
                 let static_modes =
                     if index == 0 { vec![factor.static_modes(&tied[harmonic])] } else { Vec::new() };
-                harmonics[harmonic] = Some(HarmonicPart { modes, full: None, static_modes });
+                harmonics[harmonic] =
+                    Some(HarmonicPart { modes, full: None, full_block: BLOCK, static_modes });
             }
             for (&harmonic, full) in free.iter().zip(found) {
-                harmonics[harmonic].iter_mut().for_each(|part| part.full = Some(full.clone()));
+                if let Some(part) = &mut harmonics[harmonic] {
+                    part.full = Some(full);
+                }
             }
             for &harmonic in members {
                 harmonics[harmonic].iter().for_each(|part| self.save(&harmonic_name(harmonic), part));
@@ -166,7 +169,6 @@ impl<'a> Work<'a> {
         }
         let completeness: Vec<Completeness> = completeness.into_iter().flatten().collect();
 
-        let mut full_block = BLOCK;
         loop {
             // Fixing the contact DOF raises every frequency: one of the full sector above a fixed one tells of others that
             // were missed.
@@ -174,23 +176,26 @@ impl<'a> Work<'a> {
                 let full = part.full.iter().flat_map(|full| &full.values);
                 full.zip(part.modes.ceilings()).any(|(&full, ceiling)| full > ceiling)
             };
-            let missed: Vec<usize> = (0..self.harmonics).filter(|&h| above(&harmonics[h])).collect();
-            if missed.is_empty() || full_block >= LARGEST_BLOCK {
+            let missed: Vec<usize> = (0..self.harmonics)
+                .filter(|&h| harmonics[h].full_block < LARGEST_BLOCK && above(&harmonics[h]))
+                .collect();
+            if missed.is_empty() {
                 break;
             }
-            full_block *= 2;
+            let block = |h: usize| 2 * harmonics[h].full_block;
             let what =
                 format!("searching again for modes of the full sector, nodal diameter{}", list(&missed));
             let asked: Vec<_> =
-                missed.iter().map(|&h| (&tied[h], self.wanted_of_full(full_block, true))).collect();
+                missed.iter().map(|&h| (&tied[h], self.wanted_of_full(block(h), true))).collect();
             let again = pencil.lowest_modes(&asked, &|_| phase(0.9, &what).is_ok());
             for (&harmonic, full) in missed.iter().zip(again.map_err(|e| mode_error(e, speed_rad_s))?) {
                 harmonics[harmonic].full = Some(full);
+                harmonics[harmonic].full_block *= 2;
                 self.save(&harmonic_name(harmonic), &harmonics[harmonic]);
             }
         }
-        self.save(&summary_name, &(&completeness, full_block));
-        Ok((SpeedPart { harmonics, completeness, full_block }, Some(factored)))
+        self.save(&summary_name, &completeness);
+        Ok((SpeedPart { harmonics, completeness }, Some(factored)))
     }
 
     /// Factors the stiffness at the given speed number `index`.

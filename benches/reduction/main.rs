@@ -2,7 +2,7 @@
 //! speed, single-vector Lanczos), in one run: wall time, CPU time, phases and peak memory.
 //!
 //! `cargo bench --bench reduction -- [small] [medium] [half] [paper] [plain]`: the sizes asked for (small and medium
-//! if none is), `plain` with the baseline.
+//! if none is), `plain` with the baseline. `-- solve`: what bounds its solves.
 
 use std::cell::RefCell;
 use std::time::Instant;
@@ -12,7 +12,9 @@ use rubmap::dynamics::sector::SectorModel;
 use rubmap::impeller::{ImpellerParameters, MeshDensities, Preset, generate};
 use rubmap::package::to_sector;
 
-#[path = "../tests/oracle/mod.rs"]
+mod solve;
+
+#[path = "../../tests/oracle/mod.rs"]
 #[allow(dead_code, reason = "shared with the tests, which use all of it")]
 mod oracle;
 
@@ -60,7 +62,10 @@ fn main() {
         ("half", ImpellerParameters { mesh: half, ..Preset::Paper.parameters() }),
         ("paper", Preset::Paper.parameters()),
     ];
-    let none = !sizes.iter().any(|(name, _)| asked(name));
+    if asked("solve") {
+        solve::measure();
+    }
+    let none = !asked("solve") && !sizes.iter().any(|(name, _)| asked(name));
     let start = Instant::now();
     for (name, parameters) in
         sizes.iter().filter(|(n, _)| asked(n) || (none && ["small", "medium"].contains(n)))
