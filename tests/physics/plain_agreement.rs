@@ -4,9 +4,14 @@
 //! Both modal bases are mass-orthonormal, so they differ by a unitary matrix: the contact blocks, the products
 //! Y_bm Y_mb and the spectra must be equal.
 
+use std::collections::BTreeMap;
+use std::sync::Mutex;
+
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Mat, c64};
-use rubmap::dynamics::reduction::{Completeness, NoCheckpoints, ReducedWheel, ReductionOptions, reduce};
+use rubmap::dynamics::reduction::{
+    BasisRows, Checkpoints, Completeness, NoCheckpoints, ReducedWheel, ReductionOptions, reduce,
+};
 use rubmap::dynamics::sector::{CyclicMatrix, SectorModel};
 use rubmap::numerics::hermitian::generalised_eigenvalues;
 use rubmap::package::{raw::RawPackage, to_sector};
@@ -187,6 +192,47 @@ fn threads_change_nothing() {
         serde_json::to_string(&reduced).unwrap()
     };
     assert!(bytes(1) == bytes(3));
+}
+
+/// Keeps parts in memory.
+struct Kept(Mutex<BTreeMap<String, Vec<u8>>>);
+
+impl Checkpoints for Kept {
+    fn load(&self, part: &str) -> Option<Vec<u8>> {
+        self.0.lock().unwrap().get(part).cloned()
+    }
+
+    fn save(&self, part: &str, bytes: Vec<u8>) {
+        self.0.lock().unwrap().insert(part.into(), bytes);
+    }
+
+    fn keep_basis(&self, _rows: &BasisRows<'_>) {}
+}
+
+/// A reduction that goes on with all parts but one, whichever it is, or without those of a kind, ends with the same bytes.
+#[test]
+fn a_lost_part_changes_nothing() {
+    let sector = to_sector(small_impeller(5)).unwrap();
+    let bytes = |kept: &Kept| {
+        let reduced = reduce(&sector, &ReductionOptions::new(8), kept, &|_, _| true).unwrap();
+        serde_json::to_string(&reduced).unwrap()
+    };
+    let kept = Kept(Mutex::default());
+    let undisturbed = bytes(&kept);
+    let parts = kept.0.into_inner().unwrap();
+    // Three nodal diameters and a summary at three speeds, and two speeds between them.
+    assert_eq!(parts.len(), 3 * 4 + 2);
+    let goes_on = |is_lost: &dyn Fn(&str) -> bool, what: &str| {
+        let left = parts.iter().filter(|(name, _)| !is_lost(name));
+        let kept = Kept(Mutex::new(left.map(|(name, bytes)| (name.clone(), bytes.clone())).collect()));
+        assert!(bytes(&kept) == undisturbed, "without {what}");
+    };
+    for lost in parts.keys() {
+        goes_on(&|name| name == lost, lost);
+    }
+    for kind in ["harmonic-1", "between", "speed-2"] {
+        goes_on(&|name| name.contains(kind), kind);
+    }
 }
 
 /// The baseline of the benchmark computes what it is compared with.

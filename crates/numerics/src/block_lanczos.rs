@@ -140,8 +140,9 @@ fn gram(block: &VectorBlock) -> Mat<c64> {
 }
 
 /// The orthonormal block with the span of `block`, by the Cholesky factor of its Gram matrix; nothing where a diagonal entry of
-/// the factor is at most `least` times the largest: the block has lost rank, or more digits than a second pass restores. Twice over it is orthonormal to round-off (Yamamoto, Nakatsukasa, Yanagisawa and
-/// Fukaya, ETNA 44, 2015), in a fraction of the time of a decomposition of the tall block.
+/// the factor is at most `least` times the largest: the block has lost rank, or more digits than a second pass restores. Twice over
+/// it is orthonormal to round-off (Yamamoto, Nakatsukasa, Yanagisawa and Fukaya, ETNA 44, 2015), in a fraction of the time of a
+/// decomposition of the tall block.
 fn orthonormalised(block: &VectorBlock, least: f64) -> Option<VectorBlock> {
     let factor = gram(block).llt(Side::Lower).ok()?;
     let lower = factor.L();

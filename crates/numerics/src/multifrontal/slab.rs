@@ -22,6 +22,18 @@ pub(super) struct Slab {
     values: Vec<f64>,
 }
 
+/// A panel of a slab's own rows.
+pub(super) struct OwnRows<'a> {
+    /// First of them, in elimination order.
+    pub(super) first: usize,
+    /// Rows.
+    pub(super) count: usize,
+    /// Columns of the slab before these rows.
+    pub(super) before: &'a [[f64; ROWS]],
+    /// Columns of these rows.
+    pub(super) triangle: &'a [[f64; ROWS]],
+}
+
 impl Slab {
     /// The slabs of a front that begins at row `start`: `lower` has its columns, their own rows first, the strict upper
     /// triangle of which means nothing.
@@ -55,11 +67,16 @@ impl Slab {
         (0..columns).step_by(COLUMNS).map(pack).collect()
     }
 
-    /// Panel `panel` of its own rows: columns before them, and their triangle.
-    pub(super) fn own(&self, panel: usize) -> (&[[f64; ROWS]], &[[f64; ROWS]]) {
-        let columns = self.columns();
-        let (first, before) = (ROWS * panel * (panel + 1) / 2, ROWS * panel);
-        columns[first..first + before + ROWS].split_at(before)
+    /// Panel `panel` of its own rows.
+    pub(super) fn own(&self, panel: usize) -> OwnRows<'_> {
+        let before = ROWS * panel;
+        let columns = &self.columns()[ROWS * panel * (panel + 1) / 2..][..before + ROWS];
+        OwnRows {
+            first: self.start + before,
+            count: ROWS.min(self.width - before),
+            before: &columns[..before],
+            triangle: &columns[before..],
+        }
     }
 
     /// Panels of its own rows.

@@ -3,7 +3,7 @@
 use pulp::{Arch, Simd, WithSimd};
 
 use super::factor::PartialFactor;
-use super::slab::{ROWS, Slab};
+use super::slab::{OwnRows, ROWS, Slab};
 use crate::panel::{Panel, add, sums};
 
 impl PartialFactor<'_> {
@@ -72,15 +72,13 @@ impl WithSimd for Forward<'_> {
         let x = self.x.as_mut_registers::<S>();
         for (slab, row_after) in self.factor.slabs() {
             for panel in 0..slab.panels() {
-                let (before, triangle) = slab.own(panel);
-                let own = slab.start + ROWS * panel;
-                let rows = ROWS.min(slab.width - ROWS * panel);
+                let OwnRows { first, count, before, triangle } = slab.own(panel);
                 groups!(S, registers, |group, G, N| {
-                    let known = &x[slab.start * registers..own * registers];
+                    let known = &x[slab.start * registers..first * registers];
                     let mut sums = sums::<S, ROWS, G, N>(simd, before.iter(), known, registers, group);
                     for j in 0..ROWS {
-                        if j < rows {
-                            let at = &mut x[(own + j) * registers + group..][..G];
+                        if j < count {
+                            let at = &mut x[(first + j) * registers + group..][..G];
                             for g in 0..G {
                                 at[g] = simd.sub_f64s(at[g], sums[j * G + g]);
                             }
@@ -136,14 +134,12 @@ impl WithSimd for Backward<'_> {
                 });
             }
             for panel in (0..slab.panels()).rev() {
-                let (before, triangle) = slab.own(panel);
-                let own = slab.start + ROWS * panel;
-                let rows = ROWS.min(slab.width - ROWS * panel);
+                let OwnRows { first, count, before, triangle } = slab.own(panel);
                 groups!(S, registers, |group, G, N| {
                     let mut minus = [simd.splat_f64s(0.0); N];
                     for i in 0..ROWS {
-                        if i < rows {
-                            let from = &x[(own + i) * registers + group..][..G];
+                        if i < count {
+                            let from = &x[(first + i) * registers + group..][..G];
                             for g in 0..G {
                                 minus[i * G + g] = simd.neg_f64s(from[g]);
                             }
@@ -157,14 +153,14 @@ impl WithSimd for Backward<'_> {
                                     simd.mul_add_e_f64s(factor, minus[i * G + g], minus[j * G + g]);
                             }
                         }
-                        if i < rows {
-                            let at = &mut x[(own + i) * registers + group..][..G];
+                        if i < count {
+                            let at = &mut x[(first + i) * registers + group..][..G];
                             for g in 0..G {
                                 at[g] = simd.neg_f64s(minus[i * G + g]);
                             }
                         }
                     }
-                    let known = &mut x[slab.start * registers..own * registers];
+                    let known = &mut x[slab.start * registers..first * registers];
                     add::<S, ROWS, G, N>(simd, before.iter(), &minus, known, registers, group);
                 });
             }

@@ -111,6 +111,37 @@ fn leaves_the_schur_complement_and_solves() {
     }
 }
 
+/// All rows are one front, wider than the columns that are packed together.
+#[test]
+fn solves_with_a_wide_front() {
+    let (n, e) = (330, 301);
+    let entry = |i: usize, j: usize| ((i + 1) * (j + 1)) as f64;
+    let triplets: Vec<_> = (0..n)
+        .flat_map(|i| (0..n).map(move |j| (i, j)))
+        .map(|(i, j)| Triplet::new(i, j, entry(i, j).sin() + if i == j { 400.0 } else { 0.0 }))
+        .collect();
+    let a = SparseColMat::<usize, f64>::try_new_from_triplets(n, n, &triplets).unwrap();
+    let analysis = Analysis::new(a.symbolic(), e);
+    let factor = PartialFactor::new(&analysis, &[(1.0, &a)]).unwrap();
+    let (inner, coupling) = blocks(&a, e);
+    let mut x = Panel::zeros(9, n);
+    (0..e).for_each(|j| x.row_mut(j).iter_mut().enumerate().for_each(|(i, x)| *x = entry(i, j).cos()));
+    factor.forward(&mut x);
+    for (j, d) in factor.pivots().iter().enumerate() {
+        x.row_mut(j).iter_mut().for_each(|x| *x /= d);
+    }
+    let solution = inner.partial_piv_lu().solve(Mat::from_fn(e, 9, |j, i| entry(i, j).cos()));
+    let reached = &coupling * &solution;
+    for j in e..n {
+        (0..9).for_each(|i| assert!((x.row(j)[i] + reached[(j - e, i)]).abs() < 1e-9, "{j} {i}"));
+        x.row_mut(j).fill(0.0);
+    }
+    factor.backward(&mut x);
+    for j in 0..e {
+        (0..9).for_each(|i| assert!((x.row(j)[i] - solution[(j, i)]).abs() < 1e-12, "{j} {i}"));
+    }
+}
+
 #[test]
 fn the_same_bits_on_any_number_of_threads() {
     let a = ordered(&grid(60, 0.0), 60 * 60 * 3 - 180);

@@ -1,15 +1,13 @@
 //! The full sector's frequencies between the given speeds, with K(Ω) through them.
 
-use faer::sparse::SparseColMat;
-
 use super::convex::Convex;
 use super::interpolation::MatrixRatios;
 use super::modes::{Modes, Pencil};
 use super::options::{ReductionError, Watch};
 use super::sector_factor::SectorFactor;
 use super::speed::{
-    COMPARED, FREQUENCY_TOLERANCE, Factored, FullFrequencies, LARGEST_BLOCK, SpeedPart, TOGETHER, Work,
-    go_on, mode_error,
+    COMPARED, FREQUENCY_TOLERANCE, Factored, FullFrequencies, LARGEST_BLOCK, SpeedPart, Work, frequencies,
+    go_on, search,
 };
 use super::tied_factor::TiedFactor;
 use crate::dynamics::centrifugal::stiffness_terms;
@@ -113,21 +111,16 @@ impl Work<'_> {
     ) -> Result<FullFrequencies, ReductionError> {
         let phase = |share: f64| go_on(watch, share, &format!("full sector at {speed_rad_s} rad/s"));
         phase(0.0)?;
-        let stiffness: SparseColMat<usize, f64> =
-            self.untied.assemble(&stiffness_terms(self.sector, speed_rad_s));
+        let stiffness = self.untied.assemble(&stiffness_terms(self.sector, speed_rad_s));
         let mut full: FullFrequencies = vec![None; self.harmonics];
         let Ok(factor) = SectorFactor::new(self.untied, &stiffness) else { return Ok(full) };
         let tied = self.tie(&factor, &stiffness);
         let free: Vec<&TiedFactor> = tied.iter().flatten().filter(|tied| tied.free.is_ok()).collect();
         let pencil = Pencil { untied: self.untied, stiffness: &stiffness, mass: self.mass, factor: &factor };
-        let groups = free.len().div_ceil(TOGETHER) as f64;
-        for (group, members) in free.chunks(TOGETHER).enumerate() {
-            let asked: Vec<_> =
-                members.iter().map(|&tied| (tied, self.wanted_of_full(block, false))).collect();
-            let found = pencil.lowest_modes(&asked, &|done| phase((group as f64 + done) / groups).is_ok());
-            for (tied, modes) in members.iter().zip(found.map_err(|error| mode_error(error, speed_rad_s))?) {
-                full[tied.tie.harmonic] = Some(modes.values.iter().map(|lambda| lambda.sqrt()).collect());
-            }
+        let asked: Vec<_> = free.iter().map(|&tied| (tied, self.wanted_of_full(block, false))).collect();
+        let found = search(&pencil, &asked, speed_rad_s, &|done| phase(done).is_ok())?;
+        for (tied, modes) in free.iter().zip(&found) {
+            full[tied.tie.harmonic] = Some(frequencies(modes));
         }
         self.save(name, &full);
         Ok(full)

@@ -28,15 +28,7 @@ pub struct NegativeMass {
 /// Looks for a [`NegativeMass`] by elimination of M + [`ROUND_OFF`] · diag(M), whose diagonal must be positive; not where
 /// that takes more than `most_work` multiplications.
 pub fn check_mass(sector: &SectorModel, most_work: f64) -> Result<(), NegativeMass> {
-    check_numbered(sector, &UntiedSector::new(sector, &[&sector.mass]), most_work)
-}
-
-/// The same with the sector numbered, for its mass among other matrices.
-pub(super) fn check_numbered(
-    sector: &SectorModel,
-    untied: &UntiedSector,
-    most_work: f64,
-) -> Result<(), NegativeMass> {
+    let untied = UntiedSector::new(sector, &[&sector.mass]);
     let boundary = (untied.face() + untied.contact()) as f64;
     let harmonics = harmonic_count(sector.sectors);
     if untied.analysis.work() + harmonics as f64 * boundary.powi(3) > most_work {
@@ -44,7 +36,7 @@ pub(super) fn check_numbered(
     }
     let mass = untied.assemble(&[(1.0, &sector.mass), (ROUND_OFF, &diagonal(&sector.mass))]);
     let at = |nodal_diameter: usize, row: usize| NegativeMass { nodal_diameter, dof: untied.dof_of(row) };
-    let factor = SectorFactor::new(untied, &mass).map_err(|failed| at(0, failed.row))?;
+    let factor = SectorFactor::new(&untied, &mass).map_err(|failed| at(0, failed.row))?;
     if factor.surely_definite(&mass) {
         return Ok(());
     }

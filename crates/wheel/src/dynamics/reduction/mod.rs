@@ -80,14 +80,7 @@ pub fn reduce(
         return Err(ReductionError::Memory { needed_bytes, allowed_bytes });
     }
     // Modes see only the low end of the spectrum; a negative mass may hide at the other.
-    // A consistent one has the entries of the stiffness, and needs no order of its own.
-    let consistent = sector.mass.own.compute_nnz() == sector.stiffness[0].own.compute_nnz();
-    let checked = if consistent {
-        mass::check_numbered(sector, &untied, f64::INFINITY)
-    } else {
-        mass::check_mass(sector, f64::INFINITY)
-    };
-    checked.map_err(|negative| {
+    mass::check_mass(sector, f64::INFINITY).map_err(|negative| {
         let NegativeMass { nodal_diameter, dof } = negative;
         ModelError::NegativeMass { nodal_diameter, dof }
     })?;

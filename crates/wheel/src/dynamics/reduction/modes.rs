@@ -221,12 +221,8 @@ impl Pencil<'_> {
             let Wanted { count, tolerance, .. } = search.wanted;
             let own = &loads[first..][..count.div_ceil(COLUMNS)];
             first += own.len();
-            let [kx, mx] = [self.stiffness, self.mass].map(|matrix| self.factor.products(matrix, own));
-            let norms: Vec<(f64, f64)> = (kx.iter().zip(&mx).zip(values.chunks(COLUMNS)))
-                .flat_map(|((kx, mx), values)| norms(kx, mx, values))
-                .collect();
             let vectors = join(own);
-            let (residuals, worst) = self.residuals(&norms, vectors.as_ref(), tolerance);
+            let (residuals, worst) = self.residuals(&search.tied.tie, &values, vectors.as_ref(), tolerance);
             let beyond = (count..ritz.values.len())
                 .take_while(|&m| ritz.values[m] > 0.0 && ritz.errors[m] <= LOCATED)
                 .map(|m| 1.0 / ritz.values[m])
@@ -254,11 +250,7 @@ impl Pencil<'_> {
         let values: Vec<f64> = (0..count).map(|m| 1.0 / theta(m)).collect();
         let vectors =
             Mat::from_fn(rows, count, |i, m| pairs.vectors[(i, rows - 1 - m)] * (1.0 / theta(m).sqrt()));
-        let real = UntiedSector::is_real(tie);
-        let [kx, mx] = [self.stiffness, self.mass]
-            .map(|matrix| VectorBlock::of(self.untied.product(matrix, tie, vectors.as_ref()).as_ref(), real));
-        let norms = norms(&kx, &mx, &values);
-        let (residuals, residual) = self.residuals(&norms, vectors.as_ref(), tolerance);
+        let (residuals, residual) = self.residuals(tie, &values, vectors.as_ref(), tolerance);
         if residual > tolerance {
             return Err(ModeError::NotConverged { harmonic, residual, block_steps: 0 });
         }
@@ -266,10 +258,25 @@ impl Pencil<'_> {
         Ok(Modes { values, residuals, vectors, beyond })
     }
 
-    /// ‖Kx − λMx‖/‖Kx‖ of every column, from the `norms` of both, and the largest measure of acceptance, NaN if any is: the
-    /// same ratio, but what the round-off of Kx alone may leave, 64 ε ‖|K||x|‖, counts as the tolerance and no more, for no
-    /// eigensolver can do better on a stiffness of high contrast.
-    fn residuals(&self, norms: &[(f64, f64)], vectors: MatRef<'_, c64>, tolerance: f64) -> (Vec<f64>, f64) {
+    /// ‖Kx − λMx‖/‖Kx‖ of every column, and the largest measure of acceptance, NaN if any is: the same ratio, but what
+    /// the round-off of Kx alone may leave, 64 ε ‖|K||x|‖, counts as the tolerance and no more, for no eigensolver can
+    /// do better on a stiffness of high contrast.
+    fn residuals(
+        &self,
+        tie: &Tie,
+        values: &[f64],
+        vectors: MatRef<'_, c64>,
+        tolerance: f64,
+    ) -> (Vec<f64>, f64) {
+        let kx = self.untied.product(self.stiffness, tie, vectors);
+        let mx = self.untied.product(self.mass, tie, vectors);
+        let norms: Vec<(f64, f64)> = (0..values.len())
+            .map(|j| {
+                let terms = kx.col(j).iter().zip(mx.col(j).iter());
+                let residual = terms.map(|(k, m)| (k - m * values[j]).norm_sqr()).sum::<f64>().sqrt();
+                (residual, kx.col(j).norm_l2())
+            })
+            .collect();
         let worst =
             |ratios: &[f64]| ratios.iter().fold(0.0f64, |worst, &r| if r <= worst { worst } else { r });
         let plain: Vec<f64> = norms.iter().map(|(residual, norm)| residual / norm).collect();
@@ -288,19 +295,6 @@ impl Pencil<'_> {
             norms.iter().enumerate().map(|(j, (residual, norm))| residual / norm.max(floor(j))).collect();
         (plain, worst(&eased))
     }
-}
-
-/// ‖Kx − λMx‖ and ‖Kx‖ of every vector.
-fn norms(kx: &VectorBlock, mx: &VectorBlock, values: &[f64]) -> Vec<(f64, f64)> {
-    let mut squares = vec![(0.0, 0.0); values.len()];
-    for row in 0..kx.size() {
-        for (j, ((residual, norm), &lambda)) in squares.iter_mut().zip(values).enumerate() {
-            let k = kx.get(row, j);
-            *residual += (k - mx.get(row, j) * lambda).norm_sqr();
-            *norm += k.norm_sqr();
-        }
-    }
-    squares.into_iter().map(|(residual, norm)| (residual.sqrt(), norm.sqrt())).collect()
 }
 
 /// λ = 1/θ of the first `count` pairs.

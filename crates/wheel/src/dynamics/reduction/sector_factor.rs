@@ -159,11 +159,6 @@ impl<'a> SectorFactor<'a> {
         self.on_boundary(loads, TiedFactor::solve);
     }
 
-    /// Ŷ x for the vectors x of every load, with `matrix` the untied, symmetric Y.
-    pub(super) fn products(&self, matrix: &SparseColMat<usize, f64>, loads: &[Load<'_>]) -> Vec<VectorBlock> {
-        self.through(loads, usize::MAX, |panel| *panel = row_product(matrix, panel))
-    }
-
     /// Whether the matrix of every nodal diameter is positive definite, contact DOF included, seen without factoring
     /// each: with S(i) = A + B e^{jiα} + Bᵀ e^{−jiα}, ‖S(i) − S(0)‖ ≤ 4 ‖B‖, and little reaches from face to face
     /// through a mass. `false` says nothing.

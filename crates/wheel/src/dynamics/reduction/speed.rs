@@ -79,7 +79,7 @@ pub(super) struct Factored<'a> {
 }
 
 /// Circular frequencies of those of the modes that are compared.
-fn frequencies(modes: &Modes) -> Vec<f64> {
+pub(super) fn frequencies(modes: &Modes) -> Vec<f64> {
     modes.values.iter().take(COMPARED).map(|value| value.sqrt()).collect()
 }
 
@@ -128,8 +128,8 @@ impl<'a> Work<'a> {
                 .map(|&h| (&tied[h], self.wanted(BLOCK)))
                 .chain(free.iter().map(|&h| (&tied[h], self.wanted_of_full(BLOCK, true))))
                 .collect();
-            let found = pencil.lowest_modes(&asked, &|done| phase(share(done), &what).is_ok());
-            let mut found = found.map_err(|error| mode_error(error, speed_rad_s))?.into_iter();
+            let found = search(&pencil, &asked, speed_rad_s, &|done| phase(share(done), &what).is_ok())?;
+            let mut found = found.into_iter();
             for (&harmonic, modes) in members.iter().zip(found.by_ref().take(members.len())) {
                 let static_modes =
                     if index == 0 { vec![factor.static_modes(&tied[harmonic])] } else { Vec::new() };
@@ -161,8 +161,8 @@ impl<'a> Work<'a> {
             block *= 2;
             let what = format!("searching again for modes, nodal diameter{}", list(&doubtful));
             let asked: Vec<_> = doubtful.iter().map(|&h| (&tied[h], self.wanted(block))).collect();
-            let again = pencil.lowest_modes(&asked, &|_| phase(0.7, &what).is_ok());
-            for (&harmonic, modes) in doubtful.iter().zip(again.map_err(|e| mode_error(e, speed_rad_s))?) {
+            let again = search(&pencil, &asked, speed_rad_s, &|_| phase(0.7, &what).is_ok())?;
+            for (&harmonic, modes) in doubtful.iter().zip(again) {
                 harmonics[harmonic].modes = modes;
                 self.save(&harmonic_name(harmonic), &harmonics[harmonic]);
             }
@@ -187,8 +187,8 @@ impl<'a> Work<'a> {
                 format!("searching again for modes of the full sector, nodal diameter{}", list(&missed));
             let asked: Vec<_> =
                 missed.iter().map(|&h| (&tied[h], self.wanted_of_full(block(h), true))).collect();
-            let again = pencil.lowest_modes(&asked, &|_| phase(0.9, &what).is_ok());
-            for (&harmonic, full) in missed.iter().zip(again.map_err(|e| mode_error(e, speed_rad_s))?) {
+            let again = search(&pencil, &asked, speed_rad_s, &|_| phase(0.9, &what).is_ok())?;
+            for (&harmonic, full) in missed.iter().zip(again) {
                 harmonics[harmonic].full = Some(full);
                 harmonics[harmonic].full_block *= 2;
                 self.save(&harmonic_name(harmonic), &harmonics[harmonic]);
@@ -291,6 +291,22 @@ impl<'a> Work<'a> {
     }
 }
 
+/// What is asked for, as many at a time as both kinds of modes of [`TOGETHER`] nodal diameters.
+pub(super) fn search(
+    pencil: &Pencil<'_>,
+    asked: &[(&TiedFactor, Wanted)],
+    speed_rad_s: f64,
+    keep_going: &dyn Fn(f64) -> bool,
+) -> Result<Vec<Modes>, ReductionError> {
+    let groups = asked.len().div_ceil(2 * TOGETHER) as f64;
+    let mut found = Vec::with_capacity(asked.len());
+    for (group, asked) in asked.chunks(2 * TOGETHER).enumerate() {
+        let modes = pencil.lowest_modes(asked, &|done| keep_going((group as f64 + done) / groups));
+        found.extend(modes.map_err(|error| mode_error(error, speed_rad_s))?);
+    }
+    Ok(found)
+}
+
 pub(super) fn go_on(watch: Watch<'_>, share: f64, phase: &str) -> Result<(), ReductionError> {
     if watch(share, phase) { Ok(()) } else { Err(ReductionError::Cancelled) }
 }
@@ -304,7 +320,7 @@ fn list(members: &[usize]) -> String {
     }
 }
 
-pub(super) fn mode_error(error: ModeError, speed_rad_s: f64) -> ReductionError {
+fn mode_error(error: ModeError, speed_rad_s: f64) -> ReductionError {
     match error {
         ModeError::Stopped => ReductionError::Cancelled,
         ModeError::NotConverged { harmonic, residual, block_steps } => ModelError::ModesNotConverged {

@@ -174,11 +174,6 @@ impl UntiedSector {
         tie.single
     }
 
-    /// No tied vectors of `size` unknowns yet, `count` of them; real where the nodal diameter is.
-    pub(super) fn block(tie: &Tie, count: usize, size: usize) -> VectorBlock {
-        VectorBlock::zeros(count, size, tie.single)
-    }
-
     /// Writes T x for tied vectors `x` into the vectors of `into` from number `first` on. Contact rows missing in `x` are
     /// zero.
     pub(super) fn expand(&self, tie: &Tie, x: &VectorBlock, into: &mut Panel, first: usize) {
@@ -205,7 +200,7 @@ impl UntiedSector {
     /// Tᴴ y of the untied vectors of `y` from number `first` on that stand for `count` tied ones, the first `rows` rows of
     /// these.
     pub(super) fn fold(&self, tie: &Tie, y: &Panel, first: usize, count: usize, rows: usize) -> VectorBlock {
-        let mut folded = Self::block(tie, count, rows);
+        let mut folded = VectorBlock::zeros(count, rows, tie.single);
         let width = folded.parts().width();
         for row in 0..self.interior {
             folded.parts_mut().row_mut(row).copy_from_slice(&y.row(row)[first..][..width]);
