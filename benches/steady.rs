@@ -4,6 +4,8 @@
 //! A march takes 50 revolutions, or as many as it takes until it repeats (`"revolutions": "auto"`), and beside that as many as it needs until every revolution shows the amplitude of a stable
 //! response to a thousandth, up to [`LONG`].
 
+#[path = "service/demo.rs"]
+mod demo;
 mod service;
 
 use std::collections::BTreeMap;
@@ -12,9 +14,10 @@ use anyhow::{Context, bail};
 use rubmap::impeller::Preset;
 use serde_json::{Value, json};
 
+use demo::demo_sweep;
 use service::Service;
 
-const SPEEDS: usize = 24;
+const SPEEDS: u32 = 24;
 const REVOLUTIONS: u64 = 50;
 const LONG: u64 = 300;
 const SETTLED: f64 = 1e-3;
@@ -49,11 +52,11 @@ async fn measure(dampings: &[f64]) -> anyhow::Result<()> {
         for point in periodic {
             *kinds.entry(point["steady"]["stability"].as_str().unwrap_or("none")).or_default() += 1;
         }
-        let found = SPEEDS - kinds.remove("none").unwrap_or(0);
+        let found = SPEEDS as usize - kinds.remove("none").unwrap_or(0);
         let kinds: Vec<String> = kinds.into_iter().map(|(kind, count)| format!("{count} {kind}")).collect();
         let taken = auto.iter().filter(|point| point["steady"]["taken"] == true).count();
         let (mut long, mut solved) = (0.0, 0.0);
-        for index in 0..SPEEDS {
+        for index in 0..SPEEDS as usize {
             let steady = &periodic[index]["steady"];
             if steady["stability"] != "stable" {
                 continue;
@@ -110,21 +113,8 @@ async fn settles(
 }
 
 fn sweep(model: &Value, damping: f64, how: &str, revolutions: &Value) -> Value {
-    json!({
-        "model": model,
-        "modes_per_speed": 20,
-        "speeds": {"from": 12000, "to": 36000, "count": SPEEDS, "unit": "rpm"},
-        "scene": {
-            "centrifugal_stiffening": true,
-            "damping": {"modal_ratio": damping},
-            "casing": {
-                "clearance": {"leading": 0.3, "trailing": 0.22},
-                "lobes": {"count": 2, "amplitude": 0.425, "width_rad": 0.35},
-            },
-            "contact": {},
-        },
-        "integration": {"revolutions": revolutions, "ramp_revolutions": 1, "window_revolutions": 20, "steady": how},
-        "sensors": [{"contact_node": 0, "sector": 0, "component": "radial"}],
-        "max_engine_order": 24,
-    })
+    let mut sweep = demo_sweep(model, SPEEDS, revolutions);
+    sweep["scene"]["damping"]["modal_ratio"] = json!(damping);
+    sweep["integration"]["steady"] = json!(how);
+    sweep
 }

@@ -58,7 +58,8 @@ impl Scene {
         Self::of(&parameters, modes, stiffnesses)
     }
 
-    fn of(parameters: &ImpellerParameters, modes: usize, stiffnesses: usize) -> Self {
+    /// Of any impeller.
+    pub(crate) fn of(parameters: &ImpellerParameters, modes: usize, stiffnesses: usize) -> Self {
         let package = rubmap::impeller::generate(parameters).expect("the defaults are valid");
         let mut sector =
             rubmap::package::to_sector(package).expect("the generator makes valid packages").into_parts();

@@ -11,6 +11,7 @@ pub mod effects;
 pub mod energy;
 pub mod error;
 pub mod excitation;
+mod farthest;
 pub mod flexible_casing;
 pub mod initial;
 pub mod integrate;

@@ -81,26 +81,22 @@ impl Delassus {
         to + turns - from
     }
 
-    /// Writes into every sector of `gap`, next to its first number (there are eight at least), the most by which `lambda` can move any
-    /// gap of it.
+    /// Writes into the first number of every sector of `gap` the most by which `lambda` can move any gap of it.
     #[inline(always)]
     fn reach(&self, active: &[usize], lambda: &[f64], gap: &mut [f64]) {
         let stride = self.stride;
         for sector in 0..self.sectors {
             gap[sector * stride] = 0.0;
         }
-        for (&j, &lambda) in active.iter().zip(lambda) {
-            gap[self.place(j).0 * stride] += lambda.abs();
-        }
-        for to in 0..self.sectors {
-            let mut reach = 0.0;
-            for from in 0..self.sectors {
-                let force = gap[from * stride];
-                if force > 0.0 {
-                    reach += force * self.largest[self.distance(to, from)];
-                }
+        let loads = active.iter().zip(lambda).map(|(&j, &lambda)| (self.place(j).0, lambda.abs()));
+        let mut loads = loads.peekable();
+        while let Some((from, mut force)) = loads.next() {
+            while let Some((_, more)) = loads.next_if(|&(sector, _)| sector == from) {
+                force += more;
             }
-            gap[to * stride + 1] = reach;
+            for to in 0..self.sectors {
+                gap[to * stride] += force * self.largest[self.distance(to, from)];
+            }
         }
     }
 
@@ -124,7 +120,7 @@ impl ContactOperator for Delassus {
         self.reach(active, lambda, gap);
         let blocks = q.chunks_exact(self.stride).zip(gap.chunks_exact_mut(self.stride));
         for (sector, (q, gap)) in blocks.enumerate() {
-            if !any_below(q, gap[1]) {
+            if !any_below(q, gap[0]) {
                 gap.copy_from_slice(q);
                 continue;
             }

@@ -3,11 +3,12 @@
 use pulp::Simd;
 
 use super::super::casing::{Casing, RestrictionTable};
-use super::super::contact::coating::{Coating, WornCoating};
+use super::super::contact::coating::Coating;
 use super::super::contact::delassus::Delassus;
 use super::super::contact::flexibility::{outward_normals, ridge};
 use super::super::effects::Effects;
 use super::super::energy::EffectWork;
+use super::super::farthest::farthest_anywhere;
 use super::super::oscillators::Oscillators;
 use super::super::oscillators::lanes::LANES;
 use super::super::oscillators::rows::{Loads, Rows};
@@ -16,18 +17,22 @@ use super::instant::Instant;
 use super::residual::ResidualDisplacement;
 use super::simulation::Simulation;
 use super::step_flexibility::{is_turned, step_flexibility, symmetric_flexibility};
-use super::surroundings::{CoatedSolver, Law, Surroundings};
+use super::surroundings::{Law, Solution, Surroundings};
 use super::tally::{ContactInterval, ContactTally};
 use super::trace::Trace;
 use rubmap_numerics::complementarity::active_set::ActiveSetSolver;
-use rubmap_numerics::complementarity::branches::BranchSolver;
-use rubmap_numerics::complementarity::factor::Factor;
 use rubmap_numerics::complementarity::{ComplementarityError, ContactOperator};
 use rubmap_numerics::sector_fourier::SectorFourier;
 
 /// Penetration that the ridge of a singular W may leave, relative to clearance and restriction. Nodes that W cannot tell
 /// apart but that agree keep to a thousandth of it; where they contradict each other no forces help.
 const LEFT: f64 = 1e-6;
+
+/// Sectors of which all are transformed: looking which are far costs as much (`cargo bench --bench step -- sectors`).
+const FEW: usize = 16;
+
+/// Sectors transformed together.
+const LARGEST_GROUP: usize = 4;
 
 #[derive(Debug)]
 pub(super) struct Obstacle {
@@ -47,7 +52,14 @@ pub(super) struct Obstacle {
     step_s: f64,
     /// Normal displacements of the integrated modes, `[Fourier column][node]`.
     harmonic: Vec<f64>,
+    /// No node comes out farther than this in any sector.
+    farthest: Vec<f64>,
+    /// Of far sectors what they are at least.
     predicted_gap: Vec<f64>,
+    /// Sectors whose nodes are all short of the casing wherever in their sectors the wheel is farthest out.
+    is_far: Vec<bool>,
+    /// The others, ascending.
+    near: Vec<usize>,
     /// Contact nodes with a force on any sector.
     loaded: Vec<usize>,
     is_loaded: Vec<bool>,
@@ -95,7 +107,10 @@ impl Obstacle {
             casing: casing.clone(),
             step_s: simulation.step_s(),
             harmonic: vec![0.0; size],
+            farthest: vec![0.0; stride],
             predicted_gap: vec![0.0; size],
+            is_far: vec![false; sectors],
+            near: (0..sectors).collect(),
             loaded: Vec::with_capacity(stride),
             is_loaded: vec![false; stride],
             force: vec![0.0; size],
@@ -120,8 +135,10 @@ impl Obstacle {
         (Loads { rows: applied(rows, surroundings), loaded, force }, (rows, harmonic))
     }
 
-    /// Normal displacements of all sectors from their Fourier coordinates, and g_p = c − p − nᵀu, whose smallest value
-    /// is returned.
+    /// g_p = c − p − nᵀu of all sectors, the smallest of which is returned.
+    ///
+    /// Where the casing is out of reach of a sector its gaps are not transformed: what is kept, c − p − the farthest that a node
+    /// comes out anywhere, is below them and not negative.
     #[inline(always)]
     pub(super) fn predict_gaps<S: Simd>(
         &mut self,
@@ -130,9 +147,6 @@ impl Obstacle {
         now: Instant,
         surroundings: Option<&mut Surroundings>,
     ) -> f64 {
-        let mut smallest = simd.splat_f64s(f64::INFINITY);
-        let stride = self.rows.stride;
-        let vectors = stride / S::F64_LANES;
         let growth = self.casing.growth(now.revolutions);
         let shift = match surroundings {
             Some(surroundings) => {
@@ -141,35 +155,138 @@ impl Obstacle {
             }
             None => None,
         };
-        let growth = simd.splat_f64s(growth);
-        let clearance = &S::as_simd_f64s(&self.clearance).0[..vectors];
-        let harmonic = S::as_simd_f64s(&self.harmonic).0;
+        let mut smallest = f64::INFINITY;
+        if fourier.sectors() <= FEW {
+            return self.near_gaps(simd, fourier, (now.step, growth, shift));
+        }
+        farthest_anywhere(simd, fourier, &self.harmonic, &mut self.farthest);
+        self.near.clear();
         for sector in 0..fourier.sectors() {
-            let range = sector * stride..(sector + 1) * stride;
-            let gap = &mut S::as_mut_simd_f64s(&mut self.predicted_gap[range.clone()]).0[..vectors];
-            let restricted = match &self.restriction {
-                Some(table) => table.at(now.step, sector),
-                None => &self.unrestricted,
-            };
-            let restricted = &S::as_simd_f64s(restricted).0[..vectors];
-            let shift = shift.map(|shift| &S::as_simd_f64s(&shift[range]).0[..vectors]);
-            for v in 0..vectors {
-                let mut u = simd.splat_f64s(0.0);
-                for (&f, column) in fourier.row(sector).iter().zip(harmonic.chunks_exact(vectors)) {
-                    u = simd.mul_add_e_f64s(simd.splat_f64s(f), column[v], u);
-                }
-                let mut free = simd.negate_mul_add_e_f64s(growth, restricted[v], clearance[v]);
-                if let Some(shift) = shift {
-                    free = simd.add_f64s(free, shift[v]);
-                }
-                gap[v] = simd.sub_f64s(free, u);
-                smallest = simd.min_f64s(smallest, gap[v]);
+            let least = self.least_gaps(simd, (now.step, growth, shift), sector);
+            self.is_far[sector] = least >= 0.0;
+            if self.is_far[sector] {
+                smallest = smallest.min(least);
+            } else {
+                self.near.push(sector);
             }
+        }
+        smallest.min(self.near_gaps(simd, fourier, (now.step, growth, shift)))
+    }
+
+    /// Writes what the gaps of a sector are at least, at a step, growth of the casing and shift of all gaps; the smallest.
+    #[inline(always)]
+    fn least_gaps<S: Simd>(
+        &mut self,
+        simd: S,
+        (step, growth, shift): (usize, f64, Option<&[f64]>),
+        sector: usize,
+    ) -> f64 {
+        let Self { rows, restriction, unrestricted, clearance, farthest, predicted_gap, .. } = self;
+        let stride = rows.stride;
+        let vectors = stride / S::F64_LANES;
+        let range = sector * stride..(sector + 1) * stride;
+        let gap = &mut S::as_mut_simd_f64s(&mut predicted_gap[range.clone()]).0[..vectors];
+        let restricted = restriction.as_ref().map_or(&unrestricted[..], |table| table.at(step, sector));
+        let restricted = &S::as_simd_f64s(restricted).0[..vectors];
+        let clearance = &S::as_simd_f64s(clearance).0[..vectors];
+        let farthest = &S::as_simd_f64s(farthest).0[..vectors];
+        let shift = shift.map(|shift| &S::as_simd_f64s(&shift[range]).0[..vectors]);
+        let growth = simd.splat_f64s(growth);
+        let mut smallest = simd.splat_f64s(f64::INFINITY);
+        for v in 0..vectors {
+            let mut free = simd.negate_mul_add_e_f64s(growth, restricted[v], clearance[v]);
+            if let Some(shift) = shift {
+                free = simd.add_f64s(free, shift[v]);
+            }
+            gap[v] = simd.sub_f64s(free, farthest[v]);
+            smallest = simd.min_f64s(smallest, gap[v]);
         }
         simd.reduce_min_f64s(smallest)
     }
 
+    /// Writes the gaps of the sectors that are near, and returns the smallest.
+    #[inline(always)]
+    fn near_gaps<S: Simd>(
+        &mut self,
+        simd: S,
+        fourier: &SectorFourier,
+        at: (usize, f64, Option<&[f64]>),
+    ) -> f64 {
+        let mut smallest = simd.splat_f64s(f64::INFINITY);
+        for first in (0..self.near.len()).step_by(LARGEST_GROUP) {
+            let of_group = match self.near[first..] {
+                [a] => self.gaps_of(simd, fourier, at, [a]),
+                [a, b] => self.gaps_of(simd, fourier, at, [a, b]),
+                [a, b, c] => self.gaps_of(simd, fourier, at, [a, b, c]),
+                [a, b, c, d, ..] => self.gaps_of(simd, fourier, at, [a, b, c, d]),
+                [] => break,
+            };
+            smallest = simd.min_f64s(smallest, of_group);
+        }
+        simd.reduce_min_f64s(smallest)
+    }
+
+    /// Writes the gaps of some sectors, transformed together so that their sums do not wait for each other; the smallest.
+    #[inline(always)]
+    fn gaps_of<S: Simd, const R: usize>(
+        &mut self,
+        simd: S,
+        fourier: &SectorFourier,
+        (step, growth, shift): (usize, f64, Option<&[f64]>),
+        sectors: [usize; R],
+    ) -> S::f64s {
+        let Self { rows, restriction, unrestricted, clearance, harmonic, predicted_gap, .. } = self;
+        let vectors = rows.stride / S::F64_LANES;
+        let gap = S::as_mut_simd_f64s(predicted_gap).0;
+        let clearance = &S::as_simd_f64s(clearance).0[..vectors];
+        let harmonic = S::as_simd_f64s(harmonic).0;
+        let growth = simd.splat_f64s(growth);
+        let mut smallest = simd.splat_f64s(f64::INFINITY);
+        let mut waves: [&[f64]; R] = [&[]; R];
+        for (waves, sector) in waves.iter_mut().zip(sectors) {
+            *waves = &fourier.row(sector)[..fourier.sectors()];
+        }
+        for v in 0..vectors {
+            let mut u = [simd.splat_f64s(0.0); R];
+            for (f, column) in harmonic.chunks_exact(vectors).take(fourier.sectors()).enumerate() {
+                for r in 0..R {
+                    u[r] = simd.mul_add_e_f64s(simd.splat_f64s(waves[r][f]), column[v], u[r]);
+                }
+            }
+            for r in 0..R {
+                let restricted = match restriction {
+                    Some(table) => table.at(step, sectors[r]),
+                    None => unrestricted,
+                };
+                let at = sectors[r] * vectors + v;
+                let restricted = S::as_simd_f64s(restricted).0[v];
+                let mut free = simd.negate_mul_add_e_f64s(growth, restricted, clearance[v]);
+                if let Some(shift) = shift {
+                    free = simd.add_f64s(free, S::as_simd_f64s(shift).0[at]);
+                }
+                gap[at] = simd.sub_f64s(free, u[r]);
+                smallest = simd.min_f64s(smallest, gap[at]);
+            }
+        }
+        smallest
+    }
+
+    /// Transforms the gaps of far sectors, too.
+    #[inline(never)]
+    fn complete_gaps(&mut self, fourier: &SectorFourier, now: Instant, shift: Option<&[f64]>) {
+        let Self { near, is_far, .. } = self;
+        near.clear();
+        near.extend((0..fourier.sectors()).filter(|&sector| is_far[sector]));
+        is_far.fill(false);
+        let growth = self.casing.growth(now.revolutions);
+        // Rare: not worth a second copy for the widest vectors.
+        self.near_gaps(pulp::Scalar, fourier, (now.step, growth, shift));
+    }
+
     /// Contact forces of the predicted gaps (Eqs 9, 10) and what they add to the statistics.
+    ///
+    /// A solution whose forces are all at gaps that were transformed is that of the true ones: the others are larger than what
+    /// is open already.
     #[inline(always)]
     pub(super) fn solve(
         &mut self,
@@ -179,36 +296,20 @@ impl Obstacle {
         statistics: &mut RunStatistics,
         work: &mut EffectWork,
     ) -> Result<(), ComplementarityError> {
-        let (law, sliding, mut casing) = match surroundings {
-            Some(s) => (&mut s.law, s.sliding.as_ref(), s.casing.as_mut()),
-            None => (&mut Law::Plain, None, None),
+        let (law, sliding, mut casing, shift) = match surroundings {
+            Some(s) => (&mut s.law, s.sliding.as_ref(), s.casing.as_mut(), s.shift.as_deref()),
+            None => (&mut Law::Plain, None, None, None),
         };
-        let mut allowed = 0.0;
-        let (active, lambda, gap, pivots) = match law {
-            Law::General(solver) => {
-                solver.solve(&self.delassus, &self.predicted_gap, self.tolerance)?;
-                (solver.active(), solver.lambda(), solver.gap(), solver.statistics())
+        loop {
+            law.solve(&mut self.solver, (&self.delassus, &self.predicted_gap, self.tolerance), now.step)?;
+            let active = law.solution(&self.solver).active;
+            if !active.iter().any(|&index| self.is_far[self.delassus.place(index).0]) {
+                break;
             }
-            Law::Coated(solver, coating) => {
-                allowed = coating.unworn().thickness();
-                let problem = (&self.delassus, self.predicted_gap.as_slice(), self.tolerance);
-                match solver {
-                    CoatedSolver::Symmetric(solver) => {
-                        wear(solver, coating, problem, now)?;
-                        (solver.active(), solver.lambda(), solver.gap(), solver.statistics())
-                    }
-                    CoatedSolver::General(solver) => {
-                        wear(solver, coating, problem, now)?;
-                        (solver.active(), solver.lambda(), solver.gap(), solver.statistics())
-                    }
-                }
-            }
-            Law::Plain => {
-                let solver = &mut self.solver;
-                solver.solve(&self.delassus, &self.predicted_gap, self.tolerance)?;
-                (solver.active(), solver.lambda(), solver.gap(), solver.statistics())
-            }
-        };
+            self.complete_gaps(fourier, now, shift);
+        }
+        let allowed = law.wear(&self.delassus, now.step);
+        let Solution { active, lambda, gap, pivots } = law.solution(&self.solver);
         let deepest = (-lowest(gap) - allowed).max(0.0);
         statistics.largest_penetration = statistics.largest_penetration.max(deepest);
         // A run that explodes leaves round-off of its own size; that is for the bounds to find.
@@ -262,10 +363,8 @@ impl Obstacle {
 
     /// Adds to `trace` what the last solution has touch at the end of `step`; for a rigid casing without coating.
     pub(super) fn trace(&self, step: usize, surroundings: Option<&mut Surroundings>, trace: &mut Trace) {
-        let (active, symmetric) = match surroundings.map(|surroundings| &surroundings.law) {
-            Some(Law::General(solver)) => (solver.active(), false),
-            _ => (self.solver.active(), true),
-        };
+        let law = surroundings.map_or(&Law::Plain, |surroundings| &surroundings.law);
+        let (active, symmetric) = (law.solution(&self.solver).active, !matches!(law, Law::General(_)));
         let places = active.iter().map(|&index| self.delassus.place(index));
         trace.touch(step, places, (|i, j| self.delassus.entry(active[i], active[j]), symmetric));
     }
@@ -322,27 +421,6 @@ fn applied<'a>(rows: &'a Rows, surroundings: Option<&'a Surroundings>) -> &'a Ro
     }
 }
 
-/// Solves for penetrations and forces in front of a coating, which wears by them.
-#[inline(always)]
-fn wear<F: Factor>(
-    solver: &mut BranchSolver<F>,
-    coating: &mut WornCoating,
-    (w, predicted_gap, tolerance): (&Delassus, &[f64], f64),
-    now: Instant,
-) -> Result<(), ComplementarityError> {
-    let law = |index: usize| {
-        let (sector, row) = w.place(index);
-        coating.law(coating.rod(now.step, sector, row), row)
-    };
-    solver.solve(w, law, predicted_gap, tolerance)?;
-    for &index in solver.active() {
-        let (sector, row) = w.place(index);
-        let rod = coating.rod(now.step, sector, row);
-        coating.press(rod, row, -solver.gap()[index]);
-    }
-    Ok(())
-}
-
 /// W of the scheme, with what the effects make of it.
 fn delassus(
     simulation: &Simulation<'_>,
@@ -379,3 +457,6 @@ fn lowest(values: &[f64]) -> f64 {
     }
     lanes.iter().fold(0.0, |low, &value| low.min(value))
 }
+
+#[cfg(test)]
+mod tests;

@@ -291,7 +291,7 @@ impl Stepper {
         }
         M::apply(self, simd);
         let revolutions = revolution as f64 + steps as f64 / simulation.steps_per_revolution as f64;
-        self.check_bounds(self.oscillators.energy(), revolutions)
+        self.check_bounds(simd, self.oscillators.energy(), revolutions)
     }
 
     /// Whether forces act from `start` on: they belong to the state there, as those that complete a step do not.
@@ -423,7 +423,7 @@ impl Stepper {
         }
         self.recorder.keep_state(self.statistics.steps, &self.oscillators, &self.fourier, force);
         self.recorder.record(&self.fourier, self.statistics.steps, &self.energy);
-        self.check_bounds(energy, now.revolutions)
+        self.check_bounds(simd, energy, now.revolutions)
     }
 
     /// Reads the sensors after the last step.
@@ -464,11 +464,11 @@ impl Stepper {
         self.surroundings.as_mut()?.casing.as_mut()
     }
 
-    #[inline(never)]
-    fn check_bounds(&mut self, energy: f64, revolutions: f64) -> Result<(), Box<Outcome>> {
+    #[inline(always)]
+    fn check_bounds<S: Simd>(&mut self, simd: S, energy: f64, revolutions: f64) -> Result<(), Box<Outcome>> {
         let force = self.obstacle.as_ref().map_or(&[][..], |obstacle| obstacle.force.as_slice());
         let tip = match &mut self.bounds {
-            Some(bounds) => bounds.exceeded(&self.oscillators, &self.fourier, energy, force),
+            Some(bounds) => bounds.exceeded(simd, &self.oscillators, &self.fourier, energy, force),
             None => None,
         };
         if energy.is_finite() && tip.is_none() {

@@ -1,14 +1,16 @@
 //! What the effects of a scene add to contact.
 
 use super::super::contact::coating::WornCoating;
+use super::super::contact::delassus::Delassus;
 use super::super::flexible_casing::CasingMotion;
 use super::super::orbit::OrbitShift;
 use super::super::oscillators::lanes::padded;
 use super::super::oscillators::rows::Rows;
 use super::simulation::Simulation;
-use rubmap_numerics::complementarity::active_set::ActiveSetSolver;
+use rubmap_numerics::complementarity::ComplementarityError;
+use rubmap_numerics::complementarity::active_set::{ActiveSetSolver, PivotStatistics};
 use rubmap_numerics::complementarity::branches::BranchSolver;
-use rubmap_numerics::complementarity::factor::{Cholesky, Lu};
+use rubmap_numerics::complementarity::factor::{Cholesky, Factor, Lu};
 
 /// Each is absent unless the scene names it.
 #[derive(Debug)]
@@ -37,6 +39,16 @@ pub(super) enum Law {
 pub(super) enum CoatedSolver {
     Symmetric(Box<BranchSolver<Cholesky>>),
     General(Box<BranchSolver<Lu>>),
+}
+
+/// Forces that a [`Law`] found.
+pub(super) struct Solution<'a> {
+    /// Indices with a force.
+    pub(super) active: &'a [usize],
+    /// Their forces.
+    pub(super) lambda: &'a [f64],
+    pub(super) gap: &'a [f64],
+    pub(super) pivots: PivotStatistics,
 }
 
 /// Friction at the contact nodes.
@@ -125,5 +137,70 @@ impl Surroundings {
         if let Some(casing) = &mut self.casing {
             casing.add(revolutions, shift);
         }
+    }
+}
+
+impl Law {
+    /// Solves for the forces of a contact operator, gaps without them and a tolerance; `plain` does where this has no solver of
+    /// its own.
+    #[inline(always)]
+    pub(super) fn solve(
+        &mut self,
+        plain: &mut ActiveSetSolver,
+        (w, gap, tolerance): (&Delassus, &[f64], f64),
+        step: usize,
+    ) -> Result<(), ComplementarityError> {
+        match self {
+            Self::Plain => plain.solve(w, gap, tolerance),
+            Self::General(solver) => solver.solve(w, gap, tolerance),
+            Self::Coated(solver, coating) => {
+                let law = |index: usize| {
+                    let (sector, row) = w.place(index);
+                    coating.law(coating.rod(step, sector, row), row)
+                };
+                match solver {
+                    CoatedSolver::Symmetric(solver) => solver.solve(w, law, gap, tolerance),
+                    CoatedSolver::General(solver) => solver.solve(w, law, gap, tolerance),
+                }
+            }
+        }
+    }
+
+    /// What was found last.
+    #[inline(always)]
+    pub(super) fn solution<'a>(&'a self, plain: &'a ActiveSetSolver) -> Solution<'a> {
+        match self {
+            Self::Plain => Solution::of(plain),
+            Self::General(solver) => Solution::of(solver),
+            Self::Coated(CoatedSolver::Symmetric(solver), _) => Solution::of_branches(solver),
+            Self::Coated(CoatedSolver::General(solver), _) => Solution::of_branches(solver),
+        }
+    }
+
+    /// Wears what the forces press into. Returns how deep a tip may be in it.
+    #[inline(always)]
+    pub(super) fn wear(&mut self, w: &Delassus, step: usize) -> f64 {
+        let Self::Coated(solver, coating) = self else { return 0.0 };
+        let Solution { active, gap, .. } = match solver {
+            CoatedSolver::Symmetric(solver) => Solution::of_branches(solver),
+            CoatedSolver::General(solver) => Solution::of_branches(solver),
+        };
+        for &index in active {
+            let (sector, row) = w.place(index);
+            coating.press(coating.rod(step, sector, row), row, -gap[index]);
+        }
+        coating.unworn().thickness()
+    }
+}
+
+impl<'a> Solution<'a> {
+    fn of<F: Factor>(solver: &'a ActiveSetSolver<F>) -> Self {
+        let pivots = solver.statistics();
+        Self { active: solver.active(), lambda: solver.lambda(), gap: solver.gap(), pivots }
+    }
+
+    fn of_branches<F: Factor>(solver: &'a BranchSolver<F>) -> Self {
+        let pivots = solver.statistics();
+        Self { active: solver.active(), lambda: solver.lambda(), gap: solver.gap(), pivots }
     }
 }

@@ -1,0 +1,159 @@
+use faer::{Mat, c64};
+
+use super::super::super::casing::Restriction;
+use super::super::super::initial::InitialMode;
+use super::super::super::modal_wheel::{ModalHarmonic, ModalWheel};
+use super::super::super::numbers::Numbers;
+use super::super::super::schemes::Scheme;
+use super::super::super::sector::ContactNode;
+use super::*;
+
+const SECTORS: usize = 20;
+const NODES: usize = 3;
+const MODES: usize = 4;
+const STEPS: usize = 360;
+
+/// A wheel of which the mode shapes of each nodal diameter are of the size `largest` says.
+fn wheel(numbers: &mut Numbers, largest: impl Fn(usize) -> f64) -> ModalWheel {
+    let harmonic = |harmonic: usize| {
+        let single = harmonic == 0 || 2 * harmonic == SECTORS;
+        let omega = (0..MODES).map(|m| 3000.0 * (1 + m) as f64).collect();
+        let contact = Mat::from_fn(3 * NODES, MODES, |_, _| {
+            let (re, im) = (numbers.next(), numbers.next());
+            largest(harmonic) * c64::new(re, if single { 0.0 } else { im })
+        });
+        ModalHarmonic { harmonic, single, omega, contact, gyroscopic: None }
+    };
+    let harmonics = (0..=SECTORS / 2).map(harmonic).collect();
+    ModalWheel { speed_rad_s: 1000.0, sectors: SECTORS, repeats: 1, harmonics }
+}
+
+fn nodes() -> Vec<ContactNode> {
+    let node = |k: usize| ContactNode {
+        id: k as u64,
+        position: [100.0, 0.03 * k as f64, 4.0 * k as f64],
+        normal: [1.0, 0.0, 0.0],
+        dofs: [3 * k, 3 * k + 1, 3 * k + 2],
+    };
+    (0..NODES).map(node).collect()
+}
+
+fn simulation<'a>(wheel: &'a ModalWheel, nodes: &'a [ContactNode], casing: &'a Casing) -> Simulation<'a> {
+    Simulation {
+        wheel,
+        contact_nodes: nodes,
+        damping: None,
+        casing: Some(casing),
+        effects: Effects::default(),
+        initial: &[],
+        sensors: &[],
+        scheme: Scheme::ExactModal,
+        steps_per_revolution: STEPS,
+        samples_per_revolution: STEPS,
+        revolutions: 1,
+        window_revolutions: 1,
+        repeats: None,
+        detail: None,
+        states: None,
+    }
+}
+
+/// The obstacle of a simulation and what it is asked with.
+fn obstacle(simulation: &Simulation<'_>, initial: &[InitialMode]) -> (Obstacle, Oscillators, SectorFourier) {
+    let fourier = SectorFourier::new(SECTORS);
+    let (scheme, step) = (simulation.scheme, simulation.step_s());
+    let oscillators = Oscillators::new(simulation.wheel, scheme, step, None, true, initial);
+    let casing = simulation.casing.expect("all have one");
+    let obstacle = Obstacle::new(simulation, casing, &oscillators, &fourier, None);
+    (obstacle, oscillators, fourier)
+}
+
+/// c − p − nᵀu of a contact node, term by term.
+fn gap(obstacle: &Obstacle, fourier: &SectorFourier, step: usize, sector: usize, node: usize) -> f64 {
+    let stride = obstacle.rows.stride;
+    let columns = obstacle.harmonic.chunks_exact(stride);
+    let u: f64 = fourier.row(sector).iter().zip(columns).map(|(f, column)| f * column[node]).sum();
+    let table = obstacle.restriction.as_ref().expect("there are lobes");
+    obstacle.clearance[node] - table.at(step, sector)[node] - u
+}
+
+#[test]
+fn far_sectors_have_bounds_of_their_gaps_and_all_others_their_gaps() {
+    let mut numbers = Numbers(7);
+    let (nodes, wheel) = (nodes(), wheel(&mut numbers, |_| 100.0));
+    let restriction = Restriction { count: 2, amplitude: 0.5, width_rad: 0.3, phase_rad: 0.1 };
+    let casing =
+        Casing { clearance: vec![0.4, 0.5, 0.6], restriction: Some(restriction), ramp_revolutions: 0.0 };
+    let simulation = simulation(&wheel, &nodes, &casing);
+    let (mut far, mut near) = (0, 0);
+    for turn in 0..40 {
+        let size = 2e-4 * numbers.next();
+        let mode = |harmonic: usize, family: usize, numbers: &mut Numbers| InitialMode {
+            harmonic,
+            family,
+            displacement: size
+                * c64::new(
+                    numbers.next(),
+                    if wheel.harmonics[harmonic].single { 0.0 } else { numbers.next() },
+                ),
+            velocity: c64::new(0.0, 0.0),
+        };
+        let initial: Vec<_> =
+            (0..=SECTORS / 2).flat_map(|h| [mode(h, 0, &mut numbers), mode(h, 3, &mut numbers)]).collect();
+        let (mut obstacle, oscillators, fourier) = obstacle(&simulation, &initial);
+        let now = Instant::new(3, 1 + 8 * turn, STEPS);
+        obstacle.look(pulp::Scalar, &oscillators, &fourier, (now, None));
+        let holds = |obstacle: &Obstacle, exactly: bool| {
+            for (sector, gaps) in obstacle.predicted_gap.chunks_exact(obstacle.rows.stride).enumerate() {
+                for (node, &kept) in gaps[..NODES].iter().enumerate() {
+                    let gap = gap(obstacle, &fourier, now.step, sector, node);
+                    if obstacle.is_far[sector] {
+                        assert!(!exactly && 0.0 <= kept && kept <= gap + 1e-14, "{turn}: {kept} {gap}");
+                    } else {
+                        assert!((kept - gap).abs() < 1e-14, "{turn}: {kept} {gap}");
+                    }
+                }
+            }
+        };
+        holds(&obstacle, false);
+        let these = obstacle.is_far.iter().filter(|far| **far).count();
+        (far, near) = (far + these, near + SECTORS - these);
+        obstacle.complete_gaps(&fourier, now, None);
+        holds(&obstacle, true);
+    }
+    assert!(far > 200 && near > 50, "{far} {near}");
+}
+
+/// One nodal diameter moves nearly alone: what a lobe pushes in comes out on the other side, where nothing seemed near.
+#[test]
+fn forces_that_close_a_far_gap_are_those_of_all_gaps() {
+    let mut numbers = Numbers(3);
+    let (nodes, wheel) = (nodes(), wheel(&mut numbers, |harmonic| if harmonic == 1 { 100.0 } else { 1.0 }));
+    let clearance = 0.2;
+    let restriction = Restriction { count: 1, amplitude: 2.5 * clearance, width_rad: 0.3, phase_rad: 0.03 };
+    let casing =
+        Casing { clearance: vec![clearance; NODES], restriction: Some(restriction), ramp_revolutions: 0.0 };
+    let simulation = simulation(&wheel, &nodes, &casing);
+    let (mut obstacle, oscillators, fourier) = obstacle(&simulation, &[]);
+    let now = Instant::beginning(1);
+    assert!(!obstacle.look(pulp::Scalar, &oscillators, &fourier, (now, None)));
+    let was_far = obstacle.is_far.clone();
+    let mut q = vec![f64::INFINITY; obstacle.predicted_gap.len()];
+    for sector in 0..SECTORS {
+        for node in 0..NODES {
+            q[sector * obstacle.rows.stride + node] = gap(&obstacle, &fourier, now.step, sector, node);
+        }
+    }
+    let (mut statistics, mut work) = (RunStatistics::default(), EffectWork::default());
+    obstacle.solve(&fourier, now, None, &mut statistics, &mut work).expect("W is positive definite");
+    let (active, lambda) = (obstacle.solver.active(), obstacle.solver.lambda());
+    let sector = |index: usize| obstacle.delassus.place(index).0;
+    assert!(active.iter().any(|&index| was_far[sector(index)]), "{active:?} {was_far:?}");
+    for (i, q) in q.iter().enumerate().filter(|(_, q)| q.is_finite()) {
+        let moved: f64 = active.iter().zip(lambda).map(|(&j, f)| obstacle.delassus.entry(i, j) * f).sum();
+        match active.iter().position(|&index| index == i) {
+            Some(at) => assert!(lambda[at] > 0.0 && (q + moved).abs() < 1e-9, "{i}: {}", q + moved),
+            None => assert!(q + moved > -1e-9, "{i}: {}", q + moved),
+        }
+    }
+}
