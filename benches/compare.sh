@@ -1,12 +1,13 @@
 #!/bin/sh
 # Times the steps of this tree beside those of another revision, in one run in which both take turns:
 #
-#   benches/compare.sh REVISION [SECTION] [ROUNDS]
+#   benches/compare.sh [REVISION] [SECTION] [ROUNDS]
 #
 # builds `cargo bench --bench step` of both and prints, for every row of SECTION (default 900: every scheme in free flight and in
-# contact), nanoseconds per step of either (medians) and their ratio. Needs an otherwise idle machine.
+# contact), nanoseconds per step of either (medians) and their ratio. Without REVISION it is the last that is tagged. Needs an
+# otherwise idle machine.
 set -eu
-revision=$1 section=${2:-900} rounds=${3:-7}
+revision=${1:-$(git describe --tags --abbrev=0)} section=${2:-900} rounds=${3:-7}
 here=$(git rev-parse --show-toplevel)
 work=$(mktemp -d)
 trap 'git -C "$here" worktree remove --force "$work/then" 2>/dev/null; rm -rf "$work"' EXIT
@@ -35,6 +36,7 @@ awk -F'|' '
         return v[int((n + 1) / 2)]
     }
     END {
+        if (!keys) exit 1
         print "| motion | scheme | then, ns/step | now, ns/step | now/then |"
         print "|---|---|---|---|---|"
         for (k = 1; k <= keys; k++) {

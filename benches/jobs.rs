@@ -18,7 +18,8 @@ use service::Service;
 /// Workers of the first table: those of a service on two cores.
 const WORKERS: u16 = 2;
 const SPEEDS: u32 = 24;
-const REVOLUTIONS: [u32; 3] = [25, 50, 100];
+/// Speeds and revolutions: the first two tell speeds apart, the last two revolutions.
+const SWEEPS: [(u32, u32); 3] = [(96, 25), (24, 25), (24, 100)];
 
 fn main() -> anyhow::Result<()> {
     tokio::runtime::Builder::new_multi_thread().enable_all().build()?.block_on(async {
@@ -55,34 +56,41 @@ async fn first_rows() -> anyhow::Result<()> {
     Ok(())
 }
 
-/// What a speed takes on one worker, by what of it grows with the revolutions and what is computed.
+/// What a sweep takes on one worker beyond its speeds, and a speed beyond its revolutions.
 async fn beside_computing() -> anyhow::Result<()> {
     let service = Service::start(1, &Preset::Small.parameters()).await?;
-    let sweep = |revolutions: u32| demo_sweep(&service.model, SPEEDS, &revolutions.into());
+    let sweep = |speeds: u32, revolutions: u32| demo_sweep(&service.model, speeds, &revolutions.into());
     // The reduction is made, and the machine warm.
-    service.points(&sweep(REVOLUTIONS[0])).await?;
-    println!("\nThe demo's sweep, {SPEEDS} speeds, one worker, its reduction stored.\n");
-    println!("| revolutions | a speed, ms | of it computing, ms | beyond, ms | share |");
-    println!("|---|---|---|---|---|");
-    let mut lines = Vec::new();
-    for revolutions in REVOLUTIONS {
+    service.done("sweeps", &sweep(SPEEDS, 25)).await?;
+    println!("\nThe demo's sweep, one worker, its reduction stored; sums over all speeds.\n");
+    println!("| speeds | revolutions | sweep, s | computing its speeds, s | beyond, ms | share |");
+    println!("|---|---|---|---|---|---|");
+    let mut found = Vec::new();
+    for (speeds, revolutions) in SWEEPS {
         let begin = Instant::now();
-        let points = service.points(&sweep(revolutions)).await?;
-        let speed = 1e3 * begin.elapsed().as_secs_f64() / f64::from(SPEEDS);
-        let computed: f64 = points.iter().map(computing).sum::<anyhow::Result<f64>>()?;
-        let computed = 1e3 * computed / f64::from(SPEEDS);
-        let beyond = speed - computed;
+        let path = service.done("sweeps", &sweep(speeds, revolutions)).await?;
+        let whole = begin.elapsed().as_secs_f64();
+        let map = service.get(&format!("{path}/interaction-map")).await?;
+        let points = map["points"].as_array().context("no points")?;
+        let computed = points.iter().map(computing).sum::<anyhow::Result<f64>>()?;
+        let beyond = whole - computed;
         println!(
-            "| {revolutions} | {speed:.1} | {computed:.1} | {beyond:.1} | {:.2} % |",
-            100.0 * beyond / speed
+            "| {speeds} | {revolutions} | {whole:.2} | {computed:.2} | {:.0} | {:.2} % |",
+            1e3 * beyond,
+            100.0 * beyond / whole
         );
-        lines.push((f64::from(revolutions), computed));
+        found.push((1e3 * computed / f64::from(speeds), 1e3 * beyond));
     }
-    let [(few, least), .., (many, most)] = lines[..] else { bail!("two numbers of revolutions at least") };
-    let each = (most - least) / (many - few);
+    let [(_, of_many), (short, of_few), (long, _)] = found[..] else { bail!("three sweeps") };
+    let [(many, few), (least, most)] =
+        [(SWEEPS[0].0, SWEEPS[1].0), (SWEEPS[1].1, SWEEPS[2].1)].map(|(a, b)| (f64::from(a), f64::from(b)));
+    let speed = (of_many - of_few) / (many - few);
+    let revolution = (long - short) / (most - least);
     println!(
-        "\nA revolution takes {each:.2} ms; what is computed once a speed (modes, tables, spectra, audit) {:.1} ms.",
-        least - few * each
+        "\nBeyond computing: {:.0} ms a sweep, {speed:.2} ms a speed. A revolution takes {revolution:.2} ms, and what is computed once a \
+         speed (modes, tables, spectra, audit) {:.1} ms.",
+        of_few - few * speed,
+        short - least * revolution
     );
     service.stop().await
 }
