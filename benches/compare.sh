@@ -1,4 +1,4 @@
-#!/bin/sh
+#!/usr/bin/env bash
 # Times the steps of this tree beside those of another revision, in one run in which both take turns:
 #
 #   benches/compare.sh [REVISION] [SECTION] [ROUNDS]
@@ -10,6 +10,7 @@ set -eu
 revision=${1:-$(git describe --tags --abbrev=0)} section=${2:-900} rounds=${3:-7}
 here=$(git rev-parse --show-toplevel)
 work=$(mktemp -d)
+trap 'exit 143' TERM
 trap 'git -C "$here" worktree remove --force "$work/then" 2>/dev/null; rm -rf "$work"' EXIT
 git -C "$here" worktree add -q --detach "$work/then" "$revision"
 
@@ -19,6 +20,11 @@ binary() {
 }
 now=$(binary "$here")
 then=$(CARGO_TARGET_DIR=$work/target binary "$work/then")
+
+if [ -z "$now" ] || [ -z "$then" ]; then
+    echo "the step benchmark of one of the two does not build" >&2
+    exit 1
+fi
 
 for round in $(seq "$rounds"); do
     "$then" --bench "$section" | sed -n "s/^| $section /then&/p"
@@ -36,7 +42,6 @@ awk -F'|' '
         return v[int((n + 1) / 2)]
     }
     END {
-        if (!keys) exit 1
         print "| motion | scheme | then, ns/step | now, ns/step | now/then |"
         print "|---|---|---|---|---|"
         for (k = 1; k <= keys; k++) {

@@ -61,7 +61,7 @@ async fn beside_computing() -> anyhow::Result<()> {
     let service = Service::start(1, &Preset::Small.parameters()).await?;
     let sweep = |speeds: u32, revolutions: u32| demo_sweep(&service.model, speeds, &revolutions.into());
     // The reduction is made, and the machine warm.
-    service.done("sweeps", &sweep(SPEEDS, 25)).await?;
+    service.done("sweeps", &sweep(SWEEPS[1].0, SWEEPS[1].1)).await?;
     println!("\nThe demo's sweep, one worker, its reduction stored; sums over all speeds.\n");
     println!("| speeds | revolutions | sweep, s | computing its speeds, s | beyond, ms | share |");
     println!("|---|---|---|---|---|---|");

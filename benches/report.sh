@@ -1,5 +1,5 @@
-#!/bin/sh
-# Every table of docs/performance.md, docs/effects.md and docs/accuracy.md that a benchmark prints, in one go:
+#!/usr/bin/env bash
+# Every table of docs/ that a benchmark prints, in one go:
 #
 #   benches/report.sh > FILE
 #
@@ -21,7 +21,7 @@ run() {
 run --bench step
 run --bench reduction -- small medium half paper plain
 run --bench reduction -- solve
-run --bench steady
+run --bench steady -- 1e-2 5e-3 1e-3
 run --bench stress
 run --bench budget
 run --bench jobs

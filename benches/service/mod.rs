@@ -12,6 +12,9 @@ use tempfile::TempDir;
 use tokio::task::JoinHandle;
 use tokio_util::sync::CancellationToken;
 
+/// Between two looks at a job: a hundredth of what they are to tell at most, and next to nothing of the machine.
+const POLLED: Duration = Duration::from_millis(5);
+
 pub(crate) struct Service {
     client: Client,
     base: String,
@@ -69,7 +72,7 @@ impl Service {
         loop {
             let job = self.get(&path).await?;
             match job["status"].as_str() {
-                Some("accepted" | "running") => tokio::time::sleep(Duration::from_millis(50)).await,
+                Some("accepted" | "running") => tokio::time::sleep(POLLED).await,
                 Some("successful") => return Ok(path),
                 _ => bail!("{job}"),
             }

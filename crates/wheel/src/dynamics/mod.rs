@@ -1,5 +1,6 @@
 //! The physics: cyclic structure, reduction, contact and time integration, in the words of docs/method.md.
 
+mod amplitude_sums;
 #[cfg(test)]
 mod bouncing_bar;
 pub mod casing;
@@ -11,7 +12,6 @@ pub mod effects;
 pub mod energy;
 pub mod error;
 pub mod excitation;
-mod farthest;
 pub mod flexible_casing;
 pub mod initial;
 pub mod integrate;

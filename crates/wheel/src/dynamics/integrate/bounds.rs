@@ -14,8 +14,8 @@ use std::fmt;
 
 use pulp::Simd;
 
+use super::super::amplitude_sums::amplitude_sums;
 use super::super::direction::Direction;
-use super::super::farthest::farthest_anywhere;
 use super::super::oscillators::Oscillators;
 use super::super::oscillators::rows::Rows;
 use super::residual::ResidualDisplacement;
@@ -71,7 +71,7 @@ pub(super) struct Bounds {
     flexibility: f64,
     residual: ResidualDisplacement,
     harmonic: Vec<f64>,
-    farthest: Vec<f64>,
+    amplitude_sums: Vec<f64>,
 }
 
 impl Bounds {
@@ -95,7 +95,7 @@ impl Bounds {
             flexibility: flexibility(simulation, oscillators, &directions),
             residual: ResidualDisplacement::new(simulation, &directions),
             harmonic: vec![0.0; wheel.sectors * rows.stride],
-            farthest: vec![0.0; rows.stride],
+            amplitude_sums: vec![0.0; rows.stride],
             rows,
         }
     }
@@ -117,8 +117,8 @@ impl Bounds {
         }
         oscillators.project(simd, &self.rows, &mut self.harmonic);
         self.residual.add(force, force.len() / fourier.sectors(), &mut self.harmonic, self.rows.stride);
-        farthest_anywhere(simd, fourier, &self.harmonic, &mut self.farthest);
-        if self.farthest.iter().all(|&farthest| farthest <= self.reach) {
+        amplitude_sums(simd, fourier, &self.harmonic, &mut self.amplitude_sums);
+        if self.amplitude_sums.iter().all(|&sum| sum <= self.reach) {
             return None;
         }
         let largest = self.largest(fourier);

@@ -2,13 +2,13 @@
 
 use pulp::Simd;
 
+use super::super::amplitude_sums::amplitude_sums;
 use super::super::casing::{Casing, RestrictionTable};
 use super::super::contact::coating::Coating;
 use super::super::contact::delassus::Delassus;
 use super::super::contact::flexibility::{outward_normals, ridge};
 use super::super::effects::Effects;
 use super::super::energy::EffectWork;
-use super::super::farthest::farthest_anywhere;
 use super::super::oscillators::Oscillators;
 use super::super::oscillators::lanes::LANES;
 use super::super::oscillators::rows::{Loads, Rows};
@@ -21,18 +21,15 @@ use super::surroundings::{Law, Solution, Surroundings};
 use super::tally::{ContactInterval, ContactTally};
 use super::trace::Trace;
 use rubmap_numerics::complementarity::active_set::ActiveSetSolver;
-use rubmap_numerics::complementarity::{ComplementarityError, ContactOperator};
+use rubmap_numerics::complementarity::{ComplementarityError, ContactOperator, any_below};
 use rubmap_numerics::sector_fourier::SectorFourier;
 
 /// Penetration that the ridge of a singular W may leave, relative to clearance and restriction. Nodes that W cannot tell
 /// apart but that agree keep to a thousandth of it; where they contradict each other no forces help.
 const LEFT: f64 = 1e-6;
 
-/// Sectors of which all are transformed: looking which are far costs as much (`cargo bench --bench step -- sectors`).
-const FEW: usize = 16;
-
-/// Sectors transformed together.
-const LARGEST_GROUP: usize = 4;
+/// Wheels of so many sectors have all of them transformed: to look which are far would cost as much.
+const ALL_TRANSFORMED: usize = 16;
 
 #[derive(Debug)]
 pub(super) struct Obstacle {
@@ -52,13 +49,13 @@ pub(super) struct Obstacle {
     step_s: f64,
     /// Normal displacements of the integrated modes, `[Fourier column][node]`.
     harmonic: Vec<f64>,
-    /// No node comes out farther than this in any sector.
-    farthest: Vec<f64>,
+    /// No nᵀu is larger in any sector.
+    amplitude_sums: Vec<f64>,
     /// Of far sectors what they are at least.
     predicted_gap: Vec<f64>,
-    /// Sectors whose nodes are all short of the casing wherever in their sectors the wheel is farthest out.
+    /// Sectors that no displacement the wheel has anywhere would bring to the casing.
     is_far: Vec<bool>,
-    /// The others, ascending.
+    /// The others.
     near: Vec<usize>,
     /// Contact nodes with a force on any sector.
     loaded: Vec<usize>,
@@ -107,7 +104,7 @@ impl Obstacle {
             casing: casing.clone(),
             step_s: simulation.step_s(),
             harmonic: vec![0.0; size],
-            farthest: vec![0.0; stride],
+            amplitude_sums: vec![0.0; stride],
             predicted_gap: vec![0.0; size],
             is_far: vec![false; sectors],
             near: (0..sectors).collect(),
@@ -135,10 +132,9 @@ impl Obstacle {
         (Loads { rows: applied(rows, surroundings), loaded, force }, (rows, harmonic))
     }
 
-    /// g_p = c − p − nᵀu of all sectors, the smallest of which is returned.
+    /// g_p = c − p − nᵀu of all sectors. Returns the smallest if it is negative, otherwise a number that is not.
     ///
-    /// Where the casing is out of reach of a sector its gaps are not transformed: what is kept, c − p − the farthest that a node
-    /// comes out anywhere, is below them and not negative.
+    /// Of far sectors, where c − p is not below the most that nᵀu can be in any sector, only c − p less that is kept.
     #[inline(always)]
     pub(super) fn predict_gaps<S: Simd>(
         &mut self,
@@ -155,25 +151,22 @@ impl Obstacle {
             }
             None => None,
         };
-        let mut smallest = f64::INFINITY;
-        if fourier.sectors() <= FEW {
-            return self.near_gaps(simd, fourier, (now.step, growth, shift));
-        }
-        farthest_anywhere(simd, fourier, &self.harmonic, &mut self.farthest);
-        self.near.clear();
-        for sector in 0..fourier.sectors() {
-            let least = self.least_gaps(simd, (now.step, growth, shift), sector);
-            self.is_far[sector] = least >= 0.0;
-            if self.is_far[sector] {
-                smallest = smallest.min(least);
-            } else {
-                self.near.push(sector);
+        if fourier.sectors() > ALL_TRANSFORMED {
+            amplitude_sums(simd, fourier, &self.harmonic, &mut self.amplitude_sums);
+            self.near.clear();
+            for sector in 0..fourier.sectors() {
+                let far = self.least_gaps(simd, (now.step, growth, shift), sector) >= 0.0;
+                self.is_far[sector] = far;
+                if !far {
+                    self.near.push(sector);
+                }
             }
         }
-        smallest.min(self.near_gaps(simd, fourier, (now.step, growth, shift)))
+        self.near_gaps(simd, fourier, (now.step, growth, shift))
     }
 
-    /// Writes what the gaps of a sector are at least, at a step, growth of the casing and shift of all gaps; the smallest.
+    /// Writes what the gaps of a sector are at least, at a step, growth of the restriction and shift of all gaps. Returns the
+    /// smallest.
     #[inline(always)]
     fn least_gaps<S: Simd>(
         &mut self,
@@ -181,30 +174,26 @@ impl Obstacle {
         (step, growth, shift): (usize, f64, Option<&[f64]>),
         sector: usize,
     ) -> f64 {
-        let Self { rows, restriction, unrestricted, clearance, farthest, predicted_gap, .. } = self;
+        let Self { rows, restriction, unrestricted, clearance, amplitude_sums, predicted_gap, .. } = self;
         let stride = rows.stride;
         let vectors = stride / S::F64_LANES;
         let range = sector * stride..(sector + 1) * stride;
-        let gap = &mut S::as_mut_simd_f64s(&mut predicted_gap[range.clone()]).0[..vectors];
+        let gap = &mut S::as_mut_simd_f64s(&mut predicted_gap[range]).0[..vectors];
         let restricted = restriction.as_ref().map_or(&unrestricted[..], |table| table.at(step, sector));
         let restricted = &S::as_simd_f64s(restricted).0[..vectors];
         let clearance = &S::as_simd_f64s(clearance).0[..vectors];
-        let farthest = &S::as_simd_f64s(farthest).0[..vectors];
-        let shift = shift.map(|shift| &S::as_simd_f64s(&shift[range]).0[..vectors]);
+        let sums = &S::as_simd_f64s(amplitude_sums).0[..vectors];
         let growth = simd.splat_f64s(growth);
         let mut smallest = simd.splat_f64s(f64::INFINITY);
         for v in 0..vectors {
-            let mut free = simd.negate_mul_add_e_f64s(growth, restricted[v], clearance[v]);
-            if let Some(shift) = shift {
-                free = simd.add_f64s(free, shift[v]);
-            }
-            gap[v] = simd.sub_f64s(free, farthest[v]);
+            let room = room(simd, clearance[v], (growth, restricted[v]), shift, sector * vectors + v);
+            gap[v] = simd.sub_f64s(room, sums[v]);
             smallest = simd.min_f64s(smallest, gap[v]);
         }
         simd.reduce_min_f64s(smallest)
     }
 
-    /// Writes the gaps of the sectors that are near, and returns the smallest.
+    /// Writes the gaps of the near sectors, and returns the smallest.
     #[inline(always)]
     fn near_gaps<S: Simd>(
         &mut self,
@@ -213,15 +202,18 @@ impl Obstacle {
         at: (usize, f64, Option<&[f64]>),
     ) -> f64 {
         let mut smallest = simd.splat_f64s(f64::INFINITY);
-        for first in (0..self.near.len()).step_by(LARGEST_GROUP) {
-            let of_group = match self.near[first..] {
-                [a] => self.gaps_of(simd, fourier, at, [a]),
-                [a, b] => self.gaps_of(simd, fourier, at, [a, b]),
-                [a, b, c] => self.gaps_of(simd, fourier, at, [a, b, c]),
-                [a, b, c, d, ..] => self.gaps_of(simd, fourier, at, [a, b, c, d]),
+        let mut first = 0;
+        while first < self.near.len() {
+            // As many sums as are in flight at once.
+            let (of_group, count) = match self.near[first..] {
+                [a, b, c, d, ..] => (self.gaps_of(simd, fourier, at, [a, b, c, d]), 4),
+                [a, b, c] => (self.gaps_of(simd, fourier, at, [a, b, c]), 3),
+                [a, b] => (self.gaps_of(simd, fourier, at, [a, b]), 2),
+                [a] => (self.gaps_of(simd, fourier, at, [a]), 1),
                 [] => break,
             };
             smallest = simd.min_f64s(smallest, of_group);
+            first += count;
         }
         simd.reduce_min_f64s(smallest)
     }
@@ -242,15 +234,15 @@ impl Obstacle {
         let harmonic = S::as_simd_f64s(harmonic).0;
         let growth = simd.splat_f64s(growth);
         let mut smallest = simd.splat_f64s(f64::INFINITY);
-        let mut waves: [&[f64]; R] = [&[]; R];
-        for (waves, sector) in waves.iter_mut().zip(sectors) {
-            *waves = &fourier.row(sector)[..fourier.sectors()];
+        let mut basis: [&[f64]; R] = [&[]; R];
+        for (basis, sector) in basis.iter_mut().zip(sectors) {
+            *basis = &fourier.row(sector)[..fourier.sectors()];
         }
         for v in 0..vectors {
             let mut u = [simd.splat_f64s(0.0); R];
             for (f, column) in harmonic.chunks_exact(vectors).take(fourier.sectors()).enumerate() {
                 for r in 0..R {
-                    u[r] = simd.mul_add_e_f64s(simd.splat_f64s(waves[r][f]), column[v], u[r]);
+                    u[r] = simd.mul_add_e_f64s(simd.splat_f64s(basis[r][f]), column[v], u[r]);
                 }
             }
             for r in 0..R {
@@ -260,11 +252,8 @@ impl Obstacle {
                 };
                 let at = sectors[r] * vectors + v;
                 let restricted = S::as_simd_f64s(restricted).0[v];
-                let mut free = simd.negate_mul_add_e_f64s(growth, restricted, clearance[v]);
-                if let Some(shift) = shift {
-                    free = simd.add_f64s(free, S::as_simd_f64s(shift).0[at]);
-                }
-                gap[at] = simd.sub_f64s(free, u[r]);
+                let room = room(simd, clearance[v], (growth, restricted), shift, at);
+                gap[at] = simd.sub_f64s(room, u[r]);
                 smallest = simd.min_f64s(smallest, gap[at]);
             }
         }
@@ -274,19 +263,30 @@ impl Obstacle {
     /// Transforms the gaps of far sectors, too.
     #[inline(never)]
     fn complete_gaps(&mut self, fourier: &SectorFourier, now: Instant, shift: Option<&[f64]>) {
-        let Self { near, is_far, .. } = self;
-        near.clear();
-        near.extend((0..fourier.sectors()).filter(|&sector| is_far[sector]));
-        is_far.fill(false);
         let growth = self.casing.growth(now.revolutions);
-        // Rare: not worth a second copy for the widest vectors.
-        self.near_gaps(pulp::Scalar, fourier, (now.step, growth, shift));
+        for sector in 0..fourier.sectors() {
+            if std::mem::take(&mut self.is_far[sector]) {
+                // Rare: not worth a second copy for the widest vectors.
+                self.gaps_of(pulp::Scalar, fourier, (now.step, growth, shift), [sector]);
+            }
+        }
+        self.near.clear();
+        self.near.extend(0..fourier.sectors());
+    }
+
+    /// Whether a solution is none of the true gaps: forces act in a far sector, or seem to close it.
+    fn reaches_far(&self, active: &[usize], gap: &[f64]) -> bool {
+        active.iter().any(|&index| self.is_far[self.delassus.place(index).0])
+            || gap
+                .chunks_exact(self.rows.stride)
+                .zip(&self.is_far)
+                .any(|(gap, far)| *far && any_below(gap, 0.0))
     }
 
     /// Contact forces of the predicted gaps (Eqs 9, 10) and what they add to the statistics.
     ///
-    /// A solution whose forces are all at gaps that were transformed is that of the true ones: the others are larger than what
-    /// is open already.
+    /// Where all forces are in near sectors and all far ones remain open, the true gaps of these, which are larger, have the same
+    /// solution; it is the only one where W is a P-matrix. Otherwise all gaps are transformed and solved for.
     #[inline(always)]
     pub(super) fn solve(
         &mut self,
@@ -301,14 +301,17 @@ impl Obstacle {
             None => (&mut Law::Plain, None, None, None),
         };
         loop {
-            law.solve(&mut self.solver, (&self.delassus, &self.predicted_gap, self.tolerance), now.step)?;
-            let active = law.solution(&self.solver).active;
-            if !active.iter().any(|&index| self.is_far[self.delassus.place(index).0]) {
+            let problem = (&self.delassus, self.predicted_gap.as_slice(), self.tolerance);
+            let solved = law.solve(&mut self.solver, problem, now.step);
+            let Solution { active, gap, .. } = law.solution(&self.solver);
+            if self.near.len() == fourier.sectors() || (solved.is_ok() && !self.reaches_far(active, gap)) {
+                solved?;
                 break;
             }
             self.complete_gaps(fourier, now, shift);
         }
-        let allowed = law.wear(&self.delassus, now.step);
+        law.wear(&self.delassus, now.step);
+        let allowed = law.depth();
         let Solution { active, lambda, gap, pivots } = law.solution(&self.solver);
         let deepest = (-lowest(gap) - allowed).max(0.0);
         statistics.largest_penetration = statistics.largest_penetration.max(deepest);
@@ -381,10 +384,7 @@ impl Obstacle {
     ) -> f64 {
         oscillators.project(simd, &self.rows, &mut self.harmonic);
         self.residual.add(&self.force, self.rows.stride, &mut self.harmonic, self.rows.stride);
-        let allowed = match &surroundings {
-            Some(Surroundings { law: Law::Coated(_, coating), .. }) => coating.unworn().thickness(),
-            _ => 0.0,
-        };
+        let allowed = surroundings.as_ref().map_or(0.0, |surroundings| surroundings.law.depth());
         (-self.predict_gaps(simd, fourier, now, surroundings) - allowed).max(0.0)
     }
 
@@ -409,6 +409,22 @@ impl Obstacle {
             }
         }
         self.loaded.clear();
+    }
+}
+
+/// c − p, the restriction by its growth and height, and the `at`-th vector of what shifts it.
+#[inline(always)]
+fn room<S: Simd>(
+    simd: S,
+    clearance: S::f64s,
+    (growth, restricted): (S::f64s, S::f64s),
+    shift: Option<&[f64]>,
+    at: usize,
+) -> S::f64s {
+    let room = simd.negate_mul_add_e_f64s(growth, restricted, clearance);
+    match shift {
+        Some(shift) => simd.add_f64s(room, S::as_simd_f64s(shift).0[at]),
+        None => room,
     }
 }
 

@@ -47,7 +47,9 @@ pub(super) struct Solution<'a> {
     pub(super) active: &'a [usize],
     /// Their forces.
     pub(super) lambda: &'a [f64],
+    /// Gaps under them, or without where they reach nothing.
     pub(super) gap: &'a [f64],
+    /// Work of all solutions so far.
     pub(super) pivots: PivotStatistics,
 }
 
@@ -172,24 +174,37 @@ impl Law {
         match self {
             Self::Plain => Solution::of(plain),
             Self::General(solver) => Solution::of(solver),
-            Self::Coated(CoatedSolver::Symmetric(solver), _) => Solution::of_branches(solver),
-            Self::Coated(CoatedSolver::General(solver), _) => Solution::of_branches(solver),
+            Self::Coated(solver, _) => solver.solution(),
         }
     }
 
-    /// Wears what the forces press into. Returns how deep a tip may be in it.
+    /// Wears what the forces found last press into.
     #[inline(always)]
-    pub(super) fn wear(&mut self, w: &Delassus, step: usize) -> f64 {
-        let Self::Coated(solver, coating) = self else { return 0.0 };
-        let Solution { active, gap, .. } = match solver {
-            CoatedSolver::Symmetric(solver) => Solution::of_branches(solver),
-            CoatedSolver::General(solver) => Solution::of_branches(solver),
-        };
+    pub(super) fn wear(&mut self, w: &Delassus, step: usize) {
+        let Self::Coated(solver, coating) = self else { return };
+        let Solution { active, gap, .. } = solver.solution();
         for &index in active {
             let (sector, row) = w.place(index);
             coating.press(coating.rod(step, sector, row), row, -gap[index]);
         }
-        coating.unworn().thickness()
+    }
+
+    /// How deep a tip may be in what it meets.
+    pub(super) fn depth(&self) -> f64 {
+        match self {
+            Self::Coated(_, coating) => coating.unworn().thickness(),
+            Self::Plain | Self::General(_) => 0.0,
+        }
+    }
+}
+
+impl CoatedSolver {
+    #[inline(always)]
+    fn solution(&self) -> Solution<'_> {
+        match self {
+            Self::Symmetric(solver) => Solution::of_branches(solver),
+            Self::General(solver) => Solution::of_branches(solver),
+        }
     }
 }
 

@@ -8,8 +8,8 @@ use super::super::super::schemes::Scheme;
 use super::super::super::sector::ContactNode;
 use super::*;
 
-const SECTORS: usize = 20;
-const NODES: usize = 3;
+const SECTORS: usize = 21;
+const NODES: usize = 9;
 const MODES: usize = 4;
 const STEPS: usize = 360;
 
@@ -82,8 +82,11 @@ fn far_sectors_have_bounds_of_their_gaps_and_all_others_their_gaps() {
     let mut numbers = Numbers(7);
     let (nodes, wheel) = (nodes(), wheel(&mut numbers, |_| 100.0));
     let restriction = Restriction { count: 2, amplitude: 0.5, width_rad: 0.3, phase_rad: 0.1 };
-    let casing =
-        Casing { clearance: vec![0.4, 0.5, 0.6], restriction: Some(restriction), ramp_revolutions: 0.0 };
+    let casing = Casing {
+        clearance: (0..NODES).map(|k| 0.4 + 0.02 * k as f64).collect(),
+        restriction: Some(restriction),
+        ramp_revolutions: 0.0,
+    };
     let simulation = simulation(&wheel, &nodes, &casing);
     let (mut far, mut near) = (0, 0);
     for turn in 0..40 {
@@ -102,7 +105,9 @@ fn far_sectors_have_bounds_of_their_gaps_and_all_others_their_gaps() {
             (0..=SECTORS / 2).flat_map(|h| [mode(h, 0, &mut numbers), mode(h, 3, &mut numbers)]).collect();
         let (mut obstacle, oscillators, fourier) = obstacle(&simulation, &initial);
         let now = Instant::new(3, 1 + 8 * turn, STEPS);
-        obstacle.look(pulp::Scalar, &oscillators, &fourier, (now, None));
+        let open = obstacle.look(pulp::Scalar, &oscillators, &fourier, (now, None));
+        let mut gaps = (0..SECTORS * NODES).map(|i| gap(&obstacle, &fourier, now.step, i / NODES, i % NODES));
+        assert_eq!(open, gaps.all(|gap| gap >= 0.0));
         let holds = |obstacle: &Obstacle, exactly: bool| {
             for (sector, gaps) in obstacle.predicted_gap.chunks_exact(obstacle.rows.stride).enumerate() {
                 for (node, &kept) in gaps[..NODES].iter().enumerate() {
@@ -134,7 +139,14 @@ fn forces_that_close_a_far_gap_are_those_of_all_gaps() {
     let casing =
         Casing { clearance: vec![clearance; NODES], restriction: Some(restriction), ramp_revolutions: 0.0 };
     let simulation = simulation(&wheel, &nodes, &casing);
-    let (mut obstacle, oscillators, fourier) = obstacle(&simulation, &[]);
+    // What moves makes bounds of the gaps of far sectors.
+    let mode = |harmonic: usize| InitialMode {
+        harmonic,
+        family: 0,
+        displacement: c64::new(4e-4, 3e-4),
+        velocity: c64::new(0.0, 0.0),
+    };
+    let (mut obstacle, oscillators, fourier) = obstacle(&simulation, &[mode(1), mode(4)]);
     let now = Instant::beginning(1);
     assert!(!obstacle.look(pulp::Scalar, &oscillators, &fourier, (now, None)));
     let was_far = obstacle.is_far.clone();
@@ -144,11 +156,14 @@ fn forces_that_close_a_far_gap_are_those_of_all_gaps() {
             q[sector * obstacle.rows.stride + node] = gap(&obstacle, &fourier, now.step, sector, node);
         }
     }
+    let bounds = obstacle.predicted_gap.clone();
     let (mut statistics, mut work) = (RunStatistics::default(), EffectWork::default());
     obstacle.solve(&fourier, now, None, &mut statistics, &mut work).expect("W is positive definite");
     let (active, lambda) = (obstacle.solver.active(), obstacle.solver.lambda());
     let sector = |index: usize| obstacle.delassus.place(index).0;
-    assert!(active.iter().any(|&index| was_far[sector(index)]), "{active:?} {was_far:?}");
+    let was_bound = |&&index: &&usize| was_far[sector(index)] && bounds[index] < q[index] - 0.01 * clearance;
+    assert!(active.iter().filter(was_bound).count() > 2, "{active:?} {was_far:?}");
+    assert!(!obstacle.is_far.contains(&true));
     for (i, q) in q.iter().enumerate().filter(|(_, q)| q.is_finite()) {
         let moved: f64 = active.iter().zip(lambda).map(|(&j, f)| obstacle.delassus.entry(i, j) * f).sum();
         match active.iter().position(|&index| index == i) {
