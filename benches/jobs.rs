@@ -70,8 +70,7 @@ async fn beside_computing() -> anyhow::Result<()> {
         let begin = Instant::now();
         let path = service.done("sweeps", &sweep(speeds, revolutions)).await?;
         let whole = begin.elapsed().as_secs_f64();
-        let map = service.get(&format!("{path}/interaction-map")).await?;
-        let points = map["points"].as_array().context("no points")?;
+        let points = service.points(&path).await?;
         let computed = points.iter().map(computing).sum::<anyhow::Result<f64>>()?;
         let beyond = whole - computed;
         println!(

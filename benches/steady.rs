@@ -40,10 +40,10 @@ async fn measure(dampings: &[f64]) -> anyhow::Result<()> {
     for &damping in dampings {
         let mut points = Vec::new();
         for how in ["march", "periodic", "auto"] {
-            points.push(service.points(&sweep(&service.model, damping, how, &json!(REVOLUTIONS))).await?);
+            points.push(swept(&service, damping, how, &json!(REVOLUTIONS)).await?);
         }
         let [marched, periodic, auto] = &points[..] else { bail!("three sweeps") };
-        let until = service.points(&sweep(&service.model, damping, "march", &json!("auto"))).await?;
+        let until = swept(&service, damping, "march", &json!("auto")).await?;
         let (repeating, _): (Vec<Value>, Vec<Value>) =
             until.iter().cloned().partition(|point| point["march"]["period_revolutions"].is_u64());
         let seconds =
@@ -110,6 +110,16 @@ async fn settles(
     let last = line.chunks_exact(line.len() / LONG as usize).rposition(off).map_or(0, |last| last as u64 + 1);
     // And one to read it from.
     Ok((last < LONG - 1).then_some(last + 1))
+}
+
+async fn swept(
+    service: &Service,
+    damping: f64,
+    how: &str,
+    revolutions: &Value,
+) -> anyhow::Result<Vec<Value>> {
+    let path = service.done("sweeps", &sweep(&service.model, damping, how, revolutions)).await?;
+    service.points(&path).await
 }
 
 fn sweep(model: &Value, damping: f64, how: &str, revolutions: &Value) -> Value {

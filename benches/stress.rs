@@ -40,7 +40,7 @@ async fn compare(name: &str, preset: Preset) -> anyhow::Result<()> {
 
 /// Mean computing time of a speed.
 async fn seconds(service: &Service, request: &Value) -> anyhow::Result<f64> {
-    let points = service.points(request).await?;
+    let points = service.points(&service.done("sweeps", request).await?).await?;
     let seconds = points.iter().filter_map(|point| point["wall_time_s"].as_f64());
     Ok(seconds.sum::<f64>() / points.len() as f64)
 }

@@ -79,9 +79,8 @@ impl Service {
         }
     }
 
-    /// Points of a sweep.
-    pub(crate) async fn points(&self, request: &Value) -> anyhow::Result<Vec<Value>> {
-        let path = self.done("sweeps", request).await?;
+    /// Points of the map of the sweep at `path`.
+    pub(crate) async fn points(&self, path: &str) -> anyhow::Result<Vec<Value>> {
         let map = self.get(&format!("{path}/interaction-map")).await?;
         Ok(map["points"].as_array().context("no points")?.clone())
     }
