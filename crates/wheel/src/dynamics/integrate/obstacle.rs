@@ -31,6 +31,9 @@ const LEFT: f64 = 1e-6;
 /// Wheels of so many sectors have all of them transformed: to look which are far would cost as much.
 const ALL_TRANSFORMED: usize = 16;
 
+/// Sectors transformed together: as many sums as are in flight at once.
+const TOGETHER: usize = 4;
+
 #[derive(Debug)]
 pub(super) struct Obstacle {
     rows: Rows,
@@ -202,18 +205,15 @@ impl Obstacle {
         at: (usize, f64, Option<&[f64]>),
     ) -> f64 {
         let mut smallest = simd.splat_f64s(f64::INFINITY);
-        let mut first = 0;
-        while first < self.near.len() {
-            // As many sums as are in flight at once.
-            let (of_group, count) = match self.near[first..] {
-                [a, b, c, d, ..] => (self.gaps_of(simd, fourier, at, [a, b, c, d]), 4),
-                [a, b, c] => (self.gaps_of(simd, fourier, at, [a, b, c]), 3),
-                [a, b] => (self.gaps_of(simd, fourier, at, [a, b]), 2),
-                [a] => (self.gaps_of(simd, fourier, at, [a]), 1),
+        for first in (0..self.near.len()).step_by(TOGETHER) {
+            let of_group = match self.near[first..] {
+                [a] => self.gaps_of(simd, fourier, at, [a]),
+                [a, b] => self.gaps_of(simd, fourier, at, [a, b]),
+                [a, b, c] => self.gaps_of(simd, fourier, at, [a, b, c]),
+                [a, b, c, d, ..] => self.gaps_of(simd, fourier, at, [a, b, c, d]),
                 [] => break,
             };
             smallest = simd.min_f64s(smallest, of_group);
-            first += count;
         }
         simd.reduce_min_f64s(smallest)
     }
