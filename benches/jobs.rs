@@ -47,6 +47,10 @@ async fn first_rows() -> anyhow::Result<()> {
             if let Some(point) = map["points"].as_array().and_then(|points| points.first()) {
                 break point.clone();
             }
+            let job = service.get(&path).await?;
+            if !matches!(job["status"].as_str(), Some("accepted" | "running" | "successful")) {
+                bail!("{job}");
+            }
             tokio::time::sleep(Duration::from_millis(5)).await;
         };
         let waited = begin.elapsed().as_secs_f64();

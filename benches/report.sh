@@ -3,7 +3,7 @@
 #
 #   benches/report.sh > FILE
 #
-# An hour and a half on two cores of an otherwise idle machine, 12 GB of memory. What a table is about is said at the head of its benchmark.
+# Hours on an otherwise idle machine, 12 GB of memory. What a table is about is said at the head of its benchmark.
 set -eu
 cd "$(dirname "$0")/.."
 
