@@ -12,7 +12,7 @@ use rubmap::analysis::request::{
 use rubmap::analysis::resolved::ResolvedSweep;
 use rubmap::analysis::result::PointStatus;
 use rubmap::analysis::run::{ReducedSector, prepare, run_speed};
-use rubmap::dynamics::casing::{Casing, Restriction};
+use rubmap::dynamics::casing::{Casing, Lobes};
 use rubmap::dynamics::direction::Direction;
 use rubmap::dynamics::effects::Effects;
 use rubmap::dynamics::integrate::{SensorRow, Simulation};
@@ -79,7 +79,7 @@ impl Scene {
     pub(crate) fn casing(&self, clearance: f64) -> Casing {
         Casing {
             clearance: vec![clearance; self.reduced.wheel.contact.len()],
-            restriction: Some(Restriction { count: 2, amplitude: 0.425, width_rad: 0.35, phase_rad: 0.0 }),
+            restriction: Some(Lobes { count: 2, amplitude: 0.425, width_rad: 0.35, phase_rad: 0.0 }.into()),
             ramp_revolutions: 1.0,
         }
     }

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use faer::{Mat, c64};
-use rubmap::dynamics::casing::{Casing, Restriction};
+use rubmap::dynamics::casing::{Casing, Lobes};
 use rubmap::dynamics::contact::coating::CoatingMaterial;
 use rubmap::dynamics::direction::Direction;
 use rubmap::dynamics::excitation::EngineOrderExcitation;
@@ -68,7 +68,7 @@ fn scene(seed: u64) -> Scene {
     });
     scene.casing = Some(Casing {
         clearance: (0..nodes).map(|_| dice.between(0.1, 0.3)).collect(),
-        restriction: dice.maybe(0.8, |dice| Restriction {
+        restriction: dice.maybe(0.8, |dice| Lobes {
             count: 1 + dice.below(5) as u32,
             amplitude: dice.between(0.1, 0.4),
             width_rad: dice.between(0.2, 0.8),

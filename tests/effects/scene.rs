@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use faer::{Mat, c64};
-use rubmap::dynamics::casing::{Casing, Restriction};
+use rubmap::dynamics::casing::{Casing, Lobes};
 use rubmap::dynamics::contact::coating::{Coating, CoatingMaterial};
 use rubmap::dynamics::direction::Direction;
 use rubmap::dynamics::effects::{Effects, Friction};
@@ -174,7 +174,9 @@ impl Scene {
             damping: Some(ModalDamping { modal_ratio: 0.03, family_ratios: vec![0.02] }),
             casing: Some(Casing {
                 clearance: vec![0.3, 0.26],
-                restriction: Some(Restriction { count: 2, amplitude: 0.42, width_rad: 0.35, phase_rad: 0.1 }),
+                restriction: Some(
+                    Lobes { count: 2, amplitude: 0.42, width_rad: 0.35, phase_rad: 0.1 }.into(),
+                ),
                 ramp_revolutions: 0.4,
             }),
             friction: None,

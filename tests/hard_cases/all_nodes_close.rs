@@ -6,7 +6,7 @@
 
 use faer::{Mat, c64};
 use nalgebra::{DMatrix, DVector};
-use rubmap::dynamics::casing::Restriction;
+use rubmap::dynamics::casing::Lobes;
 
 use crate::fixtures::WheelRecipe;
 use crate::oracle::gauss_seidel;
@@ -21,7 +21,7 @@ fn ring(recipe: WheelRecipe) -> Scene {
     let mut scene = Scene::new(recipe);
     let casing = scene.casing.as_mut().unwrap();
     casing.restriction =
-        Some(Restriction { count: 1, amplitude: RESTRICTION, width_rad: 1e6, phase_rad: 0.0 });
+        Some(Lobes { count: 1, amplitude: RESTRICTION, width_rad: 1e6, phase_rad: 0.0 }.into());
     casing.ramp_revolutions = 1.0;
     scene.damping_ratio = 0.3;
     scene.revolutions = 16;

@@ -9,7 +9,7 @@
 use std::f64::consts::TAU;
 
 use faer::sparse::{SparseColMat, Triplet};
-use rubmap::dynamics::casing::{Casing, Restriction};
+use rubmap::dynamics::casing::{Casing, Lobes};
 use rubmap::dynamics::direction::Direction;
 use rubmap::dynamics::effects::Effects;
 use rubmap::dynamics::integrate::{Outcome, SensorRow, Simulation};
@@ -65,7 +65,7 @@ fn seen_from_behind(sector: &SectorModel) -> SectorModel {
 fn casing(contact_nodes: usize, phase_rad: f64) -> Casing {
     Casing {
         clearance: (0..contact_nodes).map(|k| 0.30 - 0.02 * k as f64).collect(),
-        restriction: Some(Restriction { count: 2, amplitude: 0.425, width_rad: 0.35, phase_rad }),
+        restriction: Some(Lobes { count: 2, amplitude: 0.425, width_rad: 0.35, phase_rad }.into()),
         ramp_revolutions: 0.5,
     }
 }

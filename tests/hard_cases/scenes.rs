@@ -1,7 +1,7 @@
 //! What the hard cases of time integration share: scenes given to a simulation without the door.
 
 use faer::{Mat, c64};
-use rubmap::dynamics::casing::{Casing, Restriction};
+use rubmap::dynamics::casing::{Casing, Lobes};
 use rubmap::dynamics::direction::Direction;
 use rubmap::dynamics::effects::Effects;
 use rubmap::dynamics::initial::InitialMode;
@@ -42,12 +42,9 @@ impl Scene {
             damping_ratio: 0.05,
             casing: Some(Casing {
                 clearance: vec![0.3; recipe.contact_nodes],
-                restriction: Some(Restriction {
-                    count: 2,
-                    amplitude: 0.425,
-                    width_rad: 0.35,
-                    phase_rad: 0.1,
-                }),
+                restriction: Some(
+                    Lobes { count: 2, amplitude: 0.425, width_rad: 0.35, phase_rad: 0.1 }.into(),
+                ),
                 ramp_revolutions: 0.5,
             }),
             initial: Vec::new(),
@@ -66,7 +63,7 @@ impl Scene {
     }
 
     /// The restriction of the casing.
-    pub(crate) fn lobes(&mut self) -> &mut Restriction {
+    pub(crate) fn lobes(&mut self) -> &mut Lobes {
         self.casing.as_mut().and_then(|casing| casing.restriction.as_mut()).unwrap()
     }
 

@@ -11,7 +11,7 @@ use rubmap::analysis::request::SweepRequest;
 use rubmap::analysis::resolved::ResolvedSweep;
 use rubmap::analysis::result::SpeedResult;
 use rubmap::analysis::run::ReducedSector;
-use rubmap::dynamics::casing::{Casing, Restriction};
+use rubmap::dynamics::casing::{Casing, Lobes};
 use rubmap::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use rubmap::dynamics::schemes::Scheme;
 use rubmap::dynamics::sector::SectorModel;
@@ -59,12 +59,15 @@ fn dense(
     let casing = Casing {
         // Two contact nodes: leading and trailing edge.
         clearance: vec![0.3, 0.22],
-        restriction: Some(Restriction {
-            count: lobes.count,
-            amplitude: lobes.amplitude,
-            width_rad: lobes.width_rad,
-            phase_rad: 0.0,
-        }),
+        restriction: Some(
+            Lobes {
+                count: lobes.count,
+                amplitude: lobes.amplitude,
+                width_rad: lobes.width_rad,
+                phase_rad: 0.0,
+            }
+            .into(),
+        ),
         ramp_revolutions: 1.0,
     };
     let h = TAU / (speed * steps as f64);

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use rubmap::dynamics::casing::{Casing, Restriction};
+use rubmap::dynamics::casing::{Casing, Lobes};
 use rubmap::dynamics::direction::Direction;
 use rubmap::dynamics::effects::Effects;
 use rubmap::dynamics::integrate::{Outcome, SensorRow, Simulation};
@@ -33,7 +33,7 @@ fn agree_by(scheme: Scheme, recipe: WheelRecipe, damping_ratio: f64, lobes: u32,
     let modal = ModalWheel::at(&reduced, speed, RotationEffects::stiffening(recipe.stiffening)).unwrap();
     let casing = Casing {
         clearance: (0..recipe.contact_nodes).map(|k| 0.30 - 0.02 * k as f64).collect(),
-        restriction: Some(Restriction { count: lobes, amplitude: 0.425, width_rad: 0.35, phase_rad: 0.1 }),
+        restriction: Some(Lobes { count: lobes, amplitude: 0.425, width_rad: 0.35, phase_rad: 0.1 }.into()),
         ramp_revolutions: 0.5,
     };
     let steps =

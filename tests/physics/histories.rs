@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use faer::c64;
-use rubmap::dynamics::casing::{Casing, Restriction};
+use rubmap::dynamics::casing::{Casing, Lobes};
 use rubmap::dynamics::direction::Direction;
 use rubmap::dynamics::effects::Effects;
 use rubmap::dynamics::integrate::{Detail, History, Outcome, Revolutions, Run, SensorRow, Simulation};
@@ -39,12 +39,9 @@ impl Scene {
             modal: ModalWheel::at(&reduced, SPEED, RotationEffects::stiffening(true)).unwrap(),
             casing: Casing {
                 clearance: (0..recipe.contact_nodes).map(|k| 0.30 - 0.02 * k as f64).collect(),
-                restriction: Some(Restriction {
-                    count: 2,
-                    amplitude: 0.425,
-                    width_rad: 0.35,
-                    phase_rad: 0.1,
-                }),
+                restriction: Some(
+                    Lobes { count: 2, amplitude: 0.425, width_rad: 0.35, phase_rad: 0.1 }.into(),
+                ),
                 ramp_revolutions: 0.5,
             },
             reduced,

@@ -1,7 +1,7 @@
 //! What must hold for every wheel, casing and step: complementarity, the energy identity, symmetry.
 
 use proptest::prelude::*;
-use rubmap::dynamics::casing::{Casing, Restriction};
+use rubmap::dynamics::casing::{Casing, Lobes};
 use rubmap::dynamics::direction::Direction;
 use rubmap::dynamics::effects::Effects;
 use rubmap::dynamics::integrate::{History, Outcome, Run, SensorRow, Simulation};
@@ -35,7 +35,7 @@ impl Scene {
             damping_ratio: 0.05,
             casing: Casing {
                 clearance: vec![0.25; recipe.contact_nodes],
-                restriction: Some(Restriction { count: 2, amplitude: 0.4, width_rad: 0.35, phase_rad: 0.0 }),
+                restriction: Some(Lobes { count: 2, amplitude: 0.4, width_rad: 0.35, phase_rad: 0.0 }.into()),
                 ramp_revolutions: 1.0,
             },
             steps_factor: 1.25,
@@ -100,7 +100,7 @@ proptest! {
         scene.speed = speed_share * TOP_SPEED;
         scene.damping_ratio = damping_ratio;
         scene.steps_factor = steps_factor;
-        scene.casing.restriction = Some(Restriction { count: lobes, amplitude, width_rad: 0.35, phase_rad: 0.3 });
+        scene.casing.restriction = Some(Lobes { count: lobes, amplitude, width_rad: 0.35, phase_rad: 0.3 }.into());
         let run = scene.run();
         let history = completed(&run);
         prop_assert!(history.displacement[0].iter().all(|u| u.is_finite()));

@@ -5,7 +5,7 @@ use nalgebra::{Complex, DMatrix, DVector};
 use rubmap::analysis::monitor::Unwatched;
 use rubmap::analysis::request::{Sensor, SweepRequest};
 use rubmap::analysis::run::{ModelFacts, ReducedSector, place_sensors, prepare, resolve_sweep, run_speed};
-use rubmap::dynamics::casing::{Casing, Restriction};
+use rubmap::dynamics::casing::{Casing, Lobes};
 use rubmap::dynamics::direction::Direction;
 use rubmap::dynamics::effects::Effects;
 use rubmap::dynamics::integrate::{Outcome, SensorRow, Simulation};
@@ -187,8 +187,9 @@ fn rows_of_a_contact_node_read_what_it_reads() {
     let reduced = read_at(&sector, 6, &nodes);
     let modal = ModalWheel::at(&reduced.wheel, TOP_SPEED, RotationEffects::stiffening(true)).unwrap();
     let modal = reduced.nodes.join(modal, &reduced.wheel, true).unwrap();
-    let restriction = Restriction { count: 2, amplitude: 0.425, width_rad: 0.35, phase_rad: 0.0 };
-    let casing = Casing { clearance: vec![0.25; 3], restriction: Some(restriction), ramp_revolutions: 1.0 };
+    let restriction = Lobes { count: 2, amplitude: 0.425, width_rad: 0.35, phase_rad: 0.0 };
+    let casing =
+        Casing { clearance: vec![0.25; 3], restriction: Some(restriction.into()), ramp_revolutions: 1.0 };
     let damping = ModalDamping { modal_ratio: 0.05, family_ratios: Vec::new() };
     let components = [0.3, -1.0, 0.5];
     let sensor = |node| SensorRow { direction: Direction { node, components }, sector: 2 };

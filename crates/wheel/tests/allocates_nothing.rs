@@ -2,7 +2,7 @@
 
 use allocation_counter::measure;
 use faer::{Mat, c64};
-use rubmap_wheel::dynamics::casing::{Casing, Restriction};
+use rubmap_wheel::dynamics::casing::{Casing, Lobes};
 use rubmap_wheel::dynamics::contact::coating::{Coating, CoatingMaterial};
 use rubmap_wheel::dynamics::contact::friction::sliding_directions;
 use rubmap_wheel::dynamics::direction::Direction;
@@ -59,7 +59,7 @@ fn allocations(scheme: Scheme, coriolis: bool, effects: Effects<'_>, revolutions
     let (wheel, contact_nodes) = (wheel(coriolis), contact_nodes());
     let casing = Casing {
         clearance: vec![0.25, 0.3, 0.35],
-        restriction: Some(Restriction { count: 2, amplitude: 0.5, width_rad: 0.4, phase_rad: 0.1 }),
+        restriction: Some(Lobes { count: 2, amplitude: 0.5, width_rad: 0.4, phase_rad: 0.1 }.into()),
         ramp_revolutions: 0.5,
     };
     let damping = ModalDamping { modal_ratio: 0.01, family_ratios: vec![0.005] };

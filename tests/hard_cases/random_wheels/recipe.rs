@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use faer::{Mat, c64};
 use proptest::prelude::*;
 use proptest::sample::select;
-use rubmap::dynamics::casing::{Casing, Restriction};
+use rubmap::dynamics::casing::{Casing, Lobes};
 use rubmap::dynamics::direction::Direction;
 use rubmap::dynamics::effects::Effects;
 use rubmap::dynamics::initial::InitialMode;
@@ -143,12 +143,15 @@ impl Recipe {
             damping: self.damping.map(|modal_ratio| ModalDamping { modal_ratio, family_ratios: vec![0.01] }),
             casing: Casing {
                 clearance,
-                restriction: Some(Restriction {
-                    count: self.lobes,
-                    amplitude: self.amplitude,
-                    width_rad: self.width_rad,
-                    phase_rad: centred(),
-                }),
+                restriction: Some(
+                    Lobes {
+                        count: self.lobes,
+                        amplitude: self.amplitude,
+                        width_rad: self.width_rad,
+                        phase_rad: centred(),
+                    }
+                    .into(),
+                ),
                 ramp_revolutions: self.ramp_revolutions,
             },
             initial: if self.moving { vec![initial] } else { Vec::new() },

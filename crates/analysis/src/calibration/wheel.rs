@@ -6,7 +6,7 @@ use std::time::Instant;
 use faer::{Mat, c64};
 
 use rubmap_numerics::sector_fourier::{harmonic_count, is_single};
-use rubmap_wheel::dynamics::casing::{Casing, Restriction};
+use rubmap_wheel::dynamics::casing::{Casing, Lobes};
 use rubmap_wheel::dynamics::direction::Direction;
 use rubmap_wheel::dynamics::effects::Effects;
 use rubmap_wheel::dynamics::integrate::{SensorRow, Simulation};
@@ -103,12 +103,15 @@ impl Wheel {
     ) -> (f64, RunStatistics) {
         let casing = clearance.map(|clearance| Casing {
             clearance: vec![clearance; self.contact_nodes.len()],
-            restriction: Some(Restriction {
-                count: 2,
-                amplitude: 1.0,
-                width_rad: 0.7 * TAU / self.modal.sectors as f64,
-                phase_rad: 0.0,
-            }),
+            restriction: Some(
+                Lobes {
+                    count: 2,
+                    amplitude: 1.0,
+                    width_rad: 0.7 * TAU / self.modal.sectors as f64,
+                    phase_rad: 0.0,
+                }
+                .into(),
+            ),
             ramp_revolutions: 0.5,
         });
         let damping = ModalDamping { modal_ratio: 0.05, family_ratios: Vec::new() };

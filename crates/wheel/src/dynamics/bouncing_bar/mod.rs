@@ -103,7 +103,7 @@ impl Bar {
     /// Drops a bar of `elements` for `periods`.
     fn drop(elements: usize, scheme: Scheme, step: f64, periods: usize) -> Self {
         let steps = (periods as f64 * PERIOD / step - 1e-9).ceil() as usize;
-        let ground = |angle: f64| {
+        let ground = |angle: f64, _| {
             let t = angle / TAU * steps as f64 * step;
             // The table's last row is its first: the end of the run is the start of the next revolution.
             let t = if t == 0.0 { steps as f64 * step } else { t };

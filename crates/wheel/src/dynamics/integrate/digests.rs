@@ -4,7 +4,7 @@ use faer::{Mat, c64};
 use pulp::Arch;
 use sha2::{Digest, Sha256};
 
-use super::super::casing::{Casing, Restriction};
+use super::super::casing::{Casing, Lobes};
 use super::super::direction::Direction;
 use super::super::effects::Effects;
 use super::super::initial::InitialMode;
@@ -51,7 +51,7 @@ fn digest(arch: Arch, scheme: Scheme, damped: bool, touching: bool) -> String {
     let contact_nodes: Vec<_> = (0..NODES).map(node).collect();
     let casing = Casing {
         clearance: vec![0.25, 0.3, 0.35],
-        restriction: Some(Restriction { count: 2, amplitude: 0.5, width_rad: 0.4, phase_rad: 0.1 }),
+        restriction: Some(Lobes { count: 2, amplitude: 0.5, width_rad: 0.4, phase_rad: 0.1 }.into()),
         ramp_revolutions: 0.5,
     };
     let damping = ModalDamping { modal_ratio: 0.01, family_ratios: vec![0.005] };

@@ -81,8 +81,8 @@ impl Obstacle {
         let rows = Rows::new(wheel, &normals, |modes| scheme.integrated_modes(modes));
         let (stride, sectors) = (rows.stride, fourier.sectors());
         let angles: Vec<_> = nodes.iter().map(|node| node.position[1]).collect();
-        let restriction = casing.restriction.map(|restriction| {
-            let profile = |angle| restriction.height(angle);
+        let restriction = casing.restriction.as_ref().map(|restriction| {
+            let profile = |angle, node| restriction.height(angle, node);
             let around = wheel.around();
             RestrictionTable::new(profile, &angles, simulation.steps_per_revolution, around, stride)
         });

@@ -135,8 +135,8 @@ impl<'a> Passage<'a> {
 
     /// Lobes of the casing that pass meanwhile; revolutions where it has none.
     pub fn lobes_passed(&self) -> usize {
-        let restriction = self.simulation.casing.and_then(|casing| casing.restriction);
-        let lobes = restriction.map_or(1, |restriction| restriction.count.max(1) as usize);
+        let restriction = self.simulation.casing.and_then(|casing| casing.restriction.as_ref());
+        let lobes = restriction.map_or(1, |restriction| restriction.repeats().max(1) as usize);
         lobes * self.of.steps / self.simulation.steps_per_revolution
     }
 

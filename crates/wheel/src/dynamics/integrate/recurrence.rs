@@ -60,8 +60,8 @@ impl<'a> Recurrences<'a> {
             Some(Orbit { whirl_ratio, .. }) => Some(turns(whirl_ratio)?),
             None => None,
         };
-        let restriction = simulation.casing.and_then(|casing| casing.restriction);
-        let lobes = restriction.map(|restriction| restriction.count.max(1) as usize);
+        let restriction = simulation.casing.and_then(|casing| casing.restriction.as_ref());
+        let lobes = restriction.map(|restriction| restriction.repeats() as usize).filter(|lobes| *lobes > 0);
         let orders = effects.excitation.iter().map(|excitation| excitation.order as usize);
         Ok(Self {
             steps: simulation.steps_per_revolution,

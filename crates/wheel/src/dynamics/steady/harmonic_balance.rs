@@ -11,7 +11,7 @@ use faer::{Mat, c64};
 
 use super::response::{record, seek};
 use super::stability::Stability;
-use crate::dynamics::casing::{Casing, Restriction};
+use crate::dynamics::casing::{Casing, Lobes};
 use crate::dynamics::direction::Direction;
 use crate::dynamics::effects::Effects;
 use crate::dynamics::integrate::{Outcome, SensorRow, Simulation};
@@ -26,7 +26,7 @@ const SPEED: f64 = 1000.0;
 const ZETA: f64 = 0.05;
 const CLEARANCE: f64 = 0.25;
 const SAMPLES: usize = 360;
-const LOBE: Restriction = Restriction { count: 1, amplitude: 0.3, width_rad: 0.5, phase_rad: 0.2 };
+const LOBE: Lobes = Lobes { count: 1, amplitude: 0.3, width_rad: 0.5, phase_rad: 0.2 };
 
 fn wheel() -> ModalWheel {
     let harmonic = |harmonic: usize, shapes: [c64; 4]| ModalHarmonic {
@@ -217,7 +217,7 @@ fn responses_are_those_of_harmonic_balance_within_its_truncation() {
     let wheel = wheel();
     let node = [ContactNode { id: 1, position: [1e9, 0.0, 0.0], normal: [1.0, 0.0, 0.0], dofs: [0, 1, 2] }];
     let damping = ModalDamping { modal_ratio: ZETA, family_ratios: Vec::new() };
-    let casing = Casing { clearance: vec![CLEARANCE], restriction: Some(LOBE), ramp_revolutions: 1.0 };
+    let casing = Casing { clearance: vec![CLEARANCE], restriction: Some(LOBE.into()), ramp_revolutions: 1.0 };
     let radial = Direction { node: 0, components: [1.0, 0.0, 0.0] };
     let simulation = Simulation {
         wheel: &wheel,

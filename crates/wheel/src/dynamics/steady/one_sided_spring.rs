@@ -214,7 +214,7 @@ impl Stop {
             detail: None,
             states: None,
         };
-        let shaken = RestrictionTable::new(|angle: f64| AMPLITUDE * angle.cos(), &[0.0], self.steps, 1, 8);
+        let shaken = RestrictionTable::new(|angle: f64, _| AMPLITUDE * angle.cos(), &[0.0], self.steps, 1, 8);
         act(&mut Passage::over_lobes(&simulation, 1).unwrap().against(shaken))
     }
 }

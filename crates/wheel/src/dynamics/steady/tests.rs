@@ -10,7 +10,7 @@ use super::periodic::{MOST_BEYOND, Search, find};
 use super::response::{Sought, record, seek};
 use super::stability::Stability;
 use super::tangent::Tangent;
-use crate::dynamics::casing::{Casing, Restriction};
+use crate::dynamics::casing::{Casing, Lobes};
 use crate::dynamics::direction::Direction;
 use crate::dynamics::effects::Effects;
 use crate::dynamics::initial::InitialMode;
@@ -63,13 +63,13 @@ impl Scene {
             normal: [0.8, 0.0, 0.6],
             dofs: [3 * k, 3 * k + 1, 3 * k + 2],
         };
-        let restriction = Restriction { count: lobes, amplitude: 0.3, width_rad: 0.3, phase_rad: 0.1 };
+        let restriction = Lobes { count: lobes, amplitude: 0.3, width_rad: 0.3, phase_rad: 0.1 };
         Self {
             wheel: wheel(sectors),
             nodes: (0..NODES).map(node).collect(),
             casing: Some(Casing {
                 clearance: vec![0.25, 0.26],
-                restriction: Some(restriction),
+                restriction: Some(restriction.into()),
                 ramp_revolutions: 2.0,
             }),
             damping: ModalDamping { modal_ratio: damping, family_ratios: Vec::new() },

@@ -1,6 +1,6 @@
 use faer::{Mat, c64};
 
-use super::super::super::casing::Restriction;
+use super::super::super::casing::Lobes;
 use super::super::super::initial::InitialMode;
 use super::super::super::modal_wheel::{ModalHarmonic, ModalWheel};
 use super::super::super::numbers::Numbers;
@@ -81,10 +81,10 @@ fn gap(obstacle: &Obstacle, fourier: &SectorFourier, step: usize, sector: usize,
 fn far_sectors_have_bounds_of_their_gaps_and_all_others_their_gaps() {
     let mut numbers = Numbers(7);
     let (nodes, wheel) = (nodes(), wheel(&mut numbers, |_| 100.0));
-    let restriction = Restriction { count: 2, amplitude: 0.5, width_rad: 0.3, phase_rad: 0.1 };
+    let restriction = Lobes { count: 2, amplitude: 0.5, width_rad: 0.3, phase_rad: 0.1 };
     let casing = Casing {
         clearance: (0..NODES).map(|k| 0.4 + 0.02 * k as f64).collect(),
-        restriction: Some(restriction),
+        restriction: Some(restriction.into()),
         ramp_revolutions: 0.0,
     };
     let simulation = simulation(&wheel, &nodes, &casing);
@@ -135,9 +135,12 @@ fn forces_that_close_a_far_gap_are_those_of_all_gaps() {
     let mut numbers = Numbers(3);
     let (nodes, wheel) = (nodes(), wheel(&mut numbers, |harmonic| if harmonic == 1 { 100.0 } else { 1.0 }));
     let clearance = 0.2;
-    let restriction = Restriction { count: 1, amplitude: 2.5 * clearance, width_rad: 0.3, phase_rad: 0.03 };
-    let casing =
-        Casing { clearance: vec![clearance; NODES], restriction: Some(restriction), ramp_revolutions: 0.0 };
+    let restriction = Lobes { count: 1, amplitude: 2.5 * clearance, width_rad: 0.3, phase_rad: 0.03 };
+    let casing = Casing {
+        clearance: vec![clearance; NODES],
+        restriction: Some(restriction.into()),
+        ramp_revolutions: 0.0,
+    };
     let simulation = simulation(&wheel, &nodes, &casing);
     // What moves makes bounds of the gaps of far sectors.
     let mode = |harmonic: usize| InitialMode {
