@@ -2,6 +2,7 @@
 
 use num_integer::gcd;
 
+use crate::effects::casing::shape::Shape;
 use crate::request::AutoOr;
 use crate::resolved::ResolvedSweep;
 
@@ -43,7 +44,7 @@ impl Discretisation {
 /// over a quarter more. Lobes that a blade meets now on a step, now between two, drive orders that are no multiple of their number by some
 /// thousandths of the response.
 fn alike(request: &ResolvedSweep, sectors: usize) -> usize {
-    let lobes = request.scene.touched_lobes().map_or(1, |lobes| lobes.count);
+    let lobes = request.scene.touched_shape().and_then(Shape::repeats).unwrap_or(1);
     let both = sectors * (lobes / gcd(lobes, sectors as u32)) as usize;
     if both <= LEAST_SAMPLES / 4 { both } else { sectors }
 }

@@ -379,9 +379,9 @@ pub(crate) fn running_bytes(
     let eigen = COMPLEX * 6 * sizes.clone().max().unwrap_or(0).pow(2);
     let shapes: usize = wheel.harmonics.iter().map(|h| COMPLEX * h.contact.nrows() * h.contact.ncols()).sum();
     let stride = nodes.next_multiple_of(8);
-    let lobes = nodes > 0 && request.scene.casing.as_ref().is_some_and(|casing| casing.lobes.is_some());
+    let shaped = nodes > 0 && request.scene.casing.as_ref().is_some_and(|casing| !casing.shape.is_circular());
     let table =
-        if lobes { REAL * RestrictionTable::size(steps.per_revolution, wheel.around(), stride) } else { 0 };
+        if shaped { REAL * RestrictionTable::size(steps.per_revolution, wheel.around(), stride) } else { 0 };
     // What nodes do in the reduced coordinates and in the modes.
     let read = 2 * COMPLEX * 3 * request.sensor_nodes().len() * sizes.clone().sum::<usize>();
     // Normals, tips in three components, sensors.

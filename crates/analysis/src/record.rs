@@ -2,6 +2,7 @@
 
 use crate::contact::ContactOf;
 use crate::effects::casing::convert::clearance;
+use crate::effects::casing::shape::Shape;
 use crate::effects::effect::Ran;
 use crate::effects::symmetry::repeats::repeats;
 use crate::effects::table::named;
@@ -70,7 +71,7 @@ pub(super) fn record_run(
             let spectra = spectra(history, request, wheel);
             let window = request.integration.window_revolutions as usize;
             point.responses = responses(history, request, &spectra);
-            let lobes = request.scene.touched_lobes().map(|lobes| lobes.count);
+            let lobes = request.scene.touched_shape().and_then(Shape::repeats);
             // A period is held against the one before.
             let judged = history.repeated.map_or(window, |repeated| window.max(2 * repeated.period));
             let settling = judge(&history.displacement, steps.samples, judged, lobes);

@@ -1,5 +1,6 @@
 //! The steady response of a speed: marched to, or solved for.
 
+use crate::effects::casing::shape::Shape;
 use crate::effects::damping::convert::modal_damping;
 use crate::effects::symmetry::repeats::repeats as scene_repeats;
 use crate::effects::symmetry::request::Symmetry;
@@ -29,7 +30,7 @@ pub(super) fn revolutions_taken(request: &ResolvedSweep) -> [u64; 2] {
     let marched = u64::from(request.integration.revolutions());
     let limit = u64::from(LIMIT) * marched;
     let scene = &request.scene;
-    let lobes = scene.touched_lobes().map(|lobes| lobes.count);
+    let lobes = scene.touched_shape().and_then(Shape::repeats);
     let orders = scene.engine_order_excitation.iter().map(|force| force.order);
     // Each product is of a lobe, or of as many revolutions as all that turns past the wheel needs to come round.
     let product = revolutions_over_lobe(lobes, orders, scene.orbit.as_ref().map(|orbit| orbit.whirl_ratio));

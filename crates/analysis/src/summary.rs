@@ -239,7 +239,7 @@ fn predict(
         // A speed at which the model fails predicts nothing.
         let _ = diagram.push(speed);
     }
-    let lobes = scene.casing.as_ref().and_then(|casing| casing.lobes.as_ref()).map_or(0, |l| l.count);
+    let lobes = scene.casing.as_ref().and_then(|casing| casing.shape.repeats()).unwrap_or(0);
     let mut orders = multiples(lobes, request.max_engine_order);
     orders.extend(scene.engine_order_excitation.iter().map(|force| force.order));
     orders.sort_unstable();

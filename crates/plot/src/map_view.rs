@@ -10,6 +10,7 @@ use super::spectrum::Frame;
 use super::svg::{Element, group, line, polyline, rectangle, text};
 use super::window::Window;
 use super::{hatching, heat, marks};
+use rubmap_analysis::effects::casing::shape::Shape;
 use rubmap_analysis::result::{Campbell, CriticalSpeeds, InteractionMap, Wave};
 
 /// Amplitudes below this share of the loudest are shown as quiet.
@@ -332,8 +333,8 @@ pub(super) fn missing_words(map: &InteractionMap, cell: &Cell) -> String {
     format!("{:.0} rpm: {reason}", cell.rpm)
 }
 
-/// Lobes of the casing, at least 1.
+/// How often the casing repeats, its lobes if they are equal; at least 1.
 pub(super) fn lobes(map: &InteractionMap) -> u32 {
-    let lobes = map.settings.scene.casing.as_ref().and_then(|casing| casing.lobes.as_ref());
-    lobes.map_or(1, |lobes| lobes.count.max(1))
+    let casing = map.settings.scene.casing.as_ref();
+    casing.and_then(|casing| Shape::of(casing).repeats()).unwrap_or(1)
 }

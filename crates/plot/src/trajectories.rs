@@ -11,7 +11,7 @@ use super::key::{Key, MARK_WIDTH};
 use super::svg::{Element, document, group, line, polyline, rectangle};
 use rubmap_analysis::request::Component;
 use rubmap_analysis::result::{SensorHistory, SpeedHistories, TipPlace};
-use rubmap_wheel::dynamics::casing::Restriction;
+use rubmap_wheel::dynamics::casing::{Lobes, Restriction};
 
 const WIDTH: f64 = 1180.0;
 const HEIGHT: f64 = 640.0;
@@ -75,9 +75,9 @@ pub(super) fn outward(length: &str) -> String {
 }
 
 /// Lobes of the casing.
-fn restriction(histories: &SpeedHistories) -> Option<Restriction> {
+fn restriction(histories: &SpeedHistories) -> Option<Lobes> {
     let lobes = histories.settings.scene.casing.as_ref()?.lobes.as_ref()?;
-    Some(Restriction {
+    Some(Lobes {
         count: lobes.count,
         amplitude: lobes.amplitude,
         width_rad: lobes.width_rad,
@@ -117,7 +117,7 @@ pub(super) struct View<'a> {
     pub(super) tips: Vec<Tip<'a>>,
     /// Revolutions of the record that are left out.
     skipped: u32,
-    lobes: Option<Restriction>,
+    lobes: Option<Lobes>,
     /// Clearances of the casing lines.
     pub(super) clearances: Vec<f64>,
     pub(super) diagram: Diagram,
@@ -136,7 +136,7 @@ impl<'a> View<'a> {
         let mut clearances: Vec<f64> = tips.iter().map(|tip| tip.place.clearance).collect();
         clearances.sort_by(f64::total_cmp);
         clearances.dedup();
-        let height = lobes.map_or(0.0, |lobes| lobes.highest());
+        let height = lobes.map_or(0.0, |lobes| Restriction::from(lobes).highest(1));
         let casing = clearances.iter().flat_map(|clearance| [*clearance, clearance - height]);
         let moved = tips.iter().flat_map(|tip| tip.history.displacement.iter().copied());
         let (low, high) = casing

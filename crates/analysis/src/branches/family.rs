@@ -215,7 +215,7 @@ fn changed(sweep: &ResolvedSweep, asked: &ResolvedBranches, value: f64) -> Resol
             None => {}
         },
         BranchParameter::LobeAmplitude => {
-            if let Some(lobes) = casing.and_then(|casing| casing.lobes.as_mut()) {
+            if let Some(lobes) = casing.and_then(|casing| casing.shape.lobes.as_mut()) {
                 lobes.amplitude *= value;
             }
         }

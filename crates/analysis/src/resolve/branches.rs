@@ -126,8 +126,8 @@ fn check_scene(found: &mut Findings, along: Along, sweep: &ResolvedSweep) {
         BranchParameter::Clearance => (!casing.is_some_and(|casing| clear(&casing.clearance)))
             .then_some("clearance to a casing that is touched"),
         BranchParameter::LobeAmplitude => {
-            (!scene.touched_lobes().is_some_and(|lobes| lobes.amplitude != 0.0))
-                .then_some("casing whose lobes are touched")
+            let lobes = scene.touched_shape().and_then(|shape| shape.lobes.as_ref());
+            (!lobes.is_some_and(|lobes| lobes.amplitude != 0.0)).then_some("casing whose lobes are touched")
         }
         BranchParameter::Damping => (!scene.damping.as_ref().is_some_and(damped)).then_some("damping"),
     };

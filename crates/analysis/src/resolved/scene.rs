@@ -1,7 +1,7 @@
 //! The scene with its alternatives told apart.
 
 use crate::effects::asked::Asked;
-use crate::effects::casing::request::Lobes;
+use crate::effects::casing::shape::Shape;
 use crate::effects::list::effects;
 use crate::error::Violation;
 use crate::request;
@@ -32,9 +32,9 @@ macro_rules! scene {
 effects!(scene);
 
 impl Scene {
-    /// Lobes that pass the blades and may be touched.
-    pub(crate) fn touched_lobes(&self) -> Option<&Lobes> {
+    /// What of the casing passes the blades and may be touched.
+    pub(crate) fn touched_shape(&self) -> Option<&Shape> {
         self.contact.as_ref()?;
-        self.casing.as_ref()?.lobes.as_ref()
+        self.casing.as_ref().map(|casing| &casing.shape)
     }
 }

@@ -1,21 +1,26 @@
 //! Checks of the casing.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
-use super::request::Lobes;
+use super::request::{Measured, SingleLobe, Tilt, Wave};
 use super::resolved::Clearance;
+use super::shape::Shape;
 use super::steps::least_steps;
 use crate::model::ModelFacts;
 use crate::request::AutoOr;
 use crate::resolve::findings::{Findings, between, check_reach};
 use crate::resolve::limits;
 use crate::resolved::{ResolvedSweep, Scene};
-use rubmap_wheel::dynamics::casing::Restriction;
 
 const MOST_LOBES: u32 = 100;
 const LEAST_WIDTH_RAD: f64 = 1e-4;
 /// Two equal Gaussians exp(−(φ/w)²) have a valley between them up to this ratio of w to their distance.
 const WIDTH_OVER_DISTANCE: f64 = std::f64::consts::FRAC_1_SQRT_2;
+/// Angles of a measured line.
+const LEAST_MEASURED: usize = 8;
+const MOST_MEASURED: usize = 100_000;
+/// The square of a larger tilt is no longer a thousandth of it.
+const MOST_TILT_RAD: f64 = 1e-3;
 /// Shortest ramp of lobes that stand inside the blade.
 const LEAST_RAMP_REVOLUTIONS: f64 = 0.05;
 
@@ -45,7 +50,17 @@ pub(super) fn check(found: &mut Findings, request: &ResolvedSweep, facts: &Model
             }
         }
     }
-    if let Some(lobes) = &casing.lobes {
+    let shape = &casing.shape;
+    check_single_lobes(found, &shape.single_lobes, facts);
+    check_waves(found, &shape.waves, facts);
+    if let Some(measured) = &shape.measured {
+        check_measured(found, measured, facts);
+    }
+    if let Some(tilt) = &shape.tilt {
+        check_tilt(found, tilt);
+    }
+    if let Some(lobes) = &shape.lobes {
+        check_along_chord(found, lobes.along_chord.as_deref(), "/scene/casing/lobes", facts);
         check_lobe_count(found, lobes.count, "/scene/casing/lobes/count");
         found.require(
             valid(lobes.amplitude),
@@ -72,6 +87,136 @@ pub(super) fn check(found: &mut Findings, request: &ResolvedSweep, facts: &Model
     }
 }
 
+/// A height of a shape that is asked for at `pointer`, and the angle beside it.
+fn check_height(found: &mut Findings, height: f64, pointer: &str, facts: &ModelFacts) {
+    let size = height.abs();
+    found.require(
+        size == 0.0 || limits::LENGTH.contains(&size),
+        pointer,
+        format!("a height is 0 or a length {}, inward if positive", between(&limits::LENGTH)),
+    );
+    check_reach(found, size, pointer, facts);
+}
+
+fn check_angle(found: &mut Findings, angle_rad: f64, pointer: &str) {
+    found.require(
+        angle_rad.abs() <= limits::PHASE_RAD,
+        pointer,
+        format!("an angle of at most {} rad", limits::PHASE_RAD),
+    );
+}
+
+/// Shares of a height at the contact nodes, of the shape at `pointer`.
+fn check_along_chord(found: &mut Findings, along: Option<&[f64]>, pointer: &str, facts: &ModelFacts) {
+    let Some(along) = along else { return };
+    let pointer = format!("{pointer}/along_chord");
+    found.require(
+        along.len() == facts.contact_nodes as usize,
+        &pointer,
+        format!("the model has {} contact nodes, not {}", facts.contact_nodes, along.len()),
+    );
+    for (index, share) in along.iter().enumerate() {
+        let pointer = format!("{pointer}/{index}");
+        found.require(share.abs() <= 1.0, &pointer, "a share of the height, from -1 to 1");
+    }
+}
+
+fn check_single_lobes(found: &mut Findings, lobes: &[SingleLobe], facts: &ModelFacts) {
+    let at = "/scene/casing/single_lobes";
+    found.require(lobes.len() <= MOST_LOBES as usize, at, format!("at most {MOST_LOBES} lobes"));
+    let most = WIDTH_OVER_DISTANCE * PI;
+    for (index, lobe) in lobes.iter().enumerate() {
+        let at = format!("{at}/{index}");
+        check_angle(found, lobe.angle_rad, &format!("{at}/angle_rad"));
+        check_height(found, lobe.amplitude, &format!("{at}/amplitude"), facts);
+        found.require(
+            (LEAST_WIDTH_RAD..=most).contains(&lobe.width_rad),
+            &format!("{at}/width_rad"),
+            format!(
+                "the half-width of a lobe is at least {LEAST_WIDTH_RAD} rad and at most {most:.6} rad: wider ones do not end where \
+                 they meet themselves"
+            ),
+        );
+        check_along_chord(found, lobe.along_chord.as_deref(), &at, facts);
+    }
+}
+
+fn check_waves(found: &mut Findings, waves: &[Wave], facts: &ModelFacts) {
+    let at = "/scene/casing/waves";
+    found.require(waves.len() <= MOST_LOBES as usize, at, format!("at most {MOST_LOBES} waves"));
+    for (index, wave) in waves.iter().enumerate() {
+        let at = format!("{at}/{index}");
+        found.require(
+            (1..=MOST_LOBES).contains(&wave.order),
+            &format!("{at}/order"),
+            format!("1 to {MOST_LOBES} waves around the circumference; what is the same all around belongs to the clearance"),
+        );
+        check_height(found, wave.amplitude, &format!("{at}/amplitude"), facts);
+        check_angle(found, wave.phase_rad, &format!("{at}/phase_rad"));
+        check_along_chord(found, wave.along_chord.as_deref(), &at, facts);
+    }
+}
+
+/// Tables that curves go through, and that have no gap of half a turn.
+fn check_measured(found: &mut Findings, measured: &Measured, facts: &ModelFacts) {
+    let at = "/scene/casing/measured";
+    let Measured { angles_rad, chord, heights } = measured;
+    let ascending = |values: &[f64]| values.windows(2).all(|pair| pair[0] < pair[1]);
+    let turn = angles_rad.last().zip(angles_rad.first()).map_or(0.0, |(last, first)| last - first);
+    found.require(
+        (LEAST_MEASURED..=MOST_MEASURED).contains(&angles_rad.len()),
+        &format!("{at}/angles_rad"),
+        format!("{LEAST_MEASURED} to {MOST_MEASURED} angles"),
+    );
+    found.require(
+        ascending(angles_rad)
+            && turn < TAU
+            && angles_rad.iter().all(|angle| angle.abs() <= limits::PHASE_RAD),
+        &format!("{at}/angles_rad"),
+        "angles ascend strictly within one turn, the first not repeated at its end",
+    );
+    found.require(
+        !chord.is_empty() && ascending(chord) && chord.iter().all(|share| (0.0..=1.0).contains(share)),
+        &format!("{at}/chord"),
+        "places of the lines along the chord ascend strictly from 0 at the leading to 1 at the trailing edge",
+    );
+    found.require(
+        heights.len() == chord.len(),
+        &format!("{at}/heights"),
+        format!(
+            "one list of heights for each of the {} lines of `chord`, not {}",
+            chord.len(),
+            heights.len()
+        ),
+    );
+    for (line, heights) in heights.iter().enumerate() {
+        let at = format!("{at}/heights/{line}");
+        found.require(
+            heights.len() == angles_rad.len(),
+            &at,
+            format!("one height for each of the {} angles, not {}", angles_rad.len(), heights.len()),
+        );
+        for (index, &height) in heights.iter().enumerate() {
+            check_height(found, height, &format!("{at}/{index}"), facts);
+        }
+    }
+}
+
+fn check_tilt(found: &mut Findings, tilt: &Tilt) {
+    let at = "/scene/casing/tilt";
+    found.require(
+        tilt.angle_rad.abs() <= MOST_TILT_RAD,
+        &format!("{at}/angle_rad"),
+        format!("at most {MOST_TILT_RAD} rad: it is taken to first order"),
+    );
+    check_angle(found, tilt.towards_rad, &format!("{at}/towards_rad"));
+    found.require(
+        tilt.about_z == 0.0 || limits::LENGTH.contains(&tilt.about_z.abs()),
+        &format!("{at}/about_z"),
+        format!("0 or a length {}, of either sign", between(&limits::LENGTH)),
+    );
+}
+
 /// The number of lobes that is asked for at `pointer` of a request.
 pub(crate) fn check_lobe_count(found: &mut Findings, count: u32, pointer: &str) {
     found.require(
@@ -84,8 +229,8 @@ pub(crate) fn check_lobe_count(found: &mut Findings, count: u32, pointer: &str) 
 /// Steps wider than a lobe would pass it by, with numbers that look fine.
 pub(crate) fn check_steps(found: &mut Findings, request: &ResolvedSweep) {
     let AutoOr::Fixed(steps) = request.integration.steps_per_revolution else { return };
-    let wide = |lobes: &Lobes| lobes.width_rad >= LEAST_WIDTH_RAD;
-    if !request.scene.touched_lobes().is_some_and(wide) {
+    let narrowest = request.scene.touched_shape().and_then(Shape::narrowest_rad);
+    if narrowest.is_none_or(|width| width < LEAST_WIDTH_RAD) {
         return;
     }
     let seen = least_steps(&request.scene);
@@ -93,7 +238,7 @@ pub(crate) fn check_steps(found: &mut Findings, request: &ResolvedSweep) {
         f64::from(steps) >= seen,
         "/integration/steps_per_revolution",
         format!(
-            "{steps} steps per revolution pass the lobes by, which are seen from {seen} steps per revolution on; give at least \
+            "{steps} steps per revolution pass the lobes of the casing by, which are seen from {seen} steps per revolution on; give at least \
              {seen}, or \"auto\""
         ),
     );
@@ -105,14 +250,10 @@ pub(crate) fn check_ramp(found: &mut Findings, request: &ResolvedSweep) {
         return;
     }
     let Scene { casing: Some(casing), contact: Some(_), .. } = &request.scene else { return };
-    let restriction = match &casing.lobes {
-        Some(lobes) if lobes.count > MOST_LOBES => return,
-        Some(lobes) => {
-            let Lobes { count, amplitude, width_rad, phase_rad } = *lobes;
-            Restriction { count, amplitude, width_rad, phase_rad }.highest()
-        }
-        None => 0.0,
-    };
+    if casing.shape.lobes.as_ref().is_some_and(|lobes| lobes.count > MOST_LOBES) {
+        return;
+    }
+    let restriction = casing.shape.highest();
     let orbit = request.scene.orbit.as_ref().map_or(0.0, |orbit| orbit.radius);
     let smallest = casing.clearance.smallest();
     let highest = restriction + orbit;
@@ -120,7 +261,7 @@ pub(crate) fn check_ramp(found: &mut Findings, request: &ResolvedSweep) {
         request.integration.ramp_revolutions >= LEAST_RAMP_REVOLUTIONS || highest <= smallest,
         "/integration/ramp_revolutions",
         format!(
-            "lobes and orbit of up to {highest} reach inside the blade at rest (smallest clearance {smallest}): let them \
+            "lobes, tilt and orbit of up to {highest} reach inside the blade at rest (smallest clearance {smallest}): let them \
              grow over at least {} revolutions",
             LEAST_RAMP_REVOLUTIONS
         ),

@@ -1,9 +1,10 @@
 //! The casing in the terms of the physics.
 
 use super::resolved::Clearance;
+use super::shape::Shape;
 use crate::not_runnable::NotRunnable;
 use crate::resolved::ResolvedSweep;
-use rubmap_wheel::dynamics::casing::{Casing, Restriction, RestrictionTable, clearance_along_chord};
+use rubmap_wheel::dynamics::casing::{Casing, RestrictionTable, clearance_along_chord};
 use rubmap_wheel::dynamics::integrate::MAX_TABLE_VALUES;
 use rubmap_wheel::dynamics::reduction::ReducedWheel;
 use rubmap_wheel::dynamics::sector::ContactNode;
@@ -16,12 +17,7 @@ pub(crate) fn casing(
 ) -> Option<Casing> {
     let clearance = clearance(&reduced.contact, request)?;
     let casing = request.scene.casing.as_ref()?;
-    let restriction = casing.lobes.as_ref().map(|lobes| Restriction {
-        count: lobes.count,
-        amplitude: lobes.amplitude,
-        width_rad: lobes.width_rad,
-        phase_rad: lobes.phase_rad,
-    });
+    let restriction = casing.shape.restriction(&reduced.contact);
     Some(Casing { clearance, restriction, ramp_revolutions })
 }
 
@@ -53,7 +49,7 @@ pub(crate) fn check_table(
     let stride = reduced.contact.len().next_multiple_of(8);
     let (steps, sectors) = (steps_per_revolution, reduced.sectors);
     let size = RestrictionTable::size(steps, sectors, stride);
-    if size <= MAX_TABLE_VALUES || request.scene.touched_lobes().is_none() {
+    if size <= MAX_TABLE_VALUES || request.scene.touched_shape().and_then(Shape::repeats).is_none() {
         return Ok(());
     }
     Err(NotRunnable::Table { size, steps, sectors })

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Casing of revolution with an optional static restriction.
+/// Casing of revolution, and what stands inward of it: the heights of all shapes that are given add up.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
@@ -12,6 +12,20 @@ pub struct Casing {
     /// Lobes of the restriction; absent: the casing is circular.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lobes: Option<Lobes>,
+    /// Lobes and hollows of their own.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(feature = "schema", schema(max_items = 100))]
+    pub single_lobes: Vec<SingleLobe>,
+    /// Fourier series around the circumference.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(feature = "schema", schema(max_items = 100))]
+    pub waves: Vec<Wave>,
+    /// A measured shape.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub measured: Option<Measured>,
+    /// A casing whose axis leans; one whose axis is displaced is an `orbit` that does not whirl.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tilt: Option<Tilt>,
 }
 
 /// Clearance in the model's unit of length: `leading` and `trailing` (linear in the arc length through the contact
@@ -47,4 +61,76 @@ pub struct Lobes {
     /// Angle of the first lobe from the package's x axis, rad.
     #[serde(default)]
     pub phase_rad: f64,
+    /// Share of the height at each contact node; absent: all of it all along the chord.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schema(max_items = 8192))]
+    pub along_chord: Option<Vec<f64>>,
+}
+
+/// One Gaussian lobe A exp(−(φ/w)²) in the fixed frame; a hollow if A is negative.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(deny_unknown_fields)]
+pub struct SingleLobe {
+    /// Angle of its crest from the package's x axis, rad.
+    pub angle_rad: f64,
+    /// Height A, in the model's unit of length.
+    pub amplitude: f64,
+    /// Half-width w, rad; at most π/√2.
+    pub width_rad: f64,
+    /// Share of the height at each contact node; absent: all of it all along the chord.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schema(max_items = 8192))]
+    pub along_chord: Option<Vec<f64>>,
+}
+
+/// A cos(order (φ − phase)) in the fixed frame.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Wave {
+    /// Waves around the circumference.
+    #[cfg_attr(feature = "schema", schema(minimum = 1, maximum = 100))]
+    pub order: u32,
+    /// Height A of a crest, in the model's unit of length.
+    pub amplitude: f64,
+    /// Angle of a crest from the package's x axis, rad.
+    #[serde(default)]
+    pub phase_rad: f64,
+    /// Share of the height at each contact node; absent: all of it all along the chord.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schema(max_items = 8192))]
+    pub along_chord: Option<Vec<f64>>,
+}
+
+/// Measured heights inward of the casing of revolution, on lines around the circumference: periodic cubic splines around, linear from
+/// line to line along the chord.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Measured {
+    /// Angles from the package's x axis, rad, ascending within one turn.
+    #[cfg_attr(feature = "schema", schema(min_items = 8, max_items = 100_000))]
+    pub angles_rad: Vec<f64>,
+    /// Place of every line along the chord, the share of the arc length through the contact nodes: 0 at the leading edge, 1 at the
+    /// trailing edge, ascending. Nodes before the first line and behind the last have the heights of these.
+    #[cfg_attr(feature = "schema", schema(min_items = 1, max_items = 8192))]
+    pub chord: Vec<f64>,
+    /// `[line][angle]`, in the model's unit of length; outward of the casing of revolution if negative.
+    pub heights: Vec<Vec<f64>>,
+}
+
+/// A leaning axis, to first order in its angle.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(deny_unknown_fields)]
+pub struct Tilt {
+    /// By how much the wheel's axis leans in the casing, rad.
+    pub angle_rad: f64,
+    /// Towards which angle from the package's x axis its end at larger z leans, rad.
+    #[serde(default)]
+    pub towards_rad: f64,
+    /// z of the point about which it leans, in the model's unit of length.
+    #[serde(default)]
+    pub about_z: f64,
 }

@@ -1,14 +1,15 @@
 //! The casing with its alternatives told apart.
 
-use super::request::{self, Lobes};
+use super::request;
+use super::shape::Shape;
 use crate::effects::asked::Asked;
 use crate::error::Violation;
 
-/// Casing of revolution with an optional static restriction.
+/// Casing of revolution, and what stands inward of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Casing {
     pub(crate) clearance: Clearance,
-    pub(crate) lobes: Option<Lobes>,
+    pub(crate) shape: Shape,
 }
 
 /// Clearance at rest, in the model's unit of length.
@@ -29,12 +30,16 @@ impl Asked for Option<request::Casing> {
     type Resolved = Option<Casing>;
 
     fn resolve(self, refuse: &mut dyn FnMut(Violation)) -> Option<Casing> {
-        let request::Casing { clearance, lobes } = self?;
-        Some(Casing { clearance: Clearance::of(clearance, refuse), lobes })
+        let asked = self?;
+        let shape = Shape::of(&asked);
+        Some(Casing { clearance: Clearance::of(asked.clearance, refuse), shape })
     }
 
     fn of(resolved: Option<Casing>) -> Self {
-        resolved.map(|casing| request::Casing { clearance: casing.clearance.into(), lobes: casing.lobes })
+        resolved.map(|Casing { clearance, shape }| {
+            let Shape { lobes, single_lobes, waves, measured, tilt } = shape;
+            request::Casing { clearance: clearance.into(), lobes, single_lobes, waves, measured, tilt }
+        })
     }
 }
 

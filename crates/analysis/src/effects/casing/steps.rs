@@ -1,7 +1,8 @@
-//! Steps that see the lobes of a casing.
+//! Steps that see the shape of a casing.
 
 use std::f64::consts::TAU;
 
+use super::shape::Shape;
 use crate::effects::effect::WantedSteps;
 use crate::resolved::Scene;
 
@@ -20,7 +21,8 @@ pub(super) fn least_steps(scene: &Scene) -> f64 {
     steps(scene, LEAST_STEPS_PER_WIDTH)
 }
 
-/// Steps per revolution of which so many fall on the half-width of a lobe that may be touched.
+/// Steps per revolution of which so many fall on the narrowest lobe, wave or measured point that may be touched.
 fn steps(scene: &Scene, per_width: f64) -> f64 {
-    scene.touched_lobes().map_or(0.0, |lobes| (per_width * TAU / lobes.width_rad).ceil())
+    let narrowest = scene.touched_shape().and_then(Shape::narrowest_rad);
+    narrowest.map_or(0.0, |width| (per_width * TAU / width).ceil())
 }

@@ -52,26 +52,31 @@ impl PeriodicSpline {
             + bend(b) * self.curvatures[next]
     }
 
-    /// Largest m such that the points are the same after a turn by 1/m, to round-off of the largest.
+    /// How often it repeats in a turn.
     pub(super) fn repeats(&self) -> usize {
-        let n = self.angles_rad.len();
-        let scale = self.values.iter().fold(0.0f64, |most, value| most.max(value.abs()));
-        let same = |by: usize| {
-            (0..n).all(|i| {
-                let (to, turns) = ((i + by) % n, ((i + by) / n) as f64);
-                let turned = self.angles_rad[to] + TAU * turns - self.angles_rad[i];
-                (turned - TAU * by as f64 / n as f64).abs() <= ALIKE
-                    && (self.values[to] - self.values[i]).abs() <= ALIKE * scale
-            })
-        };
-        let shift = (1..n).find(|&by| n.is_multiple_of(by) && same(by));
-        shift.map_or(1, |by| n / by)
+        repeats(&self.angles_rad, &self.values)
     }
 
     /// Mean distance of the points, rad.
     pub(super) fn spacing_rad(&self) -> f64 {
         TAU / self.angles_rad.len() as f64
     }
+}
+
+/// Largest m such that `values` at `angles_rad`, which ascend within one turn, are the same after a turn by 1/m.
+pub fn repeats(angles_rad: &[f64], values: &[f64]) -> usize {
+    let n = angles_rad.len().min(values.len());
+    let scale = values.iter().fold(0.0f64, |most, value| most.max(value.abs()));
+    let same = |by: usize| {
+        (0..n).all(|i| {
+            let (to, turns) = ((i + by) % n, ((i + by) / n) as f64);
+            let turned = angles_rad[to] + TAU * turns - angles_rad[i];
+            (turned - TAU * by as f64 / n as f64).abs() <= ALIKE
+                && (values[to] - values[i]).abs() <= ALIKE * scale
+        })
+    };
+    let shift = (1..n).find(|&by| n.is_multiple_of(by) && same(by));
+    shift.map_or(1, |by| n / by)
 }
 
 /// Angles and heights as near to each other are the same: they come from decimal numbers.

@@ -1,0 +1,271 @@
+//! What stands inward of a casing of revolution.
+
+use std::f64::consts::TAU;
+
+use num_integer::gcd;
+
+use super::request::{self, Lobes, Measured, SingleLobe, Tilt, Wave};
+use rubmap_wheel::dynamics::casing::{
+    self, Part, PeriodicSpline, Profile, Restriction, arc_lengths, repeats,
+};
+use rubmap_wheel::dynamics::sector::ContactNode;
+
+/// Shapes whose heights add up.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Shape {
+    pub(crate) lobes: Option<Lobes>,
+    pub(crate) single_lobes: Vec<SingleLobe>,
+    pub(crate) waves: Vec<Wave>,
+    pub(crate) measured: Option<Measured>,
+    pub(crate) tilt: Option<Tilt>,
+}
+
+impl Shape {
+    /// That of a casing as it is asked for.
+    pub fn of(casing: &request::Casing) -> Self {
+        let request::Casing { clearance: _, lobes, single_lobes, waves, measured, tilt } = casing.clone();
+        Self { lobes, single_lobes, waves, measured, tilt }
+    }
+
+    /// Whether the casing is one of revolution.
+    pub(crate) fn is_circular(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// How often it repeats around the circumference; none of a circular casing.
+    pub fn repeats(&self) -> Option<u32> {
+        let measured = self.measured.as_ref().map_or(0, Measured::repeats);
+        let tilted = u32::from(self.tilt.is_some());
+        let repeats = [measured, tilted].into_iter().fold(self.lobes_and_waves().repeats(), gcd);
+        (repeats > 0).then_some(repeats)
+    }
+
+    /// The width that steps have to see, rad; none of a circular casing.
+    pub(crate) fn narrowest_rad(&self) -> Option<f64> {
+        let spacing = self.measured.as_ref().map(|measured| TAU / measured.angles_rad.len().max(1) as f64);
+        let narrowest = spacing.into_iter().fold(self.lobes_and_waves().narrowest_rad(), f64::min);
+        narrowest.is_finite().then_some(narrowest)
+    }
+
+    /// No height is larger, wherever along the chord; infinite where a tilt makes it a matter of the nodes.
+    pub(crate) fn highest(&self) -> f64 {
+        if self.tilt.is_some() {
+            return f64::INFINITY;
+        }
+        let Restriction { mut parts } = self.lobes_and_waves();
+        let shares = parts.iter_mut().filter_map(|part| part.along_chord.take()).flatten();
+        let largest = shares.fold(1.0, |most: f64, share| most.max(share.abs()));
+        let measured = self.measured.iter().flat_map(|measured| measured.heights.iter().flatten());
+        let measured = measured.fold(0.0, |most: f64, height| most.max(*height));
+        let others = if parts.is_empty() { 0.0 } else { Restriction { parts }.highest(1).max(0.0) };
+        largest * others + measured
+    }
+
+    /// For contact nodes in the order of the chord; none of a circular casing.
+    pub(crate) fn restriction(&self, nodes: &[ContactNode]) -> Option<Restriction> {
+        let Restriction { mut parts } = self.lobes_and_waves();
+        if let Some(measured) = &self.measured {
+            let positions: Vec<_> = nodes.iter().map(|node| node.position).collect();
+            parts.push(Part { profile: Profile::Measured(measured.at(&positions)), along_chord: None });
+        }
+        parts.extend(self.tilt.iter().flat_map(|tilt| tilt.parts(nodes)));
+        (!parts.is_empty()).then_some(Restriction { parts })
+    }
+
+    /// Lobes and waves.
+    fn lobes_and_waves(&self) -> Restriction {
+        let lobes = self.lobes.iter().map(|lobes| Part {
+            profile: Profile::Lobes(casing::Lobes {
+                count: lobes.count,
+                amplitude: lobes.amplitude,
+                width_rad: lobes.width_rad,
+                phase_rad: lobes.phase_rad,
+            }),
+            along_chord: lobes.along_chord.clone(),
+        });
+        // Together as far as they share their part of the chord: only so it is seen where they repeat.
+        let mut single: Vec<Part> = Vec::new();
+        for lobe in &self.single_lobes {
+            let one = casing::Lobe {
+                amplitude: lobe.amplitude,
+                width_rad: lobe.width_rad,
+                angle_rad: lobe.angle_rad,
+            };
+            let alike = single.iter_mut().find(|part| part.along_chord == lobe.along_chord);
+            match alike {
+                Some(Part { profile: Profile::Each(lobes), .. }) => lobes.push(one),
+                _ => single
+                    .push(Part { profile: Profile::Each(vec![one]), along_chord: lobe.along_chord.clone() }),
+            }
+        }
+        let waves = self.waves.iter().map(|wave| Part {
+            profile: Profile::Wave {
+                order: wave.order,
+                amplitude: wave.amplitude,
+                phase_rad: wave.phase_rad,
+            },
+            along_chord: wave.along_chord.clone(),
+        });
+        Restriction { parts: lobes.chain(single).chain(waves).collect() }
+    }
+}
+
+impl Measured {
+    /// How often all lines repeat around the circumference.
+    fn repeats(&self) -> u32 {
+        self.heights.iter().map(|heights| repeats(&self.angles_rad, heights) as u32).fold(0, gcd)
+    }
+
+    /// A curve for every position `[r, θ, z]` of a contact node, linear between the lines beside it.
+    fn at(&self, positions: &[[f64; 3]]) -> Vec<PeriodicSpline> {
+        let arc = arc_lengths(positions);
+        let whole = arc.last().copied().filter(|whole| *whole > 0.0).unwrap_or(1.0);
+        arc.iter()
+            .map(|length| PeriodicSpline::new(&self.angles_rad, &self.heights_at(length / whole)))
+            .collect()
+    }
+
+    /// Heights at all angles at a share of the chord.
+    fn heights_at(&self, share: f64) -> Vec<f64> {
+        let next = self.chord.partition_point(|&line| line <= share);
+        let (before, after) = (next.saturating_sub(1), next.min(self.chord.len() - 1));
+        let width = self.chord[after] - self.chord[before];
+        let x = if width > 0.0 { (share - self.chord[before]) / width } else { 0.0 };
+        let pairs = self.heights[before].iter().zip(&self.heights[after]);
+        pairs.map(|(before, after)| before + x * (after - before)).collect()
+    }
+}
+
+impl Tilt {
+    /// With the axis leaning by τ towards ψ about z₀, what is at (r, φ, z) of the casing comes nearer to a tip with the normal n by
+    /// τ ((z − z₀) n_r − r n_z) cos(φ − ψ).
+    fn parts(&self, nodes: &[ContactNode]) -> Option<Part> {
+        let near = |node: &ContactNode| {
+            let [r, _, z] = node.position;
+            (z - self.about_z) * node.normal[0] - r * node.normal[2]
+        };
+        let wave = Profile::Wave { order: 1, amplitude: self.angle_rad, phase_rad: self.towards_rad };
+        (self.angle_rad != 0.0)
+            .then(|| Part { profile: wave, along_chord: Some(nodes.iter().map(near).collect()) })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    fn nodes() -> Vec<ContactNode> {
+        let node = |k: usize| {
+            let lean = 0.3 + 0.2 * k as f64;
+            ContactNode {
+                id: k as u64,
+                position: [100.0 + 8.0 * k as f64, 0.05 * k as f64, -5.0 * k as f64],
+                normal: [lean.cos(), 0.0, lean.sin()],
+                dofs: [3 * k, 3 * k + 1, 3 * k + 2],
+            }
+        };
+        (0..5).map(node).collect()
+    }
+
+    fn lobe(angle_rad: f64, amplitude: f64, along_chord: Option<Vec<f64>>) -> SingleLobe {
+        SingleLobe { angle_rad, amplitude, width_rad: 0.3, along_chord }
+    }
+
+    /// The same two lobes as lobes, one by one, and measured: to the bit but for their sum, and to the error of the interpolation.
+    #[test]
+    fn lobes_are_the_same_however_they_are_said() {
+        let lobes = Lobes { count: 2, amplitude: 0.4, width_rad: 0.3, phase_rad: 0.1, along_chord: None };
+        let equal = Shape { lobes: Some(lobes), ..Shape::default() };
+        let single = vec![lobe(0.1, 0.4, None), lobe(0.1 + PI, 0.4, None)];
+        let single = Shape { single_lobes: single, ..Shape::default() };
+        let nodes = nodes();
+        let exact = equal.restriction(&nodes).unwrap();
+        let angles_rad: Vec<f64> = (0..720).map(|i| TAU * f64::from(i) / 720.0).collect();
+        let heights = vec![angles_rad.iter().map(|&angle| exact.height(angle, 0)).collect()];
+        let measured = Measured { angles_rad, chord: vec![0.5], heights };
+        let measured = Shape { measured: Some(measured), ..Shape::default() };
+        for (shape, error) in [(&equal, 0.0), (&single, 1e-14), (&measured, 1e-8)] {
+            assert_eq!(shape.repeats(), Some(2), "{shape:?}");
+            let restriction = shape.restriction(&nodes).unwrap();
+            for (node, i) in (0..5).flat_map(|node| (0..100).map(move |i| (node, i))) {
+                let angle = 0.063 * f64::from(i);
+                let off = (restriction.height(angle, node) - exact.height(angle, node)).abs();
+                assert!(off <= error, "{node} {angle}: {off:e}");
+            }
+            assert!((shape.highest() - 0.4).abs() < 1e-3, "{}", shape.highest());
+        }
+        assert_eq!((equal.narrowest_rad(), single.narrowest_rad()), (Some(0.3), Some(0.3)));
+    }
+
+    #[test]
+    fn a_circular_casing_repeats_nowhere_in_particular() {
+        let circular = Shape::default();
+        assert!(circular.is_circular() && circular.restriction(&nodes()).is_none());
+        assert_eq!((circular.repeats(), circular.narrowest_rad(), circular.highest()), (None, None, 0.0));
+    }
+
+    #[test]
+    fn what_differs_along_the_chord_or_in_height_repeats_less() {
+        let shape = |single_lobes| Shape { single_lobes, ..Shape::default() };
+        let along = Some(vec![1.0, 0.8, 0.6, 0.4, 0.2]);
+        let four = |along: [&Option<Vec<f64>>; 4]| {
+            (0..4).map(|l| lobe(0.2 + PI / 2.0 * l as f64, 0.3, along[l].clone())).collect()
+        };
+        assert_eq!(shape(four([&None; 4])).repeats(), Some(4));
+        assert_eq!(shape(four([&None, &along, &None, &along])).repeats(), Some(2));
+        assert_eq!(shape(four([&None, &None, &along, &along])).repeats(), Some(1));
+        let mut one_is_higher: Vec<SingleLobe> = four([&None; 4]);
+        one_is_higher[2].amplitude = 0.31;
+        assert_eq!(shape(one_is_higher).repeats(), Some(1));
+        let tilt = Some(Tilt { angle_rad: 1e-4, towards_rad: 0.0, about_z: 0.0 });
+        assert_eq!(Shape { tilt, ..shape(four([&None; 4])) }.repeats(), Some(1));
+    }
+
+    #[test]
+    fn measured_lines_are_joined_along_the_arc() {
+        let angles_rad: Vec<f64> = (0..16).map(|i| TAU * f64::from(i) / 16.0).collect();
+        let heights = [0.1, 0.5, 0.2].map(|height| vec![height; 16]).to_vec();
+        let measured = Measured { angles_rad, chord: vec![0.25, 0.5, 1.0], heights };
+        let nodes = nodes();
+        let restriction = Shape { measured: Some(measured), ..Shape::default() }.restriction(&nodes).unwrap();
+        let positions: Vec<_> = nodes.iter().map(|node| node.position).collect();
+        let arc = arc_lengths(&positions);
+        let share = |node: usize| arc[node] / arc[4];
+        let expected = |node: usize| match share(node) {
+            share if share <= 0.25 => 0.1,
+            share if share <= 0.5 => 0.1 + 0.4 * (share - 0.25) / 0.25,
+            share => 0.5 - 0.3 * (share - 0.5) / 0.5,
+        };
+        for node in 0..5 {
+            let found = restriction.height(1.234, node);
+            assert!((found - expected(node)).abs() < 1e-14, "{node}: {found} {}", expected(node));
+        }
+    }
+
+    /// The gap between a tip and a leaning cone, by rotating the cone.
+    #[test]
+    fn a_tilt_is_a_small_rotation() {
+        let tilt = Tilt { angle_rad: 1e-6, towards_rad: 0.7, about_z: -3.0 };
+        let nodes = nodes();
+        let restriction = Shape { tilt: Some(tilt.clone()), ..Shape::default() }.restriction(&nodes).unwrap();
+        for (k, node) in nodes.iter().enumerate() {
+            for i in 0..12 {
+                let angle = f64::from(i) * TAU / 12.0;
+                let [r, _, z] = node.position;
+                // The tip, moved as the wheel leans: about the axis across `towards`, by τ, to first order ω × x.
+                let axis = [-tilt.towards_rad.sin(), tilt.towards_rad.cos(), 0.0];
+                let arm = [r * angle.cos(), r * angle.sin(), z - tilt.about_z];
+                let cross = [
+                    axis[1] * arm[2] - axis[2] * arm[1],
+                    axis[2] * arm[0] - axis[0] * arm[2],
+                    axis[0] * arm[1] - axis[1] * arm[0],
+                ];
+                let normal = [node.normal[0] * angle.cos(), node.normal[0] * angle.sin(), node.normal[2]];
+                let outward: f64 = cross.iter().zip(normal).map(|(x, n)| tilt.angle_rad * x * n).sum();
+                let found = restriction.height(angle, k);
+                assert!((found - outward).abs() < 1e-15, "{k} {angle}: {found:e} {outward:e}");
+            }
+        }
+    }
+}
