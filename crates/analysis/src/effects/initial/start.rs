@@ -86,7 +86,8 @@ fn check_reach(
             let turn = TAU * (mode.harmonic * sector) as f64 / sectors;
             let outward = shape.re * turn.cos() - shape.im * turn.sin();
             let angle = contact_nodes[k].position[1] + TAU * sector as f64 / wheel.around() as f64;
-            let restricted = casing.restriction.map_or(0.0, |restriction| growth * restriction.height(angle));
+            let restricted = casing.restriction.as_ref();
+            let restricted = restricted.map_or(0.0, |restriction| growth * restriction.height(angle, k));
             if outward > 0.0 {
                 fits = fits.min((casing.clearance[k] - restricted).max(0.0) / outward);
             }
