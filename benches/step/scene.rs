@@ -1,6 +1,6 @@
 //! The default impeller in front of a casing with two lobes, as the service would integrate it.
 
-use rubmap::analysis::effects::casing::request::{Casing as CasingRequest, Clearance, Lobes};
+use rubmap::analysis::effects::casing::request::{Casing as CasingRequest, Clearance, Lobes as LobesRequest};
 use rubmap::analysis::effects::contact::request::Contact;
 use rubmap::analysis::effects::damping::request::Damping;
 use rubmap::analysis::monitor::Unwatched;
@@ -29,6 +29,9 @@ pub(crate) const DAMPING: f64 = 0.005;
 pub(crate) const TOUCHING: f64 = 0.30;
 /// Clearance at which none ever does.
 pub(crate) const FREE: f64 = 2.0;
+
+/// What stands inward of the casing.
+const LOBES: Lobes = Lobes { count: 2, amplitude: 0.425, width_rad: 0.35, phase_rad: 0.0 };
 
 /// A wheel, its damping and its scene.
 pub(crate) struct Scene {
@@ -79,7 +82,7 @@ impl Scene {
     pub(crate) fn casing(&self, clearance: f64) -> Casing {
         Casing {
             clearance: vec![clearance; self.reduced.wheel.contact.len()],
-            restriction: Some(Lobes { count: 2, amplitude: 0.425, width_rad: 0.35, phase_rad: 0.0 }.into()),
+            restriction: Some(LOBES.into()),
             ramp_revolutions: 1.0,
         }
     }
@@ -93,12 +96,13 @@ impl Scene {
         speeds_rad_s: Vec<f64>,
     ) -> ResolvedSweep {
         let casing = self.casing(TOUCHING);
-        let lobes = casing.restriction.map(|lobes| Lobes {
-            count: lobes.count,
-            amplitude: lobes.amplitude,
-            width_rad: lobes.width_rad,
-            phase_rad: lobes.phase_rad,
-        });
+        let lobes = LobesRequest {
+            count: LOBES.count,
+            amplitude: LOBES.amplitude,
+            width_rad: LOBES.width_rad,
+            phase_rad: LOBES.phase_rad,
+            along_chord: None,
+        };
         let clearance = Clearance { leading: None, trailing: None, values: Some(casing.clearance) };
         let last = self.reduced.wheel.contact.len() as u32 - 1;
         let sensor = |contact_node| Sensor::at_contact(contact_node, 0, Component::Radial);
@@ -115,7 +119,14 @@ impl Scene {
             scene: request::Scene {
                 centrifugal_stiffening: self.stiffening,
                 damping: Some(Damping { modal_ratio: DAMPING, family_ratios: Vec::new() }),
-                casing: Some(CasingRequest { clearance, lobes }),
+                casing: Some(CasingRequest {
+                    clearance,
+                    lobes: Some(lobes),
+                    single_lobes: Vec::new(),
+                    waves: Vec::new(),
+                    measured: None,
+                    tilt: None,
+                }),
                 contact: Some(Contact {}),
                 ..request::Scene::default()
             },

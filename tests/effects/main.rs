@@ -8,6 +8,8 @@ mod door;
 #[allow(dead_code, reason = "shared with the physics tests, which use all of it")]
 mod fixtures;
 mod frequencies;
+#[path = "../oracle/heights.rs"]
+mod heights;
 mod limits;
 mod literal;
 mod period_doubling;

@@ -68,11 +68,14 @@ fn scene(seed: u64) -> Scene {
     });
     scene.casing = Some(Casing {
         clearance: (0..nodes).map(|_| dice.between(0.1, 0.3)).collect(),
-        restriction: dice.maybe(0.8, |dice| Lobes {
-            count: 1 + dice.below(5) as u32,
-            amplitude: dice.between(0.1, 0.4),
-            width_rad: dice.between(0.2, 0.8),
-            phase_rad: dice.between(-3.0, 3.0),
+        restriction: dice.maybe(0.8, |dice| {
+            let lobes = Lobes {
+                count: 1 + dice.below(5) as u32,
+                amplitude: dice.between(0.1, 0.4),
+                width_rad: dice.between(0.2, 0.8),
+                phase_rad: dice.between(-3.0, 3.0),
+            };
+            lobes.into()
         }),
         ramp_revolutions: dice.between(0.0, 0.5),
     });

@@ -19,7 +19,7 @@ use rubmap::analysis::run::{
     ModelFacts, ReducedSector, check, critical_speeds, interaction_map, map_row, prepare, refine,
     resolve_sweep, run_speed,
 };
-use rubmap::dynamics::casing::Restriction;
+use rubmap::dynamics::casing::{Lobes, Restriction};
 use rubmap::dynamics::modal_wheel::{ModalWheel, RotationEffects};
 use rubmap::dynamics::reduction::NoCheckpoints;
 use rubmap::dynamics::schemes::Scheme;
@@ -277,10 +277,19 @@ fn length_scale(request: &SweepRequest) -> f64 {
     let given = clearance.values.iter().flatten().chain(&clearance.leading).chain(&clearance.trailing);
     let lobes = casing.lobes.as_ref().map_or(0.0, |lobes| {
         let (count, amplitude) = (lobes.count, lobes.amplitude);
-        Restriction { count, amplitude, width_rad: lobes.width_rad, phase_rad: lobes.phase_rad }.highest()
+        let lobes = Lobes { count, amplitude, width_rad: lobes.width_rad, phase_rad: lobes.phase_rad };
+        Restriction::from(lobes).highest(1)
+    });
+    let others = casing.single_lobes.iter().map(|lobe| lobe.amplitude);
+    let others: f64 = others.chain(casing.waves.iter().map(|wave| wave.amplitude)).map(f64::abs).sum();
+    let measured = casing.measured.iter().flat_map(|measured| measured.heights.iter().flatten());
+    let measured = measured.fold(0.0f64, |most, height| most.max(height.abs()));
+    let tilt = casing.tilt.as_ref().map_or(0.0, |tilt| {
+        let reach = model().reduced.wheel.contact.iter().map(|node| node.position[0] + node.position[2].abs());
+        tilt.angle_rad.abs() * (reach.fold(0.0, f64::max) + tilt.about_z.abs())
     });
     let orbit = request.scene.orbit.as_ref().map_or(0.0, |orbit| orbit.radius);
-    given.copied().fold(0.0, f64::max) + lobes + orbit
+    given.copied().fold(0.0, f64::max) + lobes + others + 2.0 * measured + tilt + orbit
 }
 
 /// Largest displacement that a tip, or the casing, may have had. |nᵀu|² ≤ nᵀK⁻¹n · uᵀKu, and no elastic energy is larger than

@@ -45,7 +45,7 @@ fn the_response_vanishes_with_the_overlap() {
 /// Openings of the recorded nodes: samples without contact after one with it.
 fn openings(scene: &Scene, displacement: &[Vec<f64>], steps: usize) -> usize {
     let casing = scene.casing.as_ref().unwrap();
-    let lobes = casing.restriction.unwrap();
+    let restriction = casing.restriction.as_ref().unwrap();
     let mut openings = 0;
     for (sensor, line) in scene.sensors.iter().zip(displacement) {
         let node = sensor.direction.node;
@@ -54,7 +54,8 @@ fn openings(scene: &Scene, displacement: &[Vec<f64>], steps: usize) -> usize {
         let mut closed = false;
         for (q, u) in line.iter().enumerate() {
             let revolutions = (q + 1) as f64 / steps as f64;
-            let p = lobes.height(start + std::f64::consts::TAU * revolutions) * casing.growth(revolutions);
+            let angle = start + std::f64::consts::TAU * revolutions;
+            let p = restriction.height(angle, node) * casing.growth(revolutions);
             let touches = casing.clearance[node] - p - u < 1e-10;
             openings += usize::from(closed && !touches);
             closed = touches;

@@ -1,7 +1,7 @@
 //! What the hard cases of time integration share: scenes given to a simulation without the door.
 
 use faer::{Mat, c64};
-use rubmap::dynamics::casing::{Casing, Lobes};
+use rubmap::dynamics::casing::{Casing, Lobes, Profile};
 use rubmap::dynamics::direction::Direction;
 use rubmap::dynamics::effects::Effects;
 use rubmap::dynamics::initial::InitialMode;
@@ -62,9 +62,11 @@ impl Scene {
         SensorRow { direction: Direction { node, components: self.contact[node].normal }, sector }
     }
 
-    /// The restriction of the casing.
+    /// The lobes of the casing.
     pub(crate) fn lobes(&mut self) -> &mut Lobes {
-        self.casing.as_mut().and_then(|casing| casing.restriction.as_mut()).unwrap()
+        let parts = &mut self.casing.as_mut().unwrap().restriction.as_mut().unwrap().parts;
+        let Profile::Lobes(lobes) = &mut parts[0].profile else { panic!("scenes begin with lobes") };
+        lobes
     }
 
     /// Steps per revolution, `factor` times the smallest stable number of the scheme (of central differences, where the

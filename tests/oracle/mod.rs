@@ -4,6 +4,7 @@
 //! complementarity solver.
 
 pub(crate) mod cyclic;
+pub(crate) mod heights;
 pub(crate) mod plain;
 pub(crate) mod schemes;
 
@@ -229,14 +230,7 @@ pub(crate) fn free_gaps(casing: &Casing, reduced: &ReducedWheel, revolutions: f6
     for s in 0..reduced.sectors {
         for (k, node) in reduced.contact.iter().enumerate() {
             let angle = node.position[1] + TAU * (s as f64 / reduced.sectors as f64 + revolutions);
-            let mut p = 0.0;
-            if let Some(lobes) = &casing.restriction {
-                for l in 0..lobes.count {
-                    let centre = TAU * f64::from(l) / f64::from(lobes.count) + lobes.phase_rad;
-                    let distance = (angle - centre).sin().atan2((angle - centre).cos());
-                    p += lobes.amplitude * (-(distance / lobes.width_rad).powi(2)).exp();
-                }
-            }
+            let p = casing.restriction.as_ref().map_or(0.0, |shape| heights::height(shape, angle, k));
             let x = (revolutions.abs() / casing.ramp_revolutions).min(1.0);
             gaps.push(casing.clearance[k] - p * x * x * (3.0 - 2.0 * x));
         }

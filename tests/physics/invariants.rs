@@ -16,6 +16,8 @@ use rubmap::response::spectra::nodal_diameter_amplitudes;
 use crate::fixed::fixed;
 use crate::fixtures::{TOP_SPEED, WheelRecipe, wheel};
 
+const LOBES: Lobes = Lobes { count: 2, amplitude: 0.4, width_rad: 0.35, phase_rad: 0.0 };
+
 struct Scene {
     reduced: ReducedWheel,
     speed: f64,
@@ -35,7 +37,7 @@ impl Scene {
             damping_ratio: 0.05,
             casing: Casing {
                 clearance: vec![0.25; recipe.contact_nodes],
-                restriction: Some(Lobes { count: 2, amplitude: 0.4, width_rad: 0.35, phase_rad: 0.0 }.into()),
+                restriction: Some(LOBES.into()),
                 ramp_revolutions: 1.0,
             },
             steps_factor: 1.25,
@@ -140,9 +142,7 @@ fn renumbering_sectors_turns_the_response() {
         scene.revolutions = 2;
         let reference = scene.run();
         let alpha = std::f64::consts::TAU / sectors as f64;
-        if let Some(lobes) = &mut scene.casing.restriction {
-            lobes.phase_rad += alpha;
-        }
+        scene.casing.restriction = Some(Lobes { phase_rad: alpha, ..LOBES }.into());
         scene.sensor.sector = 1;
         let turned = scene.run();
         let (a, b) = (&completed(&reference).displacement[0], &completed(&turned).displacement[0]);

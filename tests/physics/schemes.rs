@@ -47,7 +47,7 @@ impl Scene {
     /// Ten sectors of masses and springs.
     fn small() -> Self {
         let lobes = Lobes { count: 2, amplitude: 0.425, width_rad: 0.35, phase_rad: 0.1 };
-        let casing = Casing { clearance: vec![0.3; 3], restriction: Some(lobes), ramp_revolutions: 0.5 };
+        let casing = Casing { clearance: vec![0.3; 3], restriction: Some(lobes.into()), ramp_revolutions: 0.5 };
         Self::new(&wheel(WheelRecipe::default()), 6, 0.6 * TOP_SPEED, true, casing)
     }
 
@@ -63,7 +63,7 @@ impl Scene {
             &positions,
         );
         let lobes = Lobes { count: 2, amplitude: paper.restriction, width_rad: 0.35, phase_rad: 0.0 };
-        let casing = Casing { clearance, restriction: Some(lobes), ramp_revolutions: 1.0 };
+        let casing = Casing { clearance, restriction: Some(lobes.into()), ramp_revolutions: 1.0 };
         let mut scene = Self::new(&sector, 20, 24_000.0 * TAU / 60.0, true, casing);
         scene.revolutions = 2;
         scene

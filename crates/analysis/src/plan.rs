@@ -16,7 +16,7 @@ use crate::request::{HistorySpeeds, Recorded, SweepDirection};
 use crate::resolve::recorded::{lines, revolutions};
 use crate::resolved::{ResolvedCaseStudy, ResolvedModalAnalysis, ResolvedSweep, Scene, TrialRequest};
 use crate::result::{
-    CostRange, Estimate, FoundSymmetry, ModalAnalysisPlan, PlannedPoint, ReductionState, SweepPlan,
+    CostRange, Estimate, FoundShape, FoundSymmetry, ModalAnalysisPlan, PlannedPoint, ReductionState, SweepPlan,
 };
 use crate::speed::ready;
 use crate::start::initial;
@@ -50,6 +50,7 @@ pub fn plan_sweep(
     SweepPlan {
         effects: planned(&request.scene),
         symmetry: FoundSymmetry::of(&request.scene, facts.sectors),
+        casing_shape: request.scene.casing.as_ref().and_then(|casing| FoundShape::of(&casing.shape)),
         contact_pairs: contact_pairs(&request.scene, facts),
         reduction: state(reduced),
         reduced_unknowns_at_most: reduced_unknowns(facts, reduced, request.modes_per_speed()),

@@ -15,6 +15,7 @@ use rubmap::dynamics::schemes::Scheme;
 
 use self::contact::Law;
 use self::rods::Rods;
+use crate::heights::height;
 use crate::scene::{SPEED, Scene, sliding};
 
 /// Part of a mode's complex amplitude.
@@ -338,14 +339,7 @@ impl<'a> Literal<'a> {
         DVector::from_fn(self.scene.wheel.sectors * nodes, |place, _| {
             let (sector, node) = (place / nodes, place % nodes);
             let angle = self.angle(sector, node, revolutions);
-            let mut taken = 0.0;
-            if let Some(lobes) = &casing.restriction {
-                for l in 0..lobes.count {
-                    let centre = TAU * f64::from(l) / f64::from(lobes.count) + lobes.phase_rad;
-                    let distance = (angle - centre).sin().atan2((angle - centre).cos());
-                    taken += lobes.amplitude * (-(distance / lobes.width_rad).powi(2)).exp();
-                }
-            }
+            let mut taken = casing.restriction.as_ref().map_or(0.0, |shape| height(shape, angle, node));
             if let Some(orbit) = &self.scene.orbit {
                 // The axis is displaced by (x, y), of which the node's radial direction sees its share.
                 let towards = TAU * orbit.whirl_ratio * revolutions + orbit.phase_rad;

@@ -21,9 +21,13 @@ impl Findings {
         }
     }
 
-    /// Whether something is wrong with what stands at `pointer` as a whole.
+    /// Whether something is wrong with what stands at `pointer` or within it.
     pub(crate) fn refused(&self, pointer: &str) -> bool {
-        self.0.iter().any(|violation| violation.pointer == pointer)
+        let within = |violation: &Violation| {
+            let rest = violation.pointer.strip_prefix(pointer);
+            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
+        };
+        self.0.iter().any(within)
     }
 
     pub(crate) fn finish<T>(self, value: T) -> Result<T, Vec<Violation>> {

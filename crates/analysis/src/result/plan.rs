@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::effects::casing::result::FoundShape;
 use crate::effects::symmetry::result::FoundSymmetry;
 use crate::request::{BranchesSettings, ModalAnalysisRequest, SweepRequest};
 use crate::result::choice::{Choice, ModesChoice};
@@ -15,6 +16,9 @@ pub struct SweepPlan {
     pub effects: Vec<PlannedEffect>,
     /// Symmetry of the scene.
     pub symmetry: FoundSymmetry,
+    /// The shape of its casing; absent without a casing and of a circular one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub casing_shape: Option<FoundShape>,
     /// Pairs of contact node and casing: all contact nodes of all simulated sectors where the scene has contact, otherwise none. A
     /// node whose clearance is too large ever to be closed counts too; it costs its gap in every step.
     pub contact_pairs: u64,

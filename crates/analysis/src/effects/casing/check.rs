@@ -1,6 +1,6 @@
 //! Checks of the casing.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::request::{Measured, SingleLobe, Tilt, Wave};
 use super::resolved::Clearance;
@@ -12,6 +12,7 @@ use crate::resolve::findings::{Findings, between, check_reach};
 use crate::resolve::limits;
 use crate::resolved::{ResolvedSweep, Scene};
 
+const AT: &str = "/scene/casing";
 const MOST_LOBES: u32 = 100;
 const LEAST_WIDTH_RAD: f64 = 1e-4;
 /// Two equal Gaussians exp(−(φ/w)²) have a valley between them up to this ratio of w to their distance.
@@ -19,6 +20,7 @@ const WIDTH_OVER_DISTANCE: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// Angles of a measured line.
 const LEAST_MEASURED: usize = 8;
 const MOST_MEASURED: usize = 100_000;
+const WIDEST_GAP_RAD: f64 = 1.000_001 * FRAC_PI_2;
 /// The square of a larger tilt is no longer a thousandth of it.
 const MOST_TILT_RAD: f64 = 1e-3;
 /// Shortest ramp of lobes that stand inside the blade.
@@ -157,7 +159,7 @@ fn check_waves(found: &mut Findings, waves: &[Wave], facts: &ModelFacts) {
     }
 }
 
-/// Tables that curves go through, and that have no gap of half a turn.
+/// Tables that curves go through.
 fn check_measured(found: &mut Findings, measured: &Measured, facts: &ModelFacts) {
     let at = "/scene/casing/measured";
     let Measured { angles_rad, chord, heights } = measured;
@@ -175,19 +177,32 @@ fn check_measured(found: &mut Findings, measured: &Measured, facts: &ModelFacts)
         &format!("{at}/angles_rad"),
         "angles ascend strictly within one turn, the first not repeated at its end",
     );
+    let widest = angles_rad.windows(2).map(|pair| pair[1] - pair[0]).fold(TAU - turn, f64::max);
     found.require(
-        !chord.is_empty() && ascending(chord) && chord.iter().all(|share| (0.0..=1.0).contains(share)),
-        &format!("{at}/chord"),
-        "places of the lines along the chord ascend strictly from 0 at the leading to 1 at the trailing edge",
+        widest <= WIDEST_GAP_RAD,
+        &format!("{at}/angles_rad"),
+        format!("{widest} rad without a point: no curve can be laid across more than a quarter of a turn"),
     );
+    let lines = chord.as_ref().map_or(facts.contact_nodes as usize, Vec::len);
+    if let Some(chord) = chord {
+        found.require(
+            !chord.is_empty() && ascending(chord) && chord.iter().all(|share| (0.0..=1.0).contains(share)),
+            &format!("{at}/chord"),
+            "places of the lines along the chord ascend strictly from 0 at the leading to 1 at the trailing edge",
+        );
+    }
     found.require(
-        heights.len() == chord.len(),
+        heights.len() == lines,
         &format!("{at}/heights"),
-        format!(
-            "one list of heights for each of the {} lines of `chord`, not {}",
-            chord.len(),
-            heights.len()
-        ),
+        match chord {
+            Some(_) => {
+                format!("one list of heights for each of the {lines} lines of `chord`, not {}", heights.len())
+            }
+            None => format!(
+                "one list of heights for each of the {lines} contact nodes, not {}; lines elsewhere are placed by `chord`",
+                heights.len()
+            ),
+        },
     );
     for (line, heights) in heights.iter().enumerate() {
         let at = format!("{at}/heights/{line}");
@@ -229,8 +244,7 @@ pub(crate) fn check_lobe_count(found: &mut Findings, count: u32, pointer: &str) 
 /// Steps wider than a lobe would pass it by, with numbers that look fine.
 pub(crate) fn check_steps(found: &mut Findings, request: &ResolvedSweep) {
     let AutoOr::Fixed(steps) = request.integration.steps_per_revolution else { return };
-    let narrowest = request.scene.touched_shape().and_then(Shape::narrowest_rad);
-    if narrowest.is_none_or(|width| width < LEAST_WIDTH_RAD) {
+    if found.refused(AT) || request.scene.touched_shape().is_none_or(Shape::is_circular) {
         return;
     }
     let seen = least_steps(&request.scene);
@@ -246,13 +260,10 @@ pub(crate) fn check_steps(found: &mut Findings, request: &ResolvedSweep) {
 
 /// Without a ramp a restriction inside the blade would hit it as a step: forces scale as 1/h, nothing converges.
 pub(crate) fn check_ramp(found: &mut Findings, request: &ResolvedSweep) {
-    if found.refused(Clearance::AT) {
+    if found.refused(AT) {
         return;
     }
     let Scene { casing: Some(casing), contact: Some(_), .. } = &request.scene else { return };
-    if casing.shape.lobes.as_ref().is_some_and(|lobes| lobes.count > MOST_LOBES) {
-        return;
-    }
     let restriction = casing.shape.highest();
     let orbit = request.scene.orbit.as_ref().map_or(0.0, |orbit| orbit.radius);
     let smallest = casing.clearance.smallest();

@@ -7,8 +7,10 @@ pub(crate) mod check;
 pub(crate) mod convert;
 pub mod request;
 pub mod resolved;
+pub mod result;
 pub mod shape;
 mod steps;
+mod survey;
 
 pub(crate) const EFFECT: Effect = Effect {
     name: "casing",

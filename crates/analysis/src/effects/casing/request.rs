@@ -104,18 +104,20 @@ pub struct Wave {
 }
 
 /// Measured heights inward of the casing of revolution, on lines around the circumference: periodic cubic splines around, linear from
-/// line to line along the chord.
+/// line to line along the chord. Every point counts; what stands out of them is said in the plan.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Measured {
-    /// Angles from the package's x axis, rad, ascending within one turn.
+    /// Angles from the package's x axis, rad, ascending within one turn, none farther than a quarter of a turn from the next.
     #[cfg_attr(feature = "schema", schema(min_items = 8, max_items = 100_000))]
     pub angles_rad: Vec<f64>,
     /// Place of every line along the chord, the share of the arc length through the contact nodes: 0 at the leading edge, 1 at the
-    /// trailing edge, ascending. Nodes before the first line and behind the last have the heights of these.
+    /// trailing edge, ascending. Nodes before the first line and behind the last have the heights of these. Absent: a line for every
+    /// contact node, its own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schema(min_items = 1, max_items = 8192))]
-    pub chord: Vec<f64>,
+    pub chord: Option<Vec<f64>>,
     /// `[line][angle]`, in the model's unit of length; outward of the casing of revolution if negative.
     pub heights: Vec<Vec<f64>>,
 }

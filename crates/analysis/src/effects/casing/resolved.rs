@@ -44,9 +44,6 @@ impl Asked for Option<request::Casing> {
 }
 
 impl Clearance {
-    /// Where it is in a request.
-    pub(crate) const AT: &str = "/scene/casing/clearance";
-
     fn of(asked: request::Clearance, refuse: &mut dyn FnMut(Violation)) -> Self {
         match asked {
             request::Clearance { leading: Some(leading), trailing: Some(trailing), values: None } => {
@@ -55,7 +52,7 @@ impl Clearance {
             request::Clearance { leading: None, trailing: None, values: Some(values) } => Self::Each(values),
             request::Clearance { .. } => {
                 refuse(Violation::new(
-                    Self::AT,
+                    "/scene/casing/clearance",
                     "give either `leading` and `trailing`, or `values` with one clearance per contact node",
                 ));
                 Self::AlongChord { leading: 0.0, trailing: 0.0 }

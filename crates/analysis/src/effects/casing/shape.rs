@@ -1,12 +1,10 @@
 //! What stands inward of a casing of revolution.
 
-use std::f64::consts::TAU;
-
 use num_integer::gcd;
 
 use super::request::{self, Lobes, Measured, SingleLobe, Tilt, Wave};
 use rubmap_wheel::dynamics::casing::{
-    self, Part, PeriodicSpline, Profile, Restriction, arc_lengths, repeats,
+    self, Part, PeriodicSpline, Profile, Restriction, arc_lengths, narrowest_rad, repeats,
 };
 use rubmap_wheel::dynamics::sector::ContactNode;
 
@@ -42,8 +40,8 @@ impl Shape {
 
     /// The width that steps have to see, rad; none of a circular casing.
     pub(crate) fn narrowest_rad(&self) -> Option<f64> {
-        let spacing = self.measured.as_ref().map(|measured| TAU / measured.angles_rad.len().max(1) as f64);
-        let narrowest = spacing.into_iter().fold(self.lobes_and_waves().narrowest_rad(), f64::min);
+        let measured = self.measured.as_ref().map(|measured| narrowest_rad(&measured.curves()));
+        let narrowest = measured.into_iter().fold(self.lobes_and_waves().narrowest_rad(), f64::min);
         narrowest.is_finite().then_some(narrowest)
     }
 
@@ -55,8 +53,8 @@ impl Shape {
         let Restriction { mut parts } = self.lobes_and_waves();
         let shares = parts.iter_mut().filter_map(|part| part.along_chord.take()).flatten();
         let largest = shares.fold(1.0, |most: f64, share| most.max(share.abs()));
-        let measured = self.measured.iter().flat_map(|measured| measured.heights.iter().flatten());
-        let measured = measured.fold(0.0, |most: f64, height| most.max(*height));
+        let measured = self.measured.iter().flat_map(Measured::curves).map(|curve| curve.highest().1);
+        let measured = measured.fold(0.0, f64::max);
         let others = if parts.is_empty() { 0.0 } else { Restriction { parts }.highest(1).max(0.0) };
         largest * others + measured
     }
@@ -116,21 +114,27 @@ impl Measured {
         self.heights.iter().map(|heights| repeats(&self.angles_rad, heights) as u32).fold(0, gcd)
     }
 
-    /// A curve for every position `[r, θ, z]` of a contact node, linear between the lines beside it.
+    /// A curve for every line.
+    pub(super) fn curves(&self) -> Vec<PeriodicSpline> {
+        self.heights.iter().map(|heights| PeriodicSpline::new(&self.angles_rad, heights)).collect()
+    }
+
+    /// A curve for every position `[r, θ, z]` of a contact node: that of its own line, or linear between the lines beside it.
     fn at(&self, positions: &[[f64; 3]]) -> Vec<PeriodicSpline> {
+        let Some(chord) = &self.chord else { return self.curves() };
         let arc = arc_lengths(positions);
         let whole = arc.last().copied().filter(|whole| *whole > 0.0).unwrap_or(1.0);
         arc.iter()
-            .map(|length| PeriodicSpline::new(&self.angles_rad, &self.heights_at(length / whole)))
+            .map(|length| PeriodicSpline::new(&self.angles_rad, &self.heights_at(chord, length / whole)))
             .collect()
     }
 
     /// Heights at all angles at a share of the chord.
-    fn heights_at(&self, share: f64) -> Vec<f64> {
-        let next = self.chord.partition_point(|&line| line <= share);
-        let (before, after) = (next.saturating_sub(1), next.min(self.chord.len() - 1));
-        let width = self.chord[after] - self.chord[before];
-        let x = if width > 0.0 { (share - self.chord[before]) / width } else { 0.0 };
+    fn heights_at(&self, chord: &[f64], share: f64) -> Vec<f64> {
+        let next = chord.partition_point(|&line| line <= share);
+        let (before, after) = (next.saturating_sub(1), next.min(chord.len() - 1));
+        let width = chord[after] - chord[before];
+        let x = if width > 0.0 { (share - chord[before]) / width } else { 0.0 };
         let pairs = self.heights[before].iter().zip(&self.heights[after]);
         pairs.map(|(before, after)| before + x * (after - before)).collect()
     }
@@ -153,7 +157,7 @@ impl Tilt {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::f64::consts::PI;
+    use std::f64::consts::{PI, TAU};
 
     fn nodes() -> Vec<ContactNode> {
         let node = |k: usize| {
@@ -183,7 +187,7 @@ mod tests {
         let exact = equal.restriction(&nodes).unwrap();
         let angles_rad: Vec<f64> = (0..720).map(|i| TAU * f64::from(i) / 720.0).collect();
         let heights = vec![angles_rad.iter().map(|&angle| exact.height(angle, 0)).collect()];
-        let measured = Measured { angles_rad, chord: vec![0.5], heights };
+        let measured = Measured { angles_rad, chord: Some(vec![0.5]), heights };
         let measured = Shape { measured: Some(measured), ..Shape::default() };
         for (shape, error) in [(&equal, 0.0), (&single, 1e-14), (&measured, 1e-8)] {
             assert_eq!(shape.repeats(), Some(2), "{shape:?}");
@@ -226,9 +230,9 @@ mod tests {
     fn measured_lines_are_joined_along_the_arc() {
         let angles_rad: Vec<f64> = (0..16).map(|i| TAU * f64::from(i) / 16.0).collect();
         let heights = [0.1, 0.5, 0.2].map(|height| vec![height; 16]).to_vec();
-        let measured = Measured { angles_rad, chord: vec![0.25, 0.5, 1.0], heights };
+        let measured = Measured { angles_rad, chord: Some(vec![0.25, 0.5, 1.0]), heights };
         let nodes = nodes();
-        let restriction = Shape { measured: Some(measured), ..Shape::default() }.restriction(&nodes).unwrap();
+        let restriction = Shape { measured: Some(measured.clone()), ..Shape::default() }.restriction(&nodes).unwrap();
         let positions: Vec<_> = nodes.iter().map(|node| node.position).collect();
         let arc = arc_lengths(&positions);
         let share = |node: usize| arc[node] / arc[4];
@@ -240,6 +244,12 @@ mod tests {
         for node in 0..5 {
             let found = restriction.height(1.234, node);
             assert!((found - expected(node)).abs() < 1e-14, "{node}: {found} {}", expected(node));
+        }
+        let heights = (0..5).map(|k| vec![0.1 * f64::from(k); 16]).collect();
+        let each = Measured { chord: None, heights, ..measured };
+        let restriction = Shape { measured: Some(each), ..Shape::default() }.restriction(&nodes).unwrap();
+        for node in 0..5 {
+            assert_eq!(restriction.height(1.234, node), 0.1 * node as f64);
         }
     }
 

@@ -6,7 +6,7 @@ mod spline;
 mod table;
 
 pub use self::restriction::{Lobe, Lobes, Part, Profile, Restriction};
-pub use self::spline::{PeriodicSpline, repeats};
+pub use self::spline::{PeriodicSpline, narrowest_rad, repeats};
 pub use self::table::RestrictionTable;
 
 /// Rigid casing of revolution with an optional restriction.

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use num_integer::gcd;
 
-use super::spline::PeriodicSpline;
+use super::spline::{PeriodicSpline, narrowest_rad};
 
 /// p(φ) of every contact node, a sum of parts.
 #[derive(Debug, Clone, PartialEq)]
@@ -95,7 +95,8 @@ impl Restriction {
         self.parts.iter().map(|part| part.profile.repeats()).fold(0, gcd)
     }
 
-    /// The width that steps have to see: the narrowest half-width of a lobe, an eighth of a wave, the distance of measured points.
+    /// The width that steps have to see: the narrowest half-width of a lobe, an eighth of a wave, and what [`narrowest_rad`]
+    /// finds of measured curves.
     pub fn narrowest_rad(&self) -> f64 {
         self.parts.iter().map(|part| part.profile.narrowest_rad()).fold(f64::INFINITY, f64::min)
     }
@@ -137,7 +138,7 @@ impl Profile {
             Self::Each(lobes) => least(&mut lobes.iter().map(|lobe| lobe.width_rad)),
             Self::Wave { order: 0, .. } => f64::INFINITY,
             Self::Wave { order, .. } => TAU / (8.0 * f64::from(*order)),
-            Self::Measured(curves) => least(&mut curves.iter().map(PeriodicSpline::spacing_rad)),
+            Self::Measured(curves) => narrowest_rad(curves),
         }
     }
 
@@ -147,7 +148,7 @@ impl Profile {
             Self::Lobes(lobes) => vec![lobes.phase_rad],
             Self::Each(lobes) => lobes.iter().map(|lobe| lobe.angle_rad).collect(),
             Self::Wave { phase_rad, .. } => vec![*phase_rad],
-            Self::Measured(_) => Vec::new(),
+            Self::Measured(curves) => curves.iter().map(|curve| curve.highest().0).collect(),
         }
     }
 }

@@ -57,10 +57,44 @@ impl PeriodicSpline {
         repeats(&self.angles_rad, &self.values)
     }
 
-    /// Mean distance of the points, rad.
-    pub(super) fn spacing_rad(&self) -> f64 {
-        TAU / self.angles_rad.len() as f64
+    /// Smallest and largest value between every point and the next, `(angle, value)` each, where the cubic has them.
+    fn extremes(&self) -> impl Iterator<Item = (f64, f64)> {
+        let n = self.angles_rad.len();
+        (0..n).flat_map(move |i| {
+            let next = (i + 1) % n;
+            let start = self.angles_rad[i];
+            let end = if next == 0 { self.angles_rad[0] + TAU } else { self.angles_rad[next] };
+            let h = end - start;
+            let (m0, m1) = (self.curvatures[i], self.curvatures[next]);
+            // The slope at start + t is s + m0 t + (m1 − m0) t²/2h.
+            let slope = (self.values[next] - self.values[i]) / h - h * (2.0 * m0 + m1) / 6.0;
+            let (a, b) = (0.5 * (m1 - m0) / h, m0);
+            let root = (b * b - 4.0 * a * slope).sqrt();
+            // Without cancellation; what divides by zero is no place within.
+            let q = -0.5 * (b + root.copysign(b));
+            let turns = [q / a, slope / q].into_iter().filter(move |t| (0.0..=h).contains(t));
+            turns.map(move |t| start + t).chain([start]).map(|angle| (angle, self.at(angle)))
+        })
     }
+
+    /// `(angle, value)` where it is highest.
+    pub fn highest(&self) -> (f64, f64) {
+        self.extremes().fold((0.0, f64::NEG_INFINITY), |most, one| if one.1 > most.1 { one } else { most })
+    }
+
+    /// `(angle, value)` where it is lowest.
+    pub fn lowest(&self) -> (f64, f64) {
+        self.extremes().fold((0.0, f64::INFINITY), |least, one| if one.1 < least.1 { one } else { least })
+    }
+}
+
+/// The half-width w of a Gaussian exp(−(φ/w)²) as high as the whole range of the curves and as sharp as the sharpest of their
+/// bends, rad: w² = 2 range/max|p″|. Infinite where nothing bends.
+pub fn narrowest_rad(curves: &[PeriodicSpline]) -> f64 {
+    let bend = curves.iter().flat_map(|curve| &curve.curvatures).fold(0.0f64, |most, m| most.max(m.abs()));
+    let range = |curve: &PeriodicSpline| curve.highest().1 - curve.lowest().1;
+    let range = curves.iter().map(range).fold(0.0, f64::max);
+    if range > 0.0 { (2.0 * range / bend).sqrt() } else { f64::INFINITY }
 }
 
 /// Largest m such that `values` at `angles_rad`, which ascend within one turn, are the same after a turn by 1/m.
@@ -163,6 +197,35 @@ mod tests {
             let (left, right) = (second(angle - h), second(angle + h));
             assert!((left - right).abs() < 0.05, "{angle}: {left} {right}");
         }
+    }
+
+    /// A Gaussian's own width, and its crest between the points.
+    #[test]
+    fn a_lobe_is_as_wide_and_as_high_as_it_is() {
+        let width = 0.2;
+        let angles = points(180, 0.0);
+        let lobe = |angle: f64| 0.3 * (-((angle - 1.01) / width).powi(2)).exp();
+        let values: Vec<f64> = angles.iter().map(|&angle| lobe(angle)).collect();
+        let spline = PeriodicSpline::new(&angles, &values);
+        let (at, height) = spline.highest();
+        assert!((at - 1.01).abs() < 1e-4 && (height - 0.3).abs() < 2e-5, "{at} {height}");
+        assert!(spline.lowest().1 <= 0.0 && spline.lowest().1 > -1e-5);
+        let found = narrowest_rad(&[spline]);
+        assert!((found / width - 1.0).abs() < 0.02, "{found}");
+        assert_eq!(narrowest_rad(&[PeriodicSpline::new(&angles, &[0.1; 180])]), f64::INFINITY);
+    }
+
+    /// Extremes against ten thousand angles, of points that nobody chose.
+    #[test]
+    fn extremes_are_those_of_many_angles() {
+        let angles = points(17, 0.3);
+        let values: Vec<f64> = (0..17).map(|i| (12.9898 * f64::from(i)).sin() * 0.7).collect();
+        let spline = PeriodicSpline::new(&angles, &values);
+        let sampled = || (0..10_000).map(|i| spline.at(TAU * f64::from(i) / 1e4));
+        let (low, high) = (sampled().fold(f64::INFINITY, f64::min), sampled().fold(f64::NEG_INFINITY, f64::max));
+        assert!((0.0..1e-6).contains(&(spline.highest().1 - high)), "{} {high}", spline.highest().1);
+        assert!((0.0..1e-6).contains(&(low - spline.lowest().1)), "{} {low}", spline.lowest().1);
+        assert!(high > values.iter().copied().fold(0.0, f64::max), "the curve overshoots its points");
     }
 
     #[test]
