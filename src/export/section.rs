@@ -18,7 +18,7 @@ impl Export for SectorGeometry {
         ]
     }
 
-    /// Positions are `[node][r, θ, z]`.
+    /// Positions are `[node][r, θ, z]`, heights of the casing `[contact node][angle]`.
     fn arrays(&self) -> Vec<Array> {
         let contact = &self.contact;
         let clearances = contact.iter().map(|ContactPlace { clearance, .. }| *clearance);
@@ -29,6 +29,7 @@ impl Export for SectorGeometry {
             Array::rows("contact_positions", contact.iter().map(|place| &place.position[..])),
             Array::rows("contact_normals", contact.iter().map(|place| &place.normal[..])),
             Array::some_reals("contact_clearances", clearances),
+            Array::rows("contact_heights", contact.iter().map(|place| &place.heights[..])),
             Array::text("name", &self.name),
             Array::json("units", &self.units),
         ]

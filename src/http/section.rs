@@ -85,18 +85,29 @@ pub(super) async fn get_section(
             let places = read_places(&path, &Limits::default()).map_err(Box::new)?;
             let positions: Vec<[f64; 3]> =
                 places.contact.iter().map(|(number, _)| places.nodes[*number].position).collect();
-            let clearances = request.and_then(|request| run::clearances(&request, &positions));
-            Ok(geometry(&model.facts, &places, clearances.as_deref()))
+            let normals: Vec<[f64; 3]> = places.contact.iter().map(|(_, normal)| *normal).collect();
+            let clearances = request.as_ref().and_then(|request| run::clearances(request, &positions));
+            let heights = request.and_then(|request| run::heights(&request, &positions, &normals));
+            Ok(geometry(&model.facts, &places, clearances.as_deref(), heights))
         })
         .await
 }
 
-fn geometry(facts: &ModelFacts, places: &Places, clearances: Option<&[f64]>) -> SectorGeometry {
-    let contact = places.contact.iter().enumerate().map(|(k, (number, normal))| ContactPlace {
+fn geometry(
+    facts: &ModelFacts,
+    places: &Places,
+    clearances: Option<&[f64]>,
+    heights: Option<Vec<Vec<f64>>>,
+) -> SectorGeometry {
+    let mut heights = heights.unwrap_or_default();
+    heights.resize(places.contact.len(), Vec::new());
+    let contact = places.contact.iter().zip(heights).enumerate();
+    let contact = contact.map(|(k, ((number, normal), heights))| ContactPlace {
         id: places.nodes[*number].id,
         position: places.nodes[*number].position,
         normal: *normal,
         clearance: clearances.and_then(|clearances| clearances.get(k).copied()),
+        heights,
     });
     let kind = |place: &Place| match place.face {
         _ if place.held => NodeKind::Clamped,

@@ -1,5 +1,8 @@
 //! Limits in which an effect vanishes, and scenes that are the same scene in two guises.
 
+use std::f64::consts::TAU;
+
+use rubmap::dynamics::casing::{Lobe, Lobes, Part, PeriodicSpline, Profile, Restriction};
 use rubmap::dynamics::direction::Direction;
 use rubmap::dynamics::excitation::EngineOrderExcitation;
 use rubmap::dynamics::flexible_casing::{CasingWave, FlexibleCasing};
@@ -117,7 +120,26 @@ fn a_synchronous_whirl_is_another_clearance() {
     }
 }
 
-/// What repeats around the wheel needs to be simulated but once, elastic casing and engine orders included.
+/// Lobes, lobes one by one, a wave along the chord and a measured curve, which all repeat so often.
+fn parts(repeats: u32) -> Vec<Part> {
+    let turn = |l: u32| TAU * f64::from(l) / f64::from(repeats);
+    let part = |profile| Part { profile, along_chord: None };
+    let lobes = Lobes { count: repeats, amplitude: 0.25, width_rad: 0.35, phase_rad: 0.1 };
+    let each = |l: u32| Lobe { amplitude: 0.15, width_rad: 0.3, angle_rad: 0.3 + turn(l) };
+    let wave = Profile::Wave { order: 2 * repeats, amplitude: 0.04, phase_rad: 0.2 };
+    let points = 24 * repeats;
+    let angles: Vec<f64> = (0..points).map(|i| TAU * f64::from(i) / f64::from(points)).collect();
+    let heights: Vec<f64> = (0..points).map(|i| 0.02 * (f64::from(i % 24) - 12.0).abs() / 12.0).collect();
+    let curve = PeriodicSpline::new(&angles, &heights);
+    vec![
+        part(Profile::Lobes(lobes)),
+        part(Profile::Each((0..repeats).map(each).collect())),
+        Part { profile: wave, along_chord: Some(vec![1.0, 0.4]) },
+        part(Profile::Measured(vec![curve; 2])),
+    ]
+}
+
+/// What repeats around the wheel needs to be simulated but once, casings of all shapes, elastic ones and engine orders included.
 #[test]
 fn a_part_does_what_the_whole_wheel_does() {
     for scheme in SCHEMES {
@@ -125,7 +147,9 @@ fn a_part_does_what_the_whole_wheel_does() {
             let mut whole = Scene { initial: Vec::new(), ..rubbing(sectors, scheme) };
             whole.add(Effect::Friction);
             whole.add(Effect::Coriolis);
-            whole.casing.as_mut().unwrap().restriction.as_mut().unwrap().count = repeats as u32;
+            let shape = Restriction { parts: parts(repeats as u32) };
+            assert_eq!(shape.repeats(), repeats as u32);
+            whole.casing.as_mut().unwrap().restriction = Some(shape);
             let wave = |nodal_diameter: usize, omega: f64| CasingWave {
                 nodal_diameter: nodal_diameter as u32,
                 omega: omega * SPEED,

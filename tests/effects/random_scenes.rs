@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use faer::{Mat, c64};
-use rubmap::dynamics::casing::{Casing, Lobes};
+use rubmap::dynamics::casing::{Casing, Lobe, Lobes, Part, PeriodicSpline, Profile, Restriction};
 use rubmap::dynamics::contact::coating::CoatingMaterial;
 use rubmap::dynamics::direction::Direction;
 use rubmap::dynamics::excitation::EngineOrderExcitation;
@@ -143,7 +143,44 @@ fn scene(seed: u64) -> Scene {
             damping_ratio: dice.between(0.0, 0.1),
         });
     }
+    if seed.is_multiple_of(2) {
+        let parts = shapes(&mut Dice(Numbers::new(1000 + seed)), nodes);
+        let casing = scene.casing.as_mut().expect("every scene has one");
+        let restriction = casing.restriction.get_or_insert(Restriction { parts: Vec::new() });
+        restriction.parts.extend(parts);
+    }
     scene
+}
+
+/// Single lobes, waves and a measured curve for every node, each in half of the scenes.
+fn shapes(dice: &mut Dice, nodes: usize) -> Vec<Part> {
+    let along =
+        |dice: &mut Dice| dice.maybe(0.5, |dice| (0..nodes).map(|_| dice.between(-1.0, 1.0)).collect());
+    let single = dice.maybe(0.5, |dice| {
+        let lobe = |dice: &mut Dice| Lobe {
+            amplitude: dice.between(-0.2, 0.3),
+            width_rad: dice.between(0.1, 0.8),
+            angle_rad: dice.between(-4.0, 8.0),
+        };
+        Profile::Each((0..1 + dice.below(3)).map(|_| lobe(dice)).collect())
+    });
+    let wave = dice.maybe(0.5, |dice| Profile::Wave {
+        order: dice.below(7) as u32,
+        amplitude: dice.between(0.0, 0.2),
+        phase_rad: dice.between(-3.0, 3.0),
+    });
+    let measured = dice.maybe(0.5, |dice| {
+        let points = 12 + dice.below(30);
+        let angles: Vec<f64> =
+            (0..points).map(|i| TAU / points as f64 * (i as f64 + dice.between(-0.3, 0.3)) - 1.0).collect();
+        let curve = |dice: &mut Dice| {
+            let heights: Vec<f64> = angles.iter().map(|_| dice.between(-0.1, 0.1)).collect();
+            PeriodicSpline::new(&angles, &heights)
+        };
+        Profile::Measured((0..nodes).map(|_| curve(dice)).collect())
+    });
+    let profiles = [single, wave, measured].into_iter().flatten();
+    profiles.map(|profile| Part { profile, along_chord: along(dice) }).collect()
 }
 
 #[test]

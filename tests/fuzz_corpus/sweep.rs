@@ -285,7 +285,8 @@ fn length_scale(request: &SweepRequest) -> f64 {
     let measured = casing.measured.iter().flat_map(|measured| measured.heights.iter().flatten());
     let measured = measured.fold(0.0f64, |most, height| most.max(height.abs()));
     let tilt = casing.tilt.as_ref().map_or(0.0, |tilt| {
-        let reach = model().reduced.wheel.contact.iter().map(|node| node.position[0] + node.position[2].abs());
+        let reach =
+            model().reduced.wheel.contact.iter().map(|node| node.position[0] + node.position[2].abs());
         tilt.angle_rad.abs() * (reach.fold(0.0, f64::max) + tilt.about_z.abs())
     });
     let orbit = request.scene.orbit.as_ref().map_or(0.0, |orbit| orbit.radius);

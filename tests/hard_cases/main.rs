@@ -17,6 +17,7 @@ mod indefinite_stiffness;
 mod indistinguishable_nodes;
 mod linear_resonance;
 mod lobe_counts;
+mod measured_casings;
 mod million_steps;
 mod modes_at_pi;
 mod near_equal_speeds;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use rubmap::dynamics::casing::{Casing, Lobes};
+use rubmap::dynamics::casing::{Casing, Lobe, Lobes, Part, PeriodicSpline, Profile, Restriction};
 use rubmap::dynamics::direction::Direction;
 use rubmap::dynamics::effects::Effects;
 use rubmap::dynamics::integrate::{Outcome, SensorRow, Simulation};
@@ -19,21 +19,31 @@ use crate::oracle::{free_gaps, gauss_seidel};
 const SCHEMES: [Scheme; 3] =
     [Scheme::CentralDifferences, Scheme::ExactModal, Scheme::MasslessBoundary { kept_modes: 7 }];
 
-fn agree(recipe: WheelRecipe, damping_ratio: f64, lobes: u32, steps_factor: f64) {
+fn lobes(count: u32) -> Restriction {
+    Lobes { count, amplitude: 0.425, width_rad: 0.35, phase_rad: 0.1 }.into()
+}
+
+fn agree(recipe: WheelRecipe, damping_ratio: f64, restriction: Restriction, steps_factor: f64) {
     for scheme in SCHEMES {
-        agree_by(scheme, recipe, damping_ratio, lobes, steps_factor);
+        agree_by(scheme, recipe, damping_ratio, restriction.clone(), steps_factor);
     }
 }
 
 /// `steps_factor` is in units of the smallest stable number of central differences' steps.
-fn agree_by(scheme: Scheme, recipe: WheelRecipe, damping_ratio: f64, lobes: u32, steps_factor: f64) {
+fn agree_by(
+    scheme: Scheme,
+    recipe: WheelRecipe,
+    damping_ratio: f64,
+    restriction: Restriction,
+    steps_factor: f64,
+) {
     let sector = wheel(recipe);
     let reduced = reduce(&sector, &ReductionOptions::new(6), &NoCheckpoints, &|_, _| true).unwrap();
     let speed = 0.6 * TOP_SPEED;
     let modal = ModalWheel::at(&reduced, speed, RotationEffects::stiffening(recipe.stiffening)).unwrap();
     let casing = Casing {
         clearance: (0..recipe.contact_nodes).map(|k| 0.30 - 0.02 * k as f64).collect(),
-        restriction: Some(Lobes { count: lobes, amplitude: 0.425, width_rad: 0.35, phase_rad: 0.1 }.into()),
+        restriction: Some(restriction),
         ramp_revolutions: 0.5,
     };
     let steps =
@@ -97,39 +107,45 @@ fn agree_by(scheme: Scheme, recipe: WheelRecipe, damping_ratio: f64, lobes: u32,
 
 #[test]
 fn ten_sectors_two_lobes() {
-    agree(WheelRecipe::default(), 0.005, 2, 1.3);
+    agree(WheelRecipe::default(), 0.005, lobes(2), 1.3);
 }
 
 #[test]
 fn without_damping_and_stiffening() {
-    agree(WheelRecipe { stiffening: false, seed: 4, ..Default::default() }, 0.0, 3, 1.3);
+    agree(WheelRecipe { stiffening: false, seed: 4, ..Default::default() }, 0.0, lobes(3), 1.3);
 }
 
 #[test]
 fn odd_sector_count_with_lobes_that_do_not_divide_it() {
-    agree(WheelRecipe { sectors: 7, contact_nodes: 4, seed: 2, ..Default::default() }, 0.02, 3, 2.1);
+    agree(WheelRecipe { sectors: 7, contact_nodes: 4, seed: 2, ..Default::default() }, 0.02, lobes(3), 2.1);
 }
 
 #[test]
 fn one_blade_on_a_rigid_disk() {
-    agree(WheelRecipe { sectors: 1, face_nodes: 0, seed: 3, ..Default::default() }, 0.005, 1, 20.0);
+    agree(WheelRecipe { sectors: 1, face_nodes: 0, seed: 3, ..Default::default() }, 0.005, lobes(1), 20.0);
 }
 
 #[test]
 fn a_sector_that_closes_on_itself() {
-    agree(WheelRecipe { sectors: 1, seed: 5, ..Default::default() }, 0.005, 2, 1.1);
+    agree(WheelRecipe { sectors: 1, seed: 5, ..Default::default() }, 0.005, lobes(2), 1.1);
 }
 
 #[test]
 fn two_sectors() {
-    agree(WheelRecipe { sectors: 2, contact_nodes: 1, seed: 6, ..Default::default() }, 0.001, 1, 3.0);
+    agree(WheelRecipe { sectors: 2, contact_nodes: 1, seed: 6, ..Default::default() }, 0.001, lobes(1), 3.0);
 }
 
 /// Steps so long that the upper half of the modes follows statically.
 #[test]
 fn modes_that_follow_statically() {
     for damping_ratio in [0.0, 0.01] {
-        agree_by(Scheme::ExactModal, WheelRecipe { seed: 7, ..Default::default() }, damping_ratio, 2, 0.55);
+        agree_by(
+            Scheme::ExactModal,
+            WheelRecipe { seed: 7, ..Default::default() },
+            damping_ratio,
+            lobes(2),
+            0.55,
+        );
     }
 }
 
@@ -138,6 +154,48 @@ fn modes_that_follow_statically() {
 fn any_number_of_kept_modes() {
     for (kept_modes, steps_factor) in [(1, 1.0), (4, 1.5), (12, 2.5)] {
         let recipe = WheelRecipe { sectors: 5, contact_nodes: 2, seed: 8, ..Default::default() };
-        agree_by(Scheme::MasslessBoundary { kept_modes }, recipe, 0.005, 2, steps_factor);
+        agree_by(Scheme::MasslessBoundary { kept_modes }, recipe, 0.005, lobes(2), steps_factor);
     }
+}
+
+/// A Fourier series of three orders, that of the third less high towards the trailing edge.
+#[test]
+fn fourier_casing() {
+    let wave = |order, amplitude, phase_rad, along_chord| Part {
+        profile: Profile::Wave { order, amplitude, phase_rad },
+        along_chord,
+    };
+    let parts = vec![
+        wave(2, 0.25, 0.1, None),
+        wave(3, 0.12, -1.0, Some(vec![1.0, 0.7, 0.2])),
+        wave(11, 0.03, 2.0, None),
+    ];
+    agree(WheelRecipe { seed: 8, ..Default::default() }, 0.005, Restriction { parts }, 1.3);
+}
+
+/// Lobes of their own height, width and angle, a hollow among them, on a tilted wave.
+#[test]
+fn lobes_of_their_own() {
+    let lobe = |amplitude, width_rad, angle_rad| Lobe { amplitude, width_rad, angle_rad };
+    let lobes = vec![lobe(0.45, 0.3, 0.2), lobe(0.38, 0.15, 2.9), lobe(-0.2, 0.5, -1.2)];
+    let along_chord = Some(vec![0.02, 0.05, 0.08]);
+    let parts = vec![
+        Part { profile: Profile::Each(lobes), along_chord: None },
+        Part { profile: Profile::Wave { order: 1, amplitude: 1.0, phase_rad: 0.4 }, along_chord },
+    ];
+    agree(WheelRecipe { sectors: 7, seed: 9, ..Default::default() }, 0.005, Restriction { parts }, 1.3);
+}
+
+/// Points of another curve for every node, at uneven angles.
+#[test]
+fn measured_casing() {
+    let angles: Vec<f64> = (0..90).map(|i| TAU / 90.0 * (f64::from(i) + 0.3 * f64::from(i).sin())).collect();
+    let curve = |node: usize| {
+        let shape = lobes(2 + node as u32);
+        let heights: Vec<f64> = angles.iter().map(|&angle| shape.height(angle, 0)).collect();
+        PeriodicSpline::new(&angles, &heights)
+    };
+    let curves = (0..3).map(curve).collect();
+    let parts = vec![Part { profile: Profile::Measured(curves), along_chord: None }];
+    agree(WheelRecipe { seed: 10, ..Default::default() }, 0.005, Restriction { parts }, 1.3);
 }

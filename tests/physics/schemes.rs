@@ -47,7 +47,8 @@ impl Scene {
     /// Ten sectors of masses and springs.
     fn small() -> Self {
         let lobes = Lobes { count: 2, amplitude: 0.425, width_rad: 0.35, phase_rad: 0.1 };
-        let casing = Casing { clearance: vec![0.3; 3], restriction: Some(lobes.into()), ramp_revolutions: 0.5 };
+        let casing =
+            Casing { clearance: vec![0.3; 3], restriction: Some(lobes.into()), ramp_revolutions: 0.5 };
         Self::new(&wheel(WheelRecipe::default()), 6, 0.6 * TOP_SPEED, true, casing)
     }
 

@@ -1,23 +1,23 @@
-// The casing at rest around the contact line, its distance and its lobes drawn larger than they are.
+// The casing at rest around the contact line, its distance and its shape drawn larger than they are.
 
 /** Sections around the axis. */
-const AROUND = 180;
+const AROUND = 360;
 
 /**
  * A surface of revolution, translucent, with a line at each edge.
- * @param {{position: number[], normal: number[], clearance: number}[]} line contact nodes in (r, θ, z), unit normals in the same components
- * @param {{count: number, amplitude: number, width_rad: number, phase_rad?: number} | null} lobes
+ * @param {{position: number[], normal: number[], clearance: number, heights?: number[]}[]} line contact nodes in (r, θ, z), unit normals
+ *   in the same components, heights of the casing at equal angles
  * @param {{z: number, theta: number}} shift from the package's coordinates to those that are drawn
  * @param {number} factor by which distances are exaggerated
  */
-export function casing(line, lobes, shift, factor) {
+export function casing(line, shift, factor) {
   const points = new Float32Array(3 * AROUND * line.length);
   const triangles = [];
   const edges = [];
   for (let around = 0; around < AROUND; around += 1) {
     const angle = 2 * Math.PI * around / AROUND;
-    const height = lobes ? restriction(lobes, angle) : 0;
-    line.forEach(({ position: [r, , z], normal, clearance }, k) => {
+    line.forEach(({ position: [r, , z], normal, clearance, heights }, k) => {
+      const height = heights ? heights[Math.floor(heights.length * around / AROUND)] : 0;
       const distance = factor * (clearance - height);
       const radius = r + distance * normal[0];
       const at = 3 * (around * line.length + k);
@@ -29,15 +29,4 @@ export function casing(line, lobes, shift, factor) {
     });
   }
   return { points, triangles: new Uint32Array(triangles), edges: new Uint32Array(edges) };
-}
-
-/** Height of the lobes at an angle of the fixed frame: equal Gaussian bumps. */
-function restriction({ count, amplitude, width_rad: width, phase_rad: phase = 0 }, angle) {
-  let height = 0;
-  for (let lobe = 0; lobe < count; lobe += 1) {
-    const apart = angle - phase - 2 * Math.PI * lobe / count;
-    const wrapped = Math.atan2(Math.sin(apart), Math.cos(apart));
-    height += amplitude * Math.exp(-((wrapped / width) ** 2));
-  }
-  return height;
 }

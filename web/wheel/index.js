@@ -64,10 +64,10 @@ export async function showWheel(element, { path, query, animated, scalar, label,
  * Shows a mesh with its contact line, and the casing of a sweep if there is one.
  * @param {HTMLElement} element
  * @param {any} model as the service tells of it
- * @param {{contact: any[], lobes: any} | null} around contact places with clearances as `/section` tells them, and the lobes
+ * @param {any[] | null} contact places with clearances and heights of the casing, as `/section` tells them
  * @param {AbortSignal} signal
  */
-export async function showMesh(element, model, around, signal) {
+export async function showMesh(element, model, contact, signal) {
   replace(element, h('p', { class: 'quiet', role: 'status' }, 'The mesh is read …'));
   const path = `/v1/models/${model.id}/mesh`;
   const surface = readSurface(await api.text(path, { query: { format: 'vtp' }, signal }));
@@ -80,14 +80,14 @@ export async function showMesh(element, model, around, signal) {
     return;
   }
   const wheel = wheelBody(body, null);
-  const line = around?.contact.filter((place) => place.clearance !== null && place.clearance !== undefined) ?? [];
-  const draw = (factor) => shown.show(line.length > 1 ? [wheel, casingBody(line, around.lobes, body, factor)] : [wheel]);
+  const line = contact?.filter((place) => place.clearance !== null && place.clearance !== undefined) ?? [];
+  const draw = (factor) => shown.show(line.length > 1 ? [wheel, casingBody(line, body, factor)] : [wheel]);
   const least = Math.min(...line.map((place) => place.clearance));
   const slider = h('input', { type: 'range', id: newId('scale'), min: 1, max: Math.max(2, 0.15 * size.wheel / least), step: 1, value: Math.max(1, 0.05 * size.wheel / least), 'aria-label': 'Clearance as drawn' });
   const caption = h('span', {});
   const scaled = () => {
     draw(Number(slider.value));
-    replace(caption, `Clearance and lobes drawn ${number(Number(slider.value), 2)} times as large`);
+    replace(caption, `Clearance and shape drawn ${number(Number(slider.value), 2)} times as large`);
   };
   slider.addEventListener('input', scaled);
   if (line.length > 1) scaled();
@@ -118,11 +118,11 @@ function wheelBody(body, values) {
 }
 
 /** The casing where the wheel is drawn: its first contact node says how those coordinates lie to the package's. */
-function casingBody(line, lobes, body, factor) {
+function casingBody(line, body, factor) {
   const at = 3 * body.line.places[0];
   const [x, y, z] = body.points.subarray(at, at + 3);
   const shift = { z: z - line[0].position[2], theta: Math.atan2(y, x) - line[0].position[1] };
-  const { points, triangles, edges } = casing(line, lobes, shift, factor);
+  const { points, triangles, edges } = casing(line, shift, factor);
   return {
     points, real: null, imaginary: null, values: null,
     parts: [

@@ -1,7 +1,7 @@
 //! What happened at one speed of a sweep, simulated again.
 
 use crate::component::{along, direction};
-use crate::effects::casing::convert::clearance;
+use crate::effects::casing::convert::{clearance, heights_before};
 use crate::end_state::EndState;
 use crate::error::AnalysisError;
 use crate::model::ReducedSector;
@@ -170,6 +170,7 @@ fn tip(reduced: &ReducedSector, sweep: &ResolvedSweep, sensor: ResolvedSensor) -
     Some(TipPlace {
         angle_rad: contact[node].position[1] + turn,
         clearance: clearance(contact, sweep)?[node],
+        heights: heights_before(contact, node, sweep),
     })
 }
 

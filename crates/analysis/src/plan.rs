@@ -16,7 +16,8 @@ use crate::request::{HistorySpeeds, Recorded, SweepDirection};
 use crate::resolve::recorded::{lines, revolutions};
 use crate::resolved::{ResolvedCaseStudy, ResolvedModalAnalysis, ResolvedSweep, Scene, TrialRequest};
 use crate::result::{
-    CostRange, Estimate, FoundShape, FoundSymmetry, ModalAnalysisPlan, PlannedPoint, ReductionState, SweepPlan,
+    CostRange, Estimate, FoundShape, FoundSymmetry, ModalAnalysisPlan, PlannedPoint, ReductionState,
+    SweepPlan,
 };
 use crate::speed::ready;
 use crate::start::initial;

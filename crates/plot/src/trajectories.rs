@@ -11,7 +11,6 @@ use super::key::{Key, MARK_WIDTH};
 use super::svg::{Element, document, group, line, polyline, rectangle};
 use rubmap_analysis::request::Component;
 use rubmap_analysis::result::{SensorHistory, SpeedHistories, TipPlace};
-use rubmap_wheel::dynamics::casing::{Lobes, Restriction};
 
 const WIDTH: f64 = 1180.0;
 const HEIGHT: f64 = 640.0;
@@ -28,7 +27,7 @@ const SMALLEST_STEP: f64 = 0.5;
 type Place = (f64, f64);
 
 /// Draws the outward motion of every tip that a radial or normal sensor records over its angle in the fixed frame, and the casing
-/// that it meets there with its lobes at full height.
+/// that it meets there with its shape at full height.
 pub fn trajectories(histories: &SpeedHistories) -> String {
     let title = title(histories);
     let (heading, bottom) = heading(LEFT, &title, &words(histories));
@@ -58,10 +57,12 @@ pub(super) fn words(histories: &SpeedHistories) -> Vec<String> {
     );
     let mut paragraphs = vec![words];
     let growing = f64::from(first) < histories.settings.integration.ramp_revolutions;
-    if growing && restriction(histories).is_some() {
+    let shaped = histories.sensors.iter().any(|s| s.tip.as_ref().is_some_and(|tip| !tip.heights.is_empty()));
+    if growing && shaped {
         let ramp = histories.settings.integration.ramp_revolutions;
         let words = if ramp == 1.0 { "revolution".to_owned() } else { format!("{ramp} revolutions") };
-        paragraphs.push(format!("the lobes, drawn at full height, grow over the first {words}"));
+        paragraphs
+            .push(format!("the shape of the casing, drawn at full height, grows over the first {words}"));
     }
     paragraphs
 }
@@ -74,27 +75,16 @@ pub(super) fn outward(length: &str) -> String {
     format!("outward displacement, {length}")
 }
 
-/// Lobes of the casing.
-fn restriction(histories: &SpeedHistories) -> Option<Lobes> {
-    let lobes = histories.settings.scene.casing.as_ref()?.lobes.as_ref()?;
-    Some(Lobes {
-        count: lobes.count,
-        amplitude: lobes.amplitude,
-        width_rad: lobes.width_rad,
-        phase_rad: lobes.phase_rad,
-    })
-}
-
 /// A tip whose outward motion is known, and where it is.
 pub(super) struct Tip<'a> {
     history: &'a SensorHistory,
-    place: TipPlace,
+    place: &'a TipPlace,
 }
 
 impl<'a> Tip<'a> {
     fn of(history: &'a SensorHistory) -> Option<Self> {
         let outward = matches!(history.sensor.component, Some(Component::Radial | Component::Normal));
-        let place = history.tip.filter(|_| outward && !history.displacement.is_empty())?;
+        let place = history.tip.as_ref().filter(|_| outward && !history.displacement.is_empty())?;
         Some(Self { history, place })
     }
 
@@ -117,9 +107,8 @@ pub(super) struct View<'a> {
     pub(super) tips: Vec<Tip<'a>>,
     /// Revolutions of the record that are left out.
     skipped: u32,
-    lobes: Option<Lobes>,
-    /// Clearances of the casing lines.
-    pub(super) clearances: Vec<f64>,
+    /// The different walls that they have before them.
+    pub(super) walls: Vec<&'a TipPlace>,
     pub(super) diagram: Diagram,
 }
 
@@ -127,17 +116,27 @@ pub(super) struct View<'a> {
 pub(super) const NO_TIPS: &str =
     "Nothing to draw: no radial or normal sensor of a tip whose place before the casing is known";
 
+/// The wall before a tip: angles in degrees, and how far outwards it is.
+pub(super) fn wall(place: &TipPlace) -> impl Iterator<Item = (f64, f64)> {
+    let heights: &[f64] = if place.heights.is_empty() { &[0.0] } else { &place.heights };
+    let steps = heights.len();
+    (0..=steps).map(move |i| (360.0 * i as f64 / steps as f64, place.clearance - heights[i % steps]))
+}
+
+/// The wall in words.
+pub(super) fn wall_words(place: &TipPlace) -> String {
+    format!("casing, clearance {}", place.clearance)
+}
+
 impl<'a> View<'a> {
     /// What there is to see, within a rectangle of the drawing.
     pub(super) fn new(histories: &'a SpeedHistories, (corner, size): ((f64, f64), (f64, f64))) -> Self {
         let tips: Vec<Tip> = histories.sensors.iter().filter_map(Tip::of).collect();
         let skipped = first(histories) - histories.revolutions[0];
-        let lobes = restriction(histories).filter(|lobes| lobes.count > 0 && lobes.width_rad > 0.0);
-        let mut clearances: Vec<f64> = tips.iter().map(|tip| tip.place.clearance).collect();
-        clearances.sort_by(f64::total_cmp);
-        clearances.dedup();
-        let height = lobes.map_or(0.0, |lobes| Restriction::from(lobes).highest(1));
-        let casing = clearances.iter().flat_map(|clearance| [*clearance, clearance - height]);
+        let mut walls: Vec<&TipPlace> = tips.iter().map(|tip| tip.place).collect();
+        walls.sort_by(|a, b| a.clearance.total_cmp(&b.clearance));
+        walls.dedup_by(|a, b| a.clearance == b.clearance && a.heights == b.heights);
+        let casing = walls.iter().flat_map(|place| wall(place)).map(|(_, distance)| distance);
         let moved = tips.iter().flat_map(|tip| tip.history.displacement.iter().copied());
         let (low, high) = casing
             .chain(moved)
@@ -145,7 +144,7 @@ impl<'a> View<'a> {
             .fold((0f64, 0f64), |(low, high), value| (low.min(value), high.max(value)));
         let room = if low < high { 0.08 * (high - low) } else { 1.0 };
         let diagram = Diagram::new(corner, size, (0.0, 360.0), (low - room, high + room));
-        Self { histories, tips, skipped, lobes, clearances, diagram }
+        Self { histories, tips, skipped, walls, diagram }
     }
 
     fn draw(&self) -> Vec<Element> {
@@ -155,8 +154,7 @@ impl<'a> View<'a> {
         }
         let degrees = eighths();
         let y = ticks(diagram.y.values, 8.0);
-        let casings =
-            self.clearances.iter().enumerate().map(|(index, clearance)| self.casing(index, *clearance));
+        let casings = self.walls.iter().enumerate().map(|(index, place)| self.casing(index, place));
         let paths = self.tips.iter().enumerate().map(|(index, tip)| self.path(index, tip));
         let length = &self.histories.units.length;
         vec![
@@ -171,25 +169,15 @@ impl<'a> View<'a> {
         ]
     }
 
-    /// The wall before tips of this clearance: angles in degrees, and how far outwards it is.
-    pub(super) fn wall(&self, clearance: f64) -> impl Iterator<Item = (f64, f64)> {
-        const STEPS: u32 = 720;
-        let height = move |angle: f64| clearance - self.lobes.map_or(0.0, |lobes| lobes.height(angle));
-        (0..=STEPS).map(move |i| {
-            let angle = TAU * f64::from(i) / f64::from(STEPS);
-            (angle.to_degrees(), height(angle))
-        })
-    }
-
-    /// The casing before tips of this clearance; the first is filled.
-    fn casing(&self, index: usize, clearance: f64) -> Element {
-        let wall: Vec<(f64, f64)> = self.wall(clearance).map(|(x, y)| self.diagram.point(x, y)).collect();
+    /// The casing before a tip; the first is filled.
+    fn casing(&self, index: usize, place: &TipPlace) -> Element {
+        let wall: Vec<(f64, f64)> = wall(place).map(|(x, y)| self.diagram.point(x, y)).collect();
         let stroke = polyline(wall.iter().copied().map(Some)).set("stroke", "#444444");
         let stroke = stroke.set("class", "casing").set("stroke-width", if index == 0 { "1.6" } else { "1" });
         let corners = [(self.diagram.right(), self.diagram.top), (self.diagram.left, self.diagram.top)];
         let metal = polyline(wall.into_iter().chain(corners).map(Some));
         let metal = metal.set("style", "fill:#9a9a9a;fill-opacity:0.22");
-        group().child(metal).child(stroke.title(&format!("casing, clearance {clearance}")))
+        group().child(metal).child(stroke.title(&wall_words(place)))
     }
 
     /// The motion of a tip, with a gap before each revolution: angles in degrees, and how far outwards.
@@ -250,7 +238,7 @@ impl<'a> View<'a> {
 
     /// What the wall is.
     pub(super) fn casing_words(&self) -> &'static str {
-        match self.clearances.len() {
+        match self.walls.len() {
             1 => "casing",
             _ => "casing before each tip",
         }

@@ -227,7 +227,8 @@ impl Case {
                 self.contact_nodes[node].position[1] + TAU * sensor.sector as f64 / self.wheel.sectors as f64;
             for (sample, u) in line.iter().enumerate() {
                 let revolutions = (sample + 1) as f64 / steps as f64;
-                let height = self.casing.restriction.map_or(0.0, |r| r.height(angle + TAU * revolutions));
+                let restriction = self.casing.restriction.as_ref();
+                let height = restriction.map_or(0.0, |r| r.height(angle + TAU * revolutions, node));
                 let gap = self.casing.clearance[node] - self.casing.growth(revolutions) * height - u;
                 deepest = deepest.max(-gap);
             }

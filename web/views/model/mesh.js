@@ -26,12 +26,10 @@ export async function show(place, { model, query, go }, signal) {
     model.mesh ? null : h('p', { class: 'note' }, 'The package has no elements: of the wheel only its contact lines can be shown in 3D.'),
     wheel);
   const path = `/v1/models/${model.id}/section`;
-  const [figure, geometry, job] = await Promise.all([
+  const [figure, geometry] = await Promise.all([
     api.figure(path, { view, sweep }, { signal }),
     api.get(path, { query: { sweep }, signal }),
-    sweep ? api.get(`/v1/jobs/${sweep}`, { signal }) : null,
   ]);
   await plot(section, figure, { signal, label: `${view} section of ${model.name}` });
-  const casing = job?.request.scene.casing;
-  await showMesh(wheel, model, casing ? { contact: geometry.contact, lobes: casing.lobes ?? null } : null, signal);
+  await showMesh(wheel, model, geometry.contact, signal);
 }

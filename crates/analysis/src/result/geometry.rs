@@ -50,7 +50,7 @@ pub enum NodeKind {
 }
 
 /// A node of the contact line.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct ContactPlace {
     /// Node id in the user's model.
@@ -62,4 +62,8 @@ pub struct ContactPlace {
     /// Distance of the casing along the normal at rest, length; absent where no scene says it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub clearance: Option<f64>,
+    /// How far the casing stands inward of its clearance before the node, at 720 equal angles of the fixed frame from the package's x axis
+    /// on; absent of a circular casing.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub heights: Vec<f64>,
 }

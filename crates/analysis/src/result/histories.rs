@@ -60,13 +60,17 @@ pub struct SensorHistory {
 }
 
 /// Where a node of the contact line stands before the casing.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 pub struct TipPlace {
     /// Angle of the node from the package's x axis at the start of a revolution, rad: its own, and that of its sector.
     pub angle_rad: f64,
     /// Clearance of the node, length.
     pub clearance: f64,
+    /// How far the fully grown casing stands inward of its clearance before the node, at 720 equal angles of the fixed frame from the
+    /// package's x axis on; absent of a circular casing.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub heights: Vec<f64>,
 }
 
 /// Contact between the blades and the casing. All numbers of a sample are means over the interval since the sample before, so that their

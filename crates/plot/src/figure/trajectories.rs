@@ -13,18 +13,16 @@ use crate::trajectories::{self as drawing, ANGLE, NO_TIPS, View};
 use rubmap_analysis::result::SpeedHistories;
 
 /// The outward motion of every tip that a radial or normal sensor records over its angle in the fixed frame, and the casing that it meets
-/// there with its lobes at full height.
+/// there with its shape at full height.
 pub fn trajectories(histories: &SpeedHistories) -> Figure {
     let view = View::new(histories, ((0.0, 0.0), (1.0, 1.0)));
     let length = &histories.units.length;
     let told = |words: &str| {
         template(&format!("{}<br>%{{x:.1f}}°: %{{y:.4~g}} {}", escaped(words), escaped(length)))
     };
-    let casings = view.clearances.iter().enumerate().map(|(index, clearance)| {
-        let words = format!("casing, clearance {clearance}");
-        let wall =
-            line(view.casing_words(), view.wall(*clearance).map(Some), (NEUTRAL, DashType::Solid, 2.0));
-        wall.hover_template(told(&words)).legend_group("casing").show_legend(index == 0)
+    let casings = view.walls.iter().enumerate().map(|(index, place)| {
+        let wall = line(view.casing_words(), drawing::wall(place).map(Some), (NEUTRAL, DashType::Solid, 2.0));
+        wall.hover_template(told(&drawing::wall_words(place))).legend_group("casing").show_legend(index == 0)
     });
     let mut together = 1;
     let mut paths = Vec::new();

@@ -1,5 +1,7 @@
 //! The casing in the terms of the physics.
 
+use std::f64::consts::TAU;
+
 use super::resolved::Clearance;
 use super::shape::Shape;
 use crate::not_runnable::NotRunnable;
@@ -17,15 +19,46 @@ pub(crate) fn casing(
 ) -> Option<Casing> {
     let clearance = clearance(&reduced.contact, request)?;
     let casing = request.scene.casing.as_ref()?;
-    let restriction = casing.shape.restriction(&reduced.contact);
+    let (positions, normals) = places(&reduced.contact);
+    let restriction = casing.shape.restriction(&positions, &normals);
     Some(Casing { clearance, restriction, ramp_revolutions })
 }
 
 /// c of every contact node of a scene with contact.
 pub(crate) fn clearance(contact_nodes: &[ContactNode], request: &ResolvedSweep) -> Option<Vec<f64>> {
     request.scene.contact.as_ref()?;
-    let positions: Vec<_> = contact_nodes.iter().map(|node| node.position).collect();
-    clearances(request, &positions)
+    clearances(request, &places(contact_nodes).0)
+}
+
+/// Positions and normals.
+fn places(contact_nodes: &[ContactNode]) -> (Vec<[f64; 3]>, Vec<[f64; 3]>) {
+    contact_nodes.iter().map(|node| (node.position, node.normal)).unzip()
+}
+
+/// Angles at which heights are told.
+const ANGLES: u32 = 720;
+
+/// Heights of the casing before contact nodes at these positions `[r, θ, z]` in the order of the chord, with these normals, `[node][angle]`
+/// at 720 equal angles from the package's x axis on; `None` if the scene has no casing or a circular one.
+pub fn heights(
+    request: &ResolvedSweep,
+    positions: &[[f64; 3]],
+    normals: &[[f64; 3]],
+) -> Option<Vec<Vec<f64>>> {
+    let restriction = request.scene.casing.as_ref()?.shape.restriction(positions, normals)?;
+    let angle = |i: u32| TAU * f64::from(i) / f64::from(ANGLES);
+    let around = |node: usize| (0..ANGLES).map(|i| restriction.height(angle(i), node)).collect();
+    Some((0..positions.len()).map(around).collect())
+}
+
+/// Those of one contact node.
+pub(crate) fn heights_before(
+    contact_nodes: &[ContactNode],
+    node: usize,
+    request: &ResolvedSweep,
+) -> Vec<f64> {
+    let (positions, normals) = places(contact_nodes);
+    heights(request, &positions, &normals).map_or(Vec::new(), |mut heights| heights.swap_remove(node))
 }
 
 /// Clearances at rest of contact nodes at these positions `[r, θ, z]`, in the order of the chord; `None` if the scene has no casing.

@@ -6,7 +6,6 @@ use super::request::{self, Lobes, Measured, SingleLobe, Tilt, Wave};
 use rubmap_wheel::dynamics::casing::{
     self, Part, PeriodicSpline, Profile, Restriction, arc_lengths, narrowest_rad, repeats,
 };
-use rubmap_wheel::dynamics::sector::ContactNode;
 
 /// Shapes whose heights add up.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -59,14 +58,13 @@ impl Shape {
         largest * others + measured
     }
 
-    /// For contact nodes in the order of the chord; none of a circular casing.
-    pub(crate) fn restriction(&self, nodes: &[ContactNode]) -> Option<Restriction> {
+    /// For contact nodes at `positions`, `[r, θ, z]` in the order of the chord, with `normals`; none of a circular casing.
+    pub(crate) fn restriction(&self, positions: &[[f64; 3]], normals: &[[f64; 3]]) -> Option<Restriction> {
         let Restriction { mut parts } = self.lobes_and_waves();
         if let Some(measured) = &self.measured {
-            let positions: Vec<_> = nodes.iter().map(|node| node.position).collect();
-            parts.push(Part { profile: Profile::Measured(measured.at(&positions)), along_chord: None });
+            parts.push(Part { profile: Profile::Measured(measured.at(positions)), along_chord: None });
         }
-        parts.extend(self.tilt.iter().flat_map(|tilt| tilt.parts(nodes)));
+        parts.extend(self.tilt.iter().flat_map(|tilt| tilt.part(positions, normals)));
         (!parts.is_empty()).then_some(Restriction { parts })
     }
 
@@ -143,20 +141,19 @@ impl Measured {
 impl Tilt {
     /// With the axis leaning by τ towards ψ about z₀, what is at (r, φ, z) of the casing comes nearer to a tip with the normal n by
     /// τ ((z − z₀) n_r − r n_z) cos(φ − ψ).
-    fn parts(&self, nodes: &[ContactNode]) -> Option<Part> {
-        let near = |node: &ContactNode| {
-            let [r, _, z] = node.position;
-            (z - self.about_z) * node.normal[0] - r * node.normal[2]
-        };
+    fn part(&self, positions: &[[f64; 3]], normals: &[[f64; 3]]) -> Option<Part> {
+        let near =
+            |([r, _, z], normal): (&[f64; 3], &[f64; 3])| (z - self.about_z) * normal[0] - r * normal[2];
+        let along_chord = Some(positions.iter().zip(normals).map(near).collect());
         let wave = Profile::Wave { order: 1, amplitude: self.angle_rad, phase_rad: self.towards_rad };
-        (self.angle_rad != 0.0)
-            .then(|| Part { profile: wave, along_chord: Some(nodes.iter().map(near).collect()) })
+        (self.angle_rad != 0.0).then_some(Part { profile: wave, along_chord })
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rubmap_wheel::dynamics::sector::ContactNode;
     use std::f64::consts::{PI, TAU};
 
     fn nodes() -> Vec<ContactNode> {
@@ -172,6 +169,14 @@ mod tests {
         (0..5).map(node).collect()
     }
 
+    impl Shape {
+        fn of_nodes(&self, nodes: &[ContactNode]) -> Option<Restriction> {
+            let (positions, normals): (Vec<_>, Vec<_>) =
+                nodes.iter().map(|node| (node.position, node.normal)).unzip();
+            self.restriction(&positions, &normals)
+        }
+    }
+
     fn lobe(angle_rad: f64, amplitude: f64, along_chord: Option<Vec<f64>>) -> SingleLobe {
         SingleLobe { angle_rad, amplitude, width_rad: 0.3, along_chord }
     }
@@ -184,14 +189,14 @@ mod tests {
         let single = vec![lobe(0.1, 0.4, None), lobe(0.1 + PI, 0.4, None)];
         let single = Shape { single_lobes: single, ..Shape::default() };
         let nodes = nodes();
-        let exact = equal.restriction(&nodes).unwrap();
+        let exact = equal.of_nodes(&nodes).unwrap();
         let angles_rad: Vec<f64> = (0..720).map(|i| TAU * f64::from(i) / 720.0).collect();
         let heights = vec![angles_rad.iter().map(|&angle| exact.height(angle, 0)).collect()];
         let measured = Measured { angles_rad, chord: Some(vec![0.5]), heights };
         let measured = Shape { measured: Some(measured), ..Shape::default() };
         for (shape, error) in [(&equal, 0.0), (&single, 1e-14), (&measured, 1e-8)] {
             assert_eq!(shape.repeats(), Some(2), "{shape:?}");
-            let restriction = shape.restriction(&nodes).unwrap();
+            let restriction = shape.of_nodes(&nodes).unwrap();
             for (node, i) in (0..5).flat_map(|node| (0..100).map(move |i| (node, i))) {
                 let angle = 0.063 * f64::from(i);
                 let off = (restriction.height(angle, node) - exact.height(angle, node)).abs();
@@ -205,7 +210,7 @@ mod tests {
     #[test]
     fn a_circular_casing_repeats_nowhere_in_particular() {
         let circular = Shape::default();
-        assert!(circular.is_circular() && circular.restriction(&nodes()).is_none());
+        assert!(circular.is_circular() && circular.of_nodes(&nodes()).is_none());
         assert_eq!((circular.repeats(), circular.narrowest_rad(), circular.highest()), (None, None, 0.0));
     }
 
@@ -232,7 +237,8 @@ mod tests {
         let heights = [0.1, 0.5, 0.2].map(|height| vec![height; 16]).to_vec();
         let measured = Measured { angles_rad, chord: Some(vec![0.25, 0.5, 1.0]), heights };
         let nodes = nodes();
-        let restriction = Shape { measured: Some(measured.clone()), ..Shape::default() }.restriction(&nodes).unwrap();
+        let restriction =
+            Shape { measured: Some(measured.clone()), ..Shape::default() }.of_nodes(&nodes).unwrap();
         let positions: Vec<_> = nodes.iter().map(|node| node.position).collect();
         let arc = arc_lengths(&positions);
         let share = |node: usize| arc[node] / arc[4];
@@ -247,7 +253,7 @@ mod tests {
         }
         let heights = (0..5).map(|k| vec![0.1 * f64::from(k); 16]).collect();
         let each = Measured { chord: None, heights, ..measured };
-        let restriction = Shape { measured: Some(each), ..Shape::default() }.restriction(&nodes).unwrap();
+        let restriction = Shape { measured: Some(each), ..Shape::default() }.of_nodes(&nodes).unwrap();
         for node in 0..5 {
             assert_eq!(restriction.height(1.234, node), 0.1 * node as f64);
         }
@@ -258,7 +264,7 @@ mod tests {
     fn a_tilt_is_a_small_rotation() {
         let tilt = Tilt { angle_rad: 1e-6, towards_rad: 0.7, about_z: -3.0 };
         let nodes = nodes();
-        let restriction = Shape { tilt: Some(tilt.clone()), ..Shape::default() }.restriction(&nodes).unwrap();
+        let restriction = Shape { tilt: Some(tilt.clone()), ..Shape::default() }.of_nodes(&nodes).unwrap();
         for (k, node) in nodes.iter().enumerate() {
             for i in 0..12 {
                 let angle = f64::from(i) * TAU / 12.0;

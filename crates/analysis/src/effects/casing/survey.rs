@@ -72,7 +72,8 @@ fn outliers(line: u32, angles_rad: &[f64], heights: &[f64]) -> Vec<Outlier> {
     let n = heights.len();
     let weights: Vec<[f64; 4]> = (0..n).map(|i| weights(angles_rad, i)).collect();
     let off = |i: usize, heights: &dyn Fn(usize) -> f64| {
-        let others = NEIGHBOURS.iter().zip(weights[i]).map(|(by, weight)| weight * heights((i + n + by - 2) % n));
+        let others =
+            NEIGHBOURS.iter().zip(weights[i]).map(|(by, weight)| weight * heights((i + n + by - 2) % n));
         heights(i) - others.sum::<f64>()
     };
     let residuals: Vec<f64> = (0..n).map(|i| off(i, &|j| heights[j])).collect();
@@ -148,7 +149,8 @@ mod tests {
     }
 
     fn lobes(angle: f64) -> f64 {
-        0.4 * (-((angle - 1.0) / 0.35).powi(2)).exp() + 0.4 * (-((angle - 1.0 - TAU / 2.0) / 0.35).powi(2)).exp()
+        0.4 * (-((angle - 1.0) / 0.35).powi(2)).exp()
+            + 0.4 * (-((angle - 1.0 - TAU / 2.0) / 0.35).powi(2)).exp()
     }
 
     /// Noise of ± a thousandth that is the same every time.

@@ -222,7 +222,8 @@ mod tests {
         let values: Vec<f64> = (0..17).map(|i| (12.9898 * f64::from(i)).sin() * 0.7).collect();
         let spline = PeriodicSpline::new(&angles, &values);
         let sampled = || (0..10_000).map(|i| spline.at(TAU * f64::from(i) / 1e4));
-        let (low, high) = (sampled().fold(f64::INFINITY, f64::min), sampled().fold(f64::NEG_INFINITY, f64::max));
+        let (low, high) =
+            (sampled().fold(f64::INFINITY, f64::min), sampled().fold(f64::NEG_INFINITY, f64::max));
         assert!((0.0..1e-6).contains(&(spline.highest().1 - high)), "{} {high}", spline.highest().1);
         assert!((0.0..1e-6).contains(&(low - spline.lowest().1)), "{} {low}", spline.lowest().1);
         assert!(high > values.iter().copied().fold(0.0, f64::max), "the curve overshoots its points");
