@@ -22,6 +22,7 @@
 //! - The step loop allocates nothing and contains no dense product over the whole wheel.
 
 pub mod app;
+pub mod casing_table;
 pub mod cli;
 pub mod config;
 pub mod export;

@@ -9,6 +9,9 @@ use anyhow::{Context, bail};
 use clap::{Args, Subcommand};
 
 use super::speed::speed;
+use super::stdout;
+use crate::analysis::result::MeasuredCasing;
+use crate::casing_table;
 use crate::dynamics::sector::Units;
 use crate::package::calculix::{self, CalculixModel, ImportSummary, Normals, SpinFinding};
 use crate::package::raw::{Axis, ManifestMesh, MatrixFormat, RawPackage};
@@ -19,6 +22,19 @@ use crate::solid::material::Material;
 pub(super) enum ImportCommand {
     /// CalculiX: mesh from a deck (.inp), matrices from *FREQUENCY, SOLVER=MATRIXSTORAGE (.dof, .sti, .mas)
     Calculix(Box<CalculixArgs>),
+    /// A measured casing: heights over angle and place along the chord (.csv), as `scene.casing.measured` of a request
+    Casing(CasingArgs),
+}
+
+/// Which table.
+#[derive(Debug, Args)]
+pub(super) struct CasingArgs {
+    /// Table of heights inward of the casing of revolution: angle_deg (or angle_rad) and a column for every place along the chord from 0
+    /// to 1 or contact node (node0, node1, …); or angle_deg, chord (or node), height
+    table: PathBuf,
+    /// JSON file to write [default: the output]
+    #[arg(long)]
+    out: Option<PathBuf>,
 }
 
 /// Which files, and what the deck does not say.
@@ -83,6 +99,9 @@ pub(super) struct CalculixArgs {
     matrices: MatrixFormat,
 }
 
+/// Most things of a kind that are said one by one.
+const MOST_SAID: usize = 10;
+
 /// How contact nodes are put in order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 enum ContactOrder {
@@ -94,8 +113,93 @@ enum ContactOrder {
 
 /// Makes the package, checks it as an upload would be, writes it and says what it is.
 pub(super) fn import(command: ImportCommand) -> anyhow::Result<()> {
-    let ImportCommand::Calculix(args) = command;
-    let args = *args;
+    match command {
+        ImportCommand::Calculix(args) => import_calculix(*args),
+        ImportCommand::Casing(args) => import_casing(&args),
+    }
+}
+
+/// Reads the table, says what stands out of it, and writes it as requests take it.
+fn import_casing(args: &CasingArgs) -> anyhow::Result<()> {
+    let name = args.table.display();
+    let text = std::fs::read(&args.table).with_context(|| format!("cannot read {name}"))?;
+    let found = casing_table::read(&text).map_err(|errors| {
+        let said = errors.iter().map(|error| match error.line {
+            Some(line) => format!("{name}, line {line}: {}", error.message),
+            None => format!("{name}: {}", error.message),
+        });
+        anyhow::anyhow!(said.collect::<Vec<_>>().join("\n"))
+    })?;
+    eprint!("{}", surveyed(&found)?);
+    let json = serde_json::to_string(&found.measured)?;
+    match &args.out {
+        Some(path) => std::fs::write(path, json).with_context(|| format!("cannot write {}", path.display())),
+        None => stdout::print(&json),
+    }
+}
+
+/// What a table looks like, in words.
+fn surveyed(found: &MeasuredCasing) -> Result<String, fmt::Error> {
+    let MeasuredCasing { measured, survey, filled, filled_count } = found;
+    let place = |line: u32| match &measured.chord {
+        Some(chord) => format!("{} of the chord", chord[line as usize]),
+        None => format!("contact node {line}"),
+    };
+    let mut text = String::new();
+    writeln!(
+        text,
+        "{} angles, {} lines; {}",
+        measured.angles_rad.len(),
+        measured.heights.len(),
+        survey.interpolation
+    )?;
+    let heights = || measured.heights.iter().flatten();
+    let (low, high) =
+        heights().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &h| (low.min(h), high.max(h)));
+    writeln!(text, "heights from {low} to {high}")?;
+    for outlier in survey.outliers.iter().take(MOST_SAID) {
+        let (angle, expected) = (outlier.angle_rad.to_degrees(), outlier.expected);
+        let place = place(outlier.line);
+        writeln!(
+            text,
+            "stands alone: {} at {angle:.3}°, {place}; its neighbours expect {expected:.6}",
+            outlier.height
+        )?;
+    }
+    for gap in survey.gaps.iter().take(MOST_SAID) {
+        writeln!(
+            text,
+            "no points from {:.3}° to {:.3}°",
+            gap.from_rad.to_degrees(),
+            gap.to_rad.to_degrees()
+        )?;
+    }
+    for height in filled.iter().take(MOST_SAID) {
+        let angle = height.angle_rad.to_degrees();
+        writeln!(
+            text,
+            "missing at {angle:.3}°, {}: the curve says {:.6}",
+            place(height.line),
+            height.height
+        )?;
+    }
+    let counts = [survey.outlier_count, survey.gap_count, *filled_count];
+    if counts.iter().any(|&count| count as usize > MOST_SAID) {
+        writeln!(text, "in all: {} stand alone, {} gaps, {} missing", counts[0], counts[1], counts[2])?;
+    }
+    if let Some(over) = &survey.overshoot {
+        let angle = over.angle_rad.to_degrees();
+        writeln!(
+            text,
+            "the curve goes {:.6} beyond all points at {angle:.3}°, {}",
+            over.by,
+            place(over.line)
+        )?;
+    }
+    Ok(text)
+}
+
+fn import_calculix(args: CalculixArgs) -> anyhow::Result<()> {
     let deck_name = args.deck.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let model = CalculixModel {
         deck: args.deck,

@@ -15,7 +15,7 @@ use super::state::AppState;
 use crate::store::jobs::JobId;
 
 /// Largest body that is read as a whole.
-pub(super) const JSON_BYTES: usize = 2 << 20;
+pub(super) const WHOLE_BYTES: usize = 2 << 20;
 
 /// A JSON body.
 pub(super) struct JsonBody<T> {
@@ -47,26 +47,35 @@ impl<T: DeserializeOwned + ToSchema> FromRequest<AppState> for MergePatch<T> {
 impl<T: DeserializeOwned + ToSchema> JsonBody<T> {
     /// Reads a body whose declared type is one of `accepted`.
     async fn read(request: Request, state: &AppState, accepted: &[&str]) -> Result<Self, Problem> {
-        expect_media_type(request.headers(), accepted)?;
-        if declared_bytes(request.headers()) > Some(JSON_BYTES as u64) {
-            return Err(json_too_large());
-        }
         let path = request.uri().path().to_owned();
-        let body = Bytes::from_request(request, state).await.map_err(|rejection| match rejection {
-            BytesRejection::FailedToBufferBody(ref failure)
-                if failure.status() == StatusCode::PAYLOAD_TOO_LARGE =>
-            {
-                json_too_large()
-            }
-            other => Problem::new(Kind::BadRequest, other.body_text()),
-        })?;
+        let body = whole_body(request, state, accepted).await?;
         let value = read_json(&state.contract, &body)?;
         Ok(Self { value, fingerprint: idempotency::fingerprint(&path, &body) })
     }
 }
 
-fn json_too_large() -> Problem {
-    Problem::new(Kind::PayloadTooLarge, format!("a request in JSON may have {JSON_BYTES} bytes"))
+/// The body of a request, whose declared type is one of `accepted`.
+pub(super) async fn whole_body(
+    request: Request,
+    state: &AppState,
+    accepted: &[&str],
+) -> Result<Bytes, Problem> {
+    expect_media_type(request.headers(), accepted)?;
+    if declared_bytes(request.headers()) > Some(WHOLE_BYTES as u64) {
+        return Err(too_large());
+    }
+    Bytes::from_request(request, state).await.map_err(|rejection| match rejection {
+        BytesRejection::FailedToBufferBody(ref failure)
+            if failure.status() == StatusCode::PAYLOAD_TOO_LARGE =>
+        {
+            too_large()
+        }
+        other => Problem::new(Kind::BadRequest, other.body_text()),
+    })
+}
+
+fn too_large() -> Problem {
+    Problem::new(Kind::PayloadTooLarge, format!("the body of this request may have {WHOLE_BYTES} bytes"))
 }
 
 /// How long the body says it is.

@@ -5,6 +5,7 @@ pub mod archive;
 mod body;
 mod branches;
 mod case_studies;
+mod casings;
 mod contract;
 mod document;
 mod download;

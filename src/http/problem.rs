@@ -144,6 +144,8 @@ kinds! {
     InvalidRequest = UNPROCESSABLE_ENTITY, "invalid-request", "The request cannot be met";
     /// The package does not keep the format.
     InvalidPackage = UNPROCESSABLE_ENTITY, "invalid-package", "The model package is not valid";
+    /// The table cannot be read.
+    InvalidTable = UNPROCESSABLE_ENTITY, "invalid-table", "The table cannot be read";
     /// The model cannot be computed.
     InvalidModel = UNPROCESSABLE_ENTITY, "invalid-model", "The model cannot be computed";
     /// Every speed of the sweep diverged or failed.
@@ -180,7 +182,13 @@ impl Problem {
     /// With the thing that is wrong.
     #[must_use]
     pub fn with(self, item: ProblemItem) -> Self {
-        self.with_first_of(1, vec![item])
+        self.with_all(vec![item])
+    }
+
+    /// With all that is wrong.
+    #[must_use]
+    pub fn with_all(self, items: Vec<ProblemItem>) -> Self {
+        self.with_first_of(items.len(), items)
     }
 
     /// With the first `items` of `total` things that are wrong.

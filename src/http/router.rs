@@ -19,9 +19,9 @@ use utoipa_axum::routes;
 
 use super::state::AppState;
 use super::{
-    access, archive, body, branches, case_studies, contract, events, extract, fields, forces, health,
-    histories, host, jobs, maps, mesh, metrics, modal_analyses, models, modes, openapi, principal, problem,
-    report, results, section, spectra, stream, stress, studies, sweeps, version, web, wheel,
+    access, archive, body, branches, case_studies, casings, contract, events, extract, fields, forces,
+    health, histories, host, jobs, maps, mesh, metrics, modal_analyses, models, modes, openapi, principal,
+    problem, report, results, section, spectra, stream, stress, studies, sweeps, version, web, wheel,
 };
 
 /// The routes with their descriptions.
@@ -30,6 +30,7 @@ pub(super) fn routes() -> OpenApiRouter<AppState> {
         .routes(routes!(models::create_model, models::list_models))
         .routes(routes!(models::plan_model_generation))
         .routes(routes!(models::get_model, models::label_model, models::delete_model))
+        .routes(routes!(casings::read_casing_table))
         .routes(routes!(section::get_section))
         .routes(routes!(mesh::get_mesh))
         .routes(routes!(modes::get_modes))
@@ -99,7 +100,7 @@ pub fn router(state: AppState) -> Router {
         .option_layer(cors(&state.transport.cors_origins))
         .layer(middleware::from_fn_with_state(state.tokens.clone(), principal::authenticate))
         .layer(middleware::from_fn_with_state(state.clone(), body::keep_coming))
-        .layer(DefaultBodyLimit::max(extract::JSON_BYTES))
+        .layer(DefaultBodyLimit::max(extract::WHOLE_BYTES))
         .layer(middleware::from_fn_with_state(
             Arc::clone(&state.contract),
             contract::refuse_unknown_parameters,

@@ -61,8 +61,8 @@ async fn all_structural_errors_come_at_once_in_words() {
         ),
         (
             "/scene/casing/lobes/leeding",
-            "this field does not exist here; those here are amplitude, count, phase_rad, \
-          width_rad",
+            "this field does not exist here; those here are along_chord, amplitude, count, \
+          phase_rad, width_rad",
         ),
         ("/scene/casing/lobes/count", "expected a whole number from 1 to 100, not a list"),
         ("/scene/casing/lobes/amplitude", "expected a number, not the text \"0.4\""),

@@ -7,6 +7,7 @@ mod beside;
 mod bodies;
 mod branches;
 mod case_studies;
+mod casings;
 mod chains;
 mod checkpoints;
 mod errors;

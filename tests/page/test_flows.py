@@ -384,6 +384,27 @@ def test_columns_of_a_measurement_are_found_by_their_names(service, swept, tmp_p
     read("14000,800,0.1\n22000,1200,0.3\n", "2 measured points, 14000 to 22000 rpm")
 
 
+def test_a_measured_casing_comes_from_a_table(service, model, tmp_path, new_page):
+    """Into the request, with what stands out of it; and, once swept, around the wheel."""
+    import math
+
+    table = tmp_path / "casing.csv"
+    heights = [0.42 * max(0.0, math.cos(math.radians(4 * i))) ** 4 for i in range(180)]
+    heights[7] += 0.05
+    table.write_text("angle_deg,0\n" + "".join(f"{2 * i},{height}\n" for i, height in enumerate(heights)), encoding="utf-8")
+    page = new_page(f"{service.url}/#/sweep?model={model}", expected=["422"])
+    page.get_by_label("Table of a measured casing (CSV)").set_input_files(table)
+    page.get_by_text(re.compile("180 angles, 1 lines; around: periodic cubic splines")).wait_for()
+    page.get_by_text(re.compile("stands alone: .* at 14°, 0 of the chord")).wait_for()
+    page.get_by_text("The request as JSON").click()
+    text = page.get_by_label("Request; the form follows what you write")
+    kept = json.loads(text.input_value())["scene"]["casing"]["measured"]
+    assert len(kept["angles_rad"]) == 180 and kept["heights"] == [heights]
+    table.write_text("angle_deg,0\n1,x\n", encoding="utf-8")
+    page.get_by_label("Table of a measured casing (CSV)").set_input_files(table)
+    page.get_by_text(re.compile("casing.csv: line 2")).wait_for()
+
+
 def test_a_token_opens_the_service_for_this_tab(tmp_path, new_page):
     import subprocess
 

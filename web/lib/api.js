@@ -63,15 +63,15 @@ async function reached(coming) {
 }
 
 /** The answer to a request, whose body is yet to come; throws a `Refusal`, or `Away`. */
-export async function request(path, { method = 'GET', query, signal, accept, body, idempotencyKey } = {}) {
+export async function request(path, { method = 'GET', query, signal, accept, body, type = 'application/json', idempotencyKey } = {}) {
   const head = headers(accept ? { Accept: accept } : {});
-  if (body !== undefined) head['Content-Type'] = 'application/json';
+  if (body !== undefined) head['Content-Type'] = type;
   if (idempotencyKey) head['Idempotency-Key'] = idempotencyKey;
   const response = await reached(fetch(address(path, query), {
     method,
     signal,
     headers: head,
-    body: body === undefined ? undefined : JSON.stringify(body),
+    body: body === undefined || type !== 'application/json' ? body : JSON.stringify(body),
   }));
   isBack();
   if (!response.ok) throw await refusal(response);
@@ -82,6 +82,10 @@ export const api = {
   /** JSON of a path. */
   async get(path, options = {}) {
     return reached((await request(path, { accept: 'application/json', ...options })).json());
+  },
+  /** Posts text of another type; JSON of the answer. */
+  async sendText(path, type, body, options = {}) {
+    return reached((await request(path, { method: 'POST', type, body, ...options })).json());
   },
   /** Sends JSON; JSON of the answer, if it has any. */
   async send(method, path, body, options = {}) {

@@ -13,6 +13,7 @@ pub use crate::calibration::Calibration;
 pub use crate::check::check;
 pub use crate::contact::{force_map, force_row};
 pub use crate::effects::casing::convert::{clearances, heights};
+pub use crate::effects::casing::measured::{LineError, MeasuredLine, measured_casing};
 pub use crate::histories::{histories_wanted, speed_histories};
 pub use crate::modal::modal_analysis;
 pub use crate::model::{MeshFacts, ModelFacts, ReducedSector};

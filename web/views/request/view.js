@@ -6,6 +6,7 @@ import { draftHere, draftNote } from '../../lib/draft.js';
 import { form } from '../../lib/form/form.js';
 import { problem } from '../../lib/problem.js';
 import { accuracyDial } from './accuracy.js';
+import { casingTable } from './casing.js';
 import { editor } from './editor.js';
 import { planAside } from './plan.js';
 import { prices } from './prices.js';
@@ -33,6 +34,12 @@ export async function requestForm(place, { model, kind, value, words }, signal) 
   const initial = (pointer) => beginning(pointer, model);
   const cost = kind.priced ? prices(kind.plan, model, signal) : null;
   const dial = kind.priced ? accuracyDial(kind.plan, chooseAccuracy, signal) : null;
+  const table = casingTable((measured) => {
+    const now = structuredClone(fields.value());
+    now.scene.casing.measured = measured;
+    fields.set(now);
+    changed();
+  }, signal);
   const told = h('div');
   const unsent = h('div');
   const json = editor((now) => {
@@ -43,7 +50,7 @@ export async function requestForm(place, { model, kind, value, words }, signal) 
     schema: { $ref: `#/components/schemas/${kind.schema}` },
     definitions, value: begun, initial,
     skip: ['/model', '/accuracy'].slice(0, kind.priced ? 2 : 1),
-    beside: cost?.beside,
+    beside: (pointer) => cost?.beside(pointer) ?? table.beside(pointer),
     groups: GROUPS,
     open: ['/speeds', '/speed', '/along', '/scene', '/grid'],
     onChange: () => changed(),

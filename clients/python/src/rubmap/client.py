@@ -16,6 +16,7 @@ from .contract import (
     LabelledModalAnalysisRequest,
     LabelledStudyRequest,
     LabelledSweepRequest,
+    MeasuredCasing,
 )
 from .jobs import Job, ModelGeneration, asked_of
 from .models import Model
@@ -87,6 +88,16 @@ class Client:
     def models(self, limit: int | None = None, **query: Any) -> list[Model]:
         """Models, newest first, ``limit`` at most; ``name`` and ``tag`` choose among them."""
         return [Model(self.service, facts) for facts in islice(self._all("models", query), limit)]
+
+    def measured_casing(self, table: str | os.PathLike[str]) -> MeasuredCasing:
+        """A measured casing from a table in CSV: ``measured`` is for ``scene.casing.measured`` of a request, ``survey`` and ``filled``
+        say what stands out.
+
+        Raises:
+            Refusal: something is wrong with the table; ``errors`` says in which line.
+        """
+        text = Path(table).expanduser().read_text(encoding="utf-8-sig")
+        return cast(MeasuredCasing, self.service.read_text("/v1/casing-tables", text, "text/csv"))
 
     def sweep(self, request: LabelledSweepRequest) -> Sweep:
         """A sweep over a range of speeds, not submitted yet."""

@@ -22,6 +22,11 @@ class AbsoluteFrequencies(TypedDict):
 AccuracyOf: TypeAlias = Literal["response", "stress"]
 
 
+class AngularGap(TypedDict):
+    from_rad: float
+    to_rad: float
+
+
 ArchiveZip: TypeAlias = bytes
 
 
@@ -62,6 +67,9 @@ class CasingMode(TypedDict, closed=True):
     frequency_hz: float
     modal_mass: float
     nodal_diameter: int
+
+
+CasingTable: TypeAlias = str
 
 
 class Check(TypedDict):
@@ -110,6 +118,7 @@ class ContactHistory(TypedDict):
 
 class ContactPlace(TypedDict):
     clearance: NotRequired[float | None]
+    heights: NotRequired[list[float]]
     id: int
     normal: list[float]
     position: list[float]
@@ -213,6 +222,12 @@ class Estimate(TypedDict):
 class FatigueStrength(TypedDict, closed=True):
     amplitude: float
     source: str
+
+
+class FilledHeight(TypedDict):
+    angle_rad: float
+    height: float
+    line: int
 
 
 class FloquetMultiplier(TypedDict):
@@ -323,6 +338,7 @@ class Link(TypedDict):
 
 
 class Lobes(TypedDict, closed=True):
+    along_chord: NotRequired[list[float] | None]
     amplitude: float
     count: int
     phase_rad: NotRequired[float]
@@ -352,6 +368,12 @@ class Material(TypedDict, closed=True):
     youngs_modulus: NotRequired[float]
 
 
+class Measured(TypedDict, closed=True):
+    angles_rad: list[float]
+    chord: NotRequired[list[float] | None]
+    heights: list[list[float]]
+
+
 class MeshDensities(TypedDict, closed=True):
     between_contact_nodes: NotRequired[int]
     blade_height: NotRequired[int]
@@ -373,6 +395,19 @@ class Orbit(TypedDict, closed=True):
     phase_rad: NotRequired[float]
     radius: float
     whirl_ratio: NotRequired[float]
+
+
+class Outlier(TypedDict):
+    angle_rad: float
+    expected: float
+    height: float
+    line: int
+
+
+class Overshoot(TypedDict):
+    angle_rad: float
+    by: float
+    line: int
 
 
 PackageZip: TypeAlias = bytes
@@ -520,6 +555,13 @@ class SideBands(TypedDict):
     upper: float
 
 
+class SingleLobe(TypedDict, closed=True):
+    along_chord: NotRequired[list[float] | None]
+    amplitude: float
+    angle_rad: float
+    width_rad: float
+
+
 class SpeedCounts(TypedDict):
     diverged: int
     failed: int
@@ -647,9 +689,16 @@ class SymmetryBreaking(TypedDict):
     repeats: int
 
 
+class Tilt(TypedDict, closed=True):
+    about_z: NotRequired[float]
+    angle_rad: float
+    towards_rad: NotRequired[float]
+
+
 class TipPlace(TypedDict):
     angle_rad: float
     clearance: float
+    heights: NotRequired[list[float]]
 
 
 class TipResponse(TypedDict):
@@ -714,7 +763,11 @@ class Version(TypedDict):
     version: str
 
 
-Wave: TypeAlias = Literal["forward", "backward"]
+class Wave(TypedDict, closed=True):
+    along_chord: NotRequired[list[float] | None]
+    amplitude: float
+    order: int
+    phase_rad: NotRequired[float]
 
 
 class WaveTables(TypedDict):
@@ -816,6 +869,10 @@ class CaseSpeed(TypedDict, closed=True):
 class Casing(TypedDict, closed=True):
     clearance: Clearance
     lobes: NotRequired[Lobes | None]
+    measured: NotRequired[Measured | None]
+    single_lobes: NotRequired[list[SingleLobe]]
+    tilt: NotRequired[Tilt | None]
+    waves: NotRequired[list[Wave]]
 
 
 class Control(TypedDict):
@@ -967,6 +1024,15 @@ class LabelledImpellerRequest(TypedDict, closed=True):
     top_speed_rad_s: NotRequired[float]
     units: NotRequired[Units]
     wrap_deg: NotRequired[float]
+
+
+class MeasuredSurvey(TypedDict):
+    gap_count: int
+    gaps: list[AngularGap]
+    interpolation: str
+    outlier_count: int
+    outliers: list[Outlier]
+    overshoot: NotRequired[Overshoot | None]
 
 
 class MeshFacts(TypedDict):
@@ -1263,6 +1329,13 @@ class ForceMap(TypedDict):
     version: str
 
 
+class FoundShape(TypedDict):
+    highest: NotRequired[float | None]
+    measured: NotRequired[MeasuredSurvey | None]
+    narrowest_rad: NotRequired[float | None]
+    repeats: int
+
+
 class GenerationPlan(TypedDict):
     dofs: int
     memory_bytes: int
@@ -1390,6 +1463,13 @@ class LabelledSweepRequest(TypedDict, closed=True):
     tags: NotRequired[list[str]]
 
 
+class MeasuredCasing(TypedDict):
+    filled: list[FilledHeight]
+    filled_count: int
+    measured: Measured
+    survey: MeasuredSurvey
+
+
 class ModalAnalysisRequest(TypedDict, closed=True):
     accuracy: NotRequired[Accuracy | None]
     budget: NotRequired[Budget | None]
@@ -1453,6 +1533,7 @@ class SpeedStudy(TypedDict):
 
 class SweepPlan(TypedDict):
     basis_bytes_at_most: NotRequired[int | None]
+    casing_shape: NotRequired[FoundShape | None]
     choice: NotRequired[Choice | None]
     contact_pairs: int
     effects: list[PlannedEffect]

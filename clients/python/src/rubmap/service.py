@@ -98,6 +98,11 @@ class Service:
             self._patiently(lambda: self._http.post(path, content=content(), params=_given(query), headers=headers))
         )
 
+    def read_text(self, path: str, text: str, media_type: str) -> Any:
+        """Sends text that makes nothing, such as a table to be read."""
+        headers = {"content-type": media_type}
+        return _json(self._patiently(lambda: self._http.post(path, content=text.encode(), headers=headers)))
+
     def patch(self, path: str, body: Mapping[str, Any]) -> Any:
         """Changes what something is called."""
         headers = {"content-type": "application/merge-patch+json"}

@@ -60,7 +60,9 @@ pub use validity::{Validity, ValidityCheck, ValidityLack, ValidityMeasure, Valid
 pub use wheel::{SensorView, WheelCriticalSpeed, WheelCriticalSpeeds};
 
 pub use crate::effects::abradable::result::{WearMap, WearReport};
-pub use crate::effects::casing::result::{AngularGap, FoundShape, MeasuredSurvey, Outlier, Overshoot};
+pub use crate::effects::casing::result::{
+    AngularGap, FilledHeight, FoundShape, MeasuredCasing, MeasuredSurvey, Outlier, Overshoot,
+};
 pub use crate::effects::symmetry::result::FoundSymmetry;
 pub use rubmap_wheel::response::campbell::{Crossing, DrivenCrossing};
 pub use rubmap_wheel::response::coincidence::Coincidence;

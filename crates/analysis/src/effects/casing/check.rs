@@ -1,6 +1,6 @@
 //! Checks of the casing.
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{PI, TAU};
 
 use super::request::{Measured, SingleLobe, Tilt, Wave};
 use super::resolved::Clearance;
@@ -18,9 +18,7 @@ const LEAST_WIDTH_RAD: f64 = 1e-4;
 /// Two equal Gaussians exp(−(φ/w)²) have a valley between them up to this ratio of w to their distance.
 const WIDTH_OVER_DISTANCE: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// Angles of a measured line.
-const LEAST_MEASURED: usize = 8;
 const MOST_MEASURED: usize = 100_000;
-const WIDEST_GAP_RAD: f64 = 1.000_001 * FRAC_PI_2;
 /// The square of a larger tilt is no longer a thousandth of it.
 const MOST_TILT_RAD: f64 = 1e-3;
 /// Shortest ramp of lobes that stand inside the blade.
@@ -166,9 +164,9 @@ fn check_measured(found: &mut Findings, measured: &Measured, facts: &ModelFacts)
     let ascending = |values: &[f64]| values.windows(2).all(|pair| pair[0] < pair[1]);
     let turn = angles_rad.last().zip(angles_rad.first()).map_or(0.0, |(last, first)| last - first);
     found.require(
-        (LEAST_MEASURED..=MOST_MEASURED).contains(&angles_rad.len()),
+        (Measured::LEAST_ANGLES..=MOST_MEASURED).contains(&angles_rad.len()),
         &format!("{at}/angles_rad"),
-        format!("{LEAST_MEASURED} to {MOST_MEASURED} angles"),
+        format!("{} to {MOST_MEASURED} angles", Measured::LEAST_ANGLES),
     );
     found.require(
         ascending(angles_rad)
@@ -179,7 +177,7 @@ fn check_measured(found: &mut Findings, measured: &Measured, facts: &ModelFacts)
     );
     let widest = angles_rad.windows(2).map(|pair| pair[1] - pair[0]).fold(TAU - turn, f64::max);
     found.require(
-        widest <= WIDEST_GAP_RAD,
+        widest <= Measured::WIDEST_GAP_RAD,
         &format!("{at}/angles_rad"),
         format!("{widest} rad without a point: no curve can be laid across more than a quarter of a turn"),
     );

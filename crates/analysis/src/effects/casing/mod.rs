@@ -5,6 +5,7 @@ use crate::effects::effect::{Acts, Chain, Check, Effect, Repeats};
 
 pub(crate) mod check;
 pub(crate) mod convert;
+pub mod measured;
 pub mod request;
 pub mod resolved;
 pub mod result;

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::request::Measured;
+
 /// The shape of a casing that is not one of revolution.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
@@ -37,6 +39,32 @@ pub struct MeasuredSurvey {
     /// Where the curve goes farthest beyond all heights of its line, as it does beside steps.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub overshoot: Option<Overshoot>,
+}
+
+/// A table of measured heights, as requests take it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct MeasuredCasing {
+    /// For `scene.casing.measured`.
+    pub measured: Measured,
+    /// What stands out of it.
+    pub survey: MeasuredSurvey,
+    /// Heights that a line did not have at an angle of another one, taken from its own curve, at most a hundred.
+    pub filled: Vec<FilledHeight>,
+    /// How many there are.
+    pub filled_count: u32,
+}
+
+/// A height that was not measured.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct FilledHeight {
+    /// Index of its line.
+    pub line: u32,
+    /// Its angle, rad.
+    pub angle_rad: f64,
+    /// What the curve through the others says.
+    pub height: f64,
 }
 
 /// A height far from the cubic through the two before and the two behind it, which its neighbours would fit without it.

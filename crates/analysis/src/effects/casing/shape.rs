@@ -3,9 +3,7 @@
 use num_integer::gcd;
 
 use super::request::{self, Lobes, Measured, SingleLobe, Tilt, Wave};
-use rubmap_wheel::dynamics::casing::{
-    self, Part, PeriodicSpline, Profile, Restriction, arc_lengths, narrowest_rad, repeats,
-};
+use rubmap_wheel::dynamics::casing::{self, Part, Profile, Restriction, narrowest_rad};
 
 /// Shapes whose heights add up.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -106,38 +104,6 @@ impl Shape {
     }
 }
 
-impl Measured {
-    /// How often all lines repeat around the circumference.
-    fn repeats(&self) -> u32 {
-        self.heights.iter().map(|heights| repeats(&self.angles_rad, heights) as u32).fold(0, gcd)
-    }
-
-    /// A curve for every line.
-    pub(super) fn curves(&self) -> Vec<PeriodicSpline> {
-        self.heights.iter().map(|heights| PeriodicSpline::new(&self.angles_rad, heights)).collect()
-    }
-
-    /// A curve for every position `[r, θ, z]` of a contact node: that of its own line, or linear between the lines beside it.
-    fn at(&self, positions: &[[f64; 3]]) -> Vec<PeriodicSpline> {
-        let Some(chord) = &self.chord else { return self.curves() };
-        let arc = arc_lengths(positions);
-        let whole = arc.last().copied().filter(|whole| *whole > 0.0).unwrap_or(1.0);
-        arc.iter()
-            .map(|length| PeriodicSpline::new(&self.angles_rad, &self.heights_at(chord, length / whole)))
-            .collect()
-    }
-
-    /// Heights at all angles at a share of the chord.
-    fn heights_at(&self, chord: &[f64], share: f64) -> Vec<f64> {
-        let next = chord.partition_point(|&line| line <= share);
-        let (before, after) = (next.saturating_sub(1), next.min(chord.len() - 1));
-        let width = chord[after] - chord[before];
-        let x = if width > 0.0 { (share - chord[before]) / width } else { 0.0 };
-        let pairs = self.heights[before].iter().zip(&self.heights[after]);
-        pairs.map(|(before, after)| before + x * (after - before)).collect()
-    }
-}
-
 impl Tilt {
     /// With the axis leaning by τ towards ψ about z₀, what is at (r, φ, z) of the casing comes nearer to a tip with the normal n by
     /// τ ((z − z₀) n_r − r n_z) cos(φ − ψ).
@@ -153,6 +119,7 @@ impl Tilt {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use rubmap_wheel::dynamics::casing::arc_lengths;
     use rubmap_wheel::dynamics::sector::ContactNode;
     use std::f64::consts::{PI, TAU};
 

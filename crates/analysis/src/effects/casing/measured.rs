@@ -1,0 +1,201 @@
+//! Measured heights: curves through them, and tables of them put together.
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use num_integer::gcd;
+
+use super::request::Measured;
+use super::result::{FilledHeight, MeasuredCasing, MeasuredSurvey};
+use rubmap_wheel::dynamics::casing::{PeriodicSpline, arc_lengths, repeats};
+
+/// Angles as near to each other are the same, rad.
+const SAME_RAD: f64 = 1e-9;
+/// Filled heights that are listed.
+const MOST_LISTED: usize = 100;
+
+impl Measured {
+    /// Angles of a line, at least.
+    pub(crate) const LEAST_ANGLES: usize = 8;
+    /// Most from one angle to the next, a quarter of a turn.
+    pub(crate) const WIDEST_GAP_RAD: f64 = 1.000_001 * FRAC_PI_2;
+
+    /// How often all lines repeat around the circumference.
+    pub(super) fn repeats(&self) -> u32 {
+        self.heights.iter().map(|heights| repeats(&self.angles_rad, heights) as u32).fold(0, gcd)
+    }
+
+    /// A curve for every line.
+    pub(super) fn curves(&self) -> Vec<PeriodicSpline> {
+        self.heights.iter().map(|heights| PeriodicSpline::new(&self.angles_rad, heights)).collect()
+    }
+
+    /// A curve for every position `[r, θ, z]` of a contact node: that of its own line, or linear between the lines beside it.
+    pub(super) fn at(&self, positions: &[[f64; 3]]) -> Vec<PeriodicSpline> {
+        let Some(chord) = &self.chord else { return self.curves() };
+        let arc = arc_lengths(positions);
+        let whole = arc.last().copied().filter(|whole| *whole > 0.0).unwrap_or(1.0);
+        arc.iter()
+            .map(|length| PeriodicSpline::new(&self.angles_rad, &self.heights_at(chord, length / whole)))
+            .collect()
+    }
+
+    /// Heights at all angles at a share of the chord.
+    fn heights_at(&self, chord: &[f64], share: f64) -> Vec<f64> {
+        let next = chord.partition_point(|&line| line <= share);
+        let (before, after) = (next.saturating_sub(1), next.min(chord.len() - 1));
+        let width = chord[after] - chord[before];
+        let x = if width > 0.0 { (share - chord[before]) / width } else { 0.0 };
+        let pairs = self.heights[before].iter().zip(&self.heights[after]);
+        pairs.map(|(before, after)| before + x * (after - before)).collect()
+    }
+}
+
+/// Heights along one line around the circumference, at angles of its own.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeasuredLine {
+    /// Share of the chord, or contact node.
+    pub place: f64,
+    /// `(angle in rad, height)`, in any order and any turn.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// Why lines make no shape.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum LineError {
+    /// Too few points.
+    #[error("has {points} heights; a curve needs {} at least", Measured::LEAST_ANGLES)]
+    Few {
+        /// How many.
+        points: usize,
+    },
+    /// A gap that no curve can be laid across.
+    #[error(
+        "has no height from {:.3} to {:.3} degrees; no curve can be laid across more than a quarter of a turn", from_rad.to_degrees(), to_rad.to_degrees()
+    )]
+    Gap {
+        /// Last angle before it.
+        from_rad: f64,
+        /// First angle behind it.
+        to_rad: f64,
+    },
+    /// Two heights at one angle.
+    #[error("has two heights at {:.6} degrees, {first} and {second}; leave one out", angle_rad.to_degrees())]
+    Twice {
+        /// Where.
+        angle_rad: f64,
+        /// One.
+        first: f64,
+        /// The other.
+        second: f64,
+    },
+}
+
+/// A table over the angles of all lines: heights that a line does not have are taken from its own curve. `each_node`: places are
+/// contact nodes, 0, 1, …, otherwise shares of the chord, ascending. Errors come with the index of the line.
+pub fn measured_casing(
+    lines: &[MeasuredLine],
+    each_node: bool,
+) -> Result<MeasuredCasing, (usize, LineError)> {
+    let sorted = lines.iter().enumerate().map(|(index, line)| sorted(line).map_err(|error| (index, error)));
+    let sorted: Vec<Vec<(f64, f64)>> = sorted.collect::<Result<_, _>>()?;
+    let mut angles_rad: Vec<f64> = sorted.iter().flatten().map(|(angle, _)| *angle).collect();
+    angles_rad.sort_by(f64::total_cmp);
+    angles_rad.dedup_by(|next, one| *next - *one <= SAME_RAD);
+    let mut filled = Vec::new();
+    let mut heights = Vec::new();
+    for (line, points) in sorted.iter().enumerate() {
+        let (angles, values): (Vec<f64>, Vec<f64>) = points.iter().copied().unzip();
+        let curve = PeriodicSpline::new(&angles, &values);
+        let height = |&angle: &f64| {
+            let next = angles.partition_point(|own| *own < angle - SAME_RAD);
+            if angles.get(next).is_some_and(|own| *own <= angle + SAME_RAD) {
+                return values[next];
+            }
+            let height = curve.at(angle);
+            filled.push(FilledHeight { line: line as u32, angle_rad: angle, height });
+            height
+        };
+        heights.push(angles_rad.iter().map(height).collect());
+    }
+    let chord = (!each_node).then(|| lines.iter().map(|line| line.place).collect());
+    let measured = Measured { angles_rad, chord, heights };
+    let filled_count = filled.len() as u32;
+    filled.truncate(MOST_LISTED);
+    Ok(MeasuredCasing { survey: MeasuredSurvey::of(&measured), measured, filled, filled_count })
+}
+
+/// Within one turn, ascending, every angle once.
+fn sorted(line: &MeasuredLine) -> Result<Vec<(f64, f64)>, LineError> {
+    let mut points: Vec<(f64, f64)> = line
+        .points
+        .iter()
+        .map(|&(angle, height)| {
+            let within = angle.rem_euclid(TAU);
+            (if TAU - within <= SAME_RAD { 0.0 } else { within }, height)
+        })
+        .collect();
+    points.sort_by(|a, b| a.0.total_cmp(&b.0));
+    if let Some(pair) =
+        points.windows(2).find(|pair| pair[1].0 - pair[0].0 <= SAME_RAD && pair[0].1 != pair[1].1)
+    {
+        return Err(LineError::Twice { angle_rad: pair[0].0, first: pair[0].1, second: pair[1].1 });
+    }
+    points.dedup_by(|next, one| next.0 - one.0 <= SAME_RAD);
+    if points.len() < Measured::LEAST_ANGLES {
+        return Err(LineError::Few { points: points.len() });
+    }
+    let ends = points.iter().map(|point| point.0).skip(1).chain([points[0].0 + TAU]);
+    let mut gaps = points.iter().map(|point| point.0).zip(ends);
+    match gaps.find(|(from, to)| to - from > Measured::WIDEST_GAP_RAD) {
+        Some((from_rad, to_rad)) => Err(LineError::Gap { from_rad, to_rad }),
+        None => Ok(points),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn lobe(angle: f64) -> f64 {
+        0.3 + 0.1 * (2.0 * angle + 0.4).cos()
+    }
+
+    fn line(place: f64, degrees: impl Iterator<Item = f64>) -> MeasuredLine {
+        let point = |degrees: f64| (degrees.to_radians(), (1.0 - 0.2 * place) * lobe(degrees.to_radians()));
+        MeasuredLine { place, points: degrees.map(point).collect() }
+    }
+
+    /// Lines of two grids, in other turns and orders, the end of the turn said twice.
+    #[test]
+    fn lines_come_together_on_the_angles_of_all() {
+        let every = |step: u32| (0..=360).rev().step_by(step as usize).map(f64::from);
+        let lines = [line(0.0, every(5)), line(1.0, every(3).map(|degrees| degrees - 720.0))];
+        let MeasuredCasing { measured, filled, filled_count, survey } =
+            measured_casing(&lines, false).unwrap();
+        // Every fifth, every third, and every fifteenth of both.
+        assert_eq!(measured.angles_rad.len(), 72 + 120 - 24);
+        assert_eq!((filled_count, filled.len()), (120 - 24 + 72 - 24, MOST_LISTED));
+        assert_eq!(measured.chord, Some(vec![0.0, 1.0]));
+        for (line, heights) in measured.heights.iter().enumerate() {
+            for (angle, height) in measured.angles_rad.iter().zip(heights) {
+                let expected = (1.0 - 0.2 * line as f64) * lobe(*angle);
+                assert!((height - expected).abs() < 1e-6, "{line} {angle}: {height} {expected}");
+            }
+        }
+        assert_eq!((survey.outlier_count, survey.gap_count), (0, 0));
+        assert_eq!(measured.repeats(), 2, "what is filled in repeats, too");
+    }
+
+    #[test]
+    fn what_makes_no_curve_is_refused() {
+        let even = |count: u32| (0..count).map(move |i| 360.0 * f64::from(i) / f64::from(count));
+        let refused = |line: MeasuredLine| measured_casing(&[line], true).unwrap_err();
+        assert_eq!(refused(line(0.0, even(7))), (0, LineError::Few { points: 7 }));
+        let gap = refused(line(0.0, (0..200).map(f64::from)));
+        assert!(matches!(gap, (0, LineError::Gap { .. })), "{gap:?}");
+        assert!(gap.1.to_string().contains("from 199.000 to 360.000 degrees"), "{}", gap.1);
+        let mut twice = line(0.0, even(36));
+        twice.points.push((4.0 * TAU + twice.points[3].0, 0.7));
+        assert!(matches!(refused(twice).1, LineError::Twice { .. }));
+    }
+}

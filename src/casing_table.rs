@@ -1,0 +1,309 @@
+//! Measured shapes of a casing from text: tables of heights over angle and place along the chord.
+//!
+//! Two layouts, told apart by the header: *wide*, `angle_deg, 0, 0.5, 1` (shares of the chord) or `angle_deg, node0, node1, …`; and
+//! *long*, `angle_deg, chord, height` or `angle_deg, node, height`, every row a point. `angle_rad` for rad. Fields are parted by comma,
+//! semicolon (then decimals may have commas) or tab; rows come in any order; lines with `#` are comments; an empty field or `nan` is a
+//! height that is missing.
+
+use csv::{ReaderBuilder, StringRecord, Trim};
+
+use crate::analysis::result::MeasuredCasing;
+use crate::analysis::run::{MeasuredLine, measured_casing};
+
+/// Points that are read at most.
+const MOST_POINTS: usize = 200_000;
+
+/// Something wrong with a table.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TableError {
+    /// Line of the text from 1; none of what is not about one.
+    pub line: Option<u64>,
+    /// What is wrong, and what would be right.
+    pub message: String,
+}
+
+impl TableError {
+    fn whole(message: impl Into<String>) -> Self {
+        Self { line: None, message: message.into() }
+    }
+}
+
+/// Where heights of a column or a row stand.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Place {
+    Chord(f64),
+    Node(u32),
+}
+
+/// What the header says of the columns.
+#[derive(Debug)]
+struct Header {
+    angle: usize,
+    /// rad of one unit of the angles.
+    unit_rad: f64,
+    layout: Layout,
+    /// Whether decimals may have a comma.
+    comma: bool,
+}
+
+#[derive(Debug)]
+enum Layout {
+    /// Column and place of every line.
+    Wide(Vec<(usize, Place)>),
+    /// Columns of place and height; whether places are contact nodes.
+    Long { place: usize, height: usize, nodes: bool },
+}
+
+/// Reads a table. All that is wrong with its fields comes at once.
+pub fn read(text: &[u8]) -> Result<MeasuredCasing, Vec<TableError>> {
+    let one = |error: TableError| vec![error];
+    let text = std::str::from_utf8(text)
+        .map_err(|error| one(TableError::whole(format!("the table is not UTF-8 text: {error}"))))?;
+    let text = text.trim_start_matches('\u{feff}');
+    let first = text.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#'));
+    let first = first.ok_or_else(|| one(TableError::whole("the table is empty")))?;
+    let delimiter = [b'\t', b';'].into_iter().find(|&part| first.contains(char::from(part))).unwrap_or(b',');
+    let mut reader = ReaderBuilder::new()
+        .delimiter(delimiter)
+        .comment(Some(b'#'))
+        .trim(Trim::All)
+        .from_reader(text.as_bytes());
+    let names = reader.headers().map_err(|error| one(TableError::whole(error.to_string())))?;
+    let line = names.position().map(csv::Position::line);
+    let header = Header::of(names, delimiter == b';').map_err(|message| one(TableError { line, message }))?;
+    let mut lines: Vec<(Place, Vec<(f64, f64)>)> = Vec::new();
+    let (mut errors, mut points) = (Vec::new(), 0);
+    for record in reader.records() {
+        let row = match record {
+            Ok(record) => header.row(&record),
+            Err(error) => {
+                let line = error.position().map(csv::Position::line);
+                Err(TableError { line, message: error.to_string() })
+            }
+        };
+        match row {
+            Ok(row) => {
+                for (place, angle, height) in row {
+                    points += 1;
+                    match lines.iter_mut().find(|line| line.0 == place) {
+                        Some(line) => line.1.push((angle, height)),
+                        None => lines.push((place, vec![(angle, height)])),
+                    }
+                }
+            }
+            Err(error) => errors.push(error),
+        }
+        if points > MOST_POINTS {
+            return Err(one(TableError::whole(format!("at most {MOST_POINTS} heights"))));
+        }
+    }
+    if !errors.is_empty() {
+        return Err(errors);
+    }
+    let each_node = lines.iter().any(|line| matches!(line.0, Place::Node(_)));
+    let mut lines: Vec<MeasuredLine> = lines
+        .into_iter()
+        .map(|(place, points)| match place {
+            Place::Chord(share) => MeasuredLine { place: share, points },
+            Place::Node(node) => MeasuredLine { place: node.into(), points },
+        })
+        .collect();
+    lines.sort_by(|a, b| a.place.total_cmp(&b.place));
+    if lines.is_empty() {
+        return Err(one(TableError::whole("the table has no heights")));
+    }
+    if each_node && lines.iter().enumerate().any(|(node, line)| line.place != node as f64) {
+        let message = "contact nodes count from 0 at the leading edge, and every one has its heights";
+        return Err(one(TableError::whole(message)));
+    }
+    measured_casing(&lines, each_node).map_err(|(line, error)| {
+        let name = if each_node { "contact node" } else { "the line at" };
+        one(TableError::whole(format!("{name} {} {error}", lines[line].place)))
+    })
+}
+
+impl Header {
+    fn of(names: &StringRecord, comma: bool) -> Result<Self, String> {
+        let names: Vec<String> = names.iter().map(str::to_lowercase).collect();
+        let find = |name: &str| names.iter().position(|one| one == name);
+        let (angle, unit_rad) = match (find("angle_deg"), find("angle_rad")) {
+            (Some(column), None) => (column, 1f64.to_radians()),
+            (None, Some(column)) => (column, 1.0),
+            _ => return Err("the header names one column angle_deg or angle_rad".to_owned()),
+        };
+        let others = || names.iter().enumerate().filter(move |(column, _)| *column != angle);
+        if let Some(height) = find("height") {
+            let (place, nodes) = match (find("chord"), find("node")) {
+                (Some(column), None) => (column, false),
+                (None, Some(column)) => (column, true),
+                _ => return Err("beside height the header names one column chord or node".to_owned()),
+            };
+            return match others().find(|(column, _)| *column != place && *column != height) {
+                Some((_, name)) => {
+                    Err(format!("a column {name} is not known beside angle, place and height"))
+                }
+                None => Ok(Self { angle, unit_rad, layout: Layout::Long { place, height, nodes }, comma }),
+            };
+        }
+        let place = |name: &str| match name.strip_prefix("node") {
+            Some(node) => node.trim().parse().ok().map(Place::Node),
+            None => number(name, comma).map(Place::Chord),
+        };
+        let columns: Option<Vec<(usize, Place)>> =
+            others().map(|(column, name)| Some((column, place(name)?))).collect();
+        let columns = columns.filter(|columns| !columns.is_empty()).ok_or(
+            "beside the angle the header names places along the chord (numbers from 0 to 1), contact nodes (node0, node1, …), \
+             or chord and height",
+        )?;
+        let nodes = columns.iter().filter(|(_, place)| matches!(place, Place::Node(_))).count();
+        let chord = |place: &Place| matches!(place, Place::Chord(share) if !(0.0..=1.0).contains(share));
+        if nodes != 0 && nodes != columns.len() || columns.iter().any(|(_, place)| chord(place)) {
+            return Err("columns are all contact nodes, or all places along the chord from 0 to 1".to_owned());
+        }
+        let twice =
+            (1..columns.len()).find(|&k| columns[..k].iter().any(|(_, place)| *place == columns[k].1));
+        match twice {
+            Some(k) => Err(format!("the header names {} twice", names[columns[k].0])),
+            None => Ok(Self { angle, unit_rad, layout: Layout::Wide(columns), comma }),
+        }
+    }
+
+    /// Places, angles in rad and heights of a row; what is missing is left out.
+    fn row(&self, record: &StringRecord) -> Result<Vec<(Place, f64, f64)>, TableError> {
+        let wrong =
+            |message: String| TableError { line: record.position().map(csv::Position::line), message };
+        let value = |column: usize| {
+            let text = &record[column];
+            number(text, self.comma).ok_or_else(|| wrong(format!("{text:?} is no number")))
+        };
+        let height = |column: usize| {
+            let missing = ["", "nan", "-"].contains(&record[column].to_lowercase().as_str());
+            if missing { Ok(None) } else { value(column).map(Some) }
+        };
+        let angle = value(self.angle)? * self.unit_rad;
+        match &self.layout {
+            Layout::Wide(columns) => {
+                let heights = columns.iter().map(|&(column, place)| Ok((place, height(column)?)));
+                let heights: Vec<(Place, Option<f64>)> = heights.collect::<Result<_, TableError>>()?;
+                Ok(heights.into_iter().filter_map(|(place, height)| Some((place, angle, height?))).collect())
+            }
+            Layout::Long { place, height: column, nodes } => {
+                let at = value(*place)?;
+                let place = match nodes {
+                    false if (0.0..=1.0).contains(&at) => Place::Chord(at),
+                    true if at >= 0.0 && at.fract() == 0.0 && at < f64::from(u32::MAX) => {
+                        Place::Node(at as u32)
+                    }
+                    false => return Err(wrong(format!("{at} is no place along the chord from 0 to 1"))),
+                    true => return Err(wrong(format!("{at} is no contact node, which count from 0"))),
+                };
+                Ok(height(*column)?.map(|height| (place, angle, height)).into_iter().collect())
+            }
+        }
+    }
+}
+
+/// A finite number.
+fn number(text: &str, comma: bool) -> Option<f64> {
+    let text = if comma { text.replace(',', ".") } else { text.to_owned() };
+    text.parse().ok().filter(|value: &f64| value.is_finite())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn height(degrees: f64, share: f64) -> f64 {
+        0.3 + 0.1 * (1.0 - share) * (2.0 * degrees.to_radians()).cos()
+    }
+
+    fn rows(of: impl Fn(f64) -> String) -> String {
+        (0..36).map(|i| of(10.0 * f64::from(i))).collect()
+    }
+
+    fn message(text: &str) -> (Option<u64>, String) {
+        let mut errors = read(text.as_bytes()).unwrap_err();
+        assert_eq!(errors.len(), 1, "{errors:?}");
+        let TableError { line, message } = errors.remove(0);
+        (line, message)
+    }
+
+    /// The same table in seven spellings.
+    #[test]
+    fn a_table_reads_the_same_however_it_is_laid_out() {
+        let heights = |d: f64| (height(d, 0.0), height(d, 0.5), height(d, 1.0));
+        let wide = rows(|d| {
+            let (a, b, c) = heights(d);
+            format!("{d},{a},{b},{c}\n")
+        });
+        let expected = read(format!("angle_deg,0,0.5,1\n{wide}").as_bytes()).unwrap();
+        assert_eq!(expected.measured.angles_rad.len(), 36);
+        assert_eq!(expected.measured.chord, Some(vec![0.0, 0.5, 1.0]));
+        assert_eq!(expected.filled_count, 0);
+        let long = |name: &str, place: fn(usize) -> String| {
+            let rows = rows(|d| {
+                let (a, b, c) = heights(d);
+                [a, b, c].iter().enumerate().rev().map(|(k, h)| format!("{h},{},{d}\n", place(k))).collect()
+            });
+            format!("height,{name},angle_deg\n{rows}")
+        };
+        let radians = rows(|d| {
+            let (a, b, c) = heights(d);
+            format!("{},{a},{b},{c}\n", d.to_radians())
+        });
+        let european = wide.replace(',', ";").replace('.', ",");
+        let spellings = [
+            format!("\u{feff}# measured cold\r\nAngle_deg, 0, 0.5, 1\r\n{}", wide.replace('\n', "\r\n")),
+            format!("angle_deg;0;0,5;1\n{european}"),
+            format!("angle_deg\t0\t0.5\t1\n{}", wide.replace(',', "\t")),
+            format!("angle_rad,0,0.5,1\n{radians}"),
+            format!("angle_deg,0,0.5,1\n{}360,0.4,0.35,0.3\n", wide),
+            long("chord", |k| (0.5 * k as f64).to_string()),
+        ];
+        for text in spellings {
+            assert_eq!(read(text.as_bytes()), Ok(expected.clone()), "{text}");
+        }
+        let by_node = long("node", |k| k.to_string());
+        let by_column = format!("angle_deg,node0,node1,node2\n{wide}");
+        for text in [by_node, by_column] {
+            let found = read(text.as_bytes()).unwrap().measured;
+            assert_eq!((found.chord, found.heights), (None, expected.measured.heights.clone()));
+        }
+    }
+
+    #[test]
+    fn missing_heights_are_filled_and_told() {
+        let table =
+            rows(|d| if d == 50.0 { "50,nan,0.3\n".into() } else { format!("{d},{},0.3\n", height(d, 0.0)) });
+        let found = read(format!("angle_deg,0,1\n{table}").as_bytes()).unwrap();
+        assert_eq!(found.filled_count, 1);
+        let filled = &found.filled[0];
+        assert!((filled.angle_rad.to_degrees() - 50.0).abs() < 1e-9 && filled.line == 0);
+        assert!((filled.height - height(50.0, 0.0)).abs() < 1e-3, "{filled:?}");
+    }
+
+    #[test]
+    fn what_is_wrong_is_said_where_it_is() {
+        let good = rows(|d| format!("{d},0.3\n"));
+        let of = |header: &str| message(&format!("{header}\n{good}"));
+        assert_eq!(message("").1, "the table is empty");
+        assert!(of("angle,0").1.contains("angle_deg or angle_rad"));
+        assert!(of("angle_deg,leading").1.contains("places along the chord"));
+        assert!(of("angle_deg,1.5").1.contains("from 0 to 1"));
+        assert!(of("angle_deg,node1").1.contains("count from 0"));
+        assert!(message("angle_deg,0,0.0\n1,2,3\n").1.contains("twice"));
+        assert_eq!(
+            message(&format!("angle_deg,0\n{good}45,much\n")),
+            (Some(38), "\"much\" is no number".to_owned())
+        );
+        let (line, said) = message(&format!("angle_deg,0\n{good}45,1,2\n"));
+        assert!(line == Some(38) && said.contains("fields"), "{said}");
+        assert!(message("angle_deg,0\n0,1\n90,1\n180,1\n").1.contains("the line at 0 has 3 heights"));
+        assert!(message(&format!("angle_deg,0\n{good}10,0.4\n")).1.contains("two heights at 10"));
+        let all = read(b"angle_deg,0\nx,1\n1,y\n").unwrap_err();
+        assert_eq!(all.iter().map(|error| error.line).collect::<Vec<_>>(), [Some(2), Some(3)]);
+        assert!(read(b"angle_deg,0\n\xff,1\n").unwrap_err()[0].message.contains("UTF-8"));
+        assert!(message("angle_deg,chord,height\n0,2,1\n").1.contains("no place along the chord"));
+        assert!(message("angle_deg,node,height\n0,0.5,1\n").1.contains("no contact node"));
+    }
+}
