@@ -9,7 +9,8 @@ use super::app::{Answer, Api, TestApp, sweep_of};
 use super::model;
 
 async fn read(api: &Api, table: impl Into<Vec<u8>>) -> Answer {
-    let request = api.request("POST", "/v1/casing-tables").header("content-type", "text/csv").body(table.into());
+    let request =
+        api.request("POST", "/v1/casing-tables").header("content-type", "text/csv").body(table.into());
     Answer::of(request.send().await.unwrap()).await
 }
 
@@ -96,8 +97,14 @@ async fn wrong_shapes_are_refused_at_their_places() {
     let measured = |angles: &[f64], chord: Value, heights: Value| json!({"measured": {"angles_rad": angles, "chord": chord, "heights": heights}});
     let flat = json!([vec![0.1; 12]]);
     let cases = [
-        (json!({"single_lobes": [{"angle_rad": 0, "amplitude": 0.1, "width_rad": 3.0}]}), "/single_lobes/0/width_rad"),
-        (json!({"single_lobes": [{"angle_rad": 0, "amplitude": 1e3, "width_rad": 0.3}]}), "/single_lobes/0/amplitude"),
+        (
+            json!({"single_lobes": [{"angle_rad": 0, "amplitude": 0.1, "width_rad": 3.0}]}),
+            "/single_lobes/0/width_rad",
+        ),
+        (
+            json!({"single_lobes": [{"angle_rad": 0, "amplitude": 1e3, "width_rad": 0.3}]}),
+            "/single_lobes/0/amplitude",
+        ),
         (json!({"waves": [{"order": 2, "amplitude": 0.1, "along_chord": [1]}]}), "/waves/0/along_chord"),
         (json!({"waves": [{"order": 2, "amplitude": 0.1, "along_chord": [1, 2]}]}), "/waves/0/along_chord/1"),
         (json!({"tilt": {"angle_rad": 0.1}}), "/tilt/angle_rad"),

@@ -192,13 +192,44 @@ fn casing() -> impl Strategy<Value = Value> {
     let lobes = (count, length(), width, -1000.0..1000.0).prop_map(|(count, amplitude, width, phase)| {
         json!({"count": count, "amplitude": amplitude, "width_rad": width, "phase_rad": phase})
     });
-    (clearance, option(lobes)).prop_map(|(clearance, lobes)| {
+    (clearance, option(lobes), shapes()).prop_map(|(clearance, lobes, shapes)| {
         let mut casing = json!({"clearance": clearance});
         if let Some(lobes) = lobes {
             casing["lobes"] = lobes;
         }
+        casing.as_object_mut().expect("written above").extend(shapes);
         casing
     })
+}
+
+/// At most one shape beside the lobes.
+fn shapes() -> impl Strategy<Value = serde_json::Map<String, Value>> {
+    let height = || prop_oneof![4 => -0.3..0.4, 1 => select(vec![0.0, 1e-40, 1e6])];
+    let along = || option(prop::collection::vec(-1.0..1.0, 3).prop_map(|shares| json!(shares)));
+    let lobe = (-10.0..10.0, height(), 0.02..3.0, along()).prop_map(|(angle, amplitude, width, along)| {
+        json!({"angle_rad": angle, "amplitude": amplitude, "width_rad": width, "along_chord": along})
+    });
+    let wave = (1..101u32, height(), -10.0..10.0, along()).prop_map(|(order, amplitude, phase, along)| {
+        json!({"order": order, "amplitude": amplitude, "phase_rad": phase, "along_chord": along})
+    });
+    let heights = prop::collection::vec(prop::collection::vec(-0.1..0.3, 12), 1..4);
+    let measured = (heights, -7.0..7.0, 0.3..0.6, any::<bool>()).prop_map(|(heights, first, step, each)| {
+        let angles: Vec<f64> = (0..12).map(|i| first + step * f64::from(i)).collect();
+        let lines = heights.len().max(2) - 1;
+        let chord: Vec<f64> = (0..heights.len()).map(|line| line as f64 / lines as f64).collect();
+        json!({"angles_rad": angles, "chord": if each { Value::Null } else { json!(chord) }, "heights": heights})
+    });
+    let tilt = (-2e-3..2e-3, -10.0..10.0, -50.0..50.0).prop_map(
+        |(angle, towards, about)| json!({"angle_rad": angle, "towards_rad": towards, "about_z": about}),
+    );
+    let of = |name: &'static str, value: Value| [(name.to_owned(), value)].into_iter().collect();
+    prop_oneof![
+        4 => Just(serde_json::Map::new()),
+        1 => prop::collection::vec(lobe, 0..4).prop_map(move |lobes| of("single_lobes", json!(lobes))),
+        1 => prop::collection::vec(wave, 0..4).prop_map(move |waves| of("waves", json!(waves))),
+        1 => measured.prop_map(move |measured| of("measured", measured)),
+        1 => tilt.prop_map(move |tilt| of("tilt", tilt)),
+    ]
 }
 
 fn integration() -> impl Strategy<Value = Value> {

@@ -160,8 +160,12 @@ fn auto_steps(reduced: &ReducedSector, request: &SweepRequest, speed: f64) -> f6
         AutoOr::Auto => Scheme::CentralDifferences,
     };
     let stable = scheme.smallest_stable_steps(&wheel, &reduced.wheel.contact) as f64 / 0.8;
-    let lobes = request.scene.casing.as_ref().and_then(|casing| casing.lobes.as_ref());
-    let seen = lobes.map_or(0.0, |lobes| 63.0 / lobes.width_rad);
+    let seen = request.scene.casing.as_ref().map_or(0.0, |casing| {
+        let widths = casing.lobes.iter().map(|lobes| lobes.width_rad);
+        let widths = widths.chain(casing.single_lobes.iter().map(|lobe| lobe.width_rad));
+        let widths = widths.chain(casing.waves.iter().map(|wave| 0.78 / f64::from(wave.order)));
+        63.0 / widths.fold(f64::INFINITY, f64::min)
+    });
     let steps = stable.max(seen).max(3600.0);
     if steps > 3e7 { 0.0 } else { steps }
 }
