@@ -151,3 +151,21 @@ def test_a_defect_is_found_before_anything_is_written(parts: Parts, what: str, t
     with pytest.raises(rubmap.PackageError, match=expected):
         rubmap.write_package(tmp_path / "bad.zip", **parts)
     assert not (tmp_path / "bad.zip").exists()
+
+
+def test_a_table_becomes_a_measured_casing(client: rubmap.Client, tmp_path: Path) -> None:
+    table = tmp_path / "casing.csv"
+    angles = np.arange(0, 360, 3)
+    rows = [
+        f"{angle};{height}".replace(".", ",")
+        for angle, height in zip(angles, np.cos(np.radians(2 * angles)), strict=True)
+    ]
+    table.write_text("\ufeffangle_deg;0,5\n" + "\n".join(rows), encoding="utf-8")
+    found = client.measured_casing(table)
+    np.testing.assert_allclose(found["measured"]["angles_rad"], np.radians(angles))
+    np.testing.assert_allclose(found["measured"]["heights"], [np.cos(np.radians(2 * angles))])
+    assert found["measured"]["chord"] == [0.5] and found["survey"]["outlier_count"] == 0
+    table.write_text("angle_deg,0\n1,much\n", encoding="utf-8")
+    with pytest.raises(rubmap.Refusal) as refused:
+        client.measured_casing(table)
+    assert refused.value.errors[0]["line"] == 2
