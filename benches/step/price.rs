@@ -1,5 +1,6 @@
 //! The price list: what a step costs with each effect of a scene, beside the scene without.
 
+use rubmap::dynamics::clearance_change::ClearanceChange;
 use rubmap::dynamics::contact::coating::{Coating, CoatingMaterial};
 use rubmap::dynamics::contact::friction::sliding_directions;
 use rubmap::dynamics::direction::Direction;
@@ -45,12 +46,15 @@ pub(crate) fn measure() {
     }];
     let friction = Some(Friction { coefficient: 0.1, directions: &sliding });
     let orbit = Some(Orbit { radius: 0.02, whirl_ratio: 0.4, phase_rad: 0.0 });
+    let change = ClearanceChange { course: vec![(1.0, 0.01), (2.0, -0.01)], along_chord: None };
+    let clearance_change = Some(&change);
     let none = Effects::default();
     let all = Effects {
         friction,
         coating: Some(&coating),
         flexible_casing: Some(&casing),
         orbit,
+        clearance_change,
         mistuning: Some(&deviations),
         excitation: &excitation,
         energies: false,
@@ -64,6 +68,7 @@ pub(crate) fn measure() {
         ("abradable", exact, &scene.modal, Effects { coating: Some(&coating), ..none }),
         ("flexible_casing", exact, &scene.modal, Effects { flexible_casing: Some(&casing), ..none }),
         ("orbit", exact, &scene.modal, Effects { orbit, ..none }),
+        ("clearance_change", exact, &scene.modal, Effects { clearance_change, ..none }),
         ("mistuning", exact, &scene.modal, Effects { mistuning: Some(&deviations), ..none }),
         ("engine_order_excitation", exact, &scene.modal, Effects { excitation: &excitation, ..none }),
         ("coriolis", exact, &turning, none),

@@ -1,6 +1,8 @@
 //! The default impeller in front of a casing with two lobes, as the service would integrate it.
 
-use rubmap::analysis::effects::casing::request::{Casing as CasingRequest, Clearance, Lobes as LobesRequest};
+use rubmap::analysis::effects::casing::request::{
+    Casing as CasingRequest, Clearance, ClearanceState, Lobes as LobesRequest,
+};
 use rubmap::analysis::effects::contact::request::Contact;
 use rubmap::analysis::effects::damping::request::Damping;
 use rubmap::analysis::monitor::Unwatched;
@@ -103,7 +105,9 @@ impl Scene {
             phase_rad: LOBES.phase_rad,
             along_chord: None,
         };
-        let clearance = Clearance { leading: None, trailing: None, values: Some(casing.clearance) };
+        let values = Some(casing.clearance);
+        let given = ClearanceState::Running;
+        let clearance = Clearance { leading: None, trailing: None, values, given };
         let last = self.reduced.wheel.contact.len() as u32 - 1;
         let sensor = |contact_node| Sensor::at_contact(contact_node, 0, Component::Radial);
         let settings = SweepRequest {

@@ -85,7 +85,7 @@ impl Jobs {
         let source = source.clone();
         let made = tokio::task::spawn_blocking(move || {
             let _memory = memory;
-            static_wheel::from_package(&source.package, (&source.basis, &source.reduced.wheel))
+            static_wheel::from_package(&source.package, (&source.basis, &source.reduced.wheel), &|_, _| true)
         });
         made.await.unwrap_or(Err(StaticWheelError::Unsolved(ReductionError::Cancelled)))
     }

@@ -10,11 +10,13 @@ use super::memory::Memory;
 use super::patience::BETWEEN_ATTEMPTS;
 use super::patience::{patiently, until_written};
 use super::progress::PhaseMonitor;
+use super::static_wheel::{self, StaticWheelError};
 use super::stress::Making;
 use crate::analysis::error::AnalysisError;
 use crate::analysis::monitor::Monitor;
 use crate::analysis::resolved::ResolvedSweep;
 use crate::analysis::run::{self, ReducedSector};
+use crate::analysis::tip_growth::TipGrowth;
 use crate::dynamics::kept_rows::KeptRows;
 use crate::dynamics::node_rows::NodeRows;
 use crate::dynamics::nodes::SectorNode;
@@ -37,6 +39,8 @@ struct Beside {
     nodes: Vec<u64>,
     /// Stress outside this radius about the contact nodes.
     stress_outside: Option<f64>,
+    /// Growth of the tips.
+    growth: bool,
     /// Rows of the basis at all nodes: they must be there, must not, or are kept if it reduces.
     fields: Option<bool>,
 }
@@ -50,7 +54,8 @@ impl Beside {
     /// Whether `reduced` has all of it.
     fn is_of(&self, reduced: &ReducedSector) -> bool {
         let tells = self.stress_outside.is_none_or(|radius| reduced.tells_stress(radius));
-        tells && reduced.reads(&self.nodes) && (reduced.has_basis || !self.needs_basis())
+        let grows = reduced.growth.is_some() || !self.growth;
+        tells && grows && reduced.reads(&self.nodes) && (reduced.has_basis || !self.needs_basis())
     }
 }
 
@@ -98,7 +103,12 @@ impl Reductions {
         fields: Option<bool>,
         monitor: PhaseMonitor,
     ) -> Result<Arc<ReducedSector>, Interruption> {
-        let beside = Beside { nodes: sweep.sensor_nodes(), stress_outside: sweep.stress_outside(), fields };
+        let beside = Beside {
+            nodes: sweep.sensor_nodes(),
+            stress_outside: sweep.stress_outside(),
+            growth: sweep.takes_growth(),
+            fields,
+        };
         self.reading(sweep.model(), sweep.modes_per_speed(), &beside, monitor).await
     }
 
@@ -279,6 +289,7 @@ impl Reductions {
             let made = self.stress(key, &mut reduced, beside, &monitor).await?;
             made.map_err(|error| Interruption::Store(StoreError::File(error)))?;
         }
+        self.growth(key, &mut reduced, beside, &monitor).await?;
         Ok(self.remember(key, reduced))
     }
 
@@ -304,7 +315,41 @@ impl Reductions {
             }
             reduced.has_basis = true;
         }
-        self.stress(key, reduced, beside, monitor).await
+        let stress = self.stress(key, reduced, beside, monitor).await?;
+        if stress.is_ok() {
+            self.growth(key, reduced, beside, monitor).await?;
+        }
+        Ok(stress)
+    }
+
+    /// Gives `reduced` the growth of its tips, if that is asked for; solves for it if it is not there.
+    async fn growth(
+        &self,
+        (model, modes_per_speed): &Key,
+        reduced: &mut ReducedSector,
+        beside: &Beside,
+        monitor: &PhaseMonitor,
+    ) -> Result<(), Interruption> {
+        if !beside.growth || reduced.growth.is_some() {
+            return Ok(());
+        }
+        let dofs = self.store.model(model, None).await?.map_or(0, |model| model.facts.own_dofs.into());
+        monitor.progress(0.0, "waiting for memory that other jobs hold");
+        let _memory = self.memory.claim(dofs).await;
+        let package = self.store.package(model).await?;
+        let basis = self.store.basis(model, *modes_per_speed);
+        let (wheel, watched) = (Arc::clone(&reduced.wheel), monitor.clone());
+        let solve = move || {
+            let watch = |share: f64, phase: &str| {
+                watched.progress(share, phase);
+                !watched.is_cancelled()
+            };
+            let fixed = static_wheel::from_package(&package, (&basis, &wheel), &watch)?;
+            Ok::<_, StaticWheelError>(fixed.map(|fixed| TipGrowth::of(&fixed, &wheel.contact)))
+        };
+        let growth = self.computing.run_parallel(monitor.watch(), solve).await??;
+        reduced.growth = growth.map(Arc::new);
+        Ok(())
     }
 
     /// Gives `reduced` the stress that is asked for, if any is; makes it if it is not there.

@@ -41,10 +41,11 @@ pub(super) fn static_wheel(
 pub(super) fn from_package(
     package: &Path,
     (basis, wheel): (&BasisFolder, &ReducedWheel),
+    watch: Watch<'_>,
 ) -> Result<Option<StaticWheel>, StaticWheelError> {
     let limits = Limits::default();
     let Some(mesh) = package::read_mesh(package, &limits)? else { return Ok(None) };
     let nodes = package::read_nodes(package, &limits)?;
     let maker = StressMaker::new(&mesh, &nodes);
-    static_wheel(package, (basis, wheel), &maker, &|_, _| true).map(Some)
+    static_wheel(package, (basis, wheel), &maker, watch).map(Some)
 }

@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 
 use super::app::{Answer, Api, TestApp, sweep_of};
 use super::model;
+use super::stress::{impeller, package};
 
 async fn read(api: &Api, table: impl Into<Vec<u8>>) -> Answer {
     let request =
@@ -132,5 +133,47 @@ async fn wrong_shapes_are_refused_at_their_places() {
     assert_eq!(plan.status, 200, "{}", plan.body);
     assert_eq!(plan.body["casing_shape"]["repeats"], 1);
     assert!(plan.body["casing_shape"].get("highest").is_none());
+    app.stop().await;
+}
+
+/// The tips of a wheel with elements grow into clearances that are given cold; a wheel of springs cannot say how.
+#[tokio::test]
+async fn cold_clearances_are_closed_by_growing_tips() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(package(&impeller())).await;
+    let of = |given: &str, ramp: f64| {
+        let clearance = json!({"leading": 0.5, "trailing": 0.4, "given": given});
+        json!({
+            "model": model, "modes_per_speed": 2, "speeds": {"values": [500.0, 2000.0], "unit": "rad_s"},
+            "scene": {"centrifugal_stiffening": true, "damping": {"modal_ratio": 0.05}, "contact": {},
+                      "casing": {"clearance": clearance, "waves": [{"order": 2, "amplitude": 0.1}]}},
+            "integration": {"revolutions": 4, "window_revolutions": 2, "ramp_revolutions": ramp}
+        })
+    };
+    let id = api.sweep(&of("cold", 1.0)).await;
+    assert_eq!(api.finish(&id).await["status"], "successful");
+    let map = api.get(&format!("/v1/jobs/{id}/interaction-map")).await.body;
+    let running = |index: usize, node: usize| -> f64 {
+        map["points"][index]["running_clearance"][node].as_f64().unwrap()
+    };
+    // In proportion to Ω² but for what stiffening takes; nodes 0 and the last are those at the ends.
+    let last = map["points"][0]["running_clearance"].as_array().unwrap().len() - 1;
+    for (node, cold) in [(0, 0.5), (last, 0.4)] {
+        let ratio = (cold - running(1, node)) / (cold - running(0, node));
+        assert!((13.0..=16.1).contains(&ratio), "{node}: {ratio}");
+    }
+    let again = api.sweep(&of("running", 1.0)).await;
+    assert_eq!(api.finish(&again).await["status"], "successful");
+    let map = api.get(&format!("/v1/jobs/{again}/interaction-map")).await.body;
+    assert!(map["points"][0].get("running_clearance").is_none());
+    let items = api.post("/v1/sweeps", &of("cold", 0.0)).await.problem(422, "invalid-request");
+    assert_eq!(items[0]["pointer"], "/integration/ramp_revolutions");
+
+    let springs = api.model(model::package(1.0)).await;
+    let mut request = sweep_of(&springs);
+    request["scene"]["casing"]["clearance"]["given"] = json!("cold");
+    let items = api.post("/v1/sweeps", &request).await.problem(422, "invalid-request");
+    assert_eq!(items[0]["pointer"], "/scene/casing/clearance/given");
     app.stop().await;
 }

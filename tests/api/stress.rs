@@ -9,14 +9,14 @@ use super::generation::coarse;
 use super::model::{self, files_in};
 use super::studies::study_of;
 
-fn package(parameters: &ImpellerParameters) -> Vec<u8> {
+pub(super) fn package(parameters: &ImpellerParameters) -> Vec<u8> {
     let mut bytes = std::io::Cursor::new(Vec::new());
     rubmap::package::write(&generate(parameters).unwrap(), &mut bytes).unwrap();
     bytes.into_inner()
 }
 
 /// The generator's impeller with a coarse mesh.
-fn impeller() -> ImpellerParameters {
+pub(super) fn impeller() -> ImpellerParameters {
     let mut given = serde_json::to_value(ImpellerParameters::default()).unwrap();
     let wanted = coarse();
     for field in ["contact_nodes", "mesh"] {

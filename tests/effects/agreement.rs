@@ -61,7 +61,7 @@ fn assert_seen(effect: Effect, scene: &Scene) {
         Effect::FlexibleCasing => assert!(record.casing_amplitude > 1e-3),
         Effect::Mistuning => assert!(record.mistuning_work != 0.0),
         Effect::Excitation => assert!(record.excitation_work != 0.0),
-        Effect::Orbit | Effect::Coriolis => {}
+        Effect::Orbit | Effect::ClearanceChange | Effect::Coriolis => {}
     }
     let without = Scene::clone(scene);
     let without = match effect {
@@ -69,6 +69,7 @@ fn assert_seen(effect: Effect, scene: &Scene) {
         Effect::Coating => Scene { coating: None, ..without },
         Effect::FlexibleCasing => Scene { flexible_casing: None, ..without },
         Effect::Orbit => Scene { orbit: None, ..without },
+        Effect::ClearanceChange => Scene { clearance_change: None, ..without },
         Effect::Mistuning => Scene { mistuning: None, ..without },
         Effect::Excitation => Scene { excitation: Vec::new(), ..without },
         Effect::Coriolis => {

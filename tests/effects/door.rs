@@ -45,6 +45,11 @@ fn effects() -> Vec<(&'static str, Value)> {
         ),
         ("orbit", json!({"orbit": {"radius": 0.05, "whirl_ratio": 0.4}})),
         (
+            "clearance_change",
+            json!({"clearance_change": {"course": [
+                {"revolutions": 0.5, "change": 0.02}, {"revolutions": 1.0, "change": -0.03}]}}),
+        ),
+        (
             "initial",
             json!({"initial": {"nodal_diameter": 2, "family": 1, "amplitude": 0.05, "wave": "forward"}}),
         ),
@@ -217,7 +222,10 @@ fn a_chain_refuses_what_would_jump() {
         assert_eq!(violations[0].pointer, "/sweep");
         Some(name)
     });
-    assert_eq!(refused.collect::<Vec<_>>(), ["abradable", "flexible_casing", "orbit", "probe"]);
+    assert_eq!(
+        refused.collect::<Vec<_>>(),
+        ["abradable", "flexible_casing", "orbit", "clearance_change", "probe"]
+    );
 }
 
 /// Numbers that would cost the memory, or mean another order, are refused at their place.

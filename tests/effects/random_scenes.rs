@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use faer::{Mat, c64};
 use rubmap::dynamics::casing::{Casing, Lobe, Lobes, Part, PeriodicSpline, Profile, Restriction};
+use rubmap::dynamics::clearance_change::ClearanceChange;
 use rubmap::dynamics::contact::coating::CoatingMaterial;
 use rubmap::dynamics::direction::Direction;
 use rubmap::dynamics::excitation::EngineOrderExcitation;
@@ -95,6 +96,10 @@ fn scene(seed: u64) -> Scene {
         radius: dice.between(0.0, 0.15),
         whirl_ratio: dice.between(-1.0, 1.5),
         phase_rad: dice.between(-3.0, 3.0),
+    });
+    scene.clearance_change = seed.is_multiple_of(3).then(|| ClearanceChange {
+        course: vec![(0.2, 0.1), (0.3 + 0.001 * seed as f64, -0.1), (0.8, 0.04)],
+        along_chord: None,
     });
     let orders = dice.below(3);
     scene.excitation = (0..orders)

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use faer::{Mat, c64};
 use rubmap::dynamics::casing::{Casing, Lobes};
+use rubmap::dynamics::clearance_change::ClearanceChange;
 use rubmap::dynamics::contact::coating::{Coating, CoatingMaterial};
 use rubmap::dynamics::direction::Direction;
 use rubmap::dynamics::effects::{Effects, Friction};
@@ -33,16 +34,18 @@ pub(crate) enum Effect {
     Coating,
     FlexibleCasing,
     Orbit,
+    ClearanceChange,
     Mistuning,
     Excitation,
     Coriolis,
 }
 
-pub(crate) const EFFECTS: [Effect; 7] = [
+pub(crate) const EFFECTS: [Effect; 8] = [
     Effect::Friction,
     Effect::Coating,
     Effect::FlexibleCasing,
     Effect::Orbit,
+    Effect::ClearanceChange,
     Effect::Mistuning,
     Effect::Excitation,
     Effect::Coriolis,
@@ -76,6 +79,7 @@ pub(crate) struct Scene {
     pub(crate) coating: Option<Abradable>,
     pub(crate) flexible_casing: Option<FlexibleCasing>,
     pub(crate) orbit: Option<Orbit>,
+    pub(crate) clearance_change: Option<ClearanceChange>,
     pub(crate) mistuning: Option<Vec<f64>>,
     pub(crate) excitation: Vec<EngineOrderExcitation>,
     pub(crate) initial: Vec<InitialMode>,
@@ -183,6 +187,7 @@ impl Scene {
             coating: None,
             flexible_casing: None,
             orbit: None,
+            clearance_change: None,
             mistuning: None,
             excitation: Vec::new(),
             initial: if start == Start::Rest { Vec::new() } else { vec![push] },
@@ -240,6 +245,11 @@ impl Scene {
             Effect::Orbit => {
                 self.orbit = Some(Orbit { radius: 0.07, whirl_ratio: -0.3, phase_rad: 0.4 });
             }
+            Effect::ClearanceChange => {
+                let course = vec![(0.5, 0.05), (0.9, 0.05), (1.7, -0.12)];
+                let along_chord = (0..self.nodes.len()).map(|k| 1.0 - 0.4 * k as f64).collect();
+                self.clearance_change = Some(ClearanceChange { course, along_chord: Some(along_chord) });
+            }
             Effect::Mistuning => {
                 let deviation = |s: usize| 0.08 * (1.7 * s as f64 + 0.6).sin();
                 self.mistuning = Some((0..self.wheel.sectors).map(deviation).collect());
@@ -290,6 +300,7 @@ impl Scene {
                 coating: coating.as_ref(),
                 flexible_casing: self.flexible_casing.as_ref(),
                 orbit: self.orbit,
+                clearance_change: self.clearance_change.as_ref(),
                 mistuning: self.mistuning.as_deref(),
                 excitation: &self.excitation,
                 energies: false,

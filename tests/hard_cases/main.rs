@@ -4,6 +4,7 @@
 mod all_nodes_close;
 #[path = "../properties/campaign.rs"]
 mod campaign;
+mod closing_clearances;
 mod denormals;
 mod double_eigenvalues;
 #[path = "../properties/fixed.rs"]

@@ -2,6 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 use rubmap::analysis::stress::StressMaker;
+use rubmap::analysis::tip_growth::TipGrowth;
 use rubmap::impeller::{impeller_sector, to_package};
 use rubmap::package::{self, Limits};
 use rubmap::solid::frame::AxisFrame;
@@ -48,6 +49,15 @@ fn the_static_part_of_stress_is_that_of_calculix() {
         let off =
             directions(index).transpose() * ours - Vector3::from(theirs.displacements[theirs_of(index)]);
         displacement = displacement.max(off.norm() / largest);
+    }
+
+    // Tips grow by what their nodes move along their normals.
+    let contact = &imported.sector.contact;
+    for (node, growth) in contact.iter().zip(TipGrowth::of(&fixed, contact).at(speed, false)) {
+        let index = nodes.iter().position(|own| own.id == node.id).expect("a node of the mesh");
+        let moved = directions(index) * Vector3::from(theirs.displacements[theirs_of(index)]);
+        let expected = moved.dot(&Vector3::from(node.normal));
+        assert!((growth - expected).abs() / largest < PRINTED[0], "{growth} {expected}");
     }
 
     let shares = fixed.stress.span.at(speed, false);

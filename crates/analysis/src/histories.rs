@@ -1,7 +1,7 @@
 //! What happened at one speed of a sweep, simulated again.
 
 use crate::component::{along, direction};
-use crate::effects::casing::convert::{clearance, heights_before};
+use crate::effects::casing::convert::{heights_before, lasting_clearance};
 use crate::end_state::EndState;
 use crate::error::AnalysisError;
 use crate::model::ReducedSector;
@@ -83,13 +83,19 @@ pub fn speed_histories(
         Err(reason) => point.message = Some(reason.to_string()),
         Ok((wheel, stepping, Simulated { run, steady })) => {
             (point.march, point.steady) = (marched(sweep, &run, steady.as_ref()), steady);
-            record_run(&mut point, &run, sweep, &wheel, &stepping, &reduced.wheel.contact)?;
+            record_run(&mut point, &run, sweep, &wheel, &stepping, reduced)?;
             if let (PointStatus::Completed, Outcome::Completed(history)) = (point.status, &run.outcome) {
                 let samples = stepping.discretisation.samples;
                 histories.samples_per_revolution = samples as u32;
                 let (from, to) = asked.of(sweep.integration.revolutions() as usize, history.repeated);
                 histories.revolutions = whole((from, to));
-                histories.sensors = sensors(reduced, history, sweep, record, samples * from..samples * to);
+                histories.sensors = sensors(
+                    (reduced, point.speed_rad_s),
+                    history,
+                    sweep,
+                    record,
+                    samples * from..samples * to,
+                );
                 if let Some(states) = &history.states {
                     let stiffening = sweep.scene.centrifugal_stiffening;
                     let states = WheelStates::of(states, &wheel, &reduced.wheel, stiffening);
@@ -127,7 +133,7 @@ fn state_before(
 }
 
 fn sensors(
-    reduced: &ReducedSector,
+    (reduced, speed_rad_s): (&ReducedSector, f64),
     history: &History,
     sweep: &ResolvedSweep,
     record: &Recorded,
@@ -136,7 +142,7 @@ fn sensors(
     let velocity = history.detail.as_ref().map_or(&[][..], |detail| &detail.velocity);
     let of = |(sensor, &at): (usize, &ResolvedSensor)| SensorHistory {
         sensor: at.into(),
-        tip: tip(reduced, sweep, at),
+        tip: tip((reduced, speed_rad_s), sweep, at),
         displacement: match record.wants(RecordedQuantity::Displacement) {
             true => history.displacement[sensor][samples.clone()].to_vec(),
             false => Vec::new(),
@@ -150,7 +156,11 @@ fn sensors(
 const OUTWARD: f64 = 0.99;
 
 /// Where a sensor on the contact line stands before the casing, if there is one and it measures the way there.
-fn tip(reduced: &ReducedSector, sweep: &ResolvedSweep, sensor: ResolvedSensor) -> Option<TipPlace> {
+fn tip(
+    (reduced, speed_rad_s): (&ReducedSector, f64),
+    sweep: &ResolvedSweep,
+    sensor: ResolvedSensor,
+) -> Option<TipPlace> {
     let contact = &reduced.wheel.contact;
     let node = match sensor.place {
         Place::Contact(node) => node as usize,
@@ -169,7 +179,7 @@ fn tip(reduced: &ReducedSector, sweep: &ResolvedSweep, sensor: ResolvedSensor) -
     let turn = f64::from(sensor.sector) * std::f64::consts::TAU / reduced.wheel.sectors as f64;
     Some(TipPlace {
         angle_rad: contact[node].position[1] + turn,
-        clearance: clearance(contact, sweep)?[node],
+        clearance: lasting_clearance(reduced, sweep, speed_rad_s)?[node],
         heights: heights_before(contact, node, sweep),
     })
 }

@@ -47,6 +47,7 @@ mod stiffening;
 pub mod stress;
 mod summary;
 mod sweep_stress;
+pub mod tip_growth;
 mod tip_thickness;
 mod tips;
 mod validity;

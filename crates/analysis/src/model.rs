@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::result::{PreliminaryStiffening, ReductionReport, Strengths};
 use crate::stiffening::preliminary_stiffening;
 use crate::stress::ReducedStress;
+use crate::tip_growth::TipGrowth;
 use crate::tip_thickness::tip_thickness;
 use rubmap_solid::mesh::SectorMesh;
 use rubmap_wheel::dynamics::casing::arc_lengths;
@@ -29,6 +30,9 @@ pub struct ReducedSector {
     /// Stress in its coordinates, where that is to be recorded; kept apart from it too.
     #[serde(skip)]
     pub stress: Option<Arc<ReducedStress>>,
+    /// Growth of its tips, where clearances are given cold; kept apart from it too.
+    #[serde(skip)]
+    pub growth: Option<Arc<TipGrowth>>,
     /// Whether the rows of its basis at all nodes are known to lie beside it.
     #[serde(skip)]
     pub has_basis: bool,

@@ -18,6 +18,9 @@ pub(crate) enum NotRunnable {
     /// Stress of a reduction beside which it was not read.
     #[error("the stress of the reduction was not read, and this sweep records it")]
     UnreadStress,
+    /// Clearances given cold of a reduction beside which the growth of its tips was not read.
+    #[error("the growth of the tips was not read, and this scene has its clearances cold")]
+    UnreadGrowth,
     /// A sensor along the normal of a node that has none.
     #[error("node {id}, where a sensor is, has no normal: only contact nodes have")]
     NoNormal { id: u64 },

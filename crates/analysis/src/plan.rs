@@ -7,7 +7,7 @@ use crate::calibration::Calibration;
 use crate::calibration::effects::EffectSizes;
 use crate::calibration::size::StepSize;
 use crate::diagram::FrequencyDiagram;
-use crate::effects::casing::convert::{casing, check_table};
+use crate::effects::casing::convert::{casing, check_table, clearance_given, running_clearance};
 use crate::effects::symmetry::repeats::repeats;
 use crate::effects::symmetry::request::Symmetry;
 use crate::effects::table::{check_at_speed, planned};
@@ -272,7 +272,13 @@ fn plan_point(
         let steps = stepping.discretisation.per_revolution;
         check_at_speed(&stepping.of(request, &wheel, contact))?;
         check_table(&reduced.wheel, request, steps)?;
-        let casing = casing(&reduced.wheel, request, request.integration.ramp_revolutions);
+        // While the growth of the tips has still to be solved for, as they are given.
+        let clearance = match reduced.growth {
+            Some(_) => running_clearance(reduced, request, speed_rad_s)?,
+            None => clearance_given(contact, request),
+        };
+        let ramp = request.integration.ramp_revolutions;
+        let casing = clearance.and_then(|clearance| casing(&reduced.wheel, request, clearance, ramp));
         initial(request, &wheel, contact, casing.as_ref(), &stepping)?;
         Ok((wheel, stepping))
     });

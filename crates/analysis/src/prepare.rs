@@ -44,6 +44,7 @@ pub fn prepare(
         report,
         nodes: NodeRows::default(),
         stress: None,
+        growth: None,
         has_basis: false,
         tip_thickness: None,
     })

@@ -1,12 +1,13 @@
 //! What a run says: credentials, spectra and steady response of one speed.
 
 use crate::contact::ContactOf;
-use crate::effects::casing::convert::clearance;
+use crate::effects::casing::convert::lasting_clearance;
 use crate::effects::casing::shape::Shape;
 use crate::effects::effect::Ran;
 use crate::effects::symmetry::repeats::repeats;
 use crate::effects::table::named;
 use crate::error::AnalysisError;
+use crate::model::ReducedSector;
 use crate::resolved::{ResolvedSensor, ResolvedSweep};
 use crate::result::{
     ContactForces, ContactSummary, EnergyReport, Point, PointStatus, SensorResponse, SensorSpectrum,
@@ -18,7 +19,6 @@ use rubmap_numerics::sector_fourier::{SectorFourier, harmonic_count};
 use rubmap_numerics::spectrum::amplitudes;
 use rubmap_wheel::dynamics::integrate::{Divergence, History, Outcome, Run, TipDisplacement};
 use rubmap_wheel::dynamics::modal_wheel::ModalWheel;
-use rubmap_wheel::dynamics::sector::ContactNode;
 use rubmap_wheel::response::settling::judge;
 use rubmap_wheel::response::side_bands::{SideBands, side_bands};
 use rubmap_wheel::response::spectra::{engine_orders, nodal_diameter_amplitudes};
@@ -38,7 +38,7 @@ pub(super) fn record_run(
     request: &ResolvedSweep,
     wheel: &ModalWheel,
     stepping: &Stepping,
-    contact_nodes: &[ContactNode],
+    sector: &ReducedSector,
 ) -> Result<Option<Recorded>, AnalysisError> {
     let parts = wheel.repeats as f64;
     let steps = &stepping.discretisation;
@@ -76,10 +76,14 @@ pub(super) fn record_run(
             let judged = history.repeated.map_or(window, |repeated| window.max(2 * repeated.period));
             let settling = judge(&history.displacement, steps.samples, judged, lobes);
             point.settling = Some(settling.beside(strongest_side_bands(&point.responses)));
-            let contact = contact(run, request, wheel, stepping, contact_nodes);
+            let clearance = lasting_clearance(sector, request, wheel.speed_rad_s);
+            let contact = contact(run, request, wheel, stepping, clearance.as_deref());
             let (summary, forces) = contact.unzip();
             point.contact = summary;
-            point.tip = largest_tip(history, request, contact_nodes);
+            point.tip = largest_tip(history, clearance.as_deref(), &sector.wheel.contact);
+            if request.takes_growth() {
+                point.running_clearance = clearance.unwrap_or_default();
+            }
             Some(Recorded { spectra, contact: forces })
         }
     };
@@ -101,12 +105,12 @@ fn contact(
     request: &ResolvedSweep,
     wheel: &ModalWheel,
     stepping: &Stepping,
-    contact_nodes: &[ContactNode],
+    clearance: Option<&[f64]>,
 ) -> Option<(ContactSummary, ContactForces)> {
     let of = ContactOf {
         record: run.contact.as_ref()?,
         wheel,
-        clearance: &clearance(contact_nodes, request)?,
+        clearance: clearance?,
         window_revolutions: f64::from(request.integration.window_revolutions),
         steps_per_revolution: stepping.discretisation.per_revolution,
         samples_per_revolution: stepping.discretisation.samples,

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use crate::effects::casing::convert::{casing, check_table};
+use crate::effects::casing::convert::{casing, check_table, running_clearance};
 use crate::effects::damping::convert::modal_damping;
 use crate::effects::physics::Surroundings;
 use crate::effects::table::{SceneEffects, check_at_speed};
@@ -58,7 +58,7 @@ pub fn run_speed(
         Err(reason) => point.message = Some(reason.to_string()),
         Ok((wheel, stepping, Simulated { run, steady })) => {
             (point.march, point.steady) = (marched(request, &run, steady.as_ref()), steady);
-            recorded = record_run(&mut point, &run, request, &wheel, &stepping, &reduced.wheel.contact)?;
+            recorded = record_run(&mut point, &run, request, &wheel, &stepping, reduced)?;
             judge_run(&mut point, &run, reduced, request, &wheel);
             end_state = end_state_of(&run, &reduced.wheel, &wheel, request);
             wear = run.coating.as_ref().map(WearMap::of);
@@ -174,6 +174,7 @@ pub(super) fn empty_point(
         steps: 0,
         contact_share: 0.0,
         tip: None,
+        running_clearance: Vec::new(),
         contact: None,
         contact_impulse: None,
         largest_penetration: None,
@@ -268,7 +269,8 @@ pub(super) fn staged<T>(
     let Stepping { scheme, discretisation: steps, .. } = stepping;
     check_at_speed(&stepping.of(request, wheel, &reduced.contact))?;
     let damping = modal_damping(request);
-    let casing = casing(reduced, request, ramp_revolutions);
+    let clearance = running_clearance(sector, request, wheel.speed_rad_s)?;
+    let casing = clearance.and_then(|clearance| casing(reduced, request, clearance, ramp_revolutions));
     check_table(reduced, request, steps.per_revolution)?;
     let surroundings =
         Surroundings { contact_nodes: &reduced.contact, sectors: wheel.around(), ramp_revolutions };

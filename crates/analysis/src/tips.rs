@@ -1,6 +1,5 @@
 //! The tips of the whole wheel: which one moves most, and at which speeds that is dangerous.
 
-use crate::effects::casing::convert::clearance;
 use crate::request::{Component, Sensor};
 use crate::resolved::ResolvedSweep;
 use crate::response_curve::ResponseCurve;
@@ -19,7 +18,7 @@ const IN_ORDER: [Component; COMPONENTS] = [Component::Radial, Component::Tangent
 /// The tip with the largest root mean square, the first of equal ones.
 pub(super) fn largest_tip(
     history: &History,
-    request: &ResolvedSweep,
+    clearance: Option<&[f64]>,
     contact_nodes: &[ContactNode],
 ) -> Option<TipResponse> {
     let later_if_larger = |best: usize, now: usize| {
@@ -37,7 +36,7 @@ pub(super) fn largest_tip(
         contact_node: node as u32,
         sector: sector as u32,
         component: IN_ORDER[component],
-        over_clearance: clearance(contact_nodes, request).and_then(|clearance| over(clearance[node])),
+        over_clearance: clearance.and_then(|clearance| over(clearance[node])),
         over_chord: over(arc_lengths(&positions).last().copied().unwrap_or(0.0)),
     })
 }

@@ -332,7 +332,7 @@ impl<'a> Literal<'a> {
             + TAU * (sector as f64 / self.scene.wheel.sectors as f64 + revolutions)
     }
 
-    /// c − p minus the orbit's share at every contact node of every sector.
+    /// c as it is then − p minus the orbit's share at every contact node of every sector.
     fn clearances(&self, revolutions: f64) -> DVector<f64> {
         let Some(casing) = &self.scene.casing else { return DVector::zeros(0) };
         let nodes = self.scene.nodes.len();
@@ -346,7 +346,19 @@ impl<'a> Literal<'a> {
                 let (x, y) = (orbit.radius * towards.cos(), orbit.radius * towards.sin());
                 taken += self.scene.nodes[node].normal[0] * (x * angle.cos() + y * angle.sin());
             }
-            casing.clearance[node] - taken * growth(revolutions, casing.ramp_revolutions)
+            let mut clearance = casing.clearance[node];
+            if let Some(change) = &self.scene.clearance_change {
+                let mut from = (0.0, 0.0);
+                let mut now = 0.0;
+                for &to in &change.course {
+                    if revolutions >= from.0 {
+                        now = from.1 + (to.1 - from.1) * growth(revolutions - from.0, to.0 - from.0);
+                    }
+                    from = to;
+                }
+                clearance += now * change.along_chord.as_ref().map_or(1.0, |along| along[node]);
+            }
+            clearance - taken * growth(revolutions, casing.ramp_revolutions)
         })
     }
 

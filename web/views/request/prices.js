@@ -58,7 +58,7 @@ export function prices(path, model, signal) {
 }
 
 /** Effects that need another one. */
-const NEEDS = { contact: ['casing'], friction: ['contact'], abradable: ['contact'], flexible_casing: ['contact'], orbit: ['casing'] };
+const NEEDS = { contact: ['casing'], friction: ['contact'], abradable: ['contact'], flexible_casing: ['contact'], orbit: ['casing'], clearance_change: ['contact'] };
 
 /** The request with an effect switched, unless the scene would make no sense then or what it begins with is not known. */
 function changed(request, { name, on }, model) {

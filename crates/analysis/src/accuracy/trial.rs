@@ -109,7 +109,7 @@ pub fn run_trial(
     trial.unknowns = stepping.scheme.integrated_unknowns(&wheel) as u32;
     let samples = stepping.discretisation.samples;
     trial.samples_per_revolution = samples as u32;
-    let recorded = record_run(&mut trial.point, &run, sweep, &wheel, &stepping, &reduced.wheel.contact)?;
+    let recorded = record_run(&mut trial.point, &run, sweep, &wheel, &stepping, reduced)?;
     judge_run(&mut trial.point, &run, reduced, sweep, &wheel);
     if let (Outcome::Completed(history), Some(Recorded { spectra, .. })) = (&run.outcome, &recorded) {
         let kept = samples * request.history_revolutions.min(sweep.integration.revolutions()) as usize;

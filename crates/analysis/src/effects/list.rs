@@ -15,6 +15,9 @@ macro_rules! effects {
             /// The casing around the wheel; absent: the wheel spins freely.
             #[serde(default, skip_serializing_if = "Option::is_none")]
             casing: Option<crate::effects::casing::request::Casing>,
+            /// Clearances that close and open during the run; absent: they stay.
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            clearance_change: Option<crate::effects::clearance_change::request::ClearanceChange>,
             /// Unilateral contact between blade tips and casing; absent: tips pass through it.
             #[serde(default, skip_serializing_if = "Option::is_none")]
             contact: Option<crate::effects::contact::request::Contact>,

@@ -10,6 +10,7 @@ pub(crate) mod table;
 pub mod abradable;
 pub mod casing;
 pub mod centrifugal_stiffening;
+pub mod clearance_change;
 pub mod contact;
 pub mod coriolis;
 pub mod damping;

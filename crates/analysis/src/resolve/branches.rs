@@ -157,6 +157,11 @@ fn check_repeats(found: &mut Findings, scene: &Scene) {
         return;
     }
     found.require(scene.abradable.is_none(), "/scene/abradable", PassageError::Coating.to_string());
+    found.require(
+        scene.clearance_change.is_none(),
+        "/scene/clearance_change",
+        PassageError::ClearanceChange.to_string(),
+    );
     if let Some(orbit) = &scene.orbit
         && let Err(reason) = comes_round(orbit.whirl_ratio)
     {

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use crate::effects::casing::request::ClearanceState;
 use crate::error::Violation;
 use crate::request::speeds::Speeds;
 use crate::request::{
@@ -129,6 +130,12 @@ impl ResolvedSweep {
     /// Whether its wheel stiffens with speed.
     pub fn is_stiffened(&self) -> bool {
         self.scene.centrifugal_stiffening
+    }
+
+    /// Whether clearances are given cold, and touched.
+    pub fn takes_growth(&self) -> bool {
+        let cold = self.scene.casing.as_ref().is_some_and(|casing| casing.given == ClearanceState::Cold);
+        cold && self.scene.contact.is_some()
     }
 
     /// Whether the casing has a coating that wears.

@@ -1,5 +1,6 @@
 //! Effects beyond damping and contact with a rigid casing. One that is absent does not exist in the run.
 
+use super::clearance_change::ClearanceChange;
 use super::contact::coating::Coating;
 use super::direction::Direction;
 use super::excitation::EngineOrderExcitation;
@@ -17,6 +18,8 @@ pub struct Effects<'a> {
     pub flexible_casing: Option<&'a FlexibleCasing>,
     /// Eccentric casing or whirling shaft.
     pub orbit: Option<Orbit>,
+    /// Clearances that change.
+    pub clearance_change: Option<&'a ClearanceChange>,
     /// Relative stiffness deviation of every sector.
     pub mistuning: Option<&'a [f64]>,
     /// Forces at engine orders.
@@ -41,5 +44,6 @@ impl Effects<'_> {
             || self.coating.is_some()
             || self.flexible_casing.is_some()
             || self.orbit.is_some()
+            || self.clearance_change.is_some()
     }
 }

@@ -5,6 +5,7 @@ mod amplitude_sums;
 mod bouncing_bar;
 pub mod casing;
 pub mod centrifugal;
+pub mod clearance_change;
 pub mod contact;
 pub mod coriolis;
 pub mod direction;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::request::{Measured, SingleLobe, Tilt, Wave};
+use super::request::{ClearanceState, Measured, SingleLobe, Tilt, Wave};
 use super::resolved::Clearance;
 use super::shape::Shape;
 use super::steps::least_steps;
@@ -11,6 +11,7 @@ use crate::request::AutoOr;
 use crate::resolve::findings::{Findings, between, check_reach};
 use crate::resolve::limits;
 use crate::resolved::{ResolvedSweep, Scene};
+use rubmap_wheel::dynamics::integrate::DIVERGED_SHARE_OF_RADIUS;
 
 const AT: &str = "/scene/casing";
 const MOST_LOBES: u32 = 100;
@@ -22,17 +23,25 @@ const MOST_MEASURED: usize = 100_000;
 /// The square of a larger tilt is no longer a thousandth of it.
 const MOST_TILT_RAD: f64 = 1e-3;
 /// Shortest ramp of lobes that stand inside the blade.
-const LEAST_RAMP_REVOLUTIONS: f64 = 0.05;
+pub(crate) const LEAST_RAMP_REVOLUTIONS: f64 = 0.05;
 
 /// Clearance and lobes.
 pub(super) fn check(found: &mut Findings, request: &ResolvedSweep, facts: &ModelFacts) {
     let Some(casing) = &request.scene.casing else { return };
-    let valid = |length: f64| length == 0.0 || limits::LENGTH.contains(&length);
+    let valid = |length: f64| length == 0.0 || limits::LENGTH.contains(&length.abs());
     let radius = facts.contact_radius.filter(|radius| *radius > 0.0).unwrap_or(f64::INFINITY);
-    let fits = |length: f64| valid(length) && length <= radius;
+    let fits =
+        |length: f64| valid(length) && length <= radius && length >= -DIVERGED_SHARE_OF_RADIUS * radius;
     let message = format!(
-        "a clearance is 0 or a length {}, no larger than the radius at which the tips lie",
+        "a clearance is 0 or a length {}, no larger than the radius at which the tips lie; or negative, where the casing is pressed \
+         into the tips by at most a tenth of that",
         between(&limits::LENGTH)
+    );
+    found.require(
+        casing.given == ClearanceState::Running || facts.mesh.is_some(),
+        "/scene/casing/clearance/given",
+        "the package has no elements, of which the centrifugal load is made that tips grow under: give clearances of the running wheel, \
+         or a package with elements",
     );
     match &casing.clearance {
         Clearance::AlongChord { leading, trailing } => {
@@ -63,7 +72,7 @@ pub(super) fn check(found: &mut Findings, request: &ResolvedSweep, facts: &Model
         check_along_chord(found, lobes.along_chord.as_deref(), "/scene/casing/lobes", facts);
         check_lobe_count(found, lobes.count, "/scene/casing/lobes/count");
         found.require(
-            valid(lobes.amplitude),
+            lobes.amplitude >= 0.0 && valid(lobes.amplitude),
             "/scene/casing/lobes/amplitude",
             format!("a lobe's height is 0 or a length {}", between(&limits::LENGTH)),
         );
@@ -262,6 +271,17 @@ pub(crate) fn check_ramp(found: &mut Findings, request: &ResolvedSweep) {
         return;
     }
     let Scene { casing: Some(casing), contact: Some(_), .. } = &request.scene else { return };
+    if request.takes_growth() {
+        found.require(
+            request.integration.ramp_revolutions >= LEAST_RAMP_REVOLUTIONS,
+            "/integration/ramp_revolutions",
+            format!(
+                "clearances given cold may be closed where the wheel turns: let the casing grow over at least {LEAST_RAMP_REVOLUTIONS} \
+                 revolutions"
+            ),
+        );
+        return;
+    }
     let restriction = casing.shape.highest();
     let orbit = request.scene.orbit.as_ref().map_or(0.0, |orbit| orbit.radius);
     let smallest = casing.clearance.smallest();

@@ -4,28 +4,69 @@ use std::f64::consts::TAU;
 
 use super::resolved::Clearance;
 use super::shape::Shape;
+use crate::effects::clearance_change::convert::change;
+use crate::model::ReducedSector;
 use crate::not_runnable::NotRunnable;
 use crate::resolved::ResolvedSweep;
-use rubmap_wheel::dynamics::casing::{Casing, RestrictionTable, clearance_along_chord};
+use rubmap_wheel::dynamics::casing::{
+    Casing, Part, Profile, Restriction, RestrictionTable, clearance_along_chord,
+};
 use rubmap_wheel::dynamics::integrate::MAX_TABLE_VALUES;
 use rubmap_wheel::dynamics::reduction::ReducedWheel;
 use rubmap_wheel::dynamics::sector::ContactNode;
 
-/// The casing of a scene with contact; a casing that nothing touches does not exist for the integration.
+/// The casing of a scene with contact, with these clearances; a casing that nothing touches does not exist for the integration.
+///
+/// What presses into the tips grows with the shape: the run begins with the gap closed.
 pub(crate) fn casing(
     reduced: &ReducedWheel,
     request: &ResolvedSweep,
+    mut clearance: Vec<f64>,
     ramp_revolutions: f64,
 ) -> Option<Casing> {
-    let clearance = clearance(&reduced.contact, request)?;
     let casing = request.scene.casing.as_ref()?;
     let (positions, normals) = places(&reduced.contact);
-    let restriction = casing.shape.restriction(&positions, &normals);
+    let mut restriction = casing.shape.restriction(&positions, &normals);
+    if clearance.iter().any(|&clearance| clearance < 0.0) {
+        let pressed = clearance.iter().map(|clearance| (-clearance).max(0.0)).collect();
+        let everywhere = Profile::Wave { order: 0, amplitude: 1.0, phase_rad: 0.0 };
+        let part = Part { profile: everywhere, along_chord: Some(pressed) };
+        restriction.get_or_insert(Restriction { parts: Vec::new() }).parts.push(part);
+        clearance.iter_mut().for_each(|clearance| *clearance = clearance.max(0.0));
+    }
     Some(Casing { clearance, restriction, ramp_revolutions })
 }
 
-/// c of every contact node of a scene with contact.
-pub(crate) fn clearance(contact_nodes: &[ContactNode], request: &ResolvedSweep) -> Option<Vec<f64>> {
+/// c of every contact node of a scene with contact at a speed.
+pub(crate) fn running_clearance(
+    sector: &ReducedSector,
+    request: &ResolvedSweep,
+    speed_rad_s: f64,
+) -> Result<Option<Vec<f64>>, NotRunnable> {
+    let Some(mut clearance) = clearance_given(&sector.wheel.contact, request) else { return Ok(None) };
+    if request.takes_growth() {
+        let growth = sector.growth.as_ref().ok_or(NotRunnable::UnreadGrowth)?;
+        let growth = growth.at(speed_rad_s, request.scene.centrifugal_stiffening);
+        clearance.iter_mut().zip(growth).for_each(|(clearance, growth)| *clearance -= growth);
+    }
+    Ok(Some(clearance))
+}
+
+/// The same over the window, when it changes no more; none where nothing could run.
+pub(crate) fn lasting_clearance(
+    sector: &ReducedSector,
+    request: &ResolvedSweep,
+    speed_rad_s: f64,
+) -> Option<Vec<f64>> {
+    let mut clearance = running_clearance(sector, request, speed_rad_s).ok().flatten()?;
+    if let Some(change) = change(&request.scene) {
+        clearance.iter_mut().enumerate().for_each(|(node, clearance)| *clearance += change.lasting(node));
+    }
+    Some(clearance)
+}
+
+/// The same as it is given.
+pub(crate) fn clearance_given(contact_nodes: &[ContactNode], request: &ResolvedSweep) -> Option<Vec<f64>> {
     request.scene.contact.as_ref()?;
     clearances(request, &places(contact_nodes).0)
 }
@@ -61,7 +102,7 @@ pub(crate) fn heights_before(
     heights(request, &positions, &normals).map_or(Vec::new(), |mut heights| heights.swap_remove(node))
 }
 
-/// Clearances at rest of contact nodes at these positions `[r, θ, z]`, in the order of the chord; `None` if the scene has no casing.
+/// Clearances as they are given of contact nodes at these positions `[r, θ, z]`, in the order of the chord; `None` if the scene has no casing.
 pub fn clearances(request: &ResolvedSweep, positions: &[[f64; 3]]) -> Option<Vec<f64>> {
     request.scene.casing.as_ref().map(|casing| along(&casing.clearance, positions))
 }

@@ -1,7 +1,8 @@
 //! The casing around the wheel.
 
 use self::shape::Shape;
-use crate::effects::effect::{Acts, Chain, Check, Effect, Repeats};
+use crate::effects::effect::{Acts, Break, Chain, Check, Effect, Repeats};
+use crate::resolved::ResolvedSweep;
 
 pub(crate) mod check;
 pub(crate) mod convert;
@@ -19,7 +20,11 @@ pub(crate) const EFFECT: Effect = Effect {
     adds: "a clearance for every contact node; with lobes or another shape, a table of its height at every step of a revolution",
     acts: Acts::Elsewhere,
     repeats: Repeats::Times(|scene| scene.touched_shape().and_then(Shape::repeats).into_iter().collect()),
-    chain: Chain::GoesOn,
+    chain: Chain::Moves(Break {
+        what: "clearances given cold",
+        when: ResolvedSweep::takes_growth,
+        why: "tips grow with the speed, so that their clearance would jump: give clearances of the running wheel",
+    }),
     check: Check::First(check::check),
     steps: Some(steps::wanted_steps),
     at_speed: None,

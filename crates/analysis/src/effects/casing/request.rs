@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Casing {
-    /// Clearance at rest along the chord.
+    /// Clearance along the chord.
     pub clearance: Clearance,
     /// Lobes of the restriction; absent: the casing is circular.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -29,7 +29,7 @@ pub struct Casing {
 }
 
 /// Clearance in the model's unit of length: `leading` and `trailing` (linear in the arc length through the contact
-/// nodes), or `values`, one per contact node.
+/// nodes), or `values`, one per contact node. Negative where the casing is pressed into the tips: that grows over the ramp.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]
@@ -44,6 +44,28 @@ pub struct Clearance {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(feature = "schema", schema(max_items = 8192))]
     pub values: Option<Vec<f64>>,
+    /// In which state of the wheel they are.
+    #[serde(default, skip_serializing_if = "ClearanceState::is_running")]
+    pub given: ClearanceState,
+}
+
+/// State of the wheel in which its clearances are given.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum ClearanceState {
+    /// Turning, at every speed the same.
+    #[default]
+    Running,
+    /// At rest: at every speed they are smaller by as much as the tips have grown under the centrifugal load, by the static solution
+    /// with the same K(Ω). The package must have its elements.
+    Cold,
+}
+
+impl ClearanceState {
+    fn is_running(&self) -> bool {
+        *self == Self::Running
+    }
 }
 
 /// Equal Gaussian lobes, evenly spaced in the fixed frame.

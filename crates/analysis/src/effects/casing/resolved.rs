@@ -1,6 +1,6 @@
 //! The casing with its alternatives told apart.
 
-use super::request;
+use super::request::{self, ClearanceState};
 use super::shape::Shape;
 use crate::effects::asked::Asked;
 use crate::error::Violation;
@@ -9,10 +9,11 @@ use crate::error::Violation;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Casing {
     pub(crate) clearance: Clearance,
+    pub(crate) given: ClearanceState,
     pub(crate) shape: Shape,
 }
 
-/// Clearance at rest, in the model's unit of length.
+/// Clearance, in the model's unit of length.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Clearance {
     /// Linear in the arc length from contact node 0 to the last.
@@ -32,13 +33,14 @@ impl Asked for Option<request::Casing> {
     fn resolve(self, refuse: &mut dyn FnMut(Violation)) -> Option<Casing> {
         let asked = self?;
         let shape = Shape::of(&asked);
-        Some(Casing { clearance: Clearance::of(asked.clearance, refuse), shape })
+        let given = asked.clearance.given;
+        Some(Casing { clearance: Clearance::of(asked.clearance, refuse), given, shape })
     }
 
     fn of(resolved: Option<Casing>) -> Self {
-        resolved.map(|Casing { clearance, shape }| {
+        resolved.map(|Casing { clearance, given, shape }| {
             let Shape { lobes, single_lobes, waves, measured, tilt } = shape;
-            request::Casing { clearance: clearance.into(), lobes, single_lobes, waves, measured, tilt }
+            request::Casing { clearance: clearance.given(given), lobes, single_lobes, waves, measured, tilt }
         })
     }
 }
@@ -46,10 +48,12 @@ impl Asked for Option<request::Casing> {
 impl Clearance {
     fn of(asked: request::Clearance, refuse: &mut dyn FnMut(Violation)) -> Self {
         match asked {
-            request::Clearance { leading: Some(leading), trailing: Some(trailing), values: None } => {
+            request::Clearance { leading: Some(leading), trailing: Some(trailing), values: None, .. } => {
                 Self::AlongChord { leading, trailing }
             }
-            request::Clearance { leading: None, trailing: None, values: Some(values) } => Self::Each(values),
+            request::Clearance { leading: None, trailing: None, values: Some(values), .. } => {
+                Self::Each(values)
+            }
             request::Clearance { .. } => {
                 refuse(Violation::new(
                     "/scene/casing/clearance",
@@ -60,22 +64,20 @@ impl Clearance {
         }
     }
 
+    /// As it is asked for, in that state.
+    fn given(self, given: ClearanceState) -> request::Clearance {
+        let (leading, trailing, values) = match self {
+            Self::AlongChord { leading, trailing } => (Some(leading), Some(trailing), None),
+            Self::Each(values) => (None, None, Some(values)),
+        };
+        request::Clearance { leading, trailing, values, given }
+    }
+
     /// The smallest number that was given.
     pub(crate) fn smallest(&self) -> f64 {
         match self {
             Self::AlongChord { leading, trailing } => leading.min(*trailing),
             Self::Each(values) => values.iter().copied().fold(f64::INFINITY, f64::min),
-        }
-    }
-}
-
-impl From<Clearance> for request::Clearance {
-    fn from(clearance: Clearance) -> Self {
-        match clearance {
-            Clearance::AlongChord { leading, trailing } => {
-                Self { leading: Some(leading), trailing: Some(trailing), values: None }
-            }
-            Clearance::Each(values) => Self { leading: None, trailing: None, values: Some(values) },
         }
     }
 }

@@ -4,6 +4,7 @@ use pulp::Simd;
 
 use super::super::amplitude_sums::amplitude_sums;
 use super::super::casing::{Casing, RestrictionTable};
+use super::super::clearance_change::ClearanceChange;
 use super::super::contact::coating::Coating;
 use super::super::contact::delassus::Delassus;
 use super::super::contact::flexibility::{outward_normals, ridge};
@@ -90,10 +91,11 @@ impl Obstacle {
         clearance.resize(stride, f64::INFINITY);
         let delassus = delassus(simulation, oscillators, fourier, stride, surroundings);
         let size = sectors * stride;
-        let Effects { coating, orbit, .. } = simulation.effects;
+        let Effects { coating, orbit, clearance_change, .. } = simulation.effects;
         let length = casing.length_scale(simulation.reach())
             + coating.map_or(0.0, Coating::thickness)
-            + orbit.map_or(0.0, |orbit| orbit.radius);
+            + orbit.map_or(0.0, |orbit| orbit.radius)
+            + clearance_change.map_or(0.0, ClearanceChange::largest);
         Self {
             delassus,
             solver: ActiveSetSolver::new(size),

@@ -9,6 +9,9 @@ pub enum PassageError {
     /// An abradable coating.
     #[error("a coating that wears is never as it was, so that nothing repeats")]
     Coating,
+    /// Clearances that change.
+    #[error("clearances that change leave behind what depends on how it was come to: it is marched")]
+    ClearanceChange,
     /// An orbit of the shaft that is back where it was too late, or never.
     #[error("an orbit of whirl ratio {whirl_ratio} does not come round within {most} revolutions")]
     Orbit {

@@ -49,12 +49,15 @@ impl<'a> Recurrences<'a> {
     /// Of the scene of `simulation`.
     ///
     /// # Errors
-    /// [`PassageError::Coating`] and [`PassageError::Orbit`].
+    /// [`PassageError::Coating`], [`PassageError::ClearanceChange`] and [`PassageError::Orbit`].
     pub(super) fn of(simulation: &Simulation<'a>) -> Result<Self, PassageError> {
         let effects = &simulation.effects;
         let touching = simulation.casing.is_some();
         if touching && effects.coating.is_some() {
             return Err(PassageError::Coating);
+        }
+        if touching && effects.clearance_change.is_some() {
+            return Err(PassageError::ClearanceChange);
         }
         let orbit = match effects.orbit.filter(|_| touching) {
             Some(Orbit { whirl_ratio, .. }) => Some(turns(whirl_ratio)?),

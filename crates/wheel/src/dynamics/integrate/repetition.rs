@@ -4,6 +4,7 @@ use super::super::flexible_casing::CasingMotion;
 use super::super::oscillators::Oscillators;
 use super::revolutions::{Repeated, Repeats};
 use super::simulation::Simulation;
+use crate::dynamics::clearance_change::ClearanceChange;
 
 /// Longest period looked for, in revolutions.
 const LONGEST: usize = 8;
@@ -63,7 +64,7 @@ struct End {
 
 impl Repetition {
     pub(super) fn new(simulation: &Simulation<'_>, repeats: Repeats, oscillators: &Oscillators) -> Self {
-        let Simulation { wheel, scheme, damping, casing, .. } = *simulation;
+        let Simulation { wheel, scheme, damping, casing, effects, .. } = *simulation;
         let (step, turn) =
             (simulation.step_s(), simulation.step_s() * simulation.steps_per_revolution as f64);
         let (mut slowest, mut numbers, mut allowed) = (0.0f64, Vec::new(), Vec::new());
@@ -85,7 +86,10 @@ impl Repetition {
             (1..=LONGEST.min(window)).filter(|&period| window.is_multiple_of(period)).collect();
         Self {
             share: repeats.share,
-            first: casing.map_or(0.0, |casing| casing.ramp_revolutions).ceil() as usize,
+            first: casing
+                .map_or(0.0, |casing| casing.ramp_revolutions)
+                .max(effects.clearance_change.map_or(0.0, ClearanceChange::ends_after))
+                .ceil() as usize,
             least: repeats.least,
             slowest,
             numbers,

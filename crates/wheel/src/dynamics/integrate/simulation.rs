@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::dynamics::casing::Casing;
+use crate::dynamics::clearance_change::ClearanceChange;
 use crate::dynamics::direction::Direction;
 use crate::dynamics::effects::Effects;
 use crate::dynamics::initial::InitialMode;
@@ -83,6 +84,7 @@ impl Simulation<'_> {
     pub(super) fn grown(&self) -> usize {
         let excitations = self.effects.excitation.iter().map(|excitation| excitation.ramp_revolutions);
         let ramps = excitations.chain(self.casing.map(|casing| casing.ramp_revolutions));
+        let ramps = ramps.chain(self.effects.clearance_change.map(ClearanceChange::ends_after));
         ramps.fold(0.0, f64::max).ceil() as usize
     }
 

@@ -1,5 +1,6 @@
 //! What the effects of a scene add to contact.
 
+use super::super::clearance_change::ClearanceShift;
 use super::super::contact::coating::WornCoating;
 use super::super::contact::delassus::Delassus;
 use super::super::flexible_casing::CasingMotion;
@@ -19,6 +20,7 @@ pub(super) struct Surroundings {
     pub(super) law: Law,
     pub(super) casing: Option<CasingMotion>,
     orbit: Option<OrbitShift>,
+    change: Option<ClearanceShift>,
     /// What is added to the gaps, `[sector][node]`, nodes padded to whole vectors; none of a casing that stays where it is.
     pub(super) shift: Option<Vec<f64>>,
 }
@@ -81,7 +83,9 @@ impl Surroundings {
             return None;
         }
         let symmetric = sliding.is_none() && !coriolis;
-        let moves = effects.flexible_casing.is_some() || effects.orbit.is_some();
+        let moves = effects.flexible_casing.is_some()
+            || effects.orbit.is_some()
+            || effects.clearance_change.is_some();
         let stride = padded(contact_nodes.len());
         let size = wheel.sectors * stride;
         let around = (wheel.sectors, wheel.around());
@@ -108,6 +112,8 @@ impl Surroundings {
                 CasingMotion::new(casing, scheme, simulation.step_s(), contact_nodes, around, stride)
             }),
             orbit: effects.orbit.map(|orbit| OrbitShift::new(orbit, contact_nodes, around, stride)),
+            change: (effects.clearance_change)
+                .map(|change| ClearanceShift::new(change, contact_nodes.len(), stride)),
             shift: moves.then(|| vec![0.0; size]),
         })
     }
@@ -135,6 +141,9 @@ impl Surroundings {
         shift.fill(0.0);
         if let Some(orbit) = &self.orbit {
             orbit.add(revolutions, growth, shift);
+        }
+        if let Some(change) = &self.change {
+            change.add(revolutions, shift);
         }
         if let Some(casing) = &mut self.casing {
             casing.add(revolutions, shift);

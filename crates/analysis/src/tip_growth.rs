@@ -1,0 +1,35 @@
+//! How far the tips move outwards as the wheel turns: its static solution under the centrifugal load (docs/method.md, Casing and gap).
+
+use crate::stress::StaticWheel;
+use rubmap_wheel::dynamics::reduction::StaticSpan;
+use rubmap_wheel::dynamics::sector::ContactNode;
+
+/// n·u of the contact nodes under the centrifugal load.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TipGrowth {
+    /// `[contact node][given speed]`: of the solutions at the given speeds per unit Ω².
+    outward: Vec<f64>,
+    span: StaticSpan,
+}
+
+impl TipGrowth {
+    /// Of the wheel of a reduction with these contact nodes.
+    pub fn of(fixed: &StaticWheel, contact: &[ContactNode]) -> Self {
+        let span = fixed.stress.span.clone();
+        let speeds = span.speeds_rad_s.len();
+        let outward = contact.iter().flat_map(|node| {
+            (0..speeds).map(|speed| {
+                let moved = node.dofs.iter().map(|dof| fixed.displacement[speeds * dof + speed]);
+                moved.zip(node.normal).map(|(u, n)| u * n).sum::<f64>()
+            })
+        });
+        Self { outward: outward.collect(), span }
+    }
+
+    /// Of every contact node at a speed, length; negative where a tip moves away from the casing.
+    pub fn at(&self, speed_rad_s: f64, stiffening: bool) -> Vec<f64> {
+        let shares = self.span.at(speed_rad_s, stiffening);
+        let of = |node: &[f64]| shares.iter().zip(node).map(|(share, outward)| share * outward).sum();
+        self.outward.chunks_exact(shares.len()).map(of).collect()
+    }
+}
