@@ -9,6 +9,9 @@ pub enum PassageError {
     /// An abradable coating.
     #[error("a coating that wears is never as it was, so that nothing repeats")]
     Coating,
+    /// Friction as a disc.
+    #[error("of friction with the law \"disc\" no tangent is known: march, or take the law \"sliding\"")]
+    Disc,
     /// An orbit of the shaft that is back where it was too late, or never.
     #[error("an orbit of whirl ratio {whirl_ratio} does not come round within {most} revolutions")]
     Orbit {
