@@ -83,3 +83,50 @@ impl DiscFlexibility {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn contact_node(normal: [f64; 3]) -> ContactNode {
+        ContactNode { id: 1, position: [1.0, 0.0, 0.0], normal, dofs: [0, 1, 2] }
+    }
+
+    #[test]
+    fn directions_are_a_right_handed_frame_along_the_rotation() {
+        for normal in [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.6, 0.64, 0.48], [0.36, -0.8, 0.48]] {
+            let nodes = [contact_node(normal)];
+            let [n, t, b] = disc_directions(&nodes).unwrap()[..] else { panic!("three of one node") };
+            assert_eq!((n.components, t), (normal, tangents(&nodes).unwrap()[0]));
+            let frame = [n, t, b].map(|d| d.components);
+            let dot = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+            for (i, a) in frame.iter().enumerate() {
+                for (j, b) in frame.iter().enumerate() {
+                    assert!((dot(*a, *b) - f64::from(u8::from(i == j))).abs() < 1e-15);
+                }
+            }
+            let [x, y, z] = frame;
+            let volume = x[0] * (y[1] * z[2] - y[2] * z[1]) - x[1] * (y[0] * z[2] - y[2] * z[0])
+                + x[2] * (y[0] * z[1] - y[1] * z[0]);
+            // What is left of e_θ is along t.
+            assert!((volume - 1.0).abs() < 1e-15 && z[1].abs() < 1e-15);
+        }
+    }
+
+    /// A node jams at W_n/|W_t| where it slides to what presses it in most, wherever that is: here along 50° from the rotation.
+    #[test]
+    fn a_node_jams_in_the_direction_that_digs_in() {
+        let (sin, cos) = 50.0f64.to_radians().sin_cos();
+        let block = |value: f64| vec![Mat::from_fn(1, 1, |_, _| c64::from(value))];
+        let node = DiscFlexibility { along: [block(0.3), block(-cos), block(-sin)] };
+        assert_eq!(node.check(1, 0.0, 0.299), Ok(()));
+        let Err(FrictionError::Jams { node: 0, largest, .. }) = node.check(1, 0.0, 0.5) else {
+            panic!("it jams")
+        };
+        // π/16 from a direction that is looked at, at most.
+        assert!((0.299..=0.306).contains(&largest), "{largest}");
+        // Forwards alone it would slide up to 0.3/cos 50°.
+        assert_eq!(node.sliding_along(0.0).check(1, 0.0, 0.46), Ok(()));
+        assert_eq!(node.check(1, 0.0, 0.0), Ok(()));
+    }
+}

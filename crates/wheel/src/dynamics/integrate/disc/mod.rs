@@ -1,5 +1,8 @@
 //! Coulomb's disc at the contact, within a step.
 
+#[cfg(test)]
+mod tests;
+
 use super::super::contact::disc_operator::DiscTable;
 use super::super::contact::flexibility::{outward_normals, ridge};
 use super::super::direction::Direction;
