@@ -2,9 +2,10 @@
 
 use rubmap::dynamics::clearance_change::ClearanceChange;
 use rubmap::dynamics::contact::coating::{Coating, CoatingMaterial};
+use rubmap::dynamics::contact::disc::disc_directions;
 use rubmap::dynamics::contact::friction::sliding_directions;
 use rubmap::dynamics::direction::Direction;
-use rubmap::dynamics::effects::{Effects, Friction};
+use rubmap::dynamics::effects::{Effects, Friction, FrictionLaw};
 use rubmap::dynamics::excitation::EngineOrderExcitation;
 use rubmap::dynamics::flexible_casing::{FlexibleCasing, Ring};
 use rubmap::dynamics::integrate::{Outcome, Simulation};
@@ -31,6 +32,7 @@ pub(crate) fn measure() {
     )
     .expect("the default impeller is sound");
     let sliding = sliding_directions(contact, 0.1).expect("its tips can slide");
+    let planes = disc_directions(contact).expect("its tips can slide");
     let material = CoatingMaterial { modulus: 2000.0, yield_stress: 5.0, hardening: 200.0 };
     let coating = Coating::new(material, 2.0, 2000, contact, sectors).expect("a coating");
     let radius = contact.iter().map(|node| node.position[0]).fold(0.0, f64::max);
@@ -44,7 +46,8 @@ pub(crate) fn measure() {
         phase_rad: 0.0,
         ramp_revolutions: 1.0,
     }];
-    let friction = Some(Friction { coefficient: 0.1, directions: &sliding });
+    let friction = Some(Friction { coefficient: 0.1, law: FrictionLaw::Sliding, directions: &sliding });
+    let disc = Some(Friction { coefficient: 0.1, law: FrictionLaw::Disc, directions: &planes });
     let orbit = Some(Orbit { radius: 0.02, whirl_ratio: 0.4, phase_rad: 0.0 });
     let change = ClearanceChange { course: vec![(1.0, 0.01), (2.0, -0.01)], along_chord: None };
     let clearance_change = Some(&change);
@@ -65,6 +68,7 @@ pub(crate) fn measure() {
         ("no effect", central, &scene.modal, none),
         ("no effect", massless, &scene.modal, none),
         ("friction", exact, &scene.modal, Effects { friction, ..none }),
+        ("friction, disc", exact, &scene.modal, Effects { friction: disc, ..none }),
         ("abradable", exact, &scene.modal, Effects { coating: Some(&coating), ..none }),
         ("flexible_casing", exact, &scene.modal, Effects { flexible_casing: Some(&casing), ..none }),
         ("orbit", exact, &scene.modal, Effects { orbit, ..none }),

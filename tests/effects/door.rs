@@ -26,6 +26,7 @@ fn effects() -> Vec<(&'static str, Value)> {
         ("centrifugal_stiffening", json!({"centrifugal_stiffening": true})),
         ("coriolis", json!({"coriolis": true})),
         ("friction", json!({"friction": {"coefficient": 0.05}})),
+        ("disc", json!({"friction": {"coefficient": 0.05, "law": "disc"}})),
         (
             "abradable",
             json!({"abradable": {"modulus": 2e4, "yield_stress": 20.0, "hardening": 500.0, "thickness": 2.0,
@@ -113,6 +114,7 @@ fn every_pair_of_effects_runs_or_is_refused_by_name() {
         }
     }
     let expected = [
+        ("disc", "abradable"),
         ("abradable", "exact"),
         ("mistuning", "exact"),
         ("mistuning", "probe"),
@@ -144,7 +146,7 @@ fn every_effect_changes_the_response() {
 fn exact_symmetry_says_what_the_whole_wheel_says() {
     let sector = sector();
     let reduced = reduced(&sector, 6);
-    let names = ["coriolis", "friction", "flexible_casing", "engine_order_excitation", "initial"];
+    let names = ["coriolis", "friction", "disc", "flexible_casing", "engine_order_excitation", "initial"];
     let all = effects();
     let alone = names.map(|name| vec![name]);
     for named in alone.iter().chain([&Vec::new(), &names.to_vec()]) {
@@ -297,15 +299,17 @@ fn a_wheel_that_jams_is_refused_before_it_runs() {
     }
     let sector = SectorModel::new(sector).unwrap();
     let (facts, reduced) = (ModelFacts::of(&sector), reduced(&sector, 6));
-    let try_with = |coefficient: f64| {
-        let scene = json!({"friction": {"coefficient": coefficient}});
+    let try_with = |coefficient: f64, law: &str| {
+        let scene = json!({"friction": {"coefficient": coefficient, "law": law}});
         let request = request(&[SPEED], &[&scene], json!({"scheme": "exact_modal"}));
         check(&reduced, &resolve_sweep(request, &facts).unwrap(), &Unwatched)
     };
-    let Err(AnalysisError::Refused(violations)) = try_with(0.7) else { panic!("it slides") };
-    assert_eq!(violations[0].pointer, "/scene/friction/coefficient");
-    let message = &violations[0].message;
-    let largest: f64 = message.rsplit(' ').next().unwrap().parse().unwrap();
-    assert!((largest - 30f64.to_radians().tan()).abs() < 2e-3, "{message}");
-    assert!(message.contains("contact node 0") && try_with(largest).is_ok(), "{message}");
+    for law in ["sliding", "disc"] {
+        let Err(AnalysisError::Refused(violations)) = try_with(0.7, law) else { panic!("it slides") };
+        assert_eq!(violations[0].pointer, "/scene/friction/coefficient");
+        let message = &violations[0].message;
+        let largest: f64 = message.rsplit(' ').next().unwrap().parse().unwrap();
+        assert!((largest - 30f64.to_radians().tan()).abs() < 2e-3, "{message}");
+        assert!(message.contains("contact node 0") && try_with(largest, law).is_ok(), "{message}");
+    }
 }

@@ -3,6 +3,7 @@
 
 mod agreement;
 mod closed_forms;
+mod disc;
 mod door;
 #[path = "../physics/fixtures.rs"]
 #[allow(dead_code, reason = "shared with the physics tests, which use all of it")]

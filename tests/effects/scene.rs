@@ -6,8 +6,9 @@ use faer::{Mat, c64};
 use rubmap::dynamics::casing::{Casing, Lobes};
 use rubmap::dynamics::clearance_change::ClearanceChange;
 use rubmap::dynamics::contact::coating::{Coating, CoatingMaterial};
+use rubmap::dynamics::contact::disc::disc_directions;
 use rubmap::dynamics::direction::Direction;
-use rubmap::dynamics::effects::{Effects, Friction};
+use rubmap::dynamics::effects::{Effects, Friction, FrictionLaw};
 use rubmap::dynamics::excitation::EngineOrderExcitation;
 use rubmap::dynamics::flexible_casing::{CasingWave, FlexibleCasing};
 use rubmap::dynamics::initial::InitialMode;
@@ -76,6 +77,8 @@ pub(crate) struct Scene {
     pub(crate) casing: Option<Casing>,
     /// μ
     pub(crate) friction: Option<f64>,
+    /// Whether tips may stick, and slide in any direction, instead of forwards.
+    pub(crate) disc: bool,
     pub(crate) coating: Option<Abradable>,
     pub(crate) flexible_casing: Option<FlexibleCasing>,
     pub(crate) orbit: Option<Orbit>,
@@ -184,6 +187,7 @@ impl Scene {
                 ramp_revolutions: 0.4,
             }),
             friction: None,
+            disc: false,
             coating: None,
             flexible_casing: None,
             orbit: None,
@@ -286,7 +290,11 @@ impl Scene {
             node,
             components: sliding(contact, self.friction.unwrap_or(0.0)),
         };
-        let directions: Vec<_> = self.nodes.iter().enumerate().map(direction).collect();
+        let (law, directions) = if self.disc {
+            (FrictionLaw::Disc, disc_directions(&self.nodes).unwrap())
+        } else {
+            (FrictionLaw::Sliding, self.nodes.iter().enumerate().map(direction).collect())
+        };
         let coating = self.coating.map(|Abradable { material, thickness, rods_around }| {
             Coating::new(material, thickness, rods_around, &self.nodes, self.wheel.sectors).unwrap()
         });
@@ -296,7 +304,11 @@ impl Scene {
             damping: self.damping.as_ref(),
             casing: self.casing.as_ref(),
             effects: Effects {
-                friction: self.friction.map(|coefficient| Friction { coefficient, directions: &directions }),
+                friction: (self.friction).map(|coefficient| Friction {
+                    coefficient,
+                    law,
+                    directions: &directions,
+                }),
                 coating: coating.as_ref(),
                 flexible_casing: self.flexible_casing.as_ref(),
                 orbit: self.orbit,

@@ -139,7 +139,8 @@ fn effects() -> impl Strategy<Value = Vec<(&'static str, Value)>> {
     let small = || select(vec![0.0, 1e-12, 1e-3, 0.05, 0.3, 1.0]);
     let stiff = || select(vec![1e-3, 20.0, 2e3, 2e5, 1e12]);
     let named = |name: &'static str, of: BoxedStrategy<Value>| of.prop_map(move |value| (name, value));
-    let friction = small().prop_map(|mu| json!({"coefficient": mu}));
+    let law = select(vec!["sliding", "disc"]);
+    let friction = (small(), law).prop_map(|(mu, law)| json!({"coefficient": mu, "law": law}));
     let abradable = (stiff(), stiff(), stiff(), small(), 24..3000u32).prop_map(|(e, y, k, t, rods)| {
         json!({"modulus": e, "yield_stress": y, "hardening": k, "thickness": t, "rods_around": rods})
     });

@@ -183,6 +183,7 @@ pub(super) fn empty_point(
         energy: None,
         largest_energy: None,
         casing_amplitude: None,
+        sticking_share: None,
         wear: None,
         symmetry_breaking: None,
         stress: None,

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use crate::discretisation::Discretisation;
 use crate::effects::effect::{AboutToRun, WantedSteps};
 use crate::effects::flexible_casing::convert::flexible_casing;
+use crate::effects::friction::request::{Friction, FrictionLaw};
 use crate::effects::table::{is_driven, named};
 use crate::not_runnable::NotRunnable;
 use crate::request::auto_or::MOST_STEPS;
@@ -137,8 +138,11 @@ impl Scope<'_> {
         let stiffest = resolving_steps(self.wheel, slowest);
         let affordable = self.given.map_or(PRICE_OF_STIFFNESS * steps_for_contact(self.request).0, f64::from);
         let mut proposal = self.exact();
-        let massive_casing = self.request.scene.flexible_casing.is_some();
-        if self.contact_nodes.is_empty() || massive_casing || stiffest <= affordable {
+        // An elastic casing has mass where it is touched, and tips that stick have a velocity there.
+        let disc = |friction: &Friction| friction.law == FrictionLaw::Disc;
+        let scene = &self.request.scene;
+        let massive = scene.flexible_casing.is_some() || scene.friction.as_ref().is_some_and(disc);
+        if self.contact_nodes.is_empty() || massive || stiffest <= affordable {
             let resolving = resolving_steps(self.wheel, self.wheel.speed_rad_s);
             let pays = stiffest <= affordable && !self.contact_nodes.is_empty();
             if pays && resolving > proposal.least_steps {

@@ -5,9 +5,10 @@ use faer::{Mat, c64};
 use rubmap_wheel::dynamics::casing::{Casing, Lobes};
 use rubmap_wheel::dynamics::clearance_change::ClearanceChange;
 use rubmap_wheel::dynamics::contact::coating::{Coating, CoatingMaterial};
+use rubmap_wheel::dynamics::contact::disc::disc_directions;
 use rubmap_wheel::dynamics::contact::friction::sliding_directions;
 use rubmap_wheel::dynamics::direction::Direction;
-use rubmap_wheel::dynamics::effects::{Effects, Friction};
+use rubmap_wheel::dynamics::effects::{Effects, Friction, FrictionLaw};
 use rubmap_wheel::dynamics::excitation::EngineOrderExcitation;
 use rubmap_wheel::dynamics::flexible_casing::{CasingWave, FlexibleCasing};
 use rubmap_wheel::dynamics::integrate::{Outcome, Revolutions, SensorRow, Simulation};
@@ -125,7 +126,12 @@ fn with_each_effect_and_with_all() {
         ramp_revolutions: 0.5,
     }];
     let friction = Effects {
-        friction: Some(Friction { coefficient: 0.05, directions: &directions }),
+        friction: Some(Friction { coefficient: 0.05, law: FrictionLaw::Sliding, directions: &directions }),
+        ..Effects::default()
+    };
+    let disc = disc_directions(&nodes).unwrap();
+    let disc = Effects {
+        friction: Some(Friction { coefficient: 0.05, law: FrictionLaw::Disc, directions: &disc }),
         ..Effects::default()
     };
     let coating = Effects { coating: Some(&coating), ..Effects::default() };
@@ -145,7 +151,8 @@ fn with_each_effect_and_with_all() {
         coating: None,
         energies: false,
     };
-    for effects in [friction, coating, casing, orbit, mistuning, excitation, all] {
+    let whole = Effects { friction: disc.friction, ..all };
+    for effects in [friction, disc, coating, casing, orbit, mistuning, excitation, all, whole] {
         for coriolis in [false, true] {
             long_runs_take_no_more(Scheme::ExactModal, coriolis, effects);
         }

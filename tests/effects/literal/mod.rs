@@ -3,6 +3,7 @@
 //! nothing with the production code but the types that describe a scene.
 
 mod contact;
+mod disc;
 mod rods;
 
 use std::f64::consts::{PI, TAU};
@@ -50,6 +51,8 @@ pub(crate) struct Literal<'a> {
     now: DVector<f64>,
     before: DVector<f64>,
     rods: Option<Rods>,
+    /// 1, or −1 for a wheel that turns towards −θ.
+    sense: f64,
 }
 
 /// left·x⁺ = now·x + before·x⁻ + load f
@@ -67,8 +70,10 @@ pub(crate) struct Record {
     pub(crate) displacement: Vec<Vec<f64>>,
     /// Σ λh
     pub(crate) impulse: f64,
-    /// Σ μλ t_θ rΩh
+    /// Σ μλ t_θ rΩh, of a disc Σ τ·v h
     pub(crate) friction_heat: f64,
+    /// Steps in which a node stuck, all nodes together.
+    pub(crate) sticking: usize,
     pub(crate) excitation_work: f64,
     pub(crate) mistuning_work: f64,
     pub(crate) casing_work: f64,
@@ -267,11 +272,35 @@ impl<'a> Literal<'a> {
             recursion,
             now: DVector::zeros(size),
             before: DVector::zeros(size),
+            sense: 1.0,
             rods: scene.coating.map(|coating| Rods::new(coating, &scene.nodes)),
             coordinates: integrated,
         };
         this.start(&numbers, &coriolis);
         this
+    }
+
+    /// The same wheel turning towards −θ.
+    pub(crate) fn backwards(self) -> Self {
+        Self { sense: -1.0, ..self }
+    }
+
+    /// Both unit tangents of a contact node, the first as near to e_θ as a tangent can be.
+    fn tangents(&self, node: usize) -> [[f64; 3]; 2] {
+        let n = self.scene.nodes[node].normal;
+        let along = sliding(&self.scene.nodes[node], 1.0);
+        let t = [0, 1, 2].map(|d| along[d] - n[d]);
+        [t, [n[1] * t[2] - n[2] * t[1], n[2] * t[0] - n[0] * t[2], n[0] * t[1] - n[1] * t[0]]]
+    }
+
+    /// Friction along the two tangents of all places, `[tangent][place]`, over the contact DOF.
+    fn planes(&self) -> DMatrix<f64> {
+        let nodes = self.scene.nodes.len();
+        let places = self.scene.wheel.sectors * nodes;
+        DMatrix::from_fn(2 * places, 3 * places, |row, column| {
+            let place = row % places;
+            if column / 3 == place { self.tangents(place % nodes)[row / places][column % 3] } else { 0.0 }
+        })
     }
 
     /// x(0) and x(−h) with the right velocity at 0.
@@ -329,7 +358,7 @@ impl<'a> Literal<'a> {
     /// Angle of a contact node in the fixed frame.
     fn angle(&self, sector: usize, node: usize, revolutions: f64) -> f64 {
         self.scene.nodes[node].position[1]
-            + TAU * (sector as f64 / self.scene.wheel.sectors as f64 + revolutions)
+            + TAU * (sector as f64 / self.scene.wheel.sectors as f64 + self.sense * revolutions)
     }
 
     /// c as it is then − p minus the orbit's share at every contact node of every sector.
@@ -422,6 +451,9 @@ impl<'a> Literal<'a> {
         let (nodes, h) = (scene.nodes.len(), scene.step_s());
         let wheel_size = self.coordinates.len();
         let mu = scene.friction.unwrap_or(0.0);
+        // Of tips that slide forwards.
+        let forward_mu = if scene.disc { 0.0 } else { mu };
+        let planes = self.planes();
         let massless = matches!(scene.scheme, Scheme::MasslessBoundary { .. });
         let mut record = Record { displacement: vec![Vec::new(); scene.sensors.len()], ..Record::default() };
         let places = if scene.casing.is_some() { scene.wheel.sectors * nodes } else { 0 };
@@ -438,7 +470,7 @@ impl<'a> Literal<'a> {
             let mut follows = DVector::zeros(self.displacement.nrows());
             if places > 0 {
                 let (normals, casing) = self.directions(revolutions, 0.0);
-                let (against, _) = self.directions(revolutions, mu);
+                let (against, _) = self.directions(revolutions, forward_mu);
                 let reading = |next: &DVector<f64>| {
                     &normals * &self.displacement * next.rows(0, wheel_size)
                         - &casing * next.rows(wheel_size, next.len() - wheel_size)
@@ -449,6 +481,8 @@ impl<'a> Literal<'a> {
                 forces.rows_mut(0, wheel_size).copy_from(&-(&against * &self.displacement).transpose());
                 forces.rows_mut(wheel_size, next.len() - wheel_size).copy_from(&casing.transpose());
                 let mut lambda = DVector::zeros(places);
+                // Forces of a disc on all coordinates.
+                let mut rubbing = DVector::zeros(next.len());
                 if gap.iter().any(|&g| g < 0.0) {
                     let w = if massless {
                         &normals * &self.residual * against.transpose()
@@ -461,10 +495,43 @@ impl<'a> Literal<'a> {
                     let rod = |rods: &Rods, place: usize| {
                         rods.at(self.angle(place / nodes, place % nodes, revolutions))
                     };
-                    lambda = contact::solve(&w, &gap, |place| match &self.rods {
-                        Some(rods) => rods.law(rod(rods, place), place % nodes),
-                        None => Law::wall(),
-                    });
+                    if scene.disc {
+                        let sheared = &planes * &self.displacement;
+                        let swing = &sheared * (&next - &self.before).rows(0, wheel_size);
+                        let free = DVector::from_fn(2 * places, |row, _| {
+                            let node = &scene.nodes[row % places % nodes];
+                            let passes = self.sense * SPEED * node.position[0] * 2.0 * h;
+                            swing[row]
+                                + if row < places { passes * self.tangents(row % nodes)[0][1] } else { 0.0 }
+                        });
+                        let mut all = DMatrix::zeros(next.len(), 3 * places);
+                        all.columns_mut(0, places).copy_from(&forces);
+                        all.view_mut((0, places), (wheel_size, 2 * places)).copy_from(&-sheared.transpose());
+                        let moved = left.solve(&(DMatrix::from_diagonal(load) * &all)).unwrap();
+                        let mut w = DMatrix::zeros(3 * places, 3 * places);
+                        for column in 0..3 * places {
+                            let moved = moved.column(column).into_owned();
+                            w.view_mut((0, column), (places, 1)).copy_from(&-reading(&moved));
+                            let sheared = &sheared * moved.rows(0, wheel_size);
+                            w.view_mut((places, column), (2 * places, 1)).copy_from(&-sheared);
+                        }
+                        let (found, friction) = disc::solve(&w, &gap, &free, mu);
+                        let sliding = free - w.rows(places, 2 * places) * all_forces(&found, &friction);
+                        record.friction_heat += 0.5 * friction.dot(&sliding);
+                        record.sticking += (0..places)
+                            .filter(|&place| {
+                                let size = friction[place].hypot(friction[places + place]);
+                                found[place] > 0.0 && size < mu * found[place] * (1.0 - 1e-9)
+                            })
+                            .count();
+                        rubbing = all.columns(places, 2 * places) * &friction;
+                        lambda = found;
+                    } else {
+                        lambda = contact::solve(&w, &gap, |place| match &self.rods {
+                            Some(rods) => rods.law(rod(rods, place), place % nodes),
+                            None => Law::wall(),
+                        });
+                    }
                     let angles: Vec<_> = (0..places)
                         .map(|place| self.angle(place / nodes, place % nodes, revolutions))
                         .collect();
@@ -476,11 +543,11 @@ impl<'a> Literal<'a> {
                 }
                 for (place, force) in lambda.iter().enumerate() {
                     let node = &scene.nodes[place % nodes];
-                    let forward = sliding(node, mu)[1] - node.normal[1];
+                    let forward = sliding(node, forward_mu)[1] - node.normal[1];
                     record.impulse += force * h;
                     record.friction_heat += force * forward * node.position[0] * SPEED * h;
                 }
-                let now = forces * &lambda;
+                let now = forces * &lambda + rubbing;
                 if massless {
                     acting = now;
                     follows = -(&self.residual * against.transpose() * &lambda);
@@ -524,6 +591,11 @@ impl<'a> Literal<'a> {
             record.casing_amplitude = record.casing_amplitude.max(wave[0].hypot(wave[1]));
         }
     }
+}
+
+/// Normal forces, then friction.
+fn all_forces(lambda: &DVector<f64>, friction: &DVector<f64>) -> DVector<f64> {
+    DVector::from_iterator(lambda.len() + friction.len(), lambda.iter().chain(friction.iter()).copied())
 }
 
 /// x²(3 − 2x) up to 1.

@@ -23,7 +23,7 @@ const DRIVEN: &str = "driven";
 
 /// Effects with a price of their own.
 fn priced() -> impl Iterator<Item = (&'static Effect, &'static Price)> {
-    EFFECTS.iter().filter_map(|effect| Some((*effect, effect.price.as_ref()?)))
+    EFFECTS.iter().flat_map(|effect| effect.price.into_iter().flatten().map(|price| (*effect, price)))
 }
 
 /// How much of each part of the price a scene has: of what all effects share, and of those with a price of their own.
@@ -42,8 +42,11 @@ impl EffectSizes {
             if effect.acts == Acts::OnModes {
                 sizes.insert(DRIVEN, size.step.products());
             }
-            if let Some(price) = &effect.price {
-                sizes.insert(effect.name, (price.amount)(scene) as f64 * (price.grows_with)(size));
+            for price in effect.price.into_iter().flatten() {
+                let amount = (price.amount)(scene);
+                if amount > 0 {
+                    sizes.insert(price.part, amount as f64 * (price.grows_with)(size));
+                }
             }
         }
         Self(sizes)
@@ -71,7 +74,7 @@ impl TryFrom<BTreeMap<String, Added>> for EffectCosts {
     type Error = NoCost;
 
     fn try_from(costs: BTreeMap<String, Added>) -> Result<Self, NoCost> {
-        let mut parts = [ANY, DRIVEN].into_iter().chain(priced().map(|(effect, _)| effect.name));
+        let mut parts = [ANY, DRIVEN].into_iter().chain(priced().map(|(_, price)| price.part));
         parts.find(|&part| !costs.contains_key(part)).map_or(Ok(Self(costs)), |part| Err(NoCost(part)))
     }
 }
@@ -107,7 +110,7 @@ impl EffectCosts {
             if price.same_in_contact {
                 added.contact = added.free;
             }
-            (effect.name, added)
+            (price.part, added)
         });
         let shared = [
             (ANY, Added::over(none, any, size.gaps() as f64)),
@@ -148,10 +151,10 @@ mod tests {
         let rub = |effect: &dyn Physics, what| wheel.assert_rubbing(alone(&wheel, effect).effects, what);
         rub(&orbit::price::sample(), "orbit");
         rub(&engine_order_excitation::price::sample(), "excitation");
-        for (effect, price) in priced() {
+        for (_, price) in priced() {
             match (price.sample)(&wheel).on {
-                SampleOn::Simulation(sample) => rub(sample.as_ref(), effect.name),
-                SampleOn::Wheel(wheel) => wheel.assert_rubbing(Effects::default(), effect.name),
+                SampleOn::Simulation(sample) => rub(sample.as_ref(), price.part),
+                SampleOn::Wheel(wheel) => wheel.assert_rubbing(Effects::default(), price.part),
             }
         }
     }
@@ -182,8 +185,19 @@ mod tests {
     }
 
     #[test]
+    fn friction_has_a_price_of_either_law() {
+        let wheel = Wheel::new(4, 2, 8);
+        for (law, part) in [("sliding", "friction"), ("disc", "friction_disc")] {
+            let scene = json!({"friction": {"coefficient": 0.1, "law": law}});
+            let scene = crate::resolved::from_json::scene(scene);
+            let sizes = EffectSizes::of(&scene, wheel.modal(), Scheme::ExactModal, 2).0;
+            assert_eq!(sizes, BTreeMap::from([(ANY, 32.0), (part, 32.0)]));
+        }
+    }
+
+    #[test]
     fn costs_that_lack_a_part_do_not_read() {
-        let parts = [ANY, DRIVEN].into_iter().chain(priced().map(|(effect, _)| effect.name));
+        let parts = [ANY, DRIVEN].into_iter().chain(priced().map(|(_, price)| price.part));
         let added = json!({"free": 1.0, "contact": 2.0});
         let whole: serde_json::Map<_, _> = parts.map(|part| (part.to_owned(), added.clone())).collect();
         assert!(serde_json::from_value::<EffectCosts>(whole.clone().into()).is_ok());

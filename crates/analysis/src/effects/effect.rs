@@ -30,8 +30,8 @@ pub(crate) struct Effect {
     pub(crate) at_speed: Option<AtSpeed>,
     /// From the scene to the effects of a simulation; none for what is a matter of its own there, as damping is, or needs nothing.
     pub(crate) convert: Option<fn(&Scene, &Surroundings<'_>) -> Converted>,
-    /// What it costs beyond what all effects cost that act where it does.
-    pub(crate) price: Option<Price>,
+    /// What it costs beyond what all effects cost that act where it does: of each of its kinds.
+    pub(crate) price: Option<&'static [Price]>,
     /// Writes what it did into the result of a speed whose scene names it.
     pub(crate) record: Option<fn(&mut Point, &Ran<'_>)>,
 }
@@ -109,7 +109,9 @@ pub(crate) struct AboutToRun<'a> {
 
 /// What an effect adds to a step: the calibration measures it for a sample, a plan multiplies.
 pub(crate) struct Price {
-    /// How much of it a scene has that names it.
+    /// Its name among all that is measured.
+    pub(crate) part: &'static str,
+    /// How much of it a scene has that names the effect; 0 of another kind.
     pub(crate) amount: fn(&Scene) -> usize,
     /// What one of that costs grows with.
     pub(crate) grows_with: fn(EffectSize) -> f64,

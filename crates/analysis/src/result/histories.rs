@@ -114,7 +114,7 @@ pub struct EnergyHistory {
     /// Lost in the casing's damping.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub casing_loss: Vec<f64>,
-    /// Heat of friction, supplied by the shaft; its work on the vibration is part of the work of contact.
+    /// Heat of friction; its work on the vibration is part of the work of contact.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub friction_heat: Vec<f64>,
 }

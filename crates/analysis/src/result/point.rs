@@ -96,7 +96,8 @@ pub struct EnergyReport {
     /// Lost in the casing's damping.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub casing_loss: Option<f64>,
-    /// Heat of friction, supplied by the shaft; its work on the vibration is part of the work of contact.
+    /// Heat of friction; its work on the vibration is part of the work of contact. By the law `sliding` what the shaft supplies against the
+    /// rotation alone, by the law `disc` friction times all sliding, never negative in any step.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction_heat: Option<f64>,
 }
@@ -192,6 +193,10 @@ pub struct Point {
     /// Largest radial amplitude of any wave of an elastic casing, in the model's unit of length.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub casing_amplitude: Option<f64>,
+    /// Share of the contact forces, counted by nodes and steps, under which the tip stuck to the casing instead of sliding; absent without
+    /// friction of the law `disc`, and where nothing touched.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sticking_share: Option<f64>,
     /// Wear of an abradable coating at the end of the run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub wear: Option<WearReport>,

@@ -6,10 +6,12 @@
 //!
 //! - [`active_set`]: block principal pivoting, the solver for rigid obstacles;
 //! - [`branches`]: its relative for obstacles that give way by a [`law`];
+//! - [`disc`]: contact with Coulomb friction in the contact plane;
 //! - [`factor`]: how W on an active set is factorised, Cholesky for symmetric W and LU for others.
 
 pub mod active_set;
 pub mod branches;
+pub mod disc;
 pub mod factor;
 pub mod law;
 #[cfg(test)]

@@ -28,13 +28,25 @@ pub struct Effects<'a> {
     pub energies: bool,
 }
 
-/// Coulomb friction of tips that slide forwards.
+/// Coulomb friction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Friction<'a> {
     /// μ.
     pub coefficient: f64,
-    /// n + μt of every contact node.
+    /// How it acts.
+    pub law: FrictionLaw,
+    /// What forces act against.
     pub directions: &'a [Direction],
+}
+
+/// How friction acts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FrictionLaw {
+    /// On tips that slide forwards ([`super::contact::friction`]): directions are n + μt of every contact node.
+    Sliding,
+    /// On tips that stick, or slide in any direction ([`super::contact::disc`]): directions are n, t and n × t of every contact node.
+    /// Not with a coating, nor with a boundary without mass.
+    Disc,
 }
 
 impl Effects<'_> {

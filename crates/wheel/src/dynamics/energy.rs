@@ -13,8 +13,8 @@ pub struct EffectWork {
     pub casing: f64,
     /// Lost in the casing's damping.
     pub casing_loss: f64,
-    /// Heat of friction, which the shaft supplies against the rotation: Σ μλ·rΩ·h. Its work on the vibration is part of that
-    /// of contact.
+    /// Heat of friction: of tips that slide forwards what the shaft supplies against the rotation, Σ μλ·rΩ·h; of a disc Σ τ·v h. Its
+    /// work on the vibration is part of that of contact.
     pub friction_heat: f64,
 }
 
@@ -62,7 +62,7 @@ impl EnergyAudit {
     pub(crate) fn check(&mut self, energy: f64) {
         self.last = energy;
         self.largest_energy = larger(self.largest_energy, energy.abs());
-        // The heat of friction comes from the shaft.
+        // The heat of friction comes from the shaft, or is part of the work of contact.
         let EffectWork { excitation, mistuning, casing, casing_loss, friction_heat: _ } = self.effects;
         let effects = excitation + mistuning + casing - casing_loss;
         let expected = self.initial + self.work - self.loss + effects;

@@ -17,6 +17,10 @@ pub struct RunStatistics {
     pub smallest_multiplier: Option<f64>,
     /// Largest radial amplitude of any wave of an elastic casing, length.
     pub casing_amplitude: Option<f64>,
+    /// Contact forces, counted by nodes and steps, under which tips stick and slide; 0 unless friction tells.
+    pub sticking: u64,
+    /// See [`Self::sticking`].
+    pub sliding: u64,
     /// Work of the complementarity solver.
     pub pivots: PivotStatistics,
 }

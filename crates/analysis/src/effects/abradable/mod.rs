@@ -27,6 +27,6 @@ pub(crate) const EFFECT: Effect = Effect {
     }),
     at_speed: None,
     convert: Some(convert::convert),
-    price: Some(price::PRICE),
+    price: Some(&[price::PRICE]),
     record: Some(record::record),
 };

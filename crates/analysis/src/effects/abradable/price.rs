@@ -8,6 +8,7 @@ use rubmap_wheel::dynamics::contact::coating::{Coating, CoatingMaterial};
 const MATERIAL: CoatingMaterial = CoatingMaterial { modulus: 1e6, yield_stress: 9e5, hardening: 1e6 };
 
 pub(super) const PRICE: Price = Price {
+    part: "abradable",
     amount: |_| 1,
     grows_with: |size| size.gaps() as f64,
     sample: |wheel| {

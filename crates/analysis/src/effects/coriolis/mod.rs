@@ -17,11 +17,12 @@ pub(crate) const EFFECT: Effect = Effect {
     steps: None,
     at_speed: None,
     convert: None,
-    price: Some(Price {
+    price: Some(&[Price {
+        part: "coriolis",
         amount: |_| 1,
         grows_with: |size| size.squares as f64,
         sample: |wheel| Sample { amount: 1, on: SampleOn::Wheel(wheel.clone().turning()) },
         same_in_contact: false,
-    }),
+    }]),
     record: None,
 };

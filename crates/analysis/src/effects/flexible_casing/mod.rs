@@ -24,6 +24,6 @@ pub(crate) const EFFECT: Effect = Effect {
     steps: None,
     at_speed: None,
     convert: Some(convert::convert),
-    price: Some(price::PRICE),
+    price: Some(&[price::PRICE]),
     record: Some(record::record),
 };

@@ -8,6 +8,7 @@ use rubmap_wheel::dynamics::flexible_casing::{CasingWave, FlexibleCasing};
 const WAVES: usize = 8;
 
 pub(super) const PRICE: Price = Price {
+    part: "flexible_casing",
     amount: |scene| scene.flexible_casing.as_ref().map_or(0, |casing| flexible_casing(casing).waves.len()),
     grows_with: |size| size.gaps() as f64,
     sample: |_| {

@@ -1,33 +1,45 @@
 //! Friction in the terms of the physics.
 
+use super::request;
 use crate::effects::physics::{Converted, Physics, Surroundings};
 use crate::resolved::Scene;
+use rubmap_wheel::dynamics::contact::disc::disc_directions;
 use rubmap_wheel::dynamics::contact::friction::{FrictionError, sliding_directions};
 use rubmap_wheel::dynamics::direction::Direction;
-use rubmap_wheel::dynamics::effects::{Effects, Friction};
+use rubmap_wheel::dynamics::effects::{Effects, Friction, FrictionLaw};
 use rubmap_wheel::dynamics::sector::ContactNode;
 
 /// What [`Friction`] borrows.
-pub(super) struct Sliding {
+pub(super) struct Rubbing {
     coefficient: f64,
-    /// n + μt of every contact node.
+    law: FrictionLaw,
     directions: Vec<Direction>,
 }
 
-impl Sliding {
-    pub(super) fn new(contact_nodes: &[ContactNode], coefficient: f64) -> Result<Self, FrictionError> {
-        Ok(Self { coefficient, directions: sliding_directions(contact_nodes, coefficient)? })
+impl Rubbing {
+    pub(super) fn new(
+        contact_nodes: &[ContactNode],
+        asked: &request::Friction,
+    ) -> Result<Self, FrictionError> {
+        let coefficient = asked.coefficient;
+        let (law, directions) = match asked.law {
+            request::FrictionLaw::Sliding => {
+                (FrictionLaw::Sliding, sliding_directions(contact_nodes, coefficient)?)
+            }
+            request::FrictionLaw::Disc => (FrictionLaw::Disc, disc_directions(contact_nodes)?),
+        };
+        Ok(Self { coefficient, law, directions })
     }
 }
 
-impl Physics for Sliding {
+impl Physics for Rubbing {
     fn join<'a>(&'a self, effects: &mut Effects<'a>) {
-        effects.friction = Some(Friction { coefficient: self.coefficient, directions: &self.directions });
+        let Self { coefficient, law, directions } = self;
+        effects.friction = Some(Friction { coefficient: *coefficient, law: *law, directions });
     }
 }
 
 pub(super) fn convert(scene: &Scene, surroundings: &Surroundings<'_>) -> Converted {
     let Some(friction) = &scene.friction else { return Ok(None) };
-    let sliding = Sliding::new(surroundings.contact_nodes, friction.coefficient)?;
-    Ok(Some(Box::new(sliding)))
+    Ok(Some(Box::new(Rubbing::new(surroundings.contact_nodes, friction)?)))
 }

@@ -12,7 +12,8 @@ mod sliding;
 pub(crate) const EFFECT: Effect = Effect {
     name: "friction",
     is_on: |scene| scene.friction.is_some(),
-    adds: "a tangential force with every normal one; the contact problem is no longer symmetric",
+    adds: "a tangential force with every normal one, of the law `sliding` along the rotation only (that it opposes the vibration, too, is \
+           left out), of `disc` against all sliding; the contact problem is no longer symmetric",
     acts: Acts::AtContact,
     repeats: Repeats::Everywhere,
     chain: Chain::GoesOn,
@@ -20,6 +21,6 @@ pub(crate) const EFFECT: Effect = Effect {
     steps: None,
     at_speed: Some(AtSpeed { pointer: check::AT, check: sliding::check }),
     convert: Some(convert::convert),
-    price: Some(price::PRICE),
+    price: Some(price::PRICES),
     record: Some(record::record),
 };

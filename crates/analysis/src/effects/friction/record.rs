@@ -1,5 +1,6 @@
 //! What a run says of friction.
 
+use super::request::FrictionLaw;
 use crate::effects::effect::Ran;
 use crate::result::Point;
 use rubmap_numerics::complementarity::ComplementarityError;
@@ -9,9 +10,25 @@ pub(super) fn record(point: &mut Point, ran: &Ran<'_>) {
     if let Some(energy) = &mut point.energy {
         energy.friction_heat = Some(ran.parts * ran.run.energy.effects().friction_heat);
     }
-    if let (Outcome::ContactFailed { error: ComplementarityError::NotPMatrix { .. }, .. }, Some(message)) =
-        (&ran.run.outcome, &mut point.message)
-    {
-        message.push_str(": tips jam together with this friction; lower /scene/friction/coefficient");
+    let disc = ran.request.scene.friction.as_ref().is_some_and(|friction| friction.law == FrictionLaw::Disc);
+    if disc {
+        let (sticking, sliding) = (ran.run.statistics.sticking, ran.run.statistics.sliding);
+        point.sticking_share =
+            (sticking + sliding > 0).then(|| sticking as f64 / (sticking + sliding) as f64);
+    }
+    let (Outcome::ContactFailed { error, .. }, Some(message)) = (&ran.run.outcome, &mut point.message) else {
+        return;
+    };
+    match error {
+        ComplementarityError::NotPMatrix { .. } => {
+            message.push_str(": tips jam together with this friction; lower /scene/friction/coefficient");
+        }
+        ComplementarityError::NotSolved { .. } if disc => {
+            message.push_str(
+                ": whether tips stick or slide could not be told; lower /scene/friction/coefficient, take more steps, or the law \
+                 sliding",
+            );
+        }
+        _ => {}
     }
 }

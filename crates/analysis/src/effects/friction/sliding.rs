@@ -2,9 +2,11 @@
 
 use std::f64::consts::TAU;
 
+use super::request::FrictionLaw;
 use crate::effects::damping::convert::modal_damping;
 use crate::effects::effect::AboutToRun;
 use crate::not_runnable::NotRunnable;
+use rubmap_wheel::dynamics::contact::disc::DiscFlexibility;
 use rubmap_wheel::dynamics::contact::flexibility::{flexibility, outward_normals, ridge};
 use rubmap_wheel::dynamics::contact::friction::SlidingFlexibility;
 use rubmap_wheel::dynamics::schemes::Scheme;
@@ -28,7 +30,17 @@ pub(super) fn check(run: &AboutToRun<'_>) -> Result<(), NotRunnable> {
             })
         }
     };
-    let flexibility = SlidingFlexibility::new(contact_nodes, blocks)?;
-    let ridge = ridge(&flexibility.normal, wheel.sectors);
-    Ok(flexibility.check(wheel.sectors, ridge, friction.coefficient)?)
+    match friction.law {
+        FrictionLaw::Sliding => {
+            let flexibility = SlidingFlexibility::new(contact_nodes, blocks)?;
+            let ridge = ridge(&flexibility.normal, wheel.sectors);
+            flexibility.check(wheel.sectors, ridge, friction.coefficient)?;
+        }
+        FrictionLaw::Disc => {
+            let flexibility = DiscFlexibility::new(contact_nodes, blocks)?;
+            let ridge = ridge(flexibility.normal(), wheel.sectors);
+            flexibility.check(wheel.sectors, ridge, friction.coefficient)?;
+        }
+    }
+    Ok(())
 }

@@ -20,6 +20,6 @@ pub(crate) const EFFECT: Effect = Effect {
     steps: None,
     at_speed: None,
     convert: Some(convert::convert),
-    price: Some(price::PRICE),
+    price: Some(&[price::PRICE]),
     record: Some(record::record),
 };

@@ -5,6 +5,7 @@ use crate::effects::effect::{Price, Sample, SampleOn};
 use rubmap_wheel::dynamics::mistuning::normal_deviations;
 
 pub(super) const PRICE: Price = Price {
+    part: "mistuning",
     amount: |_| 1,
     grows_with: |size| (size.step.sectors * size.step.unknowns) as f64,
     sample: |wheel| {

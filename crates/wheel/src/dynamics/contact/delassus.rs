@@ -28,23 +28,9 @@ impl Delassus {
     pub(crate) fn new(blocks: &[Mat<c64>], ridge: f64, stride: usize, fourier: &SectorFourier) -> Self {
         let (sectors, nodes) = (fourier.sectors(), blocks[0].nrows());
         let mut table = Aligned::zeros(sectors * nodes * stride);
-        let mut column = 0;
-        for (harmonic, block) in blocks.iter().enumerate() {
-            let single = is_single(harmonic, sectors);
-            let first = fourier.row(0)[column];
-            for distance in 0..sectors {
-                // Row 0 of a cosine column is w, of a sine column 0: F[0]·F[δ] gives w² cos and −w² sin.
-                let cos = first * fourier.row(distance)[column];
-                let sin = if single { 0.0 } else { -first * fourier.row(distance)[column + 1] };
-                for from in 0..nodes {
-                    for to in 0..nodes {
-                        let value = block[(to, from)];
-                        table[(distance * nodes + from) * stride + to] += value.re * cos - value.im * sin;
-                    }
-                }
-            }
-            column += if single { 1 } else { 2 };
-        }
+        circulant(blocks, fourier, |distance, to, from, value| {
+            table[(distance * nodes + from) * stride + to] += value;
+        });
         let places = (0..sectors * stride).map(|index| (index / stride, index % stride)).collect();
         let mut this = Self { sectors, nodes, stride, table, ridge, largest: Vec::new(), places };
         this.find_largest();
@@ -102,6 +88,32 @@ impl Delassus {
 
     fn column(&self, distance: usize, node: usize) -> &[f64] {
         &self.table[(distance * self.nodes + node) * self.stride..][..self.stride]
+    }
+}
+
+/// Σ_i w_i² Re(B_i e^{jiα(s−s')}) of the blocks B_i of the nodal diameters, term by term: `add(sector distance, to, from, term)`.
+pub(super) fn circulant(
+    blocks: &[Mat<c64>],
+    fourier: &SectorFourier,
+    mut add: impl FnMut(usize, usize, usize, f64),
+) {
+    let sectors = fourier.sectors();
+    let mut column = 0;
+    for (harmonic, block) in blocks.iter().enumerate() {
+        let single = is_single(harmonic, sectors);
+        let first = fourier.row(0)[column];
+        for distance in 0..sectors {
+            // Row 0 of a cosine column is w, of a sine column 0: F[0]·F[δ] gives w² cos and −w² sin.
+            let cos = first * fourier.row(distance)[column];
+            let sin = if single { 0.0 } else { -first * fourier.row(distance)[column + 1] };
+            for from in 0..block.ncols() {
+                for to in 0..block.nrows() {
+                    let value = block[(to, from)];
+                    add(distance, to, from, value.re * cos - value.im * sin);
+                }
+            }
+        }
+        column += if single { 1 } else { 2 };
     }
 }
 

@@ -1,7 +1,7 @@
 //! Coulomb friction of blade tips that slide over the casing in the direction of rotation.
 //!
 //! A tip runs at hundreds of metres per second and vibrates at a few: it never sticks and never slides backwards. Friction is
-//! then no unknown but follows the normal force λ, and acts against the motion:
+//! then no unknown but follows the normal force λ, and acts against the rotation:
 //!
 //! ```text
 //! f = −λ (n + μ t),   t = (e_θ − (e_θ·n) n)/|…|        on the blade, rotation towards +θ
@@ -12,6 +12,9 @@
 //! principal minors positive) the contact forces exist and are unique; beyond, a tip that is dragged along digs in, the more
 //! the harder it is pressed: it jams (Painlevé's paradox; Klarbring, Ingenieur-Archiv 60, 1990). [`SlidingFlexibility::check`]
 //! finds out before the run.
+//!
+//! What this leaves out: the vibration's own velocity v turns the sliding, by v/rΩ, and with it the force, by μλ v/rΩ across the
+//! rotation: small beside μλ, but a damping, of which [`disc`](super::disc) has all.
 
 use faer::{Mat, Side, c64};
 
@@ -59,6 +62,16 @@ pub enum FrictionError {
         /// Largest μ that passes, rounded down to thousandths.
         largest: f64,
     },
+}
+
+impl FrictionError {
+    /// Largest μ that passes; none where no coefficient does.
+    pub fn largest(&self) -> f64 {
+        match *self {
+            Self::NoTangent { .. } => 0.0,
+            Self::Jams { largest, .. } | Self::JamsTogether { largest, .. } => largest,
+        }
+    }
 }
 
 /// Sine of the angle between normal and rotation below which the tangent would be made of the normal's round-off.

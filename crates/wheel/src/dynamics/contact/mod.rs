@@ -11,5 +11,7 @@
 
 pub mod coating;
 pub(crate) mod delassus;
+pub mod disc;
+pub(crate) mod disc_operator;
 pub mod flexibility;
 pub mod friction;

@@ -5,6 +5,7 @@ mod decimation;
 mod detail;
 #[cfg(test)]
 mod digests;
+mod disc;
 mod excursion;
 mod instant;
 mod obstacle;

@@ -8,7 +8,7 @@ use super::super::clearance_change::ClearanceChange;
 use super::super::contact::coating::Coating;
 use super::super::contact::delassus::Delassus;
 use super::super::contact::flexibility::{outward_normals, ridge};
-use super::super::effects::Effects;
+use super::super::effects::{Effects, FrictionLaw};
 use super::super::energy::EffectWork;
 use super::super::oscillators::Oscillators;
 use super::super::oscillators::lanes::LANES;
@@ -64,8 +64,11 @@ pub(super) struct Obstacle {
     /// Contact nodes with a force on any sector.
     loaded: Vec<usize>,
     is_loaded: Vec<bool>,
-    /// Along what [`Surroundings::applied`] says, `[Fourier column][node]`.
+    /// Along what [`Surroundings::applied`] says, `[Fourier column][row]`.
     pub(super) force: Vec<f64>,
+    /// Rows of a node there, and numbers of a column.
+    force_rows: usize,
+    force_stride: usize,
     pub(super) tally: ContactTally,
 }
 
@@ -91,6 +94,7 @@ impl Obstacle {
         clearance.resize(stride, f64::INFINITY);
         let delassus = delassus(simulation, oscillators, fourier, stride, surroundings);
         let size = sectors * stride;
+        let force_stride = applied(&rows, surroundings).stride;
         let Effects { coating, orbit, clearance_change, .. } = simulation.effects;
         let length = casing.length_scale(simulation.reach())
             + coating.map_or(0.0, Coating::thickness)
@@ -113,9 +117,11 @@ impl Obstacle {
             predicted_gap: vec![0.0; size],
             is_far: vec![false; sectors],
             near: (0..sectors).collect(),
-            loaded: Vec::with_capacity(stride),
-            is_loaded: vec![false; stride],
-            force: vec![0.0; size],
+            loaded: Vec::with_capacity(force_stride),
+            is_loaded: vec![false; force_stride],
+            force: vec![0.0; sectors * force_stride],
+            force_rows: surroundings.map_or(1, Surroundings::directions),
+            force_stride,
             tally: ContactTally::new(simulation),
             rows,
         }
@@ -288,13 +294,14 @@ impl Obstacle {
     /// Contact forces of the predicted gaps (Eqs 9, 10) and what they add to the statistics.
     ///
     /// Where all forces are in near sectors and all far ones remain open, the true gaps of these, which are larger, have the same
-    /// solution; it is the only one where W is a P-matrix. Otherwise all gaps are transformed and solved for.
+    /// solution; it is the only one where W is a P-matrix. Otherwise all gaps are transformed and solved for. `read` is what rows swing by
+    /// in the step without forces.
     #[inline(always)]
     pub(super) fn solve(
         &mut self,
         fourier: &SectorFourier,
         now: Instant,
-        surroundings: Option<&mut Surroundings>,
+        (surroundings, read): (Option<&mut Surroundings>, impl Fn(&Rows, &mut [f64])),
         statistics: &mut RunStatistics,
         work: &mut EffectWork,
     ) -> Result<(), ComplementarityError> {
@@ -304,7 +311,7 @@ impl Obstacle {
         };
         loop {
             let problem = (&self.delassus, self.predicted_gap.as_slice(), self.tolerance);
-            let solved = law.solve(&mut self.solver, problem, now.step);
+            let solved = law.solve(&mut self.solver, problem, now.step, &read);
             let Solution { active, gap, .. } = law.solution(&self.solver);
             if self.near.len() == fourier.sectors() || (solved.is_ok() && !self.reaches_far(active, gap)) {
                 solved?;
@@ -322,17 +329,25 @@ impl Obstacle {
             return Err(ComplementarityError::Infeasible { penetration: deepest });
         }
         statistics.pivots = pivots;
-        let stride = self.rows.stride;
+        let disc = law.disc();
         let mut impulse = 0.0;
-        for (&index, &lambda) in active.iter().zip(lambda) {
+        for (number, (&index, lambda)) in active.iter().zip(lambda).enumerate() {
             let (sector, row) = self.delassus.place(index);
-            if !self.is_loaded[row] {
-                self.is_loaded[row] = true;
-                self.loaded.push(row);
+            let forces = match disc {
+                Some(disc) => disc.forces()[number].as_slice(),
+                None => std::slice::from_ref(lambda),
+            };
+            for (direction, force) in forces.iter().enumerate() {
+                let row = self.force_rows * row + direction;
+                if !self.is_loaded[row] {
+                    self.is_loaded[row] = true;
+                    self.loaded.push(row);
+                }
+                for (column, &f) in fourier.row(sector).iter().enumerate() {
+                    self.force[column * self.force_stride + row] -= f * force;
+                }
             }
-            for (column, &f) in fourier.row(sector).iter().enumerate() {
-                self.force[column * stride + row] -= f * lambda;
-            }
+            let lambda = *lambda;
             if let Some(sliding) = sliding {
                 work.friction_heat += sliding.heat[row] * lambda;
             }
@@ -344,6 +359,9 @@ impl Obstacle {
             impulse += lambda * self.step_s;
             let smallest = statistics.smallest_multiplier.map_or(lambda, |least| least.min(lambda));
             statistics.smallest_multiplier = Some(smallest);
+        }
+        if let Some(disc) = disc {
+            disc.count(statistics, work);
         }
         if impulse > 0.0 {
             statistics.contact_steps += 1;
@@ -385,7 +403,7 @@ impl Obstacle {
         surroundings: Option<&mut Surroundings>,
     ) -> f64 {
         oscillators.project(simd, &self.rows, &mut self.harmonic);
-        self.residual.add(&self.force, self.rows.stride, &mut self.harmonic, self.rows.stride);
+        self.residual.add(&self.force, self.force_stride, &mut self.harmonic, self.rows.stride);
         let allowed = surroundings.as_ref().map_or(0.0, |surroundings| surroundings.law.depth());
         (-self.predict_gaps(simd, fourier, now, surroundings) - allowed).max(0.0)
     }
@@ -407,7 +425,7 @@ impl Obstacle {
         for &row in &self.loaded {
             self.is_loaded[row] = false;
             for column in 0..fourier.sectors() {
-                self.force[column * self.rows.stride + row] = 0.0;
+                self.force[column * self.force_stride + row] = 0.0;
             }
         }
         self.loaded.clear();
@@ -450,7 +468,8 @@ fn delassus(
     let normals = outward_normals(simulation.contact_nodes);
     let symmetric = symmetric_flexibility(simulation, oscillators, &normals, &normals);
     let ridge = ridge(&symmetric, simulation.wheel.sectors);
-    let mut delassus = match simulation.effects.friction {
+    let slides = simulation.effects.friction.filter(|friction| friction.law == FrictionLaw::Sliding);
+    let mut delassus = match slides {
         None if !is_turned(simulation) => Delassus::new(&symmetric, ridge, stride, fourier),
         friction => {
             let from = friction.map_or(normals.as_slice(), |friction| friction.directions);

@@ -53,7 +53,7 @@ impl<'a> Passage<'a> {
     /// Of the scene of `simulation`, all that grows fully grown; over the shortest time its symmetry and its steps allow.
     ///
     /// # Errors
-    /// [`PassageError::Coating`], [`PassageError::ClearanceChange`] and [`PassageError::Orbit`].
+    /// [`PassageError::Coating`], [`PassageError::ClearanceChange`], [`PassageError::Disc`] and [`PassageError::Orbit`].
     pub fn shortest(simulation: &Simulation<'a>) -> Result<Self, PassageError> {
         let recurrences = Recurrences::of(simulation)?;
         Ok(Self::new(simulation, &recurrences, recurrences.shortest()))

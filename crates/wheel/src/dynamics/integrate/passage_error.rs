@@ -12,6 +12,9 @@ pub enum PassageError {
     /// Clearances that change.
     #[error("clearances that change leave behind what depends on how it was come to: it is marched")]
     ClearanceChange,
+    /// Friction as a disc.
+    #[error("of friction with the law \"disc\" no tangent is known: march, or take the law \"sliding\"")]
+    Disc,
     /// An orbit of the shaft that is back where it was too late, or never.
     #[error("an orbit of whirl ratio {whirl_ratio} does not come round within {most} revolutions")]
     Orbit {

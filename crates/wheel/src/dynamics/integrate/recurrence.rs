@@ -14,6 +14,7 @@ use num_integer::gcd;
 
 use super::passage_error::PassageError;
 use super::simulation::Simulation;
+use crate::dynamics::effects::FrictionLaw;
 use crate::dynamics::orbit::Orbit;
 
 /// Most revolutions that an orbit may take to come round.
@@ -49,7 +50,7 @@ impl<'a> Recurrences<'a> {
     /// Of the scene of `simulation`.
     ///
     /// # Errors
-    /// [`PassageError::Coating`], [`PassageError::ClearanceChange`] and [`PassageError::Orbit`].
+    /// [`PassageError::Coating`], [`PassageError::ClearanceChange`], [`PassageError::Disc`] and [`PassageError::Orbit`].
     pub(super) fn of(simulation: &Simulation<'a>) -> Result<Self, PassageError> {
         let effects = &simulation.effects;
         let touching = simulation.casing.is_some();
@@ -58,6 +59,9 @@ impl<'a> Recurrences<'a> {
         }
         if touching && effects.clearance_change.is_some() {
             return Err(PassageError::ClearanceChange);
+        }
+        if touching && effects.friction.is_some_and(|friction| friction.law == FrictionLaw::Disc) {
+            return Err(PassageError::Disc);
         }
         let orbit = match effects.orbit.filter(|_| touching) {
             Some(Orbit { whirl_ratio, .. }) => Some(turns(whirl_ratio)?),

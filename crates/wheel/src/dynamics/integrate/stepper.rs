@@ -19,6 +19,7 @@ use super::super::flexible_casing::CasingMotion;
 use super::super::initial::{InitialMode, Stepped};
 use super::super::oscillators::Oscillators;
 use super::super::oscillators::driven::Drive;
+use super::super::oscillators::rows::Rows;
 use super::super::schemes::Scheme;
 use super::super::statistics::RunStatistics;
 use super::bounds::Bounds;
@@ -86,7 +87,7 @@ impl Stepper {
             touching,
             simulation.initial,
         );
-        let surroundings = Surroundings::new(simulation);
+        let surroundings = Surroundings::new(simulation, &oscillators, &fourier);
         let obstacle = simulation
             .casing
             .map(|casing| Obstacle::new(simulation, casing, &oscillators, &fourier, surroundings.as_ref()));
@@ -184,7 +185,7 @@ impl Stepper {
         if self.touches_at::<S, M>(simd, start) {
             // Of the step before the first: nothing of it counts.
             let (statistics, energy) = (self.statistics, self.energy);
-            self.solve::<M>(start)?;
+            self.solve::<S, M>(simd, start)?;
             (self.statistics, self.energy) = (statistics, energy);
             if let Some(obstacle) = &mut self.obstacle {
                 obstacle.tally.sample(|_, _| 0.0, None);
@@ -218,7 +219,7 @@ impl Stepper {
                 M::predict(self, simd, now);
                 let open = self.gaps::<S, M>(simd, now);
                 if !open {
-                    self.solve::<M>(now)?;
+                    self.solve::<S, M>(simd, now)?;
                 }
                 self.statistics.steps += 1;
                 self.quench::<M>();
@@ -280,13 +281,13 @@ impl Stepper {
     ) -> Result<(), Box<Outcome>> {
         let start = Instant::beginning(revolution);
         if self.touches_at::<S, M>(simd, start) {
-            self.solve_tracing::<M>(start, 0, trace)?;
+            self.solve_tracing::<S, M>(simd, start, (0, trace))?;
         }
         for step in 1..=steps {
             let now = Instant::of_any(revolution, step, simulation.steps_per_revolution);
             M::predict(self, simd, now);
             if !self.gaps::<S, M>(simd, now) {
-                self.solve_tracing::<M>(now, step, trace)?;
+                self.solve_tracing::<S, M>(simd, now, (step, trace))?;
             }
         }
         M::apply(self, simd);
@@ -306,13 +307,13 @@ impl Stepper {
     }
 
     #[inline(always)]
-    fn solve_tracing<M: Motion>(
+    fn solve_tracing<S: Simd, M: Motion>(
         &mut self,
+        simd: S,
         now: Instant,
-        step: usize,
-        trace: &mut Trace,
+        (step, trace): (usize, &mut Trace),
     ) -> Result<(), Box<Outcome>> {
-        self.solve::<M>(now)?;
+        self.solve::<S, M>(simd, now)?;
         if let Some(obstacle) = &self.obstacle {
             obstacle.trace(step, M::surroundings(&mut self.surroundings), trace);
         }
@@ -368,12 +369,16 @@ impl Stepper {
 
     /// Finds the forces that close the gaps (Eqs 9, 10).
     #[inline(always)]
-    fn solve<M: Motion>(&mut self, now: Instant) -> Result<(), Box<Outcome>> {
-        let Some(obstacle) = &mut self.obstacle else { return Ok(()) };
-        let surroundings = M::surroundings(&mut self.surroundings);
+    fn solve<S: Simd, M: Motion>(&mut self, simd: S, now: Instant) -> Result<(), Box<Outcome>> {
+        let Self { fourier, oscillators, drive, obstacle: Some(obstacle), surroundings, .. } = self else {
+            return Ok(());
+        };
+        let surroundings = M::surroundings(surroundings);
+        let swing = drive.as_ref().map_or(oscillators.swung(), Drive::swung);
+        let read = |rows: &Rows, out: &mut [f64]| oscillators.project_of(simd, swing, rows, out);
         let (statistics, work) = (&mut self.statistics, self.energy.effects_mut());
         obstacle
-            .solve(&self.fourier, now, surroundings, statistics, work)
+            .solve(fourier, now, (surroundings, read), statistics, work)
             .map_err(|error| Box::new(Outcome::ContactFailed { revolutions: now.revolutions, error }))
     }
 

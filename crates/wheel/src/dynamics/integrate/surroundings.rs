@@ -3,15 +3,20 @@
 use super::super::clearance_change::ClearanceShift;
 use super::super::contact::coating::WornCoating;
 use super::super::contact::delassus::Delassus;
+use super::super::effects::FrictionLaw;
 use super::super::flexible_casing::CasingMotion;
 use super::super::orbit::OrbitShift;
+use super::super::oscillators::Oscillators;
 use super::super::oscillators::lanes::padded;
 use super::super::oscillators::rows::Rows;
+use super::disc::{DIRECTIONS, Disc};
 use super::simulation::Simulation;
 use rubmap_numerics::complementarity::ComplementarityError;
 use rubmap_numerics::complementarity::active_set::{ActiveSetSolver, PivotStatistics};
 use rubmap_numerics::complementarity::branches::BranchSolver;
+use rubmap_numerics::complementarity::disc::DiscSolver;
 use rubmap_numerics::complementarity::factor::{Cholesky, Factor, Lu};
+use rubmap_numerics::sector_fourier::SectorFourier;
 
 /// Each is absent unless the scene names it.
 #[derive(Debug)]
@@ -34,6 +39,8 @@ pub(super) enum Law {
     General(ActiveSetSolver<Lu>),
     /// A coating with metal behind it.
     Coated(CoatedSolver, Box<WornCoating>),
+    /// A rigid wall on which tips stick or slide.
+    Disc(Box<Disc>),
 }
 
 /// On a symmetric operator, or on any.
@@ -66,10 +73,15 @@ pub(super) struct Sliding {
 
 impl Surroundings {
     /// None for a scene without contact or without effects on it.
-    pub(super) fn new(simulation: &Simulation<'_>) -> Option<Self> {
+    pub(super) fn new(
+        simulation: &Simulation<'_>,
+        oscillators: &Oscillators,
+        fourier: &SectorFourier,
+    ) -> Option<Self> {
         let Simulation { wheel, casing, effects, contact_nodes, scheme, .. } = *simulation;
         casing?;
-        let sliding = effects.friction.map(|friction| Sliding {
+        let slides = effects.friction.filter(|friction| friction.law == FrictionLaw::Sliding);
+        let sliding = slides.map(|friction| Sliding {
             rows: Rows::new(wheel, friction.directions, |modes| scheme.integrated_modes(modes)),
             heat: (contact_nodes.iter().zip(friction.directions))
                 .map(|(node, direction)| {
@@ -89,6 +101,12 @@ impl Surroundings {
         let stride = padded(contact_nodes.len());
         let size = wheel.sectors * stride;
         let around = (wheel.sectors, wheel.around());
+        let casing = effects.flexible_casing.map(|casing| {
+            CasingMotion::new(casing, scheme, simulation.step_s(), contact_nodes, around, stride)
+        });
+        let disc = effects.friction.and_then(|friction| {
+            Disc::new(simulation, friction, (oscillators, fourier), (casing.as_ref(), stride))
+        });
         Some(Self {
             law: match effects.coating {
                 Some(coating) => Law::Coated(
@@ -104,13 +122,14 @@ impl Surroundings {
                         simulation.steps_per_revolution,
                     )),
                 ),
-                None if symmetric => Law::Plain,
-                None => Law::General(ActiveSetSolver::new(size)),
+                None => match disc {
+                    Some(disc) => Law::Disc(Box::new(disc)),
+                    None if symmetric => Law::Plain,
+                    None => Law::General(ActiveSetSolver::new(size)),
+                },
             },
             sliding,
-            casing: effects.flexible_casing.map(|casing| {
-                CasingMotion::new(casing, scheme, simulation.step_s(), contact_nodes, around, stride)
-            }),
+            casing,
             orbit: effects.orbit.map(|orbit| OrbitShift::new(orbit, contact_nodes, around, stride)),
             change: (effects.clearance_change)
                 .map(|change| ClearanceShift::new(change, contact_nodes.len(), stride)),
@@ -121,17 +140,23 @@ impl Surroundings {
     /// What contact forces act along: the normals, `rows`, but for friction.
     #[inline(always)]
     pub(super) fn applied<'a>(&'a self, rows: &'a Rows) -> &'a Rows {
-        match &self.sliding {
-            Some(sliding) => &sliding.rows,
-            None => rows,
+        match (&self.sliding, &self.law) {
+            (Some(sliding), _) => &sliding.rows,
+            (None, Law::Disc(disc)) => &disc.rows,
+            (None, _) => rows,
         }
+    }
+
+    /// How many directions a contact force has, whose rows follow each other.
+    pub(super) fn directions(&self) -> usize {
+        if matches!(self.law, Law::Disc(_)) { DIRECTIONS } else { 1 }
     }
 
     /// The coating as it is now, if there is one.
     pub(super) fn coating(&self) -> Option<&WornCoating> {
         match &self.law {
             Law::Coated(_, coating) => Some(coating),
-            Law::Plain | Law::General(_) => None,
+            Law::Plain | Law::General(_) | Law::Disc(_) => None,
         }
     }
 
@@ -153,13 +178,14 @@ impl Surroundings {
 
 impl Law {
     /// Solves for the forces of a contact operator, gaps without them and a tolerance; `plain` does where this has no solver of
-    /// its own.
+    /// its own. `read` is what rows swing by in the step, for friction that asks.
     #[inline(always)]
     pub(super) fn solve(
         &mut self,
         plain: &mut ActiveSetSolver,
         (w, gap, tolerance): (&Delassus, &[f64], f64),
         step: usize,
+        read: impl Fn(&Rows, &mut [f64]),
     ) -> Result<(), ComplementarityError> {
         match self {
             Self::Plain => plain.solve(w, gap, tolerance),
@@ -174,6 +200,7 @@ impl Law {
                     CoatedSolver::General(solver) => solver.solve(w, law, gap, tolerance),
                 }
             }
+            Self::Disc(disc) => disc.solve((gap, tolerance), read),
         }
     }
 
@@ -184,6 +211,16 @@ impl Law {
             Self::Plain => Solution::of(plain),
             Self::General(solver) => Solution::of(solver),
             Self::Coated(solver, _) => solver.solution(),
+            Self::Disc(disc) => Solution::of_disc(&disc.solver),
+        }
+    }
+
+    /// The disc of friction, if it is one.
+    #[inline(always)]
+    pub(super) fn disc(&self) -> Option<&Disc> {
+        match self {
+            Self::Disc(disc) => Some(disc),
+            Self::Plain | Self::General(_) | Self::Coated(..) => None,
         }
     }
 
@@ -202,7 +239,7 @@ impl Law {
     pub(super) fn depth(&self) -> f64 {
         match self {
             Self::Coated(_, coating) => coating.unworn().thickness(),
-            Self::Plain | Self::General(_) => 0.0,
+            Self::Plain | Self::General(_) | Self::Disc(_) => 0.0,
         }
     }
 }
@@ -224,6 +261,11 @@ impl<'a> Solution<'a> {
     }
 
     fn of_branches<F: Factor>(solver: &'a BranchSolver<F>) -> Self {
+        let pivots = solver.statistics();
+        Self { active: solver.active(), lambda: solver.lambda(), gap: solver.gap(), pivots }
+    }
+
+    fn of_disc(solver: &'a DiscSolver) -> Self {
         let pivots = solver.statistics();
         Self { active: solver.active(), lambda: solver.lambda(), gap: solver.gap(), pivots }
     }

@@ -258,9 +258,21 @@ impl Oscillators {
     /// Values of `rows` in Fourier coordinates: `out[column][row]`, rows padded to `rows.stride`.
     #[inline(always)]
     pub(crate) fn project<S: Simd>(&self, simd: S, rows: &Rows, out: &mut [f64]) {
+        self.project_of(simd, &self.state.z, rows, out);
+    }
+
+    /// The same of `modes`, kept as [`Self::positions`] are.
+    #[inline(always)]
+    pub(crate) fn project_of<S: Simd>(&self, simd: S, modes: &[f64], rows: &Rows, out: &mut [f64]) {
         for (index, &segment) in self.segments.iter().enumerate() {
-            rows.project(simd, index, segment, &self.state.z, out);
+            rows.project(simd, index, segment, modes, out);
         }
+    }
+
+    /// z⁺ − z⁻ of every mode in a step that is not complete; nothing without contact, or where the modes are
+    /// [driven](driven::Drive::swung).
+    pub(crate) fn swung(&self) -> &[f64] {
+        &self.state.swing
     }
 
     /// E of the last step in the discrete identity (see [`super::schemes`]).

@@ -161,7 +161,9 @@ fn forces_that_close_a_far_gap_are_those_of_all_gaps() {
     }
     let bounds = obstacle.predicted_gap.clone();
     let (mut statistics, mut work) = (RunStatistics::default(), EffectWork::default());
-    obstacle.solve(&fourier, now, None, &mut statistics, &mut work).expect("W is positive definite");
+    obstacle
+        .solve(&fourier, now, (None, |_: &Rows, _: &mut [f64]| ()), &mut statistics, &mut work)
+        .expect("W is positive definite");
     let (active, lambda) = (obstacle.solver.active(), obstacle.solver.lambda());
     let sector = |index: usize| obstacle.delassus.place(index).0;
     let was_bound = |&&index: &&usize| was_far[sector(index)] && bounds[index] < q[index] - 0.01 * clearance;

@@ -167,6 +167,11 @@ impl Drive {
         self.swing.fill(0.0);
     }
 
+    /// z⁺ − z⁻ of every mode in a step that is not complete.
+    pub(crate) fn swung(&self) -> &[f64] {
+        &self.swing
+    }
+
     /// Forces of the state `z`.
     #[inline(always)]
     fn pull<S: Simd>(&mut self, simd: S, z: &[f64]) {

@@ -3,7 +3,7 @@
 use super::*;
 use crate::dynamics::contact::coating::{Coating, CoatingMaterial};
 use crate::dynamics::contact::friction::sliding_directions;
-use crate::dynamics::effects::Friction;
+use crate::dynamics::effects::{Friction, FrictionLaw};
 use crate::dynamics::excitation::EngineOrderExcitation;
 use crate::dynamics::flexible_casing::{CasingWave, FlexibleCasing};
 use crate::dynamics::integrate::revolutions_over_lobe;
@@ -102,7 +102,7 @@ impl Affected {
     }
 
     fn simulation(&self) -> Simulation<'_> {
-        let friction = |directions| Friction { coefficient: FRICTION, directions };
+        let friction = |directions| Friction { coefficient: FRICTION, law: FrictionLaw::Sliding, directions };
         let effects = Effects {
             mistuning: self.deviations.as_deref(),
             excitation: &self.excitation,
