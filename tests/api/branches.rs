@@ -282,6 +282,8 @@ async fn what_cannot_be_followed_is_refused_at_its_field() {
     .await;
     let abradable = json!({"modulus": 1000.0, "yield_stress": 10.0, "hardening": 10.0, "thickness": 1.0});
     refused(&|request| request["scene"]["abradable"] = abradable.clone(), "/scene/abradable").await;
+    let disc = json!({"coefficient": 0.1, "law": "disc"});
+    refused(&|request| request["scene"]["friction"] = disc.clone(), "/scene/friction/law").await;
     refused(
         &|request| request["scene"]["orbit"] = json!({"radius": 0.01, "whirl_ratio": 0.123_456}),
         "/scene/orbit/whirl_ratio",

@@ -38,6 +38,18 @@ fn a_disc_agrees_alone_and_with_every_effect() {
     }
 }
 
+/// Of so many sectors only those near a lobe are transformed.
+#[test]
+fn a_disc_on_many_sectors_agrees() {
+    for scheme in SCHEMES {
+        for (sectors, start) in [(17, Start::Rest), (20, Start::Travelling)] {
+            let apart =
+                agrees(&Scene { scheme, ..rubbing(sectors, start, 1.0) }, &format!("{scheme:?} {sectors}"));
+            println!("{scheme:?} {sectors}: {apart:.1e}");
+        }
+    }
+}
+
 /// Tips that run hardly faster than they vibrate, and one that hardly runs: they slide in all directions, turn, and stick.
 #[test]
 fn slow_tips_stick_and_slide_as_literally() {

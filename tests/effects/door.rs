@@ -2,8 +2,8 @@
 
 use rubmap::analysis::error::AnalysisError;
 use rubmap::analysis::monitor::Unwatched;
-use rubmap::analysis::request::SweepRequest;
-use rubmap::analysis::result::SpeedResult;
+use rubmap::analysis::request::{SchemeChoice, SweepRequest};
+use rubmap::analysis::result::{Point, SpeedResult};
 use rubmap::analysis::run::{ModelFacts, ReducedSector, check, resolve_sweep, run_speed};
 use rubmap::dynamics::sector::SectorModel;
 use serde_json::{Value, json};
@@ -312,4 +312,34 @@ fn a_wheel_that_jams_is_refused_before_it_runs() {
         assert!((largest - 30f64.to_radians().tan()).abs() < 2e-3, "{message}");
         assert!(message.contains("contact node 0") && try_with(largest, law).is_ok(), "{message}");
     }
+}
+
+/// A disc has no tangent and needs mass at its tips: `auto` keeps the mass, a periodic response that is asked for is marched to, and
+/// the result says so. How much sticks is told of a disc only.
+#[test]
+fn a_disc_is_marched_with_mass_and_says_so() {
+    let mut parts = sector().into_parts();
+    // A strut so stiff that no step resolves its mode.
+    for stiffness in &mut parts.stiffness {
+        let dof = parts.contact[0].dofs[2];
+        *stiffness.own.get_mut(dof, dof).unwrap() += 1e11;
+    }
+    let sector = SectorModel::new(parts).unwrap();
+    let reduced = reduced(&sector, 6);
+    let of = |law: &str, integration: Value| {
+        let scene = json!({"friction": {"coefficient": 0.05, "law": law}});
+        run(&reduced, &sector, request(&[SPEED], &[&scene], integration)).point
+    };
+    let scheme = |point: &Point| point.scheme.as_ref().unwrap().name;
+    let (sliding, disc) = (of("sliding", json!({})), of("disc", json!({})));
+    assert_eq!(scheme(&sliding), SchemeChoice::MasslessBoundary);
+    assert_eq!(scheme(&disc), SchemeChoice::ExactModal);
+    assert!(
+        disc.sticking_share.is_some_and(|share| (0.0..0.5).contains(&share)),
+        "{:?}",
+        disc.sticking_share
+    );
+    assert_eq!(sliding.sticking_share, None);
+    let steady = of("disc", json!({"steady": "auto"})).steady.unwrap();
+    assert!(!steady.taken && steady.reason.as_ref().unwrap().contains("disc"), "{steady:?}");
 }

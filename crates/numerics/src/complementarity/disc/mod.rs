@@ -7,7 +7,7 @@
 //!
 //! s is how far a place slides within a step, `free` how far it would without forces. Among the places that may close, Newton's method
 //! on the projections λ = (λ − r g)₊ and τ = Π(τ + ρs) onto the disc of radius μλ (Alart and Curnier, Computer Methods in Applied
-//! Mechanics and Engineering 92, 1991), from the forces of the last solution: of a place that sticks all three forces are unknown, of
+//! Mechanics and Engineering 92, 1991), from the forces of the last solution, and with its matrix as long as that does: of a place that sticks all three forces are unknown, of
 //! one that slides λ, along the normal and against its sliding, and what turns that. Where this does not end, sweeps over the places
 //! (Jourdan, Alart and Jean, ibid. 155, 1998), each solved alone and exactly, bring it to another beginning. A solution is one if every
 //! place meets its projections within a tolerance and the round-off of its gap and its sliding.
@@ -53,6 +53,8 @@ pub struct DiscSolver {
     noise: f64,
     unknowns: Vec<Unknown>,
     numbers: Vec<usize>,
+    /// Names of the unknowns of `factor`.
+    factored: Vec<usize>,
     right: Vec<f64>,
     factor: Lu,
     active: Vec<usize>,
@@ -71,6 +73,10 @@ pub struct DiscSolver {
 #[derive(Debug, Clone, Copy)]
 struct Unknown {
     place: usize,
+    /// Of what and of which place it is.
+    name: usize,
+    /// Where it begins.
+    value: f64,
     trial: Forces,
     test: Forces,
     own: f64,
@@ -81,6 +87,15 @@ const RESERVED: usize = 64;
 
 /// Round-off of a gap or a sliding relative to the magnitude of its terms, what solving leaves included.
 const ROUND_OFF: f64 = 64.0 * f64::EPSILON;
+
+/// What is left after a step with an earlier matrix, if that is to do for another one.
+const ENOUGH: f64 = 0.03;
+
+/// Kinds of unknowns that a place may have: three where it sticks, two where it slides.
+const KINDS: usize = 5;
+
+/// Share of a force that is put right by the next step.
+const NEGLIGIBLE: f64 = 1e-6;
 
 /// Steps of Newton's method before sweeps, sweeps before its next attempt, and attempts.
 const NEWTON_STEPS: u64 = 30;
@@ -101,6 +116,7 @@ impl DiscSolver {
             noise: 0.0,
             unknowns: Vec::with_capacity(3 * size),
             numbers: (0..3 * size).collect(),
+            factored: Vec::with_capacity(3 * size),
             right: Vec::with_capacity(3 * size),
             factor: Lu::default(),
             active: Vec::with_capacity(size),
@@ -219,28 +235,31 @@ impl DiscSolver {
             if attempt > 0 {
                 self.sweep(coefficient, tolerance);
             }
+            let mut last = f64::INFINITY;
             for _ in 0..NEWTON_STEPS {
-                if self.look(coefficient, tolerance) {
+                let off = self.look(coefficient, tolerance);
+                if off <= 1.0 {
                     return Ok(());
                 }
                 self.statistics.candidates += 1;
-                why = self.step(coefficient).err();
+                why = self.step(coefficient, off < ENOUGH * last).err();
                 if why.is_some() {
                     break;
                 }
+                last = off;
             }
         }
         let steps = (self.statistics.candidates - before) as usize;
         Err(why.unwrap_or(ComplementarityError::NotSolved { pivots: steps }))
     }
 
-    /// (g, −s) and state of every place under `x`; whether all meet their projections.
-    fn look(&mut self, coefficient: f64, tolerance: f64) -> bool {
+    /// (g, −s) and state of every place under `x`; the most that any is off its projections, over what is allowed.
+    fn look(&mut self, coefficient: f64, tolerance: f64) -> f64 {
         let count = self.places.len();
         self.y.clear();
         self.states.clear();
         self.noise = 0.0;
-        let mut solved = true;
+        let mut most = 0.0;
         for place in 0..count {
             let row = &self.blocks[place * count..][..count];
             let mut y = self.known[place];
@@ -256,58 +275,97 @@ impl DiscSolver {
             }
             let (state, off) = meet(&row[place], &self.x[place], &y, coefficient);
             let noise = ROUND_OFF * terms[0].max(terms[1]).max(terms[2]);
-            // No number is as good as none.
-            solved &= off <= tolerance + noise;
+            let off = off / (tolerance + noise);
+            // Once no number, none for good.
+            most = if off <= most { most } else { off + 0.0 * most };
             self.noise = self.noise.max(noise);
             self.y.push(y);
             self.states.push(state);
         }
-        solved
+        most
     }
 
-    /// A step of Newton's method.
-    fn step(&mut self, coefficient: f64) -> Result<(), ComplementarityError> {
+    /// A step of Newton's method; with the matrix of an earlier one, if that `may` do and has the same unknowns.
+    fn step(&mut self, coefficient: f64, may: bool) -> Result<(), ComplementarityError> {
+        self.list_unknowns(coefficient);
         let count = self.places.len();
+        let Self { unknowns, blocks, factored, factor, .. } = self;
+        if !may || !unknowns.iter().map(|unknown| unknown.name).eq(factored.iter().copied()) {
+            factored.clear();
+            let entry = |row: usize, column: usize| {
+                let (of, by) = (&unknowns[row], &unknowns[column]);
+                let block = &blocks[of.place * count + by.place];
+                let moved = |a: usize| dot(block[a], by.trial);
+                let own = if row == column { of.own } else { 0.0 };
+                own + dot(of.test, [moved(0), moved(1), moved(2)])
+            };
+            self.statistics.factorisations += 1;
+            factor.factorise(entry, &self.numbers[..unknowns.len()])?;
+            factored.extend(unknowns.iter().map(|unknown| unknown.name));
+        }
+        self.right.clear();
+        let residual =
+            |unknown: &Unknown| unknown.own * unknown.value + dot(unknown.test, self.y[unknown.place]);
+        self.right.extend(unknowns.iter().map(|unknown| -residual(unknown)));
+        factor.solve(&mut self.right);
+        self.x.fill([0.0; 3]);
+        for (unknown, more) in unknowns.iter().zip(&self.right) {
+            for (x, along) in self.x[unknown.place].iter_mut().zip(unknown.trial) {
+                *x += along * (unknown.value + more);
+            }
+        }
+        Ok(())
+    }
+
+    /// The unknowns of the states, from where they begin. Forces that the states do not have are taken off (g, −s).
+    fn list_unknowns(&mut self, coefficient: f64) {
         self.unknowns.clear();
-        for (place, &state) in self.states.iter().enumerate() {
-            match state {
-                State::Open => {}
+        for place in 0..self.places.len() {
+            let x = self.x[place];
+            let name = KINDS * self.places[place];
+            let begun = match self.states[place] {
+                State::Open => [0.0; 3],
                 State::Sticks => {
                     for a in 0..3 {
                         let mut unit = [0.0; 3];
                         unit[a] = 1.0;
-                        self.unknowns.push(Unknown { place, trial: unit, test: unit, own: 0.0 });
+                        let name = name + a;
+                        self.unknowns.push(Unknown {
+                            place,
+                            name,
+                            value: x[a],
+                            trial: unit,
+                            test: unit,
+                            own: 0.0,
+                        });
                     }
+                    x
                 }
                 State::Slides { direction: [c, s], share, scale } => {
-                    let trial = [1.0, coefficient * c, coefficient * s];
-                    self.unknowns.push(Unknown { place, trial, test: [1.0, 0.0, 0.0], own: 0.0 });
-                    let turned = share * scale;
+                    let (trial, test) = ([1.0, coefficient * c, coefficient * s], [1.0, 0.0, 0.0]);
+                    let name = name + 3;
+                    self.unknowns.push(Unknown { place, name, value: x[0], trial, test, own: 0.0 });
+                    let (turned, value) = (share * scale, x[2] * c - x[1] * s);
                     let (trial, test) = ([0.0, -s, c], [0.0, -s * turned, c * turned]);
-                    self.unknowns.push(Unknown { place, trial, test, own: 1.0 - share });
+                    let name = name + 1;
+                    self.unknowns.push(Unknown { place, name, value, trial, test, own: 1.0 - share });
+                    let along = coefficient * x[0];
+                    [x[0], along * c - value * s, along * s + value * c]
+                }
+            };
+            let off = [0, 1, 2].map(|a| begun[a] - x[a]);
+            // Turning a force by little changes its length by the square of that.
+            let most = NEGLIGIBLE * (x[0].abs() + x[1].abs() + x[2].abs());
+            if off.iter().any(|off| off.abs() > most) {
+                let count = self.places.len();
+                for (row, y) in self.y.iter_mut().enumerate() {
+                    let block = &self.blocks[row * count + place];
+                    for (y, of) in y.iter_mut().zip(block) {
+                        *y += dot(*of, off);
+                    }
                 }
             }
         }
-        let Self { unknowns, blocks, known, .. } = self;
-        let entry = |row: usize, column: usize| {
-            let (of, by) = (&unknowns[row], &unknowns[column]);
-            let block = &blocks[of.place * count + by.place];
-            let moved = |a: usize| dot(block[a], by.trial);
-            let own = if row == column { of.own } else { 0.0 };
-            own + dot(of.test, [moved(0), moved(1), moved(2)])
-        };
-        self.statistics.factorisations += 1;
-        self.factor.factorise(entry, &self.numbers[..unknowns.len()])?;
-        self.right.clear();
-        self.right.extend(unknowns.iter().map(|unknown| -dot(unknown.test, known[unknown.place])));
-        self.factor.solve(&mut self.right);
-        self.x.fill([0.0; 3]);
-        for (unknown, value) in unknowns.iter().zip(&self.right) {
-            for (x, along) in self.x[unknown.place].iter_mut().zip(unknown.trial) {
-                *x += along * value;
-            }
-        }
-        Ok(())
     }
 
     /// Solves one place after the other while the others stay, until none changes or often enough.
