@@ -57,7 +57,7 @@ async fn all_structural_errors_come_at_once_in_words() {
         ("/speeds/count", "expected a whole number from 1 to 10000, or null, not 2.5"),
         (
             "/scene/casing/clearance",
-            "expected an object with any of the fields leading, trailing, values, not a list",
+            "expected an object with any of the fields given, leading, trailing, values, not a list",
         ),
         (
             "/scene/casing/lobes/leeding",
@@ -103,7 +103,7 @@ async fn fields_that_are_alike_are_suggested_and_doubled_ones_refused() {
         ("/scene/casing/clearance/leeding", "this field does not exist here; did you mean `leading`?"),
         (
             "/scene/casing/clearance/a~1b~0c",
-            "this field does not exist here; those here are leading, trailing, values",
+            "this field does not exist here; those here are given, leading, trailing, values",
         ),
     ];
     assert_eq!(items(&answer, "invalid-request"), expected.map(|(a, b)| (a.to_owned(), b.to_owned())));

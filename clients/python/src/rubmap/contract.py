@@ -78,10 +78,17 @@ class Check(TypedDict):
     value: NotRequired[float | None]
 
 
-class Clearance(TypedDict, closed=True):
-    leading: NotRequired[float | None]
-    trailing: NotRequired[float | None]
-    values: NotRequired[list[float] | None]
+class ClearanceAt(TypedDict, closed=True):
+    change: float
+    revolutions: float
+
+
+class ClearanceChange(TypedDict, closed=True):
+    along_chord: NotRequired[list[float] | None]
+    course: list[ClearanceAt]
+
+
+ClearanceState: TypeAlias = Literal["running", "cold"]
 
 
 class Coincidence(TypedDict):
@@ -257,8 +264,7 @@ class FoundSymmetry(TypedDict):
     resting_nodal_diameters: list[int]
 
 
-class Friction(TypedDict, closed=True):
-    coefficient: float
+FrictionLaw: TypeAlias = Literal["sliding", "disc"]
 
 
 Node: TypeAlias = int
@@ -866,13 +872,11 @@ class CaseSpeed(TypedDict, closed=True):
     value: float
 
 
-class Casing(TypedDict, closed=True):
-    clearance: Clearance
-    lobes: NotRequired[Lobes | None]
-    measured: NotRequired[Measured | None]
-    single_lobes: NotRequired[list[SingleLobe]]
-    tilt: NotRequired[Tilt | None]
-    waves: NotRequired[list[Wave]]
+class Clearance(TypedDict, closed=True):
+    given: NotRequired[ClearanceState]
+    leading: NotRequired[float | None]
+    trailing: NotRequired[float | None]
+    values: NotRequired[list[float] | None]
 
 
 class Control(TypedDict):
@@ -936,6 +940,11 @@ class FrequencyDifference(TypedDict):
     indefinite: list[int]
     largest: NotRequired[LargestDifference | None]
     speed_rad_s: float
+
+
+class Friction(TypedDict, closed=True):
+    coefficient: float
+    law: NotRequired[FrictionLaw]
 
 
 class Grid(TypedDict, closed=True):
@@ -1133,23 +1142,6 @@ class Refinement(TypedDict):
     unresolved: NotRequired[list[Unresolved]]
 
 
-class Scene(TypedDict, closed=True):
-    abradable: NotRequired[Abradable | None]
-    casing: NotRequired[Casing | None]
-    centrifugal_stiffening: NotRequired[bool]
-    contact: NotRequired[Contact | None]
-    coriolis: NotRequired[bool]
-    damping: NotRequired[Damping | None]
-    engine_order_excitation: NotRequired[list[EngineOrderExcitation]]
-    flexible_casing: NotRequired[FlexibleCasing | None]
-    friction: NotRequired[Friction | None]
-    initial: NotRequired[Initial | None]
-    mistuning: NotRequired[Mistuning | None]
-    orbit: NotRequired[Orbit | None]
-    probe: NotRequired[Probe | None]
-    symmetry: NotRequired[Symmetry]
-
-
 class SectorGeometry(TypedDict):
     contact: list[ContactPlace]
     name: str
@@ -1213,19 +1205,6 @@ class StiffeningReport(TypedDict):
     verdict: StiffeningVerdict
 
 
-class StudyRequest(TypedDict, closed=True):
-    fields: NotRequired[bool | None]
-    grid: NotRequired[Grid]
-    history_revolutions: NotRequired[int]
-    integration: NotRequired[StudyIntegration]
-    max_engine_order: NotRequired[int]
-    model: str
-    record: NotRequired[StudyRecord]
-    scene: Scene
-    sensors: NotRequired[list[Sensor]]
-    speeds: Speeds
-
-
 class StudyRun(Setting):
     cost: Cost
     energy_residual: NotRequired[float | None]
@@ -1237,25 +1216,6 @@ class StudyRun(Setting):
     time_s: float
     unknowns: int
     verdict: NotRequired[Verdict | None]
-
-
-class SweepRequest(TypedDict, closed=True):
-    accuracy: NotRequired[Accuracy | None]
-    budget: NotRequired[Budget | None]
-    control_speeds: NotRequired[int | None]
-    fields: NotRequired[bool | None]
-    integration: NotRequired[Integration]
-    max_engine_order: NotRequired[int]
-    model: str
-    modes_per_speed: NotRequired[AutoOr]
-    peak_prominence: NotRequired[float]
-    record: NotRequired[Record]
-    refine: NotRequired[bool]
-    reproducible: NotRequired[bool]
-    scene: Scene
-    sensors: NotRequired[list[Sensor]]
-    speeds: Speeds
-    sweep: NotRequired[SweepDirection]
 
 
 class ValidityCheck(TypedDict):
@@ -1270,27 +1230,13 @@ class ValidityLack(TypedDict):
     what: ValidityMeasure
 
 
-class WheelCriticalSpeeds(TypedDict):
-    critical_speeds: list[WheelCriticalSpeed]
-    missing: list[int]
-    refinement: NotRequired[Refinement | None]
-    sensors: list[SensorView]
-    settings: SweepRequest
-    units: Units
-    version: str
-
-
-class BranchesSettings(TypedDict, closed=True):
-    along: Along
-    doubled: bool
-    most_points: int
-    sweep: SweepRequest
-
-
-class CaseStudySettings(TypedDict, closed=True):
-    record: Recorded
-    speeds: list[int]
-    sweep: SweepRequest
+class Casing(TypedDict, closed=True):
+    clearance: Clearance
+    lobes: NotRequired[Lobes | None]
+    measured: NotRequired[Measured | None]
+    single_lobes: NotRequired[list[SingleLobe]]
+    tilt: NotRequired[Tilt | None]
+    waves: NotRequired[list[Wave]]
 
 
 class Choice(TypedDict):
@@ -1319,14 +1265,6 @@ class Chosen2(ModesChoice):
 
 
 Chosen: TypeAlias = Chosen1 | Chosen2
-
-
-class ForceMap(TypedDict):
-    rows: list[ForceRow | None]
-    settings: SweepRequest
-    speeds_rad_s: list[float]
-    units: Units
-    version: str
 
 
 class FoundShape(TypedDict):
@@ -1377,37 +1315,6 @@ class JobList(TypedDict):
     next: NotRequired[str | None]
 
 
-class LabelledBranchesRequest(TypedDict, closed=True):
-    along: Along
-    doubled: NotRequired[bool]
-    integration: NotRequired[Integration]
-    max_engine_order: NotRequired[int]
-    model: str
-    modes_per_speed: NotRequired[AutoOr]
-    most_points: NotRequired[int]
-    name: NotRequired[str | None]
-    notes: NotRequired[str | None]
-    scene: Scene
-    sensors: NotRequired[list[Sensor]]
-    speed: CaseSpeed
-    tags: NotRequired[list[str]]
-
-
-class LabelledCaseStudyRequest(TypedDict, closed=True):
-    fields: NotRequired[bool | None]
-    integration: NotRequired[Integration]
-    max_engine_order: NotRequired[int]
-    model: str
-    modes_per_speed: NotRequired[AutoOr]
-    name: NotRequired[str | None]
-    notes: NotRequired[str | None]
-    record: NotRequired[Recorded]
-    scene: Scene
-    sensors: NotRequired[list[Sensor]]
-    speed: CaseSpeed
-    tags: NotRequired[list[str]]
-
-
 class LabelledModalAnalysisRequest(TypedDict, closed=True):
     accuracy: NotRequired[Accuracy | None]
     budget: NotRequired[Budget | None]
@@ -1422,44 +1329,6 @@ class LabelledModalAnalysisRequest(TypedDict, closed=True):
     notes: NotRequired[str | None]
     speeds: Speeds
     superharmonics: NotRequired[list[Superharmonic]]
-    tags: NotRequired[list[str]]
-
-
-class LabelledStudyRequest(TypedDict, closed=True):
-    fields: NotRequired[bool | None]
-    grid: NotRequired[Grid]
-    history_revolutions: NotRequired[int]
-    integration: NotRequired[StudyIntegration]
-    max_engine_order: NotRequired[int]
-    model: str
-    name: NotRequired[str | None]
-    notes: NotRequired[str | None]
-    record: NotRequired[StudyRecord]
-    scene: Scene
-    sensors: NotRequired[list[Sensor]]
-    speeds: Speeds
-    tags: NotRequired[list[str]]
-
-
-class LabelledSweepRequest(TypedDict, closed=True):
-    accuracy: NotRequired[Accuracy | None]
-    budget: NotRequired[Budget | None]
-    control_speeds: NotRequired[int | None]
-    fields: NotRequired[bool | None]
-    integration: NotRequired[Integration]
-    max_engine_order: NotRequired[int]
-    model: str
-    modes_per_speed: NotRequired[AutoOr]
-    name: NotRequired[str | None]
-    notes: NotRequired[str | None]
-    peak_prominence: NotRequired[float]
-    record: NotRequired[Record]
-    refine: NotRequired[bool]
-    reproducible: NotRequired[bool]
-    scene: Scene
-    sensors: NotRequired[list[Sensor]]
-    speeds: Speeds
-    sweep: NotRequired[SweepDirection]
     tags: NotRequired[list[str]]
 
 
@@ -1512,14 +1381,22 @@ class ReductionReport(TypedDict):
     wheel_unknowns: int
 
 
-RequestBody: TypeAlias = (
-    SweepRequest
-    | ModalAnalysisRequest
-    | StudyRequest
-    | CaseStudySettings
-    | BranchesSettings
-    | ImpellerParameters
-)
+class Scene(TypedDict, closed=True):
+    abradable: NotRequired[Abradable | None]
+    casing: NotRequired[Casing | None]
+    centrifugal_stiffening: NotRequired[bool]
+    clearance_change: NotRequired[ClearanceChange | None]
+    contact: NotRequired[Contact | None]
+    coriolis: NotRequired[bool]
+    damping: NotRequired[Damping | None]
+    engine_order_excitation: NotRequired[list[EngineOrderExcitation]]
+    flexible_casing: NotRequired[FlexibleCasing | None]
+    friction: NotRequired[Friction | None]
+    initial: NotRequired[Initial | None]
+    mistuning: NotRequired[Mistuning | None]
+    orbit: NotRequired[Orbit | None]
+    probe: NotRequired[Probe | None]
+    symmetry: NotRequired[Symmetry]
 
 
 class SpeedStudy(TypedDict):
@@ -1531,32 +1408,52 @@ class SpeedStudy(TypedDict):
     speed_rad_s: float
 
 
-class SweepPlan(TypedDict):
-    basis_bytes_at_most: NotRequired[int | None]
-    casing_shape: NotRequired[FoundShape | None]
-    choice: NotRequired[Choice | None]
-    contact_pairs: int
-    effects: list[PlannedEffect]
-    estimate: NotRequired[Estimate | None]
-    machine: NotRequired[Machine | None]
-    pilot_speeds_rad_s: NotRequired[list[float] | None]
-    placed_sensors: NotRequired[list[PlacedSensor]]
-    points: list[PlannedPoint]
-    reduced_unknowns_at_most: int
-    reduction: ReductionState
-    settings: SweepRequest
-    speeds: int
-    stress_bytes: NotRequired[int | None]
-    symmetry: FoundSymmetry
-    version: str
-    warnings: NotRequired[list[str]]
-    workers: int
+class StudyRequest(TypedDict, closed=True):
+    fields: NotRequired[bool | None]
+    grid: NotRequired[Grid]
+    history_revolutions: NotRequired[int]
+    integration: NotRequired[StudyIntegration]
+    max_engine_order: NotRequired[int]
+    model: str
+    record: NotRequired[StudyRecord]
+    scene: Scene
+    sensors: NotRequired[list[Sensor]]
+    speeds: Speeds
+
+
+class SweepRequest(TypedDict, closed=True):
+    accuracy: NotRequired[Accuracy | None]
+    budget: NotRequired[Budget | None]
+    control_speeds: NotRequired[int | None]
+    fields: NotRequired[bool | None]
+    integration: NotRequired[Integration]
+    max_engine_order: NotRequired[int]
+    model: str
+    modes_per_speed: NotRequired[AutoOr]
+    peak_prominence: NotRequired[float]
+    record: NotRequired[Record]
+    refine: NotRequired[bool]
+    reproducible: NotRequired[bool]
+    scene: Scene
+    sensors: NotRequired[list[Sensor]]
+    speeds: Speeds
+    sweep: NotRequired[SweepDirection]
 
 
 class Validity(TypedDict):
     checks: list[ValidityCheck]
     lacking: NotRequired[list[ValidityLack]]
     verdict: ValidityVerdict
+
+
+class WheelCriticalSpeeds(TypedDict):
+    critical_speeds: list[WheelCriticalSpeed]
+    missing: list[int]
+    refinement: NotRequired[Refinement | None]
+    sensors: list[SensorView]
+    settings: SweepRequest
+    units: Units
+    version: str
 
 
 class WorkPrecision(TypedDict):
@@ -1566,33 +1463,11 @@ class WorkPrecision(TypedDict):
     version: str
 
 
-class BranchesHead(TypedDict):
-    kept_modes: NotRequired[int | None]
-    parameter: BranchParameter
-    scheme: SchemeChoice
-    sensors: list[Sensor]
-    settings: BranchesSettings
-    steps_per_revolution: int
-    units: Units
-    vectors: str
-    version: str
-
-
-class BranchesPlan(TypedDict):
-    basis_bytes_at_most: NotRequired[int | None]
-    contact_pairs: int
-    effects: list[PlannedEffect]
-    estimate: NotRequired[Estimate | None]
-    machine: NotRequired[Machine | None]
-    point: NotRequired[PlannedResponse | None]
-    points_at_least: int
-    points_at_most: int
-    reduced_unknowns_at_most: int
-    reduction: ReductionState
-    settings: BranchesSettings
-    symmetry: FoundSymmetry
-    version: str
-    warnings: NotRequired[list[str]]
+class BranchesSettings(TypedDict, closed=True):
+    along: Along
+    doubled: bool
+    most_points: int
+    sweep: SweepRequest
 
 
 class Campbell(TypedDict):
@@ -1606,6 +1481,12 @@ class Campbell(TypedDict):
     version: str
     wall_time_s: float
     waves: NotRequired[WaveTables | None]
+
+
+class CaseStudySettings(TypedDict, closed=True):
+    record: Recorded
+    speeds: list[int]
+    sweep: SweepRequest
 
 
 class CriticalSpeeds(TypedDict):
@@ -1624,10 +1505,81 @@ class CriticalSpeeds(TypedDict):
     version: str
 
 
-class JobDetail(JobBody):
-    choice: NotRequired[Chosen | None]
-    reduction: NotRequired[ReductionReport | None]
-    request: RequestBody
+class ForceMap(TypedDict):
+    rows: list[ForceRow | None]
+    settings: SweepRequest
+    speeds_rad_s: list[float]
+    units: Units
+    version: str
+
+
+class LabelledBranchesRequest(TypedDict, closed=True):
+    along: Along
+    doubled: NotRequired[bool]
+    integration: NotRequired[Integration]
+    max_engine_order: NotRequired[int]
+    model: str
+    modes_per_speed: NotRequired[AutoOr]
+    most_points: NotRequired[int]
+    name: NotRequired[str | None]
+    notes: NotRequired[str | None]
+    scene: Scene
+    sensors: NotRequired[list[Sensor]]
+    speed: CaseSpeed
+    tags: NotRequired[list[str]]
+
+
+class LabelledCaseStudyRequest(TypedDict, closed=True):
+    fields: NotRequired[bool | None]
+    integration: NotRequired[Integration]
+    max_engine_order: NotRequired[int]
+    model: str
+    modes_per_speed: NotRequired[AutoOr]
+    name: NotRequired[str | None]
+    notes: NotRequired[str | None]
+    record: NotRequired[Recorded]
+    scene: Scene
+    sensors: NotRequired[list[Sensor]]
+    speed: CaseSpeed
+    tags: NotRequired[list[str]]
+
+
+class LabelledStudyRequest(TypedDict, closed=True):
+    fields: NotRequired[bool | None]
+    grid: NotRequired[Grid]
+    history_revolutions: NotRequired[int]
+    integration: NotRequired[StudyIntegration]
+    max_engine_order: NotRequired[int]
+    model: str
+    name: NotRequired[str | None]
+    notes: NotRequired[str | None]
+    record: NotRequired[StudyRecord]
+    scene: Scene
+    sensors: NotRequired[list[Sensor]]
+    speeds: Speeds
+    tags: NotRequired[list[str]]
+
+
+class LabelledSweepRequest(TypedDict, closed=True):
+    accuracy: NotRequired[Accuracy | None]
+    budget: NotRequired[Budget | None]
+    control_speeds: NotRequired[int | None]
+    fields: NotRequired[bool | None]
+    integration: NotRequired[Integration]
+    max_engine_order: NotRequired[int]
+    model: str
+    modes_per_speed: NotRequired[AutoOr]
+    name: NotRequired[str | None]
+    notes: NotRequired[str | None]
+    peak_prominence: NotRequired[float]
+    record: NotRequired[Record]
+    refine: NotRequired[bool]
+    reproducible: NotRequired[bool]
+    scene: Scene
+    sensors: NotRequired[list[Sensor]]
+    speeds: Speeds
+    sweep: NotRequired[SweepDirection]
+    tags: NotRequired[list[str]]
 
 
 class ModalAnalysisPlan(TypedDict):
@@ -1674,6 +1626,7 @@ class Point(TypedDict):
     march: NotRequired[MarchReport | None]
     message: NotRequired[str | None]
     responses: list[SensorResponse]
+    running_clearance: NotRequired[list[float]]
     scheme: NotRequired[SchemeReport | None]
     settling: NotRequired[Settling | None]
     smallest_multiplier: NotRequired[float | None]
@@ -1683,6 +1636,7 @@ class Point(TypedDict):
     steady: NotRequired[SteadyReport | None]
     steps: int
     steps_per_revolution: int
+    sticking_share: NotRequired[float | None]
     stiffening: NotRequired[StiffeningVerdict | None]
     stress: NotRequired[PointStress | None]
     symmetry_breaking: NotRequired[SymmetryBreaking | None]
@@ -1692,6 +1646,16 @@ class Point(TypedDict):
     version: str
     wall_time_s: float
     wear: NotRequired[WearReport | None]
+
+
+RequestBody: TypeAlias = (
+    SweepRequest
+    | ModalAnalysisRequest
+    | StudyRequest
+    | CaseStudySettings
+    | BranchesSettings
+    | ImpellerParameters
+)
 
 
 class SensorMaps(TypedDict):
@@ -1740,6 +1704,28 @@ class SpeedStress(TypedDict):
     validity: NotRequired[Validity | None]
 
 
+class SweepPlan(TypedDict):
+    basis_bytes_at_most: NotRequired[int | None]
+    casing_shape: NotRequired[FoundShape | None]
+    choice: NotRequired[Choice | None]
+    contact_pairs: int
+    effects: list[PlannedEffect]
+    estimate: NotRequired[Estimate | None]
+    machine: NotRequired[Machine | None]
+    pilot_speeds_rad_s: NotRequired[list[float] | None]
+    placed_sensors: NotRequired[list[PlacedSensor]]
+    points: list[PlannedPoint]
+    reduced_unknowns_at_most: int
+    reduction: ReductionState
+    settings: SweepRequest
+    speeds: int
+    stress_bytes: NotRequired[int | None]
+    symmetry: FoundSymmetry
+    version: str
+    warnings: NotRequired[list[str]]
+    workers: int
+
+
 class SweepStress(TypedDict):
     settings: SweepRequest
     speeds: list[SpeedStress]
@@ -1754,9 +1740,33 @@ class WearBody(TypedDict):
     wear: WearMap
 
 
-class Branches(BranchesHead):
-    branches: list[BranchTrack]
-    complete: bool
+class BranchesHead(TypedDict):
+    kept_modes: NotRequired[int | None]
+    parameter: BranchParameter
+    scheme: SchemeChoice
+    sensors: list[Sensor]
+    settings: BranchesSettings
+    steps_per_revolution: int
+    units: Units
+    vectors: str
+    version: str
+
+
+class BranchesPlan(TypedDict):
+    basis_bytes_at_most: NotRequired[int | None]
+    contact_pairs: int
+    effects: list[PlannedEffect]
+    estimate: NotRequired[Estimate | None]
+    machine: NotRequired[Machine | None]
+    point: NotRequired[PlannedResponse | None]
+    points_at_least: int
+    points_at_most: int
+    reduced_unknowns_at_most: int
+    reduction: ReductionState
+    settings: BranchesSettings
+    symmetry: FoundSymmetry
+    version: str
+    warnings: NotRequired[list[str]]
 
 
 HistoriesBody: TypeAlias = SpeedHistories | Histories
@@ -1779,4 +1789,15 @@ class InteractionMap(TypedDict):
     version: str
 
 
+class JobDetail(JobBody):
+    choice: NotRequired[Chosen | None]
+    reduction: NotRequired[ReductionReport | None]
+    request: RequestBody
+
+
 MapBody: TypeAlias = InteractionMap | SensorMaps
+
+
+class Branches(BranchesHead):
+    branches: list[BranchTrack]
+    complete: bool
