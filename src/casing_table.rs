@@ -2,8 +2,11 @@
 //!
 //! Two layouts, told apart by the header: *wide*, `angle_deg, 0, 0.5, 1` (shares of the chord) or `angle_deg, node0, node1, …`; and
 //! *long*, `angle_deg, chord, height` or `angle_deg, node, height`, every row a point. `angle_rad` for rad. Fields are parted by comma,
-//! semicolon (then decimals may have commas) or tab; rows come in any order; lines with `#` are comments; an empty field or `nan` is a
+//! semicolon (then decimals may have commas) or tab; rows come in any order; lines with `#` are comments; an empty field, `nan` or `-` is a
 //! height that is missing.
+
+use std::collections::BTreeMap;
+use std::fmt;
 
 use csv::{ReaderBuilder, StringRecord, Trim};
 
@@ -12,6 +15,10 @@ use crate::analysis::run::{MeasuredLine, measured_casing};
 
 /// Points that are read at most.
 const MOST_POINTS: usize = 200_000;
+/// Lines along the chord, as a request may have them.
+const MOST_LINES: usize = 8192;
+/// Errors after which no more are looked for.
+const MOST_ERRORS: usize = 100;
 
 /// Something wrong with a table.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -20,6 +27,15 @@ pub struct TableError {
     pub line: Option<u64>,
     /// What is wrong, and what would be right.
     pub message: String,
+}
+
+impl fmt::Display for TableError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.line {
+            Some(line) => write!(f, "line {line}: {}", self.message),
+            None => f.write_str(&self.message),
+        }
+    }
 }
 
 impl TableError {
@@ -71,7 +87,8 @@ pub fn read(text: &[u8]) -> Result<MeasuredCasing, Vec<TableError>> {
     let names = reader.headers().map_err(|error| one(TableError::whole(error.to_string())))?;
     let line = names.position().map(csv::Position::line);
     let header = Header::of(names, delimiter == b';').map_err(|message| one(TableError { line, message }))?;
-    let mut lines: Vec<(Place, Vec<(f64, f64)>)> = Vec::new();
+    // By the bits of their places, which are in their order as none is negative.
+    let mut lines: BTreeMap<u64, MeasuredLine> = BTreeMap::new();
     let (mut errors, mut points) = (Vec::new(), 0);
     for record in reader.records() {
         let row = match record {
@@ -85,30 +102,26 @@ pub fn read(text: &[u8]) -> Result<MeasuredCasing, Vec<TableError>> {
             Ok(row) => {
                 for (place, angle, height) in row {
                     points += 1;
-                    match lines.iter_mut().find(|line| line.0 == place) {
-                        Some(line) => line.1.push((angle, height)),
-                        None => lines.push((place, vec![(angle, height)])),
-                    }
+                    let place = place.number();
+                    let new = || MeasuredLine { place, points: Vec::new() };
+                    lines.entry(place.to_bits()).or_insert_with(new).points.push((angle, height));
                 }
             }
             Err(error) => errors.push(error),
         }
-        if points > MOST_POINTS {
-            return Err(one(TableError::whole(format!("at most {MOST_POINTS} heights"))));
+        if points > MOST_POINTS || lines.len() > MOST_LINES {
+            let message = format!("at most {MOST_POINTS} heights on {MOST_LINES} lines");
+            return Err(one(TableError::whole(message)));
+        }
+        if errors.len() >= MOST_ERRORS {
+            break;
         }
     }
     if !errors.is_empty() {
         return Err(errors);
     }
-    let each_node = lines.iter().any(|line| matches!(line.0, Place::Node(_)));
-    let mut lines: Vec<MeasuredLine> = lines
-        .into_iter()
-        .map(|(place, points)| match place {
-            Place::Chord(share) => MeasuredLine { place: share, points },
-            Place::Node(node) => MeasuredLine { place: node.into(), points },
-        })
-        .collect();
-    lines.sort_by(|a, b| a.place.total_cmp(&b.place));
+    let each_node = header.of_nodes();
+    let lines: Vec<MeasuredLine> = lines.into_values().collect();
     if lines.is_empty() {
         return Err(one(TableError::whole("the table has no heights")));
     }
@@ -118,12 +131,28 @@ pub fn read(text: &[u8]) -> Result<MeasuredCasing, Vec<TableError>> {
     }
     measured_casing(&lines, each_node).map_err(|(line, error)| {
         let name = if each_node { "contact node" } else { "the line at" };
-        one(TableError::whole(format!("{name} {} {error}", lines[line].place)))
+        one(TableError::whole(match line {
+            Some(line) => format!("{name} {} {error}", lines[line].place),
+            None => error.to_string(),
+        }))
     })
+}
+
+impl Place {
+    /// Not negative, −0 neither.
+    fn number(self) -> f64 {
+        match self {
+            Self::Chord(share) => share.abs(),
+            Self::Node(node) => node.into(),
+        }
+    }
 }
 
 impl Header {
     fn of(names: &StringRecord, comma: bool) -> Result<Self, String> {
+        if names.len() > MOST_LINES + 1 {
+            return Err(format!("at most {MOST_LINES} lines beside the angle"));
+        }
         let names: Vec<String> = names.iter().map(str::to_lowercase).collect();
         let find = |name: &str| names.iter().position(|one| one == name);
         let (angle, unit_rad) = match (find("angle_deg"), find("angle_rad")) {
@@ -165,6 +194,14 @@ impl Header {
         match twice {
             Some(k) => Err(format!("the header names {} twice", names[columns[k].0])),
             None => Ok(Self { angle, unit_rad, layout: Layout::Wide(columns), comma }),
+        }
+    }
+
+    /// Whether places are contact nodes.
+    fn of_nodes(&self) -> bool {
+        match &self.layout {
+            Layout::Wide(columns) => columns.iter().any(|(_, place)| matches!(place, Place::Node(_))),
+            Layout::Long { nodes, .. } => *nodes,
         }
     }
 

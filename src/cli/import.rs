@@ -124,11 +124,8 @@ fn import_casing(args: &CasingArgs) -> anyhow::Result<()> {
     let name = args.table.display();
     let text = std::fs::read(&args.table).with_context(|| format!("cannot read {name}"))?;
     let found = casing_table::read(&text).map_err(|errors| {
-        let said = errors.iter().map(|error| match error.line {
-            Some(line) => format!("{name}, line {line}: {}", error.message),
-            None => format!("{name}: {}", error.message),
-        });
-        anyhow::anyhow!(said.collect::<Vec<_>>().join("\n"))
+        let said: Vec<_> = errors.iter().map(|error| format!("{name}: {error}")).collect();
+        anyhow::anyhow!(said.join("\n"))
     })?;
     eprint!("{}", surveyed(&found)?);
     let json = serde_json::to_string(&found.measured)?;

@@ -51,11 +51,7 @@ pub(super) async fn read_casing_table(CsvBody(text): CsvBody) -> Result<Json<Mea
 }
 
 fn refused(errors: Vec<TableError>) -> Problem {
-    let said = |TableError { line, message }: &TableError| match line {
-        Some(line) => format!("line {line}: {message}"),
-        None => message.clone(),
-    };
-    let detail = errors.iter().take(3).map(said).collect::<Vec<_>>().join("; ");
+    let detail = errors.iter().take(3).map(TableError::to_string).collect::<Vec<_>>().join("; ");
     let items = errors.into_iter().map(|TableError { line, message }| ProblemItem {
         line,
         detail: message,

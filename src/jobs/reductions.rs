@@ -106,7 +106,7 @@ impl Reductions {
         let beside = Beside {
             nodes: sweep.sensor_nodes(),
             stress_outside: sweep.stress_outside(),
-            growth: sweep.takes_growth(),
+            growth: sweep.has_cold_clearances(),
             fields,
         };
         self.reading(sweep.model(), sweep.modes_per_speed(), &beside, monitor).await

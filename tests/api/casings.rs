@@ -110,6 +110,15 @@ async fn wrong_shapes_are_refused_at_their_places() {
         (json!({"waves": [{"order": 2, "amplitude": 0.1, "along_chord": [1, 2]}]}), "/waves/0/along_chord/1"),
         (json!({"tilt": {"angle_rad": 0.1}}), "/tilt/angle_rad"),
         (measured(&angles[..6], json!([0]), json!([[0.1, 0.1, 0.1, 0.1, 0.1, 0.1]])), "/measured/angles_rad"),
+        // A turn later the first angle again, but for the last digit.
+        (
+            measured(
+                &(0..13).map(|i| 102f64.to_radians() + f64::from(i) * TAU / 12.0).collect::<Vec<_>>(),
+                json!([0]),
+                json!([vec![0.1; 13]]),
+            ),
+            "/measured/angles_rad",
+        ),
         (measured(&angles, json!([0.5, 0.5]), json!([vec![0.1; 12], vec![0.1; 12]])), "/measured/chord"),
         (measured(&angles, json!([0, 1]), flat.clone()), "/measured/heights"),
         (measured(&angles, Value::Null, flat.clone()), "/measured/heights"),

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use rubmap::dynamics::casing::{Lobe, Lobes, Part, PeriodicSpline, Profile, Restriction};
+use rubmap::dynamics::casing::{Lobe, Lobes, Measured, Part, PeriodicSpline, Profile, Restriction};
 use rubmap::dynamics::direction::Direction;
 use rubmap::dynamics::excitation::EngineOrderExcitation;
 use rubmap::dynamics::flexible_casing::{CasingWave, FlexibleCasing};
@@ -135,7 +135,7 @@ fn parts(repeats: u32) -> Vec<Part> {
         part(Profile::Lobes(lobes)),
         part(Profile::Each((0..repeats).map(each).collect())),
         Part { profile: wave, along_chord: Some(vec![1.0, 0.4]) },
-        part(Profile::Measured(vec![curve; 2])),
+        part(Profile::Measured(Measured::at_each(vec![curve; 2]))),
     ]
 }
 

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use faer::{Mat, c64};
-use rubmap::dynamics::casing::{Casing, Lobe, Lobes, Part, PeriodicSpline, Profile, Restriction};
+use rubmap::dynamics::casing::{Casing, Lobe, Lobes, Measured, Part, PeriodicSpline, Profile, Restriction};
 use rubmap::dynamics::clearance_change::ClearanceChange;
 use rubmap::dynamics::contact::coating::CoatingMaterial;
 use rubmap::dynamics::direction::Direction;
@@ -182,7 +182,7 @@ fn shapes(dice: &mut Dice, nodes: usize) -> Vec<Part> {
             let heights: Vec<f64> = angles.iter().map(|_| dice.between(-0.1, 0.1)).collect();
             PeriodicSpline::new(&angles, &heights)
         };
-        Profile::Measured((0..nodes).map(|_| curve(dice)).collect())
+        Profile::Measured(Measured::at_each((0..nodes).map(|_| curve(dice)).collect()))
     });
     let profiles = [single, wave, measured].into_iter().flatten();
     profiles.map(|profile| Part { profile, along_chord: along(dice) }).collect()

@@ -66,7 +66,7 @@ fn growing(sector: &SectorModel) -> (ReducedSector, Vec<Vec<f64>>) {
     (ReducedSector { growth: Some(growth.into()), ..reduced(sector, 6) }, at)
 }
 
-/// Cold clearances are running ones less the growth, to the bit; and growth is that of the loaded wheel: K(Ω)u = Ω²f.
+/// Running clearances are cold ones less the growth, to the bit.
 #[test]
 fn cold_clearances_are_running_ones_that_are_larger() {
     let sector = wheel(WheelRecipe { stiffening: true, ..WheelRecipe::default() });

@@ -31,7 +31,11 @@ pub(crate) fn height(restriction: &Restriction, angle: f64, node: usize) -> f64 
                 let (cosine, sine) = ((order * phase_rad).cos(), (order * phase_rad).sin());
                 p += share * amplitude * (cosine * (order * angle).cos() + sine * (order * angle).sin());
             }
-            Profile::Measured(curves) => p += share * curves[node].at(angle),
+            Profile::Measured(measured) => {
+                let (line, next, between) = measured.nodes[node];
+                let [first, second] = [line, next].map(|line| measured.curves[line].at(angle));
+                p += share * ((1.0 - between) * first + between * second);
+            }
         }
     }
     p

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use rubmap::dynamics::casing::{Casing, Lobe, Lobes, Part, PeriodicSpline, Profile, Restriction};
+use rubmap::dynamics::casing::{Casing, Lobe, Lobes, Measured, Part, PeriodicSpline, Profile, Restriction};
 use rubmap::dynamics::direction::Direction;
 use rubmap::dynamics::effects::Effects;
 use rubmap::dynamics::integrate::{Outcome, SensorRow, Simulation};
@@ -186,7 +186,7 @@ fn lobes_of_their_own() {
     agree(WheelRecipe { sectors: 7, seed: 9, ..Default::default() }, 0.005, Restriction { parts }, 1.3);
 }
 
-/// Points of another curve for every node, at uneven angles.
+/// Points of two curves at uneven angles, and nodes on and between them.
 #[test]
 fn measured_casing() {
     let angles: Vec<f64> = (0..90).map(|i| TAU / 90.0 * (f64::from(i) + 0.3 * f64::from(i).sin())).collect();
@@ -195,7 +195,9 @@ fn measured_casing() {
         let heights: Vec<f64> = angles.iter().map(|&angle| shape.height(angle, 0)).collect();
         PeriodicSpline::new(&angles, &heights)
     };
-    let curves = (0..3).map(curve).collect();
-    let parts = vec![Part { profile: Profile::Measured(curves), along_chord: None }];
+    // Two lines, and nodes before, between and behind them.
+    let nodes = vec![(0, 0, 0.0), (0, 1, 0.3), (1, 1, 0.0)];
+    let measured = Measured { curves: (0..2).map(curve).collect(), nodes };
+    let parts = vec![Part { profile: Profile::Measured(measured), along_chord: None }];
     agree(WheelRecipe { seed: 10, ..Default::default() }, 0.005, Restriction { parts }, 1.3);
 }

@@ -271,7 +271,6 @@ fn plan_point(
         let contact = &reduced.wheel.contact;
         let steps = stepping.discretisation.per_revolution;
         check_at_speed(&stepping.of(request, &wheel, contact))?;
-        check_table(&reduced.wheel, request, steps)?;
         // While the growth of the tips has still to be solved for, as they are given.
         let clearance = match reduced.growth {
             Some(_) => running_clearance(reduced, request, speed_rad_s)?,
@@ -279,6 +278,7 @@ fn plan_point(
         };
         let ramp = request.integration.ramp_revolutions;
         let casing = clearance.and_then(|clearance| casing(&reduced.wheel, request, clearance, ramp));
+        check_table(&reduced.wheel, casing.as_ref(), steps)?;
         initial(request, &wheel, contact, casing.as_ref(), &stepping)?;
         Ok((wheel, stepping))
     });
@@ -387,9 +387,17 @@ pub(crate) fn running_bytes(
     let eigen = COMPLEX * 6 * sizes.clone().max().unwrap_or(0).pow(2);
     let shapes: usize = wheel.harmonics.iter().map(|h| COMPLEX * h.contact.nrows() * h.contact.ncols()).sum();
     let stride = nodes.next_multiple_of(8);
-    let shaped = nodes > 0 && request.scene.casing.as_ref().is_some_and(|casing| !casing.shape.is_circular());
-    let table =
-        if shaped { REAL * RestrictionTable::size(steps.per_revolution, wheel.around(), stride) } else { 0 };
+    let casing = request.scene.casing.as_ref().filter(|_| nodes > 0);
+    let shaped = casing.is_some_and(|casing| !casing.shape.is_circular() || casing.may_press());
+    // Points, heights and bends of measured curves, of the casing and of what is made of it.
+    let measured = casing.and_then(|casing| casing.shape.measured.as_ref());
+    let points = measured.map_or(0, |measured| measured.angles_rad.len() * measured.heights.len());
+    let table = 6 * REAL * points
+        + if shaped {
+            REAL * RestrictionTable::size(steps.per_revolution, wheel.around(), stride)
+        } else {
+            0
+        };
     // What nodes do in the reduced coordinates and in the modes.
     let read = 2 * COMPLEX * 3 * request.sensor_nodes().len() * sizes.clone().sum::<usize>();
     // Normals, tips in three components, sensors.

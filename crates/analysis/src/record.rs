@@ -81,7 +81,7 @@ pub(super) fn record_run(
             let (summary, forces) = contact.unzip();
             point.contact = summary;
             point.tip = largest_tip(history, clearance.as_deref(), &sector.wheel.contact);
-            if request.takes_growth() {
+            if request.has_cold_clearances() {
                 point.running_clearance = clearance.unwrap_or_default();
             }
             Some(Recorded { spectra, contact: forces })

@@ -272,7 +272,7 @@ pub(super) fn staged<T>(
     let damping = modal_damping(request);
     let clearance = running_clearance(sector, request, wheel.speed_rad_s)?;
     let casing = clearance.and_then(|clearance| casing(reduced, request, clearance, ramp_revolutions));
-    check_table(reduced, request, steps.per_revolution)?;
+    check_table(reduced, casing.as_ref(), steps.per_revolution)?;
     let surroundings =
         Surroundings { contact_nodes: &reduced.contact, sectors: wheel.around(), ramp_revolutions };
     let effects = SceneEffects::of(scene, &surroundings)?;

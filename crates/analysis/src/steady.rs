@@ -41,7 +41,9 @@ pub(super) fn revolutions_taken(request: &ResolvedSweep) -> [u64; 2] {
     match steady {
         SteadyChoice::March => match revolutions {
             AutoOr::Auto if goes_on(request).is_none() => {
-                [(ramp_revolutions.ceil() as u64 + LEAST_MARCHED).min(marched), marched]
+                let changed = request.scene.clearance_change.as_ref().and_then(|change| change.course.last());
+                let begun = changed.map_or(ramp_revolutions, |last| ramp_revolutions.max(last.revolutions));
+                [(begun.ceil() as u64 + LEAST_MARCHED).min(marched), marched]
             }
             AutoOr::Auto | AutoOr::Fixed(_) => [marched, marched],
         },

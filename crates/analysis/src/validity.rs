@@ -32,8 +32,8 @@ pub(super) fn judge(
     let positions: Vec<[f64; 3]> = contact.iter().map(|node| node.position).collect();
     let chord = arc_lengths(&positions).last().copied().filter(|&chord| chord > 0.0);
     let radius = positions.iter().map(|position| position[0]).reduce(f64::min);
-    let lobes = request.scene.touched_shape().and_then(Shape::repeats).map(f64::from);
-    let lobe = radius.zip(lobes).map(|(radius, lobes)| std::f64::consts::TAU * radius / lobes);
+    let period = request.scene.touched_shape().and_then(Shape::period_rad);
+    let lobe = radius.zip(period).map(|(radius, period)| period * radius);
     let over = |value: f64, length: Option<f64>| length.filter(|&length| length > 0.0).map(|l| value / l);
     let over_yield = stress.and_then(|stress| stress.largest_over_yield);
     let measured = [

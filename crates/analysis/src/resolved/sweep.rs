@@ -133,7 +133,7 @@ impl ResolvedSweep {
     }
 
     /// Whether clearances are given cold, and touched.
-    pub fn takes_growth(&self) -> bool {
+    pub fn has_cold_clearances(&self) -> bool {
         let cold = self.scene.casing.as_ref().is_some_and(|casing| casing.given == ClearanceState::Cold);
         cold && self.scene.contact.is_some()
     }

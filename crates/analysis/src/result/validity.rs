@@ -89,6 +89,6 @@ pub enum ValidityMeasure {
     /// How far the same contact nodes of neighbouring blades come closer tangentially, over the distance between them.
     NeighbourApproach,
     /// Largest tangential displacement of a contact node over the length of a lobe of the casing at the smallest radius of the contact
-    /// line.
+    /// line: the distance of equal lobes, of other shapes that of a wave whose eighth is the narrowest of them.
     ContactOverLobe,
 }

@@ -20,12 +20,14 @@ const LEAST_WIDTH_RAD: f64 = 1e-4;
 const WIDTH_OVER_DISTANCE: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// Angles of a measured line.
 const MOST_MEASURED: usize = 100_000;
+/// Angles that are nearer are the same.
+const LEAST_DISTANCE_RAD: f64 = 1e-9;
 /// The square of a larger tilt is no longer a thousandth of it.
 const MOST_TILT_RAD: f64 = 1e-3;
 /// Shortest ramp of lobes that stand inside the blade.
 pub(crate) const LEAST_RAMP_REVOLUTIONS: f64 = 0.05;
 
-/// Clearance and lobes.
+/// Clearance and shape.
 pub(super) fn check(found: &mut Findings, request: &ResolvedSweep, facts: &ModelFacts) {
     let Some(casing) = &request.scene.casing else { return };
     let valid = |length: f64| length == 0.0 || limits::LENGTH.contains(&length.abs());
@@ -96,6 +98,13 @@ pub(super) fn check(found: &mut Findings, request: &ResolvedSweep, facts: &Model
     }
 }
 
+/// Whether [`check_height`] takes it.
+fn is_height(height: f64, facts: &ModelFacts) -> bool {
+    let size = height.abs();
+    let radius = facts.contact_radius.filter(|radius| *radius > 0.0).unwrap_or(f64::INFINITY);
+    size == 0.0 || (limits::LENGTH.contains(&size) && size <= DIVERGED_SHARE_OF_RADIUS * radius)
+}
+
 /// A height of a shape that is asked for at `pointer`, and the angle beside it.
 fn check_height(found: &mut Findings, height: f64, pointer: &str, facts: &ModelFacts) {
     let size = height.abs();
@@ -115,8 +124,13 @@ fn check_angle(found: &mut Findings, angle_rad: f64, pointer: &str) {
     );
 }
 
-/// Shares of a height at the contact nodes, of the shape at `pointer`.
-fn check_along_chord(found: &mut Findings, along: Option<&[f64]>, pointer: &str, facts: &ModelFacts) {
+/// Shares at the contact nodes of what is asked for at `pointer`.
+pub(crate) fn check_along_chord(
+    found: &mut Findings,
+    along: Option<&[f64]>,
+    pointer: &str,
+    facts: &ModelFacts,
+) {
     let Some(along) = along else { return };
     let pointer = format!("{pointer}/along_chord");
     found.require(
@@ -126,7 +140,7 @@ fn check_along_chord(found: &mut Findings, along: Option<&[f64]>, pointer: &str,
     );
     for (index, share) in along.iter().enumerate() {
         let pointer = format!("{pointer}/{index}");
-        found.require(share.abs() <= 1.0, &pointer, "a share of the height, from -1 to 1");
+        found.require(share.abs() <= 1.0, &pointer, "a share from -1 to 1");
     }
 }
 
@@ -171,20 +185,21 @@ fn check_measured(found: &mut Findings, measured: &Measured, facts: &ModelFacts)
     let at = "/scene/casing/measured";
     let Measured { angles_rad, chord, heights } = measured;
     let ascending = |values: &[f64]| values.windows(2).all(|pair| pair[0] < pair[1]);
-    let turn = angles_rad.last().zip(angles_rad.first()).map_or(0.0, |(last, first)| last - first);
     found.require(
         (Measured::LEAST_ANGLES..=MOST_MEASURED).contains(&angles_rad.len()),
         &format!("{at}/angles_rad"),
         format!("{} to {MOST_MEASURED} angles", Measured::LEAST_ANGLES),
     );
+    // From the last to the first as the curve has it.
+    let closing = angles_rad.last().zip(angles_rad.first()).map(|(last, first)| first + TAU - last);
+    let distances = || angles_rad.windows(2).map(|pair| pair[1] - pair[0]).chain(closing);
     found.require(
-        ascending(angles_rad)
-            && turn < TAU
+        distances().all(|distance| distance >= LEAST_DISTANCE_RAD)
             && angles_rad.iter().all(|angle| angle.abs() <= limits::PHASE_RAD),
         &format!("{at}/angles_rad"),
-        "angles ascend strictly within one turn, the first not repeated at its end",
+        format!("angles ascend within one turn by {LEAST_DISTANCE_RAD} rad at least, the first not repeated at its end"),
     );
-    let widest = angles_rad.windows(2).map(|pair| pair[1] - pair[0]).fold(TAU - turn, f64::max);
+    let widest = distances().fold(0.0, f64::max);
     found.require(
         widest <= Measured::WIDEST_GAP_RAD,
         &format!("{at}/angles_rad"),
@@ -218,8 +233,9 @@ fn check_measured(found: &mut Findings, measured: &Measured, facts: &ModelFacts)
             &at,
             format!("one height for each of the {} angles, not {}", angles_rad.len(), heights.len()),
         );
-        for (index, &height) in heights.iter().enumerate() {
-            check_height(found, height, &format!("{at}/{index}"), facts);
+        // Of thousands, the first that is none says it.
+        if let Some(index) = heights.iter().position(|height| !is_height(*height, facts)) {
+            check_height(found, heights[index], &format!("{at}/{index}"), facts);
         }
     }
 }
@@ -259,7 +275,7 @@ pub(crate) fn check_steps(found: &mut Findings, request: &ResolvedSweep) {
         f64::from(steps) >= seen,
         "/integration/steps_per_revolution",
         format!(
-            "{steps} steps per revolution pass the lobes of the casing by, which are seen from {seen} steps per revolution on; give at least \
+            "{steps} steps per revolution pass the shape of the casing by, which is seen from {seen} steps per revolution on; give at least \
              {seen}, or \"auto\""
         ),
     );
@@ -271,7 +287,7 @@ pub(crate) fn check_ramp(found: &mut Findings, request: &ResolvedSweep) {
         return;
     }
     let Scene { casing: Some(casing), contact: Some(_), .. } = &request.scene else { return };
-    if request.takes_growth() {
+    if request.has_cold_clearances() {
         found.require(
             request.integration.ramp_revolutions >= LEAST_RAMP_REVOLUTIONS,
             "/integration/ramp_revolutions",
@@ -286,13 +302,16 @@ pub(crate) fn check_ramp(found: &mut Findings, request: &ResolvedSweep) {
     let orbit = request.scene.orbit.as_ref().map_or(0.0, |orbit| orbit.radius);
     let smallest = casing.clearance.smallest();
     let highest = restriction + orbit;
+    let what = if highest.is_finite() {
+        format!(
+            "lobes and orbit of up to {highest} reach inside the blade at rest (smallest clearance {smallest})"
+        )
+    } else {
+        "a tilted casing may reach inside the blade at rest".to_owned()
+    };
     found.require(
         request.integration.ramp_revolutions >= LEAST_RAMP_REVOLUTIONS || highest <= smallest,
         "/integration/ramp_revolutions",
-        format!(
-            "lobes, tilt and orbit of up to {highest} reach inside the blade at rest (smallest clearance {smallest}): let them \
-             grow over at least {} revolutions",
-            LEAST_RAMP_REVOLUTIONS
-        ),
+        format!("{what}: let them grow over at least {LEAST_RAMP_REVOLUTIONS} revolutions"),
     );
 }

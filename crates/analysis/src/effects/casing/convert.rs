@@ -3,7 +3,6 @@
 use std::f64::consts::TAU;
 
 use super::resolved::Clearance;
-use super::shape::Shape;
 use crate::effects::clearance_change::convert::change;
 use crate::model::ReducedSector;
 use crate::not_runnable::NotRunnable;
@@ -44,7 +43,7 @@ pub(crate) fn running_clearance(
     speed_rad_s: f64,
 ) -> Result<Option<Vec<f64>>, NotRunnable> {
     let Some(mut clearance) = clearance_given(&sector.wheel.contact, request) else { return Ok(None) };
-    if request.takes_growth() {
+    if request.has_cold_clearances() {
         let growth = sector.growth.as_ref().ok_or(NotRunnable::UnreadGrowth)?;
         let growth = growth.at(speed_rad_s, request.scene.centrifugal_stiffening);
         clearance.iter_mut().zip(growth).for_each(|(clearance, growth)| *clearance -= growth);
@@ -87,9 +86,12 @@ pub fn heights(
     normals: &[[f64; 3]],
 ) -> Option<Vec<Vec<f64>>> {
     let restriction = request.scene.casing.as_ref()?.shape.restriction(positions, normals)?;
-    let angle = |i: u32| TAU * f64::from(i) / f64::from(ANGLES);
-    let around = |node: usize| (0..ANGLES).map(|i| restriction.height(angle(i), node)).collect();
-    Some((0..positions.len()).map(around).collect())
+    Some((0..positions.len()).map(|node| around(&restriction, node)).collect())
+}
+
+/// Heights before a contact node.
+fn around(restriction: &Restriction, node: usize) -> Vec<f64> {
+    (0..ANGLES).map(|i| restriction.height(TAU * f64::from(i) / f64::from(ANGLES), node)).collect()
 }
 
 /// Those of one contact node.
@@ -99,7 +101,9 @@ pub(crate) fn heights_before(
     request: &ResolvedSweep,
 ) -> Vec<f64> {
     let (positions, normals) = places(contact_nodes);
-    heights(request, &positions, &normals).map_or(Vec::new(), |mut heights| heights.swap_remove(node))
+    let casing = request.scene.casing.as_ref();
+    let restriction = casing.and_then(|casing| casing.shape.restriction(&positions, &normals));
+    restriction.map_or(Vec::new(), |restriction| around(&restriction, node))
 }
 
 /// Clearances as they are given of contact nodes at these positions `[r, θ, z]`, in the order of the chord; `None` if the scene has no casing.
@@ -117,13 +121,13 @@ fn along(clearance: &Clearance, positions: &[[f64; 3]]) -> Vec<f64> {
 /// Whether the casing's heights can be tabulated; the error says what to change.
 pub(crate) fn check_table(
     reduced: &ReducedWheel,
-    request: &ResolvedSweep,
+    casing: Option<&Casing>,
     steps_per_revolution: usize,
 ) -> Result<(), NotRunnable> {
     let stride = reduced.contact.len().next_multiple_of(8);
     let (steps, sectors) = (steps_per_revolution, reduced.sectors);
     let size = RestrictionTable::size(steps, sectors, stride);
-    if size <= MAX_TABLE_VALUES || request.scene.touched_shape().and_then(Shape::repeats).is_none() {
+    if size <= MAX_TABLE_VALUES || casing.is_none_or(|casing| casing.restriction.is_none()) {
         return Ok(());
     }
     Err(NotRunnable::Table { size, steps, sectors })

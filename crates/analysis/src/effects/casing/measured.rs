@@ -6,12 +6,14 @@ use num_integer::gcd;
 
 use super::request::Measured;
 use super::result::{FilledHeight, MeasuredCasing, MeasuredSurvey};
-use rubmap_wheel::dynamics::casing::{PeriodicSpline, arc_lengths, repeats};
+use rubmap_wheel::dynamics::casing::{self, PeriodicSpline, arc_lengths, repeats};
 
 /// Angles as near to each other are the same, rad.
 const SAME_RAD: f64 = 1e-9;
 /// Filled heights that are listed.
 const MOST_LISTED: usize = 100;
+/// Heights that a table may come to when the angles of its lines are put together.
+const MOST_HEIGHTS: usize = 200_000;
 
 impl Measured {
     /// Angles of a line, at least.
@@ -29,24 +31,21 @@ impl Measured {
         self.heights.iter().map(|heights| PeriodicSpline::new(&self.angles_rad, heights)).collect()
     }
 
-    /// A curve for every position `[r, θ, z]` of a contact node: that of its own line, or linear between the lines beside it.
-    pub(super) fn at(&self, positions: &[[f64; 3]]) -> Vec<PeriodicSpline> {
-        let Some(chord) = &self.chord else { return self.curves() };
+    /// With contact nodes at positions `[r, θ, z]`: each on its own line, or between the two beside it.
+    pub(super) fn at(&self, positions: &[[f64; 3]]) -> casing::Measured {
+        let Some(chord) = &self.chord else { return casing::Measured::at_each(self.curves()) };
         let arc = arc_lengths(positions);
         let whole = arc.last().copied().filter(|whole| *whole > 0.0).unwrap_or(1.0);
-        arc.iter()
-            .map(|length| PeriodicSpline::new(&self.angles_rad, &self.heights_at(chord, length / whole)))
-            .collect()
-    }
-
-    /// Heights at all angles at a share of the chord.
-    fn heights_at(&self, chord: &[f64], share: f64) -> Vec<f64> {
-        let next = chord.partition_point(|&line| line <= share);
-        let (before, after) = (next.saturating_sub(1), next.min(chord.len() - 1));
-        let width = chord[after] - chord[before];
-        let x = if width > 0.0 { (share - chord[before]) / width } else { 0.0 };
-        let pairs = self.heights[before].iter().zip(&self.heights[after]);
-        pairs.map(|(before, after)| before + x * (after - before)).collect()
+        let between = |length: &f64| {
+            let place = length / whole;
+            let next = chord.partition_point(|&line| line <= place);
+            let (before, after) = (next.saturating_sub(1), next.min(chord.len() - 1));
+            let width = chord[after] - chord[before];
+            // Before the first line and behind the last there is but one.
+            let share = if width > 0.0 && next > 0 { (place - chord[before]) / width } else { 0.0 };
+            (before, after, share)
+        };
+        casing::Measured { curves: self.curves(), nodes: arc.iter().map(between).collect() }
     }
 }
 
@@ -62,6 +61,16 @@ pub struct MeasuredLine {
 /// Why lines make no shape.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum LineError {
+    /// Lines whose angles are too many together.
+    #[error(
+        "with the angles of all {lines} lines together there are {heights} heights, more than {MOST_HEIGHTS}: measure all lines at the same angles, or at fewer"
+    )]
+    Many {
+        /// Lines.
+        lines: usize,
+        /// Angles of all of them, times the lines.
+        heights: usize,
+    },
     /// Too few points.
     #[error("has {points} heights; a curve needs {} at least", Measured::LEAST_ANGLES)]
     Few {
@@ -91,17 +100,22 @@ pub enum LineError {
 }
 
 /// A table over the angles of all lines: heights that a line does not have are taken from its own curve. `each_node`: places are
-/// contact nodes, 0, 1, …, otherwise shares of the chord, ascending. Errors come with the index of the line.
+/// contact nodes, 0, 1, …, otherwise shares of the chord, ascending. Errors that are about a line come with its index.
 pub fn measured_casing(
     lines: &[MeasuredLine],
     each_node: bool,
-) -> Result<MeasuredCasing, (usize, LineError)> {
-    let sorted = lines.iter().enumerate().map(|(index, line)| sorted(line).map_err(|error| (index, error)));
+) -> Result<MeasuredCasing, (Option<usize>, LineError)> {
+    let sorted =
+        lines.iter().enumerate().map(|(index, line)| sorted(line).map_err(|error| (Some(index), error)));
     let sorted: Vec<Vec<(f64, f64)>> = sorted.collect::<Result<_, _>>()?;
     let mut angles_rad: Vec<f64> = sorted.iter().flatten().map(|(angle, _)| *angle).collect();
     angles_rad.sort_by(f64::total_cmp);
     angles_rad.dedup_by(|next, one| *next - *one <= SAME_RAD);
-    let mut filled = Vec::new();
+    let together = angles_rad.len().saturating_mul(lines.len());
+    if together > MOST_HEIGHTS {
+        return Err((None, LineError::Many { lines: lines.len(), heights: together }));
+    }
+    let (mut filled, mut filled_count) = (Vec::new(), 0);
     let mut heights = Vec::new();
     for (line, points) in sorted.iter().enumerate() {
         let (angles, values): (Vec<f64>, Vec<f64>) = points.iter().copied().unzip();
@@ -112,15 +126,16 @@ pub fn measured_casing(
                 return values[next];
             }
             let height = curve.at(angle);
-            filled.push(FilledHeight { line: line as u32, angle_rad: angle, height });
+            filled_count += 1;
+            if filled.len() < MOST_LISTED {
+                filled.push(FilledHeight { line: line as u32, angle_rad: angle, height });
+            }
             height
         };
         heights.push(angles_rad.iter().map(height).collect());
     }
     let chord = (!each_node).then(|| lines.iter().map(|line| line.place).collect());
     let measured = Measured { angles_rad, chord, heights };
-    let filled_count = filled.len() as u32;
-    filled.truncate(MOST_LISTED);
     Ok(MeasuredCasing { survey: MeasuredSurvey::of(&measured), measured, filled, filled_count })
 }
 
@@ -190,10 +205,15 @@ mod tests {
     fn what_makes_no_curve_is_refused() {
         let even = |count: u32| (0..count).map(move |i| 360.0 * f64::from(i) / f64::from(count));
         let refused = |line: MeasuredLine| measured_casing(&[line], true).unwrap_err();
-        assert_eq!(refused(line(0.0, even(7))), (0, LineError::Few { points: 7 }));
+        assert_eq!(refused(line(0.0, even(7))), (Some(0), LineError::Few { points: 7 }));
         let gap = refused(line(0.0, (0..200).map(f64::from)));
-        assert!(matches!(gap, (0, LineError::Gap { .. })), "{gap:?}");
+        assert!(matches!(gap, (Some(0), LineError::Gap { .. })), "{gap:?}");
         assert!(gap.1.to_string().contains("from 199.000 to 360.000 degrees"), "{}", gap.1);
+        // A thousand lines, each at angles of its own.
+        let aside = |k: u32| even(360).map(move |degrees| degrees + 1e-3 * f64::from(k));
+        let many: Vec<MeasuredLine> = (0..1000).map(|k| line(0.0, aside(k))).collect();
+        let many = measured_casing(&many, true).unwrap_err();
+        assert_eq!(many, (None, LineError::Many { lines: 1000, heights: 360_000_000 }));
         let mut twice = line(0.0, even(36));
         twice.points.push((4.0 * TAU + twice.points[3].0, 0.7));
         assert!(matches!(refused(twice).1, LineError::Twice { .. }));

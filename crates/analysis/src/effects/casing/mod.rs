@@ -22,7 +22,7 @@ pub(crate) const EFFECT: Effect = Effect {
     repeats: Repeats::Times(|scene| scene.touched_shape().and_then(Shape::repeats).into_iter().collect()),
     chain: Chain::Moves(Break {
         what: "clearances given cold",
-        when: ResolvedSweep::takes_growth,
+        when: ResolvedSweep::has_cold_clearances,
         why: "tips grow with the speed, so that their clearance would jump: give clearances of the running wheel",
     }),
     check: Check::First(check::check),

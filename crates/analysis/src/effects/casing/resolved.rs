@@ -45,6 +45,13 @@ impl Asked for Option<request::Casing> {
     }
 }
 
+impl Casing {
+    /// Whether it may be pressed into tips.
+    pub(crate) fn may_press(&self) -> bool {
+        self.given == ClearanceState::Cold || self.clearance.smallest() < 0.0
+    }
+}
+
 impl Clearance {
     fn of(asked: request::Clearance, refuse: &mut dyn FnMut(Violation)) -> Self {
         match asked {

@@ -1,5 +1,7 @@
 //! What stands inward of a casing of revolution.
 
+use std::f64::consts::TAU;
+
 use num_integer::gcd;
 
 use super::request::{self, Lobes, Measured, SingleLobe, Tilt, Wave};
@@ -30,7 +32,7 @@ impl Shape {
     /// How often it repeats around the circumference; none of a circular casing.
     pub fn repeats(&self) -> Option<u32> {
         let measured = self.measured.as_ref().map_or(0, Measured::repeats);
-        let tilted = u32::from(self.tilt.is_some());
+        let tilted = u32::from(self.leans().is_some());
         let repeats = [measured, tilted].into_iter().fold(self.lobes_and_waves().repeats(), gcd);
         (repeats > 0).then_some(repeats)
     }
@@ -44,16 +46,39 @@ impl Shape {
 
     /// No height is larger, wherever along the chord; infinite where a tilt makes it a matter of the nodes.
     pub(crate) fn highest(&self) -> f64 {
-        if self.tilt.is_some() {
+        if self.leans().is_some() {
             return f64::INFINITY;
         }
-        let Restriction { mut parts } = self.lobes_and_waves();
-        let shares = parts.iter_mut().filter_map(|part| part.along_chord.take()).flatten();
-        let largest = shares.fold(1.0, |most: f64, share| most.max(share.abs()));
-        let measured = self.measured.iter().flat_map(Measured::curves).map(|curve| curve.highest().1);
-        let measured = measured.fold(0.0, f64::max);
-        let others = if parts.is_empty() { 0.0 } else { Restriction { parts }.highest(1).max(0.0) };
-        largest * others + measured
+        let (alike, shared): (Vec<Part>, Vec<Part>) =
+            self.lobes_and_waves().parts.into_iter().partition(|part| part.along_chord.is_none());
+        let alike = if alike.is_empty() { 0.0 } else { Restriction { parts: alike }.highest(1) };
+        // What has shares is highest wherever they are, inward or outward.
+        let shared = shared.into_iter().map(|Part { profile, along_chord }| {
+            let part = Part { profile, along_chord: None };
+            let (low, high) = Restriction { parts: vec![part] }.extremes(1);
+            let of = |most: f64, share: f64| most.max(share * low).max(share * high);
+            along_chord.into_iter().flatten().fold(f64::NEG_INFINITY, of)
+        });
+        let measured = self.measured.iter().map(|measured| {
+            measured.curves().iter().map(|curve| curve.highest().1).fold(f64::NEG_INFINITY, f64::max)
+        });
+        alike + shared.sum::<f64>() + measured.sum::<f64>()
+    }
+
+    /// Length in which it does what a lobe does between two valleys, rad: of equal lobes alone their distance, otherwise eight times what
+    /// steps have to see, as of a wave; none of a circular casing.
+    pub(crate) fn period_rad(&self) -> Option<f64> {
+        match &self.lobes {
+            Some(lobes) if *self == (Self { lobes: self.lobes.clone(), ..Self::default() }) => {
+                Some(TAU / f64::from(lobes.count))
+            }
+            _ => self.narrowest_rad().map(|narrowest| 8.0 * narrowest),
+        }
+    }
+
+    /// A tilt that is one.
+    fn leans(&self) -> Option<&Tilt> {
+        self.tilt.as_ref().filter(|tilt| tilt.angle_rad != 0.0)
     }
 
     /// For contact nodes at `positions`, `[r, θ, z]` in the order of the chord, with `normals`; none of a circular casing.
@@ -62,7 +87,7 @@ impl Shape {
         if let Some(measured) = &self.measured {
             parts.push(Part { profile: Profile::Measured(measured.at(positions)), along_chord: None });
         }
-        parts.extend(self.tilt.iter().flat_map(|tilt| tilt.part(positions, normals)));
+        parts.extend(self.leans().map(|tilt| tilt.part(positions, normals)));
         (!parts.is_empty()).then_some(Restriction { parts })
     }
 
@@ -107,12 +132,12 @@ impl Shape {
 impl Tilt {
     /// With the axis leaning by τ towards ψ about z₀, what is at (r, φ, z) of the casing comes nearer to a tip with the normal n by
     /// τ ((z − z₀) n_r − r n_z) cos(φ − ψ).
-    fn part(&self, positions: &[[f64; 3]], normals: &[[f64; 3]]) -> Option<Part> {
+    fn part(&self, positions: &[[f64; 3]], normals: &[[f64; 3]]) -> Part {
         let near =
             |([r, _, z], normal): (&[f64; 3], &[f64; 3])| (z - self.about_z) * normal[0] - r * normal[2];
         let along_chord = Some(positions.iter().zip(normals).map(near).collect());
         let wave = Profile::Wave { order: 1, amplitude: self.angle_rad, phase_rad: self.towards_rad };
-        (self.angle_rad != 0.0).then_some(Part { profile: wave, along_chord })
+        Part { profile: wave, along_chord }
     }
 }
 
@@ -121,7 +146,7 @@ mod tests {
     use super::*;
     use rubmap_wheel::dynamics::casing::arc_lengths;
     use rubmap_wheel::dynamics::sector::ContactNode;
-    use std::f64::consts::{PI, TAU};
+    use std::f64::consts::PI;
 
     fn nodes() -> Vec<ContactNode> {
         let node = |k: usize| {
@@ -179,6 +204,32 @@ mod tests {
         let circular = Shape::default();
         assert!(circular.is_circular() && circular.of_nodes(&nodes()).is_none());
         assert_eq!((circular.repeats(), circular.narrowest_rad(), circular.highest()), (None, None, 0.0));
+    }
+
+    /// A hollow that a negative share turns inward, and lobes whose shares meet: no height may be larger than is said.
+    #[test]
+    fn shares_of_either_sign_reach_no_higher_than_is_said() {
+        let along = |shares: [f64; 5]| Some(shares.to_vec());
+        let shapes = [
+            (vec![lobe(0.0, -0.5, along([-1.0, 0.0, 0.0, 0.0, 0.0]))], 0.5),
+            (
+                vec![
+                    lobe(0.0, 0.5, along([1.0, 0.0, 0.5, 0.0, 0.0])),
+                    lobe(0.0, 0.3, along([0.0, 1.0, 0.0, 0.0, 0.0])),
+                ],
+                0.5,
+            ),
+            (vec![lobe(1.0, -0.5, None)], 0.0),
+        ];
+        for (single_lobes, most) in shapes {
+            let shape = Shape { single_lobes, ..Shape::default() };
+            let true_most = shape.of_nodes(&nodes()).unwrap().highest(5);
+            let said = shape.highest();
+            assert!(
+                (true_most - most).abs() < 1e-6 && said >= true_most - 1e-9 && said < most + 0.31,
+                "{said} {true_most}"
+            );
+        }
     }
 
     #[test]

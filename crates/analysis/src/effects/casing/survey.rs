@@ -14,6 +14,8 @@ const INTERPOLATION: &str =
 const DEVIATIONS: f64 = 8.0;
 /// by more than this share of the range of the line,
 const SHARE_OF_RANGE: f64 = 1e-3;
+/// by more than what decimal numbers are rounded by, as a share of the largest height,
+const ROUND_OFF: f64 = 1e-9;
 /// and if without it its neighbours are no farther off than this share of it.
 const LEFT_OF_NEIGHBOURS: f64 = 0.3;
 /// The standard deviation of normal noise over the median of its absolute values.
@@ -79,7 +81,8 @@ fn outliers(line: u32, angles_rad: &[f64], heights: &[f64]) -> Vec<Outlier> {
     let residuals: Vec<f64> = (0..n).map(|i| off(i, &|j| heights[j])).collect();
     let noise = DEVIATION_OVER_MEDIAN * median(&mut residuals.iter().map(|r| r.abs()).collect::<Vec<_>>());
     let (low, high) = range(heights);
-    let far = (DEVIATIONS * noise).max(SHARE_OF_RANGE * (high - low));
+    let far =
+        (DEVIATIONS * noise).max(SHARE_OF_RANGE * (high - low)).max(ROUND_OFF * low.abs().max(high.abs()));
     let stands_alone = |&i: &usize| {
         let without = |j: usize| if j == i { heights[i] - residuals[i] } else { heights[j] };
         let left = NEIGHBOURS.iter().map(|by| off((i + n + by - 2) % n, &without).abs()).fold(0.0, f64::max);
@@ -167,6 +170,10 @@ mod tests {
             assert_eq!(noisy.outlier_count, 0, "{n}: {noisy:?}");
         }
         assert_eq!(MeasuredSurvey::of(&measured(720, lobes)).overshoot, None);
+        for (n, height) in [(360, 0.25), (720, 0.7), (36, 0.0)] {
+            let constant = MeasuredSurvey::of(&measured(n, |_| height));
+            assert_eq!((constant.outlier_count, constant.overshoot), (0, None), "{n} {height}");
+        }
     }
 
     /// Where they are, what they should have been, on even and uneven angles, the first and the last included.

@@ -1,7 +1,7 @@
 //! Checks of a change of clearances.
 
 use super::request::ClearanceChange;
-use crate::effects::casing::check::LEAST_RAMP_REVOLUTIONS;
+use crate::effects::casing::check::{LEAST_RAMP_REVOLUTIONS, check_along_chord};
 use crate::model::ModelFacts;
 use crate::request::SteadyChoice;
 use crate::resolve::findings::{Findings, between, check_reach};
@@ -10,6 +10,8 @@ use crate::resolved::ResolvedSweep;
 
 const AT: &str = "/scene/clearance_change";
 const MOST_POINTS: usize = 1000;
+/// Decimal numbers that are 0.05 apart may be so much less.
+const ROUND_OFF: f64 = 1e-9;
 
 pub(super) fn check(found: &mut Findings, request: &ResolvedSweep, facts: &ModelFacts) {
     let Some(ClearanceChange { course, along_chord }) = &request.scene.clearance_change else { return };
@@ -22,7 +24,7 @@ pub(super) fn check(found: &mut Findings, request: &ResolvedSweep, facts: &Model
     for (index, point) in course.iter().enumerate() {
         let at = format!("{AT}/course/{index}");
         found.require(
-            point.revolutions >= before + LEAST_RAMP_REVOLUTIONS,
+            point.revolutions - before >= LEAST_RAMP_REVOLUTIONS - ROUND_OFF,
             &format!("{at}/revolutions"),
             format!(
                 "points ascend by {LEAST_RAMP_REVOLUTIONS} revolutions at least, from 0: a wall that moves faster would hit the tips with a \
@@ -52,12 +54,5 @@ pub(super) fn check(found: &mut Findings, request: &ResolvedSweep, facts: &Model
         "/integration/steady",
         "clearances that change take a march: what repeats behind the change depends on how it was come to",
     );
-    if let Some(along) = along_chord {
-        let nodes = facts.contact_nodes as usize;
-        found.require(
-            along.len() == nodes && along.iter().all(|share| share.abs() <= 1.0),
-            &format!("{AT}/along_chord"),
-            format!("a share from -1 to 1 for each of the {nodes} contact nodes"),
-        );
-    }
+    check_along_chord(found, along_chord.as_deref(), AT, facts);
 }

@@ -39,7 +39,7 @@ pub(crate) fn wheel_reach(casing: Option<&Casing>) -> f64 {
     let Some(casing) = casing else { return 1.0 };
     let smallest = casing.clearance.iter().copied().fold(f64::INFINITY, f64::min);
     match &casing.restriction {
-        Some(restriction) if smallest == 0.0 => restriction.highest(casing.clearance.len()),
+        Some(restriction) if smallest == 0.0 => restriction.largest(casing.clearance.len()),
         _ => smallest,
     }
 }

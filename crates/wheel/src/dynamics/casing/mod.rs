@@ -5,7 +5,7 @@ mod restriction;
 mod spline;
 mod table;
 
-pub use self::restriction::{Lobe, Lobes, Part, Profile, Restriction};
+pub use self::restriction::{Lobe, Lobes, Measured, Part, Profile, Restriction};
 pub use self::spline::{PeriodicSpline, narrowest_rad, repeats};
 pub use self::table::RestrictionTable;
 
@@ -26,12 +26,12 @@ impl Casing {
         ramp(revolutions, self.ramp_revolutions)
     }
 
-    /// The length against which gaps are round-off: largest clearance and restriction, of each no more than `reach`,
+    /// The length against which gaps are round-off: largest clearance and restriction, whatever their signs, of each no more than `reach`,
     /// the farthest that a tip can move.
     pub fn length_scale(&self, reach: f64) -> f64 {
         let clearance = self.clearance.iter().fold(0.0f64, |m, c| m.max(c.abs()));
         clearance.min(reach)
-            + self.restriction.as_ref().map_or(0.0, |r| r.highest(self.clearance.len()).min(reach))
+            + self.restriction.as_ref().map_or(0.0, |r| r.largest(self.clearance.len()).min(reach))
     }
 }
 
@@ -77,6 +77,15 @@ mod tests {
         for (found, expected) in c.iter().zip([0.3, 0.6, 1.0]) {
             assert!((found - expected).abs() < 1e-14);
         }
+    }
+
+    /// Heights outward of a casing without clearance are lengths, too.
+    #[test]
+    fn the_scale_of_gaps_is_a_length() {
+        let wave = Profile::Wave { order: 0, amplitude: -0.3, phase_rad: 0.0 };
+        let restriction = Some(Restriction { parts: vec![Part { profile: wave, along_chord: None }] });
+        let casing = Casing { clearance: vec![0.0; 2], restriction, ramp_revolutions: 1.0 };
+        assert_eq!((casing.length_scale(1.0), casing.length_scale(0.2)), (0.3, 0.2));
     }
 
     #[test]

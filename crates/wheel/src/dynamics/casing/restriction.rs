@@ -38,8 +38,17 @@ pub enum Profile {
         /// Angle of a crest, rad.
         phase_rad: f64,
     },
-    /// Measured, a curve for every contact node.
-    Measured(Vec<PeriodicSpline>),
+    /// Measured.
+    Measured(Measured),
+}
+
+/// Curves along lines around the circumference, and contact nodes on and between them: a curve between two is linear in theirs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measured {
+    /// Of every line.
+    pub curves: Vec<PeriodicSpline>,
+    /// Of every contact node two lines, and the share of the second.
+    pub nodes: Vec<(usize, usize, f64)>,
 }
 
 /// Equal Gaussian lobes.
@@ -80,14 +89,25 @@ impl Restriction {
 
     /// Largest p of any of so many contact nodes, to about a thousandth.
     pub fn highest(&self, nodes: usize) -> f64 {
+        self.extremes(nodes).1
+    }
+
+    /// Largest |p|, likewise.
+    pub fn largest(&self, nodes: usize) -> f64 {
+        let (lowest, highest) = self.extremes(nodes);
+        highest.max(-lowest)
+    }
+
+    /// Smallest and largest p, likewise.
+    pub fn extremes(&self, nodes: usize) -> (f64, f64) {
         // A thousand angles over what repeats, and twenty over the narrowest shape.
         let turn = TAU / self.repeats().max(1) as f64;
         let count = (20.0 * turn / self.narrowest_rad()).max(1000.0).ceil() as usize;
         let angles = (0..=count).map(|i| turn * i as f64 / count as f64);
         let crests = self.parts.iter().flat_map(|part| part.profile.crests());
-        let highest =
-            |angle: f64| (0..nodes).map(|node| self.height(angle, node)).fold(f64::NEG_INFINITY, f64::max);
-        angles.chain(crests).map(highest).fold(f64::NEG_INFINITY, f64::max)
+        let heights =
+            angles.chain(crests).flat_map(|angle| (0..nodes).map(move |node| self.height(angle, node)));
+        heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)))
     }
 
     /// How often p repeats around the circumference.
@@ -117,7 +137,7 @@ impl Profile {
             Self::Wave { order, amplitude, phase_rad } => {
                 amplitude * (f64::from(*order) * (angle_rad - phase_rad)).cos()
             }
-            Self::Measured(curves) => curves[node].at(angle_rad),
+            Self::Measured(measured) => measured.height(angle_rad, node),
         }
     }
 
@@ -127,7 +147,9 @@ impl Profile {
             Self::Lobes(lobes) => lobes.count,
             Self::Each(lobes) => repeats(lobes),
             Self::Wave { order, .. } => *order,
-            Self::Measured(curves) => curves.iter().map(|curve| curve.repeats() as u32).fold(0, gcd),
+            Self::Measured(measured) => {
+                measured.curves.iter().map(|curve| curve.repeats() as u32).fold(0, gcd)
+            }
         }
     }
 
@@ -138,18 +160,35 @@ impl Profile {
             Self::Each(lobes) => least(&mut lobes.iter().map(|lobe| lobe.width_rad)),
             Self::Wave { order: 0, .. } => f64::INFINITY,
             Self::Wave { order, .. } => TAU / (8.0 * f64::from(*order)),
-            Self::Measured(curves) => narrowest_rad(curves),
+            Self::Measured(measured) => narrowest_rad(&measured.curves),
         }
     }
 
-    /// Angles at which it is highest.
+    /// Angles at which it is highest or lowest.
     fn crests(&self) -> Vec<f64> {
         match self {
             Self::Lobes(lobes) => vec![lobes.phase_rad],
             Self::Each(lobes) => lobes.iter().map(|lobe| lobe.angle_rad).collect(),
-            Self::Wave { phase_rad, .. } => vec![*phase_rad],
-            Self::Measured(curves) => curves.iter().map(|curve| curve.highest().0).collect(),
+            Self::Wave { order, phase_rad, .. } => {
+                vec![*phase_rad, phase_rad + PI / f64::from((*order).max(1))]
+            }
+            Self::Measured(Measured { curves, .. }) => {
+                curves.iter().flat_map(|curve| [curve.highest().0, curve.lowest().0]).collect()
+            }
         }
+    }
+}
+
+impl Measured {
+    /// With a curve for every contact node.
+    pub fn at_each(curves: Vec<PeriodicSpline>) -> Self {
+        Self { nodes: (0..curves.len()).map(|node| (node, node, 0.0)).collect(), curves }
+    }
+
+    fn height(&self, angle_rad: f64, node: usize) -> f64 {
+        let (line, next, share) = self.nodes[node];
+        let height = self.curves[line].at(angle_rad);
+        if share == 0.0 { height } else { height + share * (self.curves[next].at(angle_rad) - height) }
     }
 }
 
@@ -281,7 +320,8 @@ mod tests {
         let worst = |n: usize| {
             let angles: Vec<f64> = (0..n).map(|i| TAU * i as f64 / n as f64).collect();
             let heights: Vec<f64> = angles.iter().map(|&angle| lobes.height(angle)).collect();
-            let measured = of(vec![Profile::Measured(vec![PeriodicSpline::new(&angles, &heights)])]);
+            let measured =
+                of(vec![Profile::Measured(Measured::at_each(vec![PeriodicSpline::new(&angles, &heights)]))]);
             assert_eq!(measured.repeats(), 2);
             let off = |i: u32| {
                 let angle = 0.0017 * f64::from(i);

@@ -3,7 +3,7 @@
 use pulp::Simd;
 
 use super::super::amplitude_sums::amplitude_sums;
-use super::super::casing::{Casing, RestrictionTable};
+use super::super::casing::{Casing, RestrictionTable, ramp};
 use super::super::clearance_change::ClearanceChange;
 use super::super::contact::coating::Coating;
 use super::super::contact::delassus::Delassus;
@@ -41,7 +41,7 @@ pub(super) struct Obstacle {
     delassus: Delassus,
     solver: ActiveSetSolver,
     residual: ResidualDisplacement,
-    casing: Casing,
+    ramp_revolutions: f64,
     pub(super) restriction: Option<RestrictionTable>,
     /// p = 0 of a circular casing.
     unrestricted: Vec<f64>,
@@ -110,7 +110,7 @@ impl Obstacle {
             // Gaps are differences of lengths of this scale. A casing far out of reach of some node must not loosen it.
             tolerance: 1e-14 * length,
             most_left: LEFT * if length > 0.0 { length } else { simulation.reach() },
-            casing: casing.clone(),
+            ramp_revolutions: casing.ramp_revolutions,
             step_s: simulation.step_s(),
             harmonic: vec![0.0; size],
             amplitude_sums: vec![0.0; stride],
@@ -154,7 +154,7 @@ impl Obstacle {
         now: Instant,
         surroundings: Option<&mut Surroundings>,
     ) -> f64 {
-        let growth = self.casing.growth(now.revolutions);
+        let growth = ramp(now.revolutions, self.ramp_revolutions);
         let shift = match surroundings {
             Some(surroundings) => {
                 surroundings.move_to(now.revolutions, growth);
@@ -271,7 +271,7 @@ impl Obstacle {
     /// Transforms the gaps of far sectors, too.
     #[inline(never)]
     fn complete_gaps(&mut self, fourier: &SectorFourier, now: Instant, shift: Option<&[f64]>) {
-        let growth = self.casing.growth(now.revolutions);
+        let growth = ramp(now.revolutions, self.ramp_revolutions);
         for sector in 0..fourier.sectors() {
             if std::mem::take(&mut self.is_far[sector]) {
                 // Rare: not worth a second copy for the widest vectors.
