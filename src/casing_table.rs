@@ -2,10 +2,11 @@
 //!
 //! Two layouts, told apart by the header: *wide*, `angle_deg, 0, 0.5, 1` (shares of the chord) or `angle_deg, node0, node1, …`; and
 //! *long*, `angle_deg, chord, height` or `angle_deg, node, height`, every row a point. `angle_rad` for rad. Fields are parted by comma,
-//! semicolon (then decimals may have commas) or tab; rows come in any order; lines with `#` are comments; an empty field, `nan` or `-` is a
+//! semicolon or tab (with these two decimals may have commas); rows come in any order; lines with `#` are comments; an empty field, `nan` or `-` is a
 //! height that is missing.
 
 use std::collections::BTreeMap;
+use std::f64::consts::TAU;
 use std::fmt;
 
 use csv::{ReaderBuilder, StringRecord, Trim};
@@ -17,6 +18,8 @@ use crate::analysis::run::{MeasuredLine, measured_casing};
 const MOST_POINTS: usize = 200_000;
 /// Lines along the chord, as a request may have them.
 const MOST_LINES: usize = 8192;
+/// Turns that angles may span: -180 to 180 degrees, 0 to 360, and a turn more.
+const MOST_TURNS: f64 = 2.0;
 /// Errors after which no more are looked for.
 const MOST_ERRORS: usize = 100;
 
@@ -74,7 +77,7 @@ enum Layout {
 pub fn read(text: &[u8]) -> Result<MeasuredCasing, Vec<TableError>> {
     let one = |error: TableError| vec![error];
     let text = std::str::from_utf8(text)
-        .map_err(|error| one(TableError::whole(format!("the table is not UTF-8 text: {error}"))))?;
+        .map_err(|_| one(TableError::whole("the table is not UTF-8 text: save it as UTF-8")))?;
     let text = text.trim_start_matches('\u{feff}');
     let first = text.lines().find(|line| !line.trim().is_empty() && !line.starts_with('#'));
     let first = first.ok_or_else(|| one(TableError::whole("the table is empty")))?;
@@ -86,7 +89,7 @@ pub fn read(text: &[u8]) -> Result<MeasuredCasing, Vec<TableError>> {
         .from_reader(text.as_bytes());
     let names = reader.headers().map_err(|error| one(TableError::whole(error.to_string())))?;
     let line = names.position().map(csv::Position::line);
-    let header = Header::of(names, delimiter == b';').map_err(|message| one(TableError { line, message }))?;
+    let header = Header::of(names, delimiter != b',').map_err(|message| one(TableError { line, message }))?;
     // By the bits of their places, which are in their order as none is negative.
     let mut lines: BTreeMap<u64, MeasuredLine> = BTreeMap::new();
     let (mut errors, mut points) = (Vec::new(), 0);
@@ -95,7 +98,13 @@ pub fn read(text: &[u8]) -> Result<MeasuredCasing, Vec<TableError>> {
             Ok(record) => header.row(&record),
             Err(error) => {
                 let line = error.position().map(csv::Position::line);
-                Err(TableError { line, message: error.to_string() })
+                let message = match error.kind() {
+                    csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
+                        format!("{len} fields, where the header has {expected_len}")
+                    }
+                    _ => error.to_string(),
+                };
+                Err(TableError { line, message })
             }
         };
         match row {
@@ -124,6 +133,19 @@ pub fn read(text: &[u8]) -> Result<MeasuredCasing, Vec<TableError>> {
     let lines: Vec<MeasuredLine> = lines.into_values().collect();
     if lines.is_empty() {
         return Err(one(TableError::whole("the table has no heights")));
+    }
+    let angles = || lines.iter().flat_map(|line| line.points.iter().map(|point| point.0));
+    let span = angles().fold(f64::NEG_INFINITY, f64::max) - angles().fold(f64::INFINITY, f64::min);
+    if span > MOST_TURNS * TAU {
+        let turns = span / TAU;
+        let message = format!(
+            "angles span {turns:.0} turns: is their unit that of the header, angle_deg or angle_rad?"
+        );
+        return Err(one(TableError::whole(message)));
+    }
+    if let Some(name) = header.without_heights(&lines) {
+        let message = format!("there is no height in the column {name}: leave it out");
+        return Err(one(TableError::whole(message)));
     }
     if each_node && lines.iter().enumerate().any(|(node, line)| line.place != node as f64) {
         let message = "contact nodes count from 0 at the leading edge, and every one has its heights";
@@ -154,6 +176,10 @@ impl Header {
             return Err(format!("at most {MOST_LINES} lines beside the angle"));
         }
         let names: Vec<String> = names.iter().map(str::to_lowercase).collect();
+        if let Some(column) = names.iter().position(String::is_empty) {
+            let rest = "leave away what parts it from the last one, in all rows";
+            return Err(format!("column {} has no name: {rest}", column + 1));
+        }
         let find = |name: &str| names.iter().position(|one| one == name);
         let (angle, unit_rad) = match (find("angle_deg"), find("angle_rad")) {
             (Some(column), None) => (column, 1f64.to_radians()),
@@ -203,6 +229,17 @@ impl Header {
             Layout::Wide(columns) => columns.iter().any(|(_, place)| matches!(place, Place::Node(_))),
             Layout::Long { nodes, .. } => *nodes,
         }
+    }
+
+    /// A column of which there is no line.
+    fn without_heights(&self, lines: &[MeasuredLine]) -> Option<String> {
+        let Layout::Wide(columns) = &self.layout else { return None };
+        let has = |place: Place| lines.binary_search_by(|line| line.place.total_cmp(&place.number())).is_ok();
+        let (_, place) = columns.iter().find(|(_, place)| !has(*place))?;
+        Some(match place {
+            Place::Chord(share) => share.to_string(),
+            Place::Node(node) => format!("node{node}"),
+        })
     }
 
     /// Places, angles in rad and heights of a row; what is missing is left out.
@@ -265,7 +302,7 @@ mod tests {
         (line, message)
     }
 
-    /// The same table in seven spellings.
+    /// The same table in all spellings.
     #[test]
     fn a_table_reads_the_same_however_it_is_laid_out() {
         let heights = |d: f64| (height(d, 0.0), height(d, 0.5), height(d, 1.0));
@@ -293,6 +330,7 @@ mod tests {
             format!("\u{feff}# measured cold\r\nAngle_deg, 0, 0.5, 1\r\n{}", wide.replace('\n', "\r\n")),
             format!("angle_deg;0;0,5;1\n{european}"),
             format!("angle_deg\t0\t0.5\t1\n{}", wide.replace(',', "\t")),
+            format!("angle_deg\t0\t0,5\t1\n{}", wide.replace(',', "\t").replace('.', ",")),
             format!("angle_rad,0,0.5,1\n{radians}"),
             format!("angle_deg,0,0.5,1\n{}360,0.4,0.35,0.3\n", wide),
             long("chord", |k| (0.5 * k as f64).to_string()),
@@ -334,7 +372,11 @@ mod tests {
             (Some(38), "\"much\" is no number".to_owned())
         );
         let (line, said) = message(&format!("angle_deg,0\n{good}45,1,2\n"));
-        assert!(line == Some(38) && said.contains("fields"), "{said}");
+        assert_eq!((line, said.as_str()), (Some(38), "3 fields, where the header has 2"));
+        assert!(of("angle_deg,").1.contains("column 2 has no name"));
+        assert!(message(&format!("angle_rad,0\n{good}")).1.contains("56 turns"));
+        let empty = rows(|d| format!("{d},0.3,\n"));
+        assert!(message(&format!("angle_deg,0,0.5\n{empty}")).1.contains("no height in the column 0.5"));
         assert!(message("angle_deg,0\n0,1\n90,1\n180,1\n").1.contains("the line at 0 has 3 heights"));
         assert!(message(&format!("angle_deg,0\n{good}10,0.4\n")).1.contains("two heights at 10"));
         let all = read(b"angle_deg,0\nx,1\n1,y\n").unwrap_err();

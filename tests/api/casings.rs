@@ -186,3 +186,39 @@ async fn cold_clearances_are_closed_by_growing_tips() {
     assert_eq!(items[0]["pointer"], "/scene/casing/clearance/given");
     app.stop().await;
 }
+
+/// A turn closed by a rounded repetition of its first point, and a scan whose second pass lies beside its first: curves through their errors.
+#[tokio::test]
+async fn curves_through_errors_are_refused() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(model::package(1.0)).await;
+    let plan = async |angles: Vec<f64>, height: &dyn Fn(usize, f64) -> f64| {
+        let heights: Vec<f64> = angles.iter().enumerate().map(|(i, angle)| height(i, *angle)).collect();
+        let mut request = sweep_of(&model);
+        let measured = json!({"angles_rad": angles, "chord": [0.0], "heights": [heights]});
+        request["scene"]["casing"]["lobes"] = Value::Null;
+        request["scene"]["casing"]["measured"] = measured;
+        api.post("/v1/sweeps/plan", &request).await
+    };
+    let even = |n: usize| (0..n).map(move |i| TAU * i as f64 / n as f64);
+    let oval = |angle: f64| 0.1 * (2.0 * angle).cos();
+    let whole = plan(even(72).collect(), &|_, angle| oval(angle)).await;
+    assert_eq!(
+        (whole.status.as_u16(), &whole.body["casing_shape"]["repeats"]),
+        (200, &json!(2)),
+        "{}",
+        whole.body
+    );
+    let closed = even(72).chain([TAU - 2e-7]).collect();
+    let items = plan(closed, &|_, angle| oval(angle)).await.problem(422, "invalid-request");
+    assert_eq!(items[0]["pointer"], "/scene/casing/measured/angles_rad");
+    let twice = even(72).flat_map(|angle| [angle, angle + 1e-3]).collect();
+    let noisy = |i: usize, angle: f64| oval(angle) + 0.01 * f64::from(u8::from(i % 2 == 1));
+    let items = plan(twice, &noisy).await.problem(422, "invalid-request");
+    assert_eq!(items[0]["pointer"], "/scene/casing/measured/heights/0");
+    // A circle that was measured repeats as any other does.
+    let circle = plan(even(72).collect(), &|_, _| 0.1).await.body;
+    assert_eq!((&circle["symmetry"]["repeats"], circle.get("casing_shape")), (&json!(4), None), "{circle}");
+    app.stop().await;
+}

@@ -55,6 +55,10 @@ pub(super) fn record_run(
     point.energy_residual = finite(run.energy.residual());
     point.energy = EnergyReport::of(&run.energy, parts);
     point.largest_energy = finite(parts * run.energy.largest_energy());
+    let clearance = lasting_clearance(sector, request, wheel.speed_rad_s);
+    if let Some(clearance) = clearance.as_ref().filter(|_| request.has_cold_clearances()) {
+        point.running_clearance.clone_from(clearance);
+    }
     let recorded = match &run.outcome {
         Outcome::Cancelled => return Err(AnalysisError::Cancelled),
         Outcome::Diverged(divergence) => {
@@ -76,14 +80,10 @@ pub(super) fn record_run(
             let judged = history.repeated.map_or(window, |repeated| window.max(2 * repeated.period));
             let settling = judge(&history.displacement, steps.samples, judged, lobes);
             point.settling = Some(settling.beside(strongest_side_bands(&point.responses)));
-            let clearance = lasting_clearance(sector, request, wheel.speed_rad_s);
             let contact = contact(run, request, wheel, stepping, clearance.as_deref());
             let (summary, forces) = contact.unzip();
             point.contact = summary;
             point.tip = largest_tip(history, clearance.as_deref(), &sector.wheel.contact);
-            if request.has_cold_clearances() {
-                point.running_clearance = clearance.unwrap_or_default();
-            }
             Some(Recorded { spectra, contact: forces })
         }
     };

@@ -27,7 +27,8 @@ pub struct ContactSummary {
     pub worst_sector: Option<u32>,
     /// How often a gap closes on the wheel, per revolution.
     pub closings_per_revolution: f64,
-    /// Largest share of its running clearance that the outward motion of a node takes; 1 reaches the undeformed casing.
+    /// Largest share of its running clearance that the outward motion of a node takes; 1 reaches the undeformed casing, and is said of
+    /// nodes without clearance and of those that are pressed in.
     pub clearance_consumption: f64,
     /// That contact node.
     pub clearance_contact_node: u32,

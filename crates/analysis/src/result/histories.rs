@@ -65,7 +65,7 @@ pub struct SensorHistory {
 pub struct TipPlace {
     /// Angle of the node from the package's x axis at the start of a revolution, rad: its own, and that of its sector.
     pub angle_rad: f64,
-    /// Clearance of the node, length.
+    /// Clearance of the node at this speed, length; of a scene whose clearances change, as they are at last.
     pub clearance: f64,
     /// How far the fully grown casing stands inward of its clearance before the node, at 720 equal angles of the fixed frame from the
     /// package's x axis on; absent of a circular casing.

@@ -164,7 +164,7 @@ pub struct Point {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tip: Option<TipResponse>,
     /// Clearance of every contact node at this speed over the window, where the scene gives it cold: less the growth of the tips, and with
-    /// what a `clearance_change` has left; negative where they are pressed into the casing; empty unless `completed`.
+    /// what a `clearance_change` has left; negative where they are pressed into the casing; empty where nothing was integrated.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub running_clearance: Vec<f64>,
     /// Contact over the window; absent unless `completed`, and of scenes without contact.

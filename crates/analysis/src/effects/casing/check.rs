@@ -20,8 +20,12 @@ const LEAST_WIDTH_RAD: f64 = 1e-4;
 const WIDTH_OVER_DISTANCE: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// Angles of a measured line.
 const MOST_MEASURED: usize = 100_000;
-/// Angles that are nearer are the same.
-const LEAST_DISTANCE_RAD: f64 = 1e-9;
+/// A curve through points that are nearer than this share of the distance of half of the others is made of their errors.
+const LEAST_DISTANCE: f64 = 1e-3;
+/// A curve that goes farther beyond its points, as a share of their range, is none of them.
+const MOST_OVERSHOOT: f64 = 0.5;
+/// Round-off of a curve, as a share of its heights.
+const SAME: f64 = 1e-9;
 /// The square of a larger tilt is no longer a thousandth of it.
 const MOST_TILT_RAD: f64 = 1e-3;
 /// Shortest ramp of lobes that stand inside the blade.
@@ -68,7 +72,7 @@ pub(super) fn check(found: &mut Findings, request: &ResolvedSweep, facts: &Model
         check_measured(found, measured, facts);
     }
     if let Some(tilt) = &shape.tilt {
-        check_tilt(found, tilt);
+        check_tilt(found, tilt, facts);
     }
     if let Some(lobes) = &shape.lobes {
         check_along_chord(found, lobes.along_chord.as_deref(), "/scene/casing/lobes", facts);
@@ -95,6 +99,13 @@ pub(super) fn check(found: &mut Findings, request: &ResolvedSweep, facts: &Model
             "/scene/casing/lobes/phase_rad",
             format!("the phase is an angle of at most {} rad", limits::PHASE_RAD),
         );
+    }
+    // Parts that are right one by one may not be so together.
+    if !found.refused(AT) {
+        let highest = shape.highest();
+        if highest.is_finite() {
+            check_reach(found, highest, AT, facts);
+        }
     }
 }
 
@@ -193,11 +204,18 @@ fn check_measured(found: &mut Findings, measured: &Measured, facts: &ModelFacts)
     // From the last to the first as the curve has it.
     let closing = angles_rad.last().zip(angles_rad.first()).map(|(last, first)| first + TAU - last);
     let distances = || angles_rad.windows(2).map(|pair| pair[1] - pair[0]).chain(closing);
+    let mut sorted: Vec<f64> = distances().collect();
+    sorted.sort_by(f64::total_cmp);
+    let least = LEAST_DISTANCE * sorted.get(sorted.len() / 2).copied().unwrap_or(0.0);
     found.require(
-        distances().all(|distance| distance >= LEAST_DISTANCE_RAD)
+        least > 0.0
+            && distances().all(|distance| distance >= least)
             && angles_rad.iter().all(|angle| angle.abs() <= limits::PHASE_RAD),
         &format!("{at}/angles_rad"),
-        format!("angles ascend within one turn by {LEAST_DISTANCE_RAD} rad at least, the first not repeated at its end"),
+        format!(
+            "angles ascend within one turn, the first not repeated at its end, none nearer to the next than a thousandth of the \
+             distance of half of them ({least} rad)"
+        ),
     );
     let widest = distances().fold(0.0, f64::max);
     found.require(
@@ -238,10 +256,28 @@ fn check_measured(found: &mut Findings, measured: &Measured, facts: &ModelFacts)
             check_height(found, heights[index], &format!("{at}/{index}"), facts);
         }
     }
+    if found.refused(at) {
+        return;
+    }
+    for (line, (curve, heights)) in measured.curves().iter().zip(heights).enumerate() {
+        let (low, high) = heights
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &h| (low.min(h), high.max(h)));
+        let beyond = (curve.highest().1 - high).max(low - curve.lowest().1);
+        found.require(
+            beyond <= MOST_OVERSHOOT * (high - low) + SAME * low.abs().max(high.abs()),
+            &format!("{at}/heights/{line}"),
+            format!(
+                "the curve through these heights goes {beyond} beyond them, more than half of their range: points too near to each other \
+                 for their errors, or one that is wrong; the reading of a table says where"
+            ),
+        );
+    }
 }
 
-fn check_tilt(found: &mut Findings, tilt: &Tilt) {
+fn check_tilt(found: &mut Findings, tilt: &Tilt, facts: &ModelFacts) {
     let at = "/scene/casing/tilt";
+    check_reach(found, (tilt.angle_rad * tilt.about_z).abs(), &format!("{at}/about_z"), facts);
     found.require(
         tilt.angle_rad.abs() <= MOST_TILT_RAD,
         &format!("{at}/angle_rad"),
@@ -304,7 +340,7 @@ pub(crate) fn check_ramp(found: &mut Findings, request: &ResolvedSweep) {
     let highest = restriction + orbit;
     let what = if highest.is_finite() {
         format!(
-            "lobes and orbit of up to {highest} reach inside the blade at rest (smallest clearance {smallest})"
+            "shape and orbit of up to {highest} reach inside the blade at rest (smallest clearance {smallest})"
         )
     } else {
         "a tilted casing may reach inside the blade at rest".to_owned()

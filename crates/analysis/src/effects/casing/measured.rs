@@ -21,7 +21,7 @@ impl Measured {
     /// Most from one angle to the next, a quarter of a turn.
     pub(crate) const WIDEST_GAP_RAD: f64 = 1.000_001 * FRAC_PI_2;
 
-    /// How often all lines repeat around the circumference.
+    /// How often all lines repeat around the circumference; 0 of what is the same all around.
     pub(super) fn repeats(&self) -> u32 {
         self.heights.iter().map(|heights| repeats(&self.angles_rad, heights) as u32).fold(0, gcd)
     }

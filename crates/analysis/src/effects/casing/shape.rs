@@ -104,7 +104,7 @@ impl Shape {
         });
         // Together as far as they share their part of the chord: only so it is seen where they repeat.
         let mut single: Vec<Part> = Vec::new();
-        for lobe in &self.single_lobes {
+        for lobe in self.single_lobes.iter().filter(|lobe| is_there(lobe.amplitude, &lobe.along_chord)) {
             let one = casing::Lobe {
                 amplitude: lobe.amplitude,
                 width_rad: lobe.width_rad,
@@ -117,7 +117,8 @@ impl Shape {
                     .push(Part { profile: Profile::Each(vec![one]), along_chord: lobe.along_chord.clone() }),
             }
         }
-        let waves = self.waves.iter().map(|wave| Part {
+        let waves = self.waves.iter().filter(|wave| is_there(wave.amplitude, &wave.along_chord));
+        let waves = waves.map(|wave| Part {
             profile: Profile::Wave {
                 order: wave.order,
                 amplitude: wave.amplitude,
@@ -127,6 +128,11 @@ impl Shape {
         });
         Restriction { parts: lobes.chain(single).chain(waves).collect() }
     }
+}
+
+/// Whether a part has a height anywhere: one that has none would have its symmetry all the same.
+fn is_there(amplitude: f64, along_chord: &Option<Vec<f64>>) -> bool {
+    amplitude != 0.0 && along_chord.as_ref().is_none_or(|along| along.iter().any(|share| *share != 0.0))
 }
 
 impl Tilt {
@@ -247,6 +253,11 @@ mod tests {
         assert_eq!(shape(one_is_higher).repeats(), Some(1));
         let tilt = Some(Tilt { angle_rad: 1e-4, towards_rad: 0.0, about_z: 0.0 });
         assert_eq!(Shape { tilt, ..shape(four([&None; 4])) }.repeats(), Some(1));
+        // What has no height breaks nothing.
+        let wave = |amplitude: f64, along_chord| Wave { order: 3, amplitude, phase_rad: 0.0, along_chord };
+        let flat = vec![wave(0.0, None), wave(0.1, Some(vec![0.0; 5]))];
+        let upright = Some(Tilt { angle_rad: 0.0, towards_rad: 0.0, about_z: 0.0 });
+        assert_eq!(Shape { tilt: upright, waves: flat, ..shape(four([&None; 4])) }.repeats(), Some(4));
     }
 
     #[test]

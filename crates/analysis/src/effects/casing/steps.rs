@@ -13,7 +13,10 @@ const AUTO_STEPS_PER_WIDTH: f64 = 10.0;
 const LEAST_STEPS_PER_WIDTH: f64 = 2.0;
 
 pub(super) fn wanted_steps(scene: &Scene) -> WantedSteps {
-    (steps(scene, AUTO_STEPS_PER_WIDTH), "ten steps fall on the half-width of a lobe")
+    (
+        steps(scene, AUTO_STEPS_PER_WIDTH),
+        "ten steps fall on the half-width of a lobe, of a wave or of the sharpest bend of measured heights",
+    )
 }
 
 /// The smallest number of steps per revolution that sees the lobes of a scene.

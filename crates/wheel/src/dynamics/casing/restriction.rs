@@ -100,11 +100,17 @@ impl Restriction {
 
     /// Smallest and largest p, likewise.
     pub fn extremes(&self, nodes: usize) -> (f64, f64) {
-        // A thousand angles over what repeats, and twenty over the narrowest shape.
-        let turn = TAU / self.repeats().max(1) as f64;
-        let count = (20.0 * turn / self.narrowest_rad()).max(1000.0).ceil() as usize;
+        // A thousand angles over what repeats, and twenty over the narrowest shape: of the narrowest ones about their crests alone.
+        const MOST: f64 = 20_000.0;
+        let (turn, narrowest) = (TAU / self.repeats().max(1) as f64, self.narrowest_rad());
+        let count = (20.0 * turn / narrowest).clamp(1000.0, MOST).ceil() as usize;
         let angles = (0..=count).map(|i| turn * i as f64 / count as f64);
+        let aside = if count as f64 == MOST { 60 } else { 0 };
         let crests = self.parts.iter().flat_map(|part| part.profile.crests());
+        let crests = crests.flat_map(|crest| {
+            (-aside..=aside)
+                .map(move |i| if i == 0 { crest } else { crest + 0.05 * narrowest * f64::from(i) })
+        });
         let heights =
             angles.chain(crests).flat_map(|angle| (0..nodes).map(move |node| self.height(angle, node)));
         heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)))

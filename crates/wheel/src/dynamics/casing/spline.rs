@@ -52,7 +52,7 @@ impl PeriodicSpline {
             + bend(b) * self.curvatures[next]
     }
 
-    /// How often it repeats in a turn.
+    /// How often it repeats in a turn; 0 of what is the same all around.
     pub(super) fn repeats(&self) -> usize {
         repeats(&self.angles_rad, &self.values)
     }
@@ -97,7 +97,8 @@ pub fn narrowest_rad(curves: &[PeriodicSpline]) -> f64 {
     if range > 0.0 { (2.0 * range / bend).sqrt() } else { f64::INFINITY }
 }
 
-/// Largest m such that `values` at `angles_rad`, which ascend within one turn, are the same after a turn by 1/m.
+/// Largest m such that `values` at `angles_rad`, which ascend within one turn, are the same after a turn by 1/m; 0 of what is the same all
+/// around.
 pub fn repeats(angles_rad: &[f64], values: &[f64]) -> usize {
     let n = angles_rad.len().min(values.len());
     let scale = values.iter().fold(0.0f64, |most, value| most.max(value.abs()));
@@ -109,6 +110,9 @@ pub fn repeats(angles_rad: &[f64], values: &[f64]) -> usize {
                 && (values[to] - values[i]).abs() <= ALIKE * scale
         })
     };
+    if values.iter().all(|value| (value - values[0]).abs() <= ALIKE * scale) {
+        return 0;
+    }
     let shift = (1..n).find(|&by| n.is_multiple_of(by) && same(by));
     shift.map_or(1, |by| n / by)
 }
@@ -233,7 +237,7 @@ mod tests {
     fn three_points_and_what_repeats() {
         let spline = PeriodicSpline::new(&[0.0, TAU / 3.0, 2.0 * TAU / 3.0], &[2.0; 3]);
         assert!((spline.at(1.0) - 2.0).abs() < 1e-15);
-        assert_eq!(spline.repeats(), 3);
+        assert_eq!(spline.repeats(), 0);
         let angles = points(24, 0.0);
         let values = |m: f64| angles.iter().map(|angle| (m * angle).cos()).collect::<Vec<_>>();
         assert_eq!(PeriodicSpline::new(&angles, &values(4.0)).repeats(), 4);
