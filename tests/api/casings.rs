@@ -213,7 +213,7 @@ async fn curves_through_errors_are_refused() {
     let closed = even(72).chain([TAU - 2e-7]).collect();
     let items = plan(closed, &|_, angle| oval(angle)).await.problem(422, "invalid-request");
     assert_eq!(items[0]["pointer"], "/scene/casing/measured/angles_rad");
-    let twice = even(72).flat_map(|angle| [angle, angle + 1e-3]).collect();
+    let twice = even(72).flat_map(|angle| [angle, angle + 3e-4]).collect();
     let noisy = |i: usize, angle: f64| oval(angle) + 0.01 * f64::from(u8::from(i % 2 == 1));
     let items = plan(twice, &noisy).await.problem(422, "invalid-request");
     assert_eq!(items[0]["pointer"], "/scene/casing/measured/heights/0");
