@@ -413,7 +413,11 @@ fn trajectories_stand_where_the_tip_is() {
     let mut recorded = recorded([3, 4], 8);
     recorded.sensors.truncate(1);
     recorded.sensors[0].displacement = vec![0.0, 0.1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-    recorded.sensors[0].tip.as_mut().unwrap().angle_rad = std::f64::consts::FRAC_PI_2;
+    let tip = recorded.sensors[0].tip.as_mut().unwrap();
+    tip.angle_rad = std::f64::consts::FRAC_PI_2;
+    // Two lobes of 0.4.
+    let wave = |i: u32| (std::f64::consts::TAU * f64::from(i) / 360.0).cos().max(0.0);
+    tip.heights = (0..720).map(|i| 0.4 * wave(i).powi(4)).collect();
     let drawing = trajectories(&recorded);
     let read = Document::parse(&drawing).unwrap();
     let path = super::of_class(&read, "trajectory").next().unwrap();

@@ -10,6 +10,8 @@ use rubmap_wheel::dynamics::casing::{self, PeriodicSpline, arc_lengths, repeats}
 
 /// Angles as near to each other are the same, rad.
 const SAME_RAD: f64 = 1e-9;
+/// Heights that differ by no more than this share of the largest are the same.
+const SAME_HEIGHT: f64 = 1e-9;
 /// Filled heights that are listed.
 const MOST_LISTED: usize = 100;
 /// Heights that a table may come to when the angles of its lines are put together.
@@ -146,13 +148,15 @@ fn sorted(line: &MeasuredLine) -> Result<Vec<(f64, f64)>, LineError> {
         .iter()
         .map(|&(angle, height)| {
             let within = angle.rem_euclid(TAU);
-            (if TAU - within <= SAME_RAD { 0.0 } else { within }, height)
+            (if TAU - within <= SAME_RAD { 0.0 } else { within + 0.0 }, height)
         })
         .collect();
     points.sort_by(|a, b| a.0.total_cmp(&b.0));
-    if let Some(pair) =
-        points.windows(2).find(|pair| pair[1].0 - pair[0].0 <= SAME_RAD && pair[0].1 != pair[1].1)
-    {
+    let scale = points.iter().fold(0.0f64, |most, point| most.max(point.1.abs()));
+    let differ = |pair: &&[(f64, f64)]| {
+        pair[1].0 - pair[0].0 <= SAME_RAD && (pair[1].1 - pair[0].1).abs() > SAME_HEIGHT * scale
+    };
+    if let Some(pair) = points.windows(2).find(differ) {
         return Err(LineError::Twice { angle_rad: pair[0].0, first: pair[0].1, second: pair[1].1 });
     }
     points.dedup_by(|next, one| next.0 - one.0 <= SAME_RAD);
