@@ -2,7 +2,6 @@
 
 use crate::effects::casing::shape::Shape;
 use crate::effects::damping::convert::modal_damping;
-use crate::effects::friction::request::FrictionLaw;
 use crate::effects::symmetry::repeats::repeats as scene_repeats;
 use crate::effects::symmetry::request::Symmetry;
 use crate::record::half_peak_to_peak;
@@ -40,8 +39,7 @@ pub(super) fn revolutions_taken(request: &ResolvedSweep) -> [u64; 2] {
     // The ramp, and what two searches take beyond their most.
     let begun = ramp_revolutions.ceil() as u64 + 2 * MOST_BEYOND * product.ceil() as u64;
     // No tangent is known of a disc of friction: it is marched.
-    let disc = scene.friction.as_ref().is_some_and(|friction| friction.law == FrictionLaw::Disc);
-    match if disc { SteadyChoice::March } else { steady } {
+    match if scene.has_disc() { SteadyChoice::March } else { steady } {
         SteadyChoice::March => match revolutions {
             AutoOr::Auto if goes_on(request).is_none() => {
                 let changed = request.scene.clearance_change.as_ref().and_then(|change| change.course.last());

@@ -5,7 +5,6 @@ use std::f64::consts::TAU;
 use crate::discretisation::Discretisation;
 use crate::effects::effect::{AboutToRun, WantedSteps};
 use crate::effects::flexible_casing::convert::flexible_casing;
-use crate::effects::friction::request::{Friction, FrictionLaw};
 use crate::effects::table::{is_driven, named};
 use crate::not_runnable::NotRunnable;
 use crate::request::auto_or::MOST_STEPS;
@@ -139,9 +138,8 @@ impl Scope<'_> {
         let affordable = self.given.map_or(PRICE_OF_STIFFNESS * steps_for_contact(self.request).0, f64::from);
         let mut proposal = self.exact();
         // An elastic casing has mass where it is touched, and tips that stick have a velocity there.
-        let disc = |friction: &Friction| friction.law == FrictionLaw::Disc;
         let scene = &self.request.scene;
-        let massive = scene.flexible_casing.is_some() || scene.friction.as_ref().is_some_and(disc);
+        let massive = scene.flexible_casing.is_some() || scene.has_disc();
         if self.contact_nodes.is_empty() || massive || stiffest <= affordable {
             let resolving = resolving_steps(self.wheel, self.wheel.speed_rad_s);
             let pays = stiffest <= affordable && !self.contact_nodes.is_empty();

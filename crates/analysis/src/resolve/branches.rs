@@ -2,7 +2,6 @@
 
 use crate::effects::casing::resolved::Clearance;
 use crate::effects::damping::request::Damping;
-use crate::effects::friction::request::FrictionLaw;
 use crate::error::Violation;
 use crate::model::ModelFacts;
 use crate::request::{
@@ -163,8 +162,7 @@ fn check_repeats(found: &mut Findings, scene: &Scene) {
         "/scene/clearance_change",
         PassageError::ClearanceChange.to_string(),
     );
-    let disc = scene.friction.as_ref().is_some_and(|friction| friction.law == FrictionLaw::Disc);
-    found.require(!disc, "/scene/friction/law", PassageError::Disc.to_string());
+    found.require(!scene.has_disc(), "/scene/friction/law", PassageError::Disc.to_string());
     if let Some(orbit) = &scene.orbit
         && let Err(reason) = comes_round(orbit.whirl_ratio)
     {

@@ -5,7 +5,6 @@ use std::ops::RangeInclusive;
 use crate::discretisation::most_samples;
 use crate::effects::casing::check::{check_lobe_count, check_ramp, check_steps};
 use crate::effects::coriolis;
-use crate::effects::friction::request::FrictionLaw;
 use crate::error::Violation;
 use crate::model::ModelFacts;
 use crate::request::auto_or::MOST_STEPS;
@@ -324,8 +323,7 @@ fn check_memory(found: &mut Findings, request: &ResolvedSweep, facts: &ModelFact
     let per_sensor = revolutions as usize + window_revolutions as usize * sectors;
     let nodes = facts.contact_nodes as usize;
     // A disc of friction has three by three numbers for one, the three of gaps by themselves, and the one.
-    let disc = request.scene.friction.as_ref().is_some_and(|friction| friction.law == FrictionLaw::Disc);
-    let most = if disc { limits::DELASSUS / 13 } else { limits::DELASSUS };
+    let most = if request.scene.has_disc() { limits::DELASSUS / 13 } else { limits::DELASSUS };
     found.require(
         sectors * nodes * nodes <= most,
         "/model",

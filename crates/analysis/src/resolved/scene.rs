@@ -2,6 +2,7 @@
 
 use crate::effects::asked::Asked;
 use crate::effects::casing::shape::Shape;
+use crate::effects::friction::request::FrictionLaw;
 use crate::effects::list::effects;
 use crate::error::Violation;
 use crate::request;
@@ -36,5 +37,10 @@ impl Scene {
     pub(crate) fn touched_shape(&self) -> Option<&Shape> {
         self.contact.as_ref()?;
         self.casing.as_ref().map(|casing| &casing.shape)
+    }
+
+    /// Whether tips may stick, and slide in any direction.
+    pub(crate) fn has_disc(&self) -> bool {
+        self.friction.as_ref().is_some_and(|friction| friction.law == FrictionLaw::Disc)
     }
 }

@@ -4,8 +4,10 @@ use std::f64::consts::{PI, TAU};
 
 use super::request::{ClearanceState, Measured, SingleLobe, Tilt, Wave};
 use super::resolved::Clearance;
+use super::result::Overshoot;
 use super::shape::Shape;
 use super::steps::least_steps;
+use super::survey::overshoots;
 use crate::model::ModelFacts;
 use crate::request::AutoOr;
 use crate::resolve::findings::{Findings, between, check_reach};
@@ -24,8 +26,6 @@ const MOST_MEASURED: usize = 100_000;
 const LEAST_DISTANCE: f64 = 1e-3;
 /// A curve that goes farther beyond its points, as a share of their range, is none of them.
 const MOST_OVERSHOOT: f64 = 0.5;
-/// Round-off of a curve, as a share of its heights.
-const SAME: f64 = 1e-9;
 /// The square of a larger tilt is no longer a thousandth of it.
 const MOST_TILT_RAD: f64 = 1e-3;
 /// Shortest ramp of lobes that stand inside the blade.
@@ -107,13 +107,6 @@ pub(super) fn check(found: &mut Findings, request: &ResolvedSweep, facts: &Model
             check_reach(found, highest, AT, facts);
         }
     }
-}
-
-/// Whether [`check_height`] takes it.
-fn is_height(height: f64, facts: &ModelFacts) -> bool {
-    let size = height.abs();
-    let radius = facts.contact_radius.filter(|radius| *radius > 0.0).unwrap_or(f64::INFINITY);
-    size == 0.0 || (limits::LENGTH.contains(&size) && size <= DIVERGED_SHARE_OF_RADIUS * radius)
 }
 
 /// A height of a shape that is asked for at `pointer`, and the angle beside it.
@@ -251,24 +244,24 @@ fn check_measured(found: &mut Findings, measured: &Measured, facts: &ModelFacts)
             &at,
             format!("one height for each of the {} angles, not {}", angles_rad.len(), heights.len()),
         );
-        // Of thousands, the first that is none says it.
-        if let Some(index) = heights.iter().position(|height| !is_height(*height, facts)) {
-            check_height(found, heights[index], &format!("{at}/{index}"), facts);
+        // Of thousands, the smallest and the largest stand for all.
+        let shown = || (0..heights.len()).filter(|&index| heights[index] != 0.0);
+        let size = |&a: &usize, &b: &usize| heights[a].abs().total_cmp(&heights[b].abs());
+        for index in [shown().min_by(size), shown().max_by(size)].into_iter().flatten() {
+            if !found.refused(&at) {
+                check_height(found, heights[index], &format!("{at}/{index}"), facts);
+            }
         }
     }
     if found.refused(at) {
         return;
     }
-    for (line, (curve, heights)) in measured.curves().iter().zip(heights).enumerate() {
-        let (low, high) = heights
-            .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &h| (low.min(h), high.max(h)));
-        let beyond = (curve.highest().1 - high).max(low - curve.lowest().1);
+    for (Overshoot { line, by, .. }, range) in overshoots(measured) {
         found.require(
-            beyond <= MOST_OVERSHOOT * (high - low) + SAME * low.abs().max(high.abs()),
+            by <= MOST_OVERSHOOT * range,
             &format!("{at}/heights/{line}"),
             format!(
-                "the curve through these heights goes {beyond} beyond them, more than half of their range: points too near to each other \
+                "the curve through these heights goes {by} beyond them, more than half of their range: points too near to each other \
                  for their errors, or one that is wrong; the reading of a table says where"
             ),
         );

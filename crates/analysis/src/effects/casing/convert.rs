@@ -36,7 +36,8 @@ pub(crate) fn casing(
     Some(Casing { clearance, restriction, ramp_revolutions })
 }
 
-/// c of every contact node of a scene with contact at a speed.
+/// Clearance of every contact node of a scene with contact at a speed, as a run begins: as it is given, less the growth of the tips where
+/// it is given cold.
 pub(crate) fn running_clearance(
     sector: &ReducedSector,
     request: &ResolvedSweep,
@@ -51,7 +52,8 @@ pub(crate) fn running_clearance(
     Ok(Some(clearance))
 }
 
-/// The same over the window, when it changes no more; none where nothing could run.
+/// Clearance of every contact node over the window: that of [`running_clearance`], and what a change of clearances leaves of it; none where
+/// nothing could run.
 pub(crate) fn lasting_clearance(
     sector: &ReducedSector,
     request: &ResolvedSweep,
@@ -64,7 +66,7 @@ pub(crate) fn lasting_clearance(
     Some(clearance)
 }
 
-/// The same as it is given.
+/// Clearance of every contact node of a scene with contact, as it is given.
 pub(crate) fn clearance_given(contact_nodes: &[ContactNode], request: &ResolvedSweep) -> Option<Vec<f64>> {
     request.scene.contact.as_ref()?;
     clearances(request, &places(contact_nodes).0)
@@ -94,7 +96,7 @@ fn around(restriction: &Restriction, node: usize) -> Vec<f64> {
     (0..ANGLES).map(|i| restriction.height(TAU * f64::from(i) / f64::from(ANGLES), node)).collect()
 }
 
-/// Those of one contact node.
+/// Heights of the casing before one of the contact nodes, as of [`heights`]; empty where there are none.
 pub(crate) fn heights_before(
     contact_nodes: &[ContactNode],
     node: usize,

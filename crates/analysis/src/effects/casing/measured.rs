@@ -6,12 +6,8 @@ use num_integer::gcd;
 
 use super::request::Measured;
 use super::result::{FilledHeight, MeasuredCasing, MeasuredSurvey};
-use rubmap_wheel::dynamics::casing::{self, PeriodicSpline, arc_lengths, repeats};
+use rubmap_wheel::dynamics::casing::{self, ALIKE, PeriodicSpline, arc_lengths, points_repeat};
 
-/// Angles as near to each other are the same, rad.
-const SAME_RAD: f64 = 1e-9;
-/// Heights that differ by no more than this share of the largest are the same.
-const SAME_HEIGHT: f64 = 1e-9;
 /// Filled heights that are listed.
 const MOST_LISTED: usize = 100;
 /// Heights that a table may come to when the angles of its lines are put together.
@@ -25,7 +21,7 @@ impl Measured {
 
     /// How often all lines repeat around the circumference; 0 of what is the same all around.
     pub(super) fn repeats(&self) -> u32 {
-        self.heights.iter().map(|heights| repeats(&self.angles_rad, heights) as u32).fold(0, gcd)
+        self.heights.iter().map(|heights| points_repeat(&self.angles_rad, heights) as u32).fold(0, gcd)
     }
 
     /// A curve for every line.
@@ -65,7 +61,8 @@ pub struct MeasuredLine {
 pub enum LineError {
     /// Lines whose angles are too many together.
     #[error(
-        "with the angles of all {lines} lines together there are {heights} heights, more than {MOST_HEIGHTS}: measure all lines at the same angles, or at fewer"
+        "with the angles of all {lines} lines together there are {heights} heights, more than {MOST_HEIGHTS}: measure all lines at the \
+         same angles, or at fewer"
     )]
     Many {
         /// Lines.
@@ -81,7 +78,9 @@ pub enum LineError {
     },
     /// A gap that no curve can be laid across.
     #[error(
-        "has no height from {:.3} to {:.3} degrees; no curve can be laid across more than a quarter of a turn", from_rad.to_degrees(), to_rad.to_degrees()
+        "has no height from {:.3} to {:.3} degrees; no curve can be laid across more than a quarter of a turn",
+        from_rad.to_degrees(),
+        to_rad.to_degrees()
     )]
     Gap {
         /// Last angle before it.
@@ -112,7 +111,7 @@ pub fn measured_casing(
     let sorted: Vec<Vec<(f64, f64)>> = sorted.collect::<Result<_, _>>()?;
     let mut angles_rad: Vec<f64> = sorted.iter().flatten().map(|(angle, _)| *angle).collect();
     angles_rad.sort_by(f64::total_cmp);
-    angles_rad.dedup_by(|next, one| *next - *one <= SAME_RAD);
+    angles_rad.dedup_by(|next, one| *next - *one <= ALIKE);
     let together = angles_rad.len().saturating_mul(lines.len());
     if together > MOST_HEIGHTS {
         return Err((None, LineError::Many { lines: lines.len(), heights: together }));
@@ -123,8 +122,8 @@ pub fn measured_casing(
         let (angles, values): (Vec<f64>, Vec<f64>) = points.iter().copied().unzip();
         let curve = PeriodicSpline::new(&angles, &values);
         let height = |&angle: &f64| {
-            let next = angles.partition_point(|own| *own < angle - SAME_RAD);
-            if angles.get(next).is_some_and(|own| *own <= angle + SAME_RAD) {
+            let next = angles.partition_point(|own| *own < angle - ALIKE);
+            if angles.get(next).is_some_and(|own| *own <= angle + ALIKE) {
                 return values[next];
             }
             let height = curve.at(angle);
@@ -148,18 +147,18 @@ fn sorted(line: &MeasuredLine) -> Result<Vec<(f64, f64)>, LineError> {
         .iter()
         .map(|&(angle, height)| {
             let within = angle.rem_euclid(TAU);
-            (if TAU - within <= SAME_RAD { 0.0 } else { within + 0.0 }, height)
+            (if TAU - within <= ALIKE { 0.0 } else { within + 0.0 }, height)
         })
         .collect();
     points.sort_by(|a, b| a.0.total_cmp(&b.0));
     let scale = points.iter().fold(0.0f64, |most, point| most.max(point.1.abs()));
     let differ = |pair: &&[(f64, f64)]| {
-        pair[1].0 - pair[0].0 <= SAME_RAD && (pair[1].1 - pair[0].1).abs() > SAME_HEIGHT * scale
+        pair[1].0 - pair[0].0 <= ALIKE && (pair[1].1 - pair[0].1).abs() > ALIKE * scale
     };
     if let Some(pair) = points.windows(2).find(differ) {
         return Err(LineError::Twice { angle_rad: pair[0].0, first: pair[0].1, second: pair[1].1 });
     }
-    points.dedup_by(|next, one| next.0 - one.0 <= SAME_RAD);
+    points.dedup_by(|next, one| next.0 - one.0 <= ALIKE);
     if points.len() < Measured::LEAST_ANGLES {
         return Err(LineError::Few { points: points.len() });
     }

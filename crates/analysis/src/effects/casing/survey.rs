@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use super::request::Measured;
 use super::result::{AngularGap, FoundShape, MeasuredSurvey, Outlier, Overshoot};
 use super::shape::Shape;
+use rubmap_wheel::dynamics::casing::{ALIKE, PeriodicSpline};
 
 /// Said of every measured shape.
 const INTERPOLATION: &str =
@@ -14,8 +15,6 @@ const INTERPOLATION: &str =
 const DEVIATIONS: f64 = 8.0;
 /// by more than this share of the range of the line,
 const SHARE_OF_RANGE: f64 = 1e-3;
-/// by more than what decimal numbers are rounded by, as a share of the largest height,
-const ROUND_OFF: f64 = 1e-9;
 /// and if without it its neighbours are no farther off than this share of it.
 const LEFT_OF_NEIGHBOURS: f64 = 0.3;
 /// The standard deviation of normal noise over the median of its absolute values.
@@ -81,8 +80,7 @@ fn outliers(line: u32, angles_rad: &[f64], heights: &[f64]) -> Vec<Outlier> {
     let residuals: Vec<f64> = (0..n).map(|i| off(i, &|j| heights[j])).collect();
     let noise = DEVIATION_OVER_MEDIAN * median(&mut residuals.iter().map(|r| r.abs()).collect::<Vec<_>>());
     let (low, high) = range(heights);
-    let far =
-        (DEVIATIONS * noise).max(SHARE_OF_RANGE * (high - low)).max(ROUND_OFF * low.abs().max(high.abs()));
+    let far = (DEVIATIONS * noise).max(SHARE_OF_RANGE * (high - low)).max(ALIKE * low.abs().max(high.abs()));
     let stands_alone = |&i: &usize| {
         let without = |j: usize| if j == i { heights[i] - residuals[i] } else { heights[j] };
         let left = NEIGHBOURS.iter().map(|by| off((i + n + by - 2) % n, &without).abs()).fold(0.0, f64::max);
@@ -127,18 +125,26 @@ fn gaps(angles_rad: &[f64]) -> Vec<AngularGap> {
     gaps
 }
 
-fn overshoot(measured: &Measured) -> Option<Overshoot> {
+/// Where the curve of every line goes farthest beyond its heights, by nothing if that is round-off, and their range.
+pub(super) fn overshoots(measured: &Measured) -> Vec<(Overshoot, f64)> {
     let lines = measured.curves().into_iter().zip(&measured.heights).enumerate();
-    let beyond = lines.flat_map(|(line, (curve, heights))| {
+    let of = |(line, (curve, heights)): (usize, (PeriodicSpline, &Vec<f64>))| {
         let (low, high) = range(heights);
         let (top, bottom) = (curve.highest(), curve.lowest());
-        let seen = SEEN_OVERSHOOT * (high - low);
-        let of = move |angle_rad: f64, by: f64| {
-            (by > seen).then_some(Overshoot { line: line as u32, angle_rad: angle_rad.rem_euclid(TAU), by })
-        };
-        [of(top.0, top.1 - high), of(bottom.0, low - bottom.1)].into_iter().flatten()
-    });
-    beyond.max_by(|a, b| a.by.total_cmp(&b.by))
+        let above = (top.0, top.1 - high);
+        let below = (bottom.0, low - bottom.1);
+        let (angle_rad, by) = if above.1 >= below.1 { above } else { below };
+        let by = if by > ALIKE * low.abs().max(high.abs()) { by } else { 0.0 };
+        (Overshoot { line: line as u32, angle_rad: angle_rad.rem_euclid(TAU), by }, high - low)
+    };
+    lines.map(of).collect()
+}
+
+/// The largest, if it is more than that of a crest.
+fn overshoot(measured: &Measured) -> Option<Overshoot> {
+    let seen =
+        overshoots(measured).into_iter().filter(|(overshoot, range)| overshoot.by > SEEN_OVERSHOOT * range);
+    seen.map(|(overshoot, _)| overshoot).max_by(|a, b| a.by.total_cmp(&b.by))
 }
 
 #[cfg(test)]

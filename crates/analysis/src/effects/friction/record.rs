@@ -1,6 +1,5 @@
 //! What a run says of friction.
 
-use super::request::FrictionLaw;
 use crate::effects::effect::Ran;
 use crate::result::Point;
 use rubmap_numerics::complementarity::ComplementarityError;
@@ -10,7 +9,7 @@ pub(super) fn record(point: &mut Point, ran: &Ran<'_>) {
     if let Some(energy) = &mut point.energy {
         energy.friction_heat = Some(ran.parts * ran.run.energy.effects().friction_heat);
     }
-    let disc = ran.request.scene.friction.as_ref().is_some_and(|friction| friction.law == FrictionLaw::Disc);
+    let disc = ran.request.scene.has_disc();
     if disc {
         let (sticking, sliding) = (ran.run.statistics.sticking, ran.run.statistics.sliding);
         point.sticking_share =

@@ -7,8 +7,9 @@ use crate::effects::asked::Plain;
 /// Coulomb friction of the tips at the casing, by one of two laws.
 ///
 /// Friction may also make the vibration itself unstable (flutter, or a tip that is dragged in slowly); such a response grows and
-/// is reported as diverged. Refused at a speed where the wheel would jam within a step, that is where friction presses tips that lean into their sliding into the casing more
-/// than the contact force lifts them off: the message names the contact node and the largest coefficient that passes.
+/// is reported as diverged. Refused at a speed where the wheel would jam within a step, that is where friction presses tips that lean
+/// into their sliding into the casing more than the contact force lifts them off: the message names the contact node and the largest
+/// coefficient that passes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
 #[serde(deny_unknown_fields)]

@@ -7,8 +7,9 @@
 //!
 //! s is how far a place slides within a step, `free` how far it would without forces. Among the places that may close, Newton's method
 //! on the projections λ = (λ − r g)₊ and τ = Π(τ + ρs) onto the disc of radius μλ (Alart and Curnier, Computer Methods in Applied
-//! Mechanics and Engineering 92, 1991), from the forces of the last solution, and with its matrix as long as that does: of a place that sticks all three forces are unknown, of
-//! one that slides λ, along the normal and against its sliding, and what turns that. Where this does not end, sweeps over the places
+//! Mechanics and Engineering 92, 1991), from the forces of the last solution, and with its matrix as long as that does: of a place that
+//! sticks all three forces are unknown, of one that slides λ, along the normal and against its sliding, and what turns that. Where this
+//! does not end, sweeps over the places
 //! (Jourdan, Alart and Jean, ibid. 155, 1998), each solved alone and exactly, bring it to another beginning. A solution is one if every
 //! place meets its projections within a tolerance and the round-off of its gap and its sliding.
 //!

@@ -6,7 +6,7 @@ mod spline;
 mod table;
 
 pub use self::restriction::{Lobe, Lobes, Measured, Part, Profile, Restriction};
-pub use self::spline::{PeriodicSpline, narrowest_rad, repeats};
+pub use self::spline::{ALIKE, PeriodicSpline, narrowest_rad, points_repeat};
 pub use self::table::RestrictionTable;
 
 /// Rigid casing of revolution with an optional restriction.

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use num_integer::gcd;
 
-use super::spline::{PeriodicSpline, narrowest_rad};
+use super::spline::{ALIKE, PeriodicSpline, narrowest_rad};
 
 /// p(φ) of every contact node, a sum of parts.
 #[derive(Debug, Clone, PartialEq)]
@@ -215,16 +215,13 @@ impl Lobe {
     }
 }
 
-/// Angles as near to each other are the same: they come from decimal numbers.
-const ALIKE_RAD: f64 = 1e-9;
-
 /// Largest m such that a turn by 1/m takes every lobe to one that is the same; 0 of none.
 fn repeats(lobes: &[Lobe]) -> u32 {
     let shown: Vec<&Lobe> = lobes.iter().filter(|lobe| lobe.amplitude != 0.0).collect();
     let is_there = |lobe: &Lobe, turn: f64| {
         shown.iter().any(|other| {
             (other.amplitude, other.width_rad) == (lobe.amplitude, lobe.width_rad)
-                && wrap(lobe.angle_rad + turn - other.angle_rad).abs() <= ALIKE_RAD
+                && wrap(lobe.angle_rad + turn - other.angle_rad).abs() <= ALIKE
         })
     };
     let count = shown.len() as u32;

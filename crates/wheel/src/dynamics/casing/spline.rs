@@ -54,7 +54,7 @@ impl PeriodicSpline {
 
     /// How often it repeats in a turn; 0 of what is the same all around.
     pub(super) fn repeats(&self) -> usize {
-        repeats(&self.angles_rad, &self.values)
+        points_repeat(&self.angles_rad, &self.values)
     }
 
     /// Smallest and largest value between every point and the next, `(angle, value)` each, where the cubic has them.
@@ -99,7 +99,7 @@ pub fn narrowest_rad(curves: &[PeriodicSpline]) -> f64 {
 
 /// Largest m such that `values` at `angles_rad`, which ascend within one turn, are the same after a turn by 1/m; 0 of what is the same all
 /// around.
-pub fn repeats(angles_rad: &[f64], values: &[f64]) -> usize {
+pub fn points_repeat(angles_rad: &[f64], values: &[f64]) -> usize {
     let n = angles_rad.len().min(values.len());
     let scale = values.iter().fold(0.0f64, |most, value| most.max(value.abs()));
     let same = |by: usize| {
@@ -117,8 +117,9 @@ pub fn repeats(angles_rad: &[f64], values: &[f64]) -> usize {
     shift.map_or(1, |by| n / by)
 }
 
-/// Angles and heights as near to each other are the same: they come from decimal numbers.
-const ALIKE: f64 = 1e-9;
+/// Angles (rad) that are as near to each other are the same, and heights that differ by this share of the largest: they come from decimal
+/// numbers.
+pub const ALIKE: f64 = 1e-9;
 
 /// h_{i−1} m_{i−1} + 2(h_{i−1} + h_i) m_i + h_i m_{i+1} = r_i, indices modulo n: a tridiagonal system and a correction of rank one for its
 /// corners. Diagonally dominant: no pivots are wanted.

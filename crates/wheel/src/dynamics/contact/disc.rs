@@ -60,8 +60,8 @@ impl DiscFlexibility {
     /// [`SlidingFlexibility::check`] of tips that all slide in the same direction, for sixteen directions around the contact plane;
     /// `ridge` as there.
     ///
-    /// Necessary, and for a node that is pressed alone sufficient to 2 % of the coefficient (a direction is at most π/16 from one that is looked at). Tips
-    /// that slide apart are not looked at beforehand: of them the solver refuses solutions at which the orientation is another.
+    /// Necessary, and for a node that is pressed alone sufficient to 2 % of the coefficient (a direction is at most π/16 from one that is
+    /// looked at). Tips that slide apart are not looked at beforehand: of them the solver refuses solutions at which the orientation is another.
     pub fn check(&self, sectors: usize, ridge: f64, coefficient: f64) -> Result<(), FrictionError> {
         let angles =
             (0..DIRECTIONS).map(|part| std::f64::consts::TAU * f64::from(part) / f64::from(DIRECTIONS));
