@@ -34,7 +34,7 @@ export function casingTable(onRead, signal) {
         replace(told, h('div', { class: 'bad' }, `${table.name}: ${error.message}`));
       }
     });
-    return h('span', {}, file, told);
+    return h('div', {}, file, told);
   }
   return { beside };
 }
