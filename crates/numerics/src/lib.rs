@@ -1,4 +1,4 @@
-//! Linear algebra and transforms; nothing here has heard of a rotor.
+//! Linear algebra, transforms and statistics; nothing here has heard of a rotor.
 //!
 //! faer is built without its thread pool: every call runs on the calling thread, so results do not depend on how
 //! many threads a machine has.
@@ -12,6 +12,7 @@ pub mod convergence;
 #[cfg(test)]
 #[path = "../../../tests/properties/fixed.rs"]
 mod fixed;
+pub mod fragility;
 pub mod gmres;
 pub mod hermitian;
 pub mod matrix_serde;
@@ -20,7 +21,9 @@ pub mod nested_dissection;
 pub mod orthonormal;
 pub mod p_matrix;
 pub mod panel;
+pub mod sampling;
 pub mod sector_fourier;
+pub mod sensitivity_indices;
 pub mod sparse_cholesky;
 pub mod sparse_product;
 pub mod spectrum;
