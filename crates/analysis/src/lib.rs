@@ -7,12 +7,14 @@
 //! - [`run::interaction_map`] and [`run::critical_speeds`] assemble the finished speeds of a sweep, [`run::refine`] asks for more;
 //! - [`run::speed_histories`] simulates a speed once more and records what happens, [`run::force_map`] gathers contact over all speeds;
 //! - [`run::branch_leg`] follows periodic responses while a number of their scene changes;
+//! - [`run::campaign`] says what designs of a scene say together, [`run::more_designs`] which are lacking, [`run::plan_campaign`] what they cost;
 //! - [`run::run_trial`] runs one speed to be compared with others: for studies ([`run::work_precision`]), for the choice of settings
 //!   ([`run::next`], [`run::next_modes`]) and for the error of a finished sweep ([`run::error_estimate`]).
 
 pub mod accuracy;
 mod branches;
 mod calibration;
+mod campaign;
 mod check;
 mod component;
 mod contact;

@@ -3,6 +3,7 @@
 pub mod accuracy;
 pub mod auto_or;
 pub mod branches;
+pub mod campaign;
 pub mod case_study;
 pub mod integration;
 pub mod modal_analysis;
@@ -18,6 +19,10 @@ pub mod sweep;
 pub use accuracy::{Accuracy, AccuracyOf, Budget};
 pub use auto_or::AutoOr;
 pub use branches::{Along, BranchParameter, BranchesRequest, BranchesSettings};
+pub use campaign::{
+    CampaignRequest, CampaignSettings, Change, Design, DesignKind, DistributionKind, Parameter, Severity,
+    Threshold,
+};
 pub use case_study::{CaseSpeed, CaseStudyRequest, CaseStudySettings};
 pub use integration::{Integration, SchemeChoice, SteadyChoice};
 pub use modal_analysis::ModalAnalysisRequest;

@@ -18,6 +18,7 @@ use crate::resolved::{ResolvedModalAnalysis, ResolvedSensor, ResolvedSpeeds, Res
 use self::findings::Findings;
 
 pub(crate) mod branches;
+pub(crate) mod campaign;
 pub(crate) mod case_study;
 mod effects;
 pub(crate) mod findings;

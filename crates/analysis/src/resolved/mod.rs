@@ -5,7 +5,9 @@
 //! `settings` of results, and asked for again.
 
 pub mod branches;
+pub mod campaign;
 pub mod case_study;
+pub mod distribution;
 pub mod knobs;
 pub mod modal_analysis;
 pub mod scene;
@@ -16,7 +18,9 @@ pub mod sweep;
 pub mod trial;
 
 pub use branches::ResolvedBranches;
+pub use campaign::ResolvedCampaign;
 pub use case_study::ResolvedCaseStudy;
+pub use distribution::Distribution;
 pub use knobs::{Aim, Modes};
 pub use modal_analysis::ResolvedModalAnalysis;
 pub use scene::Scene;

@@ -1,6 +1,7 @@
 //! What computations return: numbers with their credentials.
 
 pub mod branches;
+pub mod campaign;
 pub mod campbell;
 pub mod choice;
 pub mod contact;
@@ -25,6 +26,10 @@ pub mod wheel;
 pub use branches::{
     Bifurcation, BifurcationKind, BranchEnd, BranchLeg, BranchMaximum, BranchPoint, BranchTrack, Branches,
     BranchesHead, Track,
+};
+pub use campaign::{
+    Campaign, CampaignDesign, CampaignPlan, CampaignThreshold, ParameterSensitivity, Sensitivities,
+    ThresholdShare,
 };
 pub use campbell::{AbsoluteFrequencies, Campbell, WaveTables};
 pub use choice::{Choice, ModesChoice, Pilot, TriedModes};

@@ -1,0 +1,10 @@
+//! Campaigns: designs of a scene with other numbers, and what their speeds say together.
+
+pub(crate) mod answer;
+pub(crate) mod designs;
+pub(crate) mod more;
+pub(crate) mod plan;
+mod severity;
+#[cfg(test)]
+mod tests;
+mod threshold;

@@ -1,0 +1,50 @@
+//! What a campaign will do and cost.
+
+use crate::calibration::Calibration;
+use crate::model::{ModelFacts, ReducedSector};
+use crate::plan::plan_sweep;
+use crate::resolved::ResolvedCampaign;
+use crate::result::{CampaignPlan, CostRange, Estimate, SweepPlan};
+
+/// Plans a campaign on `workers` threads, by the scene before anything is changed; without `reduced`, what can be said without it.
+pub fn plan_campaign(
+    campaign: &ResolvedCampaign,
+    facts: &ModelFacts,
+    reduced: Option<&ReducedSector>,
+    calibration: &Calibration,
+    workers: usize,
+) -> CampaignPlan {
+    let scene = plan_sweep(&campaign.sweep, facts, reduced, calibration, workers);
+    let designs = campaign.designs() as u32;
+    let threshold = campaign.settings.threshold.as_ref().filter(|threshold| threshold.within.is_some());
+    CampaignPlan {
+        designs,
+        designs_at_most: threshold.map_or(designs, |threshold| threshold.most_designs.max(designs)),
+        simulations: campaign.simulations(),
+        reduction: scene.reduction,
+        estimate: estimate(&scene, f64::from(designs), workers),
+        settings: campaign.settings.clone(),
+        scene,
+    }
+}
+
+/// So many designs, each as dear as the sweep that was planned; speeds of all of them run side by side.
+fn estimate(scene: &SweepPlan, designs: f64, workers: usize) -> Option<Estimate> {
+    let one = scene.estimate.as_ref()?;
+    let times = |range: CostRange, factor: f64| CostRange {
+        free: factor * range.free,
+        contact: factor * range.contact,
+    };
+    let computing_time_s = times(one.computing_time_s, designs);
+    // What is left over at the end of a single sweep is filled by the next design.
+    let wall_time_s = times(computing_time_s, 1.0 / workers.max(1) as f64);
+    Some(Estimate {
+        steps: one.steps.saturating_mul(designs as u64),
+        computing_time_s,
+        wall_time_s: CostRange {
+            free: wall_time_s.free.max(one.wall_time_s.free),
+            contact: wall_time_s.contact.max(one.wall_time_s.contact),
+        },
+        ..one.clone()
+    })
+}

@@ -1,0 +1,258 @@
+//! Campaigns on severities in closed form.
+
+use std::f64::consts::PI;
+
+use serde_json::{Value, json};
+
+use super::answer::campaign;
+use super::more::more_designs;
+use crate::error::Violation;
+use crate::model::ModelFacts;
+use crate::request::CampaignRequest;
+use crate::resolve::campaign::resolve_campaign;
+use crate::resolved::ResolvedCampaign;
+use crate::result::{Campaign, Point};
+
+/// Of two speeds, with what `changes` says beside.
+fn request(changes: Value) -> Value {
+    let mut request = json!({
+        "model": "m", "modes_per_speed": 8, "speeds": {"values": [100.0, 200.0], "unit": "hz"},
+        "scene": {
+            "damping": {"modal_ratio": 0.005}, "mistuning": {"spread": 0.01, "seed": 3},
+            "casing": {"clearance": {"leading": 0.3, "trailing": 0.2}, "lobes": {"count": 2, "amplitude": 0.1, "width_rad": 0.3}},
+            "contact": {}
+        },
+    });
+    for (field, value) in changes.as_object().unwrap() {
+        request[field] = value.clone();
+    }
+    request
+}
+
+fn resolve(changes: Value) -> Result<ResolvedCampaign, Vec<Violation>> {
+    let request: CampaignRequest = serde_json::from_value(request(changes)).unwrap();
+    resolve_campaign(request, &ModelFacts::of_ten_sectors(4))
+}
+
+fn clearance(name: &str, from: f64, to: f64) -> Value {
+    let ends = ["/scene/casing/clearance/leading", "/scene/casing/clearance/trailing"];
+    json!({"name": name, "at": ends, "change": "add", "from": from, "to": to})
+}
+
+fn point(index: u32, status: &str, severity: f64) -> Point {
+    let responses = if status == "completed" {
+        json!([{"sensor": {"contact_node": 0, "component": "radial"}, "mean": 0.0, "rms": 0.0, "half_peak_to_peak": severity}])
+    } else {
+        json!([])
+    };
+    let point = json!({
+        "index": index, "speed_rad_s": 1.0, "status": status, "steps_per_revolution": 1, "steps": 1,
+        "smallest_stable_steps_per_revolution": 1, "contact_share": 0.0, "responses": responses, "wall_time_s": 0.5, "version": "0",
+    });
+    serde_json::from_value(point).unwrap()
+}
+
+/// What simulations from `first` on would find, were this the severity of (values, speed).
+fn points(campaign: &ResolvedCampaign, first: u32, severity: impl Fn(&[f64], u32) -> f64) -> Vec<Point> {
+    let of = |index: u32| {
+        let values = &campaign.settings.designs[index as usize / 2];
+        point(index, "completed", severity(values, index % 2))
+    };
+    (first..campaign.simulations()).map(of).collect()
+}
+
+fn answer(asked: &ResolvedCampaign, points: &[Point]) -> Campaign {
+    campaign(asked, &ModelFacts::of_ten_sectors(4).units, points)
+}
+
+/// The campaign with all designs that it asks for, and their points.
+fn to_its_end(
+    mut campaign: ResolvedCampaign,
+    severity: impl Fn(&[f64], u32) -> f64 + Copy,
+) -> (ResolvedCampaign, Vec<Point>) {
+    let mut found = points(&campaign, 0, severity);
+    while let Some(more) = more_designs(&campaign, &found) {
+        found.extend(points(&more, campaign.simulations(), severity));
+        campaign = more;
+    }
+    (campaign, found)
+}
+
+#[test]
+fn sensitivities_are_those_of_ishigamis_function_at_the_worst_speed() {
+    let parameter = |name: &str| json!({"name": name, "at": ["/scene/casing/lobes/amplitude"], "change": "multiply", "from": 0.1, "to": 1.0});
+    let parameters = json!([parameter("x"), parameter("y"), parameter("z")]);
+    let asked =
+        resolve(json!({"parameters": parameters, "design": {"kind": "indices", "size": 512, "seed": 4}}))
+            .unwrap();
+    assert_eq!((asked.designs(), asked.simulations()), (512 * 5, 512 * 5 * 2));
+    let ishigami = |values: &[f64], speed: u32| {
+        let [x, y, z] = [values[0], values[1], values[2]].map(|value| 2.0 * PI * (value - 0.1) / 0.9 - PI);
+        20.0 * f64::from(speed) + x.sin() + 7.0 * y.sin().powi(2) + 0.1 * z.powi(4) * x.sin()
+    };
+    let all = points(&asked, 0, ishigami);
+    let found = answer(&asked, &all);
+    let sensitivities = found.sensitivities.unwrap();
+    // Ishigami and Homma, 1990.
+    let exact = [(0.313_905, 0.557_589), (0.442_411, 0.442_411), (0.0, 0.243_684)];
+    for (found, (first, total)) in sensitivities.parameters.iter().zip(exact) {
+        assert!((found.first_order - first).abs() < 3.0 * found.first_order_error, "{found:?}");
+        assert!((found.total - total).abs() < 3.0 * found.total_error, "{found:?}");
+    }
+    assert!((sensitivities.mean - 23.5).abs() < 0.5 && sensitivities.blocks == 512);
+    assert!(found.designs.iter().all(|design| design.worst_speed_rad_s == Some(400.0 * PI)));
+    assert_eq!(found.spent.steps, u64::from(asked.simulations()));
+    // While it runs: of complete blocks only, whatever came first.
+    let half = answer(&asked, &all[..256 * 5 * 2 + 7]);
+    assert_eq!(half.sensitivities.unwrap().blocks, 256);
+}
+
+/// Severity 1 − clearance + a normal deviation of 0.05: of a limit of 0.7, thresholds are 0.3 ± 0.05, cut off at four deviations.
+#[test]
+fn designs_are_added_where_the_threshold_is_undecided() {
+    let tolerance = json!({"name": "tolerance", "at": ["/scene/damping/modal_ratio"], "change": "multiply", "distribution": "normal",
+        "mean": 1.0, "standard_deviation": 0.05, "from": 0.8, "to": 1.2});
+    let threshold = json!({"parameter": "clearance", "probability": 0.9, "within": 0.01, "batch": 32});
+    let asked = |threshold: &Value| {
+        resolve(json!({
+            "parameters": [clearance("clearance", 0.0, 1.0), tolerance], "design": {"kind": "sobol", "size": 32},
+            "limit": 0.7, "threshold": threshold,
+        }))
+    };
+    let severity = |values: &[f64], speed: u32| 1.0 - values[0] + (values[1] - 1.0) - 0.1 * f64::from(speed);
+    let exact = 0.3 + 0.05 * 1.281_551_6;
+    let (ended, found) = to_its_end(asked(&threshold).unwrap(), severity);
+    let told = answer(&ended, &found).threshold.unwrap();
+    let (low, high) = (told.from.unwrap(), told.to.unwrap());
+    assert!(low < exact && exact < high && high - low <= 0.02, "{told:?}, exact {exact}");
+    assert_eq!((told.met_within, told.decided as usize), (Some(true), ended.designs()));
+    assert!(
+        (told.mean.unwrap() - 0.3).abs() < 0.02 && (told.standard_deviation.unwrap() - 0.05).abs() < 0.02,
+        "{told:?}"
+    );
+    assert!((32..=700).contains(&ended.designs()), "{}", ended.designs());
+    // Nearly all that were added lie where the answer was open.
+    let added = &ended.settings.designs[32..];
+    let near = added.iter().filter(|values| (values[0] - exact).abs() < 0.15).count();
+    assert!(near * 10 >= added.len() * 8, "{near} of {}", added.len());
+    // Evenly spread, as many designs leave the answer open twice as far.
+    let mut spread = asked(&json!({"parameter": "clearance", "probability": 0.9})).unwrap();
+    spread.settings.designs.clear();
+    let even: Vec<Vec<f64>> = (0..ended.designs())
+        .map(|index| {
+            let point = rubmap_numerics::sampling::sobol_point(index, 2, 0);
+            super::designs::quantiles(&point, spread.distributions.iter().flatten())
+        })
+        .collect();
+    let spread = spread.with_designs(even);
+    let told = answer(&spread, &points(&spread, 0, severity)).threshold.unwrap();
+    assert!(told.to.unwrap() - told.from.unwrap() > 1.5 * (high - low), "{told:?}");
+    // Never more than allowed.
+    let few = json!({"parameter": "clearance", "probability": 0.9, "within": 0.001, "batch": 32, "most_designs": 100});
+    let (ended, found) = to_its_end(asked(&few).unwrap(), severity);
+    assert_eq!((ended.designs(), answer(&ended, &found).threshold.unwrap().met_within), (100, Some(false)));
+}
+
+/// Where nothing else varies, the threshold is enclosed ever more narrowly.
+#[test]
+fn a_single_parameter_is_enclosed() {
+    let threshold = json!({"parameter": "clearance", "within": 1e-6, "batch": 9});
+    let mut parameter = clearance("clearance", 0.0, 1.0);
+    parameter["levels"] = 5.into();
+    let asked = resolve(
+        json!({"parameters": [parameter], "design": {"kind": "grid"}, "limit": 0.7, "threshold": threshold}),
+    );
+    let severity = |values: &[f64], _: u32| 1.0 / (1.0 + values[0]);
+    let (ended, found) = to_its_end(asked.unwrap(), severity);
+    let told = answer(&ended, &found).threshold.unwrap();
+    assert!((told.value.unwrap() - (1.0 / 0.7 - 1.0)).abs() < 1e-6, "{told:?}");
+    // Each round leaves a tenth.
+    assert!(ended.designs() <= 5 + 6 * 9 && told.met_within == Some(true), "{}", ended.designs());
+}
+
+#[test]
+fn what_is_not_known_is_not_counted() {
+    let points_ = json!([[0.0], [0.1], [0.2], [0.3], [0.4]]);
+    let parameter = json!({"name": "clearance", "at": ["/scene/casing/clearance/leading"], "change": "add"});
+    let asked = resolve(json!({
+        "parameters": [parameter], "design": {"kind": "list", "points": points_}, "limit": 1.0, "threshold": {"parameter": "clearance"},
+    }))
+    .unwrap();
+    let ends = [
+        // Both below; one above and one not there yet; one diverged, one below; one failed, one below; one below, one not there yet.
+        point(0, "completed", 0.2),
+        point(1, "completed", 0.9),
+        point(3, "completed", 1.1),
+        point(4, "diverged", 0.0),
+        point(5, "completed", 0.1),
+        point(6, "failed", 0.0),
+        point(7, "completed", 0.1),
+        point(8, "completed", 0.1),
+    ];
+    let found = answer(&asked, &ends);
+    let meets: Vec<_> = found.designs.iter().map(|design| design.meets_limit).collect();
+    assert_eq!(meets, [Some(true), Some(false), Some(false), None, None]);
+    let severities: Vec<_> = found.designs.iter().map(|design| design.severity).collect();
+    assert_eq!(severities, [Some(0.9), None, None, None, None]);
+    let counts: Vec<_> =
+        found.designs.iter().map(|design| (design.finished, design.diverged, design.failed)).collect();
+    assert_eq!(counts, [(2, 0, 0), (1, 0, 0), (2, 1, 0), (2, 0, 1), (1, 0, 0)]);
+    assert_eq!(found.threshold.unwrap().decided, 3);
+    assert_eq!((found.sensitivities, found.designs[0].by_speed.clone()), (None, vec![Some(0.2), Some(0.9)]));
+}
+
+#[test]
+fn what_makes_no_campaign_is_refused_at_its_field() {
+    let one = || json!([clearance("clearance", 0.0, 1.0)]);
+    let sobol = || json!({"kind": "sobol", "size": 8});
+    let wrong = [
+        (json!({"parameters": [], "design": sobol()}), "/parameters"),
+        (json!({"parameters": one(), "design": {"kind": "sobol"}}), "/design/size"),
+        (json!({"parameters": one(), "design": {"kind": "grid", "size": 3}}), "/design/size"),
+        (json!({"parameters": one(), "design": {"kind": "grid"}}), "/parameters/0/levels"),
+        (json!({"parameters": one(), "design": {"kind": "sobol", "size": 10_001}}), "/design"),
+        (
+            json!({"parameters": one(), "design": {"kind": "list", "points": [[1.0, 2.0]]}}),
+            "/design/points/0",
+        ),
+        (json!({"parameters": one(), "design": sobol(), "threshold": {"parameter": "clearance"}}), "/limit"),
+        (
+            json!({"parameters": one(), "design": sobol(), "limit": 1.0, "threshold": {"parameter": "x"}}),
+            "/threshold/parameter",
+        ),
+        (json!({"parameters": one(), "design": sobol(), "severity": "wear"}), "/severity"),
+        (json!({"parameters": one(), "design": sobol(), "stress": {}}), "/stress"),
+        (
+            json!({"parameters": [clearance("c", 0.0, 1.0), clearance("c", 0.0, 1.0)], "design": sobol()}),
+            "/parameters/1/name",
+        ),
+        (
+            json!({"parameters": [{"name": "s", "at": ["/scene/mistuning/seed"], "from": 0.0, "to": 3.0}], "design": sobol()}),
+            "/parameters/0",
+        ),
+        (
+            json!({"parameters": [{"name": "s", "at": ["/scene/friction/coefficient"], "from": 0.0, "to": 3.0}], "design": sobol()}),
+            "/parameters/0/at/0",
+        ),
+        // The scene is sound, the design is not.
+        (
+            json!({"parameters": [{"name": "d", "at": ["/scene/damping/modal_ratio"], "from": 0.5, "to": 2.0}], "design": sobol()}),
+            "/parameters/0",
+        ),
+        (
+            json!({"parameters": [{"name": "n", "at": ["/scene/casing/lobes/count"], "distribution": "values", "values": [2.0, 3.5]}],
+            "design": {"kind": "grid"}}),
+            "/parameters/0",
+        ),
+    ];
+    for (changes, pointer) in wrong {
+        let found: Vec<_> =
+            resolve(changes.clone()).unwrap_err().into_iter().map(|violation| violation.pointer).collect();
+        assert!(found.contains(&pointer.to_owned()), "{changes}: {found:?}");
+    }
+    let seeds = json!({"name": "seed", "at": ["/scene/mistuning/seed"], "distribution": "whole", "from": 1.0, "to": 5.0});
+    let asked = resolve(json!({"parameters": [seeds], "design": {"kind": "grid"}})).unwrap();
+    assert_eq!(asked.settings.designs.concat(), [1.0, 2.0, 3.0, 4.0, 5.0]);
+    let kept = serde_json::to_value(&asked).unwrap();
+    assert_eq!(ResolvedCampaign::stored(serde_json::from_value(kept).unwrap()).unwrap(), asked);
+}

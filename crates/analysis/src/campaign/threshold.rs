@@ -1,0 +1,42 @@
+//! Where a parameter meets the limit with a probability: what the designs so far say.
+
+use crate::request::Threshold;
+use crate::result::CampaignDesign;
+use rubmap_numerics::fragility::{self, Fragility};
+
+/// Confidence of intervals.
+pub(crate) const CONFIDENCE: f64 = 0.95;
+
+/// What designs say of a threshold.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Answer {
+    /// What they say; none where no design has been decided.
+    pub(super) fragility: Option<Fragility>,
+    /// Where the probability is met, if that is known.
+    pub(super) value: Option<f64>,
+    /// Between which values the answer is open; an end is infinite where the designs do not bound it.
+    pub(super) open: Option<(f64, f64)>,
+}
+
+/// Reads `designs` along parameter `index`.
+pub(super) fn answer(designs: &[CampaignDesign], asked: &Threshold, index: usize) -> Answer {
+    let case = |design: &CampaignDesign| Some((design.values[index], design.meets_limit?));
+    let cases: Vec<_> = designs.iter().filter_map(case).collect();
+    let fragility = fragility::fit(&cases);
+    let (value, open) = match fragility {
+        Some(Fragility::Apart { below, above, .. }) => (Some(0.5 * (below + above)), Some((below, above))),
+        Some(Fragility::Curve(curve)) => {
+            let crossing = curve.crossing(asked.probability, CONFIDENCE);
+            (Some(crossing.x).filter(|x| x.is_finite()), Some(crossing.interval))
+        }
+        Some(Fragility::Always | Fragility::Never) | None => (None, None),
+    };
+    Answer { fragility, value, open }
+}
+
+impl Answer {
+    /// Whether the value is known to `within` either way.
+    pub(super) fn is_within(&self, within: f64) -> bool {
+        self.open.is_some_and(|(low, high)| high - low <= 2.0 * within)
+    }
+}

@@ -1,0 +1,294 @@
+//! A campaign, held against its model.
+
+use crate::campaign::designs::{designs, levels};
+use crate::error::Violation;
+use crate::model::ModelFacts;
+use crate::request::sweep::default_peak_prominence;
+use crate::request::{
+    CampaignRequest, CampaignSettings, Design, DesignKind, DistributionKind, Parameter, Record, Severity,
+    SweepDirection, SweepRequest, Threshold,
+};
+use crate::resolve::findings::Findings;
+use crate::resolve::resolve_sweep;
+use crate::resolved::campaign::changed;
+use crate::resolved::{Distribution, ResolvedCampaign, ResolvedSweep};
+
+/// Most parameters of a campaign: Sobol points have directions for twice as many and more.
+const PARAMETERS: usize = 100;
+
+/// Most designs of a campaign, and most simulations, each of which is kept.
+const DESIGNS: usize = 10_000;
+const SIMULATIONS: usize = 100_000;
+
+/// Designs that are refused are told up to this many.
+const TOLD: usize = 20;
+
+/// Parses a campaign and checks it against its model: the scene as it is, and that of every design.
+pub fn resolve_campaign(
+    request: CampaignRequest,
+    facts: &ModelFacts,
+) -> Result<ResolvedCampaign, Vec<Violation>> {
+    let CampaignRequest { parameters, design, severity, limit, threshold, stress, scene, .. } = request;
+    let asked = SweepRequest {
+        model: request.model,
+        modes_per_speed: request.modes_per_speed,
+        speeds: request.speeds,
+        scene: scene.clone(),
+        integration: request.integration,
+        sensors: request.sensors,
+        max_engine_order: request.max_engine_order,
+        peak_prominence: default_peak_prominence(),
+        sweep: SweepDirection::Independent,
+        refine: false,
+        reproducible: false,
+        accuracy: None,
+        budget: None,
+        control_speeds: None,
+        record: Record { stress, ..Record::default() },
+        fields: request.fields,
+    };
+    let mut found = Findings::default();
+    let resolved = resolve_sweep(asked, facts)
+        .map_err(|violations| found.0.extend(violations.into_iter().map(at_its_field)));
+    let distributions = check_parameters(&mut found, &parameters, &design);
+    check_design(&mut found, &design, &parameters, &distributions);
+    check_threshold(&mut found, threshold.as_ref(), limit, &parameters, &distributions);
+    found.require(limit.is_none_or(f64::is_finite), "/limit", "a finite number");
+    let Ok(sweep) = resolved else { return Err(found.0) };
+    check_severity(&mut found, severity, &sweep);
+    if !found.0.is_empty() {
+        return Err(found.0);
+    }
+    let drawn: Vec<Distribution> = distributions.iter().flatten().cloned().collect();
+    let (size, seed) = (design.size.unwrap_or(0) as usize, design.seed.unwrap_or(0));
+    let values = match &design.points {
+        Some(points) => points.clone(),
+        None => designs(design.kind, (size, seed), &parameters, &drawn),
+    };
+    let simulations = values.len().saturating_mul(sweep.speeds.count() as usize);
+    found.require(
+        simulations <= SIMULATIONS,
+        "/speeds",
+        format!(
+            "{} designs over {} speeds are {simulations} simulations, more than {SIMULATIONS}",
+            values.len(),
+            sweep.speeds.count()
+        ),
+    );
+    let written = SweepRequest { scene, ..sweep.clone().into() };
+    let settings =
+        CampaignSettings { sweep: written, parameters, design, severity, limit, threshold, designs: values };
+    if found.0.is_empty() {
+        check_designs(&mut found, &settings, facts);
+    }
+    found.finish(ResolvedCampaign { sweep, distributions, settings })
+}
+
+/// What a sweep has within `record`, a campaign has itself.
+fn at_its_field(violation: Violation) -> Violation {
+    match violation.pointer.strip_prefix("/record") {
+        Some(pointer) => Violation { pointer: pointer.to_owned(), ..violation },
+        None => violation,
+    }
+}
+
+fn check_parameters(
+    found: &mut Findings,
+    parameters: &[Parameter],
+    design: &Design,
+) -> Vec<Option<Distribution>> {
+    found.require(
+        (1..=PARAMETERS).contains(&parameters.len()),
+        "/parameters",
+        format!("between 1 and {PARAMETERS} parameters"),
+    );
+    let mut distributions = Vec::new();
+    for (index, parameter) in parameters.iter().enumerate() {
+        let at = |field: &str| format!("/parameters/{index}{field}");
+        found.require(
+            (1..=64).contains(&parameter.name.chars().count()),
+            &at("/name"),
+            "a name of 1 to 64 characters",
+        );
+        found.require(
+            parameters[..index].iter().all(|other| other.name != parameter.name),
+            &at("/name"),
+            "another parameter is called so",
+        );
+        found.require((1..=100).contains(&parameter.at.len()), &at("/at"), "between 1 and 100 pointers");
+        found.require(
+            parameter.levels.is_none() || design.kind == DesignKind::Grid,
+            &at("/levels"),
+            "only a grid has levels: leave this away, or let the design be a grid",
+        );
+        match Distribution::of(parameter) {
+            Ok(distribution) => {
+                found.require(
+                    distribution.is_some() || design.kind == DesignKind::List,
+                    &at("/from"),
+                    "say how the values are distributed: from and to, or another distribution",
+                );
+                distributions.push(distribution);
+            }
+            Err(violations) => {
+                let placed =
+                    |violation: Violation| Violation { pointer: at(&violation.pointer), ..violation };
+                found.0.extend(violations.into_iter().map(placed));
+                distributions.push(None);
+            }
+        }
+    }
+    distributions
+}
+
+fn check_design(
+    found: &mut Findings,
+    design: &Design,
+    parameters: &[Parameter],
+    distributions: &[Option<Distribution>],
+) {
+    let sized = matches!(design.kind, DesignKind::LatinHypercube | DesignKind::Sobol | DesignKind::Indices);
+    found.require(
+        design.size.is_some() == sized,
+        "/design/size",
+        if sized { "say how many" } else { "this design has as many as it says: leave this away" },
+    );
+    let listed = design.kind == DesignKind::List;
+    found.require(
+        design.points.is_some() == listed,
+        "/design/points",
+        if listed {
+            "say which"
+        } else {
+            "only a list has points: leave this away, or let the design be a list"
+        },
+    );
+    for (index, point) in design.points.iter().flatten().enumerate().take(DESIGNS) {
+        found.require(
+            point.len() == parameters.len() && point.iter().all(|value| value.is_finite()),
+            &format!("/design/points/{index}"),
+            format!("{} finite numbers, one per parameter", parameters.len()),
+        );
+    }
+    let mut count = match design.kind {
+        DesignKind::List => design.points.as_ref().map_or(1.0, |points| points.len() as f64),
+        DesignKind::LatinHypercube | DesignKind::Sobol => design.size.unwrap_or(1).into(),
+        DesignKind::Indices => f64::from(design.size.unwrap_or(1)) * (parameters.len() + 2) as f64,
+        DesignKind::Grid => 1.0,
+    };
+    if design.kind == DesignKind::Grid {
+        for (index, (parameter, distribution)) in parameters.iter().zip(distributions).enumerate() {
+            let Some(distribution) = distribution else { continue };
+            count *= levels(parameter, distribution);
+            let at = format!("/parameters/{index}/levels");
+            let given = parameter.levels.is_some();
+            let own = distribution.own_levels().is_some();
+            found.require(
+                given != own,
+                &at,
+                if own {
+                    "all of its values are taken: leave this away"
+                } else {
+                    "a grid needs to know how many"
+                },
+            );
+            found.require(parameter.levels != Some(0), &at, "at least 1");
+            let (from, to) = distribution.range();
+            found.require(
+                from.is_finite() && to.is_finite(),
+                &format!("/parameters/{index}/from"),
+                "a grid reaches from `from` to `to`: give both",
+            );
+        }
+    }
+    found.require(
+        (1.0..=DESIGNS as f64).contains(&count),
+        "/design",
+        format!("{count} designs: between 1 and {DESIGNS}"),
+    );
+}
+
+fn check_threshold(
+    found: &mut Findings,
+    threshold: Option<&Threshold>,
+    limit: Option<f64>,
+    parameters: &[Parameter],
+    distributions: &[Option<Distribution>],
+) {
+    let Some(threshold) = threshold else { return };
+    found.require(limit.is_some(), "/limit", "a threshold is where a limit is met: give one");
+    found.require(
+        threshold.probability > 0.0 && threshold.probability < 1.0,
+        "/threshold/probability",
+        "above 0 and below 1",
+    );
+    found.require(
+        (1..=DESIGNS as u32).contains(&threshold.batch),
+        "/threshold/batch",
+        format!("between 1 and {DESIGNS}"),
+    );
+    found.require(
+        (1..=DESIGNS as u32).contains(&threshold.most_designs),
+        "/threshold/most_designs",
+        format!("between 1 and {DESIGNS}"),
+    );
+    let index = parameters.iter().position(|parameter| parameter.name == threshold.parameter);
+    found.require(index.is_some(), "/threshold/parameter", "the name of one of the parameters");
+    let (Some(index), Some(within)) = (index, threshold.within) else { return };
+    found.require(within.is_finite() && within > 0.0, "/threshold/within", "a finite number above 0");
+    found.require(
+        distributions.iter().all(Option::is_some),
+        "/threshold/within",
+        "designs are added from the distributions of the parameters: give one for each, or leave this away",
+    );
+    if let Some(Some(distribution)) = distributions.get(index) {
+        found.require(
+            distribution.is_continuous() && parameters[index].distribution != DistributionKind::Values,
+            "/threshold/within",
+            "designs can be added between others only where the parameter takes every value: leave this away",
+        );
+    }
+}
+
+fn check_severity(found: &mut Findings, severity: Severity, sweep: &ResolvedSweep) {
+    let (there, needs) = match severity {
+        Severity::Amplitude | Severity::Tip => return,
+        Severity::ContactForce => {
+            (sweep.scene.contact.is_some(), "contact: write \"contact\": {} in the scene")
+        }
+        Severity::Wear => (sweep.scene.abradable.is_some(), "a coating: write \"abradable\" in the scene"),
+        Severity::Stress | Severity::Utilisation => (
+            sweep.record.stress.is_some(),
+            "stress: ask for it by \"stress\": {}, which needs a model with a mesh",
+        ),
+    };
+    found.require(there, "/severity", format!("there is none without {needs}"));
+}
+
+/// Every design must be sound; what is wrong with one is said at the parameter that moves the field, if one does.
+fn check_designs(found: &mut Findings, settings: &CampaignSettings, facts: &ModelFacts) {
+    for (index, values) in settings.designs.iter().enumerate() {
+        let checked = changed(settings, values).and_then(|sweep| resolve_sweep(sweep, facts).map(drop));
+        for violation in checked.err().unwrap_or_default() {
+            let moves =
+                |parameter: &Parameter| parameter.at.iter().any(|at| at.starts_with(&violation.pointer));
+            let pointer = match settings.parameters.iter().position(moves) {
+                _ if violation.pointer.starts_with("/parameters") => violation.pointer.clone(),
+                Some(parameter) => format!("/parameters/{parameter}"),
+                None => "/design".to_owned(),
+            };
+            if found.0.len() < TOLD && !found.refused(&pointer) {
+                let said = settings
+                    .parameters
+                    .iter()
+                    .zip(values)
+                    .map(|(parameter, value)| format!("{} = {value}", parameter.name));
+                let said = said.collect::<Vec<_>>().join(", ");
+                found.0.push(Violation::new(
+                    pointer,
+                    format!("design {index} ({said}), {}: {}", violation.pointer, violation.message),
+                ));
+            }
+        }
+    }
+}

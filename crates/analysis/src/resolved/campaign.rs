@@ -1,0 +1,176 @@
+//! A campaign as it is stored and run.
+
+use serde::Serialize;
+use serde_json::Value;
+
+use crate::error::Violation;
+use crate::request::{CampaignSettings, Change, Parameter, SweepRequest, Threshold};
+use crate::resolved::distribution::Distribution;
+use crate::resolved::sweep::ResolvedSweep;
+
+/// A sweep of which numbers vary, and its designs; see [`CampaignSettings`], as which it is written. What is computed is one speed of one
+/// design: of all designs one after the other, so that designs which are added change no index.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(into = "CampaignSettings")]
+pub struct ResolvedCampaign {
+    /// With the scene before anything is changed.
+    pub(crate) sweep: ResolvedSweep,
+    /// One per parameter; none of one that is only listed.
+    pub(crate) distributions: Vec<Option<Distribution>>,
+    /// All that was asked for. The scene is as it was written: pointers into it are those of the request.
+    pub(crate) settings: CampaignSettings,
+}
+
+impl ResolvedCampaign {
+    /// Reads again what was resolved before.
+    ///
+    /// # Errors
+    /// What is wrong with it, if it was not.
+    pub fn stored(settings: CampaignSettings) -> Result<Self, Vec<Violation>> {
+        let sweep = ResolvedSweep::stored(settings.sweep.clone(), 0)?;
+        let distributions = settings.parameters.iter().map(Distribution::of).collect::<Result<_, _>>()?;
+        Ok(Self { sweep, distributions, settings })
+    }
+
+    /// The sweep that every design is, before anything is changed.
+    pub fn sweep(&self) -> &ResolvedSweep {
+        &self.sweep
+    }
+
+    /// How many designs there are.
+    pub fn designs(&self) -> usize {
+        self.settings.designs.len()
+    }
+
+    /// How many simulations: one for every design and speed.
+    pub fn simulations(&self) -> u32 {
+        self.designs() as u32 * self.sweep.speeds.count()
+    }
+
+    /// Simulation `index`: the sweep of its design, and the index of its speed there.
+    ///
+    /// # Errors
+    /// What is wrong with a design, if it was never held against its model.
+    pub fn simulation(&self, index: u32) -> Result<(ResolvedSweep, u32), Vec<Violation>> {
+        let (design, speed) = (index / self.sweep.speeds.count(), index % self.sweep.speeds.count());
+        let sweep = changed(&self.settings, &self.settings.designs[design as usize])?;
+        Ok((ResolvedSweep::stored(sweep, 0)?, speed))
+    }
+
+    /// What is asked about a threshold, with the index of its parameter.
+    pub(crate) fn threshold(&self) -> Option<(&Threshold, usize)> {
+        let threshold = self.settings.threshold.as_ref()?;
+        let named = |parameter: &Parameter| parameter.name == threshold.parameter;
+        Some((threshold, self.settings.parameters.iter().position(named)?))
+    }
+
+    /// The same with more designs.
+    pub(crate) fn with_designs(&self, more: Vec<Vec<f64>>) -> Self {
+        let mut longer = self.clone();
+        longer.settings.designs.extend(more);
+        longer
+    }
+}
+
+impl From<ResolvedCampaign> for CampaignSettings {
+    fn from(campaign: ResolvedCampaign) -> Self {
+        campaign.settings
+    }
+}
+
+/// The sweep of the design with these `values` of the parameters, each in its turn.
+///
+/// # Errors
+/// At the parameter that meets no number, or makes none that the field takes.
+pub(crate) fn changed(settings: &CampaignSettings, values: &[f64]) -> Result<SweepRequest, Vec<Violation>> {
+    let refused = |pointer: String, message: String| vec![Violation::new(pointer, message)];
+    let mut sweep = serde_json::to_value(&settings.sweep)
+        .map_err(|error| refused("/scene".to_owned(), error.to_string()))?;
+    for (index, (parameter, &value)) in settings.parameters.iter().zip(values).enumerate() {
+        for (place, pointer) in parameter.at.iter().enumerate() {
+            let number = sweep.pointer_mut(pointer).filter(|number| number.is_number());
+            let Some(number) = number.filter(|_| pointer.starts_with("/scene/")) else {
+                let message =
+                    format!("the scene has no number at {pointer}: write one there, if only to be changed");
+                return Err(refused(format!("/parameters/{index}/at/{place}"), message));
+            };
+            let before = number.as_f64().unwrap_or(f64::NAN);
+            let after = match parameter.change {
+                Change::Set => value,
+                Change::Add => before + value,
+                Change::Multiply => before * value,
+            };
+            *number = if number.is_f64() {
+                Value::from(after)
+            } else if after.fract() == 0.0 && (0.0..=(1u64 << 53) as f64).contains(&after) {
+                Value::from(after as u64)
+            } else {
+                let message = format!(
+                    "{pointer} is counted in whole numbers, and {after} is none: let the parameter be `whole`"
+                );
+                return Err(refused(format!("/parameters/{index}"), message));
+            };
+        }
+    }
+    serde_json::from_value(sweep).map_err(|error| refused("/parameters".to_owned(), error.to_string()))
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    fn settings(parameters: Value) -> CampaignSettings {
+        let scene = json!({
+            "damping": {"modal_ratio": 0.005}, "mistuning": {"spread": 0.01, "seed": 3},
+            "casing": {"clearance": {"leading": 0.3, "trailing": 0.2}}
+        });
+        let sweep = json!({"model": "m", "scene": scene, "speeds": {"values": [1.0, 2.0], "unit": "hz"}});
+        let settings = json!({
+            "sweep": sweep, "parameters": parameters, "design": {"kind": "list"}, "severity": "amplitude", "designs": []
+        });
+        serde_json::from_value(settings).unwrap()
+    }
+
+    #[test]
+    fn numbers_of_the_scene_are_changed_in_turn() {
+        let settings = settings(json!([
+            {"name": "clearance", "at": ["/scene/casing/clearance/leading", "/scene/casing/clearance/trailing"], "change": "add"},
+            {"name": "leading", "at": ["/scene/casing/clearance/leading"], "change": "multiply"},
+            {"name": "seed", "at": ["/scene/mistuning/seed"]},
+        ]));
+        let sweep = serde_json::to_value(changed(&settings, &[0.1, 2.0, 7.0]).unwrap()).unwrap();
+        let at = |pointer: &str| sweep.pointer(pointer).unwrap();
+        assert_eq!(at("/scene/casing/clearance/leading"), &json!(0.8));
+        assert!((at("/scene/casing/clearance/trailing").as_f64().unwrap() - 0.3).abs() < 1e-15);
+        assert_eq!(at("/scene/mistuning/seed"), &json!(7));
+        let refused = changed(&settings, &[0.1, 2.0, 7.5]).unwrap_err();
+        assert_eq!(refused[0].pointer, "/parameters/2");
+    }
+
+    #[test]
+    fn only_numbers_of_the_scene_are_changed() {
+        for pointer in ["/scene/casing", "/scene/friction/coefficient", "/max_engine_order", "scene", ""] {
+            let settings = settings(json!([{"name": "p", "at": [pointer]}]));
+            assert_eq!(changed(&settings, &[1.0]).unwrap_err()[0].pointer, "/parameters/0/at/0", "{pointer}");
+        }
+    }
+
+    #[test]
+    fn designs_that_are_added_change_no_index() {
+        let parameters =
+            json!([{"name": "damping", "at": ["/scene/damping/modal_ratio"], "from": 0.001, "to": 0.01}]);
+        let campaign = ResolvedCampaign::stored(settings(parameters)).unwrap();
+        let first = campaign.with_designs(vec![vec![0.001], vec![0.002]]);
+        let longer = first.with_designs(vec![vec![0.003]]);
+        assert_eq!((first.simulations(), longer.simulations()), (4, 6));
+        for index in 0..4 {
+            assert_eq!(first.simulation(index), longer.simulation(index));
+        }
+        let (sweep, speed) = longer.simulation(5).unwrap();
+        assert_eq!((sweep.scene.damping.unwrap().modal_ratio, speed), (0.003, 1));
+        let kept = serde_json::to_value(&longer).unwrap();
+        assert_eq!(ResolvedCampaign::stored(serde_json::from_value(kept).unwrap()).unwrap(), longer);
+    }
+}

@@ -1,0 +1,165 @@
+//! What a campaign says.
+
+use serde::{Deserialize, Serialize};
+
+use crate::request::CampaignSettings;
+use crate::result::plan::{Estimate, ReductionState, Spent, SweepPlan};
+use rubmap_wheel::dynamics::sector::Units;
+
+/// All designs of a campaign and what they say together, as far as it has come.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct Campaign {
+    /// Speeds of every design, rad/s.
+    pub speeds_rad_s: Vec<f64>,
+    /// One per design, in the order of `settings.designs`.
+    pub designs: Vec<CampaignDesign>,
+    /// How much of the variance of the severity each parameter accounts for; of `indices`, once three blocks are complete. Absent where
+    /// nothing varies.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sensitivities: Option<Sensitivities>,
+    /// Where the limit is met with the probability asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub threshold: Option<CampaignThreshold>,
+    /// What the designs of `design` were expected to cost; absent before they are queued.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub plan: Option<Estimate>,
+    /// What the finished simulations have cost.
+    pub spent: Spent,
+    /// Units of the model.
+    pub units: Units,
+    /// The whole request as resolved.
+    pub settings: CampaignSettings,
+    /// Version of the code.
+    pub version: String,
+}
+
+/// One design.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct CampaignDesign {
+    /// Index of the design.
+    pub index: u32,
+    /// The values of its parameters.
+    pub values: Vec<f64>,
+    /// Speeds that are finished, however they ended.
+    pub finished: u32,
+    /// Those of them that diverged.
+    pub diverged: u32,
+    /// Those of them that could not be integrated.
+    pub failed: u32,
+    /// Severity by speed; null where it is not known.
+    pub by_speed: Vec<Option<f64>>,
+    /// The largest of them, once all are known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub severity: Option<f64>,
+    /// The speed where it is, rad/s.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub worst_speed_rad_s: Option<f64>,
+    /// Whether it meets the limit, as soon as that is known: not if it is exceeded at one speed, or one diverged.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub meets_limit: Option<bool>,
+}
+
+/// How much of the variance of the severity each parameter accounts for.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct Sensitivities {
+    /// Mean of the severity.
+    pub mean: f64,
+    /// Its variance.
+    pub variance: f64,
+    /// Blocks of designs that they rest on: those of which every severity is known.
+    pub blocks: u32,
+    /// One per parameter.
+    pub parameters: Vec<ParameterSensitivity>,
+}
+
+/// Sobol's indices of one parameter with their standard errors, from the jackknife over blocks. The errors take blocks for independent; with
+/// Sobol points they tend to be smaller. Estimates may be a little below 0 or above 1.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct ParameterSensitivity {
+    /// Its name.
+    pub parameter: String,
+    /// Share of the variance that would be gone, on average, if the parameter were known.
+    pub first_order: f64,
+    /// Its standard error.
+    pub first_order_error: f64,
+    /// Share that would be left, on average, if all others were known: it alone and with others.
+    pub total: f64,
+    /// Its standard error.
+    pub total_error: f64,
+}
+
+/// Where a parameter meets the limit with a probability, whatever the others are.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct CampaignThreshold {
+    /// The parameter.
+    pub parameter: String,
+    /// The probability.
+    pub probability: f64,
+    /// The value of the parameter; absent where designs tell none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub value: Option<f64>,
+    /// The true value is no less than this, with a confidence of 95 % both ways; absent where nothing bounds it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub from: Option<f64>,
+    /// Nor more than this.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub to: Option<f64>,
+    /// Mean of the thresholds of single designs, at which half of them meet the limit; absent where they lie apart.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mean: Option<f64>,
+    /// Their standard deviation.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub standard_deviation: Option<f64>,
+    /// Whether the value is known as well as was asked for, if that was.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub met_within: Option<bool>,
+    /// Designs of which it is known whether they meet the limit.
+    pub decided: u32,
+    /// Of up to ten groups of neighbouring designs how many meet the limit, ascending in the parameter.
+    pub shares: Vec<ThresholdShare>,
+    /// What it is, in words.
+    pub message: String,
+}
+
+/// Neighbouring designs and how many of them meet the limit.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct ThresholdShare {
+    /// Smallest value of the parameter.
+    pub from: f64,
+    /// Largest value.
+    pub to: f64,
+    /// So many designs.
+    pub designs: u32,
+    /// So many of them meet the limit.
+    pub met: u32,
+    /// Share that the fitted curve expects to; absent where there is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub expected: Option<f64>,
+}
+
+/// What a campaign will do and cost.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct CampaignPlan {
+    /// Designs of `design`.
+    pub designs: u32,
+    /// Designs there are at most, with those that are added to decide on a threshold.
+    pub designs_at_most: u32,
+    /// Simulations of `designs`: one for every design and speed.
+    pub simulations: u32,
+    /// Whether the reduction that all rest on is there.
+    pub reduction: ReductionState,
+    /// Cost of `simulations`, each as dear as that of the scene before anything is changed; absent until the reduction is stored.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub estimate: Option<Estimate>,
+    /// The plan of that scene.
+    pub scene: SweepPlan,
+    /// The whole request as resolved, with the values of all designs.
+    pub settings: CampaignSettings,
+}
