@@ -3,6 +3,7 @@
 
 mod array;
 mod branches;
+mod campaign;
 mod campbell;
 mod critical_speeds;
 pub mod csv;

@@ -116,9 +116,10 @@ pub(super) async fn get_histories(
             };
             Forms::drawn_by(draw, figure).of_document(&state, download, &job, document).await
         }
-        JobRequest::ModalAnalysis(_) | JobRequest::ModelGeneration(_) | JobRequest::Branches(_) => {
-            Err(wrong_kind(&job, JobKind::CaseStudy))
-        }
+        JobRequest::ModalAnalysis(_)
+        | JobRequest::ModelGeneration(_)
+        | JobRequest::Branches(_)
+        | JobRequest::Campaign(_) => Err(wrong_kind(&job, JobKind::CaseStudy)),
     }
 }
 

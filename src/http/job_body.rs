@@ -5,7 +5,7 @@ use utoipa::ToSchema;
 
 use super::problem::Problem;
 use crate::analysis::request::{
-    BranchesSettings, CaseStudySettings, ModalAnalysisRequest, StudyRequest, SweepRequest,
+    BranchesSettings, CampaignSettings, CaseStudySettings, ModalAnalysisRequest, StudyRequest, SweepRequest,
 };
 use crate::analysis::result::ReductionReport;
 use crate::impeller::ImpellerParameters;
@@ -39,7 +39,7 @@ pub(super) struct JobBody {
     /// Id of the model it computes from; of a `model_generation`, the model it made, once it is successful.
     #[serde(skip_serializing_if = "Option::is_none")]
     model: Option<String>,
-    /// Its speeds, counted; a `model_generation` has none.
+    /// Its speeds, counted, of a campaign those of all designs; a `model_generation` has none.
     #[serde(skip_serializing_if = "Option::is_none")]
     speeds: Option<SpeedCounts>,
     /// Bytes that its results take in the data folder.
@@ -67,7 +67,7 @@ pub(super) struct JobDetail {
     /// The job.
     #[serde(flatten)]
     pub(super) job: JobBody,
-    /// What was asked for, with every default filled in, and with what `refine` has added so far.
+    /// What was asked for, with every default filled in, and with what `refine` or a threshold has added so far.
     pub(super) request: RequestBody,
     /// The settings that were chosen for it, once they are, of a job that asks for an accuracy or gives a budget.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -92,6 +92,8 @@ pub(super) enum RequestBody {
     CaseStudy(Box<CaseStudySettings>),
     /// Of branches.
     Branches(Box<BranchesSettings>),
+    /// Of a campaign.
+    Campaign(Box<CampaignSettings>),
     /// Of a generated model.
     ModelGeneration(Box<ImpellerParameters>),
 }
@@ -104,6 +106,7 @@ impl From<JobRequest> for RequestBody {
             JobRequest::Study(request) => Self::Study(Box::new((*request).into())),
             JobRequest::CaseStudy(case) => Self::CaseStudy(Box::new((*case).into())),
             JobRequest::Branches(branches) => Self::Branches(Box::new((*branches).into())),
+            JobRequest::Campaign(campaign) => Self::Campaign(Box::new((*campaign).into())),
             JobRequest::ModelGeneration(parameters) => Self::ModelGeneration(parameters),
         }
     }
@@ -116,7 +119,7 @@ pub(super) struct Link {
     #[schema(example = "/v1/jobs/0198c5a2-7c1e-7d54-9f3b-2f6d7a6f4b10/interaction-map")]
     href: String,
     /// What it is: `self`, `interaction-map`, `critical-speeds`, `wheel-critical-speeds`, `forces`, `spectra` (with a `{index}` to fill
-    /// in), `campbell`, `branches`, `work-precision`, `histories`, `report`, `archive` or `model`; where it is recorded, and not in lists of jobs,
+    /// in), `campbell`, `branches`, `campaign`, `work-precision`, `histories`, `report`, `archive` or `model`; where it is recorded, and not in lists of jobs,
     /// `stress` and `fields`.
     rel: &'static str,
 }
@@ -194,6 +197,7 @@ pub(super) fn links(
         JobKind::Study => &[("work-precision", "/work-precision"), ("histories", "/histories"), ARCHIVE],
         JobKind::CaseStudy => &[("histories", "/histories")],
         JobKind::Branches => &[("branches", "/branches")],
+        JobKind::Campaign => &[("campaign", "/campaign")],
     };
     let model = model.map(|model| Link { href: format!("/v1/models/{model}"), rel: "model" });
     [("self", "")]

@@ -4,6 +4,7 @@ mod access;
 pub mod archive;
 mod body;
 mod branches;
+mod campaigns;
 mod case_studies;
 mod casings;
 mod contract;

@@ -19,7 +19,7 @@ use utoipa_axum::routes;
 
 use super::state::AppState;
 use super::{
-    access, archive, body, branches, case_studies, casings, contract, events, extract, fields, forces,
+    access, archive, body, branches, campaigns, case_studies, casings, contract, events, extract, fields, forces,
     health, histories, host, jobs, maps, mesh, metrics, modal_analyses, models, modes, openapi, principal,
     problem, report, results, section, spectra, stream, stress, studies, sweeps, version, web, wheel,
 };
@@ -42,6 +42,8 @@ pub(super) fn routes() -> OpenApiRouter<AppState> {
         .routes(routes!(case_studies::create_case_study))
         .routes(routes!(branches::create_branches))
         .routes(routes!(branches::plan_branches))
+        .routes(routes!(campaigns::create_campaign))
+        .routes(routes!(campaigns::plan_campaign))
         .routes(routes!(jobs::list_jobs))
         .routes(routes!(jobs::get_job, jobs::label_job, jobs::delete_job))
         .routes(routes!(events::follow_job))
@@ -56,6 +58,7 @@ pub(super) fn routes() -> OpenApiRouter<AppState> {
         .routes(routes!(studies::get_work_precision))
         .routes(routes!(histories::get_histories, case_studies::create_histories))
         .routes(routes!(branches::get_branches))
+        .routes(routes!(campaigns::get_campaign))
         .routes(routes!(fields::get_fields))
         .routes(routes!(forces::get_forces))
         .routes(routes!(stress::get_stress))

@@ -95,7 +95,8 @@ fn chain(request: &JobRequest) -> Option<Vec<u32>> {
         | JobRequest::ModelGeneration(_)
         | JobRequest::Study(_)
         | JobRequest::CaseStudy(_)
-        | JobRequest::Branches(_) => None,
+        | JobRequest::Branches(_)
+        | JobRequest::Campaign(_) => None,
     }
 }
 

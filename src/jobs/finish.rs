@@ -1,40 +1,76 @@
-//! The end of a sweep: what can only be said of all its speeds together.
+//! The end of a job of speeds: what can only be said of all of them together.
 
 use super::engine::{Engine, Live};
 use super::error::Interruption;
 use super::patience::patiently;
 use super::progress::PhaseMonitor;
 use super::{control, histories};
-use crate::analysis::resolved::ResolvedSweep;
+use crate::analysis::resolved::{ResolvedCampaign, ResolvedSweep};
 use crate::analysis::result::Point;
 use crate::analysis::run;
 use crate::store::jobs::{Failure, FailureCause, JobRequest};
 use crate::store::results::Document;
 
-/// What to do with a sweep whose speeds are all finished: more speeds, where it asks for them around its peaks, or its
-/// critical speeds, with which it is successful.
-pub(super) async fn sweep(engine: &Engine, job: &Live, request: &ResolvedSweep) -> Result<(), Interruption> {
+/// What to do with a job whose speeds are all finished: more speeds, where it lacks them, or its end.
+pub(super) async fn speeds(engine: &Engine, job: &Live) -> Result<(), Interruption> {
     let points = engine.store.points(job.id).await?;
     if points.len() != job.speeds as usize {
         // Somebody else saw the last of them finished too, and has gone on with more.
         return Ok(());
     }
+    match &job.request {
+        JobRequest::Sweep(request) => sweep(engine, job, request, points).await,
+        JobRequest::Campaign(request) => campaign(engine, job, request, points).await,
+        _ => Ok(()),
+    }
+}
+
+/// More speeds of a sweep, where it asks for them around its peaks, or its critical speeds, with which it is successful.
+async fn sweep(
+    engine: &Engine,
+    job: &Live,
+    request: &ResolvedSweep,
+    points: Vec<Point>,
+) -> Result<(), Interruption> {
     if request.is_refined() {
         let (settings, finished) = (request.clone(), points.clone());
         if let Some(refined) =
             engine.computing.run(&job.watch, move || run::refine(&settings, &finished)).await?
         {
-            return more_speeds(engine, job, refined).await;
+            let speeds = refined.speeds().count();
+            return more_speeds(engine, job, JobRequest::Sweep(Box::new(refined)), speeds).await;
         }
     }
     conclude(engine, job, request, points).await
 }
 
-/// Goes on with a request that has more speeds. Who comes to the same speeds a second time changes nothing.
-async fn more_speeds(engine: &Engine, job: &Live, request: ResolvedSweep) -> Result<(), Interruption> {
-    let speeds = request.speeds().count();
-    let revised = engine.revise(job, JobRequest::Sweep(Box::new(request)), speeds).await?;
-    tracing::info!(job.id = %job.id, speeds, added = speeds - job.speeds, "refining");
+/// More designs of a campaign, where its answer is undecided, or its end.
+async fn campaign(
+    engine: &Engine,
+    job: &Live,
+    request: &ResolvedCampaign,
+    points: Vec<Point>,
+) -> Result<(), Interruption> {
+    let (asked, finished) = (request.clone(), points.clone());
+    if let Some(longer) =
+        engine.computing.run(&job.watch, move || run::more_designs(&asked, &finished)).await?
+    {
+        let simulations = longer.simulations();
+        return more_speeds(engine, job, JobRequest::Campaign(Box::new(longer)), simulations).await;
+    }
+    expect_completed(&points)?;
+    complete(engine, job, &[], None).await
+}
+
+/// Goes on with a request that has so many `speeds`, more than before. Who comes to the same speeds a second time changes nothing.
+async fn more_speeds(
+    engine: &Engine,
+    job: &Live,
+    request: JobRequest,
+    speeds: u32,
+) -> Result<(), Interruption> {
+    let revised = engine.revise(job, request, speeds).await?;
+    tracing::info!(job.id = %job.id, speeds, added = speeds - job.speeds, "goes on with more speeds");
     let added = job.speeds..revised.speeds;
     engine.tasks.run(revised.whose(), added);
     Ok(())
@@ -47,10 +83,7 @@ async fn conclude(
     request: &ResolvedSweep,
     points: Vec<Point>,
 ) -> Result<(), Interruption> {
-    if let Some(message) = run::nothing_completed(&points) {
-        let failure = Failure { cause: FailureCause::NothingCompleted, message, violations: Vec::new() };
-        return Err(Interruption::Failed(failure));
-    }
+    expect_completed(&points)?;
     let monitor = PhaseMonitor::uncounted(job.watch.clone());
     let reduced = engine
         .reductions
@@ -78,6 +111,17 @@ async fn conclude(
         documents.push((Document::Errors, serde_json::to_string(errors)?));
     }
     complete(engine, job, &documents, None).await
+}
+
+/// A job of which no speed was completed has failed.
+fn expect_completed(points: &[Point]) -> Result<(), Interruption> {
+    match run::nothing_completed(points) {
+        None => Ok(()),
+        Some(message) => {
+            let failure = Failure { cause: FailureCause::NothingCompleted, message, violations: Vec::new() };
+            Err(Interruption::Failed(failure))
+        }
+    }
 }
 
 /// Marks a job successful with the documents that conclude it, or the model it made.

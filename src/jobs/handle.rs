@@ -12,9 +12,11 @@ use super::pool::Panicked;
 use super::submission::Submission;
 use crate::analysis::error::{AnalysisError, Violation};
 use crate::analysis::monitor::Unwatched;
-use crate::analysis::request::{BranchesRequest, ModalAnalysisRequest, Sensor, SweepRequest};
-use crate::analysis::resolved::{Modes, ResolvedSweep};
-use crate::analysis::result::BranchesPlan;
+use crate::analysis::request::{
+    BranchesRequest, CampaignRequest, ModalAnalysisRequest, Sensor, SweepRequest,
+};
+use crate::analysis::resolved::{Modes, ResolvedCampaign, ResolvedSweep};
+use crate::analysis::result::{BranchesPlan, CampaignPlan};
 use crate::analysis::run::{self, ModalAnalysisPlan, PlacedSensor, ReducedSector, SweepPlan};
 use crate::impeller::{GenerationPlan, ImpellerError, ImpellerParameters, ImpellerRequest, plan_generation};
 use crate::package;
@@ -119,6 +121,11 @@ impl Jobs {
                 self.check(branches.sweep()).await?;
                 (JobRequest::Branches(Box::new(branches)), Some(facts))
             }
+            Submission::Campaign(request) => {
+                let (campaign, facts) = self.campaign(whose, *request).await?;
+                self.check(campaign.sweep()).await?;
+                (JobRequest::Campaign(Box::new(campaign)), Some(facts))
+            }
             Submission::Histories(of) => {
                 let (sweep, critical, request) = *of;
                 let facts = self.facts(whose, sweep.model()).await?;
@@ -182,6 +189,32 @@ impl Jobs {
         let (_, request) = both(placed, run::resolve_branches(request, &facts))?;
         let reduced = self.check(request.sweep()).await?;
         plans::branches(&self.engine, request, facts, reduced).await
+    }
+
+    /// The same for a campaign.
+    pub async fn plan_campaign(
+        &self,
+        whose: &Principal,
+        request: CampaignRequest,
+    ) -> Result<CampaignPlan, SubmitError> {
+        let (campaign, facts) = self.campaign(whose, request).await?;
+        let reduced = self.check(campaign.sweep()).await?;
+        plans::campaign(&self.engine, campaign, facts, reduced).await
+    }
+
+    /// Resolves a campaign against its model, all of its designs.
+    async fn campaign(
+        &self,
+        whose: &Principal,
+        mut request: CampaignRequest,
+    ) -> Result<(ResolvedCampaign, run::ModelFacts), SubmitError> {
+        let facts = self.facts(whose, &request.model).await?;
+        let placed = self.place(&request.model, &mut request.sensors).await?;
+        let held = facts.clone();
+        // Ten thousand designs take a second.
+        let resolved = self.engine.planner.run(move || run::resolve_campaign(request, &held)).await?;
+        let (_, campaign) = both(placed, resolved)?;
+        Ok((campaign, facts))
     }
 
     /// The same for a modal analysis.

@@ -8,10 +8,11 @@ use super::error::Interruption;
 use super::machine;
 use super::patience::patiently;
 use super::pool::Panicked;
-use crate::analysis::resolved::{ResolvedBranches, ResolvedModalAnalysis, ResolvedSweep};
-use crate::analysis::result::{BranchesPlan, Machine};
+use crate::analysis::resolved::{ResolvedBranches, ResolvedCampaign, ResolvedModalAnalysis, ResolvedSweep};
+use crate::analysis::result::{BranchesPlan, CampaignPlan, Machine};
 use crate::analysis::run::{self, Calibration, ModalAnalysisPlan, ModelFacts, ReducedSector, SweepPlan};
 use crate::store::StoreError;
+use crate::store::jobs::JobRequest;
 #[cfg(feature = "cluster")]
 use crate::store::machines::WorkerProcess;
 
@@ -37,6 +38,20 @@ pub(super) async fn branches<E: From<StoreError> + From<Panicked>>(
     let Capacity { machine, costs, .. } = capacity::<E>(engine).await?;
     let plan = move || run::plan_branches(&request, &facts, reduced.as_deref(), &costs);
     Ok(BranchesPlan { machine: Some(machine), ..engine.planner.run(plan).await? })
+}
+
+/// Plans a resolved campaign.
+pub(super) async fn campaign<E: From<StoreError> + From<Panicked>>(
+    engine: &Engine,
+    request: ResolvedCampaign,
+    facts: ModelFacts,
+    reduced: Option<Arc<ReducedSector>>,
+) -> Result<CampaignPlan, E> {
+    let Capacity { machine, costs, threads } = capacity::<E>(engine).await?;
+    let plan = move || run::plan_campaign(&request, &facts, reduced.as_deref(), &costs, threads);
+    let mut plan = engine.planner.run(plan).await?;
+    plan.scene.machine = Some(machine);
+    Ok(plan)
 }
 
 /// What computes a job.
@@ -73,12 +88,11 @@ pub(super) async fn modal_analysis(
     engine.planner.run(move || run::plan_modal_analysis(&request, &facts, reduced.as_deref())).await
 }
 
-/// Keeps the estimate of a sweep whose reduction is there, unless one was kept before. Refuses a sweep whose speeds take more
+/// Keeps the estimate of a job of speeds whose reduction is there, unless one was kept before. Refuses one whose speeds take more
 /// memory than there is.
 pub(super) async fn keep(
     engine: &Engine,
     job: &Live,
-    request: &ResolvedSweep,
     reduced: Arc<ReducedSector>,
 ) -> Result<(), Interruption> {
     let Some(stored) = engine.store.job(job.id).await? else { return Ok(()) };
@@ -86,8 +100,16 @@ pub(super) async fn keep(
         (_, Some(kept)) => kept,
         (None, None) => return Ok(()),
         (Some(facts), None) => {
-            let plan = sweep::<Interruption>(engine, request.clone(), facts, Some(reduced)).await?;
-            let Some(estimate) = plan.estimate else { return Ok(()) };
+            let estimate = match &job.request {
+                JobRequest::Sweep(request) => {
+                    sweep::<Interruption>(engine, *request.clone(), facts, Some(reduced)).await?.estimate
+                }
+                JobRequest::Campaign(request) => {
+                    campaign::<Interruption>(engine, *request.clone(), facts, Some(reduced)).await?.estimate
+                }
+                _ => None,
+            };
+            let Some(estimate) = estimate else { return Ok(()) };
             patiently(&job.watch, || engine.store.record_plan(job.id, &estimate)).await?;
             estimate
         }

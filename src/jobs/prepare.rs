@@ -23,7 +23,7 @@ pub(super) async fn prepare(engine: &Engine, id: JobId) -> Result<(), Interrupti
     match &job.request {
         JobRequest::Sweep(request) => {
             let job = choice::sweep(engine, Arc::clone(&job), request).await?;
-            prepare_sweep(engine, &job).await
+            prepare_speeds(engine, &job).await
         }
         JobRequest::ModalAnalysis(request) => {
             let job = choice::modal_analysis(engine, Arc::clone(&job), request).await?;
@@ -33,18 +33,25 @@ pub(super) async fn prepare(engine: &Engine, id: JobId) -> Result<(), Interrupti
         JobRequest::Study(request) => study::run(engine, &job, request).await,
         JobRequest::CaseStudy(case) => case_study::run(engine, &job, case).await,
         JobRequest::Branches(asked) => branches::run(engine, &job, asked).await,
+        JobRequest::Campaign(_) => prepare_speeds(engine, &job).await,
     }
 }
 
-async fn prepare_sweep(engine: &Engine, job: &Live) -> Result<(), Interruption> {
-    let JobRequest::Sweep(request) = &job.request else { return Ok(()) };
+/// Prepares a job whose speeds are tasks of their own.
+async fn prepare_speeds(engine: &Engine, job: &Live) -> Result<(), Interruption> {
+    let request = match &job.request {
+        JobRequest::Sweep(request) => request,
+        // All designs rest on the same reduction.
+        JobRequest::Campaign(campaign) => campaign.sweep(),
+        _ => return Ok(()),
+    };
     let monitor = PhaseMonitor::reduction_of_sweep(job.watch.clone());
     let reduced = engine.reductions.of_sweep(request, monitor).await?;
 
     let (checked, monitor) = (request.clone(), PhaseMonitor::uncounted(job.watch.clone()));
     let sector = Arc::clone(&reduced);
     engine.computing.run(&job.watch, move || run::check(&sector, &checked, &monitor)).await??;
-    plans::keep(engine, job, request, reduced).await?;
+    plans::keep(engine, job, reduced).await?;
 
     let finished = engine.store.finished_speeds(job.id).await?;
     let mut missing = job.chain.clone().unwrap_or_else(|| (0..job.speeds).collect());
@@ -56,7 +63,7 @@ async fn prepare_sweep(engine: &Engine, job: &Live) -> Result<(), Interruption> 
     job.watch.speeds_finished(finished.len() as u32, None);
     tracing::info!(job.id = %job.id, speeds = job.speeds, finished = finished.len(), "prepared");
     if missing.is_empty() {
-        return finish::sweep(engine, job, request).await;
+        return finish::speeds(engine, job).await;
     }
     engine.tasks.run(job.whose(), missing);
     Ok(())

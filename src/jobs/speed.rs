@@ -7,8 +7,9 @@ use super::error::Interruption;
 use super::finish;
 use super::patience::patiently;
 use super::progress::{PhaseMonitor, SpeedMonitor};
+use crate::analysis::error::AnalysisError;
 use crate::analysis::resolved::ResolvedSweep;
-use crate::analysis::result::{Point, Validity, ValidityVerdict};
+use crate::analysis::result::{Point, SpeedResult, Validity, ValidityVerdict};
 use crate::analysis::run;
 use crate::store::jobs::JobRequest;
 use crate::store::queue::RunSpeed;
@@ -17,14 +18,14 @@ use crate::store::results::PackedSpeed;
 /// Computes a speed and commits it; the one that finds itself last finishes the job.
 pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) -> Result<(), Interruption> {
     let Some(job) = engine.live(id).await? else { return Ok(()) };
-    let JobRequest::Sweep(request) = &job.request else { return Ok(()) };
     if engine.store.is_speed_finished(id, speed).await? {
         // What follows it may have been let down by the store the first time.
         let finished = engine.store.finished_speeds(id).await?.len();
-        return go_on(engine, &job, request, speed, finished as u32).await;
+        return go_on(engine, &job, speed, finished as u32).await;
     }
+    let Some((request, place)) = sweep_of(&job.request, speed)? else { return Ok(()) };
     let monitor = PhaseMonitor::uncounted(job.watch.clone());
-    let reduced = engine.reductions.of_sweep(request, monitor).await?;
+    let reduced = engine.reductions.of_sweep(&request, monitor).await?;
 
     let (before, _) = job.neighbours(speed);
     let start = match before {
@@ -33,9 +34,11 @@ pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) 
     };
     let bytes = job.speed_bytes.load(Ordering::Relaxed);
     let memory = engine.memory.hold(bytes).await.map_err(Interruption::speed_memory)?;
-    let (settings, monitor) = (request.clone(), SpeedMonitor::new(job.watch.clone(), speed));
+    let monitor = SpeedMonitor::new(job.watch.clone(), speed);
+    let keeps_all = matches!(job.request, JobRequest::Sweep(_));
     let compute = move || {
-        let result = run::run_speed(&reduced, &settings, speed as usize, start.as_ref(), &monitor)?;
+        let found = run::run_speed(&reduced, &request, place as usize, start.as_ref(), &monitor)?;
+        let result = if keeps_all { found } else { summary(found, speed) };
         let packed = PackedSpeed::of(&result)?;
         Ok::<_, Interruption>((result.point, packed, memory))
     };
@@ -60,7 +63,22 @@ pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) 
         validity = ?point.validity_verdict(), validity_lacking = ?point.validity_lacking(),
         "finished speed {finished}/{}", job.speeds
     );
-    go_on(engine, &job, request, speed, finished).await
+    go_on(engine, &job, speed, finished).await
+}
+
+/// The sweep that speed `speed` of a job belongs to, and its index there; none of a job whose speeds are no tasks of their own.
+fn sweep_of(request: &JobRequest, speed: u32) -> Result<Option<(ResolvedSweep, u32)>, Interruption> {
+    Ok(match request {
+        JobRequest::Sweep(request) => Some((*request.clone(), speed)),
+        JobRequest::Campaign(campaign) => Some(campaign.simulation(speed).map_err(AnalysisError::Refused)?),
+        _ => None,
+    })
+}
+
+/// What a campaign keeps of a speed: credentials and summary, under its index there. Whoever wants more of a design posts it as a sweep.
+fn summary(found: SpeedResult, index: u32) -> SpeedResult {
+    let point = Point { index, ..found.point };
+    SpeedResult { point, spectra: None, end_state: None, wear: None, contact: None }
 }
 
 /// Says once per job that linear theory has been left, by the worst number of the first speed that does.
@@ -77,15 +95,9 @@ fn warn_of_theory(job: &Live, point: &Point) {
 
 /// What follows a finished speed: the end of the job, if all are `finished` with it, or the next one of a chain. Harmless to
 /// repeat.
-async fn go_on(
-    engine: &Engine,
-    job: &Live,
-    request: &ResolvedSweep,
-    speed: u32,
-    finished: u32,
-) -> Result<(), Interruption> {
+async fn go_on(engine: &Engine, job: &Live, speed: u32, finished: u32) -> Result<(), Interruption> {
     if finished == job.speeds {
-        finish::sweep(engine, job, request).await?;
+        finish::speeds(engine, job).await?;
     } else if let (_, Some(next)) = job.neighbours(speed) {
         engine.tasks.run(job.whose(), [next]);
     }

@@ -108,7 +108,7 @@ pub fn interaction_map(
     }
 }
 
-/// How the speeds of a finished sweep ended, in words, if none of them was completed.
+/// How all speeds ended, in words, if none of them was completed.
 pub fn nothing_completed(points: &[Point]) -> Option<String> {
     if points.iter().any(|point| point.status == PointStatus::Completed) {
         return None;
@@ -116,8 +116,8 @@ pub fn nothing_completed(points: &[Point]) -> Option<String> {
     let diverged = points.iter().filter(|point| point.status == PointStatus::Diverged).count();
     let first = points.iter().min_by_key(|point| point.index)?;
     Some(format!(
-        "none of the {} speeds was completed: {diverged} diverged, {} could not be integrated; at {:.6} rad/s {}; the points of the \
-         interaction map say it of every speed",
+        "none of the {} speeds was completed: {diverged} diverged, {} could not be integrated; at {:.6} rad/s {}; the results so far \
+         say it of every speed",
         points.len(),
         points.len() - diverged,
         first.speed_rad_s,

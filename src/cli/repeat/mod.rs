@@ -79,7 +79,7 @@ async fn repeat(archived: &Archive, client: &Client, folder: &Path, to: &Path) -
         JobKind::Sweep => "/v1/sweeps",
         JobKind::ModalAnalysis => "/v1/modal-analyses",
         JobKind::Study => "/v1/studies",
-        JobKind::ModelGeneration | JobKind::CaseStudy | JobKind::Branches => {
+        JobKind::ModelGeneration | JobKind::CaseStudy | JobKind::Branches | JobKind::Campaign => {
             bail!("jobs of this kind are not repeated from an archive")
         }
     };

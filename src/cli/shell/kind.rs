@@ -13,6 +13,8 @@ pub(super) enum Kind {
     CaseStudy,
     /// Periodic responses over speed, clearance, lobes or damping
     Branches,
+    /// Contact over a range of speeds, of many designs of a scene
+    Campaign,
     /// What accuracy costs in time
     Study,
     /// A model from the parameters of the generator
@@ -27,6 +29,7 @@ impl Kind {
             Self::ModalAnalysis => "/v1/modal-analyses",
             Self::CaseStudy => "/v1/case-studies",
             Self::Branches => "/v1/branches",
+            Self::Campaign => "/v1/campaigns",
             Self::Study => "/v1/studies",
             Self::ModelGeneration => "/v1/models",
         }
@@ -39,6 +42,7 @@ impl Kind {
             Self::ModalAnalysis => "modal_analysis",
             Self::CaseStudy => "case_study",
             Self::Branches => "branches",
+            Self::Campaign => "campaign",
             Self::Study => "study",
             Self::ModelGeneration => "model_generation",
         }

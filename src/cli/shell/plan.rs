@@ -8,7 +8,8 @@ use clap::{Args, ValueEnum};
 use super::kind::Kind;
 use super::submit::RequestArgs;
 use crate::analysis::result::{
-    BranchesPlan, Estimate, Machine, ModalAnalysisPlan, PlannedEffect, ReductionState, SweepPlan,
+    BranchesPlan, CampaignPlan, Estimate, Machine, ModalAnalysisPlan, PlannedEffect, ReductionState,
+    SweepPlan,
 };
 use crate::cli::client::{Client, ServerArgs};
 use crate::cli::size::size;
@@ -23,7 +24,7 @@ pub(in crate::cli) struct PlanArgs {
     request: RequestArgs,
     /// What would be computed
     #[arg(long, default_value = "sweep", value_parser =
-        PossibleValuesParser::new(["sweep", "modal-analysis", "branches", "model-generation"]).try_map(|kind| Kind::from_str(&kind, false)))]
+        PossibleValuesParser::new(["sweep", "modal-analysis", "branches", "campaign", "model-generation"]).try_map(|kind| Kind::from_str(&kind, false)))]
     kind: Kind,
     /// Print the plan as JSON
     #[arg(long)]
@@ -50,6 +51,7 @@ impl Verb for PlanArgs {
         let words = match self.kind {
             Kind::ModalAnalysis => modal_analysis(&client.post(&path, &body).await?),
             Kind::Branches => branches(&client.post(&path, &body).await?),
+            Kind::Campaign => campaign(&client.post(&path, &body).await?),
             Kind::ModelGeneration => generation(&client.post(&path, &body).await?),
             _ => sweep(&client.post(&path, &body).await?),
         };
@@ -97,6 +99,26 @@ fn branches(plan: &BranchesPlan) -> String {
         let _ = writeln!(words, "not         {message}");
     }
     warnings(words, &plan.warnings)
+}
+
+fn campaign(plan: &CampaignPlan) -> String {
+    let mut words = effects(&plan.scene.effects);
+    let more = match plan.designs_at_most - plan.designs {
+        0 => String::new(),
+        _ => format!(", at most {}", plan.designs_at_most),
+    };
+    let _ = writeln!(
+        words,
+        "designs     {}{more}, {} speeds each: {} simulations",
+        plan.designs, plan.scene.speeds, plan.simulations
+    );
+    times_of(&mut words, plan.scene.machine.as_ref());
+    reduction(&mut words, plan.reduction, plan.scene.reduced_unknowns_at_most);
+    if let Some(estimate) = &plan.estimate {
+        cost(&mut words, estimate, ["", ""]);
+        let _ = writeln!(words, "steps       {:.3} million", estimate.steps as f64 / 1e6);
+    }
+    warnings(words, &plan.scene.warnings)
 }
 
 fn times_of(words: &mut String, machine: Option<&Machine>) {

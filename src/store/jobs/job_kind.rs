@@ -21,6 +21,8 @@ pub enum JobKind {
     CaseStudy,
     /// Periodic responses over a number of their scene.
     Branches,
+    /// Contact simulations over speeds, of many designs of a scene.
+    Campaign,
 }
 
 impl JobKind {
@@ -33,6 +35,7 @@ impl JobKind {
             Self::Study => "study",
             Self::CaseStudy => "case_study",
             Self::Branches => "branches",
+            Self::Campaign => "campaign",
         }
     }
 
@@ -45,6 +48,7 @@ impl JobKind {
             Self::Study,
             Self::CaseStudy,
             Self::Branches,
+            Self::Campaign,
         ];
         let kind = kinds.into_iter().find(|kind| kind.as_str() == text);
         kind.ok_or_else(|| StoreError::Unknown { column: "jobs.kind", value: text.to_owned() })

@@ -6,7 +6,8 @@ use serde::{Deserialize, Serialize};
 use super::job_kind::JobKind;
 use crate::analysis::error::Violation;
 use crate::analysis::resolved::{
-    ResolvedBranches, ResolvedCaseStudy, ResolvedModalAnalysis, ResolvedStudy, ResolvedSweep,
+    ResolvedBranches, ResolvedCampaign, ResolvedCaseStudy, ResolvedModalAnalysis, ResolvedStudy,
+    ResolvedSweep,
 };
 use crate::impeller::ImpellerParameters;
 use crate::store::error::StoreError;
@@ -26,6 +27,8 @@ pub enum JobRequest {
     CaseStudy(Box<ResolvedCaseStudy>),
     /// Periodic responses over a number of their scene.
     Branches(Box<ResolvedBranches>),
+    /// Contact simulations over speeds, of many designs of a scene.
+    Campaign(Box<ResolvedCampaign>),
 }
 
 /// Version of the form in which requests are kept; a change of it needs a migration.
@@ -50,6 +53,7 @@ impl JobRequest {
             Self::Study(_) => JobKind::Study,
             Self::CaseStudy(_) => JobKind::CaseStudy,
             Self::Branches(_) => JobKind::Branches,
+            Self::Campaign(_) => JobKind::Campaign,
         }
     }
 
@@ -67,10 +71,11 @@ impl JobRequest {
             Self::Study(request) => Some(request.model()),
             Self::CaseStudy(case) => Some(case.sweep().model()),
             Self::Branches(branches) => Some(branches.sweep().model()),
+            Self::Campaign(campaign) => Some(campaign.sweep().model()),
         }
     }
 
-    /// How many speeds it has by now.
+    /// How many speeds it has by now, of all its designs together.
     pub fn speeds(&self) -> u32 {
         match self {
             Self::Sweep(request) => request.speeds().count(),
@@ -79,6 +84,7 @@ impl JobRequest {
             Self::Study(request) => request.speeds().count(),
             Self::CaseStudy(case) => case.speeds().len() as u32,
             Self::Branches(branches) => branches.sweep().speeds().count(),
+            Self::Campaign(campaign) => campaign.simulations(),
         }
     }
 
@@ -89,6 +95,7 @@ impl JobRequest {
             Self::ModalAnalysis(request) => request.modes().given(),
             Self::CaseStudy(case) => case.sweep().modes().given(),
             Self::Branches(branches) => branches.sweep().modes().given(),
+            Self::Campaign(campaign) => campaign.sweep().modes().given(),
             Self::ModelGeneration(_) | Self::Study(_) => None,
         }
     }
@@ -101,6 +108,7 @@ impl JobRequest {
             Self::Study(request) => kept(request, 0),
             Self::CaseStudy(case) => kept(case, case.sweep().speeds().rounds()),
             Self::Branches(branches) => kept(branches, 0),
+            Self::Campaign(campaign) => kept(campaign, 0),
         }
     }
 
@@ -120,6 +128,9 @@ impl JobRequest {
             }
             JobKind::Branches => {
                 Self::Branches(Box::new(ResolvedBranches::stored(read(json)?.0).map_err(unsound)?))
+            }
+            JobKind::Campaign => {
+                Self::Campaign(Box::new(ResolvedCampaign::stored(read(json)?.0).map_err(unsound)?))
             }
             JobKind::ModelGeneration => Self::ModelGeneration(read(json)?.0),
         })

@@ -2,8 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::request::CampaignSettings;
+use crate::request::{CampaignSettings, Severity};
 use crate::result::plan::{Estimate, ReductionState, Spent, SweepPlan};
+use crate::result::stress::stress_unit;
 use rubmap_wheel::dynamics::sector::Units;
 
 /// All designs of a campaign and what they say together, as far as it has come.
@@ -162,4 +163,14 @@ pub struct CampaignPlan {
     pub scene: SweepPlan,
     /// The whole request as resolved, with the values of all designs.
     pub settings: CampaignSettings,
+}
+
+/// What a severity is measured in, of a model with these units; empty for a ratio.
+pub fn severity_unit(severity: Severity, units: &Units) -> String {
+    match severity {
+        Severity::Amplitude | Severity::Tip | Severity::Wear => units.length.clone(),
+        Severity::ContactForce => units.force.clone(),
+        Severity::Stress => stress_unit(units),
+        Severity::Utilisation => String::new(),
+    }
 }

@@ -29,7 +29,7 @@ pub use branches::{
 };
 pub use campaign::{
     Campaign, CampaignDesign, CampaignPlan, CampaignThreshold, ParameterSensitivity, Sensitivities,
-    ThresholdShare,
+    ThresholdShare, severity_unit,
 };
 pub use campbell::{AbsoluteFrequencies, Campbell, WaveTables};
 pub use choice::{Choice, ModesChoice, Pilot, TriedModes};
