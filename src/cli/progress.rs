@@ -17,10 +17,11 @@ pub(super) async fn follow_any(client: &Client, id: &str, name: &str) -> anyhow:
 
 /// Counts as soon as there is something to count; before that, what is being prepared. Of a job that did not end well, that.
 fn words(job: &Job) -> String {
-    use crate::store::status::JobStatus::{Accepted, Dismissed, Failed, Running, Successful};
+    use crate::store::status::JobStatus::{Accepted, Dismissed, Failed, Paused, Running, Successful};
 
     match job.status {
         Accepted => "waiting".to_owned(),
+        Paused => "paused".to_owned(),
         Failed => "failed".to_owned(),
         Dismissed => "cancelled".to_owned(),
         Running | Successful if job.speeds.finished == 0 && !job.phase.is_empty() => job.phase.clone(),

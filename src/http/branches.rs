@@ -138,7 +138,7 @@ pub(super) async fn get_branches(
     let legs = state.store.legs(id).await?;
     if legs == 0 {
         let kind = match job.status {
-            JobStatus::Accepted | JobStatus::Running => Kind::ResultNotReady,
+            JobStatus::Accepted | JobStatus::Running | JobStatus::Paused => Kind::ResultNotReady,
             _ => Kind::ResultUnavailable,
         };
         return Err(Problem::new(

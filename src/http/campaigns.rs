@@ -3,14 +3,16 @@
 use axum::Json;
 use axum::extract::State;
 use axum::response::Response;
+use serde::Deserialize;
 use tokio::runtime::Handle;
+use utoipa::IntoParams;
 
 use super::download::{Download, DownloadQuery, lasting};
-use super::extract::{JobPath, JsonBody};
+use super::extract::{JobPath, JsonBody, Parameters};
 use super::forms::{Forms, READ_MEMORY};
 use super::idempotency::IdempotencyKey;
 use super::labels::Labelled;
-use super::problem::Problem;
+use super::problem::{Problem, excerpt};
 use super::results::{find, wrong_kind};
 use super::state::AppState;
 use super::submit::{self, Receipt};
@@ -18,6 +20,7 @@ use crate::analysis::request::CampaignRequest;
 use crate::analysis::result::{Campaign, CampaignPlan};
 use crate::analysis::run;
 use crate::jobs::Submission;
+use crate::plot;
 use crate::store::jobs::{JobKind, JobRequest};
 use crate::tokens::Principal;
 
@@ -104,12 +107,21 @@ pub(super) async fn plan_campaign(
     Ok(Json(state.jobs.plan_campaign(&whose, body.value.parts()?.0).await?))
 }
 
+/// What to draw of a campaign.
+#[derive(Debug, Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+pub(super) struct CampaignQuery {
+    /// Of the drawing: name of the parameter that stands beside the speed; default: that of the threshold, or else the first.
+    #[param(max_length = 64)]
+    parameter: Option<String>,
+}
+
 /// Download what a campaign says, finished or not.
 ///
 /// While the job runs, it is what the simulations finished so far say together. In csv a line is a design; npz has severities as `by_speed`,
 /// `[design][speed]`.
 #[utoipa::path(get, path = "/v1/jobs/{id}/campaign", operation_id = "get_campaign", tag = "results",
-    params(("id" = String, Path, description = "Id of a campaign."), DownloadQuery),
+    params(("id" = String, Path, description = "Id of a campaign."), CampaignQuery, DownloadQuery),
     responses(
         (status = 200, description = "The campaign.", body = Campaign),
         (status = 400, description = "A parameter is not valid.", body = Problem,
@@ -123,11 +135,19 @@ pub(super) async fn get_campaign(
     state: State<AppState>,
     whose: Principal,
     JobPath(id): JobPath,
+    Parameters(query): Parameters<CampaignQuery>,
     download: Download,
 ) -> Result<Response, Problem> {
     let job = find(&state, &whose, id).await?;
     let (JobRequest::Campaign(asked), Some(facts)) = (&job.request, &job.facts) else {
         return Err(wrong_kind(&job, JobKind::Campaign));
+    };
+    let named = query.parameter.as_deref().or(asked.threshold_parameter());
+    let parameter = match named {
+        None => 0,
+        Some(name) => asked.parameter(name).ok_or_else(|| {
+            Problem::parameter("parameter", format!("the campaign has no parameter {:?}", excerpt(name)))
+        })?,
     };
     let (asked, units, plan) = (asked.clone(), facts.units.clone(), job.plan.clone());
     let (store, runtime) = (state.store.clone(), Handle::current());
@@ -135,5 +155,9 @@ pub(super) async fn get_campaign(
         let points = runtime.block_on(store.points(id))?;
         Ok(Campaign { plan, ..run::campaign(&asked, &units, &points) })
     };
-    Forms::undrawn().answer(&state, download, lasting(&job), READ_MEMORY * job.stored_bytes, read).await
+    let draw = move |campaign: &Campaign| plot::campaign(campaign, parameter);
+    let figure = move |campaign: &Campaign| plot::figure::campaign(campaign, parameter);
+    Forms::drawn_by(draw, figure)
+        .answer(&state, download, lasting(&job), READ_MEMORY * job.stored_bytes, read)
+        .await
 }

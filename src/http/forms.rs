@@ -174,7 +174,7 @@ async fn stored_bytes(state: &AppState, job: &Job, document: Document) -> Result
         _ => "",
     };
     Err(match job.status {
-        JobStatus::Accepted | JobStatus::Running => {
+        JobStatus::Accepted | JobStatus::Running | JobStatus::Paused => {
             Problem::new(Kind::ResultNotReady, format!("the job is at {} %{instead}", job.progress))
         }
         JobStatus::Successful => {

@@ -11,7 +11,7 @@ use super::extract::{JobPath, MergePatch, Parameters, job_not_found};
 use super::job_body::{JobBody, JobDetail};
 use super::labels::LabelPatch;
 use super::page;
-use super::problem::Problem;
+use super::problem::{Kind, Problem};
 use super::results::find;
 use super::state::AppState;
 use crate::jobs::Cancellation;
@@ -154,6 +154,64 @@ pub(super) async fn label_job(
         return Err(job_not_found(&id));
     }
     get_job(state, whose, JobPath(id)).await
+}
+
+/// Set a job aside.
+///
+/// Computing stops within moments; what is finished stays and can be read. `POST /v1/jobs/{id}/continue` goes on where it was, also after
+/// the service was stopped in between. A job that is set aside already stays so.
+#[utoipa::path(post, path = "/v1/jobs/{id}/pause", operation_id = "pause_job", tag = "jobs",
+    params(("id" = String, Path, description = "Id of the job.")),
+    responses(
+        (status = 200, description = "The job, which is set aside.", body = JobDetail),
+        (status = 404, description = "There is no such job.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 409, description = "The job has ended.", body = Problem,
+            content_type = "application/problem+json"),
+    ))]
+pub(super) async fn pause_job(
+    state: State<AppState>,
+    whose: Principal,
+    JobPath(id): JobPath,
+) -> Result<Json<JobDetail>, Problem> {
+    set_paused(state, whose, id, true).await
+}
+
+/// Let a job go on that was set aside.
+///
+/// It waits for its turn as a new one does, and computes nothing again that was finished. A job that was not set aside goes on as it did.
+#[utoipa::path(post, path = "/v1/jobs/{id}/continue", operation_id = "continue_job", tag = "jobs",
+    params(("id" = String, Path, description = "Id of the job.")),
+    responses(
+        (status = 200, description = "The job, which waits for its turn or is computed.", body = JobDetail),
+        (status = 404, description = "There is no such job.", body = Problem,
+            content_type = "application/problem+json"),
+        (status = 409, description = "The job has ended.", body = Problem,
+            content_type = "application/problem+json"),
+    ))]
+pub(super) async fn continue_job(
+    state: State<AppState>,
+    whose: Principal,
+    JobPath(id): JobPath,
+) -> Result<Json<JobDetail>, Problem> {
+    set_paused(state, whose, id, false).await
+}
+
+async fn set_paused(
+    state: State<AppState>,
+    whose: Principal,
+    id: JobId,
+    paused: bool,
+) -> Result<Json<JobDetail>, Problem> {
+    find(&state, &whose, id).await?;
+    match state.jobs.set_paused(id, paused).await? {
+        None => Err(job_not_found(&id)),
+        Some(status) if status.is_final() => {
+            let detail = format!("the job is {}: it cannot be set aside or go on any more", status.as_str());
+            Err(Problem::new(Kind::JobEnded, detail))
+        }
+        Some(_) => get_job(state, whose, JobPath(id)).await,
+    }
 }
 
 /// What of a job is to go.

@@ -110,6 +110,8 @@ kinds! {
     ModelNotFound = NOT_FOUND, "model-not-found", "There is no such model";
     /// No such job.
     JobNotFound = NOT_FOUND, "job-not-found", "There is no such job";
+    /// The job has ended.
+    JobEnded = CONFLICT, "job-ended", "The job has ended";
     /// No such speed in the job, or none computed.
     SpeedNotFound = NOT_FOUND, "speed-not-found", "There is no such speed";
     /// The model has no such reduction, or its basis is gone.

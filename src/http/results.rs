@@ -178,7 +178,9 @@ pub(super) async fn find(state: &AppState, whose: &Principal, id: JobId) -> Resu
 pub(super) fn expect_successful(job: &Job, instead: &str) -> Result<(), Problem> {
     let (kind, how) = match job.status {
         JobStatus::Successful => return Ok(()),
-        JobStatus::Accepted | JobStatus::Running => (Kind::ResultNotReady, format!("at {} %", job.progress)),
+        JobStatus::Accepted | JobStatus::Running | JobStatus::Paused => {
+            (Kind::ResultNotReady, format!("at {} %", job.progress))
+        }
         JobStatus::Failed | JobStatus::Dismissed => (Kind::ResultUnavailable, job.status.as_str().to_owned()),
     };
     Err(Problem::new(kind, format!("the job is {how}; {instead}")))

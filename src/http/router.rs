@@ -46,6 +46,8 @@ pub(super) fn routes() -> OpenApiRouter<AppState> {
         .routes(routes!(campaigns::plan_campaign))
         .routes(routes!(jobs::list_jobs))
         .routes(routes!(jobs::get_job, jobs::label_job, jobs::delete_job))
+        .routes(routes!(jobs::pause_job))
+        .routes(routes!(jobs::continue_job))
         .routes(routes!(events::follow_job))
         .routes(routes!(archive::get_archive))
         .routes(routes!(report::get_report))

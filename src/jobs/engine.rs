@@ -143,7 +143,7 @@ impl Engine {
             return Ok(None);
         };
         let JobHead { owner, status, speeds, .. } = head;
-        if status.is_final() {
+        if !status.wants_work() {
             self.forget(id);
             return Ok(None);
         }
@@ -155,8 +155,8 @@ impl Engine {
         let speed_bytes = AtomicU64::new(plan.map_or(0, |plan| plan.speed_memory_bytes));
         let live = Live { id, owner, request, speeds: speeds.total, chain, speed_bytes, watch };
         let live = self.keep(live);
-        // A dismissal between the two lines above found nobody to tell.
-        if self.store.job(id).await?.is_none_or(|job| job.status.is_final()) {
+        // A dismissal or a pause between the two lines above found nobody to tell.
+        if self.store.job(id).await?.is_none_or(|job| !job.status.wants_work()) {
             self.forget(id);
             return Ok(None);
         }
@@ -217,7 +217,7 @@ impl Engine {
         self.revise(job, request, job.speeds).await
     }
 
-    /// Stops all computations of a job that has become final and drops its waiting tasks.
+    /// Stops all computations of a job that wants no work any more, or none for now, and drops its waiting tasks.
     pub(super) fn retire(&self, id: JobId) {
         self.tasks.withdraw(id);
         self.computing.acquit(id);
@@ -279,14 +279,14 @@ impl Engine {
         self.lock_live().keys().copied().collect()
     }
 
-    /// Ends what is computed for a job in memory that has ended elsewhere.
+    /// Ends what is computed for a job in memory that has ended or was paused elsewhere.
     #[cfg(feature = "cluster")]
     pub(super) async fn look_at(&self, id: JobId) {
         if !self.lock_live().contains_key(&id) {
             return;
         }
         if let Ok(found) = self.store.job(id).await
-            && found.is_none_or(|job| job.status.is_final())
+            && found.is_none_or(|job| !job.status.wants_work())
         {
             self.retire(id);
         }

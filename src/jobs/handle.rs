@@ -309,6 +309,27 @@ impl Jobs {
         }
     }
 
+    /// Sets a job aside, or lets it go on where it was: what is finished of it stays. Returns the status it has now, which is another
+    /// one where it has ended; `None` if there is no such job.
+    pub async fn set_paused(&self, id: JobId, paused: bool) -> Result<Option<JobStatus>, StoreError> {
+        let store = &self.engine.store;
+        if paused {
+            let status = store.pause_job(id).await?;
+            if status == Some(JobStatus::Paused) {
+                self.engine.retire(id);
+                tracing::info!(job.id = %id, "paused");
+            }
+            return Ok(status);
+        }
+        let before = store.job(id).await?;
+        let status = store.advance_job(id, JobStatus::Accepted, None).await?;
+        if let (Some(JobStatus::Accepted), Some(job)) = (status, before) {
+            self.engine.tasks.prepare(&job.owner, id);
+            tracing::info!(job.id = %id, "goes on");
+        }
+        Ok(status)
+    }
+
     /// Deletes a finished job with its results, whose room is given back soon after.
     pub async fn delete(&self, id: JobId) -> Result<JobDeletion, StoreError> {
         let deletion = self.engine.store.delete_job(id).await?;

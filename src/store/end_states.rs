@@ -36,7 +36,7 @@ pub(super) async fn replace(
     let Some(state) = state else { return Ok(()) };
     sqlx::query(
         "insert into end_states (job, speed, state)
-         select $1, $2, $3 where exists (select 1 from jobs where id = $1 and status in ('accepted', 'running'))",
+         select $1, $2, $3 where exists (select 1 from jobs where id = $1 and status in ('accepted', 'running', 'paused'))",
     )
     .bind(job.to_string())
     .bind(i64::from(speed))

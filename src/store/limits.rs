@@ -62,7 +62,7 @@ impl Limits {
     ) -> Result<Result<(), LimitReached>, StoreError> {
         if let Some(limit) = self.queued_speeds {
             let sql = "select cast(coalesce(sum(case when speeds > finished then speeds - finished else 1 end), 0) as bigint) from jobs
-                       where owner = $1 and status in ('accepted', 'running')";
+                       where owner = $1 and status in ('accepted', 'running', 'paused')";
             let queued = count(connection, sql, owner).await?;
             if queued + asked > limit {
                 return Ok(Err(LimitReached::QueuedSpeeds { queued, asked, limit }));
@@ -94,7 +94,7 @@ impl Limits {
         let Some(limit) = self.models else { return Ok(Ok(())) };
         let sql = "select (select count(*) from model_owners where owner = $1)
                    + (select count(*) from jobs where owner = $1 and kind = 'model_generation'
-                      and status in ('accepted', 'running'))";
+                      and status in ('accepted', 'running', 'paused'))";
         let models = count(connection, sql, owner).await?;
         Ok(if models >= limit { Err(LimitReached::Models { models, limit }) } else { Ok(()) })
     }

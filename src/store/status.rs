@@ -13,6 +13,8 @@ pub enum JobStatus {
     Accepted,
     /// Being computed.
     Running,
+    /// Set aside by the user until it is told to go on; what is finished stays.
+    Paused,
     /// Finished; each speed says how it ended, and at least one was completed.
     Successful,
     /// Could not be computed, or none of its speeds was completed; `error` says why. Speeds finished before stay readable.
@@ -23,19 +25,25 @@ pub enum JobStatus {
 
 impl JobStatus {
     /// All statuses.
-    pub const ALL: [Self; 5] =
-        [Self::Accepted, Self::Running, Self::Successful, Self::Failed, Self::Dismissed];
+    pub const ALL: [Self; 6] =
+        [Self::Accepted, Self::Running, Self::Paused, Self::Successful, Self::Failed, Self::Dismissed];
 
     /// Whether nothing follows any more.
     pub fn is_final(self) -> bool {
         matches!(self, Self::Successful | Self::Failed | Self::Dismissed)
     }
 
+    /// Whether it is to be computed as soon as it is its turn.
+    pub fn wants_work(self) -> bool {
+        matches!(self, Self::Accepted | Self::Running)
+    }
+
     /// The transition table. A running job that a restart finds stays `running`; it is only queued again.
     pub fn may_become(self, next: Self) -> bool {
         match self {
-            Self::Accepted => matches!(next, Self::Running | Self::Failed | Self::Dismissed),
-            Self::Running => matches!(next, Self::Successful | Self::Failed | Self::Dismissed),
+            Self::Accepted => matches!(next, Self::Running | Self::Paused | Self::Failed | Self::Dismissed),
+            Self::Running => matches!(next, Self::Paused | Self::Successful | Self::Failed | Self::Dismissed),
+            Self::Paused => matches!(next, Self::Accepted | Self::Dismissed),
             Self::Successful | Self::Failed | Self::Dismissed => false,
         }
     }
@@ -45,6 +53,7 @@ impl JobStatus {
         match self {
             Self::Accepted => "accepted",
             Self::Running => "running",
+            Self::Paused => "paused",
             Self::Successful => "successful",
             Self::Failed => "failed",
             Self::Dismissed => "dismissed",
@@ -61,17 +70,21 @@ impl JobStatus {
 
 #[cfg(test)]
 mod tests {
-    use super::JobStatus::{self, Accepted, Dismissed, Failed, Running, Successful};
+    use super::JobStatus::{self, Accepted, Dismissed, Failed, Paused, Running, Successful};
 
     #[test]
     fn the_whole_table() {
         let allowed = [
             (Accepted, Running),
+            (Accepted, Paused),
             (Accepted, Failed),
             (Accepted, Dismissed),
+            (Running, Paused),
             (Running, Successful),
             (Running, Failed),
             (Running, Dismissed),
+            (Paused, Accepted),
+            (Paused, Dismissed),
         ];
         for from in JobStatus::ALL {
             for to in JobStatus::ALL {

@@ -6,6 +6,7 @@ mod archive;
 mod beside;
 mod bodies;
 mod branches;
+mod campaigns;
 mod case_studies;
 mod casings;
 mod chains;

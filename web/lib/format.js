@@ -84,6 +84,7 @@ export const KINDS = {
   study: 'Study',
   case_study: 'Case study',
   branches: 'Branches',
+  campaign: 'Campaign',
 };
 
 /** What a job is called: its name, or its kind, when it was posted, and the end of its id. */

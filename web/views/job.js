@@ -12,6 +12,7 @@ import { actions } from './job/actions.js';
 export const STATUSES = {
   accepted: 'waiting',
   running: 'running',
+  paused: 'paused',
   successful: 'done',
   failed: 'failed',
   dismissed: 'cancelled',
@@ -39,6 +40,7 @@ const TABS = {
     ['fields', 'Wheel in 3D', () => import('./job/fields.js')],
   ],
   branches: [['branches', 'Branches', () => import('./job/branches.js')]],
+  campaign: [['campaign', 'Campaign', () => import('./job/campaign.js')]],
 };
 const FOR_ALL = [
   ['credentials', 'Credentials', () => import('./job/credentials.js')],
@@ -143,5 +145,5 @@ function stateView(element, signal) {
 }
 
 function running(job) {
-  return job.status === 'running' || job.status === 'accepted';
+  return !ended(job);
 }

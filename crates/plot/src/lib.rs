@@ -33,6 +33,7 @@
 mod axis;
 mod branch_line;
 mod branches;
+mod campaign;
 mod campbell;
 mod campbell_fixed_frame;
 mod cells;
@@ -79,6 +80,7 @@ mod window;
 mod work_precision;
 
 pub use branches::branches;
+pub use campaign::campaign;
 pub use campbell::campbell;
 pub use campbell_fixed_frame::campbell_fixed_frame;
 pub use critical_speeds::critical_speeds;

@@ -63,6 +63,11 @@ impl Store {
         self.with_reserve(|| self.advance_job(id, JobStatus::Dismissed, None)).await
     }
 
+    /// Sets a job aside, on a full disk as well. Returns the status it has now; `None` if there is no such job.
+    pub async fn pause_job(&self, id: JobId) -> Result<Option<JobStatus>, StoreError> {
+        self.with_reserve(|| self.advance_job(id, JobStatus::Paused, None)).await
+    }
+
     /// Takes a job in hand on a processor with this kind of vectors; of other numerics it is unwanted here.
     pub async fn begin_job(&self, id: JobId, vectors: &str) -> Result<Begun, StoreError> {
         let mut write = self.write().await?;

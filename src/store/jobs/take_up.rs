@@ -65,7 +65,7 @@ impl Store {
     /// as well, whose jobs are left to them. Settings that
     /// were chosen and speeds that were added before stay, as if they had been asked for. For a service that starts.
     pub async fn restart_outdated(&self) -> Result<(), StoreError> {
-        const OUTDATED: &str = "status in ('accepted', 'running') and (revision < $1 or $2 is not null and (revision > $1 or one_kind = 1 and vectors <> $2))";
+        const OUTDATED: &str = "status in ('accepted', 'running', 'paused') and (revision < $1 or $2 is not null and (revision > $1 or one_kind = 1 and vectors <> $2))";
         let own = (self.dialect == Dialect::Sqlite).then(vectors);
         let any = format!("select id from jobs where {OUTDATED} limit 1");
         let any = sqlx::query(AssertSqlSafe(any)).bind(i64::from(REVISION)).bind(&own);

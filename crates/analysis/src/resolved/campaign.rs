@@ -57,11 +57,20 @@ impl ResolvedCampaign {
         Ok((ResolvedSweep::stored(sweep, 0)?, speed))
     }
 
+    /// Index of the parameter of this name.
+    pub fn parameter(&self, name: &str) -> Option<usize> {
+        self.settings.parameters.iter().position(|parameter| parameter.name == name)
+    }
+
+    /// Name of the parameter whose threshold is asked for.
+    pub fn threshold_parameter(&self) -> Option<&str> {
+        Some(&self.settings.threshold.as_ref()?.parameter)
+    }
+
     /// What is asked about a threshold, with the index of its parameter.
     pub(crate) fn threshold(&self) -> Option<(&Threshold, usize)> {
         let threshold = self.settings.threshold.as_ref()?;
-        let named = |parameter: &Parameter| parameter.name == threshold.parameter;
-        Some((threshold, self.settings.parameters.iter().position(named)?))
+        Some((threshold, self.parameter(&threshold.parameter)?))
     }
 
     /// The same with more designs.

@@ -165,6 +165,24 @@ pub struct CampaignPlan {
     pub settings: CampaignSettings,
 }
 
+impl Campaign {
+    /// The map of a parameter over speed: its values in ascending order, each with the largest severity by speed of the designs that have
+    /// it. None of a speed where nothing is known.
+    pub fn map(&self, parameter: usize) -> Vec<(f64, Vec<Option<f64>>)> {
+        let value = |design: &&CampaignDesign| design.values.get(parameter).copied().unwrap_or(f64::NAN);
+        let mut designs: Vec<&CampaignDesign> = self.designs.iter().collect();
+        designs.sort_by(|a, b| value(a).total_cmp(&value(b)));
+        let alike = designs.chunk_by(|a, b| value(a) == value(b));
+        let worst = |designs: &[&CampaignDesign], speed: usize| {
+            designs.iter().filter_map(|design| design.by_speed[speed]).max_by(f64::total_cmp)
+        };
+        let speeds = self.speeds_rad_s.len();
+        alike
+            .map(|designs| (value(&designs[0]), (0..speeds).map(|speed| worst(designs, speed)).collect()))
+            .collect()
+    }
+}
+
 /// What a severity is measured in, of a model with these units; empty for a ratio.
 pub fn severity_unit(severity: Severity, units: &Units) -> String {
     match severity {

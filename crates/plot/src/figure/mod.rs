@@ -5,6 +5,7 @@
 
 mod amplitudes;
 mod branches;
+mod campaign;
 mod campbell;
 mod campbell_fixed_frame;
 mod cells;
@@ -29,6 +30,7 @@ mod wear_map;
 mod work_precision;
 
 pub use branches::branches;
+pub use campaign::campaign;
 pub use campbell::campbell;
 pub use campbell_fixed_frame::campbell_fixed_frame;
 pub use critical_speeds::critical_speeds;

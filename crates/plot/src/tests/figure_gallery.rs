@@ -37,6 +37,7 @@ pub(super) fn all() -> Vec<(String, Figure)> {
     all.push(("critical-speeds".to_owned(), figure::critical_speeds(&critical())));
     all.push(("critical-speeds-validity".to_owned(), figure::critical_speeds(&stressed_critical())));
     all.push(("branches".to_owned(), figure::branches(&resonance(true), 0, &marched())));
+    all.push(("campaign".to_owned(), figure::campaign(&super::campaigns::designs(), 0)));
     all.push(("branches-clearance".to_owned(), figure::branches(&over_clearance(), 0, &[])));
     for (name, frame) in [("spectrum", Frame::Rotating), ("spectrum-fixed-frame", Frame::Fixed)] {
         let figure = figure::spectrum(&spectra(6), &credentials(), &mm(), 0, frame);

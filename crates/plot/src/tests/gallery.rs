@@ -60,6 +60,7 @@ fn gallery() {
         let (map, critical, axis) = (stressed_map(), stressed_critical(), VerticalAxis::EngineOrder);
         save(&folder, name, &interaction_map(&map, Some(&critical), None, axis, Window::default(), by));
     }
+    save(&folder, "campaign", &crate::campaign(&super::campaigns::designs(), 0));
     save(&folder, "critical-speeds-validity", &critical_speeds(&stressed_critical()));
     let zoomed = interaction_map(
         &map,

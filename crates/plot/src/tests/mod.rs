@@ -2,6 +2,7 @@
 
 mod branched;
 mod branching;
+mod campaigns;
 mod drawings;
 mod figure_gallery;
 mod figures;

@@ -1,0 +1,272 @@
+//! Campaigns: many designs in one job, each as its own sweep would have it; told as they come, set aside, found again after a kill.
+
+use serde_json::{Value, json};
+
+use super::app::{Api, TestApp, sweep_of};
+use super::formats::{get, table};
+use super::model;
+use super::program::Program;
+
+/// A grid of clearance and damping over the three slowest speeds of [`sweep_of`].
+pub(crate) fn campaign_of(model: &str) -> Value {
+    let mut request = sweep_of(model);
+    request["speeds"] = json!({"from": 300.0, "to": 540.0, "count": 3, "unit": "rad_s"});
+    request["parameters"] = json!([
+        {"name": "clearance", "at": ["/scene/casing/clearance/leading", "/scene/casing/clearance/trailing"], "change": "add",
+            "from": -0.05, "to": 0.05, "levels": 2},
+        {"name": "damping", "at": ["/scene/damping/modal_ratio"], "distribution": "log_uniform", "from": 0.01, "to": 0.04, "levels": 2},
+    ]);
+    request["design"] = json!({"kind": "grid"});
+    request
+}
+
+/// One that looks for the clearance at which the limit is met.
+fn threshold_of(model: &str) -> Value {
+    let mut request = campaign_of(model);
+    request["parameters"][0] =
+        json!({"name": "clearance", "at": ["/scene/casing/clearance/leading"], "from": 0.2, "to": 0.5});
+    request["parameters"][1]["levels"] = Value::Null;
+    request["parameters"][1].as_object_mut().unwrap().remove("levels");
+    request["design"] = json!({"kind": "latin_hypercube", "size": 6, "seed": 2});
+    request["limit"] = json!(0.05);
+    request["threshold"] = json!({"parameter": "clearance", "probability": 0.8, "within": 0.001, "batch": 4, "most_designs": 14});
+    request
+}
+
+async fn posted(api: &Api, request: &Value) -> String {
+    let answer = api.post("/v1/campaigns", request).await;
+    assert_eq!(answer.status, 202, "{}", answer.body);
+    answer.text("/id")
+}
+
+async fn told(api: &Api, id: &str) -> Value {
+    let answer = api.get(&format!("/v1/jobs/{id}/campaign")).await;
+    assert_eq!(answer.status, 200, "{}", answer.body);
+    answer.body
+}
+
+/// What was found, without the times of this machine.
+fn timeless(mut campaign: Value) -> Value {
+    campaign["spent"]["computing_time_s"] = Value::Null;
+    campaign["plan"] = Value::Null;
+    campaign
+}
+
+/// Every design has the severities of a sweep of the same scene, to the bit; and the list of jobs has one line.
+#[tokio::test]
+async fn designs_are_what_their_sweeps_are() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(model::package(1.0)).await;
+    let request = campaign_of(&model);
+    let plan = api.post("/v1/campaigns/plan", &request).await;
+    assert_eq!(plan.status, 200, "{}", plan.body);
+    assert_eq!((&plan.body["reduction"], &plan.body["estimate"]), (&json!("to be computed"), &Value::Null));
+    assert_eq!(api.get("/v1/jobs").await.body["jobs"], json!([]), "a plan starts nothing");
+
+    let id = posted(api, &request).await;
+    let job = api.finish(&id).await;
+    assert_eq!((&job["status"], &job["kind"]), (&json!("successful"), &json!("campaign")), "{job}");
+    assert_eq!((&job["speeds"]["total"], &job["speeds"]["finished"]), (&json!(12), &json!(12)));
+    assert_eq!(api.get("/v1/jobs").await.body["jobs"].as_array().unwrap().len(), 1);
+    let found = told(api, &id).await;
+    assert_eq!(found["designs"].as_array().unwrap().len(), 4);
+    assert_eq!(job["request"], found["settings"]);
+
+    for (design, (added, damping)) in [(0, (-0.05, 0.01)), (3, (0.05, 0.04))] {
+        let design = &found["designs"][design];
+        let values: Vec<f64> =
+            design["values"].as_array().unwrap().iter().map(|value| value.as_f64().unwrap()).collect();
+        assert!((values[0] - added).abs() < 1e-15 && (values[1] - damping).abs() < 1e-15, "{design}");
+        let mut sweep = sweep_of(&model);
+        sweep["speeds"] = request["speeds"].clone();
+        sweep["scene"]["damping"]["modal_ratio"] = json!(values[1]);
+        sweep["scene"]["casing"]["clearance"] =
+            json!({"leading": 0.30 + values[0], "trailing": 0.25 + values[0]});
+        let sweep = api.sweep(&sweep).await;
+        assert_eq!(api.finish(&sweep).await["status"], "successful");
+        let map = api.get(&format!("/v1/jobs/{sweep}/interaction-map")).await.body;
+        let largest = |point: &Value| -> f64 {
+            let responses = point["responses"].as_array().unwrap().iter();
+            responses.map(|response| response["half_peak_to_peak"].as_f64().unwrap()).fold(0.0, f64::max)
+        };
+        let severities: Vec<f64> = map["points"].as_array().unwrap().iter().map(largest).collect();
+        assert_eq!(design["by_speed"], json!(severities), "{design}");
+        assert_eq!(design["severity"], json!(severities.iter().copied().fold(0.0, f64::max)));
+    }
+    // Less clearance, less damping: more severe.
+    assert!(found["designs"][0]["severity"].as_f64() > found["designs"][3]["severity"].as_f64());
+
+    let plan = api.post("/v1/campaigns/plan", &request).await.body;
+    assert_eq!(
+        (&plan["reduction"], &plan["designs"], &plan["simulations"]),
+        (&json!("stored"), &json!(4), &json!(12))
+    );
+    let [steps, one] = [&plan["estimate"]["steps"], &plan["scene"]["estimate"]["steps"]]
+        .map(|steps| steps.as_u64().unwrap());
+    assert_eq!((steps, found["plan"]["steps"].as_u64()), (4 * one, Some(steps)));
+    let spent = found["spent"]["steps"].as_u64().unwrap();
+    assert!(spent <= steps && 4 * spent > steps, "{spent} of {steps}");
+
+    let csv = get(api, &format!("/v1/jobs/{id}/campaign?format=csv"), &[]).await.good();
+    let lines = table(csv.text());
+    assert_eq!(lines.len(), 5);
+    let columns = ["design", "clearance", "damping", "amplitude_mm", "worst_speed_rad_s", "meets_limit"];
+    assert!(lines[0].starts_with(&columns), "{:?}", lines[0]);
+    get(api, &format!("/v1/jobs/{id}/campaign?format=npz"), &[]).await.good();
+    let svg = get(api, &format!("/v1/jobs/{id}/campaign?format=svg&parameter=damping"), &[]).await.good();
+    assert!(svg.text().contains("over speed and damping"));
+    get(api, &format!("/v1/jobs/{id}/campaign?format=plotly"), &[]).await.good();
+    assert_eq!(api.get(&format!("/v1/jobs/{id}/campaign?parameter=x")).await.status, 400);
+    assert_eq!(api.get(&format!("/v1/jobs/{id}/interaction-map")).await.status, 409);
+    assert_eq!(api.get(&format!("/v1/jobs/{id}/archive")).await.status, 409);
+    app.stop().await;
+}
+
+/// Sensitivities of a real wheel: damping alone, which the severity depends on, and the seed of a mistuning of next to nothing.
+#[tokio::test]
+async fn sensitivities_are_told() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let mut request = campaign_of(&api.model(model::package(1.0)).await);
+    request["scene"]["mistuning"] = json!({"spread": 1e-9, "seed": 1});
+    request["speeds"] = json!({"values": [420.0], "unit": "rad_s"});
+    request["parameters"] = json!([
+        {"name": "clearance", "at": ["/scene/casing/clearance/leading"], "from": 0.2, "to": 0.4},
+        {"name": "seed", "at": ["/scene/mistuning/seed"], "distribution": "whole", "from": 1.0, "to": 9.0},
+    ]);
+    request["design"] = json!({"kind": "indices", "size": 8});
+    let id = posted(api, &request).await;
+    assert_eq!(api.finish(&id).await["status"], "successful");
+    let found = told(api, &id).await;
+    let of = |place: usize, field: &str| found["sensitivities"]["parameters"][place][field].as_f64().unwrap();
+    assert_eq!(found["sensitivities"]["blocks"], json!(8));
+    assert!(of(0, "total") > 0.3 && of(0, "total_error") > 0.0, "{}", found["sensitivities"]);
+    assert!(of(1, "total") < 1e-3, "{}", found["sensitivities"]);
+    app.stop().await;
+}
+
+/// Set aside nothing goes on, what is finished can be read, and then nothing is computed again.
+#[tokio::test]
+async fn a_campaign_that_is_set_aside_goes_on() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let mut request = campaign_of(&api.model(model::package(1.0)).await);
+    request["integration"]["revolutions"] = 500.into();
+    let id = posted(api, &request).await;
+    api.follow(&id, |job| job["speeds"]["finished"].as_u64() >= Some(2)).await;
+    let paused = api.post(&format!("/v1/jobs/{id}/pause"), &json!({})).await;
+    assert_eq!((paused.status.as_u16(), &paused.body["status"]), (200, &json!("paused")), "{}", paused.body);
+    assert_eq!(api.post(&format!("/v1/jobs/{id}/pause"), &json!({})).await.status, 200);
+    // What was being stored at that moment may have come after the answer.
+    tokio::time::sleep(std::time::Duration::from_millis(300)).await;
+    let before = told(api, &id).await;
+    let count = |campaign: &Value| -> u64 {
+        campaign["designs"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|design| design["finished"].as_u64().unwrap())
+            .sum()
+    };
+    assert!((2..12).contains(&count(&before)), "{before}");
+    assert_eq!(api.get("/v1/jobs?status=paused").await.body["jobs"].as_array().unwrap().len(), 1);
+    tokio::time::sleep(std::time::Duration::from_millis(500)).await;
+    assert_eq!(count(&told(api, &id).await), count(&before), "it went on");
+
+    let goes_on = api.post(&format!("/v1/jobs/{id}/continue"), &json!({})).await;
+    assert_eq!(goes_on.status, 200, "{}", goes_on.body);
+    assert_eq!(api.finish(&id).await["status"], "successful");
+    let after = told(api, &id).await;
+    assert_eq!(count(&after), 12);
+    let spent = |campaign: &Value| campaign["spent"]["steps"].as_u64().unwrap();
+    assert_eq!(spent(&after) * count(&before), spent(&before) * 12, "all speeds take as many steps");
+    for verb in ["pause", "continue"] {
+        let refused = api.post(&format!("/v1/jobs/{id}/{verb}"), &json!({})).await;
+        assert_eq!(
+            (refused.status.as_u16(), &refused.body["type"]),
+            (409, &json!("urn:rubmap:problem:job-ended"))
+        );
+        assert_eq!(
+            api.post(&format!("/v1/jobs/0198c5a2-7c1e-7d54-9f3b-2f6d7a6f4b10/{verb}"), &json!({}))
+                .await
+                .status,
+            404
+        );
+    }
+    app.stop().await;
+}
+
+/// Killed, and set aside over a restart, it adds the designs and finds the numbers that it would have undisturbed.
+#[tokio::test]
+async fn a_killed_campaign_ends_as_if_undisturbed() {
+    let undisturbed = tempfile::tempdir().unwrap();
+    let program = Program::serve(undisturbed.path());
+    let model = program.api.model(model::package(1.0)).await;
+    let request = threshold_of(&model);
+    let id = posted(&program.api, &request).await;
+    assert_eq!(program.api.finish(&id).await["status"], "successful");
+    let expected = told(&program.api, &id).await;
+    program.kill();
+    let designs = expected["designs"].as_array().unwrap().len();
+    assert!(designs > 6, "designs were added: {}", expected["threshold"]);
+
+    let data = tempfile::tempdir().unwrap();
+    let program = Program::serve(data.path());
+    assert_eq!(program.api.model(model::package(1.0)).await, model);
+    let id = posted(&program.api, &request).await;
+    program.api.follow(&id, |job| job["speeds"]["finished"].as_u64() >= Some(5)).await;
+    program.kill();
+    let program = Program::serve(data.path());
+    // In the second round.
+    program.api.follow(&id, |job| job["speeds"]["total"].as_u64() > Some(18)).await;
+    program.kill();
+    let program = Program::serve(data.path());
+    let status = program.api.post(&format!("/v1/jobs/{id}/pause"), &json!({})).await;
+    program.kill();
+    let program = Program::serve(data.path());
+    if status.status == 200 {
+        assert_eq!(program.api.job(&id).await.body["status"], "paused");
+        program.api.post(&format!("/v1/jobs/{id}/continue"), &json!({})).await;
+    }
+    assert_eq!(program.api.finish(&id).await["status"], "successful");
+    assert_eq!(timeless(told(&program.api, &id).await), timeless(expected));
+}
+
+#[tokio::test]
+async fn what_makes_no_campaign_is_refused_at_its_field() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let model = api.model(model::package(1.0)).await;
+    let refused = async |change: &dyn Fn(&mut Value), pointer: &str| {
+        let mut request = campaign_of(&model);
+        change(&mut request);
+        let answer = api.post("/v1/campaigns", &request).await;
+        assert_eq!(answer.status, 422, "{}", answer.body);
+        assert_eq!(api.post("/v1/campaigns/plan", &request).await.body["errors"], answer.body["errors"]);
+        let errors = answer.body["errors"].as_array().unwrap();
+        assert!(errors.iter().any(|error| error["pointer"] == pointer), "{pointer}: {errors:?}");
+    };
+    refused(&|request| request["parameters"] = json!([]), "/parameters").await;
+    refused(
+        &|request| request["parameters"][0]["at"] = json!(["/scene/friction/coefficient"]),
+        "/parameters/0/at/0",
+    )
+    .await;
+    refused(
+        &|request| request["parameters"][0]["distribution"] = json!("gaussian"),
+        "/parameters/0/distribution",
+    )
+    .await;
+    refused(&|request| request["parameters"][1]["to"] = json!(3.0), "/parameters/1").await;
+    refused(&|request| request["design"] = json!({"kind": "sobol"}), "/design/size").await;
+    refused(&|request| request["severity"] = json!("utilisation"), "/severity").await;
+    refused(&|request| request["threshold"] = json!({"parameter": "clearance"}), "/limit").await;
+    refused(
+        &|request| request["scene"]["damping"]["modal_ratio"] = json!(-1.0),
+        "/scene/damping/modal_ratio",
+    )
+    .await;
+    refused(&|request| request["sweep"] = json!("up"), "/sweep").await;
+    app.stop().await;
+}
