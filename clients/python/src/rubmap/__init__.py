@@ -14,10 +14,11 @@ from .jobs import Job, ModelGeneration
 from .local import local
 from .models import Model
 from .package import write_package
-from .results import Branches, CaseStudy, ModalAnalysis, Study, Sweep
+from .results import Branches, Campaign, CaseStudy, ModalAnalysis, Study, Sweep
 
 __all__ = [
     "Branches",
+    "Campaign",
     "CaseStudy",
     "Client",
     "Job",

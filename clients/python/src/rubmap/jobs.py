@@ -74,7 +74,7 @@ class Job:
 
     @property
     def status(self) -> str:
-        """``accepted``, ``running``, ``successful``, ``failed`` or ``dismissed`` (cancelled)."""
+        """``accepted``, ``running``, ``paused``, ``successful``, ``failed`` or ``dismissed`` (cancelled)."""
         return str(self.state["status"])
 
     def wait(self, progress: bool = True, timeout: float | None = None) -> Self:
@@ -105,6 +105,14 @@ class Job:
     def cancel(self) -> None:
         """Stops it; what it has found so far stays. One that has ended stays as it is."""
         self._service.delete(self._own(), cancel_only="true")
+
+    def pause(self) -> None:
+        """Sets it aside; what it has found so far stays."""
+        self._service.ask(f"{self._own()}/pause", {})
+
+    def go_on(self) -> None:
+        """Lets it go on where it was set aside."""
+        self._service.ask(f"{self._own()}/continue", {})
 
     def delete(self) -> None:
         """Deletes it with all that it found; one that has not ended is cancelled first."""

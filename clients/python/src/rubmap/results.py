@@ -312,6 +312,44 @@ def _branch_table(
     return frame
 
 
+class Campaign(Planned):
+    """Many designs of a scene, each over the same speeds."""
+
+    kind = "campaign"
+    path = "/v1/campaigns"
+
+    def designs(self) -> pd.DataFrame:
+        """A row per design: the values of its parameters, its severity once all speeds are known, the speed where it is, and whether it
+        meets the limit; also while the job runs. ``attrs`` has the settings and, if asked for, the ``threshold``."""
+        found = self.json("campaign")
+        names = [parameter["name"] for parameter in found["settings"]["parameters"]]
+        told = ("severity", "worst_speed_rad_s", "meets_limit", "finished", "diverged", "failed")
+        rows = [
+            {"design": design["index"]} | dict(zip(names, design["values"], strict=True)) | {name: design.get(name) for name in told}
+            for design in found["designs"]
+        ]
+        frame = pd.DataFrame(rows, columns=["design", *names, *told]).set_index("design")
+        frame.attrs.update(
+            threshold=found.get("threshold"), units=found["units"], settings=found["settings"], version=found["version"]
+        )
+        return frame
+
+    def severities(self) -> xr.DataArray:
+        """Severity by ``design`` and ``speed_rpm``, with the value of every parameter beside the design; NaN where it is not known."""
+        found = self.json("campaign")
+        values = np.array([design["by_speed"] for design in found["designs"]], dtype=float)
+        coordinates: dict[str, Any] = {"speed_rpm": ("speed_rpm", np.array(found["speeds_rad_s"]) * RPM)}
+        for place, parameter in enumerate(found["settings"]["parameters"]):
+            coordinates[parameter["name"]] = ("design", [design["values"][place] for design in found["designs"]])
+        return xr.DataArray(values, dims=("design", "speed_rpm"), coords=coordinates, name=found["settings"]["severity"])
+
+    def sensitivities(self) -> pd.DataFrame:
+        """First-order and total index of every parameter with their standard errors; empty where the design is not ``indices``."""
+        found = self.json("campaign").get("sensitivities")
+        columns = ["parameter", "first_order", "first_order_error", "total", "total_error"]
+        return pd.DataFrame(found["parameters"] if found else [], columns=columns).set_index("parameter")
+
+
 class Study(Job):
     """What accuracy costs: schemes and settings against a reference."""
 

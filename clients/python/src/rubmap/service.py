@@ -87,7 +87,7 @@ class Service:
         return _json(self._patiently(lambda: self._http.post(path, json=sent, headers=headers)))
 
     def ask(self, path: str, body: Mapping[str, Any]) -> Any:
-        """Sends JSON that makes nothing, such as for a plan."""
+        """Sends JSON that makes nothing, such as for a plan: sent twice it does no harm."""
         sent = _plain(body)
         return _json(self._patiently(lambda: self._http.post(path, json=sent)))
 

@@ -4,7 +4,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use crate::error::Violation;
-use crate::request::{CampaignSettings, Change, Parameter, SweepRequest, Threshold};
+use crate::request::{CampaignSettings, Change, SweepRequest, Threshold};
 use crate::resolved::distribution::Distribution;
 use crate::resolved::sweep::ResolvedSweep;
 
