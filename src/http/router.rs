@@ -19,9 +19,10 @@ use utoipa_axum::routes;
 
 use super::state::AppState;
 use super::{
-    access, archive, body, branches, campaigns, case_studies, casings, contract, events, extract, fields, forces,
-    health, histories, host, jobs, maps, mesh, metrics, modal_analyses, models, modes, openapi, principal,
-    problem, report, results, section, spectra, stream, stress, studies, sweeps, version, web, wheel,
+    access, archive, body, branches, campaigns, case_studies, casings, contract, events, extract, fields,
+    forces, health, histories, host, jobs, maps, mesh, metrics, modal_analyses, models, modes, openapi,
+    principal, problem, report, results, section, spectra, stream, stress, studies, sweeps, version, web,
+    wheel,
 };
 
 /// The routes with their descriptions.
