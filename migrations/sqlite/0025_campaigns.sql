@@ -14,3 +14,7 @@ drop table schema_changed;
 
 drop index unfinished_jobs;
 create index unfinished_jobs on jobs (model) where status in ('accepted', 'running', 'paused');
+
+-- A campaign may compare two models, neither of which goes while it is not finished.
+alter table jobs add column compared_model text;
+create index unfinished_comparisons on jobs (compared_model) where status in ('accepted', 'running', 'paused');

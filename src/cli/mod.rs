@@ -78,6 +78,12 @@ enum Command {
     /// Cancel jobs; speeds that are finished stay readable.
     #[command(after_help = ending::CODES)]
     Cancel(shell::CancelArgs),
+    /// Set jobs aside; what is finished stays.
+    #[command(after_help = ending::CODES)]
+    Pause(shell::PauseArgs),
+    /// Let jobs go on that were set aside.
+    #[command(after_help = ending::CODES)]
+    Continue(shell::ContinueArgs),
     /// Delete jobs that have ended, or models.
     #[command(after_help = ending::CODES)]
     Rm(shell::RmArgs),
@@ -161,6 +167,8 @@ impl Cli {
             Command::Get(args) => return verb::run(&args),
             Command::Open(args) => return verb::run(&args),
             Command::Cancel(args) => return verb::run(&args),
+            Command::Pause(args) => return verb::run(&args),
+            Command::Continue(args) => return verb::run(&args),
             Command::Rm(args) => return verb::run(&args),
             Command::Report(args) => return verb::run(&args),
             Command::Demo(args) => return demo::run(&args),

@@ -2,7 +2,7 @@
 
 use super::Export;
 use super::array::Array;
-use crate::analysis::result::{Campaign, severity_unit};
+use crate::analysis::result::{Campaign, DesignOutcome, severity_unit};
 
 impl Export for Campaign {
     /// A line per design.
@@ -19,27 +19,21 @@ impl Export for Campaign {
         let unit = severity_unit(self.settings.severity, &self.units);
         let severity =
             format!("{}{}{unit}", self.settings.severity.as_str(), if unit.is_empty() { "" } else { "_" });
-        let meets = |met: Option<bool>| met.map_or("", |met| if met { "yes" } else { "no" });
-        columns.extend([
-            Array::some_reals(severity, designs().map(|design| design.severity)),
-            Array::some_reals("worst_speed_rad_s", designs().map(|design| design.worst_speed_rad_s)),
-            Array::texts("meets_limit", designs().map(|design| meets(design.meets_limit))),
-            Array::whole("finished", designs().map(|design| design.finished)),
-            Array::whole("diverged", designs().map(|design| design.diverged)),
-            Array::whole("failed", designs().map(|design| design.failed)),
-        ]);
+        let own: Vec<&DesignOutcome> = designs().map(|design| &design.outcome).collect();
+        columns.extend(outcomes("", &severity, &own));
+        columns.extend(outcomes("compared_", &severity, &self.compared()));
         columns
     }
 
     /// The columns of the table; `by_speed` is `[design][speed]`; sensitivities one array per field.
     fn arrays(&self) -> Vec<Array> {
         let mut arrays = self.table();
-        let row = |by_speed: &Vec<Option<f64>>| -> Vec<f64> {
-            by_speed.iter().map(|severity| severity.unwrap_or(f64::NAN)).collect()
-        };
-        let rows: Vec<Vec<f64>> = self.designs.iter().map(|design| row(&design.by_speed)).collect();
         arrays.push(Array::reals("speeds_rad_s", self.speeds_rad_s.iter().copied()));
-        arrays.push(Array::rows("by_speed", rows.iter().map(Vec::as_slice)));
+        let own: Vec<&DesignOutcome> = self.designs.iter().map(|design| &design.outcome).collect();
+        arrays.push(by_speed("by_speed", &own));
+        if self.comparison.is_some() {
+            arrays.push(by_speed("compared_by_speed", &self.compared()));
+        }
         if let Some(sensitivities) = &self.sensitivities {
             let of = || sensitivities.parameters.iter();
             arrays.extend([
@@ -52,9 +46,36 @@ impl Export for Campaign {
         }
         arrays.extend([
             Array::json("threshold", &self.threshold),
+            Array::json("comparison", &self.comparison),
             Array::json("settings", &self.settings),
             Array::text("version", &self.version),
         ]);
         arrays
     }
+}
+
+/// Columns of what designs come to with one model; none of one that is not there.
+fn outcomes(prefix: &str, severity: &str, of: &[&DesignOutcome]) -> Vec<Array> {
+    if of.is_empty() {
+        return Vec::new();
+    }
+    let name = |name: &str| format!("{prefix}{name}");
+    let meets = |met: Option<bool>| met.map_or("", |met| if met { "yes" } else { "no" });
+    vec![
+        Array::some_reals(name(severity), of.iter().map(|one| one.severity)),
+        Array::some_reals(name("worst_speed_rad_s"), of.iter().map(|one| one.worst_speed_rad_s)),
+        Array::texts(name("meets_limit"), of.iter().map(|one| meets(one.meets_limit))),
+        Array::whole(name("finished"), of.iter().map(|one| one.finished)),
+        Array::whole(name("diverged"), of.iter().map(|one| one.diverged)),
+        Array::whole(name("failed"), of.iter().map(|one| one.failed)),
+        Array::whole(name("not_settled"), of.iter().map(|one| one.not_settled)),
+    ]
+}
+
+fn by_speed(name: &str, of: &[&DesignOutcome]) -> Array {
+    let row = |one: &&DesignOutcome| -> Vec<f64> {
+        one.by_speed.iter().map(|severity| severity.unwrap_or(f64::NAN)).collect()
+    };
+    let rows: Vec<Vec<f64>> = of.iter().map(row).collect();
+    Array::rows(name, rows.iter().map(Vec::as_slice))
 }

@@ -122,8 +122,10 @@ impl Jobs {
                 (JobRequest::Branches(Box::new(branches)), Some(facts))
             }
             Submission::Campaign(request) => {
-                let (campaign, facts) = self.campaign(whose, *request).await?;
-                self.check(campaign.sweep()).await?;
+                let (campaign, facts, _) = self.campaign(whose, *request).await?;
+                for sweep in campaign.sweeps() {
+                    self.check(sweep).await?;
+                }
                 (JobRequest::Campaign(Box::new(campaign)), Some(facts))
             }
             Submission::Histories(of) => {
@@ -197,24 +199,43 @@ impl Jobs {
         whose: &Principal,
         request: CampaignRequest,
     ) -> Result<CampaignPlan, SubmitError> {
-        let (campaign, facts) = self.campaign(whose, request).await?;
-        let reduced = self.check(campaign.sweep()).await?;
-        plans::campaign(&self.engine, campaign, facts, reduced).await
+        let (campaign, facts, others) = self.campaign(whose, request).await?;
+        let own = (facts, self.check(campaign.sweep()).await?);
+        let compared = match campaign.compared().zip(others) {
+            Some((sweep, facts)) => Some((facts, self.check(sweep).await?)),
+            None => None,
+        };
+        plans::campaign(&self.engine, campaign, own, compared).await
     }
 
-    /// Resolves a campaign against its model, all of its designs.
+    /// Resolves a campaign against its models, all of its designs; gives their facts, too.
     async fn campaign(
         &self,
         whose: &Principal,
         mut request: CampaignRequest,
-    ) -> Result<(ResolvedCampaign, run::ModelFacts), SubmitError> {
+    ) -> Result<(ResolvedCampaign, run::ModelFacts, Option<run::ModelFacts>), SubmitError> {
         let facts = self.facts(whose, &request.model).await?;
+        let compared = match &request.compared_model {
+            None => None,
+            Some(model) => {
+                let facts = self.facts(whose, model).await.map_err(|error| match error {
+                    SubmitError::UnknownModel(_) => {
+                        let message = format!("{error}; upload it with POST /v1/models first");
+                        SubmitError::Refused(vec![Violation::new("/compared_model", message)])
+                    }
+                    error => error,
+                })?;
+                let mut sensors = request.sensors.clone();
+                self.place(model, &mut sensors).await?.map_err(SubmitError::Refused)?;
+                Some(run::ComparedModel { facts, sensors })
+            }
+        };
         let placed = self.place(&request.model, &mut request.sensors).await?;
-        let held = facts.clone();
+        let held = (facts.clone(), compared.clone());
         // Ten thousand designs take a second.
-        let resolved = self.engine.planner.run(move || run::resolve_campaign(request, &held)).await?;
-        let (_, campaign) = both(placed, resolved)?;
-        Ok((campaign, facts))
+        let resolve = move || run::resolve_campaign(request, &held.0, held.1.as_ref());
+        let (_, campaign) = both(placed, self.engine.planner.run(resolve).await?)?;
+        Ok((campaign, facts, compared.map(|compared| compared.facts)))
     }
 
     /// The same for a modal analysis.

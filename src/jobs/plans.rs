@@ -40,15 +40,25 @@ pub(super) async fn branches<E: From<StoreError> + From<Panicked>>(
     Ok(BranchesPlan { machine: Some(machine), ..engine.planner.run(plan).await? })
 }
 
-/// Plans a resolved campaign.
+/// A model, and its reduction if that is there.
+type Model = (ModelFacts, Option<Arc<ReducedSector>>);
+
+/// Plans a resolved campaign of a model and the one that is compared with it.
 pub(super) async fn campaign<E: From<StoreError> + From<Panicked>>(
     engine: &Engine,
     request: ResolvedCampaign,
-    facts: ModelFacts,
-    reduced: Option<Arc<ReducedSector>>,
+    own: Model,
+    compared: Option<Model>,
 ) -> Result<CampaignPlan, E> {
+    fn borrowed((facts, reduced): &Model) -> (&ModelFacts, Option<&ReducedSector>) {
+        (facts, reduced.as_deref())
+    }
+
     let Capacity { machine, costs, threads } = capacity::<E>(engine).await?;
-    let plan = move || run::plan_campaign(&request, &facts, reduced.as_deref(), &costs, threads);
+    let plan = move || {
+        let compared = compared.as_ref().map(borrowed);
+        run::plan_campaign(&request, borrowed(&own), compared, &costs, threads)
+    };
     let mut plan = engine.planner.run(plan).await?;
     plan.scene.machine = Some(machine);
     Ok(plan)
@@ -88,12 +98,12 @@ pub(super) async fn modal_analysis(
     engine.planner.run(move || run::plan_modal_analysis(&request, &facts, reduced.as_deref())).await
 }
 
-/// Keeps the estimate of a job of speeds whose reduction is there, unless one was kept before. Refuses one whose speeds take more
-/// memory than there is.
+/// Keeps the estimate of a job of speeds whose reductions are there, that of a model which is compared last, unless one was kept before.
+/// Refuses one whose speeds take more memory than there is.
 pub(super) async fn keep(
     engine: &Engine,
     job: &Live,
-    reduced: Arc<ReducedSector>,
+    (reduced, compared): (Arc<ReducedSector>, Option<Arc<ReducedSector>>),
 ) -> Result<(), Interruption> {
     let Some(stored) = engine.store.job(job.id).await? else { return Ok(()) };
     let estimate = match (stored.facts, stored.plan) {
@@ -105,7 +115,14 @@ pub(super) async fn keep(
                     sweep::<Interruption>(engine, *request.clone(), facts, Some(reduced)).await?.estimate
                 }
                 JobRequest::Campaign(request) => {
-                    campaign::<Interruption>(engine, *request.clone(), facts, Some(reduced)).await?.estimate
+                    let compared = match request.compared_model() {
+                        Some(model) => {
+                            engine.store.model(model, None).await?.map(|model| (model.facts, compared))
+                        }
+                        None => None,
+                    };
+                    let own = (facts, Some(reduced));
+                    campaign::<Interruption>(engine, *request.clone(), own, compared).await?.estimate
                 }
                 _ => None,
             };

@@ -6,7 +6,8 @@ use super::engine::{Engine, Live};
 use super::error::Interruption;
 use super::progress::PhaseMonitor;
 use super::{branches, case_study, choice, finish, generation, modal_analysis, plans, study};
-use crate::analysis::run;
+use crate::analysis::resolved::ResolvedSweep;
+use crate::analysis::run::{self, ReducedSector};
 use crate::store::jobs::{Begun, JobId, JobRequest};
 
 /// Prepares job `id`. Harmless to repeat: what is stored is not computed again.
@@ -37,21 +38,35 @@ pub(super) async fn prepare(engine: &Engine, id: JobId) -> Result<(), Interrupti
     }
 }
 
-/// Prepares a job whose speeds are tasks of their own.
-async fn prepare_speeds(engine: &Engine, job: &Live) -> Result<(), Interruption> {
-    let request = match &job.request {
-        JobRequest::Sweep(request) => request,
-        // All designs rest on the same reduction.
-        JobRequest::Campaign(campaign) => campaign.sweep(),
-        _ => return Ok(()),
-    };
+/// The reduction that a sweep rests on, against which it is held.
+async fn reduced(
+    engine: &Engine,
+    job: &Live,
+    request: &ResolvedSweep,
+) -> Result<Arc<ReducedSector>, Interruption> {
     let monitor = PhaseMonitor::reduction_of_sweep(job.watch.clone());
     let reduced = engine.reductions.of_sweep(request, monitor).await?;
-
     let (checked, monitor) = (request.clone(), PhaseMonitor::uncounted(job.watch.clone()));
     let sector = Arc::clone(&reduced);
     engine.computing.run(&job.watch, move || run::check(&sector, &checked, &monitor)).await??;
-    plans::keep(engine, job, reduced).await?;
+    Ok(reduced)
+}
+
+/// Prepares a job whose speeds are tasks of their own.
+async fn prepare_speeds(engine: &Engine, job: &Live) -> Result<(), Interruption> {
+    let reductions = match &job.request {
+        JobRequest::Sweep(request) => (reduced(engine, job, request).await?, None),
+        // All designs of a model rest on the same one.
+        JobRequest::Campaign(campaign) => {
+            let own = reduced(engine, job, campaign.sweep()).await?;
+            match campaign.compared() {
+                Some(sweep) => (own, Some(reduced(engine, job, sweep).await?)),
+                None => (own, None),
+            }
+        }
+        _ => return Ok(()),
+    };
+    plans::keep(engine, job, reductions).await?;
 
     let finished = engine.store.finished_speeds(job.id).await?;
     let mut missing = job.chain.clone().unwrap_or_else(|| (0..job.speeds).collect());

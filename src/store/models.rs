@@ -308,7 +308,7 @@ impl Store {
         transaction.guard(Guarded::Model(id)).await?;
         let users: i64 = sqlx::query_scalar(
             "select count(*) from jobs
-             where model = $1 and status in ('accepted', 'running', 'paused')
+             where (model = $1 or compared_model = $1) and status in ('accepted', 'running', 'paused')
                  and ($2 is null or owner = $2
                       or not exists (select 1 from model_owners where model = $1 and owner <> $2))",
         )

@@ -78,21 +78,10 @@ async fn designs_are_what_their_sweeps_are() {
         let values: Vec<f64> =
             design["values"].as_array().unwrap().iter().map(|value| value.as_f64().unwrap()).collect();
         assert!((values[0] - added).abs() < 1e-15 && (values[1] - damping).abs() < 1e-15, "{design}");
-        let mut sweep = sweep_of(&model);
-        sweep["speeds"] = request["speeds"].clone();
-        sweep["scene"]["damping"]["modal_ratio"] = json!(values[1]);
-        sweep["scene"]["casing"]["clearance"] =
-            json!({"leading": 0.30 + values[0], "trailing": 0.25 + values[0]});
-        let sweep = api.sweep(&sweep).await;
-        assert_eq!(api.finish(&sweep).await["status"], "successful");
-        let map = api.get(&format!("/v1/jobs/{sweep}/interaction-map")).await.body;
-        let largest = |point: &Value| -> f64 {
-            let responses = point["responses"].as_array().unwrap().iter();
-            responses.map(|response| response["half_peak_to_peak"].as_f64().unwrap()).fold(0.0, f64::max)
-        };
-        let severities: Vec<f64> = map["points"].as_array().unwrap().iter().map(largest).collect();
-        assert_eq!(design["by_speed"], json!(severities), "{design}");
-        assert_eq!(design["severity"], json!(severities.iter().copied().fold(0.0, f64::max)));
+        let severities = severities_of(api, &model, &request, &design["values"]).await;
+        assert_eq!(design["by_speed"], severities, "{design}");
+        let largest = severities.as_array().unwrap().iter().filter_map(Value::as_f64).fold(0.0, f64::max);
+        assert_eq!(design["severity"], json!(largest));
     }
 
     let plan = api.post("/v1/campaigns/plan", &request).await.body;
@@ -121,6 +110,23 @@ async fn designs_are_what_their_sweeps_are() {
     app.stop().await;
 }
 
+/// The severities of the sweep that a design is.
+async fn severities_of(api: &Api, model: &str, request: &Value, values: &Value) -> Value {
+    let (added, damping) = (values[0].as_f64().unwrap(), &values[1]);
+    let mut sweep = sweep_of(model);
+    sweep["speeds"] = request["speeds"].clone();
+    sweep["scene"]["damping"]["modal_ratio"] = damping.clone();
+    sweep["scene"]["casing"]["clearance"] = json!({"leading": 0.30 + added, "trailing": 0.25 + added});
+    let sweep = api.sweep(&sweep).await;
+    assert_eq!(api.finish(&sweep).await["status"], "successful");
+    let map = api.get(&format!("/v1/jobs/{sweep}/interaction-map")).await.body;
+    let largest = |point: &Value| -> f64 {
+        let responses = point["responses"].as_array().unwrap().iter();
+        responses.map(|response| response["half_peak_to_peak"].as_f64().unwrap()).fold(0.0, f64::max)
+    };
+    map["points"].as_array().unwrap().iter().map(largest).collect()
+}
+
 /// Sensitivities of a real wheel: damping alone, which the severity depends on, and the seed of a mistuning of next to nothing.
 #[tokio::test]
 async fn sensitivities_are_told() {
@@ -141,6 +147,60 @@ async fn sensitivities_are_told() {
     assert_eq!(found["sensitivities"]["blocks"], json!(8));
     assert!(of(0, "total") > 0.3 && of(0, "total_error") > 0.0, "{}", found["sensitivities"]);
     assert!(of(1, "total") < 1e-3, "{}", found["sensitivities"]);
+    app.stop().await;
+}
+
+/// Both models are what their sweeps are, and neither goes while a campaign wants it.
+#[tokio::test]
+async fn two_models_are_compared() {
+    let app = TestApp::start().await;
+    let api = &app.api;
+    let (model, other) = (api.model(model::package(1.0)).await, api.model(model::package(1.1)).await);
+    let mut request = campaign_of(&model);
+    request["compared_model"] = json!(other);
+    let id = posted(api, &request).await;
+    assert_eq!(api.post(&format!("/v1/jobs/{id}/pause"), &json!({})).await.body["status"], "paused");
+    for model in [&model, &other] {
+        assert_eq!(api.delete(&format!("/v1/models/{model}")).await.status, 409);
+    }
+    api.post(&format!("/v1/jobs/{id}/continue"), &json!({})).await;
+    let job = api.finish(&id).await;
+    assert_eq!((&job["status"], &job["speeds"]["finished"]), (&json!("successful"), &json!(24)), "{job}");
+
+    let found = told(api, &id).await;
+    let design = &found["designs"][1];
+    for (model, outcome) in [(&model, design), (&other, &design["compared"])] {
+        assert_eq!(outcome["by_speed"], severities_of(api, model, &request, &design["values"]).await);
+    }
+    let comparison = &found["comparison"];
+    let differences: Vec<f64> = (0..4)
+        .map(|design| &found["designs"][design])
+        .map(|design| {
+            design["compared"]["severity"].as_f64().unwrap() - design["severity"].as_f64().unwrap()
+        })
+        .collect();
+    let mean = differences.iter().sum::<f64>() / 4.0;
+    assert!((comparison["severity"]["mean"].as_f64().unwrap() - mean).abs() < 1e-12, "{comparison}");
+    assert_eq!((&comparison["model"], &comparison["severity"]["pairs"]), (&json!(other), &json!(4)));
+
+    let plan = api.post("/v1/campaigns/plan", &request).await.body;
+    assert_eq!((&plan["simulations"], &plan["compared"]["reduction"]), (&json!(24), &json!("stored")));
+    let steps = |plan: &Value| plan["estimate"]["steps"].as_u64().unwrap();
+    assert_eq!(steps(&plan), 4 * (steps(&plan["scene"]) + steps(&plan["compared"])));
+    assert_eq!(found["plan"]["steps"], plan["estimate"]["steps"]);
+    let csv = get(api, &format!("/v1/jobs/{id}/campaign?format=csv"), &[]).await.good();
+    assert!(table(csv.text())[0].contains(&"compared_amplitude_mm"), "{}", csv.text());
+    get(api, &format!("/v1/jobs/{id}/campaign?format=npz"), &[]).await.good();
+    let svg = get(api, &format!("/v1/jobs/{id}/campaign?format=svg"), &[]).await.good();
+    assert!(svg.text().contains("difference, compared less own"));
+
+    assert_eq!(api.delete(&format!("/v1/models/{other}")).await.status, 204);
+    assert_eq!(told(api, &id).await["comparison"], *comparison, "results outlive their models");
+    for unknown in [json!("nobody"), json!(other), json!(model)] {
+        request["compared_model"] = unknown;
+        let refused = api.post("/v1/campaigns", &request).await;
+        assert_eq!((refused.status.as_u16(), refused.text("/errors/0/pointer").as_str()), (422, "/compared_model"));
+    }
     app.stop().await;
 }
 

@@ -28,6 +28,9 @@ VIEWS = {
     "branches": "#/jobs/{branches}?sweep={swept}",
     "branches-new": "#/sweep?model={model}&kind=branches",
     "branches-as": "#/sweep?as={branches}",
+    "campaign": "#/jobs/{campaign}",
+    "campaign-new": "#/sweep?model={model}&kind=campaign",
+    "campaign-as": "#/sweep?as={campaign}",
     "compare": "#/compare?jobs={swept},{swept_as_well}",
     "sign-in": "#/sign-in",
     "nowhere": "#/nowhere",
@@ -46,7 +49,10 @@ def places(service, model, swept):
     case = {"model": model, "speed": {"value": 20000, "unit": "rpm"}, "scene": scene, "integration": quick, "record": {"revolutions": [28, 30]}}
     ended = {"model": model, "swept": swept, "swept_as_well": job}
     branches = branches_of(model)
-    asked = (("study", "/v1/studies", study), ("case", "/v1/case-studies", case), ("branches", "/v1/branches", branches))
+    parameter = {"name": "damping", "at": ["/scene/damping/modal_ratio"], "from": 0.005, "to": 0.02, "levels": 2}
+    campaign = case | {"speeds": again["speeds"], "parameters": [parameter], "design": {"kind": "grid"}, "limit": 0.5}
+    del campaign["speed"], campaign["record"]
+    asked = (("study", "/v1/studies", study), ("case", "/v1/case-studies", case), ("branches", "/v1/branches", branches), ("campaign", "/v1/campaigns", campaign))
     for name, path, request in asked:
         ended[name] = service.call("POST", path, request)["id"]
         assert service.finish(ended[name])["status"] == "successful"

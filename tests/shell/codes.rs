@@ -154,6 +154,17 @@ fn five_is_a_job_that_was_cancelled() {
 }
 
 #[test]
+fn a_job_is_set_aside_and_goes_on() {
+    let (shell, program) = Shell::with_service();
+    let id = start_long(&shell, &program);
+    assert_eq!(shell.json("pause long --json")["jobs"][0]["status"], "paused");
+    let on = shell.run("continue long");
+    assert!(on.code == 0 && on.err.contains(&format!("job {id} is accepted")), "{on:?}");
+    shell.done("cancel long");
+    ends(&shell, "pause long", 3, &["ended"]);
+}
+
+#[test]
 fn an_interrupted_command_leaves_the_job_and_says_how_to_go_on() {
     let (shell, program) = Shell::with_service();
     let id = start_long(&shell, &program);

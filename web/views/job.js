@@ -101,7 +101,7 @@ export function remaining(job) {
   return spent * (100 / job.progress - 1);
 }
 
-/** Shows how far a job is, again and again. Its buttons are made anew only when it has ended: one that has the focus keeps it. */
+/** Shows how far a job is, again and again. Its buttons are made anew only when others are needed: one that has the focus keeps it. */
 function stateView(element, signal) {
   const tag = h('span');
   const words = h('span');
@@ -109,8 +109,9 @@ function stateView(element, signal) {
   const lost = h('p', { class: 'note warning' });
   let going = null;
   return (job) => {
-    if (running(job) !== going) {
-      going = running(job);
+    const buttons = running(job) && job.status === 'paused' ? 'paused' : running(job);
+    if (buttons !== going) {
+      going = buttons;
       frame(job);
     }
     tag.className = `tag ${{ successful: 'good', failed: 'bad' }[job.status] ?? ''}`;

@@ -6,6 +6,7 @@ import { nameOf, percent } from '../lib/format.js';
 import { placeWith } from '../lib/place.js';
 import { select } from './job/choices.js';
 import { branchesOf } from './request/branches.js';
+import { campaignOf, campaignOfModel } from './request/campaign.js';
 import { askedOf, chooseModel, requestForm } from './request/view.js';
 import { CLEARANCE, sceneOf, speedsOf } from './request/sensible.js';
 
@@ -37,6 +38,11 @@ export const REQUESTS = {
       return { model: model.id, speed: { value: Math.round(0.6 * to), unit: 'rpm' }, along: { parameter: 'speed', from, to }, scene: sceneOf(model) };
     },
     asked: branchesOf,
+  },
+  campaign: {
+    words: 'Campaign: many designs of a scene', schema: 'LabelledCampaignRequest', path: '/v1/campaigns', plan: '/v1/campaigns/plan', priced: false,
+    begin: campaignOfModel,
+    asked: campaignOf,
   },
 };
 

@@ -146,6 +146,23 @@ def test_a_case_study_and_a_study(client: rubmap.Client, model: rubmap.Model) ->
     plot.work_precision(table)
 
 
+def test_a_campaign_compares_two_models(client: rubmap.Client, model: rubmap.Model) -> None:
+    made = client.generate({"preset": "small", "name": "another", "tip_thickness": 0.5}).submit().wait(progress=False)
+    request: Any = sweep_of(model.id, speeds={"values": [18000, 22000], "unit": "rpm"}, record={})
+    del request["record"]
+    parameters = [{"name": "damping", "at": ["/scene/damping/modal_ratio"], "from": 0.004, "to": 0.01, "levels": 3}]
+    request |= {"compared_model": made.model, "parameters": parameters, "design": {"kind": "grid"}}
+    assert client.campaign(request).plan()["simulations"] == 12
+    job = client.campaign(request).submit().wait(progress=False)
+    designs, differences = job.designs(), job.differences()
+    np.testing.assert_allclose(designs["damping"], [0.004, 0.007, 0.01])
+    assert differences.index.tolist() == pytest.approx([18000, 22000])
+    severity = differences.attrs["severity"]
+    assert severity["mean"] == pytest.approx((designs["compared_severity"] - designs["severity"]).mean())
+    assert job.severities().shape == (3, 2)
+    assert job.sensitivities().empty
+
+
 def test_branches_are_those_of_the_json(client: rubmap.Client, model: rubmap.Model) -> None:
     """A wheel that is damped well has a periodic response, which is followed a little."""
     request: Any = {

@@ -20,6 +20,7 @@ pub mod multifrontal;
 pub mod nested_dissection;
 pub mod orthonormal;
 pub mod p_matrix;
+pub mod paired_difference;
 pub mod panel;
 pub mod sampling;
 pub mod sector_fourier;

@@ -6,7 +6,7 @@ use super::diagram::Diagram;
 use super::key::Flow;
 use super::pixels::Pixels;
 use super::svg::{Element, document, group, line, rectangle, text};
-use super::{colour_bar, hatching, heading};
+use super::{campaign_difference, colour_bar, hatching, heading};
 use rubmap_analysis::request::Severity;
 use rubmap_analysis::result::{Campaign, ParameterSensitivity, severity_unit};
 
@@ -47,7 +47,7 @@ pub(super) fn rows(campaign: &Campaign, parameter: usize) -> Vec<Row> {
 }
 
 /// Draws the severity of designs over speed and a parameter (by its index), with the value at which the limit is met if that is the
-/// parameter asked about, and below it the sensitivities if there are any.
+/// parameter asked about, and below it, if there are any, the differences of the model that is compared, and the sensitivities.
 pub fn campaign(campaign: &Campaign, parameter: usize) -> String {
     let title = title(campaign, parameter);
     let (heading, bottom) = heading::heading(LEFT, &title, &words(campaign, parameter));
@@ -90,6 +90,9 @@ pub fn campaign(campaign: &Campaign, parameter: usize) -> String {
     }
     let below = flow.bottom() + 30.0;
     content.push(flow.draw());
+    let (differences, below) =
+        campaign_difference::panel(campaign, (LEFT, PLOT_WIDTH, WIDTH - 20.0), diagram.x.values, below);
+    content.extend(differences);
     let (bars, height) = sensitivities(campaign, below);
     content.extend(bars);
     document(&title, WIDTH, height, content)
@@ -102,8 +105,9 @@ pub(super) fn title(campaign: &Campaign, parameter: usize) -> String {
 
 /// What stands below the title.
 pub(super) fn words(campaign: &Campaign, parameter: usize) -> Vec<String> {
-    let finished: u32 = campaign.designs.iter().map(|design| design.finished).sum();
-    let all = campaign.designs.len() * campaign.speeds_rad_s.len();
+    let outcomes = campaign.designs.iter().map(|design| &design.outcome).chain(campaign.compared());
+    let finished: u32 = outcomes.clone().map(|outcome| outcome.finished).sum();
+    let all = outcomes.count() * campaign.speeds_rad_s.len();
     let mut words = vec![format!(
         "{} designs, {finished} of {all} simulations · of designs with the same {} the most severe · {}",
         campaign.designs.len(),
@@ -111,6 +115,7 @@ pub(super) fn words(campaign: &Campaign, parameter: usize) -> Vec<String> {
         heading::origin(&campaign.settings.sweep.model, &campaign.version)
     )];
     words.extend(campaign.threshold.iter().map(|threshold| threshold.message.clone()));
+    words.extend(campaign.comparison.iter().map(|comparison| comparison.message.clone()));
     words
 }
 
@@ -138,7 +143,7 @@ pub(super) fn short(campaign: &Campaign) -> String {
 
 /// The most severe of all; 1 where nothing is known.
 pub(super) fn loudest(campaign: &Campaign) -> f64 {
-    let all = campaign.designs.iter().flat_map(|design| design.by_speed.iter().flatten());
+    let all = campaign.designs.iter().flat_map(|design| design.outcome.by_speed.iter().flatten());
     let loudest = all.copied().filter(|severity| severity.is_finite()).fold(0.0, f64::max);
     if loudest > 0.0 { loudest } else { 1.0 }
 }

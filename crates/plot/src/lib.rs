@@ -34,6 +34,7 @@ mod axis;
 mod branch_line;
 mod branches;
 mod campaign;
+mod campaign_difference;
 mod campbell;
 mod campbell_fixed_frame;
 mod cells;

@@ -106,6 +106,15 @@ impl Client {
         self.patiently(|| async { Ok(self.read(self.request(Method::DELETE, &path)).await?.1) }).await
     }
 
+    /// Sets a job aside, or lets it go on; returns it as it is then.
+    ///
+    /// # Errors
+    /// [`ClientError`].
+    pub(in crate::cli) async fn set_paused(&self, id: &str, paused: bool) -> anyhow::Result<Answer<Job>> {
+        let path = format!("/v1/jobs/{id}/{}", if paused { "pause" } else { "continue" });
+        self.patiently(|| async { Ok(self.read(self.request(Method::POST, &path)).await?.1) }).await
+    }
+
     /// Sends DELETE.
     pub(in crate::cli) async fn delete(&self, path: &str) -> anyhow::Result<()> {
         self.patiently(|| async { self.send(self.request(Method::DELETE, path)).await.map(drop) }).await
@@ -137,7 +146,7 @@ impl Client {
 
     /// Cancels every job that has not ended.
     pub(in crate::cli) async fn cancel_unfinished_jobs(&self) -> anyhow::Result<()> {
-        for status in [JobStatus::Accepted, JobStatus::Running] {
+        for status in [JobStatus::Accepted, JobStatus::Running, JobStatus::Paused] {
             let query = format!("status={}&", status.as_str());
             for job in self.list::<Job>("jobs", &query, usize::MAX).await?.0 {
                 self.cancel(&job.id).await?;

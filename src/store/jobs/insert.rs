@@ -39,7 +39,10 @@ impl Store {
     ) -> Result<Insertion, StoreError> {
         let mut transaction = self.write().await?;
         transaction.guard(Guarded::Owner(owner)).await?;
-        if let Some(model) = request.model() {
+        // In one order, or two that compare the same models could wait for each other.
+        let mut models: Vec<&str> = request.model().into_iter().chain(request.compared_model()).collect();
+        models.sort_unstable();
+        for model in models {
             transaction.guard(Guarded::Model(model)).await?;
         }
         if let Some(answer) = answer
@@ -63,9 +66,10 @@ impl Store {
         let time = now();
         let inserted = sqlx::query(
             "insert into jobs (id, kind, model, modes_per_speed, facts, request, speeds, created_at, updated_at, owner,
-                 revision, name, tags, notes, one_kind)
-             select $1, $2, $3, $4, $5, $6, $7, $8, $8, $9, $10, $11, $12, $13, $14
-             where $3 is null or exists (select 1 from models where id = $3)",
+                 revision, name, tags, notes, one_kind, compared_model)
+             select $1, $2, $3, $4, $5, $6, $7, $8, $8, $9, $10, $11, $12, $13, $14, $15
+             where ($3 is null or exists (select 1 from models where id = $3))
+                 and ($15 is null or exists (select 1 from models where id = $15))",
         )
         .bind(id.to_string())
         .bind(request.kind().as_str())
@@ -81,6 +85,7 @@ impl Store {
         .bind(serde_json::to_string(&labels.tags)?)
         .bind(&labels.notes)
         .bind(i64::from(request.is_of_one_kind()))
+        .bind(request.compared_model())
         .execute(&mut *transaction)
         .await?;
         if inserted.rows_affected() == 0 {

@@ -75,6 +75,14 @@ impl JobRequest {
         }
     }
 
+    /// Another model that it computes from, if it compares two.
+    pub fn compared_model(&self) -> Option<&str> {
+        match self {
+            Self::Campaign(campaign) => campaign.compared_model(),
+            _ => None,
+        }
+    }
+
     /// How many speeds it has by now, of all its designs together.
     pub fn speeds(&self) -> u32 {
         match self {

@@ -9,7 +9,7 @@ import { problem } from '../../lib/problem.js';
 import { REQUESTS } from '../sweep.js';
 
 /**
- * Buttons of a job: cancel while it runs; again, as it is or otherwise; delete when it has ended.
+ * Buttons of a job: set aside and cancel while it runs; again, as it is or otherwise; delete when it has ended.
  * @param {any} job as a list or its own page has it
  * @param {{told: any, deleted: () => void | Promise<void>}} where `told` is an element that takes what is refused, `deleted` what is done then
  * @param {AbortSignal} signal
@@ -19,7 +19,7 @@ export function actions(job, { told, deleted }, signal) {
   const request = REQUESTS[job.kind];
   return [
     h('a', { class: 'button', href: `#/${request ? 'sweep' : 'generate'}?as=${job.id}`, 'aria-label': `As ${name}, but …` }, 'As this, but …'),
-    ended(job) ? button('Run again', `Run ${name} again`, again) : null,
+    ended(job) ? button('Run again', `Run ${name} again`, again) : setAside(),
     ended(job)
       ? button('Delete', `Delete ${name}`, remove, 'bad')
       : button('Cancel', `Cancel ${name}`, cancel, 'bad'),
@@ -48,6 +48,11 @@ export function actions(job, { told, deleted }, signal) {
     const labels = Object.fromEntries(Object.entries({ name: called, tags, notes }).filter(([, value]) => value?.length > 0));
     const made = await submit(request ? request.path : '/v1/models', request ? { ...body, model: job.model, ...labels } : { ...body, ...labels }, signal);
     location.hash = `#/jobs/${made.id}`;
+  }
+
+  function setAside() {
+    const [words, verb] = job.status === 'paused' ? ['Continue', 'continue'] : ['Pause', 'pause'];
+    return button(words, `${words} ${name}`, () => api.send('POST', `/v1/jobs/${job.id}/${verb}`, {}, { signal }));
   }
 
   async function cancel() {

@@ -47,12 +47,13 @@ export async function show(place, context, signal) {
   await growing(context, { read, grown }, signal);
 }
 
-function tables({ designs, sensitivities, threshold, settings }) {
+function tables({ designs, sensitivities, threshold, comparison, settings, speeds_rad_s: speeds }) {
   const values = settings.parameters.map(({ name }, place) => ({
     name, number: true, cell: (design) => number(design.values[place]), sort: (design) => design.values[place],
   }));
   return [
     threshold ? h('p', {}, threshold.message) : null,
+    comparison ? compared(comparison, speeds, settings) : null,
     sensitivities ? h('h2', {}, 'Sensitivities') : null,
     sensitivities ? table({
       caption: 'Shares of the variance of the severity',
@@ -76,4 +77,27 @@ function tables({ designs, sensitivities, threshold, settings }) {
       ],
     }),
   ].filter(Boolean);
+}
+
+const VERDICTS = { greater: 'the compared model is more severe', smaller: 'it is less severe', undecided: 'no larger than its errors' };
+
+/** How the model that is compared differs, at every speed. */
+function compared({ model, message, by_speed: differences, limit }, speeds, settings) {
+  const rows = speeds.map((rad_s, place) => ({ rad_s, of: differences[place] })).filter(({ of }) => of);
+  return h('section', {},
+    h('h2', {}, 'Compared with ', h('a', { href: `#/models/${model}` }, 'another model')),
+    h('p', {}, message),
+    limit ? h('p', {}, `Of the designs that are decided with both, ${limit.both} meet the limit of ${number(settings.limit)} with both, ${limit.only_model} only with the campaign’s model, ${limit.only_compared} only with the compared one, ${limit.neither} with neither.`) : null,
+    table({
+      caption: 'Differences of the severity by speed',
+      rows,
+      columns: [
+        { name: 'Speed', number: true, cell: ({ rad_s }) => speed(rad_s), sort: ({ rad_s }) => rad_s },
+        { name: 'Difference', number: true, cell: ({ of }) => number(of.mean), sort: ({ of }) => of.mean },
+        { name: 'From', number: true, cell: ({ of }) => number(of.from), sort: ({ of }) => of.from },
+        { name: 'To', number: true, cell: ({ of }) => number(of.to), sort: ({ of }) => of.to },
+        { name: 'Pairs', number: true, cell: ({ of }) => of.pairs, sort: ({ of }) => of.pairs },
+        { name: 'Verdict', cell: ({ of }) => VERDICTS[of.verdict], sort: ({ of }) => of.verdict },
+      ],
+    }));
 }

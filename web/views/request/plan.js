@@ -55,7 +55,9 @@ function atMost(settings) {
   return settings?.budget ? `; the whole job is planned for ${duration(settings.budget.seconds)}` : '';
 }
 
-function shown(plan) {
+function shown(whole) {
+  // A campaign has the plan of its scene beside its own numbers.
+  const plan = { ...whole.scene, ...whole };
   const { estimate } = plan;
   const scheme = (plan.point ?? plan.points?.[0])?.scheme;
   const off = (plan.effects ?? []).filter((effect) => !effect.on).map((effect) => effect.name.replaceAll('_', ' '));
@@ -65,7 +67,9 @@ function shown(plan) {
     facts([
       ['Time', estimate ? between(estimate.wall_time_s, duration) : null],
       ['Computing time', estimate ? between(estimate.computing_time_s, duration) : null],
+      ['Designs', plan.designs_at_most > plan.designs ? `${plan.designs}, at most ${plan.designs_at_most}` : plan.designs],
       ['Speeds', plan.speeds],
+      ['Simulations', plan.simulations],
       ['Points', plan.points_at_least ? `at least ${plan.points_at_least}, for which the times are; at most ${plan.points_at_most}, and those of doubled branches` : null],
       ['Steps', estimate && !plan.points_at_least ? `${takesAll(plan.settings?.integration) ? '' : 'at most '}${number(estimate.steps, 3)}` : null],
       ['Memory', estimate ? bytes(estimate.memory_bytes) : null],

@@ -14,8 +14,8 @@ import { beginning } from './sensible.js';
 
 /** In which order requests are asked for: what every one needs, and then what has defaults. */
 const GROUPS = [
-  { title: null, names: ['speeds', 'speed', 'along', 'scene', 'lobes', 'superharmonics', 'grid'] },
-  { title: 'What is recorded', names: ['sensors', 'record', 'fields'] },
+  { title: null, names: ['speeds', 'speed', 'along', 'scene', 'parameters', 'design', 'severity', 'limit', 'threshold', 'compared_model', 'lobes', 'superharmonics', 'grid'] },
+  { title: 'What is recorded', names: ['sensors', 'record', 'stress', 'fields'] },
   { title: 'Name, tags, notes', names: ['name', 'tags', 'notes'] },
   { title: 'Settings', names: ['budget', 'modes_per_speed', 'integration', 'sweep', 'refine', 'reproducible', 'control_speeds', 'max_engine_order', 'peak_prominence', 'doubled', 'most_points'] },
 ];
@@ -52,7 +52,7 @@ export async function requestForm(place, { model, kind, value, words }, signal) 
     skip: ['/model', '/accuracy'].slice(0, kind.priced ? 2 : 1),
     beside: (pointer) => cost?.beside(pointer) ?? table.beside(pointer),
     groups: GROUPS,
-    open: ['/speeds', '/speed', '/along', '/scene', '/grid'],
+    open: ['/speeds', '/speed', '/along', '/scene', '/parameters', '/design', '/grid'],
     onChange: () => changed(),
   });
   const button = h('button', { type: 'submit', class: 'main' }, 'Start');

@@ -320,15 +320,20 @@ class Campaign(Planned):
 
     def designs(self) -> pd.DataFrame:
         """A row per design: the values of its parameters, its severity once all speeds are known, the speed where it is, and whether it
-        meets the limit; also while the job runs. ``attrs`` has the settings and, if asked for, the ``threshold``."""
+        meets the limit, with ``compared_`` before the same of a model that is compared; also while the job runs. ``attrs`` has the settings
+        and, if asked for, the ``threshold``."""
         found = self.json("campaign")
         names = [parameter["name"] for parameter in found["settings"]["parameters"]]
-        told = ("severity", "worst_speed_rad_s", "meets_limit", "finished", "diverged", "failed")
+        told = ("severity", "worst_speed_rad_s", "meets_limit", "finished", "diverged", "failed", "not_settled")
         rows = [
-            {"design": design["index"]} | dict(zip(names, design["values"], strict=True)) | {name: design.get(name) for name in told}
+            {"design": design["index"]}
+            | dict(zip(names, design["values"], strict=True))
+            | {name: design.get(name) for name in told}
+            | {f"compared_{name}": design["compared"].get(name) for name in told if "compared" in design}
             for design in found["designs"]
         ]
-        frame = pd.DataFrame(rows, columns=["design", *names, *told]).set_index("design")
+        others = [f"compared_{name}" for name in told if "comparison" in found]
+        frame = pd.DataFrame(rows, columns=["design", *names, *told, *others]).set_index("design")
         frame.attrs.update(
             threshold=found.get("threshold"), units=found["units"], settings=found["settings"], version=found["version"]
         )
@@ -342,6 +347,18 @@ class Campaign(Planned):
         for place, parameter in enumerate(found["settings"]["parameters"]):
             coordinates[parameter["name"]] = ("design", [design["values"][place] for design in found["designs"]])
         return xr.DataArray(values, dims=("design", "speed_rpm"), coords=coordinates, name=found["settings"]["severity"])
+
+    def differences(self) -> pd.DataFrame:
+        """How the model that is compared differs, a row per speed: mean difference of the severity, its standard error and interval, how many
+        pairs it rests on and the verdict; empty where none is compared. ``attrs["severity"]`` has the same of the largest of all speeds."""
+        found = self.json("campaign")
+        comparison = found.get("comparison") or {"by_speed": []}
+        speeds = np.array(found["speeds_rad_s"]) * RPM
+        columns = ["speed_rpm", "pairs", "mean", "standard_error", "from", "to", "resolution", "verdict"]
+        rows = [{"speed_rpm": speed} | of for speed, of in zip(speeds, comparison["by_speed"], strict=False) if of]
+        frame = pd.DataFrame(rows, columns=columns).set_index("speed_rpm")
+        frame.attrs.update(severity=comparison.get("severity"), message=comparison.get("message"), units=found["units"])
+        return frame
 
     def sensitivities(self) -> pd.DataFrame:
         """First-order and total index of every parameter with their standard errors; empty where the design is not ``indices``."""

@@ -1,12 +1,13 @@
 //! What the speeds of a campaign say together, finished or not.
 
-use super::severity::severity;
+use super::comparison::comparison;
+use super::severity::{is_unsettled, severity};
 use super::threshold::{Answer, CONFIDENCE, answer};
 use crate::request::DesignKind;
 use crate::resolved::ResolvedCampaign;
 use crate::result::{
-    Campaign, CampaignDesign, CampaignThreshold, ParameterSensitivity, Point, PointStatus, Sensitivities,
-    Spent, ThresholdShare,
+    Campaign, CampaignDesign, CampaignThreshold, DesignOutcome, ParameterSensitivity, Point, PointStatus,
+    Sensitivities, Spent, ThresholdShare,
 };
 use rubmap_numerics::fragility::Fragility;
 use rubmap_numerics::sensitivity_indices::{self, Indices};
@@ -16,26 +17,12 @@ use rubmap_wheel::revision::VERSION;
 /// The campaign from the simulations finished so far, in any order; the plan is for the caller to add.
 pub fn campaign(asked: &ResolvedCampaign, units: &Units, points: &[Point]) -> Campaign {
     let designs = designs_of(asked, points);
+    let own: Vec<&DesignOutcome> = designs.iter().map(|design| &design.outcome).collect();
     Campaign {
         speeds_rad_s: asked.sweep.speeds.rad_s().to_vec(),
-        sensitivities: sensitivities(asked, &designs),
-        threshold: asked.threshold().map(|(threshold, index)| {
-            let found = answer(&designs, threshold, index);
-            let parameter = threshold.parameter.clone();
-            CampaignThreshold {
-                probability: threshold.probability,
-                value: found.value,
-                from: found.open.map(|(low, _)| low).filter(|end| end.is_finite()),
-                to: found.open.map(|(_, high)| high).filter(|end| end.is_finite()),
-                mean: thresholds(&found).map(|(mean, _)| mean),
-                standard_deviation: thresholds(&found).map(|(_, deviation)| deviation),
-                met_within: threshold.within.map(|within| found.is_within(within)),
-                decided: designs.iter().filter(|design| design.meets_limit.is_some()).count() as u32,
-                shares: shares(&designs, index, &found),
-                message: words(&found, &parameter, threshold.probability),
-                parameter,
-            }
-        }),
+        sensitivities: sensitivities(asked, &own),
+        threshold: threshold(asked, &own),
+        comparison: comparison(asked, &designs),
         designs,
         spent: Spent::on(points),
         plan: None,
@@ -48,54 +35,96 @@ pub fn campaign(asked: &ResolvedCampaign, units: &Units, points: &[Point]) -> Ca
 /// Every design with what its finished speeds say.
 pub(super) fn designs_of(asked: &ResolvedCampaign, points: &[Point]) -> Vec<CampaignDesign> {
     let speeds = asked.sweep.speeds.rad_s();
-    let limit = asked.settings.limit;
-    let empty = |(index, values): (usize, &Vec<f64>)| CampaignDesign {
-        index: index as u32,
-        values: values.clone(),
+    let of = asked.settings.severity;
+    let nothing = DesignOutcome {
         finished: 0,
         diverged: 0,
         failed: 0,
+        not_settled: 0,
         by_speed: vec![None; speeds.len()],
         severity: None,
         worst_speed_rad_s: None,
         meets_limit: None,
     };
+    let empty = |(index, values): (usize, &Vec<f64>)| CampaignDesign {
+        index: index as u32,
+        values: values.clone(),
+        outcome: nothing.clone(),
+        compared: asked.compared.is_some().then(|| nothing.clone()),
+    };
     let mut designs: Vec<CampaignDesign> = asked.settings.designs.iter().enumerate().map(empty).collect();
     for point in points {
-        let place = point.index as usize;
+        let (design, is_compared, speed) = asked.place(point.index);
         // Designs that were added since the request was read wait for the next reader.
-        let Some(design) = designs.get_mut(place / speeds.len()) else { continue };
-        design.finished += 1;
-        design.diverged += u32::from(point.status == PointStatus::Diverged);
-        design.failed += u32::from(point.status == PointStatus::Failed);
-        design.by_speed[place % speeds.len()] = severity(asked.settings.severity, point);
+        let Some(design) = designs.get_mut(design) else { continue };
+        let own = &mut design.outcome;
+        let outcome = design.compared.as_mut().filter(|_| is_compared).unwrap_or(own);
+        outcome.finished += 1;
+        outcome.diverged += u32::from(point.status == PointStatus::Diverged);
+        outcome.failed += u32::from(point.status == PointStatus::Failed);
+        outcome.not_settled += u32::from(is_unsettled(of, point));
+        outcome.by_speed[speed as usize] = severity(of, point);
     }
     for design in &mut designs {
-        let known = design.by_speed.iter().enumerate().filter_map(|(speed, value)| Some((speed, (*value)?)));
-        let worst = known.clone().max_by(|a, b| a.1.total_cmp(&b.1));
-        let all_known = known.count() == speeds.len();
-        if all_known {
-            design.severity = worst.map(|(_, severity)| severity);
-            design.worst_speed_rad_s = worst.map(|(speed, _)| speeds[speed]);
+        for outcome in std::iter::once(&mut design.outcome).chain(&mut design.compared) {
+            conclude(outcome, speeds, asked.settings.limit);
         }
-        design.meets_limit = limit.and_then(|limit| {
-            // Of what grew beyond all bounds no number is needed.
-            let exceeds = design.diverged > 0 || worst.is_some_and(|(_, severity)| severity > limit);
-            (exceeds || all_known).then_some(!exceeds)
-        });
     }
     designs
 }
 
-fn sensitivities(asked: &ResolvedCampaign, designs: &[CampaignDesign]) -> Option<Sensitivities> {
+/// What the speeds of a design say together.
+fn conclude(outcome: &mut DesignOutcome, speeds: &[f64], limit: Option<f64>) {
+    let known = outcome.by_speed.iter().enumerate().filter_map(|(speed, value)| Some((speed, (*value)?)));
+    let worst = known.clone().max_by(|a, b| a.1.total_cmp(&b.1));
+    let all_known = known.count() == speeds.len();
+    if all_known {
+        outcome.severity = worst.map(|(_, severity)| severity);
+        outcome.worst_speed_rad_s = worst.map(|(speed, _)| speeds[speed]);
+    }
+    outcome.meets_limit = limit.and_then(|limit| {
+        // Of what grew beyond all bounds no number is needed.
+        let exceeds = outcome.diverged > 0 || worst.is_some_and(|(_, severity)| severity > limit);
+        (exceeds || all_known).then_some(!exceeds)
+    });
+}
+
+/// Where the limit is met, by what designs come to with one model.
+pub(super) fn threshold(asked: &ResolvedCampaign, outcomes: &[&DesignOutcome]) -> Option<CampaignThreshold> {
+    let (threshold, index) = asked.threshold()?;
+    let cases = cases(asked, outcomes, index);
+    let found = answer(&cases, threshold);
+    Some(CampaignThreshold {
+        probability: threshold.probability,
+        value: found.value,
+        from: found.open.map(|(low, _)| low).filter(|end| end.is_finite()),
+        to: found.open.map(|(_, high)| high).filter(|end| end.is_finite()),
+        mean: thresholds(&found).map(|(mean, _)| mean),
+        standard_deviation: thresholds(&found).map(|(_, deviation)| deviation),
+        met_within: threshold.within.map(|within| found.is_within(within)),
+        decided: cases.len() as u32,
+        shares: shares(cases, &found),
+        message: words(&found, &threshold.parameter, threshold.probability),
+        parameter: threshold.parameter.clone(),
+    })
+}
+
+/// Designs of which it is known whether they meet the limit: the value of parameter `index`, and whether they do.
+pub(super) fn cases(asked: &ResolvedCampaign, outcomes: &[&DesignOutcome], index: usize) -> Vec<(f64, bool)> {
+    let designs = asked.settings.designs.iter().zip(outcomes);
+    designs.filter_map(|(values, outcome)| Some((values[index], outcome.meets_limit?))).collect()
+}
+
+/// How much of the variance of the severity each parameter accounts for, by what designs come to with one model.
+pub(super) fn sensitivities(asked: &ResolvedCampaign, outcomes: &[&DesignOutcome]) -> Option<Sensitivities> {
     if asked.settings.design.kind != DesignKind::Indices {
         return None;
     }
     let parameters = &asked.settings.parameters;
     let blocks = asked.settings.design.size.unwrap_or(0) as usize;
     // Those that were added belong to no block.
-    let first = &designs[..blocks * sensitivity_indices::block_len(parameters.len())];
-    let severities: Vec<Option<f64>> = first.iter().map(|design| design.severity).collect();
+    let first = &outcomes[..blocks * sensitivity_indices::block_len(parameters.len())];
+    let severities: Vec<Option<f64>> = first.iter().map(|outcome| outcome.severity).collect();
     let found = sensitivity_indices::decompose(&severities, parameters.len())?;
     let named = |(name, Indices { first_order, total }): (String, &Indices)| ParameterSensitivity {
         parameter: name,
@@ -127,9 +156,7 @@ const GROUPS: usize = 10;
 const FEWEST: usize = 5;
 
 /// Of groups of equally many neighbouring designs the share that meets the limit, with what the curve says of it.
-fn shares(designs: &[CampaignDesign], index: usize, found: &Answer) -> Vec<ThresholdShare> {
-    let case = |design: &CampaignDesign| Some((design.values[index], design.meets_limit?));
-    let mut cases: Vec<_> = designs.iter().filter_map(case).collect();
+fn shares(mut cases: Vec<(f64, bool)>, found: &Answer) -> Vec<ThresholdShare> {
     cases.sort_by(|a, b| a.0.total_cmp(&b.0));
     let groups = (cases.len() / FEWEST).clamp(1, GROUPS);
     let group = |group: usize| {

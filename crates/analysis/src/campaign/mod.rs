@@ -1,6 +1,7 @@
 //! Campaigns: designs of a scene with other numbers, and what their speeds say together.
 
 pub(crate) mod answer;
+mod comparison;
 pub(crate) mod designs;
 pub(crate) mod more;
 pub(crate) mod plan;

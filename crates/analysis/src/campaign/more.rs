@@ -1,6 +1,6 @@
 //! Which designs a campaign lacks: points go where the answer is undecided.
 
-use super::answer::designs_of;
+use super::answer::{cases, designs_of};
 use super::designs::quantiles;
 use super::threshold::answer;
 use crate::resolved::{Distribution, ResolvedCampaign};
@@ -17,7 +17,9 @@ pub fn more_designs(campaign: &ResolvedCampaign, points: &[Point]) -> Option<Res
     let (threshold, index) = campaign.threshold()?;
     let within = threshold.within?;
     let distributions: Vec<&Distribution> = campaign.distributions.iter().flatten().collect();
-    let found = answer(&designs_of(campaign, points), threshold, index);
+    let designs = designs_of(campaign, points);
+    let own: Vec<_> = designs.iter().map(|design| &design.outcome).collect();
+    let found = answer(&cases(campaign, &own, index), threshold);
     let (from, to) = distributions.get(index)?.range();
     let (low, high) = found.open.map(|(low, high)| (low.max(from), high.min(to)))?;
     let there_are = campaign.designs();

@@ -6,15 +6,21 @@ use crate::plan::plan_sweep;
 use crate::resolved::ResolvedCampaign;
 use crate::result::{CampaignPlan, CostRange, Estimate, SweepPlan};
 
-/// Plans a campaign on `workers` threads, by the scene before anything is changed; without `reduced`, what can be said without it.
+/// Plans a campaign on `workers` threads, by the scene before anything is changed, from facts and, where it is there, the reduction of its model
+/// and of the one that is compared.
 pub fn plan_campaign(
     campaign: &ResolvedCampaign,
-    facts: &ModelFacts,
-    reduced: Option<&ReducedSector>,
+    (facts, reduced): (&ModelFacts, Option<&ReducedSector>),
+    compared: Option<(&ModelFacts, Option<&ReducedSector>)>,
     calibration: &Calibration,
     workers: usize,
 ) -> CampaignPlan {
     let scene = plan_sweep(&campaign.sweep, facts, reduced, calibration, workers);
+    let compared = campaign.compared.as_ref().zip(compared);
+    let compared =
+        compared.map(|(sweep, (facts, reduced))| plan_sweep(sweep, facts, reduced, calibration, workers));
+    let own = estimate(&scene, campaign.designs() as f64, workers);
+    let other = compared.as_ref().map(|plan| estimate(plan, campaign.designs() as f64, workers));
     let designs = campaign.designs() as u32;
     let threshold = campaign.settings.threshold.as_ref().filter(|threshold| threshold.within.is_some());
     CampaignPlan {
@@ -22,10 +28,22 @@ pub fn plan_campaign(
         designs_at_most: threshold.map_or(designs, |threshold| threshold.most_designs.max(designs)),
         simulations: campaign.simulations(),
         reduction: scene.reduction,
-        estimate: estimate(&scene, f64::from(designs), workers),
+        estimate: match other {
+            None => own,
+            Some(other) => own.zip(other).map(|(own, other)| side_by_side(own, other)),
+        },
         settings: campaign.settings.clone(),
         scene,
+        compared,
     }
+}
+
+/// Two models in one campaign: a worker may hold a speed of either, and both reduced wheels are kept.
+fn side_by_side(one: Estimate, other: Estimate) -> Estimate {
+    let wheel = |of: &Estimate| of.memory_bytes.saturating_sub(u64::from(of.workers) * of.speed_memory_bytes);
+    let speed_memory_bytes = one.speed_memory_bytes.max(other.speed_memory_bytes);
+    let memory_bytes = wheel(&one) + wheel(&other) + u64::from(one.workers) * speed_memory_bytes;
+    Estimate { memory_bytes, speed_memory_bytes, ..one.followed_by(other) }
 }
 
 /// So many designs, each as dear as the sweep that was planned; speeds of all of them run side by side.

@@ -9,9 +9,9 @@ use super::more::more_designs;
 use crate::error::Violation;
 use crate::model::ModelFacts;
 use crate::request::CampaignRequest;
-use crate::resolve::campaign::resolve_campaign;
+use crate::resolve::campaign::{ComparedModel, resolve_campaign};
 use crate::resolved::ResolvedCampaign;
-use crate::result::{Campaign, Point};
+use crate::result::{Campaign, DifferenceVerdict, LimitsMet, Point};
 
 /// Of two speeds, with what `changes` says beside.
 fn request(changes: Value) -> Value {
@@ -31,7 +31,16 @@ fn request(changes: Value) -> Value {
 
 fn resolve(changes: Value) -> Result<ResolvedCampaign, Vec<Violation>> {
     let request: CampaignRequest = serde_json::from_value(request(changes)).unwrap();
-    resolve_campaign(request, &ModelFacts::of_ten_sectors(4))
+    let facts = ModelFacts::of_ten_sectors(4);
+    let compared = request.compared_model.as_ref().map(|_| other_model("mm"));
+    resolve_campaign(request, &facts, compared.as_ref())
+}
+
+/// Of seven sectors and fewer contact nodes.
+fn other_model(length: &str) -> ComparedModel {
+    let mut facts = ModelFacts { sectors: 7, ..ModelFacts::of_ten_sectors(2) };
+    length.clone_into(&mut facts.units.length);
+    ComparedModel { facts, sensors: Vec::new() }
 }
 
 fn clearance(name: &str, from: f64, to: f64) -> Value {
@@ -50,6 +59,13 @@ fn point(index: u32, status: &str, severity: f64) -> Point {
         "smallest_stable_steps_per_revolution": 1, "contact_share": 0.0, "responses": responses, "wall_time_s": 0.5, "version": "0",
     });
     serde_json::from_value(point).unwrap()
+}
+
+/// The same, had it not settled.
+fn on_its_way(mut point: Point) -> Point {
+    let settling = json!({"verdict": "not_settled", "largest_change": 0.2});
+    point.settling = serde_json::from_value(settling).unwrap();
+    point
 }
 
 /// What simulations from `first` on would find, were this the severity of (values, speed).
@@ -100,7 +116,7 @@ fn sensitivities_are_those_of_ishigamis_function_at_the_worst_speed() {
         assert!((found.total - total).abs() < 3.0 * found.total_error, "{found:?}");
     }
     assert!((sensitivities.mean - 23.5).abs() < 0.5 && sensitivities.blocks == 512);
-    assert!(found.designs.iter().all(|design| design.worst_speed_rad_s == Some(400.0 * PI)));
+    assert!(found.designs.iter().all(|design| design.outcome.worst_speed_rad_s == Some(400.0 * PI)));
     assert_eq!(found.spent.steps, u64::from(asked.simulations()));
     // While it runs: of complete blocks only, whatever came first.
     let half = answer(&asked, &all[..256 * 5 * 2 + 7]);
@@ -179,7 +195,7 @@ fn what_is_not_known_is_not_counted() {
     }))
     .unwrap();
     let ends = [
-        // Both below; one above and one not there yet; one diverged, one below; one failed, one below; one below, one not there yet.
+        // Both below; one above and one not there yet; one diverged, one below; one failed, one below; one below, one on its way.
         point(0, "completed", 0.2),
         point(1, "completed", 0.9),
         point(3, "completed", 1.1),
@@ -188,17 +204,23 @@ fn what_is_not_known_is_not_counted() {
         point(6, "failed", 0.0),
         point(7, "completed", 0.1),
         point(8, "completed", 0.1),
+        on_its_way(point(9, "completed", 0.2)),
     ];
     let found = answer(&asked, &ends);
-    let meets: Vec<_> = found.designs.iter().map(|design| design.meets_limit).collect();
+    let meets: Vec<_> = found.designs.iter().map(|design| design.outcome.meets_limit).collect();
     assert_eq!(meets, [Some(true), Some(false), Some(false), None, None]);
-    let severities: Vec<_> = found.designs.iter().map(|design| design.severity).collect();
+    let severities: Vec<_> = found.designs.iter().map(|design| design.outcome.severity).collect();
     assert_eq!(severities, [Some(0.9), None, None, None, None]);
-    let counts: Vec<_> =
-        found.designs.iter().map(|design| (design.finished, design.diverged, design.failed)).collect();
-    assert_eq!(counts, [(2, 0, 0), (1, 0, 0), (2, 1, 0), (2, 0, 1), (1, 0, 0)]);
+    let outcomes = found.designs.iter().map(|design| &design.outcome);
+    let counts: Vec<_> = outcomes
+        .map(|outcome| (outcome.finished, outcome.diverged, outcome.failed, outcome.not_settled))
+        .collect();
+    assert_eq!(counts, [(2, 0, 0, 0), (1, 0, 0, 0), (2, 1, 0, 0), (2, 0, 1, 0), (2, 0, 0, 1)]);
     assert_eq!(found.threshold.unwrap().decided, 3);
-    assert_eq!((found.sensitivities, found.designs[0].by_speed.clone()), (None, vec![Some(0.2), Some(0.9)]));
+    assert_eq!(
+        (found.sensitivities, found.designs[0].outcome.by_speed.clone()),
+        (None, vec![Some(0.2), Some(0.9)])
+    );
 }
 
 #[test]
@@ -255,4 +277,102 @@ fn what_makes_no_campaign_is_refused_at_its_field() {
     assert_eq!(asked.settings.designs.concat(), [1.0, 2.0, 3.0, 4.0, 5.0]);
     let kept = serde_json::to_value(&asked).unwrap();
     assert_eq!(ResolvedCampaign::stored(serde_json::from_value(kept).unwrap()).unwrap(), asked);
+}
+
+/// Severities x + 0.1 and 1.5x of the two models at the first speed, less at the second: design by design they differ by 0.5x − 0.1.
+#[test]
+fn models_are_compared_design_by_design() {
+    let asked = resolve(json!({
+        "parameters": [clearance("clearance", 0.0, 1.0)], "design": {"kind": "sobol", "size": 64}, "limit": 0.6, "compared_model": "n",
+    }))
+    .unwrap();
+    assert_eq!((asked.simulations(), asked.compared_model()), (64 * 2 * 2, Some("n")));
+    let of = |index: u32| {
+        let x = asked.settings.designs[index as usize / 4][0];
+        let own = if index % 4 < 2 { x + 0.1 } else { 1.5 * x };
+        point(index, "completed", own - 0.05 * f64::from(index % 2))
+    };
+    let all: Vec<Point> = (0..asked.simulations()).map(of).collect();
+    let found = answer(&asked, &all);
+    let xs: Vec<f64> = asked.settings.designs.concat();
+    let differences = xs.iter().map(|x| 0.5 * x - 0.1);
+    let mean = differences.clone().sum::<f64>() / 64.0;
+    let variance = differences.map(|difference| (difference - mean).powi(2)).sum::<f64>() / 63.0;
+    let comparison = found.comparison.unwrap();
+    let told = comparison.severity.unwrap();
+    assert!((told.mean - mean).abs() < 1e-12 && told.pairs == 64, "{told:?}");
+    assert!((told.standard_error.unwrap() - (variance / 64.0).sqrt()).abs() < 1e-12);
+    // The true mean is 0.15: the interval has it, and leaves out 0.
+    assert!(
+        told.from.unwrap() < 0.15 && told.to.unwrap() > 0.15 && told.verdict == DifferenceVerdict::Greater
+    );
+    assert_eq!(comparison.by_speed.len(), 2);
+    assert!((comparison.by_speed[1].unwrap().mean - mean).abs() < 1e-12);
+    let met = |met: fn(f64) -> (bool, bool), wanted| xs.iter().filter(|x| met(**x) == wanted).count() as u32;
+    let both = |x: f64| (x + 0.1 <= 0.6, 1.5 * x <= 0.6);
+    let expected = LimitsMet {
+        both: met(both, (true, true)),
+        only_model: met(both, (true, false)),
+        only_compared: met(both, (false, true)),
+        neither: met(both, (false, false)),
+    };
+    assert_eq!(comparison.limit, Some(expected));
+    assert!(expected.only_model > 0 && expected.only_compared == 0);
+    // One design tells no error, and designs that are known with one model only no difference.
+    let one = answer(&asked, &all[..4]).comparison.unwrap().severity.unwrap();
+    assert_eq!((one.pairs, one.standard_error, one.verdict), (1, None, DifferenceVerdict::Undecided));
+    assert_eq!(answer(&asked, &all[..2]).comparison.unwrap().severity, None);
+}
+
+/// What is added for the first model's threshold says nothing of the mean, and mixed points of indices nothing that others do not.
+#[test]
+fn designs_that_lean_on_others_are_not_compared() {
+    let threshold = json!({"parameter": "clearance", "within": 1e-3, "batch": 8});
+    let parameters = json!([clearance("clearance", 0.0, 1.0), clearance("other", 0.0, 1.0)]);
+    let asked = resolve(json!({
+        "parameters": parameters, "design": {"kind": "indices", "size": 8}, "limit": 0.5, "threshold": threshold, "compared_model": "n",
+    }))
+    .unwrap();
+    let of = |asked: &ResolvedCampaign, index: u32| {
+        let values = &asked.settings.designs[index as usize / 4];
+        let other = if index % 4 < 2 { 0.0 } else { 1e-5 };
+        point(index, "completed", values[0] + 0.01 * values[1] + other)
+    };
+    let all: Vec<Point> = (0..asked.simulations()).map(|index| of(&asked, index)).collect();
+    let longer = more_designs(&asked, &all).unwrap();
+    assert_eq!((longer.settings.added, longer.designs()), (8, 8 * 4 + 8));
+    let all: Vec<Point> = (0..longer.simulations()).map(|index| of(&longer, index)).collect();
+    let comparison = answer(&longer, &all).comparison.unwrap();
+    let told = comparison.severity.unwrap();
+    assert_eq!(told.pairs, 16);
+    // It differs by 1e-5 in all designs, but severities are known to 1e-3 of theirs.
+    assert!((told.mean - 1e-5).abs() < 1e-12 && told.from.unwrap() > 0.9e-5, "{told:?}");
+    assert_eq!(told.verdict, DifferenceVerdict::Undecided);
+    assert!(comparison.sensitivities.is_some() && comparison.threshold.is_some());
+}
+
+#[test]
+fn what_cannot_be_compared_is_refused() {
+    let request = |changes: Value| -> CampaignRequest {
+        let mut all = json!({"parameters": [clearance("c", 0.0, 1.0)], "design": {"kind": "sobol", "size": 2}, "compared_model": "n"});
+        for (field, value) in changes.as_object().unwrap() {
+            all[field] = value.clone();
+        }
+        serde_json::from_value(self::request(all)).unwrap()
+    };
+    let facts = ModelFacts::of_ten_sectors(4);
+    let refused = |request: CampaignRequest, compared: &ComparedModel| {
+        let found = resolve_campaign(request, &facts, Some(compared)).unwrap_err();
+        found.into_iter().map(|violation| (violation.pointer, violation.message)).collect::<Vec<_>>()
+    };
+    let units = refused(request(json!({})), &other_model("m"));
+    assert!(units[0].0 == "/compared_model" && units[0].1.contains("t-m-s-N"), "{units:?}");
+    let same = refused(request(json!({"compared_model": "m"})), &other_model("mm"));
+    assert_eq!(same[0].0, "/compared_model");
+    // Contact node 3 is there in the first model only.
+    let sensor = json!({"contact_node": 3, "component": "radial"});
+    let mut other = other_model("mm");
+    other.sensors = vec![serde_json::from_value(sensor.clone()).unwrap()];
+    let sensors = refused(request(json!({"sensors": [sensor]})), &other);
+    assert!(sensors[0].0.starts_with("/sensors/0") && sensors[0].1.contains("compared"), "{sensors:?}");
 }

@@ -1,7 +1,6 @@
 //! Where a parameter meets the limit with a probability: what the designs so far say.
 
 use crate::request::Threshold;
-use crate::result::CampaignDesign;
 use rubmap_numerics::fragility::{self, Fragility};
 
 /// Confidence of intervals.
@@ -18,11 +17,9 @@ pub(super) struct Answer {
     pub(super) open: Option<(f64, f64)>,
 }
 
-/// Reads `designs` along parameter `index`.
-pub(super) fn answer(designs: &[CampaignDesign], asked: &Threshold, index: usize) -> Answer {
-    let case = |design: &CampaignDesign| Some((design.values[index], design.meets_limit?));
-    let cases: Vec<_> = designs.iter().filter_map(case).collect();
-    let fragility = fragility::fit(&cases);
+/// Reads `cases`: values of the parameter, and whether the limit is met there.
+pub(super) fn answer(cases: &[(f64, bool)], asked: &Threshold) -> Answer {
+    let fragility = fragility::fit(cases);
     let (value, open) = match fragility {
         Some(Fragility::Apart { below, above, .. }) => (Some(0.5 * (below + above)), Some((below, above))),
         Some(Fragility::Curve(curve)) => {

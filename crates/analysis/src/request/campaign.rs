@@ -18,6 +18,11 @@ pub struct CampaignRequest {
     /// Id of an uploaded model.
     #[cfg_attr(feature = "schema", schema(max_length = 64))]
     pub model: String,
+    /// Id of another model that every design is also simulated with, to be compared with `model`; it must have the same units, and all
+    /// that is asked for must be possible with either.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schema(max_length = 64))]
+    pub compared_model: Option<String>,
     /// Fixed-interface modes kept per stiffness speed and nodal diameter; `"auto"` is 20. All designs share the reduction.
     #[serde(default)]
     pub modes_per_speed: AutoOr,
@@ -239,6 +244,9 @@ pub struct Threshold {
 pub struct CampaignSettings {
     /// The sweep that every design is, with the scene before anything is changed.
     pub sweep: SweepRequest,
+    /// The same with the model that is compared with it, if one is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub compared: Option<SweepRequest>,
     /// What varies.
     pub parameters: Vec<Parameter>,
     /// Which designs are simulated.
@@ -253,6 +261,9 @@ pub struct CampaignSettings {
     pub threshold: Option<Threshold>,
     /// `[design][parameter]`: the values of every design, those that were added at the end.
     pub designs: Vec<Vec<f64>>,
+    /// How many of them were added where the answer was undecided.
+    #[serde(default)]
+    pub added: u32,
 }
 
 fn default_probability() -> f64 {

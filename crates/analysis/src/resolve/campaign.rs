@@ -5,13 +5,14 @@ use crate::error::Violation;
 use crate::model::ModelFacts;
 use crate::request::sweep::default_peak_prominence;
 use crate::request::{
-    CampaignRequest, CampaignSettings, Design, DesignKind, DistributionKind, Parameter, Record, Severity,
-    SweepDirection, SweepRequest, Threshold,
+    CampaignRequest, CampaignSettings, Design, DesignKind, DistributionKind, Parameter, Record, Sensor,
+    Severity, SweepDirection, SweepRequest, Threshold,
 };
 use crate::resolve::findings::Findings;
 use crate::resolve::resolve_sweep;
 use crate::resolved::campaign::changed;
 use crate::resolved::{Distribution, ResolvedCampaign, ResolvedSweep};
+use rubmap_wheel::dynamics::sector::Units;
 
 /// Most parameters of a campaign: Sobol points have directions for twice as many and more.
 const PARAMETERS: usize = 100;
@@ -23,10 +24,21 @@ const SIMULATIONS: usize = 100_000;
 /// Designs that are refused are told up to this many.
 const TOLD: usize = 20;
 
-/// Parses a campaign and checks it against its model: the scene as it is, and that of every design.
+/// The model that a campaign compares with its own.
+#[derive(Debug, Clone)]
+pub struct ComparedModel {
+    /// Its facts.
+    pub facts: ModelFacts,
+    /// The sensors asked for, at nodes of this model.
+    pub sensors: Vec<Sensor>,
+}
+
+/// Parses a campaign and checks it against its models: the scene as it is, and that of every design. `compared` is the model of
+/// `compared_model`, if there is one.
 pub fn resolve_campaign(
     request: CampaignRequest,
     facts: &ModelFacts,
+    compared: Option<&ComparedModel>,
 ) -> Result<ResolvedCampaign, Vec<Violation>> {
     let CampaignRequest { parameters, design, severity, limit, threshold, stress, scene, .. } = request;
     let asked = SweepRequest {
@@ -48,13 +60,23 @@ pub fn resolve_campaign(
         fields: request.fields,
     };
     let mut found = Findings::default();
+    let other = request.compared_model.zip(compared).map(|(model, compared)| {
+        let sweep = SweepRequest { model, sensors: compared.sensors.clone(), ..asked.clone() };
+        (sweep, &compared.facts)
+    });
+    found.require(
+        other.as_ref().is_none_or(|(sweep, _)| sweep.model != asked.model),
+        "/compared_model",
+        "the id of another model than `model`",
+    );
     let resolved = resolve_sweep(asked, facts)
         .map_err(|violations| found.0.extend(violations.into_iter().map(at_its_field)));
+    let other = other.map(|(sweep, others)| check_compared(&mut found, sweep, (facts, others))).transpose();
     let distributions = check_parameters(&mut found, &parameters, &design);
     check_design(&mut found, &design, &parameters, &distributions);
     check_threshold(&mut found, threshold.as_ref(), limit, &parameters, &distributions);
     found.require(limit.is_none_or(f64::is_finite), "/limit", "a finite number");
-    let Ok(sweep) = resolved else { return Err(found.0) };
+    let (Ok(sweep), Ok(other)) = (resolved, other) else { return Err(found.0) };
     check_severity(&mut found, severity, &sweep);
     if !found.0.is_empty() {
         return Err(found.0);
@@ -65,23 +87,67 @@ pub fn resolve_campaign(
         Some(points) => points.clone(),
         None => designs(design.kind, (size, seed), &parameters, &drawn),
     };
-    let simulations = values.len().saturating_mul(sweep.speeds.count() as usize);
+    let models = if other.is_some() { 2 } else { 1 };
+    let simulations = values.len().saturating_mul(models * sweep.speeds.count() as usize);
     found.require(
         simulations <= SIMULATIONS,
         "/speeds",
         format!(
-            "{} designs over {} speeds are {simulations} simulations, more than {SIMULATIONS}",
+            "{} designs{} over {} speeds are {simulations} simulations, more than {SIMULATIONS}",
             values.len(),
+            if models > 1 { " of two models" } else { "" },
             sweep.speeds.count()
         ),
     );
-    let written = SweepRequest { scene, ..sweep.clone().into() };
-    let settings =
-        CampaignSettings { sweep: written, parameters, design, severity, limit, threshold, designs: values };
+    // As it was written: pointers lead into it.
+    let written = |sweep: &ResolvedSweep| SweepRequest { scene: scene.clone(), ..sweep.clone().into() };
+    let settings = CampaignSettings {
+        sweep: written(&sweep),
+        compared: other.as_ref().map(written),
+        parameters,
+        design,
+        severity,
+        limit,
+        threshold,
+        designs: values,
+        added: 0,
+    };
     if found.0.is_empty() {
-        check_designs(&mut found, &settings, facts);
+        check_designs(&mut found, &settings, &settings.sweep, facts);
+        if let (Some(sweep), Some(compared)) = (&settings.compared, compared) {
+            check_designs(&mut found, &settings, sweep, &compared.facts);
+        }
     }
-    found.finish(ResolvedCampaign { sweep, distributions, settings })
+    found.finish(ResolvedCampaign { sweep, compared: other, distributions, settings })
+}
+
+/// The same sweep with the model that is compared; what only that one refuses is said to be its.
+fn check_compared(
+    found: &mut Findings,
+    sweep: SweepRequest,
+    (facts, others): (&ModelFacts, &ModelFacts),
+) -> Result<ResolvedSweep, ()> {
+    found.require(
+        facts.units == others.units,
+        "/compared_model",
+        format!(
+            "its units are {}, those of the other {}: only what is in the same units can be compared",
+            in_words(&others.units),
+            in_words(&facts.units)
+        ),
+    );
+    let told = found.0.clone();
+    resolve_sweep(sweep, others).map_err(|violations| {
+        let own = violations.into_iter().map(at_its_field).filter(|violation| !told.contains(violation));
+        found.0.extend(own.map(|violation| Violation {
+            message: format!("of the model that is compared: {}", violation.message),
+            ..violation
+        }));
+    })
+}
+
+fn in_words(units: &Units) -> String {
+    [&units.mass, &units.length, &units.time, &units.force].map(String::as_str).join("-")
 }
 
 /// What a sweep has within `record`, a campaign has itself.
@@ -265,10 +331,16 @@ fn check_severity(found: &mut Findings, severity: Severity, sweep: &ResolvedSwee
     found.require(there, "/severity", format!("there is none without {needs}"));
 }
 
-/// Every design must be sound; what is wrong with one is said at the parameter that moves the field, if one does.
-fn check_designs(found: &mut Findings, settings: &CampaignSettings, facts: &ModelFacts) {
+/// Every design of a `sweep` must be sound; what is wrong with one is said at the parameter that moves the field, if one does.
+fn check_designs(
+    found: &mut Findings,
+    settings: &CampaignSettings,
+    sweep: &SweepRequest,
+    facts: &ModelFacts,
+) {
     for (index, values) in settings.designs.iter().enumerate() {
-        let checked = changed(settings, values).and_then(|sweep| resolve_sweep(sweep, facts).map(drop));
+        let checked = changed(sweep, &settings.parameters, values)
+            .and_then(|sweep| resolve_sweep(sweep, facts).map(drop));
         for violation in checked.err().unwrap_or_default() {
             let moves =
                 |parameter: &Parameter| parameter.at.iter().any(|at| at.starts_with(&violation.pointer));

@@ -4,17 +4,19 @@ use serde::Serialize;
 use serde_json::Value;
 
 use crate::error::Violation;
-use crate::request::{CampaignSettings, Change, SweepRequest, Threshold};
+use crate::request::{CampaignSettings, Change, Parameter, SweepRequest, Threshold};
 use crate::resolved::distribution::Distribution;
 use crate::resolved::sweep::ResolvedSweep;
 
 /// A sweep of which numbers vary, and its designs; see [`CampaignSettings`], as which it is written. What is computed is one speed of one
-/// design: of all designs one after the other, so that designs which are added change no index.
+/// model of one design: of all designs one after the other, so that designs which are added change no index.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(into = "CampaignSettings")]
 pub struct ResolvedCampaign {
     /// With the scene before anything is changed.
     pub(crate) sweep: ResolvedSweep,
+    /// The same with the model that is compared with it.
+    pub(crate) compared: Option<ResolvedSweep>,
     /// One per parameter; none of one that is only listed.
     pub(crate) distributions: Vec<Option<Distribution>>,
     /// All that was asked for. The scene is as it was written: pointers into it are those of the request.
@@ -28,8 +30,9 @@ impl ResolvedCampaign {
     /// What is wrong with it, if it was not.
     pub fn stored(settings: CampaignSettings) -> Result<Self, Vec<Violation>> {
         let sweep = ResolvedSweep::stored(settings.sweep.clone(), 0)?;
+        let compared = settings.compared.clone().map(|sweep| ResolvedSweep::stored(sweep, 0)).transpose()?;
         let distributions = settings.parameters.iter().map(Distribution::of).collect::<Result<_, _>>()?;
-        Ok(Self { sweep, distributions, settings })
+        Ok(Self { sweep, compared, distributions, settings })
     }
 
     /// The sweep that every design is, before anything is changed.
@@ -37,14 +40,41 @@ impl ResolvedCampaign {
         &self.sweep
     }
 
+    /// That of every model, the one that is compared last.
+    pub fn sweeps(&self) -> impl Iterator<Item = &ResolvedSweep> {
+        std::iter::once(&self.sweep).chain(&self.compared)
+    }
+
+    /// The same sweep with the model that is compared, if one is.
+    pub fn compared(&self) -> Option<&ResolvedSweep> {
+        self.compared.as_ref()
+    }
+
+    /// The model that is compared, if one is.
+    pub fn compared_model(&self) -> Option<&str> {
+        self.compared().map(ResolvedSweep::model)
+    }
+
     /// How many designs there are.
     pub fn designs(&self) -> usize {
         self.settings.designs.len()
     }
 
-    /// How many simulations: one for every design and speed.
+    /// How many simulations a design has: one for every model and speed.
+    fn simulations_each(&self) -> u32 {
+        self.sweeps().count() as u32 * self.sweep.speeds.count()
+    }
+
+    /// How many simulations there are.
     pub fn simulations(&self) -> u32 {
-        self.designs() as u32 * self.sweep.speeds.count()
+        self.designs() as u32 * self.simulations_each()
+    }
+
+    /// Design of simulation `index`, whether it is of the model that is compared, and the index of its speed.
+    pub(crate) fn place(&self, index: u32) -> (usize, bool, u32) {
+        let (design, rest) = (index / self.simulations_each(), index % self.simulations_each());
+        let speeds = self.sweep.speeds.count();
+        (design as usize, rest / speeds > 0, rest % speeds)
     }
 
     /// Simulation `index`: the sweep of its design, and the index of its speed there.
@@ -52,8 +82,10 @@ impl ResolvedCampaign {
     /// # Errors
     /// What is wrong with a design, if it was never held against its model.
     pub fn simulation(&self, index: u32) -> Result<(ResolvedSweep, u32), Vec<Violation>> {
-        let (design, speed) = (index / self.sweep.speeds.count(), index % self.sweep.speeds.count());
-        let sweep = changed(&self.settings, &self.settings.designs[design as usize])?;
+        let (design, is_compared, speed) = self.place(index);
+        let settings = &self.settings;
+        let sweep = settings.compared.as_ref().filter(|_| is_compared).unwrap_or(&settings.sweep);
+        let sweep = changed(sweep, &settings.parameters, &settings.designs[design])?;
         Ok((ResolvedSweep::stored(sweep, 0)?, speed))
     }
 
@@ -76,6 +108,7 @@ impl ResolvedCampaign {
     /// The same with more designs.
     pub(crate) fn with_designs(&self, more: Vec<Vec<f64>>) -> Self {
         let mut longer = self.clone();
+        longer.settings.added += more.len() as u32;
         longer.settings.designs.extend(more);
         longer
     }
@@ -87,15 +120,19 @@ impl From<ResolvedCampaign> for CampaignSettings {
     }
 }
 
-/// The sweep of the design with these `values` of the parameters, each in its turn.
+/// The `sweep` with these `values` of the parameters, each in its turn.
 ///
 /// # Errors
 /// At the parameter that meets no number, or makes none that the field takes.
-pub(crate) fn changed(settings: &CampaignSettings, values: &[f64]) -> Result<SweepRequest, Vec<Violation>> {
+pub(crate) fn changed(
+    sweep: &SweepRequest,
+    parameters: &[Parameter],
+    values: &[f64],
+) -> Result<SweepRequest, Vec<Violation>> {
     let refused = |pointer: String, message: String| vec![Violation::new(pointer, message)];
-    let mut sweep = serde_json::to_value(&settings.sweep)
-        .map_err(|error| refused("/scene".to_owned(), error.to_string()))?;
-    for (index, (parameter, &value)) in settings.parameters.iter().zip(values).enumerate() {
+    let mut sweep =
+        serde_json::to_value(sweep).map_err(|error| refused("/scene".to_owned(), error.to_string()))?;
+    for (index, (parameter, &value)) in parameters.iter().zip(values).enumerate() {
         for (place, pointer) in parameter.at.iter().enumerate() {
             let number = sweep.pointer_mut(pointer).filter(|number| number.is_number());
             let Some(number) = number.filter(|_| pointer.starts_with("/scene/")) else {
@@ -149,12 +186,13 @@ mod tests {
             {"name": "leading", "at": ["/scene/casing/clearance/leading"], "change": "multiply"},
             {"name": "seed", "at": ["/scene/mistuning/seed"]},
         ]));
-        let sweep = serde_json::to_value(changed(&settings, &[0.1, 2.0, 7.0]).unwrap()).unwrap();
+        let changed = |values: &[f64]| changed(&settings.sweep, &settings.parameters, values);
+        let sweep = serde_json::to_value(changed(&[0.1, 2.0, 7.0]).unwrap()).unwrap();
         let at = |pointer: &str| sweep.pointer(pointer).unwrap();
         assert_eq!(at("/scene/casing/clearance/leading"), &json!(0.8));
         assert!((at("/scene/casing/clearance/trailing").as_f64().unwrap() - 0.3).abs() < 1e-15);
         assert_eq!(at("/scene/mistuning/seed"), &json!(7));
-        let refused = changed(&settings, &[0.1, 2.0, 7.5]).unwrap_err();
+        let refused = changed(&[0.1, 2.0, 7.5]).unwrap_err();
         assert_eq!(refused[0].pointer, "/parameters/2");
     }
 
@@ -162,7 +200,8 @@ mod tests {
     fn only_numbers_of_the_scene_are_changed() {
         for pointer in ["/scene/casing", "/scene/friction/coefficient", "/max_engine_order", "scene", ""] {
             let settings = settings(json!([{"name": "p", "at": [pointer]}]));
-            assert_eq!(changed(&settings, &[1.0]).unwrap_err()[0].pointer, "/parameters/0/at/0", "{pointer}");
+            let refused = changed(&settings.sweep, &settings.parameters, &[1.0]).unwrap_err();
+            assert_eq!(refused[0].pointer, "/parameters/0/at/0", "{pointer}");
         }
     }
 

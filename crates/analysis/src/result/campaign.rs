@@ -22,6 +22,9 @@ pub struct Campaign {
     /// Where the limit is met with the probability asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub threshold: Option<CampaignThreshold>,
+    /// How the model that is compared differs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub comparison: Option<Comparison>,
     /// What the designs of `design` were expected to cost; absent before they are queued.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plan: Option<Estimate>,
@@ -43,12 +46,27 @@ pub struct CampaignDesign {
     pub index: u32,
     /// The values of its parameters.
     pub values: Vec<f64>,
+    /// What the speeds of the model say of it.
+    #[serde(flatten)]
+    pub outcome: DesignOutcome,
+    /// The same of the model that is compared.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub compared: Option<DesignOutcome>,
+}
+
+/// What the speeds of a design say, with one model.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct DesignOutcome {
     /// Speeds that are finished, however they ended.
     pub finished: u32,
     /// Those of them that diverged.
     pub diverged: u32,
     /// Those of them that could not be integrated.
     pub failed: u32,
+    /// Those of them that had not settled at the end of their revolutions, so that nobody knows what they would come to.
+    #[serde(default)]
+    pub not_settled: u32,
     /// Severity by speed; null where it is not known.
     pub by_speed: Vec<Option<f64>>,
     /// The largest of them, once all are known.
@@ -144,6 +162,81 @@ pub struct ThresholdShare {
     pub expected: Option<f64>,
 }
 
+/// How another model differs from that of the campaign: its severity less that of the campaign's model, design by design. Designs that lean on
+/// others, those added for a threshold and the mixed ones of `indices`, are left out.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct Comparison {
+    /// Id of the model that is compared.
+    pub model: String,
+    /// The difference of the severities, the largest of all speeds each; absent until those of a design are known with both models.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub severity: Option<Difference>,
+    /// The same at every speed; null where no design is known with both.
+    pub by_speed: Vec<Option<Difference>>,
+    /// Designs of which it is known with both models whether they meet the limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub limit: Option<LimitsMet>,
+    /// Sensitivities with the model that is compared.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sensitivities: Option<Sensitivities>,
+    /// Where the limit is met with it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub threshold: Option<CampaignThreshold>,
+    /// What it comes to, in words.
+    pub message: String,
+}
+
+/// Differences of pairs, and whether they are larger than their errors.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct Difference {
+    /// Designs that are known with both models.
+    pub pairs: u32,
+    /// Mean of the differences.
+    pub mean: f64,
+    /// Its standard error; of one pair there is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub standard_error: Option<f64>,
+    /// The mean over all designs that could have been drawn is no less than this, with a confidence of 95 % both ways (Student's t).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub from: Option<f64>,
+    /// Nor more than this.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub to: Option<f64>,
+    /// What severities are known to at best: `settled_to` of their mean, of both models together. No smaller difference is told from none.
+    pub resolution: f64,
+    /// Whether the difference is larger than its errors.
+    pub verdict: DifferenceVerdict,
+}
+
+/// Whether a difference is larger than its errors.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum DifferenceVerdict {
+    /// The model that is compared is more severe.
+    Greater,
+    /// It is less severe.
+    Smaller,
+    /// The interval reaches to within the resolution of 0, or there is none.
+    Undecided,
+}
+
+/// How many designs meet the limit with which model.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
+pub struct LimitsMet {
+    /// With both.
+    pub both: u32,
+    /// Only with the model of the campaign.
+    pub only_model: u32,
+    /// Only with the model that is compared.
+    pub only_compared: u32,
+    /// With neither.
+    pub neither: u32,
+}
+
 /// What a campaign will do and cost.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(utoipa::ToSchema))]
@@ -152,20 +245,28 @@ pub struct CampaignPlan {
     pub designs: u32,
     /// Designs there are at most, with those that are added to decide on a threshold.
     pub designs_at_most: u32,
-    /// Simulations of `designs`: one for every design and speed.
+    /// Simulations of `designs`: one for every design, model and speed.
     pub simulations: u32,
     /// Whether the reduction that all rest on is there.
     pub reduction: ReductionState,
-    /// Cost of `simulations`, each as dear as that of the scene before anything is changed; absent until the reduction is stored.
+    /// Cost of `simulations`, each as dear as that of the scene before anything is changed; absent until all reductions are stored.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub estimate: Option<Estimate>,
     /// The plan of that scene.
     pub scene: SweepPlan,
+    /// Its plan with the model that is compared.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub compared: Option<SweepPlan>,
     /// The whole request as resolved, with the values of all designs.
     pub settings: CampaignSettings,
 }
 
 impl Campaign {
+    /// What the model that is compared says of all designs; nothing where there is none.
+    pub fn compared(&self) -> Vec<&DesignOutcome> {
+        self.designs.iter().filter_map(|design| design.compared.as_ref()).collect()
+    }
+
     /// The map of a parameter over speed: its values in ascending order, each with the largest severity by speed of the designs that have
     /// it. None of a speed where nothing is known.
     pub fn map(&self, parameter: usize) -> Vec<(f64, Vec<Option<f64>>)> {
@@ -174,7 +275,7 @@ impl Campaign {
         designs.sort_by(|a, b| value(a).total_cmp(&value(b)));
         let alike = designs.chunk_by(|a, b| value(a) == value(b));
         let worst = |designs: &[&CampaignDesign], speed: usize| {
-            designs.iter().filter_map(|design| design.by_speed[speed]).max_by(f64::total_cmp)
+            designs.iter().filter_map(|design| design.outcome.by_speed[speed]).max_by(f64::total_cmp)
         };
         let speeds = self.speeds_rad_s.len();
         alike

@@ -28,8 +28,8 @@ pub use branches::{
     BranchesHead, Track,
 };
 pub use campaign::{
-    Campaign, CampaignDesign, CampaignPlan, CampaignThreshold, ParameterSensitivity, Sensitivities,
-    ThresholdShare, severity_unit,
+    Campaign, CampaignDesign, CampaignPlan, CampaignThreshold, Comparison, DesignOutcome, Difference,
+    DifferenceVerdict, LimitsMet, ParameterSensitivity, Sensitivities, ThresholdShare, severity_unit,
 };
 pub use campbell::{AbsoluteFrequencies, Campbell, WaveTables};
 pub use choice::{Choice, ModesChoice, Pilot, TriedModes};

@@ -10,11 +10,13 @@ use super::marks::{marks, silent};
 use super::palette::{CURVE, WARNING};
 use super::text::escaped;
 use crate::campaign::{self as drawing, Row};
+use crate::campaign_difference as difference;
 use crate::cells::{Cell, cells, extent};
 use rubmap_analysis::result::Campaign;
 
 /// The severity of designs over speed and a parameter (by its index), with the value at which the limit is met if that is the parameter
-/// asked about, and below it the sensitivities if there are any. What has no result is a gap.
+/// asked about, and below it, if there are any, the differences of the model that is compared, and the sensitivities. What has no result
+/// is a gap.
 pub fn campaign(campaign: &Campaign, parameter: usize) -> Figure {
     let (rows, cells) = (drawing::rows(campaign, parameter), cells(&campaign.speeds_rad_s));
     let (wide, high) = (together(cells.len(), MOST.0), together(rows.len(), MOST.1));
@@ -38,7 +40,9 @@ pub fn campaign(campaign: &Campaign, parameter: usize) -> Figure {
     paragraphs.extend((wide * high > 1).then(|| "neighbours are one cell with the most severe".to_owned()));
     let range = extent(&cells);
     let shown = drawing::shown(campaign);
-    let floor = if shown.is_empty() { 0.0 } else { 0.45 };
+    let known = campaign.comparison.as_ref();
+    let known = known.map_or_else(Vec::new, |of| difference::known(of, &campaign.speeds_rad_s));
+    let Places { high, map, differences, sensitivities } = Places::of(!known.is_empty(), !shown.is_empty());
     let across = |value: f64| [Some((range.0, value)), Some((range.1, value))];
     let met = drawing::met(campaign, parameter);
     let value = met.map(|(value, _)| {
@@ -48,31 +52,46 @@ pub fn campaign(campaign: &Campaign, parameter: usize) -> Figure {
     let interval = interval
         .map(|end| silent("its interval", across(end), (WARNING, DashType::Dash, 1.2)).show_legend(false));
     let mut figure = Figure::new("campaign", &drawing::title(campaign, parameter), &paragraphs)
-        .high(if shown.is_empty() { 560 } else { 820 })
+        .high(high)
         .with(coloured((x, y), (values, Vec::new()), &told, ("x", "y", "coloraxis")))
         .with_all(value)
         .with_all(interval)
         .axis("xaxis", speeds().range(ends(range)).anchor("y"))
-        .axis("yaxis", axis(name).domain(&[floor, 1.0]))
+        .axis("yaxis", axis(name).domain(&[map, 1.0]))
         .attribute(
             "coloraxis",
-            linear((0.0, drawing::loudest(campaign)), &drawing::short(campaign), (floor, 1.0)),
+            linear((0.0, drawing::loudest(campaign)), &drawing::short(campaign), (map, 1.0)),
         )
         .meta("units", json!({"x": "rpm"}))
         .meta("parameter", parameter);
+    let bars = |errors: Vec<f64>, colour: &'static str| {
+        ErrorData::new(ErrorType::Data).array(errors).color(colour).thickness(1.3).width(4)
+    };
+    if !known.is_empty() {
+        for (verdict, words, colour) in difference::VERDICTS {
+            let of_it = || known.iter().filter(move |(_, of)| of.verdict == verdict);
+            let places = of_it().map(|(speed, of)| ((*speed, of.mean), difference::told(*speed, of)));
+            let reach = of_it().map(|(_, of)| difference::ends(of).1 - of.mean).collect();
+            let trace = marks(words, places, (MarkerSymbol::Circle, 7, colour));
+            let trace = trace.map(|trace| trace.error_y(bars(reach, colour)).x_axis("x3").y_axis("y3"));
+            figure = figure.with_all(trace);
+        }
+        let words = format!("difference of {}", drawing::short(campaign));
+        figure = figure
+            .axis("xaxis3", speeds().range(ends(range)).anchor("y3"))
+            .axis("yaxis3", axis(&words).domain(&differences).anchor("x3"));
+    }
     if shown.is_empty() {
         return figure;
     }
-    let bars =
-        |errors: Vec<f64>| ErrorData::new(ErrorType::Data).array(errors).color(CURVE).thickness(1.3).width(4);
     let place = |place: usize| (shown.len() - place) as f64;
     let first =
         shown.iter().enumerate().map(|(at, of)| ((of.first_order, place(at) + 0.12), drawing::told(of)));
     let total = shown.iter().enumerate().map(|(at, of)| ((of.total, place(at) - 0.12), drawing::told(of)));
     let first = marks("alone (first order)", first, (MarkerSymbol::Circle, 9, CURVE))
-        .map(|trace| trace.error_x(bars(shown.iter().map(|of| of.first_order_error).collect())));
+        .map(|trace| trace.error_x(bars(shown.iter().map(|of| of.first_order_error).collect(), CURVE)));
     let total = marks("with others (total)", total, (MarkerSymbol::CircleOpen, 9, CURVE))
-        .map(|trace| trace.error_x(bars(shown.iter().map(|of| of.total_error).collect())));
+        .map(|trace| trace.error_x(bars(shown.iter().map(|of| of.total_error).collect(), CURVE)));
     figure =
         figure.with_all([first, total].into_iter().flatten().map(|trace| trace.x_axis("x2").y_axis("y2")));
     let names: Vec<String> = shown.iter().map(|of| escaped(&of.parameter)).collect();
@@ -80,10 +99,40 @@ pub fn campaign(campaign: &Campaign, parameter: usize) -> Figure {
     figure.axis("xaxis2", axis("share of the variance").anchor("y2")).axis(
         "yaxis2",
         axis("")
-            .domain(&[0.0, 0.3])
+            .domain(&sensitivities)
             .anchor("x2")
             .range(vec![0.4, shown.len() as f64 + 0.6])
             .tick_values(places)
             .tick_text(names),
     )
+}
+
+/// Where the parts of the figure stand, one below the other: shares of its height, upwards.
+struct Places {
+    /// Height of the figure in pixels.
+    high: usize,
+    /// Lower end of the map, which reaches to the top.
+    map: f64,
+    differences: [f64; 2],
+    sensitivities: [f64; 2],
+}
+
+impl Places {
+    /// In pixels: of the figure with the map alone, of a part below it, and of a part with the words of its axis.
+    const MAP: usize = 560;
+    const PART: usize = 170;
+    const WITH_WORDS: usize = 260;
+
+    fn of(has_differences: bool, has_sensitivities: bool) -> Self {
+        let sensitivities = if has_sensitivities { Self::WITH_WORDS } else { 0 };
+        let below = sensitivities + if has_differences { Self::WITH_WORDS } else { 0 };
+        let high = Self::MAP + below;
+        let share = |pixels: usize| pixels as f64 / high as f64;
+        Self {
+            high,
+            map: share(below),
+            differences: [share(sensitivities), share(sensitivities + Self::PART)],
+            sensitivities: [0.0, share(Self::PART)],
+        }
+    }
 }

@@ -81,8 +81,50 @@ fn the_map_has_the_most_severe_of_each_value() {
 #[test]
 fn a_campaign_without_results_is_drawn_as_well() {
     let mut of = designs();
-    of.designs.iter_mut().for_each(|design| design.by_speed.fill(None));
+    of.designs.iter_mut().for_each(|design| design.outcome.by_speed.fill(None));
     (of.sensitivities, of.threshold) = (None, None);
     assert!(campaign(&of, 1).contains("no result"));
     figure::campaign(&of, 1);
+}
+
+/// The same designs with a model that is more severe at the first speed, less at the second, unclear at the third and not known at the last.
+pub(super) fn compared() -> Campaign {
+    let mut of = designs();
+    for design in &mut of.designs {
+        design.compared = Some(design.outcome.clone());
+    }
+    let difference = |mean: f64, verdict: &str| json!({"pairs": 12, "mean": mean, "standard_error": 0.01, "from": mean - 0.02, "to": mean + 0.02, "resolution": 1e-4, "verdict": verdict});
+    let by_speed = [
+        difference(0.05, "greater"),
+        difference(-0.04, "smaller"),
+        difference(0.01, "undecided"),
+        Value::Null,
+    ];
+    let comparison = json!({"model": "n", "severity": difference(0.05, "greater"), "by_speed": by_speed, "message": "the model that is compared is more severe"});
+    of.comparison = serde_json::from_value(comparison).unwrap();
+    of
+}
+
+#[test]
+fn differences_stand_below_the_map_at_their_speeds() {
+    let drawing = campaign(&compared(), 0);
+    let read = Document::parse(&drawing).unwrap();
+    let marks: Vec<_> = of_class(&read, "difference").collect();
+    assert_eq!(marks.len(), 3);
+    let dot = |mark: &roxmltree::Node<'_, '_>| {
+        let dot = mark.descendants().find(|node| node.has_tag_name("circle")).unwrap();
+        let number = |name: &str| dot.attribute(name).unwrap().parse::<f64>().unwrap();
+        (number("cx"), number("cy"))
+    };
+    let places: Vec<_> = marks.iter().map(dot).collect();
+    // Speeds are evenly spaced; upwards is more.
+    assert!((places[1].0 - places[0].0 - (places[2].0 - places[1].0)).abs() < 0.1, "{places:?}");
+    assert!(places[0].1 < places[2].1 && places[2].1 < places[1].1, "{places:?}");
+    for words in ["94 of 96 simulations", "more severe", "no larger than its errors"] {
+        assert!(drawing.contains(words), "{words}");
+    }
+    assert_eq!(of_class(&Document::parse(&campaign(&designs(), 0)).unwrap(), "difference").count(), 0);
+    let figure = serde_json::to_value(figure::campaign(&compared(), 0)).unwrap();
+    let on_third = figure["data"].as_array().unwrap().iter().filter(|trace| trace["yaxis"] == "y3");
+    assert_eq!(on_third.count(), 3);
 }

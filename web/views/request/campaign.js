@@ -1,0 +1,33 @@
+// What a campaign is asked for: from a model, and as one that is there.
+
+import { CLEARANCE, sceneOf, speedsOf } from './sensible.js';
+
+/** A first campaign of a model: tolerances of the clearance. */
+export function campaignOfModel(model) {
+  const closer = CLEARANCE * (model.contact_radius ?? 100);
+  const ends = ['leading', 'trailing'].map((end) => `/scene/casing/clearance/${end}`);
+  return {
+    model: model.id,
+    speeds: speedsOf(model, 9),
+    scene: sceneOf(model),
+    parameters: [{ name: 'clearance', at: ends, change: 'add', from: -Number((0.2 * closer).toPrecision(3)), to: Number((0.2 * closer).toPrecision(3)) }],
+    design: { kind: 'sobol', size: 16 },
+  };
+}
+
+/** The request of a job of this kind, which keeps it as settings of a sweep. */
+export function campaignOf(job) {
+  const { sweep, compared, parameters, design, severity, limit, threshold } = job.request;
+  const { modes_per_speed, speeds, scene, integration, sensors, max_engine_order, record, fields } = sweep;
+  return {
+    model: job.model,
+    compared_model: compared?.model,
+    modes_per_speed, speeds, scene, integration,
+    // Those that a model has by itself may be at other nodes of the other.
+    sensors: compared && JSON.stringify(compared.sensors) !== JSON.stringify(sensors) ? [] : sensors,
+    max_engine_order,
+    stress: record?.stress,
+    fields,
+    parameters, design, severity, limit, threshold,
+  };
+}
