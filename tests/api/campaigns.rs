@@ -175,9 +175,7 @@ async fn two_models_are_compared() {
     let comparison = &found["comparison"];
     let differences: Vec<f64> = (0..4)
         .map(|design| &found["designs"][design])
-        .map(|design| {
-            design["compared"]["severity"].as_f64().unwrap() - design["severity"].as_f64().unwrap()
-        })
+        .map(|design| design["compared"]["severity"].as_f64().unwrap() - design["severity"].as_f64().unwrap())
         .collect();
     let mean = differences.iter().sum::<f64>() / 4.0;
     assert!((comparison["severity"]["mean"].as_f64().unwrap() - mean).abs() < 1e-12, "{comparison}");
@@ -199,7 +197,10 @@ async fn two_models_are_compared() {
     for unknown in [json!("nobody"), json!(other), json!(model)] {
         request["compared_model"] = unknown;
         let refused = api.post("/v1/campaigns", &request).await;
-        assert_eq!((refused.status.as_u16(), refused.text("/errors/0/pointer").as_str()), (422, "/compared_model"));
+        assert_eq!(
+            (refused.status.as_u16(), refused.text("/errors/0/pointer").as_str()),
+            (422, "/compared_model")
+        );
     }
     app.stop().await;
 }

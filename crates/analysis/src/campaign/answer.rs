@@ -1,6 +1,7 @@
 //! What the speeds of a campaign say together, finished or not.
 
 use super::comparison::comparison;
+use super::digits::short;
 use super::severity::{is_unsettled, severity};
 use super::threshold::{Answer, CONFIDENCE, answer};
 use crate::request::DesignKind;
@@ -191,6 +192,7 @@ fn words(found: &Answer, parameter: &str, probability: f64) -> String {
         }
         (Some(Fragility::Apart { below, above, rising }), ..) => {
             let side = if rising { "from" } else { "up to" };
+            let (below, above) = (short(below), short(above));
             format!(
                 "the limit is met {side} a {parameter} between {below} and {above}, by all designs so far: nothing in between was simulated, \
                  and the others have made no difference yet"
@@ -198,6 +200,7 @@ fn words(found: &Answer, parameter: &str, probability: f64) -> String {
         }
         (Some(Fragility::Curve(curve)), Some(value), Some((low, high))) if low.is_finite() => {
             let side = if curve.is_rising() { "from" } else { "up to" };
+            let [value, low, high] = [value, low, high].map(short);
             format!(
                 "the limit is met with a probability of {percent} % {side} a {parameter} of {value}, between {low} and {high} with a \
                  confidence of {} %, if the thresholds of designs are normally distributed: compare shares and what is expected of them",

@@ -1,6 +1,7 @@
 //! How another model differs: paired differences of designs that both were simulated with.
 
 use super::answer::{sensitivities, threshold};
+use super::digits::short;
 use super::threshold::CONFIDENCE;
 use crate::request::DesignKind;
 use crate::resolved::ResolvedCampaign;
@@ -86,9 +87,11 @@ fn limits_met(pairs: &[(&DesignOutcome, &DesignOutcome)]) -> LimitsMet {
 
 fn words(of: Option<&Difference>, laid_out: usize) -> String {
     let percent = 100.0 * CONFIDENCE;
+    let mean = short(of.map_or(0.0, |of| of.mean));
     match of {
         None => "no design is known with both models yet".to_owned(),
-        Some(&Difference { pairs, mean, from: Some(from), to: Some(to), resolution, verdict, .. }) => {
+        Some(&Difference { pairs, from: Some(from), to: Some(to), resolution, verdict, .. }) => {
+            let [from, to, resolution] = [from, to, resolution].map(short);
             let known =
                 format!("{mean}, between {from} and {to} with a confidence of {percent} % ({pairs} pairs)");
             match verdict {
@@ -101,11 +104,11 @@ fn words(of: Option<&Difference>, laid_out: usize) -> String {
                 ),
             }
         }
-        Some(Difference { mean, .. }) if laid_out == 1 => format!(
+        Some(_) if laid_out == 1 => format!(
             "with the one design that there is, the difference is {mean}: let a number vary, such as a seed of mistuning, to learn \
              whether it is more than chance"
         ),
-        Some(Difference { mean, .. }) => {
+        Some(_) => {
             format!("with the one design that is known with both models so far, the difference is {mean}")
         }
     }

@@ -3,6 +3,7 @@
 pub(crate) mod answer;
 mod comparison;
 pub(crate) mod designs;
+mod digits;
 pub(crate) mod more;
 pub(crate) mod plan;
 mod severity;
