@@ -161,7 +161,7 @@ fn a_job_is_set_aside_and_goes_on() {
     let on = shell.run("continue long");
     assert!(on.code == 0 && on.err.contains(&format!("job {id} is accepted")), "{on:?}");
     shell.done("cancel long");
-    ends(&shell, "pause long", 3, &["ended"]);
+    ends(&shell, "pause long", 3, &["dismissed: it cannot be set aside"]);
 }
 
 #[test]

@@ -72,6 +72,9 @@ class CasingMode(TypedDict, closed=True):
 CasingTable: TypeAlias = str
 
 
+Change: TypeAlias = Literal["set", "add", "multiply"]
+
+
 class Check(TypedDict):
     detail: str
     name: str
@@ -168,6 +171,28 @@ class Crossing(TypedDict):
 class Damping(TypedDict, closed=True):
     family_ratios: NotRequired[list[float]]
     modal_ratio: float
+
+
+DesignKind: TypeAlias = Literal["grid", "list", "latin_hypercube", "sobol", "indices"]
+
+
+class DesignOutcome(TypedDict):
+    by_speed: list[float | None]
+    diverged: int
+    failed: int
+    finished: int
+    meets_limit: NotRequired[bool | None]
+    not_settled: NotRequired[int]
+    severity: NotRequired[float | None]
+    worst_speed_rad_s: NotRequired[float | None]
+
+
+DifferenceVerdict: TypeAlias = Literal["greater", "smaller", "undecided"]
+
+
+DistributionKind: TypeAlias = Literal[
+    "uniform", "log_uniform", "normal", "triangular", "whole", "values"
+]
 
 
 ElementOrder: TypeAlias = Literal["linear", "quadratic"]
@@ -313,12 +338,18 @@ class JobEvent(TypedDict):
 
 
 JobKind: TypeAlias = Literal[
-    "sweep", "modal_analysis", "model_generation", "study", "case_study", "branches"
+    "sweep",
+    "modal_analysis",
+    "model_generation",
+    "study",
+    "case_study",
+    "branches",
+    "campaign",
 ]
 
 
 JobStatus: TypeAlias = Literal[
-    "accepted", "running", "successful", "failed", "dismissed"
+    "accepted", "running", "paused", "successful", "failed", "dismissed"
 ]
 
 
@@ -336,6 +367,13 @@ class LargestDifference(TypedDict):
     mode: int
     nodal_diameter: int
     relative: float
+
+
+class LimitsMet(TypedDict):
+    both: int
+    neither: int
+    only_compared: int
+    only_model: int
 
 
 class Link(TypedDict):
@@ -417,6 +455,33 @@ class Overshoot(TypedDict):
 
 
 PackageZip: TypeAlias = bytes
+
+
+Parameter = TypedDict(
+    "Parameter",
+    {
+        "at": list[str],
+        "change": NotRequired[Change],
+        "distribution": NotRequired[DistributionKind],
+        "from": NotRequired[float | None],
+        "levels": NotRequired[int | None],
+        "mean": NotRequired[float | None],
+        "mode": NotRequired[float | None],
+        "name": str,
+        "standard_deviation": NotRequired[float | None],
+        "to": NotRequired[float | None],
+        "values": NotRequired[list[float] | None],
+    },
+    closed=True,
+)
+
+
+class ParameterSensitivity(TypedDict):
+    first_order: float
+    first_order_error: float
+    parameter: str
+    total: float
+    total_error: float
 
 
 class PlacedSensor(TypedDict):
@@ -515,6 +580,13 @@ class SectorNode(TypedDict):
     position: list[float]
 
 
+class Sensitivities(TypedDict):
+    blocks: int
+    mean: float
+    parameters: list[ParameterSensitivity]
+    variance: float
+
+
 class Sensitivity(TypedDict):
     growth: NotRequired[Growth]
     last_distance: float
@@ -545,6 +617,11 @@ class Setting(TypedDict):
     modes_per_speed: int
     scheme: SchemeChoice
     steps_per_revolution: int
+
+
+Severity: TypeAlias = Literal[
+    "amplitude", "tip", "contact_force", "wear", "stress", "utilisation"
+]
 
 
 class ShapeFrequencies(TypedDict):
@@ -693,6 +770,26 @@ class SymmetryBreaking(TypedDict):
     rate_error: NotRequired[float | None]
     rate_per_revolution: NotRequired[float | None]
     repeats: int
+
+
+class Threshold(TypedDict, closed=True):
+    batch: NotRequired[int]
+    most_designs: NotRequired[int]
+    parameter: str
+    probability: NotRequired[float]
+    within: NotRequired[float | None]
+
+
+ThresholdShare = TypedDict(
+    "ThresholdShare",
+    {
+        "designs": int,
+        "expected": NotRequired[float | None],
+        "from": float,
+        "met": int,
+        "to": float,
+    },
+)
 
 
 class Tilt(TypedDict, closed=True):
@@ -867,6 +964,30 @@ class BranchTrack(Track):
     points: list[BranchPoint]
 
 
+class CampaignDesign(DesignOutcome):
+    compared: NotRequired[DesignOutcome | None]
+    index: int
+    values: list[float]
+
+
+CampaignThreshold = TypedDict(
+    "CampaignThreshold",
+    {
+        "decided": int,
+        "from": NotRequired[float | None],
+        "mean": NotRequired[float | None],
+        "message": str,
+        "met_within": NotRequired[bool | None],
+        "parameter": str,
+        "probability": float,
+        "shares": list[ThresholdShare],
+        "standard_deviation": NotRequired[float | None],
+        "to": NotRequired[float | None],
+        "value": NotRequired[float | None],
+    },
+)
+
+
 class CaseSpeed(TypedDict, closed=True):
     unit: SpeedUnit
     value: float
@@ -910,6 +1031,27 @@ class CriticalSpeed(TypedDict):
     utilisation: NotRequired[float | None]
     validity: NotRequired[ValidityVerdict | None]
     validity_lacking: NotRequired[list[ValidityMeasure]]
+
+
+class Design(TypedDict, closed=True):
+    kind: DesignKind
+    points: NotRequired[list[list[float]] | None]
+    seed: NotRequired[int | None]
+    size: NotRequired[int | None]
+
+
+Difference = TypedDict(
+    "Difference",
+    {
+        "from": NotRequired[float | None],
+        "mean": float,
+        "pairs": int,
+        "resolution": float,
+        "standard_error": NotRequired[float | None],
+        "to": NotRequired[float | None],
+        "verdict": DifferenceVerdict,
+    },
+)
 
 
 class DrivenCrossing(TypedDict):
@@ -1267,6 +1409,16 @@ class Chosen2(ModesChoice):
 Chosen: TypeAlias = Chosen1 | Chosen2
 
 
+class Comparison(TypedDict):
+    by_speed: list[Difference | None]
+    limit: NotRequired[LimitsMet | None]
+    message: str
+    model: str
+    sensitivities: NotRequired[Sensitivities | None]
+    severity: NotRequired[Difference | None]
+    threshold: NotRequired[CampaignThreshold | None]
+
+
 class FoundShape(TypedDict):
     highest: NotRequired[float | None]
     measured: NotRequired[MeasuredSurvey | None]
@@ -1470,6 +1622,18 @@ class BranchesSettings(TypedDict, closed=True):
     sweep: SweepRequest
 
 
+class CampaignSettings(TypedDict, closed=True):
+    added: NotRequired[int]
+    compared: NotRequired[SweepRequest | None]
+    design: Design
+    designs: list[list[float]]
+    limit: NotRequired[float | None]
+    parameters: list[Parameter]
+    severity: Severity
+    sweep: SweepRequest
+    threshold: NotRequired[Threshold | None]
+
+
 class Campbell(TypedDict):
     absolute_frequencies_hz: list[AbsoluteFrequencies]
     crossings: list[Crossing]
@@ -1527,6 +1691,27 @@ class LabelledBranchesRequest(TypedDict, closed=True):
     sensors: NotRequired[list[Sensor]]
     speed: CaseSpeed
     tags: NotRequired[list[str]]
+
+
+class LabelledCampaignRequest(TypedDict, closed=True):
+    compared_model: NotRequired[str | None]
+    design: Design
+    fields: NotRequired[bool | None]
+    integration: NotRequired[Integration]
+    limit: NotRequired[float | None]
+    max_engine_order: NotRequired[int]
+    model: str
+    modes_per_speed: NotRequired[AutoOr]
+    name: NotRequired[str | None]
+    notes: NotRequired[str | None]
+    parameters: list[Parameter]
+    scene: Scene
+    sensors: NotRequired[list[Sensor]]
+    severity: NotRequired[Severity]
+    speeds: Speeds
+    stress: NotRequired[StressRequest | None]
+    tags: NotRequired[list[str]]
+    threshold: NotRequired[Threshold | None]
 
 
 class LabelledCaseStudyRequest(TypedDict, closed=True):
@@ -1654,6 +1839,7 @@ RequestBody: TypeAlias = (
     | StudyRequest
     | CaseStudySettings
     | BranchesSettings
+    | CampaignSettings
     | ImpellerParameters
 )
 
@@ -1767,6 +1953,30 @@ class BranchesPlan(TypedDict):
     symmetry: FoundSymmetry
     version: str
     warnings: NotRequired[list[str]]
+
+
+class Campaign(TypedDict):
+    comparison: NotRequired[Comparison | None]
+    designs: list[CampaignDesign]
+    plan: NotRequired[Estimate | None]
+    sensitivities: NotRequired[Sensitivities | None]
+    settings: CampaignSettings
+    speeds_rad_s: list[float]
+    spent: Spent
+    threshold: NotRequired[CampaignThreshold | None]
+    units: Units
+    version: str
+
+
+class CampaignPlan(TypedDict):
+    compared: NotRequired[SweepPlan | None]
+    designs: int
+    designs_at_most: int
+    estimate: NotRequired[Estimate | None]
+    reduction: ReductionState
+    scene: SweepPlan
+    settings: CampaignSettings
+    simulations: int
 
 
 HistoriesBody: TypeAlias = SpeedHistories | Histories

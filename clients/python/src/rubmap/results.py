@@ -346,7 +346,9 @@ class Campaign(Planned):
         coordinates: dict[str, Any] = {"speed_rpm": ("speed_rpm", np.array(found["speeds_rad_s"]) * RPM)}
         for place, parameter in enumerate(found["settings"]["parameters"]):
             coordinates[parameter["name"]] = ("design", [design["values"][place] for design in found["designs"]])
-        return xr.DataArray(values, dims=("design", "speed_rpm"), coords=coordinates, name=found["settings"]["severity"])
+        return xr.DataArray(
+            values, dims=("design", "speed_rpm"), coords=coordinates, name=found["settings"]["severity"]
+        )
 
     def differences(self) -> pd.DataFrame:
         """How the model that is compared differs, a row per speed: mean difference of the severity, its standard error and interval, how many

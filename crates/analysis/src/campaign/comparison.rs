@@ -1,8 +1,8 @@
 //! How another model differs: paired differences of designs that both were simulated with.
 
-use super::answer::{sensitivities, threshold};
 use super::digits::short;
-use super::threshold::CONFIDENCE;
+use super::sensitivities::sensitivities;
+use super::threshold::{CONFIDENCE, threshold};
 use crate::request::DesignKind;
 use crate::resolved::ResolvedCampaign;
 use crate::result::{CampaignDesign, Comparison, DesignOutcome, Difference, DifferenceVerdict, LimitsMet};

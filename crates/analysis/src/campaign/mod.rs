@@ -5,7 +5,9 @@ mod comparison;
 pub(crate) mod designs;
 mod digits;
 pub(crate) mod more;
+mod outcomes;
 pub(crate) mod plan;
+mod sensitivities;
 mod severity;
 #[cfg(test)]
 mod tests;

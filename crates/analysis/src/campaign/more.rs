@@ -1,8 +1,8 @@
 //! Which designs a campaign lacks: points go where the answer is undecided.
 
-use super::answer::{cases, designs_of};
 use super::designs::quantiles;
-use super::threshold::answer;
+use super::outcomes::designs_of;
+use super::threshold::{answer, cases};
 use crate::resolved::{Distribution, ResolvedCampaign};
 use crate::result::Point;
 use rubmap_numerics::sampling::{MOST_POINTS, sobol_point};

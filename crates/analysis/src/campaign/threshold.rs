@@ -1,6 +1,9 @@
 //! Where a parameter meets the limit with a probability: what the designs so far say.
 
+use super::digits::short;
 use crate::request::Threshold;
+use crate::resolved::ResolvedCampaign;
+use crate::result::{CampaignThreshold, DesignOutcome, ThresholdShare};
 use rubmap_numerics::fragility::{self, Fragility};
 
 /// Confidence of intervals.
@@ -35,5 +38,101 @@ impl Answer {
     /// Whether the value is known to `within` either way.
     pub(super) fn is_within(&self, within: f64) -> bool {
         self.open.is_some_and(|(low, high)| high - low <= 2.0 * within)
+    }
+}
+
+/// Where the limit is met, by what designs come to with one model.
+pub(super) fn threshold(asked: &ResolvedCampaign, outcomes: &[&DesignOutcome]) -> Option<CampaignThreshold> {
+    let (threshold, index) = asked.threshold()?;
+    let cases = cases(asked, outcomes, index);
+    let found = answer(&cases, threshold);
+    Some(CampaignThreshold {
+        probability: threshold.probability,
+        value: found.value,
+        from: found.open.map(|(low, _)| low).filter(|end| end.is_finite()),
+        to: found.open.map(|(_, high)| high).filter(|end| end.is_finite()),
+        mean: thresholds(&found).map(|(mean, _)| mean),
+        standard_deviation: thresholds(&found).map(|(_, deviation)| deviation),
+        met_within: threshold.within.map(|within| found.is_within(within)),
+        decided: cases.len() as u32,
+        shares: shares(cases, &found),
+        message: words(&found, &threshold.parameter, threshold.probability),
+        parameter: threshold.parameter.clone(),
+    })
+}
+
+/// Designs of which it is known whether they meet the limit: the value of parameter `index`, and whether they do.
+pub(super) fn cases(asked: &ResolvedCampaign, outcomes: &[&DesignOutcome], index: usize) -> Vec<(f64, bool)> {
+    let designs = asked.settings.designs.iter().zip(outcomes);
+    designs.filter_map(|(values, outcome)| Some((values[index], outcome.meets_limit?))).collect()
+}
+
+fn thresholds(found: &Answer) -> Option<(f64, f64)> {
+    match found.fragility {
+        Some(Fragility::Curve(curve)) => {
+            Some(curve.thresholds()).filter(|(mean, deviation)| mean.is_finite() && deviation.is_finite())
+        }
+        _ => None,
+    }
+}
+
+/// Most groups of designs whose share is told beside the curve, and the fewest designs of one.
+const GROUPS: usize = 10;
+const FEWEST: usize = 5;
+
+/// Of groups of equally many neighbouring designs the share that meets the limit, with what the curve says of it.
+fn shares(mut cases: Vec<(f64, bool)>, found: &Answer) -> Vec<ThresholdShare> {
+    cases.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let groups = (cases.len() / FEWEST).clamp(1, GROUPS);
+    let group = |group: usize| {
+        let cases = &cases[group * cases.len() / groups..(group + 1) * cases.len() / groups];
+        let (first, last) = (cases.first()?, cases.last()?);
+        let expected = match found.fragility {
+            Some(Fragility::Curve(curve)) => {
+                Some(cases.iter().map(|(x, _)| curve.probability(*x)).sum::<f64>() / cases.len() as f64)
+            }
+            _ => None,
+        };
+        let designs = cases.len() as u32;
+        let met = cases.iter().filter(|(_, met)| *met).count() as u32;
+        Some(ThresholdShare { from: first.0, to: last.0, designs, met, expected })
+    };
+    (0..groups).filter_map(group).collect()
+}
+
+fn words(found: &Answer, parameter: &str, probability: f64) -> String {
+    let percent = 100.0 * probability;
+    match (found.fragility, found.value, found.open) {
+        (None, ..) => "no design has been decided yet".to_owned(),
+        (Some(Fragility::Always), ..) => {
+            format!(
+                "all designs so far meet the limit, whatever their {parameter}: widen its range, or lower the limit"
+            )
+        }
+        (Some(Fragility::Never), ..) => {
+            format!(
+                "no design so far meets the limit, whatever its {parameter}: widen its range, or raise the limit"
+            )
+        }
+        (Some(Fragility::Apart { below, above, rising }), ..) => {
+            let side = if rising { "from" } else { "up to" };
+            let (below, above) = (short(below), short(above));
+            format!(
+                "the limit is met {side} a {parameter} between {below} and {above}, by all designs so far: nothing in between was simulated, \
+                 and the others have made no difference yet"
+            )
+        }
+        (Some(Fragility::Curve(curve)), Some(value), Some((low, high))) if low.is_finite() => {
+            let side = if curve.is_rising() { "from" } else { "up to" };
+            let [value, low, high] = [value, low, high].map(short);
+            format!(
+                "the limit is met with a probability of {percent} % {side} a {parameter} of {value}, between {low} and {high} with a \
+                 confidence of {} %, if the thresholds of designs are normally distributed: compare shares and what is expected of them",
+                100.0 * CONFIDENCE
+            )
+        }
+        (Some(Fragility::Curve(_)), ..) => format!(
+            "the designs so far do not tell how {parameter} bears on the limit: it may make no difference, or there are too few of them"
+        ),
     }
 }
