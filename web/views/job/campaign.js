@@ -74,6 +74,7 @@ function tables({ designs, sensitivities, threshold, comparison, settings, speed
         { name: 'Severity', number: true, cell: (design) => number(design.severity), sort: (design) => design.severity },
         { name: 'Worst at', number: true, cell: (design) => (design.worst_speed_rad_s ? speed(design.worst_speed_rad_s) : '–'), sort: (design) => design.worst_speed_rad_s },
         { name: 'Limit', cell: (design) => MEETS[design.meets_limit] ?? '–', sort: (design) => design.meets_limit },
+        ...(comparison ? [{ name: 'Compared', number: true, cell: ({ compared: other }) => number(other.severity), sort: ({ compared: other }) => other.severity }] : []),
       ],
     }),
   ].filter(Boolean);

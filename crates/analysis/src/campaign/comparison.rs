@@ -45,7 +45,7 @@ fn independent<'a>(
         DesignKind::Indices => sensitivity_indices::block_len(asked.settings.parameters.len()),
         _ => 1,
     };
-    let alone = move |place: usize| place % block == 0 || place % block == block - 1;
+    let alone = move |place: usize| place.is_multiple_of(block) || (place + 1).is_multiple_of(block);
     designs[..laid_out].iter().enumerate().filter(move |(place, _)| alone(*place)).map(|(_, design)| design)
 }
 
