@@ -2,7 +2,7 @@
 
 use super::Export;
 use super::array::Array;
-use crate::analysis::result::{Campaign, DesignOutcome, severity_unit};
+use crate::analysis::result::{Campaign, DesignOutcome, severity_column};
 
 impl Export for Campaign {
     /// A line per design.
@@ -16,9 +16,7 @@ impl Export for Campaign {
                 designs().map(|design| design.values.get(place).copied()),
             )
         }));
-        let unit = severity_unit(self.settings.severity, &self.units);
-        let severity =
-            format!("{}{}{unit}", self.settings.severity.as_str(), if unit.is_empty() { "" } else { "_" });
+        let severity = severity_column(self.settings.severity, &self.units);
         let own: Vec<&DesignOutcome> = designs().map(|design| &design.outcome).collect();
         columns.extend(outcomes("", &severity, &own));
         columns.extend(outcomes("compared_", &severity, &self.compared()));

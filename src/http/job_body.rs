@@ -92,7 +92,7 @@ pub(super) enum RequestBody {
     CaseStudy(Box<CaseStudySettings>),
     /// Of branches.
     Branches(Box<BranchesSettings>),
-    /// Of a campaign.
+    /// Of a campaign, without its designs, which `GET /v1/jobs/{id}/campaign` has.
     Campaign(Box<CampaignSettings>),
     /// Of a generated model.
     ModelGeneration(Box<ImpellerParameters>),
@@ -106,7 +106,11 @@ impl From<JobRequest> for RequestBody {
             JobRequest::Study(request) => Self::Study(Box::new((*request).into())),
             JobRequest::CaseStudy(case) => Self::CaseStudy(Box::new((*case).into())),
             JobRequest::Branches(branches) => Self::Branches(Box::new((*branches).into())),
-            JobRequest::Campaign(campaign) => Self::Campaign(Box::new((*campaign).into())),
+            JobRequest::Campaign(campaign) => {
+                // Thousands of designs would be sent again with every step of the job.
+                let settings = CampaignSettings { designs: Vec::new(), ..(*campaign).into() };
+                Self::Campaign(Box::new(settings))
+            }
             JobRequest::ModelGeneration(parameters) => Self::ModelGeneration(parameters),
         }
     }

@@ -147,7 +147,9 @@ impl Engine {
             self.forget(id);
             return Ok(None);
         }
-        let watch = known.map(|live| Arc::clone(&live.watch)).unwrap_or_else(|| {
+        // One that was set aside since and goes on has another.
+        let watch = known.map(|live| Arc::clone(&live.watch)).filter(|watch| !watch.is_cancelled());
+        let watch = watch.unwrap_or_else(|| {
             Watch::new(id, speeds.total, Arc::clone(&self.stopping), Arc::clone(&self.reports))
         });
         watch.expect_speeds(speeds.total);
@@ -156,7 +158,7 @@ impl Engine {
         let live = Live { id, owner, request, speeds: speeds.total, chain, speed_bytes, watch };
         let live = self.keep(live);
         // A dismissal or a pause between the two lines above found nobody to tell.
-        if self.store.job(id).await?.is_none_or(|job| !job.status.wants_work()) {
+        if self.store.job_head(id).await?.is_none_or(|job| !job.status.wants_work()) {
             self.forget(id);
             return Ok(None);
         }
@@ -170,7 +172,10 @@ impl Engine {
         let live = match &kept {
             Entry::Occupied(known) if !self.tasks.are_shared() => return Arc::clone(known.get()),
             // Tasks that run are told by the watch that they have.
-            Entry::Occupied(known) => Live { watch: Arc::clone(&known.get().watch), ..live },
+            Entry::Occupied(known) if !known.get().watch.is_cancelled() => {
+                Live { watch: Arc::clone(&known.get().watch), ..live }
+            }
+            Entry::Occupied(_) => live,
             Entry::Vacant(_) => live,
         };
         let kept = kept.insert_entry(Arc::new(live));
@@ -232,8 +237,8 @@ impl Engine {
     }
 
     /// Works on a task of job `id` to its end, and records it if that matters. A task that the store lets down for a while
-    /// is begun again until it can: what it has finished it finds there.
-    pub(super) async fn attend<T>(&self, id: JobId, mut task: impl FnMut() -> T)
+    /// is begun again until it can: what it has finished it finds there. Whether it was wanted to the end.
+    pub(super) async fn attend<T>(&self, id: JobId, mut task: impl FnMut() -> T) -> bool
     where
         T: Future<Output = Result<(), Interruption>>,
     {
@@ -241,7 +246,8 @@ impl Engine {
         let mut warned = false;
         loop {
             let outcome = match task().await {
-                Ok(()) | Err(Interruption::NotWanted) => return,
+                Ok(()) => return true,
+                Err(Interruption::NotWanted) => return false,
                 Err(Interruption::Failed(failure)) => Ok(failure),
                 Err(Interruption::Store(error))
                     if error.is_missing_package()
@@ -259,10 +265,10 @@ impl Engine {
                 Ok(failure) => self.fail(id, &failure).await,
                 Err(error) => Err(error),
             };
-            let Err(error) = outcome else { return };
+            let Err(error) = outcome else { return true };
             if self.stopping.load(Ordering::Relaxed) {
                 // The next start takes the job up again.
-                return;
+                return true;
             }
             if !warned {
                 tracing::error!(job.id = %id, %error, "a job waits until the storage works again");
@@ -270,6 +276,19 @@ impl Engine {
             }
             self.tell(id, error::waiting_for(&error));
             tokio::time::sleep(BETWEEN_ATTEMPTS).await;
+        }
+    }
+
+    /// Has a job prepared again that wants work though somebody was just told to stop: one that was set aside and goes on drops what is
+    /// under way, and what was under way is not begun a second time. Shared tasks are missed by those who look for jobs without any.
+    pub(super) async fn take_up_again(&self, id: JobId) {
+        if self.tasks.are_shared() || self.stopping.load(Ordering::Relaxed) {
+            return;
+        }
+        match self.store.job_head(id).await {
+            Ok(Some(job)) if job.status.wants_work() => self.tasks.prepare(&job.owner, id),
+            Ok(_) => {}
+            Err(error) => tracing::warn!(job.id = %id, %error, "could not see whether the job goes on"),
         }
     }
 
@@ -285,7 +304,7 @@ impl Engine {
         if !self.lock_live().contains_key(&id) {
             return;
         }
-        if let Ok(found) = self.store.job(id).await
+        if let Ok(found) = self.store.job_head(id).await
             && found.is_none_or(|job| !job.status.wants_work())
         {
             self.retire(id);
@@ -314,6 +333,8 @@ impl Engine {
         }
         self.store.advance_job(id, JobStatus::Failed, Some(failure)).await?;
         self.retire(id);
+        // It may have been set aside before, and go on.
+        self.take_up_again(id).await;
         Ok(())
     }
 

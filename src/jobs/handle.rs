@@ -339,12 +339,17 @@ impl Jobs {
             if status == Some(JobStatus::Paused) {
                 self.engine.retire(id);
                 tracing::info!(job.id = %id, "paused");
+                // Somebody else may have let it go on meanwhile, whose tasks were withdrawn with the others.
+                self.engine.take_up_again(id).await;
             }
             return Ok(status);
         }
-        let before = store.job(id).await?;
+        let before = store.job_head(id).await?;
+        let Some(job) = before.as_ref().filter(|job| job.status == JobStatus::Paused) else {
+            return Ok(before.map(|job| job.status));
+        };
         let status = store.advance_job(id, JobStatus::Accepted, None).await?;
-        if let (Some(JobStatus::Accepted), Some(job)) = (status, before) {
+        if status == Some(JobStatus::Accepted) {
             self.engine.tasks.prepare(&job.owner, id);
             tracing::info!(job.id = %id, "goes on");
         }

@@ -12,7 +12,7 @@ use crate::store::jobs::{Begun, JobId, JobRequest};
 
 /// Prepares job `id`. Harmless to repeat: what is stored is not computed again.
 pub(super) async fn prepare(engine: &Engine, id: JobId) -> Result<(), Interruption> {
-    let Some(job) = engine.live(id).await? else { return Ok(()) };
+    let Some(job) = engine.live(id).await? else { return Err(Interruption::NotWanted) };
     match engine.store.begin_job(id, &run::vectors()).await? {
         Begun::Yes => {}
         Begun::Unwanted => return Ok(()),

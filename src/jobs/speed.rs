@@ -17,7 +17,7 @@ use crate::store::results::PackedSpeed;
 
 /// Computes a speed and commits it; the one that finds itself last finishes the job.
 pub(super) async fn run(engine: &Engine, RunSpeed { job: id, speed }: RunSpeed) -> Result<(), Interruption> {
-    let Some(job) = engine.live(id).await? else { return Ok(()) };
+    let Some(job) = engine.live(id).await? else { return Err(Interruption::NotWanted) };
     if engine.store.is_speed_finished(id, speed).await? {
         // What follows it may have been let down by the store the first time.
         let finished = engine.store.finished_speeds(id).await?.len();

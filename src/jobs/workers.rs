@@ -205,8 +205,12 @@ fn prepare_jobs(
     async fn handle(task: PrepareJob, engine: Data<Arc<Engine>>) -> Result<(), BoxDynError> {
         let engine = Arc::clone(&engine);
         outliving(async move {
-            let _place = engine.tasks.preparing(task.job);
-            engine.attend(task.job, || prepare::prepare(&engine, task.job)).await;
+            let place = engine.tasks.preparing(task.job);
+            let wanted = engine.attend(task.job, || prepare::prepare(&engine, task.job)).await;
+            drop(place);
+            if !wanted {
+                engine.take_up_again(task.job).await;
+            }
         })
         .await
     }
@@ -229,8 +233,12 @@ fn run_speeds(
     async fn handle(task: RunSpeed, engine: Data<Arc<Engine>>) -> Result<(), BoxDynError> {
         let engine = Arc::clone(&engine);
         outliving(async move {
-            let _place = engine.tasks.running(task);
-            engine.attend(task.job, || speed::run(&engine, task)).await;
+            let place = engine.tasks.running(task);
+            let wanted = engine.attend(task.job, || speed::run(&engine, task)).await;
+            drop(place);
+            if !wanted {
+                engine.take_up_again(task.job).await;
+            }
         })
         .await
     }

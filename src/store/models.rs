@@ -307,10 +307,12 @@ impl Store {
         let mut transaction = self.write_removal().await?;
         transaction.guard(Guarded::Model(id)).await?;
         let users: i64 = sqlx::query_scalar(
-            "select count(*) from jobs
-             where (model = $1 or compared_model = $1) and status in ('accepted', 'running', 'paused')
-                 and ($2 is null or owner = $2
-                      or not exists (select 1 from model_owners where model = $1 and owner <> $2))",
+            "select count(*) from (
+                 select owner from jobs where model = $1 and status in ('accepted', 'running', 'paused')
+                 union all
+                 select owner from jobs where compared_model = $1 and status in ('accepted', 'running', 'paused')) users
+             where $2 is null or owner = $2
+                 or not exists (select 1 from model_owners where model = $1 and owner <> $2)",
         )
         .bind(id)
         .bind(owner)

@@ -42,10 +42,11 @@ impl Store {
 
     /// Work that is waiting.
     pub async fn backlog(&self) -> Result<Backlog, StoreError> {
+        // In the words of the index that has these jobs.
         let (jobs_accepted, jobs_running, speeds_unfinished) = sqlx::query_as::<_, (i64, i64, i64)>(
             "select count(*) filter (where status = 'accepted'), count(*) filter (where status = 'running'),
-                 cast(coalesce(sum(speeds - finished) filter (where kind = 'sweep'), 0) as bigint)
-             from jobs where status in ('accepted', 'running')",
+                 cast(coalesce(sum(speeds - finished) filter (where kind in ('sweep', 'campaign')), 0) as bigint)
+             from jobs where status in ('accepted', 'running', 'paused') and status <> 'paused'",
         )
         .fetch_one(&self.readers)
         .await?;

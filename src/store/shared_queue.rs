@@ -3,6 +3,7 @@
 //! What is true stands in the tables of jobs and results, as on one machine. A task that was lost is made again
 //! ([`SharedQueue::jobs_without_tasks`]), and one that runs twice does no harm.
 
+use std::collections::HashSet;
 use std::io::ErrorKind;
 use std::time::Duration;
 
@@ -180,6 +181,7 @@ impl SharedQueue {
         .bind(&keys)
         .fetch_all(&mut *transaction)
         .await?;
+        let known: HashSet<String> = known.into_iter().collect();
         let new = keys.into_iter().zip(tasks).filter(|(key, _)| !known.contains(key));
         let new = new.map(|(key, task)| {
             let task = TaskBuilder::new(serde_json::to_vec(&task)?)

@@ -71,6 +71,27 @@ pub fn fit(cases: &[(f64, bool)]) -> Option<Fragility> {
     maximum_likelihood(cases).map(Fragility::Curve)
 }
 
+/// Between which x the probability may be met of cases that lie apart ([`Fragility::Apart`]), with this `confidence`; an end is infinite where
+/// there are too few.
+///
+/// Were the probability less than p at some x, so it would be at all x before, and n cases there would all hold with a chance of less than
+/// pⁿ; beyond the n-th that held, where this is half of what the confidence leaves, it is no less. The same for those that did not hold.
+pub fn open_of_apart(cases: &[(f64, bool)], rising: bool, probability: f64, confidence: f64) -> (f64, f64) {
+    let chance = 0.5 * (1.0 - confidence);
+    let needed = |p: f64| (chance.ln() / p.ln()).ceil().max(1.0) as usize;
+    // From the gap outwards.
+    let sign = if rising { 1.0 } else { -1.0 };
+    let nth = |wanted: bool, sign: f64, n: usize| {
+        let of = cases.iter().filter(|(_, holds)| *holds == wanted);
+        let mut outwards: Vec<f64> = of.map(|(x, _)| sign * x).collect();
+        outwards.sort_by(f64::total_cmp);
+        sign * outwards.get(n - 1).copied().unwrap_or(f64::INFINITY)
+    };
+    let held = nth(true, sign, needed(probability));
+    let not = nth(false, -sign, needed(1.0 - probability));
+    if rising { (not, held) } else { (held, not) }
+}
+
 fn maximum_likelihood(cases: &[(f64, bool)]) -> Option<Curve> {
     let n = cases.len() as f64;
     let center = cases.iter().map(|(x, _)| x).sum::<f64>() / n;
@@ -150,7 +171,7 @@ impl Curve {
     /// Where P is `probability`, with an interval of confidence `confidence`; both within (0, 1).
     ///
     /// The interval holds every x at which the cases leave open whether P(x) is more or less than `probability`: |Φ⁻¹(p) − a − bx| is no
-    /// more than z of its standard errors (Fieller, 1954).
+    /// more than z of its standard errors (Fieller, 1954); all x where that is no interval.
     pub fn crossing(&self, probability: f64, confidence: f64) -> Crossing {
         let standard = Normal::standard();
         let wanted = standard.inverse_cdf(probability) - self.a;
@@ -242,5 +263,17 @@ mod tests {
         let apart = Fragility::Apart { below: 1.0, above: 1.0, rising: false };
         assert_eq!(fit(&[(1.0, true), (1.0, false), (0.5, true)]), apart);
         assert_eq!(super::fit(&[]), None);
+    }
+
+    /// To say 90 % with a confidence of 95 %, 36 must have held (0.9³⁶ < 0.025 < 0.9³⁵) and two not (0.1² < 0.025 < 0.1).
+    #[test]
+    fn cases_apart_say_as_much_as_they_are() {
+        let case = |x: i32| (f64::from(x), x > 0);
+        let cases: Vec<_> = (-10..=40).map(case).collect();
+        assert_eq!(open_of_apart(&cases, true, 0.9, 0.95), (-1.0, 36.0));
+        assert_eq!(open_of_apart(&cases[..45], true, 0.9, 0.95), (-1.0, f64::INFINITY));
+        assert_eq!(open_of_apart(&cases[10..], true, 0.9, 0.95), (f64::NEG_INFINITY, 36.0));
+        let mirrored: Vec<_> = cases.iter().map(|&(x, holds)| (-x, holds)).collect();
+        assert_eq!(open_of_apart(&mirrored, false, 0.9, 0.95), (-36.0, 1.0));
     }
 }

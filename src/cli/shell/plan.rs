@@ -109,16 +109,23 @@ fn campaign(plan: &CampaignPlan) -> String {
     };
     let _ = writeln!(
         words,
-        "designs     {}{more}, {} speeds each: {} simulations",
-        plan.designs, plan.scene.speeds, plan.simulations
+        "designs     {}{more}, {} speeds each{}: {} simulations",
+        plan.designs,
+        plan.scene.speeds,
+        if plan.compared.is_some() { " with two models" } else { "" },
+        plan.simulations
     );
     times_of(&mut words, plan.scene.machine.as_ref());
-    reduction(&mut words, plan.reduction, plan.scene.reduced_unknowns_at_most);
+    let scenes = || std::iter::once(&plan.scene).chain(&plan.compared);
+    for scene in scenes() {
+        reduction(&mut words, scene.reduction, scene.reduced_unknowns_at_most);
+    }
     if let Some(estimate) = &plan.estimate {
         cost(&mut words, estimate, ["", ""]);
         let _ = writeln!(words, "steps       {:.3} million", estimate.steps as f64 / 1e6);
     }
-    warnings(words, &plan.scene.warnings)
+    let told: Vec<String> = scenes().flat_map(|scene| scene.warnings.iter().cloned()).collect();
+    warnings(words, &told)
 }
 
 fn times_of(words: &mut String, machine: Option<&Machine>) {

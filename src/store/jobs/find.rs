@@ -53,6 +53,16 @@ impl Store {
             .transpose()
     }
 
+    /// What lists say of the job `id`: cheap, however much it asks for.
+    pub async fn job_head(&self, id: JobId) -> Result<Option<JobHead>, StoreError> {
+        sqlx::query(AssertSqlSafe(format!("select {HEAD} from jobs where id = $1 and deleted = 0")))
+            .bind(id.to_string())
+            .fetch_optional(&self.readers)
+            .await?
+            .map(|row| read_head(&row))
+            .transpose()
+    }
+
     /// Up to `limit` jobs that pass `filter`, newest first.
     pub async fn jobs(&self, filter: JobFilter, limit: u32) -> Result<Vec<JobHead>, StoreError> {
         let page = page(self.dialect);

@@ -52,7 +52,7 @@ impl Store {
             return Ok(Insertion::KeyTaken);
         }
         let speeds = request.speeds();
-        let asked = u64::from(speeds.max(1));
+        let asked = u64::from(request.speeds_at_most().max(1));
         if let Err(reached) = limits.allow_speeds(&mut transaction, owner, asked).await? {
             transaction.rollback().await?;
             return Ok(Insertion::Limit(reached));

@@ -151,7 +151,7 @@ impl std::ops::Deref for Job {
 /// Speeds of a job, counted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub struct SpeedCounts {
-    /// Asked for, and added by `refine` so far: grows while such a job runs.
+    /// Asked for, and added by `refine` or for a threshold so far: grows while such a job runs.
     pub total: u32,
     /// With a result, whichever.
     pub finished: u32,

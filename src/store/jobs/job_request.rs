@@ -96,6 +96,14 @@ impl JobRequest {
         }
     }
 
+    /// How many speeds it may come to, as far as it says.
+    pub fn speeds_at_most(&self) -> u32 {
+        match self {
+            Self::Campaign(campaign) => campaign.simulations_at_most(),
+            other => other.speeds(),
+        }
+    }
+
     /// `modes_per_speed` of the reduction that its results rest on, if there is one and it is known.
     pub fn modes_per_speed(&self) -> Option<u32> {
         match self {

@@ -10,6 +10,9 @@ import { unread } from '../../lib/problem.js';
 import { table } from '../../lib/table.js';
 import { select } from './choices.js';
 
+/** Most designs that the table shows. */
+const SHOWN = 500;
+
 const MEETS = { true: 'meets the limit', false: 'exceeds it' };
 
 export async function show(place, context, signal) {
@@ -65,9 +68,10 @@ function tables({ designs, sensitivities, threshold, comparison, settings, speed
       ],
     }) : null,
     h('h2', {}, count(designs.length, 'design')),
+    designs.length > SHOWN ? h('p', { class: 'quiet' }, `The first ${SHOWN}; the files have all.`) : null,
     table({
       caption: 'Designs',
-      rows: designs,
+      rows: designs.slice(0, SHOWN),
       columns: [
         { name: 'Design', number: true, cell: (design) => design.index, sort: (design) => design.index },
         ...values,

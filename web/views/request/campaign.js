@@ -23,11 +23,16 @@ export function campaignOf(job) {
     model: job.model,
     compared_model: compared?.model,
     modes_per_speed, speeds, scene, integration,
-    // Those that a model has by itself may be at other nodes of the other.
-    sensors: compared && JSON.stringify(compared.sensors) !== JSON.stringify(sensors) ? [] : sensors,
+    // Those that a model has by itself are at other nodes of the other.
+    sensors: compared && isOwn(sensors) && isOwn(compared.sensors) ? [] : sensors,
     max_engine_order,
     stress: record?.stress,
     fields,
     parameters, design, severity, limit, threshold,
   };
+}
+
+/** Whether sensors may be those that a model has where none are given: radial, at its first and last contact node. */
+function isOwn(sensors) {
+  return sensors.length <= 2 && sensors[0]?.contact_node === 0 && sensors.every(({ component, sector }) => component === 'radial' && sector === 0);
 }

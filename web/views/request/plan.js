@@ -63,7 +63,7 @@ function shown(whole) {
   const off = (plan.effects ?? []).filter((effect) => !effect.on).map((effect) => effect.name.replaceAll('_', ' '));
   return [
     plan.point?.message ? h('p', { class: 'note warning' }, plan.point.message) : null,
-    (plan.warnings ?? []).map((text) => h('p', { class: 'note warning' }, text)),
+    [...(plan.warnings ?? []), ...(plan.compared?.warnings ?? [])].map((text) => h('p', { class: 'note warning' }, text)),
     facts([
       ['Time', estimate ? between(estimate.wall_time_s, duration) : null],
       ['Computing time', estimate ? between(estimate.computing_time_s, duration) : null],

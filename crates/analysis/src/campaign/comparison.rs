@@ -73,7 +73,7 @@ fn difference(pairs: &[(f64, f64)], settled_to: f64) -> Option<Difference> {
 
 fn limits_met(pairs: &[(&DesignOutcome, &DesignOutcome)]) -> LimitsMet {
     let mut met = LimitsMet::default();
-    for (one, other) in pairs {
+    for (one, other) in pairs.iter().filter(|(one, other)| one.is_complete() && other.is_complete()) {
         match (one.meets_limit, other.meets_limit) {
             (Some(true), Some(true)) => met.both += 1,
             (Some(true), Some(false)) => met.only_model += 1,

@@ -5,7 +5,7 @@ use super::outcomes::designs_of;
 use super::threshold::{answer, cases};
 use crate::resolved::{Distribution, ResolvedCampaign};
 use crate::result::Point;
-use rubmap_numerics::sampling::{MOST_POINTS, sobol_point};
+use rubmap_numerics::sampling::sobol_point;
 
 /// The campaign with the designs that it lacks, from the `points` of all simulations; none where its threshold is known as well as was asked
 /// for, where nothing tells where it lies, and where no more designs are allowed.
@@ -19,7 +19,7 @@ pub fn more_designs(campaign: &ResolvedCampaign, points: &[Point]) -> Option<Res
     let distributions: Vec<&Distribution> = campaign.distributions.iter().flatten().collect();
     let designs = designs_of(campaign, points);
     let own: Vec<_> = designs.iter().map(|design| &design.outcome).collect();
-    let found = answer(&cases(campaign, &own, index), threshold);
+    let found = answer(&cases(campaign, &own, index), threshold, campaign.varies_alone());
     let (from, to) = distributions.get(index)?.range();
     let (low, high) = found.open.map(|(low, high)| (low.max(from), high.min(to)))?;
     let there_are = campaign.designs();
@@ -29,7 +29,7 @@ pub fn more_designs(campaign: &ResolvedCampaign, points: &[Point]) -> Option<Res
     }
     let seed = campaign.settings.design.seed.unwrap_or(0);
     let design = |place: usize| {
-        let point = sobol_point((there_are + place) % MOST_POINTS, distributions.len(), seed);
+        let point = sobol_point(there_are + place, distributions.len(), seed);
         let mut values = quantiles(&point, distributions.iter().copied());
         values[index] = low + (high - low) * (place as f64 + 0.5) / count as f64;
         values

@@ -22,10 +22,9 @@ pub fn plan_campaign(
     let own = estimate(&scene, campaign.designs() as f64, workers);
     let other = compared.as_ref().map(|plan| estimate(plan, campaign.designs() as f64, workers));
     let designs = campaign.designs() as u32;
-    let threshold = campaign.settings.threshold.as_ref().filter(|threshold| threshold.within.is_some());
     CampaignPlan {
         designs,
-        designs_at_most: threshold.map_or(designs, |threshold| threshold.most_designs.max(designs)),
+        designs_at_most: campaign.designs_at_most(),
         simulations: campaign.simulations(),
         reduction: scene.reduction,
         estimate: match other {

@@ -20,11 +20,18 @@ pub(super) struct Answer {
     pub(super) open: Option<(f64, f64)>,
 }
 
-/// Reads `cases`: values of the parameter, and whether the limit is met there.
-pub(super) fn answer(cases: &[(f64, bool)], asked: &Threshold) -> Answer {
+/// Reads `cases`: values of the parameter, and whether the limit is met there; whether that parameter `varies_alone`.
+pub(super) fn answer(cases: &[(f64, bool)], asked: &Threshold, varies_alone: bool) -> Answer {
     let fragility = fragility::fit(cases);
     let (value, open) = match fragility {
-        Some(Fragility::Apart { below, above, .. }) => (Some(0.5 * (below + above)), Some((below, above))),
+        Some(Fragility::Apart { below, above, rising }) => {
+            let open = if varies_alone {
+                (below, above)
+            } else {
+                fragility::open_of_apart(cases, rising, asked.probability, CONFIDENCE)
+            };
+            (Some(0.5 * (below + above)), Some(open))
+        }
         Some(Fragility::Curve(curve)) => {
             let crossing = curve.crossing(asked.probability, CONFIDENCE);
             (Some(crossing.x).filter(|x| x.is_finite()), Some(crossing.interval))
@@ -45,7 +52,8 @@ impl Answer {
 pub(super) fn threshold(asked: &ResolvedCampaign, outcomes: &[&DesignOutcome]) -> Option<CampaignThreshold> {
     let (threshold, index) = asked.threshold()?;
     let cases = cases(asked, outcomes, index);
-    let found = answer(&cases, threshold);
+    let found = answer(&cases, threshold, asked.varies_alone());
+    let range = asked.distributions.get(index).and_then(|of| Some(of.as_ref()?.range()));
     Some(CampaignThreshold {
         probability: threshold.probability,
         value: found.value,
@@ -56,15 +64,16 @@ pub(super) fn threshold(asked: &ResolvedCampaign, outcomes: &[&DesignOutcome]) -
         met_within: threshold.within.map(|within| found.is_within(within)),
         decided: cases.len() as u32,
         shares: shares(cases, &found),
-        message: words(&found, &threshold.parameter, threshold.probability),
+        message: words(&found, &threshold.parameter, threshold.probability) + beyond(&found, range),
         parameter: threshold.parameter.clone(),
     })
 }
 
-/// Designs of which it is known whether they meet the limit: the value of parameter `index`, and whether they do.
+/// Designs all of whose speeds are known: the value of parameter `index`, and whether they meet the limit.
 pub(super) fn cases(asked: &ResolvedCampaign, outcomes: &[&DesignOutcome], index: usize) -> Vec<(f64, bool)> {
     let designs = asked.settings.designs.iter().zip(outcomes);
-    designs.filter_map(|(values, outcome)| Some((values[index], outcome.meets_limit?))).collect()
+    let known = designs.filter(|(_, outcome)| outcome.is_complete());
+    known.filter_map(|(values, outcome)| Some((values[index], outcome.meets_limit?))).collect()
 }
 
 fn thresholds(found: &Answer) -> Option<(f64, f64)> {
@@ -100,8 +109,18 @@ fn shares(mut cases: Vec<(f64, bool)>, found: &Answer) -> Vec<ThresholdShare> {
     (0..groups).filter_map(group).collect()
 }
 
+/// What is to be said of a value outside the range in which designs lie.
+fn beyond(found: &Answer, range: Option<(f64, f64)>) -> &'static str {
+    match found.value.zip(range) {
+        Some((value, (from, to))) if value < from || value > to => {
+            "; that is outside the parameter's range, where nothing was simulated"
+        }
+        _ => "",
+    }
+}
+
 fn words(found: &Answer, parameter: &str, probability: f64) -> String {
-    let percent = 100.0 * probability;
+    let percent = short(100.0 * probability);
     match (found.fragility, found.value, found.open) {
         (None, ..) => "no design has been decided yet".to_owned(),
         (Some(Fragility::Always), ..) => {
@@ -117,9 +136,19 @@ fn words(found: &Answer, parameter: &str, probability: f64) -> String {
         (Some(Fragility::Apart { below, above, rising }), ..) => {
             let side = if rising { "from" } else { "up to" };
             let (below, above) = (short(below), short(above));
+            let bounds = match found.open {
+                Some((low, high)) if low.is_finite() && high.is_finite() && (low, high) != (below, above) => {
+                    let (low, high) = (short(low), short(high));
+                    format!(
+                        "; with a probability of {percent} % between {low} and {high}, with a confidence of {} %",
+                        100.0 * CONFIDENCE
+                    )
+                }
+                Some((low, high)) if low.is_finite() && high.is_finite() => String::new(),
+                _ => format!("; they are too few to say where that has a probability of {percent} %"),
+            };
             format!(
-                "the limit is met {side} a {parameter} between {below} and {above}, by all designs so far: nothing in between was simulated, \
-                 and the others have made no difference yet"
+                "the limit is met {side} a {parameter} between {below} and {above}, by all designs so far{bounds}"
             )
         }
         (Some(Fragility::Curve(curve)), Some(value), Some((low, high))) if low.is_finite() => {

@@ -266,6 +266,14 @@ pub struct CampaignSettings {
     pub added: u32,
 }
 
+impl CampaignSettings {
+    /// How many designs there may come to be, with those that are added for a threshold.
+    pub(crate) fn designs_at_most(&self) -> u32 {
+        let threshold = self.threshold.as_ref().filter(|threshold| threshold.within.is_some());
+        threshold.map_or(0, |threshold| threshold.most_designs).max(self.designs.len() as u32)
+    }
+}
+
 fn default_probability() -> f64 {
     0.95
 }

@@ -10,8 +10,9 @@ use crate::request::{
 };
 use crate::resolve::findings::Findings;
 use crate::resolve::resolve_sweep;
-use crate::resolved::campaign::changed;
+use crate::resolved::campaign::{changed, written};
 use crate::resolved::{Distribution, ResolvedCampaign, ResolvedSweep};
+use crate::result::severity_column;
 use rubmap_wheel::dynamics::sector::Units;
 
 /// Most parameters of a campaign: Sobol points have directions for twice as many and more.
@@ -19,7 +20,7 @@ const PARAMETERS: usize = 100;
 
 /// Most designs of a campaign, and most simulations, each of which is kept.
 const DESIGNS: usize = 10_000;
-const SIMULATIONS: usize = 100_000;
+const SIMULATIONS: u64 = 100_000;
 
 /// Designs that are refused are told up to this many.
 const TOLD: usize = 20;
@@ -73,6 +74,7 @@ pub fn resolve_campaign(
         .map_err(|violations| found.0.extend(violations.into_iter().map(at_its_field)));
     let other = other.map(|(sweep, others)| check_compared(&mut found, sweep, (facts, others))).transpose();
     let distributions = check_parameters(&mut found, &parameters, &design);
+    check_names(&mut found, &parameters, severity, &facts.units);
     check_design(&mut found, &design, &parameters, &distributions);
     check_threshold(&mut found, threshold.as_ref(), limit, &parameters, &distributions);
     found.require(limit.is_none_or(f64::is_finite), "/limit", "a finite number");
@@ -87,18 +89,6 @@ pub fn resolve_campaign(
         Some(points) => points.clone(),
         None => designs(design.kind, (size, seed), &parameters, &drawn),
     };
-    let models = if other.is_some() { 2 } else { 1 };
-    let simulations = values.len().saturating_mul(models * sweep.speeds.count() as usize);
-    found.require(
-        simulations <= SIMULATIONS,
-        "/speeds",
-        format!(
-            "{} designs{} over {} speeds are {simulations} simulations, more than {SIMULATIONS}",
-            values.len(),
-            if models > 1 { " of two models" } else { "" },
-            sweep.speeds.count()
-        ),
-    );
     // As it was written: pointers lead into it.
     let written = |sweep: &ResolvedSweep| SweepRequest { scene: scene.clone(), ..sweep.clone().into() };
     let settings = CampaignSettings {
@@ -112,6 +102,7 @@ pub fn resolve_campaign(
         designs: values,
         added: 0,
     };
+    check_simulations(&mut found, &settings, sweep.speeds.count());
     if found.0.is_empty() {
         check_designs(&mut found, &settings, &settings.sweep, facts);
         if let (Some(sweep), Some(compared)) = (&settings.compared, compared) {
@@ -119,6 +110,27 @@ pub fn resolve_campaign(
         }
     }
     found.finish(ResolvedCampaign { sweep, compared: other, distributions, settings })
+}
+
+/// Neither the designs nor those that may be added are more simulations than are kept.
+fn check_simulations(found: &mut Findings, settings: &CampaignSettings, speeds: u32) {
+    let (designs, models) = (settings.designs_at_most(), if settings.compared.is_some() { 2 } else { 1 });
+    let simulations = u64::from(designs) * models * u64::from(speeds);
+    let grows = designs as usize > settings.designs.len();
+    found.require(
+        simulations <= SIMULATIONS,
+        if grows { "/threshold/most_designs" } else { "/speeds" },
+        format!(
+            "{designs} designs{} over {speeds} speeds are {simulations} simulations, more than {SIMULATIONS}",
+            if models > 1 { " of two models" } else { "" },
+        ),
+    );
+    let within = settings.threshold.as_ref().filter(|threshold| threshold.within.is_some());
+    found.require(
+        within.is_none_or(|threshold| threshold.most_designs as usize >= settings.designs.len()),
+        "/threshold/most_designs",
+        format!("the design has {} already: none could be added", settings.designs.len()),
+    );
 }
 
 /// The same sweep with the model that is compared; what only that one refuses is said to be its.
@@ -205,6 +217,47 @@ fn check_parameters(
         }
     }
     distributions
+}
+
+/// Columns of tables and arrays of results that stand beside those of parameters.
+const COLUMNS: [&str; 19] = [
+    "design",
+    "severity",
+    "worst_speed_rad_s",
+    "meets_limit",
+    "finished",
+    "diverged",
+    "failed",
+    "not_settled",
+    "speeds_rad_s",
+    "speed_rpm",
+    "by_speed",
+    "parameter",
+    "first_order",
+    "first_order_error",
+    "total",
+    "total_error",
+    "threshold",
+    "settings",
+    "version",
+];
+
+/// A parameter names a column of tables, and an entry of archives.
+fn check_names(found: &mut Findings, parameters: &[Parameter], severity: Severity, units: &Units) {
+    let column = severity_column(severity, units);
+    for (index, Parameter { name, .. }) in parameters.iter().enumerate() {
+        let taken = COLUMNS.contains(&name.as_str()) || *name == column || name == "comparison";
+        found.require(
+            !taken && !name.starts_with("compared_"),
+            &format!("/parameters/{index}/name"),
+            "a column of the results is called so: choose another",
+        );
+        found.require(
+            !name.contains(['/', '\\']) && !name.contains(char::is_control),
+            &format!("/parameters/{index}/name"),
+            "a column of tables and archives is called so: no slashes, no control characters",
+        );
+    }
 }
 
 fn check_design(
@@ -308,6 +361,12 @@ fn check_threshold(
         "designs are added from the distributions of the parameters: give one for each, or leave this away",
     );
     if let Some(Some(distribution)) = distributions.get(index) {
+        let (from, to) = distribution.range();
+        found.require(
+            from.is_finite() && to.is_finite(),
+            &format!("/parameters/{index}/from"),
+            "designs are added between `from` and `to`: give both",
+        );
         found.require(
             distribution.is_continuous() && parameters[index].distribution != DistributionKind::Values,
             "/threshold/within",
@@ -338,18 +397,27 @@ fn check_designs(
     sweep: &SweepRequest,
     facts: &ModelFacts,
 ) {
+    let sweep = match written(sweep) {
+        Ok(sweep) => sweep,
+        Err(violations) => return found.0.extend(violations),
+    };
     for (index, values) in settings.designs.iter().enumerate() {
-        let checked = changed(sweep, &settings.parameters, values)
+        if found.0.len() >= TOLD {
+            break;
+        }
+        let checked = changed(sweep.clone(), &settings.parameters, values)
             .and_then(|sweep| resolve_sweep(sweep, facts).map(drop));
         for violation in checked.err().unwrap_or_default() {
-            let moves =
-                |parameter: &Parameter| parameter.at.iter().any(|at| at.starts_with(&violation.pointer));
+            let moves = |parameter: &Parameter| {
+                let within = |at: &String| at.starts_with(&violation.pointer);
+                !violation.pointer.is_empty() && parameter.at.iter().any(within)
+            };
             let pointer = match settings.parameters.iter().position(moves) {
                 _ if violation.pointer.starts_with("/parameters") => violation.pointer.clone(),
                 Some(parameter) => format!("/parameters/{parameter}"),
                 None => "/design".to_owned(),
             };
-            if found.0.len() < TOLD && !found.refused(&pointer) {
+            if !found.refused(&pointer) {
                 let said = settings
                     .parameters
                     .iter()

@@ -70,6 +70,16 @@ impl ResolvedCampaign {
         self.designs() as u32 * self.simulations_each()
     }
 
+    /// How many designs there may come to be, with those that are added for a threshold.
+    pub fn designs_at_most(&self) -> u32 {
+        self.settings.designs_at_most()
+    }
+
+    /// How many simulations there may come to be.
+    pub fn simulations_at_most(&self) -> u32 {
+        self.designs_at_most().saturating_mul(self.simulations_each())
+    }
+
     /// Design of simulation `index`, whether it is of the model that is compared, and the index of its speed.
     pub(crate) fn place(&self, index: u32) -> (usize, bool, u32) {
         let (design, rest) = (index / self.simulations_each(), index % self.simulations_each());
@@ -85,13 +95,18 @@ impl ResolvedCampaign {
         let (design, is_compared, speed) = self.place(index);
         let settings = &self.settings;
         let sweep = settings.compared.as_ref().filter(|_| is_compared).unwrap_or(&settings.sweep);
-        let sweep = changed(sweep, &settings.parameters, &settings.designs[design])?;
+        let sweep = changed(written(sweep)?, &settings.parameters, &settings.designs[design])?;
         Ok((ResolvedSweep::stored(sweep, 0)?, speed))
     }
 
     /// Index of the parameter of this name.
     pub fn parameter(&self, name: &str) -> Option<usize> {
         self.settings.parameters.iter().position(|parameter| parameter.name == name)
+    }
+
+    /// Whether one parameter is all that varies: then the same value always comes to the same.
+    pub(crate) fn varies_alone(&self) -> bool {
+        self.settings.parameters.len() == 1
     }
 
     /// Name of the parameter whose threshold is asked for.
@@ -120,18 +135,21 @@ impl From<ResolvedCampaign> for CampaignSettings {
     }
 }
 
-/// The `sweep` with these `values` of the parameters, each in its turn.
+/// A sweep in which pointers lead to numbers.
+pub(crate) fn written(sweep: &SweepRequest) -> Result<Value, Vec<Violation>> {
+    serde_json::to_value(sweep).map_err(|error| vec![Violation::new("/scene", error.to_string())])
+}
+
+/// The [`written`] `sweep` with these `values` of the parameters, each in its turn.
 ///
 /// # Errors
 /// At the parameter that meets no number, or makes none that the field takes.
 pub(crate) fn changed(
-    sweep: &SweepRequest,
+    mut sweep: Value,
     parameters: &[Parameter],
     values: &[f64],
 ) -> Result<SweepRequest, Vec<Violation>> {
     let refused = |pointer: String, message: String| vec![Violation::new(pointer, message)];
-    let mut sweep =
-        serde_json::to_value(sweep).map_err(|error| refused("/scene".to_owned(), error.to_string()))?;
     for (index, (parameter, &value)) in parameters.iter().zip(values).enumerate() {
         for (place, pointer) in parameter.at.iter().enumerate() {
             let number = sweep.pointer_mut(pointer).filter(|number| number.is_number());
@@ -186,7 +204,8 @@ mod tests {
             {"name": "leading", "at": ["/scene/casing/clearance/leading"], "change": "multiply"},
             {"name": "seed", "at": ["/scene/mistuning/seed"]},
         ]));
-        let changed = |values: &[f64]| changed(&settings.sweep, &settings.parameters, values);
+        let sweep = written(&settings.sweep).unwrap();
+        let changed = |values: &[f64]| changed(sweep.clone(), &settings.parameters, values);
         let sweep = serde_json::to_value(changed(&[0.1, 2.0, 7.0]).unwrap()).unwrap();
         let at = |pointer: &str| sweep.pointer(pointer).unwrap();
         assert_eq!(at("/scene/casing/clearance/leading"), &json!(0.8));
@@ -200,7 +219,8 @@ mod tests {
     fn only_numbers_of_the_scene_are_changed() {
         for pointer in ["/scene/casing", "/scene/friction/coefficient", "/max_engine_order", "scene", ""] {
             let settings = settings(json!([{"name": "p", "at": [pointer]}]));
-            let refused = changed(&settings.sweep, &settings.parameters, &[1.0]).unwrap_err();
+            let sweep = written(&settings.sweep).unwrap();
+            let refused = changed(sweep, &settings.parameters, &[1.0]).unwrap_err();
             assert_eq!(refused[0].pointer, "/parameters/0/at/0", "{pointer}");
         }
     }

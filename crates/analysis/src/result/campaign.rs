@@ -261,6 +261,13 @@ pub struct CampaignPlan {
     pub settings: CampaignSettings,
 }
 
+impl DesignOutcome {
+    /// Whether all its speeds are finished and known. Of others only that they exceed a limit can be known, so that those would count that do.
+    pub(crate) fn is_complete(&self) -> bool {
+        self.finished as usize == self.by_speed.len() && self.failed + self.not_settled == 0
+    }
+}
+
 impl Campaign {
     /// What the model that is compared says of all designs; nothing where there is none.
     pub fn compared(&self) -> Vec<&DesignOutcome> {
@@ -282,6 +289,12 @@ impl Campaign {
             .map(|designs| (value(&designs[0]), (0..speeds).map(|speed| worst(designs, speed)).collect()))
             .collect()
     }
+}
+
+/// The column of severities in tables: what they are and in what unit.
+pub fn severity_column(severity: Severity, units: &Units) -> String {
+    let unit = severity_unit(severity, units);
+    if unit.is_empty() { severity.as_str().to_owned() } else { format!("{}_{unit}", severity.as_str()) }
 }
 
 /// What a severity is measured in, of a model with these units; empty for a ratio.

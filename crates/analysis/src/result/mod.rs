@@ -29,7 +29,8 @@ pub use branches::{
 };
 pub use campaign::{
     Campaign, CampaignDesign, CampaignPlan, CampaignThreshold, Comparison, DesignOutcome, Difference,
-    DifferenceVerdict, LimitsMet, ParameterSensitivity, Sensitivities, ThresholdShare, severity_unit,
+    DifferenceVerdict, LimitsMet, ParameterSensitivity, Sensitivities, ThresholdShare, severity_column,
+    severity_unit,
 };
 pub use campbell::{AbsoluteFrequencies, Campbell, WaveTables};
 pub use choice::{Choice, ModesChoice, Pilot, TriedModes};
